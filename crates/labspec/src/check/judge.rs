@@ -5,7 +5,7 @@ use super::resolved_labs::bind_claim;
 use crate::bind::parts::Hash;
 use crate::bind::scene::Models;
 use crate::finding::Finding;
-use crate::report::to_value;
+use crate::json::to_value;
 use crate::spec::Lesson;
 use crate::verify::judge::{self, Judged, Left, RecordedRun, Reference, RunTask};
 use crate::verify::{ShownText, Stage};

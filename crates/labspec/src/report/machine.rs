@@ -3,6 +3,7 @@
 
 use super::{Summary, file_of};
 use crate::finding::Finding;
+use crate::json::to_value;
 use crate::source::{EditorPosition, SourceFile};
 use serde::Serialize;
 use serde_json::Value;
@@ -10,11 +11,6 @@ use std::ops::Range;
 
 /// The version of the form of all reports. It goes up when a program that reads them would have to change.
 pub const SCHEMA_VERSION: u32 = 1;
-
-/// Something of a report as a value.
-pub fn to_value(of: &impl Serialize) -> Value {
-    serde_json::to_value(of).unwrap_or_default()
-}
 
 /// A report with this name: its version and its name stand first.
 pub fn report(name: &str, entries: impl Serialize) -> Value {
@@ -109,7 +105,7 @@ impl<'a> FindingRow<'a> {
 /// path is `null`.
 #[derive(Default, Serialize)]
 #[serde(rename_all = "camelCase")]
-struct PlaceFields<'a> {
+pub struct PlaceFields<'a> {
     file: &'a str,
     start: Option<usize>,
     end: Option<usize>,
@@ -127,7 +123,8 @@ struct EditorPlace {
 }
 
 impl<'a> PlaceFields<'a> {
-    fn new(files: &[&SourceFile], path: &'a str, span: &Range<usize>) -> PlaceFields<'a> {
+    /// The place of some bytes of a file.
+    pub fn new(files: &[&SourceFile], path: &'a str, span: &Range<usize>) -> PlaceFields<'a> {
         let Some(file) = file_of(files, path) else {
             return PlaceFields { file: path, ..PlaceFields::default() };
         };
@@ -152,10 +149,8 @@ impl<'a> PlaceFields<'a> {
 
 /// Writes a place into an object, in the form that places have in all reports.
 pub fn set_place(object: &mut Value, files: &[&SourceFile], path: &str, span: &Range<usize>) {
-    if let (Value::Object(object), Value::Object(place)) =
-        (object, to_value(&PlaceFields::new(files, path, span)))
-    {
-        object.extend(place);
+    for (key, value) in to_value(&PlaceFields::new(files, path, span)).as_object().into_iter().flatten() {
+        object[key] = value.clone();
     }
 }
 

@@ -13,13 +13,14 @@ mod table;
 #[cfg(feature = "report")]
 pub mod uri;
 
+pub use crate::json::to_value;
 pub use crate::printable::{counted, printable, printable_json, printable_lines, printable_path};
 #[cfg(feature = "report")]
 pub use formats::{concise, github, gitlab, jsonl, junit, statistics};
 #[cfg(feature = "report")]
 pub use human::human;
 pub use machine::{
-    SCHEMA_VERSION, json, key, nonfinite, report, set_number, set_numbers, set_place, to_value,
+    PlaceFields, SCHEMA_VERSION, json, key, nonfinite, report, set_number, set_numbers, set_place,
 };
 #[cfg(feature = "report")]
 pub use sarif::{page, sarif};

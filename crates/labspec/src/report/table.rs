@@ -217,7 +217,7 @@ fn write_csv_text(text: &str, out: &mut dyn Write) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run::Shorter;
+    use crate::run::{Breakdown, Shorter};
     use serde_json::json;
 
     fn table(names: &[&str], rows: Vec<Vec<Cell>>) -> Table {

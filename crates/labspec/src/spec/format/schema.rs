@@ -3,7 +3,7 @@
 use super::describe::{default, number};
 use super::{CONTROL, QUESTION};
 use super::{Family, Key, LAB, Limits, OBJECTS, Object, PairHalf, QUIZ, Together, Type};
-use crate::report::to_value;
+use crate::json::to_value;
 use serde::{Serialize, Serializer};
 use serde_json::{Map, Value};
 
