@@ -31,6 +31,7 @@ mod plan;
 mod policy;
 mod precision;
 mod record;
+mod report_json;
 mod reproduction;
 mod run;
 mod scaffold;
