@@ -23,7 +23,7 @@ impl Problem<'_> {
     /// Sweeps from the present forces on, until one improves the scaled dual objective by no more than `opt.tolerance` (the
     /// documented meaning of that tolerance) or `opt.iterations` of them are done.
     pub(super) fn gauss_seidel(&mut self) {
-        let (tolerance, scale) = (self.m.opt.tolerance, self.scale_of_all());
+        let (tolerance, scale) = (self.m.opt.tolerance.max(0.0), self.scale_of_all());
         let price = self.price_of_sweep();
         let mut order = Order(0);
         let mut momentum = 1.0_f64;
