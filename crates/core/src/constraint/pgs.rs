@@ -185,8 +185,38 @@ impl Order {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)] // a test that fails says why
 mod tests {
     use super::{Order, RowGroup};
+    use crate::mjcf::compile;
+    use crate::step::step;
+    use crate::step::workspace::Workspace;
+
+    /// Balls above each other on vertical slides have elliptic cones and no friction at all: extrapolated forces may lie below the apex, with
+    /// no direction along the boundary. Sweeps find the same motion as Newton's method.
+    #[test]
+    fn cones_without_friction_are_solved() {
+        let heights = |solver: &str| {
+            let ball = |z: f64| {
+                format!("<body pos='0 0 {z}'><joint type='slide' axis='0 0 1'/><geom size='.1'/></body>")
+            };
+            let m = compile(&format!(
+                "<mujoco><option cone='elliptic' solver='{solver}' tolerance='0' iterations='300'/><worldbody>\
+                <geom type='plane' size='5 5 1'/>{}{}{}</worldbody></mujoco>",
+                ball(0.3),
+                ball(0.6),
+                ball(0.9)
+            ))
+            .unwrap();
+            let Workspace { fields: mut d, scratch: mut s } = Workspace::new(&m);
+            (0..500).for_each(|_| step(&m, &mut d, &mut s));
+            assert!((d.time - 1.0).abs() < 1e-9, "{solver}: the simulation was reset");
+            d.qpos.clone()
+        };
+        for (a, b) in heights("PGS").iter().zip(heights("Newton")) {
+            assert!((a - b).abs() < 1e-9, "{a}, {b}");
+        }
+    }
 
     #[test]
     fn orders_are_permutations_and_differ() {
