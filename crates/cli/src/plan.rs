@@ -174,7 +174,7 @@ fn sensors(report: &PlanReport, text: &mut String) {
     }
 }
 
-/// Which algorithms compute which trees.
+/// Which algorithms compute trees.
 fn tree_algorithms(report: &PlanReport, text: &mut String) {
     let _ = writeln!(text, "\ntree algorithms");
     for algorithm in report.tree_algorithms.iter().filter(|w| w.trees != [0; 3]) {

@@ -4,9 +4,9 @@ use super::super::report_json::{NonFinite, nonfinite, with_nonfinite};
 use super::left_out;
 use labspec::bind::Programs;
 use labspec::report::key;
-use labspec::stress::{
-    Action, Fault, FaultGroup, Interaction, Kind, MapCell, Margin, Parting, Sensitivity, StabilityMap,
-    StressReport,
+use labspec::stress::{Action, Fault, Interaction, Kind};
+use labspec_numerics::stability::{
+    MapCell, Margin, Parting, Sensitivity, StabilityFinding, StabilityMap, StressReport,
 };
 use serde::Serialize;
 use serde_json::{Map, Value};
@@ -162,8 +162,8 @@ pub(super) fn machine<'a>(report: &'a StressReport, programs: &'a Programs) -> R
         left_out: t.left_out,
     });
     let runs = report.runs.iter().map(|run| RunRow {
-        kind: key(run.handling.kind.description()),
-        setting: actions(&run.handling, programs),
+        kind: key(run.interaction.kind.description()),
+        setting: actions(&run.interaction, programs),
         covered: run.covered,
         cut: run.cut,
         wrong: run.wrong.iter().map(|k| key(k.description())).collect(),
@@ -185,22 +185,23 @@ pub(super) fn machine<'a>(report: &'a StressReport, programs: &'a Programs) -> R
     }
 }
 
-fn finding_row<'a>(found: &'a FaultGroup, programs: &'a Programs) -> FindingRow<'a> {
+fn finding_row<'a>(found: &'a StabilityFinding, programs: &'a Programs) -> FindingRow<'a> {
     let remedies = found.remedies.iter().map(|r| {
         let row = RemedyRow { change: &r.change, work: r.work, time_ratio: r.time, error: r.error };
         with_nonfinite(&row, &[("work", &row.work), ("timeRatio", &row.time_ratio)])
     });
+    let group = &found.group;
     FindingRow {
-        fault: fault_row(&found.fault, &found.handling, programs),
-        touched: found.handling.kind == Kind::Touched,
-        settings: found.settings,
+        fault: fault_row(&group.fault, &group.interaction, programs),
+        touched: group.interaction.kind == Kind::Touched,
+        settings: group.settings,
         expected: found.expected,
         remedies: remedies.collect(),
-        worst: found.worst.as_ref().map(|(handling, fault)| fault_row(fault, handling, programs)),
+        worst: group.worst.as_ref().map(|(other, fault)| fault_row(fault, other, programs)),
     }
 }
 
-fn fault_row<'a>(fault: &'a Fault, handling: &Interaction, programs: &'a Programs) -> FaultRow<'a> {
+fn fault_row<'a>(fault: &'a Fault, interaction: &Interaction, programs: &'a Programs) -> FaultRow<'a> {
     let evidence = fault.evidence.iter().map(|e| EvidenceRow {
         name: e.name,
         value: e.value,
@@ -213,7 +214,7 @@ fn fault_row<'a>(fault: &'a Fault, handling: &Interaction, programs: &'a Program
         who: &fault.who,
         cause: &fault.cause,
         evidence: evidence.collect(),
-        setting: actions(handling, programs),
+        setting: actions(interaction, programs),
     }
 }
 
@@ -273,11 +274,11 @@ fn control_value(value: &labspec_expr::Value) -> Value {
 }
 
 /// What a student does: a list of changes, each with its time.
-fn actions<'a>(handling: &Interaction, programs: &'a Programs) -> Vec<ActionRow<'a>> {
+fn actions<'a>(interaction: &Interaction, programs: &'a Programs) -> Vec<ActionRow<'a>> {
     let row = |a: &Action| ActionRow {
         control: programs.controls.get(a.control).map_or("", |(label, _)| label.as_str()),
         time: a.time,
         value: a.value.as_ref().map(control_value),
     };
-    handling.actions.iter().map(row).collect()
+    interaction.actions.iter().map(row).collect()
 }

@@ -14,8 +14,9 @@ use labspec::bind::Programs;
 use labspec::report::{counted, printable};
 use labspec::run::two_digits;
 use labspec::spec::Lab;
-use labspec::stress::{
-    FaultGroup, FaultKind, MapCell, Margin, Options, Sensitivity, StabilityMap, StressReport, probe,
+use labspec::stress::{FaultGroup, FaultKind};
+use labspec_numerics::stability::{
+    MapCell, Margin, Options, Sensitivity, StabilityFinding, StabilityMap, StressReport, probe,
 };
 use labspec_plot::{Cells, cells};
 use machine::machine;
@@ -116,8 +117,9 @@ fn human(report: &StressReport, programs: &Programs) -> String {
     text
 }
 
-fn finding(found: &FaultGroup, programs: &Programs, text: &mut String) {
-    let FaultGroup { fault, handling, settings, worst, expected, remedies } = found;
+fn finding(found: &StabilityFinding, programs: &Programs, text: &mut String) {
+    let StabilityFinding { group, expected, remedies } = found;
+    let FaultGroup { fault, interaction, settings, worst } = group;
     let expected = if *expected { " (as the lab expects)" } else { "" };
     let _ = writeln!(
         text,
@@ -125,15 +127,15 @@ fn finding(found: &FaultGroup, programs: &Programs, text: &mut String) {
         fault.kind.description(),
         printable(&fault.who),
         labspec::run::time(fault.time),
-        printable(&handling.describe(programs))
+        printable(&interaction.describe(programs))
     );
     let _ = writeln!(text, "  {}", fault.measured());
     let _ = writeln!(text, "  cause: {}", printable(&fault.cause));
     if *settings > 1 {
         let _ = write!(text, "  also in {} other settings", settings - 1);
         let _ = match worst {
-            Some((handling, fault)) => {
-                writeln!(text, "; worst {}: {}", printable(&handling.describe(programs)), fault.measured())
+            Some((interaction, fault)) => {
+                writeln!(text, "; worst {}: {}", printable(&interaction.describe(programs)), fault.measured())
             }
             None => writeln!(text),
         };

@@ -84,7 +84,7 @@ pub(super) fn nearby(
     );
     let leaves = |((a, b), target): ((&Vec<f64>, &Vec<f64>), &Compared)| {
         let far = LEFT * target.range;
-        // Not to be told apart is less than the part, and no number is far from every other.
+        // Indistinguishable is less than the part, and no number is far from every other.
         a.iter().zip(b).position(|(a, b)| (a - b).abs() > far || (a - b).is_nan())
     };
     let first = one.values.iter().zip(&other.values).zip(targets).filter_map(leaves).min();

@@ -49,7 +49,7 @@ pub struct Row {
     pub cost: RunCost,
     /// What became of the run.
     pub fate: Fate,
-    /// What was told about it.
+    /// What was reported about it.
     pub reported: Vec<String>,
     /// The largest error that is possible, as the reference is in doubt, too; in times of what nobody sees. NaN where nothing is
     /// known.

@@ -151,7 +151,7 @@ pub(super) fn solvers(model: &Model, plan: &Plan) -> Vec<EngineOption> {
 
 /// The integrators.
 pub(super) fn integrators(model: &Model, demand: &AccessSet) -> Vec<EngineOption> {
-    let integrator = labspec::run::Integrator::of(model);
+    let integrator = labspec::run::Integrator::of_model(model);
     let written = demand.writes.contains(option::integrator);
     let code = |i: labspec::run::Integrator| EngineOption {
         name: i.name,
