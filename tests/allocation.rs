@@ -11,7 +11,7 @@ use allocation_counter::measure;
 use labspec::bind::{ControlProgram, Programs};
 use labspec::lint::ModelFolder;
 use labspec::lint::load_lesson;
-use labspec::run::{Cell, Samples, Session};
+use labspec::run::{Cell, Samples, Session, Start};
 use labspec::source::SourceFile;
 use labspec_core::reflect::{FieldSet, Object, field};
 use labspec_core::{self as core, AccessSet, Data, Model, Plan, Planned, integrator};
@@ -201,7 +201,7 @@ fn programs_of_numbers() {
     let mut findings = Vec::new();
     let programs = Programs::compile(lab, &m, &mut findings);
     assert_eq!(findings, []);
-    let mut session = Session::start(&programs, &m, None, &programs.demand);
+    let mut session = Session::start(&programs, &m, Start::default());
     let run = |session: &mut Session<'_>| {
         for _ in 0..600 {
             session.step();
@@ -214,7 +214,7 @@ fn programs_of_numbers() {
         json!({"xml": model_text("ball_drop"), "readouts": [{"label": "height", "expr": "data.qpos[2]"}]});
     let quiet = load_lesson(SourceFile::new("still.json", still.to_string()), &ModelFolder::unknown());
     let quiet = Programs::compile(quiet.all_labs()[0], &m, &mut findings);
-    let mut watched = Session::start(&quiet, &m, None, &quiet.demand);
+    let mut watched = Session::start(&quiet, &m, Start::default());
     watched.watch();
     run(&mut watched);
     assert_eq!(measure(|| run(&mut watched)).count_total, 0, "a step of a run that is watched");

@@ -461,7 +461,7 @@ fn no_command_replaces_a_file_of_another_kind() {
 /// Every file of the program and its libraries by its name, without tests.
 fn sources() -> Vec<(String, String)> {
     let crates = crate::support::workspace().join("crates");
-    let folders = ["cli", "labspec", "lsp", "numerics", "proposals"];
+    let folders = ["cli", "developer", "labspec", "lsp", "numerics", "proposals"];
     let (mut open, mut all) = (folders.map(|name| crates.join(name).join("src")).to_vec(), Vec::new());
     while let Some(folder) = open.pop() {
         for entry in std::fs::read_dir(folder).unwrap() {

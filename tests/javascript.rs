@@ -12,11 +12,11 @@ use labspec::bind::scene::Models;
 use labspec::bind::{ControlProgram, ModelNames, Programs, Scope, World};
 use labspec::lint::ModelFolder;
 use labspec::lint::load_lesson;
-use labspec::run::Session;
+use labspec::run::{Session, Start};
 use labspec::source::SourceFile;
 use labspec::spec::{ControlKind, Lab};
-use labspec_core::Model;
 use labspec_core::reflect::{self, Elem, Object};
+use labspec_core::{AccessSet, Model, Plan};
 use labspec_expr::{Context, Entry, FieldKey, FunctionId, Globals, Heap, Host, Program, Schema, Value};
 use serde_json::{Map, Value as Json, json};
 use std::collections::BTreeSet;
@@ -273,7 +273,8 @@ fn compare(name: &str, lab: &Lab, model: &Model, count: &mut Count) {
     );
     assert!(programs.probes.iter().all(|p| p.bound.is_some()), "{name}");
     let jobs = texts(lab, &programs);
-    let mut session = Session::start(&programs, model, lab.keyframe(), &labspec_core::AccessSet::ANY);
+    let plan = Some(Plan::new(model, &AccessSet::ANY));
+    let mut session = Session::start(&programs, model, Start { plan, ..Start::of_lab(lab) });
     let mut work = Work::default();
     for phase in 0..4 {
         match phase {

@@ -66,6 +66,7 @@ mod structure;
 mod students;
 mod support;
 mod terminal;
+mod touching;
 #[cfg(unix)]
 mod trace;
 mod tree_algorithms;

@@ -11,10 +11,10 @@ use labspec::bind::Programs;
 use labspec::check::Checked;
 use labspec::lint::ModelFolder;
 use labspec::lint::load_lesson;
-use labspec::run::Session;
+use labspec::run::{Session, Start};
 use labspec::source::SourceFile;
 use labspec::verify::QuoteState;
-use labspec_core::{self as core, AccessSet, Data, Model};
+use labspec_core::{self as core, AccessSet, Data, Model, Plan};
 use labspec_expr::Value;
 use serde_json::{Value as Json, json};
 
@@ -184,7 +184,8 @@ fn the_mass_slider_in_mid_run() {
     assert_eq!(findings, []);
     // A page that may read anything, and a run that needs nothing else: both see what the library sees.
     for demand in [programs.demand, AccessSet::ANY] {
-        let mut session = Session::start(&programs, &model, None, &demand);
+        let plan = Some(Plan::new(&model, &demand));
+        let mut session = Session::start(&programs, &model, Start { plan, ..Start::default() });
         let text = std::fs::read_to_string(workspace().join("tests/golden/slider.json")).unwrap();
         let golden: Json = serde_json::from_str(&text).unwrap();
         (0..100).for_each(|_| session.step());
@@ -321,7 +322,7 @@ fn touchdown_from_five_heights() {
 fn poses_are_old_until_forward() {
     let m = compile(&model_text("ball_drop"));
     for demand in [AccessSet::ANY, AccessSet::OBSERVE] {
-        let mut d = Data::planned(&m, core::Plan::new(&m, &demand));
+        let mut d = Data::planned(&m, Plan::new(&m, &demand));
         core::forward(&m, &mut d).unwrap();
         d.edit().qpos[2] = 0.5;
         assert_eq!(d.fields().xpos[5], 1.0);

@@ -87,10 +87,10 @@ fn a_recording_takes_no_samples_of_another_model() {
     let [own, twin] = [(); 2].map(|()| crate::support::model("ball_drop"));
     let [of_own, of_twin] = [&own, &twin].map(|m| labspec::bind::Programs::compile(lab, m, &mut Vec::new()));
     let mut samples = run::Samples::new(&of_own, 4);
-    let mut theirs = run::Session::start(&of_twin, &twin, None, &of_twin.demand);
+    let mut theirs = run::Session::start(&of_twin, &twin, run::Start::default());
     assert_eq!(theirs.ended(), None);
     assert!(samples.take(&mut theirs).is_err());
-    let mut ours = run::Session::start(&of_own, &own, None, &of_own.demand);
+    let mut ours = run::Session::start(&of_own, &own, run::Start::default());
     samples.take(&mut ours).unwrap();
     assert_eq!(samples.rows().len(), 1);
 }
@@ -102,7 +102,7 @@ fn a_session_evaluates_nothing_of_another_model() {
     let lab = lesson.all_labs()[0];
     let [own, twin] = [(); 2].map(|()| crate::support::model("ball_drop"));
     let [of_own, of_twin] = [&own, &twin].map(|m| labspec::bind::Programs::compile(lab, m, &mut Vec::new()));
-    let mut session = run::Session::start(&of_own, &own, None, &of_own.demand);
+    let mut session = run::Session::start(&of_own, &own, run::Start::default());
     for (programs, good) in [(&of_own, true), (&of_twin, false)] {
         let bound = programs.probes[0].bound.as_ref().unwrap();
         assert_eq!(session.evaluate(&bound.program, &bound.text).is_some(), good);

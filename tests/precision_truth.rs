@@ -11,9 +11,9 @@ use labspec::run::Integrator;
 use labspec::run::{self, Cell, RunOptions, rounded};
 use labspec::source::SourceFile;
 use labspec::spec::{Lab, Lesson};
-use labspec::stress;
 use labspec_core::{Model, integrator};
 use labspec_numerics::precision::{Fate, Kind, Options, Report, Row, compare};
+use labspec_numerics::stability;
 use serde_json::Value;
 use std::path::PathBuf;
 
@@ -137,8 +137,8 @@ fn small_differences_grow_as_by_equations_by_hand() {
         let mut model = Model::clone(&model(&lab));
         (*model.edit().opt.timestep, *model.edit().opt.integrator) = (0.0002, integrator::RK4);
         let programs = Programs::compile(&lab, &model, &mut Vec::new());
-        let options = stress::Options { until: Some(until), ..Default::default() };
-        let report = stress::probe(&lab, &model, &programs, &options, &mut |_| ()).unwrap();
+        let options = stability::Options { until: Some(until), ..Default::default() };
+        let report = stability::probe(&lab, &model, &programs, &options, &mut |_| ()).unwrap();
         let found = report.sensitivity.parting.unwrap();
         let off = |x: f64, key: &str| (x / truth[key].as_f64().unwrap() - 1.0).abs();
         println!("{title}: {:e} {:e}", off(found.low, "low"), off(found.high, "high"));

@@ -7,7 +7,7 @@ use crate::support::{compile, model_text};
 use labspec::Value;
 use labspec::bind::Programs;
 use labspec::lint::{ModelFolder, load_lesson};
-use labspec::run::{Session, is_steady};
+use labspec::run::{Session, Start, is_steady};
 use labspec::source::SourceFile;
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -106,8 +106,8 @@ proptest! {
         let (programs, model) = programs(CONTROLLERS[which].0);
         let mut without = programs.clone();
         let controller = without.controller.take().unwrap();
-        let mut ours = Session::start(&programs, &model, None, &programs.demand);
-        let mut always = Session::start(&without, &model, None, &programs.demand);
+        let mut ours = Session::start(&programs, &model, Start::default());
+        let mut always = Session::start(&without, &model, Start::default());
         for step in 0..40 {
             for (_, event) in events.iter().filter(|(when, _)| *when == step) {
                 apply(event, &mut ours);

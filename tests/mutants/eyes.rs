@@ -5,10 +5,10 @@ use super::material::{Piece, What};
 use labspec::bind::Programs;
 use labspec::bind::scene::Models;
 use labspec::lint::load_lesson;
-use labspec::run::{self, Cell, Play, Session};
+use labspec::run::{self, Cell, Play, Session, Start};
 use labspec::source::SourceFile;
 use labspec::spec::{ControlKind, Lab};
-use labspec_core::{Data, Plan};
+use labspec_core::{Model, Plan};
 use labspec_expr::Value as Chosen;
 use serde_json::Value;
 use std::fmt::Write;
@@ -36,6 +36,12 @@ const CODE: [&str; 13] = [
     "verify",
 ];
 
+/// Every stage in every step: what nobody reads is drawn all the same.
+fn start_with_every_stage<'p>(lab: &Lab, model: &Model, programs: &'p Programs) -> Session<'p> {
+    let start = Start { plan: Some(Plan::full()), ..Start::of_lab(lab) };
+    Session::start(programs, model, start)
+}
+
 /// All that can be seen, as a text.
 pub(crate) fn seen(piece: &Piece, json: &Value, models: &Models) -> String {
     let mut shown = json.clone();
@@ -49,9 +55,7 @@ pub(crate) fn seen(piece: &Piece, json: &Value, models: &Models) -> String {
     let Some(lab) = lesson.all_labs().into_iter().next() else { return text };
     let Some(model) = models.model_of_lab(lab, &mut Vec::new()) else { return text };
     let programs = Programs::compile(lab, &model, &mut Vec::new());
-    // Every stage in every step: what nobody reads is drawn all the same.
-    let start =
-        || Session::start_with(&programs, &model, lab.keyframe(), Data::planned(&model, Plan::full()));
+    let start = || start_with_every_stage(lab, &model, &programs);
     let [whole, before, after, again] = STEPS;
     let mut session = start();
     play(&mut session, lab, whole, &mut text);
@@ -129,8 +133,7 @@ pub(super) fn prints(json: &Value, models: &Models, readout: usize) -> std::coll
     let programs = Programs::compile(lab, &model, &mut Vec::new());
     let column = 1 + lab.traces().count() + readout;
     for moved in std::iter::once(None).chain((0..lab.controls.len()).map(Some)) {
-        let mut session =
-            Session::start_with(&programs, &model, lab.keyframe(), Data::planned(&model, Plan::full()));
+        let mut session = start_with_every_stage(lab, &model, &programs);
         match moved.and_then(|i| Some((i, &lab.controls.get(i)?.kind))) {
             Some((i, ControlKind::Slider { max, .. })) => session.set_control(i, Chosen::Number(max.value)),
             Some((i, ControlKind::Button { .. })) => session.press(i),

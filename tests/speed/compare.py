@@ -23,7 +23,7 @@ import sys
 import tempfile
 
 OURS = "target/release/labspec"
-ADVANCE = "labspec::cli::bench::advance"
+ADVANCE = "labspec_developer::bench::advance"
 BENCH, MODELS = "../shared/bench/", "../shared/conformance/models/"
 SCENES = [
     f"pendulum={BENCH}pendulum.xml,100,200000",

@@ -7,7 +7,7 @@ use super::output::write_file;
 use super::output_kind::OutputKind;
 use super::stdio::{self, complain};
 use super::{
-    bench, check, completions, explain, fmt, init, plan, precision, record, run, scaffold, schema, snapshot,
+    check, completions, developer, explain, fmt, init, plan, precision, run, scaffold, schema, snapshot,
     stability, trace,
 };
 use clap::{CommandFactory, Parser, Subcommand};
@@ -58,9 +58,9 @@ enum Command {
     #[cfg(feature = "lsp")]
     Lsp(lsp::Arguments),
     /// For engineers: compute the numbers of this engine for the states of a MuJoCo recording
-    Record(record::Arguments),
+    Record(developer::RecordArguments),
     /// For engineers: measure the time of a step
-    Bench(bench::Arguments),
+    Bench(developer::BenchArguments),
     /// Print a completion script for a shell
     Completions(completions::Arguments),
     /// Write the reference pages, and the JSON Schemas into the folder `schema` beside them
@@ -126,8 +126,8 @@ fn execute(command: &Command) -> Result<Outcome, Failure> {
         Command::Schema(a) => schema::schema(a),
         #[cfg(feature = "lsp")]
         Command::Lsp(a) => lsp::lsp(a),
-        Command::Record(a) => record::record(a),
-        Command::Bench(a) => bench::bench(a),
+        Command::Record(a) => developer::record(a),
+        Command::Bench(a) => developer::bench(a),
         Command::Reference { folder } => write_reference(folder),
     }
 }

@@ -2,7 +2,6 @@
 //! run or print; 3: not everything asked for was checked; 130: stopped by Ctrl-C.
 
 mod baseline;
-mod bench;
 mod cache;
 mod check;
 mod check_output;
@@ -12,6 +11,7 @@ mod common;
 mod completions;
 mod course;
 mod course_ledger;
+mod developer;
 mod digest;
 mod explain;
 mod file_check;
@@ -30,7 +30,7 @@ mod parallel;
 mod plan;
 mod policy;
 mod precision;
-mod record;
+mod report_json;
 mod reproduction;
 mod run;
 mod scaffold;

@@ -59,7 +59,7 @@ fn listed(list: &str, pages: &[(PathBuf, String)]) -> Result<String, String> {
         };
         let _ = writeln!(
             text,
-            "#[path = {:?}]\nmod {module};\npub use {module}::{name};",
+            "#[path = {:?}]\npub(crate) mod {module};\npub use {module}::{name};",
             path.display().to_string()
         );
         rules.push(name);

@@ -4,11 +4,11 @@ use labspec::bind::dimension_of;
 use labspec::bind::scene::Models;
 use labspec::bind::{ModelNames, Programs, Scope};
 use labspec::finding::Finding;
-use labspec::run::{Budget, Session};
+use labspec::run::{Budget, Session, Start};
 use labspec::source::{SourceMap, Text};
 use labspec::spec::Lab;
 use labspec_bind::units::written;
-use labspec_core::{AccessSet, Model};
+use labspec_core::{AccessSet, Model, Plan};
 use labspec_expr::{Compiler, Type};
 use std::sync::Arc;
 
@@ -40,7 +40,9 @@ impl StartedLabs {
         }
         let model = models.model_of_lab(lab, &mut Vec::<Finding>::new())?;
         let programs = Arc::new(Programs::compile(lab, &model, &mut Vec::new()));
-        let session = Session::start_within(programs, &model, lab.keyframe(), &AccessSet::ANY, WORK);
+        let plan = Some(Plan::new(&model, &AccessSet::ANY));
+        let start = Start { key: lab.keyframe(), plan, budget: WORK };
+        let session = Session::start(programs, &model, start);
         if self.0.len() >= MOST {
             self.0.remove(0);
         }

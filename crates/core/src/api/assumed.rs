@@ -123,6 +123,53 @@ mod tests {
         assert!(any.keeps(Stage::Passive) && any.keeps(Stage::Solve) && !fixed(&m).keeps(Stage::Solve));
     }
 
+    /// A joint has the damper of an actuator from `mj_setConst` on, not from the write of `actuator_damping` before it.
+    #[test]
+    fn constants_that_give_joints_dampers_change_the_plan() {
+        let xml = "<mujoco><worldbody><body><joint name='j' axis='0 1 0'/><geom size='.05' pos='.2 0 0'/></body></worldbody>\
+            <actuator><motor joint='j'/></actuator></mujoco>";
+        let mut m = Model::from_xml(xml).unwrap();
+        let mut d = Data::planned(&m, Plan::new(&m, &demand(&[model::actuator_damping])));
+        let mut full = Data::unplanned(&m);
+        write(&mut m, &mut d, model::actuator_damping, 0, 0.6);
+        for constants in [false, true] {
+            if constants {
+                call::set_const(&mut m.clone(), &mut full).unwrap();
+                call::set_const(&mut m, &mut d).unwrap();
+            }
+            for _ in 0..100 {
+                call::step(&m, &mut d).unwrap();
+                call::step(&m, &mut full).unwrap();
+            }
+
+            let planned = call::element(&m, &d, data::qpos, 0).unwrap();
+            assert_eq!(planned.to_bits(), full.qpos[0].to_bits());
+        }
+    }
+
+    /// A geom in the frame of its body is moved by `geom_pos` from `mj_setConst` on: until then it touches what it has touched.
+    #[test]
+    fn a_geom_that_is_moved_touches_until_constants_are_computed() {
+        let xml = "<mujoco><worldbody><geom name='still' size='.05'/>\
+            <body pos='.08 0 0'><joint axis='0 0 1' pos='0 -.05 0'/><geom size='.05'/></body></worldbody></mujoco>";
+        let mut m = Model::from_xml(xml).unwrap();
+        let mut d = Data::planned(&m, Plan::new(&m, &demand(&[model::geom_pos])));
+        let mut full = Data::unplanned(&m);
+        write(&mut m, &mut d, model::geom_pos, 0, 9.0);
+        let mut touched = Vec::new();
+        for constants in [false, true] {
+            if constants {
+                call::set_const(&mut m.clone(), &mut full).unwrap();
+                call::set_const(&mut m, &mut d).unwrap();
+            }
+            call::step(&m, &mut d).unwrap();
+            call::step(&m, &mut full).unwrap();
+            touched.push(full.ncon);
+            assert_eq!(d.fields().qacc, full.qacc);
+        }
+        assert_eq!(touched, [1, 0]);
+    }
+
     /// What changes again and again is held for any value, until it has stayed for a while; and after a call that computes a part, until
     /// the next pass.
     #[test]

@@ -12,7 +12,8 @@ use super::data::{Data, Scope};
 use super::error::Error;
 use super::model::{KeyId, Model};
 use super::planning::Plan;
-use crate::dynamics::{jacobian, mass, object, subtree, tree_algorithms};
+use crate::constraint;
+use crate::dynamics::{self, jacobian, mass, object, rne as newton_euler, subtree, tree_algorithms};
 use crate::forces::{actuation, energy};
 use crate::math::{Spatial, Vec3};
 use crate::model::plan::PlanFlag;
@@ -21,7 +22,7 @@ use crate::model::{Contact, Obj};
 use crate::sensor::body_force;
 use crate::setup::setconst;
 use crate::step::balance::{self, Energy};
-use crate::step::{self, functions, integrate, reset};
+use crate::step::{self, deciding, integrate, reset};
 
 pub use crate::dynamics::jacobian::Jacobian;
 pub use spatial_queries::*;
@@ -37,11 +38,11 @@ fn exists(kind: &'static str, id: usize, count: usize) -> Result<(), Error> {
 
 /// Functions that take the model and all of the data: those that compute everything, and those that compute a part.
 macro_rules! passes {
-    ($($(#[$doc:meta])* $name:ident $engine:ident [$($needs:ident)*] |$m:ident, $d:ident| $call:expr;)*) => { $(
+    ($($(#[$doc:meta])* $name:ident $engine:ident [$($needs:ident)*] |$m:ident, $d:ident, $s:tt| $call:expr;)*) => { $(
         $(#[$doc])*
         pub fn $name<S: Scope>(m: &Model, d: &mut Data<S>) -> Result<(), Error> {
             d.has(&[$(data::$needs),*])?;
-            let ($m, $d) = (m, d.$engine(m)?);
+            let ($m, ($d, $s)) = (m, d.$engine(m)?);
             $call;
             Ok(())
         }
@@ -67,7 +68,7 @@ passes! {
     /// # Ok(())
     /// # }
     /// ```
-    step engine_for_pass [] |m, d| step::step(m, d);
+    step engine_for_pass [] |m, d, s| step::step(m, d, s);
     /// The first part of a step (`mj_step1`): all that does not depend on inputs. Controls and applied forces may be set
     /// between the two.
     ///
@@ -92,31 +93,31 @@ passes! {
     /// # Ok(())
     /// # }
     /// ```
-    step1 engine [] |m, d| step::step1(m, d);
+    step1 engine [] |m, d, s| step::step1(m, d, s);
     /// The second part of a step (`mj_step2`): forces, accelerations, the next state. Where the options name Runge–Kutta,
     /// which needs forces at other states, this is a step of Euler.
-    step2 engine [] |m, d| step::step2(m, d);
+    step2 engine [] |m, d, s| step::step2(m, d, s);
     /// Computes everything that follows from the state, without advancing time (`mj_forward`).
-    forward engine_for_pass [] |m, d| step::forward::forward(m, d);
+    forward engine_for_pass [] |m, d, s| step::forward::forward(m, d, s);
     /// Back to the default configuration (`mj_resetData`): state, inputs, results and warnings. The model keeps what was
     /// written to it.
-    reset_data engine_for_pass [] |m, d| reset::reset_data(m, d);
+    reset_data engine_for_pass [] |m, d, s| reset::reset_data(m, d, s);
     /// Poses of bodies, joints, geoms and sites (`mj_kinematics`).
-    kinematics engine [] |m, d| functions::kinematics(m, d);
+    kinematics engine [] |m, d, s| dynamics::kinematics(m, d, &mut s.dynamics);
     /// Everything that follows from positions: poses, M, contacts, the sensors of the first stage (`mj_fwdPosition`).
-    fwd_position engine [] |m, d| step::forward::position(m, d);
+    fwd_position engine [] |m, d, s| step::forward::position(m, d, s);
     /// Everything that follows from velocities, where positions have been looked at (`mj_fwdVelocity`).
-    fwd_velocity engine [] |m, d| step::forward::velocity(m, d);
+    fwd_velocity engine [] |m, d, s| step::forward::velocity(m, d, s);
     /// The contacts of geoms where they are now (`mj_collision`).
-    collision engine [] |m, d| step::forward::contacts(m, d);
+    collision engine [] |m, d, s| step::forward::contacts(m, d, s);
     /// `energy[0]`: gravity and springs, J (`mj_energyPos`). Zero where every centre of mass is at the origin.
-    energy_pos engine [xipos] |m, d| energy::potential(m, d);
+    energy_pos engine [xipos] |m, d, _| energy::potential(m, d);
     /// `energy[1]` = ½ vᵀ M v, J (`mj_energyVel`).
-    energy_vel engine [M] |m, d| energy::kinetic(m, d);
+    energy_vel engine [M] |m, d, _| energy::kinetic(m, d);
     /// Momentum of subtrees (`mj_subtreeVel`): `subtree_linvel`, `subtree_angmom`.
-    subtree_vel engine [cvel] |m, d| subtree::subtree_vel(m, d);
+    subtree_vel engine [cvel] |m, d, _| subtree::subtree_vel(m, d);
     /// `cacc`, `cfrc_ext`, `cfrc_int`; needs `qacc` and the forces of constraints (`mj_rnePostConstraint`).
-    rne_post_constraint engine [cvel cinert] |m, d| body_force::rne_post_constraint(m, d);
+    rne_post_constraint engine [cvel cinert] |m, d, _| body_force::rne_post_constraint(m, d);
 }
 
 /// Back to a keyframe (`mj_resetDataKeyframe`).
@@ -136,7 +137,8 @@ passes! {
 /// ```
 pub fn reset_data_keyframe<S: Scope>(m: &Model, d: &mut Data<S>, key: KeyId) -> Result<(), Error> {
     exists("keyframe", key.index(), m.nkey)?;
-    reset::reset_data_keyframe(m, d.engine_for_pass(m)?, key.index());
+    let (fields, scratch) = d.engine_for_pass(m)?;
+    reset::reset_data_keyframe(m, fields, scratch, key.index());
     // A keyframe has controls.
     d.touched = !S::FULL;
     Ok(())
@@ -146,7 +148,7 @@ pub fn reset_data_keyframe<S: Scope>(m: &Model, d: &mut Data<S>, key: KeyId) -> 
 pub fn set_keyframe<S: Scope>(m: &mut Model, d: &Data<S>, key: KeyId) -> Result<(), Error> {
     d.belongs_to(m)?;
     exists("keyframe", key.index(), m.nkey)?;
-    reset::set_keyframe(m.engine(), &d.inner, key.index());
+    reset::set_keyframe(m.engine(), &d.fields, key.index());
     Ok(())
 }
 
@@ -154,12 +156,14 @@ pub fn set_keyframe<S: Scope>(m: &mut Model, d: &Data<S>, key: KeyId) -> Result<
 /// there, velocities and time stay.
 pub fn set_const<S: Scope>(m: &mut Model, d: &mut Data<S>) -> Result<(), Error> {
     d.engine(m)?;
-    setconst::set_const(m.engine(), &mut d.inner);
+    let before = deciding::constants(m).map(<[i32]>::to_vec);
+    setconst::set_const(m.engine(), &mut d.fields, &mut d.scratch);
     m.touch_constants();
     d.mark_synced(m);
-    // A plan that was made while M was constant does not look at it again.
-    let plan = &d.inner.plan;
-    if !plan.has(PlanFlag::General) && !tree_algorithms::are_constant(m.engine(), plan.algorithms) {
+    // A plan that was made while M was constant does not look at it again; others are made for constants that may be others now.
+    let plan = &d.fields.plan;
+    let constant = plan.has(PlanFlag::General) || tree_algorithms::are_constant(m.engine(), plan.algorithms);
+    if !constant || d.assumes_values() && deciding::constants(m) != before.each_ref().map(Vec::as_slice) {
         d.plan_again(m);
     }
     Ok(())
@@ -189,7 +193,8 @@ pub fn set_plan(m: &Model, d: &mut Data<super::data::Planned>, plan: Plan) -> Re
 /// # }
 /// ```
 pub fn inverse<S: Scope>(m: &Model, d: &mut Data<S>) -> Result<(), Error> {
-    Ok(step::inverse::inverse(m, d.engine(m)?)?)
+    let (d, s) = d.engine(m)?;
+    Ok(step::inverse::inverse(m, d, s)?)
 }
 
 /// The generalized force (nv) that causes the acceleration `qacc` (nv), or none when it is not given: gravity, Coriolis and
@@ -202,7 +207,8 @@ pub fn rne<S: Scope>(m: &Model, d: &mut Data<S>, qacc: Option<&[f64]>) -> Result
         wanted("an acceleration", m.nv, a.len())?;
     }
     let mut out = vec![0.0; m.nv];
-    functions::rne(m, d.engine(m)?, qacc, &mut out);
+    let (d, s) = d.engine(m)?;
+    newton_euler::rne(m, d, &mut s.dynamics, qacc, &mut out);
     Ok(out)
 }
 
@@ -228,21 +234,21 @@ pub fn rne<S: Scope>(m: &Model, d: &mut Data<S>, qacc: Option<&[f64]>) -> Result
 pub fn contact_force<S: Scope>(m: &Model, d: &Data<S>, contact: &Contact) -> Result<[f64; 6], Error> {
     d.belongs_to(m)?;
     d.has(&[data::efc_force])?;
-    Ok(crate::constraint::contact_force(m, &d.inner, contact))
+    Ok(constraint::contact_force(m, &d.fields, contact))
 }
 
 /// The Jacobian of the constraints as a dense matrix, `nefc` x `nv`, row-major (`efc_J`).
 pub fn full_j<S: Scope>(m: &Model, d: &Data<S>) -> Result<Vec<f64>, Error> {
     d.belongs_to(m)?;
     d.has(&[data::efc_force])?;
-    Ok(functions::full_j(m, &d.inner))
+    Ok(constraint::full_j(m, &d.fields, &d.scratch.constraint.jac))
 }
 
 /// M as a dense symmetric matrix, `nv` x `nv`, row-major (`mj_fullM`).
 pub fn full_m<S: Scope>(m: &Model, d: &Data<S>) -> Result<Vec<f64>, Error> {
     d.belongs_to(m)?;
     d.has(&[data::M])?;
-    Ok(mass::full_m(m, &d.inner))
+    Ok(mass::full_m(m, &d.fields))
 }
 
 /// out ← M v (`mj_mulM`), for vectors of nv numbers.
@@ -251,7 +257,7 @@ pub fn mul_m<S: Scope>(m: &Model, d: &Data<S>, v: &[f64], out: &mut [f64]) -> Re
     d.has(&[data::M])?;
     wanted("the vector", m.nv, v.len())?;
     wanted("the product", m.nv, out.len())?;
-    mass::mul(m, &d.inner.M, v, out, 0..m.nv);
+    mass::mul(m, &d.fields.M, v, out, 0..m.nv);
     Ok(())
 }
 
@@ -260,7 +266,7 @@ pub fn solve_m<S: Scope>(m: &Model, d: &Data<S>, x: &mut [f64]) -> Result<(), Er
     d.belongs_to(m)?;
     d.has(&[data::qLD, data::qLDiagInv])?;
     wanted("the vector", m.nv, x.len())?;
-    mass::solve(m, &d.inner.qLD, &d.inner.qLDiagInv, x, 0..m.nv);
+    mass::solve(m, &d.fields.qLD, &d.fields.qLDiagInv, x, 0..m.nv);
     Ok(())
 }
 
@@ -269,7 +275,7 @@ pub fn solve_m2<S: Scope>(m: &Model, d: &Data<S>, x: &mut [f64]) -> Result<(), E
     d.belongs_to(m)?;
     d.has(&[data::qLD, data::qLDiagInv])?;
     wanted("the vector", m.nv, x.len())?;
-    mass::solve_m2(m, &d.inner, x);
+    mass::solve_m2(m, &d.fields, x);
     Ok(())
 }
 
@@ -285,7 +291,7 @@ macro_rules! jacobians {
             d.has(&JACOBIAN_READS)?;
             d.has(&[$(data::$needs),*])?;
             exists($noun, $id, m.$count)?;
-            $call(m, &d.inner, $($arg,)* $id).ok_or(Error::NoId { kind: $noun, id: $id, count: m.$count })
+            $call(m, &d.fields, $($arg,)* $id).ok_or(Error::NoId { kind: $noun, id: $id, count: m.$count })
         }
     )* };
 }
@@ -321,7 +327,7 @@ pub fn apply_ft<S: Scope>(
     d.has(&JACOBIAN_READS)?;
     exists("body", body, m.nbody)?;
     wanted("the force", m.nv, qfrc.len())?;
-    jacobian::apply_ft(m, &d.inner, force, torque, point, body, qfrc).ok_or(Error::NoId {
+    jacobian::apply_ft(m, &d.fields, force, torque, point, body, qfrc).ok_or(Error::NoId {
         kind: "body",
         id: body,
         count: m.nbody,
@@ -339,7 +345,7 @@ pub fn object_velocity<S: Scope>(
 ) -> Result<Spatial, Error> {
     d.belongs_to(m)?;
     d.has(&[data::cvel])?;
-    Ok(object::object_velocity(m, &d.inner, kind, id, local))
+    Ok(object::object_velocity(m, &d.fields, kind, id, local))
 }
 
 /// Angular and linear acceleration of an object (`mj_objectAcceleration`), rad/s² and m/s², as an accelerometer feels it: at
@@ -354,7 +360,7 @@ pub fn object_acceleration<S: Scope>(
 ) -> Result<Spatial, Error> {
     d.belongs_to(m)?;
     d.has(&[data::cacc, data::cvel])?;
-    Ok(object::object_acceleration(m, &d.inner, kind, id, local))
+    Ok(object::object_acceleration(m, &d.fields, kind, id, local))
 }
 
 /// qpos ← qpos advanced for a time `h` with velocity `v` (`mj_integratePos`).
@@ -383,7 +389,8 @@ pub fn servo_gains(m: &Model, actuator: usize) -> Option<[f64; 2]> {
 /// The energy at `qpos` and `qvel`, for the controls at hand. `None` where some actuator has no potential: it may feed the
 /// scene. Computes where things are, how long they are and how heavy, and nothing else.
 pub fn mechanical_energy<S: Scope>(m: &Model, d: &mut Data<S>) -> Result<Option<Energy>, Error> {
-    Ok(balance::mechanical_energy(m, d.engine(m)?))
+    let (d, s) = d.engine(m)?;
+    Ok(balance::mechanical_energy(m, d, s))
 }
 
 /// The numbers of any field.
@@ -398,12 +405,12 @@ pub fn view<'a, S: Scope>(m: &'a Model, d: &'a Data<S>, field: FieldId) -> Resul
 #[doc(hidden)]
 #[inline]
 pub fn element<S: Scope>(m: &Model, d: &Data<S>, field: FieldId, i: usize) -> Option<f64> {
-    reflect::element(m, &d.inner.fields, field, i)
+    reflect::element(m, &d.fields, field, i)
 }
 
 /// How many numbers a field has now.
 pub fn length<S: Scope>(m: &Model, d: &Data<S>, field: FieldId) -> usize {
-    m.field(field).map_or_else(|| reflect::view_data(&d.inner.fields, field).len(), |view| view.len())
+    m.field(field).map_or_else(|| reflect::view_data(&d.fields, field).len(), |view| view.len())
 }
 
 /// The numbers of any field, to write. What the engine indexes by or computes cannot be written.

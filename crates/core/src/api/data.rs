@@ -5,6 +5,7 @@ use super::assumed::{Assumed, SETTLED};
 use super::error::Error;
 use super::model::{Cell, Model, access};
 use super::planning::Plan;
+use crate::dynamics::tree_algorithms;
 use crate::model::fields::data_fields;
 use crate::model::plan::{PlanFlag, PlanTable};
 use crate::model::reflect::{self, FieldId, FieldSet, Kind, Object, View, ViewMut, data};
@@ -12,8 +13,8 @@ use crate::model::stage::Stage;
 use crate::model::{Fields, Names};
 use crate::step::analysis::AccessSet;
 use crate::step::deciding::{deciding, never_asked};
-use crate::step::workspace::Workspace as Inner;
-use crate::step::{functions, reset};
+use crate::step::reset;
+use crate::step::workspace::{Scratch, Workspace};
 use std::marker::PhantomData;
 use std::ops::Deref;
 use std::sync::Arc;
@@ -66,7 +67,8 @@ mod sealed {
 /// ```
 #[derive(Clone)]
 pub struct Data<S: Scope = Full> {
-    pub(super) inner: Inner,
+    pub(super) fields: Fields,
+    pub(super) scratch: Scratch,
     pub(super) names: Arc<Names>,
     pub(super) addresses: Arc<Addresses>,
     /// The model, and the version of its contents when the data were used last; 0 where the plan has not been held against any.
@@ -85,7 +87,7 @@ pub struct Data<S: Scope = Full> {
 impl<S: Scope> std::fmt::Debug for Data<S> {
     /// Its time and state: all of it would be thousands of numbers.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Fields { time, qpos, qvel, .. } = &self.inner.fields;
+        let Fields { time, qpos, qvel, .. } = &self.fields;
         f.debug_struct("Data")
             .field("time", time)
             .field("qpos", qpos)
@@ -96,7 +98,7 @@ impl<S: Scope> std::fmt::Debug for Data<S> {
 
 impl<S: Scope> PartialEq for Data<S> {
     fn eq(&self, other: &Data<S>) -> bool {
-        self.inner == other.inner
+        self.fields == other.fields && self.scratch == other.scratch
     }
 }
 
@@ -105,7 +107,7 @@ impl Deref for Data<Full> {
 
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn deref(&self) -> &Fields {
-        &self.inner.fields
+        &self.fields
     }
 }
 
@@ -132,9 +134,12 @@ impl Data<Planned> {
 
 impl<S: Scope> Data<S> {
     fn with_plan(m: &Model, mut plan: Plan) -> Data<S> {
+        let assumed = Assumed::from_plan(&mut plan);
+        let Workspace { fields, scratch } = Workspace::planned(m, plan.inner);
         Data {
-            assumed: Assumed::from_plan(&mut plan),
-            inner: Inner::planned(m, plan.inner),
+            assumed,
+            fields,
+            scratch,
             names: Arc::clone(&m.names),
             addresses: Arc::clone(&m.addresses),
             model: m.contents.model,
@@ -148,21 +153,21 @@ impl<S: Scope> Data<S> {
 
     /// Simulated time, s.
     pub fn time(&self) -> f64 {
-        self.inner.fields.time
+        self.fields.time
     }
 
     /// All fields, computed or not: for hosts that know what they demanded.
     #[doc(hidden)]
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub fn fields(&self) -> &Fields {
-        &self.inner.fields
+        &self.fields
     }
 
     /// What can be written: state, inputs, and the acceleration that [`inverse`](crate::inverse) starts from. Everything else
     /// can be read here.
     pub fn edit(&mut self) -> Edit<'_> {
         self.touched = !S::FULL;
-        Edit::from_fields(&mut self.inner.fields)
+        Edit::from_fields(&mut self.fields)
     }
 
     /// The numbers of a field of the data by its name.
@@ -178,7 +183,7 @@ impl<S: Scope> Data<S> {
             return Err(Error::NoField(info.name.into()));
         }
         let written = matches!(info.kind, Kind::State | Kind::Input);
-        let view = reflect::view_data(&self.inner.fields, field);
+        let view = reflect::view_data(&self.fields, field);
         if S::FULL || written || self.demand.reads.contains_whole(field, view.len()) {
             Ok(view)
         } else {
@@ -196,7 +201,7 @@ impl<S: Scope> Data<S> {
             return Err(Error::NotWritable(field));
         }
         self.touched |= !S::FULL && !self.demand.writes.contains(field);
-        Ok(reflect::view_data_mut(&mut self.inner.fields, field))
+        Ok(reflect::view_data_mut(&mut self.fields, field))
     }
 
     /// What is read and written of these data.
@@ -206,13 +211,13 @@ impl<S: Scope> Data<S> {
 
     /// The plan that decides what is computed.
     pub fn plan(&self) -> Plan {
-        let (inner, made_for) = (self.inner.plan().clone(), self.assumed.made_for.clone());
+        let (inner, made_for) = (self.fields.plan.clone(), self.assumed.made_for.clone());
         Plan { inner, demand: self.demand, made_for, any: self.assumed.any() }
     }
 
     /// That the data belong to a model, whose parameters are known.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    pub(super) fn engine(&mut self, m: &Model) -> Result<&mut Inner, Error> {
+    pub(super) fn engine(&mut self, m: &Model) -> Result<(&mut Fields, &mut Scratch), Error> {
         if self.version != m.contents.version {
             self.catch_up(m, false)?;
         }
@@ -221,7 +226,7 @@ impl<S: Scope> Data<S> {
 
     /// The same for a call that computes everything.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    pub(super) fn engine_for_pass(&mut self, m: &Model) -> Result<&mut Inner, Error> {
+    pub(super) fn engine_for_pass(&mut self, m: &Model) -> Result<(&mut Fields, &mut Scratch), Error> {
         if self.version != m.contents.version {
             self.catch_up(m, true)?;
         }
@@ -229,18 +234,18 @@ impl<S: Scope> Data<S> {
     }
 
     #[cfg_attr(not(feature = "small"), inline(always))]
-    fn engine_in_step(&mut self, m: &Model) -> Result<&mut Inner, Error> {
+    fn engine_in_step(&mut self, m: &Model) -> Result<(&mut Fields, &mut Scratch), Error> {
         if self.touched {
             self.replan_for_inputs(m)?;
         }
-        Ok(&mut self.inner)
+        Ok((&mut self.fields, &mut self.scratch))
     }
 
     /// The same, for what may write inputs: see [`Data::edit`].
-    pub(super) fn engine_to_write(&mut self, m: &Model) -> Result<&mut Inner, Error> {
+    pub(super) fn engine_to_write(&mut self, m: &Model) -> Result<(&mut Fields, &mut Scratch), Error> {
         self.engine(m)?;
         self.touched = !S::FULL;
-        Ok(&mut self.inner)
+        Ok((&mut self.fields, &mut self.scratch))
     }
 
     /// Forces are applied that the plan was not told of, or controls are, or an equality constraint is switched on: it is made again,
@@ -250,13 +255,13 @@ impl<S: Scope> Data<S> {
         self.belongs_to(m)?;
         self.touched = false;
         let before = self.demand.writes;
-        let Fields { qfrc_applied, xfrc_applied, ctrl, eq_active, .. } = &self.inner.fields;
+        let Fields { qfrc_applied, xfrc_applied, ctrl, eq_active, .. } = &self.fields;
         for (field, list) in [(data::qfrc_applied, qfrc_applied), (data::xfrc_applied, xfrc_applied)] {
             if list.iter().any(|&x| x != 0.0) {
                 self.demand.writes.insert(field);
             }
         }
-        let plan = self.inner.plan();
+        let plan = &self.fields.plan;
         if !plan.keeps(Stage::Actuation) && ctrl.iter().any(|&u| u != 0.0) {
             self.demand.writes.insert(data::ctrl);
         }
@@ -291,7 +296,7 @@ impl<S: Scope> Data<S> {
     pub(super) fn replan(&mut self, m: &Model, mut plan: Plan) -> Result<(), Error> {
         self.belongs_to(m)?;
         (self.version, self.demand, self.assumed) = (0, plan.demand, Assumed::from_plan(&mut plan));
-        reset::set_plan(m, &mut self.inner, plan.inner);
+        reset::set_plan(m, &mut self.fields, &mut self.scratch, plan.inner);
         self.touched = !S::FULL;
         Ok(())
     }
@@ -316,15 +321,15 @@ impl<S: Scope> Data<S> {
         self.belongs_to(m)?;
         if self.copied != m.contents.copied {
             self.copied = m.contents.copied;
-            reset::load(m, &mut self.inner);
+            tree_algorithms::load(m, &mut self.scratch.dynamics);
         }
         let Some(planned) = &mut self.assumed.made_for else {
             self.version = m.contents.version;
             return Ok(());
         };
-        let now = functions::cost(&self.inner);
+        let now = self.fields.meter.cost;
         let calm = now >= self.assumed.settled;
-        let unrest = now.saturating_add(SETTLED.saturating_mul(functions::cost_of_pass(&self.inner)));
+        let unrest = now.saturating_add(SETTLED.saturating_mul(self.fields.meter.pass()));
         let changed = planned.changed(&m.contents);
         let mut narrower = whole && self.assumed.wide && (calm || self.assumed.due);
         if !changed.difference(&self.assumed.any).is_empty() {
@@ -352,6 +357,11 @@ impl<S: Scope> Data<S> {
         Ok(())
     }
 
+    /// Whether the plan holds for the values that the model had when it was made.
+    pub(super) fn assumes_values(&self) -> bool {
+        self.assumed.made_for.is_some()
+    }
+
     /// Makes the plan anew, for the model as it is.
     pub(super) fn plan_again(&mut self, m: &Model) {
         let mut any = self.assumed.any;
@@ -361,9 +371,9 @@ impl<S: Scope> Data<S> {
 
     /// The same for any value of some fields.
     fn plan_for(&mut self, m: &Model, any: FieldSet) {
-        let PlanTable { algorithms, more, .. } = *self.inner.plan();
+        let PlanTable { algorithms, more, .. } = self.fields.plan;
         let plan = Plan::made(m, &self.demand, any, |demand| PlanTable::with(m, demand, algorithms, more));
-        reset::set_plan(m, &mut self.inner, plan.inner);
+        reset::set_plan(m, &mut self.fields, &mut self.scratch, plan.inner);
         // What the data hold may be more than the plan takes for granted.
         self.touched = !S::FULL;
         self.assumed.any = any;
@@ -394,7 +404,7 @@ data_fields!(edits);
 impl<S: Scope> Data<S> {
     /// The acceleration, for [`inverse`](crate::inverse) to find the force of, m/s² or rad/s².
     pub fn set_qacc(&mut self, qacc: &[f64]) -> Result<(), Error> {
-        let to = &mut self.inner.fields.qacc;
+        let to = &mut self.fields.qacc;
         if to.len() != qacc.len() {
             return Err(Error::Length { what: "an acceleration", wanted: to.len(), found: qacc.len() });
         }

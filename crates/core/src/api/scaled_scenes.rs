@@ -3,10 +3,10 @@
 
 use crate::math::{Vec3, scale};
 use crate::mjcf::compile;
-use crate::model::{Contact, Model};
-use crate::query::{RayFilter, ray};
+use crate::model::{Contact, Fields, Model};
+use crate::query::{RayFilter, geom_distance, ray};
+use crate::step::forward;
 use crate::step::workspace::Workspace;
-use crate::step::{forward, functions};
 
 const SCENE: &str = "<mujoco><asset><mesh name='m' vertex='0 0 0 1 0 0 0 1 0 0 0 1 .8 .7 .9' scale='.5 .5 .5'/>
     <hfield name='h' nrow='3' ncol='3' size='2 2 .4 .2' elevation='0 1 0 2 3 1 0 1 2'/></asset>
@@ -40,16 +40,17 @@ fn scene(turn: f64) -> Model {
 }
 
 /// The model and its data with every length of its geometry multiplied.
-fn scaled(m: &Model, d: &Workspace, by: f64) -> (Model, Workspace) {
+fn scaled(m: &Model, d: &Fields, by: f64) -> (Model, Workspace) {
     let mut large = m.clone();
     let lists = [&mut large.geom_size, &mut large.geom_rbound, &mut large.geom_margin, &mut large.geom_gap];
     lists.into_iter().chain([&mut large.mesh_vert, &mut large.hfield_size]).flatten().for_each(|x| *x *= by);
     large.opt.ccd_tolerance *= by;
-    let mut there = Workspace::new(&large);
+    let mut scaled = Workspace::new(&large);
+    let Workspace { fields: there, scratch: s } = &mut scaled;
     there.geom_xpos.iter_mut().zip(&d.geom_xpos).for_each(|(x, &y)| *x = by * y);
     there.geom_xmat.copy_from_slice(&d.geom_xmat);
-    forward::contacts(&large, &mut there);
-    (large, there)
+    forward::contacts(&large, there, s);
+    (large, scaled)
 }
 
 fn back(c: &Contact, by: f64) -> (f64, Vec3, [f64; 9], f64, [usize; 2]) {
@@ -62,13 +63,13 @@ fn whole_scenes_scale() {
     let mut hits = 0;
     for turn in [0.0, 0.3, 1.0, 1.7] {
         let m = scene(turn);
-        let mut d = Workspace::new(&m);
-        forward::forward(&m, &mut d);
-        let (_, unit) = scaled(&m, &d, 1.0);
+        let Workspace { fields: mut d, scratch: mut s } = Workspace::new(&m);
+        forward::forward(&m, &mut d, &mut s);
+        let (_, Workspace { fields: unit, scratch: unit_scratch }) = scaled(&m, &d, 1.0);
         kinds.extend(unit.contact.iter().map(|c| [m.geom_type[c.geom1], m.geom_type[c.geom2]]));
         for power in [-14, -9, -3, 4, 10, 14] {
             let by = 2f64.powi(power);
-            let (large, mut there) = scaled(&m, &d, by);
+            let (large, Workspace { fields: mut there, scratch: mut s }) = scaled(&m, &d, by);
             assert_eq!(there.contact.len(), unit.contact.len(), "2^{power}");
             for (got, want) in there.contact.iter().zip(&unit.contact) {
                 assert_eq!(back(got, by), back(want, 1.0), "2^{power}");
@@ -88,8 +89,16 @@ fn whole_scenes_scale() {
             }
             for a in 0..m.ngeom {
                 for b in 0..m.ngeom {
-                    let want = functions::geom_distance(&m, &mut unit.clone(), a, b, 3.0).unwrap();
-                    let got = functions::geom_distance(&large, &mut there, a, b, 3.0 * by).unwrap();
+                    let want = geom_distance(
+                        &m,
+                        &mut unit.clone(),
+                        &mut unit_scratch.clone().sensor.narrow,
+                        [a, b],
+                        3.0,
+                    )
+                    .unwrap();
+                    let got =
+                        geom_distance(&large, &mut there, &mut s.sensor.narrow, [a, b], 3.0 * by).unwrap();
                     assert_eq!(got.dist / by, want.dist, "2^{power}: {a} {b}");
                     let points = got.fromto.map(|p| scale(p, 1.0 / by));
                     assert_eq!(points, want.fromto, "2^{power}: {a} {b}");

@@ -185,7 +185,7 @@ impl<S: super::data::Scope> Data<S> {
         qpos: &[f64],
     ) -> Result<(), Error> {
         let [first, n] = self.addresses.qpos.get(which.find_in(&self.names)?).copied().unwrap_or_default();
-        set(self.inner.fields.qpos.get_mut(first..first + n), qpos, "the position of this joint")
+        set(self.fields.qpos.get_mut(first..first + n), qpos, "the position of this joint")
     }
 
     /// Sets the velocities of a joint.
@@ -195,13 +195,13 @@ impl<S: super::data::Scope> Data<S> {
         qvel: &[f64],
     ) -> Result<(), Error> {
         let [first, n] = self.addresses.qvel.get(which.find_in(&self.names)?).copied().unwrap_or_default();
-        set(self.inner.fields.qvel.get_mut(first..first + n), qvel, "the velocity of this joint")
+        set(self.fields.qvel.get_mut(first..first + n), qvel, "the velocity of this joint")
     }
 
     /// Sets the controls of an actuator: most have one.
     pub fn set_ctrl(&mut self, which: &(impl Which<ActuatorId> + ?Sized), ctrl: &[f64]) -> Result<(), Error> {
         let [first, n] = self.addresses.ctrl.get(which.find_in(&self.names)?).copied().unwrap_or_default();
-        set(self.inner.fields.ctrl.get_mut(first..first + n), ctrl, "the control of this actuator")
+        set(self.fields.ctrl.get_mut(first..first + n), ctrl, "the control of this actuator")
     }
 
     /// Applies a force and a torque at the centre of mass of a body, N and N m, world, until they are set again.

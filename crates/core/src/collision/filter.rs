@@ -44,7 +44,6 @@ impl Pair {
 }
 
 /// Whether the contact bits of two geoms admit a contact. They may be written while a lab runs.
-#[inline]
 pub(crate) fn can_collide(m: &Model, g1: usize, g2: usize) -> bool {
     (m.geom_contype[g1] & m.geom_conaffinity[g2]) | (m.geom_contype[g2] & m.geom_conaffinity[g1]) != 0
 }
@@ -52,7 +51,6 @@ pub(crate) fn can_collide(m: &Model, g1: usize, g2: usize) -> bool {
 /// Whether the contact bits of two bodies admit contacts of their geoms: those of their geoms when the model was compiled, unless
 /// they are written. A geom whose bits are switched on alone touches nothing (measured on MuJoCo 3.14.0:
 /// `tests/golden/switched.py`).
-#[inline]
 fn bodies_collide(m: &Model, b1: usize, b2: usize) -> bool {
     (m.body_contype[b1] & m.body_conaffinity[b2]) | (m.body_contype[b2] & m.body_conaffinity[b1]) != 0
 }
@@ -85,7 +83,6 @@ pub(super) fn excluded(m: &Model, b1: usize, b2: usize) -> bool {
 
 /// Whether the parent filter keeps two geoms apart: parent and child overlap on purpose, unless the parent is
 /// fixed to the world.
-#[inline]
 pub(super) fn parent_and_child(m: &Model, g1: usize, g2: usize) -> bool {
     let weld = |g: usize| m.body_weldid[m.geom_bodyid[g] as usize] as usize;
     let above = |w: usize| m.body_weldid[m.body_parentid[w] as usize] as usize;
@@ -140,13 +137,11 @@ pub(crate) fn searched_pair(m: &Model) -> Option<[usize; 2]> {
 }
 
 /// Whether contact bits, those of bodies as well, and the parent filter admit a contact now.
-#[inline]
 pub(super) fn admitted(m: &Model, g1: usize, g2: usize) -> bool {
     masks_admit(m, g1, g2) && !parent_and_child(m, g1, g2)
 }
 
 /// Whether the contact bits of two geoms and of their bodies admit a contact.
-#[inline]
 pub(super) fn masks_admit(m: &Model, g1: usize, g2: usize) -> bool {
     can_collide(m, g1, g2)
         && bodies_collide(m, m.geom_bodyid[g1] as usize, m.geom_bodyid[g2] as usize)

@@ -27,7 +27,6 @@ pub(crate) struct Params {
 }
 
 /// The parameters of a pair: its own, or a mix of those of both geoms.
-#[inline]
 pub(super) fn params(m: &Model, pair: &Pair) -> Params {
     match pair.explicit {
         Pair::DYNAMIC => mixed(m, pair.geom1 as usize, pair.geom2 as usize),
@@ -36,7 +35,6 @@ pub(super) fn params(m: &Model, pair: &Pair) -> Params {
 }
 
 /// Distance from a geom up to which it takes part in contacts: its share of the pair's reach, m.
-#[inline]
 pub(super) fn half_reach(m: &Model, g: usize) -> f64 {
     let margin = if m.opt.enabled(enable::OVERRIDE) { 0.5 * m.opt.o_margin } else { m.geom_margin[g] };
     margin + m.geom_gap[g]

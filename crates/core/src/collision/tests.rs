@@ -1,9 +1,9 @@
 //! Laws of the broad phase: what it finds does not depend on how it looks.
 
 use super::*;
+use crate::dynamics::kinematics;
 use crate::mjcf::compile;
 use crate::model::Contact;
-use crate::step::functions::kinematics;
 use crate::step::reset::reset_data;
 use crate::step::workspace::Workspace;
 
@@ -32,18 +32,18 @@ fn pile(bodies: usize, side: f64) -> Model {
 
 /// Contacts by the list of all pairs, or by the sweep.
 fn contacts(m: &Model, sweep: bool) -> Vec<Contact> {
-    let mut d = Workspace::unplanned(m);
-    reset_data(m, &mut d);
-    d.work.collision.pairs = pairs(m, Changes::default());
+    let Workspace { fields: mut d, scratch: mut s } = Workspace::unplanned(m);
+    reset_data(m, &mut d, &mut s);
+    s.collision.pairs = pairs(m, Changes::default());
     if sweep {
-        d.work.collision.pairs = Pairs { sweep: Some(Box::new(Sweep::new(m, false))), ..Pairs::default() };
+        s.collision.pairs = Pairs { sweep: Some(Box::new(Sweep::new(m, false))), ..Pairs::default() };
     }
-    kinematics(m, &mut d);
+    kinematics(m, &mut d, &mut s.dynamics);
     // Twice: the second run starts from the order of the first.
     for _ in 0..2 {
-        collide(m, &mut d.fields, &mut d.work.collision);
+        collide(m, &mut d, &mut s.collision);
     }
-    d.fields.contact
+    d.contact
 }
 
 #[test]
@@ -107,7 +107,7 @@ fn random(mut state: u64) -> impl FnMut() -> f64 {
 
 /// Pairs that the sweep looks at for every geom, and pairs whose bounds overlap.
 fn examined(m: &Model) -> (f64, usize) {
-    let mut d = Workspace::unplanned(&pile(4, 1.0));
+    let mut d = Workspace::unplanned(&pile(4, 1.0)).fields;
     d.geom_xpos.clone_from(&m.geom_pos);
     d.geom_xmat = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0].repeat(m.ngeom);
     let mut sweep = Sweep::new(m, false);
@@ -157,9 +157,9 @@ fn columns_find_what_all_pairs_do() {
 fn too_many_contacts_are_left_out_with_a_warning() {
     let balls = "<body><freejoint/><geom size='.1'/></body>".repeat(400);
     let m = compile(&format!("<mujoco><worldbody>{balls}</worldbody></mujoco>")).unwrap();
-    let mut d = Workspace::new(&m);
-    kinematics(&m, &mut d);
-    collide(&m, &mut d.fields, &mut d.work.collision);
+    let Workspace { fields: mut d, scratch: mut s } = Workspace::new(&m);
+    kinematics(&m, &mut d, &mut s.dynamics);
+    collide(&m, &mut d, &mut s.collision);
     let stat = d.warning[Warning::ContactFull as usize];
     assert_eq!((d.ncon, stat.number, stat.lastinfo), (MOST_CONTACTS, 1, MOST_CONTACTS));
 }
@@ -177,15 +177,15 @@ fn of_several_sides_the_nearest_to_the_direction_of_least_depth() {
         ends.collect::<String>()
     );
     let m = compile(&xml).unwrap();
-    let mut d = Workspace::unplanned(&m);
-    reset_data(&m, &mut d);
+    let Workspace { fields: mut d, scratch: mut s } = Workspace::unplanned(&m);
+    reset_data(&m, &mut d, &mut s);
     // The mesh where it was drawn: the model has it about its centre.
-    rows_mut::<3>(&mut d.fields.qpos[..3])[0] = [0.0; 3];
+    rows_mut::<3>(&mut d.qpos[..3])[0] = [0.0; 3];
     let found = {
-        kinematics(&m, &mut d);
-        d.work.collision.pairs = pairs(&m, Changes::default());
-        collide(&m, &mut d.fields, &mut d.work.collision);
-        &d.fields.contact
+        kinematics(&m, &mut d, &mut s.dynamics);
+        s.collision.pairs = pairs(&m, Changes::default());
+        collide(&m, &mut d, &mut s.collision);
+        &d.contact
     };
     assert!(found.len() > 1);
     for c in found {

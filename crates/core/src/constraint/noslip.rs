@@ -17,9 +17,9 @@ use crate::math::dot;
 
 impl Problem<'_> {
     /// Sweeps over the friction of the island until one improves the scaled dual objective by no more than
-    /// `opt.noslip_tolerance` or `opt.noslip_iterations` of them are done.
+    /// `opt.noslip_tolerance` (0 where it is negative) or `opt.noslip_iterations` of them are done.
     pub(super) fn remove_slip(&mut self) {
-        let (tolerance, scale) = (self.m.opt.noslip_tolerance, self.scale_of_all());
+        let (tolerance, scale) = (self.m.opt.noslip_tolerance.max(0.0), self.scale_of_all());
         let price = self.price_of_sweep();
         self.accelerate();
         for _ in 0..self.m.opt.noslip_iterations.clamp(0, MOST_SWEEPS) {
@@ -94,8 +94,10 @@ impl Problem<'_> {
             let (n, y) = (0.5 * (left + right), 0.5 * (left - right));
             let (slope, curvature) = (r0 - r1, a00 + a11 - a01 - a10);
             let solved = minimum_within(y, slope, curvature, n);
-            self.set_forces(b, group, [n + solved, n - solved]);
-            decrease += improvement(solved - y, slope, curvature);
+            let edges = [n + solved, n - solved];
+            self.set_forces(b, group, edges);
+            // Only what the edges keep of the change counts: beside a large n its last digits are lost, or all of it.
+            decrease += improvement(0.5 * (edges[0] - edges[1]) - y, slope, curvature);
         }
         decrease
     }

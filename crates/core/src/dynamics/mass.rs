@@ -337,7 +337,6 @@ fn consecutive(columns: &[i32]) -> Option<Range<usize>> {
 }
 
 /// out ← M v for the degrees of freedom `dofs` (ascending, whole trees).
-#[inline]
 pub(crate) fn mul(m: &Model, mass: &[f64], v: &[f64], out: &mut [f64], dofs: Range<usize>) {
     if is_diagonal(m, &dofs) {
         let diagonal = &mass[rows_of(m, dofs.clone())];
@@ -434,7 +433,6 @@ pub(crate) fn add_outer(m: &Model, dofs: &[i32], values: &[f64], s: f64, out: &m
 }
 
 /// Sum of the diagonal of M over the degrees of freedom `dofs`.
-#[inline]
 pub(crate) fn trace(m: &Model, mass: &[f64], dofs: Range<usize>) -> f64 {
     if m.nC == m.nv {
         return sum([&mass[dofs]], |[x]| x);

@@ -10,14 +10,12 @@ pub(crate) fn last_dof(m: &Model, b: usize) -> i32 {
 }
 
 /// A degree of freedom and those that move it, up to the root; none of -1.
-#[inline]
 pub(crate) fn upward(m: &Model, dof: i32) -> impl Iterator<Item = usize> + '_ {
     let some = |k: i32| usize::try_from(k).ok();
     std::iter::successors(some(dof), move |&k| some(m.dof_parentid[k]))
 }
 
 /// The degrees of freedom that move a body, the last first.
-#[inline]
 pub(crate) fn moving(m: &Model, body: usize) -> impl Iterator<Item = usize> + '_ {
     upward(m, last_dof(m, body))
 }
@@ -31,7 +29,6 @@ pub(crate) enum Side {
 }
 
 /// The degrees of freedom that move either of two bodies, the last first. Those that move both come after all others.
-#[inline]
 pub(crate) fn moving_either(m: &Model, bodies: [usize; 2]) -> impl Iterator<Item = (usize, Side)> + '_ {
     let mut last = bodies.map(|b| last_dof(m, b));
     std::iter::from_fn(move || {
@@ -53,7 +50,6 @@ pub(crate) fn moving_either(m: &Model, bodies: [usize; 2]) -> impl Iterator<Item
 }
 
 /// The degrees of freedom that move one of two bodies and not the other, the last first: which, and 0 or 1 for the body.
-#[inline]
 pub(crate) fn moving_one(m: &Model, bodies: [usize; 2]) -> impl Iterator<Item = (usize, usize)> + '_ {
     moving_either(m, bodies).map_while(|(k, side)| match side {
         Side::First => Some((k, 0)),

@@ -17,7 +17,6 @@ pub struct Hull<'a> {
 
 impl Hull<'_> {
     /// The neighbours of a vertex of the hull.
-    #[inline]
     pub fn neighbours(&self, vertex: usize) -> impl Iterator<Item = usize> + '_ {
         let list = self.edges.get(self.first_edge[vertex] as usize..).unwrap_or(&[]);
         list.iter().take_while(|&&e| e >= 0).map(|&e| e as usize)

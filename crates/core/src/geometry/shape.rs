@@ -58,13 +58,11 @@ pub(crate) struct Field<'a> {
 
 impl Field<'_> {
     /// Distance of neighbouring samples in x and y, m.
-    #[inline]
     pub(crate) fn step(&self) -> [f64; 2] {
         [2.0 * self.size[0] / (self.ncol as f64 - 1.0), 2.0 * self.size[1] / (self.nrow as f64 - 1.0)]
     }
 
     /// The sample at a row and column, in the frame of the geom, m.
-    #[inline]
     pub(crate) fn point(&self, row: usize, col: usize) -> Vec3 {
         let [dx, dy] = self.step();
         [

@@ -84,7 +84,6 @@ pub(crate) fn product(axes: &Axes, columns: &[Vec3; 3]) -> Axes {
 }
 
 /// A matrix whose columns, the axes, are turned by an angle, with sine s and cosine c, about a unit vector given along them.
-#[inline]
 pub(crate) fn matrix_turned(m: &Mat3, axis: Vec3, s: f64, c: f64) -> Mat3 {
     matrix(&turned(&axes(m), axis, s, c))
 }

@@ -31,7 +31,6 @@ impl<const N: usize, const FIRST: usize> Ldl<N, FIRST> {
     }
 
     /// Of G + λ; `None` where it is not positive.
-    #[inline]
     pub(crate) fn positive(g: &[[f64; N]; N], lambda: f64) -> Option<Self> {
         Self::factor(g, lambda, |d| (d > 0.0).then_some(d))
     }

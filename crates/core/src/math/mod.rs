@@ -266,7 +266,6 @@ pub fn norm(a: Vec3) -> f64 {
 }
 
 /// a / |a| and |a|; a vector shorter than [`MINVAL`] becomes the x axis.
-#[inline]
 pub fn normalize(a: Vec3) -> (Vec3, f64) {
     let n = norm(a);
     if n < MINVAL { ([1.0, 0.0, 0.0], n) } else { (scale(a, 1.0 / n), n) }
@@ -274,14 +273,12 @@ pub fn normalize(a: Vec3) -> (Vec3, f64) {
 
 /// a / |a| and |a|, however short it is: the direction of a length that depends on the scale of a scene. Zero becomes the
 /// x axis.
-#[inline]
 pub fn unit_vector(a: Vec3) -> (Vec3, f64) {
     let n = norm(a);
     if n > 0.0 || n.is_nan() { (scale(a, 1.0 / n), n) } else { ([1.0, 0.0, 0.0], n) }
 }
 
 /// a b
-#[inline]
 pub fn mat_mul(a: &Mat3, b: &Mat3) -> Mat3 {
     std::array::from_fn(|i| dot([a[i / 3 * 3], a[i / 3 * 3 + 1], a[i / 3 * 3 + 2]], column(b, i % 3)))
 }
@@ -354,7 +351,6 @@ pub fn linear<T: Real>(s: &[T; 6]) -> [T; 3] {
 }
 
 /// v × m for motions: the derivative of the motion m carried by the motion v.
-#[inline]
 pub fn cross_motion(v: &Spatial, m: &Spatial) -> Spatial {
     let w = cross(angular(v), angular(m));
     let l = add(cross(angular(v), linear(m)), cross(linear(v), angular(m)));

@@ -4,7 +4,6 @@ use super::{EYE, IDENTITY, MINVAL, Mat3, Quat, Vec3, cross, dot, normalize, scal
 
 /// The unit quaternion nearest to q. A zero quaternion becomes the identity; one whose norm is 1 to
 /// rounding is returned as it is, bit for bit.
-#[inline]
 pub fn quat_normalize(q: Quat) -> Quat {
     let n = dot(q, q).sqrt();
     if n < MINVAL {
@@ -17,7 +16,6 @@ pub fn quat_normalize(q: Quat) -> Quat {
 }
 
 /// Hamilton product.
-#[inline]
 pub fn quat_mul(a: Quat, b: Quat) -> Quat {
     [
         a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
@@ -28,13 +26,11 @@ pub fn quat_mul(a: Quat, b: Quat) -> Quat {
 }
 
 /// The inverse rotation.
-#[inline]
 pub fn quat_conj(q: Quat) -> Quat {
     [q[0], -q[1], -q[2], -q[3]]
 }
 
 /// Rotation by `angle` (rad) about the unit vector `axis`.
-#[inline]
 pub fn quat_axis_angle(axis: Vec3, angle: f64) -> Quat {
     if angle == 0.0 {
         return IDENTITY;
@@ -44,7 +40,6 @@ pub fn quat_axis_angle(axis: Vec3, angle: f64) -> Quat {
 }
 
 /// v rotated by q: v + 2 w (u × v) + 2 u × (u × v).
-#[inline]
 pub fn rotate(v: Vec3, q: Quat) -> Vec3 {
     if q == IDENTITY {
         return v;
@@ -58,7 +53,6 @@ pub fn rotate(v: Vec3, q: Quat) -> Vec3 {
 }
 
 /// The rotation matrix of a unit quaternion.
-#[inline]
 pub fn quat_to_mat(q: Quat) -> Mat3 {
     if q == IDENTITY {
         return EYE;
@@ -80,7 +74,6 @@ pub fn quat_to_mat(q: Quat) -> Mat3 {
 }
 
 /// The rotation vector (axis times angle, rad, angle in (-π, π]) of a unit quaternion.
-#[inline]
 pub fn quat_to_vel(q: Quat) -> Vec3 {
     let (axis, s) = normalize([q[1], q[2], q[3]]);
     let mut angle = 2.0 * libm::atan2(s, q[0]);

@@ -132,7 +132,7 @@ fn eulerseq(p: &Props, report: &mut Report) -> [(usize, bool); 3] {
     }
 }
 
-/// `option`, with MuJoCo's defaults for what is not given. Long, as there is a line or two for each option.
+/// `option`, with MuJoCo's defaults for what is not given.
 pub(crate) fn options(tree: &Tree, report: &mut Report) -> Options {
     let p = section(tree, "option");
     let d = Options::default();
@@ -144,48 +144,25 @@ pub(crate) fn options(tree: &Tree, report: &mut Report) -> Options {
         checked(&p, name, "option", |x| x >= 0.0, "zero or more", report).unwrap_or(default)
     };
     let (density, viscosity) = (from_zero("density", 0.0), from_zero("viscosity", 0.0));
-    // Where the real library stops: never, and at once. Both are what zero means.
-    let mut zero = |name: &str, written: String| {
-        let span = p.span(name).unwrap_or(0..0);
-        let message = format!("`{name}` of option is {written}, which has the effect of 0");
-        report.warning(rules::NO_EFFECT, span, message).help("write 0, or remove it for the default");
-    };
-    let mut tolerance = |name: &str, default: f64| {
-        let x = p.real(name).unwrap_or(default);
-        if x < 0.0 {
-            zero(name, x.to_string());
-        }
-        x
-    };
-    let (ls_tolerance, noslip_tolerance) =
-        (tolerance("ls_tolerance", d.ls_tolerance), tolerance("noslip_tolerance", d.noslip_tolerance));
-    let (ccd_tolerance, sleep_tolerance) =
-        (tolerance("ccd_tolerance", d.ccd_tolerance), tolerance("sleep_tolerance", d.sleep_tolerance));
-    let tolerance = tolerance("tolerance", d.tolerance);
-    let mut count = |name: &str, default: i32| {
-        let n = p.int(name).unwrap_or(default);
-        if n < 0 {
-            zero(name, n.to_string());
-        }
-        n
-    };
-    let (iterations, ls_iterations) =
-        (count("iterations", d.iterations), count("ls_iterations", d.ls_iterations));
-    let (noslip_iterations, ccd_iterations) =
-        (count("noslip_iterations", d.noslip_iterations), count("ccd_iterations", d.ccd_iterations));
-    let (sdf_iterations, sdf_initpoints) =
-        (count("sdf_iterations", d.sdf_iterations), count("sdf_initpoints", d.sdf_initpoints));
     let (disableflags, enableflags) = flags(tree);
-    let disableactuator = disabled_groups(&p, report);
     Options {
         timestep,
         impratio,
-        tolerance,
-        ls_tolerance,
-        gravity: p.reals("gravity", d.gravity),
-        wind: p.reals("wind", d.wind),
         density,
         viscosity,
+        ls_tolerance: tolerance(&p, "ls_tolerance", d.ls_tolerance, report),
+        noslip_tolerance: tolerance(&p, "noslip_tolerance", d.noslip_tolerance, report),
+        ccd_tolerance: tolerance(&p, "ccd_tolerance", d.ccd_tolerance, report),
+        sleep_tolerance: tolerance(&p, "sleep_tolerance", d.sleep_tolerance, report),
+        tolerance: tolerance(&p, "tolerance", d.tolerance, report),
+        iterations: count(&p, "iterations", d.iterations, report),
+        ls_iterations: count(&p, "ls_iterations", d.ls_iterations, report),
+        noslip_iterations: count(&p, "noslip_iterations", d.noslip_iterations, report),
+        ccd_iterations: count(&p, "ccd_iterations", d.ccd_iterations, report),
+        sdf_iterations: count(&p, "sdf_iterations", d.sdf_iterations, report),
+        sdf_initpoints: count(&p, "sdf_initpoints", d.sdf_initpoints, report),
+        gravity: p.reals("gravity", d.gravity),
+        wind: p.reals("wind", d.wind),
         magnetic: p.reals("magnetic", d.magnetic),
         o_margin: p.real("o_margin").unwrap_or(d.o_margin),
         o_solref: p.reals("o_solref", d.o_solref),
@@ -195,19 +172,34 @@ pub(crate) fn options(tree: &Tree, report: &mut Report) -> Options {
         cone: p.word("cone").unwrap_or(d.cone),
         jacobian: p.word("jacobian").unwrap_or(d.jacobian),
         solver: p.word("solver").unwrap_or(d.solver),
-        iterations,
-        ls_iterations,
-        noslip_iterations,
-        ccd_iterations,
-        noslip_tolerance,
-        ccd_tolerance,
-        sleep_tolerance,
-        sdf_iterations,
-        sdf_initpoints,
         disableflags,
         enableflags,
-        disableactuator,
+        disableactuator: disabled_groups(&p, report),
     }
+}
+
+/// A tolerance. Below zero the search never stops early, as at zero.
+fn tolerance(p: &Props, name: &str, default: f64, report: &mut Report) -> f64 {
+    let x = p.real(name).unwrap_or(default);
+    if x < 0.0 {
+        acts_as_zero(p, name, x.to_string(), report);
+    }
+    x
+}
+
+/// A number of iterations or points. Below zero there are none.
+fn count(p: &Props, name: &str, default: i32, report: &mut Report) -> i32 {
+    let n = p.int(name).unwrap_or(default);
+    if n < 0 {
+        acts_as_zero(p, name, n.to_string(), report);
+    }
+    n
+}
+
+fn acts_as_zero(p: &Props, name: &str, written: String, report: &mut Report) {
+    let span = p.span(name).unwrap_or(0..0);
+    let message = format!("`{name}` of option is {written}, which has the effect of 0");
+    report.warning(rules::NO_EFFECT, span, message).help("write 0, or remove it for the default");
 }
 
 /// The groups of `actuatorgroupdisable` as bits.

@@ -41,7 +41,7 @@ fn asleep(tree: &Tree, m: &Model, report: &mut Report) {
     if !m.tree_sleep_policy.contains(&policy::INIT) {
         return;
     }
-    let d = Workspace::new(m);
+    let d = Workspace::new(m).fields;
     let awake = |t: &usize| m.tree_sleep_policy[*t] == policy::INIT && d.tree_asleep[*t] < 0;
     for t in (0..m.ntree).filter(awake) {
         let body = m.names.of(Obj::Body).get(m.tree_bodyadr[t] as usize).filter(|name| !name.is_empty());

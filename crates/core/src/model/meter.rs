@@ -43,6 +43,16 @@ impl Meter {
         self.cost > self.limit
     }
 
+    /// What a forward pass costs without pairs and constraints.
+    pub(crate) fn pass(&self) -> u64 {
+        2 * self.half
+    }
+
+    /// So much more, and no more.
+    pub(crate) fn set_left(&mut self, units: u64) {
+        self.limit = self.cost.saturating_add(units);
+    }
+
     /// What is left.
     pub(crate) fn left(&self) -> u64 {
         self.limit.saturating_sub(self.cost)

@@ -8,7 +8,6 @@ use crate::model::{Fields, Model};
 
 impl<'a> Shape<'a> {
     /// A geom where the data have it.
-    #[inline]
     pub(crate) fn geom(m: &'a Model, d: &Fields, g: usize) -> Shape<'a> {
         let (size, pos, mat) =
             (rows::<3>(&m.geom_size)[g], rows::<3>(&d.geom_xpos)[g], rows::<9>(&d.geom_xmat)[g]);
@@ -24,7 +23,6 @@ impl<'a> Shape<'a> {
     }
 
     /// A site where the data have it.
-    #[inline]
     pub(crate) fn site(m: &'a Model, d: &Fields, s: usize) -> Shape<'a> {
         let (size, pos, mat) =
             (rows::<3>(&m.site_size)[s], rows::<3>(&d.site_xpos)[s], rows::<9>(&d.site_xmat)[s]);

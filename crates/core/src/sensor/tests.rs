@@ -2,8 +2,8 @@
 
 use crate::math::rows;
 use crate::mjcf;
-use crate::model::Model;
 use crate::model::reflect::{self, Object, View, ViewMut};
+use crate::model::{Fields, Model};
 use crate::step::forward::forward;
 use crate::step::workspace::Workspace;
 
@@ -19,7 +19,7 @@ fn compile(xml: &str) -> Model {
     })
 }
 
-fn numbers(m: &Model, d: &Workspace, object: Object, name: &str) -> Vec<f64> {
+fn numbers(m: &Model, d: &Fields, object: Object, name: &str) -> Vec<f64> {
     let view: View = reflect::view(m, d, reflect::field(object, name).unwrap());
     (0..view.len()).filter_map(|i| view.get(i)).collect()
 }
@@ -59,18 +59,18 @@ const OPTICS: [&str; 15] = [
 /// Compares all constants and all states of a model; results that are not computed here are left out.
 fn check_recorded(xml: &str, recorded: &str, tolerance: f64) {
     let mut m = compile(xml);
-    let mut d = Workspace::new(&m);
+    let Workspace { fields: mut d, scratch: mut s } = Workspace::new(&m);
     let mut wrong = Vec::new();
     let (mut state, mut computed, mut stepped) = (-1, false, false);
     for line in recorded.lines() {
         let (name, mut want) = parse(line);
         if name == "step" {
-            crate::step::step(&m, &mut d);
+            crate::step::step(&m, &mut d, &mut s);
             stepped = true;
             continue;
         }
         if name == "state" {
-            crate::step::reset::reset_data(&m, &mut d);
+            crate::step::reset::reset_data(&m, &mut d, &mut s);
             (state, computed, stepped) = (state + 1, false, false);
             continue;
         }
@@ -85,7 +85,7 @@ fn check_recorded(xml: &str, recorded: &str, tolerance: f64) {
             continue;
         }
         if object == Object::Data && !computed {
-            forward(&m, &mut d);
+            forward(&m, &mut d, &mut s);
             computed = true;
         }
         if OPTICS.contains(&field) {
@@ -94,7 +94,7 @@ fn check_recorded(xml: &str, recorded: &str, tolerance: f64) {
                 ViewMut::I32(v) => want.iter().enumerate().for_each(|(i, &x)| v[i] = x as i32),
                 _ => panic!("{name} has no numbers"),
             }
-            crate::setup::setconst::set_const(&mut m, &mut d);
+            crate::setup::setconst::set_const(&mut m, &mut d, &mut s);
             continue;
         }
         let got = numbers(&m, &d, object, field);
@@ -155,16 +155,16 @@ golden! {
 #[test]
 fn equality_constraints_act_where_they_hold() {
     let m = compile(include_str!("golden/equality.xml"));
-    let mut d = Workspace::new(&m);
+    let Workspace { fields: mut d, scratch: mut s } = Workspace::new(&m);
     let mut wrong = Vec::new();
     let mut rows = 0;
     for line in include_str!("golden/equality.txt").lines() {
         let (name, want) = parse(line);
         let int = || want.iter().map(|&x| x as i32).collect::<Vec<_>>();
         match name {
-            "state" => crate::step::reset::reset_data(&m, &mut d),
+            "state" => crate::step::reset::reset_data(&m, &mut d, &mut s),
             "rows.qacc" => {
-                forward(&m, &mut d);
+                forward(&m, &mut d, &mut s);
                 d.qacc.copy_from_slice(&want);
             }
             "rows.efc_type" => (d.efc_type, d.nefc) = (int(), want.len()),
@@ -173,7 +173,7 @@ fn equality_constraints_act_where_they_hold() {
                 d.efc_force = want;
                 rows += d.nefc;
                 crate::sensor::body_force::rne_post_constraint(&m, &mut d);
-                super::evaluate(&m, &mut d.fields, &mut d.work.sensor, super::When::Acceleration);
+                super::evaluate(&m, &mut d, &mut s.sensor, super::When::Acceleration);
             }
             "sensordata" | "cacc" | "cfrc_int" | "cfrc_ext" => {
                 let got = numbers(&m, &d, Object::Data, name);
@@ -197,13 +197,13 @@ fn switched_off_sensors_keep_their_values() {
     let mut m = compile(
         "<mujoco><worldbody><body><freejoint/><geom size='1'/></body></worldbody><sensor><clock/><framelinacc objtype='body' objname='world'/></sensor></mujoco>",
     );
-    let mut d = Workspace::new(&m);
+    let Workspace { fields: mut d, scratch: mut s } = Workspace::new(&m);
     d.time = 2.0;
-    forward(&m, &mut d);
+    forward(&m, &mut d, &mut s);
     m.opt.disableflags |= crate::kinds::disable::SENSOR;
     d.time = 3.0;
     d.cacc.fill(5.0);
-    forward(&m, &mut d);
+    forward(&m, &mut d, &mut s);
     assert_eq!(d.sensordata[0], 2.0);
     assert_eq!(rows::<6>(&d.cacc)[1], [5.0; 6]);
 }

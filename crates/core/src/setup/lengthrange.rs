@@ -10,8 +10,8 @@ use crate::dynamics::reflected::target;
 use crate::forces::transmission::row;
 use crate::kinds::{biastype, disable, gaintype, joint, trntype};
 use crate::math::*;
-use crate::model::Model;
-use crate::step::workspace::Workspace;
+use crate::model::{Fields, Model};
+use crate::step::workspace::Scratch;
 use crate::step::{self, reset};
 
 /// Which actuators are looked at.
@@ -109,10 +109,11 @@ impl Search {
     }
 }
 
-/// Finds `actuator_lengthrange` of actuator `i`, with `d` as scratch.
+/// Finds `actuator_lengthrange` of actuator `i`, with `d` and `s` to work on.
 pub(crate) fn length_range(
     m: &mut Model,
-    d: &mut Workspace,
+    d: &mut Fields,
+    s: &mut Scratch,
     i: usize,
     search: &Search,
 ) -> Result<(), Failure> {
@@ -130,7 +131,7 @@ pub(crate) fn length_range(
         | disable::DAMPER
         | disable::GRAVITY
         | disable::ACTUATION;
-    let ends = [-1.0, 1.0].map(|sign| pull(m, d, o, sign, search));
+    let ends = [-1.0, 1.0].map(|sign| pull(m, d, s, o, sign, search));
     m.opt = options;
     let range = [ends[0][0], ends[1][1]];
     if range[0] >= range[1] || range.iter().any(|x| !x.is_finite()) {
@@ -145,17 +146,17 @@ pub(crate) fn length_range(
 }
 
 /// Smallest and largest length of output `o` in the last part of the time, after pulling in one direction.
-fn pull(m: &Model, d: &mut Workspace, o: usize, sign: f64, search: &Search) -> [f64; 2] {
+fn pull(m: &Model, d: &mut Fields, s: &mut Scratch, o: usize, sign: f64, search: &Search) -> [f64; 2] {
     let damping = libm::exp(-m.opt.timestep / search.timeconst.max(0.01));
     let mut lengths: Option<[f64; 2]> = None;
     let mut acceleration = vec![0.0; m.nv];
     // A state that is no number any more does not advance time.
     let mut steps = search.steps(m) + 2.0;
-    reset::reset_data(m, d);
+    reset::reset_data(m, d, s);
     while d.time < search.inttotal && steps > 0.0 {
-        step::step1(m, d);
+        step::step1(m, d, s);
         force(m, d, o, sign, search, &mut acceleration);
-        step::step2(m, d);
+        step::step2(m, d, s);
         for v in &mut d.qvel {
             *v *= damping;
         }
@@ -170,7 +171,7 @@ fn pull(m: &Model, d: &mut Workspace, o: usize, sign: f64, search: &Search) -> [
 }
 
 /// A force along the moment of output `o` that would accelerate the mechanism by |M⁻¹ f| = `accel`.
-fn force(m: &Model, d: &mut Workspace, o: usize, sign: f64, search: &Search, acceleration: &mut [f64]) {
+fn force(m: &Model, d: &mut Fields, o: usize, sign: f64, search: &Search, acceleration: &mut [f64]) {
     acceleration.fill(0.0);
     d.qfrc_applied.fill(0.0);
     for at in row(d, o) {

@@ -6,17 +6,17 @@ use crate::dynamics::{self, camera, com, mass, tree_algorithms, walk};
 use crate::forces::{tendon, transmission};
 use crate::kinds::{geom, joint, simple};
 use crate::math::*;
-use crate::model::Model;
 use crate::model::plan::PlanTable;
+use crate::model::{Fields, Model};
 use crate::step::reset;
-use crate::step::workspace::Workspace;
+use crate::step::workspace::{Scratch, Workspace};
 
 /// Recomputes what follows from masses, inertias and poses (`mj_setConst`).
 ///
 /// Uses `d` as scratch, with a visible effect: on return `qpos` is the configuration `qpos_spring`
 /// (normally `qpos0`), with positions computed there, while `qvel`, `time`, `act` and `ctrl` are untouched. A
 /// call in mid-flight therefore puts bodies back where they started and keeps their speed.
-pub(crate) fn set_const(m: &mut Model, d: &mut Workspace) {
+pub(crate) fn set_const(m: &mut Model, d: &mut Fields, s: &mut Scratch) {
     let plan = std::mem::replace(&mut d.plan, PlanTable::full());
     let solves = (m.nbody + m.njnt + m.ntendon) * (6 * m.nC / m.ntree.max(1) + 100);
     let pass = d.meter.half;
@@ -28,19 +28,18 @@ pub(crate) fn set_const(m: &mut Model, d: &mut Workspace) {
     m.ngravcomp = m.body_gravcomp.iter().filter(|&&c| c > 0.0).count();
 
     d.qpos.copy_from_slice(&m.qpos0);
-    positions(m, d);
+    positions(m, d, s);
     let all = 0..m.nv;
-    mass::composite_inertia(m, &mut d.fields, &mut d.work.dynamics.path, std::slice::from_ref(&all));
+    mass::composite_inertia(m, d, &mut s.dynamics.path, std::slice::from_ref(&all));
     for i in 0..m.nv {
         m.dof_M0[i] = d.M[(m.M_rowadr[i] + m.M_rownnz[i] - 1) as usize];
     }
     tendon::armature(m, d);
-    let f = &mut d.fields;
-    f.qLD.copy_from_slice(&f.M);
-    mass::factor(m, &mut f.qLD, &mut f.qLDiagInv, 0..m.nv);
+    d.qLD.copy_from_slice(&d.M);
+    mass::factor(m, &mut d.qLD, &mut d.qLDiagInv, 0..m.nv);
     inverse_weights(m, d);
     tendon::at_default(m, d);
-    transmission::transmissions(m, &mut d.fields, &mut d.work.forces);
+    transmission::transmissions(m, d, &mut s.forces);
     transmission::at_default(m, d);
     transmission::critical_damping(m, d);
     ends::set_const(m, d);
@@ -48,20 +47,20 @@ pub(crate) fn set_const(m: &mut Model, d: &mut Workspace) {
     statistics(m, d);
 
     d.qpos.copy_from_slice(&m.qpos_spring);
-    positions(m, d);
+    positions(m, d, s);
     tendon::at_rest(m, d);
-    reset::set_plan(m, d, plan);
+    reset::set_plan(m, d, s, plan);
 }
 
 /// The same for a model that has no data yet.
 pub(crate) fn set_const0(m: &mut Model) {
-    let mut d = Workspace::unplanned(m);
-    set_const(m, &mut d);
+    let Workspace { fields: mut d, scratch: mut s } = Workspace::unplanned(m);
+    set_const(m, &mut d, &mut s);
 }
 
-fn positions(m: &Model, d: &mut Workspace) {
-    tree_algorithms::load(m, &mut d.work.dynamics);
-    dynamics::kinematics(m, &mut d.fields, &mut d.work.dynamics);
+fn positions(m: &Model, d: &mut Fields, s: &mut Scratch) {
+    tree_algorithms::load(m, &mut s.dynamics);
+    dynamics::kinematics(m, d, &mut s.dynamics);
     com::com_pos(m, d);
     tendon::tendons(m, d);
 }
@@ -135,7 +134,7 @@ fn same_rotation(a: Quat, b: Quat) -> bool {
 ///
 /// For a body the mean diagonal of J M⁻¹ Jᵀ at its centre of mass, for translation and for rotation; for a
 /// degree of freedom that of M⁻¹, averaged over each group of a joint.
-fn inverse_weights(m: &mut Model, d: &Workspace) {
+fn inverse_weights(m: &mut Model, d: &Fields) {
     let cdof = rows::<6>(&d.cdof);
     let (xipos, com) = (rows::<3>(&d.xipos), rows::<3>(&d.subtree_com));
     let mut x = vec![0.0; m.nv];
@@ -194,7 +193,7 @@ fn inverse_weights(m: &mut Model, d: &Workspace) {
 }
 
 /// `stat`: means over bodies, and a box around everything that has a place.
-fn statistics(m: &mut Model, d: &Workspace) {
+fn statistics(m: &mut Model, d: &Fields) {
     let bodies = (m.nbody - 1) as f64;
     m.stat.meanmass = if m.nbody > 1 { m.body_mass.iter().skip(1).sum::<f64>() / bodies } else { 1.0 };
     m.stat.meaninertia = if m.nv > 0 { mass::trace(m, &d.M, 0..m.nv) / m.nv as f64 } else { 1.0 };
@@ -248,7 +247,7 @@ fn reach(m: &Model, g: usize) -> f64 {
 }
 
 /// How far the geoms of each body and the joints to its parent and its children reach from its centre of mass, m.
-fn body_sizes(m: &Model, d: &Workspace) -> Vec<f64> {
+fn body_sizes(m: &Model, d: &Fields) -> Vec<f64> {
     let xipos = rows::<3>(&d.xipos);
     // A body with nothing in it counts as a point.
     let mut size = vec![1e-5f64; m.nbody];

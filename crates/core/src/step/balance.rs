@@ -1,13 +1,13 @@
 //! What a scene holds: the energy of motion, of gravity, and of what is elastic, servos included.
 
 use super::forward;
-use super::workspace::Workspace;
+use super::workspace::Scratch;
 use crate::dynamics::mass;
 use crate::forces::passive::spring;
 use crate::forces::{actuation, transmission};
 use crate::kinds::disable;
 use crate::math::*;
-use crate::model::Model;
+use crate::model::{Fields, Model};
 
 /// Mechanical energy, J.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,9 +29,9 @@ impl Energy {
 
 /// The energy at `qpos` and `qvel`, for the controls at hand. `None` where some actuator has no potential: it may feed the
 /// scene. Computes where things are, how long they are and how heavy, and nothing else.
-pub(crate) fn mechanical_energy(m: &Model, d: &mut Workspace) -> Option<Energy> {
-    forward::placed(m, d);
-    transmission::transmissions(m, &mut d.fields, &mut d.work.forces);
+pub(crate) fn mechanical_energy(m: &Model, d: &mut Fields, s: &mut Scratch) -> Option<Energy> {
+    forward::placed(m, d, s);
+    transmission::transmissions(m, d, &mut s.forces);
     let mut gravity = 0.0;
     if !m.opt.disabled(disable::GRAVITY) {
         for (b, &x) in rows::<3>(&d.xipos).iter().enumerate().skip(1) {
@@ -47,7 +47,7 @@ pub(crate) fn mechanical_energy(m: &Model, d: &mut Workspace) -> Option<Energy> 
 ///
 /// A force clip(u) with u = a - k x has the potential Φ(u)/k, where Φ' = clip: a parabola with its tangents beyond the limits.
 /// With k = 0 the force c is constant: -c x.
-fn servos(m: &Model, d: &mut Workspace) -> Option<f64> {
+fn servos(m: &Model, d: &mut Fields) -> Option<f64> {
     if m.nactuator == 0 || m.opt.disabled(disable::ACTUATION) {
         return Some(0.0);
     }

@@ -1,49 +1,23 @@
-//! The functions that the rows of the pipeline call: each stage with the fields and the scratch of its module.
+//! Stages of the pipeline that use several modules, or do less where the plan says so.
 
 use super::{damping, discrete, sleep};
-use crate::dynamics::{camera, com, jacobian, kinematics, subtree, tree_algorithms};
-use crate::forces::{actuation, energy, passive, tendon, transmission};
+use crate::dynamics::{camera, jacobian, subtree, tree_algorithms};
+use crate::forces::{energy, tendon};
 use crate::kinds::{disable, enable, integrator};
 use crate::math::{combine, copy, rows};
 use crate::model::plan::PlanFlag;
 use crate::model::stage::Stage;
 use crate::model::{Fields, Model, Warning};
-use crate::sensor::{When, body_force};
-use crate::step::workspace::Workspace;
+use crate::sensor::body_force;
+use crate::step::workspace::Scratch;
 use crate::{collision, constraint, sensor};
 
-/// A function of the pipeline that calls one of a stage.
-macro_rules! calls {
-    ($($name:ident($m:ident, $d:ident) $call:block)*) => {
-        $(pub(super) fn $name($m: &Model, $d: &mut Workspace) $call)*
-    };
-}
-calls! {
-    wake(m, d) { sleep::wake(m, &mut d.fields, &mut d.work.sleep) }
-    keep_sleeping(m, d) { sleep::keep(m, &d.fields, &mut d.work.sleep) }
-    bodies(m, d) { tree_algorithms::forward_kinematics(m, &mut d.fields, &mut d.work.dynamics) }
-    orientations(_m, d) { tree_algorithms::orientations(&mut d.fields, &mut d.work.dynamics) }
-    geoms(m, d) { kinematics::geoms(m, d) }
-    sites(m, d) { kinematics::sites(m, d) }
-    com_pos(m, d) { com::com_pos(m, d) }
-    transmissions(m, d) { transmission::transmissions(m, &mut d.fields, &mut d.work.forces) }
-    tendon_velocities(m, d) { tendon::velocities(m, d) }
-    actuator_velocities(m, d) { transmission::velocities(m, d) }
-    com_vel(m, d) { com::com_vel(m, d) }
-    passive(m, d) { passive::passive(m, d) }
-    reference(m, d) { constraint::reference(m, &mut d.fields, &d.work.constraint) }
-    actuation(m, d) { actuation::actuation(m, &mut d.fields, &mut d.work.forces) }
-    position_sensors(m, d) { sensor::evaluate(m, &mut d.fields, &mut d.work.sensor, When::Position) }
-    velocity_sensors(m, d) { sensor::evaluate(m, &mut d.fields, &mut d.work.sensor, When::Velocity) }
-    acceleration_sensors(m, d) { sensor::evaluate(m, &mut d.fields, &mut d.work.sensor, When::Acceleration) }
-}
-
-pub(super) fn cameras_and_lights(m: &Model, d: &mut Workspace) {
+pub(super) fn cameras_and_lights(m: &Model, d: &mut Fields) {
     camera::cameras(m, d);
     camera::lights(m, d);
 }
 
-pub(super) fn tendons(m: &Model, d: &mut Workspace) {
+pub(super) fn tendons(m: &Model, d: &mut Fields) {
     tendon::tendons(m, d);
     if d.plan.keeps(Stage::Sleep) {
         sleep::wake_by_tendons(m, d);
@@ -51,28 +25,28 @@ pub(super) fn tendons(m: &Model, d: &mut Workspace) {
 }
 
 /// `M`, but for what is put off to steps in which constraints act.
-pub(super) fn mass_matrix(m: &Model, d: &mut Workspace) {
+pub(super) fn mass_matrix(m: &Model, d: &mut Fields, s: &mut Scratch) {
     let rows = !d.plan.has(PlanFlag::MassForRows);
-    fill_mass_matrix(m, d, d.plan.has(PlanFlag::Composite) && rows, rows);
+    fill_mass_matrix(m, d, s, d.plan.has(PlanFlag::Composite) && rows, rows);
 }
 
 /// `M`, with or without the rows of the general tree algorithm, and of those that put theirs off.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(super) fn fill_mass_matrix(m: &Model, d: &mut Workspace, general: bool, rows: bool) {
-    tree_algorithms::mass(m, &mut d.fields, &mut d.work.dynamics, general, rows);
+pub(super) fn fill_mass_matrix(m: &Model, d: &mut Fields, s: &mut Scratch, general: bool, rows: bool) {
+    tree_algorithms::mass(m, d, &mut s.dynamics, general, rows);
     if m.ntendon > 0 {
         tendon::armature(m, d);
     }
 }
 
-pub(super) fn factor(m: &Model, d: &mut Workspace) {
+pub(super) fn factor(m: &Model, d: &mut Fields, s: &mut Scratch) {
     if !d.plan.has(PlanFlag::MassForRows) {
-        factor_now(m, d);
+        factor_now(m, d, s);
     }
 }
 
-fn factor_now(m: &Model, d: &mut Workspace) {
-    let bad = tree_algorithms::factor(m, &mut d.fields, &mut d.work.dynamics);
+fn factor_now(m: &Model, d: &mut Fields, s: &mut Scratch) {
+    let bad = tree_algorithms::factor(m, d, &mut s.dynamics);
     check_inertia(d, bad);
 }
 
@@ -83,49 +57,48 @@ fn check_inertia(d: &mut Fields, bad: Option<usize>) {
     }
 }
 
-pub(super) fn collide(m: &Model, d: &mut Workspace) {
+pub(super) fn collide(m: &Model, d: &mut Fields, s: &mut Scratch) {
     if m.opt.disabled(disable::CONSTRAINT) || m.opt.disabled(disable::CONTACT) || d.meter.over() {
         return collision::none(d);
     }
-    collision::collide(m, &mut d.fields, &mut d.work.collision);
+    collision::collide(m, d, &mut s.collision);
     if sleep::wake_touched(m, d) {
-        collision::collide(m, &mut d.fields, &mut d.work.collision);
+        collision::collide(m, d, &mut s.collision);
     }
 }
 
-pub(super) fn make_constraints(m: &Model, d: &mut Workspace) {
+pub(super) fn make_constraints(m: &Model, d: &mut Fields, s: &mut Scratch) {
     if d.plan.keeps(Stage::Sleep) {
         sleep::wake_by_equalities(m, d);
     }
-    constraint::make(m, &mut d.fields, &mut d.work.constraint);
+    constraint::make(m, d, &mut s.constraint);
     if d.plan.has(PlanFlag::MassForRows) && d.nefc > 0 {
         let general = d.plan.has(PlanFlag::Composite);
-        if general || tree_algorithms::put_rows_off(&d.work.dynamics) {
-            fill_mass_matrix(m, d, general, true);
+        if general || tree_algorithms::put_rows_off(&s.dynamics) {
+            fill_mass_matrix(m, d, s, general, true);
         }
-        factor_now(m, d);
+        factor_now(m, d, s);
     }
 }
 
-pub(super) fn bias(m: &Model, d: &mut Workspace) {
-    tree_algorithms::bias(m, &mut d.fields, &mut d.work.dynamics);
+pub(super) fn bias(m: &Model, d: &mut Fields, s: &mut Scratch) {
+    tree_algorithms::bias(m, d, &mut s.dynamics);
     if m.ntendon > 0 {
         tendon::bias(m, d);
     }
 }
 
 /// `qfrc_smooth` and `qacc_smooth` = M⁻¹ `qfrc_smooth`; `qacc` where no constraint can act.
-pub(super) fn acceleration(m: &Model, data: &mut Workspace) {
-    if data.plan.has(PlanFlag::Ballistic) && m.opt.integrator != integrator::DISCRETE {
-        ballistic(data);
+pub(super) fn acceleration(m: &Model, d: &mut Fields, s: &mut Scratch) {
+    if d.plan.has(PlanFlag::Ballistic) && m.opt.integrator != integrator::DISCRETE {
+        ballistic(d);
     } else {
-        accelerate(m, data);
+        accelerate(m, d, s);
     }
 }
 
 #[cfg_attr(not(feature = "small"), inline(never))]
-fn accelerate(m: &Model, data: &mut Workspace) {
-    let Workspace { fields: d, work } = &mut *data;
+fn accelerate(m: &Model, d: &mut Fields, s: &mut Scratch) {
     if d.plan.has(PlanFlag::Unforced) {
         combine(&mut d.qfrc_smooth, [&*d.qfrc_bias], |_, [bias]| 0.0 - bias);
     } else {
@@ -137,32 +110,32 @@ fn accelerate(m: &Model, data: &mut Workspace) {
     if d.plan.has(PlanFlag::AppliedForces) {
         applied_forces(m, d);
     }
-    work.damping.done = false;
+    s.damping.done = false;
     if m.opt.integrator == integrator::DISCRETE {
-        discrete::acceleration(m, d, &mut work.metric, &mut work.derivative);
+        discrete::acceleration(m, d, s);
     } else if d.plan.has(PlanFlag::General) {
         let mut out = std::mem::take(&mut d.qacc_smooth);
         copy(&d.qfrc_smooth, &mut out);
         if d.plan.has(PlanFlag::MassForRows) && d.nefc == 0 {
             let euler = m.opt.integrator == integrator::EULER && damping::damps(m, d);
             let bad = match euler {
-                true => damping::accelerate(m, d, &mut work.dynamics, &mut work.damping, &mut out),
-                false => tree_algorithms::solve_now(m, d, &mut work.dynamics, &mut out),
+                true => damping::accelerate(m, d, s, &mut out),
+                false => tree_algorithms::solve_now(m, d, &mut s.dynamics, &mut out),
             };
             check_inertia(d, bad);
         } else {
-            tree_algorithms::solve(m, d, &mut work.dynamics, &mut out);
+            tree_algorithms::solve(m, d, &mut s.dynamics, &mut out);
         }
         d.qacc_smooth = out;
     } else {
         combine(&mut d.qacc_smooth, [&*d.qfrc_smooth, &*d.qLDiagInv], |_, [f, inv]| f * inv);
     }
     if d.plan.keeps(Stage::Sleep) {
-        sleep::put_back(m, d, &work.sleep);
+        sleep::put_back(m, d, &s.sleep);
     }
     if !d.plan.keeps(Stage::Solve) {
         copy(&d.qacc_smooth, &mut d.qacc);
-        turn_free_bodies(m, data);
+        turn_free_bodies(m, d, s);
     }
 }
 
@@ -187,34 +160,32 @@ fn applied_forces(m: &Model, d: &mut Fields) {
 }
 
 /// `qacc` and constraint forces.
-pub(super) fn solve(m: &Model, data: &mut Workspace) {
-    let Workspace { fields: d, work } = &mut *data;
+pub(super) fn solve(m: &Model, d: &mut Fields, s: &mut Scratch) {
     if m.opt.integrator == integrator::DISCRETE {
-        discrete::constraints(m, d, &mut work.metric, &mut work.constraint, &mut work.dynamics);
+        discrete::constraints(m, d, s);
     } else {
-        constraint::solve(m, d, &mut work.constraint, &mut work.dynamics);
+        constraint::solve(m, d, &mut s.constraint, &mut s.dynamics);
     }
-    turn_free_bodies(m, data);
+    turn_free_bodies(m, d, s);
 }
 
 /// What the discrete integrator adds to `qacc` of free bodies.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn turn_free_bodies(m: &Model, data: &mut Workspace) {
+fn turn_free_bodies(m: &Model, d: &mut Fields, s: &mut Scratch) {
     if m.opt.integrator == integrator::DISCRETE {
-        let Workspace { fields: d, work } = data;
-        discrete::turn_free_bodies(m, d, &work.metric, &mut work.derivative, &work.constraint);
+        discrete::turn_free_bodies(m, d, s);
     }
 }
 
 /// Momenta of subtrees, where a sensor asks for them: they stay as they are otherwise.
-pub(super) fn subtree_velocities(m: &Model, d: &mut Workspace) {
+pub(super) fn subtree_velocities(m: &Model, d: &mut Fields) {
     if measured(m, Stage::SubtreeVel) {
         subtree::subtree_vel(m, d);
     }
 }
 
 /// Accelerations of bodies and the forces between them, likewise.
-pub(super) fn body_forces(m: &Model, d: &mut Workspace) {
+pub(super) fn body_forces(m: &Model, d: &mut Fields) {
     if measured(m, Stage::RnePost) {
         body_force::rne_post_constraint(m, d);
     }
@@ -226,16 +197,16 @@ fn measured(m: &Model, stage: Stage) -> bool {
 }
 
 /// `energy[0]`, or zeros when the flag is off and no sensor has just computed it.
-pub(super) fn potential_energy(m: &Model, d: &mut Workspace) {
+pub(super) fn potential_energy(m: &Model, d: &mut Fields, s: &mut Scratch) {
     if m.opt.enabled(enable::ENERGY) {
         energy::potential(m, d);
-    } else if d.work.unseen || m.opt.disabled(disable::SENSOR) || !sensor::measures_potential(m) {
+    } else if s.unseen || m.opt.disabled(disable::SENSOR) || !sensor::measures_potential(m) {
         d.energy = [0.0; 2];
     }
 }
 
 /// `energy[1]`.
-pub(super) fn kinetic_energy(m: &Model, d: &mut Workspace) {
+pub(super) fn kinetic_energy(m: &Model, d: &mut Fields) {
     if m.opt.enabled(enable::ENERGY) {
         energy::kinetic(m, d);
     }

@@ -1,8 +1,11 @@
 //! The rows of the pipeline by the clock: the same calls in the same order, with a look at the clock between them.
 
-use crate::model::Model;
 use crate::model::stage::Stage;
-use crate::step::workspace::Workspace;
+use crate::model::{Fields, Model};
+use crate::step::workspace::Scratch;
+
+/// What a stage is: it reads the model, and writes the fields and the scratch.
+pub(super) type Run = fn(&Model, &mut Fields, &mut Scratch);
 
 /// The bit of a pass that is walked by the clock.
 pub(super) const CLOCKED: u32 = 1 << 31;
@@ -11,33 +14,35 @@ pub(super) const CLOCKED: u32 = 1 << 31;
 #[cold]
 #[inline(never)]
 pub(super) fn walk(
-    rows: &[fn(&Model, &mut Workspace)],
-    stages: &[Stage],
+    rows: &[Run],
+    stages: &[Option<Stage>],
     m: &Model,
-    d: &mut Workspace,
+    d: &mut Fields,
+    s: &mut Scratch,
     bits: u32,
 ) {
-    if let Some(watch) = &mut d.work.watch {
+    if let Some(watch) = &mut s.watch {
         watch.begin();
     }
-    lap(nothing, None, m, d);
-    let kept_rows = rows.iter().zip(stages).enumerate().filter(|(i, _)| bits & (1 << i) != 0);
-    kept_rows.for_each(|(_, (run, stage))| lap(*run, Some(*stage), m, d));
-    if let Some(watch) = &mut d.work.watch {
+    lap(nothing, None, m, d, s);
+    let kept_rows = rows.iter().zip(stages).enumerate().filter(|(i, _)| bits & !CLOCKED & (1 << i) != 0);
+    kept_rows.for_each(|(_, (run, stage))| lap(*run, *stage, m, d, s));
+    if let Some(watch) = &mut s.watch {
         watch.end();
     }
 }
 
 /// Runs one of them, or nothing, between two looks at the clock.
 #[inline(never)]
-fn lap(run: fn(&Model, &mut Workspace), stage: Option<Stage>, m: &Model, d: &mut Workspace) {
-    let clock = d.work.watch.as_ref().map(|watch| watch.clock);
+fn lap(run: Run, stage: Option<Stage>, m: &Model, d: &mut Fields, s: &mut Scratch) {
+    let clock = s.watch.as_ref().map(|watch| watch.clock);
     let before = clock.map(|clock| (d.meter.cost, clock()));
-    run(m, d);
+    run(m, d, s);
     let now = clock.map(|clock| clock());
-    if let (Some(watch), Some((work, time)), Some(now)) = (&mut d.work.watch, before, now) {
-        watch.laps.add(stage, now.saturating_sub(time), d.fields.meter.cost.saturating_sub(work));
+    if let (Some(watch), Some((work, time)), Some(now)) = (&mut s.watch, before, now) {
+        watch.laps.add(stage, now.saturating_sub(time), d.meter.cost.saturating_sub(work));
     }
 }
 
-fn nothing(_: &Model, _: &mut Workspace) {}
+/// Runs nothing.
+pub(super) fn nothing(_: &Model, _: &mut Fields, _: &mut Scratch) {}

@@ -1,36 +1,22 @@
 //! Euler's method with implicit damping: (M + h B) a' = M a, where B is the derivative of the damping force.
 
-use crate::dynamics::{self, tree_algorithms};
+use crate::dynamics::tree_algorithms;
 use crate::forces::passive::spring;
 use crate::kinds::disable;
 use crate::math::combine;
 use crate::model::plan::PlanFlag;
 use crate::model::stage::Stage;
 use crate::model::{Fields, Model};
-
-/// The acceleration a step advances along, where it is not `qacc`.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Scratch {
-    pub(super) qacc: Vec<f64>,
-    /// h B.
-    b: Vec<f64>,
-    /// Whether `qacc` is a' for the forces of this step.
-    pub(super) done: bool,
-}
-
-impl Scratch {
-    pub(super) fn new(m: &Model) -> Scratch {
-        Scratch { qacc: vec![0.0; m.nv], b: vec![0.0; m.nv], done: false }
-    }
-}
+use crate::step::stages::Damping;
+use crate::step::workspace::Scratch;
 
 /// The acceleration a'.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(super) fn damp(m: &Model, d: &Fields, w: &mut dynamics::Scratch, s: &mut Scratch) {
-    let Scratch { qacc: a, b, .. } = s;
+pub(super) fn damp(m: &Model, d: &Fields, s: &mut Scratch) {
+    let Damping { qacc: a, b, .. } = &mut s.damping;
     combine(a, [&*d.qfrc_smooth, &*d.qfrc_constraint], |_, [smooth, constraint]| smooth + constraint);
     damping(m, d, b);
-    tree_algorithms::solve_with(m, d, w, b, a);
+    tree_algorithms::solve_with(m, d, &mut s.dynamics, b, a);
 }
 
 /// Both accelerations from `qfrc_smooth`, where no constraint acts: a, and a' in the scratch. Returns the first degree of
@@ -38,16 +24,15 @@ pub(super) fn damp(m: &Model, d: &Fields, w: &mut dynamics::Scratch, s: &mut Scr
 pub(super) fn accelerate(
     m: &Model,
     d: &mut Fields,
-    w: &mut dynamics::Scratch,
     s: &mut Scratch,
     acceleration: &mut [f64],
 ) -> Option<usize> {
-    let Scratch { qacc: a, b, done } = s;
+    let Damping { qacc: a, b, done } = &mut s.damping;
     // With the force of constraints, which is 0: -0 becomes 0, as everywhere.
     combine(a, [&*acceleration], |_, [force]| force + 0.0);
     damping(m, d, b);
     *done = true;
-    tree_algorithms::solve_both(m, d, w, b, acceleration, a)
+    tree_algorithms::solve_both(m, d, &mut s.dynamics, b, acceleration, a)
 }
 
 /// h B.

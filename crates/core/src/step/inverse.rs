@@ -6,10 +6,10 @@ use crate::forces::derivative::{self, Medium, sparse};
 use crate::forces::passive::spring;
 use crate::kinds::{enable, integrator};
 use crate::math::Spatial;
-use crate::model::Model;
 use crate::model::plan::PlanTable;
-use crate::step::workspace::Work;
-use crate::step::workspace::Workspace;
+use crate::model::{Fields, Model};
+use crate::sensor::{self, When};
+use crate::step::workspace::Scratch;
 use crate::step::{calls, forward};
 use crate::step::{damping, discrete};
 
@@ -35,51 +35,46 @@ impl std::error::Error for InverseError {}
 ///
 /// All fields of position and velocity, the forces of constraints and sensors are computed, whatever the plan
 /// says.
-pub(crate) fn inverse(m: &Model, d: &mut Workspace) -> Result<(), InverseError> {
+pub(crate) fn inverse(m: &Model, d: &mut Fields, s: &mut Scratch) -> Result<(), InverseError> {
     if m.opt.enabled(enable::INVDISCRETE) && integrator::many_stages(m.opt.integrator) {
         return Err(InverseError::RungeKutta);
     }
     let plan = std::mem::replace(&mut d.plan, PlanTable::everything());
-    forward::from_state(m, d);
-    from_velocity(m, d);
+    forward::from_state(m, d, s);
+    from_velocity(m, d, s);
     d.plan = plan;
     Ok(())
 }
 
 /// The same once position and velocity are known.
-fn from_velocity(m: &Model, d: &mut Workspace) {
-    let mut given = std::mem::take(&mut d.work.rk.slope);
+fn from_velocity(m: &Model, d: &mut Fields, s: &mut Scratch) {
+    let mut given = std::mem::take(&mut s.rk.slope);
     given.copy_from_slice(&d.qacc);
     if m.opt.enabled(enable::INVDISCRETE) {
-        continuous(m, d);
+        continuous(m, d, s);
     }
     if m.opt.integrator == integrator::DISCRETE {
-        let Work { metric, derivative, constraint, .. } = &mut d.work;
-        discrete::prepare_inverse(m, &mut d.fields, metric, derivative, constraint);
+        discrete::prepare_inverse(m, d, s);
     }
-    constraint::inverse(m, &mut d.fields, &mut d.work.constraint, &mut d.work.dynamics);
+    constraint::inverse(m, d, &mut s.constraint, &mut s.dynamics);
     calls::body_forces(m, d);
-    calls::acceleration_sensors(m, d);
-    let f = &mut d.fields;
-    mass::mul(m, &f.M, &f.qacc, &mut f.qfrc_inverse, 0..m.nv);
+    sensor::evaluate(m, d, &mut s.sensor, When::Acceleration);
+    mass::mul(m, &d.M, &d.qacc, &mut d.qfrc_inverse, 0..m.nv);
     if m.opt.integrator == integrator::DISCRETE {
-        let Work { metric, derivative, constraint, .. } = &mut d.work;
-        discrete::add_to_inverse(m, &mut d.fields, metric, derivative, constraint);
+        discrete::add_to_inverse(m, d, s);
     }
-    let f = &mut d.fields;
-    let internal = f.qfrc_bias.iter().zip(&f.qfrc_passive);
-    for (f, ((bias, passive), constraint)) in f.qfrc_inverse.iter_mut().zip(internal.zip(&f.qfrc_constraint))
+    let internal = d.qfrc_bias.iter().zip(&d.qfrc_passive);
+    for (f, ((bias, passive), constraint)) in d.qfrc_inverse.iter_mut().zip(internal.zip(&d.qfrc_constraint))
     {
         *f += bias - passive - constraint;
     }
     d.qacc.copy_from_slice(&given);
-    d.work.rk.slope = given;
+    s.rk.slope = given;
 }
 
 /// `qacc` of a step to that of the equations of motion: what the integrator adds to M acts on it.
-fn continuous(m: &Model, data: &mut Workspace) {
-    let Workspace { fields: d, work } = data;
-    let (h, force, w) = (m.opt.timestep, &mut work.damping.qacc, &mut work.derivative);
+fn continuous(m: &Model, d: &mut Fields, s: &mut Scratch) {
+    let (h, force, w) = (m.opt.timestep, &mut s.damping.qacc, &mut s.derivative);
     match m.opt.integrator {
         integrator::EULER => {
             mass::mul(m, &d.M, &d.qacc, force, 0..m.nv);
@@ -96,7 +91,7 @@ fn continuous(m: &Model, data: &mut Workspace) {
             sparse::mul(m, &w.whole, &d.qacc, force);
         }
         integrator::IMPLICITFAST => {
-            let matrix = &mut work.dynamics.ld;
+            let matrix = &mut s.dynamics.ld;
             derivative::forces(m, d, w, Medium::Symmetric);
             matrix.copy_from_slice(&d.M);
             sparse::subtract_lower(m, &w.whole, h, matrix);

@@ -13,14 +13,15 @@ pub(crate) mod deciding;
 pub(crate) mod discrete;
 pub(crate) mod factored;
 pub(crate) mod forward;
-pub(crate) mod functions;
 mod idle;
 pub(crate) mod integrate;
 pub(crate) mod inverse;
+mod metric;
 pub(crate) mod pipeline;
 pub(crate) mod planner;
 pub(crate) mod reset;
 pub(crate) mod save;
+mod sequence;
 pub(crate) mod sleep;
 pub(crate) mod stages;
 pub(crate) mod store;
@@ -30,34 +31,34 @@ pub(crate) mod workspace;
 use crate::kinds::disable;
 use crate::math::{LARGEST, SMALL, bad};
 use crate::model::{Fields, Model, Warning, WarningStat};
-use crate::step::workspace::Workspace;
+use crate::step::workspace::Scratch;
 use wide::f64x4;
 
 /// Advances the simulation by one step (`mj_step`).
 ///
 /// A bad number in the state resets the data first; one in the acceleration resets it and the same step
 /// then starts from there (`warning` says which and when).
-pub(crate) fn step(m: &Model, d: &mut Workspace) {
-    check_state(m, d);
-    forward::from_state(m, d);
-    forward::from_inputs(m, d);
-    check_acceleration(m, d);
-    integrate::integrate(m, d);
+pub(crate) fn step(m: &Model, d: &mut Fields, s: &mut Scratch) {
+    check_state(m, d, s);
+    forward::from_state(m, d, s);
+    forward::from_inputs(m, d, s);
+    check_acceleration(m, d, s);
+    integrate::integrate(m, d, s);
 }
 
 /// The first part of a step (`mj_step1`): all that does not depend on inputs. Controls and applied forces may be
 /// set between the two.
-pub(crate) fn step1(m: &Model, d: &mut Workspace) {
-    check_state(m, d);
-    forward::from_state(m, d);
+pub(crate) fn step1(m: &Model, d: &mut Fields, s: &mut Scratch) {
+    check_state(m, d, s);
+    forward::from_state(m, d, s);
 }
 
 /// The second part of a step (`mj_step2`): forces, accelerations, the next state. Where the options name
 /// Runge–Kutta, which needs forces at other states, this is a step of Euler.
-pub(crate) fn step2(m: &Model, d: &mut Workspace) {
-    forward::from_inputs(m, d);
-    check_acceleration(m, d);
-    integrate::integrate_once(m, d);
+pub(crate) fn step2(m: &Model, d: &mut Fields, s: &mut Scratch) {
+    forward::from_inputs(m, d, s);
+    check_acceleration(m, d, s);
+    integrate::integrate_once(m, d, s);
 }
 
 /// Whether no number is [`bad`]: four at a time, where the last four may overlap those before.
@@ -75,7 +76,13 @@ fn all_good(v: &[f64]) -> bool {
 /// Warns of the first bad number, and resets unless that is switched off. The warning survives the reset.
 #[cold]
 #[inline(never)]
-fn reset_after(m: &Model, d: &mut Workspace, warning: Warning, of: fn(&Fields) -> &[f64]) -> bool {
+fn reset_after(
+    m: &Model,
+    d: &mut Fields,
+    s: &mut Scratch,
+    warning: Warning,
+    of: fn(&Fields) -> &[f64],
+) -> bool {
     let Some(info) = of(d).iter().position(|&x| bad(x)) else { return false };
     d.warn(warning, info);
     if m.opt.disabled(disable::AUTORESET) {
@@ -84,25 +91,25 @@ fn reset_after(m: &Model, d: &mut Workspace, warning: Warning, of: fn(&Fields) -
         return false;
     }
     let stat = d.warning[warning as usize];
-    reset::reset_data(m, d);
+    reset::reset_data(m, d, s);
     d.warning[warning as usize] = WarningStat { number: 1, ..stat };
     true
 }
 
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn check_state(m: &Model, d: &mut Workspace) {
+fn check_state(m: &Model, d: &mut Fields, s: &mut Scratch) {
     if !all_good(&d.qpos) {
-        reset_after(m, d, Warning::BadQpos, |d| &d.qpos);
+        reset_after(m, d, s, Warning::BadQpos, |d| &d.qpos);
     }
     if !all_good(&d.qvel) {
-        reset_after(m, d, Warning::BadQvel, |d| &d.qvel);
+        reset_after(m, d, s, Warning::BadQvel, |d| &d.qvel);
     }
 }
 
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn check_acceleration(m: &Model, d: &mut Workspace) {
-    if !all_good(&d.qacc) && reset_after(m, d, Warning::BadQacc, |d| &d.qacc) {
-        forward::forward(m, d);
+fn check_acceleration(m: &Model, d: &mut Fields, s: &mut Scratch) {
+    if !all_good(&d.qacc) && reset_after(m, d, s, Warning::BadQacc, |d| &d.qacc) {
+        forward::forward(m, d, s);
     }
 }
 

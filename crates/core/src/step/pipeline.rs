@@ -2,19 +2,20 @@
 //!
 //! A row is all that there is to know of a stage: the forward pass runs the rows in this order, the plan is decided from them
 //! (from the last to the first, as a stage runs for what a later one needs), and `labspec plan` prints them. What a stage
-//! computes stands in the field table, row by row under its [`Stage`].
+//! computes stands in the field table, row by row under its [`Stage`]. Every stage has one signature: it reads the model, and
+//! writes the fields and the scratch, of which it takes that of its module.
 
 use super::analysis::ModelAnalysis;
-use super::calls as run;
-use super::clocked::{self, CLOCKED};
-use crate::dynamics::tree_algorithms;
+use super::clocked::Run;
+use super::{calls, sleep};
+use crate::dynamics::{com, kinematics, tree_algorithms};
+use crate::forces::{actuation, passive, tendon, transmission};
 use crate::kinds::{disable, integrator, trntype, wraptype};
-use crate::math::broken_invariant;
+use crate::model::Obj;
 use crate::model::reflect::{data, model};
 use crate::model::stage::Stage;
-use crate::model::{Model, Obj};
-use crate::step::workspace::Workspace;
-use crate::{collision, sensor};
+use crate::sensor::When;
+use crate::{collision, constraint, sensor};
 
 /// When in a forward pass something runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,8 +27,6 @@ pub(super) enum PassPart {
     /// What depends on inputs as well.
     Inputs,
 }
-
-type Run = fn(&Model, &mut Workspace);
 
 /// Stages whose results are used (any, where the list is empty), and in which scenes.
 type Need = (&'static [Stage], fn(&ModelAnalysis, Stage) -> bool);
@@ -69,7 +68,10 @@ pub(super) const STAGES: [Row; 26] = [
         needs: &[],
         wanted: |s| because(s.sleeps, "trees at rest fall asleep"),
         left_out: |s| if s.m.ntree == 0 { "nothing can move" } else { "the sleep flag is off" },
-        run: &[(PassPart::Positions, run::wake), (PassPart::Inputs, run::keep_sleeping)],
+        run: &[
+            (PassPart::Positions, |m, d, s| sleep::wake(m, d, &mut s.sleep)),
+            (PassPart::Inputs, |m, d, s| sleep::keep(m, d, &mut s.sleep)),
+        ],
     },
     Row {
         stage: Stage::Kinematics,
@@ -77,7 +79,7 @@ pub(super) const STAGES: [Row; 26] = [
         needs: &[],
         wanted: |s| s.reads(Stage::Kinematics),
         left_out: |_| "nothing can touch and nothing reads a pose",
-        run: &[(PassPart::Positions, run::bodies)],
+        run: &[(PassPart::Positions, |m, d, s| tree_algorithms::forward_kinematics(m, d, &mut s.dynamics))],
     },
     Row {
         stage: Stage::Orientations,
@@ -85,7 +87,7 @@ pub(super) const STAGES: [Row; 26] = [
         needs: &[(&[Stage::Kinematics], ALWAYS)],
         wanted: |s| s.reads(Stage::Orientations),
         left_out: |_| "nothing reads an orientation as a quaternion",
-        run: &[(PassPart::Positions, run::orientations)],
+        run: &[(PassPart::Positions, |_, d, s| tree_algorithms::orientations(d, &mut s.dynamics))],
     },
     Row {
         stage: Stage::GeomPoses,
@@ -93,7 +95,7 @@ pub(super) const STAGES: [Row; 26] = [
         needs: &[(&[Stage::Kinematics], ALWAYS)],
         wanted: |s| s.reads(Stage::GeomPoses),
         left_out: |_| "no contact is possible and nothing reads a geom's pose",
-        run: &[(PassPart::Positions, run::geoms)],
+        run: &[(PassPart::Positions, |m, d, _| kinematics::geoms(m, d))],
     },
     Row {
         stage: Stage::SitePoses,
@@ -104,7 +106,7 @@ pub(super) const STAGES: [Row; 26] = [
             0 => "the model has no sites",
             _ => "nothing reads a site's pose",
         },
-        run: &[(PassPart::Positions, run::sites)],
+        run: &[(PassPart::Positions, |m, d, _| kinematics::sites(m, d))],
     },
     Row {
         stage: Stage::ComPos,
@@ -112,7 +114,7 @@ pub(super) const STAGES: [Row; 26] = [
         needs: &[(&[Stage::Kinematics], ALWAYS)],
         wanted: |s| s.reads(Stage::ComPos),
         left_out: |_| NO_SPATIAL_BODIES,
-        run: &[(PassPart::Positions, run::com_pos)],
+        run: &[(PassPart::Positions, |m, d, _| com::com_pos(m, d))],
     },
     Row {
         stage: Stage::CameraPoses,
@@ -123,7 +125,7 @@ pub(super) const STAGES: [Row; 26] = [
             0 => "the model has no cameras and lights",
             _ => "nothing reads the pose of a camera or light",
         },
-        run: &[(PassPart::Positions, run::cameras_and_lights)],
+        run: &[(PassPart::Positions, |m, d, _| calls::cameras_and_lights(m, d))],
     },
     Row {
         stage: Stage::Tendon,
@@ -139,7 +141,7 @@ pub(super) const STAGES: [Row; 26] = [
                 .or_else(|| because(wakes, "tendons at their limits wake the trees that they connect"))
         },
         left_out: without_tendons,
-        run: &[(PassPart::Positions, run::tendons)],
+        run: &[(PassPart::Positions, |m, d, _| calls::tendons(m, d))],
     },
     Row {
         stage: Stage::MassMatrix,
@@ -154,7 +156,7 @@ pub(super) const STAGES: [Row; 26] = [
             false => because(s.reads_field(data::crb), "data.crb is read"),
         },
         left_out: |_| CONSTANT_MASS,
-        run: &[(PassPart::Positions, run::mass_matrix)],
+        run: &[(PassPart::Positions, calls::mass_matrix)],
     },
     Row {
         stage: Stage::Factor,
@@ -162,7 +164,7 @@ pub(super) const STAGES: [Row; 26] = [
         needs: &[],
         wanted: |s| because(s.general, MOVING_MASS),
         left_out: |_| CONSTANT_MASS,
-        run: &[(PassPart::Positions, run::factor)],
+        run: &[(PassPart::Positions, calls::factor)],
     },
     Row {
         stage: Stage::Collision,
@@ -177,7 +179,7 @@ pub(super) const STAGES: [Row; 26] = [
                 _ => "no pair of geoms can ever touch",
             }
         },
-        run: &[(PassPart::Positions, run::collide)],
+        run: &[(PassPart::Positions, calls::collide)],
     },
     Row {
         stage: Stage::Constraint,
@@ -193,7 +195,7 @@ pub(super) const STAGES: [Row; 26] = [
             constraints(s).or_else(|| because(wakes, "trees that are tied together wake each other"))
         },
         left_out: |_| NO_CONSTRAINTS,
-        run: &[(PassPart::Positions, run::make_constraints)],
+        run: &[(PassPart::Positions, calls::make_constraints)],
     },
     Row {
         stage: Stage::Transmission,
@@ -206,7 +208,7 @@ pub(super) const STAGES: [Row; 26] = [
         ],
         wanted: |s| s.reads(Stage::Transmission),
         left_out: |s| without_actuators(s).unwrap_or("moments are constant and no force depends on a length"),
-        run: &[(PassPart::Positions, run::transmissions)],
+        run: &[(PassPart::Positions, |m, d, s| transmission::transmissions(m, d, &mut s.forces))],
     },
     Row {
         stage: Stage::TendonVel,
@@ -214,7 +216,7 @@ pub(super) const STAGES: [Row; 26] = [
         needs: &[(&[Stage::Tendon], ALWAYS)],
         wanted: |s| s.reads(Stage::TendonVel),
         left_out: without_tendons,
-        run: &[(PassPart::Velocities, run::tendon_velocities)],
+        run: &[(PassPart::Velocities, |m, d, _| tendon::velocities(m, d))],
     },
     Row {
         stage: Stage::ActuatorVel,
@@ -222,7 +224,7 @@ pub(super) const STAGES: [Row; 26] = [
         needs: &[(&[Stage::Transmission], ALWAYS)],
         wanted: |s| s.reads(Stage::ActuatorVel),
         left_out: |s| without_actuators(s).unwrap_or("no force depends on the velocity of an actuator"),
-        run: &[(PassPart::Velocities, run::actuator_velocities)],
+        run: &[(PassPart::Velocities, |m, d, _| transmission::velocities(m, d))],
     },
     Row {
         stage: Stage::ComVel,
@@ -230,7 +232,7 @@ pub(super) const STAGES: [Row; 26] = [
         needs: &[(&[Stage::ComPos], ALWAYS)],
         wanted: |s| s.reads(Stage::ComVel),
         left_out: |_| NO_SPATIAL_BODIES,
-        run: &[(PassPart::Velocities, run::com_vel)],
+        run: &[(PassPart::Velocities, |m, d, _| com::com_vel(m, d))],
     },
     Row {
         stage: Stage::Passive,
@@ -249,7 +251,7 @@ pub(super) const STAGES: [Row; 26] = [
                 .or_else(|| because(s.gravcomp, "the weight of bodies is compensated"))
         },
         left_out: |_| "no joint or tendon has a spring or a damper, and bodies move in a vacuum",
-        run: &[(PassPart::Velocities, run::passive)],
+        run: &[(PassPart::Velocities, |m, d, _| passive::passive(m, d))],
     },
     Row {
         stage: Stage::Reference,
@@ -257,7 +259,7 @@ pub(super) const STAGES: [Row; 26] = [
         needs: &[(&[Stage::ComVel], |s, _| s.ties_bodies())],
         wanted: constraints,
         left_out: |_| NO_CONSTRAINTS,
-        run: &[(PassPart::Velocities, run::reference)],
+        run: &[(PassPart::Velocities, |m, d, s| constraint::reference(m, d, &s.constraint))],
     },
     Row {
         stage: Stage::Bias,
@@ -269,7 +271,7 @@ pub(super) const STAGES: [Row; 26] = [
         ],
         wanted: |s| because(s.m.nv > 0, "gravity and the motion of bodies make forces"),
         left_out: |_| "nothing moves",
-        run: &[(PassPart::Velocities, run::bias)],
+        run: &[(PassPart::Velocities, calls::bias)],
     },
     Row {
         stage: Stage::Actuation,
@@ -282,7 +284,7 @@ pub(super) const STAGES: [Row; 26] = [
         ],
         wanted: |s| because(s.actuated, "actuators make forces"),
         left_out: |s| without_actuators(s).unwrap_or("actuators are switched off"),
-        run: &[(PassPart::Inputs, run::actuation)],
+        run: &[(PassPart::Inputs, |m, d, s| actuation::actuation(m, d, &mut s.forces))],
     },
     Row {
         stage: Stage::Acceleration,
@@ -297,7 +299,7 @@ pub(super) const STAGES: [Row; 26] = [
         ],
         wanted: |s| because(s.m.nv > 0, "the integrator needs it"),
         left_out: |_| "nothing moves",
-        run: &[(PassPart::Inputs, run::acceleration)],
+        run: &[(PassPart::Inputs, calls::acceleration)],
     },
     Row {
         stage: Stage::Solve,
@@ -305,7 +307,7 @@ pub(super) const STAGES: [Row; 26] = [
         needs: &[],
         wanted: constraints,
         left_out: |_| NO_CONSTRAINTS,
-        run: &[(PassPart::Inputs, run::solve)],
+        run: &[(PassPart::Inputs, calls::solve)],
     },
     Row {
         stage: Stage::SubtreeVel,
@@ -314,7 +316,7 @@ pub(super) const STAGES: [Row; 26] = [
         // Its fields show something only where a sensor asks for it.
         wanted: |s| s.reads(Stage::SubtreeVel).filter(|_| sensor::needs(s.m, Stage::SubtreeVel)),
         left_out: |_| "no sensor measures the momentum of a subtree",
-        run: &[(PassPart::Velocities, run::subtree_velocities)],
+        run: &[(PassPart::Velocities, |m, d, _| calls::subtree_velocities(m, d))],
     },
     Row {
         stage: Stage::RnePost,
@@ -328,7 +330,7 @@ pub(super) const STAGES: [Row; 26] = [
         ],
         wanted: |s| s.reads(Stage::RnePost).filter(|_| sensor::needs(s.m, Stage::RnePost)),
         left_out: |_| "no sensor measures a force or an acceleration",
-        run: &[(PassPart::Inputs, run::body_forces)],
+        run: &[(PassPart::Inputs, |m, d, _| calls::body_forces(m, d))],
     },
     Row {
         stage: Stage::Sensors,
@@ -346,9 +348,9 @@ pub(super) const STAGES: [Row; 26] = [
             _ => "nothing reads sensordata",
         },
         run: &[
-            (PassPart::Positions, run::position_sensors),
-            (PassPart::Velocities, run::velocity_sensors),
-            (PassPart::Inputs, run::acceleration_sensors),
+            (PassPart::Positions, |m, d, s| sensor::evaluate(m, d, &mut s.sensor, When::Position)),
+            (PassPart::Velocities, |m, d, s| sensor::evaluate(m, d, &mut s.sensor, When::Velocity)),
+            (PassPart::Inputs, |m, d, s| sensor::evaluate(m, d, &mut s.sensor, When::Acceleration)),
         ],
     },
     Row {
@@ -361,7 +363,10 @@ pub(super) const STAGES: [Row; 26] = [
         ],
         wanted: |s| s.reads(Stage::Energy).filter(|_| s.energy || sensor::measures_energy(s.m)),
         left_out: |s| if s.energy { "nothing reads the energy" } else { "the energy flag is off" },
-        run: &[(PassPart::Positions, run::potential_energy), (PassPart::Velocities, run::kinetic_energy)],
+        run: &[
+            (PassPart::Positions, calls::potential_energy),
+            (PassPart::Velocities, |m, d, _| calls::kinetic_energy(m, d)),
+        ],
     },
 ];
 
@@ -410,90 +415,4 @@ fn constraints(s: &ModelAnalysis) -> Option<String> {
         .or_else(|| count(s.limited_tendons, "one tendon is limited", "tendons are limited"))
         .or_else(|| count(s.friction, "one thing has dry friction", "things have dry friction"))
         .or_else(|| count(s.equalities, "there is one equality constraint", "equality constraints hold"))
-}
-
-/// What runs in a part of a forward pass, in order; a plan keeps some of it, a bit each.
-pub(crate) struct Sequence<const N: usize> {
-    run: [Run; N],
-    stage: [Stage; N],
-}
-
-/// How many rows run something in a part.
-const fn count_of(part: PassPart) -> usize {
-    let (mut n, mut row) = (0, 0);
-    while row < STAGES.len() {
-        let mut k = 0;
-        while k < STAGES[row].run.len() {
-            n += (STAGES[row].run[k].0 as u8 == part as u8) as usize;
-            k += 1;
-        }
-        row += 1;
-    }
-    n
-}
-
-impl<const N: usize> Sequence<N> {
-    const fn new(part: PassPart) -> Sequence<N> {
-        let mut all = Sequence { run: [nothing as Run; N], stage: [Stage::Sleep; N] };
-        let (mut n, mut row) = (0, 0);
-        while row < STAGES.len() {
-            let mut k = 0;
-            while k < STAGES[row].run.len() {
-                if STAGES[row].run[k].0 as u8 == part as u8 {
-                    all.run[n] = STAGES[row].run[k].1;
-                    all.stage[n] = STAGES[row].stage;
-                    n += 1;
-                }
-                k += 1;
-            }
-            row += 1;
-        }
-        all
-    }
-
-    /// The bits of what belongs to some stages.
-    fn bits(&self, of: impl Fn(Stage) -> bool) -> u32 {
-        self.stage.iter().enumerate().filter(|(_, s)| of(**s)).map(|(i, _)| 1 << i).sum()
-    }
-
-    /// The bits of the stages before one.
-    pub(crate) fn before(&self, stage: Stage) -> u32 {
-        let n = self.stage.iter().position(|s| *s == stage);
-        let n = n.unwrap_or_else(|| broken_invariant("a stage runs in this part of a pass"));
-        (1 << n) - 1
-    }
-
-    /// The bits of one stage.
-    pub(crate) fn stage_bits(&self, stage: Stage) -> u32 {
-        self.bits(|s| s == stage)
-    }
-
-    /// Runs what the bits say.
-    #[cfg_attr(not(feature = "small"), inline(always))]
-    pub(crate) fn run(&self, m: &Model, d: &mut Workspace, mut bits: u32) {
-        if bits & CLOCKED != 0 {
-            return clocked::walk(&self.run, &self.stage, m, d, bits);
-        }
-        while let Some(run) = self.run.get(bits.trailing_zeros() as usize) {
-            bits &= bits - 1;
-            run(m, d);
-        }
-    }
-}
-
-fn nothing(_: &Model, _: &mut Workspace) {}
-
-pub(crate) static POSITIONS: Sequence<{ count_of(PassPart::Positions) }> = Sequence::new(PassPart::Positions);
-pub(crate) static VELOCITIES: Sequence<{ count_of(PassPart::Velocities) }> =
-    Sequence::new(PassPart::Velocities);
-pub(crate) static INPUTS: Sequence<{ count_of(PassPart::Inputs) }> = Sequence::new(PassPart::Inputs);
-
-/// The same passes by the clock.
-pub(crate) fn by_the_clock(passes: [[u32; 3]; 2]) -> [[u32; 3]; 2] {
-    passes.map(|pass| pass.map(|bits| bits | CLOCKED))
-}
-
-/// What a forward pass runs of each part, for the stages that are kept.
-pub(crate) fn passes(keeps: impl Fn(Stage) -> bool) -> [u32; 3] {
-    [POSITIONS.bits(&keeps), VELOCITIES.bits(&keeps), INPUTS.bits(&keeps)]
 }

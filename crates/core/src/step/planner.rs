@@ -5,14 +5,15 @@
 //! stages it leaves out compute nothing that what is kept, or read, depends on.
 
 use super::analysis::{AccessSet, FLAGS, ModelAnalysis};
-use super::pipeline::{STAGES, passes};
+use super::pipeline::STAGES;
+use super::sequence::passes;
 use crate::model::Model;
 use crate::model::plan::{Decision, PlanFlag, PlanTable};
 use crate::model::stage::Stage;
 use crate::model::tree_algorithm::TreeAlgorithms;
 
 /// What shows in sensors alone: the stages of Runge and Kutta's method leave it out.
-const SHOWN: [Stage; 3] = [Stage::SubtreeVel, Stage::RnePost, Stage::Sensors];
+const SENSOR_STAGES: [Stage; 3] = [Stage::SubtreeVel, Stage::RnePost, Stage::Sensors];
 
 impl PlanTable {
     /// Every stage runs, needed or not: the reference that plans are held against.
@@ -90,8 +91,10 @@ impl PlanTable {
 
     /// With what a forward pass runs.
     fn arranged(mut self) -> PlanTable {
-        self.passes =
-            [passes(|stage| self.keeps(stage)), passes(|stage| self.keeps(stage) && !SHOWN.contains(&stage))];
+        self.passes = [
+            passes(|stage| self.keeps(stage)),
+            passes(|stage| self.keeps(stage) && !SENSOR_STAGES.contains(&stage)),
+        ];
         self
     }
 }

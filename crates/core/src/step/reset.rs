@@ -1,6 +1,6 @@
 //! Data at the start: made, reset, and given a plan.
 
-use super::pipeline::by_the_clock;
+use super::sequence::by_the_clock;
 use super::{forward, sleep};
 use crate::dynamics::{self, kinematics, mass, tree_algorithms};
 use crate::forces::{actuation, transmission};
@@ -11,9 +11,9 @@ use crate::model::plan::PlanTable;
 use crate::model::stage::Stage;
 use crate::model::stopwatch::Stopwatch;
 use crate::model::tree_algorithm::TreeAlgorithms;
-use crate::model::{Model, Warning, WarningStat, asleep, reflect};
+use crate::model::{Fields, Model, Warning, WarningStat, asleep, reflect};
 use crate::step::analysis::{self, AccessSet};
-use crate::step::workspace::Workspace;
+use crate::step::workspace::{Scratch, Workspace};
 use crate::{collision, constraint, sensor};
 
 impl Workspace {
@@ -26,57 +26,53 @@ impl Workspace {
 
     /// Data that computes only what a plan keeps.
     pub(crate) fn planned(m: &Model, plan: PlanTable) -> Workspace {
-        let mut d = Workspace::unplanned(m);
-        set_plan(m, &mut d, plan);
-        d
+        let mut w = Workspace::unplanned(m);
+        set_plan(m, &mut w.fields, &mut w.scratch, plan);
+        w
     }
 
     /// Data with the full pipeline and no collision pairs.
     pub(crate) fn unplanned(m: &Model) -> Workspace {
-        let mut d = Workspace::default();
+        let mut w = Workspace::default();
+        let Workspace { fields: d, scratch: s } = &mut w;
         (d.plan, d.meter, d.acting) = (PlanTable::awake(), Meter::new(m), vec![0.0; m.nu]);
-        d.work.make_room(m, TreeAlgorithms::ALL);
-        reset_data(m, &mut d);
-        d
+        s.resize(m, TreeAlgorithms::ALL);
+        reset_data(m, d, s);
+        w
     }
 }
 
 /// Replaces the plan, which decides what the next forward pass computes.
-pub(crate) fn set_plan(m: &Model, d: &mut Workspace, plan: PlanTable) {
-    d.work.collision.pairs = if plan.keeps(Stage::Collision) {
+pub(crate) fn set_plan(m: &Model, d: &mut Fields, s: &mut Scratch, plan: PlanTable) {
+    s.collision.pairs = if plan.keeps(Stage::Collision) {
         collision::pairs(m, analysis::changes(&plan))
     } else {
         collision::Pairs::default()
     };
     if plan.algorithms != d.plan.algorithms {
-        d.work.dynamics = dynamics::Scratch::new(m, plan.algorithms);
+        s.dynamics = dynamics::Scratch::new(m, plan.algorithms);
     }
     d.plan = plan;
-    if d.work.watch.is_some() {
+    if s.watch.is_some() {
         d.plan.passes = by_the_clock(d.plan.passes);
     }
-    tree_algorithms::load(m, &mut d.work.dynamics);
-    d.work.derivative.forget();
-    if sleep::is_fresh(&d.work.sleep) {
-        lay_down(m, d);
+    tree_algorithms::load(m, &mut s.dynamics);
+    s.derivative.forget();
+    if sleep::is_fresh(&s.sleep) {
+        lay_down(m, d, s);
     }
-    clear_left_out(m, d);
-}
-
-/// Takes what the tree algorithms keep from the model again.
-pub(crate) fn load(m: &Model, d: &mut Workspace) {
-    tree_algorithms::load(m, &mut d.work.dynamics);
+    clear_left_out(m, d, s);
 }
 
 /// Measures the stages from here on by a clock, from nothing.
-pub(crate) fn clock(d: &mut Workspace, clock: fn() -> u64) {
-    d.work.watch = Some(Box::new(Stopwatch::new(clock)));
+pub(crate) fn clock(d: &mut Fields, s: &mut Scratch, clock: fn() -> u64) {
+    s.watch = Some(Box::new(Stopwatch::new(clock)));
     d.plan.passes = by_the_clock(d.plan.passes);
 }
 
 /// Back to the default configuration (`mj_resetData`): state, inputs, results and warnings. The model keeps
 /// what was written to it.
-pub(crate) fn reset_data(m: &Model, d: &mut Workspace) {
+pub(crate) fn reset_data(m: &Model, d: &mut Fields, s: &mut Scratch) {
     reflect::allocate_data(m, d);
     (d.ncon, d.nefc, d.nisland, d.solver_niter) = (0, 0, 0, 0);
     (d.ne, d.nf, d.nl) = (0, 0, 0);
@@ -94,22 +90,22 @@ pub(crate) fn reset_data(m: &Model, d: &mut Workspace) {
             rows_mut::<4>(&mut d.mocap_quat)[id as usize] = rows::<4>(&m.body_quat)[b];
         }
     }
-    clear_left_out(m, d);
-    lay_down(m, d);
+    clear_left_out(m, d, s);
+    lay_down(m, d, s);
 }
 
 /// Trees that start asleep are laid down; all others are awake.
-fn lay_down(m: &Model, d: &mut Workspace) {
-    if sleep::wake_all(m, &mut d.fields) {
-        forward::forward(m, d);
-        sleep::start(m, &mut d.fields, &mut d.work.constraint);
+fn lay_down(m: &Model, d: &mut Fields, s: &mut Scratch) {
+    if sleep::wake_all(m, d) {
+        forward::forward(m, d, s);
+        sleep::start(m, d, &mut s.constraint);
     }
-    sleep::begin(&d.fields, &mut d.work.sleep);
+    sleep::begin(d, &mut s.sleep);
 }
 
 /// Back to keyframe `key` (`mj_resetDataKeyframe`); one that does not exist resets to the default.
-pub(crate) fn reset_data_keyframe(m: &Model, d: &mut Workspace, key: usize) {
-    reset_data(m, d);
+pub(crate) fn reset_data_keyframe(m: &Model, d: &mut Fields, s: &mut Scratch, key: usize) {
+    reset_data(m, d, s);
     if key >= m.nkey {
         return;
     }
@@ -125,7 +121,7 @@ pub(crate) fn reset_data_keyframe(m: &Model, d: &mut Workspace, key: usize) {
 
 /// Stores the time, the state and the inputs in keyframe `key` (`mj_setKeyframe`). `false`, and nothing changes, when the
 /// model has no such keyframe.
-pub(crate) fn set_keyframe(m: &mut Model, d: &Workspace, key: usize) -> bool {
+pub(crate) fn set_keyframe(m: &mut Model, d: &Fields, key: usize) -> bool {
     let Some(time) = m.key_time.get_mut(key) else { return false };
     *time = d.time;
     let row = |a: &mut [f64], x: &[f64]| a[key * x.len()..(key + 1) * x.len()].copy_from_slice(x);
@@ -139,12 +135,12 @@ pub(crate) fn set_keyframe(m: &mut Model, d: &Workspace, key: usize) -> bool {
 }
 
 /// Gives the fields of stages that the plan leaves out the values that those stages would find.
-pub(crate) fn clear_left_out(m: &Model, d: &mut Workspace) {
+pub(crate) fn clear_left_out(m: &Model, d: &mut Fields, s: &mut Scratch) {
     if !d.plan.has(PlanFlag::General) {
         mass::constant(m, d);
     }
     if d.plan.keeps(Stage::Actuation) && !d.plan.keeps(Stage::Transmission) {
-        transmission::transmissions(m, &mut d.fields, &mut d.work.forces);
+        transmission::transmissions(m, d, &mut s.forces);
     }
     if !d.plan.keeps(Stage::Actuation) {
         d.actuator_force.fill(0.0);
@@ -157,7 +153,7 @@ pub(crate) fn clear_left_out(m: &Model, d: &mut Workspace) {
         d.qfrc_passive.fill(0.0);
     }
     if !d.plan.keeps(Stage::Constraint) {
-        constraint::none(&mut d.fields, &mut d.work.constraint);
+        constraint::none(d, &mut s.constraint);
     } else if !d.plan.keeps(Stage::Collision) {
         collision::none(d);
     }

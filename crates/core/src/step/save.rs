@@ -9,8 +9,8 @@ use crate::constraint::kind;
 use crate::kinds::cone;
 use crate::model::bytes::{Plain, fingerprint};
 use crate::model::reflect::{self, Elem, Object, View};
-use crate::model::{Contact, Model, Obj, Warning, WarningStat};
-use crate::step::workspace::Workspace;
+use crate::model::{Contact, Fields, Model, Obj, Warning, WarningStat};
+use crate::step::workspace::{Scratch, Workspace};
 use crate::step::{forward, reset};
 use std::fmt;
 use std::ops::Range;
@@ -58,7 +58,7 @@ impl fmt::Display for RestoreError {
 impl std::error::Error for RestoreError {}
 
 /// All of a simulation as bytes, for [`restore`].
-pub(crate) fn save(m: &Model, d: &Workspace) -> Vec<u8> {
+pub(crate) fn save(m: &Model, d: &Fields) -> Vec<u8> {
     let mut out = header(m);
     reflect::write_data(d, &mut out);
     d.contact.len().put(&mut out);
@@ -74,29 +74,29 @@ pub(crate) fn save(m: &Model, d: &Workspace) -> Vec<u8> {
 
 /// Brings a simulation of the same model back to where it was saved, every bit of it; its plan stays. Parameters of the
 /// model are not part of it: a run goes on with those that the model has now.
-pub(crate) fn restore(m: &Model, d: &mut Workspace, bytes: &[u8]) -> Result<(), RestoreError> {
+pub(crate) fn restore(m: &Model, d: &mut Fields, s: &mut Scratch, bytes: &[u8]) -> Result<(), RestoreError> {
     let (body, end) = bytes.split_last_chunk::<8>().ok_or(RestoreError::NotData)?;
     let rest = check_header(m, body)?;
     if fingerprint(body) != u64::from_le_bytes(*end) {
         return Err(RestoreError::Damaged);
     }
     let mut new = saved(m, d, rest).ok_or(RestoreError::Damaged)?;
-    if let Some(field) = wrong(m, &new) {
+    if let Some(field) = wrong(m, &new.fields) {
         return Err(RestoreError::Wrong(field));
     }
-    reset::clear_left_out(m, &mut new);
+    reset::clear_left_out(m, &mut new.fields, &mut new.scratch);
     if let Some(again) = saved(m, d, rest) {
         restore_rows(m, &mut new, again);
     }
-    *d = new;
+    (*d, *s) = (new.fields, new.scratch);
     Ok(())
 }
 
 /// The data that were saved, with the plan and the meter of others; `None` when these are not all the bytes of some.
-fn saved(m: &Model, like: &Workspace, mut bytes: &[u8]) -> Option<Workspace> {
-    let mut d = Workspace::planned(m, like.plan().clone());
-    d.meter = like.meter;
-    read(m, &mut d, &mut bytes).filter(|()| bytes.is_empty()).map(|()| d)
+fn saved(m: &Model, like: &Fields, mut bytes: &[u8]) -> Option<Workspace> {
+    let mut d = Workspace::planned(m, like.plan.clone());
+    d.fields.meter = like.meter;
+    read(m, &mut d.fields, &mut bytes).filter(|()| bytes.is_empty()).map(|()| d)
 }
 
 fn header(m: &Model) -> Vec<u8> {
@@ -189,7 +189,7 @@ fn read_contact(bytes: &mut &[u8]) -> Option<Contact> {
     })
 }
 
-fn read(m: &Model, d: &mut Workspace, bytes: &mut &[u8]) -> Option<()> {
+fn read(m: &Model, d: &mut Fields, bytes: &mut &[u8]) -> Option<()> {
     reflect::read_data(m, d, bytes).then_some(())?;
     let count = usize::take(bytes)?;
     d.contact.clear();
@@ -204,7 +204,7 @@ fn read(m: &Model, d: &mut Workspace, bytes: &mut &[u8]) -> Option<()> {
 }
 
 /// The first field that holds what the engine could not index by.
-fn wrong(m: &Model, d: &Workspace) -> Option<&'static str> {
+fn wrong(m: &Model, d: &Fields) -> Option<&'static str> {
     for f in reflect::fields().filter(|f| f.info().object == Object::Data) {
         let info = f.info();
         if !matches!(info.elem, Elem::I32 | Elem::Size) {
@@ -244,7 +244,7 @@ fn wrong(m: &Model, d: &Workspace) -> Option<&'static str> {
 }
 
 /// What the numbers of an integer field can be.
-fn limits(m: &Model, d: &Workspace, name: &str) -> Option<Range<i64>> {
+fn limits(m: &Model, d: &Fields, name: &str) -> Option<Range<i64>> {
     let to = |n: usize| 0..i64::try_from(n).unwrap_or(i64::MAX);
     Some(match name {
         "ncon" | "nefc" | "solver_niter" | "efc_id" => 0..i64::MAX,
@@ -269,7 +269,7 @@ fn limits(m: &Model, d: &Workspace, name: &str) -> Option<Range<i64>> {
 }
 
 /// The number of objects that rows of a kind can belong to.
-fn owners(m: &Model, d: &Workspace, kind: i32) -> usize {
+fn owners(m: &Model, d: &Fields, kind: i32) -> usize {
     match kind {
         kind::EQUALITY => m.neq,
         kind::FRICTION_DOF => m.nv,
@@ -282,12 +282,13 @@ fn owners(m: &Model, d: &Workspace, kind: i32) -> usize {
 /// The Jacobian of the constraints is no field: it is computed again, for a step that is in its middle, and is empty where
 /// the state has moved on since. `again` are the same data once more.
 fn restore_rows(m: &Model, d: &mut Workspace, mut again: Workspace) {
-    reset::clear_left_out(m, &mut again);
-    forward::position(m, &mut again);
-    let same = again.efc_type == d.efc_type && again.efc_id == d.efc_id;
-    d.work = again.work;
+    let Workspace { fields, scratch } = &mut again;
+    reset::clear_left_out(m, fields, scratch);
+    forward::position(m, fields, scratch);
+    let same = fields.efc_type == d.fields.efc_type && fields.efc_id == d.fields.efc_id;
+    d.scratch = again.scratch;
     if !same {
-        d.work.constraint.jac = Default::default();
+        d.scratch.constraint.jac = Default::default();
     }
 }
 

@@ -1,4 +1,4 @@
-//! What integrators that compute forces several times in a step keep between their stages.
+//! What integrators keep within a step.
 
 use crate::model::Model;
 
@@ -59,5 +59,21 @@ impl Flow {
         if self.rows.len() < slopes * n {
             self.rows.resize(slopes * n, 0.0);
         }
+    }
+}
+
+/// The acceleration a step advances along, where it is not `qacc`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Damping {
+    pub(super) qacc: Vec<f64>,
+    /// h B.
+    pub(super) b: Vec<f64>,
+    /// Whether `qacc` is a' for the forces of this step.
+    pub(super) done: bool,
+}
+
+impl Damping {
+    pub(super) fn new(m: &Model) -> Damping {
+        Damping { qacc: vec![0.0; m.nv], b: vec![0.0; m.nv], done: false }
     }
 }

@@ -1,29 +1,27 @@
 //! `Data`: the fields of a simulation, and the scratch of the stages.
 
-use super::discrete::Metric;
 use super::factored::Factored;
-use super::stages::{Flow, RungeKutta};
-use super::{damping, sleep};
+use super::metric::Metric;
+use super::sleep;
+use super::stages::{Damping, Flow, RungeKutta};
 use crate::forces::{self, derivative};
-use crate::model::plan::PlanTable;
 use crate::model::stopwatch::Stopwatch;
 use crate::model::tree_algorithm::TreeAlgorithms;
 use crate::model::{Fields, Model};
 use crate::{collision, constraint, dynamics, sensor};
-use std::ops::{Deref, DerefMut};
 
 /// State, inputs and results of a simulation of one model.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Workspace {
-    /// What everybody may look at.
+    /// The state, the inputs and what stages compute from them.
     pub(crate) fields: Fields,
-    /// What is nobody's business, kept so that steps do not allocate.
-    pub(crate) work: Work,
+    /// What stages work on, kept so that steps do not allocate.
+    pub(crate) scratch: Scratch,
 }
 
-/// Scratch of the stages, by rooms.
+/// Scratch of the stages, by modules.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Work {
+pub(crate) struct Scratch {
     pub(crate) dynamics: dynamics::Scratch,
     pub(crate) forces: forces::Scratch,
     pub(crate) collision: collision::Scratch,
@@ -32,7 +30,7 @@ pub(crate) struct Work {
     pub(crate) sleep: sleep::Scratch,
     /// Derivatives of forces with respect to velocities.
     pub(crate) derivative: derivative::Work,
-    pub(crate) damping: damping::Scratch,
+    pub(crate) damping: Damping,
     /// The matrix of the fast implicit integrator.
     pub(crate) factored: Factored,
     /// The metric of the discrete integrator.
@@ -45,37 +43,14 @@ pub(crate) struct Work {
     pub(crate) watch: Option<Box<Stopwatch>>,
 }
 
-impl Work {
+impl Scratch {
     /// What depends on the sizes of the model.
-    pub(super) fn make_room(&mut self, m: &Model, algorithms: TreeAlgorithms) {
+    pub(super) fn resize(&mut self, m: &Model, algorithms: TreeAlgorithms) {
         self.dynamics = dynamics::Scratch::new(m, algorithms);
         self.forces = forces::Scratch::new(m);
         self.constraint = constraint::Scratch::new(m);
         self.sleep = sleep::Scratch::new(m);
-        self.damping = damping::Scratch::new(m);
+        self.damping = Damping::new(m);
         self.rk = RungeKutta::new(m);
-    }
-}
-
-impl Deref for Workspace {
-    type Target = Fields;
-
-    #[cfg_attr(not(feature = "small"), inline(always))]
-    fn deref(&self) -> &Fields {
-        &self.fields
-    }
-}
-
-impl DerefMut for Workspace {
-    #[cfg_attr(not(feature = "small"), inline(always))]
-    fn deref_mut(&mut self) -> &mut Fields {
-        &mut self.fields
-    }
-}
-
-impl Workspace {
-    /// The plan that decides what is computed.
-    pub(crate) fn plan(&self) -> &PlanTable {
-        &self.fields.plan
     }
 }

@@ -5,7 +5,6 @@ use crate::finding::Finding;
 use crate::lint::MAX_FINDINGS;
 use crate::rules;
 use crate::spec::{Allowance, Lesson};
-use labspec_finding::{Layer, nearest};
 use std::ops::Range;
 
 /// A finding that is suppressed, and why.
@@ -46,10 +45,7 @@ pub(super) fn suppress_allowed(
         f.is_error()
     });
     errors.dedup();
-    findings.extend(errors.into_iter().map(|(code, span)| {
-        Finding::new(rules::ERROR_ALLOWED, span, format!("`{code}` is an error and cannot be suppressed"))
-            .help("fix the error, then delete this code")
-    }));
+    findings.extend(errors.into_iter().map(|(code, span)| rules::error_allowed::refuse(&code, span)));
     findings.extend(check_allowances(lesson, &allowances, &used, depth));
     suppressed
 }
@@ -69,16 +65,15 @@ fn check_allowances(
         if wrong.len() > MAX_FINDINGS {
             break;
         }
-        if allowance.why.is_empty() {
-            let message = "this suppression gives no reason";
-            wrong.push(
-                Finding::new(rules::ALLOWANCE_WITHOUT_REASON, allowance.span.clone(), message)
-                    .help("write the reason after the codes, as \"why\" or after a colon"),
-            );
+        if let Some(finding) = rules::allowance_without_reason::check_reason(allowance) {
+            wrong.push(finding);
             continue;
         }
         let unused = allowance.codes.iter().filter(|code| !used.contains(code));
-        wrong.extend(unused.filter_map(|code| check_unused_code(code, depth)));
+        wrong.extend(unused.filter_map(|(code, span)| match rules::find(code) {
+            None => Some(rules::unknown_rule::name_nearest(code, span.clone(), rules::all())),
+            Some(rule) => rules::unused_allowance::check_use(rule, span.clone(), depth),
+        }));
     }
     if wrong.len() > MAX_FINDINGS {
         wrong.truncate(MAX_FINDINGS);
@@ -89,31 +84,4 @@ fn check_allowances(
         );
     }
     wrong
-}
-
-/// What is wrong with a code that suppresses nothing; `None` where a check to this depth cannot tell.
-fn check_unused_code((code, span): &AllowedCode, depth: CheckLevel) -> Option<Finding> {
-    let Some(rule) = rules::find(code) else {
-        let message = format!("`allow` names the unknown rule `{code}`");
-        let near = nearest(code, rules::all().map(|r| r.code));
-        let found = Finding::new(rules::UNKNOWN_RULE, span.clone(), message);
-        return Some(match near {
-            Some(near) => found.help(format!("did you mean `{near}`?")),
-            None => found.help("run `labspec explain` for a list of all rules"),
-        });
-    };
-    can_find(rule.layer, depth).then(|| {
-        Finding::new(rules::UNUSED_ALLOWANCE, span.clone(), format!("`{code}` matches no finding here"))
-            .help("delete it")
-    })
-}
-
-/// Whether a check to this depth can find what a rule of this layer says.
-fn can_find(layer: Layer, depth: CheckLevel) -> bool {
-    match layer {
-        Layer::Run => depth.labs,
-        Layer::Claim => depth.claims,
-        Layer::Program => depth.programs,
-        _ => true,
-    }
 }

@@ -8,7 +8,7 @@ use labspec_expr::Value;
 const MOST_OPTIONS: usize = 8;
 
 /// What a student may choose: the ends of a slider, the options of a select.
-pub(super) fn choices(control: &Control) -> Vec<Value> {
+pub(crate) fn choices(control: &Control) -> Vec<Value> {
     match &control.kind {
         ControlKind::Slider { min, max, .. } => [max, min].map(|end| Value::Number(end.value)).to_vec(),
         ControlKind::Select { options, .. } => {

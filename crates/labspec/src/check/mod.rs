@@ -1,26 +1,23 @@
 //! The whole check of a lesson: structure, names, runs of every lab, verdicts of every question.
 
 mod allowed;
-mod choices;
+pub(crate) mod choices;
 mod claim_id;
 mod claims;
-mod contact_time;
 mod curves;
 mod entries;
 mod expect;
 mod judge;
-mod lab_runs;
-mod left_out;
-mod named;
-mod observations;
-mod params;
+pub(crate) mod lab_runs;
+pub(crate) mod observations;
 mod partners;
-mod programs;
+mod prepared_lab;
+pub(crate) mod programs;
 mod reproduce;
 mod resolved_labs;
-mod setconst;
+pub(crate) mod setconst;
 mod snapshot;
-pub mod stored;
+mod stored;
 mod units;
 
 pub use allowed::Allowed;
@@ -34,18 +31,20 @@ pub use reproduce::{Basis, ClaimBasis, LabBasis, RunSettings, basis};
 pub use snapshot::{Divergence, Renewal, RenewedLab, SnapshotResult, renew};
 pub use units::labels as labels_of;
 
+pub(crate) use prepared_lab::PreparedLab;
+
 use crate::bind::Programs;
 use crate::bind::scene::Models;
 use crate::finding::{self, Finding, InFile, Severity};
 use crate::rules;
 use crate::source::{SourceMap, Text};
 use crate::spec::{Lab, LabAddress, Lesson, ModelSource};
-use crate::verify;
 use labspec_core::Model;
+use serde::{Deserialize, Serialize};
 use std::sync::{Arc, LazyLock};
 
 /// A lab that was run, for the report.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RanLab {
     /// Its address in the lesson.
     pub address: LabAddress,
@@ -102,25 +101,11 @@ impl CheckLevel {
     pub const STATIC: CheckLevel = CheckLevel { programs: false, labs: false, claims: false };
 }
 
-/// A lab with its model and programs.
-struct PreparedLab<'l> {
-    lab: &'l Lab,
-    model: Arc<Model>,
-    programs: Programs,
-    /// Errors in its code.
-    mistakes: usize,
-}
-
-impl<'l> PreparedLab<'l> {
-    fn scene(&'l self) -> verify::BoundLab<'l> {
-        verify::BoundLab::new(self.lab, &self.model, &self.programs)
-    }
-}
-
 /// What a check found beyond the structure of a lesson, not yet tied to its file.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Serialize, Deserialize)]
 pub struct LabOutcome {
     /// What is wrong.
+    #[serde(with = "stored")]
     pub findings: Vec<Finding>,
     /// The labs that ran.
     pub labs: Vec<RanLab>,
@@ -154,15 +139,15 @@ pub fn examine(lesson: &Lesson, models: &Models, depth: CheckLevel) -> LabOutcom
     let mut ready: Vec<PreparedLab<'_>> =
         labs.into_iter().filter_map(|lab| prepare(lab, models, depth, &mut findings)).collect();
     if depth.programs {
-        ready.iter().for_each(|r| params::check_params(lesson, r, &mut findings));
-        ready.iter().for_each(|r| contact_time::check_contact_times(r, &mut findings));
+        ready.iter().for_each(|r| rules::param_unread::check_params(lesson, r, &mut findings));
+        ready.iter().for_each(|r| rules::contact_time_late::check_contact_times(r, &mut findings));
     }
     let labs = if depth.labs { lab_runs::run_labs(lesson, &ready, &mut findings) } else { Vec::new() };
     deduplicate(lesson, &mut findings);
     let snapshots = snapshot::check_snapshots(lesson, &ready, depth, &mut findings);
     // An editor looks at a block at a time, and cannot know what the others claim.
     if depth.claims {
-        left_out::check_left_out(lesson, &mut findings);
+        rules::numbers_unclaimed::check_left_out(lesson, &mut findings);
     }
     ready.extend(beside(lesson, models));
     let claims = if depth.claims {
@@ -241,9 +226,10 @@ fn prepare<'l>(
 ) -> Option<PreparedLab<'l>> {
     let (model, programs, mistakes) = bind(lab, models, findings)?;
     if depth.programs {
-        programs::check_programs(lab, &model, &programs, findings);
+        setconst::check_setconst(lab, &model, &programs, findings);
+        rules::lost_at_reset::check_resets(lab, &model, &programs, findings);
         units::check_units(lab, &model, &programs, findings);
-        named::check_names(lab, &model, &programs, findings);
+        rules::label_names_another::check_names(lab, &model, &programs, findings);
     }
     Some(PreparedLab { lab, model, programs, mistakes })
 }
@@ -257,18 +243,8 @@ pub fn bind(
     let Some(model) = models.model_of_lab(lab, findings) else {
         // A folder that has no such model is a matter of the lesson's structure, which knows what the folder has.
         if let (Some(ModelSource::Model(name)), None) = (lab.scene(), models.folder().names()) {
-            let folder = models.folder();
-            findings.extend(match folder.given() {
-                Some(_) if folder.has(&name.value) => None,
-                Some(_) => Some(
-                    Finding::new(rules::UNKNOWN_MODEL, name.span(), format!("the model `{}` does not exist", name.value))
-                        .help("use the name of an existing model"),
-                ),
-                None => Some(Finding::error(rules::NO_MODEL_FOLDER, name.span(), "the model folder does not exist, so this lab cannot run")
-                    .why("the checker skips its expressions, its runs and every claim about it")
-                    .help(format!("put {}.xml into a folder `models` beside or above the lesson, or name the folder: --models DIR", name.value)),
-                ),
-            });
+            findings.extend(rules::no_model_folder::check_folder(name, models.folder()));
+            findings.extend(rules::unknown_model::check_unlisted(name, models.folder()));
         }
         return None;
     };

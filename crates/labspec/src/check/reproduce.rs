@@ -7,7 +7,7 @@ use super::resolved_labs::start_runs;
 use crate::bind::parts::Hash;
 use crate::bind::scene::Models;
 use crate::run::Integrator;
-use crate::run::{Budget, Session};
+use crate::run::{Budget, Session, Start};
 use crate::spec::Lesson;
 use crate::verify::Stage;
 use labspec_core::reflect::{self, FieldId, Object, model};
@@ -81,8 +81,8 @@ pub fn basis(lesson: &Lesson, models: &Models, mark: Hash) -> Basis {
     let labs = lesson.addressed().into_iter().map(|(address, lab)| {
         let one = ready.iter().find(|r| std::ptr::eq(r.lab, lab));
         let settings = one.map(|r| {
-            let (programs, key) = (&r.programs, lab.keyframe());
-            let session = Session::start_within(programs, &r.model, key, &programs.demand, Budget::TRIAL);
+            let start = Start { budget: Budget::TRIAL, ..Start::of_lab(lab) };
+            let session = Session::start(&r.programs, &r.model, start);
             settings(&session.world.model, mark)
         });
         LabBasis { lab: address.to_string(), block: block(&lab.span), model: one.map(compiled), settings }
@@ -110,7 +110,7 @@ fn settings(model: &Model, mark: Hash) -> RunSettings {
     let opt = &model.opt;
     RunSettings {
         model: mark(&[&model.to_bytes()]),
-        integrator: Integrator::of(model).name,
+        integrator: Integrator::of_model(model).name,
         solver: match opt.solver {
             solver::PGS => "PGS",
             solver::CG => "CG",

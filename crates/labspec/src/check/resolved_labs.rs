@@ -2,7 +2,6 @@
 
 use super::PreparedLab;
 use crate::finding::Finding;
-use crate::json::read;
 use crate::rules;
 use crate::spec::{Lab, Lesson, Verify, VerifyLab};
 use crate::verify::{self, BoundLab, BoundVerify, Stage};
@@ -56,17 +55,8 @@ fn named_scene<'r>(
 ) -> Option<BoundLab<'r>> {
     let scene = lesson.named(named).and_then(|lab| scene_of(ready, lab));
     let (VerifyLab::Elsewhere(text, ..), None) = (named, &scene) else { return scene };
-    let name = read::named(text.as_str());
-    let message = match lesson.other(&text.span()).map(|other| &other.lab) {
-        Some(Ok(_)) => format!("{name} cannot run, because its model or its code has errors"),
-        Some(Err(why)) => format!("{name} does not exist: {why}"),
-        None => format!("{name} does not exist: only this lesson was given, or it names too many others"),
-    };
-    findings.push(
-        Finding::error(rules::UNKNOWN_LAB, text.span(), message)
-            .why("claims about it cannot be checked")
-            .help("check that lesson; name a lab of another lesson by its path from this one: other.md#2"),
-    );
+    let other = lesson.other(&text.span()).map(|other| other.lab.as_ref().err().map(String::as_str));
+    findings.push(rules::unknown_lab::lab_elsewhere(text, other));
     None
 }
 

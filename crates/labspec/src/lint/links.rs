@@ -1,87 +1,39 @@
-//! Links of a lesson that lead to nothing: files of the course that are not there, headings that no lesson has.
+//! The files of a course that the links of a lesson name.
 
-use super::models::root_of;
-use crate::finding::Finding;
-use crate::markdown::{self, Link, Scan};
-use crate::rules;
-use crate::source::{Asked, MAX_FILE, SourceFile, Sources};
+use crate::markdown::Link;
+use crate::source::Sources;
 use crate::spec::Lesson;
 use percent_encoding::percent_decode_str;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 /// Most links that are followed.
-const MOST: usize = 1000;
+pub(crate) const MOST: usize = 1000;
 /// What a site makes of a lesson, and no file of the course has.
 const PAGES: [&str; 2] = ["html", "htm"];
 
-/// Letters and digits of a heading or an anchor: sites write the rest in their own ways.
-fn letters(text: &str) -> String {
-    text.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
-}
-
-/// Whether a text has this anchor: a heading, or an element with this id.
-fn has_anchor(text: &str, scan: &Scan, anchor: &str) -> bool {
-    let meant = letters(anchor);
-    // `fall-1` is the second heading "Fall".
-    let plain = meant.trim_end_matches(|c: char| c.is_ascii_digit());
-    let heading = scan.headings.iter().filter_map(|h| text.get(h.clone())).any(|heading| {
-        let heading_letters = letters(heading);
-        heading_letters == meant
-            || heading_letters == plain
-            || heading_letters.trim_start_matches(|c: char| c.is_ascii_digit()) == meant
-            || heading.contains(&format!("{{#{anchor}}}"))
-    });
-    let id = |html: &str| {
-        ["id", "name"]
-            .iter()
-            .any(|key| ['"', '\''].iter().any(|q| html.contains(&format!("{key}={q}{anchor}{q}"))))
-    };
-    heading || scan.html.iter().filter_map(|h| text.get(h.clone())).any(id)
-}
-
-/// What a site numbers itself, or names after an id.
-fn is_of_the_site(lesson: &Lesson, anchor: &str) -> bool {
-    let meant = letters(anchor);
-    let numbered = ["lab", "quiz", "fig", "figure", "eq", "equation", "tab", "table", "top", "ref", "fn"];
-    let stem = meant.trim_end_matches(|c: char| c.is_ascii_digit());
-    let ids = lesson.quizzes.iter().filter_map(|q| q.id.as_ref()).map(|id| letters(id.as_str()));
-    numbered.contains(&stem) || ids.into_iter().any(|id| !id.is_empty() && meant.contains(&id))
-}
-
-/// Anchors of the lesson itself.
-pub(super) fn check_anchors(lesson: &Lesson, findings: &mut Vec<Finding>) {
-    let text = lesson.file.text();
-    for link in lesson.scan.links.iter().take(MOST) {
-        let Some(anchor) = link.target.strip_prefix('#').filter(|a| !a.is_empty()) else { continue };
-        if !has_anchor(text, &lesson.scan, &decoded(anchor)) && !is_of_the_site(lesson, anchor) {
-            findings.push(finding(link, "this lesson has no such heading"));
-        }
-    }
-}
-
 /// A link to a file of the course.
-struct Named<'l> {
-    link: &'l Link,
+pub(crate) struct LinkedFile<'l> {
+    pub(crate) link: &'l Link,
     /// The file, as the link names it, from the folder of the lesson.
-    path: PathBuf,
-    extension: String,
-    anchor: Option<String>,
+    pub(crate) path: PathBuf,
+    pub(crate) extension: String,
+    pub(crate) anchor: Option<String>,
 }
 
 /// The files of the course that links of a lesson name; nothing that a site makes itself.
-fn named<'l>(lesson: &'l Lesson, folder: &Path) -> impl Iterator<Item = Named<'l>> {
+pub(crate) fn linked_files<'l>(lesson: &'l Lesson, folder: &Path) -> impl Iterator<Item = LinkedFile<'l>> {
     lesson.scan.links.iter().take(MOST).filter_map(move |link| {
         let (file, anchor) = inside(&link.target)?;
         let path = joined(folder, &file).filter(|_| !file.ends_with('/'))?;
         let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
         let is_page = extension.is_empty() || PAGES.contains(&extension.as_str());
-        (!is_page).then_some(Named { link, path, extension, anchor })
+        (!is_page).then_some(LinkedFile { link, path, extension, anchor })
     })
 }
 
 /// The folder of a lesson, links resolved where it has one.
-fn folder_of(path: &Path, sources: &Sources) -> PathBuf {
+pub(crate) fn folder_of(path: &Path, sources: &Sources) -> PathBuf {
     let parent = |path: &Path| match path.parent() {
         Some(folder) if folder != Path::new("") => folder.to_path_buf(),
         _ => PathBuf::from("."),
@@ -96,39 +48,8 @@ fn folder_of(path: &Path, sources: &Sources) -> PathBuf {
 pub fn links_to(lesson: &Lesson, file: &Path) -> bool {
     let Some((path, sources)) = &lesson.place else { return false };
     let folder = folder_of(path, sources);
-    named(lesson, &folder)
-        .any(|named| named.path == file || sources.real(&named.path).as_deref() == Some(file))
-}
-
-/// Files that links of a lesson name, and headings of those that are lessons. Nothing outside of the root is looked at.
-pub(super) fn check_files(lesson: &Lesson, path: &Path, sources: &Sources, findings: &mut Vec<Finding>) {
-    let folder = folder_of(path, sources);
-    let mut root = None;
-    for Named { link, path, extension, anchor } in named(lesson, &folder) {
-        let root = root.get_or_insert_with(|| {
-            let found = sources.place(Asked::Root, &folder, || Some(root_of(&folder, &[])));
-            found.unwrap_or_default()
-        });
-        if !path.starts_with(&*root) {
-            continue;
-        }
-        match (sources.real(&path), anchor) {
-            (None, _) if sources.has_files() => findings.push(finding(
-                link,
-                if link.image { "this image does not exist" } else { "this file does not exist" },
-            )),
-            (Some(real), Some(anchor)) if extension == "md" && real.starts_with(&*root) => {
-                let Ok(text) = sources.text(&real, MAX_FILE, "a lesson") else { continue };
-                let other = SourceFile::new(real.display().to_string(), text);
-                if !has_anchor(other.text(), &markdown::scan(&other), &decoded(&anchor))
-                    && !is_of_the_site(lesson, &anchor)
-                {
-                    findings.push(finding(link, "that lesson has no such heading"));
-                }
-            }
-            _ => {}
-        }
-    }
+    linked_files(lesson, &folder)
+        .any(|linked| linked.path == file || sources.real(&linked.path).as_deref() == Some(file))
 }
 
 /// The file of the course that a link names, and the anchor there; `None` for the web, for a path of the site, and for nothing.
@@ -162,12 +83,6 @@ fn joined(folder: &Path, file: &str) -> Option<PathBuf> {
 }
 
 /// `%20` is a space.
-fn decoded(text: &str) -> Cow<'_, str> {
+pub(crate) fn decoded(text: &str) -> Cow<'_, str> {
     percent_decode_str(text).decode_utf8_lossy()
-}
-
-fn finding(link: &Link, message: &str) -> Finding {
-    let short_target = crate::json::read::shorten(&link.target);
-    Finding::new(rules::DEAD_LINK, link.span.clone(), format!("`{short_target}`: {message}"))
-        .help("correct the link, or add its target")
 }

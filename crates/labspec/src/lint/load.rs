@@ -26,7 +26,7 @@ pub fn load_lesson(file: SourceFile, models: &ModelFolder) -> Lesson {
 pub fn load_lesson_at(file: SourceFile, path: &Path, sources: &Sources, models: &ModelFolder) -> Lesson {
     let mut lesson = read_lesson(file);
     let mut findings = super::check_rules(&lesson, models);
-    super::links::check_files(&lesson, path, sources, &mut findings);
+    rules::dead_link::check_files(&lesson, path, sources, &mut findings);
     withhold_fixes(&lesson, &mut findings);
     lesson.findings = findings.into_iter().map(|f| f.at(&lesson.file)).collect();
     finding::sort(&mut lesson.findings);
@@ -172,31 +172,13 @@ fn load_bytes(
 ) -> Lesson {
     let mut lesson = load_lesson_at(file, path, sources, models);
     if let Some(bad) = bad {
-        let finding = not_utf8(bad).at(&lesson.file);
+        let finding = rules::not_utf8::not_utf8(bad).at(&lesson.file);
         lesson.findings.push(finding);
         // Its places are not those of the bytes, or would be gone once it is saved in another encoding.
         lesson.findings.iter_mut().for_each(|f| f.fix = None);
         finding::sort(&mut lesson.findings);
     }
     lesson
-}
-
-/// The finding about a text that is not UTF-8. The path is filled in by whoever collects it.
-pub fn not_utf8(bad: BadText) -> Finding {
-    let (span, message) = match bad {
-        BadText::Utf16 => (0..0, "this file is UTF-16".to_string()),
-        BadText::Byte { at, byte } => {
-            let old = if byte >= 0xa0 {
-                format!("; in Latin-1 it is `{}`", char::from(byte))
-            } else {
-                String::new()
-            };
-            (at..at + 1, format!("a byte here is not UTF-8 (0x{byte:02X}{old})"))
-        }
-    };
-    Finding::error(rules::NOT_UTF8, span, message)
-        .why("a page reads lessons as UTF-8, so it shows such characters as �")
-        .help("save the file as UTF-8")
 }
 
 #[cfg(test)]

@@ -1,33 +1,33 @@
 //! The checks of a lesson's structure: everything that needs no engine.
 //!
-//! Each rule is declared beside its check in [`crate::rules`]; here a lesson is walked once for all of them. What several rules share,
-//! and what readers ask (fences, listings, HTML), stands in the files beside this one.
+//! Each rule is declared beside its check in [`crate::rules`]; here a lesson is walked once for all of them. The files beside this one
+//! choose the rule of what was wrong where a lesson was read (fences, JSON, the format), and contain what several rules share.
 
-pub(crate) mod fence;
+mod code_scan;
+mod fence;
 mod format;
-mod formula;
-pub(crate) mod html;
 pub(crate) mod json;
-mod links;
-pub(crate) mod listing;
+pub(crate) mod links;
+mod listing;
 mod load;
-mod markup;
-pub(crate) mod model;
 mod models;
 
+pub use crate::rules::not_utf8::not_utf8;
 pub use links::links_to;
 pub use load::{
-    MAX_FINDINGS, SNAPSHOT, load_lesson, load_lesson_at, load_lesson_file, not_utf8, reload_lesson,
-    snapshot_path, withhold_fixes,
+    MAX_FINDINGS, SNAPSHOT, load_lesson, load_lesson_at, load_lesson_file, reload_lesson, snapshot_path,
+    withhold_fixes,
 };
 pub use models::ModelFolder;
 pub use models::lesson_folder;
 pub use models::root_of;
 
+pub(crate) use code_scan::{CodeLine, CodeScan};
+
 use crate::finding::Finding;
 use crate::markdown::BlockKind;
 use crate::rules::{self, CHECKS, Check};
-use crate::spec::{Lesson, Problem};
+use crate::spec::{Lesson, ModelSource, Problem};
 
 /// Most names of model elements that are reported one by one.
 const MAX_TAGS: usize = 500;
@@ -55,15 +55,15 @@ fn to_finding(lesson: &Lesson, problem: &Problem) -> Finding {
 fn check_text(lesson: &Lesson, findings: &mut Vec<Finding>) {
     let mut tags = 0;
     for range in &lesson.scan.html {
-        let found = html::in_markdown(lesson.file.text(), range.clone(), MAX_TAGS - tags);
+        let found = rules::unescaped_element::in_markdown(lesson.file.text(), range.clone(), MAX_TAGS - tags);
         tags += found.len();
         findings.extend(found);
         if tags >= MAX_TAGS {
             break;
         }
     }
-    formula::check_prose(lesson, findings);
-    links::check_anchors(lesson, findings);
+    rules::formula_unbalanced::check_prose(lesson, findings);
+    rules::dead_link::check_anchors(lesson, findings);
     for block in &lesson.scan.blocks {
         if let BlockKind::Code { language, .. } = &block.kind {
             listing::check_listing(language, &block.body, block.whole, findings);
@@ -93,17 +93,23 @@ fn check_objects(lesson: &Lesson, findings: &mut Vec<Finding>) {
     let notes = labs.iter().filter_map(|lab| lab.note.as_ref());
     let questions = lesson.quizzes.iter().flat_map(|quiz| quiz.numbered());
     for text in notes.chain(questions.flat_map(|(_, question)| question.html())) {
-        html::check_html(text, findings);
-        markup::check_markup(text, findings);
-        formula::check_formulas(text, findings);
+        rules::unescaped_element::check_html(text, findings);
+        rules::html_nesting::check_markup(text, findings);
+        rules::formula_unbalanced::check_formulas(text, findings);
     }
 }
 
 /// The models that it names.
 fn check_models(lesson: &Lesson, models: &ModelFolder, findings: &mut Vec<Finding>) {
-    lesson.all_labs().into_iter().for_each(|lab| model::check_lab_models(lab, models, findings));
-    let named = lesson.widgets.iter().filter_map(|widget| widget.model.as_ref());
-    findings.extend(named.filter_map(|name| model::missing(name, models)));
+    let labs = lesson.all_labs().into_iter().filter_map(|lab| match lab.scene() {
+        Some(ModelSource::Model(name)) => Some(name),
+        _ => None,
+    });
+    let widgets = lesson.widgets.iter().filter_map(|widget| widget.model.as_ref());
+    for name in labs.chain(widgets) {
+        let misnamed = rules::model_name::check_model_name(name, models);
+        findings.extend(misnamed.or_else(|| rules::unknown_model::check_model(name, models)));
+    }
 }
 
 /// Checks what only several lessons together can get wrong: ids that are used twice in a course.

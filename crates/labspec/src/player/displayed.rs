@@ -4,7 +4,7 @@ use crate::spec::Lab;
 
 /// A trace or a readout.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Shown {
+pub struct DisplayedValue {
     /// Its label.
     pub label: String,
     /// Its unit, as its label or the label of its axis has it in parentheses at the end: `height (m)`. Possibly empty.
@@ -23,19 +23,19 @@ pub enum DisplayedIn {
 }
 
 /// Traces in the order of plots, then readouts: the order of values.
-pub(super) fn list(lab: &Lab) -> Vec<Shown> {
+pub(super) fn list(lab: &Lab) -> Vec<DisplayedValue> {
     let mut all = Vec::new();
     for (i, plot) in lab.plots.iter().enumerate() {
         let axis = plot.ylabel.as_ref().map_or("", |t| t.as_str());
         for trace in &plot.traces {
             let label = trace.label.value.clone();
             let unit = [unit(&label), unit(axis)].into_iter().find(|u| !u.is_empty()).unwrap_or("");
-            all.push(Shown { unit: unit.to_string(), label, place: DisplayedIn::Plot(i) });
+            all.push(DisplayedValue { unit: unit.to_string(), label, place: DisplayedIn::Plot(i) });
         }
     }
     for readout in &lab.readouts {
         let label = readout.label.value.clone();
-        all.push(Shown {
+        all.push(DisplayedValue {
             unit: unit(&label).to_string(),
             label,
             place: DisplayedIn::Readout(readout.digits()),

@@ -8,11 +8,11 @@ use crate::error::{Error, located};
 use crate::finding::Finding;
 use crate::lint::ModelFolder;
 use crate::lint::load_lesson;
-use crate::run::Session;
+use crate::run::{Session, Start};
 use crate::source::SourceFile;
 use crate::spec::LabAddress;
-use labspec_core::AccessSet;
 use labspec_core::reflect::FieldSet;
+use labspec_core::{AccessSet, Plan};
 use std::sync::Arc;
 
 impl Player {
@@ -84,7 +84,8 @@ impl Player {
         let lab = Arc::new(lab.clone());
         // Whoever draws a scene may read everything.
         let demand = AccessSet { reads: FieldSet::ALL, ..programs.demand };
-        let mut session = Session::start(Arc::new(programs), &model, lab.keyframe(), &demand);
+        let start = Start { plan: Some(Plan::new(&model, &demand)), ..Start::of_lab(&lab) };
+        let mut session = Session::start(Arc::new(programs), &model, start);
         session.watch();
         let (controls, displayed) = (control::list(&lab), displayed::list(&lab));
         let now = Saved { lab: Arc::clone(&lab), session, cells: Vec::new(), numbers: Vec::new() };

@@ -1,6 +1,6 @@
 //! A lab as a page holds it: loaded, moved, played, read, saved. Every frontend maps this one object.
 //!
-//! The order of events is that of [`Session`]; a call does what the student's hand does, and nothing else. No call panics,
+//! The order of events is that of [`Session`]; a call does what a student can do on the page, and nothing else. No call panics,
 //! whatever it is given: what cannot be done is an [`Error`], and what breaks while the lab plays is a [`Finding`].
 
 mod control;
@@ -8,7 +8,7 @@ mod displayed;
 mod load;
 
 pub use control::{Control, ControlKind, Which};
-pub use displayed::{DisplayedIn, Shown};
+pub use displayed::{DisplayedIn, DisplayedValue};
 
 use crate::error::{Error, located};
 use crate::finding::Finding;
@@ -30,7 +30,7 @@ pub struct Player {
     /// What was found when it was loaded.
     loaded: Vec<Finding>,
     controls: Vec<Control>,
-    displayed: Vec<Shown>,
+    displayed: Vec<DisplayedValue>,
     now: Saved,
 }
 
@@ -50,7 +50,7 @@ impl Player {
     }
 
     /// The traces of the plots, then the readouts: what [`Player::values`] and [`Player::numbers`] hold, in their order.
-    pub fn displayed(&self) -> &[Shown] {
+    pub fn displayed(&self) -> &[DisplayedValue] {
         &self.displayed
     }
 
@@ -286,7 +286,7 @@ impl Player {
             Which::Label(label) => {
                 let programs = self.now.session.programs();
                 let found = programs.control(label).map(|(index, _)| index);
-                found.ok_or_else(|| settings::unknown(label, programs).into())
+                found.ok_or_else(|| settings::unknown_control(label, programs).into())
             }
         }
     }

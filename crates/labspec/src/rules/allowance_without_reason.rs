@@ -1,4 +1,5 @@
-use labspec_finding::{Example, Layer, Rule, Severity};
+use crate::spec::Allowance;
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// A suppression gives no reason.
 pub const ALLOWANCE_WITHOUT_REASON: &Rule = &Rule {
@@ -10,3 +11,11 @@ pub const ALLOWANCE_WITHOUT_REASON: &Rule = &Rule {
     bad: Example::Lesson("# Fall\n\n⟦<!-- labspec allow listing-line-breaks -->⟧\n\nA ball falls.\n"),
     good: Example::Lesson("# Fall\n\nA ball falls.\n"),
 };
+
+/// Whether an allowance gives a reason.
+pub(crate) fn check_reason(allowance: &Allowance) -> Option<Finding> {
+    allowance.why.is_empty().then(|| {
+        Finding::new(ALLOWANCE_WITHOUT_REASON, allowance.span.clone(), "this suppression gives no reason")
+            .help("write the reason after the codes, as \"why\" or after a colon")
+    })
+}

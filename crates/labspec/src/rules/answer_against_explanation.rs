@@ -1,8 +1,7 @@
 use super::Check;
 use super::wording::{Number, numbers, plain};
-use crate::finding::Finding;
 use crate::spec::{Question, QuestionKind};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// The explanation of a numeric question gives a different number than its answer.
 pub const ANSWER_AGAINST_EXPLANATION: &Rule = &Rule {

@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// More than one option is true.
+/// Decided by `report_ambiguous` in `verify/options.rs`.
 pub const ANSWER_AMBIGUOUS: &Rule = &Rule {
     code: "answer-ambiguous",
     severity: Severity::Error,

@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// The answer depends on the timestep or on the solver settings.
+/// Decided by `fragile_answer` in `verify/survival.rs`.
 pub const ANSWER_FRAGILE: &Rule = &Rule {
     code: "answer-fragile",
     severity: Severity::Warning,

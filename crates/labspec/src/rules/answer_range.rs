@@ -1,7 +1,6 @@
 use super::Check;
-use crate::finding::Finding;
 use crate::spec::{Question, QuestionKind};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// `answer` is not the index of an option.
 pub const ANSWER_RANGE: &Rule = &Rule {

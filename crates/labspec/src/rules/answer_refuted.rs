@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// The simulation refutes the keyed answer.
+/// Decided by `refute` in `verify/options.rs`.
 pub const ANSWER_REFUTED: &Rule = &Rule {
     code: "answer-refuted",
     severity: Severity::Error,

@@ -1,8 +1,7 @@
 use super::Check;
-use crate::finding::Finding;
 use crate::json::read::{named, shorten};
 use crate::spec::Control;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// A control has both `set` and `apply`.
 pub const APPLY_UNUSED: &Rule = &Rule {

@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A contact switches on and off while nothing moves.
+/// Decided by `chatter` in `stress/watch.rs`.
 pub const CHATTERS: &Rule = &Rule {
     code: "chatters",
     severity: Severity::Note,

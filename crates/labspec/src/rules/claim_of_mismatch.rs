@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A claim holds only because a program changes a parameter and not the parameter that belongs to it.
+/// Decided by `settle` in `check/partners/mod.rs`.
 pub const CLAIM_OF_MISMATCH: &Rule = &Rule {
     code: "claim-of-mismatch",
     severity: Severity::Error,

@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// An expression that must give a number gives none.
+/// Decided by `no_value` in `verify/numeric_answer.rs`.
 pub const CLAIM_WITHOUT_NUMBER: &Rule = &Rule {
     code: "claim-without-number",
     severity: Severity::Error,

@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// The runs do not decide whether a trace follows its closed form.
+/// Decided by `hold` in `verify/exact.rs`.
 pub const CLOSED_FORM_UNDECIDED: &Rule = &Rule {
     code: "closed-form-undecided",
     severity: Severity::Error,

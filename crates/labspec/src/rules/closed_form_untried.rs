@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A closed form cannot be tested.
+/// Decided by `hold` in `verify/exact.rs`.
 pub const CLOSED_FORM_UNTRIED: &Rule = &Rule {
     code: "closed-form-untried",
     severity: Severity::Error,

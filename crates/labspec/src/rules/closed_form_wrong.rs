@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A trace does not follow its closed form.
+/// Decided by `finding` in `verify/exact.rs`.
 pub const CLOSED_FORM_WRONG: &Rule = &Rule {
     code: "closed-form-wrong",
     severity: Severity::Error,

@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A condition compares NaN.
+/// Decided by `report_undecided` in `verify/grounded.rs`.
 pub const COMPARES_NAN: &Rule = &Rule {
     code: "compares-nan",
     severity: Severity::Error,

@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A condition, a value or the expression of a quoted number is a constant.
+/// Decided by `report_constant_claim` in `verify/grounded.rs`.
 pub const CONSTANT_CLAIM: &Rule = &Rule {
     code: "constant-claim",
     severity: Severity::Error,

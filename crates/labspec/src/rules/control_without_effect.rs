@@ -1,8 +1,7 @@
 use super::Check;
-use crate::finding::Finding;
 use crate::json::read::named;
 use crate::spec::Control;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// A slider or select has no `set`, `apply` or `param`.
 pub const CONTROL_WITHOUT_EFFECT: &Rule = &Rule {

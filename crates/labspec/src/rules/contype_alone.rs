@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A program switches the contacts of a geom on but not the contact bits of its body.
+/// Decided by `judge` in `check/setconst/words.rs`.
 pub const CONTYPE_ALONE: &Rule = &Rule {
     code: "contype-alone",
     severity: Severity::Warning,

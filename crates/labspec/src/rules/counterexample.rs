@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// An answer is false in part of the range that it is claimed for.
+/// Decided by `hold_over_range` in `verify/over.rs`.
 pub const COUNTEREXAMPLE: &Rule = &Rule {
     code: "counterexample",
     severity: Severity::Error,

@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A body that seems to rest creeps, because friction is soft.
+/// Decided by `faults` in `stress/creep.rs`.
 pub const CREEPS: &Rule = &Rule {
     code: "creeps",
     severity: Severity::Note,

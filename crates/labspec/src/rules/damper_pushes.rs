@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A negative damping feeds energy into the scene without end.
+/// Decided by `observe` in `monitors/growth.rs`.
 pub const DAMPER_PUSHES: &Rule = &Rule {
     code: "damper-pushes",
     severity: Severity::Error,

@@ -1,4 +1,11 @@
-use labspec_finding::{Example, Layer, Rule, Severity};
+use crate::json::read::shorten;
+use crate::lint::links::{LinkedFile, MOST, decoded, folder_of, linked_files};
+use crate::lint::root_of;
+use crate::markdown::{self, Link, Scan};
+use crate::source::{Asked, MAX_FILE, SourceFile, Sources};
+use crate::spec::Lesson;
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
+use std::path::Path;
 
 /// A link or an image leads to a file or a heading that does not exist.
 pub const DEAD_LINK: &Rule = &Rule {
@@ -10,3 +17,85 @@ pub const DEAD_LINK: &Rule = &Rule {
     bad: Example::Lesson("# Falling\n\nSee ⟦[below](#bouncing)⟧.\n"),
     good: Example::Lesson("# Falling\n\nSee [below](#bouncing).\n\n# Bouncing\n\nIt bounces.\n"),
 };
+
+/// Letters and digits of a heading or an anchor: sites write the rest in their own ways.
+fn letters(text: &str) -> String {
+    text.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
+}
+
+/// Whether a text has this anchor: a heading, or an element with this id.
+fn has_anchor(text: &str, scan: &Scan, anchor: &str) -> bool {
+    let meant = letters(anchor);
+    // `fall-1` is the second heading "Fall".
+    let plain = meant.trim_end_matches(|c: char| c.is_ascii_digit());
+    let heading = scan.headings.iter().filter_map(|h| text.get(h.clone())).any(|heading| {
+        let heading_letters = letters(heading);
+        heading_letters == meant
+            || heading_letters == plain
+            || heading_letters.trim_start_matches(|c: char| c.is_ascii_digit()) == meant
+            || heading.contains(&format!("{{#{anchor}}}"))
+    });
+    let id = |html: &str| {
+        ["id", "name"]
+            .iter()
+            .any(|key| ['"', '\''].iter().any(|q| html.contains(&format!("{key}={q}{anchor}{q}"))))
+    };
+    heading || scan.html.iter().filter_map(|h| text.get(h.clone())).any(id)
+}
+
+/// What a site numbers itself, or names after an id.
+fn is_of_the_site(lesson: &Lesson, anchor: &str) -> bool {
+    let meant = letters(anchor);
+    let numbered = ["lab", "quiz", "fig", "figure", "eq", "equation", "tab", "table", "top", "ref", "fn"];
+    let stem = meant.trim_end_matches(|c: char| c.is_ascii_digit());
+    let ids = lesson.quizzes.iter().filter_map(|q| q.id.as_ref()).map(|id| letters(id.as_str()));
+    numbered.contains(&stem) || ids.into_iter().any(|id| !id.is_empty() && meant.contains(&id))
+}
+
+/// Anchors of the lesson itself.
+pub(crate) fn check_anchors(lesson: &Lesson, findings: &mut Vec<Finding>) {
+    let text = lesson.file.text();
+    for link in lesson.scan.links.iter().take(MOST) {
+        let Some(anchor) = link.target.strip_prefix('#').filter(|a| !a.is_empty()) else { continue };
+        if !has_anchor(text, &lesson.scan, &decoded(anchor)) && !is_of_the_site(lesson, anchor) {
+            findings.push(finding(link, "this lesson has no such heading"));
+        }
+    }
+}
+
+/// Files that links of a lesson name, and headings of those that are lessons. Nothing outside of the root is looked at.
+pub(crate) fn check_files(lesson: &Lesson, path: &Path, sources: &Sources, findings: &mut Vec<Finding>) {
+    let folder = folder_of(path, sources);
+    let mut root = None;
+    for LinkedFile { link, path, extension, anchor } in linked_files(lesson, &folder) {
+        let root = root.get_or_insert_with(|| {
+            let found = sources.place(Asked::Root, &folder, || Some(root_of(&folder, &[])));
+            found.unwrap_or_default()
+        });
+        if !path.starts_with(&*root) {
+            continue;
+        }
+        match (sources.real(&path), anchor) {
+            (None, _) if sources.has_files() => findings.push(finding(
+                link,
+                if link.image { "this image does not exist" } else { "this file does not exist" },
+            )),
+            (Some(real), Some(anchor)) if extension == "md" && real.starts_with(&*root) => {
+                let Ok(text) = sources.text(&real, MAX_FILE, "a lesson") else { continue };
+                let other = SourceFile::new(real.display().to_string(), text);
+                if !has_anchor(other.text(), &markdown::scan(&other), &decoded(&anchor))
+                    && !is_of_the_site(lesson, &anchor)
+                {
+                    findings.push(finding(link, "that lesson has no such heading"));
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+fn finding(link: &Link, message: &str) -> Finding {
+    let short_target = shorten(&link.target);
+    Finding::new(DEAD_LINK, link.span.clone(), format!("`{short_target}`: {message}"))
+        .help("correct the link, or add its target")
+}

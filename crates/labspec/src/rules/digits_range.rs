@@ -1,8 +1,7 @@
 use super::Check;
-use crate::finding::Finding;
 use crate::spec::format::{MAX_DIGITS, READOUT, SLIDER};
 use crate::spec::{ControlKind, Lab};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// `digits` is not between 0 and 17.
 pub const DIGITS_RANGE: &Rule = &Rule {

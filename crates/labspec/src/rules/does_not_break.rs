@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A lab or a run is expected to break but does not.
+/// Decided by `settle` in `check/expect.rs`.
 pub const DOES_NOT_BREAK: &Rule = &Rule {
     code: "does-not-break",
     severity: Severity::Error,

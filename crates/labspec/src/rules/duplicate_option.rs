@@ -1,8 +1,7 @@
 use super::Check;
 use super::repeated::repeated;
-use crate::finding::Finding;
 use crate::spec::{Question, QuestionKind};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// Two options of a question have the same text.
 pub const DUPLICATE_OPTION: &Rule = &Rule {

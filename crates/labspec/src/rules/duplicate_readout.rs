@@ -1,8 +1,7 @@
 use super::Check;
 use super::repeated::{DISTINCT, repeated};
-use crate::finding::Finding;
 use crate::spec::Lab;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// Two readouts of a lab have the same label.
 pub const DUPLICATE_READOUT: &Rule = &Rule {

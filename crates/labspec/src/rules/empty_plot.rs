@@ -1,4 +1,5 @@
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
+use std::ops::Range;
 
 /// A plot has no traces.
 pub const EMPTY_PLOT: &Rule = &Rule {
@@ -12,3 +13,9 @@ pub const EMPTY_PLOT: &Rule = &Rule {
         r#"{"model": "ball", "plots": [{"ylabel": "height (m)", "traces": [{"label": "ball", "expr": "data.qpos[2]"}]}]}"#,
     ),
 };
+
+/// A plot without traces.
+pub(crate) fn without_traces(span: Range<usize>) -> Finding {
+    Finding::new(EMPTY_PLOT, span, "this plot has no traces")
+        .help("add \"traces\": [{\"label\": \"height (m)\", \"expr\": \"data.qpos[2]\"}]")
+}

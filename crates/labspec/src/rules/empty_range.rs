@@ -1,8 +1,7 @@
 use super::Check;
-use crate::finding::Finding;
 use crate::json::Number;
 use crate::spec::{ControlKind, Lab};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// The lower end of a range is not below its upper end.
 pub const EMPTY_RANGE: &Rule = &Rule {

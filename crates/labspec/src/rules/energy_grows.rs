@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// The simulation gains energy without a source.
+/// Decided by `observe` in `monitors/growth.rs`.
 pub const ENERGY_GROWS: &Rule = &Rule {
     code: "energy-grows",
     severity: Severity::Error,

@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A claim has a different verdict with the recorded numbers of MuJoCo (--judge).
+/// Decided by `judge` in `verify/judge/mod.rs`.
 pub const ENGINE_DEPENDENT: &Rule = &Rule {
     code: "engine-dependent",
     severity: Severity::Warning,

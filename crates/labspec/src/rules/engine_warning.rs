@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// The engine warns while a lab runs.
+/// Decided by `explain_warning` in `run/diagnose.rs`.
 pub const ENGINE_WARNING: &Rule = &Rule {
     code: "engine-warning",
     severity: Severity::Warning,

@@ -1,4 +1,5 @@
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
+use std::ops::Range;
 
 /// An error cannot be suppressed.
 pub const ERROR_ALLOWED: &Rule = &Rule {
@@ -14,3 +15,9 @@ pub const ERROR_ALLOWED: &Rule = &Rule {
         r#"{"model": "ball", "controls": [{"label": "mass", "min": 1, "max": 5, "value": 1, "apply": "model.body_mass[1] = value; mj.mj_setConst(model, data)", "reset": true}]}"#,
     ),
 };
+
+/// A code of an allowance that would suppress an error.
+pub(crate) fn refuse(code: &str, span: Range<usize>) -> Finding {
+    Finding::new(ERROR_ALLOWED, span, format!("`{code}` is an error and cannot be suppressed"))
+        .help("fix the error, then delete this code")
+}

@@ -1,8 +1,7 @@
 use super::Check;
 use super::wording::loose;
-use crate::finding::Finding;
 use crate::spec::{Question, QuestionKind};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// The explanation calls a different option correct than the answer key.
 pub const EXPLAINS_ANOTHER_OPTION: &Rule = &Rule {

@@ -1,4 +1,5 @@
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
+use std::ops::Range;
 
 /// A `lab` fence holds a quiz, or a `quiz` fence holds a lab.
 pub const FENCE_KIND: &Rule = &Rule {
@@ -14,3 +15,8 @@ pub const FENCE_KIND: &Rule = &Rule {
         "```quiz\n{\"id\": \"fall\", \"questions\": [{\"kind\": \"open\", \"q\": \"Why?\"}]}\n```\n",
     ),
 };
+
+/// A fence of the wrong kind.
+pub(crate) fn holds(span: Range<usize>, message: &str, kind: &str, right: &str) -> Finding {
+    Finding::new(FENCE_KIND, span.clone(), message).help(format!("write ```{kind}")).fix(span, right)
+}

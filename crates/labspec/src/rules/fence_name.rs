@@ -1,4 +1,5 @@
-use labspec_finding::{Example, Layer, Rule, Severity};
+use crate::markdown::Opener;
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// The kind of a fence is misspelt.
 pub const FENCE_NAME: &Rule = &Rule {
@@ -10,3 +11,10 @@ pub const FENCE_NAME: &Rule = &Rule {
     bad: Example::Lesson("⟦```Lab simlab⟧\n{\"model\": \"ball\", \"plots\": []}\n```\n"),
     good: Example::Lesson("```lab simlab\n{\"model\": \"ball\", \"plots\": []}\n```\n"),
 };
+
+/// A fence that was meant to be another kind.
+pub(crate) fn misspelt(open: &Opener, right: &str) -> Finding {
+    Finding::new(FENCE_NAME, open.head.clone(), "the kind of this fence is misspelt")
+        .help(format!("write {}{right}", open.closing()))
+        .fix(open.head.clone(), format!("{}{right}", open.closing()))
+}

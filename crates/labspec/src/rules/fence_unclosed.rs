@@ -1,4 +1,5 @@
-use labspec_finding::{Example, Layer, Rule, Severity};
+use crate::markdown::{BlockKind, Opener};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// A fence has no closing line.
 pub const FENCE_UNCLOSED: &Rule = &Rule {
@@ -10,3 +11,44 @@ pub const FENCE_UNCLOSED: &Rule = &Rule {
     bad: Example::Lesson("⟦```lab simlab⟧\n{\"model\": \"ball\"}\n\nNow press play.\n"),
     good: Example::Lesson("```lab simlab\n{\"model\": \"ball\"}\n```\n\nNow press play.\n"),
 };
+
+/// A fence without its closing line: `end` is where its content ends, `resume` where the lesson goes on.
+pub(crate) fn unclosed(
+    text: &str,
+    open: &Opener,
+    end: usize,
+    resume: Option<usize>,
+    kind: &BlockKind,
+) -> Finding {
+    let closing = open.closing();
+    let finding = Finding::new(FENCE_UNCLOSED, open.head.clone(), "this fence is never closed");
+    match kind {
+        BlockKind::Code { .. } => {
+            let finding = match resume {
+                Some(at) => {
+                    let line = text.get(at..).and_then(|t| t.lines().next()).unwrap_or("");
+                    finding.related(
+                        at..at + line.trim_end().len(),
+                        "it runs into this line, which begins another block",
+                    )
+                }
+                None => finding.why("everything to the end of the file counts as code"),
+            };
+            finding.help(format!(
+                "add a line {closing} after the last line of the listing; a fence that shows another fence needs a longer mark, {closing}{}",
+                closing.chars().next().unwrap_or('`')
+            ))
+        }
+        _ => finding
+            .related(end..end, "its content ends here")
+            .help(format!("add a line {closing} below that place"))
+            .fix(end..end, line_below(text, end, &open.prefix(text), &closing)),
+    }
+}
+
+/// A line to put in behind what ends at `end`; what follows there goes to the line after it.
+pub(super) fn line_below(text: &str, end: usize, prefix: &str, line: &str) -> String {
+    let rest = text.get(end..).and_then(|t| t.lines().next()).unwrap_or("");
+    let after = if rest.trim().is_empty() { String::new() } else { format!("\n{prefix}") };
+    format!("\n{prefix}{line}{after}")
+}

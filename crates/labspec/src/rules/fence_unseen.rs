@@ -1,4 +1,5 @@
-use labspec_finding::{Example, Layer, Rule, Severity};
+use crate::markdown::Opener;
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// Markdown does not read an opening line as a fence.
 pub const FENCE_UNSEEN: &Rule = &Rule {
@@ -10,3 +11,17 @@ pub const FENCE_UNSEEN: &Rule = &Rule {
     bad: Example::Lesson("<div>\n⟦```lab simlab⟧\n{\"model\": \"ball\"}\n```\n</div>\n"),
     good: Example::Lesson("<div>\n\n```lab simlab\n{\"model\": \"ball\"}\n```\n\n</div>\n"),
 };
+
+/// A fence inside of an indented code block.
+pub(crate) fn indented(open: &Opener) -> Finding {
+    Finding::new(FENCE_UNSEEN, open.head.clone(), "a lab or a quiz is indented like code, so it is not read")
+        .why("Markdown shows lines with four spaces of indentation as they are")
+        .help("remove the indentation, down to that of its list")
+        .severity(Severity::Warning)
+}
+
+/// A fence that Markdown does not see.
+pub(crate) fn unseen(open: &Opener) -> Finding {
+    Finding::new(FENCE_UNSEEN, open.head.clone(), "Markdown does not read this line as a fence")
+        .help("put an empty line above it, and only the kind of the fence on the line itself")
+}

@@ -1,4 +1,8 @@
-use labspec_finding::{Example, Layer, Rule, Severity};
+use super::MAX_IN_TEXT;
+use crate::source::Text;
+use crate::spec::Lesson;
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
+use std::ops::Range;
 
 /// A formula or a group in it is not closed.
 pub const FORMULA_UNBALANCED: &Rule = &Rule {
@@ -14,3 +18,281 @@ pub const FORMULA_UNBALANCED: &Rule = &Rule {
         r#"{"id": "fall", "questions": [{"kind": "open", "q": "Why is it $\\frac{1}{2} g t^2$?"}]}"#,
     ),
 };
+
+/// Longest formula that is looked for, characters.
+const LONGEST: usize = 4000;
+/// Longest name of an environment, bytes.
+const LONGEST_NAME: usize = 40;
+
+/// How formulas begin and end. A dollar counts only where a page takes it for one.
+const MARKS: [(&str, &str); 4] = [("$$", "$$"), ("$", "$"), ("\\(", "\\)"), ("\\[", "\\]")];
+
+/// What is wrong, and where. `plain`: brackets behind a backslash are brackets, as in Markdown. `work` grows by the characters that
+/// are looked at: at most [`MOST_LOOKS`] for each of the text.
+fn faults(text: &str, plain: bool, work: &mut usize) -> Vec<(Range<usize>, String)> {
+    let (mut faults, mut lost) = (Vec::new(), 0);
+    let mut at = 0;
+    while let Some(rest) = text.get(at..).filter(|r| !r.is_empty()) {
+        *work += 1;
+        let marks = MARKS.iter().filter(|(open, _)| !plain || open.starts_with('$'));
+        let Some((open, close)) = marks.into_iter().find(|(open, _)| rest.starts_with(open)) else {
+            let step = match rest.strip_prefix('\\').and_then(|r| r.chars().next()) {
+                Some(c) => 1 + c.len_utf8(),
+                None => rest.chars().next().map_or(1, char::len_utf8),
+            };
+            at += step;
+            continue;
+        };
+        let inside = rest.get(open.len()..).unwrap_or("");
+        let Some(length) = closing(inside, close, work) else {
+            // Each of these is a walk through what follows.
+            lost += 1;
+            if lost > MAX_IN_TEXT {
+                break;
+            }
+            if faults.len() < MAX_IN_TEXT && is_formula(inside, open, work) {
+                faults.push((at..at + open.len(), format!("the formula that `{open}` opens is not closed")));
+            }
+            // What follows is read as text.
+            at += open.len();
+            continue;
+        };
+        let body = inside.get(..length).unwrap_or("");
+        let whole = at..at + open.len() + length + close.len();
+        if let Some(message) = unbalanced(body, work) {
+            faults.push((whole.clone(), message));
+        }
+        at = whole.end;
+    }
+    faults
+}
+
+/// Where a formula ends: a dollar behind a backslash is none, and one before a digit begins a price.
+fn closing(inside: &str, close: &str, work: &mut usize) -> Option<usize> {
+    let mut escaped = false;
+    for (i, c) in inside.char_indices().take(LONGEST) {
+        *work += 1;
+        let rest = inside.get(i..)?;
+        if !escaped && rest.starts_with(close) {
+            let after = rest.get(close.len()..).unwrap_or("");
+            let price = close == "$" && after.starts_with(|c: char| c.is_ascii_digit());
+            let spaced = close == "$"
+                && inside.get(..i).is_some_and(|b| b.is_empty() || b.ends_with(char::is_whitespace));
+            if !price && !spaced {
+                return Some(i);
+            }
+        }
+        // No formula goes on behind an empty line.
+        if rest.starts_with("\n\n") {
+            return None;
+        }
+        escaped = c == '\\' && !escaped;
+    }
+    None
+}
+
+/// Whether what follows an opening mark looks like a formula: a price does not.
+fn is_formula(inside: &str, open: &str, work: &mut usize) -> bool {
+    let end = inside.char_indices().nth(LONGEST).map_or(inside.len(), |(at, _)| at);
+    let inside = inside.get(..end).unwrap_or("").split("\n\n").next().unwrap_or("");
+    *work += end;
+    // A letter alone is the name of a quantity: `$g is`. A price begins with a digit, a name of a shell is longer.
+    let letters = inside.chars().take_while(|c| c.is_alphabetic()).count();
+    let tex = inside.contains(['\\', '^', '_', '{']) || letters == 1;
+    open != "$" || (tex && !inside.starts_with(|c: char| c.is_whitespace()))
+}
+
+/// Most times that a character is looked at: each mark that nothing closes is a walk through what follows, and a second one to see
+/// whether that is a formula.
+#[cfg(test)]
+const MOST_LOOKS: usize = 2 * MAX_IN_TEXT + LONGEST_NAME + 3;
+
+/// What is opened in a formula and not closed, in words.
+fn unbalanced(body: &str, work: &mut usize) -> Option<String> {
+    let (mut depth, mut left) = (0_i64, 0_i64);
+    let mut inner: Vec<&str> = Vec::new();
+    let mut at = 0;
+    while let Some(rest) = body.get(at..).filter(|r| !r.is_empty()) {
+        let c = rest.chars().next()?;
+        *work += 1;
+        if c != '\\' {
+            depth += i64::from(c == '{') - i64::from(c == '}');
+            if depth < 0 {
+                return Some("a brace `}` closes nothing".into());
+            }
+            at += c.len_utf8();
+            continue;
+        }
+        let letters = rest.bytes().skip(1).take_while(u8::is_ascii_alphabetic).count();
+        let length =
+            if letters > 0 { 1 + letters } else { 1 + rest.chars().nth(1).map_or(0, char::len_utf8) };
+        let after = rest.get(length..).unwrap_or("");
+        let name = after.strip_prefix('{').and_then(|inside| {
+            *work += LONGEST_NAME.min(inside.len());
+            let end = inside.bytes().take(LONGEST_NAME).position(|b| b == b'}')?;
+            inside.get(..end)
+        });
+        match (rest.get(1..length).unwrap_or(""), name) {
+            ("left", _) => left += 1,
+            ("right", _) => left -= 1,
+            ("begin", Some(name)) => inner.push(name),
+            ("end", Some(name)) if inner.pop() != Some(name) => {
+                return Some(format!("`\\end{{{}}}` closes nothing", crate::json::read::shorten(name)));
+            }
+            _ => {}
+        }
+        if left < 0 {
+            return Some("`\\right` has no `\\left`".into());
+        }
+        at += length;
+    }
+    match (depth, left, inner.pop()) {
+        (d, ..) if d > 0 => Some("a brace `{` is not closed".into()),
+        (_, l, _) if l > 0 => Some("`\\left` has no `\\right`".into()),
+        (.., Some(name)) => Some(format!("`\\begin{{{}}}` is not closed", crate::json::read::shorten(name))),
+        _ => None,
+    }
+}
+
+/// The text with code taken out, byte for byte.
+fn without_code(text: &str, code: impl Iterator<Item = Range<usize>>) -> String {
+    let mut bytes = text.as_bytes().to_vec();
+    for range in code {
+        if let Some(part) = bytes.get_mut(range) {
+            part.fill(b' ');
+        }
+    }
+    // Whole stretches between characters: still UTF-8.
+    String::from_utf8(bytes).unwrap_or_default()
+}
+
+/// Stretches of a text of HTML that are code.
+fn code(html: &str) -> Vec<Range<usize>> {
+    let mut all = Vec::new();
+    for (open, close) in [("<code", "</code>"), ("<pre", "</pre>")] {
+        let mut at = 0;
+        while let Some(start) = html.get(at..).and_then(|r| r.find(open)).map(|i| at + i) {
+            let Some(end) = html.get(start..).and_then(|r| r.find(close)).map(|i| start + i + close.len())
+            else {
+                break;
+            };
+            all.push(start..end);
+            at = end;
+        }
+    }
+    all
+}
+
+fn finding(span: Range<usize>, message: String) -> Finding {
+    Finding::new(FORMULA_UNBALANCED, span, message).help("close it, or write `\\$` for a dollar sign")
+}
+
+/// Looks into a text of a lab or a quiz.
+pub(crate) fn check_formulas(text: &Text, findings: &mut Vec<Finding>) {
+    let html = without_code(text.as_str(), code(text.as_str()).into_iter());
+    let found = faults(&html, false, &mut 0).into_iter().take(MAX_IN_TEXT);
+    findings.extend(found.map(|(at, message)| finding(text.span_of(at), message)));
+}
+
+/// Looks into the paragraphs of a lesson.
+pub(crate) fn check_prose(lesson: &Lesson, findings: &mut Vec<Finding>) {
+    let text = lesson.file.text();
+    for range in lesson.scan.paragraphs.iter().take(10 * MAX_IN_TEXT) {
+        let blocks = &lesson.scan.blocks;
+        let next = blocks.get(blocks.partition_point(|b| b.span.end <= range.start));
+        let in_block = next.is_some_and(|b| b.span.start < range.end);
+        let Some(paragraph) = text.get(range.clone()).filter(|p| p.contains('$') && !in_block) else {
+            continue;
+        };
+        let from = lesson.scan.inline_code.partition_point(|c| c.start < range.start);
+        let code_spans = lesson.scan.inline_code.iter().skip(from).take_while(|c| c.end <= range.end);
+        let code_spans = code_spans.map(|c| c.start - range.start..c.end - range.start);
+        let found = faults(&without_code(paragraph, code_spans), true, &mut 0).into_iter().take(MAX_IN_TEXT);
+        findings.extend(
+            found.map(|(at, message)| finding(range.start + at.start..range.start + at.end, message)),
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_opened_is_closed() {
+        let faults = |text: &str| faults(text, false, &mut 0);
+        let count = |text: &str| faults(text).len();
+        for right in [
+            "$a_1$ and $$\\frac{1}{2}$$, \\(x\\)",
+            "it costs $5, or $10",
+            "\\$5 and $\\{x\\}$",
+            "$\\left\\{ x \\right.$",
+            "$\\begin{matrix}1\\end{matrix}$",
+            "5 $ left",
+            "the folder $HOME is mine",
+        ] {
+            assert_eq!(count(right), 0, "{right}: {:?}", faults(right));
+        }
+        for wrong in [
+            "the time $\\sqrt{2h/g} is",
+            "$\\frac{1}{2$",
+            "$a}$",
+            "$\\left( x$",
+            "$x \\right)$",
+            "$\\begin{matrix}1$",
+            "\\(x and y",
+            "it accelerates with $g. There is no air",
+        ] {
+            assert_eq!(count(wrong), 1, "{wrong}: {:?}", faults(wrong));
+        }
+        let html = "in <code>$a_{</code> and $b$";
+        assert_eq!(faults(&without_code(html, code(html).into_iter())), []);
+    }
+
+    /// A megabyte of whatever opens something: no character is looked at more than a fixed number of times.
+    #[test]
+    fn hostile_texts_take_bounded_work() {
+        const MEGABYTE: usize = 1 << 20;
+        for piece in [
+            "$",
+            "$ ",
+            "$a",
+            "$1",
+            "\\left(",
+            "{",
+            "$\\left(",
+            "$\\left($ ",
+            "$\\begin{$ ",
+            "\\begin{",
+            "\\(",
+            "\\[ ",
+            "$$a",
+            "$$ $",
+            "${",
+            "$\n",
+            "$a\n\n",
+            "\\",
+            "\\$",
+            "ä$",
+            "$\\begin{a}",
+            "$\\end{a}$",
+        ] {
+            let text = piece.repeat(MEGABYTE / piece.len());
+            for plain in [false, true] {
+                let mut work = 0;
+                let found = faults(&text, plain, &mut work);
+                assert!(work <= MOST_LOOKS * text.len(), "{piece:?}: {work}");
+                assert!(found.len() <= text.len());
+                // What is opened once and never closed costs no more than a look at each, and so many walks of a formula's length.
+                if piece == "$a" || piece == "\\left(" || piece == "{" {
+                    assert!(work <= 3 * text.len() + 2 * MAX_IN_TEXT * LONGEST, "{piece:?}: {work}");
+                }
+            }
+        }
+        // Many short texts, as a quiz may have.
+        let text = "$a ".repeat(60);
+        let mut work = 0;
+        (0..1000).for_each(|_| drop(faults(&text, false, &mut work)));
+        assert!(work <= MOST_LOOKS * 1000 * text.len(), "{work}");
+    }
+}

@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A program changes the gain of a servo but not its bias, or the bias but not the gain.
+/// Decided by `judge` in `check/setconst/words.rs`.
 pub const GAIN_ALONE: &Rule = &Rule {
     code: "gain-alone",
     severity: Severity::Warning,

@@ -1,4 +1,6 @@
-use labspec_finding::{Example, Layer, Rule, Severity};
+use crate::json::read::shorten;
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
+use std::ops::Range;
 
 /// A text of a lab or a quiz has a tag that HTML does not have.
 pub const HTML_ELEMENT: &Rule = &Rule {
@@ -14,3 +16,32 @@ pub const HTML_ELEMENT: &Rule = &Rule {
         r#"{"id": "fall", "questions": [{"kind": "open", "q": "Is <strong>it</strong> the same?"}]}"#,
     ),
 };
+
+/// Elements that hold nothing and are not closed.
+pub(super) const VOID: [&str; 13] =
+    ["area", "base", "br", "col", "embed", "hr", "img", "input", "link", "meta", "source", "track", "wbr"];
+/// Elements that end by themselves where the next one begins, or where what holds them ends.
+pub(super) const ENDS_ITSELF: [&str; 13] =
+    ["p", "li", "dt", "dd", "tr", "td", "th", "thead", "tbody", "tfoot", "colgroup", "option", "optgroup"];
+/// All others of HTML that a lesson may want.
+#[rustfmt::skip]
+const KNOWN: [&str; 77] = [
+    "a", "abbr", "address", "article", "aside", "audio", "b", "bdi", "bdo", "big", "blockquote", "button",
+    "canvas", "caption", "center", "cite", "code", "data", "datalist", "del", "details", "dfn", "dialog",
+    "div", "dl", "em", "fieldset", "figcaption", "figure", "font", "footer", "form", "h1", "h2", "h3", "h4",
+    "h5", "h6", "header", "i", "iframe", "ins", "kbd", "label", "legend", "main", "map", "mark", "math",
+    "meter", "nav", "ol", "output", "picture", "pre", "progress", "q", "s", "samp", "section", "select",
+    "small", "span", "strong", "sub", "summary", "sup", "svg", "table", "template", "textarea", "time", "tt",
+    "u", "ul", "var", "video",
+];
+
+/// Whether HTML has an element, foreign ones and those of its own kind aside.
+pub(super) fn is_element(name: &str) -> bool {
+    VOID.contains(&name) || ENDS_ITSELF.contains(&name) || KNOWN.contains(&name)
+}
+
+/// An element that HTML does not have.
+pub(super) fn unknown(span: Range<usize>, name: &str) -> Finding {
+    Finding::new(HTML_ELEMENT, span, format!("HTML has no element `{}`", shorten(name)))
+        .help("write `&lt;` for `<` if this is not an element")
+}

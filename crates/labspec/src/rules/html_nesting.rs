@@ -1,4 +1,10 @@
-use labspec_finding::{Example, Layer, Rule, Severity};
+use super::MAX_IN_TEXT;
+use super::html_element::{ENDS_ITSELF, VOID, is_element, unknown};
+use super::unescaped_element::is_of_models;
+use crate::json::read::shorten;
+use crate::source::Text;
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
+use std::ops::Range;
 
 /// HTML elements in a lab or a quiz are not closed in the order in which they are opened.
 pub const HTML_NESTING: &Rule = &Rule {
@@ -14,3 +20,145 @@ pub const HTML_NESTING: &Rule = &Rule {
         r#"{"id": "fall", "questions": [{"kind": "open", "q": "<p>What is <code>qpos</code>?</p>"}]}"#,
     ),
 };
+
+/// Elements with elements of their own.
+const FOREIGN: [&str; 2] = ["svg", "math"];
+
+/// Most tags of a text that are looked at.
+const MOST: usize = 3000;
+
+/// What is wrong with a tag.
+#[derive(Debug, PartialEq)]
+enum MarkupFault {
+    /// HTML has no such element.
+    Unknown,
+    /// Nothing closes it.
+    Unclosed,
+    /// Nothing is open that it would close.
+    Unopened,
+    /// It closes an element while this one, within it, is open.
+    Crossed(String),
+}
+
+/// A tag: its bytes, its name, whether it closes, whether it closes itself.
+struct Tag {
+    at: Range<usize>,
+    name: String,
+    closing: bool,
+    alone: bool,
+}
+
+/// The tags of a text, comments left out.
+fn tags(html: &str) -> Vec<Tag> {
+    let mut all = Vec::new();
+    let mut at = 0;
+    while let Some(found) = html.get(at..).and_then(|rest| rest.find('<')) {
+        let start = at + found;
+        let rest = html.get(start..).unwrap_or("");
+        if rest.starts_with("<!--") {
+            at = start + rest.find("-->").map_or(rest.len(), |end| end + 3);
+            continue;
+        }
+        let inside = rest.get(1..).unwrap_or("");
+        let closing = inside.starts_with('/');
+        let inside = inside.strip_prefix('/').unwrap_or(inside);
+        let length =
+            inside.find(|c: char| c.is_whitespace() || matches!(c, '/' | '>' | '<')).unwrap_or(inside.len());
+        at = start + 1;
+        let name = inside.get(..length).unwrap_or("");
+        if !name.starts_with(|c: char| c.is_ascii_alphabetic()) {
+            continue;
+        }
+        // A tag ends at its `>`, or the text does.
+        let end = rest.find('>').map_or(rest.len(), |end| end + 1);
+        at = start + end;
+        let alone = rest.get(..end).unwrap_or("").ends_with("/>");
+        all.push(Tag { at: start..at, name: name.to_ascii_lowercase(), closing, alone });
+    }
+    all
+}
+
+fn faults(html: &str) -> Vec<(Range<usize>, String, MarkupFault)> {
+    let mut faults = Vec::new();
+    let mut open: Vec<Tag> = Vec::new();
+    let all = tags(html);
+    let cut = all.len() > MOST;
+    for tag in all.into_iter().take(MOST) {
+        let foreign = open.iter().any(|t| FOREIGN.contains(&t.name.as_str()));
+        let name = tag.name.as_str();
+        let of_html = is_element(name);
+        let opening = open.iter().rposition(|t| t.name == tag.name);
+        if tag.closing {
+            match opening {
+                // `</p>` alone makes an empty paragraph, `</br>` a break: nobody sees a difference.
+                None if is_of_models(name) || VOID.contains(&name) => {}
+                None if !of_html && !foreign => faults.push((tag.at, tag.name, MarkupFault::Unknown)),
+                None => faults.push((tag.at, tag.name, MarkupFault::Unopened)),
+                Some(i) => {
+                    let inner = open.split_off(i);
+                    let crossed = inner.iter().skip(1).find(|t| !ENDS_ITSELF.contains(&t.name.as_str()));
+                    if let Some(other) = crossed {
+                        faults.push((other.at.clone(), other.name.clone(), MarkupFault::Crossed(tag.name)));
+                    }
+                }
+            }
+        } else if is_of_models(name) && !foreign {
+            // Told as what it is: an element of models.
+        } else if !of_html && !foreign && !name.contains('-') {
+            faults.push((tag.at, tag.name, MarkupFault::Unknown));
+        } else if !(VOID.contains(&name) || tag.alone && foreign) {
+            open.push(tag);
+        }
+    }
+    // Where not all was looked at, what is open may be closed yet.
+    open.retain(|_| !cut);
+    let left = open.into_iter().filter(|t| !ENDS_ITSELF.contains(&t.name.as_str()));
+    faults.extend(left.map(|t| (t.at, t.name, MarkupFault::Unclosed)));
+    faults
+}
+
+/// Looks into a text of a lab or a quiz.
+pub(crate) fn check_markup(text: &Text, findings: &mut Vec<Finding>) {
+    for (at, name, fault) in faults(text.as_str()).into_iter().take(MAX_IN_TEXT) {
+        let short_text = shorten(text.value.get(at.clone()).unwrap_or(""));
+        let (message, help) = match fault {
+            MarkupFault::Unknown => {
+                findings.push(unknown(text.span_of(at), &name));
+                continue;
+            }
+            MarkupFault::Unclosed => {
+                (format!("`{short_text}` is not closed"), format!("write </{name}> where it ends"))
+            }
+            MarkupFault::Unopened => (
+                format!("`{short_text}` closes nothing"),
+                format!("delete it, or write <{name}> where the element begins"),
+            ),
+            MarkupFault::Crossed(outer) => (
+                format!("`{short_text}` is still open where `</{outer}>` closes the element around it"),
+                format!("write </{name}> before </{outer}>"),
+            ),
+        };
+        findings.push(Finding::new(HTML_NESTING, text.span_of(at), message).help(help));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_browsers_mend_is_found() {
+        let of =
+            |html: &str| faults(html).into_iter().map(|(_, name, fault)| (name, fault)).collect::<Vec<_>>();
+        let named = |name: &str, fault| vec![(name.to_string(), fault)];
+        assert_eq!(of("<p>one <b>two</b><p>three <br> <img src='a'> 1 < 2 <code>x</code>"), []);
+        assert_eq!(of("<ul><li>a<li>b</ul> <!-- <b> --> <svg><path d=''/><g></g></svg>"), []);
+        assert_eq!(of("<p>a <code>x</p>"), named("code", MarkupFault::Crossed("p".into())));
+        assert_eq!(of("a <code>x"), named("code", MarkupFault::Unclosed));
+        assert_eq!(of("a</b>"), named("b", MarkupFault::Unopened));
+        assert_eq!(of("<strnog>a</strnog>").len(), 2);
+        assert_eq!(of("if a<bc and d>e"), named("bc", MarkupFault::Unknown));
+        // What another rule tells.
+        assert_eq!(of("set in <option>, <geom size='1'/>"), []);
+    }
+}

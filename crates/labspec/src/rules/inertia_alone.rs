@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A program gives a body an inertia that no body of its mass and size has.
+/// Decided by `judge` in `check/setconst/words.rs`.
 pub const INERTIA_ALONE: &Rule = &Rule {
     code: "inertia-alone",
     severity: Severity::Warning,

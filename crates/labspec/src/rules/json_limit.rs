@@ -1,4 +1,6 @@
-use labspec_finding::{Example, Layer, Rule, Severity};
+use crate::json::{MAX_DEPTH, MAX_VALUES};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
+use std::ops::Range;
 
 /// The JSON is nested too deeply or holds too many values.
 pub const JSON_LIMIT: &Rule = &Rule {
@@ -12,3 +14,15 @@ pub const JSON_LIMIT: &Rule = &Rule {
     ),
     good: Example::Lab(r#"{"model": "ball"}"#),
 };
+
+/// Brackets within brackets without end.
+pub(crate) fn too_deep(span: Range<usize>) -> Finding {
+    Finding::new(JSON_LIMIT, span, format!("the JSON has more than {MAX_DEPTH} nested brackets"))
+        .help("look for a bracket that is not closed: a lab needs about eight levels")
+}
+
+/// More values than a lab can have.
+pub(crate) fn too_many(span: Range<usize>) -> Finding {
+    Finding::new(JSON_LIMIT, span, format!("the JSON has more than {MAX_VALUES} values"))
+        .help("split it into several labs")
+}

@@ -1,8 +1,7 @@
 use super::Check;
-use crate::finding::Finding;
 use crate::spec::Lab;
 use labspec_core::Model;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// `key` names a keyframe that the model does not have.
 pub const KEYFRAME_MISSING: &Rule = &Rule {

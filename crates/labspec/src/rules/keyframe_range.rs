@@ -1,8 +1,7 @@
 use super::Check;
-use crate::finding::Finding;
 use crate::spec::Lab;
 use crate::spec::format::LAB;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// `key` is negative.
 pub const KEYFRAME_RANGE: &Rule = &Rule {

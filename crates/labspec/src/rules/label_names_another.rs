@@ -1,4 +1,11 @@
-use labspec_finding::{Example, Layer, Rule, Severity};
+use crate::bind::{Bound, ControlProgram, Programs};
+use crate::source::Text;
+use crate::spec::{Lab, Trace};
+use labspec_bind::element_owner;
+use labspec_core::reflect::{self, Object};
+use labspec_core::{Model, Obj};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
+use std::collections::BTreeSet;
 
 /// A label names one object of the model, but its expression reads another.
 pub const LABEL_NAMES_ANOTHER: &Rule = &Rule {
@@ -14,3 +21,306 @@ pub const LABEL_NAMES_ANOTHER: &Rule = &Rule {
         r#"{"xml": "<mujoco><worldbody><body name='left'><joint name='left' type='slide'/><geom size='.05'/></body><body name='right' pos='1 0 0'><joint name='right' type='slide'/><geom size='.05'/></body></worldbody></mujoco>", "setup": "data.qvel[0] = 0.1", "readouts": [{"label": "left (m)", "expr": "data.qpos[0]"}]}"#,
     ),
 };
+
+/// What labels name, and what they call it.
+const KINDS: [(Obj, &str); 6] = [
+    (Obj::Body, "body"),
+    (Obj::Joint, "joint"),
+    (Obj::Geom, "geom"),
+    (Obj::Site, "site"),
+    (Obj::Actuator, "actuator"),
+    (Obj::Sensor, "sensor"),
+];
+
+/// Most names and most labels that are looked at.
+const MOST: usize = 400;
+
+/// A name of the model.
+struct NamedObject {
+    kind: Obj,
+    noun: &'static str,
+    index: usize,
+    name: String,
+    words: Vec<String>,
+    body: usize,
+}
+
+/// A label, and what its expression reads.
+struct DisplayedValue<'l> {
+    label: &'l Text,
+    bound: &'l Bound,
+    /// The names in it, the longest where one is a part of another.
+    names: Vec<usize>,
+    /// Its words without the name that it has, if that is one.
+    rest: Vec<String>,
+    /// What it reads, if that is known of everything.
+    reads: Vec<(Obj, usize)>,
+    /// The bodies that this belongs to.
+    bodies: BTreeSet<usize>,
+}
+
+/// Every name of a body, joint, geom, site, actuator or sensor.
+pub(super) fn names(model: &Model) -> impl Iterator<Item = &str> {
+    KINDS.iter().flat_map(|(kind, _)| model.names.of(*kind)).map(String::as_str).filter(|n| !n.is_empty())
+}
+
+pub(crate) fn check_names(lab: &Lab, model: &Model, programs: &Programs, findings: &mut Vec<Finding>) {
+    let all = elements(model);
+    let traces = lab.plots.iter().flat_map(|p| &p.traces).map(|t| &t.label);
+    let labels = traces.chain(lab.readouts.iter().map(|r| &r.label));
+    let displays: Vec<DisplayedValue<'_>> = labels
+        .zip(&programs.probes)
+        .take(MOST)
+        .filter_map(|(label, probe)| displayed(label, probe.bound.as_ref()?, model, &all))
+        .collect();
+    for trace in lab.plots.iter().flat_map(|p| &p.traces).zip(&programs.probes).take(MOST) {
+        findings.extend(a_number(trace.0, trace.1.bound.as_ref(), &all));
+    }
+    let readouts =
+        lab.readouts.iter().map(|r| &r.label).zip(programs.probes.iter().skip(lab.traces().count()));
+    findings
+        .extend(readouts.take(MOST).filter_map(|(label, probe)| another_size(label, probe.bound.as_ref()?)));
+    for (control, (_, program)) in lab.controls.iter().zip(&programs.controls).take(MOST) {
+        let bound = match program {
+            ControlProgram::Change(_, action) => action.run.as_ref(),
+            ControlProgram::Press(run) => run.as_ref(),
+        };
+        findings.extend(bound.and_then(|bound| quotes_another(&control.label, bound, model)));
+    }
+    for one in &displays {
+        let ([name], Some(&body)) = (one.names.as_slice(), one.bodies.first()) else { continue };
+        let Some(named) = all.get(*name).filter(|n| n.body != body && one.bodies.len() == 1) else {
+            continue;
+        };
+        if !(alone(one, named)
+            || beside(one, named, body, &displays, &all)
+            || in_the_place_of_a_name(one, named))
+        {
+            continue;
+        }
+        let reads = one
+            .reads
+            .iter()
+            .filter_map(|(kind, index)| all.iter().find(|n| n.kind == *kind && n.index == *index));
+        let Some(other) = reads.into_iter().next() else { continue };
+        findings.push(
+            Finding::new(
+                LABEL_NAMES_ANOTHER,
+                one.label.span(),
+                format!(
+                    "the label names the {} \"{}\", but the expression reads the {} \"{}\"",
+                    named.noun, named.name, other.noun, other.name
+                ),
+            )
+            .help("read the object that the label names, or correct the label; two labels may be exchanged")
+            .related(one.bound.text.span(), format!("this belongs to \"{}\"", other.name)),
+        );
+    }
+}
+
+/// Whether a label is something and then, behind a comma, a joint, and the expression reads another joint: `force, shoulder (N)`.
+fn in_the_place_of_a_name(one: &DisplayedValue<'_>, named: &NamedObject) -> bool {
+    let last = one.label.as_str().rsplit_once(", ").map(|(_, last)| words_of(last));
+    let joint = named.kind == Obj::Joint && one.reads.iter().all(|(kind, _)| *kind == Obj::Joint);
+    joint && last.is_some_and(|words| words == named.words)
+}
+
+/// Sizes of a model, as labels name them.
+const SIZES: [&str; 9] = ["nq", "nv", "nu", "na", "nbody", "njnt", "ngeom", "nsite", "nkey"];
+
+/// A label that is the name of a size, and an expression that is another one.
+fn another_size(label: &Text, bound: &Bound) -> Option<Finding> {
+    let named = label.as_str().trim();
+    let read = bound.text.value.trim().strip_prefix("model.")?;
+    let both = SIZES.contains(&named) && SIZES.contains(&read) && named != read;
+    both.then(|| {
+        let message = format!("the label names `{named}`, but the expression reads `{read}`");
+        Finding::new(LABEL_NAMES_ANOTHER, label.span(), message)
+            .help("read the field that the label names; two labels may be exchanged")
+            .related(bound.text.span(), format!("this is `{read}`"))
+    })
+}
+
+/// A label of a control that quotes an element, as `ctrl[0]`, where the statements write this field, and another element of it.
+fn quotes_another(label: &Text, bound: &Bound, model: &Model) -> Option<Finding> {
+    let text = label.as_str();
+    let open = text.find('[')?;
+    let name = text.get(..open)?.rsplit(|c: char| !(c.is_alphanumeric() || c == '_')).next()?;
+    let inside = text.get(open + 1..)?.split(']').next()?;
+    let (first, end): (usize, usize) = match inside.split_once(':') {
+        Some((a, b)) => (a.trim().parse().ok()?, b.trim().parse().ok()?),
+        None => inside.trim().parse().map(|n: usize| (n, n + 1)).ok()?,
+    };
+    let field = [Object::Data, Object::Model].into_iter().find_map(|o| reflect::field(o, name))?;
+    let effects = bound.program.effects();
+    if effects.writes_everything || effects.calls_values || model.nq == 0 {
+        return None;
+    }
+    let written: Vec<_> =
+        bound.program.own_writes().into_iter().filter(|w| w.field.0 as usize == field.index()).collect();
+    let outside = |i: usize| !(first..end).contains(&i);
+    // What is written one by one: every element that the label names, and none besides.
+    let all: Option<Vec<usize>> = written.iter().map(|w| (w.count == Some(1)).then_some(w.first)).collect();
+    let all = all.filter(|all| !all.is_empty())?;
+    let other = all.iter().find(|i| outside(**i)).filter(|_| all.iter().all(|i| outside(*i)))?;
+    let message = format!("the label names `{name}[{inside}]`, but the control writes `{name}[{other}]`");
+    Some(
+        Finding::new(LABEL_NAMES_ANOTHER, label.span(), message)
+            .help("write the element that the label names, or correct the label")
+            .related(bound.text.span(), "the control writes this"),
+    )
+}
+
+/// A trace that is called by the name of something in the model, and is a number.
+fn a_number(trace: &Trace, bound: Option<&Bound>, all: &[NamedObject]) -> Option<Finding> {
+    let bound = bound.filter(|b| b.program.effects().constant())?;
+    let words = words_of(trace.label.as_str());
+    let named = all.iter().find(|n| n.words == words)?;
+    let message =
+        format!("the label names the {} \"{}\", but the expression reads nothing", named.noun, named.name);
+    Some(
+        Finding::new(LABEL_NAMES_ANOTHER, trace.label.span(), message)
+            .help("read the object that the label names; use `refLines` for an intended constant line")
+            .related(bound.text.span(), "this is a constant"),
+    )
+}
+
+/// The words of a label without its unit.
+fn words_of(label: &str) -> Vec<String> {
+    let end = crate::bind::of_label(label).and_then(|(unit, _)| label.rfind(unit));
+    split_words(end.and_then(|at| label.get(..at)).unwrap_or(label))
+}
+
+/// Whether the label is a name and nothing else, of something that has what the expression reads.
+fn alone(one: &DisplayedValue<'_>, named: &NamedObject) -> bool {
+    let same_kind = |kind: Obj| kind == named.kind || named.kind == Obj::Body && kind == Obj::Joint;
+    one.rest.is_empty() && one.reads.iter().all(|(kind, _)| same_kind(*kind))
+}
+
+/// Whether another label is the same but for its name, which is that of what this one reads. Where that one reads a third thing, the
+/// names may mean something else.
+fn beside(
+    one: &DisplayedValue<'_>,
+    named: &NamedObject,
+    body: usize,
+    displayed: &[DisplayedValue<'_>],
+    all: &[NamedObject],
+) -> bool {
+    displayed.iter().any(|other| {
+        let [name] = other.names.as_slice() else { return false };
+        let Some(its) = all.get(*name) else { return false };
+        let reads = other.bodies.len() == 1 && other.bodies.iter().all(|b| *b == body || *b == named.body);
+        let alike = other.rest == one.rest && its.kind == named.kind;
+        its.body == body && reads && alike
+    })
+}
+
+/// A label with what it names and reads; `None` when it is not known of all that is read where it belongs.
+fn displayed<'l>(
+    label: &'l Text,
+    bound: &'l Bound,
+    model: &Model,
+    all: &[NamedObject],
+) -> Option<DisplayedValue<'l>> {
+    let effects = bound.program.effects();
+    if effects.reads_everything || effects.any_ctx || effects.calls_values || !effects.ctx_reads.is_empty() {
+        return None;
+    }
+    let words = words_of(label.as_str());
+    let mut reads = Vec::new();
+    for access in &effects.reads {
+        let owner = element_owner(model, access.field, access.first, access.count?);
+        match owner {
+            Some((kind, index)) => reads.push((kind, index)),
+            // Time and options belong to nobody.
+            None if access.count == Some(1) => {}
+            None => return None,
+        }
+    }
+    let bodies = reads.iter().map(|(kind, index)| body_of(model, *kind, *index)).collect::<Option<_>>()?;
+    // Where several things have one name, the first of the kind that is read is meant.
+    let mut names: Vec<(usize, usize, usize)> = Vec::new();
+    for (i, named) in all.iter().enumerate() {
+        let Some(at) = words.windows(named.words.len()).position(|w| w == named.words) else { continue };
+        let to = at + named.words.len();
+        let within = |n: &(usize, usize, usize)| n.1 <= at && to <= n.2;
+        let same_body = |n: &(usize, usize, usize)| all.get(n.0).is_some_and(|o| o.body == named.body);
+        let covered = names.iter().any(|n| within(n) && (n.1, n.2) != (at, to));
+        match names.iter_mut().find(|n| n.1 == at && n.2 == to && same_body(n)) {
+            Some(counted) if reads.iter().any(|(kind, _)| *kind == named.kind) => counted.0 = i,
+            Some(_) => {}
+            None if covered => {}
+            None => {
+                names.retain(|n| !(at <= n.1 && n.2 <= to) || (n.1, n.2) == (at, to));
+                names.push((i, at, to));
+            }
+        }
+    }
+    let mut rest = words.clone();
+    if let [(_, from, to)] = names.as_slice() {
+        rest.drain(*from..*to);
+    }
+    Some(DisplayedValue {
+        label,
+        bound,
+        names: names.into_iter().map(|n| n.0).collect(),
+        rest,
+        reads,
+        bodies,
+    })
+}
+
+/// The words of a label or a name, in small letters.
+fn split_words(text: &str) -> Vec<String> {
+    let parts = text.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty());
+    parts.map(str::to_lowercase).collect()
+}
+
+/// Everything that has a name of its own and belongs to a body that is not the world. A letter is no name that a label would have.
+fn elements(model: &Model) -> Vec<NamedObject> {
+    let mut all = Vec::new();
+    for (kind, noun) in KINDS {
+        for (index, name) in
+            model.names.of(kind).iter().enumerate().filter(|(_, n)| n.chars().count() > 1).take(MOST)
+        {
+            let body = body_of(model, kind, index).filter(|b| *b != 0);
+            // A space of names stands before a stroke.
+            let short_name = name.rsplit('/').next().unwrap_or(name);
+            if let (Some(body), false) = (body, split_words(short_name).is_empty()) {
+                all.push(NamedObject {
+                    kind,
+                    noun,
+                    index,
+                    name: name.clone(),
+                    words: split_words(short_name),
+                    body,
+                });
+            }
+        }
+    }
+    all
+}
+
+/// The body that something belongs to.
+fn body_of(model: &Model, kind: Obj, index: usize) -> Option<usize> {
+    let at = |list: &[i32], i: usize| list.get(i).and_then(|b| usize::try_from(*b).ok());
+    match kind {
+        Obj::Body => Some(index),
+        Obj::Joint => at(&model.jnt_bodyid, index),
+        Obj::Geom => at(&model.geom_bodyid, index),
+        Obj::Site => at(&model.site_bodyid, index),
+        Obj::Actuator => match *model.actuator_trntype.get(index)? {
+            labspec_core::trntype::JOINT | labspec_core::trntype::JOINTINPARENT => {
+                at(&model.jnt_bodyid, at(&model.actuator_trnid, 2 * index)?)
+            }
+            _ => None,
+        },
+        Obj::Sensor => {
+            let kinds = [Obj::Body, Obj::XBody, Obj::Joint, Obj::Geom, Obj::Site, Obj::Actuator];
+            let kind = kinds.into_iter().find(|k| model.sensor_objtype.get(index) == Some(&(*k as i32)))?;
+            let kind = if kind == Obj::XBody { Obj::Body } else { kind };
+            body_of(model, kind, at(&model.sensor_objid, index)?)
+        }
+        _ => None,
+    }
+}

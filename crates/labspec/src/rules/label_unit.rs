@@ -1,4 +1,16 @@
-use labspec_finding::{Example, Layer, Rule, Severity};
+use super::label_names_another::names;
+use crate::bind::{Bound, contradicts, given_by, of_label, unit};
+use crate::check::observations::{ObservedLab, column};
+use crate::json::read::shorten;
+use crate::run::Cell;
+use crate::source::Text;
+use crate::spec::{Control, ControlKind, Plot, Readout};
+use labspec_bind::units::written;
+use labspec_core::Model;
+use labspec_core::reflect::FieldId;
+use labspec_expr::dimension::{Dimension, Measure};
+use labspec_expr::{Schema, TextDimensions};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// The unit in a label does not match its expression.
 pub const LABEL_UNIT: &Rule = &Rule {
@@ -14,3 +26,139 @@ pub const LABEL_UNIT: &Rule = &Rule {
         r#"{"xml": "<mujoco><worldbody><body name='left'><joint name='left' type='slide'/><geom size='.05'/></body><body name='right' pos='1 0 0'><joint name='right' type='slide'/><geom size='.05'/></body></worldbody></mujoco>", "setup": "data.qvel[0] = 0.1", "readouts": [{"label": "speed (mm/s)", "expr": "1000 * Math.abs(data.qvel[0])"}]}"#,
     ),
 };
+
+/// A readout whose label has a unit, and that is a text in every run.
+pub(crate) fn check_text_readout(observed: &ObservedLab<'_>, readout: &Readout, c: usize) -> Option<Finding> {
+    let mut cells = column(observed.records, c);
+    let (unit, _) = of_label(readout.label.as_str())?;
+    let Cell::Text(first) = cells.next()? else { return None };
+    let words = first.chars().filter(|c| c.is_alphabetic()).count() > 1;
+    (words && cells.all(|c| matches!(c, Cell::Text(_)))).then(|| {
+        let message = format!("the label says {unit}, but the value is a string");
+        Finding::warning(LABEL_UNIT, readout.label.span(), message)
+            .why(format!(
+                "it is a string at every sample of {}: \"{}\" at first",
+                observed.runs(),
+                shorten(first)
+            ))
+            .related(readout.expr.span(), "this is a string")
+            .help("display the number that the label names; two labels may be exchanged")
+    })
+}
+
+/// The label of a plot with a unit that is not the one of a trace, though both measure the same: degrees beside radians.
+pub(crate) fn at_odds(plot: &Plot, model: &Model) -> Option<Finding> {
+    let axis = plot.ylabel.as_ref()?;
+    let (text, of_axis) = of_label(axis.as_str())?;
+    if names(model).any(|name| name == text) {
+        return None;
+    }
+    plot.traces.iter().find_map(|trace| {
+        let (label_unit, of_trace) = of_label(trace.label.as_str())?;
+        let ratio = of_trace.factor.abs() / of_axis.factor.abs();
+        let other = of_trace.agrees(&of_axis) && (ratio - 1.0).abs() > 1e-3;
+        other.then(|| {
+            Finding::new(
+                LABEL_UNIT,
+                axis.span(),
+                format!("the plot is in {text}, but one of its traces is in {label_unit}"),
+            )
+            .why("a student reads the curve on an axis with another unit")
+            .related(trace.label.span(), "the trace")
+            .help("use the same unit for both")
+        })
+    })
+}
+
+/// The first of the labels that has a unit, if it is another one than that of the numbers.
+pub(crate) fn wrong_label(
+    labels: &[&Text],
+    model: &Model,
+    bound: &Bound,
+    found: &Dimension,
+) -> Option<Finding> {
+    let (label, (text, wanted)) = labels.iter().find_map(|l| Some((l, of_label(l.as_str())?)))?;
+    // Something of the model may have the name of a unit.
+    if names(model).any(|name| name == text) {
+        return None;
+    }
+    // The smallest of something is no time.
+    if text == "min" && !found.agrees(&wanted) {
+        return None;
+    }
+    // A turn is not a radian.
+    let turns = text.contains("Hz") && found.is_exact() && found.has_angle() && found.agrees(&wanted);
+    if !contradicts(found, &wanted) && !turns {
+        return None;
+    }
+    let gives = written(found);
+    let message = format!("the label says {text}, but the expression gives {gives}");
+    let found = Finding::new(LABEL_UNIT, label.span(), message)
+        .why(why(found, &wanted))
+        .related(bound.text.span(), format!("this is in {gives}"));
+    Some(found.help(match factor_words(&wanted) {
+        Some(words) => format!("convert the number ({words}), or write its unit into the label"),
+        None => "write the unit of the number into the label, or display what the label says".to_string(),
+    }))
+}
+
+/// What a student reads.
+fn why(found: &Dimension, wanted: &Dimension) -> String {
+    if !found.agrees(wanted) {
+        return "the two are different quantities".to_string();
+    }
+    let ratio = found.factor.abs() / wanted.factor.abs();
+    let near = |x: f64| (x - x.round()).abs() < 1e-6 * x;
+    match (ratio, 1.0 / ratio) {
+        (r, _) if r >= 1.0 && near(r) => {
+            format!("a student reads a number that is {} times too large", r.round())
+        }
+        (_, r) if r >= 1.0 && near(r) => {
+            format!("a student reads a number that is {} times too small", r.round())
+        }
+        _ => "a student takes the number for something else".to_string(),
+    }
+}
+
+/// How SI becomes a unit.
+fn factor_words(wanted: &Dimension) -> Option<String> {
+    let factor = wanted.factor.abs();
+    if (factor - 1f64.to_degrees()).abs() < 1e-6 {
+        return Some("`lib.deg(…)` converts radians to degrees".to_string());
+    }
+    let power = factor.log10();
+    let plain = (power - power.round()).abs() < 1e-9 && power.round() > 0.0;
+    plain.then(|| format!("`{} * (…)`", factor.round()))
+}
+
+/// A control whose unit is not that of what it sets.
+pub(crate) fn wrong_control(
+    control: &Control,
+    names: &dyn Schema,
+    bound: &Bound,
+    measured: &TextDimensions,
+) -> Option<Finding> {
+    let Measure::Known(_) = given_by(control) else { return None };
+    let (stored, found, wanted) = measured.stores.iter().find_map(|stored| {
+        let (Measure::Known(found), Measure::Known(wanted)) =
+            (stored.measure, names.measure(stored.access.field, stored.access.first, stored.access.count))
+        else {
+            return None;
+        };
+        contradicts(&found, &wanted).then_some((stored, found, wanted))
+    })?;
+    let field = FieldId::new(stored.access.field.0 as usize)?.info().name;
+    let label = match &control.kind {
+        ControlKind::Slider { unit: Some(text), .. } if unit(text.as_str()).is_some() => text,
+        _ => &control.label,
+    };
+    let message =
+        format!("the control stores a value in {}, but {field} is in {}", written(&found), written(&wanted));
+    let at = bound.text.span_of(stored.span.into());
+    let finding = Finding::new(LABEL_UNIT, label.span(), message).related(at, "it stores this");
+    Some(
+        finding
+            .why(why(&found, &wanted))
+            .help("convert `value` where it is stored, or write the unit of the field"),
+    )
+}

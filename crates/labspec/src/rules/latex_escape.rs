@@ -1,8 +1,7 @@
 use super::Check;
-use crate::finding::Finding;
 use crate::source::Text;
 use crate::spec::Lesson;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// A LaTeX command in JSON is written with one backslash.
 pub const LATEX_ESCAPE: &Rule = &Rule {

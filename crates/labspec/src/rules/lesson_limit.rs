@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A lesson is too large, or has too many fences or too many mistakes to list.
+/// Decided by `limit` in `lint/load.rs`.
 pub const LESSON_LIMIT: &Rule = &Rule {
     code: "lesson-limit",
     severity: Severity::Error,

@@ -1,4 +1,7 @@
-use labspec_finding::{Example, Layer, Rule, Severity};
+use crate::lint::CodeLine;
+use crate::source::Text;
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
+use std::ops::Range;
 
 /// A Python listing has lost its indentation.
 pub const LISTING_INDENTATION: &Rule = &Rule {
@@ -10,3 +13,17 @@ pub const LISTING_INDENTATION: &Rule = &Rule {
     bad: Example::Lesson("```python\nfor step in range(10):\n⟦print(step)⟧\n```\n"),
     good: Example::Lesson("```python\nfor step in range(10):\n    print(step)\n```\n"),
 };
+
+/// Whether a statement behind the line that opens its block is indented; `opener` is that line.
+pub(crate) fn check_line(
+    body: &Text,
+    line: &CodeLine<'_>,
+    opener: Option<(usize, Range<usize>)>,
+) -> Option<Finding> {
+    let (_, span) = opener.filter(|(outer, _)| line.indent <= *outer)?;
+    Some(
+        Finding::new(LISTING_INDENTATION, body.span_of(line.content.clone()), "this line must be indented")
+            .related(body.span_of(span), "the line that it belongs to")
+            .help("indent the block by four spaces"),
+    )
+}

@@ -1,4 +1,6 @@
-use labspec_finding::{Example, Layer, Rule, Severity};
+use crate::lint::CodeLine;
+use crate::source::Text;
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// A Python listing has lost its line breaks.
 pub const LISTING_LINE_BREAKS: &Rule = &Rule {
@@ -10,3 +12,37 @@ pub const LISTING_LINE_BREAKS: &Rule = &Rule {
     bad: Example::Lesson("```python\ndef fall(h): z = 1.0 ⟦v = 0.0 return z - v * h⟧\n```\n"),
     good: Example::Lesson("```python\ndef fall(h):\n    z = 1.0\n    v = 0.0\n    return z - v * h\n```\n"),
 };
+
+/// Whether a line has more statements than a line can hold.
+pub(crate) fn check_line(body: &Text, line: &CodeLine<'_>) -> Option<Finding> {
+    let from = line.start + second_assignment(line.bare)?;
+    let span = body.span_of(from..line.content.end);
+    Some(
+        Finding::new(LISTING_LINE_BREAKS, span, "several statements are on one line")
+            .help("put every statement on its own line, indented below the `def`"),
+    )
+}
+
+/// Where the second assignment of a `def` line begins, outside of brackets: more than one cannot follow it.
+fn second_assignment(bare: &str) -> Option<usize> {
+    if !bare.trim_start().starts_with("def ") || bare.contains(';') {
+        return None;
+    }
+    let (mut depth, mut count) = (0i32, 0);
+    for (at, c) in bare.char_indices() {
+        match c {
+            '(' | '[' | '{' => depth += 1,
+            ')' | ']' | '}' => depth -= 1,
+            '=' if depth == 0 && bare.get(at.saturating_sub(1)..at + 2) == Some(" = ") => {
+                count += 1;
+                if count == 2 {
+                    // Back over the name that is assigned.
+                    let name = bare.get(..at)?.trim_end();
+                    return Some(name.rfind(' ').map_or(0, |space| space + 1));
+                }
+            }
+            _ => {}
+        }
+    }
+    None
+}

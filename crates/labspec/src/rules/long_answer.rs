@@ -1,8 +1,7 @@
 use super::Check;
 use super::wording::plain;
-use crate::finding::Finding;
 use crate::spec::{Question, QuestionKind};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// The correct option is by far the longest.
 pub const LONG_ANSWER: &Rule = &Rule {

@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A program changes the mass of a body that turns but not its inertia.
+/// Decided by `judge` in `check/setconst/words.rs`.
 pub const MASS_ALONE: &Rule = &Rule {
     code: "mass-alone",
     severity: Severity::Warning,

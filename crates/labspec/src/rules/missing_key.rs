@@ -1,4 +1,5 @@
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
+use std::ops::Range;
 
 /// An object lacks a key that it needs.
 pub const MISSING_KEY: &Rule = &Rule {
@@ -10,3 +11,17 @@ pub const MISSING_KEY: &Rule = &Rule {
     bad: Example::Lab(r#"{"model": "ball", "readouts": [⟦{⟧"label": "time (s)"}]}"#),
     good: Example::Lab(r#"{"model": "ball", "readouts": [{"label": "time (s)", "expr": "data.time"}]}"#),
 };
+
+/// A key that an object needs; `advised` where it can do without.
+pub(crate) fn describe_missing(
+    span: Range<usize>,
+    of: &str,
+    key: &str,
+    why: &'static str,
+    advised: bool,
+) -> Finding {
+    Finding::new(MISSING_KEY, span, format!("{of} needs `{key}`"))
+        .severity(if advised { Severity::Warning } else { Severity::Error })
+        .why(why)
+        .help(format!("add \"{key}\": …"))
+}

@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A mass or an inertia changes without `mj_setConst`.
+/// Decided by `judge` in `check/setconst/words.rs`.
 pub const MISSING_SETCONST: &Rule = &Rule {
     code: "missing-setconst",
     severity: Severity::Warning,

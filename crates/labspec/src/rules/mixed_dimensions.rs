@@ -1,4 +1,7 @@
-use labspec_finding::{Example, Layer, Rule, Severity};
+use crate::bind::Bound;
+use labspec_bind::units::written;
+use labspec_expr::TextDimensions;
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// An expression adds or compares quantities of different dimensions.
 pub const MIXED_DIMENSIONS: &Rule = &Rule {
@@ -14,3 +17,15 @@ pub const MIXED_DIMENSIONS: &Rule = &Rule {
         r#"{"xml": "<mujoco><worldbody><body name='left'><joint name='left' type='slide'/><geom size='.05'/></body><body name='right' pos='1 0 0'><joint name='right' type='slide'/><geom size='.05'/></body></worldbody></mujoco>", "setup": "data.qvel[0] = 0.1", "readouts": [{"label": "place", "expr": "data.qpos[0] + data.qvel[0] * data.time"}]}"#,
     ),
 };
+
+/// Sums and comparisons of what cannot be added or compared.
+pub(crate) fn clashes(bound: &Bound, measured: &TextDimensions, severity: Severity) -> Vec<Finding> {
+    let one = |clash: &labspec_expr::DimensionClash| {
+        let message = format!("{} and {} are added or compared", written(&clash.left), written(&clash.right));
+        let mut found = Finding::new(MIXED_DIMENSIONS, bound.text.span_of(clash.span.into()), message)
+            .help("check the index and the field: one of the two may be a different quantity than intended");
+        found.severity = severity;
+        found
+    };
+    measured.clashes.iter().map(one).collect()
+}

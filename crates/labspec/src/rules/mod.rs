@@ -1,7 +1,9 @@
 //! Every rule, whatever part of labspec it comes from. Those of lessons, runs and claims are declared here, each on a page of its
-//! own, with its check where it has one; those of the language and of models in their crates.
+//! own; those of the language and of models in their crates.
 //!
-//! A new rule is a file here; the build script lists them.
+//! A page has the rule and its check: as a `CHECK`, which [`crate::lint`] calls, or as a function that a driver calls (`lint/`,
+//! `check/`). Where one pass decides several rules, the page says which function that is. A new rule is a file here; the build
+//! script lists them.
 
 mod claims;
 pub mod example;
@@ -30,6 +32,9 @@ pub(crate) enum Check {
     /// Every lab with its model, once that is loaded.
     Model(fn(&Lab, &Model, &mut Vec<Finding>)),
 }
+
+/// Most findings in one text of a lab or a quiz.
+pub(crate) const MAX_IN_TEXT: usize = 100;
 
 /// What a lab says of its model and the model does not have.
 pub(crate) fn check_model(lab: &Lab, model: &Model, findings: &mut Vec<Finding>) {
@@ -81,6 +86,44 @@ mod tests {
             let words = rule.code.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-');
             assert!(words && !rule.summary.is_empty() && !rule.summary.ends_with('.'), "{}", rule.code);
         }
+    }
+
+    /// A page has its check, or its first comment names the function that decides the rule.
+    #[test]
+    fn pages_have_their_check_or_name_it() {
+        let source = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+        let (mut here, mut elsewhere) = (0, 0);
+        for rule in super::LESSONS {
+            let page = source.join(format!("rules/{}.rs", rule.code.replace('-', "_")));
+            let text = std::fs::read_to_string(&page).unwrap();
+            let code = text.split("#[cfg(test)]").next().unwrap_or("");
+            if code
+                .lines()
+                .any(|line| line.starts_with("fn ") || line.starts_with("pub") && line.contains(" fn "))
+            {
+                here += 1;
+                continue;
+            }
+            let pointer =
+                text.lines().find_map(|line| line.strip_prefix("/// Decided by `")?.strip_suffix("`."));
+            let (function, path) = pointer.and_then(|p| p.split_once("` in `")).unwrap_or_else(|| {
+                panic!(
+                    "{} has no check, and does not say \"Decided by `function` in `file`.\"",
+                    page.display()
+                )
+            });
+            let decides = std::fs::read_to_string(source.join(path)).unwrap_or_default();
+            assert!(
+                decides.contains(&format!("fn {function}")),
+                "{}: no {function} in {path}",
+                page.display()
+            );
+            elsewhere += 1;
+        }
+        assert!(
+            here >= 100 && here + elsewhere == super::LESSONS.len(),
+            "{here} here, {elsewhere} elsewhere"
+        );
     }
 
     #[test]

@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// The model of a lab is invalid.
+/// Decided by `model_of_lab` in `bind/scene.rs`.
 pub const MODEL_BROKEN: &Rule = &Rule {
     code: "model-broken",
     severity: Severity::Error,

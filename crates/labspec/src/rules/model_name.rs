@@ -1,4 +1,8 @@
-use labspec_finding::{Example, Layer, Rule, Severity};
+use crate::json::encode;
+use crate::json::read::{named, shorten};
+use crate::lint::ModelFolder;
+use crate::source::Text;
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// A lab names its model by a path or with an extension.
 pub const MODEL_NAME: &Rule = &Rule {
@@ -10,3 +14,25 @@ pub const MODEL_NAME: &Rule = &Rule {
     bad: Example::Lab(r#"{"model": "⟦../other/ball.xml⟧"}"#),
     good: Example::Lab(r#"{"model": "ball"}"#),
 };
+
+/// Whether a model is named without folder and extension.
+pub(crate) fn check_model_name(name: &Text, models: &ModelFolder) -> Option<Finding> {
+    let text = name.as_str();
+    let path = text.contains(['/', '\\', '\0']) || text.contains("..") || text.ends_with(".xml");
+    if !path && !text.trim().is_empty() {
+        return None;
+    }
+    let stem = text.rsplit(['/', '\\']).next().unwrap_or("");
+    let stem = stem.strip_suffix(".xml").unwrap_or(stem);
+    let finding =
+        Finding::new(MODEL_NAME, name.span(), format!("{} is not the name of a model", named(text)));
+    Some(if stem.is_empty() || stem.contains("..") {
+        finding.help("write the name of the file without folder and extension")
+    } else {
+        let named = finding
+            .help(format!("write the name of the file without folder and extension: {}", shorten(stem)));
+        // What the folder does not have is no repair.
+        let exists = models.names().is_none_or(|names| names.iter().any(|n| n == stem));
+        if exists { named.fix(name.span(), encode(stem)) } else { named }
+    })
+}

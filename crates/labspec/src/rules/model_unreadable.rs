@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A model file cannot be read.
+/// Decided by `compile` in `bind/scene.rs`.
 pub const MODEL_UNREADABLE: &Rule = &Rule {
     code: "model-unreadable",
     severity: Severity::Error,

@@ -1,4 +1,9 @@
-use labspec_finding::{Example, Layer, Rule, Severity};
+use crate::check::PreparedLab;
+use crate::printable::counted;
+use crate::run::{self, Budget, Session};
+use crate::stress::{Fault, FaultKind, Interaction, StressCase};
+use labspec_core::reflect::option;
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// The lab breaks at twice its timestep.
 pub const NEAR_ITS_LIMIT: &Rule = &Rule {
@@ -14,3 +19,41 @@ pub const NEAR_ITS_LIMIT: &Rule = &Rule {
         r#"{"xml": "<mujoco><worldbody><body name='rod'><joint name='hinge' axis='0 1 0' stiffness='20'/><geom type='capsule' size='.02' fromto='0 0 0 0 0 -.5' mass='.2'/></body></worldbody></mujoco>", "setup": "data.qpos[0] = 0.001", "stopAt": 2, "readouts": [{"label": "angle (rad)", "expr": "data.qpos[0]"}]}"#,
     ),
 };
+
+/// Work for a run at twice the timestep.
+const TWICE: Budget = Budget { left: 300_000_000 };
+
+/// A lab that breaks at twice its timestep, and did not in so many runs of this length, s.
+pub(crate) fn check_margin(
+    ready: &PreparedLab<'_>,
+    case: &StressCase<'_>,
+    untouched: &Interaction,
+    wanted: f64,
+    runs: usize,
+) -> Option<Finding> {
+    let writes = |effects: &labspec_expr::Effects| {
+        effects.writes_everything
+            || effects.writes.iter().any(|w| w.field.0 as usize == option::timestep.index())
+    };
+    // Where a control chooses it, its ends were run.
+    if ready.programs.bound().any(|b| writes(b.program.effects())) {
+        return None;
+    }
+    let twice = |session: &mut Session<'_>| *session.world.model.edit().opt.timestep *= 2.0;
+    let outcome = case.run(untouched, Some(&twice), wanted, TWICE.left);
+    let breaks = |f: &&Fault| matches!(f.kind, FaultKind::Diverges | FaultKind::Grows | FaultKind::Silent);
+    let fault = outcome.faults.iter().find(breaks)?;
+    let h = ready.model.opt.timestep;
+    let message = format!(
+        "this lab breaks at twice its timestep of {} s: {}, {}, at t = {} s",
+        run::two_digits(h),
+        fault.who,
+        fault.kind.description(),
+        run::time(fault.time)
+    );
+    Some(
+        Finding::plain(NEAR_ITS_LIMIT, ready.lab.place(), message)
+            .why(format!("at its own timestep its {} were fine, but a slightly stiffer model or a page with longer steps breaks it", counted(runs, "run")))
+            .help(format!("{}; `labspec stability --margins` finds how far every value can be raised", fault.cause)),
+    )
+}

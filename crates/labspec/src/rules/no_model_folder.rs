@@ -1,4 +1,6 @@
-use labspec_finding::{Example, Layer, Rule, Severity};
+use crate::lint::ModelFolder;
+use crate::source::Text;
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// The model folder does not exist.
 pub const NO_MODEL_FOLDER: &Rule = &Rule {
@@ -13,3 +15,19 @@ pub const NO_MODEL_FOLDER: &Rule = &Rule {
         ("models/ball.xml", b"<mujoco><worldbody><geom size='.1'/></worldbody></mujoco>"),
     ]),
 };
+
+/// Whether there is a folder in which the model could be.
+pub(crate) fn check_folder(name: &Text, folder: &ModelFolder) -> Option<Finding> {
+    folder.given().is_none().then(|| {
+        Finding::error(
+            NO_MODEL_FOLDER,
+            name.span(),
+            "the model folder does not exist, so this lab cannot run",
+        )
+        .why("the checker skips its expressions, its runs and every claim about it")
+        .help(format!(
+            "put {}.xml into a folder `models` beside or above the lesson, or name the folder: --models DIR",
+            name.value
+        ))
+    })
+}

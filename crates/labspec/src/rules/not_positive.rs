@@ -1,10 +1,9 @@
 use super::Check;
 use super::claims;
-use crate::finding::Finding;
 use crate::json::Number;
 use crate::spec::Lesson;
 use crate::spec::format::{FIND, LAB, Object, PLOT, RUN};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// A time, size or speed is zero or negative.
 pub const NOT_POSITIVE: &Rule = &Rule {

@@ -1,4 +1,8 @@
-use labspec_finding::{Example, Layer, Rule, Severity};
+//! Numbers that are not claimed: most of them, in a lesson that has not been gone through, or a few in one that claims the others.
+
+use crate::spec::Lesson;
+use crate::verify::{Stated, counted};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// The lesson states numbers with units that no `verify` quotes.
 pub const NUMBERS_UNCLAIMED: &Rule = &Rule {
@@ -14,3 +18,59 @@ pub const NUMBERS_UNCLAIMED: &Rule = &Rule {
         "It touches the floor soon.\n\n```lab simlab\n{\"model\": \"ball\", \"readouts\": [{\"label\": \"height (m)\", \"expr\": \"data.qpos[2]\"}]}\n```\n",
     ),
 };
+
+/// With fewer claims nobody can say that the author means to claim everything.
+const LEAST: usize = 10;
+/// Of so many numbers one may be left out.
+const SHARE: usize = 10;
+/// Fewer are not told: one or two are what the text begins with.
+const FEWEST: usize = 3;
+/// Bytes of a lesson in which they are looked for.
+const LONGEST: usize = 2 << 20;
+
+/// Tells each number on its own where nearly all are claimed, and else the first one of the text, with how many there are.
+pub(crate) fn check_left_out(lesson: &Lesson, findings: &mut Vec<Finding>) {
+    // Where nothing can be claimed nothing is left out; and who writes megabytes is not looked at word by word.
+    let nothing = lesson.labs.is_empty() && lesson.verifies().next().is_none();
+    if nothing || lesson.file.text().len() > LONGEST {
+        return;
+    }
+    let counted = counted(lesson);
+    // The answer of a question is another matter: it has its `value`.
+    let numbers = |list: Vec<Stated>| list.into_iter().filter(|s| !s.answer).collect::<Vec<_>>();
+    let [claimed, left] = [counted.claimed, counted.left].map(numbers);
+    let all = claimed.len() + left.len();
+    if claimed.len() >= LEAST && left.len() * SHARE <= all {
+        for s in left {
+            let others = all - 1;
+            let message = format!(
+                "no `verify` quotes {}, although nearly all of the other {others} numbers are quoted",
+                s.quote
+            );
+            findings.push(
+                Finding::new(NUMBERS_UNCLAIMED, s.span.clone(), message)
+                    .help("quote it under `says`, or restore the earlier claim"),
+            );
+        }
+        return;
+    }
+    // What a question offers is wrong but for one option, and no claim can be about that.
+    let in_text = |list: Vec<Stated>| list.into_iter().filter(|s| is_text(lesson, s)).collect::<Vec<_>>();
+    let [claimed, left] = [claimed, left].map(in_text);
+    if let Some(first) = left.first().filter(|_| left.len() >= FEWEST && !lesson.labs.is_empty()) {
+        let (some, all) = (claimed.len(), claimed.len() + left.len());
+        let message = format!(
+            "the text has {all} numbers with units and `verify` quotes {some} of them; this is the first one that it does not quote"
+        );
+        findings.push(
+            Finding::new(NUMBERS_UNCLAIMED, first.span.clone(), message)
+                .help("quote numbers that come from a run under `says` of a `verify`; `labspec trace` finds their origin"),
+        );
+    }
+}
+
+/// Whether a number stands in no lab and in no quiz.
+fn is_text(lesson: &Lesson, s: &Stated) -> bool {
+    let blocks = lesson.labs.iter().map(|lab| &lab.span).chain(lesson.quizzes.iter().map(|quiz| &quiz.span));
+    !blocks.into_iter().any(|block| block.start <= s.span.start && s.span.end <= block.end)
+}

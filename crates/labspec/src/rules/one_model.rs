@@ -1,7 +1,6 @@
 use super::Check;
-use crate::finding::Finding;
 use crate::spec::Lab;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// A lab has neither `model` nor `xml`, or has both.
 pub const ONE_MODEL: &Rule = &Rule {

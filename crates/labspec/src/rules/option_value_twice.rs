@@ -1,9 +1,8 @@
 use super::Check;
-use crate::finding::Finding;
 use crate::json::Scalar;
 use crate::json::read::named;
 use crate::spec::{Control, ControlKind};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// Two options of a select have the same value.
 pub const OPTION_VALUE_TWICE: &Rule = &Rule {

@@ -1,4 +1,8 @@
-use labspec_finding::{Example, Layer, Rule, Severity};
+use crate::check::observations::{ObservedLab, Record};
+use crate::check::setconst::digits;
+use crate::run::Cell;
+use crate::spec::{Plot, Trace};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// A trace is outside its plot most of the time, in every run.
 pub const OUTSIDE_PLOT: &Rule = &Rule {
@@ -14,3 +18,46 @@ pub const OUTSIDE_PLOT: &Rule = &Rule {
         r#"{"xml": "<mujoco><worldbody><geom name='floor' type='plane' size='1 1 1'/><body name='ball' pos='0 0 1'><freejoint/><geom name='ball' size='.05' mass='1'/></body></worldbody></mujoco>", "plots": [{"window": 1, "ymin": 0, "ymax": 1.1, "traces": [{"label": "height (m)", "expr": "data.qpos[2]"}]}]}"#,
     ),
 };
+
+/// A plot whose curve is inside for less than this share of the time shows too little of it.
+const INSIDE: f64 = 0.5;
+
+/// A curve that lies outside of its plot for most of the time, in every run.
+pub(crate) fn check_trace_range(
+    observed: &ObservedLab<'_>,
+    plot: &Plot,
+    c: usize,
+    trace: &Trace,
+) -> Option<Finding> {
+    // One end alone may be there to cut off what is beyond it.
+    let (low, high) = (plot.ymin.as_ref()?.value, plot.ymax.as_ref()?.value);
+    if low >= high {
+        return None;
+    }
+    let share = |record: &Record| {
+        let all: Vec<f64> =
+            record.rows.iter().filter_map(|r| r.get(c)).map(Cell::number).filter(|x| x.is_finite()).collect();
+        let inside = all.iter().filter(|x| (low..=high).contains(*x)).count();
+        (!all.is_empty()).then(|| inside as f64 / all.len() as f64)
+    };
+    let first = observed.records.first()?;
+    let most = observed.records.iter().filter_map(share).fold(0.0, f64::max);
+    let nominal_share = share(first)?;
+    if nominal_share >= INSIDE || most >= INSIDE {
+        return None;
+    }
+    let cells = first.rows.iter().filter_map(|r| r.get(c)).map(Cell::number).filter(|x| x.is_finite());
+    let (least, largest) = cells.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+    let [least, largest] = [least, largest].map(|x| digits(x, 4));
+    let message = format!("this curve is outside its plot, which goes from {low} to {high}");
+    Some(
+        Finding::warning(OUTSIDE_PLOT, trace.expr.span(), message)
+            .why(format!(
+                "as the lab stands it goes from {least} to {largest}, and is inside for {:.0} % of the time; in {} it is inside for at most {:.0} %",
+                100.0 * nominal_share,
+                observed.runs(),
+                100.0 * most
+            ))
+            .help("widen `ymin` and `ymax` to include the curve, or delete them: the plot then follows it"),
+    )
+}

@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A body passes through another one.
+/// Decided by `observe` in `monitors/through.rs`.
 pub const PASSES_THROUGH: &Rule = &Rule {
     code: "passes-through",
     severity: Severity::Error,

@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A joint exceeds its limit by a large part of its range.
+/// Decided by `observe` in `monitors/limits.rs`.
 pub const PAST_LIMIT: &Rule = &Rule {
     code: "past-limit",
     severity: Severity::Error,

@@ -1,7 +1,6 @@
 use super::Check;
-use crate::finding::Finding;
 use crate::spec::{ChoiceStyle, Lesson, Question, QuestionKind};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// Predictions have no `verify`, so nothing checks their answers.
 pub const PREDICTION_UNCHECKED: &Rule = &Rule {

@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Bodies are pressed deep into each other at some setting of the controls.
+/// Decided by `penetration` in `stress/watch.rs`.
 pub const PRESSED_DEEP: &Rule = &Rule {
     code: "pressed-deep",
     severity: Severity::Note,

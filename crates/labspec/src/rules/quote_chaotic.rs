@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// The digits of a quoted number change when the start changes by less than rounding.
+/// Decided by `chaotic` in `verify/quote/messages.rs`.
 pub const QUOTE_CHAOTIC: &Rule = &Rule {
     code: "quote-chaotic",
     severity: Severity::Warning,

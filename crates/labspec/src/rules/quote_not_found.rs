@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// The quoted text does not appear in the rendered lesson.
+/// Decided by `not_found` in `verify/quote/messages.rs`.
 pub const QUOTE_NOT_FOUND: &Rule = &Rule {
     code: "quote-not-found",
     severity: Severity::Error,

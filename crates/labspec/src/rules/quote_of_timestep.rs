@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// The digits of a quoted number change at half the timestep.
+/// Decided by `of_timestep` in `verify/quote/messages.rs`.
 pub const QUOTE_OF_TIMESTEP: &Rule = &Rule {
     code: "quote-of-timestep",
     severity: Severity::Note,

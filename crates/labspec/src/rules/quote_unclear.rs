@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A quoted number has two readings, or none.
+/// Decided by `doubtful` in `verify/quote/messages.rs`.
 pub const QUOTE_UNCLEAR: &Rule = &Rule {
     code: "quote-unclear",
     severity: Severity::Error,

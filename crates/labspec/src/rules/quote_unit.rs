@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A quoted number and its expression differ by a power of ten.
+/// Decided by `other_unit` in `verify/quote/messages.rs`.
 pub const QUOTE_UNIT: &Rule = &Rule {
     code: "quote-unit",
     severity: Severity::Error,

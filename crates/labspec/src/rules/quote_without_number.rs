@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A quote contains no number.
+/// Decided by `no_number` in `verify/quote/messages.rs`.
 pub const QUOTE_WITHOUT_NUMBER: &Rule = &Rule {
     code: "quote-without-number",
     severity: Severity::Error,

@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// The expression of a quoted number has no value.
+/// Decided by `no_value` in `verify/quote/messages.rs`.
 pub const QUOTE_WITHOUT_VALUE: &Rule = &Rule {
     code: "quote-without-value",
     severity: Severity::Error,

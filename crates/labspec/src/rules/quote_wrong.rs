@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A number quoted in the text differs from the simulation.
+/// Decided by `wrong` in `verify/quote/messages.rs`.
 pub const QUOTE_WRONG: &Rule = &Rule {
     code: "quote-wrong",
     severity: Severity::Error,

@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A claim reads the simulation at no time of the run.
+/// Decided by `reads_outside_run` in `verify/claim.rs`.
 pub const READ_OUTSIDE_RUN: &Rule = &Rule {
     code: "read-outside-run",
     severity: Severity::Error,

@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A run of a `verify` object breaks.
+/// Decided by `report_runs` in `verify/check_verify.rs`.
 pub const RUN_BREAKS: &Rule = &Rule {
     code: "run-breaks",
     severity: Severity::Error,

@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A run cannot be made.
+/// Decided by `ready` in `verify/runner.rs`.
 pub const RUN_IMPOSSIBLE: &Rule = &Rule {
     code: "run-impossible",
     severity: Severity::Error,

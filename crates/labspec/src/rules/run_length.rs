@@ -1,8 +1,7 @@
 use super::Check;
 use super::claims;
-use crate::finding::Finding;
 use crate::spec::Lesson;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// A run has both `until` and `steps`.
 pub const RUN_LENGTH: &Rule = &Rule {

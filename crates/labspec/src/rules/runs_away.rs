@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// The motion grows beyond every sensible bound without a warning of the engine.
+/// Decided by `ran_away` in `stress/runaway.rs`.
 pub const RUNS_AWAY: &Rule = &Rule {
     code: "runs-away",
     severity: Severity::Error,

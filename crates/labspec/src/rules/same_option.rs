@@ -1,10 +1,9 @@
 use super::Check;
 use super::wording::visible_text;
-use crate::finding::Finding;
 use crate::json::read::named;
 use crate::source::Text;
 use crate::spec::{Question, QuestionKind};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::collections::HashMap;
 
 /// Two options of a question differ only in capitals, punctuation or articles.

@@ -1,8 +1,7 @@
 use super::Check;
-use crate::finding::Finding;
 use crate::json::read::named;
 use crate::spec::{Lab, Readout};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// Two readouts have the same expression.
 pub const SAME_READOUT: &Rule = &Rule {

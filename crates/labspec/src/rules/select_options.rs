@@ -1,4 +1,5 @@
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
+use std::ops::Range;
 
 /// The options of a select are not a list of pairs of text and value.
 pub const SELECT_OPTIONS: &Rule = &Rule {
@@ -14,3 +15,15 @@ pub const SELECT_OPTIONS: &Rule = &Rule {
         r#"{"model": "ball", "controls": [{"type": "select", "label": "integrator", "set": "model.opt.integrator", "options": [["Euler", 0], ["RK4", 1]], "value": 1}]}"#,
     ),
 };
+
+/// An option that is no pair.
+pub(crate) fn not_a_pair(span: Range<usize>) -> Finding {
+    Finding::new(SELECT_OPTIONS, span, "an option of a select must be a pair [text, value]")
+        .help("write [\"RK4\", 1]")
+}
+
+/// A select without options.
+pub(crate) fn nothing_offered(span: Range<usize>) -> Finding {
+    Finding::new(SELECT_OPTIONS, span, "this select has no options")
+        .help("add \"options\": [[\"Euler\", 0], [\"RK4\", 1]]")
+}

@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A program changes the size or the position of a geom but not the values that follow from it.
+/// Decided by `judge` in `check/setconst/words.rs`.
 pub const SHAPE_ALONE: &Rule = &Rule {
     code: "shape-alone",
     severity: Severity::Warning,

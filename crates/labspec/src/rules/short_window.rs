@@ -1,7 +1,6 @@
 use super::Check;
-use crate::finding::Finding;
 use crate::spec::Lab;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// The window of a plot is so short that its curve has only a few points.
 pub const SHORT_WINDOW: &Rule = &Rule {

@@ -1,4 +1,9 @@
-use labspec_finding::{Example, Layer, Rule, Severity};
+use crate::check::observations::{Move, ObservedLab, same, single_moves};
+use crate::check::setconst::digits;
+use crate::run::{self, Cell, Play};
+use labspec_core::reflect::{FieldId, Object};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
+use std::ops::ControlFlow;
 
 /// A readout shows the initial value of a coordinate that moves.
 pub const SHOWS_THE_START: &Rule = &Rule {
@@ -14,3 +19,89 @@ pub const SHOWS_THE_START: &Rule = &Rule {
         r#"{"xml": "<mujoco><worldbody><geom name='floor' type='plane' size='1 1 1'/><body name='ball' pos='0 0 1'><freejoint/><geom name='ball' size='.05' mass='1'/></body></worldbody></mujoco>", "stopAt": 0.3, "readouts": [{"label": "height (m)", "expr": "data.qpos[2]"}, {"label": "height at the start (m)", "expr": "model.qpos0[2]"}]}"#,
     ),
 };
+
+/// What says where coordinates begin.
+const STARTS: [&str; 2] = ["qpos0", "key_qpos"];
+/// Beginnings of words in a label that says so itself, and whole words.
+const BEGIN: [&str; 6] = ["start", "begin", "initial", "referen", "nominal", "origin"];
+const WHOLE: [&str; 7] = ["rest", "zero", "home", "neutral", "first", "key", "0"];
+/// Steps of the runs that are observed at.
+const STEPS: usize = 500;
+/// A coordinate that has gone this far has moved, m or rad.
+const MOVED: f64 = 1e-6;
+
+pub(crate) fn check_beginning(observed: &ObservedLab<'_>, findings: &mut Vec<Finding>) {
+    let ready = observed.bench.ready;
+    let traces = ready.lab.traces().count();
+    for (i, readout) in ready.lab.readouts.iter().enumerate() {
+        let label = readout.label.as_str().to_lowercase();
+        let Some(bound) = ready.programs.probes.get(traces + i).and_then(|p| p.bound.as_ref()) else {
+            continue;
+        };
+        let effects = bound.program.effects();
+        let more = effects.reads_everything
+            || effects.any_ctx
+            || effects.calls_values
+            || !effects.ctx_reads.is_empty();
+        let fields =
+            || effects.reads.iter().filter_map(|a| Some((FieldId::new(a.field.0 as usize)?.info(), a)));
+        let live = fields().any(|(f, _)| f.object == Object::Data);
+        let start = fields().find(|(f, a)| STARTS.contains(&f.name) && a.count == Some(1));
+        let (Some((field, access)), false) = (start, more || live || says_so(&label)) else {
+            continue;
+        };
+        let column =
+            || observed.records.iter().flat_map(|r| &r.rows).filter_map(|row| row.get(1 + traces + i));
+        let Some(first_cell) = column().next().filter(|c| matches!(c, Cell::Number(_))) else { continue };
+        let at = access.first % ready.model.nq.max(1);
+        if !column().all(|c| same(c, first_cell)) {
+            continue;
+        }
+        let Some((from, to, done)) = moves(observed, at) else { continue };
+        let [first_cell, from, to] = [first_cell.number(), from, to].map(|x| digits(x, 4));
+        findings.push(
+            Finding::warning(
+                SHOWS_THE_START,
+                readout.expr.span(),
+                format!(
+                    "\"{}\" shows the initial value of a coordinate, not the current one",
+                    readout.label.as_str()
+                ),
+            )
+            .why(format!(
+                "it is {first_cell} in every run, but {done} `data.qpos[{at}]` goes from {from} to {to}"
+            ))
+            .help(format!(
+                "read `data.qpos` for the current value: `model.{}` holds the initial one",
+                field.name
+            )),
+        );
+    }
+}
+
+/// Whether a label says that it is about the start.
+fn says_so(label: &str) -> bool {
+    let mut words = label.split(|c: char| !c.is_alphanumeric());
+    words.any(|w| BEGIN.iter().any(|b| w.starts_with(b)) || WHOLE.contains(&w) || w.ends_with(['0', '₀']))
+}
+
+/// The first run in which a coordinate moves: from where, to where, and what was done.
+fn moves(observed: &ObservedLab<'_>, at: usize) -> Option<(f64, f64, String)> {
+    single_moves(observed.bench.ready.lab).into_iter().find_map(|(done, description)| {
+        let mut session = observed.bench.start();
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        run::play(&mut session, &Play { every: 5, ..Play::steps(STEPS) }, |session, step| {
+            match &done {
+                Some(Move { control, value: Some(value), .. }) if step == 0 => {
+                    session.set_control(*control, value.clone());
+                }
+                Some(Move { control, value: None, .. }) if step == 5 => session.press(*control),
+                _ => {}
+            }
+            let x = session.world.data.fields().qpos.get(at).copied().unwrap_or(f64::NAN);
+            (low, high) = (low.min(x), high.max(x));
+            ControlFlow::Continue(())
+        });
+        (session.ended().is_none() && high - low > MOVED).then_some((low, high, description))
+    })
+}

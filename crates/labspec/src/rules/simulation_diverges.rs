@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// The simulation meets a value that is NaN, infinite or above 1e10.
+/// Decided by `explain_warning` in `run/diagnose.rs`.
 pub const SIMULATION_DIVERGES: &Rule = &Rule {
     code: "simulation-diverges",
     severity: Severity::Error,

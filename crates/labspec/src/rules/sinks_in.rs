@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A body stays inside another one by a large part of its size.
+/// Decided by `observe` in `monitors/sunk.rs`.
 pub const SINKS_IN: &Rule = &Rule {
     code: "sinks-in",
     severity: Severity::Error,

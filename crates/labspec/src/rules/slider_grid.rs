@@ -1,7 +1,6 @@
 use super::Check;
-use crate::finding::Finding;
 use crate::spec::{Control, ControlKind};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// The start value of a slider is between two of its steps.
 pub const SLIDER_GRID: &Rule = &Rule {

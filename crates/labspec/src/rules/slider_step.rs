@@ -1,7 +1,6 @@
 use super::Check;
-use crate::finding::Finding;
 use crate::spec::{Control, ControlKind};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// The step of a slider is not positive, or larger than its range.
 pub const SLIDER_STEP: &Rule = &Rule {

@@ -1,8 +1,7 @@
 use super::Check;
 use super::wording::plain;
-use crate::finding::Finding;
 use crate::spec::{Question, QuestionKind};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// The tolerance of a numeric question accepts the most common slip, a factor of 2.
 pub const SLIP_ACCEPTED: &Rule = &Rule {

@@ -1,7 +1,7 @@
 use super::example::{FALL, STORED};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A lab has changed since its snapshot was taken.
+/// Decided by `outdated` in `check/snapshot/mod.rs`.
 pub const SNAPSHOT_OUTDATED: &Rule = &Rule {
     code: "snapshot-outdated",
     severity: Severity::Error,

@@ -1,7 +1,7 @@
 use super::example::{FALL, STORED};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A snapshot cannot be read.
+/// Decided by `check_snapshots` in `check/snapshot/mod.rs`.
 pub const SNAPSHOT_UNREADABLE: &Rule = &Rule {
     code: "snapshot-unreadable",
     severity: Severity::Error,

@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// The solver stops before it has found the forces.
+/// Decided by `observe` in `monitors/unsolved.rs`.
 pub const SOLVER_STOPS_EARLY: &Rule = &Rule {
     code: "solver-stops-early",
     severity: Severity::Error,

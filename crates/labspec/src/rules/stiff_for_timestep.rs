@@ -1,4 +1,8 @@
-use labspec_finding::{Example, Layer, Rule, Severity};
+use crate::monitors::stability;
+use crate::run;
+use labspec_core::Model;
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
+use std::ops::Range;
 
 /// A servo, a spring or a contact is too stiff for the timestep.
 pub const STIFF_FOR_TIMESTEP: &Rule = &Rule {
@@ -14,3 +18,20 @@ pub const STIFF_FOR_TIMESTEP: &Rule = &Rule {
         r#"{"xml": "<mujoco><worldbody><body name='rod'><joint name='hinge' axis='0 1 0' stiffness='10'/><geom type='capsule' size='.02' fromto='0 0 0 0 0 -1'/></body></worldbody></mujoco>", "setup": "data.qpos[0] = 0.001", "stopAt": 0.004, "readouts": [{"label": "shown", "expr": "data.qpos[0]"}]}"#,
     ),
 };
+
+/// What of a lab's scene no step of its length can follow, though its run did not show it.
+pub(crate) fn check_stiffness(model: &Model, place: Range<usize>, covered: &str) -> Option<Finding> {
+    let worst = stability::suspects(model).into_iter().next()?;
+    let [owner, how] = [run::owner(model, &worst), run::how_stiff(&worst)];
+    Some(
+        Finding::warning(STIFF_FOR_TIMESTEP, place, format!("{owner} is {how} for its timestep"))
+            .why(format!(
+                "nothing goes wrong in the {covered} s of the run, but after a push every step overshoots more than the one before: it swings ever wider, and MuJoCo gives no warning until a number exceeds 1e10"
+            ))
+            .help(format!(
+                "set the timestep to {} s, or {}",
+                run::two_digits(0.9 * worst.timestep.min(model.opt.timestep)),
+                run::softer(&worst)
+            )),
+    )
+}

@@ -1,4 +1,9 @@
-use labspec_finding::{Example, Layer, Rule, Severity};
+use crate::check::observations::{ObservedLab, column};
+use crate::check::setconst::digits;
+use crate::run::Cell;
+use crate::spec::Readout;
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
+use std::collections::BTreeSet;
 
 /// A readout prints nearly the same number although its value changes.
 pub const TOO_FEW_DIGITS: &Rule = &Rule {
@@ -14,3 +19,52 @@ pub const TOO_FEW_DIGITS: &Rule = &Rule {
         r#"{"xml": "<mujoco><worldbody><geom name='floor' type='plane' size='1 1 1'/><body name='ball' pos='0 0 1'><freejoint/><geom name='ball' size='.05' mass='1'/></body></worldbody></mujoco>", "stopAt": 0.3, "readouts": [{"label": "fallen (m)", "expr": "1 - data.qpos[2]", "digits": 2}]}"#,
     ),
 };
+
+/// A value that changes by less than this share of itself hardly changes.
+const CHANGES: f64 = 0.5;
+/// The same where one text is printed whatever happens, and where two are, without decimals.
+const HARDLY: f64 = 0.05;
+const SOME: f64 = 0.1;
+/// So many different values are no count of something.
+const MANY: usize = 20;
+
+/// `c` is the column of the readout.
+pub(crate) fn check_readout(observed: &ObservedLab<'_>, readout: &Readout, c: usize) -> Option<Finding> {
+    let cells = || column(observed.records, c);
+    let numbers = || cells().map(Cell::number);
+    if cells().any(|c| !matches!(c, Cell::Number(x) if x.is_finite())) {
+        return None;
+    }
+    let (low, high) = numbers().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+    let unit = 10_f64.powi(-(readout.digits() as i32));
+    let values: BTreeSet<u64> = numbers().filter(|x| x.fract() != 0.0).map(f64::to_bits).collect();
+    // What is nearly 0 is printed with an exponent, and so not rounded.
+    let rounded = 4 * numbers().filter(|x| *x == 0.0 || x.abs() >= 1e-3).count() >= 3 * numbers().count();
+    let many = values.len() >= MANY && rounded;
+    let share = (high - low) / low.abs().max(high.abs());
+    let printed: BTreeSet<String> =
+        cells().map(|c| c.rounded(readout.digits()).trim_start_matches('-').to_string()).collect();
+    // One text, or two next to each other, for all that it does.
+    let few =
+        readout.digits() == 0 && (printed.len() == 1 && share > HARDLY || printed.len() == 2 && share > SOME);
+    // A number that is never 0, and is printed as 0.
+    let nothing = printed.iter().all(|t| t == "0") && (low >= 1e-3 || high <= -1e-3);
+    let few = few || nothing;
+    if !nothing && !(many && (share > CHANGES && high - low < 2.0 * unit || few)) {
+        return None;
+    }
+    let texts = printed.iter().take(2).cloned().collect::<Vec<_>>().join(" and ");
+    let [low, high] = [low, high].map(|x| digits(x, 3));
+    let message = format!("\"{}\" is printed with too few decimals", readout.label.value);
+    let place = readout.digits.as_ref().map_or(readout.expr.span(), |d| d.span.clone());
+    Some(
+        Finding::warning(TOO_FEW_DIGITS, readout.expr.span(), message)
+            .why(format!(
+                "its value goes from {low} to {high} in {}, but it prints {}",
+                observed.runs(),
+                if few { texts } else { "numbers within two units of the last decimal".into() }
+            ))
+            .related(place, "decimals")
+            .help("increase `digits`"),
+    )
+}

@@ -1,8 +1,7 @@
 use super::Check;
-use crate::finding::Finding;
 use crate::printable::counted;
 use crate::spec::{Question, QuestionKind};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// A question has fewer than two options.
 pub const TOO_FEW_OPTIONS: &Rule = &Rule {

@@ -1,4 +1,10 @@
-use labspec_finding::{Example, Layer, Rule, Severity};
+use crate::check::observations::ObservedLab;
+use crate::check::setconst::digits;
+use crate::run::{self, Cell, Play, StepVariant};
+use labspec_core::reflect::option;
+use labspec_expr::Effects;
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
+use std::ops::ControlFlow;
 
 /// A readout prints more decimals than the integration supports.
 pub const TOO_MANY_DIGITS: &Rule = &Rule {
@@ -14,3 +20,90 @@ pub const TOO_MANY_DIGITS: &Rule = &Rule {
         r#"{"xml": "<mujoco><worldbody><body name='ball' pos='0 0 1'><freejoint/><geom name='ball' size='.05' mass='1'/></body></worldbody></mujoco>", "stopAt": 0.4, "readouts": [{"label": "height (m)", "expr": "data.qpos[2]", "digits": 3}]}"#,
     ),
 };
+
+/// A readout is observed at this many times.
+const LOOKS: usize = 10;
+/// Two decimals too many: the other run differs by so many units of the last one, at most of the looks.
+const UNITS: f64 = 100.0;
+/// Steps of the runs.
+const STEPS: usize = 5000;
+
+const HALF: StepVariant = StepVariant { timestep: 0.5, ..StepVariant::NOMINAL };
+
+pub(crate) fn check_surplus_digits(observed: &mut ObservedLab<'_>, findings: &mut Vec<Finding>) {
+    let ready = observed.bench.ready;
+    let of_timestep = |e: &Effects| {
+        let timestep = option::timestep.index();
+        e.reads_everything || e.reads.iter().chain(&e.writes).any(|a| a.field.0 as usize == timestep)
+    };
+    // Where a text speaks of the timestep, what it makes of the numbers is the lesson.
+    if ready.lab.readouts.is_empty() || ready.programs.bound().any(|b| of_timestep(b.program.effects())) {
+        return;
+    }
+    let Some((steps, _)) = observed.bench.steps(observed.length).filter(|(n, _)| (LOOKS..=STEPS).contains(n))
+    else {
+        return;
+    };
+    let (Some(nominal), Some(fine)) = (samples(observed, steps, 1), samples(observed, steps, 2)) else {
+        return;
+    };
+    let first = 1 + ready.lab.traces().count();
+    for (i, readout) in ready.lab.readouts.iter().enumerate() {
+        let last = 10f64.powi(-(readout.digits() as i32));
+        let differs = |(a, b): &(&Vec<Cell>, &Vec<Cell>)| {
+            let at = |row: &Vec<Cell>| row.get(first + i).map_or(f64::NAN, Cell::number);
+            (at(a) - at(b)).abs() / last
+        };
+        let mut apart: Vec<f64> = nominal.iter().zip(&fine).map(|pair| differs(&pair)).collect();
+        if apart.iter().any(|x| !x.is_finite()) {
+            continue;
+        }
+        apart.sort_by(f64::total_cmp);
+        let middle = apart.get(apart.len() / 2).copied().unwrap_or(0.0);
+        let good = readout.digits() as i32 - middle.max(1.0).log10().floor() as i32;
+        if middle < UNITS || good < 0 {
+            continue;
+        }
+        let last_text = |rows: &[Vec<Cell>]| {
+            rows.last()
+                .and_then(|row| row.get(first + i))
+                .map_or(String::new(), |c| c.rounded(readout.digits()))
+        };
+        let time = nominal.last().and_then(|row| row.first()).map_or(0.0, Cell::number);
+        findings.push(
+            Finding::new(
+                TOO_MANY_DIGITS,
+                readout.expr.span(),
+                format!("{} decimals are printed, but the timestep decides all but {good}", readout.digits()),
+            )
+            .why(format!(
+                "at t = {} s it is {}, but {} in the same run at half the timestep",
+                digits(time, 4),
+                last_text(&nominal),
+                last_text(&fine)
+            ))
+            .help(format!(
+                "write \"digits\": {good}, or use a shorter timestep; `labspec precision` shows how short"
+            )),
+        );
+    }
+}
+
+/// What is shown in a run at a few times, with the timestep as it is or with half of it.
+fn samples(observed: &mut ObservedLab<'_>, steps: usize, parts: usize) -> Option<Vec<Vec<Cell>>> {
+    let mut session = observed.bench.start();
+    if parts > 1 {
+        session.perturb(HALF, false);
+    }
+    let mut rows = Vec::new();
+    run::play(&mut session, &Play::steps(parts * steps), |session, step| {
+        if step > 0 && step % (parts * (steps / LOOKS)) == 0 {
+            rows.push(session.sample());
+        }
+        ControlFlow::Continue(())
+    });
+    let (spent, sound) = (session.spent(), session.ended().is_none());
+    drop(session);
+    observed.bench.left = observed.bench.left.saturating_sub(spent);
+    (sound && observed.bench.left > 0).then_some(rows)
+}

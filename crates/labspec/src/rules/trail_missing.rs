@@ -1,9 +1,8 @@
 use super::Check;
-use crate::finding::Finding;
 use crate::json::{encode, nearest, read::named};
 use crate::spec::Lab;
 use labspec_core::{Model, Obj};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// `trail` names a site that the model does not have.
 pub const TRAIL_MISSING: &Rule = &Rule {

@@ -1,9 +1,11 @@
 use super::Check;
-use crate::finding::Finding;
 use crate::json::fix_in;
+use crate::lint::CodeScan;
 use crate::markdown::is_typographic;
+use crate::source::Text;
 use crate::spec::Lab;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
+use std::ops::Range;
 
 /// Code contains a typographic quote.
 pub const TYPOGRAPHIC_QUOTE: &Rule = &Rule {
@@ -45,5 +47,45 @@ fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
             finding.fix = Some(fix_in(code, part, &right));
         }
         findings.push(finding);
+    }
+}
+
+/// The quotes of a listing: one finding for all of them.
+pub(crate) fn check_listing_quotes(body: &Text, scan: &CodeScan, findings: &mut Vec<Finding>) {
+    let Some(first) = scan.quotes.first() else { return };
+    // The first quote of every line.
+    let mut lines: Vec<&Range<usize>> = Vec::new();
+    for quote in &scan.quotes {
+        let same = lines
+            .last()
+            .and_then(|last| scan.bare.get(last.start..quote.start))
+            .is_some_and(|b| !b.contains('\n'));
+        if !same {
+            lines.push(quote);
+        }
+    }
+    let on = if lines.len() > 1 { format!(", on {} lines", lines.len()) } else { String::new() };
+    let mut finding = Finding::new(
+        TYPOGRAPHIC_QUOTE,
+        body.span_of(first.clone()),
+        format!("a listing has typographic quotes{on}"),
+    )
+    .help("write \" for “ and ”, and ' for ‘ and ’");
+    for &quote in lines.iter().skip(1).take(7) {
+        finding = finding.related(body.span_of(quote.clone()), "and on this line");
+    }
+    findings.push(finding);
+}
+
+/// Quotes of the JSON itself; `last` is the last of them.
+pub(crate) fn quotes_of_json(span: Range<usize>, count: usize, last: Option<Range<usize>>) -> Finding {
+    let plural = if count == 1 { "" } else { "s" };
+    let message = format!("JSON has {count} typographic quote{plural} where it needs \"");
+    let finding = Finding::new(TYPOGRAPHIC_QUOTE, span, message).help(
+        "write straight quotes: \"model\": \"…\"; the checker reads these as straight ones and checks the rest",
+    );
+    match last {
+        Some(last) => finding.related(last, "the last one"),
+        None => finding,
     }
 }

@@ -1,10 +1,9 @@
 use super::Check;
 use super::claims;
-use crate::finding::Finding;
 use crate::json::{encode, nearest, read::named};
 use crate::source::Text;
 use crate::spec::{ControlKind, Lab, Lesson};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// A run sets or presses a control that the lab does not have.
 pub const UNKNOWN_CONTROL: &Rule = &Rule {

@@ -1,4 +1,7 @@
-use labspec_finding::{Example, Layer, Rule, Severity};
+use crate::json::read::shorten;
+use crate::spec::Meant;
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
+use std::ops::Range;
 
 /// An object has a key that the format does not know.
 pub const UNKNOWN_KEY: &Rule = &Rule {
@@ -12,3 +15,20 @@ pub const UNKNOWN_KEY: &Rule = &Rule {
     ),
     good: Example::Lab(r#"{"model": "ball", "readouts": [{"label": "t", "expr": "data.time"}]}"#),
 };
+
+/// A key that the object does not have.
+pub(crate) fn describe_key(span: Range<usize>, of: &str, key: &str, meant: &Meant) -> Finding {
+    let message = match key.trim().is_empty() {
+        true => format!("a key of {of} has no name"),
+        false => format!("{of} has no key `{}`", shorten(key)),
+    };
+    let finding = Finding::new(UNKNOWN_KEY, span.clone(), message);
+    match meant {
+        Meant::There(right) => {
+            finding.help(format!("did you mean `{right}`? the object already has it: delete one of the two"))
+        }
+        Meant::Likely(right) => finding.help(format!("did you mean `{right}`?")).guess(span, *right),
+        Meant::Other { key, takes } => finding.help(format!("did you mean `{key}`? it takes {takes}")),
+        Meant::Unclear(keys) => finding.help(format!("use one of its keys: {}", keys.join(", "))),
+    }
+}

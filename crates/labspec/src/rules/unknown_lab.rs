@@ -1,9 +1,10 @@
 use super::Check;
 use super::claims;
-use crate::finding::Finding;
 use crate::json::read;
+use crate::source::Text;
 use crate::spec::{LabAddress, Lesson, VerifyLab};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
+use std::ops::Range;
 
 /// A `verify` object refers to a lab that the lesson does not have.
 pub const UNKNOWN_LAB: &Rule = &Rule {
@@ -56,4 +57,23 @@ fn check_lesson(lesson: &Lesson, findings: &mut Vec<Finding>) {
             found.help(format!("use one of: {}", all.join(", ")))
         });
     }
+}
+
+/// A text where an address must be, which the format cannot tell from one.
+pub(crate) fn not_an_address(span: Range<usize>, text: &str) -> Finding {
+    Finding::new(UNKNOWN_LAB, span, format!("{} is not the address of a lab", read::named(text)))
+        .help("write \"#2\" for the second lab of the lesson, \"#quiz-id.1\" for the sim of a quiz's first question, or a lab object")
+}
+
+/// A lab of another lesson that cannot be used: `other` says why that one has none, if that lesson was read.
+pub(crate) fn lab_elsewhere(text: &Text, other: Option<Option<&str>>) -> Finding {
+    let name = read::named(text.as_str());
+    let message = match other {
+        Some(None) => format!("{name} cannot run, because its model or its code has errors"),
+        Some(Some(why)) => format!("{name} does not exist: {why}"),
+        None => format!("{name} does not exist: only this lesson was given, or it names too many others"),
+    };
+    Finding::error(UNKNOWN_LAB, text.span(), message)
+        .why("claims about it cannot be checked")
+        .help("check that lesson; name a lab of another lesson by its path from this one: other.md#2")
 }

@@ -1,9 +1,8 @@
 use super::Check;
-use crate::finding::Finding;
 use crate::json::{nearest, read::named};
 use crate::spec::Lab;
 use crate::spec::format::{OVERLAYS, texts};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// `overlays` or `toggles` names something that the page cannot draw.
 pub const UNKNOWN_OVERLAY: &Rule = &Rule {

@@ -1,4 +1,6 @@
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::nearest;
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
+use std::ops::Range;
 
 /// `allow` names an unknown rule.
 pub const UNKNOWN_RULE: &Rule = &Rule {
@@ -12,3 +14,16 @@ pub const UNKNOWN_RULE: &Rule = &Rule {
     ),
     good: Example::Lab(r#"{"model": "ball", "readouts": [{"label": "z", "expr": "data.qpos[2]"}]}"#),
 };
+
+/// A code of an allowance that is the code of none of these rules.
+pub(crate) fn name_nearest(
+    code: &str,
+    span: Range<usize>,
+    rules: impl Iterator<Item = &'static Rule>,
+) -> Finding {
+    let found = Finding::new(UNKNOWN_RULE, span, format!("`allow` names the unknown rule `{code}`"));
+    match nearest(code, rules.map(|r| r.code)) {
+        Some(near) => found.help(format!("did you mean `{near}`?")),
+        None => found.help("run `labspec explain` for a list of all rules"),
+    }
+}

@@ -1,4 +1,5 @@
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
+use std::ops::Range;
 
 /// A JSON file holds neither a lab nor a quiz.
 pub const UNKNOWN_SPEC: &Rule = &Rule {
@@ -10,3 +11,9 @@ pub const UNKNOWN_SPEC: &Rule = &Rule {
     bad: Example::Json(r#"⟦{⟧"title": "Falling"}"#),
     good: Example::Json(r#"{"title": "Falling", "model": "ball"}"#),
 };
+
+/// An object with none of the keys by which labs and quizzes are recognized.
+pub(crate) fn unrecognized(span: Range<usize>) -> Finding {
+    Finding::new(UNKNOWN_SPEC, span, "the object is neither a lab nor a quiz")
+        .help("add `model` or `xml` for a lab, or `questions` for a quiz")
+}

@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A closed form or a measure names a trace or a readout that the lab does not have.
+/// Decided by `no_such_trace` in `verify/exact.rs`.
 pub const UNKNOWN_TRACE: &Rule = &Rule {
     code: "unknown-trace",
     severity: Severity::Error,

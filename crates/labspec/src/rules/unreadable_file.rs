@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A file cannot be read.
+/// Decided by `unreadable_finding` in `../../cli/src/scheduler.rs`.
 pub const UNREADABLE_FILE: &Rule = &Rule {
     code: "unreadable-file",
     severity: Severity::Error,

@@ -1,4 +1,6 @@
-use labspec_finding::{Example, Layer, Rule, Severity};
+use crate::check::CheckLevel;
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
+use std::ops::Range;
 
 /// A suppression matches no finding.
 pub const UNUSED_ALLOWANCE: &Rule = &Rule {
@@ -14,3 +16,21 @@ pub const UNUSED_ALLOWANCE: &Rule = &Rule {
         r#"{"model": "ball", "readouts": [{"label": "z", "expr": "data.qpos[2]"}, {"label": "z", "expr": "data.qpos[7]"}], "lint": {"allow": ["duplicate-readout"], "why": "both are read"}}"#,
     ),
 };
+
+/// A code of an allowance that suppresses nothing; `None` where a check to this depth cannot tell.
+pub(crate) fn check_use(rule: &Rule, span: Range<usize>, depth: CheckLevel) -> Option<Finding> {
+    can_find(rule.layer, depth).then(|| {
+        Finding::new(UNUSED_ALLOWANCE, span, format!("`{}` matches no finding here", rule.code))
+            .help("delete it")
+    })
+}
+
+/// Whether a check to this depth can find what a rule of this layer says.
+fn can_find(layer: Layer, depth: CheckLevel) -> bool {
+    match layer {
+        Layer::Run => depth.labs,
+        Layer::Claim => depth.claims,
+        Layer::Program => depth.programs,
+        _ => true,
+    }
+}

@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// The statements of a control never use `value`.
+/// Decided by `action` in `bind/compile.rs`.
 pub const VALUE_UNUSED: &Rule = &Rule {
     code: "value-unused",
     severity: Severity::Warning,

@@ -1,9 +1,8 @@
 use super::Check;
 use super::claims;
-use crate::finding::Finding;
 use crate::source::Text;
 use crate::spec::{Lesson, QuestionKind};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// `verify` lacks a condition for an option, has a value where no number is asked, or uses an unknown unit.
 pub const VERIFY_ANSWER: &Rule = &Rule {

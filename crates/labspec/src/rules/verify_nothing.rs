@@ -1,4 +1,5 @@
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
+use std::ops::Range;
 
 /// A `verify` object claims nothing.
 pub const VERIFY_NOTHING: &Rule = &Rule {
@@ -14,3 +15,9 @@ pub const VERIFY_NOTHING: &Rule = &Rule {
         r#"{"model": "ball", "note": "It rests at 0.10 m.", "verify": {"runs": {"drop": {"until": 2}}, "says": [["0.10 m", "final(data.qpos[2])"]]}}"#,
     ),
 };
+
+/// A `verify` object with runs alone.
+pub(crate) fn claims_nothing(span: Range<usize>) -> Finding {
+    Finding::new(VERIFY_NOTHING, span, "nothing is compared with these runs")
+        .help("add `options`, `value`, `says` or `exact`")
+}

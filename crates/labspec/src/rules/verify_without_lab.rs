@@ -1,8 +1,7 @@
 use super::Check;
 use super::claims;
-use crate::finding::Finding;
 use crate::spec::Lesson;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// A `verify` object has no lab to run.
 pub const VERIFY_WITHOUT_LAB: &Rule = &Rule {

@@ -1,7 +1,6 @@
 use super::Check;
-use crate::finding::Finding;
 use crate::spec::{Question, QuestionKind};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// A numeric question with the answer 0 states no tolerance.
 pub const ZERO_TOLERANCE: &Rule = &Rule {

@@ -21,6 +21,12 @@ impl Budget {
     pub(crate) const SAMPLE: Budget = Budget { left: 20_000_000 };
 }
 
+impl Default for Budget {
+    fn default() -> Budget {
+        Budget::ASKED
+    }
+}
+
 /// Why a run ended before its time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum End {

@@ -8,7 +8,7 @@ use labspec_core::{Model, Warning, WarningStat, joint};
 
 const RESET: &str = "MuJoCo then resets the data and continues from time 0: a student sees the scene jump back without an explanation";
 
-/// Warnings that may follow from each other, the cause first: only the first of them is told.
+/// Warnings that may follow from each other, the cause first: only the first of them is reported.
 const STATE: [Warning; 4] = [Warning::Inertia, Warning::BadQpos, Warning::BadQvel, Warning::BadQacc];
 /// Warnings that stand for themselves.
 const OTHERS: [Warning; 3] = [Warning::BadCtrl, Warning::ContactFull, Warning::ConstraintFull];

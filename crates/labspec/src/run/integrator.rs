@@ -39,7 +39,7 @@ impl Integrator {
     }
 
     /// The integrator that a model's options name; Euler's, as the engine takes it, for a number without a meaning.
-    pub fn of(model: &Model) -> Integrator {
+    pub fn of_model(model: &Model) -> Integrator {
         let euler = INTEGRATORS[0];
         INTEGRATORS.into_iter().find(|i| i.id == model.opt.integrator).unwrap_or(euler)
     }

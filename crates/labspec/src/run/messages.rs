@@ -15,7 +15,7 @@ pub fn threw(t: &Trouble, done: &str) -> Finding {
     .help("correct the statement, or guard it with a condition")
 }
 
-/// What broke, at `place`: what the engine warned of, or what went wrong without a word, with time, joint or geoms and likely cause.
+/// What broke, at `place`: what the engine warned of, or what went wrong silently, with time, joint or geoms and likely cause.
 /// `done` says what was done to the lab.
 pub fn broke(b: &Breakdown, done: &str, place: Range<usize>) -> Finding {
     let what = match b.rule.code {

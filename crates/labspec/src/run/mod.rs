@@ -28,7 +28,7 @@ pub use integrator::{INTEGRATORS, Integrator};
 pub use messages::{broke, threw};
 pub use play::{Play, play};
 pub use samples::Samples;
-pub use session::Session;
+pub use session::{Session, Start};
 pub use settings::{presses, presses_within, set_controls};
 pub use steady::is_steady;
 pub use table::Table;
@@ -39,7 +39,7 @@ use crate::bind::Programs;
 use crate::spec::Lab;
 use crate::spec::format::RUN_LENGTH;
 use labspec_core::reflect::FieldSet;
-use labspec_core::{AccessSet, Data, Model, Plan};
+use labspec_core::{AccessSet, Model, Plan};
 use labspec_expr::Value;
 use std::ops::ControlFlow;
 
@@ -120,7 +120,7 @@ pub fn count_steps(
 }
 
 /// A run that is about to begin.
-pub(crate) struct Begun<'p> {
+pub(crate) struct StartedRun<'p> {
     pub(crate) session: Session<'p>,
     pub(crate) samples: Samples<'p>,
     /// Steps, and those from one sample to the next.
@@ -131,7 +131,7 @@ pub(crate) struct Begun<'p> {
     timestep: f64,
 }
 
-/// Loads a lab and sets its controls, for programs and eyes that need all of `demand`.
+/// Loads a lab and sets its controls, for programs and monitors that need all of `access`.
 ///
 /// # Errors
 /// A control that does not exist, a setting that no student can make, or a run that is too long.
@@ -140,12 +140,12 @@ pub(crate) fn begin<'p>(
     model: &Model,
     programs: &'p Programs,
     options: &RunOptions,
-    demand: &AccessSet,
-) -> Result<Begun<'p>, RunError> {
-    let key = lab.keyframe();
-    let all = AccessSet { reads: FieldSet::ALL, ..*demand };
-    let plan = Plan::new(model, if options.full { &all } else { demand });
-    let mut session = Session::start_with(programs, model, key, Data::planned(model, plan));
+    access: &AccessSet,
+) -> Result<StartedRun<'p>, RunError> {
+    let all = AccessSet { reads: FieldSet::ALL, ..*access };
+    let plan = Plan::new(model, if options.full { &all } else { access });
+    let start = Start { plan: Some(plan), ..Start::of_lab(lab) };
+    let mut session = Session::start(programs, model, start);
     set_controls(&mut session, lab, programs, &options.set)?;
     let presses = presses(programs, &options.press)?;
     let timestep = session.world.model.opt.timestep;
@@ -166,7 +166,7 @@ pub(crate) fn begin<'p>(
         )));
     }
     let samples = Samples::new(programs, steps / every + 2);
-    Ok(Begun { session, samples, steps, every, presses, timestep })
+    Ok(StartedRun { session, samples, steps, every, presses, timestep })
 }
 
 /// Takes a sample; nothing more is run when that is not possible.
@@ -184,8 +184,8 @@ pub(crate) fn take(samples: &mut Samples<'_>, session: &mut Session<'_>) -> Cont
 ///
 /// # Errors
 /// The texts that it shows are too long.
-pub(crate) fn finish(started: Begun<'_>, made: usize) -> Result<Table, RunError> {
-    let Begun { session, samples, timestep, .. } = started;
+pub(crate) fn finish(started: StartedRun<'_>, made: usize) -> Result<Table, RunError> {
+    let StartedRun { session, samples, timestep, .. } = started;
     if samples.text() > MAX_TEXT {
         return Err(RunError(format!(
             "the texts of the readouts exceed {} MB after {made} steps; display numbers or short texts, or sample less often with --every",
@@ -205,7 +205,7 @@ pub(crate) fn finish(started: Begun<'_>, made: usize) -> Result<Table, RunError>
 /// A control that does not exist, a setting that no student can make, or a run that is too long.
 pub fn run(lab: &Lab, model: &Model, programs: &Programs, options: &RunOptions) -> Result<Table, RunError> {
     let mut started = begin(lab, model, programs, options, &programs.demand)?;
-    let Begun { session, samples, steps, every, presses, .. } = &mut started;
+    let StartedRun { session, samples, steps, every, presses, .. } = &mut started;
     let played = Play { steps: *steps, every: *every, presses, watched: true };
     let made = play(session, &played, |session, _| take(samples, session));
     finish(started, made)

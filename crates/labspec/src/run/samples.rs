@@ -7,7 +7,7 @@ use labspec_expr::{Access, Columnar, Effects, Foreign, Recording, Type};
 
 /// How the values of a trace or a readout are found.
 #[derive(Clone, Debug)]
-enum Way<'p> {
+enum ProbeSamples<'p> {
     /// At the end, from recorded columns; `true` for a truth value.
     Columns(Columnar, bool),
     /// At every sample.
@@ -23,34 +23,37 @@ pub struct Samples<'p> {
     /// The model that the programs were compiled for.
     model: u64,
     recording: Recording,
-    probes: Vec<Way<'p>>,
+    probes: Vec<ProbeSamples<'p>>,
     /// Bytes of all texts.
     text: usize,
 }
 
 impl<'p> Samples<'p> {
-    /// No samples, and room for so many: taking them allocates nothing for numbers and truth values.
-    pub fn new(programs: &'p Programs, room: usize) -> Samples<'p> {
+    /// No samples, and memory for so many: taking them allocates nothing for numbers and truth values.
+    pub fn new(programs: &'p Programs, capacity: usize) -> Samples<'p> {
         let mut recording = Recording::new();
         let all = || programs.probes.iter().filter_map(|p| p.bound.as_ref());
-        let way = |bound: &'p Bound| {
+        let mut samples_of = |bound: &'p Bound| {
             // What another probe writes is read in the order of the probes.
             let reads = &bound.program.effects().reads;
             let fixed = !all().any(|other| may_write(other.program.effects(), reads));
             match recording.columns(&bound.program).ok().flatten().filter(|_| fixed) {
-                Some(columns) => Way::Columns(columns, bound.program.result_type() == Type::Boolean),
-                None => Way::Rows(bound, Vec::with_capacity(room)),
+                Some(columns) => ProbeSamples::Columns(columns, bound.program.result_type() == Type::Boolean),
+                None => ProbeSamples::Rows(bound, Vec::with_capacity(capacity)),
             }
         };
-        let mut way = way;
-        let probes = programs.probes.iter().map(|p| p.bound.as_ref().map_or(Way::Never, &mut way)).collect();
-        recording.reserve(room);
-        Samples { times: Vec::with_capacity(room), model: programs.model, recording, probes, text: 0 }
+        let probes = programs
+            .probes
+            .iter()
+            .map(|p| p.bound.as_ref().map_or(ProbeSamples::Never, &mut samples_of))
+            .collect();
+        recording.reserve(capacity);
+        Samples { times: Vec::with_capacity(capacity), model: programs.model, recording, probes, text: 0 }
     }
 
     /// Number of probes that are recorded as columns, and of the different elements that these read.
     pub fn columns(&self) -> (usize, usize) {
-        let columns = self.probes.iter().filter(|p| matches!(p, Way::Columns(..)));
+        let columns = self.probes.iter().filter(|p| matches!(p, ProbeSamples::Columns(..)));
         (columns.count(), self.recording.width())
     }
 
@@ -71,7 +74,7 @@ impl<'p> Samples<'p> {
         self.recording.sample(&session.world)?;
         self.times.push(session.world.data.time());
         for probe in &mut self.probes {
-            if let Way::Rows(bound, cells) = probe {
+            if let ProbeSamples::Rows(bound, cells) = probe {
                 let value = session.evaluate(&bound.program, &bound.text);
                 let cell = value.map_or(Cell::Nothing, Cell::from);
                 if let Cell::Text(text) = &cell {
@@ -90,9 +93,9 @@ impl<'p> Samples<'p> {
             .probes
             .into_iter()
             .map(|probe| match probe {
-                Way::Rows(_, cells) => cells,
-                Way::Never => vec![Cell::Nothing; self.times.len()],
-                Way::Columns(columnar, truth) => {
+                ProbeSamples::Rows(_, cells) => cells,
+                ProbeSamples::Never => vec![Cell::Nothing; self.times.len()],
+                ProbeSamples::Columns(columnar, truth) => {
                     let mut numbers = vec![0.0; self.times.len()];
                     if columnar.evaluate_into(&self.recording, &mut scratch, &mut numbers).is_err() {
                         return vec![Cell::Nothing; self.times.len()];

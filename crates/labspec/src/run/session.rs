@@ -12,7 +12,8 @@ use crate::interrupt;
 use crate::monitors::growth::Growth;
 use crate::monitors::watch::{self, Noticed};
 use crate::source::Text;
-use labspec_core::{self as core, AccessSet, Data, Model, Plan, Planned, Warning, WarningStat};
+use crate::spec::Lab;
+use labspec_core::{self as core, Data, Model, Plan, Planned, Warning, WarningStat};
 use labspec_expr::rules::{self, Rule};
 use labspec_expr::{Context, Program, RuntimeError, Value};
 
@@ -43,57 +44,29 @@ pub struct Session<'p> {
     left_behind: bool,
 }
 
+/// How a run starts.
+#[derive(Clone, Debug, Default)]
+pub struct Start {
+    /// The number of the keyframe that it starts and is reset to; without it, the model's own start.
+    pub key: Option<usize>,
+    /// What a step computes; without it, what the programs of the lab read and write.
+    pub plan: Option<Plan>,
+    /// The work that it may do.
+    pub budget: Budget,
+}
+
+impl Start {
+    /// From the keyframe of a lab.
+    pub fn of_lab(lab: &Lab) -> Start {
+        Start { key: lab.keyframe(), ..Start::default() }
+    }
+}
+
 impl<'p> Session<'p> {
     /// Loads the lab: steps 1 to 3 of the order of events.
-    pub fn start(
-        programs: impl Into<Held<'p>>,
-        model: &Model,
-        key: Option<usize>,
-        demand: &AccessSet,
-    ) -> Session<'p> {
-        Session::start_within(programs, model, key, demand, Budget::ASKED)
-    }
-
-    /// The same with another budget.
-    pub fn start_within(
-        programs: impl Into<Held<'p>>,
-        model: &Model,
-        key: Option<usize>,
-        demand: &AccessSet,
-        budget: Budget,
-    ) -> Session<'p> {
-        let data = Data::planned(model, Plan::new(model, demand));
-        Session::load(programs.into(), model, key, data, budget)
-    }
-
-    /// The same with data whose plan is already decided.
-    pub fn start_with(
-        programs: impl Into<Held<'p>>,
-        model: &Model,
-        key: Option<usize>,
-        data: Data<Planned>,
-    ) -> Session<'p> {
-        Session::load(programs.into(), model, key, data, Budget::ASKED)
-    }
-
-    /// The same within a budget.
-    pub fn start_with_within(
-        programs: impl Into<Held<'p>>,
-        model: &Model,
-        key: Option<usize>,
-        data: Data<Planned>,
-        budget: Budget,
-    ) -> Session<'p> {
-        Session::load(programs.into(), model, key, data, budget)
-    }
-
-    fn load(
-        programs: Held<'p>,
-        model: &Model,
-        key: Option<usize>,
-        data: Data<Planned>,
-        budget: Budget,
-    ) -> Session<'p> {
+    pub fn start(programs: impl Into<Held<'p>>, model: &Model, start: Start) -> Session<'p> {
+        let (programs, Start { key, plan, budget }) = (programs.into(), start);
+        let data = Data::planned(model, plan.unwrap_or_else(|| Plan::new(model, &programs.demand)));
         let before = core::cost(&data);
         let values = programs.controls.iter().map(|(_, c)| match c {
             ControlProgram::Change(value, _) => value.clone(),
@@ -302,7 +275,7 @@ impl<'p> Session<'p> {
         }
     }
 
-    /// Watches the run that begins here for what goes wrong without a word. Programs that push in every step
+    /// Watches the run that begins here for what goes wrong silently. Programs that push in every step
     /// may give any energy, and one that moves things by itself may put them anywhere: such a run is watched for the rest,
     /// or not at all.
     pub fn watch(&mut self) {
@@ -317,7 +290,7 @@ impl<'p> Session<'p> {
         self.noticed().growth
     }
 
-    /// Everything that went wrong without a word, as far as the run was watched.
+    /// Everything that went wrong silently, as far as the run was watched.
     pub fn noticed(&self) -> Noticed {
         self.watched.as_ref().map(|w| *watch::noticed(&w.watch)).unwrap_or_default()
     }
@@ -355,7 +328,7 @@ impl<'p> Session<'p> {
         }
     }
 
-    /// Computes everything from the state at hand: after a step, forces and what follows from them are still those of the state
+    /// Computes everything from the current state: after a step, forces and what follows from them are still those of the state
     /// before it.
     pub fn refresh(&mut self) {
         self.forward();

@@ -44,7 +44,7 @@ pub fn chosen(
         (Some(_), Some(_)) => {
             Err(RunError(format!("\"{label}\" is a button: press it instead of setting it")))
         }
-        _ => Err(unknown(label, programs)),
+        _ => Err(unknown_control(label, programs)),
     }
 }
 
@@ -101,7 +101,7 @@ pub fn presses(programs: &Programs, press: &[(String, f64)]) -> Result<Vec<(usiz
             Some(_) => {
                 return Err(RunError(format!("\"{label}\" is not a button: set it instead of pressing it")));
             }
-            None => return Err(unknown(label, programs)),
+            None => return Err(unknown_control(label, programs)),
         }
         if !(time.is_finite() && *time >= 0.0) {
             return Err(RunError(format!(
@@ -232,7 +232,7 @@ fn number(x: f64) -> String {
 }
 
 /// That there is no control with this label, and which there are.
-pub(crate) fn unknown(label: &str, programs: &Programs) -> RunError {
+pub fn unknown_control(label: &str, programs: &Programs) -> RunError {
     let labels: Vec<&str> = programs.controls.iter().map(|(l, _)| l.as_str()).collect();
     let available = match labels.as_slice() {
         [] => "this lab has no controls".to_string(),

@@ -1,4 +1,4 @@
-//! What goes wrong without a word, in a teacher's words: what happens, why it matters, and what to write instead.
+//! What goes wrong silently, in a teacher's words: what happens, why it matters, and what to write instead.
 
 use super::breakdown::{Breakdown, BreakdownAdvice, joint_of, time, two_digits};
 use crate::monitors::growth::{Growth, Source};

@@ -1,4 +1,4 @@
-//! A run that is watched for what goes wrong without a word, and which runs can be.
+//! A run that is watched for what goes wrong silently, and which runs can be.
 
 use crate::bind::{Bound, Programs, World};
 use crate::monitors::watch::{self, Monitors};
@@ -25,7 +25,7 @@ fn moves(bound: &Bound) -> bool {
     effects.writes_everything || effects.calls_values || !effects.writes.iter().all(|a| still(a.field))
 }
 
-/// A run that is watched for what goes wrong without a word.
+/// A run that is watched for what goes wrong silently.
 #[derive(Clone, Debug)]
 pub(super) struct Watched {
     pub(super) watch: Monitors,

@@ -1,47 +1,52 @@
 //! One run of a lab under an interaction, and the faults in it.
 
+use super::bodies;
 use super::fault::{Fault, FaultKind};
 use super::interaction::{Action, Interaction, Kind, TOUCH};
 use super::run_faults::{DIVERGED, noticed_fault, reported_faults, warned};
-use super::watch::RunMonitor;
+use super::watch::{MOST_PAIRS, RunMonitor};
 use crate::bind::{Bound, Programs};
-use crate::run::{self, Budget, End, Play, Session};
+use crate::run::{self, Budget, End, Play, Session, Start};
 use crate::spec::Lab;
 use labspec_core::reflect::{FieldId, data};
-use labspec_core::{AccessSet, Model};
+use labspec_core::{AccessSet, Model, Plan};
 use std::collections::VecDeque;
 use std::ops::ControlFlow;
 
-/// What all runs share.
-pub(crate) struct StressCase<'a> {
-    pub(super) lab: &'a Lab,
-    pub(super) model: &'a Model,
-    pub(super) programs: &'a Programs,
-    pub(super) demand: AccessSet,
+/// What all runs of a lab share.
+pub struct StressCase<'a> {
+    /// The lab.
+    pub lab: &'a Lab,
+    /// Its model as it is compiled, before `setup` and controls.
+    pub model: &'a Model,
+    /// Its programs, which were compiled for this model or for one that differs in numbers only.
+    pub programs: &'a Programs,
+    pub(super) access: AccessSet,
     /// A program runs before every step: it may push whatever it likes.
-    pub(super) controlled: bool,
+    controlled: bool,
     /// It may also write where bodies are.
-    pub(super) jumps: bool,
+    jumps: bool,
     /// What is shown stores something when it is computed, so that it belongs to the run.
     shows: bool,
     /// What stands before everything else that is done.
-    pub(super) base: Interaction,
+    pub base: Interaction,
 }
 
 /// What a run came to.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct RunOutcome {
-    pub(crate) faults: Vec<Fault>,
+pub struct RunOutcome {
+    /// Everything that went wrong.
+    pub faults: Vec<Fault>,
     /// How much of the run was made, s.
-    pub(super) covered: f64,
-    /// Work.
-    pub(crate) spent: u64,
-    /// How fast each body moved on at the end, by name, m/s.
-    pub(super) speeds: Vec<(String, f64)>,
-    /// Geoms that touched.
-    pub(super) touching: Vec<[usize; 2]>,
-    /// It ended before its time as the work was more than it may do.
-    pub(crate) cut: bool,
+    pub covered: f64,
+    /// The work that it took, in units of about a nanosecond.
+    pub spent: u64,
+    /// How fast each body and each joint with friction moved on at the end, by name, m/s or rad/s.
+    pub speeds: Vec<(String, f64)>,
+    /// Pairs of geoms that touched.
+    pub touching: Vec<[usize; 2]>,
+    /// It ended before its time, because its budget was spent or someone pressed Ctrl-C.
+    pub cut: bool,
 }
 
 /// A run under an interaction: the actions that are still due, and the monitors of the run.
@@ -116,17 +121,13 @@ impl RunWatcher<'_> {
 }
 
 /// A change of the model that a run is made with, after everything that is done at its start.
-pub(crate) type Change<'c> = &'c dyn Fn(&mut Session<'_>);
+pub type Change<'c> = &'c dyn Fn(&mut Session<'_>);
 
 impl<'a> StressCase<'a> {
-    pub(crate) fn new(
-        lab: &'a Lab,
-        model: &'a Model,
-        programs: &'a Programs,
-        base: Interaction,
-    ) -> StressCase<'a> {
-        let mut demand = programs.demand;
-        [data::geom_xpos, data::geom_xmat, data::xpos].into_iter().for_each(|f| demand.reads.insert(f));
+    /// The runs of a lab in which `base` is done before everything else.
+    pub fn new(lab: &'a Lab, model: &'a Model, programs: &'a Programs, base: Interaction) -> StressCase<'a> {
+        let mut access = programs.demand;
+        [data::geom_xpos, data::geom_xmat, data::xpos].into_iter().for_each(|f| access.reads.insert(f));
         let probes = || programs.probes.iter().filter_map(|p| p.bound.as_ref());
         let stores = |b: &Bound| {
             let e = b.program.effects();
@@ -147,7 +148,7 @@ impl<'a> StressCase<'a> {
             lab,
             model,
             programs,
-            demand,
+            access,
             controlled: programs.controller.is_some(),
             jumps: probes().chain(&programs.controller).any(jumps),
             shows: probes().any(stores),
@@ -156,22 +157,27 @@ impl<'a> StressCase<'a> {
     }
 
     /// The same with another model, of which nothing but numbers differs.
-    pub(super) fn with_model<'b>(&'b self, model: &'b Model) -> StressCase<'b> {
+    pub fn with_model<'b>(&'b self, model: &'b Model) -> StressCase<'b> {
         StressCase { lab: self.lab, model, programs: self.programs, base: self.base.clone(), ..*self }
     }
 
+    /// The number of pairs of geoms that are watched for tunnelling, where the model has more of them.
+    pub fn watched_pairs_limit(&self) -> Option<usize> {
+        (!self.jumps && bodies::pairs(self.model, MOST_PAIRS).1).then_some(MOST_PAIRS)
+    }
+
     /// The lab with everything done that comes before the first step.
-    pub(crate) fn start(&self, handling: &Interaction, budget: u64) -> Session<'a> {
-        let key = self.lab.keyframe();
-        let budget = Budget { left: budget };
-        let mut session = Session::start_within(self.programs, self.model, key, &self.demand, budget);
-        for action in handling.actions.iter().filter(|a| a.time <= 0.0) {
+    pub fn start(&self, interaction: &Interaction, budget: u64) -> Session<'a> {
+        let plan = Some(Plan::new(self.model, &self.access));
+        let start = Start { key: self.lab.keyframe(), plan, budget: Budget { left: budget } };
+        let mut session = Session::start(self.programs, self.model, start);
+        for action in interaction.actions.iter().filter(|a| a.time <= 0.0) {
             match &action.value {
                 Some(value) => session.set_control(action.control, value.clone()),
                 None => session.press(action.control),
             }
         }
-        if handling.kind == Kind::Touched {
+        if interaction.kind == Kind::Touched {
             session.world.data.edit().qvel.iter_mut().for_each(|v| *v += TOUCH);
             session.refresh();
         }
@@ -179,71 +185,71 @@ impl<'a> StressCase<'a> {
     }
 
     /// Number of steps of a run that lasts so long.
-    pub(crate) fn steps(&self, timestep: f64, length: f64) -> usize {
+    pub fn steps(&self, timestep: f64, length: f64) -> usize {
         let most = (run::MAX_STEPS - 1) as f64;
         let count = (length / timestep).round();
         if count.is_finite() && timestep > 0.0 { count.clamp(0.0, most) as usize } else { 0 }
     }
 
-    /// The watcher of a run that has begun.
-    pub(crate) fn eyes<'h>(&self, handling: &'h Interaction, session: &Session<'_>) -> RunWatcher<'h> {
+    /// The watcher of a started run.
+    pub(crate) fn watcher<'h>(&self, interaction: &'h Interaction, session: &Session<'_>) -> RunWatcher<'h> {
         RunWatcher {
-            pending: handling.actions.iter().filter(|a| a.time > 0.0).collect(),
+            pending: interaction.actions.iter().filter(|a| a.time > 0.0).collect(),
             watch: RunMonitor::new(&session.world.model, self.jumps),
             shows: self.shows,
             controlled: self.controlled,
         }
     }
 
-    /// The same on a run whose samples evaluate what is shown, and that begins with what `handling` presses.
-    pub(super) fn eyes_of_table<'h>(
+    /// The same on a run whose samples evaluate what is shown, and that begins with what `interaction` presses.
+    pub(super) fn table_watcher<'h>(
         &self,
-        handling: &'h Interaction,
+        interaction: &'h Interaction,
         session: &Session<'_>,
     ) -> RunWatcher<'h> {
         RunWatcher {
-            pending: handling.actions.iter().collect(),
+            pending: interaction.actions.iter().collect(),
             shows: false,
-            ..self.eyes(handling, session)
+            ..self.watcher(interaction, session)
         }
     }
 
     /// Makes a run of so many seconds.
-    pub(crate) fn run(
+    pub fn run(
         &self,
-        handling: &Interaction,
+        interaction: &Interaction,
         change: Option<Change<'_>>,
         length: f64,
         budget: u64,
     ) -> RunOutcome {
-        self.run_to_model(handling, change, length, budget).0
+        self.run_to_model(interaction, change, length, budget).0
     }
 
     /// The same, and the model as the lab left it.
-    pub(super) fn run_to_model(
+    pub fn run_to_model(
         &self,
-        handling: &Interaction,
+        interaction: &Interaction,
         change: Option<Change<'_>>,
         length: f64,
         budget: u64,
     ) -> (RunOutcome, Model) {
-        let mut session = self.start(handling, budget);
+        let mut session = self.start(interaction, budget);
         if let Some(change) = change {
             change(&mut session);
             session.refresh();
         }
         let timestep = session.world.model.opt.timestep;
         let steps = self.steps(timestep, length);
-        let mut eyes = self.eyes(handling, &session);
+        let mut watcher = self.watcher(interaction, &session);
         let played = Play { steps, every: 1, presses: &[], watched: true };
         let made = run::play(&mut session, &played, |session, made| {
-            eyes.observe(session, made, made == steps);
+            watcher.observe(session, made, made == steps);
             let over = DIVERGED.iter().any(|&w| warned(session, w).is_some());
             if over { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
-        let speeds = eyes.watch.rest.speeds(&session.world.model);
-        let touching = eyes.watch.touching();
-        let faults = eyes.faults(&session);
+        let speeds = watcher.watch.rest.speeds(&session.world.model);
+        let touching = watcher.watch.touching();
+        let faults = watcher.faults(&session);
         let outcome = RunOutcome {
             faults,
             covered: if made == steps { length } else { made as f64 * timestep },

@@ -1,11 +1,11 @@
 //! What rests and creeps all the same: bodies that touch others with friction and move on at the same small speed, although nothing
 //! pushes them along, and joints that move on although their friction loss is more than what pulls at them.
 
-use super::bodies::{body_name, body_of, halves, joint_of_dof};
+use super::bodies::{body_name, body_of, joint_of_dof};
 use super::fault::{Evidence, Fault, FaultKind};
 use super::history::RunHistory;
 use labspec_core::math::{Vec3, norm, rows, sub};
-use labspec_core::{Fields, Model, disable, joint};
+use labspec_core::{Fields, Model, disable, geom_half_extents, joint};
 
 /// Looks between two entries of the memory, and entries before every second one is forgotten.
 const EVERY: usize = 4;
@@ -94,9 +94,9 @@ impl CreepMonitor {
         let half = self.half();
         let (Some(first), Some(last)) = (half.first(), half.last()) else { return Vec::new() };
         let time = last.time - first.time;
-        let ways = last.places.iter().zip(&first.places).map(|(to, from)| norm(sub(*to, *from)) / time);
+        let speeds = last.places.iter().zip(&first.places).map(|(to, from)| norm(sub(*to, *from)) / time);
         let mut list: Vec<(String, f64)> =
-            ways.enumerate().map(|(b, speed)| (body_name(m, b), speed)).collect();
+            speeds.enumerate().map(|(b, speed)| (body_name(m, b), speed)).collect();
         let turns = last.joints.iter().zip(&first.joints).map(|(to, from)| (to.0 - from.0).abs() / time);
         list.extend(with_friction(m).zip(turns).map(|((_, _, dof), speed)| (joint_of_dof(m, dof), speed)));
         list
@@ -192,6 +192,7 @@ fn creep(who: String, since: f64, way: f64, time: f64, unit: &'static str) -> Fa
 /// The largest extent of a body, m.
 fn sizes(m: &Model, b: usize) -> f64 {
     let geoms = (0..m.ngeom).filter(|&g| body_of(m, g) == b);
-    let largest = geoms.map(|g| 2.0 * halves(m, g).into_iter().fold(0.0, f64::max)).fold(0.0, f64::max);
+    let largest =
+        geoms.map(|g| 2.0 * geom_half_extents(m, g).into_iter().fold(0.0, f64::max)).fold(0.0, f64::max);
     if largest > 0.0 { largest } else { m.stat.extent }
 }

@@ -8,9 +8,9 @@ use labspec_core::math::rows_mut;
 
 /// The faults of a run, without the drift of bodies that are pushed along; and the work of the run with hard friction that decides
 /// it.
-pub(crate) fn genuine(
+pub fn without_pushed_bodies(
     case: &StressCase<'_>,
-    handling: &Interaction,
+    interaction: &Interaction,
     mut faults: Vec<Fault>,
     length: f64,
     budget: u64,
@@ -18,7 +18,7 @@ pub(crate) fn genuine(
     if !faults.iter().any(|f| f.kind == FaultKind::Drifts) {
         return (faults, 0);
     }
-    let firm = case.run(handling, Some(&firmer), length, budget);
+    let firm = case.run(interaction, Some(&firmer), length, budget);
     let moves = |f: &Fault| firm.speeds.iter().any(|(who, speed)| *who == f.who && 2.0 * speed > f.size);
     // Without the other run to its end the drift is not proven.
     faults.retain(|f| f.kind != FaultKind::Drifts || !firm.cut && !moves(f));

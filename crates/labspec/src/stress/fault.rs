@@ -96,7 +96,7 @@ pub struct Fault {
     /// The numbers that show it.
     pub evidence: Vec<Evidence>,
     /// How bad it is, to compare it with others of its kind.
-    pub(super) size: f64,
+    pub size: f64,
     /// The run itself reports it.
     pub(super) by_run: bool,
 }
@@ -132,39 +132,21 @@ impl Fault {
     }
 }
 
-/// Something that helps.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Remedy {
-    /// What to change, in words.
-    pub change: String,
-    /// What a second of simulation costs with it, in times of what it costs in the lab as it stands.
-    pub work: f64,
-    /// The same as measured by a clock.
-    pub time: f64,
-    /// The largest error of any number that the lab shows with it, as a part of that number's range: against the motion that the
-    /// model describes, found with much shorter steps. `None` where that is not known.
-    pub error: Option<f64>,
-}
-
 /// The same fault in one or several settings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FaultGroup {
     /// As it was in the simplest setting.
     pub fault: Fault,
     /// That setting.
-    pub handling: Interaction,
+    pub interaction: Interaction,
     /// How many settings show it.
     pub settings: usize,
     /// The setting in which it is the worst, and how it is there, where that is another one.
     pub worst: Option<(Interaction, Fault)>,
-    /// The lab says itself that it breaks.
-    pub expected: bool,
-    /// What was tried and helps in the simplest setting.
-    pub remedies: Vec<Remedy>,
 }
 
 /// The worst fault that breaks a run, except for those in `except`: drift, warnings and programs that throw do not count.
-pub(super) fn worst_fault<'f>(faults: &'f [Fault], except: &[(FaultKind, String)]) -> Option<&'f Fault> {
+pub fn worst_fault<'f>(faults: &'f [Fault], except: &[(FaultKind, String)]) -> Option<&'f Fault> {
     let counts = |f: &&Fault| {
         !matches!(f.kind, FaultKind::Drifts | FaultKind::Throws | FaultKind::Warns)
             && !except.iter().any(|(kind, who)| *kind == f.kind && *who == f.who)
@@ -173,23 +155,16 @@ pub(super) fn worst_fault<'f>(faults: &'f [Fault], except: &[(FaultKind, String)
 }
 
 /// Adds a fault to its group: there is one for each kind and each object.
-pub(crate) fn add(list: &mut Vec<FaultGroup>, fault: Fault, handling: &Interaction) {
+pub fn add_fault(list: &mut Vec<FaultGroup>, fault: Fault, interaction: &Interaction) {
     let same = |f: &&mut FaultGroup| f.fault.kind == fault.kind && f.fault.who == fault.who;
     match list.iter_mut().find(same) {
-        None => list.push(FaultGroup {
-            fault,
-            handling: handling.clone(),
-            settings: 1,
-            worst: None,
-            expected: false,
-            remedies: Vec::new(),
-        }),
+        None => list.push(FaultGroup { fault, interaction: interaction.clone(), settings: 1, worst: None }),
         Some(group) => {
             group.settings += 1;
             let size = group.worst.as_ref().map_or(group.fault.size, |(_, f)| f.size);
             // A little worse is the same.
             if fault.size > 1.05 * size {
-                group.worst = Some((handling.clone(), fault));
+                group.worst = Some((interaction.clone(), fault));
             }
         }
     }

@@ -76,7 +76,7 @@ impl Interaction {
     ///
     /// # Errors
     /// A student cannot do this.
-    pub(super) fn base(
+    pub fn base(
         lab: &Lab,
         programs: &Programs,
         set: &[(String, Value)],
@@ -94,7 +94,7 @@ impl Interaction {
     }
 
     /// More that is done on this base. What it sets before the first step is set instead of what the base sets.
-    pub(crate) fn and(&self, kind: Kind, more: Vec<Action>) -> Interaction {
+    pub fn and(&self, kind: Kind, more: Vec<Action>) -> Interaction {
         let sets = |a: &Action| a.time <= 0.0 && a.value.is_some();
         let again = |a: &&Action| !(sets(a) && more.iter().any(|b| sets(b) && b.control == a.control));
         let mut actions: Vec<Action> = self.actions.iter().filter(again).cloned().collect();
@@ -203,7 +203,7 @@ fn press_at(control: usize, time: f64) -> Action {
 
 /// Everything that is tried on a base, the simplest first, for a lab that a student looks at for `window` seconds; and how many
 /// pairs of settings meet in no run, because there are too many.
-pub(crate) fn list(lab: &Lab, window: f64, base: &Interaction) -> (Vec<Interaction>, usize) {
+pub fn list_interactions(lab: &Lab, window: f64, base: &Interaction) -> (Vec<Interaction>, usize) {
     let press = PRESS.min(0.5 * window);
     let controls = ListedControls::new(lab, base);
     let ListedControls { changes, buttons } = &controls;
@@ -301,7 +301,7 @@ mod tests {
     const BUTTON: &str = r#"{"type": "button", "label": "Go", "run": "ctx.go = 1"}"#;
 
     fn counts(lab: &Lab) -> [usize; 7] {
-        let (all, _) = list(lab, 2.0, &nothing());
+        let (all, _) = list_interactions(lab, 2.0, &nothing());
         Kind::ALL.map(|kind| all.iter().filter(|h| h.kind == kind).count())
     }
 
@@ -319,7 +319,7 @@ mod tests {
     #[test]
     fn many_controls_meet_in_pairs() {
         let sliders: Vec<String> = (0..12).map(|k| SLIDER.replace("\"m\"", &format!("\"m{k}\""))).collect();
-        let (all, missing) = list(&lab(&sliders.join(",")), 2.0, &nothing());
+        let (all, missing) = list_interactions(&lab(&sliders.join(",")), 2.0, &nothing());
         let corners: Vec<&Interaction> = all.iter().filter(|h| h.kind == Kind::Corner).collect();
         assert!(missing == 0 && corners.len() < 20, "{}", corners.len());
         for i in 0..12 {
@@ -335,7 +335,7 @@ mod tests {
 
     #[test]
     fn everything_in_turn_lies_in_the_window_and_in_order() {
-        let (all, _) = list(&lab(&[SLIDER, SELECT, BUTTON].join(",")), 2.0, &nothing());
+        let (all, _) = list_interactions(&lab(&[SLIDER, SELECT, BUTTON].join(",")), 2.0, &nothing());
         let last = all.last().unwrap();
         assert_eq!(last.actions.len(), 8);
         assert!(last.actions.windows(2).all(|two| two[0].time < two[1].time) && last.actions[7].time < 2.0);
@@ -346,7 +346,7 @@ mod tests {
         let press = |control, time| Action { time, control, value: None };
         let base =
             Interaction { kind: Kind::AsItStands, actions: vec![set(0, 2.0), press(2, 0.0), press(2, 0.5)] };
-        let (all, _) = list(&lab(&[SLIDER, SELECT, BUTTON].join(",")), 2.0, &base);
+        let (all, _) = list_interactions(&lab(&[SLIDER, SELECT, BUTTON].join(",")), 2.0, &base);
         assert_eq!((&all[0], all[1].kind, &all[1].actions), (&base, Kind::Touched, &base.actions));
         // Both ends of the slider differ from where the base has it.
         let ends: Vec<&Interaction> = all.iter().filter(|h| h.kind == Kind::End).collect();

@@ -2,12 +2,12 @@
 //! were tried against it.
 
 use super::case::{RunOutcome, StressCase};
-use super::drift::genuine;
+use super::drift::without_pushed_bodies;
 use super::fault::{Fault, FaultKind, worst_fault};
 use super::interaction::{Action, Interaction, Kind};
 use crate::bind::Programs;
 use crate::rules::{self, Rule};
-use crate::run::{self, Begun, Breakdown, Play, RunError, RunOptions, Session, Shorter, Table};
+use crate::run::{self, Breakdown, Play, RunError, RunOptions, Session, Shorter, StartedRun, Table};
 use crate::spec::Lab;
 use labspec_core::Model;
 use std::ops::ControlFlow;
@@ -61,13 +61,13 @@ pub(crate) fn describe(fault: &Fault) -> Option<Breakdown> {
 /// The same advice with a timestep that was tried: the longest of some with which the run is sound. Work is taken from `left`.
 pub(crate) fn with_tried_timestep(
     case: &StressCase<'_>,
-    handling: &Interaction,
+    interaction: &Interaction,
     length: f64,
     mut breakdown: Breakdown,
     left: &mut u64,
 ) -> Breakdown {
     let Shorter::Maybe(theory) = breakdown.shorter else { return breakdown };
-    let timestep = case.start(handling, WORK_OF_RUN).world.model.opt.timestep;
+    let timestep = case.start(interaction, WORK_OF_RUN).world.model.opt.timestep;
     let halved = (1..=HALVINGS).map(|k| timestep * 0.5f64.powi(k));
     let mut candidates: Vec<f64> =
         theory.into_iter().chain(halved).map(rounded_down).filter(|h| *h > 0.0 && *h < timestep).collect();
@@ -76,7 +76,7 @@ pub(crate) fn with_tried_timestep(
     let mut budget = WORK.min(*left);
     for h in candidates {
         let change = move |session: &mut Session<'_>| *session.world.model.edit().opt.timestep = h;
-        let outcome = case.run(handling, Some(&change), length, WORK_OF_RUN.min(budget));
+        let outcome = case.run(interaction, Some(&change), length, WORK_OF_RUN.min(budget));
         budget = budget.saturating_sub(outcome.spent);
         *left = left.saturating_sub(outcome.spent);
         if !is_sound(&outcome, breakdown.rule) {
@@ -123,30 +123,30 @@ pub fn watched_run(
 ) -> Result<Table, RunError> {
     let base = Interaction::base(lab, programs, &options.set, &options.press)?;
     let case = StressCase::new(lab, model, programs, base.clone());
-    let mut started = run::begin(lab, model, programs, options, &case.demand)?;
+    let mut started = run::begin(lab, model, programs, options, &case.access)?;
     let presses: Vec<Action> =
         started.presses.iter().map(|&(control, time)| Action { time, control, value: None }).collect();
     let pressed = Interaction { kind: Kind::AsItStands, actions: presses };
-    let Begun { session, samples, steps, every, .. } = &mut started;
+    let StartedRun { session, samples, steps, every, .. } = &mut started;
     let (steps, every) = (*steps, *every);
-    let mut eyes = case.eyes_of_table(&pressed, session);
+    let mut watcher = case.table_watcher(&pressed, session);
     let played = Play { steps, every: 1, presses: &[], watched: true };
     let made = run::play(session, &played, |session, made| {
         if made == 0 {
-            eyes.press_at_start(session);
+            watcher.press_at_start(session);
         }
         let taken = if made.is_multiple_of(every) || made == steps {
             run::take(samples, session)
         } else {
             ControlFlow::Continue(())
         };
-        eyes.observe(session, made, made == steps);
+        watcher.observe(session, made, made == steps);
         taken
     });
     let timestep = started.session.world.model.opt.timestep;
-    let (length, faults) = (made as f64 * timestep, eyes.faults(&started.session));
+    let (length, faults) = (made as f64 * timestep, watcher.faults(&started.session));
     let mut left = WORK;
-    let (faults, _) = genuine(&case, &base, faults, length, left);
+    let (faults, _) = without_pushed_bodies(&case, &base, faults, length, left);
     let mut table = run::finish(started, made)?;
     for breakdown in &mut table.breakdowns {
         *breakdown = with_tried_timestep(&case, &base, length, breakdown.clone(), &mut left);

@@ -20,7 +20,7 @@ const PARTS: usize = 8;
 const MORE: f64 = 1.02;
 /// Looks between two entries of the memory.
 const EVERY: usize = 8;
-/// Entries that are kept before every second one is forgotten.
+/// The number of entries before every second one is forgotten.
 const MOST: usize = 256;
 
 /// The memory of a run.

@@ -14,11 +14,11 @@ use super::value_kind::{ValueKind, kind_of};
 use crate::bind::{ModelNames, Scope, to_finding};
 use crate::finding::Finding;
 use crate::rules;
-use crate::run::{Session, StepVariant};
+use crate::run::{Session, Start, StepVariant};
 use crate::source::Text;
 use crate::spec::{Run, Sweep, Verify};
 use labspec_core::reflect::option;
-use labspec_core::{AccessSet, Model};
+use labspec_core::{AccessSet, Model, Plan};
 use labspec_expr::{Compiled, Compiler};
 use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
@@ -172,8 +172,11 @@ impl<'a> BoundVerify<'a> {
     pub(super) fn idle_in<T>(&self, place: usize, work: impl FnOnce(&mut Session<'a>) -> T) -> Option<T> {
         let scene = &self.scenes.get(place)?.scene;
         let mut idle = self.idle.borrow_mut();
-        let start = || Session::start(scene.programs.clone(), &scene.model, None, &AccessSet::ANY);
-        Some(work(idle.entry(place).or_insert_with(start)))
+        let session = || {
+            let plan = Some(Plan::new(&scene.model, &AccessSet::ANY));
+            Session::start(scene.programs.clone(), &scene.model, Start { plan, ..Start::default() })
+        };
+        Some(work(idle.entry(place).or_insert_with(session)))
     }
 
     /// The place of a lab in the list, to which it is added the first time.

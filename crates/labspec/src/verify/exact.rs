@@ -13,11 +13,12 @@ use crate::finding::Finding;
 use crate::json::nearest;
 use crate::ledger::{Evidence, State};
 use crate::rules;
-use crate::run::{self, Budget, End, Play, Session};
+use crate::run::{self, Budget, End, Play, Session, Start};
 use crate::spec::{Exact, Lab};
 use labspec_core::reflect::{FieldId, Object, data};
-use labspec_core::{Model, integrator};
+use labspec_core::{Model, Plan, integrator};
 use labspec_expr::{Access, Compiler, Program};
+use serde::{Deserialize, Serialize};
 use std::ops::{ControlFlow, Range};
 
 /// Most steps of the run at the lab's own timestep; the others take two and four times as many.
@@ -36,7 +37,7 @@ const WIDE: f64 = 2.0;
 const NOISE: f64 = 1e-12;
 
 /// What became of the closed form of a trace.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ClosedForm {
     /// Label of the trace.
     pub trace: String,
@@ -368,7 +369,9 @@ impl ClosedFormRuns<'_> {
     fn start(&self) -> Session<'_> {
         let mut demand = self.programs.demand;
         include(self.form.program.effects(), &mut demand);
-        Session::start_within(self.programs, self.model, self.lab.keyframe(), &demand, Budget::TRIAL)
+        let plan = Some(Plan::new(self.model, &demand));
+        let start = Start { key: self.lab.keyframe(), plan, budget: Budget::TRIAL };
+        Session::start(self.programs, self.model, start)
     }
 
     /// The lab as it stands with its timestep in so many parts, sampled at the same times whatever the parts.

@@ -9,9 +9,9 @@ use crate::bind::{include, scalar};
 use crate::finding::Finding;
 use crate::json::read::named;
 use crate::rules;
-use crate::run::{self, Budget, End, Play, RunError, Session, StepVariant};
-use labspec_core::Model;
+use crate::run::{self, Budget, End, Play, RunError, Session, Start, StepVariant};
 use labspec_core::reflect::{FieldId, option};
+use labspec_core::{AccessSet, Model, Plan};
 use labspec_expr::{Effects, Program, Value, Watch};
 use std::ops::{ControlFlow, Range};
 
@@ -93,15 +93,9 @@ pub(super) fn ready<'r>(
 ) -> Option<PreparedRun<'r>> {
     let RunRequest { scene: bound, run, numerics, place, .. } = asked;
     let (lab, programs) = (&*bound.scene.lab, &*bound.scene.programs);
-    let demand = demand(asked);
-    let budget = Budget { left: stage.left() };
-    let mut session = Session::start_within(
-        bound.scene.programs.clone(),
-        &bound.scene.model,
-        lab.keyframe(),
-        &demand,
-        budget,
-    );
+    let plan = Some(Plan::new(&bound.scene.model, &demand(asked)));
+    let start = Start { key: lab.keyframe(), plan, budget: Budget { left: stage.left() } };
+    let mut session = Session::start(bound.scene.programs.clone(), &bound.scene.model, start);
     let mut refuse_at = |place: Range<usize>, e: RunError| {
         let message = format!("the run {} cannot be made: {e}", named(run.name));
         findings.push(Finding::error(rules::RUN_IMPOSSIBLE, place, message));
@@ -220,9 +214,8 @@ fn set(
 /// The model of a run as it begins: after its controls and its setup. `None` for one that cannot be made.
 pub(super) fn started_models(bound: &BoundScene<'_>, run: &BoundRun<'_>) -> Option<Model> {
     let scene = &bound.scene;
-    let (key, demand) = (scene.lab.keyframe(), scene.programs.demand);
-    let mut session =
-        Session::start_within(scene.programs.clone(), &scene.model, key, &demand, Budget::TRIAL);
+    let start = Start { budget: Budget::TRIAL, ..Start::of_lab(&scene.lab) };
+    let mut session = Session::start(scene.programs.clone(), &scene.model, start);
     set(&mut session, bound, run).ok()?;
     if let Some(setup) = &run.setup {
         session.run_statements(&setup.program, setup.text);
@@ -231,7 +224,7 @@ pub(super) fn started_models(bound: &BoundScene<'_>, run: &BoundRun<'_>) -> Opti
 }
 
 /// What the programs of the lab and of the run need.
-fn demand(asked: &RunRequest<'_, '_>) -> labspec_core::AccessSet {
+fn demand(asked: &RunRequest<'_, '_>) -> AccessSet {
     let mut demand = asked.scene.scene.programs.demand;
     let texts_of_run = asked.run.setup.iter().chain(&asked.run.stop).map(|s| &s.program);
     for program in asked.measures.iter().map(|m| &m.program).chain(texts_of_run) {

@@ -2,10 +2,10 @@
 
 use super::bound::BoundVerify;
 use super::run_cache::BoundLab;
-use crate::run::{Budget, Session};
+use crate::run::{Budget, Session, Start};
 use crate::source::Text;
 use labspec_core::reflect::{FieldId, Object, option};
-use labspec_core::{self as core, AccessSet};
+use labspec_core::{self as core, AccessSet, Plan};
 use labspec_expr::Value;
 
 /// Whether a control makes any difference to what the simulation computes: at its start, or in its first steps. Colours and
@@ -14,8 +14,9 @@ pub(super) fn slider_changes_anything(bound: &BoundVerify<'_>, label: &Text, fro
     const STEPS: usize = 20;
     let Some(BoundLab { lab, model, programs, .. }) = bound.lab() else { return false };
     let start = |x: f64| {
-        let mut session =
-            Session::start_within(programs.clone(), model, lab.keyframe(), &AccessSet::ANY, Budget::TRIAL);
+        let plan = Some(Plan::new(model, &AccessSet::ANY));
+        let start = Start { key: lab.keyframe(), plan, budget: Budget::TRIAL };
+        let mut session = Session::start(programs.clone(), model, start);
         let (i, _) = programs.control(&label.value)?;
         session.set_control(i, Value::Number(x));
         Some(session)

@@ -9,13 +9,14 @@ use labspec::bind::{
     Bound, ControlProgram, ModelNames, Programs, Scope, dimensions, include, of_label, to_finding,
 };
 use labspec::finding::Finding;
-use labspec::run::{self, Budget, Play, RunError, Session};
+use labspec::run::{self, Budget, Play, RunError, Session, Start};
 use labspec::spec::{Lab, Plot};
 use labspec_bind::units::written;
 use labspec_core::reflect::{FieldId, option};
-use labspec_core::{AccessSet, Model};
+use labspec_core::{AccessSet, Model, Plan};
 use labspec_expr::dimension::Measure;
 use labspec_expr::{Compiler, Type, Value};
+use serde::Serialize;
 use std::ops::ControlFlow;
 
 /// A number that the lab shows.
@@ -55,7 +56,7 @@ impl DisplayPrecision {
 }
 
 /// Something that is not compared, and why.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct LeftOut {
     /// Its label.
     pub label: String,
@@ -203,8 +204,9 @@ impl<'a> PrecisionCase<'a> {
         if let Some(s) = setting {
             s.apply(&mut model);
         }
-        let key = self.lab.keyframe();
-        let mut session = Session::start_within(self.programs, &model, key, &self.demand, Budget::COMPARED);
+        let plan = Some(Plan::new(&model, &self.demand));
+        let start = Start { key: self.lab.keyframe(), plan, budget: Budget::COMPARED };
+        let mut session = Session::start(self.programs, &model, start);
         run::set_controls(&mut session, self.lab, self.programs, self.set)?;
         if let Some(s) = setting {
             // The lab's own code may have set others.

@@ -125,7 +125,7 @@ fn prepare(case: &mut PrecisionCase<'_>, options: &Options) -> Result<Ladder, Ru
     }
     let (timestep, integrator) = {
         let session = case.start(None)?;
-        (session.world.model.opt.timestep, Integrator::of(&session.world.model))
+        (session.world.model.opt.timestep, Integrator::of_model(&session.world.model))
     };
     let length = options.until.or(case.lab.stop_at.as_ref().map(|s| s.value)).unwrap_or(RUN_LENGTH);
     let ladder = Ladder::new(case.lab, timestep, integrator, length)?;

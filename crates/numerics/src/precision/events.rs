@@ -7,6 +7,7 @@ use super::run_record::{Run, RunRequest};
 use super::setting::Setting;
 use labspec::run::RunError;
 use labspec_core::integrator;
+use serde::Serialize;
 
 /// How far apart nearby starts are, and the part of its range by which a number has left the other.
 const NUDGE: f64 = 1e-9;
@@ -24,7 +25,7 @@ pub struct Event {
 }
 
 /// Two starts that nobody could tell apart.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Nearby {
     /// How far apart they are, in the unit of each coordinate.
     pub apart: f64,
@@ -83,7 +84,7 @@ pub(super) fn nearby(
     );
     let leaves = |((a, b), target): ((&Vec<f64>, &Vec<f64>), &Compared)| {
         let far = LEFT * target.range;
-        // Not to be told apart is less than the part, and no number is far from every other.
+        // Indistinguishable is less than the part, and no number is far from every other.
         a.iter().zip(b).position(|(a, b)| (a - b).abs() > far || (a - b).is_nan())
     };
     let first = one.values.iter().zip(&other.values).zip(targets).filter_map(leaves).min();

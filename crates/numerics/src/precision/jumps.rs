@@ -16,14 +16,14 @@ const MOST_OF_IT: f64 = 0.8;
 const SUDDEN: f64 = 3.0;
 
 /// All that a step depends on.
-struct Start {
+struct SavedStart {
     state: Vec<f64>,
     context: Context,
 }
 
-impl Start {
-    fn save(session: &Session<'_>) -> Start {
-        Start { state: numbers(session, state::INTEGRATION), context: session.context.clone() }
+impl SavedStart {
+    fn save(session: &Session<'_>) -> SavedStart {
+        SavedStart { state: numbers(session, state::INTEGRATION), context: session.context.clone() }
     }
 
     fn restore(&self, session: &mut Session<'_>) {
@@ -63,7 +63,7 @@ fn set_timestep(session: &mut Session<'_>, h: f64) {
 }
 
 /// Goes on from a start for some time.
-fn advance(session: &mut Session<'_>, start: &Start, x: f64) {
+fn advance(session: &mut Session<'_>, start: &SavedStart, x: f64) {
     start.restore(session);
     set_timestep(session, x);
     session.step();
@@ -73,7 +73,7 @@ fn advance(session: &mut Session<'_>, start: &Start, x: f64) {
 /// The part of a step before its controls jump from what they were to what they become; `None` where they do not jump.
 fn before_the_jump(
     session: &mut Session<'_>,
-    start: &Start,
+    start: &SavedStart,
     h: f64,
     held: &[f64],
     next: &[f64],
@@ -117,7 +117,7 @@ pub(super) fn play(
     let mut usual = 0.0;
     for made in 1..=play.steps {
         session.press_due(&mut pending);
-        let start = Start::save(session);
+        let start = SavedStart::save(session);
         session.step();
         if session.ended().is_some() {
             return made - 1;
@@ -127,7 +127,7 @@ pub(super) fn play(
         let next = peek(session);
         let change = apart(&held, &next);
         if change > SUDDEN * usual + 1e-9 * apart(&next, &vec![0.0; next.len()]) {
-            let end = Start::save(session);
+            let end = SavedStart::save(session);
             match before_the_jump(session, &start, h, &held, &next) {
                 Some(x) => {
                     advance(session, &start, x);

@@ -34,14 +34,14 @@ type MethodStep = (i32, f64);
 /// Two runs beside each other.
 struct AgreeingRuns {
     reference: Reference,
-    ways: [MethodStep; 2],
+    methods: [MethodStep; 2],
 }
 
 fn direct(case: &PrecisionCase<'_>, timestep: f64) -> Result<Option<Reference>, RunError> {
     let mut first = None;
-    for way in [(integrator::ADAPTIVE, case.interval), (integrator::GAUSS, timestep / 16.0)] {
-        if first.is_none() && !too_long(case, way.1) {
-            first = run(case, way.0, way.1, RunRequest::FRESH)?.map(|run| (way, run));
+    for method_step in [(integrator::ADAPTIVE, case.interval), (integrator::GAUSS, timestep / 16.0)] {
+        if first.is_none() && !too_long(case, method_step.1) {
+            first = run(case, method_step.0, method_step.1, RunRequest::FRESH)?.map(|run| (method_step, run));
         }
     }
     let mut best: Option<AgreeingRuns> = None;
@@ -60,16 +60,16 @@ fn direct(case: &PrecisionCase<'_>, timestep: f64) -> Result<Option<Reference>, 
         };
         let mine = (integrator::RKMK8, step);
         let now = match &first {
-            Some((way, seen)) => {
-                let how = format!("{} and {}", in_words(*way), in_words(mine));
-                AgreeingRuns { reference: compare(seen.clone(), &second, how), ways: [*way, mine] }
+            Some((method_step, seen)) => {
+                let how = format!("{} and {}", in_words(*method_step), in_words(mine));
+                AgreeingRuns { reference: compare(seen.clone(), &second, how), methods: [*method_step, mine] }
             }
             // One family alone: a run of half the step judges it.
             None => {
                 let half = (integrator::RKMK8, step / 2.0);
                 let Some(finer) = run(case, half.0, half.1, RunRequest::FRESH)? else { break };
                 let how = format!("{}, and at twice that", in_words(half));
-                AgreeingRuns { reference: compare(finer, &second, how), ways: [half, mine] }
+                AgreeingRuns { reference: compare(finer, &second, how), methods: [half, mine] }
             }
         };
         let agreed = agrees(&now.reference);
@@ -94,7 +94,7 @@ fn in_words((id, timestep): MethodStep) -> String {
 fn find_moments(case: &PrecisionCase<'_>, pair: &mut AgreeingRuns) -> Result<(), RunError> {
     let r = &mut pair.reference;
     let mut found: Vec<Run> = Vec::new();
-    for (id, timestep) in pair.ways {
+    for (id, timestep) in pair.methods {
         // The other one finds the same, or nothing.
         let late = |run: &Run| run.settled + UNKNOWN * case.length() + 8.0 * timestep;
         let stop = found.first().map_or(f64::INFINITY, late);
@@ -104,7 +104,7 @@ fn find_moments(case: &PrecisionCase<'_>, pair: &mut AgreeingRuns) -> Result<(),
     }
     if let [a, b] = found.as_slice() {
         r.run.touching = a.touching;
-        let steps = case.length() / pair.ways[0].1.min(pair.ways[1].1);
+        let steps = case.length() / pair.methods[0].1.min(pair.methods[1].1);
         r.moments = agreed(case, &r.uncertain, [&a.moments, &b.moments], steps);
     }
     Ok(())

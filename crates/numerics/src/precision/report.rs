@@ -9,6 +9,7 @@ use super::run_record::Fate;
 use super::setting::{Axis, Setting};
 use labspec::run::Integrator;
 use labspec_expr::Value;
+use serde::Serialize;
 
 /// What is compared, and how the lab is handled meanwhile.
 #[derive(Clone, Debug, Default)]
@@ -48,7 +49,7 @@ pub struct Row {
     pub cost: RunCost,
     /// What became of the run.
     pub fate: Fate,
-    /// What was told about it.
+    /// What was reported about it.
     pub reported: Vec<String>,
     /// The largest error that is possible, as the reference is in doubt, too; in times of what nobody sees. NaN where nothing is
     /// known.
@@ -92,9 +93,10 @@ pub struct Report {
 }
 
 /// A sentence about what to take, with the row that it is about.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Advice {
     /// What it says.
+    #[serde(skip)]
     pub kind: Kind,
     /// The row.
     pub row: usize,

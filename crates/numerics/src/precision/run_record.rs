@@ -21,7 +21,7 @@ pub(super) struct Rhythm {
 pub(super) struct RunRequest<'s> {
     /// Every coordinate of the start is moved by this.
     pub(super) perturbation: f64,
-    /// All that is shown is of the state at hand, as in the truth; else what a page shows after a step is partly of the state before
+    /// All that is shown is of the current state, as in the truth; else what a page shows after a step is partly of the state before
     /// it: forces, energies, contacts. A fresh run is not watched for growth of energy, as every look begins that watch anew.
     pub(super) fresh: bool,
     /// Steps are cut where controls jump.
@@ -61,7 +61,7 @@ pub(super) struct Run {
     pub(super) penetration: f64,
     /// What became of it.
     pub(super) fate: Fate,
-    /// Everything that was told about it.
+    /// Everything that was reported about it.
     pub(super) reported: Vec<String>,
     /// Work, in the engine's own units, per simulated second.
     pub(super) work: f64,

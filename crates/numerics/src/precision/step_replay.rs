@@ -6,7 +6,7 @@ use labspec_core::{self as core, Model, state};
 /// What moves by itself in a step, and what is held during it.
 const MOTION: i32 = state::FULLPHYSICS | state::WARMSTART;
 const HELD: i32 = state::USER;
-/// States that are kept.
+/// The number of stored states.
 const MOST_STATES: usize = 4;
 
 /// A state at the end of a step, with what was held in that step.
@@ -26,8 +26,8 @@ pub(super) struct StepHistory {
 
 impl StepHistory {
     pub(super) fn new(m: &Model) -> StepHistory {
-        let room = |sig| vec![0.0; state::size(m, sig).unwrap_or(0)];
-        let empty = PastState { time: 0.0, motion: room(MOTION), held: room(HELD) };
+        let zeros = |sig| vec![0.0; state::size(m, sig).unwrap_or(0)];
+        let empty = PastState { time: 0.0, motion: zeros(MOTION), held: zeros(HELD) };
         StepHistory { states: std::array::from_fn(|_| empty.clone()), count: 0 }
     }
 

@@ -11,10 +11,10 @@ use super::reader::ExtraReader;
 use super::start::plan_at_start;
 use labspec::bind::Programs;
 use labspec::interrupt;
-use labspec::run::{RunError, Session, count_steps};
+use labspec::run::{RunError, Session, Start, count_steps};
 use labspec::spec::Lab;
 use labspec_core::reflect::FieldSet;
-use labspec_core::{self as core, AccessSet, Data, Model, Plan};
+use labspec_core::{self as core, AccessSet, Model, Plan};
 use std::sync::OnceLock;
 use std::time::Instant;
 
@@ -128,8 +128,8 @@ struct MeasuredLab<'a> {
 
 impl<'a> MeasuredLab<'a> {
     fn start(&self, plan: &Plan) -> Session<'a> {
-        let data = Data::planned(self.model, plan.clone());
-        Session::start_with(self.programs, self.model, self.lab.keyframe(), data)
+        let start = Start { plan: Some(plan.clone()), ..Start::of_lab(self.lab) };
+        Session::start(self.programs, self.model, start)
     }
 
     /// Steps of the run, chunk by chunk.
@@ -162,12 +162,12 @@ impl<'a> MeasuredLab<'a> {
                         session.step();
                         continue;
                     }
-                    let (before, mut begun) = (nanoseconds(), 0);
+                    let (before, mut step_start) = (nanoseconds(), 0);
                     session.step_by(|m, d| {
-                        begun = nanoseconds();
+                        step_start = nanoseconds();
                         core::step(m, d)
                     });
-                    programs += (begun.saturating_sub(before) as f64 - look).max(0.0);
+                    programs += (step_start.saturating_sub(before) as f64 - look).max(0.0);
                 }
                 let laps = core::laps(&mut session.world.data);
                 let looking = laps.nothing.time as f64 / laps.nothing.runs.max(1) as f64;

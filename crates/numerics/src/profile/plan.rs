@@ -40,12 +40,12 @@ pub struct PlanReport {
     pub pairs: PairSummary,
     /// The cone of friction.
     pub cone: &'static str,
-    /// Methods of the constraint solver, integrators, and ways of computing trees.
+    /// Methods of the constraint solver, integrators, and algorithms of trees.
     pub solvers: Vec<EngineOption>,
     /// Likewise.
     pub integrators: Vec<EngineOption>,
     /// Likewise.
-    pub ways: Vec<TreeAlgorithmUse>,
+    pub tree_algorithms: Vec<TreeAlgorithmUse>,
     /// The sensors, one by one.
     pub sensors: Vec<SensorRow>,
     /// What more readers would cost.
@@ -100,7 +100,7 @@ pub fn plan(
         cone: if now.opt.cone == 0 { "pyramidal" } else { "elliptic" },
         solvers: parts::solvers(&now, &plan),
         integrators: parts::integrators(&now, &demand),
-        ways: parts::ways(&now, &plan),
+        tree_algorithms: parts::tree_algorithms(&now, &plan),
         sensors: parts::sensors(&now, &plan),
         readers,
         step: measured.map(|m| m.step),

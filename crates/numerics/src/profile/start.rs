@@ -1,12 +1,12 @@
 //! A lab as it starts.
 
 use labspec::bind::Programs;
-use labspec::run::{Budget, Session};
+use labspec::run::{Session, Start};
 use labspec::spec::Lab;
 use labspec_core::{Model, Plan};
 
 /// The plan of a lab as it starts, and its model then: its setup and its controls have been applied.
 pub(super) fn plan_at_start(lab: &Lab, model: &Model, programs: &Programs) -> (Plan, Model) {
-    let session = Session::start_within(programs, model, lab.keyframe(), &programs.demand, Budget::ASKED);
+    let session = Session::start(programs, model, Start::of_lab(lab));
     (session.world.data.plan(), session.world.model)
 }

@@ -5,11 +5,11 @@ use super::units::{LONGEST_TIMESTEP, second, si};
 use super::words::split_words;
 use labspec::bind::{ModelNames, Programs, Scope, dimensions, of_label};
 use labspec::check;
-use labspec::run::{self, Play, Session};
+use labspec::run::{self, Play, Session, Start};
 use labspec::spec::Lab;
 use labspec::verify::Stated;
 use labspec_bind::element_owner;
-use labspec_core::{AccessSet, Model};
+use labspec_core::{AccessSet, Model, Plan};
 use labspec_core::{geom, joint, trntype, wraptype};
 use labspec_expr::Compiler;
 use labspec_expr::dimension::{Dimension, Measure};
@@ -323,7 +323,8 @@ fn times(numbers: &[Stated]) -> Vec<f64> {
 
 /// Pairs of named geoms that touch in a run of the lab as it stands.
 fn touching(lab: &Lab, model: &Model, programs: &Programs) -> Vec<(String, String)> {
-    let mut session = Session::start(programs, model, lab.keyframe(), &AccessSet::ANY);
+    let plan = Some(Plan::new(model, &AccessSet::ANY));
+    let mut session = Session::start(programs, model, Start { plan, ..Start::of_lab(lab) });
     let timestep = session.world.model.opt.timestep;
     let Ok(steps) = run::count_steps(lab, None, None, timestep) else { return Vec::new() };
     let mut pairs: Vec<(String, String)> = Vec::new();

@@ -3,7 +3,7 @@
 
 use super::trials::{MOST, Trial};
 use labspec::bind::{ControlProgram, Programs, functions};
-use labspec::run::{Budget, Session};
+use labspec::run::{Budget, Session, Start};
 use labspec::spec::Lab;
 use labspec_core::Model;
 use labspec_core::reflect::{FieldId, Object};
@@ -40,7 +40,8 @@ fn statements(lab: &Lab, model: &Model, programs: &Programs) -> Option<String> {
     if !writes.iter().any(|write| of_model(FieldId::new(write.field.0 as usize))) {
         return None;
     }
-    let session = Session::start_within(programs, model, lab.keyframe(), &programs.demand, Budget::TRIAL);
+    let start = Start { budget: Budget::TRIAL, ..Start::of_lab(lab) };
+    let session = Session::start(programs, model, start);
     let mut all: Vec<String> = Vec::new();
     for write in writes {
         let field = FieldId::new(write.field.0 as usize).filter(|f| of_model(Some(*f)));

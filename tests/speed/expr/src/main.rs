@@ -5,7 +5,7 @@ use fasteval::{Compiler as _, Evaler};
 use labspec::bind::scene::Models;
 use labspec::bind::{ModelNames, Programs, Scope, World};
 use labspec::lint::ModelFolder;
-use labspec::run::Session;
+use labspec::run::{Session, Start};
 use labspec::source::SourceFile;
 use labspec::lint::load_lesson;
 use labspec::spec::Lab;
@@ -93,7 +93,7 @@ fn error_expression() -> Vec<(&'static str, f64)> {
     let mut recording = Recording::new();
     let columnar = recording.columns(&program).expect("the first").expect("it computes with numbers");
     let data = Data::planned(&model, Plan::full());
-    let mut world = World { data, model: model.clone(), key: None, own: labspec::Functions::new(), shown: Vec::new(), numbers: Vec::new() };
+    let mut world = World { data, model: model.clone(), key: None, functions: labspec::Functions::new(), displayed: Vec::new(), numbers: Vec::new() };
     for i in 0..SAMPLES {
         let (q, t) = at(i);
         world.set(keys[1], 2, q).and_then(|()| world.set(keys[0], 0, t)).expect("both may be set");
@@ -224,7 +224,8 @@ fn main() {
         .max_by_key(|(text, ..)| text.len());
     if let Some((text, title, lab, model)) = longest {
         let programs = Programs::compile(lab, model, &mut Vec::new());
-        let mut session = Session::start(&programs, model, lab.keyframe(), &AccessSet::ANY);
+        let plan = Some(Plan::new(model, &AccessSet::ANY));
+        let mut session = Session::start(&programs, model, Start { plan, ..Start::of_lab(lab) });
         (0..lab.controls.len()).for_each(|i| session.press(i));
         (0..200).for_each(|_| session.step());
         let controller = programs.controller.as_ref().expect("it has one");

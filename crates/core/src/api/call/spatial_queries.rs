@@ -3,9 +3,9 @@
 use super::{Data, Error, Model, Scope, exists};
 use crate::geometry::Distance;
 use crate::math::Vec3;
+use crate::model::extents;
 use crate::model::reflect::data;
 use crate::query::{self, RayFilter, RayHit};
-use crate::step::functions;
 
 /// The nearest geom on the ray `from` + x `along`, x ≥ 0 (`mj_ray`). A direction of no length hits nothing.
 pub fn ray<S: Scope>(
@@ -17,7 +17,7 @@ pub fn ray<S: Scope>(
 ) -> Result<Option<RayHit>, Error> {
     d.belongs_to(m)?;
     d.has(&[data::geom_xpos, data::geom_xmat])?;
-    Ok(query::ray(m, &d.inner, from, along, filter))
+    Ok(query::ray(m, &d.fields, from, along, filter))
 }
 
 /// The distance of two geoms up to `most`, m, with the segment from the first to the second (`mj_geomDistance`).
@@ -33,7 +33,8 @@ pub fn geom_distance<S: Scope>(
     d.has(&[data::geom_xpos, data::geom_xmat])?;
     exists("geom", geom1, m.ngeom)?;
     exists("geom", geom2, m.ngeom)?;
-    let found = functions::geom_distance(m, d.engine(m)?, geom1, geom2, most);
+    let (d, s) = d.engine(m)?;
+    let found = query::geom_distance(m, d, &mut s.sensor.narrow, [geom1, geom2], most);
     found.ok_or(Error::NoConvex { geom1, geom2 })
 }
 
@@ -42,7 +43,24 @@ pub fn inside_site<S: Scope>(m: &Model, d: &Data<S>, site: usize, point: Vec3) -
     d.belongs_to(m)?;
     d.has(&[data::site_xpos, data::site_xmat])?;
     exists("site", site, m.nsite)?;
-    Ok(query::inside_site(m, &d.inner, site, point))
+    Ok(query::inside_site(m, &d.fields, site, point))
+}
+
+/// Half the extents of a geom along its own axes, m: by its size, for meshes and height fields by the box around it. Zeros where there is
+/// no such geom.
+pub fn geom_half_extents(m: &Model, geom: usize) -> Vec3 {
+    extents::half_extents(m, geom)
+}
+
+/// The smallest extent of a geom, m; infinite for planes, for height fields, and where there is no such geom.
+pub fn geom_thickness(m: &Model, geom: usize) -> f64 {
+    extents::thickness(m, geom)
+}
+
+/// The half thickness of the thinner of two geoms, m. Only spheres, capsules, cylinders, ellipsoids and boxes count (a mesh may be thinner
+/// than the box around it); infinite where there are none.
+pub fn half_thickness_of_pair(m: &Model, pair: [usize; 2]) -> f64 {
+    extents::half_thickness_of_pair(m, pair)
 }
 
 /// Whether the contact bits of two geoms admit a contact. They may be written while a lab runs.
@@ -63,5 +81,5 @@ pub fn may_touch(m: &Model, geom1: usize, geom2: usize) -> Result<bool, Error> {
 /// one comparison each.
 pub fn pairs_in_reach<S: Scope>(m: &Model, d: &Data<S>) -> Result<usize, Error> {
     d.belongs_to(m)?;
-    Ok(functions::pairs_in_reach(m, &d.inner))
+    Ok(crate::collision::in_reach(m, &d.fields, &d.scratch.collision))
 }

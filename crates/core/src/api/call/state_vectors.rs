@@ -15,12 +15,12 @@ pub fn size(m: &Model, sig: i32) -> Result<usize, Error> {
 /// Writes a state to `out`, which has `size` numbers (`mj_getState`).
 pub fn get<S: Scope>(m: &Model, d: &Data<S>, out: &mut [f64], sig: i32) -> Result<(), Error> {
     d.belongs_to(m)?;
-    Ok(state::get(m, &d.inner, out, sig)?)
+    Ok(state::get(m, &d.fields, out, sig)?)
 }
 
 /// Sets a state (`mj_setState`). What follows from it is computed by `forward` or the next step.
 pub fn set<S: Scope>(m: &Model, d: &mut Data<S>, values: &[f64], sig: i32) -> Result<(), Error> {
-    Ok(state::set(m, d.engine_to_write(m)?, values, sig)?)
+    Ok(state::set(m, d.engine_to_write(m)?.0, values, sig)?)
 }
 
 /// Takes the parts `to` of the state `from`, which has the parts `sig` (`mj_extractState`).
@@ -31,5 +31,5 @@ pub fn extract(m: &Model, from: &[f64], sig: i32, out: &mut [f64], to: i32) -> R
 /// Copies parts of a state (`mj_copyState`).
 pub fn copy<S: Scope, T: Scope>(m: &Model, from: &Data<S>, to: &mut Data<T>, sig: i32) -> Result<(), Error> {
     from.belongs_to(m)?;
-    Ok(state::copy(m, &from.inner, to.engine_to_write(m)?, sig)?)
+    Ok(state::copy(m, &from.fields, to.engine_to_write(m)?.0, sig)?)
 }

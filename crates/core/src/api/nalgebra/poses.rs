@@ -118,7 +118,7 @@ macro_rules! velocities {
             d.belongs_to(m)?;
             d.has(&[data::cvel, data::subtree_com, $(data::$needs),*])?;
             let id = which.find_in(&d.names)?;
-            let [wx, wy, wz, x, y, z] = object::object_velocity(m, &d.inner, Obj::$kind, id, local);
+            let [wx, wy, wz, x, y, z] = object::object_velocity(m, &d.fields, Obj::$kind, id, local);
             Ok(Velocity { angular: Vector3::new(wx, wy, wz), linear: Vector3::new(x, y, z) })
         }
     )* };

@@ -20,10 +20,10 @@ fn an_island_that_is_too_large_is_solved_without_its_hessian() {
     };
     let text: String = (0..200).map(ball).collect();
     let m = mjcf::compile(&format!("<mujoco><worldbody>{text}</worldbody></mujoco>")).unwrap();
-    let mut d = Workspace::new(&m);
-    step(&m, &mut d);
+    let Workspace { fields: mut d, scratch: mut s } = Workspace::new(&m);
+    step(&m, &mut d, &mut s);
     assert_eq!((d.ncon, d.nisland), (200 * 199 / 2, 1));
-    assert_eq!(d.work.constraint.solver.hessian.block_count(), 0);
+    assert_eq!(s.constraint.solver.hessian.block_count(), 0);
     assert!(d.solver_niter > 0 && d.qacc.iter().all(|a| a.is_finite()));
 }
 
@@ -39,11 +39,11 @@ fn boxes(list: impl Iterator<Item = (usize, [f64; 3], [f64; 3])>) -> Model {
     mjcf::compile(&(text + "</worldbody></mujoco>")).unwrap()
 }
 
-fn kept(m: &Model) -> (usize, Workspace) {
-    let mut d = Workspace::new(m);
-    forward(m, &mut d);
-    let hessian = &d.work.constraint.solver.hessian;
-    (hessian.block_count(), d)
+fn blocks(m: &Model) -> (usize, Workspace) {
+    let mut w = Workspace::new(m);
+    forward(m, &mut w.fields, &mut w.scratch);
+    let hessian = &w.scratch.constraint.solver.hessian;
+    (hessian.block_count(), w)
 }
 
 const SMALL_BOX: [f64; 3] = [0.1; 3];
@@ -55,8 +55,8 @@ fn row(i: usize) -> (usize, [f64; 3], [f64; 3]) {
 /// What a small module adds entry by entry has the bits of what is added by fours, in both matrices.
 #[test]
 fn products_are_the_same_entry_by_entry() {
-    let (_, d) = kept(&boxes((0..3).map(row)));
-    let (jac, mut fours) = (&d.work.constraint.jac, d.work.constraint.solver.hessian.clone());
+    let (_, Workspace { fields: d, scratch: s }) = blocks(&boxes((0..3).map(row)));
+    let (jac, mut fours) = (&s.constraint.jac, s.constraint.solver.hessian.clone());
     fours.clear();
     let mut entries = fours.clone();
     let none = vec![0.0; d.M.len()];
@@ -94,19 +94,19 @@ fn products_are_the_same_entry_by_entry() {
 
 #[test]
 fn a_row_of_boxes_takes_a_band() {
-    let (kept, d) = kept(&boxes((0..100).map(row)));
+    let (count, Workspace { fields: d, .. }) = blocks(&boxes((0..100).map(row)));
     assert_eq!(d.nisland, 1);
     // Twelve columns and what fills up blocks of four.
-    assert!(kept <= 600 * 16, "{kept} numbers of {}", 600 * 601 / 2);
+    assert!(count <= 600 * 16, "{count} numbers of {}", 600 * 601 / 2);
 }
 
 #[test]
 fn a_plate_under_all_others_does_not_fill_the_matrix() {
     let plate = (0, [10.0, 0.0, 0.0495], [12.0, 1.0, 0.05]);
     let upon = (1..100).map(|i| (i, [0.25 * i as f64, 0.0, 0.1985], SMALL_BOX));
-    let (kept, d) = kept(&boxes(std::iter::once(plate).chain(upon)));
+    let (count, Workspace { fields: d, .. }) = blocks(&boxes(std::iter::once(plate).chain(upon)));
     assert_eq!(d.nisland, 1);
-    assert!(kept <= 600 * 16, "{kept} numbers of {}", 600 * 601 / 2);
+    assert!(count <= 600 * 16, "{count} numbers of {}", 600 * 601 / 2);
 }
 
 /// Four hundred twigs on one stem, which a constraint holds: the twigs do not meet, and only the stem meets all.
@@ -117,18 +117,18 @@ fn branches_meet_in_the_body_that_carries_them() {
         "<mujoco><option><flag contact='disable'/></option><worldbody><body name='stem'><freejoint/><geom size='1'/>{twigs}</body>\
          </worldbody><equality><weld body1='stem'/></equality></mujoco>"
     ));
-    let (kept, d) = kept(&m.unwrap());
+    let (count, Workspace { fields: d, .. }) = blocks(&m.unwrap());
     assert_eq!((d.nisland, d.nefc), (1, 6));
     // A block on the diagonal for each four twigs, and whole rows for the stem's two.
-    assert!(kept <= 16 * (100 + 2 * 102), "{kept} numbers of {}", 203 * 407);
+    assert!(count <= 16 * (100 + 2 * 102), "{count} numbers of {}", 203 * 407);
 }
 
 #[test]
 fn pairs_apart_take_a_matrix_each() {
     let pair = |i: usize| (i, [0.5 * (i / 2) as f64 + 0.1995 * (i % 2) as f64, 0.0, 0.0995], SMALL_BOX);
-    let (kept, d) = kept(&boxes((0..300).map(pair)));
+    let (count, Workspace { fields: d, .. }) = blocks(&boxes((0..300).map(pair)));
     // Three rows of blocks: one block of four by four, then two, then three.
-    assert_eq!((d.nisland, kept), (150, 96));
+    assert_eq!((d.nisland, count), (150, 96));
 }
 
 /// Islands are laid out when they are found, not in every step.
@@ -137,16 +137,15 @@ fn islands_keep_their_layouts() {
     let pair = |i: usize| (i, [0.5 * (i / 2) as f64 + 0.1995 * (i % 2) as f64, 0.0, 0.0995], SMALL_BOX);
     let mut m = boxes((0..6).map(pair));
     m.opt.disableflags |= crate::kinds::disable::WARMSTART;
-    let mut d = Workspace::new(&m);
+    let Workspace { fields: mut d, scratch: mut s } = Workspace::new(&m);
     let mut directions = 0;
     for _ in 0..50 {
-        step(&m, &mut d);
+        step(&m, &mut d, &mut s);
         directions += d.solver_niter;
     }
-    let solver = &d.work.constraint.solver;
+    let solver = &s.constraint.solver;
     let all = solver.apart.iter().chain([&solver.hessian]);
-    let (laid_out, found) =
-        (all.map(|h| h.laid_out).sum::<usize>(), d.work.constraint.islands.found as usize);
+    let (laid_out, found) = (all.map(|h| h.laid_out).sum::<usize>(), s.constraint.islands.found as usize);
     assert!(d.nisland == 3 && directions >= 150 && found < 25, "{directions} directions, found {found}");
     assert!(laid_out <= 3 * found, "{laid_out} layouts of islands that were found {found} times");
 }
@@ -155,10 +154,15 @@ fn islands_keep_their_layouts() {
 fn the_order_in_the_file_changes_rounding_alone() {
     // By steps of 37 through a hundred: neighbours stand far from each other in the file.
     let (near, far) = (boxes((0..100).map(row)), boxes((0..100).map(|i| row(i * 37 % 100))));
-    let ((_, a), (kept, b)) = (kept(&near), kept(&far));
-    assert!(kept <= 600 * 16, "{kept}");
+    let ((_, a), (count, b)) = (blocks(&near), blocks(&far));
+    assert!(count <= 600 * 16, "{count}");
     for i in 0..600 {
         let there = 6 * (i / 6 * 73 % 100) + i % 6;
-        assert!((a.qacc[i] - b.qacc[there]).abs() < 1e-9, "{i}: {} and {}", a.qacc[i], b.qacc[there]);
+        assert!(
+            (a.fields.qacc[i] - b.fields.qacc[there]).abs() < 1e-9,
+            "{i}: {} and {}",
+            a.fields.qacc[i],
+            b.fields.qacc[there]
+        );
     }
 }

@@ -115,25 +115,25 @@ fn outside(q: [Vec2; 2], radius: f64, side: Option<Vec2>) -> Option<Touch> {
         [radius * cos, radius * sin]
     });
     // Counter-clockwise for +1.
-    let way = |sign: f64| {
+    let winding = |sign: f64| {
         let from = turned(directions[0], [turns[0][0], sign * turns[0][1]]);
         let to = turned(directions[1], [turns[1][0], -sign * turns[1][1]]);
         let angle = sign * libm::atan2(cross2(from, to), dot(from, to));
         // A string turns on as it began.
         ([from, to], if angle < 0.0 { angle + 2.0 * std::f64::consts::PI } else { angle })
     };
-    let ways = [way(1.0), way(-1.0)];
+    let windings = [winding(1.0), winding(-1.0)];
     let first = match side {
         // MuJoCo's rule: the one whose touching points have their middle nearer to the side.
         Some(s) if blocked => {
             let towards = |touch: [Vec2; 2]| dot(unit(add(touch[0], touch[1])), s);
-            towards(ways[0].0) > towards(ways[1].0)
+            towards(windings[0].0) > towards(windings[1].0)
         }
         // The shorter one; the one that is there at all, where the straight line is free and on the wrong side.
         // Of two that are equal, counter-clockwise, as in MuJoCo.
-        _ => ways[0].1 <= ways[1].1,
+        _ => windings[0].1 <= windings[1].1,
     };
-    let (touch, angle) = if first { ways[0] } else { ways[1] };
+    let (touch, angle) = if first { windings[0] } else { windings[1] };
     Some((touch, radius * angle))
 }
 

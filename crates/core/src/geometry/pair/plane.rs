@@ -7,7 +7,6 @@ use crate::geometry::support::{Body, climb, search};
 use crate::math::*;
 
 /// A contact at a point of the other shape, moved half the way to the plane.
-#[inline]
 fn touch(normal: Vec3, dist: f64, point: Vec3) -> ContactPoint {
     ContactPoint { dist, pos: add_scaled(point, normal, -0.5 * dist), normal, tangent: [0.0; 3] }
 }
@@ -35,7 +34,6 @@ pub(crate) fn ball_on_plane(
 }
 
 /// A ball of another shape.
-#[inline]
 fn ball(plane: &Shape, centre: Vec3, radius: f64, margin: f64) -> Option<ContactPoint> {
     ball_on_plane(plane.pos, plane.axis(2), centre, radius, margin)
 }

@@ -8,7 +8,7 @@ use crate::mjcf::context::Context;
 use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
 use crate::mjcf::spec::{ActuatorSpec, BodySpec, JointSpec, RangeSpec, TendonSpec};
-use crate::mjcf::text::diagnostic::Said;
+use crate::mjcf::text::diagnostic::Reported;
 use crate::mjcf::text::tree::Node;
 
 /// Completes an actuator and reports what does not fit.
@@ -73,7 +73,7 @@ struct Check<'c, 'a> {
 
 impl Check<'_, '_> {
     /// An error at one of these attributes, or at the element when they stand in its class.
-    fn error(&mut self, attribute: &str, message: &str) -> Said<'_> {
+    fn error(&mut self, attribute: &str, message: &str) -> Reported<'_> {
         let span = self.node.attribute(attribute).map_or(self.node.span.clone(), |a| a.span.clone());
         let message = format!("{} {message}", self.node.describe());
         self.cx.report.error(rules::ACTUATOR, span, message)

@@ -123,10 +123,10 @@ pub(crate) fn length_ranges(m: &mut Model, list: &[ActuatorSpec], search: &Searc
         report.error(rules::LIMIT, first.span.clone(), message).help("write a `lengthrange` for each");
         return;
     }
-    let mut d = Workspace::unplanned(m);
+    let Workspace { fields: mut d, scratch: mut s } = Workspace::unplanned(m);
     for i in wanted {
         let Some(spec) = list.get(i) else { continue };
-        let wrong = match lengthrange::length_range(m, &mut d, i, search) {
+        let wrong = match lengthrange::length_range(m, &mut d, &mut s, i, search) {
             Ok(()) => continue,
             _ if !lengthrange::has_length(m, i) => "its target gives it no length".to_string(),
             Err(Failure::NoRange([lower, upper])) => {

@@ -2,7 +2,7 @@
 
 use crate::mjcf::classes::Props;
 use crate::mjcf::rules;
-use crate::mjcf::text::diagnostic::{Report, Said};
+use crate::mjcf::text::diagnostic::{Report, Reported};
 use crate::mjcf::text::tree::Node;
 
 /// An element that is laid over an actuator.
@@ -15,7 +15,7 @@ pub(crate) struct Overlay<'a> {
 
 impl Overlay<'_> {
     /// An error at an attribute, or at the element where it is absent.
-    pub(crate) fn error(&mut self, attribute: &str, message: impl Into<String>) -> Said<'_> {
+    pub(crate) fn error(&mut self, attribute: &str, message: impl Into<String>) -> Reported<'_> {
         let span = self.p.span(attribute).unwrap_or(self.node.span.clone());
         self.report.error(rules::ACTUATOR, span, message)
     }

@@ -9,7 +9,7 @@ use crate::forces::actuation::slots;
 use crate::kinds::{biastype, choice, dyntype, gaintype};
 use crate::mjcf::spec::ActuatorSpec;
 
-/// Writes the parameters of a motor into an actuator. Long, as there is a paragraph for each attribute, in the order of the reference.
+/// Writes the parameters of a motor into an actuator.
 pub(crate) fn dcmotor(a: &mut ActuatorSpec, e: &mut Overlay) {
     // What a class without a motor has there stands for nothing.
     if a.gaintype != gaintype::DCMOTOR {
@@ -29,20 +29,7 @@ pub(crate) fn dcmotor(a: &mut ActuatorSpec, e: &mut Overlay) {
         positive(e, r, "resistance", "resistance", "the current is the voltage divided by the resistance");
     }
     (a.gainprm[0], a.gainprm[1]) = (r, k);
-
-    let [force, current, slope] = e.p.reals("saturation", [0.0, 0.0, a.dynprm[1]]);
-    if force < 0.0 && current > 0.0 {
-        let owner = e.node.describe();
-        e.error("saturation", format!("`saturation` of {owner} begins with {force}"))
-            .why("it is the largest force, which cannot be negative")
-            .help("write 0 for a limit that follows from the current");
-    }
-    let limit = if force > 0.0 { force } else { k * current };
-    if limit > 0.0 {
-        a.force.flag = choice::TRUE;
-        a.force.range = [-limit, limit];
-    }
-    a.dynprm[1] = slope.max(0.0);
+    saturation(a, e, k);
 
     let [inductance, time] = e.p.reals("inductance", [0.0, a.dynprm[0]]);
     if inductance < 0.0 || time < 0.0 {
@@ -74,6 +61,23 @@ pub(crate) fn dcmotor(a: &mut ActuatorSpec, e: &mut Overlay) {
     (a.gaintype, a.biastype, a.dyntype) = (gaintype::DCMOTOR, biastype::DCMOTOR, dyntype::DCMOTOR);
     a.actearly = true;
     a.actdim = slots(&a.dynprm, &a.gainprm).count() as i32;
+}
+
+/// The largest force, or what follows from the largest current, and how fast the current may change.
+fn saturation(a: &mut ActuatorSpec, e: &mut Overlay, k: f64) {
+    let [force, current, slope] = e.p.reals("saturation", [0.0, 0.0, a.dynprm[1]]);
+    if force < 0.0 && current > 0.0 {
+        let owner = e.node.describe();
+        e.error("saturation", format!("`saturation` of {owner} begins with {force}"))
+            .why("it is the largest force, which cannot be negative")
+            .help("write 0 for a limit that follows from the current");
+    }
+    let limit = if force > 0.0 { force } else { k * current };
+    if limit > 0.0 {
+        a.force.flag = choice::TRUE;
+        a.force.range = [-limit, limit];
+    }
+    a.dynprm[1] = slope.max(0.0);
 }
 
 /// Thermal resistance and capacity, or one of them with their product, a time constant; then how the resistance of

@@ -118,20 +118,20 @@ pub(crate) fn written(nrow: i32, ncol: i32, elevation: &[f64]) -> Result<Samples
 
 /// The kinds of file.
 const PNG: &str = "image/png";
-const OWN: &str = "image/vnd.mujoco.hfield";
+const MUJOCO_HFIELD: &str = "image/vnd.mujoco.hfield";
 
 /// Reads a file: a PNG picture or MuJoCo's own format. The name's ending tells which, or `content_type`, by the rules that
 /// were measured on MuJoCo 3.14.0: another kind is refused, what does not look like the name of a kind means its own.
 pub(crate) fn decode(path: &str, content_type: &str, bytes: &[u8]) -> Result<Samples, Problem> {
     let kind = match content_type {
         "" if path.to_ascii_lowercase().ends_with(".png") => PNG,
-        "" => OWN,
+        "" => MUJOCO_HFIELD,
         kind if kind.contains('/') => kind,
-        _ => OWN,
+        _ => MUJOCO_HFIELD,
     };
     match kind {
         PNG => picture(bytes),
-        OWN => decode_samples(bytes),
+        MUJOCO_HFIELD => decode_samples(bytes),
         _ => Err(Problem::new(
             "content_type",
             format!("has a file of the kind {}", shorten_name(kind)),

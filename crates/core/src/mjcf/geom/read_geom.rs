@@ -13,7 +13,7 @@ use crate::mjcf::settings::checked;
 use crate::mjcf::spec::{GeomSpec, List, SOLIMP, SOLREF};
 use crate::mjcf::text::tree::{Node, name};
 
-/// A `geom` element; `None` when its type was refused. Long, as there is a line for each attribute.
+/// A `geom` element; `None` when its type was refused.
 pub(crate) fn geom(cx: &mut Context, i: usize, node: &Node, childclass: Option<usize>) -> Option<GeomSpec> {
     let p = cx.classes.props(node, childclass);
     if p.has("type") && p.word("type").is_none() {
@@ -32,19 +32,7 @@ pub(crate) fn geom(cx: &mut Context, i: usize, node: &Node, childclass: Option<u
             size[1] = size[0];
         }
     }
-    let of_asset = form_is_of_asset(&p, shape);
-    let form = if of_asset {
-        if !read_form::check_form(cx, &p, node, shape.kind) {
-            return None;
-        }
-        let form = read_form::of_asset(cx, &p, node, shape)?;
-        check_fit(cx, &p, node, shape, form.size);
-        Pose { pos, quat } = Pose { pos, quat }.in_parent(form.mesh_pose.pos, form.mesh_pose.quat);
-        form
-    } else {
-        check_size(cx, &p, node, shape, size);
-        Form::primitive(shape, size, p.flag("shellinertia", false))
-    };
+    let (form, Pose { pos, quat }) = form_at(cx, &p, node, shape, size, Pose { pos, quat })?;
     let (mass, moments) = mass(cx, &p, node, shape, &form);
     let material = p.text("material").or_else(|| cx.assets.material(p.text("mesh")?));
     Some(GeomSpec {
@@ -79,6 +67,28 @@ pub(crate) fn geom(cx: &mut Context, i: usize, node: &Node, childclass: Option<u
         gap: p.real("gap").unwrap_or(0.0),
         rgba: p.reals("rgba", [0.5, 0.5, 0.5, 1.0]),
     })
+}
+
+/// The form of a geom, and its pose: a mesh has its own frame. `None` when it was refused.
+fn form_at(
+    cx: &mut Context,
+    p: &Props,
+    node: &Node,
+    shape: &Shape,
+    size: Vec3,
+    pose: Pose,
+) -> Option<(Form, Pose)> {
+    if !form_is_of_asset(p, shape) {
+        check_size(cx, p, node, shape, size);
+        return Some((Form::primitive(shape, size, p.flag("shellinertia", false)), pose));
+    }
+    if !read_form::check_form(cx, p, node, shape.kind) {
+        return None;
+    }
+    let form = read_form::of_asset(cx, p, node, shape)?;
+    check_fit(cx, p, node, shape, form.size);
+    let pose = pose.in_parent(form.mesh_pose.pos, form.mesh_pose.quat);
+    Some((form, pose))
 }
 
 /// What lies between two points: its middle, the turn of its z axis, and half its length.

@@ -100,7 +100,7 @@ impl Context<'_> {
         attribute: &str,
         code: &'static Rule,
         message: String,
-    ) -> crate::mjcf::text::diagnostic::Said<'_> {
+    ) -> crate::mjcf::text::diagnostic::Reported<'_> {
         let span = self.node.attribute(attribute).map_or(self.node.span.clone(), |a| a.span.clone());
         self.report.error(code, span, message)
     }

@@ -96,8 +96,8 @@ fn three_formats_are_one_mesh() {
 fn damaged_files_do_no_harm() {
     let go = |model: Result<Model, String>| {
         if let Ok(m) = model {
-            let mut d = Workspace::new(&m);
-            (0..3).for_each(|_| step(&m, &mut d));
+            let Workspace { fields: mut d, scratch: mut s } = Workspace::new(&m);
+            (0..3).for_each(|_| step(&m, &mut d, &mut s));
         }
     };
     for (name, bytes) in
@@ -179,8 +179,8 @@ fn skins_that_do_not_fit() {
     for (attributes, bones, want) in cases {
         let file = if attributes.contains("a.txt") { "a.txt" } else { "a.skn" };
         let asset = format!("<skin name='s' {attributes}>{bones}</skin>");
-        let said = load(&asset, "size='1'", file, &skn()).err();
-        assert!(said.as_ref().is_some_and(|said| said.contains(want)), "{asset}: {said:?}, not {want}");
+        let message = load(&asset, "size='1'", file, &skn()).err();
+        assert!(message.as_ref().is_some_and(|m| m.contains(want)), "{asset}: {message:?}, not {want}");
     }
     assert!(load(&format!("<skin {vertex}>{bone}</skin>"), "size='1'", "a.skn", &[]).is_ok());
     let mut other = skn();

@@ -10,10 +10,10 @@ fn codes(xml: &str) -> Vec<(&'static str, Severity)> {
 /// Whether the motion of a joint has grown beyond what it began with, a thousand times.
 fn grows(xml: &str) -> bool {
     let model = check_xml(xml, &NoFiles, None).model.unwrap();
-    let mut data = Workspace::new(&model);
+    let Workspace { fields: mut data, scratch: mut s } = Workspace::new(&model);
     data.qvel[0] = 1e-3;
     for _ in 0..4000 {
-        crate::step::step(&model, &mut data);
+        crate::step::step(&model, &mut data, &mut s);
         if data.warning.iter().any(|w| w.number > 0) || data.qvel[0].abs() > 1.0 {
             return true;
         }
@@ -75,8 +75,8 @@ fn what_is_softened_is_what_it_is_said_to_get() {
         );
         let reported = codes(&xml).iter().any(|(code, _)| *code == "mjcf-softened");
         let model = check_xml(&xml, &NoFiles, None).model.unwrap();
-        let mut data = Workspace::new(&model);
-        (0..200).for_each(|_| crate::step::step(&model, &mut data));
+        let Workspace { fields: mut data, scratch: mut s } = Workspace::new(&model);
+        (0..200).for_each(|_| crate::step::step(&model, &mut data, &mut s));
         (reported, data.qpos.clone())
     };
     // The floor has the default: the two are mixed half and half, so both ends count.

@@ -2,8 +2,7 @@
 
 use crate::mjcf;
 use crate::model::reflect::{self, Object, View};
-use crate::model::{Model, Obj};
-use crate::step::workspace::Workspace;
+use crate::model::{Fields, Model, Obj};
 
 /// Fields that nothing fills yet.
 const NOT_YET: &[&str] = &["nD", "D_rownnz", "D_rowadr", "D_diag", "D_colind"];
@@ -15,7 +14,7 @@ fn check_golden(name: &str, xml: &str, recorded: &str) {
     let m = mjcf::compile_only(xml, &files).unwrap_or_else(|list| {
         panic!("{name}: {}", list.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))
     });
-    let d = Workspace::default();
+    let d = Fields::default();
     let mut wrong = Vec::new();
     for line in recorded.lines() {
         if let Some(names) = line.strip_prefix("names.") {
@@ -88,7 +87,7 @@ fn object(kind: &str) -> Obj {
     }
 }
 
-fn view(m: &Model, d: &Workspace, id: reflect::FieldId) -> Vec<f64> {
+fn view(m: &Model, d: &Fields, id: reflect::FieldId) -> Vec<f64> {
     let view: View = reflect::view(m, d, id);
     (0..view.len()).filter_map(|i| view.get(i)).collect()
 }

@@ -139,12 +139,13 @@ fn written_paths_stay_inside_the_model() {
         <site site='a'/><geom geom='g'/><site site='b'/><pulley divisor='2'/><site site='a'/><site site='b'/>
         </spatial></tendon></mujoco>";
     let mut m = compile(xml).unwrap();
-    let mut d = crate::step::workspace::Workspace::new(&m);
+    let crate::step::workspace::Workspace { fields: mut d, scratch: mut s } =
+        crate::step::workspace::Workspace::new(&m);
     for x in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300, -1.0, 0.0, 0.5, 1.0, 2.0] {
         m.wrap_prm.fill(x);
         m.geom_size.fill(x);
-        crate::step::forward::forward(&m, &mut d);
-        crate::step::step(&m, &mut d);
+        crate::step::forward::forward(&m, &mut d, &mut s);
+        crate::step::step(&m, &mut d, &mut s);
     }
 }
 

@@ -51,8 +51,8 @@ fn negative_margins_are_those_of_mujoco() {
     let mut wrong = Vec::new();
     for (recorded, text) in cases(include_str!("../golden/margins.txt")) {
         let m = compile(&text).unwrap();
-        let mut d = Workspace::new(&m);
-        forward(&m, &mut d);
+        let Workspace { fields: mut d, scratch: mut s } = Workspace::new(&m);
+        forward(&m, &mut d, &mut s);
         let want: Vec<f64> = recorded.split(' ').map(|x| x.parse().unwrap()).collect();
         let mut ours = vec![d.ncon as f64, d.nefc as f64];
         ours.extend(d.contact.iter().map(|c| c.dist));
@@ -96,8 +96,8 @@ fn exclusions_of_many_bodies_keep_only_theirs_apart() {
     let m = compile(&text).unwrap();
     assert_eq!(m.exclude_bodies, [[1, 65_540]]);
     assert_eq!(m.exclude_signature, [(2 << 16) + 4]);
-    let mut d = Workspace::new(&m);
-    forward(&m, &mut d);
+    let Workspace { fields: mut d, scratch: mut s } = Workspace::new(&m);
+    forward(&m, &mut d, &mut s);
     // Four balls in one place: all six pairs but the one that is excluded.
     assert_eq!(d.ncon, 5);
 }

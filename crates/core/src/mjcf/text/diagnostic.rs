@@ -20,9 +20,9 @@ const MAX_DIAGNOSTICS: usize = 100;
 const MAX_NUMBERS: usize = 25_000_000;
 
 /// A finding that has just been added, to which its reason and the next step are said.
-pub(crate) struct Said<'r>(&'r mut Finding);
+pub(crate) struct Reported<'r>(&'r mut Finding);
 
-impl Said<'_> {
+impl Reported<'_> {
     /// Adds the reason why it matters.
     pub(crate) fn why(self, why: impl Into<String>) -> Self {
         self.0.why = Some(why.into());
@@ -157,7 +157,7 @@ impl Report {
         rule: &'static Rule,
         span: Range<usize>,
         message: impl Into<String>,
-    ) -> Said<'_> {
+    ) -> Reported<'_> {
         add(&mut self.list, Finding::error(rule, span, message))
     }
 
@@ -167,7 +167,7 @@ impl Report {
         rule: &'static Rule,
         span: Range<usize>,
         message: impl Into<String>,
-    ) -> Said<'_> {
+    ) -> Reported<'_> {
         add(&mut self.warnings, Finding::warning(rule, span, message))
     }
 
@@ -177,7 +177,7 @@ impl Report {
         rule: &'static Rule,
         span: Range<usize>,
         message: impl Into<String>,
-    ) -> Said<'_> {
+    ) -> Reported<'_> {
         add(&mut self.warnings, Finding::plain(rule, span, message).severity(Severity::Note))
     }
 
@@ -244,13 +244,13 @@ impl Report {
 }
 
 /// Adds a finding to a list; one beyond the limit stands for all that follow.
-fn add(list: &mut Vec<Finding>, finding: Finding) -> Said<'_> {
+fn add(list: &mut Vec<Finding>, finding: Finding) -> Reported<'_> {
     if list.len() > MAX_DIAGNOSTICS {
         list.pop();
     }
     let at = list.len();
     list.push(finding);
-    Said(&mut list[at]) // just pushed
+    Reported(&mut list[at]) // just pushed
 }
 
 /// A name as it is shown in a message: quoted, and cut when an author wrote a very long one.

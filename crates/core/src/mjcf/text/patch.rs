@@ -266,7 +266,7 @@ mod tests {
             ("geom iron mass", "heavy", "`mass` of geom"),
         ] {
             match patched(path, value) {
-                Err(said) => assert!(said.contains(words), "{path}: {said}"),
+                Err(message) => assert!(message.contains(words), "{path}: {message}"),
                 Ok(_) => panic!("{path} was changed"),
             }
         }

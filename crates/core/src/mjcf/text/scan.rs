@@ -113,7 +113,7 @@ fn pass_over(text: &str, range: Range<usize>, base: usize, changes: &mut Changes
         .help("begin a tag with `<`, write a remark as a comment, <!-- … -->, or remove the text");
 }
 
-/// Whether the limits hold. What must change is added to `changes`. Long, as there is an arm for each kind of markup.
+/// Whether the limits hold. What must change is added to `changes`.
 fn within_limits(
     text: &str,
     base: usize,
@@ -146,14 +146,7 @@ fn within_limits(
         } else if rest.starts_with(b"<?") {
             after(bytes, open + 2, b"?>")
         } else if rest.starts_with(b"<!") {
-            report
-                .error(
-                    rules::XML,
-                    base + open..base + open + 2,
-                    "the model declares a document type or an entity",
-                )
-                .why("entities could make a small file expand without bound")
-                .help("remove the `<!…>` declaration");
+            refuse_declaration(base + open, report);
             return false;
         } else if rest.starts_with(b"</") {
             depth = depth.saturating_sub(1);
@@ -176,6 +169,14 @@ fn within_limits(
         pass_over(text, at..text.len(), base, changes, report);
     }
     true
+}
+
+/// A declaration of a document type or an entity, which begins with two characters.
+fn refuse_declaration(at: usize, report: &mut Report) {
+    report
+        .error(rules::XML, at..at + 2, "the model declares a document type or an entity")
+        .why("entities could make a small file expand without bound")
+        .help("remove the `<!…>` declaration");
 }
 
 /// Whether the limits hold with the element that a tag at `open` begins, `depth` deep.

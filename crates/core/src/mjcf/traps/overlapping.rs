@@ -1,11 +1,11 @@
 //! Geoms that are deep inside of each other where the model begins.
 
 use super::{digits, format_name, place};
-use crate::kinds::geom;
 use crate::mjcf::rules;
 use crate::mjcf::text::diagnostic::Report;
 use crate::mjcf::text::tree::Tree;
-use crate::model::{Model, Obj};
+use crate::model::extents::half_thickness_of_pair;
+use crate::model::{Fields, Model, Obj};
 use crate::step::forward::position;
 use crate::step::workspace::Workspace;
 
@@ -18,10 +18,8 @@ const WORK: u64 = 50_000_000;
 
 pub(super) fn tell(tree: &Tree, m: &Model, report: &mut Report) {
     let Some(d) = placed(m) else { return };
-    let depth = |pair: [usize; 2], dist: f64| {
-        let size = pair.iter().map(|g| half(m, *g)).fold(f64::INFINITY, f64::min);
-        (-dist > DEEP * size).then_some(-dist)
-    };
+    let depth =
+        |pair: [usize; 2], dist: f64| (-dist > DEEP * half_thickness_of_pair(m, pair)).then_some(-dist);
     let deep = d.contact.iter().filter(|c| c.efc_address.is_some());
     let deep = deep.filter_map(|c| Some(([c.geom1, c.geom2], depth([c.geom1, c.geom2], c.dist)?)));
     let Some(([a, b], depth)) = deep.max_by(|x, y| x.1.total_cmp(&y.1)) else { return };
@@ -39,26 +37,15 @@ pub(super) fn tell(tree: &Tree, m: &Model, report: &mut Report) {
 }
 
 /// Everything at its place; nothing where that is too much.
-fn placed(m: &Model) -> Option<Workspace> {
+fn placed(m: &Model) -> Option<Fields> {
     if m.ngeom > MOST || m.nv > MOST || m.nv == 0 {
         return None;
     }
     // Nothing is solved: where things are is enough.
-    let mut d = Workspace::new(m);
+    let Workspace { fields: mut d, scratch: mut s } = Workspace::new(m);
     d.meter.limit = WORK;
-    position(m, &mut d);
+    position(m, &mut d, &mut s);
     (!d.meter.over()).then_some(d)
-}
-
-/// Half of the smallest extent of a geom, m; infinite where it has none.
-fn half(m: &Model, g: usize) -> f64 {
-    let size = |k: usize| m.geom_size.get(3 * g + k).copied().unwrap_or(0.0);
-    match m.geom_type.get(g).copied() {
-        Some(geom::SPHERE | geom::CAPSULE) => size(0),
-        Some(geom::CYLINDER) => size(0).min(size(1)),
-        Some(geom::BOX | geom::ELLIPSOID) => size(0).min(size(1)).min(size(2)),
-        _ => f64::INFINITY,
-    }
 }
 
 #[cfg(test)]
@@ -86,9 +73,9 @@ mod tests {
         ] {
             for (geoms, bodies) in [(20, 10), (200, 100), (500, 250), (500, 500)] {
                 let m = heap(geoms, bodies, geom);
-                let mut d = Workspace::new(&m);
+                let Workspace { fields: mut d, scratch: mut s } = Workspace::new(&m);
                 d.meter.limit = WORK;
-                position(&m, &mut d);
+                position(&m, &mut d, &mut s);
                 // One test of a pair more than the limit, and what follows from the contacts that were found by then.
                 assert!(d.meter.cost < 2 * WORK, "{geoms} of {geom} in {bodies}: {}", d.meter.cost);
                 assert_eq!(placed(&m).is_some(), !d.meter.over());

@@ -10,7 +10,7 @@ fn elements_are_those_of_views() {
          <worldbody><body pos='0 0 1'><freejoint/><geom size='0.1'/></body></worldbody></mujoco>",
     );
     let m = model.unwrap();
-    let mut d = Workspace::new(&m);
+    let mut d = Workspace::new(&m).fields;
     d.time = 0.25;
     for f in fields() {
         let whole = view(&m, &d, f);

@@ -22,7 +22,7 @@ fn recorded() -> Vec<(&'static str, Vec<f64>)> {
     include_str!("golden/everything.txt").lines().map(line).collect()
 }
 
-fn state(m: &Model, d: &Workspace, sig: i32) -> Vec<f64> {
+fn state(m: &Model, d: &Fields, sig: i32) -> Vec<f64> {
     let mut out = vec![f64::NAN; size(m, sig).unwrap()];
     get(m, d, &mut out, sig).unwrap();
     out
@@ -31,7 +31,7 @@ fn state(m: &Model, d: &Workspace, sig: i32) -> Vec<f64> {
 #[test]
 fn states_are_those_of_mujoco() {
     let mut m = model();
-    let mut d = Workspace::new(&m);
+    let Workspace { fields: mut d, scratch: mut s } = Workspace::new(&m);
     let mut compared = 0;
     for (name, want) in recorded() {
         let close = |got: &[f64]| {
@@ -43,12 +43,12 @@ fn states_are_those_of_mujoco() {
         match name {
             "set" => set(&m, &mut d, &want, INTEGRATION).unwrap(),
             "step" => {
-                (0..10).for_each(|_| step(&m, &mut d));
+                (0..10).for_each(|_| step(&m, &mut d, &mut s));
                 close(&state(&m, &d, INTEGRATION));
                 assert!(set_keyframe(&mut m, &d, 1) && !set_keyframe(&mut m, &d, 2));
             }
             "reset" => {
-                reset_data_keyframe(&m, &mut d, 0);
+                reset_data_keyframe(&m, &mut d, &mut s, 0);
                 close(&state(&m, &d, INTEGRATION));
             }
             field if field.starts_with("key_") => {
@@ -66,25 +66,25 @@ fn states_are_those_of_mujoco() {
 #[test]
 fn parts_of_a_state_are_extracted_and_copied() {
     let m = model();
-    let mut d = Workspace::new(&m);
+    let mut d = Workspace::new(&m).fields;
     let (_, wild) = recorded().swap_remove(0);
     set(&m, &mut d, &wild, INTEGRATION).unwrap();
     for to in [0, TIME, QVEL, PHYSICS, USER, EQ_ACTIVE | CTRL, INTEGRATION] {
         let mut part = vec![f64::NAN; size(&m, to).unwrap()];
         extract(&m, &wild, INTEGRATION, &mut part, to).unwrap();
         assert_eq!(part, state(&m, &d, to));
-        let mut other = Workspace::new(&m);
+        let mut other = Workspace::new(&m).fields;
         copy(&m, &d, &mut other, to).unwrap();
         assert_eq!(state(&m, &other, to), part);
         let rest = INTEGRATION & !to;
-        assert_eq!(state(&m, &other, rest), state(&m, &Workspace::new(&m), rest));
+        assert_eq!(state(&m, &other, rest), state(&m, &Workspace::new(&m).fields, rest));
     }
 }
 
 #[test]
 fn what_is_not_zero_is_true() {
     let m = model();
-    let mut d = Workspace::new(&m);
+    let mut d = Workspace::new(&m).fields;
     for (values, want) in
         [([0.5, 0.0], [true, false]), ([f64::NAN, -0.0], [true, false]), ([0.0, 256.0], [false, true])]
     {
@@ -96,7 +96,7 @@ fn what_is_not_zero_is_true() {
 #[test]
 fn wrong_lists_change_nothing() {
     let m = model();
-    let mut d = Workspace::new(&m);
+    let mut d = Workspace::new(&m).fields;
     let before = d.clone();
     for sig in [-1, 1 << COUNT, i32::MAX, i32::MIN] {
         assert_eq!(size(&m, sig), Err(StateError::Signature(sig)));
@@ -110,5 +110,5 @@ fn wrong_lists_change_nothing() {
     assert!(d == before);
     let other =
         compile("<mujoco><worldbody><body><joint/><geom size='1'/></body></worldbody></mujoco>").unwrap();
-    assert!(copy(&other, &Workspace::new(&other), &mut d, QPOS).is_err() && d == before);
+    assert!(copy(&other, &Workspace::new(&other).fields, &mut d, QPOS).is_err() && d == before);
 }

@@ -8,9 +8,9 @@
 
 use super::flow;
 use crate::math::combine;
-use crate::model::Model;
+use crate::model::{Fields, Model};
 use crate::step::stages::Flow;
-use crate::step::workspace::Workspace;
+use crate::step::workspace::Scratch;
 
 /// Lines of the table: 2, 4, … steps.
 const LINES: usize = 8;
@@ -22,16 +22,16 @@ const HALVINGS: u32 = 14;
 const PARTS: usize = 4096;
 
 /// A step.
-pub(super) fn adaptive(m: &Model, d: &mut Workspace) {
+pub(super) fn adaptive(m: &Model, d: &mut Fields, s: &mut Scratch) {
     let h = m.opt.timestep;
     // The table, and three states of the midpoint rule.
-    let mut w = flow::enter(m, d, LINES + 3);
+    let mut w = flow::enter(m, d, s, LINES + 3);
     // Times are counted in units of the smallest part: no rounding.
     let whole = 1u32 << HALVINGS;
     let (mut done, mut part, mut parts) = (0, whole, 0);
     loop {
         let length = h * f64::from(part) / f64::from(whole);
-        let good = extrapolate(m, d, &mut w, length);
+        let good = extrapolate(m, d, s, &mut w, length);
         if !good && part > 1 && parts < PARTS && !d.meter.over() {
             part /= 2;
             parts += 1;
@@ -42,7 +42,7 @@ pub(super) fn adaptive(m: &Model, d: &mut Workspace) {
         if done >= whole {
             break;
         }
-        flow::go_on(m, d, &mut w, length);
+        flow::go_on(m, d, s, &mut w, length);
         // Twice as long, where that ends at a multiple of itself.
         if good && done % (2 * part) == 0 {
             part *= 2;
@@ -51,20 +51,21 @@ pub(super) fn adaptive(m: &Model, d: &mut Workspace) {
             part = whole - done;
         }
     }
-    flow::finish(m, d, w);
+    flow::finish(m, d, s, w);
 }
 
 /// A part of the step, to `w.end`; whether it is as exact as asked.
-fn extrapolate(m: &Model, d: &mut Workspace, w: &mut Flow, h: f64) -> bool {
+fn extrapolate(m: &Model, d: &mut Fields, s: &mut Scratch, w: &mut Flow, h: f64) -> bool {
     let n = w.start.len();
     if n == 0 {
         return true;
     }
     let (mut rows, mut end) = (std::mem::take(&mut w.rows), std::mem::take(&mut w.end));
-    let (table, scratch) = rows.split_at_mut(LINES * n);
+    let (table, states) = rows.split_at_mut(LINES * n);
     let (mut good, mut before) = (false, f64::INFINITY);
     for line in 0..LINES {
-        midpoint(m, d, w, h, 2 * (line + 1), scratch, &mut end);
+        midpoint(m, d, s, w, h, 2 * (line + 1), states);
+        end.copy_from_slice(&states[..n]);
         // The line of the table: entry k takes the place of entry k of the line above.
         let mut error = 0.0f64;
         for (i, new) in end.iter_mut().enumerate() {
@@ -100,18 +101,11 @@ fn larger(error: f64, x: f64) -> f64 {
     if x.is_finite() { error.max(x.abs()) } else { f64::INFINITY }
 }
 
-/// Gragg's method: a step of Euler's, then steps of twice the length from the state before the last, smoothed at the end.
-fn midpoint(
-    m: &Model,
-    d: &mut Workspace,
-    w: &Flow,
-    h: f64,
-    steps: usize,
-    scratch: &mut [f64],
-    out: &mut [f64],
-) {
+/// Gragg's method: a step of Euler's, then steps of twice the length from the state before the last, smoothed at the end. The
+/// first of three states becomes the result.
+fn midpoint(m: &Model, d: &mut Fields, s: &mut Scratch, w: &Flow, h: f64, steps: usize, states: &mut [f64]) {
     let n = w.first.len();
-    let (older, rest) = scratch.split_at_mut(n);
+    let (older, rest) = states.split_at_mut(n);
     let (old, rest) = rest.split_at_mut(n);
     let slope = &mut rest[..n];
     let length = h / steps as f64;
@@ -119,11 +113,10 @@ fn midpoint(
     old.copy_from_slice(&w.start);
     combine(old, [&*w.first], |y, [k]| y + length * k);
     for step in 1..steps {
-        flow::slope(m, d, w, length * step as f64, old, slope);
+        flow::slope(m, d, s, w, length * step as f64, old, slope);
         combine(older, [&*slope], |y, [k]| y + 2.0 * length * k);
         older.swap_with_slice(old);
     }
-    flow::slope(m, d, w, h, old, slope);
-    out.copy_from_slice(old);
-    combine(out, [&*older, &*slope], |y, [older, k]| 0.5 * (y + older + length * k));
+    flow::slope(m, d, s, w, h, old, slope);
+    combine(older, [&*old, &*slope], |older, [y, k]| 0.5 * (y + older + length * k));
 }

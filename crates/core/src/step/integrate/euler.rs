@@ -1,25 +1,25 @@
 //! Semi-implicit Euler.
 
 use super::{Slopes, advance, advance_along};
-use crate::model::Model;
+use crate::model::{Fields, Model};
 use crate::step::damping::{damp, damps};
-use crate::step::workspace::Workspace;
+use crate::step::workspace::Scratch;
 
 /// v += h a, then q advances with the new v. Joint damping is implicit, so that it is stable however stiff:
 /// (M + h B) a' = M a, where B is the derivative of the damping force.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(super) fn euler(m: &Model, d: &mut Workspace) {
+pub(super) fn euler(m: &Model, d: &mut Fields, s: &mut Scratch) {
     if damps(m, d) {
-        damped(m, d);
+        damped(m, d, s);
     } else {
-        advance(m, d, Slopes::default());
+        advance(m, d, s, Slopes::default());
     }
 }
 
 #[cfg_attr(not(feature = "small"), inline(never))]
-fn damped(m: &Model, d: &mut Workspace) {
-    if !d.work.damping.done {
-        damp(m, &d.fields, &mut d.work.dynamics, &mut d.work.damping);
+fn damped(m: &Model, d: &mut Fields, s: &mut Scratch) {
+    if !s.damping.done {
+        damp(m, d, s);
     }
-    advance_along(m, d);
+    advance_along(m, d, s);
 }

@@ -2,8 +2,8 @@
 
 use super::flow;
 use crate::math::combine;
-use crate::model::Model;
-use crate::step::workspace::Workspace;
+use crate::model::{Fields, Model};
+use crate::step::workspace::Scratch;
 
 /// A method: stage s starts from the state at the start of the step plus h times the slopes of the stages before it, with the
 /// weights of its row; the step ends with `weights`. The first stage is the start itself and has no row.
@@ -77,20 +77,20 @@ pub(super) const EIGHTH: Method = Method {
 };
 
 /// A step.
-pub(super) fn explicit(m: &Model, d: &mut Workspace, method: &Method) {
+pub(super) fn explicit(m: &Model, d: &mut Fields, s: &mut Scratch, method: &Method) {
     let h = m.opt.timestep;
-    let mut w = flow::enter(m, d, method.weights.len());
+    let mut w = flow::enter(m, d, s, method.weights.len());
     let n = w.start.len();
     let (mut rows, mut end) = (std::mem::take(&mut w.rows), std::mem::take(&mut w.end));
     rows[..n].copy_from_slice(&w.first);
     for (stage, row) in method.rows.iter().enumerate() {
         let (earlier, next) = rows.split_at_mut((stage + 1) * n);
         along(&w.start, h, row, earlier, &mut end);
-        flow::slope(m, d, &w, h * row.iter().sum::<f64>(), &end, &mut next[..n]);
+        flow::slope(m, d, s, &w, h * row.iter().sum::<f64>(), &end, &mut next[..n]);
     }
     along(&w.start, h, method.weights, &rows, &mut end);
     (w.rows, w.end) = (rows, end);
-    flow::finish(m, d, w);
+    flow::finish(m, d, s, w);
 }
 
 /// out ← start + h Σ weight slope

@@ -12,14 +12,14 @@ use super::{Slopes, advance, integrate_pos};
 use crate::forces::actuation;
 use crate::kinds::joint;
 use crate::math::*;
-use crate::model::Model;
+use crate::model::{Fields, Model};
 use crate::step::forward;
 use crate::step::stages::Flow;
-use crate::step::workspace::Workspace;
+use crate::step::workspace::Scratch;
 
 /// Enters a step with a method of so many stages; `finish` ends it. The forces at the start are known.
-pub(super) fn enter(m: &Model, d: &mut Workspace, stages: usize) -> Flow {
-    let mut w = std::mem::take(&mut d.work.flow);
+pub(super) fn enter(m: &Model, d: &mut Fields, s: &mut Scratch, stages: usize) -> Flow {
+    let mut w = std::mem::take(&mut s.flow);
     w.make_room(m, stages);
     (w.began, w.energy) = (d.time, d.energy);
     begin(m, d, &mut w);
@@ -27,7 +27,7 @@ pub(super) fn enter(m: &Model, d: &mut Workspace, stages: usize) -> Flow {
 }
 
 /// Starts coordinates at the state of the data, whose forces are known.
-fn begin(m: &Model, d: &Workspace, w: &mut Flow) {
+fn begin(m: &Model, d: &Fields, w: &mut Flow) {
     w.qpos.copy_from_slice(&d.qpos);
     w.time = d.time;
     let (u, rest) = w.start.split_at_mut(m.nv);
@@ -39,7 +39,7 @@ fn begin(m: &Model, d: &Workspace, w: &mut Flow) {
 }
 
 /// Puts the data into the state that the list says, at a time after the start.
-fn place(m: &Model, d: &mut Workspace, w: &Flow, after: f64, state: &[f64]) {
+fn place(m: &Model, d: &mut Fields, w: &Flow, after: f64, state: &[f64]) {
     let (u, rest) = state.split_at(m.nv);
     let (v, act) = rest.split_at(m.nv);
     d.qpos.copy_from_slice(&w.qpos);
@@ -50,7 +50,7 @@ fn place(m: &Model, d: &mut Workspace, w: &Flow, after: f64, state: &[f64]) {
 }
 
 /// The slope of the state that the data hold, whose forces are known.
-fn known_slope(m: &Model, d: &Workspace, state: &[f64], out: &mut [f64]) {
+fn known_slope(m: &Model, d: &Fields, state: &[f64], out: &mut [f64]) {
     let (du, rest) = out.split_at_mut(m.nv);
     let (dv, da) = rest.split_at_mut(m.nv);
     du.copy_from_slice(&d.qvel);
@@ -68,9 +68,17 @@ fn known_slope(m: &Model, d: &Workspace, state: &[f64], out: &mut [f64]) {
 }
 
 /// The slope of a state.
-pub(super) fn slope(m: &Model, d: &mut Workspace, w: &Flow, after: f64, state: &[f64], out: &mut [f64]) {
+pub(super) fn slope(
+    m: &Model,
+    d: &mut Fields,
+    s: &mut Scratch,
+    w: &Flow,
+    after: f64,
+    state: &[f64],
+    out: &mut [f64],
+) {
     place(m, d, w, after, state);
-    forward::forward_unseen(m, d);
+    forward::forward_unseen(m, d, s);
     known_slope(m, d, state, out);
 }
 
@@ -93,17 +101,17 @@ fn turn_rate(u: Vec3, w: Vec3) -> Vec3 {
 }
 
 /// Goes on from the end of a part of the step: it becomes the start of the next, with its forces.
-pub(super) fn go_on(m: &Model, d: &mut Workspace, w: &mut Flow, part: f64) {
+pub(super) fn go_on(m: &Model, d: &mut Fields, s: &mut Scratch, w: &mut Flow, part: f64) {
     let end = std::mem::take(&mut w.end);
     place(m, d, w, part, &end);
     actuation::arrive(m, d, &end[2 * m.nv..]);
     w.end = end;
-    forward::forward_unseen(m, d);
+    forward::forward_unseen(m, d, s);
     begin(m, d, w);
 }
 
 /// Ends the step: `w.end` is the state at its end.
-pub(super) fn finish(m: &Model, d: &mut Workspace, mut w: Flow) {
+pub(super) fn finish(m: &Model, d: &mut Fields, s: &mut Scratch, mut w: Flow) {
     let h = m.opt.timestep;
     let (u, rest) = w.end.split_at_mut(m.nv);
     let (v, act) = rest.split_at_mut(m.nv);
@@ -119,9 +127,10 @@ pub(super) fn finish(m: &Model, d: &mut Workspace, mut w: Flow) {
     advance(
         m,
         d,
+        s,
         Slopes { reached: Some(act), acceleration: Some(v), velocity: Some(u), ..Slopes::default() },
     );
-    d.work.flow = w;
+    s.flow = w;
 }
 
 #[cfg(test)]

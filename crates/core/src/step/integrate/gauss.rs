@@ -7,9 +7,9 @@
 
 use super::explicit::along;
 use super::flow;
-use crate::model::Model;
+use crate::model::{Fields, Model};
 use crate::step::stages::Flow;
-use crate::step::workspace::Workspace;
+use crate::step::workspace::Scratch;
 
 /// √15
 const R: f64 = 3.872_983_346_207_417;
@@ -27,36 +27,36 @@ const PARTS: usize = 64;
 
 /// A step: whole if the iteration settles, else in as many equal parts as it takes, up to a limit. Beyond that a part is taken as
 /// the iteration left it.
-pub(super) fn gauss(m: &Model, d: &mut Workspace) {
+pub(super) fn gauss(m: &Model, d: &mut Fields, s: &mut Scratch) {
     let h = m.opt.timestep;
     // Three stages, and the next guess of one.
-    let mut w = flow::enter(m, d, 4);
+    let mut w = flow::enter(m, d, s, 4);
     let mut parts = 1;
-    while !settles(m, d, &mut w, h / parts as f64) && parts < PARTS {
+    while !settles(m, d, s, &mut w, h / parts as f64) && parts < PARTS {
         parts *= 2;
     }
     for _ in 1..parts {
-        flow::go_on(m, d, &mut w, h / parts as f64);
-        settles(m, d, &mut w, h / parts as f64);
+        flow::go_on(m, d, s, &mut w, h / parts as f64);
+        settles(m, d, s, &mut w, h / parts as f64);
     }
-    flow::finish(m, d, w);
+    flow::finish(m, d, s, w);
 }
 
 /// A part of the step, to `w.end`; whether its stages settled.
-fn settles(m: &Model, d: &mut Workspace, w: &mut Flow, h: f64) -> bool {
+fn settles(m: &Model, d: &mut Fields, s: &mut Scratch, w: &mut Flow, h: f64) -> bool {
     let n = w.start.len();
     let (mut rows, mut end) = (std::mem::take(&mut w.rows), std::mem::take(&mut w.end));
     let (stages, rest) = rows.split_at_mut(3 * n);
     let new = &mut rest[..n];
-    (0..3).for_each(|s| stages[s * n..][..n].copy_from_slice(&w.first));
+    (0..3).for_each(|i| stages[i * n..][..n].copy_from_slice(&w.first));
     let (mut last, mut settled) = (f64::INFINITY, false);
     for round in 0..ROUNDS {
         let mut change = 0.0f64;
-        for s in 0..3 {
-            along(&w.start, h, &ROWS[s], stages, &mut end);
-            flow::slope(m, d, w, h * NODES[s], &end, new);
+        for i in 0..3 {
+            along(&w.start, h, &ROWS[i], stages, &mut end);
+            flow::slope(m, d, s, w, h * NODES[i], &end, new);
             // Only what it changes of the state counts.
-            for (old, &new) in stages[s * n..][..n].iter_mut().zip(&*new) {
+            for (old, &new) in stages[i * n..][..n].iter_mut().zip(&*new) {
                 let size = 1.0 + old.abs().max(new.abs());
                 change = if new.is_finite() { change.max((new - *old).abs() / size) } else { f64::INFINITY };
                 *old = new;

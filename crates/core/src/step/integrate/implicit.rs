@@ -6,34 +6,32 @@ use crate::dynamics::mass;
 use crate::forces::derivative::{self, Medium, sparse};
 use crate::math::{Spatial, solve_six};
 use crate::model::{Fields, Model, Warning};
-use crate::step::workspace::Workspace;
+use crate::step::workspace::Scratch;
 
 /// All of D.
-pub(super) fn implicit(m: &Model, data: &mut Workspace) {
-    let Workspace { fields: d, work } = data;
-    let w = &mut work.derivative;
+pub(super) fn implicit(m: &Model, d: &mut Fields, s: &mut Scratch) {
+    let w = &mut s.derivative;
     derivative::forces(m, d, w, Medium::Whole);
     derivative::subtract_bias(m, d, w);
     sparse::mass_minus(m, &d.M, m.opt.timestep, &mut w.whole);
     if let Some(dof) = sparse::factor(m, &mut w.whole) {
         d.warn(Warning::Inertia, dof);
     }
-    force(d, &mut work.damping.qacc);
-    sparse::solve(m, &w.whole, &mut work.damping.qacc);
-    advance_along(m, data);
+    force(d, &mut s.damping.qacc);
+    sparse::solve(m, &w.whole, &mut s.damping.qacc);
+    advance_along(m, d, s);
 }
 
 /// D without the bias force, its lower triangle for both: a symmetric matrix. Rigid bodies that move freely are
 /// solved with all of D, six by six.
-pub(super) fn implicitfast(m: &Model, data: &mut Workspace) {
-    let Workspace { fields: d, work } = data;
-    let (w, factored) = (&mut work.derivative, &mut work.factored);
+pub(super) fn implicitfast(m: &Model, d: &mut Fields, s: &mut Scratch) {
+    let (w, factored) = (&mut s.derivative, &mut s.factored);
     let h = m.opt.timestep;
     derivative::forces(m, d, w, Medium::Symmetric);
     if let Some(dof) = factored.make(m, &d.M, &w.whole, h) {
         d.warn(Warning::Inertia, dof);
     }
-    let acceleration = &mut work.damping.qacc;
+    let acceleration = &mut s.damping.qacc;
     force(d, acceleration);
     for t in 0..m.ntree {
         let dofs = m.tree_dofs(t);
@@ -56,7 +54,7 @@ pub(super) fn implicitfast(m: &Model, data: &mut Workspace) {
         }
         mass::solve(m, ld, diag_inv, acceleration, dofs);
     }
-    advance_along(m, data);
+    advance_along(m, d, s);
 }
 
 /// All forces.

@@ -14,42 +14,42 @@ use crate::forces::actuation;
 use crate::kinds::integrator;
 use crate::math::{combine, copy};
 use crate::model::stage::Stage;
-use crate::model::{Model, asleep};
-use crate::step::workspace::Workspace;
+use crate::model::{Fields, Model, asleep};
+use crate::step::workspace::Scratch;
 use crate::{constraint, sensor};
 
 pub(crate) use position::{differentiate_pos, integrate_pos};
 
 /// The next state, by the integrator that the options name.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(crate) fn integrate(m: &Model, d: &mut Workspace) {
+pub(crate) fn integrate(m: &Model, d: &mut Fields, s: &mut Scratch) {
     match m.opt.integrator {
-        integrator::EULER => euler::euler(m, d),
-        _ => by_another(m, d),
+        integrator::EULER => euler::euler(m, d, s),
+        _ => by_another(m, d, s),
     }
 }
 
 #[cfg_attr(not(feature = "small"), inline(never))]
-fn by_another(m: &Model, d: &mut Workspace) {
+fn by_another(m: &Model, d: &mut Fields, s: &mut Scratch) {
     match m.opt.integrator {
-        integrator::RK4 => runge_kutta::rk4(m, d),
-        integrator::RKMK4 => explicit::explicit(m, d, &explicit::FOURTH),
-        integrator::RKMK8 => explicit::explicit(m, d, &explicit::EIGHTH),
-        integrator::GAUSS => gauss::gauss(m, d),
-        integrator::ADAPTIVE => adaptive::adaptive(m, d),
-        _ => integrate_once(m, d),
+        integrator::RK4 => runge_kutta::rk4(m, d, s),
+        integrator::RKMK4 => explicit::explicit(m, d, s, &explicit::FOURTH),
+        integrator::RKMK8 => explicit::explicit(m, d, s, &explicit::EIGHTH),
+        integrator::GAUSS => gauss::gauss(m, d, s),
+        integrator::ADAPTIVE => adaptive::adaptive(m, d, s),
+        _ => integrate_once(m, d, s),
     }
 }
 
 /// The same from one evaluation of forces: methods that need more, as Runge–Kutta, become Euler.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(crate) fn integrate_once(m: &Model, d: &mut Workspace) {
+pub(crate) fn integrate_once(m: &Model, d: &mut Fields, s: &mut Scratch) {
     match m.opt.integrator {
-        integrator::IMPLICIT => implicit::implicit(m, d),
-        integrator::IMPLICITFAST => implicit::implicitfast(m, d),
+        integrator::IMPLICIT => implicit::implicit(m, d, s),
+        integrator::IMPLICITFAST => implicit::implicitfast(m, d, s),
         // Its acceleration is already that of the end of the step.
-        integrator::DISCRETE => advance(m, d, Slopes::default()),
-        _ => euler::euler(m, d),
+        integrator::DISCRETE => advance(m, d, s, Slopes::default()),
+        _ => euler::euler(m, d, s),
     }
 }
 
@@ -66,11 +66,11 @@ struct Slopes<'a> {
 /// What every integrator ends with, in MuJoCo's order: histories, activations, sleep, velocities, positions along the
 /// new velocities, time, and the acceleration from which the next solver starts.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn advance(m: &Model, d: &mut Workspace, slopes: Slopes) {
+fn advance(m: &Model, d: &mut Fields, s: &mut Scratch, slopes: Slopes) {
     let h = m.opt.timestep;
     let Slopes { activation, reached, acceleration, velocity } = slopes;
     if m.nhistory > 0 {
-        record(m, d);
+        record(m, d, s);
     }
     match (activation, reached) {
         _ if m.na == 0 => {}
@@ -83,59 +83,61 @@ fn advance(m: &Model, d: &mut Workspace, slopes: Slopes) {
         _ => actuation::advance(m, d),
     }
     if d.plan.keeps(Stage::Sleep) && asleep::on(m, d) {
-        advance_awake(m, d, acceleration, velocity);
+        advance_awake(m, d, s, acceleration, velocity);
     } else {
-        let d = &mut d.fields;
         combine(&mut d.qvel, [acceleration.unwrap_or(&d.qacc)], |v, [a]| v + h * a);
         integrate_pos(m, &mut d.qpos, velocity.unwrap_or(&d.qvel), h);
     }
     d.time += h;
-    let d = &mut d.fields;
     copy(&d.qacc, &mut d.qacc_warmstart);
 }
 
 /// The same along the acceleration that an implicit method has left in the scratch.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn advance_along(m: &Model, d: &mut Workspace) {
-    let acceleration = std::mem::take(&mut d.work.damping.qacc);
-    advance(m, d, Slopes { acceleration: Some(&acceleration), ..Slopes::default() });
-    d.work.damping.qacc = acceleration;
+fn advance_along(m: &Model, d: &mut Fields, s: &mut Scratch) {
+    let acceleration = std::mem::take(&mut s.damping.qacc);
+    advance(m, d, s, Slopes { acceleration: Some(&acceleration), ..Slopes::default() });
+    s.damping.qacc = acceleration;
 }
 
 /// Velocities and positions where trees may sleep: those that fall asleep stop, and what depends on their velocities is
 /// computed again; those that sleep stay where they are.
 #[cfg_attr(not(feature = "small"), inline(never))]
-fn advance_awake(m: &Model, d: &mut Workspace, acceleration: Option<&[f64]>, velocity: Option<&[f64]>) {
-    let (mut a, mut start) =
-        (std::mem::take(&mut d.work.sleep.acceleration), std::mem::take(&mut d.work.sleep.start));
+fn advance_awake(
+    m: &Model,
+    d: &mut Fields,
+    s: &mut Scratch,
+    acceleration: Option<&[f64]>,
+    velocity: Option<&[f64]>,
+) {
+    let (mut a, mut start) = (std::mem::take(&mut s.sleep.acceleration), std::mem::take(&mut s.sleep.start));
     a.copy_from_slice(acceleration.unwrap_or(&d.qacc));
-    if sleep::fall_asleep(m, &mut d.fields, &d.work.constraint.islands) {
+    if sleep::fall_asleep(m, d, &s.constraint.islands) {
         if m.opt.integrator == integrator::DISCRETE {
             // Its rows have been moved to the end of the step.
-            constraint::make(m, &mut d.fields, &mut d.work.constraint);
+            constraint::make(m, d, &mut s.constraint);
         }
-        forward::from_velocities(m, d);
-        sleep::update(m, &mut d.fields);
+        forward::from_velocities(m, d, s);
+        sleep::update(m, d);
     }
-    let f = &mut d.fields;
     if m.opt.integrator == integrator::DISCRETE {
         // Its acceleration is that of the data, which may have been computed again.
-        a.copy_from_slice(&f.qacc);
+        a.copy_from_slice(&d.qacc);
     }
-    start.copy_from_slice(&f.qpos);
-    for (v, a) in f.qvel.iter_mut().zip(&a) {
+    start.copy_from_slice(&d.qpos);
+    for (v, a) in d.qvel.iter_mut().zip(&a) {
         *v += m.opt.timestep * a;
     }
-    integrate_pos(m, &mut f.qpos, velocity.unwrap_or(&f.qvel), m.opt.timestep);
-    sleep::keep_still(m, f, &start);
-    (d.work.sleep.acceleration, d.work.sleep.start) = (a, start);
+    integrate_pos(m, &mut d.qpos, velocity.unwrap_or(&d.qvel), m.opt.timestep);
+    sleep::keep_still(m, d, &start);
+    (s.sleep.acceleration, s.sleep.start) = (a, start);
 }
 
 /// Keeps the controls and values of this time for delayed actuators and sensors.
 #[cfg_attr(not(feature = "small"), inline(never))]
-fn record(m: &Model, d: &mut Workspace) {
+fn record(m: &Model, d: &mut Fields, s: &mut Scratch) {
     actuation::record(m, d);
     if d.plan.keeps(Stage::Sensors) {
-        sensor::record(m, &mut d.fields, &mut d.work.sensor);
+        sensor::record(m, d, &mut s.sensor);
     }
 }

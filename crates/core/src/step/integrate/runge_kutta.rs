@@ -2,17 +2,17 @@
 //! one step on the manifold.
 
 use super::{Slopes, advance, integrate_pos};
-use crate::model::Model;
+use crate::model::{Fields, Model};
 use crate::step::forward;
-use crate::step::workspace::Workspace;
+use crate::step::workspace::Scratch;
 
 /// Stage s starts from the first state plus A[s] h times the slope of stage s - 1; B weighs the slopes.
 const A: [f64; 3] = [0.5, 0.5, 1.0];
 const B: [f64; 4] = [1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0];
 
-pub(super) fn rk4(m: &Model, d: &mut Workspace) {
+pub(super) fn rk4(m: &Model, d: &mut Fields, s: &mut Scratch) {
     let (h, start) = (m.opt.timestep, d.time);
-    let mut w = std::mem::take(&mut d.work.rk);
+    let mut w = std::mem::take(&mut s.rk);
     w.qpos.copy_from_slice(&d.qpos);
     w.qvel.copy_from_slice(&d.qvel);
     w.act.copy_from_slice(&d.act);
@@ -22,13 +22,12 @@ pub(super) fn rk4(m: &Model, d: &mut Workspace) {
     for stage in 0..3 {
         let a = A[stage] * h;
         w.slope.copy_from_slice(&d.qvel);
-        let f = &mut d.fields;
-        step(&mut f.qvel, &w.qvel, a, &f.qacc);
-        step(&mut f.act, &w.act, a, &f.act_dot);
+        step(&mut d.qvel, &w.qvel, a, &d.qacc);
+        step(&mut d.act, &w.act, a, &d.act_dot);
         d.qpos.copy_from_slice(&w.qpos);
         integrate_pos(m, &mut d.qpos, &w.slope, a);
         d.time = start + a;
-        forward::forward_unseen(m, d);
+        forward::forward_unseen(m, d, s);
         add(&mut w.dpos, B[stage + 1], &d.qvel);
         add(&mut w.dvel, B[stage + 1], &d.qacc);
         add(&mut w.dact, B[stage + 1], &d.act_dot);
@@ -41,6 +40,7 @@ pub(super) fn rk4(m: &Model, d: &mut Workspace) {
     advance(
         m,
         d,
+        s,
         Slopes {
             activation: Some(&mut w.dact),
             acceleration: Some(&w.dvel),
@@ -48,7 +48,7 @@ pub(super) fn rk4(m: &Model, d: &mut Workspace) {
             ..Slopes::default()
         },
     );
-    d.work.rk = w;
+    s.rk = w;
 }
 
 /// out ← s x

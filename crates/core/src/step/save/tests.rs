@@ -30,11 +30,12 @@ fn scenes() -> Vec<Model> {
 
 /// In the middle of its way.
 fn moving(m: &Model, plan: PlanTable) -> Workspace {
-    let mut d = Workspace::planned(m, plan);
+    let mut w = Workspace::planned(m, plan);
+    let Workspace { fields: d, scratch: s } = &mut w;
     d.ctrl.fill(0.3);
     d.qvel.iter_mut().enumerate().for_each(|(i, v)| *v = 0.1 * (i as f64).sin());
-    (0..30).for_each(|_| step(m, &mut d));
-    d
+    (0..30).for_each(|_| step(m, d, s));
+    w
 }
 
 #[test]
@@ -44,15 +45,15 @@ fn what_is_restored_goes_on_bit_for_bit() {
             PlanTable::full(),
             PlanTable::new(&m, &AccessSet::OBSERVE, crate::model::tree_algorithm::TreeAlgorithms::ALL),
         ] {
-            let mut d = moving(&m, plan.clone());
+            let Workspace { fields: mut d, scratch: mut s } = moving(&m, plan.clone());
             let bytes = save(&m, &d);
-            let mut other = Workspace::planned(&m, plan);
-            (0..7).for_each(|_| step(&m, &mut other));
-            restore(&m, &mut other, &bytes).unwrap();
+            let Workspace { fields: mut other, scratch: mut t } = Workspace::planned(&m, plan);
+            (0..7).for_each(|_| step(&m, &mut other, &mut t));
+            restore(&m, &mut other, &mut t, &bytes).unwrap();
             assert!(save(&m, &other) == bytes);
             for _ in 0..20 {
-                step(&m, &mut d);
-                step(&m, &mut other);
+                step(&m, &mut d, &mut s);
+                step(&m, &mut other, &mut t);
                 assert!(save(&m, &other) == save(&m, &d), "at {}", d.time);
             }
         }
@@ -62,13 +63,13 @@ fn what_is_restored_goes_on_bit_for_bit() {
 #[test]
 fn a_step_is_restored_in_its_middle() {
     for m in scenes() {
-        let mut d = moving(&m, PlanTable::full());
-        step1(&m, &mut d);
+        let Workspace { fields: mut d, scratch: mut s } = moving(&m, PlanTable::full());
+        step1(&m, &mut d, &mut s);
         let bytes = save(&m, &d);
-        let mut other = Workspace::new(&m);
-        restore(&m, &mut other, &bytes).unwrap();
-        step2(&m, &mut d);
-        step2(&m, &mut other);
+        let Workspace { fields: mut other, scratch: mut t } = Workspace::new(&m);
+        restore(&m, &mut other, &mut t, &bytes).unwrap();
+        step2(&m, &mut d, &mut s);
+        step2(&m, &mut other, &mut t);
         assert!(save(&m, &other) == save(&m, &d));
     }
 }
@@ -76,12 +77,12 @@ fn a_step_is_restored_in_its_middle() {
 #[test]
 fn other_bytes_are_told_apart_and_change_nothing() {
     let m = &scenes()[0];
-    let d = moving(m, PlanTable::full());
+    let d = moving(m, PlanTable::full()).fields;
     let bytes = save(m, &d);
     let before = moving(m, PlanTable::full());
     let mut after = before.clone();
     let mut fails = |m: &Model, bytes: &[u8]| {
-        let error = restore(m, &mut after, bytes).unwrap_err();
+        let error = restore(m, &mut after.fields, &mut after.scratch, bytes).unwrap_err();
         assert!(after == before && !error.to_string().is_empty());
         error
     };
@@ -108,7 +109,7 @@ fn other_bytes_are_told_apart_and_change_nothing() {
 #[test]
 fn every_integer_field_has_its_limits() {
     let m = &scenes()[0];
-    let d = Workspace::new(m);
+    let d = Workspace::new(m).fields;
     for f in reflect::fields().map(|f| f.info()).filter(|f| f.object == Object::Data) {
         if matches!(f.elem, Elem::I32 | Elem::Size) {
             assert!(limits(m, &d, f.name).is_some(), "{}: say in `limits` what it can be", f.name);
@@ -126,7 +127,7 @@ fn hostile_bytes_never_panic() {
     };
     let mut accepted = 0;
     for m in [&scenes()[0], &scenes()[4], &scenes()[5]] {
-        let bytes = save(m, &moving(m, PlanTable::full()));
+        let bytes = save(m, &moving(m, PlanTable::full()).fields);
         for _ in 0..400 {
             let mut changed = bytes[..bytes.len() - 8].to_vec();
             for _ in 0..1 + random(3) {
@@ -136,19 +137,18 @@ fn hostile_bytes_never_panic() {
                 changed.iter_mut().skip(at).take(n).for_each(|b| *b = with);
             }
             fingerprint(&changed.clone()).put(&mut changed);
-            let mut d = Workspace::new(m);
-            if restore(m, &mut d, &changed).is_err() {
+            let Workspace { fields: mut d, scratch: mut s } = Workspace::new(m);
+            if restore(m, &mut d, &mut s, &changed).is_err() {
                 continue;
             }
             accepted += 1;
             assert!(d.contact.iter().all(|c| contact_force(m, &d, c).len() == 6));
             rne_post_constraint(m, &mut d);
             subtree_vel(m, &mut d);
-            let mut half = d.clone();
-            step2(m, &mut half);
-            let _ = inverse(m, &mut d.clone());
-            forward(m, &mut d.clone());
-            (0..2).for_each(|_| step(m, &mut d));
+            step2(m, &mut d.clone(), &mut s.clone());
+            let _ = inverse(m, &mut d.clone(), &mut s.clone());
+            forward(m, &mut d.clone(), &mut s.clone());
+            (0..2).for_each(|_| step(m, &mut d, &mut s));
         }
     }
     assert!(accepted > 300);

@@ -68,7 +68,7 @@ pub(super) fn make(
     let until = lab.stop_at.is_none().then(|| wanted.min(timestep * (run::MAX_STEPS - 1) as f64));
     let steps = run::count_steps(lab, until, None, timestep)?;
 
-    let mut eyes = case.eyes(&trial.handling, &session);
+    let mut watcher = case.watcher(&trial.handling, &session);
     let every = (steps / SAMPLES).max(1);
     let played = Play { steps, every: 1, presses: &[], watched: true };
     let (mut rows, mut mark, mut beyond) = (Vec::new(), Mark::default(), Beyond::default());
@@ -81,7 +81,7 @@ pub(super) fn make(
             }
             rows.push(row);
         }
-        eyes.observe(session, step, step == steps);
+        watcher.observe(session, step, step == steps);
         ControlFlow::Continue(())
     });
     let ended = match session.ended() {
@@ -92,7 +92,7 @@ pub(super) fn make(
     let covered = if made == steps { wanted } else { made as f64 * timestep };
     let (broke, tried_work) = report_breaks(lab, case, trial, &session, seen, findings);
     findings.extend(seen.take());
-    let (spent, faults) = (session.spent() + tried_work, eyes.faults(&session));
+    let (spent, faults) = (session.spent() + tried_work, watcher.faults(&session));
     mark.close(&session.world.model);
     let record = Record { moved: trial.moved.clone(), rows, mark, beyond };
     let lost = !session.troubles.is_empty() || session.warnings.iter().any(|w| w.number > 0);

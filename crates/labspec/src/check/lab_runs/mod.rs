@@ -2,21 +2,22 @@
 //! its ends; then whatever else a student may do to it.
 
 mod attempt;
+mod display;
 mod interactions;
 mod seen;
 
 use super::observations::{self, Record};
 use super::{PreparedLab, RanLab};
 use crate::finding::Finding;
-use crate::monitors::stability as stiff;
 use crate::rules;
 use crate::run::{self, Budget};
 use crate::spec::{Control, ControlKind, Lab, LabAddress, Lesson};
 use crate::stress::{self, Action, Fault, FaultGroup, Interaction, Kind, StressCase};
 use attempt::{Attempt, Ended};
-use labspec_core::Model;
+pub(crate) use display::{WatchedDisplay, moment};
 use labspec_expr::Value;
 use seen::Seen;
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// When buttons are pressed, s.
@@ -25,13 +26,15 @@ const PRESS: f64 = 0.1;
 const RESERVE: u64 = 50_000_000;
 
 /// What the runs of a lab covered.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Tried {
     /// Runs that were made.
     pub runs: usize,
     /// How long each was meant to be, s.
+    #[serde(with = "crate::verify::float_bits")]
     pub wanted: f64,
     /// How long the shortest was, s.
+    #[serde(with = "crate::verify::float_bits")]
     pub covered: f64,
     /// Runs that were not made: they cannot be, the budget was spent, or the lab breaks as it stands.
     pub skipped: usize,
@@ -89,9 +92,9 @@ impl LabRunState<'_> {
     /// Keeps what went wrong in a run, once for each kind and body.
     fn note(&mut self, trial: &Trial<'_>, faults: Vec<Fault>, left: &mut u64) {
         let Trial { handling, length, .. } = trial;
-        let (faults, spent) = stress::genuine(&self.case, handling, faults, *length, *left);
+        let (faults, spent) = stress::without_pushed_bodies(&self.case, handling, faults, *length, *left);
         *left = left.saturating_sub(spent);
-        faults.into_iter().for_each(|f| stress::add(&mut self.faults, f, handling));
+        faults.into_iter().for_each(|f| stress::add_fault(&mut self.faults, f, handling));
     }
 
     /// Counts runs that were not made.
@@ -110,7 +113,7 @@ pub(super) fn run_labs(
 ) -> Vec<RanLab> {
     let addressed = lesson.addressed();
     let mut left = Budget::FILE.left;
-    let mut tours: Vec<(&LabAddress, &Lab, Option<LabRunState<'_>>)> = Vec::new();
+    let mut states: Vec<(&LabAddress, &Lab, Option<LabRunState<'_>>)> = Vec::new();
     // What is found in each lab: its author may expect some of it.
     let mut found = vec![Vec::new(); addressed.len()];
     for (i, (address, lab)) in addressed.iter().enumerate() {
@@ -118,39 +121,39 @@ pub(super) fn run_labs(
         let share = left.saturating_sub(RESERVE * later).clamp(RESERVE.min(left), Budget::TRIAL.left);
         let one = ready.iter().find(|r| std::ptr::eq(r.lab, *lab));
         let begin = |r| begin(r, Budget { left: share }, &mut left, &mut found[i]);
-        tours.push((address, lab, one.map(begin)));
+        states.push((address, lab, one.map(begin)));
     }
     // What is left is shared by the labs as they come.
-    let mut others = tours.len() as u64;
-    for (tour, found) in tours.iter_mut().map(|(.., tour)| tour).zip(&mut found) {
-        let Some(tour) = tour else { continue };
+    let mut others = states.len() as u64;
+    for (state, found) in states.iter_mut().map(|(.., state)| state).zip(&mut found) {
+        let Some(state) = state else { continue };
         let mut share = left / others.max(1);
         others = others.saturating_sub(1);
         let before = share;
-        go_on(tour, &mut share, found);
+        go_on(state, &mut share, found);
         left -= before - share;
-        let all = tour.tried.as_ref().is_some_and(|t| t.skipped == 0 && t.ended.is_none());
-        found.extend(tour.seen.never(all));
-        if all && tour.ready.mistakes == 0 && !tour.lost {
-            observations::check_observations(tour.ready, &tour.records, tour.wanted, found);
+        let all = state.tried.as_ref().is_some_and(|t| t.skipped == 0 && t.ended.is_none());
+        found.extend(state.seen.never(all));
+        if all && state.ready.mistakes == 0 && !state.lost {
+            observations::check_observations(state.ready, &state.records, state.wanted, found);
         }
     }
     // What is beyond that has a budget of its own.
-    let (mut left, mut others) = (Budget::FILE.left, tours.len() as u64);
-    for (tour, found) in tours.iter_mut().map(|(.., tour)| tour).zip(&mut found) {
+    let (mut left, mut others) = (Budget::FILE.left, states.len() as u64);
+    for (state, found) in states.iter_mut().map(|(.., state)| state).zip(&mut found) {
         let mut share = left / others.max(1);
         others = others.saturating_sub(1);
         let before = share;
-        tour.iter_mut().for_each(|tour| interactions::go_on(tour, &mut share, found));
+        state.iter_mut().for_each(|state| interactions::go_on(state, &mut share, found));
         left -= before - share;
     }
-    for ((_, lab, tour), mut found) in tours.iter().zip(found) {
-        let runs = tour.as_ref().and_then(|t| t.tried.as_ref()).map_or(0, |t| t.runs);
+    for ((_, lab, state), mut found) in states.iter().zip(found) {
+        let runs = state.as_ref().and_then(|t| t.tried.as_ref()).map_or(0, |t| t.runs);
         super::expect::settle(lab, runs, &mut found, 0);
         findings.extend(found);
     }
-    let ran = |(address, lab, tour): (&LabAddress, &Lab, Option<LabRunState<'_>>)| {
-        let tried = tour.and_then(|t| t.tried);
+    let ran = |(address, lab, state): (&LabAddress, &Lab, Option<LabRunState<'_>>)| {
+        let tried = state.and_then(|t| t.tried);
         let runs = tried.as_ref().map_or(0, |t| t.runs);
         let mistakes = ready.iter().find(|r| std::ptr::eq(r.lab, lab)).map_or(0, |r| r.mistakes);
         RanLab {
@@ -163,7 +166,7 @@ pub(super) fn run_labs(
             expected: lab.expect.is_some(),
         }
     };
-    tours.into_iter().map(ran).collect()
+    states.into_iter().map(ran).collect()
 }
 
 /// The lab as it stands.
@@ -175,7 +178,7 @@ fn begin<'a>(
 ) -> LabRunState<'a> {
     let wanted = stress::window(ready.lab);
     let trials = trials(ready.lab, wanted);
-    let mut tour = LabRunState {
+    let mut state = LabRunState {
         ready,
         case: StressCase::new(ready.lab, &ready.model, &ready.programs, interactions::nothing()),
         wanted,
@@ -187,64 +190,68 @@ fn begin<'a>(
         lost: false,
         hopeless: false,
     };
-    let Some(first) = tour.left.next() else { return tour };
-    match attempt::make(ready, &tour.case, &first, budget, &mut tour.seen, findings) {
+    let Some(first) = state.left.next() else { return state };
+    match attempt::make(ready, &state.case, &first, budget, &mut state.seen, findings) {
         Ok(attempt) => {
             *left = left.saturating_sub(attempt.spent);
             if !attempt.broke
-                && let Some(f) = too_stiff(&attempt.model, ready.lab.place(), attempt.covered)
+                && let Some(f) = rules::stiff_for_timestep::check_stiffness(
+                    &attempt.model,
+                    ready.lab.place(),
+                    &seconds(attempt.covered),
+                )
             {
                 findings.push(f);
             }
-            tour.hopeless = attempt.broke || attempt.covered == 0.0 && wanted > 0.0;
-            tour.tried =
+            state.hopeless = attempt.broke || attempt.covered == 0.0 && wanted > 0.0;
+            state.tried =
                 Some(Tried { runs: 0, wanted, covered: wanted, skipped: 0, broke: false, ended: None });
-            count(&mut tour, &first, attempt, left);
+            count(&mut state, &first, attempt, left);
         }
         Err(e) => {
             findings.push(impossible(first.place(ready.lab), e));
-            tour.hopeless = true;
+            state.hopeless = true;
         }
     }
-    if tour.hopeless {
-        let skipped = tour.left.by_ref().count();
-        tour.skip(skipped);
+    if state.hopeless {
+        let skipped = state.left.by_ref().count();
+        state.skip(skipped);
     }
-    tour
+    state
 }
 
 /// The runs with each control at its ends, while something is left.
-fn go_on(tour: &mut LabRunState<'_>, left: &mut u64, findings: &mut Vec<Finding>) {
-    while let Some(trial) = tour.left.next() {
+fn go_on(state: &mut LabRunState<'_>, left: &mut u64, findings: &mut Vec<Finding>) {
+    while let Some(trial) = state.left.next() {
         if *left == 0 {
-            let skipped = 1 + tour.left.by_ref().count();
-            return tour.skip(skipped);
+            let skipped = 1 + state.left.by_ref().count();
+            return state.skip(skipped);
         }
         let budget = Budget { left: Budget::TRIAL.left.min(*left) };
-        match attempt::make(tour.ready, &tour.case, &trial, budget, &mut tour.seen, findings) {
+        match attempt::make(state.ready, &state.case, &trial, budget, &mut state.seen, findings) {
             Ok(attempt) => {
                 *left = left.saturating_sub(attempt.spent);
-                count(tour, &trial, attempt, left);
+                count(state, &trial, attempt, left);
             }
             Err(e) => {
-                findings.push(impossible(trial.place(tour.ready.lab), e));
-                tour.skip(1);
+                findings.push(impossible(trial.place(state.ready.lab), e));
+                state.skip(1);
             }
         }
     }
 }
 
 /// Counts a run that was made.
-fn count(tour: &mut LabRunState<'_>, trial: &Trial<'_>, attempt: Attempt, left: &mut u64) {
-    tour.note(trial, attempt.faults, left);
-    tour.records.push(attempt.record);
-    tour.lost |= attempt.lost;
-    let Some(tried) = &mut tour.tried else { return };
+fn count(state: &mut LabRunState<'_>, trial: &Trial<'_>, attempt: Attempt, left: &mut u64) {
+    state.note(trial, attempt.faults, left);
+    state.records.push(attempt.record);
+    state.lost |= attempt.lost;
+    let Some(tried) = &mut state.tried else { return };
     tried.runs += 1;
     tried.broke |= attempt.broke;
     if attempt.covered < tried.covered {
         tried.covered = attempt.covered;
-        let [covered, wanted] = [attempt.covered, tour.wanted].map(seconds);
+        let [covered, wanted] = [attempt.covered, state.wanted].map(seconds);
         tried.ended = match attempt.ended {
             Some(Ended::Threw) => Some(format!("frozen after {covered} of {wanted} s")),
             Some(Ended::Spent) => Some(format!("first {covered} of {wanted} s")),
@@ -297,22 +304,4 @@ fn trials(lab: &Lab, wanted: f64) -> Vec<Trial<'_>> {
         }
     }
     trials
-}
-
-/// What of a lab's scene no step of its length can follow, though its run did not show it.
-fn too_stiff(model: &Model, place: Range<usize>, covered: f64) -> Option<Finding> {
-    let worst = stiff::suspects(model).into_iter().next()?;
-    let [owner, how] = [run::owner(model, &worst), run::how_stiff(&worst)];
-    Some(
-        Finding::warning(rules::STIFF_FOR_TIMESTEP, place, format!("{owner} is {how} for its timestep"))
-            .why(format!(
-                "nothing goes wrong in the {} s of the run, but after a push every step overshoots more than the one before: it swings ever wider, and MuJoCo gives no warning until a number exceeds 1e10",
-                seconds(covered)
-            ))
-            .help(format!(
-                "set the timestep to {} s, or {}",
-                run::two_digits(0.9 * worst.timestep.min(model.opt.timestep)),
-                run::softer(&worst)
-            )),
-    )
 }

@@ -1,37 +1,21 @@
 //! Runs of a lab that are made to be sure: with several controls moved, or from another state.
 
-use super::record::{Mark, Record};
-use super::saturated::Beyond;
+use super::moves::Move;
+use super::record::{Beyond, Mark, Record};
 use crate::bind::Programs;
 use crate::check::PreparedLab;
-use crate::run::{self, Budget, Cell, Play, Session};
-use labspec_expr::Value;
+use crate::run::{self, Budget, Cell, Play, Session, Start};
+use labspec_core::{Model, Obj};
 use std::ops::ControlFlow;
 
-/// What a student does at a step.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Move {
-    pub(super) step: usize,
-    pub(super) control: usize,
-    /// `None` presses a button.
-    pub(super) value: Option<Value>,
-}
-
-impl Move {
-    /// A press that does nothing: everything is computed anew, as after any press.
-    pub(super) fn nothing(step: usize) -> Move {
-        Move { step, control: usize::MAX, value: None }
-    }
-}
-
 /// A lab, and what may still be spent on it.
-pub(super) struct ObservationBench<'a> {
-    pub(super) ready: &'a PreparedLab<'a>,
+pub(crate) struct ObservationBench<'a> {
+    pub(crate) ready: &'a PreparedLab<'a>,
     /// Its programs, or what is tried instead.
-    pub(super) programs: &'a Programs,
-    pub(super) left: u64,
+    pub(crate) programs: &'a Programs,
+    pub(crate) left: u64,
     /// Runs that were made.
-    pub(super) runs: usize,
+    pub(crate) runs: usize,
 }
 
 /// How often a run is observed at.
@@ -43,25 +27,25 @@ const STEPS: usize = 3;
 
 impl ObservationBench<'_> {
     /// What one run may spend.
-    pub(super) fn budget(&self) -> Budget {
+    pub(crate) fn budget(&self) -> Budget {
         Budget { left: Budget::TRIAL.left.min(self.left) }
     }
 
-    pub(super) fn start(&self) -> Session<'_> {
+    pub(crate) fn start(&self) -> Session<'_> {
         let (PreparedLab { lab, model, .. }, programs) = (self.ready, self.programs);
-        let budget = self.budget();
-        Session::start_within(programs, model, lab.keyframe(), &programs.demand, budget)
+        let start = Start { budget: self.budget(), ..Start::of_lab(lab) };
+        Session::start(programs, model, start)
     }
 
     /// Number of steps of a run of this length, and the timestep.
-    pub(super) fn steps(&self, length: f64) -> Option<(usize, f64)> {
+    pub(crate) fn steps(&self, length: f64) -> Option<(usize, f64)> {
         let timestep = self.start().world.model.opt.timestep;
         let steps = run::count_steps(self.ready.lab, Some(length), None, timestep).ok()?;
         Some((steps, timestep))
     }
 
     /// A run with these moves; `None` when it breaks, or when too much was spent.
-    pub(super) fn run(&mut self, moves: &[Move], steps: usize) -> Option<Record> {
+    pub(crate) fn run(&mut self, moves: &[Move], steps: usize) -> Option<Record> {
         let mut session = self.start();
         let (mut rows, mut mark) = (Vec::new(), Mark::default());
         let every = (steps / SAMPLES).max(1);
@@ -90,7 +74,7 @@ impl ObservationBench<'_> {
     }
 
     /// What is shown from other states than the lab's own.
-    pub(super) fn perturbed_run(&mut self) -> Vec<Vec<Cell>> {
+    pub(crate) fn perturbed_run(&mut self) -> Vec<Vec<Cell>> {
         let mut session = self.start();
         let mut rows = Vec::new();
         let mut seed = 1_u64;
@@ -112,5 +96,50 @@ impl ObservationBench<'_> {
         drop(session);
         self.left = self.left.saturating_sub(spent);
         rows
+    }
+}
+
+/// Work for the runs that make sure, for each lab.
+const WORK: u64 = 600_000_000;
+
+/// A lab with the records of its runs.
+pub(crate) struct ObservedLab<'a> {
+    /// As it stands, then with each control at its ends.
+    pub(crate) records: &'a [Record],
+    pub(crate) bench: ObservationBench<'a>,
+    /// The rows of a run from another state; `None` until they are needed.
+    perturbed: Option<Vec<Vec<Cell>>>,
+    /// How long each run was, s.
+    pub(crate) length: f64,
+    /// Controls that a finding describes already.
+    pub(crate) reported: Vec<usize>,
+}
+
+impl<'a> ObservedLab<'a> {
+    /// From the records of runs that are `length` seconds long.
+    pub(crate) fn new(ready: &'a PreparedLab<'a>, records: &'a [Record], length: f64) -> ObservedLab<'a> {
+        let bench = ObservationBench { ready, programs: &ready.programs, left: WORK, runs: 0 };
+        ObservedLab { records, bench, perturbed: None, length, reported: Vec::new() }
+    }
+
+    pub(crate) fn perturbed_rows(&mut self) -> &[Vec<Cell>] {
+        let bench = &mut self.bench;
+        self.perturbed.get_or_insert_with(|| bench.perturbed_run())
+    }
+
+    /// The runs in words.
+    pub(crate) fn runs(&self) -> String {
+        match self.records.len() {
+            1 => "the run".into(),
+            n => format!("{n} runs, with every control moved"),
+        }
+    }
+}
+
+/// A geom, in words.
+pub(crate) fn geom_name(model: &Model, g: usize) -> String {
+    match model.names.of(Obj::Geom).get(g).filter(|n| !n.is_empty()) {
+        Some(geom) => format!("geom \"{geom}\""),
+        None => format!("geom {g}"),
     }
 }

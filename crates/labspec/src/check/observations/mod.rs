@@ -1,67 +1,18 @@
 //! What a student sees in the runs of a lab, and what only seems to show something: curves that cannot change, readouts that print
 //! one text, controls that do nothing. Each is told with the runs that show it; what is not certain is not told.
 
-mod again;
-mod at_rest;
-mod begins;
-mod below_zero;
 mod bench;
-mod curves;
-mod damping;
-mod early;
-mod error;
-mod flat;
-mod idle;
-mod jumps;
-mod mixed;
-mod never;
+mod moves;
 mod no_solver;
-mod overruled;
-mod readouts;
 mod record;
-mod saturated;
-mod stale;
-mod start;
-mod undone;
 
-pub(super) use record::{Mark, Record};
-pub(super) use saturated::Beyond;
+pub(crate) use bench::{ObservationBench, ObservedLab, geom_name};
+pub(crate) use moves::{Move, Setting, settings, single_moves, values};
+pub(crate) use record::{Beyond, Mark, Record, column, constant, longest_equal, same};
 
 use super::PreparedLab;
 use crate::finding::Finding;
-use crate::run::Cell;
-use bench::ObservationBench;
-
-/// Work for the runs that make sure, for each lab.
-const WORK: u64 = 600_000_000;
-
-/// A lab that was observed at.
-struct ObservedLab<'a> {
-    /// As it stands, then with each control at its ends.
-    records: &'a [Record],
-    bench: ObservationBench<'a>,
-    /// What is shown from other states, once it was asked for.
-    perturbed: Option<Vec<Vec<Cell>>>,
-    /// How long each run was, s.
-    length: f64,
-    /// Controls of which something was told that says it all.
-    reported: Vec<usize>,
-}
-
-impl ObservedLab<'_> {
-    fn perturbed_rows(&mut self) -> &[Vec<Cell>] {
-        let bench = &mut self.bench;
-        self.perturbed.get_or_insert_with(|| bench.perturbed_run())
-    }
-
-    /// The runs in words.
-    fn runs(&self) -> String {
-        match self.records.len() {
-            1 => "the run".into(),
-            n => format!("{n} runs, with every control moved"),
-        }
-    }
-}
+use crate::rules;
 
 /// Looks at a lab whose runs all came to their end.
 pub(super) fn check_observations(
@@ -70,26 +21,55 @@ pub(super) fn check_observations(
     length: f64,
     findings: &mut Vec<Finding>,
 ) {
-    let bench = ObservationBench { ready, programs: &ready.programs, left: WORK, runs: 0 };
-    let mut observed = ObservedLab { records, bench, perturbed: None, length, reported: Vec::new() };
-    start::check_start(&observed, findings);
-    at_rest::check_at_rest(&observed, findings);
-    saturated::check_saturation(&observed, findings);
-    jumps::check_jumps(&observed, findings);
-    mixed::check_mixed_dimensions(&observed, findings);
-    stale::check_stale_reads(&mut observed, findings);
-    early::check_early_stop(&mut observed, findings);
-    never::check_stop_reached(&observed, findings);
-    error::check_error_readouts(&mut observed, findings);
-    curves::check_curves(&mut observed, findings);
-    readouts::check_readouts(&observed, findings);
-    begins::check_beginning(&observed, findings);
-    again::check_repeats(&observed, findings);
-    below_zero::check_below_zero(&observed, findings);
-    damping::check_damping(&observed, findings);
+    let mut observed = ObservedLab::new(ready, records, length);
+    rules::starts_inside::check_start(&observed, findings);
+    rules::not_at_rest::check_at_rest(&observed, findings);
+    rules::always_saturated::check_saturation(&observed, findings);
+    rules::setconst_jumps::check_jumps(&observed, findings);
+    rules::mixed_away::check_contact_mixing(&observed, findings);
+    rules::stale_read::check_stale_reads(&mut observed, findings);
+    rules::stops_early::check_early_stop(&mut observed, findings);
+    rules::stop_unreached::check_stop_reached(&observed, findings);
+    rules::too_many_digits::check_surplus_digits(&mut observed, findings);
+    check_curves(&mut observed, findings);
+    check_readouts(&observed, findings);
+    rules::shows_the_start::check_beginning(&observed, findings);
+    rules::goes_on::check_repeats(&observed, findings);
+    rules::below_zero::check_below_zero(&observed, findings);
+    rules::damping_below_zero::check_damping(&observed, findings);
     no_solver::check_solver(&observed, findings);
-    undone::check_undone_writes(&mut observed, findings);
-    overruled::check_overruled_controls(&mut observed, findings);
-    flat::check_flat_curves(&mut observed, findings);
-    idle::check_idle_controls(&mut observed, findings);
+    rules::undone_by_reset::check_undone_writes(&mut observed, findings);
+    rules::overruled::check_overruled_controls(&mut observed, findings);
+    rules::idle_range::check_flat_ranges(&mut observed, findings);
+    rules::idle_control::check_idle_controls(&mut observed, findings);
+}
+
+/// Each curve has one finding at most: that it never changes, else that it is another one, else that its plot hides it.
+fn check_curves(observed: &mut ObservedLab<'_>, findings: &mut Vec<Finding>) {
+    let mut first = 1;
+    for plot in &observed.bench.ready.lab.plots {
+        let columns = first..first + plot.traces.len();
+        first = columns.end;
+        let still: Vec<bool> =
+            columns.clone().map(|c| constant(column(observed.records, c)).is_some()).collect();
+        let others = still.iter().any(|s| !s);
+        for ((c, trace), still) in columns.clone().zip(&plot.traces).zip(still) {
+            let finding = if still {
+                rules::constant_trace::check_still_trace(observed, c, trace, others)
+            } else {
+                rules::same_curve::check_moving_trace(observed, columns.start..c, c, plot)
+            };
+            findings
+                .extend(finding.or_else(|| rules::outside_plot::check_trace_range(observed, plot, c, trace)));
+        }
+    }
+}
+
+/// What the readouts print.
+fn check_readouts(observed: &ObservedLab<'_>, findings: &mut Vec<Finding>) {
+    let lab = observed.bench.ready.lab;
+    for (readout, c) in lab.readouts.iter().zip(1 + lab.traces().count()..) {
+        findings.extend(rules::label_unit::check_text_readout(observed, readout, c));
+        findings.extend(rules::too_few_digits::check_readout(observed, readout, c));
+    }
 }

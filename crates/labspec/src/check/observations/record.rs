@@ -1,26 +1,26 @@
 //! What a student saw in a run: what was shown at every sample, and a number that stands for all of it and the picture.
 
-use super::saturated::Beyond;
 use crate::run::{Cell, Session};
 use labspec_core::Model;
 use labspec_expr::Value;
+use std::ops::Range;
 
 /// A run, as it was seen.
 #[derive(Debug)]
-pub(in crate::check) struct Record {
+pub(crate) struct Record {
     /// The control that was moved before it, and to what; `None` for a button that was pressed.
-    pub(in crate::check) moved: Option<(usize, Option<Value>)>,
+    pub(crate) moved: Option<(usize, Option<Value>)>,
     /// Time, then traces, then readouts, at every sample.
-    pub(in crate::check) rows: Vec<Vec<Cell>>,
+    pub(crate) rows: Vec<Vec<Cell>>,
     /// Two runs that look the same have the same.
-    pub(in crate::check) mark: Mark,
+    pub(crate) mark: Mark,
     /// Inputs beyond their range.
-    pub(in crate::check) beyond: Beyond,
+    pub(crate) beyond: Beyond,
 }
 
 /// A number that follows from others, bit by bit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::check) struct Mark(u64);
+pub(crate) struct Mark(u64);
 
 impl Default for Mark {
     fn default() -> Mark {
@@ -38,7 +38,7 @@ impl Mark {
     }
 
     /// A row, and where everything is.
-    pub(in crate::check) fn observe(&mut self, row: &[Cell], session: &Session<'_>) {
+    pub(crate) fn observe(&mut self, row: &[Cell], session: &Session<'_>) {
         for cell in row {
             match cell {
                 Cell::Number(x) => self.add(x.to_bits()),
@@ -55,7 +55,7 @@ impl Mark {
     }
 
     /// What the model itself looks like, at the end.
-    pub(in crate::check) fn close(&mut self, model: &Model) {
+    pub(crate) fn close(&mut self, model: &Model) {
         let lists = [&model.geom_size, &model.geom_pos, &model.geom_quat, &model.body_pos, &model.body_quat];
         lists.into_iter().for_each(|list| self.all(list));
         [&model.site_pos, &model.site_quat].into_iter().for_each(|list| self.all(list));
@@ -63,9 +63,58 @@ impl Mark {
 }
 
 /// Whether two cells are the same to the last bit.
-pub(super) fn same(a: &Cell, b: &Cell) -> bool {
+pub(crate) fn same(a: &Cell, b: &Cell) -> bool {
     match (a, b) {
         (Cell::Number(x), Cell::Number(y)) => x.to_bits() == y.to_bits(),
         _ => a == b,
     }
+}
+
+/// Inputs that were beyond their range whenever they were observed at, with the least that they were beyond it by.
+#[derive(Debug, Default)]
+pub(crate) struct Beyond {
+    pub(crate) looks: usize,
+    /// How often each input was, and what it was then.
+    pub(crate) times: Vec<(usize, f64)>,
+}
+
+impl Beyond {
+    /// Looks at the inputs of a step that was made.
+    pub(crate) fn observe(&mut self, session: &Session<'_>) {
+        let (model, data) = (&session.world.model, session.world.data.fields());
+        self.looks += 1;
+        self.times.resize(data.ctrl.len(), (0, 0.0));
+        for (i, (value, times)) in data.ctrl.iter().zip(&mut self.times).enumerate() {
+            let limited = model.actuator_ctrllimited.get(i).is_some_and(|l| *l);
+            let [low, high] = [0, 1].map(|k| model.actuator_ctrlrange.get(2 * i + k).copied().unwrap_or(0.0));
+            if limited && !(low..=high).contains(value) {
+                *times = (times.0 + 1, *value);
+            }
+        }
+    }
+}
+
+/// The cells of a column in all runs.
+pub(crate) fn column(records: &[Record], column: usize) -> impl Iterator<Item = &Cell> {
+    records.iter().flat_map(|r| &r.rows).filter_map(move |row| row.get(column))
+}
+
+/// The one number that a column shows, if it is one.
+pub(crate) fn constant<'r>(mut cells: impl Iterator<Item = &'r Cell>) -> Option<&'r Cell> {
+    let first = cells.next().filter(|c| matches!(c, Cell::Number(x) if x.is_finite()))?;
+    cells.all(|c| same(c, first)).then_some(first)
+}
+
+/// The longest stretch of equal items, the first of several; empty where there are none.
+pub(crate) fn longest_equal<T: PartialEq>(items: &[T]) -> Range<usize> {
+    let (mut best, mut start) = (0..0, 0);
+    for i in 1..=items.len() {
+        if items.get(i) != items.get(start) {
+            if i - start > best.len() {
+                best = start..i;
+            }
+            start = i;
+        }
+    }
+    best
 }

@@ -364,7 +364,7 @@ fn differs(a: &Judgement, b: &Judgement) -> bool {
 mod tests {
     use super::*;
     use crate::lint::{ModelFolder, load_lesson_file};
-    use crate::run::Session;
+    use crate::run::{Session, Start};
     use crate::stress::{self, Action, Interaction, Kind};
     use std::path::{Path, PathBuf};
 
@@ -379,7 +379,7 @@ mod tests {
 
     /// Every number of the state and of what the lab shows, bit for bit, after each of some steps.
     fn bits(ready: &PreparedLab<'_>, programs: &Programs, actions: &[Action]) -> (Vec<u64>, bool) {
-        let mut session = Session::start(programs, &ready.model, ready.lab.keyframe(), &programs.demand);
+        let mut session = Session::start(programs, &ready.model, Start::of_lab(ready.lab));
         for action in actions {
             match &action.value {
                 Some(value) => session.set_control(action.control, value.clone()),
@@ -422,7 +422,7 @@ mod tests {
                 let correction = correction(&observe(&lesson, &mut labs));
                 for (ready, amended) in labs.iter().zip(corrected(&labs, &correction)) {
                     let base = Interaction { kind: Kind::AsItStands, actions: Vec::new() };
-                    for handling in stress::list(ready.lab, 1.0, &base).0 {
+                    for handling in stress::list_interactions(ready.lab, 1.0, &base).0 {
                         let (seen, behind) = bits(ready, &ready.programs, &handling.actions);
                         let (wanted, _) = bits(&amended, &amended.programs, &handling.actions);
                         let what = handling.describe(&ready.programs);

@@ -5,11 +5,11 @@ use super::{ProgramSite, Suspect};
 use crate::bind::coupled::{self, Coupled, PairSet};
 use crate::bind::{Bound, ControlProgram, ModelNames, Programs, Scope, include};
 use crate::check::choices::choices;
-use crate::run::{self, Cell, Play, Session, StepVariant, settings};
+use crate::run::{self, Cell, Play, Session, Start, StepVariant, settings};
 use crate::source::Text;
 use crate::spec::{Control, ControlKind, Lab, Run, Verify};
 use labspec_core::reflect::FieldSet;
-use labspec_core::{AccessSet, Model};
+use labspec_core::{AccessSet, Model, Plan};
 use labspec_expr::{Access, Compiler, Effects, Type, Value};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::ops::ControlFlow;
@@ -42,7 +42,7 @@ pub(super) struct BenchTrial {
 }
 
 /// What is run.
-pub(in crate::check) struct SetConstBench<'a> {
+pub(crate) struct SetConstBench<'a> {
     lab: &'a Lab,
     model: &'a Model,
     programs: &'a Programs,
@@ -56,7 +56,7 @@ pub(super) type SampleRows = Vec<Vec<Cell>>;
 pub(super) type Record = Result<SampleRows, String>;
 
 impl<'a> SetConstBench<'a> {
-    pub(in crate::check) fn new(lab: &'a Lab, model: &'a Model, programs: &'a Programs) -> SetConstBench<'a> {
+    pub(crate) fn new(lab: &'a Lab, model: &'a Model, programs: &'a Programs) -> SetConstBench<'a> {
         SetConstBench { lab, model, programs, work_left: WORK }
     }
 
@@ -78,7 +78,7 @@ impl<'a> SetConstBench<'a> {
 
     /// Number of steps of the lab, or of the run of a question, within bounds.
     pub(super) fn steps(&self, s: &Suspect<'_>) -> Result<usize, String> {
-        let session = Session::start(self.programs, self.model, self.lab.keyframe(), &self.programs.demand);
+        let session = Session::start(self.programs, self.model, Start::of_lab(self.lab));
         let timestep = session.world.model.opt.timestep;
         let (until, steps) = match s.place {
             ProgramSite::Run(run) => {
@@ -258,9 +258,7 @@ impl<'a> SetConstBench<'a> {
         // Twice the steps of half the length: what happens, happens at the same time.
         let finer = if numerics.timestep < 1.0 { 2 } else { 1 };
         let steps = steps * finer;
-        let mut demand = programs.demand;
-        setup.into_iter().for_each(|b| include(b.program.effects(), &mut demand));
-        let mut session = Session::start(programs, self.model, self.lab.keyframe(), &demand);
+        let mut session = self.start(programs, setup);
         let sets = |m: &Move| matches!(m, Move::Set(..));
         let width = 1 + programs.probes.len() + if whole { self.model.nq } else { 0 };
         let every = (steps / finer + 1).saturating_mul(width).div_ceil(CELLS).max(1) * finer;
@@ -336,11 +334,17 @@ impl<'a> SetConstBench<'a> {
         })
     }
 
-    /// The model as a run begins.
-    fn start_model(&self, programs: &Programs, setup: Option<&Bound>, run: &Run) -> Model {
+    /// The lab with its own programs or others, for a run with a setup of its own.
+    fn start<'p>(&self, programs: &'p Programs, setup: Option<&Bound>) -> Session<'p> {
         let mut demand = programs.demand;
         setup.into_iter().for_each(|b| include(b.program.effects(), &mut demand));
-        let mut session = Session::start(programs, self.model, self.lab.keyframe(), &demand);
+        let plan = Some(Plan::new(self.model, &demand));
+        Session::start(programs, self.model, Start { plan, ..Start::of_lab(self.lab) })
+    }
+
+    /// The model as a run begins.
+    fn start_model(&self, programs: &Programs, setup: Option<&Bound>, run: &Run) -> Model {
+        let mut session = self.start(programs, setup);
         let trial = self.as_asked(run);
         let sets = trial.moves.iter().filter(|(_, m)| matches!(m, Move::Set(..)));
         sets.for_each(|(_, m)| act(&mut session, m));
@@ -388,7 +392,7 @@ impl<'a> SetConstBench<'a> {
     }
 
     /// Statements of the lab, with the place of the text that they stand for.
-    pub(in crate::check) fn compile(&self, place: &Text, source: &str, given: Option<Type>) -> Option<Bound> {
+    pub(crate) fn compile(&self, place: &Text, source: &str, given: Option<Type>) -> Option<Bound> {
         let names = ModelNames::new(self.model, Scope::Lab).with(&self.programs.functions);
         let mut globals = self.programs.globals.clone();
         let mut compiler = Compiler::new(&names, &mut globals).with_value(given);

@@ -171,7 +171,7 @@ impl Columns<'_> {
 }
 
 /// A number with so many significant digits, without trailing zeros.
-pub(in crate::check) fn digits(x: f64, count: usize) -> String {
+pub(crate) fn digits(x: f64, count: usize) -> String {
     let rounded: f64 = format!("{x:.*e}", count.saturating_sub(1)).parse().unwrap_or(x);
     Value::Number(rounded).to_string()
 }

@@ -13,8 +13,8 @@ mod compare;
 mod difference;
 mod words;
 
-pub(super) use bench::SetConstBench;
-pub(super) use difference::digits;
+pub(crate) use bench::SetConstBench;
+pub(crate) use difference::digits;
 pub(super) use words::{by_rule, left};
 
 use crate::bind::coupled::{self, PairSet};

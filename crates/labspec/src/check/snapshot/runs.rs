@@ -2,7 +2,7 @@
 
 use super::super::PreparedLab;
 use crate::run::Integrator;
-use crate::run::{self, Budget, Cell, Play, RunError, Session, StepVariant};
+use crate::run::{self, Budget, Cell, Play, RunError, Session, Start, StepVariant};
 use crate::spec::{ControlKind, Lab, LabAddress, Lesson};
 use crate::stress::window;
 use crate::verify::significant;
@@ -106,7 +106,8 @@ pub(super) fn play(
     budget: Budget,
 ) -> Result<(SnapshotRun, u64), RunError> {
     let (lab, programs) = (ready.lab, &ready.programs);
-    let mut session = Session::start_within(programs, &ready.model, lab.keyframe(), &programs.demand, budget);
+    let start = Start { budget, ..Start::of_lab(lab) };
+    let mut session = Session::start(programs, &ready.model, start);
     run::set_controls(&mut session, lab, programs, &handling.set)?;
     let presses = run::presses(programs, &handling.press)?;
     let about = about(lab, &session.world.model);
@@ -148,7 +149,7 @@ fn about(lab: &Lab, model: &Model) -> Vec<String> {
     vec![
         format!("{} s", significant(window(lab))),
         format!("timestep {} s", opt.timestep),
-        Integrator::of(model).name.into(),
+        Integrator::of_model(model).name.into(),
         solver.into(),
         cone.into(),
     ]

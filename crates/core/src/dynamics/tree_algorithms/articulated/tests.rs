@@ -46,7 +46,7 @@ proptest! {
         q in prop::collection::vec(-1.0f64..1.0, 80),
     ) {
         let m = compile(&text(&bodies)).unwrap();
-        let mut d = Workspace::new(&m);
+        let Workspace { fields: mut d, scratch: mut s } = Workspace::new(&m);
         for j in (0..m.njnt).filter(|&j| m.jnt_type[j] != joint::FREE) {
             let at = m.jnt_qposadr[j] as usize;
             d.qpos[at] += q[at % q.len()];
@@ -54,7 +54,7 @@ proptest! {
         for (v, x) in d.qvel.iter_mut().zip(q.iter().rev()) {
             *v = *x;
         }
-        forward(&m, &mut d);
+        forward(&m, &mut d, &mut s);
         let (mut ld, mut inv) = (d.M.clone(), vec![0.0; m.nv]);
         prop_assert_eq!(mass::factor(&m, &mut ld, &mut inv, 0..m.nv), None);
         for (ours, rows) in d.qLD.iter().zip(&ld) {
@@ -65,13 +65,13 @@ proptest! {
         let f: Vec<f64> = (0..m.nv).map(|k| q[(3 * k) % q.len()]).collect();
         let b: Vec<f64> = (0..m.nv).map(|k| q[(5 * k) % q.len()].abs()).collect();
         let (mut x, mut back) = (f.clone(), vec![0.0; m.nv]);
-        solve_with(&m, &d.fields, &mut d.work.dynamics, &b, &mut x);
+        solve_with(&m, &d, &mut s.dynamics, &b, &mut x);
         mass::mul(&m, &d.M, &x, &mut back, 0..m.nv);
         for k in 0..m.nv {
             prop_assert!((back[k] + b[k] * x[k] - f[k]).abs() < 1e-9, "{k}");
         }
         x.copy_from_slice(&f);
-        solve(&m, &d.fields, &mut d.work.dynamics, &mut x);
+        solve(&m, &d, &mut s.dynamics, &mut x);
         mass::mul(&m, &d.M, &x, &mut back, 0..m.nv);
         let size = x.iter().fold(1.0_f64, |s, x| s.max(x.abs()));
         for k in 0..m.nv {

@@ -74,15 +74,15 @@ proptest! {
     fn a_chain_moves_as_its_bodies(links in chain(), q in prop::array::uniform8(-2.0f64..2.0), v in prop::array::uniform8(-3.0f64..3.0)) {
         let m = compile(&text(&links)).map_err(|e| TestCaseError::fail(format!("{e:?}\n{}", text(&links))))?;
         prop_assume!(m.nv > 0 && m.dof_simplenum[0] == 0);
-        let mut d = Workspace::new(&m);
+        let Workspace { fields: mut d, scratch: mut s } = Workspace::new(&m);
         d.qpos.copy_from_slice(&q[..m.nq]);
         d.qvel.copy_from_slice(&v[..m.nv]);
-        forward(&m, &mut d);
+        forward(&m, &mut d, &mut s);
         let (mass_matrix, bias) = (d.M.clone(), d.qfrc_bias.clone());
         prop_assert!(super::covers(&m, 0));
         let all = 0..m.nv;
-        mass::composite_inertia(&m, &mut d.fields, &mut d.work.dynamics.path, std::slice::from_ref(&all));
-        rne::newton_euler(&m, &mut d.fields, &mut d.work.dynamics, m.opt.gravity);
+        mass::composite_inertia(&m, &mut d, &mut s.dynamics.path, std::slice::from_ref(&all));
+        rne::newton_euler(&m, &mut d, &mut s.dynamics, m.opt.gravity);
         for (ours, reference) in [(mass_matrix, &d.M), (bias, &d.qfrc_bias)] {
             let size = reference.iter().fold(1.0_f64, |s, x| s.max(x.abs()));
             for (a, b) in ours.iter().zip(reference) {

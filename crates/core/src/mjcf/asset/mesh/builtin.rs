@@ -25,7 +25,7 @@ const RULES: [(&str, &[&str]); 7] = [
 /// Highest resolution of a side.
 const FINEST: f64 = 500.0;
 
-/// Makes a mesh; whether it is a surface without inside is said, too. Long, as each rule has ranges for its own parameters.
+/// Makes a mesh; whether it is a surface without inside is said, too.
 pub(crate) fn make(rule: &str, params: &[f64]) -> Result<(Raw, bool), Problem> {
     let Some((_, names)) = RULES.iter().find(|(name, _)| *name == rule) else {
         return Err(Problem::new(
@@ -48,58 +48,42 @@ pub(crate) fn make(rule: &str, params: &[f64]) -> Result<(Raw, bool), Problem> {
             "write that many numbers",
         ));
     }
-    let p = |i: usize| params.get(i).copied().unwrap_or(0.0);
-    let within = |i: usize, low: f64, high: f64| {
-        if (low..=high).contains(&p(i)) {
-            return Ok(());
+    for ((x, name), (low, high)) in params.iter().zip(*names).zip(ranges(rule)) {
+        if !(*low..=*high).contains(x) {
+            return Err(Problem::new(
+                "params",
+                format!("has {x} for the {name} of `{rule}`, which must be from {low} to {high}"),
+                "",
+                "see MuJoCo's XML reference, asset/mesh",
+            ));
         }
-        let name = names.get(i).copied().unwrap_or("");
-        Err(Problem::new(
-            "params",
-            format!("has {} for the {name} of `{rule}`, which must be from {low} to {high}", p(i)),
-            "",
-            "see MuJoCo's XML reference, asset/mesh",
-        ))
-    };
-    // Angles and radii may come as near to zero as they like.
-    let tiny = f64::MIN_POSITIVE;
+    }
+    let p = |i: usize| params.get(i).copied().unwrap_or(0.0);
     let n = |i: usize| p(i) as usize;
     let raw = match rule {
-        "sphere" => within(0, 0.0, 4.0).map(|()| sphere(n(0)))?,
-        "hemisphere" => within(0, 0.0, 10.0).map(|()| hemisphere(n(0)))?,
-        "cone" => {
-            within(0, 3.0, FINEST)?;
-            within(1, 0.0, 1e6)?;
-            cone(n(0), p(1))
-        }
-        "supersphere" => {
-            within(0, 3.0, FINEST)?;
-            within(1, 0.0, 100.0)?;
-            within(2, 0.0, 100.0)?;
-            supersphere(n(0), p(1), p(2))
-        }
-        "supertorus" => {
-            within(0, 4.0, FINEST)?;
-            within(1, tiny, 1.0)?;
-            within(2, tiny, 100.0)?;
-            within(3, tiny, 100.0)?;
-            supertorus(n(0), p(1), p(2), p(3))
-        }
-        "wedge" => {
-            within(0, 1.0, FINEST)?;
-            within(1, 1.0, FINEST)?;
-            within(2, tiny, 180.0)?;
-            within(3, tiny, 90.0)?;
-            within(4, 0.0, 1.0)?;
-            wedge([n(0), n(1)], [p(2), p(3)], p(4))
-        }
-        _ => {
-            within(0, 1.0, FINEST)?;
-            within(1, 1.0, FINEST)?;
-            plate([n(0), n(1)])
-        }
+        "sphere" => sphere(n(0)),
+        "hemisphere" => hemisphere(n(0)),
+        "cone" => cone(n(0), p(1)),
+        "supersphere" => supersphere(n(0), p(1), p(2)),
+        "supertorus" => supertorus(n(0), p(1), p(2), p(3)),
+        "wedge" => wedge([n(0), n(1)], [p(2), p(3)], p(4)),
+        _ => plate([n(0), n(1)]),
     };
     Ok((single(raw), rule == "plate"))
+}
+
+/// The range of each parameter of a rule. Angles and radii may come as near to zero as they like.
+fn ranges(rule: &str) -> &'static [(f64, f64)] {
+    const TINY: f64 = f64::MIN_POSITIVE;
+    match rule {
+        "sphere" => &[(0.0, 4.0)],
+        "hemisphere" => &[(0.0, 10.0)],
+        "cone" => &[(3.0, FINEST), (0.0, 1e6)],
+        "supersphere" => &[(3.0, FINEST), (0.0, 100.0), (0.0, 100.0)],
+        "supertorus" => &[(4.0, FINEST), (TINY, 1.0), (TINY, 100.0), (TINY, 100.0)],
+        "wedge" => &[(1.0, FINEST), (1.0, FINEST), (TINY, 180.0), (TINY, 90.0), (0.0, 1.0)],
+        _ => &[(1.0, FINEST), (1.0, FINEST)],
+    }
 }
 
 /// As precise as a file is.

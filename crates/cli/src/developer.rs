@@ -1,0 +1,46 @@
+//! `labspec record` and `labspec bench`, for engineers of labspec: their work is in the crate `labspec-developer`.
+
+use super::common::{Failure, ModelOptions, Outcome};
+use super::stdio::print_json;
+use super::target;
+use labspec::report::report;
+use labspec_developer::{bench, record};
+use std::path::PathBuf;
+
+/// Arguments of `record`.
+#[derive(clap::Args, Debug)]
+pub(super) struct RecordArguments {
+    /// MODEL.xml
+    model: PathBuf,
+    #[command(flatten)]
+    models: ModelOptions,
+    #[command(flatten)]
+    options: record::Options,
+}
+
+/// Arguments of `bench`.
+#[derive(clap::Args, Debug)]
+pub(super) struct BenchArguments {
+    /// MODEL.xml, or a lab as for `run`
+    lab: String,
+    #[command(flatten)]
+    models: ModelOptions,
+    #[command(flatten)]
+    options: bench::Options,
+}
+
+pub(super) fn record(a: &RecordArguments) -> Result<Outcome, Failure> {
+    let model = target::load_model(&a.model, &a.models)?;
+    let recording = record::record(model, &a.options)?;
+    let value = serde_json::to_value(recording).map_err(|e| e.to_string())?;
+    print_json(&report("record", value), false)?;
+    Ok(Outcome::Clean)
+}
+
+pub(super) fn bench(a: &BenchArguments) -> Result<Outcome, Failure> {
+    let target = target::open(&a.lab, &a.models)?;
+    let time = bench::measure_steps(&target.lab, &target.model, &target.programs, &a.options);
+    let value = serde_json::to_value(time).map_err(|e| e.to_string())?;
+    print_json(&report("bench", value), false)?;
+    Ok(Outcome::Clean)
+}

@@ -1,0 +1,142 @@
+//! The cost of a step. This is also what an instruction counter runs.
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use labspec::bind::Programs;
+use labspec::interrupt;
+use labspec::report::nonfinite;
+use labspec::run::{MAX_STEPS, Session, Start};
+use labspec::spec::Lab;
+use labspec_core::reflect::FieldSet;
+use labspec_core::{AccessSet, Model, Plan, TreeAlgorithm, TreeAlgorithms};
+use serde::Serialize;
+use std::time::Instant;
+
+/// What is measured.
+#[derive(clap::Args, Clone, Debug)]
+pub struct Options {
+    /// Steps of each repetition
+    #[arg(long, value_name = "N", default_value_t = 20_000)]
+    pub steps: usize,
+    /// Steps before the first repetition
+    #[arg(long, value_name = "N", default_value_t = 1_000)]
+    pub warm: usize,
+    /// Repetitions
+    #[arg(long, value_name = "N", default_value_t = 7)]
+    pub repeat: usize,
+    /// Compute every field in every step, read or not. Without it a model alone is planned for its state,
+    /// a lab for what it reads
+    #[arg(long)]
+    pub full: bool,
+    /// Compute trees without this specialized algorithm; may be given several times
+    #[arg(long, value_name = "ALGORITHM", value_parser = specialized_algorithm())]
+    pub without: Vec<TreeAlgorithm>,
+    /// Start every repetition from the reset state, so that all compute the same motion
+    #[arg(long)]
+    pub reset: bool,
+}
+
+/// The time of a step.
+#[derive(Clone, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct StepTime {
+    /// The fastest repetition, ns; `None` when none was finished.
+    pub min_ns: Option<f64>,
+    /// The median of the repetitions, ns.
+    pub median_ns: Option<f64>,
+    /// Steps of each repetition.
+    pub steps: usize,
+    /// Degrees of freedom.
+    pub nv: usize,
+    /// Contacts at the end.
+    pub ncon: usize,
+    /// Rows of constraints at the end.
+    pub nefc: usize,
+    /// Simulated time at the end, s.
+    pub time: f64,
+    /// What the time is, where it is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub nonfinite: Option<NonfiniteTime>,
+}
+
+/// A time for which JSON has no number.
+#[derive(Clone, Debug, Serialize)]
+pub struct NonfiniteTime {
+    /// What it is.
+    pub time: &'static str,
+}
+
+/// A specialized algorithm for trees, by its name.
+fn specialized_algorithm() -> impl TypedValueParser<Value = TreeAlgorithm> {
+    PossibleValuesParser::new(TreeAlgorithm::short().map(TreeAlgorithm::name)).try_map(|name| {
+        let mut algorithms = TreeAlgorithm::short();
+        algorithms.find(|algorithm| algorithm.name() == name).ok_or("this algorithm does not exist")
+    })
+}
+
+/// Measures the steps of a lab, or of a model as a lab that shows nothing. Ctrl-C ends it after the last finished repetition.
+pub fn measure_steps(lab: &Lab, model: &Model, programs: &Programs, options: &Options) -> StepTime {
+    let reads = if options.full { FieldSet::ALL } else { programs.demand.reads };
+    let demand = AccessSet { reads, ..programs.demand };
+    let algorithms = options.without.iter().fold(TreeAlgorithms::ALL, |all, &one| all.without(one));
+    let plan = Plan::by_algorithms(model, &demand, algorithms);
+    let start = Start { plan: Some(plan), ..Start::of_lab(lab) };
+    let mut session = Session::start(programs, model, start);
+    let steps = options.steps.clamp(1, MAX_STEPS);
+    let has_programs = !programs.probes.is_empty() || programs.controller.is_some();
+    // Inlined here, so that a counter of `advance` does not see it.
+    run_steps(&mut session, options.warm.min(MAX_STEPS), has_programs);
+    let start = session.world.data.clone();
+    let mut nanoseconds = Vec::new();
+    for _ in 0..options.repeat.clamp(1, 1000) {
+        if interrupt::requested() {
+            break;
+        }
+        if options.reset {
+            session.world.data.clone_from(&start);
+        }
+        let clock = Instant::now();
+        advance(&mut session, steps, has_programs);
+        // A repetition that was cut short is no measurement.
+        if interrupt::requested() {
+            break;
+        }
+        nanoseconds.push(clock.elapsed().as_nanos() as f64 / steps as f64);
+    }
+    nanoseconds.sort_by(f64::total_cmp);
+    let d = session.world.data.fields();
+    StepTime {
+        min_ns: nanoseconds.first().copied(),
+        median_ns: nanoseconds.get(nanoseconds.len() / 2).copied(),
+        steps,
+        nv: model.nv,
+        ncon: d.ncon,
+        nefc: d.nefc,
+        time: d.time,
+        nonfinite: nonfinite(d.time).map(|time| NonfiniteTime { time }),
+    }
+}
+
+/// The measured steps. Not inlined, so that a profiler can count from here.
+#[inline(never)]
+fn advance(session: &mut Session<'_>, steps: usize, has_programs: bool) {
+    run_steps(session, steps, has_programs);
+}
+
+/// Whole steps: of the engine for a model alone, of the session with its controller for a lab.
+#[inline(always)]
+fn run_steps(session: &mut Session<'_>, steps: usize, has_programs: bool) {
+    // Ctrl-C is asked for now and then, so that asking costs nothing that can be measured.
+    for first in (0..steps).step_by(256) {
+        let some = 256.min(steps - first);
+        if has_programs {
+            (0..some).for_each(|_| session.step());
+        } else {
+            let world = &mut session.world;
+            // Data and model of a session belong together: no step is refused.
+            (0..some).for_each(|_| drop(labspec_core::step(&world.model, &mut world.data)));
+        }
+        if interrupt::requested() {
+            break;
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! The stable region over two controls: a grid of runs.
+
+use labspec::bind::scalar;
+use labspec::interrupt;
+use labspec::run::{RunError, settings};
+use labspec::spec::ControlKind;
+use labspec::stress::{Action, FaultKind, Kind, StressCase};
+use labspec_expr::Value;
+
+/// Values of a slider, and of a select at most.
+const VALUES: usize = 21;
+const MOST: usize = 60;
+/// Work for all runs of a map.
+const WORK: u64 = 40_000_000_000;
+
+/// What became of the run at a cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MapCell {
+    /// Nothing goes wrong.
+    Fine,
+    /// The worst that goes wrong.
+    Broken(FaultKind),
+    /// It was not run, or not to its end.
+    Unknown,
+}
+
+/// The stable region over two controls.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StabilityMap {
+    /// Their labels: to the right, and upwards.
+    pub labels: [String; 2],
+    /// Their values.
+    pub values: [Vec<Value>; 2],
+    /// A row for each value of the second, a cell for each of the first.
+    pub cells: Vec<Vec<MapCell>>,
+}
+
+/// Runs the lab at every cell. Work is added to `work`.
+///
+/// # Errors
+/// There is no such control, or it has no values to choose from.
+pub(super) fn map(
+    case: &StressCase<'_>,
+    labels: &[String; 2],
+    length: f64,
+    tell: &mut dyn FnMut(&str),
+    work: &mut u64,
+) -> Result<StabilityMap, RunError> {
+    let [(x, across), (y, up)] = [values(case, &labels[0])?, values(case, &labels[1])?];
+    let many = across.len() * up.len();
+    let (mut left, mut made) = (WORK, 0);
+    let mut cells = Vec::new();
+    for b in &up {
+        let mut row = Vec::new();
+        for a in &across {
+            tell(&format!("map: run {} of {many}", made + 1));
+            let set =
+                |control: usize, value: &Value| Action { time: 0.0, control, value: Some(value.clone()) };
+            let interaction = case.base.and(Kind::Corner, vec![set(x, a), set(y, b)]);
+            if interrupt::requested() {
+                row.push(MapCell::Unknown);
+                continue;
+            }
+            let outcome = case.run(&interaction, None, length, left / (many - made).max(1) as u64);
+            made += 1;
+            left = left.saturating_sub(outcome.spent);
+            *work += outcome.spent;
+            let worst = outcome.faults.iter().map(|f| f.kind).min();
+            row.push(match worst {
+                Some(kind) => MapCell::Broken(kind),
+                None if outcome.cut => MapCell::Unknown,
+                None => MapCell::Fine,
+            });
+        }
+        cells.push(row);
+    }
+    Ok(StabilityMap { labels: labels.clone(), values: [across, up], cells })
+}
+
+/// A control and the values that a map takes: of a slider evenly over its grid.
+fn values(case: &StressCase<'_>, label: &str) -> Result<(usize, Vec<Value>), RunError> {
+    let found = case.lab.controls.iter().position(|c| c.label.value == label);
+    let Some((i, control)) = found.and_then(|i| Some((i, case.lab.controls.get(i)?))) else {
+        return Err(settings::unknown_control(label, case.programs));
+    };
+    let list = match &control.kind {
+        ControlKind::Slider { min, max, .. } => {
+            let (min, max) = (min.value, max.value);
+            let step = control.step().filter(|s| *s > 0.0).unwrap_or((max - min) / 100.0);
+            let most = ((max - min) / step + 1e-9).floor();
+            if !(most.is_finite() && most >= 0.0) {
+                return Err(RunError(format!("\"{label}\" has no values to choose from")));
+            }
+            let places = (0..VALUES).map(|k| (most * k as f64 / (VALUES - 1) as f64).round());
+            let mut list: Vec<f64> =
+                places.map(|k| format!("{:.11e}", min + k * step).parse().unwrap_or(max)).collect();
+            list.dedup();
+            list.into_iter().map(Value::Number).collect()
+        }
+        ControlKind::Select { options, .. } => options.iter().take(MOST).map(|o| scalar(&o.value)).collect(),
+        ControlKind::Button { .. } => {
+            return Err(RunError(format!("\"{label}\" is a button: a map needs sliders and selects")));
+        }
+    };
+    Ok((i, list))
+}

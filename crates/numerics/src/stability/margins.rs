@@ -1,0 +1,413 @@
+//! How far a lab is from breaking: the largest timestep, gains, stiffnesses and mass ratios with which it still runs as it stands.
+//!
+//! Each is found by running: raised until it breaks, then by bisection. The model is changed before the lab is loaded, so keyframe,
+//! `setup` and controls act on it as they do on a page, and the runs are those of a check: as the lab stands, and with a touch that
+//! nobody sees. Where a program of the lab sets the number itself, it is changed after that. Beside it stands the bound that
+//! `monitors::stability` derives for one degree of freedom, where there is one.
+
+use super::search::{self, SearchLimit};
+use labspec::interrupt;
+use labspec::monitors::stability;
+use labspec::run::Session;
+use labspec::stress::{
+    FaultKind, Interaction, Kind, RunOutcome, StressCase, body_name, body_of, worst_fault,
+};
+use labspec_core::math::{rows, rows_mut};
+use labspec_core::{Data, Model, Obj, disable, servo_gains, set_const};
+
+/// What is made larger.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Knob {
+    /// The timestep, s.
+    Timestep,
+    /// The gain of a servo.
+    Gain,
+    /// The stiffness of a joint or a tendon, or of all contacts together.
+    Stiffness,
+    /// The mass of a body beside that of another one that it touches.
+    MassRatio,
+}
+
+impl Knob {
+    /// In words.
+    pub fn description(self) -> &'static str {
+        match self {
+            Knob::Timestep => "timestep",
+            Knob::Gain => "gain",
+            Knob::Stiffness => "stiffness",
+            Knob::MassRatio => "mass ratio",
+        }
+    }
+}
+
+/// How far something may be raised.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Margin {
+    /// What is raised.
+    pub knob: Knob,
+    /// Of what.
+    pub who: String,
+    /// Its unit; empty where it differs from joint to joint, or for a ratio.
+    pub unit: &'static str,
+    /// The value that the lab has.
+    pub now: f64,
+    /// The largest value that was fine; `None` where even the smallest one tried breaks.
+    pub largest: Option<f64>,
+    /// The smallest value above it that breaks; `None` where nothing did.
+    pub breaks: Option<f64>,
+    /// What goes wrong there, and with whom.
+    pub how: Option<(FaultKind, String)>,
+    /// The bound that theory gives for one degree of freedom.
+    pub bound: Option<f64>,
+    /// How many runs it took.
+    pub runs: usize,
+    /// The geoms whose contacts are meant, of the stiffness of all contacts.
+    pub geoms: Vec<usize>,
+}
+
+/// Work for one margin, and for one run of it.
+const WORK: u64 = 4_000_000_000;
+const RUN: u64 = 1_000_000_000;
+/// No lab has longer steps, s, nor fewer in a run.
+const LONGEST: f64 = 1.0;
+const STEPS: f64 = 10.0;
+/// Factors between what is tried: a lab may be sound again with steps beyond those with which it breaks first.
+const STEPWISE: f64 = 1.2;
+const DOUBLING: f64 = 2.0;
+/// Servos, springs and pairs of bodies that are looked at, at most of each.
+const MOST: usize = 12;
+
+/// Multiplies something of a model.
+type Apply = dyn Fn(&mut Model, f64);
+/// What it is there.
+type Read = dyn Fn(&Model) -> f64;
+
+/// Something that is multiplied.
+struct RaisedParameter {
+    knob: Knob,
+    who: String,
+    unit: &'static str,
+    now: f64,
+    most: f64,
+    /// Whose bounds count; all for the timestep.
+    object: Option<(Obj, Option<usize>)>,
+    apply: Box<Apply>,
+    read: Box<Read>,
+    geoms: Vec<usize>,
+}
+
+/// All margins of a lab as it stands, for runs of so many seconds; and what was left out. Work is added to `work`.
+pub(super) fn margins(
+    case: &StressCase<'_>,
+    length: f64,
+    tell: &mut dyn FnMut(&str),
+    work: &mut u64,
+) -> (Vec<Margin>, Vec<String>) {
+    let model = case.start(&case.base, RUN).world.model;
+    let mut left_out = Vec::new();
+    let mut list = vec![timestep(&model, length)];
+    let mut some = |mut all: Vec<RaisedParameter>, what: &str| {
+        if all.len() > MOST {
+            left_out.push(format!("margins of {} more {what}", all.len() - MOST));
+            all.truncate(MOST);
+        }
+        all
+    };
+    list.extend(some(gains(&model), "servos"));
+    list.extend(some(stiffnesses(&model), "springs"));
+    let base = case.run(&case.base, None, length, RUN);
+    *work += base.spent;
+    list.extend(contacts(&model, &base.touching));
+    list.extend(some(ratios(&model, &base.touching), "pairs of bodies"));
+    let mut found = Vec::new();
+    for raised in list {
+        tell(&format!("margin: {} of {}", raised.knob.description(), raised.who));
+        match search(case, &raised, length, work) {
+            Ok(margin) => found.push(margin),
+            Err(why) => left_out.push(format!(
+                "the margin of the {} of {}, {why}",
+                raised.knob.description(),
+                raised.who
+            )),
+        }
+    }
+    (found, left_out)
+}
+
+/// # Errors
+/// Why nothing is known.
+fn search(
+    case: &StressCase<'_>,
+    raised: &RaisedParameter,
+    length: f64,
+    work: &mut u64,
+) -> Result<Margin, &'static str> {
+    let before = *work;
+    let (mut runs, mut how, mut set) = (0, None, false);
+    let factor = if raised.knob == Knob::Timestep { STEPWISE } else { DOUBLING };
+    let limit = search::largest(raised.most, factor, |x| {
+        if *work - before > WORK || interrupt::requested() {
+            return None;
+        }
+        for interaction in [case.base.clone(), case.base.and(Kind::Touched, Vec::new())] {
+            runs += 1;
+            let Some(outcome) = run(case, &interaction, raised, x, length, work) else {
+                set = true;
+                return None;
+            };
+            if let Some(fault) = worst_fault(&outcome.faults, &[]) {
+                how = Some((fault.kind, fault.who.clone()));
+                return Some(false);
+            }
+            if outcome.cut {
+                return None;
+            }
+        }
+        Some(true)
+    });
+    let limit = limit.ok_or(if set {
+        "which a program of the lab sets itself"
+    } else {
+        "which needs more work than allowed"
+    })?;
+    let start = case.start(&case.base, RUN).world.model;
+    let bound = search::largest(raised.most, factor, |x| {
+        let mut model = start.clone();
+        (raised.apply)(&mut model, x);
+        Some(!stiff(&model, raised.object))
+    });
+    let bound = bound.filter(|b| b.broken.is_some()).and_then(|SearchLimit { fine, .. }| fine);
+    Ok(Margin {
+        knob: raised.knob,
+        who: raised.who.clone(),
+        unit: raised.unit,
+        now: raised.now,
+        largest: limit.fine.map(|x| x * raised.now),
+        breaks: limit.broken.map(|x| x * raised.now),
+        how: how.filter(|_| limit.broken.is_some()),
+        bound: bound.map(|x| x * raised.now).filter(|_| raised.knob != Knob::MassRatio),
+        runs,
+        geoms: raised.geoms.clone(),
+    })
+}
+
+/// Whether theory says that something is too stiff.
+fn stiff(m: &Model, object: Option<(Obj, Option<usize>)>) -> bool {
+    stability::suspects(m)
+        .iter()
+        .any(|s| object.is_none_or(|(kind, id)| kind == s.object && id.is_none_or(|id| id == s.id)))
+}
+
+/// A run with something raised; `None` where a program of the lab sets it and it cannot be set after that.
+fn run(
+    case: &StressCase<'_>,
+    interaction: &Interaction,
+    raised: &RaisedParameter,
+    x: f64,
+    length: f64,
+    work: &mut u64,
+) -> Option<RunOutcome> {
+    let wanted = x * raised.now;
+    let same = |m: &Model| ((raised.read)(m) - wanted).abs() <= 1e-9 * wanted.abs();
+    let mut model = case.model.clone();
+    // By what the lab itself makes of it when it is loaded.
+    let now = (raised.read)(&model);
+    (raised.apply)(&mut model, if now > 0.0 { wanted / now } else { x });
+    if raised.knob == Knob::MassRatio {
+        // What follows from masses; without an inertia above zero it stays as it was.
+        let mut data = Data::new(&model);
+        let _ = set_const(&mut model, &mut data);
+    }
+    let case = case.with_model(&model);
+    let free = raised.knob != Knob::MassRatio;
+    let change = |session: &mut Session<'_>| {
+        let set = (raised.read)(&session.world.model);
+        if free && !same(&session.world.model) && set > 0.0 {
+            (raised.apply)(&mut session.world.model, wanted / set);
+        }
+    };
+    let (outcome, model) = case.run_to_model(interaction, Some(&change), length, RUN);
+    *work += outcome.spent;
+    same(&model).then_some(outcome)
+}
+
+fn timestep(m: &Model, length: f64) -> RaisedParameter {
+    let now = m.opt.timestep;
+    RaisedParameter {
+        knob: Knob::Timestep,
+        who: "the lab".into(),
+        unit: "s",
+        now,
+        most: (LONGEST.min(length / STEPS) / now).max(1.0),
+        object: None,
+        apply: Box::new(|m, x| *m.edit().opt.timestep *= x),
+        read: Box::new(|m| m.opt.timestep),
+        geoms: Vec::new(),
+    }
+}
+
+/// Numbers of a gain or a bias for each actuator.
+const WIDTH: usize = 10;
+
+fn gains(m: &Model) -> Vec<RaisedParameter> {
+    let mut list = Vec::new();
+    for a in 0..m.nactuator {
+        let Some([kp, kv]) = servo_gains(m, a) else { continue };
+        let (gain, bias) = if kp > 0.0 { (kp, 1) } else { (kv, 2) };
+        let apply = move |m: &mut Model, x: f64| {
+            let edit = m.edit();
+            for (list, at) in [(edit.actuator_gainprm, WIDTH * a), (edit.actuator_biasprm, WIDTH * a + bias)]
+            {
+                if let Some(value) = list.get_mut(at) {
+                    *value *= x;
+                }
+            }
+        };
+        let mut twice = m.clone();
+        apply(&mut twice, 2.0);
+        let scaled = servo_gains(&twice, a).map(|g| g[bias - 1]);
+        if gain > 0.0 && scaled == Some(2.0 * gain) {
+            list.push(RaisedParameter {
+                knob: Knob::Gain,
+                who: named(&m.names.actuator, a, "the servo"),
+                unit: "",
+                now: gain,
+                most: f64::INFINITY,
+                object: Some((Obj::Actuator, Some(a))),
+                apply: Box::new(apply),
+                read: Box::new(move |m| servo_gains(m, a).map_or(0.0, |g| g[bias - 1])),
+                geoms: Vec::new(),
+            });
+        }
+    }
+    list
+}
+
+fn stiffnesses(m: &Model) -> Vec<RaisedParameter> {
+    let mut list = Vec::new();
+    if !m.opt.disabled(disable::SPRING) {
+        for j in (0..m.njnt).filter(|&j| m.jnt_stiffness.get(j).is_some_and(|&k| k > 0.0)) {
+            list.push(RaisedParameter {
+                knob: Knob::Stiffness,
+                who: named(&m.names.joint, j, "joint"),
+                unit: "",
+                now: m.jnt_stiffness[j],
+                most: f64::INFINITY,
+                object: Some((Obj::Joint, Some(j))),
+                apply: Box::new(move |m, x| {
+                    m.edit().jnt_stiffness.iter_mut().skip(j).take(1).for_each(|k| *k *= x)
+                }),
+                read: Box::new(move |m| m.jnt_stiffness.get(j).copied().unwrap_or(0.0)),
+                geoms: Vec::new(),
+            });
+        }
+        for t in (0..m.ntendon).filter(|&t| m.tendon_stiffness.get(t).is_some_and(|&k| k > 0.0)) {
+            list.push(RaisedParameter {
+                knob: Knob::Stiffness,
+                who: named(&m.names.tendon, t, "tendon"),
+                unit: "N/m",
+                now: m.tendon_stiffness[t],
+                most: f64::INFINITY,
+                object: Some((Obj::Tendon, Some(t))),
+                apply: Box::new(move |m, x| {
+                    m.edit().tendon_stiffness.iter_mut().skip(t).take(1).for_each(|k| *k *= x)
+                }),
+                read: Box::new(move |m| m.tendon_stiffness.get(t).copied().unwrap_or(0.0)),
+                geoms: Vec::new(),
+            });
+        }
+    }
+    list
+}
+
+/// The stiffness of all contacts together: one over the square of the shortest time constant. The engine keeps that above two steps;
+/// here it does not, so that the limit shows.
+fn contacts(m: &Model, touching: &[[usize; 2]]) -> Option<RaisedParameter> {
+    let mut geoms: Vec<usize> = touching.iter().flatten().copied().collect();
+    geoms.sort_unstable();
+    geoms.dedup();
+    let touching_geoms = geoms.clone();
+    let read = move |m: &Model| {
+        let times = touching_geoms.iter().filter_map(|&g| rows::<2>(&m.geom_solref).get(g)).map(|s| s[0]);
+        let shortest = times.filter(|t| *t > 0.0).fold(f64::INFINITY, f64::min);
+        1.0 / (shortest * shortest)
+    };
+    let apply = |m: &mut Model, x: f64| {
+        let edit = m.edit();
+        *edit.opt.disableflags |= disable::REFSAFE;
+        for list in [edit.geom_solref, edit.pair_solref] {
+            for s in rows_mut::<2>(list) {
+                *s = if s[0] > 0.0 { [s[0] / x.sqrt(), s[1]] } else { [s[0] * x, s[1] * x.sqrt()] };
+            }
+        }
+    };
+    let now = read(m);
+    (now > 0.0).then(|| RaisedParameter {
+        knob: Knob::Stiffness,
+        who: "all contacts".into(),
+        unit: "1/s²",
+        now,
+        most: f64::INFINITY,
+        object: Some((Obj::Geom, None)),
+        apply: Box::new(apply),
+        read: Box::new(read),
+        geoms,
+    })
+}
+
+/// The ratio of masses of bodies that touch, hang on each other or are tied together, with one of them heavier and lighter.
+fn ratios(m: &Model, touching: &[[usize; 2]]) -> Vec<RaisedParameter> {
+    let mut list: Vec<RaisedParameter> = Vec::new();
+    let mut pairs: Vec<[usize; 2]> = touching.iter().map(|gs| gs.map(|g| body_of(m, g))).collect();
+    let joined = |b: &usize| m.body_jntnum.get(*b).is_some_and(|&n| n > 0);
+    let parent = |b: usize| m.body_parentid.get(b).map_or(0, |&p| p as usize);
+    pairs.extend((1..m.nbody).filter(joined).map(|b| [parent(b), b]));
+    pairs.extend(tied(m));
+    pairs.iter_mut().for_each(|p| p.sort_unstable());
+    pairs.sort_unstable();
+    pairs.dedup();
+    let mass = |b: usize| m.body_mass.get(b).copied().unwrap_or(0.0);
+    let moves = |b: &usize| m.body_treeid.get(*b).is_some_and(|&t| t >= 0) && mass(*b) > 0.0;
+    for [a, b] in pairs.into_iter().filter(|p| p.iter().all(moves)) {
+        for [heavy, light] in [[a, b], [b, a]] {
+            list.push(RaisedParameter {
+                knob: Knob::MassRatio,
+                who: format!("{} to {}", body_name(m, heavy), body_name(m, light)),
+                unit: "",
+                now: mass(heavy) / mass(light),
+                most: f64::INFINITY,
+                object: None,
+                apply: Box::new(move |m, x| heavier(m, heavy, x)),
+                read: Box::new(move |m| {
+                    let mass = |b: usize| m.body_mass.get(b).copied().unwrap_or(0.0);
+                    mass(heavy) / mass(light)
+                }),
+                geoms: Vec::new(),
+            });
+        }
+    }
+    list
+}
+
+/// Bodies that an equality ties together.
+fn tied(m: &Model) -> Vec<[usize; 2]> {
+    let bodies = |e: &usize| {
+        m.eq_objtype.get(*e) == Some(&(Obj::Body as i32)) && m.eq_active0.get(*e).copied().unwrap_or(false)
+    };
+    let end = |list: &[i32], e: usize| list.get(e).and_then(|&b| usize::try_from(b).ok());
+    let both = |e: usize| Some([end(&m.eq_obj1id, e)?, end(&m.eq_obj2id, e)?]);
+    (0..m.neq).filter(bodies).filter_map(both).collect()
+}
+
+fn heavier(m: &mut Model, body: usize, x: f64) {
+    let edit = m.edit();
+    edit.body_mass.iter_mut().skip(body).take(1).for_each(|mass| *mass *= x);
+    edit.body_inertia.iter_mut().skip(3 * body).take(3).for_each(|inertia| *inertia *= x);
+}
+
+fn named(names: &[String], i: usize, what: &str) -> String {
+    match names.get(i) {
+        Some(name) if !name.is_empty() => format!("{what} \"{name}\""),
+        _ => format!("{what} {i}"),
+    }
+}

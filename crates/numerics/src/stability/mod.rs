@@ -1,0 +1,22 @@
+//! How far a lab is from its faults: all runs that a student can make, remedies that were tried, and how far everything may be
+//! raised. What a student can do, and the faults of one run, are in [`labspec::stress`].
+//!
+//! From low to high; each module uses only those before it:
+//!
+//! * `truth`, `remedy`: remedies and their errors
+//! * `search`, `margins`, `sensitivity`, `map`: how far a lab is from its faults
+//! * `probe`: all runs of a lab, and the report
+
+mod map;
+mod margins;
+mod probe;
+mod remedy;
+mod search;
+mod sensitivity;
+mod truth;
+
+pub use map::{MapCell, StabilityMap};
+pub use margins::{Knob, Margin};
+pub use probe::{Options, RunCount, StabilityFinding, StressReport, StressRun, probe};
+pub use remedy::Remedy;
+pub use sensitivity::{Exponent, Horizon, Parting, Sensitivity};

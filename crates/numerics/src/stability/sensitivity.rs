@@ -1,0 +1,246 @@
+//! How much a lab depends on its start: how many times as large a small difference becomes until the end of the window, whether it
+//! grows exponentially, and until when the digits that are shown would be the same for a start that nobody could tell apart.
+//!
+//! A second run beside the first is brought back to its distance again and again, and the logarithms by which they part are added up
+//! from the start on (G. Benettin and others 1980, "Lyapunov characteristic exponents …", Meccanica 15): so the difference stays
+//! small, and what is measured is what a difference without size does. Several directions give the spread. There is an exponent
+//! where the sum grows along a line: in both halves of the time alike, and in every direction.
+
+use labspec::bind::Bound;
+use labspec::run::{self, Play, Session, StepVariant};
+use labspec::spec::Readout;
+use labspec::stress::StressCase;
+use labspec_core::{differentiate_pos, integrate_pos};
+use std::ops::ControlFlow;
+
+/// How far the second run is from the first, in the units of the coordinates; how often it is brought back; directions.
+const APART: f64 = 1e-7;
+const TIMES: usize = 100;
+const DIRECTIONS: u64 = 3;
+/// What grows exponentially becomes so many times as large at least, its logarithm is a line to this part of its variance, and grows by
+/// this part of the whole in each half of the time.
+const GROWS: f64 = 100.0;
+const STRAIGHT: f64 = 0.9;
+const HALF: f64 = 0.3;
+/// The start that nobody could tell apart.
+const PERTURBATION: f64 = 1e-9;
+/// Samples of what is shown, at most.
+const SAMPLES: usize = 4000;
+/// Work for all of it.
+const WORK: u64 = 3_000_000_000;
+
+/// The largest Lyapunov exponent.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Exponent {
+    /// The mean of the directions, 1/s.
+    pub mean: f64,
+    /// The smallest of them.
+    pub low: f64,
+    /// The largest.
+    pub high: f64,
+    /// How many there are.
+    pub directions: usize,
+}
+
+/// How many times as large a small difference at the start becomes, along the directions that were tried.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parting {
+    /// Along the one that grows least.
+    pub low: f64,
+    /// Along the one that grows most.
+    pub high: f64,
+}
+
+/// Until when a readout shows the same.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Horizon {
+    /// Its label.
+    pub label: String,
+    /// When its digits are lost, s; `None` where they are not.
+    pub until: Option<f64>,
+}
+
+/// How much a lab depends on its start.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sensitivity {
+    /// Over how long, s.
+    pub length: f64,
+    /// How far the other start is off.
+    pub apart: f64,
+    /// What becomes of a small difference; `None` where the lab has no degrees of freedom or does not come to its end.
+    pub parting: Option<Parting>,
+    /// The exponent; `None` where the difference does not grow exponentially.
+    pub exponent: Option<Exponent>,
+    /// The readouts.
+    pub horizons: Vec<Horizon>,
+}
+
+/// The sensitivity of a lab as it stands. Work is added to `work`.
+pub(super) fn sensitivity(case: &StressCase<'_>, length: f64, work: &mut u64) -> Sensitivity {
+    let all: Vec<Vec<(f64, f64)>> =
+        (1..=DIRECTIONS).filter_map(|k| logarithms(case, length, k, work)).collect();
+    let whole = all.len() as u64 == DIRECTIONS;
+    let least = |list: &[f64]| list.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = |list: &[f64]| list.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let ends: Vec<f64> = all.iter().filter_map(|list| list.last()).map(|(_, sum)| *sum).collect();
+    let parting =
+        (whole && !ends.is_empty()).then(|| Parting { low: least(&ends).exp(), high: most(&ends).exp() });
+    let slopes: Option<Vec<f64>> = all.iter().map(|list| slope(list)).collect();
+    let exponent = slopes.filter(|_| whole).map(|list| Exponent {
+        mean: list.iter().sum::<f64>() / list.len() as f64,
+        low: least(&list),
+        high: most(&list),
+        directions: list.len(),
+    });
+    Sensitivity { length, apart: PERTURBATION, parting, exponent, horizons: horizons(case, length, work) }
+}
+
+/// The slope of a logarithm that grows along a line from the start, 1/s.
+fn slope(list: &[(f64, f64)]) -> Option<f64> {
+    let (end, whole) = *list.last()?;
+    let half = list.iter().find(|(t, _)| *t >= 0.5 * end).map(|(_, sum)| *sum)?;
+    let least = HALF * whole;
+    if whole < GROWS.ln() || half < least || whole - half < least {
+        return None;
+    }
+    let n = list.len() as f64;
+    let mean = |of: &dyn Fn(&(f64, f64)) -> f64| list.iter().map(of).sum::<f64>() / n;
+    let (t, y) = (mean(&|p| p.0), mean(&|p| p.1));
+    let product = |of: &dyn Fn(&(f64, f64)) -> f64| list.iter().map(of).sum::<f64>();
+    let tt = product(&|p| (p.0 - t) * (p.0 - t));
+    let ty = product(&|p| (p.0 - t) * (p.1 - y));
+    let yy = product(&|p| (p.1 - y) * (p.1 - y));
+    (ty > 0.0 && ty * ty >= STRAIGHT * tt * yy).then(|| ty / tt)
+}
+
+/// Times, s, and the logarithm of how many times as large a difference along one direction is by then.
+fn logarithms(case: &StressCase<'_>, length: f64, seed: u64, work: &mut u64) -> Option<Vec<(f64, f64)>> {
+    let mut first = case.start(&case.base, WORK / 8);
+    let nv = first.world.model.nv;
+    let h = first.world.model.opt.timestep;
+    let steps = case.steps(h, length);
+    let each = (steps / TIMES).max(1);
+    if nv == 0 || steps == 0 {
+        return None;
+    }
+    let mut second = first.clone();
+    move_apart(&first, &mut second, &direction(seed, 2 * nv), APART)?;
+    let (mut sum, mut made, mut list) = (0.0, 0, Vec::new());
+    while made < steps {
+        let some = each.min(steps - made);
+        let done =
+            [&mut first, &mut second].map(|s| run::play(s, &chunk(some), |_, _| ControlFlow::Continue(())));
+        made += some;
+        let apart = difference(&first, &second)?;
+        let size = apart.iter().map(|x| x * x).sum::<f64>().sqrt();
+        if done != [some; 2] || !(size.is_finite() && size > 0.0) || warned(&first) || warned(&second) {
+            *work += first.spent() + second.spent();
+            return None;
+        }
+        sum += (size / APART).ln();
+        list.push((made as f64 * h, sum));
+        let along: Vec<f64> = apart.iter().map(|x| x / size).collect();
+        move_apart(&first, &mut second, &along, APART)?;
+    }
+    *work += first.spent() + second.spent();
+    Some(list)
+}
+
+fn chunk(steps: usize) -> Play<'static> {
+    Play { every: steps, ..Play::steps(steps) }
+}
+
+fn warned(session: &Session<'_>) -> bool {
+    session.warnings.iter().any(|w| w.number > 0)
+}
+
+/// A direction of length 1, the same for the same seed.
+fn direction(seed: u64, n: usize) -> Vec<f64> {
+    let mut bits = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
+    let mut next = || {
+        // xorshift64
+        bits ^= bits << 13;
+        bits ^= bits >> 7;
+        bits ^= bits << 17;
+        (bits >> 11) as f64 / (1u64 << 53) as f64 - 0.5
+    };
+    let list: Vec<f64> = (0..n).map(|_| next()).collect();
+    let size = list.iter().map(|x| x * x).sum::<f64>().sqrt();
+    list.into_iter().map(|x| x / size).collect()
+}
+
+/// From the state of the first to that of the second: of places, then of speeds.
+fn difference(first: &Session<'_>, second: &Session<'_>) -> Option<Vec<f64>> {
+    let m = &first.world.model;
+    let [a, b] = [first, second].map(|s| s.world.data.fields());
+    let mut list = differentiate_pos(m, 1.0, &a.qpos, &b.qpos).ok()?;
+    list.extend(b.qvel.iter().zip(&a.qvel).map(|(b, a)| b - a));
+    Some(list)
+}
+
+/// Puts the second at some distance from the first.
+fn move_apart(first: &Session<'_>, second: &mut Session<'_>, along: &[f64], apart: f64) -> Option<()> {
+    let from = first.world.data.fields();
+    let nv = first.world.model.nv;
+    let (places, speeds) = along.split_at_checked(nv)?;
+    let mut qpos = from.qpos.to_vec();
+    integrate_pos(&first.world.model, &mut qpos, places, apart).ok()?;
+    let to = second.world.data.edit();
+    to.qpos.copy_from_slice(&qpos);
+    to.act.copy_from_slice(&from.act);
+    to.qacc_warmstart.copy_from_slice(&from.qacc_warmstart);
+    for ((to, from), along) in to.qvel.iter_mut().zip(&from.qvel).zip(speeds) {
+        *to = from + apart * along;
+    }
+    Some(())
+}
+
+/// When each readout of a run that begins a little off shows something else.
+fn horizons(case: &StressCase<'_>, length: f64, work: &mut u64) -> Vec<Horizon> {
+    let skipped: usize = case.lab.plots.iter().map(|p| p.traces.len()).sum();
+    let readouts: Vec<_> = case
+        .lab
+        .readouts
+        .iter()
+        .zip(case.programs.probes.iter().skip(skipped))
+        .filter_map(|(readout, probe)| Some((readout, probe.bound.as_ref()?)))
+        .collect();
+    if readouts.is_empty() {
+        return Vec::new();
+    }
+    let mut sample_readouts = |perturbation: f64| {
+        let mut session = case.start(&case.base, WORK / 4);
+        if perturbation != 0.0 {
+            session.perturb(StepVariant { perturbation, ..StepVariant::NOMINAL }, true);
+        }
+        let h = session.world.model.opt.timestep;
+        let steps = case.steps(h, length);
+        let every = steps.div_ceil(SAMPLES).max(1);
+        let mut rows: Vec<Vec<f64>> = Vec::new();
+        run::play(&mut session, &Play { every, ..Play::steps(steps) }, |session, _| {
+            let mut value =
+                |text, program| session.evaluate(program, text).map_or(f64::NAN, |v| v.to_number());
+            rows.push(readouts.iter().map(|(_, b)| value(&b.text, &b.program)).collect());
+            ControlFlow::Continue(())
+        });
+        *work += session.spent();
+        (rows, every as f64 * h)
+    };
+    let (first, between) = sample_readouts(0.0);
+    let (second, _) = sample_readouts(PERTURBATION);
+    let horizon = |(k, (readout, _)): (usize, &(&Readout, &Bound))| {
+        let lost = |(a, b): (&Vec<f64>, &Vec<f64>)| (a[k] - b[k]).abs() > 0.5 * unit(a[k], readout.digits());
+        let at = first.iter().zip(&second).position(lost);
+        Horizon { label: readout.label.value.clone(), until: at.map(|i| i as f64 * between) }
+    };
+    readouts.iter().enumerate().map(horizon).collect()
+}
+
+/// One unit of the last digit that is shown.
+fn unit(x: f64, digits: u32) -> f64 {
+    let size = x.abs();
+    if size > 0.0 && !(1e-3..1e5).contains(&size) {
+        return 10f64.powf(size.log10().floor() - 2.0);
+    }
+    0.1f64.powi(digits as i32)
+}
