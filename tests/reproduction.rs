@@ -203,19 +203,24 @@ fn a_file_that_is_no_record_is_refused() {
             done.stderr
         );
     }
-    // Any JSON below the head: what is not there has changed, and nothing panics.
+    // Below the head every key has its type, or the file is refused: nothing panics.
+    let good = record(folder.path(), &[]);
     for lessons in [
-        json!([]),
         json!([1, null, {"file": 7}]),
         json!([{"file": "../lessons/fall.md", "labs": 3, "claims": [{"name": "x", "runs": {}}], "verdicts": [null]}]),
+        json!([{"file": "\u{1b}[2J".repeat(200), "labs": "\u{1b}[2J".repeat(200)}]),
     ] {
-        let value = json!({"schemaVersion": 1, "report": "reproduction", "lessons": lessons});
-        std::fs::write(folder.path().join("records/odd.json"), value.to_string()).unwrap();
-        assert_eq!(
-            run_in(folder.path(), &["check", "lessons", "--since", "records/odd.json", "--format", "json"])
-                .code,
-            0
+        let mut odd = good.clone();
+        odd["lessons"] = lessons;
+        std::fs::write(folder.path().join("records/odd.json"), odd.to_string()).unwrap();
+        let done = run_in(folder.path(), &["check", "lessons", "--since", "records/odd.json"]);
+        assert_eq!(done.code, 2);
+        assert!(
+            done.stderr.contains("odd.json is not a record of a check: invalid type: "),
+            "{}",
+            done.stderr
         );
+        assert!(done.stderr.len() < 500 && !done.stderr.contains('\u{1b}'), "{}", done.stderr);
     }
     let before = lesson();
     let done = run_in(folder.path(), &["check", "lessons", "--record", "lessons/fall.md"]);

@@ -5,26 +5,61 @@
 //! another value, is new. Of several alike so many are known as there were.
 
 use super::common::Failure;
-use super::output::write_file;
 use super::output_kind::OutputKind;
+use super::report_json::{StoredReport, read_report, write_report};
 use labspec::finding::Finding;
-use labspec::report::{self, printable_path};
-use labspec::source::{SourceFile, read_text};
-use serde_json::{Value, json};
+use labspec::source::SourceFile;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Its bytes, at most.
-const MOST: u64 = 64 << 20;
+const STORED: StoredReport = StoredReport {
+    name: "baseline",
+    what: "a baseline",
+    next_step: "name another file, or use --update-baseline to write one",
+    output: OutputKind::Baseline,
+};
 
 /// What a finding is known by.
-type Mark = [String; 6];
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+struct Mark {
+    file: String,
+    code: String,
+    message: String,
+    line: String,
+}
+
+/// The claim that a finding is about: whose it is, what was claimed, and what came out.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+struct ClaimMark {
+    claim: String,
+    result: String,
+}
+
+#[derive(Serialize, Deserialize)]
+struct BaselineEntry {
+    #[serde(flatten)]
+    mark: Mark,
+    #[serde(default = "once")]
+    count: usize,
+    #[serde(flatten)]
+    claim: Option<ClaimMark>,
+}
+
+fn once() -> usize {
+    1
+}
+
+#[derive(Serialize, Deserialize)]
+struct BaselineFile {
+    findings: Vec<BaselineEntry>,
+}
 
 /// How often each is known.
 #[derive(Debug, Default)]
 pub(super) struct Baseline {
     folder: PathBuf,
-    baselined: BTreeMap<Mark, usize>,
+    baselined: BTreeMap<(Mark, Option<ClaimMark>), usize>,
 }
 
 impl Baseline {
@@ -38,35 +73,17 @@ impl Baseline {
     /// # Errors
     /// It cannot be read, or is no baseline.
     pub(super) fn read(path: &Path) -> Result<Baseline, Failure> {
-        let no = |why: &str| {
-            format!(
-                "{} is not a baseline: {why}; name another file, or use --update-baseline to write one",
-                printable_path(path)
-            )
-        };
-        let text = read_text(path, MOST, "a baseline")?;
-        let value: Value = serde_json::from_str(&text).map_err(|e| no(&e.to_string()))?;
-        if value["report"] != "baseline" || value["schemaVersion"] != report::SCHEMA_VERSION {
-            return Err(no("its version is missing or unsupported"));
-        }
         let mut all = Baseline::new(path);
-        for entry in value["findings"].as_array().ok_or_else(|| no("it has no findings"))? {
-            let text = |key: &str| entry[key].as_str().map(String::from);
-            let mark = [text("file"), text("code"), text("message"), text("line")];
-            let [Some(file), Some(code), Some(message), Some(line)] = mark else {
-                return Err(no("one of its findings is incomplete"));
-            };
-            let count = entry["count"].as_u64().unwrap_or(1) as usize;
-            // Findings about something else carry no claim.
-            let [claim, result] = [text("claim"), text("result")].map(Option::unwrap_or_default);
-            *all.baselined.entry([file, code, message, line, claim, result]).or_default() += count;
+        for BaselineEntry { mark, count, claim } in read_report::<BaselineFile>(path, &STORED)?.findings {
+            let baselined = all.baselined.entry((mark, claim)).or_default();
+            *baselined = baselined.saturating_add(count);
         }
         Ok(all)
     }
 
     /// Takes out what is known.
     pub(super) fn apply(&self, findings: &mut Vec<Finding>, files: &[&SourceFile]) -> Vec<Finding> {
-        let mut met: BTreeMap<Mark, usize> = BTreeMap::new();
+        let mut met: BTreeMap<_, usize> = BTreeMap::new();
         let mut baselined = Vec::new();
         findings.retain(|f| {
             let mark = self.mark(f, files);
@@ -94,22 +111,12 @@ impl Baseline {
         for f in findings {
             *self.baselined.entry(self.mark(f, files)).or_default() += 1;
         }
-        let one = |([file, code, message, line, claim, result], count): (&Mark, &usize)| {
-            let mut entry =
-                json!({"file": file, "code": code, "message": message, "line": line, "count": count});
-            if !claim.is_empty() {
-                entry["claim"] = json!(claim);
-                entry["result"] = json!(result);
-            }
-            entry
-        };
-        let list: Vec<Value> = self.baselined.iter().map(one).collect();
-        let value = report::report("baseline", json!({"findings": list}));
-        let text = serde_json::to_string_pretty(&value).map_err(|e| e.to_string())?;
-        write_file(path, OutputKind::Baseline, &(text + "\n"))
+        let entries = self.baselined.into_iter();
+        let findings = entries.map(|((mark, claim), count)| BaselineEntry { mark, count, claim }).collect();
+        write_report(path, &STORED, &BaselineFile { findings })
     }
 
-    fn mark(&self, f: &Finding, files: &[&SourceFile]) -> Mark {
+    fn mark(&self, f: &Finding, files: &[&SourceFile]) -> (Mark, Option<ClaimMark>) {
         let path = Path::new(&*f.path);
         let whole = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
         let name = whole.strip_prefix(&self.folder).unwrap_or(&whole);
@@ -117,12 +124,12 @@ impl Baseline {
             name.components().map(|c| c.as_os_str().to_string_lossy().into_owned()).collect();
         let file = files.iter().find(|file| *file.path() == f.path);
         let line = file.map_or("", |file| line(file.text(), f.span.start));
-        let (claim, result) = match &f.claim {
-            Some(claim) if claim.part.is_empty() => (claim.owner.clone(), claim.result.clone()),
-            Some(claim) => (format!("{}, {}", claim.owner, claim.part), claim.result.clone()),
-            None => Default::default(),
-        };
-        [name.join("/"), f.code.to_string(), f.message.clone(), line.to_string(), claim, result]
+        let claim = f.claim.as_ref().map(|c| ClaimMark {
+            claim: if c.part.is_empty() { c.owner.clone() } else { format!("{}, {}", c.owner, c.part) },
+            result: c.result.clone(),
+        });
+        let (file, code, message) = (name.join("/"), f.code.to_string(), f.message.clone());
+        (Mark { file, code, message, line: line.to_string() }, claim)
     }
 }
 
@@ -158,5 +165,36 @@ mod tests {
         assert_eq!((baselined.len(), findings.len()), (2, 1));
         std::fs::write(&path, "{}").unwrap();
         assert!(Baseline::read(&path).unwrap_err().contains("--update-baseline"));
+    }
+
+    /// A wrong type, a missing key, a number that is too large: an error with the file and the next step, and no panic.
+    #[test]
+    fn a_damaged_baseline_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("baseline.json");
+        let finding = |count: &str| {
+            format!(
+                r#"{{"file":"a.md","code":"c","message":"m","line":"l","count":{count},"claim":"q","result":"r"}}"#
+            )
+        };
+        let read = |findings: &str| {
+            let text = format!(r#"{{"schemaVersion":1,"report":"baseline","findings":{findings}}}"#);
+            std::fs::write(&path, text).unwrap();
+            Baseline::read(&path)
+        };
+        let most = finding("18446744073709551615");
+        let whole = read(&format!("[{most},{most}]")).unwrap();
+        assert_eq!(whole.baselined.values().collect::<Vec<_>>(), [&usize::MAX]);
+        let long = format!("[\"{}\"]", "\u{202e}".repeat(1000));
+        for findings in ["7", "[7]", "[{}]", &long, &finding("1"), &format!("[{}]", finding("1e400"))] {
+            let error = read(findings).unwrap_err();
+            assert!(
+                error.contains("baseline.json is not a baseline: ") && error.contains("--update-baseline")
+            );
+            assert!(error.len() < 2000 && !error.contains('\u{202e}'), "{error}");
+        }
+        for count in ["-1", "1.5", "\"1\"", "null"] {
+            assert!(read(&format!("[{}]", finding(count))).is_err(), "{count}");
+        }
     }
 }

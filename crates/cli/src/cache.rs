@@ -8,10 +8,10 @@ use super::digest;
 use super::output::clear_abandoned;
 use labspec::bind::parts::ModelFile;
 use labspec::bind::scene::Models;
-use labspec::check::{self, CheckLevel, LabOutcome, stored};
+use labspec::check::{self, CheckLevel, LabOutcome};
 use labspec::source::Text;
 use labspec::spec::{Lab, Lesson, ModelSource};
-use serde_json::{Value, json};
+use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -49,7 +49,7 @@ impl Cache {
         self.folder.is_none() && self.memory.is_none()
     }
 
-    /// What is found in a lesson: kept, or found now and kept from now on, unless `spoilt` says that it was cut short.
+    /// What is found in a lesson: kept, or found now and kept from now on, unless `cancelled` says that it was cut short.
     pub(super) fn examine(
         &self,
         path: &Path,
@@ -143,69 +143,62 @@ fn named_models(lesson: &Lesson) -> BTreeSet<&str> {
     labs.filter_map(|lab| lab.model.as_ref().map(Text::as_str)).collect()
 }
 
-/// A result as a text: its digest in the first line, then what it depends on and what it is.
+/// A result with what it depends on.
+#[derive(Serialize, Deserialize)]
+struct CacheEntry<O> {
+    key: String,
+    models: Vec<UsedModel>,
+    found: O,
+}
+
+/// A model that a lab of the lesson names.
+#[derive(Serialize, Deserialize)]
+struct UsedModel {
+    name: String,
+    has_diagnostics: bool,
+    /// `None` where the folder has no such model.
+    files: Option<Vec<ModelFile>>,
+}
+
+/// A result as a text; `None` for what would not be read back as it is.
 fn entry(key: &str, lesson: &Lesson, models: &Models, found: &LabOutcome) -> Option<String> {
-    let part = |p: &ModelFile| json!([p.path, p.limit, p.hash]);
-    let used: Vec<Value> = named_models(lesson)
-        .into_iter()
-        .map(|name| match models.parts(name) {
-            Some((parts, has_diagnostics)) => {
-                json!([name, has_diagnostics, parts.iter().map(part).collect::<Vec<_>>()])
-            }
-            // The folder has no such model.
-            None => json!([name, false, null]),
-        })
-        .collect();
-    let body = json!([key, used, stored::write(found)?]).to_string();
-    Some(format!("{}\n{body}", digest::hex(body.as_bytes())))
+    let used = named_models(lesson).into_iter().map(|name| {
+        let (files, has_diagnostics) = models.parts(name).unzip();
+        UsedModel { name: name.into(), has_diagnostics: has_diagnostics.unwrap_or_default(), files }
+    });
+    let entry = CacheEntry { key: key.to_string(), models: used.collect(), found };
+    let body = serde_json::to_string(&entry).ok()?;
+    let again: CacheEntry<LabOutcome> = serde_json::from_str(&body).ok()?;
+    (serde_json::to_string(&again).ok()? == body).then(|| with_digest(&body))
 }
 
 /// The result in a text, if it is whole and about these models. Models that have something to say are compiled, so that
 /// they say it.
 fn recall(text: &str, key: &str, lesson: &Lesson, models: &Models) -> Option<LabOutcome> {
-    let (mark, body) = text.split_once('\n')?;
-    if digest::hex(body.as_bytes()) != mark {
+    let entry: CacheEntry<LabOutcome> = serde_json::from_str(whole(text)?).ok()?;
+    let is_same = |used: &UsedModel| match &used.files {
+        None => models.folder().path(&used.name).is_none(),
+        Some(files) => models.is_made_of(&used.name, files),
+    };
+    let is_about_these = entry.models.iter().map(|used| used.name.as_str()).eq(named_models(lesson));
+    if entry.key != key || !is_about_these || !entry.models.iter().all(is_same) {
         return None;
     }
-    let value: Value = serde_json::from_str(body).ok()?;
-    let [kept, used, found]: &[Value; 3] = value.as_array()?.as_slice().try_into().ok()?;
-    if kept.as_str()? != key {
-        return None;
+    for used in entry.models.iter().filter(|used| used.has_diagnostics) {
+        models.load(&used.name);
     }
-    let mut names = BTreeSet::new();
-    let mut talking = Vec::new();
-    for one in used.as_array()? {
-        let [name, has_diagnostics, parts]: &[Value; 3] = one.as_array()?.as_slice().try_into().ok()?;
-        let name = name.as_str()?;
-        let same = match parts {
-            Value::Null => models.folder().path(name).is_none(),
-            parts => models.is_made_of(name, &read_parts(parts)?),
-        };
-        if !same {
-            return None;
-        }
-        if has_diagnostics.as_bool()? {
-            talking.push(name);
-        }
-        names.insert(name);
-    }
-    if names != named_models(lesson) {
-        return None;
-    }
-    let found = stored::read(found)?;
-    for name in talking {
-        models.load(name);
-    }
-    Some(found)
+    Some(entry.found)
 }
 
-fn read_parts(parts: &Value) -> Option<Vec<ModelFile>> {
-    let part = |value: &Value| {
-        let [path, limit, mark]: &[Value; 3] = value.as_array()?.as_slice().try_into().ok()?;
-        let limit = usize::try_from(limit.as_u64()?).ok()?;
-        Some(ModelFile { path: path.as_str()?.to_string(), limit, hash: mark.as_str()?.to_string() })
-    };
-    parts.as_array()?.iter().map(part).collect()
+/// A text below its digest.
+fn with_digest(body: &str) -> String {
+    format!("{}\n{body}", digest::hex(body.as_bytes()))
+}
+
+/// What stands below its digest, if it is whole.
+fn whole(text: &str) -> Option<&str> {
+    let (mark, body) = text.split_once('\n')?;
+    (digest::hex(body.as_bytes()) == mark).then_some(body)
 }
 
 /// The version and the digest of this program's file. Reading all of it takes longer than many a check, so its digest is
@@ -214,22 +207,18 @@ fn program(folder: &Path) -> Option<String> {
     let path = std::env::current_exe().ok()?;
     let slot = format!("program-{}", digest::hex_of(&[identity(&path)?.as_bytes()]));
     let cached = std::fs::read_to_string(folder.join(&slot)).ok();
-    let whole = |text: &String| {
-        let (mark, digest) = text.split_once('\n')?;
-        (digest::hex(digest.as_bytes()) == mark).then(|| digest.to_string())
-    };
-    let digest = match cached.as_ref().and_then(whole) {
-        Some(digest) => digest,
+    let digest = match cached.as_deref().and_then(whole) {
+        Some(digest) => digest.to_string(),
         None => {
             let digest = digest::hex(&std::fs::read(&path).ok()?);
-            write(folder, &slot, &format!("{}\n{digest}", digest::hex(digest.as_bytes())));
+            write(folder, &slot, &with_digest(&digest));
             digest
         }
     };
-    Some(format!("results 1 of labspec {} {digest}", env!("CARGO_PKG_VERSION")))
+    Some(format!("results 2 of labspec {} {digest}", env!("CARGO_PKG_VERSION")))
 }
 
-/// What the system says of a file, by which it is told from every other.
+/// What distinguishes a file from every other, by its metadata.
 fn identity(path: &Path) -> Option<String> {
     let meta = std::fs::metadata(path).ok()?;
     let mut text = format!("{} {} {:?}", path.display(), meta.len(), meta.modified().ok()?);
@@ -333,9 +322,14 @@ mod tests {
             assert!(recall(&text[..i], "key", &lesson, &models).is_none(), "{i} bytes");
         }
         // A whole entry of another make is no result either, and no panic.
-        for body in
-            ["", "[]", "[1,2,3]", "[\"key\",[],[[],[],[]]]", "[\"key\",[[\"drop\",false,[]]],[[],[],[]]]"]
-        {
+        for body in [
+            "",
+            "[]",
+            "[1,2,3]",
+            "{}",
+            "[\"key\",[],[[],[],[],[]]]",
+            "{\"key\":\"key\",\"models\":[{\"name\":\"drop\",\"has_diagnostics\":false,\"files\":[]}],\"found\":[[],[],[],[]]}",
+        ] {
             let foreign = format!("{}\n{body}", digest::hex(body.as_bytes()));
             assert!(recall(&foreign, "key", &lesson, &models).is_none(), "{body}");
         }
@@ -349,12 +343,12 @@ mod tests {
         let fresh = |cache: &Cache, text: &str, depth: CheckLevel| {
             let models = models(top.path());
             let asked = Cell::new(false);
-            let spoilt = || {
+            let cancelled = || {
                 asked.set(true);
                 false
             };
             let lesson = lesson(&models, text);
-            cache.examine(&top.path().join("drop.json"), &lesson, &models, depth, spoilt);
+            cache.examine(&top.path().join("drop.json"), &lesson, &models, depth, cancelled);
             asked.get()
         };
         let newer = LESSON.replace("Drop", "Fall");
@@ -382,9 +376,9 @@ mod tests {
         assert!(!fresh(&other, &newer, DEEP));
     }
 
-    /// What a model has to say is said, too, when the result of its lab was kept.
+    /// A model reports its diagnostics also when the result of its lab is cached.
     #[test]
-    fn a_model_that_talks_is_heard_again() {
+    fn a_model_reports_its_diagnostics_again() {
         let top = course();
         write_ball(top.path(), "text <geom size='0.05'/>");
         let mut first = models(top.path());
@@ -393,8 +387,8 @@ mod tests {
         let text = entry("key", &read, &first, &found).unwrap();
         let mut second = models(top.path());
         assert!(recall(&text, "key", &read, &second).is_some());
-        let said = first.take_findings();
-        assert!(!said.is_empty());
-        assert_eq!(said, second.take_findings());
+        let findings = first.take_findings();
+        assert!(!findings.is_empty());
+        assert_eq!(findings, second.take_findings());
     }
 }

@@ -3,17 +3,19 @@
 use super::baseline::Baseline;
 use super::common::{Color, Failure, Outcome, interrupted};
 use super::course::CourseResults;
+use super::machine::check_report;
 use super::output::write_file;
 use super::output_kind::OutputKind;
 use super::overview::{format_allowed, format_overview, format_summary};
+use super::report_json::print_report;
+use super::reproduction::Record;
 use super::stdio::{print, print_json};
-use super::{judge, machine, reproduction, since};
+use super::{judge, reproduction, since};
 use clap::ValueEnum;
 use labspec::ledger::{self, Entry, State, Subject};
 use labspec::report::html::Material;
 use labspec::report::{self, printable_path};
 use labspec::source::SourceFile;
-use serde_json::Value;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -38,7 +40,7 @@ pub(super) enum Format {
 }
 
 /// A record of an earlier check: its file and its content.
-pub(super) type PreviousRecord<'a> = (&'a Path, Value);
+pub(super) type PreviousRecord<'a> = (&'a Path, Record);
 
 /// The file of the earlier record, and what changed since.
 type Changes<'a> = (&'a Path, Vec<since::LessonChange>);
@@ -84,7 +86,10 @@ pub(super) fn report_results(
         _ if options.statistics => print(&report::statistics(&results.findings))?,
         Format::Human => print(&human_text(options, outcome, results, &sources, changes.as_ref()))?,
         Format::Json => {
-            print_json(&json_value(options, outcome, results, &sources, changes.as_ref()), true)?;
+            let mut report = check_report(outcome, results, &sources);
+            report.since = changes.as_ref().map(|(_, changes)| changes.as_slice());
+            report.judge = results.reference_engine.as_ref().map(|engine| judge::machine(engine, results));
+            print_report(if options.with_evidence { "verify" } else { "check" }, &report)?;
         }
         Format::Concise => print(&report::concise(&results.findings, &sources))?,
         Format::Jsonl => print(&report::jsonl(&results.findings, &sources))?,
@@ -166,22 +171,6 @@ fn human_text(
         let _ = writeln!(text, "{}", format_summary(results));
     }
     text
-}
-
-/// The report for programs.
-fn json_value(
-    options: &OutputOptions<'_>,
-    outcome: ledger::Outcome,
-    results: &CourseResults,
-    sources: &[&SourceFile],
-    changes: Option<&Changes<'_>>,
-) -> Value {
-    let name = if options.with_evidence { "verify" } else { "check" };
-    let mut value = machine::value(name, outcome, results, sources);
-    value["since"] = changes.map_or(Value::Null, |(_, changes)| since::machine(changes));
-    let engine = results.reference_engine.as_ref();
-    value["judge"] = engine.map_or(Value::Null, |engine| judge::machine(engine, results));
-    value
 }
 
 /// The outcome of the command.

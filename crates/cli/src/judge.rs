@@ -6,12 +6,14 @@ use super::common::Failure;
 use super::course::CourseResults;
 use super::output::write_file;
 use super::output_kind::OutputKind;
-use labspec::check::{CrossCheck, Recording, file_name};
+use labspec::check::{Recording, file_name};
 use labspec::report::printable_lines;
-use labspec::report::{printable_path, set_number};
+use labspec::report::{nonfinite, printable_path, to_value};
 use labspec::source::read_text;
-use labspec::verify::judge::{Judged, Left, RecordedRun, shown_as};
-use serde_json::{Value, json};
+use labspec::verify::judge::{Left, RecordedRun, RunTask, shown_as};
+use serde::de::IgnoredAny;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -21,6 +23,117 @@ const MOST: u64 = 64 << 20;
 /// The version of both forms.
 const VERSION: u64 = 1;
 
+/// What a judge is asked.
+#[derive(Serialize)]
+struct JudgeRequest<'c> {
+    request: &'c str,
+    version: u64,
+    labspec: &'c str,
+    runs: Vec<RequestedRun<'c>>,
+}
+
+/// A run that it is asked to make; or why it is not.
+#[derive(Serialize)]
+struct RequestedRun<'c> {
+    file: String,
+    claim: &'c str,
+    run: &'c str,
+    hash: &'c str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    task: Option<&'c RunTask>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    refused: Option<&'c str>,
+}
+
+/// What a judge has recorded, as it writes it.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct RecordingFile {
+    recording: Field<String>,
+    version: Field<u64>,
+    engine: Field<String>,
+    runs: Field<Vec<Field<RecordingRow>>>,
+}
+
+/// A run in it.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct RecordingRow {
+    file: Field<String>,
+    claim: Field<String>,
+    run: Field<String>,
+    hash: Field<String>,
+    values: Field<BTreeMap<String, Field<RecordedNumber>>>,
+    refused: Field<BTreeMap<String, Field<String>>>,
+    warnings: Option<Field<usize>>,
+    broke: Option<Field<String>>,
+}
+
+/// A number, or the name of what JSON has no number for.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum RecordedNumber {
+    Finite(f64),
+    Named(String),
+}
+
+/// A field of a file that somebody else wrote. One of another type is an error that names it, not one of the whole file.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Field<T> {
+    Valid(T),
+    Invalid(IgnoredAny),
+}
+
+impl<T> Default for Field<T> {
+    fn default() -> Field<T> {
+        Field::Invalid(IgnoredAny)
+    }
+}
+
+impl<T> Field<T> {
+    fn valid(&self) -> Option<&T> {
+        match self {
+            Field::Valid(value) => Some(value),
+            Field::Invalid(_) => None,
+        }
+    }
+}
+
+/// What the judge says of all lessons.
+#[derive(Default, Serialize)]
+#[serde(rename_all = "camelCase")]
+struct JudgeReport<'c> {
+    engine: &'c str,
+    compared: usize,
+    verdicts: usize,
+    turned: usize,
+    not_judged: Left,
+    stale_runs: usize,
+    missing_runs: usize,
+    differing: Vec<Differing<'c>>,
+    unjudged: Vec<Unjudged<'c>>,
+}
+
+#[derive(Serialize)]
+struct Differing<'c> {
+    file: String,
+    owner: &'c str,
+    measure: &'c str,
+    ours: f64,
+    theirs: f64,
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    nonfinite: BTreeMap<&'c str, &'c str>,
+}
+
+#[derive(Serialize)]
+struct Unjudged<'c> {
+    file: String,
+    owner: &'c str,
+    measure: &'c str,
+    reason: &'c str,
+}
+
 /// Writes what a judge is asked.
 ///
 /// # Errors
@@ -28,14 +141,17 @@ const VERSION: u64 = 1;
 pub(super) fn write_request(file: &Path, results: &CourseResults) -> Result<(), Failure> {
     let mut runs = Vec::new();
     for (c, cross_check) in results.checked.iter().zip(&results.cross_checks) {
-        let name = file_name(&c.lesson);
-        runs.extend(cross_check.requests.iter().map(|r| match &r.task {
-            Ok(task) => json!({"file": name, "claim": r.claim, "run": r.run, "hash": r.hash, "task": task}),
-            Err(why) => json!({"file": name, "claim": r.claim, "run": r.run, "hash": r.hash, "refused": why}),
+        runs.extend(cross_check.requests.iter().map(|r| RequestedRun {
+            file: file_name(&c.lesson),
+            claim: &r.claim,
+            run: &r.run,
+            hash: &r.hash,
+            task: r.task.as_ref().ok(),
+            refused: r.task.as_ref().err().map(String::as_str),
         }));
     }
     let request =
-        json!({"request": "judge", "version": VERSION, "labspec": env!("CARGO_PKG_VERSION"), "runs": runs});
+        JudgeRequest { request: "judge", version: VERSION, labspec: env!("CARGO_PKG_VERSION"), runs };
     let text = serde_json::to_string_pretty(&request).map_err(|e| e.to_string())?;
     write_file(file, OutputKind::JudgeRequest, &(text + "\n"))
 }
@@ -52,21 +168,27 @@ pub(super) fn read(file: &Path) -> Result<Recording, Failure> {
         )
     };
     let text = read_text(file, MOST, "a recording of a judge")?;
-    let value: Value = serde_json::from_str(&text).map_err(|e| no(&e.to_string()))?;
-    if value["recording"] != "judge" || value["version"] != VERSION {
-        return Err(no("its version is missing or unsupported"));
-    }
-    let engine = value["engine"].as_str().filter(|e| !e.trim().is_empty() && e.len() < 100);
-    let engine = engine.ok_or_else(|| no("it does not name its engine"))?.to_string();
-    let runs = value["runs"].as_array().ok_or_else(|| no("it has no runs"))?;
+    let read: Field<RecordingFile> = serde_json::from_str(&text).map_err(|e| no(&e.to_string()))?;
+    let expected = |f: &&RecordingFile| {
+        f.recording.valid().is_some_and(|name| name == "judge") && f.version.valid() == Some(&VERSION)
+    };
+    let read = read.valid().filter(expected).ok_or_else(|| no("its version is missing or unsupported"))?;
+    let engine = read.engine.valid().filter(|e| !e.trim().is_empty() && e.len() < 100);
+    let engine = engine.ok_or_else(|| no("it does not name its engine"))?.clone();
     let mut recording = Recording { engine, ..Recording::default() };
-    for (i, run) in runs.iter().enumerate() {
-        let text = |key: &str| {
-            run[key].as_str().map(str::to_string).ok_or_else(|| no(&format!("run {i} has no \"{key}\"")))
+    for (i, row) in read.runs.valid().ok_or_else(|| no("it has no runs"))?.iter().enumerate() {
+        let empty = RecordingRow::default();
+        let row = row.valid().unwrap_or(&empty);
+        let text = |of: &Field<String>, key: &str| {
+            of.valid().cloned().ok_or_else(|| no(&format!("run {i} has no \"{key}\"")))
         };
-        recording.recorded.insert([text("file")?, text("claim")?, text("run")?]);
-        let taken = taken(run).map_err(|why| no(&format!("run {i}: {why}")))?;
-        if let Some(before) = recording.runs.insert(text("hash")?, taken.clone())
+        recording.recorded.insert([
+            text(&row.file, "file")?,
+            text(&row.claim, "claim")?,
+            text(&row.run, "run")?,
+        ]);
+        let taken = taken(row).map_err(|why| no(&format!("run {i}: {why}")))?;
+        if let Some(before) = recording.runs.insert(text(&row.hash, "hash")?, taken.clone())
             && format!("{before:?}") != format!("{taken:?}")
         {
             return Err(no(&format!("run {i} is recorded twice, with different numbers")));
@@ -75,82 +197,78 @@ pub(super) fn read(file: &Path) -> Result<Recording, Failure> {
     Ok(recording)
 }
 
-/// What JSON has no number for.
-fn no_finite(name: &str) -> Option<f64> {
-    match name {
-        "NaN" => Some(f64::NAN),
-        "Infinity" => Some(f64::INFINITY),
-        "-Infinity" => Some(f64::NEG_INFINITY),
-        _ => None,
+fn number(of: &RecordedNumber) -> Option<f64> {
+    match of {
+        RecordedNumber::Finite(x) => Some(*x),
+        RecordedNumber::Named(name) => match name.as_str() {
+            "NaN" => Some(f64::NAN),
+            "Infinity" => Some(f64::INFINITY),
+            "-Infinity" => Some(f64::NEG_INFINITY),
+            _ => None,
+        },
     }
 }
 
 /// What is recorded of a run.
-fn taken(run: &Value) -> Result<RecordedRun, String> {
+fn taken(row: &RecordingRow) -> Result<RecordedRun, String> {
     let mut taken = RecordedRun::default();
-    let values = run["values"].as_object().ok_or("it has no \"values\"")?;
-    for (name, value) in values {
-        let x = value.as_f64().or_else(|| no_finite(value.as_str()?));
-        taken
-            .values
-            .insert(name.clone(), x.ok_or_else(|| format!("the value of \"{name}\" is not a number"))?);
+    for (name, value) in row.values.valid().ok_or("it has no \"values\"")? {
+        let x = value.valid().and_then(number);
+        let x = x.ok_or_else(|| format!("the value of \"{name}\" is not a number"))?;
+        taken.values.insert(name.clone(), x);
     }
-    for (name, why) in run["refused"].as_object().into_iter().flatten() {
-        let why = why.as_str().ok_or_else(|| format!("the reason for refusing \"{name}\" is not a text"))?;
-        taken.refused.insert(name.clone(), why.to_string());
+    for (name, why) in row.refused.valid().into_iter().flatten() {
+        let why = why.valid().ok_or_else(|| format!("the reason for refusing \"{name}\" is not a text"))?;
+        taken.refused.insert(name.clone(), why.clone());
     }
-    taken.warnings = match &run["warnings"] {
-        Value::Null => 0,
-        n => n.as_u64().and_then(|n| usize::try_from(n).ok()).ok_or("its \"warnings\" is not a count")?,
-    };
-    taken.broke = match &run["broke"] {
-        Value::Null => None,
-        why => Some(why.as_str().ok_or("its \"broke\" is not a text")?.to_string()),
-    };
+    if let Some(n) = &row.warnings {
+        taken.warnings = *n.valid().ok_or("its \"warnings\" is not a count")?;
+    }
+    if let Some(why) = &row.broke {
+        taken.broke = Some(why.valid().ok_or("its \"broke\" is not a text")?.clone());
+    }
     Ok(taken)
 }
 
-/// What a judge makes of a results, all in all.
-struct CrossCheckSummary<'c> {
-    /// File, owner, and what became of it.
-    claims: Vec<(String, &'c str, &'c Judged)>,
-    /// What no judge is asked about.
-    left: Left,
-    stale: usize,
-    missing: usize,
-}
-
-impl<'c> CrossCheckSummary<'c> {
-    fn new(results: &'c CourseResults) -> CrossCheckSummary<'c> {
-        let all = || results.checked.iter().zip(&results.cross_checks);
-        let of = |(c, cross_check): (&labspec::check::Checked, &'c CrossCheck)| {
-            let file = file_name(&c.lesson);
-            cross_check.claims.iter().map(move |(owner, judged)| (file.clone(), owner.as_str(), judged))
-        };
-        CrossCheckSummary {
-            claims: all().flat_map(of).collect(),
-            left: results.cross_checks.iter().fold(Left::default(), |sum, h| sum.and(h.left)),
-            stale: results.cross_checks.iter().map(|h| h.stale).sum(),
-            missing: results.cross_checks.iter().map(|h| h.missing).sum(),
+impl<'c> JudgeReport<'c> {
+    fn new(engine: &'c str, results: &'c CourseResults) -> JudgeReport<'c> {
+        let mut all = JudgeReport { engine, ..JudgeReport::default() };
+        for (c, cross_check) in results.checked.iter().zip(&results.cross_checks) {
+            all.not_judged = all.not_judged.and(cross_check.left);
+            all.stale_runs += cross_check.stale;
+            all.missing_runs += cross_check.missing;
+            for (owner, judged) in &cross_check.claims {
+                let file = || file_name(&c.lesson);
+                all.compared += judged.compared;
+                all.verdicts += judged.claims;
+                all.turned += judged.turned;
+                all.differing.extend(judged.differing.iter().map(|(measure, ours, theirs)| {
+                    let both = [("ours", *ours), ("theirs", *theirs)].into_iter();
+                    let nonfinite = both.filter_map(|(key, x)| Some((key, nonfinite(x)?))).collect();
+                    Differing { file: file(), owner, measure, ours: *ours, theirs: *theirs, nonfinite }
+                }));
+                let unjudged = judged.unjudged.iter();
+                all.unjudged.extend(unjudged.map(|(measure, reason)| Unjudged {
+                    file: file(),
+                    owner,
+                    measure,
+                    reason,
+                }));
+            }
         }
-    }
-
-    fn count(&self, of: impl Fn(&Judged) -> usize) -> usize {
-        self.claims.iter().map(|(.., judged)| of(judged)).sum()
+        all
     }
 }
 
 /// Whether something that is claimed was not judged for want of a recording.
 pub(super) fn is_partial(results: &CourseResults) -> bool {
-    let sum = CrossCheckSummary::new(results);
-    sum.stale + sum.missing > 0
+    results.cross_checks.iter().any(|h| h.stale + h.missing > 0)
 }
 
 /// What the judge says, for people.
 pub(super) fn summary(file: &Path, engine: &str, results: &CourseResults) -> String {
-    let sum = CrossCheckSummary::new(results);
-    let (compared, differing) = (sum.count(|j| j.compared), sum.count(|j| j.differing.len()));
-    let (claims, turned) = (sum.count(|j| j.claims), sum.count(|j| j.turned));
+    let all = JudgeReport::new(engine, results);
+    let (compared, differing, turned) = (all.compared, all.differing.len(), all.turned);
     let mut text = String::new();
     let verb = if compared == 0 {
         "nothing was compared with"
@@ -160,11 +278,11 @@ pub(super) fn summary(file: &Path, engine: &str, results: &CourseResults) -> Str
         "differs from"
     };
     // Where something is left out, "all" is said of what was judged.
-    let (left, judged) = match left(sum.left) {
+    let (left, judged) = match left(all.not_judged) {
         Some(left) => (format!("; not judged: {left}"), "judged "),
         None => (String::new(), ""),
     };
-    let claimed = match (claims, turned) {
+    let claimed = match (all.verdicts, turned) {
         (0, _) => "no verdict".to_string(),
         (1, 0) => format!("the one {judged}verdict"),
         (n, 0) => format!("all {n} {judged}verdicts"),
@@ -176,25 +294,19 @@ pub(super) fn summary(file: &Path, engine: &str, results: &CourseResults) -> Str
     }
     text.push_str(&left);
     text.push('\n');
-    for (file, owner, judged) in &sum.claims {
-        for (name, ours, theirs) in &judged.differing {
-            let _ = writeln!(
-                text,
-                "  differs    {file}, {owner}: `{name}` is {} here but {} there",
-                shown_as(*ours),
-                shown_as(*theirs)
-            );
-        }
+    for Differing { file, owner, measure, ours, theirs, .. } in &all.differing {
+        let [ours, theirs] = [*ours, *theirs].map(shown_as);
+        let _ = writeln!(text, "  differs    {file}, {owner}: `{measure}` is {ours} here but {theirs} there");
     }
     let mut reasons: BTreeMap<&str, usize> = BTreeMap::new();
-    for (_, why) in sum.claims.iter().flat_map(|(.., judged)| &judged.unjudged) {
-        *reasons.entry(why).or_default() += 1;
+    for unjudged in &all.unjudged {
+        *reasons.entry(unjudged.reason).or_default() += 1;
     }
     for (why, n) in &reasons {
         let what = if *n == 1 { "measure" } else { "measures" };
         let _ = writeln!(text, "  not judged {n} {what}: {why}");
     }
-    if sum.stale + sum.missing > 0 {
+    if all.stale_runs + all.missing_runs > 0 {
         let _ =
             writeln!(text, "  record again: labspec check --judge-request FILE, then tests/judge/record.mjs");
     }
@@ -203,27 +315,7 @@ pub(super) fn summary(file: &Path, engine: &str, results: &CourseResults) -> Str
 
 /// What the judge says, for programs.
 pub(super) fn machine(engine: &str, results: &CourseResults) -> Value {
-    let sum = CrossCheckSummary::new(results);
-    let differing = sum.claims.iter().flat_map(|(file, owner, judged)| {
-        judged.differing.iter().map(move |(name, ours, theirs)| {
-            let mut one =
-                json!({"file": file, "owner": owner, "measure": name, "ours": null, "theirs": null});
-            set_number(&mut one, "ours", *ours);
-            set_number(&mut one, "theirs", *theirs);
-            one
-        })
-    });
-    let unjudged = sum.claims.iter().flat_map(|(file, owner, judged)| {
-        let one = move |(name, why): &(String, String)| json!({"file": file, "owner": owner, "measure": name, "reason": why});
-        judged.unjudged.iter().map(one)
-    });
-    json!({
-        "engine": engine, "compared": sum.count(|j| j.compared), "verdicts": sum.count(|j| j.claims),
-        "turned": sum.count(|j| j.turned),
-        "notJudged": {"searches": sum.left.searches, "ranges": sum.left.ranges, "closedForms": sum.left.forms},
-        "staleRuns": sum.stale, "missingRuns": sum.missing,
-        "differing": differing.collect::<Vec<_>>(), "unjudged": unjudged.collect::<Vec<_>>(),
-    })
+    to_value(&JudgeReport::new(engine, results))
 }
 
 /// `2 searches, 1 range, 5 closed forms`; nothing where nothing is left.

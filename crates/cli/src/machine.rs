@@ -1,135 +1,306 @@
 //! What `check` and `verify` print for programs: findings, the summary, every lesson, and the ledger.
 
 use super::course::CourseResults;
-use labspec::check::{Checked, Claim, Divergence, RanLab, SnapshotResult};
-use labspec::ledger::{Count, Entry, Evidence, Outcome, State, Subject};
-use labspec::report::{self, key, set_number, set_place};
+use super::report_json::{MeasureRow, NonFinite, nonfinite, object, place};
+use super::since::LessonChange;
+use labspec::check::{Checked, Claim, RanLab, SnapshotResult};
+use labspec::ledger::{Entry, Evidence, Outcome, State, Subject};
+use labspec::report::{self, Summary, key};
 use labspec::source::SourceFile;
-use labspec::verify::{Answer, Measured, Quote};
-use serde_json::{Map, Value, json};
+use labspec::verify::{Answer, Quote, Weight};
+use serde::Serialize;
+use serde_json::{Map, Value};
 
-/// The whole report, and what it comes to. `sources` are the files that places lie in.
-pub(super) fn value(name: &str, outcome: Outcome, results: &CourseResults, sources: &[&SourceFile]) -> Value {
+/// The whole report.
+#[derive(Serialize)]
+pub(super) struct CheckReport<'a> {
+    findings: Value,
+    summary: SummaryRow,
+    #[serde(rename = "aside")]
+    suppressed: SuppressedRow<'a>,
+    lessons: Vec<LessonRow<'a>>,
+    ledger: Vec<EntryRow<'a>>,
+    /// What changed since an earlier record, where one was named.
+    pub(super) since: Option<&'a [LessonChange]>,
+    /// What the reference simulator gives, where its recording was named.
+    pub(super) judge: Option<Value>,
+}
+
+#[derive(Serialize)]
+struct SummaryRow {
+    errors: usize,
+    warnings: usize,
+    notes: usize,
+    outcome: &'static str,
+    claims: Map<String, Value>,
+}
+
+#[derive(Serialize)]
+struct SuppressedRow<'a> {
+    ignored: usize,
+    #[serde(rename = "known")]
+    baselined: usize,
+    allowed: Vec<AllowedRow<'a>>,
+}
+
+#[derive(Serialize)]
+struct AllowedRow<'a> {
+    code: &'static str,
+    why: &'a str,
+    #[serde(flatten)]
+    place: Value,
+}
+
+/// The report of a check, and what it comes to. `sources` are the files that places lie in.
+pub(super) fn check_report<'a>(
+    outcome: Outcome,
+    results: &'a CourseResults,
+    sources: &[&SourceFile],
+) -> CheckReport<'a> {
     let CourseResults { checked, ledger, suppressed, .. } = results;
-    let mut value = report::json(&results.findings, sources);
-    value["summary"]["outcome"] = json!(outcome.as_str());
-    value["summary"]["claims"] =
-        Subject::ALL.iter().map(|s| (key(s.as_str()), count(&ledger.count(*s)))).collect();
-    let allowed = suppressed.allowed.iter().map(|a| {
-        let mut value = json!({"code": a.finding.code, "why": a.why});
-        set_place(&mut value, sources, &a.finding.path, &a.finding.span);
-        value
+    let Summary { errors, warnings, notes } = Summary::of(&results.findings);
+    let claims = object(Subject::ALL.iter().map(|s| (key(s.as_str()), ledger.count(*s))));
+    let allowed = suppressed.allowed.iter().map(|a| AllowedRow {
+        code: a.finding.code,
+        why: &a.why,
+        place: place(sources, &a.finding.path, &a.finding.span),
     });
-    value["aside"] = json!({
-        "ignored": suppressed.ignored.len(), "known": suppressed.baselined.len(), "allowed": allowed.collect::<Vec<_>>(),
-    });
-    value["lessons"] = checked.iter().map(lesson).collect();
-    value["ledger"] = ledger.entries().iter().map(|e| entry(e, sources)).collect();
-    report::report(name, value)
+    CheckReport {
+        findings: report::json(&results.findings, sources)["findings"].take(),
+        summary: SummaryRow { errors, warnings, notes, outcome: outcome.as_str(), claims },
+        suppressed: SuppressedRow {
+            ignored: suppressed.ignored.len(),
+            baselined: suppressed.baselined.len(),
+            allowed: allowed.collect(),
+        },
+        lessons: checked.iter().map(lesson).collect(),
+        ledger: ledger.entries().iter().map(|e| entry(e, sources)).collect(),
+        since: None,
+        judge: None,
+    }
 }
 
-fn count(c: &Count) -> Value {
-    json!({
-        "simulated": c.simulated, "computed": c.computed, "false": c.wrong, "unchecked": c.unchecked,
-        "leftOut": c.left_out, "known": c.baselined, "notClaimed": c.not_claimed,
-    })
+#[derive(Serialize)]
+struct EntryRow<'a> {
+    subject: String,
+    owner: &'a str,
+    what: &'a str,
+    #[serde(flatten)]
+    place: Value,
+    state: String,
+    evidence: Option<&'static str>,
+    word: &'static str,
+    remark: &'a str,
 }
 
-fn entry(e: &Entry, sources: &[&SourceFile]) -> Value {
-    let evidence = match e.state {
-        State::True(Evidence::Simulated) => json!("simulated"),
-        State::True(Evidence::Computed) => json!("computed"),
-        _ => Value::Null,
-    };
-    let mut value = json!({"subject": key(e.subject.as_str()), "owner": e.owner, "what": e.what});
-    set_place(&mut value, sources, &e.path, &e.span);
-    value["state"] = json!(key(e.state.as_str()));
-    value["evidence"] = evidence;
-    value["word"] = json!(e.word);
-    value["remark"] = json!(e.remark);
-    value
+fn entry<'a>(e: &'a Entry, sources: &[&SourceFile]) -> EntryRow<'a> {
+    EntryRow {
+        subject: key(e.subject.as_str()),
+        owner: &e.owner,
+        what: &e.what,
+        place: place(sources, &e.path, &e.span),
+        state: key(e.state.as_str()),
+        evidence: match e.state {
+            State::True(Evidence::Simulated) => Some("simulated"),
+            State::True(Evidence::Computed) => Some("computed"),
+            _ => None,
+        },
+        word: e.word,
+        remark: &e.remark,
+    }
 }
 
-fn lesson(c: &Checked) -> Value {
-    let labs: Vec<Value> = c.labs.iter().map(lab).collect();
-    let claims: Vec<Value> = c.claims.iter().map(|of| claim(of, c)).collect();
-    let snapshots: Vec<Value> = c.snapshots.iter().map(snapshot_json).collect();
-    json!({"file": &**c.lesson.file.path(), "labs": labs, "claims": claims, "snapshots": snapshots})
+#[derive(Serialize)]
+struct LessonRow<'a> {
+    file: &'a str,
+    labs: Vec<LabRow<'a>>,
+    claims: Vec<ClaimRow<'a>>,
+    snapshots: Vec<SnapshotRow<'a>>,
+}
+
+fn lesson(c: &Checked) -> LessonRow<'_> {
+    LessonRow {
+        file: c.lesson.file.path(),
+        labs: c.labs.iter().map(lab).collect(),
+        claims: c.claims.iter().map(|of| claim(of, c)).collect(),
+        snapshots: c.snapshots.iter().map(snapshot_row).collect(),
+    }
 }
 
 /// What became of the snapshot of a lab.
-pub(super) fn snapshot_json(k: &SnapshotResult) -> Value {
-    let first = |d: &Divergence| {
-        let mut value = json!({"run": d.run, "trace": d.trace, "time": null});
-        set_number(&mut value, "time", d.time);
-        value["stored"] = json!(d.stored);
-        value["now"] = json!(d.now);
-        value["tolerance"] = json!(d.tolerance);
-        value["line"] = json!(d.line);
-        value
-    };
-    json!({
-        "lab": k.lab, "state": key(k.state.as_str()), "changes": k.changes, "rows": k.rows,
-        "divergence": k.divergence.as_ref().map(first), "reason": k.reason,
-    })
+#[derive(Serialize)]
+pub(super) struct SnapshotRow<'a> {
+    lab: &'a str,
+    state: String,
+    changes: &'a [String],
+    rows: usize,
+    divergence: Option<DivergenceRow<'a>>,
+    reason: &'a str,
 }
 
-fn lab(l: &RanLab) -> Value {
+/// The first value that differs. Times in s.
+#[derive(Serialize)]
+struct DivergenceRow<'a> {
+    run: &'a str,
+    trace: &'a str,
+    time: f64,
+    #[serde(skip_serializing_if = "NonFinite::is_empty")]
+    nonfinite: NonFinite,
+    stored: &'a str,
+    now: &'a str,
+    tolerance: Option<f64>,
+    line: usize,
+}
+
+pub(super) fn snapshot_row(k: &SnapshotResult) -> SnapshotRow<'_> {
+    SnapshotRow {
+        lab: &k.lab,
+        state: key(k.state.as_str()),
+        changes: &k.changes,
+        rows: k.rows,
+        divergence: k.divergence.as_ref().map(|d| DivergenceRow {
+            run: &d.run,
+            trace: &d.trace,
+            time: d.time,
+            nonfinite: nonfinite(&[("time", &d.time)]),
+            stored: &d.stored,
+            now: &d.now,
+            tolerance: d.tolerance,
+            line: d.line,
+        }),
+        reason: &k.reason,
+    }
+}
+
+/// A lab; what its runs covered in s.
+#[derive(Serialize)]
+struct LabRow<'a> {
+    address: String,
+    title: &'a str,
+    runs: usize,
+    ran: bool,
+    broke: Option<bool>,
+    seconds: Option<f64>,
+    covered: Option<f64>,
+    skipped: Option<usize>,
+    ended: Option<&'a str>,
+    #[serde(skip_serializing_if = "NonFinite::is_empty")]
+    nonfinite: NonFinite,
+}
+
+fn lab(l: &RanLab) -> LabRow<'_> {
     let tried = l.tried.as_ref();
-    let mut value = json!({
-        "address": l.address.to_string(), "title": l.title, "runs": l.runs, "ran": l.ran,
-        "broke": tried.map(|t| t.broke), "seconds": null, "covered": null, "skipped": tried.map(|t| t.skipped),
-        "ended": tried.and_then(|t| t.ended.clone()),
-    });
-    if let Some(t) = tried {
-        set_number(&mut value, "seconds", t.wanted);
-        set_number(&mut value, "covered", t.covered);
+    LabRow {
+        address: l.address.to_string(),
+        title: &l.title,
+        runs: l.runs,
+        ran: l.ran,
+        broke: tried.map(|t| t.broke),
+        seconds: tried.map(|t| t.wanted),
+        covered: tried.map(|t| t.covered),
+        skipped: tried.map(|t| t.skipped),
+        ended: tried.and_then(|t| t.ended.as_deref()),
+        nonfinite: tried
+            .map_or(NonFinite::new(), |t| nonfinite(&[("seconds", &t.wanted), ("covered", &t.covered)])),
     }
-    value
 }
 
-fn claim(claim: &Claim, c: &Checked) -> Value {
-    let j = &claim.judgement;
-    let mut value = json!({"name": claim.name});
-    set_place(&mut value, &[&c.lesson.file], c.lesson.file.path(), &claim.span);
-    value["answer"] = j.answer.as_ref().map_or(Value::Null, answer);
-    value["quotes"] = j.quotes.iter().map(quote).collect();
-    let exact = j.exact.iter();
-    value["closedForms"] = exact
-        .map(|e| json!({"trace": e.trace, "state": key(e.state.as_str()), "reason": e.remark}))
-        .collect();
-    let runs = j.runs.iter();
-    value["runs"] = runs.map(|r| json!({"name": r.name, "broke": r.broke, "expected": r.expected})).collect();
-    let measures: Map<String, Value> = j.measures.iter().map(|m| (m.name.clone(), measure(m))).collect();
-    value["measures"] = Value::Object(measures);
-    value
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct ClaimRow<'a> {
+    name: &'a str,
+    #[serde(flatten)]
+    place: Value,
+    answer: Option<AnswerRow<'a>>,
+    quotes: Vec<QuoteRow<'a>>,
+    closed_forms: Vec<ClosedFormRow<'a>>,
+    runs: Vec<RunRow<'a>>,
+    measures: Map<String, Value>,
 }
 
-fn answer(a: &Answer) -> Value {
-    let option = |w: &labspec::verify::Weight| {
-        let mut value = json!({"option": w.option, "holds": w.holds, "margin": null, "spread": null});
-        for (key, x) in [("margin", w.margin), ("spread", w.spread)] {
-            if let Some(x) = x {
-                set_number(&mut value, key, x);
-            }
-        }
-        value
+#[derive(Serialize)]
+struct ClosedFormRow<'a> {
+    trace: &'a str,
+    state: String,
+    reason: &'a str,
+}
+
+#[derive(Serialize)]
+struct RunRow<'a> {
+    name: &'a str,
+    broke: Option<&'a str>,
+    expected: bool,
+}
+
+fn claim<'a>(claim: &'a Claim, c: &Checked) -> ClaimRow<'a> {
+    let (j, file) = (&claim.judgement, &c.lesson.file);
+    let form = j.exact.iter();
+    let run = j.runs.iter();
+    ClaimRow {
+        name: &claim.name,
+        place: place(&[file], file.path(), &claim.span),
+        answer: j.answer.as_ref().map(answer),
+        quotes: j.quotes.iter().map(quote).collect(),
+        closed_forms: form
+            .map(|e| ClosedFormRow { trace: &e.trace, state: key(e.state.as_str()), reason: &e.remark })
+            .collect(),
+        runs: run
+            .map(|r| RunRow { name: &r.name, broke: r.broke.as_deref(), expected: r.expected })
+            .collect(),
+        measures: object(j.measures.iter().map(|m| (m.name.clone(), MeasureRow::new(m)))),
+    }
+}
+
+#[derive(Serialize)]
+struct AnswerRow<'a> {
+    verdict: &'static str,
+    reason: &'a str,
+    options: Vec<OptionRow>,
+}
+
+/// An option, in the unit of the comparison that decides it.
+#[derive(Serialize)]
+struct OptionRow {
+    option: Option<usize>,
+    holds: Option<bool>,
+    margin: Option<f64>,
+    spread: Option<f64>,
+    #[serde(skip_serializing_if = "NonFinite::is_empty")]
+    nonfinite: NonFinite,
+}
+
+fn answer(a: &Answer) -> AnswerRow<'_> {
+    let option = |w: &Weight| OptionRow {
+        option: w.option,
+        holds: w.holds,
+        margin: w.margin,
+        spread: w.spread,
+        nonfinite: nonfinite(&[("margin", &w.margin), ("spread", &w.spread)]),
     };
-    let options: Vec<Value> = a.weights.iter().map(option).collect();
-    json!({"verdict": a.verdict.as_str(), "reason": a.reason, "options": options})
-}
-
-fn quote(q: &Quote) -> Value {
-    let mut value = json!({"text": q.text, "verdict": q.verdict(), "reason": q.reason});
-    set_number(&mut value, "computed", q.computed);
-    value
-}
-
-fn measure(m: &Measured) -> Value {
-    let mut value = json!({"value": null, "halved": null});
-    set_number(&mut value, "value", m.value);
-    if let Some(halved) = m.halved {
-        set_number(&mut value, "halved", halved);
+    AnswerRow {
+        verdict: a.verdict.as_str(),
+        reason: &a.reason,
+        options: a.weights.iter().map(option).collect(),
     }
-    value
+}
+
+/// A quote; the value in the unit of the text.
+#[derive(Serialize)]
+struct QuoteRow<'a> {
+    text: &'a str,
+    verdict: &'static str,
+    reason: &'a str,
+    computed: f64,
+    #[serde(skip_serializing_if = "NonFinite::is_empty")]
+    nonfinite: NonFinite,
+}
+
+fn quote(q: &Quote) -> QuoteRow<'_> {
+    QuoteRow {
+        text: &q.text,
+        verdict: q.verdict(),
+        reason: &q.reason,
+        computed: q.computed,
+        nonfinite: nonfinite(&[("computed", &q.computed)]),
+    }
 }

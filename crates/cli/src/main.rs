@@ -30,6 +30,7 @@ mod parallel;
 mod plan;
 mod policy;
 mod precision;
+mod report_json;
 mod reproduction;
 mod run;
 mod scaffold;

@@ -1,15 +1,17 @@
 //! `labspec plan`.
 
 use super::common::{Failure, ModelOptions, Outcome, interrupted};
+use super::report_json::print_report;
 use super::stdio::print;
-use super::stdio::print_json;
 use super::target;
 use clap::ValueEnum;
-use labspec::report::{printable, report};
+use labspec::report::printable;
 use labspec::verify::significant;
 use labspec_core::reflect::FieldSet;
-use labspec_numerics::profile::{EngineOption, Options, PlanReport, REPEATS, StageCost, name};
-use serde_json::{Value, json};
+use labspec_numerics::profile::{
+    EngineOption, Options, PairSummary, PlanReport, REPEATS, SensorRow, StageCost, name,
+};
+use serde::Serialize;
 use std::fmt::Write;
 
 /// Arguments of `plan`.
@@ -43,7 +45,7 @@ pub(super) fn plan(a: &Arguments) -> Result<Outcome, Failure> {
         .map_err(|e| e.0)?;
     match a.format {
         Format::Human => print(&human(&report))?,
-        Format::Json => print_json(&value(&report), true)?,
+        Format::Json => print_report("plan", &machine(&report))?,
     }
     Ok(Outcome::Clean)
 }
@@ -120,7 +122,7 @@ fn human(report: &PlanReport) -> String {
     text
 }
 
-/// Pairs of geoms, the solver, the integrator, and ways of computing trees.
+/// Pairs of geoms, the solver, the integrator, and algorithms of trees.
 fn parts(report: &PlanReport, text: &mut String) {
     let pairs = &report.pairs;
     let _ = writeln!(text, "\npairs of geoms  {} of {} can touch", pairs.can_touch, pairs.all);
@@ -226,85 +228,185 @@ fn readers(report: &PlanReport, text: &mut String) {
     }
 }
 
-fn cost(cost: Option<StageCost>) -> [Value; 3] {
-    match cost {
-        Some(c) => [json!(c.share), json!(c.ns), json!(c.work)],
-        None => [Value::Null, Value::Null, Value::Null],
-    }
+/// The plan of a lab for programs.
+#[derive(Serialize)]
+struct Report<'a> {
+    reads: Vec<&'static str>,
+    writes: Vec<&'static str>,
+    stages: Vec<Stage<'a>>,
+    step: Option<Step>,
+    pairs: Pairs<'a>,
+    sensors: &'a [SensorRow],
+    solver: Solver<'a>,
+    integrators: &'a [EngineOption],
+    #[serde(rename = "ways")]
+    tree_algorithms: Vec<TreeAlgorithm>,
+    readers: Vec<Reader<'a>>,
+}
+
+/// A stage; its share of a step, its time in ns, its work in the engine's units.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct Stage<'a> {
+    stage: String,
+    keep: bool,
+    reason: &'a str,
+    share: Option<f64>,
+    ns: Option<f64>,
+    work: Option<f64>,
+    forced_ns: Option<f64>,
+}
+
+/// What a step costs: the middle of the repeats and its quarters, and the same with everything read, in ns.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct Step {
+    steps: usize,
+    ns: f64,
+    low_ns: f64,
+    high_ns: f64,
+    full_ns: f64,
+    work: f64,
+    integrator: Cost,
+    controller: Option<Cost>,
+}
+
+/// A share of a step, and its time in ns.
+#[derive(Serialize)]
+struct Cost {
+    share: f64,
+    ns: f64,
+    /// When the lab's controller runs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<&'static str>,
+}
+
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct Pairs<'a> {
+    all: usize,
+    can_touch: usize,
+    tests: Vec<Test<'a>>,
+    left_out: Vec<LeftOut>,
+    in_reach: Option<MeanAndMost>,
+    contacts: Option<MeanAndMost>,
+}
+
+#[derive(Serialize)]
+struct Test<'a> {
+    shapes: &'a [&'static str; 2],
+    pairs: usize,
+    searched: bool,
+}
+
+#[derive(Serialize)]
+struct LeftOut {
+    reason: &'static str,
+    pairs: usize,
 }
 
 /// The mean and the largest of a count.
-fn mean_and_most([mean, most]: [f64; 2]) -> Value {
-    json!({"mean": mean, "most": most})
+#[derive(Serialize)]
+struct MeanAndMost {
+    mean: f64,
+    most: f64,
 }
 
-fn codes(codes: &[EngineOption]) -> Vec<Value> {
-    let one = |c: &EngineOption| json!({"name": c.name, "keep": c.keep, "reason": c.reason});
-    codes.iter().map(one).collect()
+#[derive(Serialize)]
+struct Solver<'a> {
+    cone: &'static str,
+    methods: &'a [EngineOption],
+    rows: Option<MeanAndMost>,
+    iterations: Option<MeanAndMost>,
 }
 
-fn pairs_value(of: &PlanReport) -> Value {
-    let p = &of.pairs;
-    json!({
-        "all": p.all,
-        "canTouch": p.can_touch,
-        "tests": p.tests.iter().map(|(shapes, n, searched)| json!({"shapes": shapes, "pairs": n, "searched": searched})).collect::<Vec<_>>(),
-        "leftOut": p.left_out.iter().map(|(reason, n)| json!({"reason": reason, "pairs": n})).collect::<Vec<_>>(),
-        "inReach": p.seen.map(|s| mean_and_most(s.in_reach)),
-        "contacts": p.seen.map(|s| mean_and_most(s.contacts)),
-    })
+/// How many trees an algorithm computes.
+#[derive(Serialize)]
+struct TreeAlgorithm {
+    name: &'static str,
+    places: usize,
+    forces: usize,
+    accelerations: usize,
 }
 
-fn solver_value(of: &PlanReport) -> Value {
-    let seen = of.pairs.seen;
-    json!({
-        "cone": of.cone,
-        "methods": codes(&of.solvers),
-        "rows": seen.map(|s| mean_and_most(s.rows)),
-        "iterations": seen.map(|s| mean_and_most(s.iterations)),
-    })
+/// One more reader; what a step takes longer, in ns and as a share of it.
+#[derive(Serialize)]
+struct Reader<'a> {
+    read: &'a str,
+    joins: Vec<String>,
+    ns: Option<f64>,
+    share: Option<f64>,
 }
 
-fn value(of: &PlanReport) -> Value {
-    let stages: Vec<Value> = of
-        .rows
-        .iter()
-        .map(|r| {
-            let [share, ns, work] = cost(r.cost);
-            json!({"stage": name(r.stage), "keep": r.keep, "reason": r.reason, "share": share, "ns": ns,
-                "work": work, "forcedNs": r.forced})
-        })
-        .collect();
-    let step = of.step.as_ref().map(|s| {
-        let [integrator_share, integrator_ns, _] = cost(Some(s.integrator));
-        let [controller_share, controller_ns, _] = cost(s.controller);
-        json!({
-            "steps": s.steps, "ns": s.ns, "lowNs": s.quarters[0], "highNs": s.quarters[1], "fullNs": s.full,
-            "work": s.work,
-            "integrator": {"share": integrator_share, "ns": integrator_ns},
-            "controller": s.controller.map(|_| json!({"share": controller_share, "ns": controller_ns, "reason": of.controller})),
-        })
+fn cost(cost: StageCost, reason: Option<&'static str>) -> Cost {
+    Cost { share: cost.share, ns: cost.ns, reason }
+}
+
+fn mean_and_most([mean, most]: [f64; 2]) -> MeanAndMost {
+    MeanAndMost { mean, most }
+}
+
+fn pair_row(of: &PairSummary) -> Pairs<'_> {
+    let tests = of.tests.iter();
+    let left_out = of.left_out.iter();
+    Pairs {
+        all: of.all,
+        can_touch: of.can_touch,
+        tests: tests
+            .map(|(shapes, pairs, searched)| Test { shapes, pairs: *pairs, searched: *searched })
+            .collect(),
+        left_out: left_out.map(|&(reason, pairs)| LeftOut { reason, pairs }).collect(),
+        in_reach: of.seen.map(|s| mean_and_most(s.in_reach)),
+        contacts: of.seen.map(|s| mean_and_most(s.contacts)),
+    }
+}
+
+fn machine(of: &PlanReport) -> Report<'_> {
+    let stages = of.rows.iter().map(|r| Stage {
+        stage: name(r.stage),
+        keep: r.keep,
+        reason: &r.reason,
+        share: r.cost.map(|c| c.share),
+        ns: r.cost.map(|c| c.ns),
+        work: r.cost.map(|c| c.work),
+        forced_ns: r.forced,
     });
-    let ways = of.tree_algorithms.iter().map(|w| {
+    let step = of.step.as_ref().map(|s| Step {
+        steps: s.steps,
+        ns: s.ns,
+        low_ns: s.quarters[0],
+        high_ns: s.quarters[1],
+        full_ns: s.full,
+        work: s.work,
+        integrator: cost(s.integrator, None),
+        controller: s.controller.map(|c| cost(c, of.controller)),
+    });
+    let tree_algorithms = of.tree_algorithms.iter().map(|w| {
         let [places, forces, accelerations] = w.trees;
-        json!({"name": w.name, "places": places, "forces": forces, "accelerations": accelerations})
+        TreeAlgorithm { name: w.name, places, forces, accelerations }
     });
-    let readers = of.readers.iter().map(|r| {
-        let joins: Vec<String> = r.joins.iter().map(|s| name(*s)).collect();
-        let share = r.cost.zip(of.step.as_ref()).map(|(more, step)| more / step.ns);
-        json!({"read": r.text, "joins": joins, "ns": r.cost, "share": share})
+    let readers = of.readers.iter().map(|r| Reader {
+        read: &r.text,
+        joins: r.joins.iter().map(|s| name(*s)).collect(),
+        ns: r.cost,
+        share: r.cost.zip(of.step.as_ref()).map(|(more, step)| more / step.ns),
     });
-    let value = json!({
-        "reads": names(&of.demand.reads),
-        "writes": names(&of.demand.writes),
-        "stages": stages,
-        "step": step,
-        "pairs": pairs_value(of),
-        "sensors": of.sensors.iter().map(|s| json!({"name": s.name, "keep": s.keep, "reason": s.reason})).collect::<Vec<_>>(),
-        "solver": solver_value(of),
-        "integrators": codes(&of.integrators),
-        "ways": ways.collect::<Vec<_>>(),
-        "readers": readers.collect::<Vec<_>>(),
-    });
-    report("plan", value)
+    let seen = of.pairs.seen;
+    Report {
+        reads: names(&of.demand.reads),
+        writes: names(&of.demand.writes),
+        stages: stages.collect(),
+        step,
+        pairs: pair_row(&of.pairs),
+        sensors: &of.sensors,
+        solver: Solver {
+            cone: of.cone,
+            methods: &of.solvers,
+            rows: seen.map(|s| mean_and_most(s.rows)),
+            iterations: seen.map(|s| mean_and_most(s.iterations)),
+        },
+        integrators: &of.integrators,
+        tree_algorithms: tree_algorithms.collect(),
+        readers: readers.collect(),
+    }
 }

@@ -4,71 +4,140 @@
 
 use super::common::Failure;
 use super::course::CourseResults;
-use super::output::write_file;
 use super::output_kind::OutputKind;
+use super::report_json::{MeasureRow, NonFinite, StoredReport, finite, nonfinite, read_report, write_report};
 use labspec::check::{Basis, Checked, Claim, ClaimBasis, LabBasis, RunSettings};
 use labspec::ledger::{Entry, Ledger};
-use labspec::report::{self, key, printable_path, set_number};
-use labspec::source::read_text;
-use serde_json::{Map, Value, json};
+use labspec::report::key;
+use labspec::verify::Quote;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Bytes of a record, at most.
-const MOST: u64 = 64 << 20;
 /// Whose meaning the engine has.
 const ENGINE: &str = "MuJoCo 3.14.0";
 /// The format of lessons.
 const FORMAT: &str = "0.1";
 
-/// What a results says now, as it would be recorded in this file.
-pub(super) fn now(file: &Path, results: &CourseResults) -> Value {
+const STORED: StoredReport = StoredReport {
+    name: "reproduction",
+    what: "a record of a check",
+    next_step: "labspec check --record writes one",
+    output: OutputKind::Record,
+};
+
+/// What a check came to, and what that rests on.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Record {
+    pub(super) labspec: String,
+    pub(super) format: String,
+    pub(super) engine: String,
+    pub(super) lessons: Vec<LessonRecord>,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct LessonRecord {
+    pub(super) file: String,
+    pub(super) labs: Vec<LabRecord>,
+    pub(super) claims: Vec<ClaimRecord>,
+    pub(super) verdicts: Vec<VerdictRecord>,
+}
+
+/// A lab as it stands: digests of its text and its model; `None` where it cannot run.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct LabRecord {
+    pub(super) lab: String,
+    pub(super) block: String,
+    pub(super) model: Option<String>,
+    pub(super) settings: Option<SettingsRecord>,
+}
+
+/// Numbers by name; `None` for what JSON has no number for.
+type Numbers = BTreeMap<String, Vec<Option<f64>>>;
+
+/// The settings of a run that begins; the timestep in s.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct SettingsRecord {
+    pub(super) model: String,
+    pub(super) timestep: Option<f64>,
+    pub(super) integrator: String,
+    pub(super) solver: String,
+    pub(super) cone: String,
+    pub(super) iterations: i32,
+    pub(super) tolerance: Option<f64>,
+    /// Options that are not MuJoCo's default.
+    pub(super) options: Numbers,
+    /// Parameters of contacts that are not, by geom.
+    pub(super) contacts: BTreeMap<String, Numbers>,
+    #[serde(default, skip_serializing_if = "NonFinite::is_empty")]
+    nonfinite: NonFinite,
+}
+
+/// A question or a lab with claims: digests as of a lab.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct ClaimRecord {
+    pub(super) name: String,
+    pub(super) block: String,
+    pub(super) model: Option<String>,
+    pub(super) runs: Vec<RunRecord>,
+    pub(super) measures: BTreeMap<String, MeasureRow>,
+    pub(super) quotes: Vec<QuoteRecord>,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct RunRecord {
+    pub(super) name: String,
+    pub(super) settings: Option<SettingsRecord>,
+}
+
+/// What the text quotes, and the value in its unit.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct QuoteRecord {
+    pub(super) text: String,
+    pub(super) computed: Option<f64>,
+    #[serde(default, skip_serializing_if = "NonFinite::is_empty")]
+    pub(super) nonfinite: NonFinite,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct VerdictRecord {
+    pub(super) subject: String,
+    pub(super) owner: String,
+    pub(super) what: String,
+    state: String,
+    pub(super) word: String,
+}
+
+/// What a check says now, as it would be recorded in this file.
+pub(super) fn now(file: &Path, results: &CourseResults) -> Record {
     let folder = folder_of(file);
-    let mut lessons: Vec<(String, Value)> = results
-        .checked
-        .iter()
-        .zip(&results.bases)
-        .map(|(c, basis)| {
-            let name = name_of(&folder, c.lesson.file.path());
-            (name.clone(), lesson(&name, c, basis, &results.ledger))
-        })
+    let both = results.checked.iter().zip(&results.bases);
+    let mut lessons: Vec<LessonRecord> = both
+        .map(|(c, basis)| lesson(name_of(&folder, c.lesson.file.path()), c, basis, &results.ledger))
         .collect();
-    lessons.sort_by(|a, b| a.0.cmp(&b.0));
-    let lessons: Vec<Value> = lessons.into_iter().map(|(_, value)| value).collect();
-    let head = json!({
-        "labspec": env!("CARGO_PKG_VERSION"), "format": FORMAT, "engine": ENGINE, "lessons": lessons,
-    });
-    report::report("reproduction", head)
+    lessons.sort_by(|a, b| a.file.cmp(&b.file));
+    Record {
+        labspec: env!("CARGO_PKG_VERSION").into(),
+        format: FORMAT.into(),
+        engine: ENGINE.into(),
+        lessons,
+    }
 }
 
 /// Writes a record.
 ///
 /// # Errors
 /// The file cannot be written.
-pub(super) fn write(file: &Path, record: &Value) -> Result<(), Failure> {
-    let text = serde_json::to_string_pretty(record).map_err(|e| e.to_string())?;
-    write_file(file, OutputKind::Record, &(text + "\n"))
+pub(super) fn write(file: &Path, record: &Record) -> Result<(), Failure> {
+    write_report(file, &STORED, record)
 }
 
 /// Reads a record.
 ///
 /// # Errors
 /// It cannot be read, or is none.
-pub(super) fn read(file: &Path) -> Result<Value, Failure> {
-    let no = |why: &str| {
-        format!(
-            "{} is not a record of a check: {why}; labspec check --record writes one",
-            printable_path(file)
-        )
-    };
-    let text = read_text(file, MOST, "a record of a check")?;
-    let value: Value = serde_json::from_str(&text).map_err(|e| no(&e.to_string()))?;
-    if value["report"] != "reproduction" || value["schemaVersion"] != report::SCHEMA_VERSION {
-        return Err(no("its version is missing or unsupported"));
-    }
-    if !value["lessons"].is_array() {
-        return Err(no("it has no lessons"));
-    }
-    Ok(value)
+pub(super) fn read(file: &Path) -> Result<Record, Failure> {
+    read_report(file, &STORED)
 }
 
 fn folder_of(file: &Path) -> PathBuf {
@@ -89,69 +158,73 @@ fn name_of(folder: &Path, path: &str) -> String {
     path.display().to_string()
 }
 
-fn lesson(name: &str, c: &Checked, basis: &Basis, ledger: &Ledger) -> Value {
+fn lesson(file: String, c: &Checked, basis: &Basis, ledger: &Ledger) -> LessonRecord {
     let claims = basis.claims.iter().map(|b| claim(b, c.claims.iter().find(|claim| claim.name == b.name)));
     let path = c.lesson.file.path();
-    let mut verdicts: Vec<(String, Value)> =
-        ledger.entries().iter().filter(|e| e.path == *path).map(|e| verdict(name, path, e)).collect();
-    verdicts.sort_by(|a, b| a.0.cmp(&b.0));
-    json!({
-        "file": name,
-        "labs": basis.labs.iter().map(lab).collect::<Vec<_>>(),
-        "claims": claims.collect::<Vec<_>>(),
-        "verdicts": verdicts.into_iter().map(|(_, value)| value).collect::<Vec<_>>(),
-    })
+    let mut entries: Vec<(String, VerdictRecord)> =
+        ledger.entries().iter().filter(|e| e.path == *path).map(|e| verdict(&file, path, e)).collect();
+    entries.sort_by(|a, b| a.0.cmp(&b.0));
+    let verdicts = entries.into_iter().map(|(_, verdict)| verdict).collect();
+    LessonRecord { labs: basis.labs.iter().map(lab).collect(), claims: claims.collect(), verdicts, file }
 }
 
-fn lab(b: &LabBasis) -> Value {
-    json!({
-        "lab": b.lab, "block": b.block, "model": b.model, "settings": b.settings.as_ref().map(settings),
-    })
+fn lab(b: &LabBasis) -> LabRecord {
+    let settings = b.settings.as_ref().map(settings);
+    LabRecord { lab: b.lab.clone(), block: b.block.clone(), model: b.model.clone(), settings }
 }
 
-fn settings(s: &RunSettings) -> Value {
-    let mut value = json!({
-        "model": s.model, "timestep": null, "integrator": s.integrator, "solver": s.solver, "cone": s.cone,
-        "iterations": s.iterations, "tolerance": null, "options": s.options, "contacts": s.contacts,
-    });
-    set_number(&mut value, "timestep", s.timestep);
-    set_number(&mut value, "tolerance", s.tolerance);
-    value
-}
-
-fn claim(b: &ClaimBasis, judged: Option<&Claim>) -> Value {
-    let runs: Vec<Value> =
-        b.runs.iter().map(|(name, s)| json!({"name": name, "settings": s.as_ref().map(settings)})).collect();
-    let (mut measures, mut quotes) = (Map::new(), Vec::new());
-    if let Some(judgement) = judged.map(|c| &c.judgement) {
-        let mut sorted: Vec<_> = judgement.measures.iter().collect();
-        sorted.sort_by(|a, b| a.name.cmp(&b.name));
-        for m in sorted {
-            let mut value = json!({"value": null, "halved": null});
-            set_number(&mut value, "value", m.value);
-            if let Some(halved) = m.halved {
-                set_number(&mut value, "halved", halved);
-            }
-            measures.insert(m.name.clone(), value);
-        }
-        quotes.extend(judgement.quotes.iter().map(|q| {
-            let mut value = json!({"text": q.text, "computed": null});
-            set_number(&mut value, "computed", q.computed);
-            value
-        }));
+fn settings(s: &RunSettings) -> SettingsRecord {
+    let numbers = |all: &BTreeMap<&str, Vec<f64>>| -> Numbers {
+        all.iter()
+            .map(|(name, list)| (name.to_string(), list.iter().copied().map(finite).collect()))
+            .collect()
+    };
+    SettingsRecord {
+        model: s.model.clone(),
+        timestep: finite(s.timestep),
+        integrator: s.integrator.into(),
+        solver: s.solver.into(),
+        cone: s.cone.into(),
+        iterations: s.iterations,
+        tolerance: finite(s.tolerance),
+        options: numbers(&s.options),
+        contacts: s.contacts.iter().map(|(geom, of)| (geom.clone(), numbers(of))).collect(),
+        nonfinite: nonfinite(&[("timestep", &s.timestep), ("tolerance", &s.tolerance)]),
     }
-    json!({
-        "name": b.name, "block": b.block, "model": b.model, "runs": runs, "measures": measures, "quotes": quotes,
-    })
+}
+
+fn claim(b: &ClaimBasis, judged: Option<&Claim>) -> ClaimRecord {
+    let run = |(name, s): &(String, Option<RunSettings>)| RunRecord {
+        name: name.clone(),
+        settings: s.as_ref().map(settings),
+    };
+    let quote = |q: &Quote| QuoteRecord {
+        text: q.text.clone(),
+        computed: finite(q.computed),
+        nonfinite: nonfinite(&[("computed", &q.computed)]),
+    };
+    let judgement = judged.map(|c| &c.judgement);
+    let measures = judgement.iter().flat_map(|j| &j.measures);
+    ClaimRecord {
+        name: b.name.clone(),
+        block: b.block.clone(),
+        model: b.model.clone(),
+        runs: b.runs.iter().map(run).collect(),
+        measures: measures.map(|m| (m.name.clone(), MeasureRow::new(m))).collect(),
+        quotes: judgement.iter().flat_map(|j| &j.quotes).map(quote).collect(),
+    }
 }
 
 /// What became of a claim, and by what it is sorted.
-fn verdict(name: &str, path: &str, e: &Entry) -> (String, Value) {
+fn verdict(name: &str, path: &str, e: &Entry) -> (String, VerdictRecord) {
     // A file is named from the record's folder, as everywhere in it.
     let owner = if e.owner == path { name } else { &e.owner };
-    let value = json!({
-        "subject": key(e.subject.as_str()), "owner": owner, "what": e.what, "state": key(e.state.as_str()),
-        "word": e.word,
-    });
-    (format!("{owner}\n{}\n{}", e.subject.as_str(), e.what), value)
+    let verdict = VerdictRecord {
+        subject: key(e.subject.as_str()),
+        owner: owner.into(),
+        what: e.what.clone(),
+        state: key(e.state.as_str()),
+        word: e.word.into(),
+    };
+    (format!("{owner}\n{}\n{}", e.subject.as_str(), e.what), verdict)
 }

@@ -3,18 +3,18 @@
 use super::common::{Failure, ModelOptions, Outcome, interrupted};
 use super::output::write_file;
 use super::output_kind::OutputKind;
-use super::stdio::print;
-use super::stdio::{Progress, print_json};
+use super::report_json::print_report;
+use super::stdio::{Progress, print};
 use super::target::model_folder;
 use clap::ValueEnum;
 use labspec::bind::scene::Models;
 use labspec::lint::{load_lesson_file, reload_lesson};
-use labspec::report::{printable, printable_lines, printable_path, report};
+use labspec::report::{printable, printable_lines, printable_path};
 use labspec::spec::Lesson;
 use labspec::verify::{Verdict, significant};
 use labspec_proposals::scaffold::{Scaffold, ScaffoldOutcome, scaffold as look, written};
-use labspec_proposals::trace::laid_out;
-use serde_json::{Value, json};
+use labspec_proposals::trace::{ProposedVerify, laid_out};
+use serde::Serialize;
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -64,7 +64,7 @@ pub(super) fn scaffold(a: &Arguments) -> Result<Outcome, Failure> {
     }
     match a.format {
         Format::Human => print(&human(a, &lesson, &all))?,
-        Format::Json => print_json(&value(&lesson, &all), true)?,
+        Format::Json => print_report("scaffold", &machine(&lesson, &all))?,
     }
     let done =
         |one: &Scaffold| matches!(&one.found, ScaffoldOutcome::Proposed { verdict, .. } if sound(verdict));
@@ -128,36 +128,61 @@ fn human(a: &Arguments, lesson: &Lesson, all: &[Scaffold]) -> String {
     text
 }
 
-fn value(lesson: &Lesson, all: &[Scaffold]) -> Value {
-    let measured = |values: &[(String, f64)]| -> Value {
-        values.iter().map(|(name, x)| json!({"name": name, "value": x})).collect()
+/// What is proposed, for programs.
+#[derive(Serialize)]
+struct Report<'a> {
+    found: Vec<ScaffoldRow<'a>>,
+}
+
+/// A question or a lab, its place in bytes of the file and from 1, and what came of it.
+#[derive(Default, Serialize)]
+struct ScaffoldRow<'a> {
+    name: &'a str,
+    start: usize,
+    end: usize,
+    line: usize,
+    column: usize,
+    outcome: &'static str,
+    verify: Option<&'a ProposedVerify>,
+    values: Vec<ValueRow<'a>>,
+    undecided: &'a [usize],
+    verdict: Option<&'static str>,
+    reason: Option<&'a str>,
+    option: Option<usize>,
+}
+
+/// A measure, in its own unit.
+#[derive(Serialize)]
+struct ValueRow<'a> {
+    name: &'a str,
+    value: f64,
+}
+
+fn machine<'a>(lesson: &Lesson, all: &'a [Scaffold]) -> Report<'a> {
+    Report { found: all.iter().map(|one| row(lesson, one)).collect() }
+}
+
+fn row<'a>(lesson: &Lesson, one: &'a Scaffold) -> ScaffoldRow<'a> {
+    let measured = |values: &'a [(String, f64)]| {
+        values.iter().map(|(name, value)| ValueRow { name, value: *value }).collect()
     };
-    let one = |one: &Scaffold| {
-        let at = lesson.file.position(one.span.start);
-        let mut value = json!({
-            "name": one.name, "start": one.span.start, "end": one.span.end, "line": at.line, "column": at.column,
-            "outcome": null, "verify": null, "values": [], "undecided": [], "verdict": null, "reason": null, "option": null,
-        });
-        match &one.found {
-            ScaffoldOutcome::Proposed { verify, values, undecided, verdict } => {
-                value["outcome"] = json!("proposed");
-                value["verify"] = verify.clone();
-                value["values"] = measured(values);
-                value["undecided"] = json!(undecided);
-                value["verdict"] = json!(verdict.as_ref().map(|(v, _)| v.as_str()));
-                value["reason"] = json!(verdict.as_ref().map(|(_, reason)| reason));
-            }
-            ScaffoldOutcome::Contradicted { option, values } => {
-                value["outcome"] = json!("contradicted");
-                value["values"] = measured(values);
-                value["option"] = json!(option + 1);
-            }
-            ScaffoldOutcome::Open(why) => {
-                value["outcome"] = json!("open");
-                value["reason"] = json!(why);
-            }
+    let (at, span) = (lesson.file.position(one.span.start), &one.span);
+    let (line, column) = (at.line, at.column);
+    let row =
+        ScaffoldRow { name: &one.name, start: span.start, end: span.end, line, column, ..Default::default() };
+    match &one.found {
+        ScaffoldOutcome::Proposed { verify, values, undecided, verdict } => ScaffoldRow {
+            outcome: "proposed",
+            verify: Some(verify),
+            values: measured(values),
+            undecided,
+            verdict: verdict.as_ref().map(|(v, _)| v.as_str()),
+            reason: verdict.as_ref().map(|(_, reason)| reason.as_str()),
+            ..row
+        },
+        ScaffoldOutcome::Contradicted { option, values } => {
+            ScaffoldRow { outcome: "contradicted", values: measured(values), option: Some(option + 1), ..row }
         }
-        value
-    };
-    report("scaffold", json!({"found": all.iter().map(one).collect::<Vec<_>>()}))
+        ScaffoldOutcome::Open(why) => ScaffoldRow { outcome: "open", reason: Some(why), ..row },
+    }
 }

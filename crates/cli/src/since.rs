@@ -1,204 +1,212 @@
 //! What has changed between two records of a check: verdicts and values, and the settings and models that changed with them.
 
+use super::report_json::NonFinite;
+use super::reproduction::{ClaimRecord, LessonRecord, Record, SettingsRecord};
 use labspec::report::printable;
 use labspec::verify::significant;
-use serde_json::{Value, json};
-use std::collections::BTreeSet;
+use serde::Serialize;
+use serde_json::Value;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
 /// What changed of one lab, one question, or of labspec itself.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub(super) struct LessonChange {
     /// The lesson; empty for what concerns all of them.
-    pub(super) file: String,
+    file: String,
     /// The lab or the question.
-    pub(super) owner: String,
+    owner: String,
     /// What it came to: verdicts and values.
-    pub(super) effects: Vec<ChangedValue>,
+    effects: Vec<ChangedValue>,
     /// What changed with it: settings, contacts, models, texts.
-    pub(super) causes: Vec<ChangedValue>,
+    causes: Vec<ChangedValue>,
 }
 
 /// Something that was one thing and is another.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct ChangedValue {
-    pub(super) what: String,
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct ChangedValue {
+    what: String,
     /// `null` where it was not there.
-    pub(super) before: Value,
+    before: Value,
     /// `null` where it is gone.
-    pub(super) now: Value,
+    now: Value,
+    /// By how much a number has changed, in its own unit.
+    difference: Option<f64>,
 }
 
 /// Everything that differs, in the order of the files.
-pub(super) fn changes(before: &Value, now: &Value) -> Vec<LessonChange> {
-    let mut all = Vec::new();
-    let mut head = LessonChange {
-        file: String::new(),
-        owner: "labspec".into(),
-        effects: Vec::new(),
-        causes: Vec::new(),
+pub(super) fn changes(before: &Record, now: &Record) -> Vec<LessonChange> {
+    let change = |file: &str, owner: &str, effects: Vec<ChangedValue>, causes: Vec<ChangedValue>| {
+        LessonChange { file: file.into(), owner: owner.into(), effects, causes }
     };
-    for key in ["labspec", "format", "engine"] {
-        differ(key, &before[key], &now[key], &mut head.causes);
-    }
-    let files = |v: &Value| names(&v["lessons"], "file");
-    for file in files(before).union(&files(now)) {
-        let [old, new] = [before, now].map(|v| one(&v["lessons"], "file", file));
-        if old.is_null() || new.is_null() {
-            let what =
-                if old.is_null() { "new lesson" } else { "lesson that was not checked, or no longer exists" };
-            let step = ChangedValue { what: what.into(), before: Value::Null, now: Value::Null };
-            all.push(LessonChange {
-                file: file.clone(),
-                owner: String::new(),
-                effects: vec![step],
-                causes: Vec::new(),
-            });
-            continue;
-        }
-        lesson(file, old, new, &mut all);
+    let mut causes = Vec::new();
+    differ("labspec", &*before.labspec, &*now.labspec, &mut causes);
+    differ("format", &*before.format, &*now.format, &mut causes);
+    differ("engine", &*before.engine, &*now.engine, &mut causes);
+    let mut all = vec![change("", "labspec", Vec::new(), causes)];
+    let files: BTreeSet<&String> = before.lessons.iter().chain(&now.lessons).map(|l| &l.file).collect();
+    for file in files {
+        let what = match [before, now].map(|record| record.lessons.iter().find(|l| l.file == *file)) {
+            [Some(old), Some(new)] => {
+                for owner in owners(old).union(&owners(new)) {
+                    let (effects, causes) = (effects(owner, old, new), causes_of(owner, old, new));
+                    all.push(change(file, owner, effects, causes));
+                }
+                continue;
+            }
+            [None, _] => "new lesson",
+            _ => "lesson that was not checked, or no longer exists",
+        };
+        let step =
+            ChangedValue { what: what.into(), before: Value::Null, now: Value::Null, difference: None };
+        all.push(change(file, "", vec![step], Vec::new()));
     }
     all.retain(|change| !change.effects.is_empty() || !change.causes.is_empty());
-    if !head.causes.is_empty() {
-        all.insert(0, head);
-    }
     all
 }
 
-fn lesson(file: &str, old: &Value, new: &Value, all: &mut Vec<LessonChange>) {
-    let owners = |v: &Value| {
-        let verdicts = names(&v["verdicts"], "owner");
-        let labs = names(&v["labs"], "lab").into_iter().map(|lab| format!("lab {lab}"));
-        verdicts.into_iter().chain(labs).chain(names(&v["claims"], "name")).collect::<BTreeSet<String>>()
+/// Whatever a lesson has verdicts, settings or values of.
+fn owners(lesson: &LessonRecord) -> BTreeSet<String> {
+    let verdicts = lesson.verdicts.iter().map(|v| v.owner.clone());
+    let labs = lesson.labs.iter().map(|lab| format!("lab {}", lab.lab));
+    verdicts.chain(labs).chain(lesson.claims.iter().map(|c| c.name.clone())).collect()
+}
+
+/// The verdicts and values of an owner that changed.
+fn effects(owner: &str, old: &LessonRecord, new: &LessonRecord) -> Vec<ChangedValue> {
+    let mut steps = Vec::new();
+    let [a, b] = [old, new].map(|lesson| {
+        // Several about the same are told apart by their order.
+        let mut counts: BTreeMap<(&str, &str), usize> = BTreeMap::new();
+        let verdicts = lesson.verdicts.iter().filter(|v| v.owner == owner).map(|v| {
+            let count = counts.entry((&v.subject, &v.what)).or_default();
+            *count += 1;
+            ((&*v.subject, &*v.what, *count), Value::from(&*v.word))
+        });
+        verdicts.collect::<BTreeMap<_, Value>>()
+    });
+    let in_words = |(subject, what, _): &(&str, &str, usize)| match *what {
+        "" => describe_key(subject),
+        what => format!("{} \"{what}\"", describe_key(subject)),
     };
-    for owner in owners(old).union(&owners(new)) {
-        let mut change =
-            LessonChange { file: file.into(), owner: owner.clone(), effects: Vec::new(), causes: Vec::new() };
-        let of = |v: &Value| {
-            let list = v["verdicts"].as_array().into_iter().flatten();
-            list.filter(|e| e["owner"] == owner.as_str()).cloned().collect::<Vec<Value>>()
-        };
-        verdicts(&of(old), &of(new), &mut change.effects);
-        let [a, b] = [old, new].map(|v| one(&v["claims"], "name", owner));
-        values(a, b, &mut change.effects);
-        let lab = owner.strip_prefix("lab ").unwrap_or_default();
-        let [c, d] = [old, new].map(|v| one(&v["labs"], "lab", lab));
-        differ("the text", &c["block"], &d["block"], &mut change.causes);
-        differ("the model", &c["model"], &d["model"], &mut change.causes);
-        // What the model itself is has been said.
-        let compiled = c["model"] != d["model"];
-        settings("", &c["settings"], &d["settings"], compiled, &mut change.causes);
-        if c.is_null() && d.is_null() {
-            differ("the text", &a["block"], &b["block"], &mut change.causes);
-        }
-        let model_changed = change.causes.iter().any(|s| s.what == "the model");
-        if !model_changed {
-            differ("the model", &a["model"], &b["model"], &mut change.causes);
-        }
-        let compiled = a["model"] != b["model"];
-        for name in names(&a["runs"], "name").union(&names(&b["runs"], "name")) {
-            let [a, b] = [a, b].map(|v| one(&v["runs"], "name", name));
-            let of = format!(" of the run {name}");
-            settings(&of, &a["settings"], &b["settings"], compiled, &mut change.causes);
-        }
-        all.push(change);
+    differ_each(&a, &b, in_words, |_| Value::Null, &mut steps);
+    let [a, b] = [old, new].map(|lesson| claim(lesson, owner));
+    let [x, y] = [a, b].map(|c| {
+        let all = c.into_iter().flat_map(|c| &c.measures);
+        all.map(|(name, m)| (name, number(m.value, &m.nonfinite, "value"))).collect::<BTreeMap<_, _>>()
+    });
+    differ_each(&x, &y, |name| name.to_string(), |_| Value::Null, &mut steps);
+    let [x, y] = [a, b].map(|c| c.map_or(&[][..], |c| c.quotes.as_slice()));
+    for (x, y) in x.iter().zip(y).filter(|(x, y)| x.text == y.text) {
+        let [before, now] = [x, y].map(|q| number(q.computed, &q.nonfinite, "computed"));
+        differ(&format!("what \"{}\" quotes", x.text), before, now, &mut steps);
     }
+    steps
 }
 
-/// Verdicts about one owner: of several of the same kind in their order.
-fn verdicts(old: &[Value], new: &[Value], steps: &mut Vec<ChangedValue>) {
-    let mark = |e: &Value| (e["subject"].to_string(), e["what"].to_string());
-    let keys: BTreeSet<(String, String)> = old.iter().chain(new).map(mark).collect();
-    for key in keys {
-        let of = |all: &[Value]| all.iter().filter(|e| mark(e) == key).cloned().collect::<Vec<Value>>();
-        let [a, b] = [of(old), of(new)];
-        for i in 0..a.len().max(b.len()) {
-            let [a, b] = [a.get(i), b.get(i)].map(|e| e.cloned().unwrap_or(Value::Null));
-            let one = if a.is_null() { &b } else { &a };
-            let subject = describe_key(one["subject"].as_str().unwrap_or_default());
-            let what =
-                one["what"].as_str().filter(|w| !w.is_empty()).map_or(String::new(), |w| format!(" \"{w}\""));
-            differ(&format!("{subject}{what}"), &a["word"], &b["word"], steps);
-        }
-    }
+fn claim<'r>(lesson: &'r LessonRecord, owner: &str) -> Option<&'r ClaimRecord> {
+    lesson.claims.iter().find(|c| c.name == owner)
 }
 
-/// Values of measures and of what is quoted.
-fn values(a: &Value, b: &Value, steps: &mut Vec<ChangedValue>) {
-    let measures = |v: &Value| v["measures"].as_object().cloned().unwrap_or_default();
-    let [old, new] = [measures(a), measures(b)];
-    let all: BTreeSet<&String> = old.keys().chain(new.keys()).collect();
-    for name in all {
-        let value = |m: &serde_json::Map<String, Value>| m.get(name).map_or(Value::Null, number);
-        differ(name, &value(&old), &value(&new), steps);
-    }
-    let quotes = |v: &Value| v["quotes"].as_array().cloned().unwrap_or_default();
-    for (a, b) in quotes(a).iter().zip(&quotes(b)).filter(|(a, b)| a["text"] == b["text"]) {
-        let what = format!("what \"{}\" quotes", a["text"].as_str().unwrap_or_default());
-        differ(&what, &quoted(a), &quoted(b), steps);
-    }
+/// A number, or the name of what JSON has no number for.
+fn number(x: Option<f64>, nonfinite: &NonFinite, key: &str) -> Value {
+    x.map_or_else(|| nonfinite.get(key).cloned().unwrap_or_default(), Value::from)
 }
 
-/// The value of a measure: a number, or the name of what JSON has no number for.
-fn number(measure: &Value) -> Value {
-    if measure["value"].is_null() { measure["nonfinite"]["value"].clone() } else { measure["value"].clone() }
-}
-
-fn quoted(quote: &Value) -> Value {
-    if quote["computed"].is_null() {
-        quote["nonfinite"]["computed"].clone()
-    } else {
-        quote["computed"].clone()
+/// The texts, models and settings of an owner that changed.
+fn causes_of(owner: &str, old: &LessonRecord, new: &LessonRecord) -> Vec<ChangedValue> {
+    let mut steps = Vec::new();
+    let name = owner.strip_prefix("lab ").unwrap_or_default();
+    let [c, d] = [old, new].map(|lesson| lesson.labs.iter().find(|lab| lab.lab == name));
+    let [a, b] = [old, new].map(|lesson| claim(lesson, owner));
+    differ("the text", c.map(|lab| &*lab.block), d.map(|lab| &*lab.block), &mut steps);
+    let [x, y] = [c, d].map(|lab| lab.and_then(|lab| lab.model.as_deref()));
+    differ("the model", x, y, &mut steps);
+    // What the model itself is has been said.
+    let model_changed = x != y;
+    let [x, y] = [c, d].map(|lab| lab.and_then(|lab| lab.settings.as_ref()));
+    settings("", x, y, model_changed, &mut steps);
+    if c.is_none() && d.is_none() {
+        differ("the text", a.map(|c| &*c.block), b.map(|c| &*c.block), &mut steps);
     }
+    let [x, y] = [a, b].map(|c| c.and_then(|c| c.model.as_deref()));
+    if !model_changed {
+        differ("the model", x, y, &mut steps);
+    }
+    let runs = [a, b].map(|c| c.map_or(&[][..], |c| c.runs.as_slice()));
+    for name in runs.into_iter().flatten().map(|run| &run.name).collect::<BTreeSet<_>>() {
+        let [before, now] = runs.map(|all| all.iter().find(|run| run.name == *name)?.settings.as_ref());
+        settings(&format!(" of the run {name}"), before, now, x != y, &mut steps);
+    }
+    steps
 }
 
-/// Settings of a run that begins. `compiled`: that the model changed has been said.
-fn settings(of: &str, a: &Value, b: &Value, compiled: bool, steps: &mut Vec<ChangedValue>) {
+/// What the settings of every run have.
+const NUMERICS: [&str; 6] = ["timestep", "integrator", "solver", "cone", "iterations", "tolerance"];
+
+fn numerics(s: &SettingsRecord) -> [Value; 6] {
+    let [integrator, solver, cone] = [&s.integrator, &s.solver, &s.cone].map(|name| Value::from(&**name));
+    [s.timestep.into(), integrator, solver, cone, s.iterations.into(), s.tolerance.into()]
+}
+
+/// Options, and parameters of contacts by geom, that are not the default.
+fn parameters(s: Option<&SettingsRecord>) -> BTreeMap<(Option<&str>, &str), Value> {
+    let options = s.into_iter().flat_map(|s| s.options.iter().map(|(name, value)| ((None, &**name), value)));
+    let contacts = s
+        .into_iter()
+        .flat_map(|s| &s.contacts)
+        .flat_map(|(geom, of)| of.iter().map(move |(name, value)| ((Some(&**geom), &**name), value)));
+    options.chain(contacts).map(|(at, value)| (at, value.as_slice().into())).collect()
+}
+
+/// Settings of a run that begins. `model_changed`: that has been said.
+fn settings(
+    of: &str,
+    a: Option<&SettingsRecord>,
+    b: Option<&SettingsRecord>,
+    model_changed: bool,
+    steps: &mut Vec<ChangedValue>,
+) {
     let before = steps.len();
-    for key in ["timestep", "integrator", "solver", "cone", "iterations", "tolerance"] {
-        differ(&format!("{key}{of}"), &a[key], &b[key], steps);
+    let [x, y] = [a, b].map(|s| s.map_or_else(Default::default, numerics));
+    for ((name, x), y) in NUMERICS.iter().zip(x).zip(y) {
+        differ(&format!("{name}{of}"), x, y, steps);
     }
-    for (key, default) in [("options", "the default"), ("contacts", "the defaults")] {
-        for name in keys(&a[key]).union(&keys(&b[key])) {
-            let [a, b] = [&a[key][name.as_str()], &b[key][name.as_str()]];
-            if key == "options" {
-                differ(&format!("{name}{of}"), &or(a, default), &or(b, default), steps);
-                continue;
-            }
-            for parameter in keys(a).union(&keys(b)) {
-                let [a, b] = [a, b].map(|v| or(&v[parameter.as_str()], default));
-                differ(&format!("{parameter} of the geom \"{name}\"{of}"), &a, &b, steps);
-            }
-        }
-    }
+    let in_words = |(geom, name): &(Option<&str>, &str)| match geom {
+        None => format!("{name}{of}"),
+        Some(geom) => format!("{name} of the geom \"{geom}\"{of}"),
+    };
+    let default = |(geom, _): &(Option<&str>, &str)| {
+        Value::from(if geom.is_none() { "the default" } else { "the defaults" })
+    };
+    differ_each(&parameters(a), &parameters(b), in_words, default, steps);
     // Something of the model that has no name here: a mass, a length.
-    if !compiled && before == steps.len() {
-        differ(&format!("the initial model{of}"), &a["model"], &b["model"], steps);
+    if !model_changed && before == steps.len() {
+        let [x, y] = [a, b].map(|s| s.map(|s| &*s.model));
+        differ(&format!("the initial model{of}"), x, y, steps);
     }
 }
 
-fn or(value: &Value, default: &str) -> Value {
-    if value.is_null() { json!(default) } else { value.clone() }
+/// Compares what is in either list, in order.
+fn differ_each<K: Ord>(
+    a: &BTreeMap<K, Value>,
+    b: &BTreeMap<K, Value>,
+    in_words: impl Fn(&K) -> String,
+    missing: impl Fn(&K) -> Value,
+    steps: &mut Vec<ChangedValue>,
+) {
+    for key in a.keys().chain(b.keys()).collect::<BTreeSet<_>>() {
+        let [before, now] = [a, b].map(|all| all.get(key).cloned().unwrap_or_else(|| missing(key)));
+        differ(&in_words(key), before, now, steps);
+    }
 }
 
-fn differ(what: &str, before: &Value, now: &Value, steps: &mut Vec<ChangedValue>) {
+fn differ(what: &str, before: impl Into<Value>, now: impl Into<Value>, steps: &mut Vec<ChangedValue>) {
+    let (before, now) = (before.into(), now.into());
     if before != now {
-        steps.push(ChangedValue { what: what.into(), before: before.clone(), now: now.clone() });
+        let difference = now.as_f64().zip(before.as_f64()).map(|(now, before)| now - before);
+        steps.push(ChangedValue { what: what.into(), before, now, difference });
     }
-}
-
-fn keys(value: &Value) -> BTreeSet<String> {
-    value.as_object().into_iter().flat_map(|o| o.keys().cloned()).collect()
-}
-
-/// The names of the entries of a list.
-fn names(list: &Value, key: &str) -> BTreeSet<String> {
-    list.as_array().into_iter().flatten().filter_map(|e| e[key].as_str().map(String::from)).collect()
-}
-
-/// The entry of a list with this name; `null` where there is none.
-fn one<'v>(list: &'v Value, key: &str, name: &str) -> &'v Value {
-    list.as_array().into_iter().flatten().find(|e| e[key] == name).unwrap_or(&Value::Null)
 }
 
 /// `quotedNumber` in words.
@@ -240,18 +248,14 @@ pub(super) fn summary(name: &str, all: &[LessonChange]) -> String {
 
 fn line(step: &ChangedValue) -> String {
     let digest = |v: &Value| v.as_str().is_some_and(|t| t.len() == 64);
-    let by = difference(step)
+    let by = step
+        .difference
         .map_or(String::new(), |d| format!(" ({}{})", if d > 0.0 { "+" } else { "" }, significant(d)));
     match (&step.before, &step.now) {
         (Value::Null, Value::Null) => step.what.clone(),
         (a, b) if digest(a) && digest(b) => format!("{}: changed", step.what),
         (a, b) => format!("{}: {} → {}{by}", step.what, format_value(a), format_value(b)),
     }
-}
-
-/// By how much a number has changed.
-fn difference(step: &ChangedValue) -> Option<f64> {
-    Some(step.now.as_f64()? - step.before.as_f64()?)
 }
 
 fn format_value(value: &Value) -> String {
@@ -263,12 +267,4 @@ fn format_value(value: &Value) -> String {
         Value::Array(list) => list.iter().map(format_value).collect::<Vec<_>>().join(" "),
         other => other.to_string(),
     }
-}
-
-/// All changes, for programs.
-pub(super) fn machine(all: &[LessonChange]) -> Value {
-    let step = |s: &ChangedValue| json!({"what": s.what, "before": s.before, "now": s.now, "difference": difference(s)});
-    let steps = |list: &[ChangedValue]| list.iter().map(step).collect::<Vec<_>>();
-    let change = |c: &LessonChange| json!({"file": c.file, "owner": c.owner, "effects": steps(&c.effects), "causes": steps(&c.causes)});
-    all.iter().map(change).collect()
 }

@@ -3,20 +3,21 @@
 use super::collect::{Collected, collect, lost_snapshots};
 use super::common::{Failure, ModelOptions, Outcome, interrupted};
 use super::file_check::is_other_json;
-use super::machine;
+use super::machine::{SnapshotRow, snapshot_row};
 use super::output::{remove_file, write_file};
 use super::output_kind::OutputKind;
-use super::stdio::{print, print_json};
+use super::report_json::print_report;
+use super::stdio::print;
 use super::target::model_folder_within;
 use clap::ValueEnum;
 use labspec::bind::scene::Models;
-use labspec::check::{self, Renewal, RenewedLab};
+use labspec::check::{self, Renewal, RenewedLab, SnapshotResult};
 use labspec::ledger::State;
 use labspec::lint::{ModelFolder, load_lesson_file, snapshot_path};
 use labspec::report::counted;
-use labspec::report::{self, printable, printable_path};
+use labspec::report::{printable, printable_path};
 use labspec::spec::{FileKind, kind_of};
-use serde_json::{Value, json};
+use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::io::{BufRead, IsTerminal};
@@ -110,7 +111,7 @@ pub(super) fn snapshot(a: &Arguments) -> Result<Outcome, Failure> {
     }
     match a.format {
         Format::Human => print(&summary(&all, asks))?,
-        Format::Json => print_json(&report::report("snapshot", machine(&all)), true)?,
+        Format::Json => print_report("snapshot", &machine(&all))?,
     }
     let open = |one: &Looked| left(one).next().is_some() || (one.standing == Standing::Gone && !one.written);
     let unread = |one: &Looked| one.standing == Standing::Unreadable && !one.written;
@@ -300,19 +301,40 @@ fn summary(all: &[Looked], asked: bool) -> String {
     text
 }
 
-fn machine(all: &[Looked]) -> Value {
-    let one = |one: &Looked| {
-        let labs = one.renewal.iter().flat_map(|r| &r.labs).map(|lab| {
-            let mut value = machine::snapshot_json(&lab.result);
-            value["accepted"] = json!(one.accepted.contains(&lab.result.lab));
-            value
-        });
-        json!({
-            "file": one.file.display().to_string(), "standing": one.standing.as_str(), "written": one.written,
-            "fault": one.renewal.as_ref().and_then(|r| r.fault.clone()), "labs": labs.collect::<Vec<_>>(),
-        })
-    };
-    json!({"files": all.iter().map(one).collect::<Vec<_>>()})
+#[derive(Serialize)]
+struct Report<'a> {
+    files: Vec<FileRow<'a>>,
+}
+
+#[derive(Serialize)]
+struct FileRow<'a> {
+    file: String,
+    standing: &'static str,
+    written: bool,
+    fault: Option<&'a str>,
+    labs: Vec<LabRow<'a>>,
+}
+
+#[derive(Serialize)]
+struct LabRow<'a> {
+    #[serde(flatten)]
+    snapshot: SnapshotRow<'a>,
+    accepted: bool,
+}
+
+fn machine(all: &[Looked]) -> Report<'_> {
+    let files = all.iter().map(|one| FileRow {
+        file: one.file.display().to_string(),
+        standing: one.standing.as_str(),
+        written: one.written,
+        fault: one.renewal.as_ref().and_then(|r| r.fault.as_deref()),
+        labs: one.renewal.iter().flat_map(|r| &r.labs).map(|lab| lab_row(&lab.result, one)).collect(),
+    });
+    Report { files: files.collect() }
+}
+
+fn lab_row<'a>(result: &'a SnapshotResult, one: &Looked) -> LabRow<'a> {
+    LabRow { snapshot: snapshot_row(result), accepted: one.accepted.contains(&result.lab) }
 }
 
 #[cfg(test)]
@@ -346,16 +368,16 @@ mod tests {
             ("a", &["#1", "#2", "#3"], 1),
         ] {
             let mut all = [looked()];
-            let mut said = String::new();
+            let mut printed = String::new();
             let mut say = |text: &str| {
-                said.push_str(text);
+                printed.push_str(text);
                 Ok(())
             };
             review(&mut all, &mut answers.as_bytes(), &mut say).unwrap();
             assert_eq!(all[0].accepted.iter().collect::<Vec<_>>(), accepted, "{answers}");
-            assert_eq!(said.matches("accept it?").count(), questions, "{answers}: {said}");
+            assert_eq!(printed.matches("accept it?").count(), questions, "{answers}: {printed}");
             assert!(
-                said.contains("a.md.snap (1 of 3)\n  changed    lab #1: the lab is not in the snapshot\n")
+                printed.contains("a.md.snap (1 of 3)\n  changed    lab #1: the lab is not in the snapshot\n")
             );
         }
     }

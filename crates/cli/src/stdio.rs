@@ -2,6 +2,7 @@
 
 use super::common::Failure;
 use labspec::report::printable_json;
+use serde::Serialize;
 use std::io::{self, BufWriter, IsTerminal, Write};
 
 /// Prints to standard output. A reader that has gone away (`| head`) ends the program quietly.
@@ -11,12 +12,10 @@ pub(super) fn print(text: &str) -> Result<(), Failure> {
     stream(|out| out.write_all(text.as_bytes()))
 }
 
-/// Prints a JSON value, in which nothing acts on a terminal.
-pub(super) fn print_json(value: &serde_json::Value, pretty: bool) -> Result<(), Failure> {
-    let text = match pretty {
-        true => serde_json::to_string_pretty(value).map_err(|e| e.to_string())?,
-        false => value.to_string(),
-    };
+/// Prints a value as JSON, in which nothing acts on a terminal.
+pub(super) fn print_json(value: &impl Serialize, pretty: bool) -> Result<(), Failure> {
+    let text = if pretty { serde_json::to_string_pretty(value) } else { serde_json::to_string(value) };
+    let text = text.map_err(|e| e.to_string())?;
     print(&format!("{}\n", printable_json(&text)))
 }
 

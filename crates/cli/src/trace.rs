@@ -1,16 +1,17 @@
 //! `labspec trace`.
 
 use super::common::{Failure, ModelOptions, Outcome, interrupted};
-use super::stdio::{Progress, print, print_json};
+use super::report_json::print_report;
+use super::stdio::{Progress, print};
 use super::target::model_folder;
 use clap::ValueEnum;
 use labspec::bind::scene::Models;
 use labspec::lint::load_lesson_file;
-use labspec::report::{printable, printable_lines, printable_path, report};
+use labspec::report::{printable, printable_lines, printable_path};
 use labspec::spec::Lesson;
 use labspec::verify::significant;
-use labspec_proposals::trace::{self, Hit, Origin, Traced, Traces, blocks, laid_out};
-use serde_json::{Value, json};
+use labspec_proposals::trace::{self, Hit, Origin, ProposedVerify, Traced, Traces, blocks, laid_out};
+use serde::Serialize;
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -44,7 +45,7 @@ pub(super) fn trace(a: &Arguments) -> Result<Outcome, Failure> {
     }
     match a.format {
         Format::Human => print(&human(a, &lesson, &found))?,
-        Format::Json => print_json(&value(&lesson, &found), true)?,
+        Format::Json => print_report("trace", &machine(&lesson, &found))?,
     }
     let traced = |n: &Traced| matches!(n.origin, Origin::Claimed | Origin::From(_) | Origin::Setting(_));
     Ok(if found.numbers.iter().all(traced) { Outcome::Clean } else { Outcome::Findings })
@@ -131,29 +132,66 @@ fn share(x: f64) -> String {
     if x < 0.001 { "below 0.1 %".to_string() } else { format!("{:.1} %", 100.0 * x) }
 }
 
-fn value(lesson: &Lesson, found: &Traces<'_>) -> Value {
-    let one = |n: &Traced| {
+/// Where the numbers of a lesson come from, for programs.
+#[derive(Serialize)]
+struct Report<'a> {
+    numbers: Vec<NumberRow<'a>>,
+    proposals: Vec<ProposalRow>,
+}
+
+/// A number, its place in bytes of the file and from 1, and where it comes from; `value` is in SI units.
+#[derive(Serialize)]
+struct NumberRow<'a> {
+    text: &'a str,
+    start: usize,
+    end: usize,
+    line: usize,
+    column: usize,
+    unit: &'a str,
+    origin: &'static str,
+    from: Option<String>,
+    measure: Option<&'a str>,
+    factor: Option<&'a str>,
+    value: Option<f64>,
+    chance: Option<f64>,
+    by: Option<&'a str>,
+}
+
+/// An object for a lab, as an author would write it.
+#[derive(Serialize)]
+struct ProposalRow {
+    lab: String,
+    verify: ProposedVerify,
+}
+
+fn machine<'a>(lesson: &Lesson, found: &'a Traces<'_>) -> Report<'a> {
+    let numbers = found.numbers.iter().map(|n| {
         let at = lesson.file.position(n.stated.span.start);
-        let (word, hit, by) = match &n.origin {
+        let (origin, hit, by) = match &n.origin {
             Origin::From(hit) => ("traced", Some(hit), None),
             Origin::Chance(hit) => ("chance", Some(hit), None),
             Origin::Unsteady(hit) => ("unsteady", Some(hit), None),
-            Origin::Setting(words) => ("set", None, Some(words)),
+            Origin::Setting(words) => ("set", None, Some(words.as_str())),
             Origin::Claimed => ("claimed", None, None),
             Origin::Unknown => ("unknown", None, None),
         };
-        json!({
-            "text": n.stated.quote, "start": n.stated.span.start, "end": n.stated.span.end,
-            "line": at.line, "column": at.column, "unit": n.stated.unit, "origin": word,
-            "from": hit.map(|hit| place(found, hit)), "measure": hit.map(|hit| &hit.measure),
-            "factor": hit.map(|hit| &hit.factor), "value": hit.map(|hit| hit.value), "chance": hit.map(|hit| hit.chance),
-            "by": by,
-        })
-    };
-    let numbers: Vec<Value> = found.numbers.iter().map(one).collect();
-    let blocks: Vec<Value> = blocks(found)
-        .into_iter()
-        .map(|(address, verify)| json!({"lab": address.to_string(), "verify": verify}))
-        .collect();
-    report("trace", json!({"numbers": numbers, "proposals": blocks}))
+        NumberRow {
+            text: &n.stated.quote,
+            start: n.stated.span.start,
+            end: n.stated.span.end,
+            line: at.line,
+            column: at.column,
+            unit: &n.stated.unit,
+            origin,
+            from: hit.map(|hit| place(found, hit)),
+            measure: hit.map(|hit| hit.measure.as_str()),
+            factor: hit.map(|hit| hit.factor.as_str()),
+            value: hit.map(|hit| hit.value),
+            chance: hit.map(|hit| hit.chance),
+            by,
+        }
+    });
+    let proposals =
+        blocks(found).into_iter().map(|(address, verify)| ProposalRow { lab: address.to_string(), verify });
+    Report { numbers: numbers.collect(), proposals: proposals.collect() }
 }

@@ -9,6 +9,7 @@ use std::sync::Arc;
 
 /// Who may apply a fix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Applicability {
     /// A program: it changes only what the author certainly meant.
     Safe,
@@ -31,6 +32,7 @@ impl Applicability {
 
 /// A replacement that repairs a finding.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Fix {
     /// Bytes of the text that are replaced; empty to insert.
     pub span: Range<usize>,
@@ -49,6 +51,7 @@ impl Fix {
 
 /// The claim that a finding is about: it ties the finding to its entry in the ledger, whatever bytes both point at.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ClaimId {
     /// Who claims it: `quiz fall, question 2`.
     pub owner: String,

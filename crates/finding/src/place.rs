@@ -54,6 +54,7 @@ impl PartialEq<Span> for Range<usize> {
 
 /// Another place that helps to understand a finding.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Place {
     /// The file; empty for that of the finding.
     pub path: Arc<str>,
@@ -65,6 +66,7 @@ pub struct Place {
 
 /// A line and a column, both counted from 1; columns count characters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Position {
     /// Line, from 1.
     pub line: usize,

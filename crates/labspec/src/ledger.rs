@@ -4,6 +4,7 @@
 //! found true in this run; what could not be checked is not silently true, it stands here with its reason.
 
 use crate::printable::counted;
+use serde::{Deserialize, Serialize};
 use std::fmt::Write;
 use std::ops::Range;
 use std::sync::Arc;
@@ -66,7 +67,7 @@ impl Subject {
 }
 
 /// How a claim was found true.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum Evidence {
     /// Worked out without a simulation: a formula, a structure.
     Computed,
@@ -75,7 +76,7 @@ pub enum Evidence {
 }
 
 /// What became of a claim.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum State {
     /// Checked, and true.
     True(Evidence),
@@ -133,19 +134,22 @@ pub struct Ledger {
 }
 
 /// How many claims of a subject are in which state.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub struct Count {
     /// Found true by a simulation.
     pub simulated: usize,
     /// Found true without one.
     pub computed: usize,
     /// Found false.
+    #[serde(rename = "false")]
     pub wrong: usize,
     /// Could not be checked.
     pub unchecked: usize,
     /// Left out of this check.
     pub left_out: usize,
     /// No better than the baseline says.
+    #[serde(rename = "known")]
     pub baselined: usize,
     /// Not claimed.
     pub not_claimed: usize,

@@ -1,8 +1,12 @@
 //! A comparison for programs: CSV and JSON.
 
-use labspec::report::{key, set_number, set_numbers};
-use labspec_numerics::precision::{BesideRow, Compared, Errors, Fate, Report, Row, RunCost};
-use serde_json::{Value, json};
+use super::super::report_json::with_nonfinite;
+use labspec::report::key;
+use labspec_numerics::precision::{
+    Advice, BesideRow, Compared, Errors, Event, Fate, LeftOut, Nearby, Report, Row, RunCost,
+};
+use serde::Serialize;
+use serde_json::{Map, Value};
 use std::io;
 
 /// A line for each setting and number.
@@ -34,81 +38,188 @@ pub(super) fn csv(report: &Report, out: &mut dyn io::Write) -> io::Result<()> {
     Ok(())
 }
 
-pub(super) fn value(report: &Report) -> Value {
-    let labels: Vec<&str> = report.targets.iter().map(|t| t.label.as_str()).collect();
-    let words = |t: &Compared| key(if t.closed { "closed form" } else { "tiny steps" });
-    let truth: Vec<String> = report.targets.iter().map(words).collect();
-    let rows: Vec<Value> = report.rows.iter().map(|row| row_value(row, report)).collect();
-    let left_out: Vec<Value> =
-        report.left_out.iter().map(|o| json!({"label": o.label, "reason": o.reason})).collect();
-    let advice: Vec<Value> = report.advice.iter().map(|a| json!({"row": a.row, "text": a.text})).collect();
-    let mut value = json!({
-        "traces": labels, "truth": truth, "reference": report.reference, "length": report.length, "rows": rows,
-        "events": report.events.iter().map(event_value).collect::<Vec<_>>(),
-        "leftOut": left_out, "front": report.front, "advice": advice,
-    });
-    value["units"] = json!(report.targets.iter().map(|t| t.unit.as_deref()).collect::<Vec<_>>());
-    let of = |f: fn(&Compared) -> Option<f64>| report.targets.iter().map(f).collect::<Vec<_>>();
+/// A comparison. Lengths and times in s, errors in the unit of their trace, energy in J, momentum in kg m/s and kg m²/s, depths in m.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct PrecisionReport<'a> {
+    traces: Vec<&'a str>,
+    truth: Vec<String>,
+    reference: Option<&'a str>,
+    length: f64,
+    rows: Vec<Map<String, Value>>,
+    events: Vec<Map<String, Value>>,
+    left_out: &'a [LeftOut],
+    front: &'a [usize],
+    advice: &'a [Advice],
+    units: Vec<Option<&'a str>>,
+    uncertainty: Vec<Option<f64>>,
+    unseen: Vec<Option<f64>>,
+    until: Vec<Option<f64>>,
+    #[serde(rename = "kept")]
+    conserved: [Option<f64>; 3],
+    penetration: f64,
+    penetration_uncertainty: f64,
+    samples: usize,
+    beside: Option<BesideReport<'a>>,
+    nearby: Option<Nearby>,
+}
+
+/// A setting; of each trace its errors. `work` is in the engine's units.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct RunRow<'a> {
+    integrator: &'static str,
+    timestep: f64,
+    solver: Option<String>,
+    #[serde(rename = "own")]
+    is_own: bool,
+    fate: String,
+    diverged: bool,
+    #[serde(rename = "told")]
+    reported: &'a [String],
+    wrong: Vec<usize>,
+    compared: Vec<usize>,
+    events_below: Vec<bool>,
+    below: Vec<bool>,
+    errors: Vec<Option<f64>>,
+    at: Vec<Option<f64>>,
+    rms: Vec<Option<f64>>,
+    end: Vec<Option<f64>>,
+    orders: Vec<Option<f64>>,
+    events: Vec<Option<f64>>,
+    #[serde(rename = "kept")]
+    conserved: [Option<f64>; 3],
+    penetration: f64,
+    score: f64,
+    microseconds_per_second: f64,
+    repeats: [Option<f64>; 2],
+    work: f64,
+}
+
+#[derive(Serialize)]
+struct EventRow<'a> {
+    name: &'a str,
+    time: f64,
+    uncertainty: f64,
+}
+
+#[derive(Serialize)]
+struct BesideReport<'a> {
+    engine: &'a str,
+    rows: Vec<Map<String, Value>>,
+}
+
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct BesideRunRow<'a> {
+    integrator: &'a str,
+    timestep: f64,
+    errors: Vec<Option<f64>>,
+    microseconds_per_second: f64,
+}
+
+pub(super) fn machine(report: &Report) -> Map<String, Value> {
+    let targets = || report.targets.iter();
     // A closed form is not off: there is no number for it, not one that was lost.
-    set_numbers(&mut value, "uncertainty", &of(|t| (!t.closed).then_some(t.uncertain)));
-    set_numbers(&mut value, "unseen", &of(|t| Some(t.unseen)));
-    set_numbers(&mut value, "until", &of(|t| t.until));
-    set_numbers(&mut value, "kept", &[report.energy, report.momentum[0], report.momentum[1]]);
-    set_number(&mut value, "penetration", report.penetration);
-    set_number(&mut value, "penetrationUncertainty", report.penetration_doubt);
-    value["samples"] = json!(report.samples);
-    value["beside"] = report.beside.as_ref().map_or(
-        Value::Null,
-        |b| json!({"engine": b.engine, "rows": b.rows.iter().map(beside_value).collect::<Vec<_>>()}),
-    );
-    value["nearby"] = match &report.nearby {
-        Some(n) => json!({"apart": n.apart, "until": n.until}),
-        None => Value::Null,
+    let of = |f: fn(&Compared) -> Option<f64>| targets().map(f).collect::<Vec<_>>();
+    let uncertainty = of(|t| (!t.closed).then_some(t.uncertain));
+    let (unseen, until) = (of(|t| Some(t.unseen)), of(|t| t.until));
+    let conserved = [report.energy, report.momentum[0], report.momentum[1]];
+    let row = PrecisionReport {
+        traces: targets().map(|t| t.label.as_str()).collect(),
+        truth: targets().map(|t| key(if t.closed { "closed form" } else { "tiny steps" })).collect(),
+        reference: report.reference.as_deref(),
+        length: report.length,
+        rows: report.rows.iter().map(|row| run_row(row, report)).collect(),
+        events: report.events.iter().map(event_row).collect(),
+        left_out: &report.left_out,
+        front: &report.front,
+        advice: &report.advice,
+        units: targets().map(|t| t.unit.as_deref()).collect(),
+        uncertainty,
+        unseen,
+        until,
+        conserved,
+        penetration: report.penetration,
+        penetration_uncertainty: report.penetration_doubt,
+        samples: report.samples,
+        beside: report
+            .beside
+            .as_ref()
+            .map(|b| BesideReport { engine: &b.engine, rows: b.rows.iter().map(beside_row).collect() }),
+        nearby: report.nearby,
     };
-    labspec::report::report("precision", value)
+    with_nonfinite(
+        &row,
+        &[
+            ("uncertainty", &row.uncertainty),
+            ("unseen", &row.unseen),
+            ("until", &row.until),
+            ("kept", &row.conserved),
+            ("penetration", &row.penetration),
+            ("penetrationUncertainty", &row.penetration_uncertainty),
+        ],
+    )
 }
 
-fn beside_value(row: &BesideRow) -> Value {
-    let mut value = json!({"integrator": row.integrator, "timestep": row.timestep});
-    set_numbers(&mut value, "errors", &row.errors.iter().map(|e| Some(e.largest)).collect::<Vec<_>>());
-    set_number(&mut value, "microsecondsPerSecond", row.cost);
-    value
+fn beside_row(row: &BesideRow) -> Map<String, Value> {
+    let row = BesideRunRow {
+        integrator: &row.integrator,
+        timestep: row.timestep,
+        errors: row.errors.iter().map(|e| Some(e.largest)).collect(),
+        microseconds_per_second: row.cost,
+    };
+    with_nonfinite(&row, &[("errors", &row.errors), ("microsecondsPerSecond", &row.microseconds_per_second)])
 }
 
-fn event_value(event: &labspec_numerics::precision::Event) -> Value {
-    let mut value = json!({"name": event.name});
-    set_number(&mut value, "time", event.time);
-    set_number(&mut value, "uncertainty", event.uncertain);
-    value
+fn event_row(event: &Event) -> Map<String, Value> {
+    let row = EventRow { name: &event.name, time: event.time, uncertainty: event.uncertain };
+    with_nonfinite(&row, &[("time", &row.time), ("uncertainty", &row.uncertainty)])
 }
 
-fn row_value(row: &Row, report: &Report) -> Value {
+fn run_row(row: &Row, report: &Report) -> Map<String, Value> {
     let at_most = row.events.iter().zip(&report.events).map(|(off, event)| *off <= event.uncertain);
-    let mut value = json!({
-        "integrator": row.setting.integrator.name,
-        "timestep": row.setting.timestep,
-        "solver": row.setting.solver.map(|s| s.name()),
-        "own": row.is_own,
-        "fate": key(row.fate.word()),
-        "diverged": row.fate == Fate::Diverged,
-        "told": row.reported,
-        "wrong": row.errors.iter().map(|e| e.wrong).collect::<Vec<_>>(),
-        "compared": row.errors.iter().map(|e| e.samples).collect::<Vec<_>>(),
-        "eventsBelow": at_most.collect::<Vec<_>>(),
-        "below": row.errors.iter().map(|e| e.below).collect::<Vec<_>>(),
-    });
     let of = |f: fn(&Errors) -> Option<f64>| row.errors.iter().map(f).collect::<Vec<_>>();
-    set_numbers(&mut value, "errors", &of(|e| Some(e.largest)));
-    set_numbers(&mut value, "at", &of(|e| Some(e.at)));
-    set_numbers(&mut value, "rms", &of(|e| Some(e.rms)));
-    set_numbers(&mut value, "end", &of(|e| Some(e.end)));
-    set_numbers(&mut value, "orders", &of(|e| e.order));
-    set_numbers(&mut value, "events", &row.events.iter().copied().map(Some).collect::<Vec<_>>());
-    set_numbers(&mut value, "kept", &[row.energy, row.momentum[0], row.momentum[1]]);
-    set_number(&mut value, "penetration", row.penetration);
-    set_number(&mut value, "score", row.score);
-    set_number(&mut value, "microsecondsPerSecond", row.cost.median);
-    set_numbers(&mut value, "repeats", &[Some(row.cost.low), Some(row.cost.high)]);
-    set_number(&mut value, "work", row.cost.work);
-    value
+    let row = RunRow {
+        integrator: row.setting.integrator.name,
+        timestep: row.setting.timestep,
+        solver: row.setting.solver.map(|s| s.name()),
+        is_own: row.is_own,
+        fate: key(row.fate.word()),
+        diverged: row.fate == Fate::Diverged,
+        reported: &row.reported,
+        wrong: row.errors.iter().map(|e| e.wrong).collect(),
+        compared: row.errors.iter().map(|e| e.samples).collect(),
+        events_below: at_most.collect(),
+        below: row.errors.iter().map(|e| e.below).collect(),
+        errors: of(|e| Some(e.largest)),
+        at: of(|e| Some(e.at)),
+        rms: of(|e| Some(e.rms)),
+        end: of(|e| Some(e.end)),
+        orders: of(|e| e.order),
+        events: row.events.iter().copied().map(Some).collect(),
+        conserved: [row.energy, row.momentum[0], row.momentum[1]],
+        penetration: row.penetration,
+        score: row.score,
+        microseconds_per_second: row.cost.median,
+        repeats: [row.cost.low, row.cost.high].map(Some),
+        work: row.cost.work,
+    };
+    with_nonfinite(
+        &row,
+        &[
+            ("errors", &row.errors),
+            ("at", &row.at),
+            ("rms", &row.rms),
+            ("end", &row.end),
+            ("orders", &row.orders),
+            ("events", &row.events),
+            ("kept", &row.conserved),
+            ("penetration", &row.penetration),
+            ("score", &row.score),
+            ("microsecondsPerSecond", &row.microseconds_per_second),
+            ("repeats", &row.repeats),
+            ("work", &row.work),
+        ],
+    )
 }

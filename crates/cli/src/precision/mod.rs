@@ -9,8 +9,8 @@ use super::lab_args::LabArguments;
 use super::output::write_file;
 use super::output::{wanted, write_png, write_with};
 use super::output_kind::OutputKind;
-use super::stdio::print;
-use super::stdio::{Progress, print_json, stream};
+use super::report_json::print_report;
+use super::stdio::{Progress, print, stream};
 use chart::chart;
 use clap::ValueEnum;
 use labspec::report::{printable, printable_path};
@@ -18,7 +18,7 @@ use labspec::run::{INTEGRATORS, Integrator};
 use labspec::source::read_text;
 use labspec::verify::significant;
 use labspec_numerics::precision::{Axis, Fate, Options, Recording, Report, compare, milliseconds};
-use machine::{csv, value};
+use machine::{csv, machine};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use table::{others, setting, table};
@@ -105,7 +105,7 @@ pub(super) fn precision(a: &Arguments) -> Result<Outcome, Failure> {
     }
     match a.format {
         Format::Human => print(&human(&report))?,
-        Format::Json => print_json(&value(&report), true)?,
+        Format::Json => print_report("precision", &machine(&report))?,
         Format::Csv => stream(|out| csv(&report, out))?,
     }
     Ok(if report.reference.is_none() || lost(&report) { Outcome::Findings } else { Outcome::Clean })

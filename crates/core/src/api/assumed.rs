@@ -147,6 +147,29 @@ mod tests {
         }
     }
 
+    /// A geom in the frame of its body is moved by `geom_pos` from `mj_setConst` on: until then it touches what it has touched.
+    #[test]
+    fn a_geom_that_is_moved_touches_until_constants_are_computed() {
+        let xml = "<mujoco><worldbody><geom name='still' size='.05'/>\
+            <body pos='.08 0 0'><joint axis='0 0 1' pos='0 -.05 0'/><geom size='.05'/></body></worldbody></mujoco>";
+        let mut m = Model::from_xml(xml).unwrap();
+        let mut d = Data::planned(&m, Plan::new(&m, &demand(&[model::geom_pos])));
+        let mut full = Data::unplanned(&m);
+        write(&mut m, &mut d, model::geom_pos, 0, 9.0);
+        let mut touched = Vec::new();
+        for constants in [false, true] {
+            if constants {
+                call::set_const(&mut m.clone(), &mut full).unwrap();
+                call::set_const(&mut m, &mut d).unwrap();
+            }
+            call::step(&m, &mut d).unwrap();
+            call::step(&m, &mut full).unwrap();
+            touched.push(full.ncon);
+            assert_eq!(d.fields().qacc, full.qacc);
+        }
+        assert_eq!(touched, [1, 0]);
+    }
+
     /// What changes again and again is held for any value, until it has stayed for a while; and after a call that computes a part, until
     /// the next pass.
     #[test]

@@ -18,11 +18,11 @@ use crate::forces::{actuation, energy};
 use crate::math::{Spatial, Vec3};
 use crate::model::plan::PlanFlag;
 use crate::model::reflect::{self, FieldId, Object, View, ViewMut, data};
-use crate::model::{self, Contact, Obj};
+use crate::model::{Contact, Obj};
 use crate::sensor::body_force;
 use crate::setup::setconst;
 use crate::step::balance::{self, Energy};
-use crate::step::{self, integrate, reset};
+use crate::step::{self, deciding, integrate, reset};
 
 pub use crate::dynamics::jacobian::Jacobian;
 pub use spatial_queries::*;
@@ -156,15 +156,14 @@ pub fn set_keyframe<S: Scope>(m: &mut Model, d: &Data<S>, key: KeyId) -> Result<
 /// there, velocities and time stay.
 pub fn set_const<S: Scope>(m: &mut Model, d: &mut Data<S>) -> Result<(), Error> {
     d.engine(m)?;
-    let reflected = |m: &model::Model| [m.jnt_actuatorid.clone(), m.tendon_actuatorid.clone()];
-    let before = reflected(m.engine());
+    let before = deciding::constants(m).map(<[i32]>::to_vec);
     setconst::set_const(m.engine(), &mut d.fields, &mut d.scratch);
     m.touch_constants();
     d.mark_synced(m);
-    // A plan that was made while M was constant does not look at it again, nor does one for joints without the dampers of actuators.
+    // A plan that was made while M was constant does not look at it again; others are made for constants that may be others now.
     let plan = &d.fields.plan;
     let constant = plan.has(PlanFlag::General) || tree_algorithms::are_constant(m.engine(), plan.algorithms);
-    if !constant || d.assumes_values() && reflected(m.engine()) != before {
+    if !constant || d.assumes_values() && deciding::constants(m) != before.each_ref().map(Vec::as_slice) {
         d.plan_again(m);
     }
     Ok(())

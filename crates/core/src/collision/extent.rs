@@ -8,6 +8,7 @@
 //! run either.
 
 use super::filter::Pair;
+use crate::dynamics::kinematics::sameframe;
 use crate::kinds::{geom, joint};
 use crate::math::*;
 use crate::model::Model;
@@ -15,9 +16,11 @@ use crate::model::index::element_range;
 use crate::model::reflect::{FieldId, model as fields_of};
 
 /// What the proof follows from, besides the parameters of contacts.
-pub(crate) const FIELDS: [FieldId; 6] = [
+pub(crate) const FIELDS: [FieldId; 8] = [
     fields_of::body_pos,
     fields_of::body_quat,
+    fields_of::body_ipos,
+    fields_of::body_iquat,
     fields_of::jnt_pos,
     fields_of::jnt_axis,
     fields_of::geom_pos,
@@ -100,8 +103,8 @@ impl Extents {
         }
         let geom = |g: usize| {
             let body = bodies.get(m.geom_bodyid[g] as usize).copied().unwrap_or(Extent::WORLD);
-            let here = body.at(rows::<3>(&m.geom_pos)[g]);
-            let rotation = quat_normalize(rows::<4>(&m.geom_quat)[g]);
+            let (pos, quat) = attached(m, g);
+            let (here, rotation) = (body.at(pos), quat_normalize(quat));
             Extent { turned: here.turned.map(|turned| quat_mul(turned, rotation)), ..here }
         };
         Extents { geoms: (0..m.ngeom).map(geom).collect() }
@@ -128,6 +131,32 @@ impl Extents {
         let lengths = norm(a.centre) + norm(b.centre) + spread + ra + rb + reach.abs();
         distance > least + ROUNDING * (1.0 + lengths)
     }
+}
+
+/// The pose of a geom in the frame of its body, from which its pose in the world is computed (`dynamics::kinematics`): where it coincides
+/// with a frame of the body, its own numbers have no effect until `mj_setConst` compares them again.
+fn attached(m: &Model, g: usize) -> (Vec3, Quat) {
+    const IDENTITY: Quat = [1.0, 0.0, 0.0, 0.0];
+    let b = m.geom_bodyid[g] as usize;
+    let inertial_pos = match m.body_sameframe[b] {
+        sameframe::BODY => [0.0; 3],
+        _ => rows::<3>(&m.body_ipos)[b],
+    };
+    let inertial_quat = match m.body_sameframe[b] {
+        sameframe::BODY | sameframe::BODYROT => IDENTITY,
+        _ => rows::<4>(&m.body_iquat)[b],
+    };
+    let pos = match m.geom_sameframe[g] {
+        sameframe::BODY => [0.0; 3],
+        sameframe::INERTIA => inertial_pos,
+        _ => rows::<3>(&m.geom_pos)[g],
+    };
+    let quat = match m.geom_sameframe[g] {
+        sameframe::BODY | sameframe::BODYROT => IDENTITY,
+        sameframe::INERTIA | sameframe::INERTIAROT => inertial_quat,
+        _ => rows::<4>(&m.geom_quat)[g],
+    };
+    (pos, quat)
 }
 
 /// How far a geom is above a plane that stays where it is; nothing where it does not.

@@ -189,7 +189,9 @@ pub(super) fn nearest_in_cone(force: &mut [f64], mu: &[f64; 5]) {
     let size = tangents.iter().zip(mu).map(|(f, mu)| (f / mu) * (f / mu)).sum::<f64>().sqrt();
     if size > *normal {
         let onto = (0.5 * (*normal + size)).max(0.0);
-        tangents.iter_mut().for_each(|f| *f *= onto / size);
+        // Below the apex, without friction, there is no direction to keep.
+        let part = if size > 0.0 { onto / size } else { 0.0 };
+        tangents.iter_mut().for_each(|f| *f *= part);
         *normal = onto;
     }
 }
@@ -331,6 +333,9 @@ mod tests {
             ([1.0, 1.5, 0.0], [2.0, 1.0, 0.0]),
             ([-1.0, 0.0, -0.75], [1.0, 0.0, -0.25]),
             ([-1.0, 0.3, 0.1], [0.0, 0.0, 0.0]),
+            ([-1.0, 0.0, 0.0], [0.0, 0.0, 0.0]),
+            ([0.0, 0.0, 0.0], [0.0, 0.0, 0.0]),
+            ([1.0, 0.0, 0.0], [1.0, 0.0, 0.0]),
         ] {
             let mut x = force;
             nearest_in_cone(&mut x, &[0.5, 0.25, 1.0, 1.0, 1.0]);

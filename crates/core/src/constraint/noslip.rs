@@ -17,9 +17,9 @@ use crate::math::dot;
 
 impl Problem<'_> {
     /// Sweeps over the friction of the island until one improves the scaled dual objective by no more than
-    /// `opt.noslip_tolerance` or `opt.noslip_iterations` of them are done.
+    /// `opt.noslip_tolerance` (0 where it is negative) or `opt.noslip_iterations` of them are done.
     pub(super) fn remove_slip(&mut self) {
-        let (tolerance, scale) = (self.m.opt.noslip_tolerance, self.scale_of_all());
+        let (tolerance, scale) = (self.m.opt.noslip_tolerance.max(0.0), self.scale_of_all());
         let price = self.price_of_sweep();
         self.accelerate();
         for _ in 0..self.m.opt.noslip_iterations.clamp(0, MOST_SWEEPS) {

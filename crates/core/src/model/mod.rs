@@ -3,6 +3,7 @@
 pub(crate) mod asleep;
 pub(crate) mod bytes;
 pub(crate) mod data_fields;
+pub(crate) mod extents;
 pub(crate) mod fields;
 pub(crate) mod index;
 pub(crate) mod meter;

@@ -82,6 +82,12 @@ pub(super) const OTHERS: [FieldId; 12] = [
     option::disableactuator,
 ];
 
+/// What plans look at of what `mj_setConst` computes: the actuators whose dampers and inertia joints and tendons have, and the frames in
+/// which geoms are.
+pub(crate) fn constants(m: &Model) -> [&[i32]; 4] {
+    [&m.jnt_actuatorid, &m.tendon_actuatorid, &m.geom_sameframe, &m.body_sameframe]
+}
+
 /// The fields of the model whose values decide what a plan keeps. Where one of them is written, a plan is made for the value that
 /// it has, or for any: see `api/assumed`. Of all others the values are not looked at.
 pub(crate) fn deciding() -> FieldSet {

@@ -2,6 +2,7 @@
 
 use crate::source::SourceFile;
 use labspec_core::xml::{FileProblem, Files};
+use serde::{Deserialize, Serialize};
 use std::cell::RefCell;
 use std::path::Path;
 
@@ -9,7 +10,7 @@ use std::path::Path;
 pub type Hash = fn(&[&[u8]]) -> String;
 
 /// A file that a model was made of.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct ModelFile {
     /// Its path from the folder of the model; empty for the model itself.
     pub path: String,

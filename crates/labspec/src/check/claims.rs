@@ -8,10 +8,11 @@ use crate::finding::Finding;
 use crate::ledger::State;
 use crate::spec::{Lab, Lesson, Question, QuestionKind, Remark, Verify};
 use crate::verify::{self, Answer, BoundLab, BoundVerify, Judgement, QuoteState, ShownText, Stage};
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// A question, or a lab with a `verify` object, and what became of its claims.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Claim {
     /// What claims it: `quiz fall, question 2`, `lab #2`.
     pub name: String,

@@ -5,10 +5,10 @@ use super::resolved_labs::bind_claim;
 use crate::bind::parts::Hash;
 use crate::bind::scene::Models;
 use crate::finding::Finding;
+use crate::json::to_value;
 use crate::spec::Lesson;
-use crate::verify::judge::{self, Judged, Left, RecordedRun, Reference};
+use crate::verify::judge::{self, Judged, Left, RecordedRun, Reference, RunTask};
 use crate::verify::{ShownText, Stage};
-use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A run that a judge is asked to make.
@@ -21,7 +21,7 @@ pub struct Request {
     /// The digest of what is asked; of nothing where nobody else can make the run.
     pub hash: String,
     /// What is asked; or why nobody else can make the run.
-    pub task: Result<Value, String>,
+    pub task: Result<RunTask, String>,
 }
 
 /// What a judge has recorded.
@@ -69,7 +69,7 @@ pub fn hear(
         hearing.left = hearing.left.and(Left::count(verify));
         let Some(bound) = bind_claim(lesson, &ready, verify, own, &stage) else { continue };
         let requests = judge::tasks(&bound, verify).into_iter().map(|one| {
-            let text = one.task.as_ref().map_or(String::new(), Value::to_string);
+            let text = one.task.as_ref().map_or(String::new(), |task| to_value(task).to_string());
             let hash: String = mark(&[text.as_bytes()]).chars().take(16).collect();
             Request { claim: name.clone(), run: one.run, hash, task: one.task }
         });

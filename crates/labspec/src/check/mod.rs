@@ -17,7 +17,7 @@ mod reproduce;
 mod resolved_labs;
 pub(crate) mod setconst;
 mod snapshot;
-pub mod stored;
+mod stored;
 mod units;
 
 pub use allowed::Allowed;
@@ -40,10 +40,11 @@ use crate::rules;
 use crate::source::{SourceMap, Text};
 use crate::spec::{Lab, LabAddress, Lesson, ModelSource};
 use labspec_core::Model;
+use serde::{Deserialize, Serialize};
 use std::sync::{Arc, LazyLock};
 
 /// A lab that was run, for the report.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RanLab {
     /// Its address in the lesson.
     pub address: LabAddress,
@@ -101,9 +102,10 @@ impl CheckLevel {
 }
 
 /// What a check found beyond the structure of a lesson, not yet tied to its file.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Serialize, Deserialize)]
 pub struct LabOutcome {
     /// What is wrong.
+    #[serde(with = "stored")]
     pub findings: Vec<Finding>,
     /// The labs that ran.
     pub labs: Vec<RanLab>,

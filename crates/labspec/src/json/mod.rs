@@ -34,3 +34,8 @@ pub const MAX_DEPTH: usize = 64;
 pub const MAX_VALUES: usize = 20_000;
 /// Most mistakes that are told of one JSON text.
 pub const MAX_MISTAKES: usize = 200;
+
+/// What a type of ours writes, as a value.
+pub fn to_value(of: &impl serde::Serialize) -> serde_json::Value {
+    serde_json::to_value(of).unwrap_or_default()
+}

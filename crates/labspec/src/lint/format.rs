@@ -45,7 +45,22 @@ fn finding_at(span: Range<usize>, mistake: &Mistake) -> Finding {
             let limit = MAX_FILE >> 20;
             Finding::new(rules::LESSON_LIMIT, span, format!("this file is larger than {limit} MB"))
         }
-        // Every other mistake is a value of the wrong type.
-        _ => rules::wrong_type::describe_type(&span, mistake),
+        Mistake::Type { .. }
+        | Mistake::NotWhole { .. }
+        | Mistake::ControlType(_)
+        | Mistake::QuestionKind(_)
+        | Mistake::LabExpects(_)
+        | Mistake::RunExpects(_)
+        | Mistake::NoPoint
+        | Mistake::NoSwitch
+        | Mistake::NoLab(_)
+        | Mistake::NoSweep
+        | Mistake::NoRows
+        | Mistake::FindsNothing
+        | Mistake::FindsBackwards
+        | Mistake::SweptValues(_)
+        | Mistake::NoPress
+        | Mistake::NoRange
+        | Mistake::NoQuote => rules::wrong_type::describe_type(&span, mistake),
     }
 }

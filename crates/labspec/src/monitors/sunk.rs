@@ -5,7 +5,7 @@
 //! gravity, friction so large that the rows of a pyramidal cone push next to nothing along the normal), or the solver
 //! stopped before its forces held.
 
-use labspec_core::{Contact, Data, Fields, Model, Scope, geom};
+use labspec_core::{Contact, Data, Fields, Model, Scope, geom_thickness};
 
 /// A contact deeper than this part of the thinner geom's thickness, and of the smaller one's length.
 const THICKNESS: f64 = 0.3;
@@ -60,19 +60,9 @@ pub(super) struct Size {
 
 /// How large a geom is.
 pub(super) fn size(m: &Model, g: usize) -> Size {
-    let [a, b, c] = [0, 1, 2].map(|k| m.geom_size.get(3 * g + k).copied().unwrap_or(0.0));
-    let half = match m.geom_type[g] {
-        geom::PLANE | geom::HFIELD => f64::INFINITY,
-        geom::SPHERE | geom::CAPSULE => a,
-        geom::CYLINDER => a.min(b),
-        geom::BOX | geom::ELLIPSOID => a.min(b).min(c),
-        _ => m
-            .geom_aabb
-            .get(6 * g + 3..6 * g + 6)
-            .map_or(0.0, |h| h.iter().fold(f64::INFINITY, |s, &x| s.min(x))),
-    };
-    let length = if half.is_finite() { 2.0 * m.geom_rbound[g] } else { f64::INFINITY };
-    Size { thickness: 2.0 * half, length }
+    let thickness = geom_thickness(m, g);
+    let length = if thickness.is_finite() { 2.0 * m.geom_rbound[g] } else { f64::INFINITY };
+    Size { thickness, length }
 }
 
 /// The geoms of a model.

@@ -1,24 +1,19 @@
-//! Findings in the forms that other programs take: compilers' lines, GitHub, GitLab, SARIF, JUnit.
+//! Findings in the forms that other programs take: compilers' lines, GitHub, GitLab, JUnit.
 
-use super::uri::{slashed, uri};
-use super::{Summary, file_of, json as whole};
+use super::machine::FindingRow;
+use super::uri::slashed;
+use super::{Summary, file_of, to_value};
 use crate::finding::{Applicability, Finding, Severity};
 use crate::ledger::{Entry, Ledger, State};
 use crate::printable::{printable, printable_json, printable_line, printable_lines};
 use crate::rules;
 use crate::source::SourceFile;
-use serde_json::{Value, json};
+use serde::Serialize;
+use serde_json::Value;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::ops::Range;
-
-/// Where the pages of the rules are.
-const PAGES: &str = "https://github.com/labspec/labspec/blob/main/docs/reference/codes.md";
-
-/// The page of a rule.
-pub fn page(code: &str) -> String {
-    format!("{PAGES}#{code}")
-}
 
 /// Line and column where a finding begins and ends, from 1; 1, 1 where its file is not at hand.
 fn place(f: &Finding, files: &[&SourceFile]) -> [usize; 4] {
@@ -26,7 +21,7 @@ fn place(f: &Finding, files: &[&SourceFile]) -> [usize; 4] {
 }
 
 /// The same of some bytes of a file, where it is at hand.
-fn place_of(path: &str, span: &Range<usize>, files: &[&SourceFile]) -> Option<[usize; 4]> {
+pub(super) fn place_of(path: &str, span: &Range<usize>, files: &[&SourceFile]) -> Option<[usize; 4]> {
     let file = file_of(files, path)?;
     let span = file.snap(span);
     let (from, to) = (file.position(span.start), file.position(span.end));
@@ -53,11 +48,10 @@ pub fn concise<'f>(findings: impl IntoIterator<Item = &'f Finding>, files: &[&So
 /// A JSON object in a line for each finding, as in `json`, and a last one with the summary.
 pub fn jsonl(findings: &[Finding], files: &[&SourceFile]) -> String {
     let mut text = String::new();
-    let value = whole(findings, files);
-    for f in value["findings"].as_array().into_iter().flatten() {
-        let _ = writeln!(text, "{f}");
+    for f in findings {
+        let _ = writeln!(text, "{}", to_value(&FindingRow::new(f, files)));
     }
-    let _ = writeln!(text, "{}", json!({"summary": value["summary"]}));
+    let _ = writeln!(text, "{}", to_value(&BTreeMap::from([("summary", Summary::of(findings))])));
     printable_json(&text).into_owned()
 }
 
@@ -96,25 +90,44 @@ fn property(text: &str) -> String {
 
 /// A report of GitLab's code quality.
 pub fn gitlab(findings: &[Finding], files: &[&SourceFile]) -> Value {
-    let mut seen: BTreeMap<String, usize> = BTreeMap::new();
-    let mut one = |f: &Finding| {
-        let [line, _, last, _] = place(f, files);
-        let severity = match f.severity {
-            Severity::Error => "major",
-            Severity::Warning => "minor",
-            Severity::Note => "info",
-        };
-        let mark = print(f, &mut seen);
-        json!({
-            "description": f.message, "check_name": f.code, "fingerprint": mark, "severity": severity,
-            "location": {"path": slashed(&f.path), "lines": {"begin": line, "end": last}},
-        })
-    };
-    findings.iter().map(&mut one).collect()
+    #[derive(Serialize)]
+    struct Issue<'a> {
+        description: &'a str,
+        check_name: &'a str,
+        fingerprint: String,
+        severity: &'a str,
+        location: Location<'a>,
+    }
+    #[derive(Serialize)]
+    struct Location<'a> {
+        path: Cow<'a, str>,
+        lines: Lines,
+    }
+    #[derive(Serialize)]
+    struct Lines {
+        begin: usize,
+        end: usize,
+    }
+    let mut seen = BTreeMap::new();
+    let issues = findings.iter().map(|f| {
+        let [begin, _, end, _] = place(f, files);
+        Issue {
+            description: &f.message,
+            check_name: f.code,
+            fingerprint: fingerprint(f, &mut seen),
+            severity: match f.severity {
+                Severity::Error => "major",
+                Severity::Warning => "minor",
+                Severity::Note => "info",
+            },
+            location: Location { path: slashed(&f.path), lines: Lines { begin, end } },
+        }
+    });
+    to_value(&issues.collect::<Vec<_>>())
 }
 
 /// By what a finding is known again when lines move: its file, code and words, and how many alike came before.
-fn print(f: &Finding, seen: &mut BTreeMap<String, usize>) -> String {
+pub(super) fn fingerprint(f: &Finding, seen: &mut BTreeMap<String, usize>) -> String {
     let what = format!("{}\n{}\n{}", f.path, f.code, f.message);
     let before = seen.entry(what.clone()).or_default();
     *before += 1;
@@ -128,68 +141,6 @@ fn fnv(text: &str) -> String {
     format!("{:016x}{:016x}", hash(0xcbf2_9ce4_8422_2325), hash(0x9e37_79b9_7f4a_7c15))
 }
 
-/// SARIF 2.1.0, as code scanners give it.
-pub fn sarif(findings: &[Finding], files: &[&SourceFile]) -> Value {
-    let mut codes: Vec<&str> = findings.iter().map(|f| f.code).collect();
-    codes.sort_unstable();
-    codes.dedup();
-    let level = |severity: Severity| severity.as_str();
-    let rule = |code: &&str| {
-        let mut rule = json!({"id": code, "helpUri": page(code)});
-        if let Some(found) = rules::find(code) {
-            rule["shortDescription"] = json!({"text": found.summary});
-            rule["defaultConfiguration"] = json!({"level": level(found.severity)});
-            if !found.why.is_empty() {
-                rule["fullDescription"] = json!({"text": found.why});
-            }
-        }
-        rule
-    };
-    let region = |f: &Finding, span: &Range<usize>| {
-        let [line, column, last, end] = place_of(&f.path, span, files)?;
-        Some(json!({"startLine": line, "startColumn": column, "endLine": last, "endColumn": end}))
-    };
-    let mut seen = BTreeMap::new();
-    let mut result = |f: &Finding| {
-        let text = [Some(&f.message), f.why.as_ref(), f.help.as_ref()];
-        let text: Vec<&str> = text.into_iter().flatten().map(String::as_str).collect();
-        let file = json!({"uri": uri(&f.path)});
-        let mut value = json!({
-            "ruleId": f.code, "ruleIndex": codes.binary_search(&f.code).unwrap_or(0), "level": level(f.severity),
-            "message": {"text": text.join(". ")},
-            "locations": [{"physicalLocation": {"artifactLocation": file}}],
-            "partialFingerprints": {"labspec/v1": print(f, &mut seen)},
-        });
-        // A file that could not be read has no places.
-        if let Some(region) = region(f, &f.span) {
-            value["locations"][0]["physicalLocation"]["region"] = region;
-        }
-        let fix = f.fix.as_ref().filter(|fix| fix.applicability != Applicability::Display);
-        if let Some((fix, region)) = fix.and_then(|fix| Some((fix, region(f, &fix.span)?))) {
-            let change = json!({"deletedRegion": region, "insertedContent": {"text": fix.text}});
-            let words = f.help.as_ref().unwrap_or(&f.message);
-            value["fixes"] = json!([{
-                "description": {"text": words},
-                "artifactChanges": [{"artifactLocation": file, "replacements": [change]}],
-            }]);
-        }
-        value
-    };
-    let results: Vec<Value> = findings.iter().map(&mut result).collect();
-    json!({
-        "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
-        "version": "2.1.0",
-        "runs": [{
-            "tool": {"driver": {
-                "name": "labspec", "version": env!("CARGO_PKG_VERSION"), "informationUri": env!("CARGO_PKG_REPOSITORY"),
-                "rules": codes.iter().map(rule).collect::<Vec<_>>(),
-            }},
-            "columnKind": "unicodeCodePoints",
-            "results": results,
-        }],
-    })
-}
-
 /// JUnit: a suite for each file, a case for each claim of the ledger. What is wrong with the file itself fails its own case.
 pub fn junit(ledger: &Ledger, findings: &[Finding], files: &[&SourceFile]) -> String {
     let mut by_file: BTreeMap<&str, Vec<&Entry>> = BTreeMap::new();
@@ -200,12 +151,11 @@ pub fn junit(ledger: &Ledger, findings: &[Finding], files: &[&SourceFile]) -> St
     for f in findings {
         found.entry(&f.path).or_default().push(f);
     }
-    let bad = |e: &&Entry| e.state == State::False;
-    let lost = |e: &&Entry| e.state == State::Unchecked;
-    let skipped = |e: &&Entry| matches!(e.state, State::LeftOut | State::NotClaimed | State::Known);
     let counts = |all: &[&Entry]| {
-        let n = |test: &dyn Fn(&&Entry) -> bool| all.iter().filter(|e| test(e)).count();
-        (format!("tests=\"{}\" failures=\"{}\" errors=\"{}\"", all.len(), n(&bad), n(&lost)), n(&skipped))
+        let n = |tag: &str| all.iter().filter(|e| outcome_tag(e.state) == tag).count();
+        let numbers =
+            format!("tests=\"{}\" failures=\"{}\" errors=\"{}\"", all.len(), n("failure"), n("error"));
+        (numbers, n("skipped"))
     };
     let all: Vec<&Entry> = ledger.entries().iter().collect();
     let mut text = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
@@ -219,36 +169,36 @@ pub fn junit(ledger: &Ledger, findings: &[Finding], files: &[&SourceFile]) -> St
             let name = format!("{}: {}{what}", e.subject.as_str(), e.owner);
             let _ =
                 write!(text, "    <testcase classname=\"{}\" name=\"{}\"", attribute(path), attribute(&name));
-            let words =
-                if e.remark.is_empty() { e.word.to_string() } else { format!("{}: {}", e.word, e.remark) };
+            let remark = if e.remark.is_empty() { String::new() } else { format!(": {}", e.remark) };
+            let message = attribute(&format!("{}{remark}", e.word));
             // Findings in what it is about say more; those of the whole file all of it.
             let inside = |f: &&Finding| {
                 e.span.is_empty() || (e.span.start <= f.span.start && f.span.end <= e.span.end)
             };
-            let more = || xml(&concise(found.get(path).into_iter().flatten().copied().filter(inside), files));
-            let _ = match e.state {
-                State::False => writeln!(
-                    text,
-                    ">\n      <failure message=\"{}\">{}</failure>\n    </testcase>",
-                    attribute(&words),
-                    more()
-                ),
-                State::Unchecked => writeln!(
-                    text,
-                    ">\n      <error message=\"{}\">{}</error>\n    </testcase>",
-                    attribute(&words),
-                    more()
-                ),
-                State::LeftOut | State::NotClaimed | State::Known => {
-                    writeln!(text, ">\n      <skipped message=\"{}\"/>\n    </testcase>", attribute(&words))
+            let _ = match outcome_tag(e.state) {
+                "" => writeln!(text, "/>"),
+                "skipped" => writeln!(text, ">\n      <skipped message=\"{message}\"/>\n    </testcase>"),
+                tag => {
+                    let about = found.get(path).into_iter().flatten().copied().filter(inside);
+                    let more = xml(&concise(about, files));
+                    writeln!(text, ">\n      <{tag} message=\"{message}\">{more}</{tag}>\n    </testcase>")
                 }
-                State::True(_) => writeln!(text, "/>"),
             };
         }
         text.push_str("  </testsuite>\n");
     }
     text.push_str("</testsuites>\n");
     text
+}
+
+/// The element that says in a case what became of it; empty where it is true.
+fn outcome_tag(state: State) -> &'static str {
+    match state {
+        State::False => "failure",
+        State::Unchecked => "error",
+        State::LeftOut | State::NotClaimed | State::Known => "skipped",
+        State::True(_) => "",
+    }
 }
 
 /// An attribute of XML: one line.

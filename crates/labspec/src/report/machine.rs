@@ -3,20 +3,26 @@
 
 use super::{Summary, file_of};
 use crate::finding::Finding;
+use crate::json::to_value;
 use crate::source::{EditorPosition, SourceFile};
-use serde_json::{Value, json};
+use serde::Serialize;
+use serde_json::Value;
 use std::ops::Range;
 
 /// The version of the form of all reports. It goes up when a program that reads them would have to change.
 pub const SCHEMA_VERSION: u32 = 1;
 
 /// A report with this name: its version and its name stand first.
-pub fn report(name: &str, entries: Value) -> Value {
-    let mut all = json!({"schemaVersion": SCHEMA_VERSION, "report": name});
-    if let (Value::Object(all), Value::Object(entries)) = (&mut all, entries) {
-        all.extend(entries);
+pub fn report(name: &str, entries: impl Serialize) -> Value {
+    #[derive(Serialize)]
+    #[serde(rename_all = "camelCase")]
+    struct Report<'a, T> {
+        schema_version: u32,
+        report: &'a str,
+        #[serde(flatten)]
+        entries: T,
     }
-    all
+    to_value(&Report { schema_version: SCHEMA_VERSION, report: name, entries })
 }
 
 /// Words of ours as a key, or as one of a few values: `closed form` is `closedForm`.
@@ -35,58 +41,117 @@ pub fn key(words: &str) -> String {
 
 /// All findings and their counts. Without the file of a finding among `files`, its places are `null`.
 pub fn json(findings: &[Finding], files: &[&SourceFile]) -> Value {
-    let summary = Summary::of(findings);
-    json!({
-        "findings": findings.iter().map(|f| one(f, files)).collect::<Vec<_>>(),
-        "summary": {"errors": summary.errors, "warnings": summary.warnings, "notes": summary.notes},
-    })
+    #[derive(Serialize)]
+    struct Findings<'a> {
+        findings: Vec<FindingRow<'a>>,
+        summary: Summary,
+    }
+    let rows = findings.iter().map(|f| FindingRow::new(f, files)).collect();
+    to_value(&Findings { findings: rows, summary: Summary::of(findings) })
 }
 
-fn one(finding: &Finding, files: &[&SourceFile]) -> Value {
-    let mut value = json!({"code": finding.code, "severity": finding.severity.as_str()});
-    set_place(&mut value, files, &finding.path, &finding.span);
-    value["message"] = json!(finding.message);
-    value["why"] = json!(finding.why);
-    value["help"] = json!(finding.help);
-    value["fix"] = finding.fix.as_ref().map_or(Value::Null, |fix| {
-        let mut value = json!({"text": fix.text, "applicability": fix.applicability.as_str()});
-        set_place(&mut value, files, &finding.path, &fix.span);
-        value
-    });
-    value["related"] = finding
-        .related
-        .iter()
-        .map(|related| {
-            let mut value = json!({"message": related.label});
-            set_place(&mut value, files, &related.path, &related.span);
-            value
-        })
-        .collect();
-    value
+/// A finding as programs read it.
+#[derive(Serialize)]
+pub(super) struct FindingRow<'a> {
+    code: &'a str,
+    severity: &'a str,
+    #[serde(flatten)]
+    place: PlaceFields<'a>,
+    message: &'a str,
+    why: Option<&'a str>,
+    help: Option<&'a str>,
+    fix: Option<FixRow<'a>>,
+    related: Vec<RelatedRow<'a>>,
 }
 
-/// Writes a place into an object. This is the one form of places in all reports: the file; bytes of the file; lines and
-/// columns from 1, columns in characters; and the range as editors count it. An end is the place behind the last
-/// character. Of a file that is not among `files` everything but its path is `null`.
+#[derive(Serialize)]
+struct FixRow<'a> {
+    text: &'a str,
+    applicability: &'a str,
+    #[serde(flatten)]
+    place: PlaceFields<'a>,
+}
+
+#[derive(Serialize)]
+struct RelatedRow<'a> {
+    message: &'a str,
+    #[serde(flatten)]
+    place: PlaceFields<'a>,
+}
+
+impl<'a> FindingRow<'a> {
+    pub(super) fn new(f: &'a Finding, files: &[&SourceFile]) -> FindingRow<'a> {
+        FindingRow {
+            code: f.code,
+            severity: f.severity.as_str(),
+            place: PlaceFields::new(files, &f.path, &f.span),
+            message: &f.message,
+            why: f.why.as_deref(),
+            help: f.help.as_deref(),
+            fix: f.fix.as_ref().map(|fix| FixRow {
+                text: &fix.text,
+                applicability: fix.applicability.as_str(),
+                place: PlaceFields::new(files, &f.path, &fix.span),
+            }),
+            related: (f.related.iter())
+                .map(|r| RelatedRow { message: &r.label, place: PlaceFields::new(files, &r.path, &r.span) })
+                .collect(),
+        }
+    }
+}
+
+/// The one form of places in all reports: the file; bytes of the file; lines and columns from 1, columns in characters; and the
+/// range as editors count it. An end is the place behind the last character. Of a file that is not at hand everything but its
+/// path is `null`.
+#[derive(Default, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct PlaceFields<'a> {
+    file: &'a str,
+    start: Option<usize>,
+    end: Option<usize>,
+    line: Option<usize>,
+    column: Option<usize>,
+    end_line: Option<usize>,
+    end_column: Option<usize>,
+    range: Option<Range<EditorPlace>>,
+}
+
+#[derive(Serialize)]
+struct EditorPlace {
+    line: usize,
+    character: usize,
+}
+
+impl<'a> PlaceFields<'a> {
+    /// The place of some bytes of a file.
+    pub fn new(files: &[&SourceFile], path: &'a str, span: &Range<usize>) -> PlaceFields<'a> {
+        let Some(file) = file_of(files, path) else {
+            return PlaceFields { file: path, ..PlaceFields::default() };
+        };
+        let bytes = file.snap(span);
+        let [from, to] = [bytes.start, bytes.end].map(|at| file.position(at));
+        let [start, end] = [bytes.start, bytes.end].map(|at| {
+            let EditorPosition { line, character } = file.editor_position(at);
+            EditorPlace { line, character }
+        });
+        PlaceFields {
+            file: path,
+            start: Some(bytes.start),
+            end: Some(bytes.end),
+            line: Some(from.line),
+            column: Some(from.column),
+            end_line: Some(to.line),
+            end_column: Some(to.column),
+            range: Some(start..end),
+        }
+    }
+}
+
+/// Writes a place into an object, in the form that places have in all reports.
 pub fn set_place(object: &mut Value, files: &[&SourceFile], path: &str, span: &Range<usize>) {
-    let file = file_of(files, path);
-    let bytes = file.map(|f| f.snap(span));
-    let (start, end) = (bytes.as_ref().map(|b| b.start), bytes.as_ref().map(|b| b.end));
-    let at = |offset: Option<usize>| file.zip(offset).map(|(f, offset)| f.position(offset));
-    let editor = |offset: Option<usize>| {
-        let place = file.zip(offset).map(|(f, offset)| f.editor_position(offset));
-        place.map(|EditorPosition { line, character }| json!({"line": line, "character": character}))
-    };
-    let (from, to) = (at(start), at(end));
-    let range = editor(start).zip(editor(end)).map(|(start, end)| json!({"start": start, "end": end}));
-    object["file"] = json!(path);
-    object["start"] = json!(start);
-    object["end"] = json!(end);
-    object["line"] = json!(from.map(|p| p.line));
-    object["column"] = json!(from.map(|p| p.column));
-    object["endLine"] = json!(to.map(|p| p.line));
-    object["endColumn"] = json!(to.map(|p| p.column));
-    object["range"] = json!(range);
+    for (key, value) in to_value(&PlaceFields::new(files, path, span)).as_object().into_iter().flatten() {
+        object[key] = value.clone();
+    }
 }
 
 /// The name of what JSON has no number for: `NaN`, `Infinity` or `-Infinity`; `None` for every other number.
@@ -102,25 +167,26 @@ pub fn nonfinite(x: f64) -> Option<&'static str> {
 /// Writes a number into an object. What is no number for JSON is `null`, and the object's `nonfinite` says under the same
 /// key what it was, so that a key holds values of one type and nothing is lost.
 pub fn set_number(object: &mut Value, key: &str, x: f64) {
-    object[key] = json!(x);
+    object[key] = x.into();
     if let Some(name) = nonfinite(x) {
-        object["nonfinite"][key] = json!(name);
+        object["nonfinite"][key] = name.into();
     }
 }
 
 /// The same for a list, in which an entry may also be missing: `nonfinite` holds pairs of index and name.
 pub fn set_numbers(object: &mut Value, key: &str, list: &[Option<f64>]) {
-    object[key] = json!(list);
-    let named = |(i, x): (usize, &Option<f64>)| x.and_then(nonfinite).map(|name| json!([i, name]));
-    let lost: Vec<Value> = list.iter().enumerate().filter_map(named).collect();
+    object[key] = list.into();
+    let named = |(i, x): (usize, &Option<f64>)| Some((i, nonfinite((*x)?)?));
+    let lost: Vec<_> = list.iter().enumerate().filter_map(named).collect();
     if !lost.is_empty() {
-        object["nonfinite"][key] = Value::Array(lost);
+        object["nonfinite"][key] = to_value(&lost);
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use serde_json::json;
 
     #[test]
     fn words_become_keys() {

@@ -7,23 +7,31 @@ pub mod html;
 #[cfg(feature = "report")]
 mod human;
 mod machine;
+#[cfg(feature = "report")]
+mod sarif;
 mod table;
 #[cfg(feature = "report")]
 pub mod uri;
 
+pub use crate::json::to_value;
 pub use crate::printable::{counted, printable, printable_json, printable_lines, printable_path};
 #[cfg(feature = "report")]
-pub use formats::{concise, github, gitlab, jsonl, junit, page, sarif, statistics};
+pub use formats::{concise, github, gitlab, jsonl, junit, statistics};
 #[cfg(feature = "report")]
 pub use human::human;
-pub use machine::{SCHEMA_VERSION, json, key, nonfinite, report, set_number, set_numbers, set_place};
+pub use machine::{
+    PlaceFields, SCHEMA_VERSION, json, key, nonfinite, report, set_number, set_numbers, set_place,
+};
+#[cfg(feature = "report")]
+pub use sarif::{page, sarif};
 pub use table::number_in_table;
 
 use crate::finding::{Finding, Severity};
 use crate::source::SourceFile;
+use serde::Serialize;
 
 /// How many findings of each severity.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Summary {
     /// Errors.
     pub errors: usize,

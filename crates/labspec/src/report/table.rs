@@ -6,13 +6,15 @@
 
 use super::{SCHEMA_VERSION, nonfinite};
 use crate::printable::printable_json;
-use crate::run::{Breakdown, Cell, Table};
+use crate::run::{Cell, Table};
 use labspec_expr::Value;
-use serde_json::json;
+use serde::{Serialize, Serializer};
+use serde_json::ser::Formatter;
 use std::io::{self, Write};
 
 /// What the cells of a column are, besides those with nothing in them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 enum Type {
     Number,
     Boolean,
@@ -28,14 +30,6 @@ impl Type {
             Cell::Bool(_) => Some(Type::Boolean),
             Cell::Text(_) => Some(Type::Text),
             Cell::Nothing => None,
-        }
-    }
-
-    fn as_str(self) -> &'static str {
-        match self {
-            Type::Number => "number",
-            Type::Boolean => "boolean",
-            Type::Text => "text",
         }
     }
 }
@@ -59,44 +53,95 @@ pub fn number_in_table(x: f64) -> String {
     if x == 0.0 && x.is_sign_negative() { "-0".into() } else { Value::Number(x).to_string() }
 }
 
-fn write_cell(cell: &Cell, of: Type, out: &mut dyn Write) -> io::Result<()> {
-    match cell {
-        Cell::Number(x) if of == Type::Text => write_text(&number_in_table(*x), out),
-        Cell::Bool(b) if of == Type::Text => write_text(&b.to_string(), out),
-        Cell::Number(x) if x.is_finite() => Ok(serde_json::to_writer(out, x)?),
-        Cell::Text(t) => write_text(t, out),
-        Cell::Bool(b) => write!(out, "{b}"),
-        Cell::Number(_) | Cell::Nothing => out.write_all(b"null"),
+/// The report `run`: its rows, and the cells that are no numbers, are written one by one.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct RunReport<'t, R: Serialize, N: Serialize> {
+    schema_version: u32,
+    report: &'t str,
+    version: &'t str,
+    timestep: f64,
+    columns: &'t [String],
+    types: &'t [Type],
+    rows: R,
+    #[serde(serialize_with = "as_object")]
+    warnings: &'t [(&'t str, usize)],
+    errors: &'t [String],
+    breakdown: Option<&'t BreakdownRow<'t>>,
+    breakdowns: &'t [BreakdownRow<'t>],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    nonfinite: Option<Nonfinite<'t, N>>,
+}
+
+#[derive(Serialize)]
+struct BreakdownRow<'t> {
+    code: &'t str,
+    what: &'t str,
+    why: &'t str,
+    help: String,
+}
+
+/// What the numbers are that JSON has not.
+#[derive(Serialize)]
+struct Nonfinite<'t, N: Serialize> {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    timestep: Option<&'t str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rows: Option<N>,
+}
+
+/// A list that is made while it is written.
+struct Sequence<F>(F);
+
+impl<I: Iterator<Item: Serialize>, F: Fn() -> I> Serialize for Sequence<F> {
+    fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
+        out.collect_seq((self.0)())
     }
 }
 
-fn write_text(text: &str, out: &mut dyn Write) -> io::Result<()> {
-    out.write_all(printable_json(&serde_json::to_string(text)?).as_bytes())
+fn cells_of<'t>(row: &'t [Cell], types: &'t [Type]) -> impl Serialize {
+    Sequence(move || row.iter().zip(types).map(|(cell, of)| TypedCell(cell, *of)))
 }
 
-/// Items with commas between them.
-fn separated<T>(
-    items: impl IntoIterator<Item = T>,
-    out: &mut dyn Write,
-    mut write: impl FnMut(T, &mut dyn Write) -> io::Result<()>,
-) -> io::Result<()> {
-    for (i, item) in items.into_iter().enumerate() {
-        if i > 0 {
-            out.write_all(b",")?;
+struct TypedCell<'t>(&'t Cell, Type);
+
+impl Serialize for TypedCell<'_> {
+    fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
+        match self {
+            TypedCell(Cell::Number(x), Type::Text) => out.serialize_str(&number_in_table(*x)),
+            TypedCell(Cell::Bool(b), Type::Text) => out.collect_str(b),
+            TypedCell(Cell::Number(x), _) => out.serialize_f64(*x),
+            TypedCell(Cell::Text(text), _) => out.serialize_str(text),
+            TypedCell(Cell::Bool(b), _) => out.serialize_bool(*b),
+            TypedCell(Cell::Nothing, _) => out.serialize_none(),
         }
-        write(item, out)?;
     }
-    Ok(())
 }
 
 /// Row, column and name of every number that JSON has not, where a column holds numbers.
-fn lost<'t>(table: &'t Table, types: &'t [Type]) -> impl Iterator<Item = (usize, usize, &'static str)> + 't {
-    table.rows.iter().enumerate().flat_map(move |(row, cells)| {
+fn nonfinite_cells<'t>(
+    rows: &'t [Vec<Cell>],
+    types: &'t [Type],
+) -> impl Iterator<Item = (usize, usize, &'static str)> {
+    rows.iter().enumerate().flat_map(move |(row, cells)| {
         cells.iter().zip(types).enumerate().filter_map(move |(column, (cell, of))| match cell {
-            Cell::Number(x) if *of == Type::Number => nonfinite(*x).map(|name| (row, column, name)),
+            Cell::Number(x) if *of == Type::Number => Some((row, column, nonfinite(*x)?)),
             _ => None,
         })
     })
+}
+
+fn as_object<S: Serializer>(pairs: &[(&str, usize)], out: S) -> Result<S::Ok, S::Error> {
+    out.collect_map(pairs.iter().copied())
+}
+
+/// JSON whose texts hold nothing that acts on a terminal.
+struct Printable;
+
+impl Formatter for Printable {
+    fn write_string_fragment<W: Write + ?Sized>(&mut self, out: &mut W, text: &str) -> io::Result<()> {
+        out.write_all(printable_json(text).as_bytes())
+    }
 }
 
 impl Table {
@@ -106,49 +151,27 @@ impl Table {
     /// Writing fails.
     pub fn write_json(&self, out: &mut dyn Write) -> io::Result<()> {
         let types = types(self);
-        let version = json!(concat!("labspec ", env!("CARGO_PKG_VERSION")));
-        write!(out, "{{\"schemaVersion\":{SCHEMA_VERSION},\"report\":\"run\",\"version\":{version},")?;
-        write!(out, "\"timestep\":{},\"columns\":[", json!(self.timestep))?;
-        separated(&self.columns, out, |name, out| write_text(name, out))?;
-        out.write_all(b"],\"types\":[")?;
-        separated(&types, out, |of, out| write!(out, "\"{}\"", of.as_str()))?;
-        out.write_all(b"],\"rows\":[")?;
-        separated(&self.rows, out, |row, out| {
-            out.write_all(b"[")?;
-            separated(row.iter().zip(&types), out, |(cell, of), out| write_cell(cell, *of, out))?;
-            out.write_all(b"]")
-        })?;
-        out.write_all(b"],\"warnings\":{")?;
-        separated(&self.warnings, out, |(name, n), out| write!(out, "{}:{n}", json!(name)))?;
-        out.write_all(b"},\"errors\":[")?;
-        separated(&self.errors, out, |error, out| write_text(error, out))?;
-        out.write_all(b"],\"breakdown\":")?;
-        let breakdown_value =
-            |b: &Breakdown| json!({"code": b.rule.code, "what": b.what, "why": b.why, "help": b.help()});
-        let list: Vec<serde_json::Value> = self.breakdowns.iter().map(breakdown_value).collect();
-        out.write_all(printable_json(&json!(list.first()).to_string()).as_bytes())?;
-        out.write_all(b",\"breakdowns\":")?;
-        out.write_all(printable_json(&json!(list).to_string()).as_bytes())?;
-        self.write_lost(&types, out)?;
-        out.write_all(b"}")
-    }
-
-    /// The object `nonfinite`, where a number is none.
-    fn write_lost(&self, types: &[Type], out: &mut dyn Write) -> io::Result<()> {
-        let timestep = nonfinite(self.timestep).map(|name| format!("\"timestep\":\"{name}\""));
-        let rows = lost(self, types).next().is_some();
-        if timestep.is_none() && !rows {
-            return Ok(());
-        }
-        write!(out, ",\"nonfinite\":{{{}", timestep.as_deref().unwrap_or(""))?;
-        if rows {
-            out.write_all(if timestep.is_some() { b",\"rows\":[" } else { b"\"rows\":[" })?;
-            separated(lost(self, types), out, |(row, column, name), out| {
-                write!(out, "[{row},{column},\"{name}\"]")
-            })?;
-            out.write_all(b"]")?;
-        }
-        out.write_all(b"}")
+        let timestep = nonfinite(self.timestep);
+        let cells = || nonfinite_cells(&self.rows, &types);
+        let cells = cells().next().is_some().then_some(Sequence(cells));
+        let breakdowns: Vec<BreakdownRow<'_>> = (self.breakdowns.iter())
+            .map(|b| BreakdownRow { code: b.rule.code, what: &b.what, why: b.why, help: b.help() })
+            .collect();
+        let report = RunReport {
+            schema_version: SCHEMA_VERSION,
+            report: "run",
+            version: concat!("labspec ", env!("CARGO_PKG_VERSION")),
+            timestep: self.timestep,
+            columns: &self.columns,
+            types: &types,
+            rows: Sequence(|| self.rows.iter().map(|row| cells_of(row, &types))),
+            warnings: &self.warnings,
+            errors: &self.errors,
+            breakdown: breakdowns.first(),
+            breakdowns: &breakdowns,
+            nonfinite: (timestep.is_some() || cells.is_some()).then_some(Nonfinite { timestep, rows: cells }),
+        };
+        Ok(report.serialize(&mut serde_json::Serializer::with_formatter(out, Printable))?)
     }
 
     /// Comma-separated values with a header. Numbers that are none are `NaN`, `Infinity` and `-Infinity`; where there is
@@ -157,19 +180,30 @@ impl Table {
     /// # Errors
     /// Writing fails.
     pub fn write_csv(&self, out: &mut dyn Write) -> io::Result<()> {
-        separated(&self.columns, out, |name, out| write_csv_text(name, out))?;
-        out.write_all(b"\n")?;
-        for row in &self.rows {
-            separated(row, out, |cell, out| match cell {
+        write_csv_line(&self.columns, out, |name, out| write_csv_text(name, out))?;
+        self.rows.iter().try_for_each(|row| {
+            write_csv_line(row, out, |cell, out| match cell {
                 Cell::Number(x) => out.write_all(number_in_table(*x).as_bytes()),
                 Cell::Text(t) => write_csv_text(t, out),
                 Cell::Bool(b) => write!(out, "{b}"),
                 Cell::Nothing => Ok(()),
-            })?;
-            out.write_all(b"\n")?;
-        }
-        Ok(())
+            })
+        })
     }
+}
+
+fn write_csv_line<T>(
+    items: &[T],
+    out: &mut dyn Write,
+    write: impl Fn(&T, &mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
+    for (i, item) in items.iter().enumerate() {
+        if i > 0 {
+            out.write_all(b",")?;
+        }
+        write(item, out)?;
+    }
+    out.write_all(b"\n")
 }
 
 fn write_csv_text(text: &str, out: &mut dyn Write) -> io::Result<()> {
@@ -183,7 +217,8 @@ fn write_csv_text(text: &str, out: &mut dyn Write) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run::Shorter;
+    use crate::run::{Breakdown, Shorter};
+    use serde_json::json;
 
     fn table(names: &[&str], rows: Vec<Vec<Cell>>) -> Table {
         let mut table = Table::new(0.002, names.iter().map(|n| (*n).to_string()));

@@ -1,7 +1,7 @@
 use crate::check::observations::{ObservedLab, geom_name};
 use crate::check::setconst::digits;
 use crate::run::{self, Play, Session, Start};
-use labspec_core::{Model, Plan, geom};
+use labspec_core::{Plan, half_thickness_of_pair};
 use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::ops::ControlFlow;
 
@@ -55,7 +55,7 @@ fn deepest(session: &Session<'_>) -> Option<([usize; 2], f64)> {
     let (model, data) = (&session.world.model, session.world.data.fields());
     let deep = data.contact.iter().filter_map(|c| {
         let pair = [c.geom1, c.geom2];
-        let size = pair.iter().map(|g| half(model, *g)).fold(f64::INFINITY, f64::min);
+        let size = half_thickness_of_pair(model, pair);
         (c.efc_address.is_some() && -c.dist > DEEP * size).then_some((pair, -c.dist))
     });
     deep.max_by(|a, b| a.1.total_cmp(&b.1))
@@ -66,15 +66,4 @@ fn contact(session: &Session<'_>, pair: [usize; 2]) -> f64 {
     let all = session.world.data.fields().contact.iter();
     let of_pair = all.filter(|c| [c.geom1, c.geom2] == pair);
     of_pair.map(|c| -c.dist).fold(0.0, f64::max)
-}
-
-/// Half of the smallest extent of a geom, m; infinite where it has none.
-fn half(m: &Model, g: usize) -> f64 {
-    let size = |k: usize| m.geom_size.get(3 * g + k).copied().unwrap_or(0.0);
-    match m.geom_type.get(g).copied() {
-        Some(geom::SPHERE | geom::CAPSULE) => size(0),
-        Some(geom::CYLINDER) => size(0).min(size(1)),
-        Some(geom::BOX | geom::ELLIPSOID) => size(0).min(size(1)).min(size(2)),
-        _ => f64::INFINITY,
-    }
 }

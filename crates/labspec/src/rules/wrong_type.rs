@@ -16,7 +16,7 @@ pub const WRONG_TYPE: &Rule = &Rule {
     good: Example::Lab(r#"{"model": "ball", "stopAt": 2}"#),
 };
 
-/// What is said of a value of another type than its key takes.
+/// The finding for a value of another type than its key takes.
 pub(crate) fn describe_type(span: &Range<usize>, mistake: &Mistake) -> Finding {
     let wrong = |message: String| Finding::new(WRONG_TYPE, span.clone(), message);
     match mistake {
@@ -59,7 +59,11 @@ pub(crate) fn describe_type(span: &Range<usize>, mistake: &Mistake) -> Finding {
             .help("write [\"Drop\", 0.5]: the button's label and the time in seconds"),
         Mistake::NoQuote => wrong("an entry of `says` must be a pair [quote, expression]".into())
             .help("write [\"0.442 s\", \"fine.touch\"]"),
-        _ => wrong("this value has another type than its key takes".into()),
+        // `lint/format.rs` lists the mistakes that come here.
+        _ => {
+            debug_assert!(false, "this mistake is of another rule: {mistake:?}");
+            wrong("this value has another type than its key takes".into())
+        }
     }
 }
 

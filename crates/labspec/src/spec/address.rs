@@ -1,7 +1,9 @@
 //! How a lab of a lesson is addressed: `#2`, `#quiz-id.1`.
 
+use serde::{Deserialize, Serialize};
+
 /// The address of a lab within a lesson, written `#2` or `#quiz-id.1`.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum LabAddress {
     /// A lab by its number, from 1.
     Lab(usize),

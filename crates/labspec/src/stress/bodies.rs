@@ -1,28 +1,7 @@
 //! Geoms, bodies and joints of a model: which geoms can collide, how thick they are, and their names in messages.
 
 use labspec_core::math::{Vec3, mat_t_mul_vec, quat_to_mat, rows, sub};
-use labspec_core::{Model, can_collide, geom, joint};
-
-/// The thinnest extent of a geom, m; without end for planes and height fields.
-pub(super) fn thickness(m: &Model, g: usize) -> f64 {
-    match m.geom_type.get(g) {
-        Some(&(geom::PLANE | geom::HFIELD)) | None => f64::INFINITY,
-        _ => 2.0 * halves(m, g).into_iter().fold(f64::INFINITY, f64::min),
-    }
-}
-
-/// Half the extents of a geom along its own axes, m.
-pub(super) fn halves(m: &Model, g: usize) -> Vec3 {
-    let size = rows::<3>(&m.geom_size).get(g).copied().unwrap_or_default();
-    match m.geom_type.get(g) {
-        // Sliders write sizes, which the box around a geom may not follow.
-        Some(&geom::SPHERE) => [size[0]; 3],
-        Some(&geom::CAPSULE) => [size[0], size[0], size[0] + size[1]],
-        Some(&geom::CYLINDER) => [size[0], size[0], size[1]],
-        Some(&(geom::ELLIPSOID | geom::BOX)) => size,
-        _ => rows::<6>(&m.geom_aabb).get(g).map_or([0.0; 3], |b| [b[3], b[4], b[5]]),
-    }
-}
+use labspec_core::{Model, can_collide, geom, geom_half_extents, geom_thickness, joint};
 
 /// The thinnest extent of a body, m: of a box along its axes around all its geoms that touch others. Without end where one is.
 pub(super) fn body_thickness(m: &Model, body: usize) -> f64 {
@@ -33,12 +12,12 @@ pub(super) fn body_thickness(m: &Model, body: usize) -> f64 {
         if bits(&m.geom_contype, g) == 0 && bits(&m.geom_conaffinity, g) == 0 && !paired {
             continue;
         }
-        if thickness(m, g).is_infinite() {
+        if geom_thickness(m, g).is_infinite() {
             return f64::INFINITY;
         }
         let axes = quat_to_mat(rows::<4>(&m.geom_quat).get(g).copied().unwrap_or([1.0, 0.0, 0.0, 0.0]));
         let centre = rows::<3>(&m.geom_pos).get(g).copied().unwrap_or_default();
-        let half = halves(m, g);
+        let half = geom_half_extents(m, g);
         for k in 0..3 {
             // A ball is as wide along any axis.
             let reach = match m.geom_type.get(g) {
@@ -105,7 +84,11 @@ pub(super) fn pairs(m: &Model, most: usize) -> (Vec<[usize; 2]>, bool) {
     let (first, last): (Vec<usize>, Vec<usize>) = (0..m.ngeom).partition(moves);
     for g in first.into_iter().chain(last) {
         for p in 0..m.ngeom {
-            if g != p && thickness(m, p).is_finite() && thickness(m, g).is_finite() && may_meet(m, g, p) {
+            if g != p
+                && geom_thickness(m, p).is_finite()
+                && geom_thickness(m, g).is_finite()
+                && may_meet(m, g, p)
+            {
                 if list.len() == most {
                     return (list, true);
                 }

@@ -1,11 +1,11 @@
 //! What rests and creeps all the same: bodies that touch others with friction and move on at the same small speed, although nothing
 //! pushes them along, and joints that move on although their friction loss is more than what pulls at them.
 
-use super::bodies::{body_name, body_of, halves, joint_of_dof};
+use super::bodies::{body_name, body_of, joint_of_dof};
 use super::fault::{Evidence, Fault, FaultKind};
 use super::history::RunHistory;
 use labspec_core::math::{Vec3, norm, rows, sub};
-use labspec_core::{Fields, Model, disable, joint};
+use labspec_core::{Fields, Model, disable, geom_half_extents, joint};
 
 /// Looks between two entries of the memory, and entries before every second one is forgotten.
 const EVERY: usize = 4;
@@ -192,6 +192,7 @@ fn creep(who: String, since: f64, way: f64, time: f64, unit: &'static str) -> Fa
 /// The largest extent of a body, m.
 fn sizes(m: &Model, b: usize) -> f64 {
     let geoms = (0..m.ngeom).filter(|&g| body_of(m, g) == b);
-    let largest = geoms.map(|g| 2.0 * halves(m, g).into_iter().fold(0.0, f64::max)).fold(0.0, f64::max);
+    let largest =
+        geoms.map(|g| 2.0 * geom_half_extents(m, g).into_iter().fold(0.0, f64::max)).fold(0.0, f64::max);
     if largest > 0.0 { largest } else { m.stat.extent }
 }

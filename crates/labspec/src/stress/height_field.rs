@@ -1,9 +1,9 @@
 //! Bodies that fall through a height field: a middle that was above the surface, and is below it by half of the body's own thickness.
 
-use super::bodies::{body_of, geom_name, may_meet, seen_from, thickness};
+use super::bodies::{body_of, geom_name, may_meet, seen_from};
 use super::fault::{Evidence, Fault, FaultKind};
 use labspec_core::math::{Vec3, norm, rows, sub};
-use labspec_core::{Fields, Model, geom};
+use labspec_core::{Fields, Model, geom, geom_thickness};
 
 /// A geom over a height field.
 pub(super) struct HeightFieldPair {
@@ -18,7 +18,7 @@ pub(super) fn over(m: &Model, most: usize) -> Vec<HeightFieldPair> {
     let moves = |g: &usize| m.body_treeid.get(body_of(m, *g)).is_some_and(|&t| t >= 0);
     let fields: Vec<usize> = (0..m.ngeom).filter(|&p| m.geom_type.get(p) == Some(&geom::HFIELD)).collect();
     let of = |&p: &usize| (0..m.ngeom).filter(moves).filter(move |&g| may_meet(m, g, p)).map(move |g| [g, p]);
-    let pairs = fields.iter().flat_map(of).filter(|[g, _]| thickness(m, *g).is_finite());
+    let pairs = fields.iter().flat_map(of).filter(|[g, _]| geom_thickness(m, *g).is_finite());
     pairs.take(most).map(|geoms| HeightFieldPair { geoms, above: None, done: false }).collect()
 }
 
@@ -47,7 +47,7 @@ impl HeightFieldPair {
             return None;
         }
         let before = self.above?;
-        if depth <= 0.5 * thickness(m, g) {
+        if depth <= 0.5 * geom_thickness(m, g) {
             return None;
         }
         self.done = true;
@@ -74,7 +74,7 @@ fn surface(m: &Model, p: usize, place: Vec3) -> Option<f64> {
 }
 
 fn fell(m: &Model, d: &Fields, [g, p]: [usize; 2], way: f64, depth: f64) -> Fault {
-    let thick = thickness(m, g);
+    let thick = geom_thickness(m, g);
     let cause = if way > thick {
         "since it was last above the surface it moved farther than it is thick, so no step found a contact"
     } else {

@@ -1,14 +1,14 @@
 //! What is looked at after every step of a run: whether bodies pass through each other or are deep in each other, contacts that
 //! switch on and off, and motion that leaves every bound. Nothing of the run is touched.
 
-use super::bodies::{self, body_of, body_thickness, geom_name, halves, seen_from, thickness};
+use super::bodies::{self, body_of, body_thickness, geom_name, seen_from};
 use super::causes::stiffness_cause;
 use super::creep::CreepMonitor;
 use super::fault::{Evidence, Fault, FaultKind};
 use super::height_field::{self, HeightFieldPair};
 use super::runaway::RunawayMonitor;
 use labspec_core::math::{Vec3, rows, sub};
-use labspec_core::{Fields, Model, geom};
+use labspec_core::{Fields, Model, geom, geom_half_extents, geom_thickness};
 
 /// Pairs of geoms that are watched for tunnelling, at most.
 pub(super) const MOST_PAIRS: usize = 2000;
@@ -240,7 +240,7 @@ impl TouchingPair {
 /// Whether a centre that was at one place, and now is at another, has passed through a geom whose centre is the origin: through the
 /// ellipsoid inside it from without to without, or through the middle of a plate, from one face to the other.
 fn through(m: &Model, p: usize, from: Vec3, to: Vec3) -> bool {
-    let half = halves(m, p);
+    let half = geom_half_extents(m, p);
     if half.iter().any(|h| *h <= 0.0) {
         return false;
     }
@@ -275,7 +275,7 @@ fn tunnelling(m: &Model, d: &Fields, [g, p]: [usize; 2], from: Vec3, to: Vec3) -
     let moves = |g: usize| m.body_treeid.get(body_of(m, g)).is_some_and(|&t| t >= 0);
     let [g, p] = if moves(g) || !moves(p) { [g, p] } else { [p, g] };
     let way = labspec_core::math::norm(sub(to, from));
-    let [thick, own_thickness] = [thickness(m, p), thickness(m, g)];
+    let [thick, own_thickness] = [geom_thickness(m, p), geom_thickness(m, g)];
     let cause = if way > thick + own_thickness {
         format!(
             "in one step of {} s it moves farther than both are thick, so no step finds a contact",

@@ -18,6 +18,7 @@ use crate::spec::{Exact, Lab};
 use labspec_core::reflect::{FieldId, Object, data};
 use labspec_core::{Model, Plan, integrator};
 use labspec_expr::{Access, Compiler, Program};
+use serde::{Deserialize, Serialize};
 use std::ops::{ControlFlow, Range};
 
 /// Most steps of the run at the lab's own timestep; the others take two and four times as many.
@@ -36,7 +37,7 @@ const WIDE: f64 = 2.0;
 const NOISE: f64 = 1e-12;
 
 /// What became of the closed form of a trace.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ClosedForm {
     /// Label of the trace.
     pub trace: String,

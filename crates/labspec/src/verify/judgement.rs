@@ -6,10 +6,11 @@ use super::quote_checker::Quote;
 use super::verdict::{Answer, Verdict};
 use crate::ledger::State;
 use crate::spec::{Question, Run, Verify};
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// Everything that came of one `verify` object.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Judgement {
     /// The answer of the question, when the object says how to check it.
     pub answer: Option<Answer>,
@@ -26,7 +27,7 @@ pub struct Judgement {
 }
 
 /// A run of a `verify` object.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RunReport {
     /// Its name.
     pub name: String,
@@ -39,13 +40,15 @@ pub struct RunReport {
 }
 
 /// A measure under the numerics of the lesson, and under others.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Measured {
     /// `run.measure`, or the measure alone where there is one run.
     pub name: String,
     /// Its value.
+    #[serde(with = "crate::verify::float_bits")]
     pub value: f64,
     /// Its value at half the timestep; `None` when that was not needed, or the lesson states every timestep itself.
+    #[serde(with = "crate::verify::float_bits")]
     pub halved: Option<f64>,
 }
 

@@ -35,6 +35,7 @@ mod curves;
 mod draws;
 mod evidence;
 mod exact;
+pub(crate) mod float_bits;
 mod format;
 mod found;
 mod grounded;

@@ -12,10 +12,11 @@ use crate::finding::Finding;
 use crate::ledger::Evidence;
 use crate::source::Text;
 use labspec_expr::Value;
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// A number that is quoted, or words.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Quote {
     /// The text that is quoted.
     pub text: String,
@@ -28,6 +29,7 @@ pub struct Quote {
     /// Why it is not right.
     pub reason: String,
     /// What the simulation gives; NaN when nothing could be computed. Of words 1 where they are right, and 0 where they are not.
+    #[serde(with = "crate::verify::float_bits")]
     pub computed: f64,
 }
 

@@ -2,9 +2,10 @@
 
 use super::format::significant;
 use crate::ledger::{Evidence, State};
+use serde::{Deserialize, Serialize};
 
 /// What became of an answer.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Verdict {
     /// The simulation shows that exactly the keyed answer holds.
     Verified,
@@ -49,7 +50,7 @@ impl Verdict {
 }
 
 /// A checked answer.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Answer {
     /// What became of it.
     pub verdict: Verdict,
@@ -60,15 +61,17 @@ pub struct Answer {
 }
 
 /// An option and how well its condition holds.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Weight {
     /// Its index, from 0; `None` for the value of a number.
     pub option: Option<usize>,
     /// The condition holds; `None` where the author says that this evidence does not decide the option.
     pub holds: Option<bool>,
     /// How far the comparison that decides is from turning over; negative where the condition does not hold.
+    #[serde(with = "crate::verify::float_bits")]
     pub margin: Option<f64>,
     /// How much half and a quarter of the timestep, other integrators, a converged solver and a moved start change that.
+    #[serde(with = "crate::verify::float_bits")]
     pub spread: Option<f64>,
 }
 

@@ -16,6 +16,7 @@ use labspec_core::reflect::{FieldId, option};
 use labspec_core::{AccessSet, Model, Plan};
 use labspec_expr::dimension::Measure;
 use labspec_expr::{Compiler, Type, Value};
+use serde::Serialize;
 use std::ops::ControlFlow;
 
 /// A number that the lab shows.
@@ -55,7 +56,7 @@ impl DisplayPrecision {
 }
 
 /// Something that is not compared, and why.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct LeftOut {
     /// Its label.
     pub label: String,

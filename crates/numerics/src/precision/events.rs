@@ -7,6 +7,7 @@ use super::run_record::{Run, RunRequest};
 use super::setting::Setting;
 use labspec::run::RunError;
 use labspec_core::integrator;
+use serde::Serialize;
 
 /// How far apart nearby starts are, and the part of its range by which a number has left the other.
 const NUDGE: f64 = 1e-9;
@@ -24,7 +25,7 @@ pub struct Event {
 }
 
 /// Two starts that nobody could tell apart.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Nearby {
     /// How far apart they are, in the unit of each coordinate.
     pub apart: f64,

@@ -9,6 +9,7 @@ use super::run_record::Fate;
 use super::setting::{Axis, Setting};
 use labspec::run::Integrator;
 use labspec_expr::Value;
+use serde::Serialize;
 
 /// What is compared, and how the lab is handled meanwhile.
 #[derive(Clone, Debug, Default)]
@@ -92,9 +93,10 @@ pub struct Report {
 }
 
 /// A sentence about what to take, with the row that it is about.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Advice {
     /// What it says.
+    #[serde(skip)]
     pub kind: Kind,
     /// The row.
     pub row: usize,

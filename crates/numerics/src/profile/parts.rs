@@ -1,11 +1,12 @@
-//! What of the engine a lab uses besides its stages: pairs of geoms, the solver, the integrator, ways of computing trees.
+//! What of the engine a lab uses besides its stages: pairs of geoms, the solver, the integrator, algorithms of trees.
 
 use labspec::run::INTEGRATORS;
 use labspec_core::reflect::{Stage, data, option};
 use labspec_core::{self as core, AccessSet, Model, PairFilterReason, Plan, geom, solver};
+use serde::Serialize;
 
 /// A piece of code of which a lab uses one or none.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct EngineOption {
     /// Its name.
     pub name: &'static str,
@@ -29,7 +30,7 @@ pub struct TreeAlgorithmUse {
 }
 
 /// A sensor.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct SensorRow {
     /// Its name; its number where it has none.
     pub name: String,
@@ -164,7 +165,7 @@ pub(super) fn integrators(model: &Model, demand: &AccessSet) -> Vec<EngineOption
     INTEGRATORS.into_iter().map(code).collect()
 }
 
-/// The ways, in their order.
+/// The algorithms, in their order.
 pub(super) fn tree_algorithms(model: &Model, plan: &Plan) -> Vec<TreeAlgorithmUse> {
     let trees = plan.tree_algorithms(model);
     let count = |way: core::TreeAlgorithm| {

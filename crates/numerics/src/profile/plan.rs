@@ -40,7 +40,7 @@ pub struct PlanReport {
     pub pairs: PairSummary,
     /// The cone of friction.
     pub cone: &'static str,
-    /// Methods of the constraint solver, integrators, and ways of computing trees.
+    /// Methods of the constraint solver, integrators, and algorithms of trees.
     pub solvers: Vec<EngineOption>,
     /// Likewise.
     pub integrators: Vec<EngineOption>,

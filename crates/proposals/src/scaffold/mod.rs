@@ -21,7 +21,6 @@ use labspec::check::{self, CheckLevel};
 use labspec::lint::reload_lesson;
 use labspec::spec::{LabAddress, Lesson, Question, QuestionKind};
 use labspec::verify::{Stage, Verdict};
-use serde_json::{Map, Value, json};
 use std::ops::Range;
 
 /// A question or a lab without a claim, and what came of it.
@@ -41,7 +40,7 @@ pub enum ScaffoldOutcome {
     /// An object to accept.
     Proposed {
         /// The object.
-        verify: Value,
+        verify: ProposedVerify,
         /// Measures by their names in the object, and their values.
         values: Vec<(String, f64)>,
         /// Options, counted from 1, of which the runs say nothing.
@@ -151,35 +150,23 @@ fn proposed(
     let mut values = Vec::new();
     let conditions = choice.conditions(&mut block, &mut values);
     // Numbers of the question that come from the same lab.
-    let mut says = Vec::new();
     for n in found.numbers.iter().filter(|n| question.span.contains(&n.stated.span.start) && !n.stated.answer)
     {
         let Origin::From(hit) = &n.origin else { continue };
         let Some((lab, trial)) = hit.place else { continue };
         let Some(tried) = found.labs.get(lab).filter(|t| t.address == choice.tried.address) else { continue };
         let measured = block.measured(trial, tried.trials.get(trial), &hit.measure);
-        let line = json!([n.stated.quote, format!("{}{measured}", hit.factor)]);
-        if !says.contains(&line) {
-            says.push(line);
+        let line = (n.stated.quote.clone(), format!("{}{measured}", hit.factor));
+        if !block.says.contains(&line) {
+            block.says.push(line);
         }
     }
-    let mut verify = Map::new();
     let is_own_lab = question.sim().is_some() && lesson.lab(&choice.tried.address).is_some();
-    if !is_own_lab {
-        verify.insert("lab".into(), json!(choice.tried.address.to_string()));
-    }
-    block.put(&mut verify);
-    verify.insert("options".into(), conditions.iter().map(|c| json!(c)).collect());
-    if !says.is_empty() {
-        verify.insert("says".into(), Value::Array(says));
-    }
+    block.lab = (!is_own_lab).then(|| choice.tried.address.to_string());
     let undecided = conditions.iter().enumerate().filter(|(_, c)| *c == "undecided").map(|(i, _)| i + 1);
-    ScaffoldOutcome::Proposed {
-        verify: Value::Object(verify),
-        values,
-        undecided: undecided.collect(),
-        verdict: None,
-    }
+    let undecided = undecided.collect();
+    block.options = conditions;
+    ScaffoldOutcome::Proposed { verify: block, values, undecided, verdict: None }
 }
 
 /// The object of a question whose answer is a number.
@@ -195,25 +182,19 @@ fn numeric(question: &Question, found: &Traces<'_>) -> ScaffoldOutcome {
     near.sort_by_key(|n| !n.stated.answer);
     for n in near {
         let Origin::From(hit) = &n.origin else { continue };
-        let mut verify = Map::new();
+        let mut verify = ProposedVerify::default();
         let value = match hit.place {
             None => format!("{}{}", hit.factor, hit.measure),
             Some((lab, trial)) => {
                 let Some(tried) = found.labs.get(lab) else { continue };
-                let mut block = ProposedVerify::default();
-                let measured = block.measured(trial, tried.trials.get(trial), &hit.measure);
-                verify.insert("lab".into(), json!(tried.address.to_string()));
-                block.put(&mut verify);
+                let measured = verify.measured(trial, tried.trials.get(trial), &hit.measure);
+                verify.lab = Some(tried.address.to_string());
                 format!("{}{measured}", hit.factor)
             }
         };
-        verify.insert("value".into(), json!(value));
-        return ScaffoldOutcome::Proposed {
-            verify: Value::Object(verify),
-            values: vec![(value, hit.value)],
-            undecided: Vec::new(),
-            verdict: None,
-        };
+        verify.value = Some(value.clone());
+        let values = vec![(value, hit.value)];
+        return ScaffoldOutcome::Proposed { verify, values, undecided: Vec::new(), verdict: None };
     }
     ScaffoldOutcome::Open(
         "no run of the labs of the lesson, and no formula of the explanation, gives this value".into(),

@@ -6,11 +6,12 @@ use super::trials::Trial;
 use super::words::split_words;
 use labspec::json::Scalar;
 use labspec::spec::LabAddress;
-use serde_json::{Map, Value, json};
+use serde::{Serialize, Serializer};
+use serde_json::Value;
 use std::collections::BTreeMap;
 
 /// A `verify` object for each lab that numbers come from. What is worked out goes to the first one.
-pub fn blocks(found: &Traces<'_>) -> Vec<(LabAddress, Value)> {
+pub fn blocks(found: &Traces<'_>) -> Vec<(LabAddress, ProposedVerify)> {
     let mut all = Vec::new();
     let mut quoted: Vec<&str> = Vec::new();
     let first = found.numbers.iter().find_map(|n| match &n.origin {
@@ -37,33 +38,27 @@ pub fn blocks(found: &Traces<'_>) -> Vec<(LabAddress, Value)> {
             continue;
         }
         let single = block.runs.len() == 1;
-        let mut verify = Map::new();
-        let plain = single && block.runs.values().all(|(_, run)| run.as_object().is_some_and(Map::is_empty));
-        block.put(&mut verify);
-        if plain {
-            verify.remove("runs");
-        }
-        let line = |(quote, factor, value): (String, String, String)| {
-            let value = if single {
-                value
-                    .rsplit_once('.')
-                    .filter(|(run, _)| block.is_run(run))
-                    .map_or(value.clone(), |(_, m)| m.to_string())
-            } else {
-                value
-            };
-            let value =
-                if factor.is_empty() || block.is_measure(&value) { value } else { format!("({value})") };
-            json!([quote, format!("{factor}{value}")])
+        let line = |(quote, factor, mut value): (String, String, String)| {
+            if let Some((_, measure)) = value.rsplit_once('.').filter(|(run, _)| single && block.is_run(run))
+            {
+                value = measure.to_string();
+            }
+            if !factor.is_empty() && !block.is_measure(&value) {
+                value = format!("({value})");
+            }
+            (quote, format!("{factor}{value}"))
         };
-        verify.insert("says".into(), says.into_iter().map(line).collect());
-        all.push((tried.address.clone(), Value::Object(verify)));
+        block.says = says.into_iter().map(line).collect();
+        if single && block.runs.values().all(|(_, run)| *run == ProposedRun::default()) {
+            block.runs.clear();
+        }
+        all.push((tried.address.clone(), block));
     }
     all
 }
 
 /// A `verify` object as an author would write it: a line for every run, measure and quote.
-pub fn laid_out(verify: &Value) -> String {
+pub fn laid_out(verify: &ProposedVerify) -> String {
     let line = |value: &Value| {
         let text = value.to_string();
         // JSON without the spaces that a reader wants: outside of texts.
@@ -81,26 +76,74 @@ pub fn laid_out(verify: &Value) -> String {
     let block = |open: char, close: char, lines: Vec<String>| {
         format!("{open}\n    {}\n  {close}", lines.join(",\n    "))
     };
+    let verify = serde_json::to_value(verify).unwrap_or_default();
     let parts = verify.as_object().into_iter().flatten().map(|(key, part)| {
         let part = match part {
             Value::Object(map) => {
-                let lines = map.iter().map(|(name, value)| format!("{}: {}", json!(name), line(value)));
+                let lines = map.iter().map(|(name, value)| format!("{}: {}", quoted(name), line(value)));
                 block('{', '}', lines.collect())
             }
             Value::Array(list) => block('[', ']', list.iter().map(line).collect()),
             other => line(other),
         };
-        format!("  {}: {part}", json!(key))
+        format!("  {}: {part}", quoted(key))
     });
     format!("{{\n{}\n}}", parts.collect::<Vec<_>>().join(",\n"))
 }
 
+fn quoted(text: &str) -> Value {
+    Value::from(text)
+}
+
 /// A `verify` object that grows.
-#[derive(Default)]
-pub(crate) struct ProposedVerify {
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct ProposedVerify {
+    /// The address of the lab, where that is not plain.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) lab: Option<String>,
     /// By the place of the trial: a name, and how it is run.
-    runs: BTreeMap<usize, (String, Value)>,
-    measures: Vec<(String, String)>,
+    #[serde(skip_serializing_if = "BTreeMap::is_empty", serialize_with = "runs_by_name")]
+    runs: BTreeMap<usize, (String, ProposedRun)>,
+    /// Names and expressions.
+    #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "by_name")]
+    measure: Vec<(String, String)>,
+    /// A condition for each option.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) options: Vec<String>,
+    /// The value of a numeric question.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) value: Option<String>,
+    /// Quotes and the expressions that give them.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) says: Vec<(String, String)>,
+}
+
+/// How a run is made, where it differs from the lab as it stands.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+struct ProposedRun {
+    /// Controls and their values.
+    #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "by_name")]
+    set: Vec<(String, Value)>,
+    /// Buttons and when they are pressed, s.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    press: Vec<(String, u8)>,
+    /// Statements before the first step.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    setup: Option<String>,
+    /// Its length, s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    until: Option<f64>,
+}
+
+fn by_name<S: Serializer>(entries: &[(String, impl Serialize)], to: S) -> Result<S::Ok, S::Error> {
+    to.collect_map(entries.iter().map(|(name, value)| (name, value)))
+}
+
+fn runs_by_name<S: Serializer>(
+    runs: &BTreeMap<usize, (String, ProposedRun)>,
+    to: S,
+) -> Result<S::Ok, S::Error> {
+    to.collect_map(runs.values().map(|(name, run)| (name, run)))
 }
 
 impl ProposedVerify {
@@ -113,30 +156,18 @@ impl ProposedVerify {
             (None, Some(trial)) => {
                 let name =
                     free(if place == 0 { "plain".into() } else { name_of(&trial.words, "run") }, &taken);
-                self.runs.insert(place, (name.clone(), written(trial)));
+                self.runs.insert(place, (name.clone(), run(trial)));
                 name
             }
         };
-        let measure = self.measures.iter().find(|(_, measure)| measure == text).map(|(name, _)| name.clone());
+        let measure = self.measure.iter().find(|(_, measure)| measure == text).map(|(name, _)| name.clone());
         let measure = measure.unwrap_or_else(|| {
-            let taken: Vec<&str> = self.measures.iter().map(|(name, _)| name.as_str()).collect();
+            let taken: Vec<&str> = self.measure.iter().map(|(name, _)| name.as_str()).collect();
             let name = free(name_of(text, "value"), &taken);
-            self.measures.push((name.clone(), text.to_string()));
+            self.measure.push((name.clone(), text.to_string()));
             name
         });
         format!("{run}.{measure}")
-    }
-
-    /// Puts runs and measures into an object.
-    pub(crate) fn put(&self, verify: &mut Map<String, Value>) {
-        if !self.runs.is_empty() {
-            let runs = self.runs.values().map(|(name, run)| (name.clone(), run.clone()));
-            verify.insert("runs".into(), Value::Object(runs.collect()));
-        }
-        if !self.measures.is_empty() {
-            let measures = self.measures.iter().map(|(name, text)| (name.clone(), json!(text)));
-            verify.insert("measure".into(), Value::Object(measures.collect()));
-        }
     }
 
     fn is_run(&self, name: &str) -> bool {
@@ -144,7 +175,7 @@ impl ProposedVerify {
     }
 
     fn is_measure(&self, value: &str) -> bool {
-        value.split('.').all(|part| self.is_run(part) || self.measures.iter().any(|(name, _)| name == part))
+        value.split('.').all(|part| self.is_run(part) || self.measure.iter().any(|(name, _)| name == part))
     }
 }
 
@@ -172,26 +203,17 @@ fn free(name: String, taken: &[&str]) -> String {
     numbered.unwrap_or(name)
 }
 
-/// How a run is made, as JSON.
-fn written(trial: &Trial) -> Value {
-    let mut run = Map::new();
+/// How a run is made.
+fn run(trial: &Trial) -> ProposedRun {
     let scalar = |value: &Scalar| match value {
-        Scalar::Number(n) => json!(n.value),
-        Scalar::Text(text) => json!(text.value),
-        Scalar::Bool(b, _) => json!(b),
+        Scalar::Number(n) => n.value.into(),
+        Scalar::Text(text) => text.value.as_str().into(),
+        Scalar::Bool(b, _) => (*b).into(),
     };
-    if !trial.set.is_empty() {
-        let set = trial.set.iter().map(|(label, value)| (label.clone(), scalar(value)));
-        run.insert("set".into(), Value::Object(set.collect()));
+    ProposedRun {
+        set: trial.set.iter().map(|(label, value)| (label.clone(), scalar(value))).collect(),
+        press: trial.press.iter().map(|label| (label.clone(), 0)).collect(),
+        setup: trial.setup(),
+        until: trial.until,
     }
-    if !trial.press.is_empty() {
-        run.insert("press".into(), trial.press.iter().map(|label| json!([label, 0])).collect());
-    }
-    if let Some(statements) = trial.setup() {
-        run.insert("setup".into(), json!(statements));
-    }
-    if let Some(until) = trial.until {
-        run.insert("until".into(), json!(until));
-    }
-    Value::Object(run)
 }

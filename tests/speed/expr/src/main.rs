@@ -93,7 +93,7 @@ fn error_expression() -> Vec<(&'static str, f64)> {
     let mut recording = Recording::new();
     let columnar = recording.columns(&program).expect("the first").expect("it computes with numbers");
     let data = Data::planned(&model, Plan::full());
-    let mut world = World { data, model: model.clone(), key: None, own: labspec::Functions::new(), shown: Vec::new(), numbers: Vec::new() };
+    let mut world = World { data, model: model.clone(), key: None, functions: labspec::Functions::new(), displayed: Vec::new(), numbers: Vec::new() };
     for i in 0..SAMPLES {
         let (q, t) = at(i);
         world.set(keys[1], 2, q).and_then(|()| world.set(keys[0], 0, t)).expect("both may be set");

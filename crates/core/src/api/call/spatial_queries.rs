@@ -3,6 +3,7 @@
 use super::{Data, Error, Model, Scope, exists};
 use crate::geometry::Distance;
 use crate::math::Vec3;
+use crate::model::extents;
 use crate::model::reflect::data;
 use crate::query::{self, RayFilter, RayHit};
 
@@ -43,6 +44,23 @@ pub fn inside_site<S: Scope>(m: &Model, d: &Data<S>, site: usize, point: Vec3) -
     d.has(&[data::site_xpos, data::site_xmat])?;
     exists("site", site, m.nsite)?;
     Ok(query::inside_site(m, &d.fields, site, point))
+}
+
+/// Half the extents of a geom along its own axes, m: by its size, for meshes and height fields by the box around it. Zeros where there is
+/// no such geom.
+pub fn geom_half_extents(m: &Model, geom: usize) -> Vec3 {
+    extents::half_extents(m, geom)
+}
+
+/// The smallest extent of a geom, m; infinite for planes, for height fields, and where there is no such geom.
+pub fn geom_thickness(m: &Model, geom: usize) -> f64 {
+    extents::thickness(m, geom)
+}
+
+/// The half thickness of the thinner of two geoms, m. Only spheres, capsules, cylinders, ellipsoids and boxes count (a mesh may be thinner
+/// than the box around it); infinite where there are none.
+pub fn half_thickness_of_pair(m: &Model, pair: [usize; 2]) -> f64 {
+    extents::half_thickness_of_pair(m, pair)
 }
 
 /// Whether the contact bits of two geoms admit a contact. They may be written while a lab runs.

@@ -1,10 +1,10 @@
 //! Geoms that are deep inside of each other where the model begins.
 
 use super::{digits, format_name, place};
-use crate::kinds::geom;
 use crate::mjcf::rules;
 use crate::mjcf::text::diagnostic::Report;
 use crate::mjcf::text::tree::Tree;
+use crate::model::extents::half_thickness_of_pair;
 use crate::model::{Fields, Model, Obj};
 use crate::step::forward::position;
 use crate::step::workspace::Workspace;
@@ -18,10 +18,8 @@ const WORK: u64 = 50_000_000;
 
 pub(super) fn tell(tree: &Tree, m: &Model, report: &mut Report) {
     let Some(d) = placed(m) else { return };
-    let depth = |pair: [usize; 2], dist: f64| {
-        let size = pair.iter().map(|g| half(m, *g)).fold(f64::INFINITY, f64::min);
-        (-dist > DEEP * size).then_some(-dist)
-    };
+    let depth =
+        |pair: [usize; 2], dist: f64| (-dist > DEEP * half_thickness_of_pair(m, pair)).then_some(-dist);
     let deep = d.contact.iter().filter(|c| c.efc_address.is_some());
     let deep = deep.filter_map(|c| Some(([c.geom1, c.geom2], depth([c.geom1, c.geom2], c.dist)?)));
     let Some(([a, b], depth)) = deep.max_by(|x, y| x.1.total_cmp(&y.1)) else { return };
@@ -48,17 +46,6 @@ fn placed(m: &Model) -> Option<Fields> {
     d.meter.limit = WORK;
     position(m, &mut d, &mut s);
     (!d.meter.over()).then_some(d)
-}
-
-/// Half of the smallest extent of a geom, m; infinite where it has none.
-fn half(m: &Model, g: usize) -> f64 {
-    let size = |k: usize| m.geom_size.get(3 * g + k).copied().unwrap_or(0.0);
-    match m.geom_type.get(g).copied() {
-        Some(geom::SPHERE | geom::CAPSULE) => size(0),
-        Some(geom::CYLINDER) => size(0).min(size(1)),
-        Some(geom::BOX | geom::ELLIPSOID) => size(0).min(size(1)).min(size(2)),
-        _ => f64::INFINITY,
-    }
 }
 
 #[cfg(test)]

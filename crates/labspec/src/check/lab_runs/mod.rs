@@ -17,6 +17,7 @@ use attempt::{Attempt, Ended};
 pub(crate) use display::{WatchedDisplay, moment};
 use labspec_expr::Value;
 use seen::Seen;
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// When buttons are pressed, s.
@@ -25,13 +26,15 @@ const PRESS: f64 = 0.1;
 const RESERVE: u64 = 50_000_000;
 
 /// What the runs of a lab covered.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Tried {
     /// Runs that were made.
     pub runs: usize,
     /// How long each was meant to be, s.
+    #[serde(with = "crate::verify::float_bits")]
     pub wanted: f64,
     /// How long the shortest was, s.
+    #[serde(with = "crate::verify::float_bits")]
     pub covered: f64,
     /// Runs that were not made: they cannot be, the budget was spent, or the lab breaks as it stands.
     pub skipped: usize,

@@ -102,21 +102,21 @@ impl ObservationBench<'_> {
 /// Work for the runs that make sure, for each lab.
 const WORK: u64 = 600_000_000;
 
-/// A lab that was observed at.
+/// A lab with the records of its runs.
 pub(crate) struct ObservedLab<'a> {
     /// As it stands, then with each control at its ends.
     pub(crate) records: &'a [Record],
     pub(crate) bench: ObservationBench<'a>,
-    /// What is shown from other states, once it was asked for.
+    /// The rows of a run from another state; `None` until they are needed.
     perturbed: Option<Vec<Vec<Cell>>>,
     /// How long each run was, s.
     pub(crate) length: f64,
-    /// Controls of which something was told that says it all.
+    /// Controls that a finding describes already.
     pub(crate) reported: Vec<usize>,
 }
 
 impl<'a> ObservedLab<'a> {
-    /// A lab with the records of its runs, each as long as this, s.
+    /// From the records of runs that are `length` seconds long.
     pub(crate) fn new(ready: &'a PreparedLab<'a>, records: &'a [Record], length: f64) -> ObservedLab<'a> {
         let bench = ObservationBench { ready, programs: &ready.programs, left: WORK, runs: 0 };
         ObservedLab { records, bench, perturbed: None, length, reported: Vec::new() }

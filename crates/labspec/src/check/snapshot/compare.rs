@@ -7,21 +7,24 @@ use super::runs::SnapshotRun;
 use crate::printable::printable;
 use crate::run::Cell;
 use crate::verify::significant;
+use serde::{Deserialize, Serialize};
 
 /// The first value that is not as stored.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Divergence {
     /// The run, in words: `as it stands`.
     pub run: String,
     /// The trace or readout, as in a table of `labspec run`: `plot/0/height`.
     pub trace: String,
     /// Simulated time, s.
+    #[serde(with = "crate::verify::float_bits")]
     pub time: f64,
     /// What is stored.
     pub stored: String,
     /// What is there now, with a digit more.
     pub now: String,
     /// How far a number may be off; `None` for what is none.
+    #[serde(with = "crate::verify::float_bits")]
     pub tolerance: Option<f64>,
     /// The line of the file.
     pub line: usize,

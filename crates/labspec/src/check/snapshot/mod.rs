@@ -21,11 +21,12 @@ use crate::verify::{HALVED, NUDGED, NUDGED_BACK, significant};
 use compare::Difference;
 use file::{SnapshotFault, StoredLab};
 use runs::{SnapshotRun, TakenLab};
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use std::path::Path;
 
 /// What became of the snapshot of one lab.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SnapshotResult {
     /// Its address: `#1`.
     pub lab: String,

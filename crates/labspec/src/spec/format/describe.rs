@@ -2,7 +2,7 @@
 
 use super::{Absent, Key, Limits, Type, texts};
 use crate::spec::Form;
-use serde_json::{Value, json};
+use serde_json::{Map, Value};
 
 /// What a key takes, with its unit and its limits: `number above 0, in s`.
 pub(super) fn takes(key: &Key) -> String {
@@ -74,17 +74,17 @@ pub(super) fn default(key: &Key) -> Option<Value> {
     Some(match key.absent {
         Absent::Nothing | Absent::Said(_) => return None,
         Absent::Number(x) => number(x),
-        Absent::Text(text) => json!(text),
-        Absent::False => json!(false),
+        Absent::Text(text) => text.into(),
+        Absent::False => false.into(),
         Absent::Numbers(all) => all.iter().map(|x| number(*x)).collect(),
-        Absent::Empty if matches!(key.of, Type::List(_)) => json!([]),
-        Absent::Empty => json!({}),
+        Absent::Empty if matches!(key.of, Type::List(_)) => Value::Array(Vec::new()),
+        Absent::Empty => Map::new().into(),
     })
 }
 
 /// A number as people write it: without decimals where it has none.
 pub(super) fn number(x: f64) -> Value {
-    if x.fract() == 0.0 && x.abs() < 1e15 { json!(x as i64) } else { json!(x) }
+    if x.fract() == 0.0 && x.abs() < 1e15 { Value::from(x as i64) } else { Value::from(x) }
 }
 
 impl Key {

@@ -2,8 +2,10 @@
 
 use super::describe::{default, number};
 use super::{CONTROL, QUESTION};
-use super::{Family, Key, LAB, Limits, OBJECTS, Object, PairHalf, QUIZ, Together, Type, Word};
-use serde_json::{Map, Value, json};
+use super::{Family, Key, LAB, Limits, OBJECTS, Object, PairHalf, QUIZ, Together, Type};
+use crate::json::to_value;
+use serde::{Serialize, Serializer};
+use serde_json::{Map, Value};
 
 /// What a schema is of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,22 +18,92 @@ pub enum Root {
     Lesson,
 }
 
+/// A keyword of a schema, and what stands behind it.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+enum Keyword {
+    #[serde(rename = "$schema")]
+    Dialect(&'static str),
+    #[serde(rename = "$ref")]
+    Reference(String),
+    #[serde(rename = "$defs")]
+    Definitions(Named),
+    Title(&'static str),
+    Description(String),
+    Type(&'static str),
+    #[serde(rename = "type")]
+    Types([&'static str; 3]),
+    Const(&'static str),
+    Enum(Vec<&'static str>),
+    Properties(Named),
+    /// Whether there may be others.
+    #[serde(rename = "additionalProperties")]
+    Open(bool),
+    AdditionalProperties(SchemaNode),
+    Required(Vec<&'static str>),
+    Items(SchemaNode),
+    PrefixItems(Vec<SchemaNode>),
+    MinItems(usize),
+    MaxItems(usize),
+    ExclusiveMinimum(Value),
+    Minimum(Value),
+    Maximum(Value),
+    AllOf(Vec<SchemaNode>),
+    AnyOf(Vec<SchemaNode>),
+    OneOf(Vec<SchemaNode>),
+    Not(SchemaNode),
+    If(SchemaNode),
+    Then(SchemaNode),
+    Else(SchemaNode),
+    Default(Value),
+    Examples([Value; 1]),
+}
+
+/// A schema: its keywords, in the order in which they are written.
+#[derive(Default)]
+struct SchemaNode(Vec<Keyword>);
+
+impl From<Keyword> for SchemaNode {
+    fn from(keyword: Keyword) -> SchemaNode {
+        SchemaNode(vec![keyword])
+    }
+}
+
+impl SchemaNode {
+    fn and(mut self, more: impl IntoIterator<Item = Keyword>) -> SchemaNode {
+        self.0.extend(more);
+        self
+    }
+}
+
+/// Schemas by name, in their order.
+struct Named(Vec<(&'static str, SchemaNode)>);
+
+impl Serialize for SchemaNode {
+    fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
+        let members = self.0.iter().map(to_value);
+        let members: Map<String, Value> =
+            members.filter_map(|keyword| keyword.as_object().cloned()).flatten().collect();
+        members.serialize(out)
+    }
+}
+
+impl Serialize for Named {
+    fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
+        out.collect_map(self.0.iter().map(|(name, schema)| (name, schema)))
+    }
+}
+
 /// The schema, as JSON. What it refuses is an error of `labspec check`; what needs the model, or looks at several
 /// values at once, only the check finds.
 pub fn schema(root: Root) -> Value {
+    let item = || when(required(&["questions"]), reference(QUIZ.name), reference(LAB.name));
+    let list = || SchemaNode::from(Keyword::Items(item()));
     let (title, description, body) = match root {
         Root::Lab => ("Lab", LAB.doc, reference(LAB.name)),
         Root::Quiz => ("Quiz", QUIZ.doc, reference(QUIZ.name)),
-        Root::Lesson => {
-            ("Lesson", "A lab, a quiz, or a list of them.", when(json!({"type": "array"}), list(), item()))
-        }
+        Root::Lesson => ("Lesson", "A lab, a quiz, or a list of them.", when(typed("array"), list(), item())),
     };
-    let mut schema = object([
-        ("$schema", json!("https://json-schema.org/draft/2020-12/schema")),
-        ("title", json!(title)),
-        ("description", json!(description)),
-    ]);
-    schema.extend(body);
     let mut used = Vec::new();
     if root != Root::Quiz {
         reach(&LAB, &mut used);
@@ -39,26 +111,17 @@ pub fn schema(root: Root) -> Value {
     if root != Root::Lab {
         reach(&QUIZ, &mut used);
     }
-    let mut definitions = Map::new();
-    for family in [&CONTROL, &QUESTION] {
-        if family.objects.iter().any(|o| used.contains(&o.name)) {
-            definitions.insert(family.name.into(), Value::Object(one_of(family)));
-        }
-    }
-    for object in OBJECTS.iter().filter(|o| used.contains(&o.name)) {
-        definitions.insert(object.name.into(), Value::Object(definition(object)));
-    }
-    schema.insert("$defs".into(), Value::Object(definitions));
-    Value::Object(schema)
-}
-
-/// One item of a JSON file.
-fn item() -> Map<String, Value> {
-    when(json!({"required": ["questions"]}), reference(QUIZ.name), reference(LAB.name))
-}
-
-fn list() -> Map<String, Value> {
-    object([("items", Value::Object(item()))])
+    let families = [&CONTROL, &QUESTION].into_iter();
+    let families = families.filter(|f| f.objects.iter().any(|o| used.contains(&o.name)));
+    let objects = OBJECTS.iter().filter(|o| used.contains(&o.name));
+    let definitions = families.map(|f| (f.name, one_of(f))).chain(objects.map(|o| (o.name, definition(o))));
+    let head = [
+        Keyword::Dialect("https://json-schema.org/draft/2020-12/schema"),
+        Keyword::Title(title),
+        Keyword::Description(description.into()),
+    ];
+    let definitions = Keyword::Definitions(Named(definitions.collect()));
+    to_value(&SchemaNode(head.into()).and(body.0).and([definitions]))
 }
 
 /// The names of all objects that can stand in this one.
@@ -81,142 +144,106 @@ fn reach_type(of: &Type, used: &mut Vec<&'static str>) {
     }
 }
 
-fn definition(of: &Object) -> Map<String, Value> {
-    let properties: Map<String, Value> =
-        of.keys.iter().map(|k| (k.name.to_string(), Value::Object(property(of, k)))).collect();
-    let mut schema = object([
-        ("description", json!(of.doc)),
-        ("type", json!("object")),
-        ("properties", Value::Object(properties)),
-        ("additionalProperties", json!(false)),
-    ]);
+fn definition(of: &Object) -> SchemaNode {
     let required: Vec<&str> = of.keys.iter().filter(|k| k.required()).map(|k| k.name).collect();
-    if !required.is_empty() {
-        schema.insert("required".into(), json!(required));
-    }
-    let together: Vec<Value> = of.together.iter().filter_map(rule).collect();
-    if !together.is_empty() {
-        schema.insert("allOf".into(), json!(together));
-    }
-    schema
+    let together: Vec<SchemaNode> = of.together.iter().filter_map(rule).collect();
+    SchemaNode::from(Keyword::Description(of.doc.into()))
+        .and(closed(of.keys.iter().map(|k| (k.name, property(of, k)))).0)
+        .and((!required.is_empty()).then_some(Keyword::Required(required)))
+        .and((!together.is_empty()).then_some(Keyword::AllOf(together)))
 }
 
 /// What keys ask of each other. A schema knows errors only.
-fn rule(rule: &Together) -> Option<Value> {
-    let each = |names: &[&str]| names.iter().map(|n| json!({"required": [n]})).collect::<Value>();
-    Some(match rule {
-        Together::ExactlyOne(names) => json!({"oneOf": each(names)}),
-        Together::AtLeastOne(names) => json!({"anyOf": each(names)}),
-        Together::AtMostOne(names) => json!({"not": {"required": names}}),
+fn rule(rule: &Together) -> Option<SchemaNode> {
+    let each = |names: &[&'static str]| names.iter().map(|n| required(&[n])).collect();
+    Some(SchemaNode::from(match rule {
+        Together::ExactlyOne(names) => Keyword::OneOf(each(names)),
+        Together::AtLeastOne(names) => Keyword::AnyOf(each(names)),
+        Together::AtMostOne(names) => Keyword::Not(required(&names[..])),
         Together::OneAdvised(_) | Together::FirstCounts(_) => return None,
-    })
+    }))
 }
 
-fn property(of: &Object, key: &Key) -> Map<String, Value> {
-    let mut schema = match of.tag.filter(|(name, _)| *name == key.name) {
-        Some((_, word)) => object([("const", json!(word))]),
+fn property(of: &Object, key: &Key) -> SchemaNode {
+    let schema = match of.tag.filter(|(name, _)| *name == key.name) {
+        Some((_, word)) => SchemaNode::from(Keyword::Const(word)),
         None => value(&key.of, &key.limits),
     };
-    if key.items > 0 {
-        schema.insert("minItems".into(), json!(key.items));
-    }
     let unit = if key.unit.is_empty() { String::new() } else { format!(" ({})", key.unit) };
-    schema.insert("description".into(), json!(format!("{}{unit}", key.doc)));
-    if let Some(default) = default(key) {
-        schema.insert("default".into(), default);
-    }
-    if let Ok(example) = serde_json::from_str::<Value>(key.example) {
-        schema.insert("examples".into(), json!([example]));
-    }
+    let example = serde_json::from_str(key.example).ok();
     schema
+        .and((key.items > 0).then_some(Keyword::MinItems(key.items)))
+        .and([Keyword::Description(format!("{}{unit}", key.doc))])
+        .and(default(key).map(Keyword::Default))
+        .and(example.map(|example| Keyword::Examples([example])))
 }
 
 /// What a type takes.
-fn value(of: &Type, limits: &Limits) -> Map<String, Value> {
+fn value(of: &Type, limits: &Limits) -> SchemaNode {
     let none = Limits::default();
-    let typed = |name: &str| object([("type", json!(name))]);
     match of {
         Type::Text | Type::Name(_) | Type::Html | Type::Code(_) => typed("string"),
-        Type::Number => bounded(typed("number"), limits),
-        Type::Whole => bounded(typed("integer"), limits),
+        Type::Number => bounded("number", limits),
+        Type::Whole => bounded("integer", limits),
         Type::Flag => typed("boolean"),
-        Type::Scalar => object([("type", json!(["number", "string", "boolean"]))]),
-        Type::Words(words) => object([("enum", words.iter().map(|w| w.text).collect())]),
-        Type::List(item) => {
-            let items = Value::Object(value(item, limits));
-            object([("type", json!("array")), ("items", items)])
-        }
-        Type::Numbers(n) => object([
-            ("type", json!("array")),
-            ("items", json!({"type": "number"})),
-            ("minItems", json!(n)),
-            ("maxItems", json!(n)),
-        ]),
+        Type::Scalar => SchemaNode::from(Keyword::Types(["number", "string", "boolean"])),
+        Type::Words(words) => SchemaNode::from(Keyword::Enum(words.iter().map(|w| w.text).collect())),
+        Type::List(item) => typed("array").and([Keyword::Items(value(item, limits))]),
+        Type::Numbers(n) => array_of(*n, Keyword::Items(typed("number"))),
         Type::Pair(parts) => {
-            let part = |p: &PairHalf| {
-                let mut schema = value(&p.of, &none);
-                schema.insert("description".into(), json!(p.what));
-                Value::Object(schema)
-            };
-            object([
-                ("type", json!("array")),
-                ("prefixItems", parts.iter().map(part).collect()),
-                ("minItems", json!(2)),
-                ("maxItems", json!(2)),
-            ])
+            let part = |p: &PairHalf| value(&p.of, &none).and([Keyword::Description(p.what.into())]);
+            array_of(2, Keyword::PrefixItems(parts.iter().map(part).collect()))
         }
-        Type::Map(map) => object([
-            ("type", json!("object")),
-            ("additionalProperties", Value::Object(value(&map.of, &none))),
-        ]),
+        Type::Map(map) => typed("object").and([Keyword::AdditionalProperties(value(&map.of, &none))]),
         Type::Switches(words) => {
-            let switch = |w: &Word| (w.text.into(), json!({"type": "boolean", "description": w.doc}));
-            object([
-                ("type", json!("object")),
-                ("properties", Value::Object(words.iter().map(switch).collect())),
-                ("additionalProperties", json!(false)),
-            ])
+            closed(words.iter().map(|w| (w.text, typed("boolean").and([Keyword::Description(w.doc.into())]))))
         }
         Type::Object(o) => reference(o.name),
         Type::OneOf(family) => reference(family.name),
-        Type::Either(a, b) => {
-            object([("anyOf", [a, b].iter().map(|t| Value::Object(value(t, limits))).collect())])
-        }
+        Type::Either(a, b) => SchemaNode::from(Keyword::AnyOf(vec![value(a, limits), value(b, limits)])),
     }
 }
 
-fn bounded(mut schema: Map<String, Value>, limits: &Limits) -> Map<String, Value> {
-    let all = [("exclusiveMinimum", limits.above), ("minimum", limits.least), ("maximum", limits.most)];
-    for (keyword, limit) in all {
-        if let Some(x) = limit {
-            schema.insert(keyword.into(), number(x));
-        }
-    }
-    schema
+fn bounded(kind: &'static str, limits: &Limits) -> SchemaNode {
+    typed(kind)
+        .and(limits.above.map(|x| Keyword::ExclusiveMinimum(number(x))))
+        .and(limits.least.map(|x| Keyword::Minimum(number(x))))
+        .and(limits.most.map(|x| Keyword::Maximum(number(x))))
 }
 
-/// One object of a family, told by its word; anything else is read as the first one, and refused there.
-fn one_of(family: &Family) -> Map<String, Value> {
+fn array_of(n: usize, items: Keyword) -> SchemaNode {
+    typed("array").and([items, Keyword::MinItems(n), Keyword::MaxItems(n)])
+}
+
+/// An object with these keys and no others.
+fn closed(properties: impl Iterator<Item = (&'static str, SchemaNode)>) -> SchemaNode {
+    typed("object").and([Keyword::Properties(Named(properties.collect())), Keyword::Open(false)])
+}
+
+/// One object of a family, by its word; anything else is read as the first one, and refused there.
+fn one_of(family: &Family) -> SchemaNode {
     let tagged = |object: &&'static Object| object.tag.map(|(key, word)| (key, word, object.name));
     let mut rest = family.objects.first().map(|o| reference(o.name)).unwrap_or_default();
     for (key, word, name) in family.objects.iter().skip(1).rev().filter_map(tagged) {
-        let properties: Map<String, Value> =
-            [(key.to_string(), json!({"const": word}))].into_iter().collect();
-        rest = when(json!({"properties": properties, "required": [key]}), reference(name), rest);
+        let properties = Named(vec![(key, SchemaNode::from(Keyword::Const(word)))]);
+        let tag = [Keyword::Properties(properties), Keyword::Required(vec![key])];
+        rest = when(SchemaNode(tag.into()), reference(name), rest);
     }
-    let mut schema = object([("description", json!(family.doc)), ("type", json!("object"))]);
-    schema.extend(rest);
-    schema
+    SchemaNode::from(Keyword::Description(family.doc.into())).and([Keyword::Type("object")]).and(rest.0)
 }
 
-fn when(condition: Value, then: Map<String, Value>, otherwise: Map<String, Value>) -> Map<String, Value> {
-    object([("if", condition), ("then", Value::Object(then)), ("else", Value::Object(otherwise))])
+fn when(condition: SchemaNode, then: SchemaNode, otherwise: SchemaNode) -> SchemaNode {
+    SchemaNode(vec![Keyword::If(condition), Keyword::Then(then), Keyword::Else(otherwise)])
 }
 
-fn reference(name: &str) -> Map<String, Value> {
-    object([("$ref", json!(format!("#/$defs/{name}")))])
+fn required(keys: &[&'static str]) -> SchemaNode {
+    SchemaNode::from(Keyword::Required(keys.to_vec()))
 }
 
-fn object<const N: usize>(members: [(&str, Value); N]) -> Map<String, Value> {
-    members.into_iter().map(|(k, v)| (k.to_string(), v)).collect()
+fn reference(name: &str) -> SchemaNode {
+    SchemaNode::from(Keyword::Reference(format!("#/$defs/{name}")))
+}
+
+fn typed(kind: &'static str) -> SchemaNode {
+    SchemaNode::from(Keyword::Type(kind))
 }

@@ -11,6 +11,7 @@ mod numbers;
 mod task;
 
 pub use left::Left;
+pub use task::RunTask;
 pub(crate) use task::tasks;
 
 use super::bound::BoundVerify;

@@ -1,25 +1,71 @@
 //! What a judge is asked: every run of a `verify` object with all that it depends on, so that somebody else can make it.
 
 use crate::bind::scalar;
-use crate::json::Scalar;
 use crate::run::settings;
 use crate::source::Text;
 use crate::spec::format::RUN_LENGTH;
-use crate::spec::{ControlKind, Lab, Verify};
+use crate::spec::{Control, ControlKind, Lab, Readout, Trace, Verify};
 use crate::verify::bound::BoundVerify;
 use crate::verify::bound_run::{BoundRun, BoundScene};
 use crate::verify::options::is_undecided;
 use crate::verify::runner::is_timestep;
 use labspec_expr::Value;
-use serde_json::{Value as Json, json};
+use serde::Serialize;
+use serde_json::Value as Json;
 
 /// A run that a judge is asked to make.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Task {
     /// Its name: `fall`, `fall[2]`.
     pub(crate) run: String,
-    /// Everything that it depends on, and what to measure; or why nobody else can make it.
-    pub(crate) task: Result<Json, String>,
+    /// What to make; or why nobody else can make it.
+    pub(crate) task: Result<RunTask, String>,
+}
+
+/// Everything that a run depends on, and what to measure in it: the text of a request.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RunTask {
+    lab: LabTask,
+    xml: String,
+    timestep: Option<f64>,
+    set: Vec<(String, Json)>,
+    press: Vec<(String, f64)>,
+    setup: Option<String>,
+    stop: Option<String>,
+    steps: Option<f64>,
+    until: f64,
+    measures: Vec<(String, String)>,
+    expressions: Vec<String>,
+}
+
+/// A lab as far as it runs.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct LabTask {
+    key: Option<usize>,
+    setup: Option<String>,
+    controller: Option<String>,
+    controls: Vec<ControlTask>,
+    /// Names of displayed values, their expressions and decimals.
+    #[serde(rename = "shown")]
+    displayed: Vec<(String, String, Option<u32>)>,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+enum ControlTask {
+    Button {
+        label: String,
+        run: String,
+    },
+    Setting {
+        label: String,
+        value: Json,
+        set: Option<String>,
+        apply: Option<String>,
+        param: Option<String>,
+        init: bool,
+        reset: bool,
+    },
 }
 
 /// The runs of a `verify` object, as somebody else can make them.
@@ -47,7 +93,7 @@ fn task(
     run: &BoundRun<'_>,
     scene: &BoundScene<'_>,
     statements: &[&Text],
-) -> Result<Json, String> {
+) -> Result<RunTask, String> {
     let here = &scene.scene;
     let lab = &*here.lab;
     let xml = bound.stage().written(here).ok_or("its model cannot be written")?;
@@ -55,29 +101,29 @@ fn task(
     let spec = run.spec;
     let mut set = Vec::new();
     for (label, given) in spec.iter().flat_map(|spec| &spec.set) {
-        set.push(json!([label.value, chosen(lab, label, &scalar(given))?]));
+        set.push((label.value.clone(), chosen(lab, label, &scalar(given))?));
     }
     if let Some((label, x)) = run.control {
-        set.push(json!([label.value, chosen(lab, label, &Value::Number(x))?]));
+        set.push((label.value.clone(), chosen(lab, label, &Value::Number(x))?));
     }
-    let press: Vec<Json> =
-        spec.iter().flat_map(|spec| &spec.press).map(|(label, t)| json!([label.value, t.value])).collect();
     let length = |of: Option<f64>| of.or(lab.stop_at.as_ref().map(|s| s.value)).unwrap_or(RUN_LENGTH);
-    let measures: Vec<Json> = scene.measures.iter().map(|(name, m)| json!([name, m.text.value])).collect();
-    let code = |text: Option<&Text>| text.map(|t| t.value.clone());
-    Ok(json!({
-        "lab": of_lab(lab),
-        "xml": xml,
-        "timestep": timestep,
-        "set": set,
-        "press": press,
-        "setup": code(spec.and_then(|s| s.setup.as_ref())),
-        "stop": code(spec.and_then(|s| s.stop.as_ref())),
-        "steps": spec.and_then(|s| s.steps.as_ref()).map(|n| n.value.max(0.0).round()),
-        "until": length(spec.and_then(|s| s.until.as_ref()).map(|n| n.value)),
-        "measures": measures,
-        "expressions": statements.iter().map(|t| t.value.clone()).collect::<Vec<_>>(),
-    }))
+    Ok(RunTask {
+        lab: lab_task(lab),
+        xml,
+        timestep,
+        set,
+        press: spec.iter().flat_map(|s| &s.press).map(|(label, t)| (label.value.clone(), t.value)).collect(),
+        setup: code(spec.and_then(|s| s.setup.as_ref())),
+        stop: code(spec.and_then(|s| s.stop.as_ref())),
+        steps: spec.and_then(|s| s.steps.as_ref()).map(|n| n.value.max(0.0).round()),
+        until: length(spec.and_then(|s| s.until.as_ref()).map(|n| n.value)),
+        measures: scene.measures.iter().map(|(name, m)| ((*name).into(), m.text.value.clone())).collect(),
+        expressions: statements.iter().map(|t| t.value.clone()).collect(),
+    })
+}
+
+fn code(text: Option<&Text>) -> Option<String> {
+    text.map(|t| t.value.clone())
 }
 
 /// The value that a control gets, where a text of a select was given.
@@ -88,41 +134,44 @@ fn chosen(lab: &Lab, label: &Text, given: &Value) -> Result<Json, String> {
 
 fn plain(value: &Value) -> Json {
     match value {
-        Value::Number(x) => json!(x),
-        Value::Boolean(b) => json!(b),
-        Value::String(s) => json!(s.to_string()),
+        Value::Number(x) => (*x).into(),
+        Value::Boolean(b) => (*b).into(),
+        Value::String(s) => s.to_string().into(),
         _ => Json::Null,
     }
 }
 
-/// The lab as far as it runs.
-fn of_lab(lab: &Lab) -> Json {
-    let code = |text: &Option<Text>| text.as_ref().map(|t| t.value.clone());
-    let start = |value: &Scalar| plain(&scalar(value));
-    let controls = lab.controls.iter().map(|c| {
-        let value = match &c.kind {
-            ControlKind::Button { run } => return json!({"label": c.label.value, "run": run.value}),
-            ControlKind::Slider { value, .. } => json!(value.value),
-            ControlKind::Select { value, .. } => start(value),
-        };
-        let action = c.action();
-        json!({
-            "label": c.label.value, "value": value,
-            "set": action.and_then(|a| code(&a.set)), "apply": action.and_then(|a| code(&a.apply)),
-            "param": action.and_then(|a| code(&a.param)),
-            "init": action.is_some_and(|a| a.init), "reset": action.is_some_and(|a| a.reset),
-        })
-    });
-    let readouts = lab.readouts.iter().map(|r| json!([r.label.value, r.expr.value, r.digits()]));
-    let traces = lab.traces().map(|t| json!([t.label.value, t.expr.value, null]));
-    let called = lab.plots.iter().enumerate().flat_map(|(i, plot)| {
-        plot.traces.iter().map(move |t| json!([format!("plot/{i}/{}", t.label.value), t.expr.value, null]))
-    });
-    let named =
-        lab.readouts.iter().map(|r| json!([format!("readout/{}", r.label.value), r.expr.value, r.digits()]));
-    json!({
-        "key": lab.keyframe(), "setup": code(&lab.setup), "controller": code(&lab.controller),
-        "controls": controls.collect::<Vec<_>>(),
-        "shown": readouts.chain(traces).chain(called).chain(named).collect::<Vec<_>>(),
-    })
+fn lab_task(lab: &Lab) -> LabTask {
+    let plots = || lab.plots.iter().enumerate().flat_map(|(i, plot)| plot.traces.iter().map(move |t| (i, t)));
+    let readout = |name: String, r: &Readout| (name, r.expr.value.clone(), Some(r.digits()));
+    let trace = |name: String, t: &Trace| (name, t.expr.value.clone(), None);
+    let readouts = lab.readouts.iter().map(|r| readout(r.label.value.clone(), r));
+    let traces = plots().map(|(_, t)| trace(t.label.value.clone(), t));
+    let plotted = plots().map(|(i, t)| trace(format!("plot/{i}/{}", t.label.value), t));
+    let named = lab.readouts.iter().map(|r| readout(format!("readout/{}", r.label.value), r));
+    LabTask {
+        key: lab.keyframe(),
+        setup: code(lab.setup.as_ref()),
+        controller: code(lab.controller.as_ref()),
+        controls: lab.controls.iter().map(control_task).collect(),
+        displayed: readouts.chain(traces).chain(plotted).chain(named).collect(),
+    }
+}
+
+fn control_task(c: &Control) -> ControlTask {
+    let label = c.label.value.clone();
+    let (value, action) = match &c.kind {
+        ControlKind::Button { run } => return ControlTask::Button { label, run: run.value.clone() },
+        ControlKind::Slider { value, action, .. } => (value.value.into(), action),
+        ControlKind::Select { value, action, .. } => (plain(&scalar(value)), action),
+    };
+    ControlTask::Setting {
+        label,
+        value,
+        set: code(action.set.as_ref()),
+        apply: code(action.apply.as_ref()),
+        param: code(action.param.as_ref()),
+        init: action.init,
+        reset: action.reset,
+    }
 }

@@ -4,6 +4,7 @@ use super::number::Quoted;
 use super::unit_text::Unit;
 use crate::source::Text;
 use labspec_expr::dimension::Dimension;
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// The value of the same expression in another run: with half the timestep, or from a start that is a hair away.
@@ -16,7 +17,7 @@ pub struct OtherValue {
 }
 
 /// What became of a quote.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum QuoteState {
     /// The text stands in the lesson, and its number is what the expression gives.
     Right,

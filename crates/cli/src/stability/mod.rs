@@ -1,24 +1,25 @@
 //! `labspec stability`.
 
+mod machine;
+
 use super::common::{Failure, Outcome, interrupted};
 use super::lab_args::LabArguments;
 use super::output::write_file;
 use super::output::{wanted, write_png};
 use super::output_kind::OutputKind;
-use super::stdio::print;
-use super::stdio::{Progress, print_json};
+use super::report_json::print_report;
+use super::stdio::{Progress, print};
 use clap::ValueEnum;
 use labspec::bind::Programs;
-use labspec::report::{counted, key, printable, set_number};
+use labspec::report::{counted, printable};
 use labspec::run::two_digits;
 use labspec::spec::Lab;
-use labspec::stress::{Evidence, Fault, FaultGroup, FaultKind, Interaction, Kind};
+use labspec::stress::{FaultGroup, FaultKind};
 use labspec_numerics::stability::{
-    MapCell, Margin, Options, Remedy, RunCount, Sensitivity, StabilityFinding, StabilityMap, StressReport,
-    StressRun, probe,
+    MapCell, Margin, Options, Sensitivity, StabilityFinding, StabilityMap, StressReport, probe,
 };
 use labspec_plot::{Cells, cells};
-use serde_json::{Value, json};
+use machine::machine;
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -71,7 +72,7 @@ pub(super) fn stability(a: &Arguments) -> Result<Outcome, Failure> {
     }
     match a.format {
         Format::Human => print(&human(&report, &target.programs))?,
-        Format::Json => print_json(&value(&report, &target.programs), true)?,
+        Format::Json => print_report("stability", &machine(&report, &target.programs))?,
     }
     Ok(if report.fine() { Outcome::Clean } else { Outcome::Findings })
 }
@@ -334,124 +335,4 @@ fn left_out(report: &StressReport) -> Vec<String> {
     }
     list.extend(report.left_out.iter().cloned());
     list
-}
-
-fn value(report: &StressReport, programs: &Programs) -> Value {
-    let tried = |t: &RunCount| json!({"kind": key(t.kind.description()), "made": t.made, "cut": t.cut, "leftOut": t.left_out});
-    let found: Vec<Value> = report.found.iter().map(|f| found_value(f, programs)).collect();
-    labspec::report::report(
-        "stability",
-        json!({
-            "length": report.length,
-            "tried": report.tried.iter().map(tried).collect::<Vec<_>>(),
-            "runs": report.runs.iter().map(|m| made_value(m, programs)).collect::<Vec<_>>(),
-            "shortest": report.shortest,
-            "pairsLeftOut": report.pairs_left_out,
-            "leftOut": left_out(report),
-            "findings": found,
-            "window": report.window,
-            "margins": report.margins.iter().map(margin_value).collect::<Vec<_>>(),
-            "sensitivity": sensitivity_value(&report.sensitivity),
-            "map": report.map.as_ref().map(map_value),
-            "work": report.work,
-            "fine": report.fine(),
-        }),
-    )
-}
-
-fn made_value(made: &StressRun, programs: &Programs) -> Value {
-    json!({
-        "kind": key(made.interaction.kind.description()), "setting": handling_value(&made.interaction, programs),
-        "covered": made.covered, "cut": made.cut,
-        "wrong": made.wrong.iter().map(|k| key(k.description())).collect::<Vec<_>>(),
-    })
-}
-
-fn found_value(found: &StabilityFinding, programs: &Programs) -> Value {
-    let FaultGroup { fault, interaction, settings, worst } = &found.group;
-    let mut value = fault_value(fault);
-    value["setting"] = handling_value(interaction, programs);
-    value["touched"] = json!(interaction.kind == Kind::Touched);
-    value["settings"] = json!(settings);
-    value["expected"] = json!(found.expected);
-    let remedy = |r: &Remedy| {
-        let mut value = json!({"change": r.change});
-        set_number(&mut value, "work", r.work);
-        set_number(&mut value, "timeRatio", r.time);
-        value["error"] = json!(r.error);
-        value
-    };
-    value["remedies"] = found.remedies.iter().map(remedy).collect();
-    value["worst"] = worst.as_ref().map_or(Value::Null, |(handling, fault)| {
-        let mut value = fault_value(fault);
-        value["setting"] = handling_value(handling, programs);
-        value
-    });
-    value
-}
-
-fn margin_value(m: &Margin) -> Value {
-    json!({
-        "knob": key(m.knob.description()), "who": m.who, "unit": m.unit, "now": m.now, "largest": m.largest,
-        "breaks": m.breaks, "how": m.how.as_ref().map(|(kind, who)| json!({"kind": key(kind.description()), "who": who})),
-        "bound": m.bound, "runs": m.runs, "geoms": m.geoms,
-    })
-}
-
-fn sensitivity_value(s: &Sensitivity) -> Value {
-    let exponent =
-        s.exponent.map(|e| json!({"mean": e.mean, "low": e.low, "high": e.high, "directions": e.directions}));
-    let horizons: Vec<Value> =
-        s.horizons.iter().map(|h| json!({"label": h.label, "until": h.until})).collect();
-    let parting = s.parting.map(|p| {
-        let mut value = json!({});
-        set_number(&mut value, "low", p.low);
-        set_number(&mut value, "high", p.high);
-        value
-    });
-    json!({"length": s.length, "apart": s.apart, "parting": parting, "exponent": exponent, "horizons": horizons})
-}
-
-fn map_value(map: &StabilityMap) -> Value {
-    let cell = |c: &MapCell| match c {
-        MapCell::Fine => "fine".to_string(),
-        MapCell::Broken(kind) => key(kind.description()),
-        MapCell::Unknown => "unknown".to_string(),
-    };
-    let rows: Vec<Vec<String>> = map.cells.iter().map(|row| row.iter().map(cell).collect()).collect();
-    let values: Vec<Vec<Value>> =
-        map.values.iter().map(|list| list.iter().map(control_value).collect()).collect();
-    json!({"controls": map.labels, "values": values, "cells": rows})
-}
-
-/// The value of a control.
-fn control_value(value: &labspec_expr::Value) -> Value {
-    match value {
-        labspec_expr::Value::Number(x) => json!(x),
-        labspec_expr::Value::Boolean(b) => json!(b),
-        other => json!(other.to_string()),
-    }
-}
-
-fn fault_value(fault: &Fault) -> Value {
-    let evidence = |e: &Evidence| {
-        let mut value = json!({"name": e.name});
-        set_number(&mut value, "value", e.value);
-        value["unit"] = json!(e.unit);
-        value
-    };
-    json!({
-        "kind": key(fault.kind.description()), "time": fault.time, "who": fault.who, "cause": fault.cause,
-        "evidence": fault.evidence.iter().map(evidence).collect::<Vec<_>>(),
-    })
-}
-
-/// What a student does: a list of changes, each with its time.
-fn handling_value(handling: &Interaction, programs: &Programs) -> Value {
-    let label = |i: usize| programs.controls.get(i).map_or("", |(label, _)| label.as_str());
-    let one = |a: &labspec::stress::Action| {
-        let value = a.value.as_ref().map_or(Value::Null, control_value);
-        json!({"control": label(a.control), "time": a.time, "value": value})
-    };
-    handling.actions.iter().map(one).collect()
 }

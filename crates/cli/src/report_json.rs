@@ -1,0 +1,173 @@
+//! What all reports in JSON have in common: the head, places, the names of what JSON has no number for; and reports in files that
+//! are read again.
+
+use super::common::Failure;
+use super::output::write_file;
+use super::output_kind::OutputKind;
+use super::stdio::print_json;
+use labspec::report::{self, SCHEMA_VERSION, printable, printable_path};
+use labspec::source::{SourceFile, read_text};
+use labspec::verify::Measured;
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+use std::ops::Range;
+use std::path::Path;
+
+/// A report with its head.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct Report<'a, T> {
+    schema_version: u32,
+    report: &'a str,
+    #[serde(flatten)]
+    entries: &'a T,
+}
+
+/// What a file says of itself.
+#[derive(Default, Deserialize)]
+#[serde(rename_all = "camelCase", default)]
+struct Head {
+    schema_version: Value,
+    report: Value,
+}
+
+/// Prints a report.
+pub(super) fn print_report(name: &str, entries: &impl Serialize) -> Result<(), Failure> {
+    print_json(&Report { schema_version: SCHEMA_VERSION, report: name, entries }, true)
+}
+
+/// A report that a later run reads.
+pub(super) struct StoredReport {
+    /// Its name in the head.
+    pub(super) name: &'static str,
+    /// In words, with an article.
+    pub(super) what: &'static str,
+    /// What to do about a file that is another one.
+    pub(super) next_step: &'static str,
+    pub(super) output: OutputKind<'static>,
+}
+
+/// Bytes of a stored report, at most.
+const MOST: u64 = 64 << 20;
+/// Letters of a reader's complaint, at most: it may quote the file.
+const MOST_QUOTED: usize = 200;
+
+/// Reads a stored report.
+///
+/// # Errors
+/// The file cannot be read, or is another one.
+pub(super) fn read_report<T: DeserializeOwned>(path: &Path, stored: &StoredReport) -> Result<T, Failure> {
+    let no =
+        |why: &str| format!("{} is not {}: {why}; {}", printable_path(path), stored.what, stored.next_step);
+    let invalid =
+        |e: serde_json::Error| no(&printable(&e.to_string().chars().take(MOST_QUOTED).collect::<String>()));
+    let text = read_text(path, MOST, stored.what)?;
+    // The head first: of another version nothing is expected.
+    let head: Head = serde_json::from_str(&text).map_err(invalid)?;
+    if head.report != stored.name || head.schema_version != SCHEMA_VERSION {
+        return Err(no("its version is missing or unsupported"));
+    }
+    serde_json::from_str(&text).map_err(invalid)
+}
+
+/// Writes a report for a later run, whole or not at all.
+///
+/// # Errors
+/// The file cannot be written.
+pub(super) fn write_report(
+    path: &Path,
+    stored: &StoredReport,
+    entries: &impl Serialize,
+) -> Result<(), Failure> {
+    let report = Report { schema_version: SCHEMA_VERSION, report: stored.name, entries };
+    let text = serde_json::to_string_pretty(&report).map_err(|e| e.to_string())?;
+    write_file(path, stored.output, &(text + "\n"))
+}
+
+/// A place, as all reports have it: to be flattened.
+pub(super) fn place(sources: &[&SourceFile], path: &str, span: &Range<usize>) -> Value {
+    let mut place = Value::Null;
+    report::set_place(&mut place, sources, path, span);
+    place
+}
+
+/// An object with these entries.
+pub(super) fn object<T: Serialize>(entries: impl Iterator<Item = (String, T)>) -> Map<String, Value> {
+    entries.map(|(key, value)| (key, serde_json::to_value(value).unwrap_or_default())).collect()
+}
+
+/// The names of what JSON has no number for, by key: `NaN`, `Infinity`, `-Infinity`; in a list, pairs of index and name.
+pub(super) type NonFinite = Map<String, Value>;
+
+/// A number, one that may be missing, or a list of such.
+pub(super) trait Numbers {
+    /// The names of what JSON does not have.
+    fn names(&self) -> Option<Value>;
+}
+
+impl Numbers for f64 {
+    fn names(&self) -> Option<Value> {
+        report::nonfinite(*self).map(Value::from)
+    }
+}
+
+impl Numbers for Option<f64> {
+    fn names(&self) -> Option<Value> {
+        self.as_ref()?.names()
+    }
+}
+
+impl<const N: usize> Numbers for [Option<f64>; N] {
+    fn names(&self) -> Option<Value> {
+        self.to_vec().names()
+    }
+}
+
+impl Numbers for Vec<Option<f64>> {
+    fn names(&self) -> Option<Value> {
+        let named = |(i, x): (usize, &Option<f64>)| Some(Value::Array(vec![i.into(), x.names()?]));
+        let names: Vec<Value> = self.iter().enumerate().filter_map(named).collect();
+        (!names.is_empty()).then_some(Value::Array(names))
+    }
+}
+
+/// The names of those of some numbers that JSON does not have.
+pub(super) fn nonfinite(numbers: &[(&str, &dyn Numbers)]) -> NonFinite {
+    numbers.iter().filter_map(|(key, x)| Some((key.to_string(), x.names()?))).collect()
+}
+
+/// A row with these numbers. `nonfinite` stands behind the first of them that JSON does not have.
+pub(super) fn with_nonfinite(row: &impl Serialize, numbers: &[(&str, &dyn Numbers)]) -> Map<String, Value> {
+    let mut names = Some(nonfinite(numbers));
+    let mut all = Map::new();
+    if let Ok(Value::Object(row)) = serde_json::to_value(row) {
+        for (key, value) in row {
+            let names = names.take_if(|names| names.contains_key(&key));
+            all.insert(key, value);
+            all.extend(names.map(|names| ("nonfinite".to_string(), names.into())));
+        }
+    }
+    all
+}
+
+/// A number that JSON has.
+pub(super) fn finite(x: f64) -> Option<f64> {
+    x.is_finite().then_some(x)
+}
+
+/// A measure, and what it is at half the timestep, in the unit of the measure.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct MeasureRow {
+    pub(super) value: Option<f64>,
+    halved: Option<f64>,
+    #[serde(default, skip_serializing_if = "NonFinite::is_empty")]
+    pub(super) nonfinite: NonFinite,
+}
+
+impl MeasureRow {
+    pub(super) fn new(m: &Measured) -> MeasureRow {
+        let nonfinite = nonfinite(&[("value", &m.value), ("halved", &m.halved)]);
+        MeasureRow { value: finite(m.value), halved: m.halved.and_then(finite), nonfinite }
+    }
+}
