@@ -6,7 +6,9 @@
 use js_sys::{Array, Error, Float64Array, JSON, Object, Reflect};
 use labspec::finding::Finding;
 use labspec::player::{ControlKind, DisplayedIn, Saved};
-use labspec::{Checker, Player};
+#[cfg(feature = "checker")]
+use labspec::Checker;
+use labspec::Player;
 use serde_json::{Value as Json, json};
 use std::collections::BTreeMap;
 use wasm_bindgen::prelude::*;
@@ -240,6 +242,7 @@ impl Lab {
 
 /// Checks a lesson from its text. `path` says by its ending what it is: Markdown, or JSON. What it names in `neighbours` is found
 /// from that path, as files would be.
+#[cfg(feature = "checker")]
 #[wasm_bindgen]
 pub fn check(
     path: &str,
