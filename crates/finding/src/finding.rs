@@ -90,38 +90,28 @@ pub struct Finding {
 
 impl Finding {
     /// A finding of a rule, with the rule's severity and reason. The path is filled in by whoever collects it.
+    // Inlined so that a program has the code of a rule without the texts and examples of its page.
+    #[inline(always)]
     pub fn new(rule: &Rule, span: impl Into<Range<usize>>, message: impl Into<String>) -> Finding {
-        Finding {
-            why: Some(rule.why.to_string()).filter(|why| !why.is_empty()),
-            ..Finding::plain(rule, span, message)
-        }
+        bare(rule.code, rule.severity, rule.why, span.into(), message.into())
     }
 
     /// A finding whose message says why, or that states its own reason: the rule's is left to its explanation.
+    #[inline(always)]
     pub fn plain(rule: &Rule, span: impl Into<Range<usize>>, message: impl Into<String>) -> Finding {
-        Finding {
-            code: rule.code,
-            severity: rule.severity,
-            path: Arc::from(""),
-            span: span.into(),
-            position: None,
-            message: message.into(),
-            why: None,
-            help: None,
-            fix: None,
-            related: Vec::new(),
-            claim: None,
-        }
+        bare(rule.code, rule.severity, "", span.into(), message.into())
     }
 
     /// An error of a rule, in words that say why.
+    #[inline(always)]
     pub fn error(rule: &Rule, span: impl Into<Range<usize>>, message: impl Into<String>) -> Finding {
-        Finding::plain(rule, span, message).severity(Severity::Error)
+        bare(rule.code, Severity::Error, "", span.into(), message.into())
     }
 
     /// A warning of a rule, in words that say why.
+    #[inline(always)]
     pub fn warning(rule: &Rule, span: impl Into<Range<usize>>, message: impl Into<String>) -> Finding {
-        Finding::plain(rule, span, message).severity(Severity::Warning)
+        bare(rule.code, Severity::Warning, "", span.into(), message.into())
     }
 
     /// Another reason than the rule's general one.
@@ -166,6 +156,28 @@ impl Finding {
     /// Whether what it is about is refused because of it.
     pub fn is_error(&self) -> bool {
         self.severity == Severity::Error
+    }
+}
+
+fn bare(
+    code: &'static str,
+    severity: Severity,
+    why: &'static str,
+    span: Range<usize>,
+    message: String,
+) -> Finding {
+    Finding {
+        code,
+        severity,
+        path: Arc::from(""),
+        span,
+        position: None,
+        message,
+        why: Some(why.to_string()).filter(|why| !why.is_empty()),
+        help: None,
+        fix: None,
+        related: Vec::new(),
+        claim: None,
     }
 }
 

@@ -2,11 +2,14 @@
 
 use super::parts::{Hash, ModelFile, Remembering};
 use crate::finding::{Finding, InFile};
-use crate::lint::{lesson_folder, root_of};
+use crate::lint::{ModelFolder, lesson_folder, root_of};
+use crate::models::FilesOf;
 use crate::rules;
-use crate::source::{SourceFile, Sources};
+use crate::source::{SourceFile, Sources, Text};
+use crate::spec::{Lab, ModelSource};
 use labspec_core::Model;
-use labspec_core::xml::{self, FileProblem, Files, Folder, NoFiles};
+use labspec_core::xml::{self, Examined, FileProblem, Files, Folder, NoFiles};
+use labspec_finding::nearest;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -34,7 +37,56 @@ pub fn compile_file(
     mark: Option<Hash>,
 ) -> Compiled {
     let files = FilesAround::below(path, root, sources);
-    compile_source(file, &files, path.file_name().and_then(|n| n.to_str()), mark)
+    compile_source(file, &files, path.file_name().and_then(|n| n.to_str()), mark, xml::check_xml)
+}
+
+/// Compiles the model of a lab that is played: with what is wrong with it, and nothing of what is only doubtful.
+pub(crate) fn compile_to_play(lab: &Lab, folder: &ModelFolder) -> Compiled {
+    let refused = |rule, at: &Text, message: String, help: String| Compiled {
+        model: None,
+        findings: vec![Finding::error(rule, at.span(), message).help(help)],
+        files: Vec::new(),
+        parts: Vec::new(),
+    };
+    let name = match lab.scene() {
+        None => return Compiled { model: None, findings: Vec::new(), files: Vec::new(), parts: Vec::new() },
+        Some(ModelSource::Xml(text)) => {
+            let examined = compile_errors(&text.value, &NoFiles, None);
+            let place = |d: &Finding| from_mjcf(d, text.span_of(d.span.clone()));
+            let findings = examined.findings.iter().map(place).collect();
+            return Compiled { model: examined.model, findings, files: Vec::new(), parts: Vec::new() };
+        }
+        Some(ModelSource::Model(name)) => name,
+    };
+    if let Some(given) = folder.given()
+        && let Some(text) = given.text(&name.value)
+    {
+        let file = SourceFile::new(format!("models/{}.xml", name.value), text);
+        let own_name = format!("{}.xml", name.value);
+        return compile_source(&file, &FilesOf(given), Some(&own_name), None, compile_errors);
+    }
+    let Some(path) = folder.path(&name.value) else {
+        let known = folder.names().unwrap_or_default();
+        let close = nearest(&name.value, known.iter().map(String::as_str));
+        let help = close.map_or("pass it with the models".into(), |close| format!("write `{close}`"));
+        return refused(rules::UNKNOWN_MODEL, name, format!("there is no model `{}`", name.value), help);
+    };
+    match read_file(&path, &Sources::Disk) {
+        Err(message) => refused(rules::MODEL_UNREADABLE, name, message, "check the file".into()),
+        Ok(file) => {
+            let files = FilesAround::below(&path, folder.root(), &Sources::Disk);
+            let own_name = path.file_name().and_then(|n| n.to_str());
+            compile_source(&file, &files, own_name, None, compile_errors)
+        }
+    }
+}
+
+/// A model with its errors, without the warnings of [`xml::check_xml`].
+fn compile_errors(xml: &str, files: &dyn Files, path: Option<&str>) -> Examined {
+    match xml::compile_with(xml, files, path) {
+        Ok(model) => Examined { model: Some(model), findings: Vec::new() },
+        Err(findings) => Examined { model: None, findings },
+    }
 }
 
 /// A model file, as an editor holds it or else as it is saved.
@@ -79,9 +131,10 @@ pub(super) fn compile_source(
     files: &dyn Files,
     name: Option<&str>,
     mark: Option<Hash>,
+    compile: fn(&str, &dyn Files, Option<&str>) -> Examined,
 ) -> Compiled {
     let remembering = Remembering::new(files, mark);
-    let examined = xml::check_xml(file.text(), &remembering, name);
+    let examined = compile(file.text(), &remembering, name);
     let mut sources = Vec::new();
     if !examined.findings.is_empty() {
         sources.push(file.clone());

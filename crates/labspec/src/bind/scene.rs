@@ -229,7 +229,7 @@ impl Models {
         let text = models.text(name).unwrap_or_default();
         let file = SourceFile::new(format!("models/{name}.xml"), text);
         let Compiled { model, findings, files, parts } =
-            compile_source(&file, &FilesOf(models), Some(&format!("{name}.xml")), None);
+            compile_source(&file, &FilesOf(models), Some(&format!("{name}.xml")), None, xml::check_xml);
         let has_diagnostics = !findings.is_empty();
         open(&self.reported).insert(name.to_string(), (findings, files));
         Loaded { model: model.map(Arc::new), has_diagnostics, parts }

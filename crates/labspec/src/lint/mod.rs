@@ -35,17 +35,17 @@ const MAX_TAGS: usize = 500;
 /// Everything that the rules of structure say of a lesson, in no order.
 fn check_rules(lesson: &Lesson, models: &ModelFolder) -> Vec<Finding> {
     let mut findings: Vec<Finding> =
-        lesson.problems.iter().map(|problem| to_finding(lesson, problem)).collect();
+        lesson.problems.iter().map(|problem| to_finding(lesson.file.text(), problem)).collect();
     check_text(lesson, &mut findings);
     check_objects(lesson, &mut findings);
     check_models(lesson, models, &mut findings);
     findings
 }
 
-/// What is said about something that was wrong where it was read.
-fn to_finding(lesson: &Lesson, problem: &Problem) -> Finding {
+/// What is said about something that was wrong where a text was read.
+pub(crate) fn to_finding(text: &str, problem: &Problem) -> Finding {
     match problem {
-        Problem::Fence(problem) => fence::to_finding(lesson.file.text(), problem),
+        Problem::Fence(problem) => fence::to_finding(text, problem),
         Problem::Json(problem) => json::to_finding(problem),
         Problem::Format(misfit) => format::to_finding(misfit),
     }

@@ -1,29 +1,58 @@
 //! From a text to a lab that is ready to play.
 
 use super::{Player, Saved, control, displayed};
-use crate::bind::Functions;
 use crate::bind::scene::Models;
+use crate::bind::{Functions, Programs, compile_to_play};
 use crate::check;
 use crate::error::{Error, located};
-use crate::finding::Finding;
-use crate::lint::ModelFolder;
-use crate::lint::load_lesson;
+use crate::finding::{Finding, InFile};
+use crate::lint::{ModelFolder, load_lesson, to_finding};
 use crate::run::{Session, Start};
 use crate::source::SourceFile;
-use crate::spec::LabAddress;
+use crate::spec::{Lab, LabAddress, read_lab_json};
 use labspec_core::reflect::FieldSet;
-use labspec_core::{AccessSet, Plan};
+use labspec_core::{AccessSet, Model, Plan};
 use std::sync::Arc;
 
 impl Player {
     /// Opens a lab from its JSON. `models` are what it may name: a map, a closure, a folder, or
     /// [`NoModels`](crate::NoModels).
     ///
+    /// Findings are what is wrong in its JSON, its model and its code: what a page must know. Rules of lessons look at nothing here;
+    /// [`Checker`](crate::Checker) and [`Player::of_lesson`] apply them.
+    ///
     /// # Errors
     /// It is no lab, or its model has mistakes. Mistakes in its code stop nothing: as on every page, what has one shows
     /// nothing, and [`Player::findings`] says why.
     pub fn of_lab(json: &str, models: impl Into<ModelFolder>) -> Result<Player, Error> {
-        Player::of_lesson("lab.json", json, "#1", models)
+        Player::open(json, &models.into())
+    }
+
+    fn open(json: &str, models: &ModelFolder) -> Result<Player, Error> {
+        let file = SourceFile::new("lab.json", json);
+        let (lab, problems) = read_lab_json(&file);
+        let mut loaded: Vec<Finding> = problems.iter().map(|p| to_finding(json, p).at(&file)).collect();
+        let Some(lab) = lab else {
+            loaded.retain(Finding::is_error);
+            return Err(match loaded.is_empty() {
+                true => Error::Call("lab.json has no lab".into()),
+                false => Error::Findings(loaded.into_iter().map(|f| located(f, &file)).collect()),
+            });
+        };
+        let compiled = compile_to_play(&lab, models);
+        loaded.extend(compiled.findings);
+        let model = compiled.model.map(Arc::new);
+        let programs = model.map(|model| {
+            let programs = Programs::compile(&lab, &model, &mut loaded);
+            (model, programs)
+        });
+        let files: Vec<&SourceFile> = std::iter::once(&file).chain(&compiled.files).collect();
+        locate(&mut loaded, &files);
+        let Some((model, programs)) = programs else {
+            loaded.retain(Finding::is_error);
+            return Err(Error::Findings(loaded));
+        };
+        Ok(Player::start(Arc::new(lab), file.clone(), loaded, &model, programs))
     }
 
     /// Opens a lab of a lesson by its address: `#2` is the second one, `#quiz-id.1` that of a question. The ending of
@@ -71,26 +100,42 @@ impl Player {
         let bound = check::bind(lab, &models, &mut loaded);
         loaded.extend(models.take_findings());
         let files: Vec<&SourceFile> = std::iter::once(&lesson.file).chain(models.files()).collect();
-        for finding in &mut loaded {
-            let path = if finding.path.is_empty() { lesson.file.path() } else { &finding.path };
-            if let Some(file) = files.iter().find(|file| file.path() == path) {
-                *finding = located(finding.clone(), file);
-            }
-        }
+        locate(&mut loaded, &files);
         let Some((model, programs, _)) = bound else {
             loaded.retain(Finding::is_error);
             return Err(Error::Findings(loaded));
         };
-        let lab = Arc::new(lab.clone());
+        Ok(Player::start(Arc::new(lab.clone()), lesson.file.clone(), loaded, &model, programs))
+    }
+
+    /// A lab at its start.
+    fn start(
+        lab: Arc<Lab>,
+        file: SourceFile,
+        loaded: Vec<Finding>,
+        model: &Model,
+        programs: Programs,
+    ) -> Player {
         // Whoever draws a scene may read everything.
         let demand = AccessSet { reads: FieldSet::ALL, ..programs.demand };
-        let start = Start { plan: Some(Plan::new(&model, &demand)), ..Start::of_lab(&lab) };
-        let mut session = Session::start(Arc::new(programs), &model, start);
+        let start = Start { plan: Some(Plan::new(model, &demand)), ..Start::of_lab(&lab) };
+        let mut session = Session::start(Arc::new(programs), model, start);
         session.watch();
         let (controls, displayed) = (control::list(&lab), displayed::list(&lab));
         let now = Saved { lab: Arc::clone(&lab), session, cells: Vec::new(), numbers: Vec::new() };
-        let mut player = Player { lab, file: lesson.file.clone(), loaded, controls, displayed, now };
+        let mut player = Player { lab, file, loaded, controls, displayed, now };
         player.observe();
-        Ok(player)
+        player
+    }
+}
+
+/// Gives findings their lines and columns. A finding without a path is of the first file.
+fn locate(findings: &mut [Finding], files: &[&SourceFile]) {
+    let Some(first) = files.first() else { return };
+    for finding in findings {
+        let path = if finding.path.is_empty() { first.path() } else { &finding.path };
+        if let Some(file) = files.iter().find(|file| file.path() == path) {
+            *finding = located(finding.clone(), file);
+        }
     }
 }

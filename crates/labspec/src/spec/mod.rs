@@ -36,4 +36,5 @@ pub use lesson::{LabEntry, Lesson, Other, Widget};
 pub use plot::{Plot, Readout, RefLine, Trace};
 pub use problem::{Expected, Meant, Misfit, Mistake, Problem};
 pub use quiz::{ChoiceStyle, Question, QuestionKind, Quiz};
+pub(crate) use read_lesson::read_lab_json;
 pub use read_lesson::{read_lesson, read_other};

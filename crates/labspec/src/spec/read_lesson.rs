@@ -44,6 +44,35 @@ pub fn read_other(file: SourceFile, address: &LabAddress, at: Range<usize>) -> R
     }
 }
 
+/// Reads the JSON of a lab, or the first lab of a list, with what is wrong in it. Markdown and quizzes are not read.
+pub(crate) fn read_lab_json(file: &SourceFile) -> (Option<Lab>, Vec<Problem>) {
+    let (text, mut problems) = (file.text(), Vec::new());
+    if text.len() as u64 > MAX_FILE {
+        return (None, vec![Mistake::TooLarge.at(0..0)]);
+    }
+    let start = byte_order_mark(text);
+    let parsed = json::parse(text.get(start..).unwrap_or(""), &SourceMap::verbatim(start..text.len()));
+    problems.extend(parsed.problems.into_iter().map(Problem::Json));
+    let mut lab = None;
+    if let Some(node) = parsed.node {
+        let items = match &node.json {
+            Json::Array(items) => items.as_slice(),
+            _ => std::slice::from_ref(&node),
+        };
+        match items.iter().find(|item| nature(item) == Nature::Lab) {
+            Some(item) => lab = read_lab(item, &mut problems),
+            None if node.is_broken() => {}
+            None => problems.push(Mistake::UnknownObject.at(node.span.clone())),
+        }
+    }
+    (lab, problems)
+}
+
+/// Bytes of a byte order mark: no part of JSON, and editors hide it.
+fn byte_order_mark(text: &str) -> usize {
+    if text.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 }
+}
+
 /// Reads a lesson; all places in its JSON are `at`, if that is given.
 fn read_at(file: SourceFile, at: Option<Range<usize>>) -> Lesson {
     let mut lesson = Lesson {
@@ -155,8 +184,7 @@ fn push_lab(lesson: &mut Lesson, span: Range<usize>, lab: Option<Lab>) {
 /// A lab, a quiz, or a list of them, told apart by their keys.
 fn json_file(lesson: &mut Lesson, at: Option<Range<usize>>) {
     let text = lesson.file.text();
-    // A byte order mark is no part of JSON, and editors hide it.
-    let start = if text.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
+    let start = byte_order_mark(text);
     let (length, whole) = (text.len() - start, 0..text.len());
     let map = at.map_or(SourceMap::verbatim(start..text.len()), |at| SourceMap::whole(length, at));
     let text = text.get(start..).unwrap_or("").to_string();
