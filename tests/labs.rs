@@ -28,7 +28,7 @@ const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// A few nudges show the order of what rounding does, not the worst of it.
 const WIDER: f64 = 2.0;
 /// The step of a perturbed start.
-const NUDGE: f64 = 1e-14;
+const PERTURBATION: f64 = 1e-14;
 
 /// Traces that are not known so well, and why: lab, trace, in so many runs at most. Beyond this list nothing is excused.
 const EXCUSED: &[(&str, &str, usize, &str)] = &[
@@ -60,7 +60,7 @@ const GRIP: &str =
 enum How {
     /// As it was recorded.
     Recorded,
-    /// Coordinates and gravity moved, each by so many times [`NUDGE`].
+    /// Coordinates and gravity moved, each by so many times [`PERTURBATION`].
     Nudged(f64, f64),
     /// The solver run to rounding.
     Tight,
@@ -90,7 +90,8 @@ fn ours(shared: &Path, recording: &Json, how: How) -> Json {
         .model_of_lab(lab, &mut findings)
         .unwrap_or_else(|| panic!("{name}: {:?}", models.take_findings()));
     let mut model: Model = (*model).clone();
-    let [moved, pulled] = if let How::Nudged(q, g) = how { [q * NUDGE, g * NUDGE] } else { [0.0; 2] };
+    let [moved, pulled] =
+        if let How::Nudged(q, g) = how { [q * PERTURBATION, g * PERTURBATION] } else { [0.0; 2] };
     let edit = model.edit();
     edit.qpos0.iter_mut().chain(edit.key_qpos).for_each(|q| *q += moved);
     model.edit().opt.gravity.iter_mut().for_each(|g| *g *= 1.0 + pulled);
@@ -169,12 +170,12 @@ fn labs_trace_what_they_trace_on_a_page() {
                 continue;
             }
             let others = others.get_or_insert_with(|| OTHERWISE.map(|how| ours(&shared, recording, how)));
-            let [solved, nudged @ ..] = others.each_ref().map(|other| apart(recording, i, &found, other));
-            let nudged = nudged.into_iter().fold(0.0, f64::max);
+            let [solved, perturbed @ ..] = others.each_ref().map(|other| apart(recording, i, &found, other));
+            let perturbed = perturbed.into_iter().fold(0.0, f64::max);
             let line = format!(
-                "{what} {name}: {theirs:.1e} of its range from theirs; from itself {nudged:.1e} nudged, {solved:.1e} solved"
+                "{what} {name}: {theirs:.1e} of its range from theirs; from itself {perturbed:.1e} nudged, {solved:.1e} solved"
             );
-            if theirs <= WIDER * nudged.max(solved) {
+            if theirs <= WIDER * perturbed.max(solved) {
                 println!("{line}");
                 *own.entry((recording["lab"].as_str().unwrap(), name.as_str().unwrap()))
                     .or_insert(0_usize) += 1;

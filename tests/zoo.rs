@@ -138,9 +138,9 @@ fn a_plan_for_any_field_changes_no_bit_of_it() {
         };
         let full = run(Plan::full());
         for &f in &fields {
-            let mut demand = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
-            demand.reads.insert(f);
-            let planned = run(Plan::new(&m, &demand));
+            let mut access = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+            access.reads.insert(f);
+            let planned = run(Plan::new(&m, &access));
             let bits = |d: &Data<Planned>| list(&m, d, f).into_iter().map(f64::to_bits).collect::<Vec<_>>();
             if bits(&planned) != bits(&full) {
                 wrong.push(format!("{name}: {}", f.info().name));

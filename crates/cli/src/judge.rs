@@ -10,7 +10,7 @@ use labspec::check::{Recording, file_name};
 use labspec::report::printable_lines;
 use labspec::report::{nonfinite, printable_path, to_value};
 use labspec::source::read_text;
-use labspec::verify::judge::{Left, RecordedRun, RunTask, shown_as};
+use labspec::verify::judge::{Left, RecordedRun, RunTask, format_value};
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -295,7 +295,7 @@ pub(super) fn summary(file: &Path, engine: &str, results: &CourseResults) -> Str
     text.push_str(&left);
     text.push('\n');
     for Differing { file, owner, measure, ours, theirs, .. } in &all.differing {
-        let [ours, theirs] = [*ours, *theirs].map(shown_as);
+        let [ours, theirs] = [*ours, *theirs].map(format_value);
         let _ = writeln!(text, "  differs    {file}, {owner}: `{measure}` is {ours} here but {theirs} there");
     }
     let mut reasons: BTreeMap<&str, usize> = BTreeMap::new();

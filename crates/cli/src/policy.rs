@@ -346,17 +346,17 @@ mod tests {
     fn mistakes_in_settings_are_told() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("labspec.toml");
-        let told = |text: &str| {
+        let error = |text: &str| {
             std::fs::write(&path, text).unwrap();
             read(&path).unwrap_err()
         };
-        assert!(told("ignor = []").contains("did you mean `ignore`"));
-        assert!(told("ignore = [\"duplicate-readouts\"]").contains("did you mean `duplicate-readout`"));
-        assert!(told("ignore = 3").contains("a list of texts"));
-        assert!(told("\nignore = ").contains("line 2"));
-        assert!(told("[[paths]]\nignore = []").contains("needs `match`"));
-        assert!(told("paths = 1").contains("[[paths]]"));
-        assert!(told("paths = [1]").contains("[[paths]]"));
-        assert!(told("widgets = \"playground\"").contains("a list of texts"));
+        assert!(error("ignor = []").contains("did you mean `ignore`"));
+        assert!(error("ignore = [\"duplicate-readouts\"]").contains("did you mean `duplicate-readout`"));
+        assert!(error("ignore = 3").contains("a list of texts"));
+        assert!(error("\nignore = ").contains("line 2"));
+        assert!(error("[[paths]]\nignore = []").contains("needs `match`"));
+        assert!(error("paths = 1").contains("[[paths]]"));
+        assert!(error("paths = [1]").contains("[[paths]]"));
+        assert!(error("widgets = \"playground\"").contains("a list of texts"));
     }
 }

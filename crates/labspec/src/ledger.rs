@@ -433,25 +433,29 @@ mod tests {
             }
             let good = State::True(Evidence::Simulated);
             (0..count(4)).for_each(|_| ledger.add(entry(Subject::Quote, good)));
-            let said = ledger.conclusion("");
+            let message = ledger.conclusion("");
             for (&(_, one, more), digit) in states.iter().zip(0..) {
                 assert_eq!(
-                    said.contains(one),
+                    message.contains(one),
                     count(digit) == 1 || one == more && count(digit) > 0,
-                    "{said}"
+                    "{message}"
                 );
                 assert_eq!(
-                    said.contains(more),
+                    message.contains(more),
                     count(digit) == 2 || one == more && count(digit) > 0,
-                    "{said}"
+                    "{message}"
                 );
             }
             let bad = count(0) + count(1) > 0;
-            assert_eq!(said.contains("the checked part has no problems"), !bad && count(2) > 0, "{said}");
+            assert_eq!(
+                message.contains("the checked part has no problems"),
+                !bad && count(2) > 0,
+                "{message}"
+            );
             let clean = (0..4).all(|digit| count(digit) == 0);
-            assert_eq!(said == "no problems found", clean && count(4) > 0, "{said}");
-            assert_eq!(said == "nothing to check", code == 0, "{said}");
-            assert_eq!(ledger.outcome() == Outcome::Findings, bad, "{said}");
+            assert_eq!(message == "no problems found", clean && count(4) > 0, "{message}");
+            assert_eq!(message == "nothing to check", code == 0, "{message}");
+            assert_eq!(ledger.outcome() == Outcome::Findings, bad, "{message}");
         }
         let mut ledger = Ledger::default();
         ledger.add(entry(Subject::File, State::False));

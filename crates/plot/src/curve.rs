@@ -139,15 +139,15 @@ pub(super) fn segment(from: Point, to: Point, frame: &Frame) -> Option<(Point, P
         (dy, frame.bottom - from.1),
     ];
     let (mut enter, mut leave) = (0.0f64, 1.0f64);
-    for (towards, room) in edges {
+    for (towards, distance) in edges {
         if towards == 0.0 {
-            if room < 0.0 {
+            if distance < 0.0 {
                 return None;
             }
         } else if towards < 0.0 {
-            enter = enter.max(room / towards);
+            enter = enter.max(distance / towards);
         } else {
-            leave = leave.min(room / towards);
+            leave = leave.min(distance / towards);
         }
     }
     if enter > leave {

@@ -151,11 +151,11 @@ fn label(canvas: &mut Canvas, outer: &Frame, x: &Axis, y: &Axis, words: &Words) 
         shared(canvas, note, (EDGE, row), "start");
     }
 
-    let (row, room) = (outer.bottom + 35.0, outer.width());
+    let (row, available) = (outer.bottom + 35.0, outer.width());
     let taken = x.note.as_ref().map_or(0.0, |note| note.width(TICK) + 10.0);
-    let xlabel = fit(&clean(words.xlabel), LABEL, (room - taken).max(room / 2.0));
+    let xlabel = fit(&clean(words.xlabel), LABEL, (available - taken).max(available / 2.0));
     if !xlabel.is_empty() {
-        let wish = outer.left + room / 2.0;
+        let wish = outer.left + available / 2.0;
         let most = outer.right - taken - width(&xlabel, LABEL) / 2.0;
         canvas.open(&style(LABEL, INK, "middle"));
         canvas.text((wish.min(most), row), &xlabel);

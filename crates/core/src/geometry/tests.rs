@@ -338,7 +338,7 @@ fn contacts_are_those_of_mujoco() {
             continue;
         }
         work.touches.clear();
-        pair::contacts(method, &a, &b, margin, patient, &mut work.room, &mut work.touches);
+        pair::contacts(method, &a, &b, margin, patient, &mut work.convex, &mut work.touches);
         let mut got = Vec::new();
         for t in &work.touches {
             got.push(t.dist);
@@ -403,7 +403,7 @@ fn distance_is_symmetric() {
         }
         let mut there = |a: &Shape, b: &Shape| {
             let (mut u, mut v) = (Convex::new(a), Convex::new(b));
-            nearest(&mut u, &mut v, 1e3, settings().effort, &mut work.room).map_or(f64::NAN, |n| n.dist)
+            nearest(&mut u, &mut v, 1e3, settings().effort, &mut work.convex).map_or(f64::NAN, |n| n.dist)
         };
         let (x, y) = (there(&a, &b), there(&b, &a));
         assert!((x - y).abs() < 1e-5 * (1.0 + norm(a.size) + norm(b.size)), "{x} {y}: {line}");
@@ -447,7 +447,7 @@ fn hostile_numbers_are_harmless() {
                         &second,
                         margin,
                         settings,
-                        &mut work.room,
+                        &mut work.convex,
                         &mut work.touches,
                     );
                     // Over a ground of many prisms as many as MuJoCo keeps; two bodies touch along a face at most.

@@ -43,7 +43,7 @@ impl Props {
     }
 
     /// The same, as long as there is room for lists that are partly the element's own.
-    fn overlay_within(&mut self, node: &Node, room: &CompletionBudget) {
+    fn overlay_within(&mut self, node: &Node, budget: &CompletionBudget) {
         #[cfg(test)]
         self.elements.push(node.element);
         let is_name = |a: &&Attribute| matches!(a.attr.kind, Kind::Name(_) | Kind::Class);
@@ -54,7 +54,7 @@ impl Props {
             let below = self.values.get(a.attr.name).map(|(v, _)| v);
             let value = match (below, &a.value) {
                 (Some(Value::Reals(below)), Value::Reals(over)) if below.len() > over.len() => {
-                    Value::Reals(room.overlaid(below, over, a))
+                    Value::Reals(budget.overlaid(below, over, a))
                 }
                 (_, over) => over.clone(),
             };
@@ -188,7 +188,7 @@ pub(crate) struct Classes {
     list: Vec<Class>,
     names: BTreeMap<String, usize>,
     main: usize,
-    room: CompletionBudget,
+    budget: CompletionBudget,
 }
 
 impl Classes {
@@ -202,7 +202,7 @@ impl Classes {
             list: vec![Class::default()],
             names: BTreeMap::new(),
             main: 0,
-            room: CompletionBudget::default(),
+            budget: CompletionBudget::default(),
         };
         let mut of_node: Vec<Option<usize>> = vec![None; tree.nodes.len()];
         for (i, node) in tree.nodes.iter().enumerate().filter(|(_, n)| n.element.name == "default") {
@@ -217,7 +217,7 @@ impl Classes {
             let mut nodes = Vec::new();
             for (at, entry) in tree.children(i).filter(|(_, e)| e.element.name != "default") {
                 let props = Rc::make_mut(entries.or_default(entry.element.name));
-                props.overlay_within(entry, &classes.room);
+                props.overlay_within(entry, &classes.budget);
                 nodes.push(at);
             }
             let index = classes.list.len();
@@ -268,7 +268,7 @@ impl Classes {
 
     /// Reports the first list that was too much to complete from its defaults.
     pub(crate) fn check_room(&self, report: &mut Report) {
-        if let Some(at) = self.room.exceeded.get() {
+        if let Some(at) = self.budget.exceeded.get() {
             let message = format!("lists completed by defaults have more than {MAX_COMPLETED} numbers");
             report
                 .error(rules::LIMIT, at..at, message)
@@ -286,7 +286,7 @@ impl Classes {
     pub(crate) fn props_of(&self, entry: &str, node: &Node, childclass: Option<usize>) -> Props {
         let entry = self.list.get(self.class_of(node, childclass)).and_then(|c| c.entries.get(entry));
         let mut props = entry.map_or_else(Props::default, |p| Props::clone(p));
-        props.overlay_within(node, &self.room);
+        props.overlay_within(node, &self.budget);
         props
     }
 }

@@ -52,7 +52,7 @@ impl Programs {
                 findings.push(to_finding(&d, text));
             }
         }
-        let demand = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+        let access = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
         let functions = functions.clone();
         let mut programs = Programs {
             setup,
@@ -60,17 +60,17 @@ impl Programs {
             controls,
             probes,
             globals,
-            demand,
+            access,
             functions,
             model: model.identity(),
             coupled: None,
             observed: None,
         };
-        let mut demand = programs.demand;
+        let mut access = programs.access;
         for bound in programs.bound() {
-            include(bound.program.effects(), &mut demand);
+            include(bound.program.effects(), &mut access);
         }
-        programs.demand = demand;
+        programs.access = access;
         programs
     }
 }

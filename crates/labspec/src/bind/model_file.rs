@@ -168,7 +168,7 @@ mod tests {
 
     #[test]
     fn shown_paths_are_short() {
-        for (folder, path, shown) in [
+        for (folder, path, expected) in [
             ("models", "a.xml", "models/a.xml"),
             ("models", "../stls/a.stl", "stls/a.stl"),
             ("a/b", "../../c/d", "c/d"),
@@ -176,7 +176,7 @@ mod tests {
             ("../a", "../c", "../c"),
             ("..", "../c", "../../c"),
         ] {
-            assert_eq!(joined(folder, path), shown, "{folder} {path}");
+            assert_eq!(joined(folder, path), expected, "{folder} {path}");
         }
     }
 }

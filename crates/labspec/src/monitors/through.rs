@@ -160,8 +160,8 @@ fn passed(w: &TunnellingMonitor, m: &Model, f: &Fields, g: usize, wall: usize) -
         let far = (before[k] - after[k]).abs() > 2.0 * FAST * half[k];
         far && (0.0..=1.0).contains(&part) && (0..3).all(|j| j == k || at(j).abs() < half[j])
     });
-    let way = [0, 1, 2].map(|k| after[k] - before[k]).map(|x| x * x).iter().sum::<f64>().sqrt();
-    crossed.then_some(way)
+    let length = [0, 1, 2].map(|k| after[k] - before[k]).map(|x| x * x).iter().sum::<f64>().sqrt();
+    crossed.then_some(length)
 }
 
 /// The middle of a geom in the frame of another one.

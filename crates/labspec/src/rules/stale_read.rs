@@ -140,9 +140,9 @@ fn amended(
             None => return None,
         },
     }
-    let mut demand = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
-    programs.bound().for_each(|b| include(b.program.effects(), &mut demand));
-    programs.demand = demand;
+    let mut access = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+    programs.bound().for_each(|b| include(b.program.effects(), &mut access));
+    programs.access = access;
     Some(programs)
 }
 

@@ -204,7 +204,7 @@ pub(crate) fn finish(started: StartedRun<'_>, made: usize) -> Result<Table, RunE
 /// # Errors
 /// A control that does not exist, a setting that no student can make, or a run that is too long.
 pub fn run(lab: &Lab, model: &Model, programs: &Programs, options: &RunOptions) -> Result<Table, RunError> {
-    let mut started = begin(lab, model, programs, options, &programs.demand)?;
+    let mut started = begin(lab, model, programs, options, &programs.access)?;
     let StartedRun { session, samples, steps, every, presses, .. } = &mut started;
     let played = Play { steps: *steps, every: *every, presses, watched: true };
     let made = play(session, &played, |session, _| take(samples, session));

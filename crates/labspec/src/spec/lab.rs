@@ -190,7 +190,7 @@ impl Lab {
     pub fn speeds(&self) -> Vec<f64> {
         match self.speeds.as_slice() {
             [] => LAB.numbers("speeds").to_vec(),
-            own => own.iter().map(|s| s.value).collect(),
+            given => given.iter().map(|s| s.value).collect(),
         }
     }
 

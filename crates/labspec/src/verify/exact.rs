@@ -367,9 +367,9 @@ impl ClosedFormRuns<'_> {
     }
 
     fn start(&self) -> Session<'_> {
-        let mut demand = self.programs.demand;
-        include(self.form.program.effects(), &mut demand);
-        let plan = Some(Plan::new(self.model, &demand));
+        let mut access = self.programs.access;
+        include(self.form.program.effects(), &mut access);
+        let plan = Some(Plan::new(self.model, &access));
         let start = Start { key: self.lab.keyframe(), plan, budget: Budget::TRIAL };
         Session::start(self.programs, self.model, start)
     }

@@ -55,7 +55,7 @@ pub(super) fn advise(report: &Report) -> Vec<Advice> {
     let own_row = rows.iter().position(|r| r.is_own);
     let mut list = Vec::new();
     if let Some(own_row) = own_row {
-        list.push(Advice { kind: Kind::Own, row: own_row, text: about_own(report, own_row) });
+        list.push(Advice { kind: Kind::LabSetting, row: own_row, text: about_own(report, own_row) });
         list.extend(closer_for_same_work(rows, &usable, own_row));
     }
     let correct = usable.iter().copied().filter(|&i| reliable(rows, i) <= 1.0);

@@ -108,7 +108,7 @@ pub struct Advice {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// What the lab's own setting is off by.
-    Own,
+    LabSetting,
     /// It is closer than the lab's own for the same work.
     Closer,
     /// It is the cheapest that shows every number rightly.

@@ -226,8 +226,8 @@ pub fn written(lesson: &Lesson, all: &[Scaffold]) -> String {
 /// Checks what is proposed, as it would stand in the lesson.
 fn judge(lesson: &Lesson, models: &Models, all: &mut [Scaffold]) {
     let text = written(lesson, all);
-    let depth = CheckLevel { labs: false, ..CheckLevel::FULL };
-    let checked = check::check_lesson(reload_lesson(lesson, &text, models.folder()), models, depth);
+    let level = CheckLevel { labs: false, ..CheckLevel::FULL };
+    let checked = check::check_lesson(reload_lesson(lesson, &text, models.folder()), models, level);
     for one in all {
         let ScaffoldOutcome::Proposed { verdict, .. } = &mut one.found else { continue };
         let claim = checked.claims.iter().find(|c| c.name == one.name);

@@ -8,7 +8,7 @@
 
 use super::{ContactPoint, PairSettings};
 use crate::geometry::clip::{ROUNDING, clip};
-use crate::geometry::convex::{Convex, Room, nearest};
+use crate::geometry::convex::{Convex, ConvexScratch, nearest};
 use crate::geometry::list::List;
 use crate::geometry::{HullFaces, Shape};
 use crate::kinds::geom;
@@ -69,10 +69,10 @@ pub(super) fn contacts(
     a: &Shape,
     b: &Shape,
     settings: &PairSettings,
-    room: &mut Room,
+    scratch: &mut ConvexScratch,
     out: &mut Vec<ContactPoint>,
 ) {
-    let found = nearest(&mut Convex::new(a), &mut Convex::new(b), 0.0, settings.effort, room);
+    let found = nearest(&mut Convex::new(a), &mut Convex::new(b), 0.0, settings.effort, scratch);
     let Some(deep) = found.filter(|n| n.dist < 0.0) else { return };
     let start = out.len();
     if let Some(patch) = patch(a, b, deep.normal) {

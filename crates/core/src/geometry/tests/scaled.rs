@@ -59,7 +59,7 @@ fn answer(assets: &Assets, line: &str, by: f64) -> (Vec<ContactPoint>, Vec<f64>)
     let (first, second) = if a.kind <= b.kind { (&a, &b) } else { (&b, &a) };
     if let Some(method) = pair::method(first.kind, second.kind) {
         let near = margin.min(0.01) * by;
-        pair::contacts(method, first, second, near, || settings, &mut work.room, &mut work.touches);
+        pair::contacts(method, first, second, near, || settings, &mut work.convex, &mut work.touches);
     }
     let back = |t: &ContactPoint| ContactPoint { dist: t.dist / by, pos: scale(t.pos, 1.0 / by), ..*t };
     (work.touches.iter().map(back).collect(), distance)
@@ -135,9 +135,9 @@ fn large_and_small_capsules_lie_on_boxes() {
                 lying,
             );
             let cuboid = Shape::new(geom::BOX, scale([1.0, 1.0, 1.0], by), [0.0; 3], EYE);
-            let (mut room, mut touches) = (Default::default(), Vec::new());
+            let (mut scratch, mut touches) = (Default::default(), Vec::new());
             let Some(method) = pair::method(geom::CAPSULE, geom::BOX) else { panic!() };
-            pair::contacts(method, &capsule, &cuboid, 0.0, settings, &mut room, &mut touches);
+            pair::contacts(method, &capsule, &cuboid, 0.0, settings, &mut scratch, &mut touches);
             assert_eq!(touches.len(), 2, "{by} {thick}");
             for t in touches {
                 assert!(
@@ -159,9 +159,9 @@ fn short_capsules_cross() {
         let size = [0.1 * half, half, 0.0];
         let a = Shape::new(geom::CAPSULE, size, [0.0; 3], lying);
         let b = Shape::new(geom::CAPSULE, size, scale([0.3, 0.4, 0.15], half), upright);
-        let (mut room, mut touches) = (Default::default(), Vec::new());
+        let (mut scratch, mut touches) = (Default::default(), Vec::new());
         let Some(method) = pair::method(geom::CAPSULE, geom::CAPSULE) else { panic!() };
-        pair::contacts(method, &a, &b, 0.0, settings, &mut room, &mut touches);
+        pair::contacts(method, &a, &b, 0.0, settings, &mut scratch, &mut touches);
         let [t] = touches[..] else { panic!("{half}: {touches:?}") };
         assert!((t.dist / half + 0.05).abs() < 1e-12, "{half}: {t:?}");
         assert!(norm(sub(scale(t.pos, 1.0 / half), [0.3, 0.0, 0.075])) < 1e-12, "{half}: {t:?}");

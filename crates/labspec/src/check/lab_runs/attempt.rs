@@ -57,18 +57,18 @@ pub(super) fn make(
     findings: &mut Vec<Finding>,
 ) -> Result<Attempt, run::RunError> {
     let (lab, wanted) = (ready.lab, trial.length);
-    for action in &trial.handling.actions {
+    for action in &trial.interaction.actions {
         if let (Some(control), Some(value)) = (lab.controls.get(action.control), &action.value) {
             settings::value(control, value)?;
         }
     }
-    let mut session = case.start(&trial.handling, budget.left);
+    let mut session = case.start(&trial.interaction, budget.left);
     let timestep = session.world.model.opt.timestep;
     // As long as plots show costs what it costs; what an author asks for has a limit.
     let until = lab.stop_at.is_none().then(|| wanted.min(timestep * (run::MAX_STEPS - 1) as f64));
     let steps = run::count_steps(lab, until, None, timestep)?;
 
-    let mut watcher = case.watcher(&trial.handling, &session);
+    let mut watcher = case.watcher(&trial.interaction, &session);
     let every = (steps / SAMPLES).max(1);
     let played = Play { steps, every: 1, presses: &[], watched: true };
     let (mut rows, mut mark, mut beyond) = (Vec::new(), Mark::default(), Beyond::default());
@@ -119,7 +119,9 @@ fn report_breaks(
         // A lab that is expected to break needs no advice.
         let tried = match matches!(lab.expect, Some(Expect::Breaks(_))) {
             true => breakdown,
-            false => stress::with_tried_timestep(case, &trial.handling, trial.length, breakdown, &mut tries),
+            false => {
+                stress::with_tried_timestep(case, &trial.interaction, trial.length, breakdown, &mut tries)
+            }
         };
         findings.push(run::broke(&tried, &trial.done, trial.place(lab)));
     }

@@ -21,7 +21,7 @@ pub(crate) struct ObservationBench<'a> {
 /// How often a run is observed at.
 const SAMPLES: usize = 60;
 /// How far a state is moved, in turn.
-const NUDGES: [f64; 4] = [0.01, 0.1, 0.4, 1.0];
+const DISPLACEMENTS: [f64; 4] = [0.01, 0.1, 0.4, 1.0];
 /// Steps after each.
 const STEPS: usize = 3;
 
@@ -65,12 +65,12 @@ impl ObservationBench<'_> {
             ControlFlow::Continue(())
         });
         mark.close(&session.world.model);
-        let (spent, sound) =
+        let (spent, completed) =
             (session.spent(), session.ended().is_none() && run::worst_breakdown(&session).is_none());
         drop(session);
         self.left = self.left.saturating_sub(spent);
         self.runs += 1;
-        (sound && self.left > 0).then_some(Record { moved: None, rows, mark, beyond: Beyond::default() })
+        (completed && self.left > 0).then_some(Record { moved: None, rows, mark, beyond: Beyond::default() })
     }
 
     /// What is shown from other states than the lab's own.
@@ -82,7 +82,7 @@ impl ObservationBench<'_> {
             seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             (seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
         };
-        for size in NUDGES {
+        for size in DISPLACEMENTS {
             let edit = session.world.data.edit();
             for list in [edit.qpos, edit.qvel, edit.ctrl, edit.mocap_pos] {
                 list.iter_mut().for_each(|x| *x += size * random());

@@ -17,7 +17,7 @@ use crate::rules;
 use crate::run::{Budget, StepVariant};
 use crate::source::SourceFile;
 use crate::spec::{Lab, Lesson};
-use crate::verify::{HALVED, NUDGED, NUDGED_BACK, significant};
+use crate::verify::{HALVED, PERTURBED_BACK, PERTURBED_START, significant};
 use compare::Difference;
 use file::{SnapshotFault, StoredLab};
 use runs::{SnapshotRun, TakenLab};
@@ -136,7 +136,7 @@ fn name_of(file: &SourceFile) -> String {
 pub(super) fn check_snapshots(
     lesson: &Lesson,
     ready: &[PreparedLab<'_>],
-    depth: CheckLevel,
+    level: CheckLevel,
     findings: &mut Vec<Finding>,
 ) -> Vec<SnapshotResult> {
     let Some(stored) = stored(lesson) else { return Vec::new() };
@@ -148,8 +148,8 @@ pub(super) fn check_snapshots(
         };
         lesson.addressed().into_iter().map(with_state).collect::<Vec<_>>()
     };
-    if !depth.labs {
-        return if depth.claims { Vec::new() } else { all(State::LeftOut, "") };
+    if !level.labs {
+        return if level.claims { Vec::new() } else { all(State::LeftOut, "") };
     }
     let labs = match stored {
         Ok(labs) => labs,
@@ -290,15 +290,16 @@ pub fn renew(lesson: &Lesson, models: &Models) -> Renewal {
 /// The lines of a lab, with the digits that its numerics can tell.
 fn fresh(now: &TakenLab<'_, '_>) -> Option<String> {
     let ready = now.ready.filter(|_| !now.runs.is_empty())?;
-    let under = |numerics: StepVariant, handling| {
+    let under = |numerics: StepVariant, input| {
         let budget = Budget { left: 3 * Budget::TRIAL.left };
-        runs::play(ready, handling, numerics, budget).ok().map(|(taken, _)| taken)
+        runs::play(ready, input, numerics, budget).ok().map(|(taken, _)| taken)
     };
     let runs: Vec<(SnapshotRun, Vec<SnapshotRun>)> = now
         .runs
         .iter()
-        .map(|(handling, taken)| {
-            let others = [HALVED, NUDGED, NUDGED_BACK].into_iter().filter_map(|n| under(n, handling));
+        .map(|(input, taken)| {
+            let others =
+                [HALVED, PERTURBED_START, PERTURBED_BACK].into_iter().filter_map(|n| under(n, input));
             (taken.clone(), others.collect())
         })
         .collect();

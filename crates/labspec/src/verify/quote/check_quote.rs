@@ -4,7 +4,7 @@ use super::messages;
 use super::number::Quoted;
 use super::quote_claim::{OtherValue, QuoteClaim, QuoteOutcome, QuotePlace, QuoteState, QuoteValue};
 use super::read::{Reading, Unread};
-use super::rendered::ShownText;
+use super::rendered::RenderedText;
 use super::unit;
 use super::unit_check::{Held, conversion, hold, is_power_of_ten};
 use super::unit_text::{Link, Unit};
@@ -20,7 +20,7 @@ pub(in crate::verify) fn check_quote(
     reading: &Result<Reading, Unread>,
     mut places: Vec<QuotePlace>,
     value: &QuoteValue<'_>,
-    rendered: &ShownText,
+    rendered: &RenderedText,
     findings: &mut Vec<Finding>,
 ) -> QuoteOutcome {
     let mut outcome = QuoteOutcome {
@@ -224,7 +224,7 @@ impl<'q> Comparison<'q> {
 pub(in crate::verify) fn places_of_quote(
     quote: &Text,
     question: Option<&Question>,
-    rendered: &ShownText,
+    rendered: &RenderedText,
 ) -> Vec<QuotePlace> {
     let inside =
         |p: &&QuotePlace| question.is_some_and(|q| q.span.start <= p.at.start && p.at.end <= q.span.end);

@@ -206,13 +206,13 @@ fn says(all: &[Quantity], range: Range<usize>, quantities: &[Quantity]) -> Optio
         }
         let text = |q: &Quantity| q.unit.as_ref().map(|u| u.text.clone());
         if text(mine) == text(theirs) {
-            if theirs.whole.end > end && theirs.unit.as_ref().is_some_and(|u| u.link == Link::Own) {
+            if theirs.whole.end > end && theirs.unit.as_ref().is_some_and(|u| u.link == Link::Direct) {
                 return None;
             }
             continue;
         }
         let last = i + 1 == quantities.len();
-        if mine.unit.is_some() && !mine.unit.as_ref().is_some_and(|u| u.link != Link::Own) || !last {
+        if mine.unit.is_some() && !mine.unit.as_ref().is_some_and(|u| u.link != Link::Direct) || !last {
             return None;
         }
         // Of `0.7 mm per step` the number alone says nothing.

@@ -16,7 +16,7 @@ const MOST: usize = 500;
 /// Nor is one looked at to the end that takes more work than this, in the units of the engine: about 50 ms.
 const WORK: u64 = 50_000_000;
 
-pub(super) fn tell(tree: &Tree, m: &Model, report: &mut Report) {
+pub(super) fn check_overlaps(tree: &Tree, m: &Model, report: &mut Report) {
     let Some(d) = placed(m) else { return };
     let depth =
         |pair: [usize; 2], dist: f64| (-dist > DEEP * half_thickness_of_pair(m, pair)).then_some(-dist);

@@ -20,7 +20,7 @@ const PAIRS: [(&str, &str); 4] = [
 const SOFT: f64 = 0.01;
 const SERVOS: [&str; 2] = ["position", "intvelocity"];
 
-pub(super) fn tell(tree: &Tree, m: &Model, report: &mut Report) {
+pub(super) fn check_ranges(tree: &Tree, m: &Model, report: &mut Report) {
     switched_off(tree, report);
     keys(tree, m, report);
     servos(tree, m, report);

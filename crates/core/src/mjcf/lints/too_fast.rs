@@ -18,7 +18,7 @@ const RUNGE_KUTTA: f64 = 2.78;
 /// Attributes with the time constants of constraints, and those of what touches.
 const TIMES: [&str; 5] = ["solref", "solreflimit", "solreffix", "solreffriction", "solreflimitspring"];
 
-pub(super) fn tell(tree: &Tree, m: &Model, report: &mut Report) {
+pub(super) fn check_time_constants(tree: &Tree, m: &Model, report: &mut Report) {
     joints(tree, m, report);
     constraints(tree, m, report);
 }

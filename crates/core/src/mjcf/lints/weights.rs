@@ -12,7 +12,7 @@ const APART: f64 = 1e4;
 /// What turns with less than this is told, kg m².
 const TINY: f64 = 1e-9;
 
-pub(super) fn tell(tree: &Tree, m: &Model, report: &mut Report) {
+pub(super) fn check_masses(tree: &Tree, m: &Model, report: &mut Report) {
     let body = |b: usize| m.names.of(Obj::Body).get(b).map_or("", String::as_str);
     for b in 1..m.nbody {
         let parent = m.body_parentid.get(b).and_then(|p| usize::try_from(*p).ok()).unwrap_or(0);
