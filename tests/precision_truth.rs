@@ -12,7 +12,7 @@ use labspec::run::{self, Cell, RunOptions, rounded};
 use labspec::source::SourceFile;
 use labspec::spec::{Lab, Lesson};
 use labspec_core::{Model, integrator};
-use labspec_numerics::precision::{Fate, Kind, Options, Report, Row, compare};
+use labspec_numerics::precision::{Kind, Options, Report, Row, RunStatus, compare};
 use labspec_numerics::stability;
 use serde_json::Value;
 use std::path::PathBuf;
@@ -99,7 +99,7 @@ fn events_and_ends_are_those_of_equations_by_hand() {
         let mine = own(&report);
         for (label, end) in known["end"].as_object().unwrap() {
             let i = report.targets.iter().position(|t| t.label == *label).unwrap();
-            if mine.fate != Fate::Good {
+            if mine.status != RunStatus::Good {
                 continue;
             }
             let setting = (mine.setting.integrator.id, mine.setting.timestep);
@@ -191,7 +191,7 @@ fn a_run_that_breaks_is_no_measure_of_a_plot() {
     // The lab's own setting turns the gyroscope's axis over, with numbers of any size.
     let lab = labs.iter().find(|(_, l)| l.title() == "A gyroscope").unwrap().1;
     let report = report(lab, &Options::default());
-    assert_ne!(own(&report).fate, Fate::Good);
+    assert_ne!(own(&report).status, RunStatus::Good);
     // Its speed across keeps within 11 rad/s: half a pixel of that is little.
     assert!(report.targets[1].unseen < 0.06, "{}", report.targets[1].unseen);
     let best = right(&report);
@@ -333,7 +333,7 @@ fn nothing_reads_zero_where_more_is_true() {
     let lesson = load_lesson(SourceFile::read(&kinds()).unwrap(), &ModelFolder::unknown());
     for (_, lab) in lesson.addressed() {
         let report = report(lab, &Options::default());
-        for row in report.rows.iter().filter(|r| r.fate == Fate::Good) {
+        for row in report.rows.iter().filter(|r| r.status == RunStatus::Good) {
             for (e, target) in row.errors.iter().zip(&report.targets).filter(|(_, t)| t.is_compared()) {
                 assert!(e.largest > target.uncertain || e.below, "{}: {:?} {e:?}", lab.title(), row.setting);
             }

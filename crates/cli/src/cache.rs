@@ -197,8 +197,8 @@ fn with_digest(body: &str) -> String {
 
 /// What stands below its digest, if it is whole.
 fn whole(text: &str) -> Option<&str> {
-    let (mark, body) = text.split_once('\n')?;
-    (digest::hex(body.as_bytes()) == mark).then_some(body)
+    let (hash, body) = text.split_once('\n')?;
+    (digest::hex(body.as_bytes()) == hash).then_some(body)
 }
 
 /// The version and the digest of this program's file. Reading all of it takes longer than many a check, so its digest is
@@ -281,7 +281,7 @@ mod tests {
     }
 
     fn models(top: &Path) -> Models {
-        Models::marked(ModelFolder::open(&top.join("models")).unwrap(), digest::hex_of)
+        Models::with_hash(ModelFolder::open(&top.join("models")).unwrap(), digest::hex_of)
     }
 
     fn lesson(models: &Models, text: &str) -> Lesson {

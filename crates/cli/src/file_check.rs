@@ -102,7 +102,7 @@ pub(super) fn plan_tasks(
             *task = FileTask::CheckLesson(*number);
         }
     }
-    Ok((tasks, folders.into_values().map(|folder| Models::marked(folder, hash)).collect()))
+    Ok((tasks, folders.into_values().map(|folder| Models::with_hash(folder, hash)).collect()))
 }
 
 /// Checks one file. A panic ends the check of this file alone.

@@ -44,7 +44,7 @@ pub(super) fn scaffold(a: &Arguments) -> Result<Outcome, Failure> {
     let lesson = load_lesson_file(&a.lesson, &folder)?;
     let models = Models::new(folder.clone());
     let progress = Progress::new(a.format == Format::Human);
-    let all = look(&lesson, &models, &mut |text| progress.tell(text));
+    let all = look(&lesson, &models, &mut |text| progress.report(text));
     drop(progress);
     if interrupted() {
         return Ok(Outcome::Clean);

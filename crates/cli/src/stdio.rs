@@ -65,7 +65,7 @@ impl Progress {
     }
 
     /// Says what is being done now.
-    pub(super) fn tell(&self, text: &str) {
+    pub(super) fn report(&self, text: &str) {
         if self.is_visible {
             show_progress(text);
         }
@@ -74,6 +74,6 @@ impl Progress {
 
 impl Drop for Progress {
     fn drop(&mut self) {
-        self.tell("");
+        self.report("");
     }
 }

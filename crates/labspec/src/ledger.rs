@@ -297,35 +297,59 @@ impl Ledger {
             let c = self.count(subject);
             let total = c.simulated + c.computed + c.wrong + c.unchecked;
             match subject {
-                Subject::File => tell(&mut parts, subject, [(total, ""), (0, "")]),
+                Subject::File => push_counts(&mut parts, subject, [(total, ""), (0, "")]),
                 // Runs are the means of the claims that read them: they are told where one breaks.
                 Subject::Run => {
-                    tell(&mut parts, subject, [(c.wrong, "broken"), (c.unchecked, "impossible")]);
-                    tell(&mut parts, subject, [(c.left_out, "left out"), (0, "")]);
+                    push_counts(&mut parts, subject, [(c.wrong, "broken"), (c.unchecked, "impossible")]);
+                    push_counts(&mut parts, subject, [(c.left_out, "left out"), (0, "")]);
                 }
                 Subject::Widget => {
-                    tell(&mut parts, subject, [(c.not_claimed, "not run"), (c.left_out, "not checked")]);
+                    push_counts(
+                        &mut parts,
+                        subject,
+                        [(c.not_claimed, "not run"), (c.left_out, "not checked")],
+                    );
                 }
-                Subject::Model => {
-                    tell(&mut parts, subject, [(c.computed, "loaded"), (c.wrong + c.unchecked, "refused")])
-                }
+                Subject::Model => push_counts(
+                    &mut parts,
+                    subject,
+                    [(c.computed, "loaded"), (c.wrong + c.unchecked, "refused")],
+                ),
                 Subject::Lab => {
-                    tell(&mut parts, subject, [(c.simulated, "run"), (c.wrong, "broken")]);
-                    tell(&mut parts, subject, [(c.unchecked, "not run in full"), (c.left_out, "left out")]);
+                    push_counts(&mut parts, subject, [(c.simulated, "run"), (c.wrong, "broken")]);
+                    push_counts(
+                        &mut parts,
+                        subject,
+                        [(c.unchecked, "not run in full"), (c.left_out, "left out")],
+                    );
                 }
-                Subject::Option => tell(&mut parts, subject, [(c.not_claimed, "not decided"), (0, "")]),
+                Subject::Option => {
+                    push_counts(&mut parts, subject, [(c.not_claimed, "not decided"), (0, "")])
+                }
                 Subject::Snapshot => {
-                    tell(&mut parts, subject, [(c.simulated, "as stored"), (c.wrong, "not as stored")]);
-                    tell(
+                    push_counts(
+                        &mut parts,
+                        subject,
+                        [(c.simulated, "as stored"), (c.wrong, "not as stored")],
+                    );
+                    push_counts(
                         &mut parts,
                         subject,
                         [(c.unchecked, "could not be checked"), (c.left_out, "left out")],
                     );
                 }
                 Subject::Answer | Subject::Quote | Subject::ClosedForm => {
-                    tell(&mut parts, subject, [(c.simulated, "verified"), (c.computed, "computed")]);
-                    tell(&mut parts, subject, [(c.wrong, "wrong"), (c.unchecked, "could not be checked")]);
-                    tell(&mut parts, subject, [(c.not_claimed, "without a check"), (c.left_out, "left out")]);
+                    push_counts(&mut parts, subject, [(c.simulated, "verified"), (c.computed, "computed")]);
+                    push_counts(
+                        &mut parts,
+                        subject,
+                        [(c.wrong, "wrong"), (c.unchecked, "could not be checked")],
+                    );
+                    push_counts(
+                        &mut parts,
+                        subject,
+                        [(c.not_claimed, "without a check"), (c.left_out, "left out")],
+                    );
                 }
             }
         }
@@ -367,7 +391,7 @@ impl Ledger {
     }
 }
 
-fn tell(parts: &mut Vec<String>, subject: Subject, counts: [(usize, &str); 2]) {
+fn push_counts(parts: &mut Vec<String>, subject: Subject, counts: [(usize, &str); 2]) {
     for (n, word) in counts.into_iter().filter(|(n, _)| *n > 0) {
         let mut part = counted(n, subject.as_str());
         let space = if word.is_empty() { "" } else { " " };

@@ -33,7 +33,7 @@ pub(super) fn arrange(
     wishes.sort_by_key(|wish| !wish.first);
     wishes.dedup_by(|a, b| a.point == b.point && a.text == b.text);
     let marks: Vec<Frame> = marks.iter().map(|p| around(*p, MARK - 1.0, MARK - 1.0)).collect();
-    let mut taken: Vec<Frame> = Vec::new();
+    let mut occupied: Vec<Frame> = Vec::new();
     let mut placed = Vec::new();
     for wish in wishes.into_iter().filter(|w| !w.text.is_empty()) {
         let free = |slot: &Frame| {
@@ -41,14 +41,14 @@ pub(super) fn arrange(
                 && slot.right <= frame.right
                 && frame.top <= slot.top
                 && slot.bottom <= frame.bottom
-                && !taken.iter().chain(&marks).any(|other| other.overlaps(slot))
+                && !occupied.iter().chain(&marks).any(|other| other.overlaps(slot))
                 && !curves.iter().flat_map(|c| c.windows(2)).any(|pair| match pair {
                     [a, b] => segment(*a, *b, slot).is_some(),
                     _ => false,
                 })
         };
         let Some(slot) = candidates(&wish).into_iter().find(free) else { continue };
-        taken.push(slot);
+        occupied.push(slot);
         placed.push(((slot.left + 1.0, slot.bottom - 2.0), wish.text));
     }
     placed

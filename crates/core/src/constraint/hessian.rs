@@ -390,9 +390,9 @@ impl HessianAccumulator for Hessian {
         v: &[[f64; R]],
         apply_weights: &dyn Fn(&[f64; R]) -> [f64; R],
     ) {
-        let stand = self.find_lanes(columns);
+        let index = self.find_lanes(columns);
         let Hessian { lanes, blocks, values, fours, .. } = self;
-        let lanes = &lanes[stand];
+        let lanes = &lanes[index];
         if fours.len() < R * lanes.len() {
             fours.resize(R * lanes.len(), [0.0; 4]);
         }

@@ -27,7 +27,7 @@ struct Assets {
     vert: BTreeMap<String, Vec<Vec3>>,
     face: BTreeMap<String, Vec<[i32; 3]>>,
     graph: BTreeMap<String, Vec<i32>>,
-    sides: BTreeMap<String, HullFaces>,
+    hull_faces: BTreeMap<String, HullFaces>,
     field: Option<(Vec<f64>, Vec<f64>)>,
 }
 
@@ -52,10 +52,10 @@ impl Assets {
                     assets.face.insert(name.into(), ints(parts[1]).as_chunks().0.to_vec());
                     assets.graph.insert(name.into(), ints(parts[2]));
                     let mesh = assets.mesh(name);
-                    let sides = mesh
+                    let hull_faces = mesh
                         .hull
                         .map_or_else(HullFaces::default, |hull| HullFaces::from_hull(mesh.vert, &hull));
-                    assets.sides.insert(name.into(), sides);
+                    assets.hull_faces.insert(name.into(), hull_faces);
                 }
                 "field" => assets.field = Some((floats(rest), floats(parts[1]))),
                 _ => break,
@@ -69,7 +69,7 @@ impl Assets {
             vert: &self.vert[name],
             face: &self.face[name],
             hull: Hull::from_graph(&self.graph[name]),
-            sides: self.sides.get(name),
+            hull_faces: self.hull_faces.get(name),
         }
     }
 

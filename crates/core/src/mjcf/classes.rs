@@ -150,7 +150,7 @@ const MAX_COMPLETED: usize = 10_000_000;
 /// What completing lists takes.
 #[derive(Debug, Default)]
 struct CompletionBudget {
-    taken: Cell<usize>,
+    spent: Cell<usize>,
     /// The first list that there was no room for.
     exceeded: Cell<Option<usize>>,
 }
@@ -159,12 +159,12 @@ impl CompletionBudget {
     /// `over` laid over `below` from the front.
     fn overlaid(&self, below: &[f64], over: &Rc<Vec<f64>>, a: &Attribute) -> Rc<Vec<f64>> {
         // Short lists are kept in no place of their own.
-        let taken = self.taken.get() + if below.len() > SHORT { below.len() } else { 0 };
-        if taken > MAX_COMPLETED {
+        let spent = self.spent.get() + if below.len() > SHORT { below.len() } else { 0 };
+        if spent > MAX_COMPLETED {
             self.exceeded.set(self.exceeded.get().or(Some(a.span.start)));
             return over.clone();
         }
-        self.taken.set(taken);
+        self.spent.set(spent);
         Rc::new(listed(over.iter().chain(below.iter().skip(over.len())).copied()))
     }
 }

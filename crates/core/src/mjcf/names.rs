@@ -31,8 +31,8 @@ impl<'t> NameTable<'t> {
                 if name.is_empty() {
                     continue;
                 }
-                let taken = table.nodes.or_default(kind).insert(name, i);
-                if taken.is_some() {
+                let previous = table.nodes.or_default(kind).insert(name, i);
+                if previous.is_some() {
                     report
                         .error(
                             rules::DUPLICATE_NAME,

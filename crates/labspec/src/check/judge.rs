@@ -54,7 +54,7 @@ pub struct CrossCheck {
 pub fn hear(
     lesson: &Lesson,
     models: &Models,
-    hash_of: Hash,
+    hash_bytes: Hash,
     recording: Option<&Recording>,
     findings: &mut Vec<Finding>,
 ) -> CrossCheck {
@@ -70,7 +70,7 @@ pub fn hear(
         let Some(bound) = bind_claim(lesson, &ready, verify, lab, &stage) else { continue };
         let requests = judge::tasks(&bound, verify).into_iter().map(|one| {
             let text = one.task.as_ref().map_or(String::new(), |task| to_value(task).to_string());
-            let hash: String = hash_of(&[text.as_bytes()]).chars().take(16).collect();
+            let hash: String = hash_bytes(&[text.as_bytes()]).chars().take(16).collect();
             Request { claim: name.clone(), run: one.run, hash, task: one.task }
         });
         let requests: Vec<Request> = requests.collect();

@@ -172,8 +172,8 @@ pub(crate) fn begin<'p>(
 /// Takes a sample; nothing more is run when that is not possible.
 pub(crate) fn take(samples: &mut Samples<'_>, session: &mut Session<'_>) -> ControlFlow<()> {
     // Programs of another model end the session before its first step, which the table says.
-    let taken = samples.take(session);
-    if taken.is_err() || samples.text() > MAX_TEXT {
+    let sampled = samples.take(session);
+    if sampled.is_err() || samples.text() > MAX_TEXT {
         ControlFlow::Break(())
     } else {
         ControlFlow::Continue(())

@@ -135,13 +135,13 @@ pub fn watched_run(
         if made == 0 {
             watcher.press_at_start(session);
         }
-        let taken = if made.is_multiple_of(every) || made == steps {
+        let sampled = if made.is_multiple_of(every) || made == steps {
             run::take(samples, session)
         } else {
             ControlFlow::Continue(())
         };
         watcher.observe(session, made, made == steps);
-        taken
+        sampled
     });
     let timestep = started.session.world.model.opt.timestep;
     let (length, faults) = (made as f64 * timestep, watcher.faults(&started.session));

@@ -59,9 +59,9 @@ pub enum ScaffoldOutcome {
     Open(String),
 }
 
-/// Looks at every question and lab of a lesson that claims nothing. `tell` hears what is being done.
-pub fn scaffold(lesson: &Lesson, models: &Models, tell: &mut dyn FnMut(&str)) -> Vec<Scaffold> {
-    let found = trace(lesson, models, tell);
+/// Looks at every question and lab of a lesson that claims nothing. `report_progress` hears what is being done.
+pub fn scaffold(lesson: &Lesson, models: &Models, report_progress: &mut dyn FnMut(&str)) -> Vec<Scaffold> {
+    let found = trace(lesson, models, report_progress);
     let stage = Stage::new(models);
     let mut all = Vec::new();
     let blocks = trace::blocks(&found);
@@ -88,7 +88,7 @@ pub fn scaffold(lesson: &Lesson, models: &Models, tell: &mut dyn FnMut(&str)) ->
                 continue;
             }
             let name = format!("quiz {id}, question {number}");
-            tell(&name);
+            report_progress(&name);
             let found = match &question.verify {
                 Some(_) => ScaffoldOutcome::Open(
                     "it already has a `verify`, but without a condition for each option".into(),

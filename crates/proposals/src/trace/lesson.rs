@@ -26,13 +26,13 @@ pub struct Traces<'l> {
     pub(crate) labs: Vec<TracedLab<'l>>,
 }
 
-/// Looks where every number of a lesson comes from. Labs that cannot run are left out. `tell` is told what is being done.
-pub fn trace<'l>(lesson: &'l Lesson, models: &Models, tell: &mut dyn FnMut(&str)) -> Traces<'l> {
+/// Looks where every number of a lesson comes from. Labs that cannot run are left out. `report_progress` is told what is being done.
+pub fn trace<'l>(lesson: &'l Lesson, models: &Models, report_progress: &mut dyn FnMut(&str)) -> Traces<'l> {
     let numbers = stated(lesson);
     let stage = Stage::new(models);
     let mut labs = Vec::new();
     for (address, lab) in lesson.addressed() {
-        tell(&format!("trying lab {address}"));
+        report_progress(&format!("trying lab {address}"));
         labs.extend(TracedLab::measure(lesson, (address, lab), &numbers, models, &stage));
     }
     let bindings = bindings(&numbers);

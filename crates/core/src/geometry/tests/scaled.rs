@@ -25,8 +25,9 @@ fn assets_scaled(text: &str, by: f64) -> Assets {
     let names: Vec<String> = assets.vert.keys().cloned().collect();
     for name in names {
         let mesh = assets.mesh(&name);
-        let sides = mesh.hull.map_or_else(HullFaces::default, |hull| HullFaces::from_hull(mesh.vert, &hull));
-        assets.sides.insert(name, sides);
+        let hull_faces =
+            mesh.hull.map_or_else(HullFaces::default, |hull| HullFaces::from_hull(mesh.vert, &hull));
+        assets.hull_faces.insert(name, hull_faces);
     }
     if let Some((head, _)) = &mut assets.field {
         head[2..].iter_mut().for_each(|x| *x *= by);

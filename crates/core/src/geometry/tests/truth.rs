@@ -43,7 +43,7 @@ struct Solid {
     vert: Vec<Vec3>,
     face: Vec<[i32; 3]>,
     graph: Vec<i32>,
-    sides: HullFaces,
+    hull_faces: HullFaces,
 }
 
 pub(super) fn farthest(s: &Shape, dir: Vec3) -> Vec3 {
@@ -163,10 +163,10 @@ fn solids() -> Vec<Solid> {
             vert: rows::<3>(&numbers).to_vec(),
             face: ints(parts[1]).as_chunks().0.to_vec(),
             graph: ints(parts[2]),
-            sides: HullFaces::default(),
+            hull_faces: HullFaces::default(),
         };
         let hull = crate::geometry::Hull::from_graph(&solid.graph).unwrap();
-        solid.sides = HullFaces::from_hull(&solid.vert, &hull);
+        solid.hull_faces = HullFaces::from_hull(&solid.vert, &hull);
         out.push(solid);
     }
     out
@@ -175,7 +175,7 @@ fn solids() -> Vec<Solid> {
 impl Solid {
     fn mesh(&self) -> Mesh<'_> {
         let hull = crate::geometry::Hull::from_graph(&self.graph);
-        Mesh { vert: &self.vert, face: &self.face, hull, sides: Some(&self.sides) }
+        Mesh { vert: &self.vert, face: &self.face, hull, hull_faces: Some(&self.hull_faces) }
     }
 }
 

@@ -3,7 +3,7 @@
 use super::super::PreparedLab;
 use super::Trial;
 use super::seen::Seen;
-use crate::check::observations::{Beyond, Mark, Record};
+use crate::check::observations::{Beyond, ObservationHash, Record};
 use crate::finding::Finding;
 use crate::run::{self, Budget, End, Play, Session, settings};
 use crate::spec::{Expect, Lab};
@@ -71,11 +71,11 @@ pub(super) fn make(
     let mut watcher = case.watcher(&trial.interaction, &session);
     let every = (steps / SAMPLES).max(1);
     let played = Play { steps, every: 1, presses: &[], watched: true };
-    let (mut rows, mut mark, mut beyond) = (Vec::new(), Mark::default(), Beyond::default());
+    let (mut rows, mut hash, mut beyond) = (Vec::new(), ObservationHash::default(), Beyond::default());
     let made = run::play(&mut session, &played, |session, step| {
         if step % every == 0 || step == steps {
             let row = seen.observe(session, &trial.done);
-            mark.observe(&row, session);
+            hash.observe(&row, session);
             if step > 0 {
                 beyond.observe(session);
             }
@@ -93,8 +93,8 @@ pub(super) fn make(
     let (broke, tried_work) = report_breaks(lab, case, trial, &session, seen, findings);
     findings.extend(seen.take());
     let (spent, faults) = (session.spent() + tried_work, watcher.faults(&session));
-    mark.close(&session.world.model);
-    let record = Record { moved: trial.moved.clone(), rows, mark, beyond };
+    hash.close(&session.world.model);
+    let record = Record { moved: trial.moved.clone(), rows, hash, beyond };
     let lost = !session.troubles.is_empty() || session.warnings.iter().any(|w| w.number > 0);
     Ok(Attempt { covered, spent, broke, lost, ended, model: session.world.model, record, faults })
 }

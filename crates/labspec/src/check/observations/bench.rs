@@ -1,7 +1,7 @@
 //! Runs of a lab that are made to be sure: with several controls moved, or from another state.
 
 use super::moves::Move;
-use super::record::{Beyond, Mark, Record};
+use super::record::{Beyond, ObservationHash, Record};
 use crate::bind::Programs;
 use crate::check::PreparedLab;
 use crate::run::{self, Budget, Cell, Play, Session, Start};
@@ -47,7 +47,7 @@ impl ObservationBench<'_> {
     /// A run with these moves; `None` when it breaks, or when too much was spent.
     pub(crate) fn run(&mut self, moves: &[Move], steps: usize) -> Option<Record> {
         let mut session = self.start();
-        let (mut rows, mut mark) = (Vec::new(), Mark::default());
+        let (mut rows, mut hash) = (Vec::new(), ObservationHash::default());
         let every = (steps / SAMPLES).max(1);
         run::play(&mut session, &Play::steps(steps), |session, step| {
             for m in moves.iter().filter(|m| m.step == step) {
@@ -59,18 +59,18 @@ impl ObservationBench<'_> {
             }
             if step % every == 0 || step == steps {
                 let row = session.sample();
-                mark.observe(&row, session);
+                hash.observe(&row, session);
                 rows.push(row);
             }
             ControlFlow::Continue(())
         });
-        mark.close(&session.world.model);
+        hash.close(&session.world.model);
         let (spent, completed) =
             (session.spent(), session.ended().is_none() && run::worst_breakdown(&session).is_none());
         drop(session);
         self.left = self.left.saturating_sub(spent);
         self.runs += 1;
-        (completed && self.left > 0).then_some(Record { moved: None, rows, mark, beyond: Beyond::default() })
+        (completed && self.left > 0).then_some(Record { moved: None, rows, hash, beyond: Beyond::default() })
     }
 
     /// What is shown from other states than the lab's own.

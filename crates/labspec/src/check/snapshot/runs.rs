@@ -35,7 +35,7 @@ pub(super) struct SnapshotRun {
 }
 
 /// A lab with its runs.
-pub(super) struct TakenLab<'r, 'l> {
+pub(super) struct LabRuns<'r, 'l> {
     pub(super) address: LabAddress,
     pub(super) lab: &'l Lab,
     /// `None` where it cannot run.
@@ -44,7 +44,7 @@ pub(super) struct TakenLab<'r, 'l> {
 }
 
 /// The runs of all labs of a lesson, within the budget of a file: as it stands each is run in any case.
-pub(super) fn take<'r, 'l>(lesson: &'l Lesson, ready: &'r [PreparedLab<'l>]) -> Vec<TakenLab<'r, 'l>> {
+pub(super) fn run_labs<'r, 'l>(lesson: &'l Lesson, ready: &'r [PreparedLab<'l>]) -> Vec<LabRuns<'r, 'l>> {
     let addressed = lesson.addressed();
     let (mut left, mut others) = (Budget::FILE.left, addressed.len() as u64);
     let mut all = Vec::new();
@@ -55,14 +55,14 @@ pub(super) fn take<'r, 'l>(lesson: &'l Lesson, ready: &'r [PreparedLab<'l>]) -> 
         let mut runs = Vec::new();
         for (i, input) in snapshot_inputs(lab).into_iter().enumerate() {
             let Some(one) = one.filter(|_| i == 0 || share > 0) else { break };
-            let Ok((taken, spent)) = play(one, &input, StepVariant::NOMINAL, Budget::TRIAL) else {
+            let Ok((run, spent)) = play(one, &input, StepVariant::NOMINAL, Budget::TRIAL) else {
                 continue;
             };
             share = share.saturating_sub(spent);
             left = left.saturating_sub(spent);
-            runs.push((input, taken));
+            runs.push((input, run));
         }
-        all.push(TakenLab { address, lab, ready: one, runs });
+        all.push(LabRuns { address, lab, ready: one, runs });
     }
     all
 }

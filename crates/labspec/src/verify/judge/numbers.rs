@@ -24,8 +24,8 @@ pub(super) fn replaced(
     let unknown = || Err("its run is not recorded".to_string());
     for (i, run) in theirs.runs.iter_mut().enumerate() {
         let title = run.title();
-        let taken = match reference.runs.get(i).cloned().unwrap_or_else(unknown) {
-            Ok(taken) => taken,
+        let recorded = match reference.runs.get(i).cloned().unwrap_or_else(unknown) {
+            Ok(recorded) => recorded,
             Err(why) => {
                 let names = run.measures.iter().map(|(m, _)| (format!("{title}.{m}"), why.clone()));
                 judged.unjudged.extend(names);
@@ -33,25 +33,25 @@ pub(super) fn replaced(
             }
         };
         for (name, x) in &mut run.measures {
-            match taken.values.get(name) {
+            match recorded.values.get(name) {
                 Some(value) => *x = *value,
                 None => {
-                    let why = taken.refused.get(name).map_or("it is not recorded", String::as_str);
+                    let why = recorded.refused.get(name).map_or("it is not recorded", String::as_str);
                     judged.unjudged.push((format!("{title}.{name}"), why.to_string()));
                 }
             }
         }
         // What only we notice, energy from nothing, stays noticed; a bad number that only one of both has does not.
-        let only_ours = run.warnings > 0 && taken.warnings == 0;
-        run.broke = taken.broke.clone().or(run.broke.take().filter(|_| !only_ours));
-        run.warnings = taken.warnings;
+        let only_ours = run.warnings > 0 && recorded.warnings == 0;
+        run.broke = recorded.broke.clone().or(run.broke.take().filter(|_| !only_ours));
+        run.warnings = recorded.warnings;
     }
     for text in own_texts(bound, verify) {
-        let taken = reference.runs.first().and_then(|run| run.as_ref().ok());
-        match taken.and_then(|t| t.values.get(&text.value)) {
+        let recorded = reference.runs.first().and_then(|run| run.as_ref().ok());
+        match recorded.and_then(|t| t.values.get(&text.value)) {
             Some(x) => theirs.elsewhere.push((text.value.clone(), *x)),
             None => {
-                let why = taken.and_then(|t| t.refused.get(&text.value));
+                let why = recorded.and_then(|t| t.refused.get(&text.value));
                 let why = why.map_or("it is not recorded", String::as_str);
                 judged.unjudged.push((text.value.clone(), why.to_string()));
             }
