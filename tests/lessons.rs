@@ -46,7 +46,7 @@ fn every_wrong_lesson_reads_as_its_snapshot() {
         let lesson = load(&path, name, &models);
         assert!(!lesson.findings.is_empty(), "{name} is meant to be wrong");
         let shown = report::human(&lesson.findings, &[&lesson.file], false);
-        let shown = format!("{shown}{}", report::Summary::of(&lesson.findings));
+        let shown = format!("{shown}{}", report::Summary::count(&lesson.findings));
         insta::with_settings!({prepend_module_to_snapshot => false, omit_expression => true, snapshot_path => "lessons/snapshots"}, {
             insta::assert_snapshot!(name.replace('.', "-"), shown);
         });

@@ -147,7 +147,7 @@ fn compiled(m: &Model, recording: &Value) -> Verdict {
     }
     for (kind, theirs) in recording["names"].as_object().into_iter().flatten() {
         let theirs: Vec<&str> = theirs.as_array().into_iter().flatten().filter_map(Value::as_str).collect();
-        let ours = obj(kind).map_or(&[][..], |o| m.names.of(o));
+        let ours = obj(kind).map_or(&[][..], |o| m.names.of_kind(o));
         if let Some(index) = (0..ours.len().max(theirs.len()))
             .find(|&i| ours.get(i).map(String::as_str) != theirs.get(i).copied())
         {

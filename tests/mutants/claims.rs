@@ -206,8 +206,9 @@ fn names(json: &Value, models: &Models) -> Vec<String> {
     let model =
         lesson.all_labs().into_iter().next().and_then(|lab| models.model_of_lab(lab, &mut Vec::new()));
     let kinds = [Obj::Body, Obj::Joint, Obj::Geom, Obj::Site, Obj::Actuator, Obj::Sensor];
-    let of =
-        |m: &labspec_core::Model| kinds.iter().flat_map(|k| m.names.of(*k).to_vec()).collect::<Vec<String>>();
+    let of = |m: &labspec_core::Model| {
+        kinds.iter().flat_map(|k| m.names.of_kind(*k).to_vec()).collect::<Vec<String>>()
+    };
     model.map_or(Vec::new(), |m| of(&m))
 }
 

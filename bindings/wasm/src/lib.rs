@@ -137,7 +137,7 @@ impl Lab {
     }
 
     /// The traces of the plots, then the readouts: the order of `numbers`.
-    #[wasm_bindgen(getter = shown)]
+    #[wasm_bindgen(getter, js_name = "shown")]
     pub fn displayed(&self) -> Result<ShownList, JsValue> {
         let one = |s: &labspec::player::DisplayedValue| match s.place {
             DisplayedIn::Plot(plot) => json!({"label": s.label, "unit": s.unit, "plot": plot}),

@@ -73,7 +73,7 @@ fn settle_suppressed(ledger: &mut Ledger, results: &CourseResults) {
     ledger.know(|e| concerns(e, baselined.get(&e.path)) && !concerns(e, reported.get(&e.path)));
     let ignored = results.suppressed.ignored.iter().filter(|f| f.is_error()).cloned().collect();
     for (path, all) in group_by_path(ignored) {
-        ledger.add(left_out_entry(Path::new(&*path), format!("{} ignored", Summary::of(&all))));
+        ledger.add(left_out_entry(Path::new(&*path), format!("{} ignored", Summary::count(&all))));
     }
 }
 

@@ -15,7 +15,7 @@ use crate::mjcf::rules;
 use crate::mjcf::text::diagnostic::Report;
 use crate::mjcf::text::tree::{Attribute, Node, Tree};
 use crate::mjcf::text::values::Value;
-use crate::mjcf::words::Words;
+use crate::mjcf::word_map::WordMap;
 
 /// A class copies its parent, so their number is bounded.
 const MAX_CLASSES: usize = 2000;
@@ -23,7 +23,7 @@ const MAX_CLASSES: usize = 2000;
 /// The attributes that hold for an element: its own over those of its class.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Props {
-    values: Words<(Value, Range<usize>)>,
+    values: WordMap<(Value, Range<usize>)>,
     /// The elements that these are the attributes of.
     #[cfg(test)]
     elements: Vec<&'static super::schema::Element>,
@@ -177,7 +177,7 @@ const SHORT: usize = 20;
 struct Class {
     parent: usize,
     /// Shared with the classes that say nothing else.
-    entries: Words<Rc<Props>>,
+    entries: WordMap<Rc<Props>>,
     /// The elements of the class itself, in the order of the text.
     nodes: Vec<usize>,
 }
@@ -213,7 +213,7 @@ impl Classes {
                 (None, false) => classes.main,
                 (None, true) => node.text("class").and_then(|name| classes.find(name)).unwrap_or(0),
             };
-            let mut entries = classes.list.get(parent).map_or_else(Words::default, |c| c.entries.clone());
+            let mut entries = classes.list.get(parent).map_or_else(WordMap::default, |c| c.entries.clone());
             let mut nodes = Vec::new();
             for (at, entry) in tree.children(i).filter(|(_, e)| e.element.name != "default") {
                 let props = Rc::make_mut(entries.or_default(entry.element.name));

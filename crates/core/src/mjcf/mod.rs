@@ -37,7 +37,7 @@ mod tendon;
 mod tests;
 mod text;
 mod unsimulated;
-mod words;
+mod word_map;
 
 use std::io::Read;
 use std::path::Path;

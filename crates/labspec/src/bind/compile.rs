@@ -6,7 +6,7 @@ use crate::json::{Scalar, fix_in_code};
 use crate::rules;
 use crate::source::Text;
 use crate::spec::{Action, Control, ControlKind, Lab};
-use labspec_bind::{Functions, ModelNames, Scope, WORDS};
+use labspec_bind::{Functions, HOST_TERMS, ModelNames, Scope};
 use labspec_core::reflect::FieldSet;
 use labspec_core::{AccessSet, Model};
 use labspec_expr::{Compiled, Compiler, Globals, ProgramId, Type, Value};
@@ -47,7 +47,7 @@ impl Programs {
                 bound: work.expression(&readout.expr),
             });
         }
-        for (id, d) in globals.unset(&WORDS) {
+        for (id, d) in globals.unset(&HOST_TERMS) {
             if let Some((_, text)) = texts.iter().find(|(t, _)| *t == id) {
                 findings.push(to_finding(&d, text));
             }

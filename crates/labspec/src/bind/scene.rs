@@ -177,7 +177,7 @@ impl Models {
     /// The names that somebody who writes a lesson asks for ([`crate::spec::format::completions`]).
     pub fn names(&self, asked: Asked<'_>) -> Vec<String> {
         let sites = |model: &Model| {
-            let named = model.names.of(Obj::Site).iter().filter(|name| !name.is_empty());
+            let named = model.names.of_kind(Obj::Site).iter().filter(|name| !name.is_empty());
             named.cloned().collect()
         };
         match asked {

@@ -152,7 +152,7 @@ const CONTACT: [(&str, FieldId, &[f64]); 6] = [
 ];
 
 fn contacts(model: &Model) -> BTreeMap<String, BTreeMap<&'static str, Vec<f64>>> {
-    let names = model.names.of(Obj::Geom);
+    let names = model.names.of_kind(Obj::Geom);
     let mut all: BTreeMap<String, BTreeMap<&'static str, Vec<f64>>> = BTreeMap::new();
     let fields = CONTACT.iter().map(|(_, field, _)| *field);
     for ((key, _, default), (_, values)) in CONTACT.into_iter().zip(numbers(model, fields)) {

@@ -28,13 +28,14 @@ fn check_lab(lab: &Lab, model: &Model, findings: &mut Vec<Finding>) {
     // Without a name no path is asked for.
     let Some(trail) = lab.trail.as_ref().filter(|t| !t.as_str().is_empty()) else { return };
     let name = trail.as_str();
-    let sites = || model.names.of(Obj::Site).iter().map(String::as_str).filter(|site| !site.is_empty());
+    let sites = || model.names.of_kind(Obj::Site).iter().map(String::as_str).filter(|site| !site.is_empty());
     if sites().any(|site| site == name) {
         return;
     }
     let others = [(Obj::Body, "body"), (Obj::Geom, "geom"), (Obj::Joint, "joint")];
-    let other =
-        others.into_iter().find(|(kind, _)| model.names.of(*kind).iter().any(|existing| existing == name));
+    let other = others
+        .into_iter()
+        .find(|(kind, _)| model.names.of_kind(*kind).iter().any(|existing| existing == name));
     let message = match other {
         Some((_, kind)) => format!("{} is a {kind} of the model, but a trail follows a site", named(name)),
         None => format!("the model has no site {}", named(name)),

@@ -114,7 +114,7 @@ impl BreakdownAdvice {
 
 /// What is too stiff: `the servo "lift"`, `the spring of joint "knee"`.
 pub fn owner(model: &Model, s: &Suspect) -> String {
-    let names = model.names.of(s.object);
+    let names = model.names.of_kind(s.object);
     let name = match names.get(s.id) {
         Some(name) if !name.is_empty() => format!("\"{name}\""),
         _ => s.id.to_string(),

@@ -66,7 +66,7 @@ fn keys(tree: &Tree, m: &Model, report: &mut Report) {
             };
             let beyond = (low - x).max(x - high);
             if beyond > SOFT * (high - low) {
-                let name = m.names.of(Obj::Joint).get(j).map_or("", String::as_str);
+                let name = m.names.of_kind(Obj::Joint).get(j).map_or("", String::as_str);
                 let key = format_name("key", own_name(node).unwrap_or(""), k);
                 let message = format!(
                     "{key} puts {} at {}, but its range is {} to {}",
@@ -99,7 +99,7 @@ fn servos(tree: &Tree, m: &Model, report: &mut Report) {
     let all: Vec<usize> = listed((0..nodes.len()).filter(servo));
     let open: Vec<usize> = listed(all.iter().copied().filter(free));
     let Some(first) = open.first() else { return };
-    let name = m.names.of(Obj::Actuator).get(*first).map_or("", String::as_str);
+    let name = m.names.of_kind(Obj::Actuator).get(*first).map_or("", String::as_str);
     let span = nodes.get(*first).map_or_else(|| place(tree, &SERVOS, name), |n| n.span.clone());
     let message = match open.len() {
         1 => format!("{} has neither `ctrlrange` nor `forcerange`", format_name("servo", name, *first)),

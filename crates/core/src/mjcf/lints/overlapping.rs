@@ -23,7 +23,7 @@ pub(super) fn check_overlaps(tree: &Tree, m: &Model, report: &mut Report) {
     let deep = d.contact.iter().filter(|c| c.efc_address.is_some());
     let deep = deep.filter_map(|c| Some(([c.geom1, c.geom2], depth([c.geom1, c.geom2], c.dist)?)));
     let Some(([a, b], depth)) = deep.max_by(|x, y| x.1.total_cmp(&y.1)) else { return };
-    let name = |g: usize| m.names.of(Obj::Geom).get(g).map_or("", String::as_str);
+    let name = |g: usize| m.names.of_kind(Obj::Geom).get(g).map_or("", String::as_str);
     let message = format!(
         "{} begins {} mm inside {}",
         format_name("geom", name(b), b),

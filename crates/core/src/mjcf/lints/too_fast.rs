@@ -86,7 +86,7 @@ fn joints(tree: &Tree, m: &Model, report: &mut Report) {
         if !grows || (a.spring <= 0.0 && a.explicit <= 0.0) {
             continue;
         }
-        let name = m.names.of(Obj::Joint).get(j).map_or("", String::as_str);
+        let name = m.names.of_kind(Obj::Joint).get(j).map_or("", String::as_str);
         let spring = h * h * a.spring >= h * a.explicit;
         let (what, time) = match spring {
             true => ("a spring", (mass / a.spring).sqrt()),

@@ -138,7 +138,7 @@ impl<'a> ObservedLab<'a> {
 
 /// A geom, in words.
 pub(crate) fn geom_name(model: &Model, g: usize) -> String {
-    match model.names.of(Obj::Geom).get(g).filter(|n| !n.is_empty()) {
+    match model.names.of_kind(Obj::Geom).get(g).filter(|n| !n.is_empty()) {
         Some(geom) => format!("geom \"{geom}\""),
         None => format!("geom {g}"),
     }

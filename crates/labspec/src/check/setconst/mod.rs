@@ -11,11 +11,11 @@ mod advice;
 mod bench;
 mod compare;
 mod difference;
-mod words;
+mod findings;
 
 pub(crate) use bench::SetConstBench;
 pub(crate) use difference::digits;
-pub(super) use words::{by_rule, left};
+pub(super) use findings::{by_rule, left};
 
 use crate::bind::coupled::{self, PairSet};
 use crate::bind::{Bound, ControlProgram, Programs, functions, writes_kind};
