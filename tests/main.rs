@@ -1,5 +1,7 @@
 //! Tests that cross crates.
 
+#![allow(clippy::too_many_lines, reason = "a test is a table of cases or one sequence of steps")]
+
 mod allocation;
 mod answers;
 mod breaking;

@@ -5,6 +5,7 @@
 
 // A test that fails says why.
 #![allow(clippy::panic, clippy::unwrap_used)]
+#![allow(clippy::too_many_lines, reason = "a test is one sequence of steps")]
 
 use labspec_core::nalgebra::{self as algebra, FiniteDifferences, Transition, transition_fd};
 use labspec_core::{self as core, AccessSet, Data, Error, Integrator, Model, Plan, reflect};

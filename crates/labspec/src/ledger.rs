@@ -294,63 +294,8 @@ impl Ledger {
     pub fn summary(&self) -> String {
         let mut parts = Vec::new();
         for subject in Subject::ALL {
-            let c = self.count(subject);
-            let total = c.simulated + c.computed + c.wrong + c.unchecked;
-            match subject {
-                Subject::File => push_counts(&mut parts, subject, [(total, ""), (0, "")]),
-                // Runs are the means of the claims that read them: they are told where one breaks.
-                Subject::Run => {
-                    push_counts(&mut parts, subject, [(c.wrong, "broken"), (c.unchecked, "impossible")]);
-                    push_counts(&mut parts, subject, [(c.left_out, "left out"), (0, "")]);
-                }
-                Subject::Widget => {
-                    push_counts(
-                        &mut parts,
-                        subject,
-                        [(c.not_claimed, "not run"), (c.left_out, "not checked")],
-                    );
-                }
-                Subject::Model => push_counts(
-                    &mut parts,
-                    subject,
-                    [(c.computed, "loaded"), (c.wrong + c.unchecked, "refused")],
-                ),
-                Subject::Lab => {
-                    push_counts(&mut parts, subject, [(c.simulated, "run"), (c.wrong, "broken")]);
-                    push_counts(
-                        &mut parts,
-                        subject,
-                        [(c.unchecked, "not run in full"), (c.left_out, "left out")],
-                    );
-                }
-                Subject::Option => {
-                    push_counts(&mut parts, subject, [(c.not_claimed, "not decided"), (0, "")])
-                }
-                Subject::Snapshot => {
-                    push_counts(
-                        &mut parts,
-                        subject,
-                        [(c.simulated, "as stored"), (c.wrong, "not as stored")],
-                    );
-                    push_counts(
-                        &mut parts,
-                        subject,
-                        [(c.unchecked, "could not be checked"), (c.left_out, "left out")],
-                    );
-                }
-                Subject::Answer | Subject::Quote | Subject::ClosedForm => {
-                    push_counts(&mut parts, subject, [(c.simulated, "verified"), (c.computed, "computed")]);
-                    push_counts(
-                        &mut parts,
-                        subject,
-                        [(c.wrong, "wrong"), (c.unchecked, "could not be checked")],
-                    );
-                    push_counts(
-                        &mut parts,
-                        subject,
-                        [(c.not_claimed, "without a check"), (c.left_out, "left out")],
-                    );
-                }
+            for counts in summary_counts(subject, &self.count(subject)) {
+                push_counts(&mut parts, subject, counts);
             }
         }
         let baselined = self.baselined();
@@ -388,6 +333,33 @@ impl Ledger {
                 (entry.state, entry.word) = (State::Known, "known");
             }
         }
+    }
+}
+
+/// The counts of a subject that the summary names, each pair with the words behind the numbers.
+fn summary_counts(subject: Subject, c: &Count) -> Vec<[(usize, &'static str); 2]> {
+    match subject {
+        Subject::File => vec![[(c.simulated + c.computed + c.wrong + c.unchecked, ""), (0, "")]],
+        // Runs are the means of the claims that read them: they are reported where one breaks.
+        Subject::Run => {
+            vec![[(c.wrong, "broken"), (c.unchecked, "impossible")], [(c.left_out, "left out"), (0, "")]]
+        }
+        Subject::Widget => vec![[(c.not_claimed, "not run"), (c.left_out, "not checked")]],
+        Subject::Model => vec![[(c.computed, "loaded"), (c.wrong + c.unchecked, "refused")]],
+        Subject::Lab => vec![
+            [(c.simulated, "run"), (c.wrong, "broken")],
+            [(c.unchecked, "not run in full"), (c.left_out, "left out")],
+        ],
+        Subject::Option => vec![[(c.not_claimed, "not decided"), (0, "")]],
+        Subject::Snapshot => vec![
+            [(c.simulated, "as stored"), (c.wrong, "not as stored")],
+            [(c.unchecked, "could not be checked"), (c.left_out, "left out")],
+        ],
+        Subject::Answer | Subject::Quote | Subject::ClosedForm => vec![
+            [(c.simulated, "verified"), (c.computed, "computed")],
+            [(c.wrong, "wrong"), (c.unchecked, "could not be checked")],
+            [(c.not_claimed, "without a check"), (c.left_out, "left out")],
+        ],
     }
 }
 

@@ -321,6 +321,7 @@ const CONTACTS: &[Known] = &[
 ];
 
 #[test]
+#[expect(clippy::too_many_lines, reason = "one comparison of every recorded case")]
 fn contacts_are_those_of_mujoco() {
     let (text, print) = cases("pairs.txt", include_str!("golden/pairs.txt"));
     let assets = Assets::read(&text);

@@ -144,6 +144,10 @@ impl Machine<'_> {
 
     /// The same; `WATCHED`: the watch of the context notes what happens. One loop over one `match`: every split of it would
     /// cost a jump for each operation that runs.
+    #[expect(
+        clippy::too_many_lines,
+        reason = "one loop over one match: a split costs a jump for each operation that runs"
+    )]
     fn execute_as<const WATCHED: bool>(
         &mut self,
         code: &Arc<MachineCode>,

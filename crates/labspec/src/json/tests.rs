@@ -34,7 +34,8 @@ fn value(text: &str) -> serde_json::Value {
 
 /// One mistake: its message, its place, what was read, and the repaired text (the same when there is no repair).
 #[test]
-fn mistakes_are_told_in_plain_words_and_reading_goes_on() {
+#[expect(clippy::too_many_lines, reason = "a table of mistakes")]
+fn mistakes_are_reported_and_reading_goes_on() {
     for (text, message, place, read, repaired) in [
         (r#"{"a": 1 "b": 2}"#, "a comma is missing here", "", r#"{"a":1,"b":2}"#, r#"{"a": 1, "b": 2}"#),
         (r#"[1 {"b": 2}]"#, "a comma is missing here", "", r#"[1,{"b":2}]"#, r#"[1, {"b": 2}]"#),
