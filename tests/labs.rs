@@ -150,7 +150,7 @@ fn labs_trace_what_they_trace_on_a_page() {
     }
     let path = std::env::var_os("LABSPEC_LABS")
         .map_or_else(|| workspace().join("tests/golden/labs.json"), std::path::PathBuf::from);
-    let (mut wrong, mut own, mut same) = (Vec::new(), BTreeMap::new(), 0.0_f64);
+    let (mut wrong, mut excess, mut same) = (Vec::new(), BTreeMap::new(), 0.0_f64);
     let recordings = read_json(&path);
     let recordings = recordings.as_array().unwrap();
     for recording in recordings {
@@ -177,27 +177,28 @@ fn labs_trace_what_they_trace_on_a_page() {
             );
             if theirs <= WIDER * perturbed.max(solved) {
                 println!("{line}");
-                *own.entry((recording["lab"].as_str().unwrap(), name.as_str().unwrap()))
+                *excess
+                    .entry((recording["lab"].as_str().unwrap(), name.as_str().unwrap()))
                     .or_insert(0_usize) += 1;
             } else {
                 wrong.push(line);
             }
         }
     }
-    let excused: usize = own.values().sum();
+    let excused: usize = excess.values().sum();
     println!(
         "{} runs, traces within {same:.1e} of their range; {excused} not known so well",
         recordings.len()
     );
     // Another file of recordings has other runs.
     if std::env::var_os("LABSPEC_LABS").is_none() {
-        for ((lab, trace), runs) in &own {
+        for ((lab, trace), runs) in &excess {
             let listed = EXCUSED.iter().find(|(l, t, ..)| l == lab && t == trace).map_or(0, |e| e.2);
             if *runs > listed {
                 wrong.push(format!("{lab}, {trace}: excused in {runs} runs, listed for {listed}"));
             }
         }
-        for (lab, trace, ..) in EXCUSED.iter().filter(|(l, t, ..)| !own.contains_key(&(*l, *t))) {
+        for (lab, trace, ..) in EXCUSED.iter().filter(|(l, t, ..)| !excess.contains_key(&(*l, *t))) {
             wrong.push(format!("{lab}, {trace}: is listed as excused, and is as on the page"));
         }
     }

@@ -31,8 +31,8 @@ fn check(xml: &str, controls: Json, verify: Json, says: &[(&str, &str)]) -> Chec
 fn verified(xml: &str, controls: Json, verify: Json, says: &[(&str, &str)]) {
     let checked = check(xml, controls, verify, says);
     // Some of these numbers are those of a timestep, which is noted; and one slider puts the balls back where they began.
-    let known = ["quote-of-timestep", "setconst-jumps"];
-    let wrong: Vec<_> = codes(&checked).into_iter().filter(|c| !known.contains(c)).collect();
+    let expected = ["quote-of-timestep", "setconst-jumps"];
+    let wrong: Vec<_> = codes(&checked).into_iter().filter(|c| !expected.contains(c)).collect();
     assert_eq!(wrong, [""; 0], "{:#?}", checked.findings);
     let claim = &checked.claims[0];
     let right = claim.judgement.quotes.iter().filter(|q| q.state == QuoteState::Right).count();

@@ -240,9 +240,9 @@ proptest! {
         for name in ["time", "qpos", "qvel"] {
             access.reads.insert(field(Object::Data, name));
         }
-        let told = AccessSet { writes: writes(&events), ..access };
+        let announced = AccessSet { writes: writes(&events), ..access };
         let difference = difference(&m, &access, &events)
-            .or_else(|| difference_of(&m, Data::planned(&m, Plan::for_any_value(&m, &told)), &told, &events));
+            .or_else(|| difference_of(&m, Data::planned(&m, Plan::for_any_value(&m, &announced)), &announced, &events));
         prop_assert!(difference.is_none(), "{}", difference.unwrap_or_default());
     }
 
@@ -323,8 +323,8 @@ fn a_clock_sees_what_the_plan_keeps() {
             let lap = laps.stage_time(decision.stage);
             work += lap.work;
             // What sensors show is left out of the passes within a step.
-            let shown = matches!(decision.stage, Stage::Sensors | Stage::SubtreeVel | Stage::RnePost);
-            let least = if shown { 10 } else { 10 * passes };
+            let displayed = matches!(decision.stage, Stage::Sensors | Stage::SubtreeVel | Stage::RnePost);
+            let least = if displayed { 10 } else { 10 * passes };
             assert_eq!(
                 decision.keep,
                 lap.runs >= least,
@@ -450,7 +450,7 @@ fn a_written_flag_keeps_what_it_may_switch_on() {
 
 #[test]
 fn decisions_read_as_reasons() {
-    let mut shown = String::new();
+    let mut output = String::new();
     for (name, reads) in [
         ("free_fall", &["qpos"][..]),
         ("free_fall", &["qpos", "xpos"]),
@@ -459,15 +459,15 @@ fn decisions_read_as_reasons() {
         ("pendulum", &["qpos", "energy"]),
         ("mocap", &["xpos"]),
     ] {
-        let _ = writeln!(shown, "{name}, reading {}", reads.join(", "));
+        let _ = writeln!(output, "{name}, reading {}", reads.join(", "));
         for d in Plan::new(&model(name), &reading(reads)).decisions() {
             let verb = if d.keep { "keep" } else { "leave" };
-            let _ = writeln!(shown, "  {verb:<5} {:<12} {}", format!("{:?}", d.stage), d.reason);
+            let _ = writeln!(output, "  {verb:<5} {:<12} {}", format!("{:?}", d.stage), d.reason);
         }
-        shown.push('\n');
+        output.push('\n');
     }
     insta::with_settings!({prepend_module_to_snapshot => false, omit_expression => true}, {
-        insta::assert_snapshot!("plan-decisions", shown);
+        insta::assert_snapshot!("plan-decisions", output);
     });
 }
 

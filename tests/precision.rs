@@ -130,8 +130,8 @@ fn what_a_teacher_cares_about_is_ten_times_closer() {
 /// The advised setting against steps of Runge and Kutta's method that are far shorter, both as the page would run them. `false`
 /// where the lab's own code sets the timestep as it starts, so that nobody else can.
 fn advice_holds(name: &str, lab: &Opened, report: &Report, setting: &Setting) -> bool {
-    let own = lab.model.opt.timestep;
-    let fine = own.min(setting.timestep) / 8.0;
+    let timestep = lab.model.opt.timestep;
+    let fine = timestep.min(setting.timestep) / 8.0;
     let every = (setting.timestep / fine).round() as usize;
     // Long steps need not divide the run: to the last whole one.
     let length = setting.timestep * (report.length / setting.timestep + 1e-9).floor();
