@@ -55,7 +55,7 @@ struct BaselineFile {
     findings: Vec<BaselineEntry>,
 }
 
-/// How often each is known.
+/// How often each finding is in the baseline.
 #[derive(Debug, Default)]
 pub(super) struct Baseline {
     folder: PathBuf,
@@ -63,7 +63,7 @@ pub(super) struct Baseline {
 }
 
 impl Baseline {
-    /// Nothing is known; files are named from the folder of a file.
+    /// An empty baseline; files are named from the folder of a file.
     pub(super) fn new(path: &Path) -> Baseline {
         let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
@@ -81,7 +81,7 @@ impl Baseline {
         Ok(all)
     }
 
-    /// Takes out what is known.
+    /// Removes the findings of the baseline.
     pub(super) fn apply(&self, findings: &mut Vec<Finding>, files: &[&SourceFile]) -> Vec<Finding> {
         let mut met: BTreeMap<_, usize> = BTreeMap::new();
         let mut baselined = Vec::new();
@@ -98,7 +98,7 @@ impl Baseline {
         baselined
     }
 
-    /// Makes findings known, and writes them.
+    /// Adds findings to the baseline, and writes it.
     ///
     /// # Errors
     /// The file cannot be written.

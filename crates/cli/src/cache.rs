@@ -49,7 +49,7 @@ impl Cache {
         self.folder.is_none() && self.memory.is_none()
     }
 
-    /// What is found in a lesson: kept, or found now and kept from now on, unless `cancelled` says that it was cut short.
+    /// The findings of a lesson: from the cache, or computed and stored, unless `cancelled` says that the check was cut short.
     pub(super) fn check_cached(
         &self,
         path: &Path,

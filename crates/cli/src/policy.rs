@@ -249,7 +249,7 @@ fn read(path: &Path) -> Result<PolicyFile, Failure> {
     Ok(PolicyFile { select, ignore, deny, widgets, paths })
 }
 
-/// The tables of `[[paths]]`; none where nothing is said of paths.
+/// The tables of `[[paths]]`; none if the settings have none.
 fn of_paths(table: &toml::Table) -> Result<Vec<&toml::Table>, String> {
     let Some(value) = table.get("paths") else { return Ok(Vec::new()) };
     let tables = value.as_array().and_then(|list| list.iter().map(toml::Value::as_table).collect());

@@ -178,7 +178,7 @@ impl Example {
         text.into_bytes()
     }
 
-    /// The text as it is shown: what is repeated is said, not repeated.
+    /// The rendered text: a repetition is named, not repeated.
     pub fn render(&self) -> String {
         let text = match self {
             Example::Repeated(text, times) => {

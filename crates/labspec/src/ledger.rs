@@ -324,8 +324,8 @@ impl Ledger {
         }
     }
 
-    /// Marks what is false or could not be checked as known, where somebody says so; and files in which something known is wrong.
-    pub fn know(&mut self, baselined: impl Fn(&Entry) -> bool) {
+    /// Marks entries that are false or could not be checked as baselined, where `baselined` says so, and the files of such entries.
+    pub fn mark_baselined(&mut self, baselined: impl Fn(&Entry) -> bool) {
         for entry in &mut self.entries {
             let bad = matches!(entry.state, State::False | State::Unchecked);
             let file = entry.subject == Subject::File && matches!(entry.state, State::True(_));

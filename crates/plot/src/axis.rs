@@ -101,7 +101,7 @@ pub(super) fn range(data: Option<(f64, f64)>, low: Option<f64>, high: Option<f64
         let margin = 0.1 * magnitude;
         (a, b) = if free_low || !free_high { (a - margin, b + margin) } else { (a, b + 2.0 * margin) };
     } else if b - a < 1e-13 * magnitude {
-        // Closer than doubles can be told apart in a picture.
+        // Closer than doubles can be distinguished in a picture.
         (a, b) = (a - 1e-13 * magnitude, b + 1e-13 * magnitude);
     }
     Range { low: a, high: b, free_low, free_high }

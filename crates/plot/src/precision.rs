@@ -91,7 +91,7 @@ struct Run<'a> {
     spread: Option<[f64; 2]>,
 }
 
-/// The least positive value that is told from zero.
+/// The least positive value that is distinguished from zero.
 const TINY: f64 = 1e-300;
 
 /// Draws a work–precision chart as a complete SVG document. Any data give a picture; without runs it says so.

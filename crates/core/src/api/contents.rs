@@ -275,7 +275,7 @@ mod tests {
         assert_eq!(d.fields().qpos, from.qpos);
     }
 
-    /// A write in every step that the plan was told of makes one other plan, after which any value is right.
+    /// A write in every step that was announced to the plan makes one other plan, after which any value is right.
     #[test]
     fn writes_in_every_step_do_not_plan() {
         let mut m = scene();

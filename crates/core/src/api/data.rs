@@ -79,7 +79,7 @@ pub struct Data<S: Scope = Full> {
     /// What the plan takes for granted.
     pub(super) assumed: Assumed,
     pub(super) access: AccessSet,
-    /// Whether inputs may have been written that the plan was not told of.
+    /// Whether inputs may have been written that were not announced to the plan.
     pub(super) touched: bool,
     scope: PhantomData<S>,
 }
@@ -248,8 +248,8 @@ impl<S: Scope> Data<S> {
         Ok((&mut self.fields, &mut self.scratch))
     }
 
-    /// Forces are applied that the plan was not told of, or controls are, or an equality constraint is switched on: it is made again,
-    /// or they would not act.
+    /// Forces or controls are applied that were not announced to the plan, or an equality constraint is switched on: the plan is
+    /// made again, or they would not act.
     #[cold]
     fn replan_for_inputs(&mut self, m: &Model) -> Result<(), Error> {
         self.belongs_to(m)?;

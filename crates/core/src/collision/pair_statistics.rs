@@ -1,4 +1,4 @@
-//! A census of the pairs of geoms: how many can ever touch, and why the others cannot.
+//! Statistics of the pairs of geoms: how many can ever touch, and why the others cannot.
 
 use super::candidates::{Changes, candidate_pairs};
 use super::extent::Extents;

@@ -94,7 +94,7 @@ impl Hessian {
         self.made_for.1
     }
 
-    /// Room for a vector.
+    /// Number of entries of a vector.
     pub(super) fn capacity(&self) -> usize {
         4 * self.blocks.len()
     }

@@ -132,7 +132,7 @@ fn four_products<const R: usize>(v: &[[f64; R]; 4], f: &[f64; R]) -> f64x4 {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Jacobian {
     pub(super) blocks: Vec<Block>,
-    /// Room that grows and is written over; the blocks say how much of it is used.
+    /// Scratch that grows and is written over; the blocks say how much of it is used.
     values: Vec<f64>,
     columns: Vec<u32>,
     used_values: usize,

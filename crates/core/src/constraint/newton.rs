@@ -39,7 +39,7 @@ impl Problem<'_> {
         });
     }
 
-    /// Whether the Hessian of the island is worth its room.
+    /// Whether the Hessian of the island is worth its memory.
     fn lay_out(&mut self) -> bool {
         let s = &mut *self.s;
         s.take_up(self.island);

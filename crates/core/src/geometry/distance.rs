@@ -57,7 +57,7 @@ pub(crate) fn shape_distance(
     Some(best)
 }
 
-/// Room for the contacts of one pair, kept so that steps do not allocate.
+/// Scratch for the contacts of one pair, stored so that steps do not allocate.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Narrow {
     pub(crate) convex: super::convex::ConvexScratch,

@@ -238,7 +238,7 @@ fn patient() -> PairSettings {
     settings
 }
 
-/// The library's search over round sides was told to stop within 1e-9 m: so well are distances known, and points and
+/// The library's search over round sides stops within 1e-9 m: so well are distances known, and points and
 /// directions to about the root of it. (Of bodies with corners alone they are exact, on both sides.)
 const DEPTH: f64 = 1e-8;
 const POINT: f64 = 2e-4;

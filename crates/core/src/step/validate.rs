@@ -107,7 +107,7 @@ fn count(m: &Model, kind: i32) -> Option<usize> {
     kinds.into_iter().find(|(k, _)| *k as i32 == kind).map(|(_, n)| n)
 }
 
-/// What of the model the engine could not index by; `None` when all is sound.
+/// What of the model the engine could not index by; `None` when the model is valid.
 pub(crate) fn validate(m: &Model) -> Option<&'static str> {
     let sizes = [
         m.nuserdata,

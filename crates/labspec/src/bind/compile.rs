@@ -95,7 +95,7 @@ impl Work<'_> {
     }
 
     fn compiler(&mut self, value: Option<Type>) -> Compiler<'_> {
-        // Typographic quotes are told once for a whole text, by a rule of their own.
+        // Typographic quotes are reported once for a whole text, by a rule of their own.
         Compiler::new(self.names, self.globals).with_value(value).without_quotes()
     }
 

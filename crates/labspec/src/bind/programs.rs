@@ -97,7 +97,7 @@ impl Programs {
     }
 }
 
-/// Adds what a program touches to a demand.
+/// Adds what a program accesses to an access set.
 pub fn include(effects: &Effects, set: &mut AccessSet) {
     if effects.reads_everything {
         set.reads = FieldSet::ALL;

@@ -26,7 +26,7 @@ pub use super::model_file::{check_model_file, from_mjcf};
 pub struct Models {
     folder: ModelFolder,
     compiled: Mutex<BTreeMap<String, Arc<OnceLock<Loaded>>>>,
-    /// What is to be said of each model, until somebody takes it.
+    /// The findings about each model, until somebody takes it.
     reported: Mutex<BTreeMap<String, Said>>,
     /// Functions of the embedding program, which labs may call.
     functions: Functions,
@@ -40,7 +40,7 @@ pub struct Models {
     files: Vec<SourceFile>,
 }
 
-/// What is to be said of a model, and the files that this is about.
+/// The findings about a model, and the files that this is about.
 type Said = (Vec<Finding>, Vec<SourceFile>);
 
 /// A model of the folder.
@@ -323,7 +323,7 @@ mod tests {
         std::fs::write(top.path().join("robot/labspec.toml"), "").unwrap();
         let (some, findings, files) = check_model_file(&path, None);
         assert_eq!(some.unwrap().nmesh, 1);
-        // What is doubtful is said, and stops nothing.
+        // What is doubtful is reported, and stops nothing.
         let [warning] = findings.as_slice() else { panic!("{findings:?}") };
         assert_eq!((warning.code, warning.severity), ("mjcf-text", Severity::Warning));
         assert_eq!(files[0].slice(warning.span.clone()), ">");

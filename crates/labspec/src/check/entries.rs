@@ -129,7 +129,7 @@ impl LessonEntries<'_> {
         self.entries.push(Entry { remark: "it cannot be read".into(), ..about });
     }
 
-    /// The widgets that are not ours. Where the claims alone are verified, nothing is said of what the page shows.
+    /// The widgets that are not ours. Where the claims alone are verified, nothing is reported of what the page shows.
     fn add_widgets(&mut self) {
         let level = &self.checked.level;
         for widget in &self.checked.lesson.widgets {
@@ -197,8 +197,8 @@ impl LessonEntries<'_> {
     }
 }
 
-/// What could be run and judged, and was not, because nobody asked for it. Where the claims alone are verified, nothing is said
-/// of the labs.
+/// What could be run and judged, and was not, because nobody asked for it. Where the claims alone are verified, the labs
+/// have no entries.
 fn left_out(c: &Checked, ledger: &mut Vec<Entry>) {
     let entry = |subject, owner: &str, span: Range<usize>, what: &str| Entry {
         subject,

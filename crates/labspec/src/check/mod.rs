@@ -75,7 +75,7 @@ pub struct Checked {
     pub claims: Vec<Claim>,
     /// Of each lab, whether it shows what is stored; nothing where nothing is.
     pub snapshots: Vec<SnapshotResult>,
-    /// What would be found, and the author has put aside with a reason.
+    /// What would be found, and the author has suppressed with a reason.
     pub allowed: Vec<Allowed>,
     /// What was asked for.
     pub level: CheckLevel,
@@ -159,7 +159,7 @@ pub fn run_checks(lesson: &Lesson, models: &Models, level: CheckLevel) -> LabOut
     LabOutcome { findings, labs, claims, snapshots }
 }
 
-/// All labs that claims of a lesson are about. What is wrong with them has been told.
+/// All labs that claims of a lesson are about. What is wrong with them has been reported.
 fn of_claims<'l>(lesson: &'l Lesson, models: &Models) -> Vec<PreparedLab<'l>> {
     let labs = lesson.all_labs().into_iter();
     let prepared = labs.filter_map(|lab| prepare(lab, models, CheckLevel::STATIC, &mut Vec::new()));
@@ -170,7 +170,7 @@ fn of_claims<'l>(lesson: &'l Lesson, models: &Models) -> Vec<PreparedLab<'l>> {
 fn beside<'l>(lesson: &'l Lesson, models: &Models) -> impl Iterator<Item = PreparedLab<'l>> {
     let labs = lesson.others.iter().filter_map(|other| other.lab.as_ref().ok());
     let others = labs.filter_map(|lab| {
-        // What is wrong with it is told where it stands.
+        // What is wrong with it is reported at its own place.
         let (model, programs, mistakes) = bind(lab, models, &mut Vec::new())?;
         (mistakes == 0).then_some(PreparedLab { lab, model, programs, mistakes })
     });
@@ -187,7 +187,7 @@ fn empty() -> Option<PreparedLab<'static>> {
     Some(PreparedLab { lab: &NOTHING, model, programs, mistakes: 0 })
 }
 
-/// A control of which a reset takes everything away changes nothing, and the reset is what is told.
+/// A control of which a reset takes everything away changes nothing, and the reset is reported.
 fn deduplicate(lesson: &Lesson, findings: &mut Vec<Finding>) {
     let of = |code: &str, f: &Finding| f.code == code;
     let lost = |span: &std::ops::Range<usize>, findings: &[Finding]| {

@@ -1,5 +1,5 @@
 //! What a check rested on: models, settings and contacts of every lab and every run, so that it can be made again and that a
-//! change can be told from its cause.
+//! change can be distinguished from its cause.
 
 use super::PreparedLab;
 use super::claims::{self, Owner};

@@ -27,8 +27,8 @@
 //! A step in which something turns by more than half a turn does not follow that motion at all: where nothing is elastic, a gain
 //! that is seen a few times there is growth, whether it lasts or not. A pendulum at a step of a second throws itself about like this.
 //!
-//! A joint whose damping is below zero is a motor without end: what it gives is a gain like any other, and is told by its name.
-//! (Where the damping becomes positive at larger speeds, as in an oscillator that keeps itself going, the end is there, and
+//! A joint whose damping is below zero is a motor without end: what it gives is a gain like any other, and is reported by its
+//! name. (Where the damping becomes positive at larger speeds, as in an oscillator that keeps itself going, the end is there, and
 //! the watch is over.)
 //!
 //! A servo or motor without states pulls along its length x with the force clip(a - k x), whose potential is closed. Whatever

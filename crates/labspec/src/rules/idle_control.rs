@@ -1,7 +1,7 @@
 //! Controls that change nothing anybody sees: over all of their range, or over a part of it.
 //!
 //! What two runs show is compared to the last bit, so what matters only a little matters. Two controls may act together only: each is
-//! tried with the others moved, too, early and in mid-run. Where the work for that is spent before all is tried, nothing is said.
+//! tried with the others moved, too, early and in mid-run. If the work budget ends before all is tried, nothing is reported.
 
 use super::{IDLE_RANGE, needs_reset};
 use crate::bind::ControlProgram;
@@ -83,7 +83,7 @@ pub(crate) fn check_idle_controls(observed: &mut ObservedLab<'_>, findings: &mut
     }
 }
 
-/// Whether this control is meant to change something that is compared, and is not told by another rule.
+/// Whether this control is meant to change something that is compared, and is not reported by another rule.
 fn judged(observed: &ObservedLab<'_>, index: usize) -> bool {
     let ready = observed.bench.ready;
     let Some((_, program)) = ready.programs.controls.get(index) else { return false };

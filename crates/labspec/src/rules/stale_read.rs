@@ -102,7 +102,7 @@ pub(super) fn parts(text: &str) -> Option<Vec<String>> {
     (!text.contains("//") && !text.contains("/*")).then_some(parts)
 }
 
-/// The statements with `mj_forward` behind each that writes the state; `None` where that cannot be told from the text.
+/// The statements with `mj_forward` behind each that writes the state; `None` where the text does not show that.
 fn with_forward(text: &str) -> Option<String> {
     let parts = parts(text)?;
     let writes = |part: &str| {

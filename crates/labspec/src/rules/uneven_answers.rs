@@ -25,7 +25,7 @@ const ENOUGH: usize = 3000;
 /// Places that are looked at.
 const MOST: usize = 26;
 
-/// Looks at the whole course: said once, at the first question whose answer stands there.
+/// Checks the whole course: reported once, at the first question whose answer stands there.
 pub(super) fn across(lessons: &[&Lesson]) -> Vec<Finding> {
     let mut keys = Vec::new();
     for lesson in lessons {

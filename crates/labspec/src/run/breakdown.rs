@@ -29,9 +29,9 @@ pub enum Shorter {
     No,
     /// A shorter one may help, this one by theory where there is one. Nobody has tried it.
     Maybe(Option<f64>),
-    /// A run with this one was sound.
+    /// A run with this one had no fault.
     Tried(f64),
-    /// None of those that were tried was sound.
+    /// No run with those that were tried was free of faults.
     Useless,
 }
 

@@ -58,7 +58,7 @@ pub(crate) fn describe(fault: &Fault) -> Option<Breakdown> {
     })
 }
 
-/// The same advice with a timestep that was tried: the longest of some with which the run is sound. Work is taken from `left`.
+/// The same advice with a timestep that was tried: the longest with which the run has no fault. Work is taken from `left`.
 pub(crate) fn with_tried_timestep(
     case: &StressCase<'_>,
     interaction: &Interaction,

@@ -24,7 +24,7 @@ pub const PERTURBED_BACK: StepVariant = StepVariant { perturbation: -PERTURBATIO
 /// Other numerics that every answer is put to.
 pub(super) const CHANGES: usize = 4;
 
-/// The changes of the numerics that an answer must survive, and how to call them. The first and the third are those of quotes.
+/// The changes of the numerics that an answer must survive, and their names. The first and the third are those of quotes.
 pub(super) const PERTURBED: [(StepVariant, &str); CHANGES] = [
     (HALVED, "at half the timestep"),
     (TIGHT, "with the solver run to convergence"),

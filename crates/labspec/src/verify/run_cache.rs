@@ -32,7 +32,7 @@ pub struct BoundLab<'a> {
     pub(super) patches: Vec<(Patch, Range<usize>)>,
     /// A change of its model left behind what belongs to a parameter.
     pub(super) left_behind: bool,
-    /// What was changed in the lab of the lesson, told apart from every other change; empty for nothing.
+    /// What was changed in the lab of the lesson, distinguished from every other change; empty for nothing.
     changes: String,
 }
 

@@ -28,7 +28,7 @@ pub(super) struct RunRequest<'r, 'a> {
     pub(super) place: Range<usize>,
 }
 
-/// Makes a run, unless the same was made before: then what came of it is known, and was told.
+/// Makes a run, unless the same was made before: then its result is cached, and was reported.
 pub(super) fn perform(
     asked: &RunRequest<'_, '_>,
     stage: &Stage<'_>,

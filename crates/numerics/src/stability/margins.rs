@@ -71,7 +71,7 @@ const RUN: u64 = 1_000_000_000;
 /// No lab has longer steps, s, nor fewer in a run.
 const LONGEST: f64 = 1.0;
 const STEPS: f64 = 10.0;
-/// Factors between what is tried: a lab may be sound again with steps beyond those with which it breaks first.
+/// Factors between what is tried: a lab may hold again with steps beyond those with which it breaks first.
 const STEPWISE: f64 = 1.2;
 const DOUBLING: f64 = 2.0;
 /// Servos, springs and pairs of bodies that are looked at, at most of each.

@@ -55,7 +55,7 @@ pub enum ScaffoldOutcome {
         /// Measures and their values.
         values: Vec<(String, f64)>,
     },
-    /// Nothing could be told, and why.
+    /// Nothing could be proposed, and why.
     Open(String),
 }
 

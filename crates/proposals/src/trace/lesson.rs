@@ -26,7 +26,7 @@ pub struct Traces<'l> {
     pub(crate) labs: Vec<TracedLab<'l>>,
 }
 
-/// Looks where every number of a lesson comes from. Labs that cannot run are left out. `report_progress` is told what is being done.
+/// Finds where every number of a lesson comes from. Labs that cannot run are left out. `report_progress` receives each step.
 pub fn trace<'l>(lesson: &'l Lesson, models: &Models, report_progress: &mut dyn FnMut(&str)) -> Traces<'l> {
     let numbers = stated(lesson);
     let stage = Stage::new(models);

@@ -84,7 +84,7 @@ fn keys(tree: &Tree, m: &Model, report: &mut Report) {
     }
 }
 
-/// Position servos that go wherever they are told, with any force.
+/// Position servos that follow any target with any force.
 fn servos(tree: &Tree, m: &Model, report: &mut Report) {
     let nodes: Vec<&Node> =
         listed(tree.sections("actuator").flat_map(|(i, _)| tree.children(i).map(|(_, n)| n)));

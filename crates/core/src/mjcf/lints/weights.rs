@@ -7,9 +7,9 @@ use crate::mjcf::text::diagnostic::Report;
 use crate::mjcf::text::tree::Tree;
 use crate::model::{Model, Obj};
 
-/// Neighbours whose masses differ by more are told.
+/// Neighbours whose masses differ by more are reported.
 const APART: f64 = 1e4;
-/// What turns with less than this is told, kg m².
+/// A smaller inertia is reported, kg m².
 const TINY: f64 = 1e-9;
 
 pub(super) fn check_masses(tree: &Tree, m: &Model, report: &mut Report) {

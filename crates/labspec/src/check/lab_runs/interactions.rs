@@ -1,5 +1,5 @@
-//! Whatever else a student may do to a lab that is sound as it stands and with each control at its ends: a touch, several controls
-//! at their ends, buttons in order, everything in turn while it runs, and ten times as long as anybody looks; then twice the
+//! Whatever else a student may do to a lab that has no fault as it stands and with each control at its ends: a touch, several
+//! controls at their ends, buttons in order, everything in turn while it runs, and ten times as long as anybody looks; then twice the
 //! timestep. What `labspec stability` does, as far as a check may work.
 
 use super::{LabRunState, Trial, attempt};
@@ -46,7 +46,7 @@ fn try_more(state: &mut LabRunState<'_>, left: &mut u64, findings: &mut Vec<Find
             continue;
         };
         *left = left.saturating_sub(attempt.spent);
-        // What a simpler setting has shown already is not told again.
+        // A fault of a simpler setting is not reported again.
         of_trial
             .retain(|f| !findings.iter().any(|reported| reported.code == f.code && reported.span == f.span));
         findings.extend(of_trial);

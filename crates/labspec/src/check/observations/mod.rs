@@ -1,5 +1,5 @@
 //! What a student sees in the runs of a lab, and what only seems to show something: curves that cannot change, readouts that print
-//! one text, controls that do nothing. Each is told with the runs that show it; what is not certain is not told.
+//! one text, controls that do nothing. Each is reported with the runs that show it; what is not certain is not reported.
 
 mod bench;
 mod moves;

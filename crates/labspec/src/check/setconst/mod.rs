@@ -4,7 +4,7 @@
 //!
 //! Constants (subtree masses, inverse weights of contacts) keep their old value until `mj_setConst`, which also puts qpos back to
 //! the model's own. So a lab is run as it is, with the constants computed anew and the state kept, and with the partners of
-//! [`coupled`](crate::bind::coupled) corrected behind the program; where nothing visible differs, nothing is said. The advice
+//! [`coupled`](crate::bind::coupled) corrected behind the program; where nothing visible differs, nothing is reported. The advice
 //! is run too.
 
 mod advice;

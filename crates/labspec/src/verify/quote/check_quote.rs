@@ -166,7 +166,7 @@ impl<'q> Comparison<'q> {
         findings: &mut Vec<Finding>,
     ) -> QuoteOutcome {
         let Comparison { claim, reading, measured, read, .. } = self;
-        // Of a fraction that is told in percent the number is right in any unit, and a converted one is in that unit.
+        // Of a fraction that is stated in percent the number is right in any unit, and a converted one is in that unit.
         let kind = measured.filter(|m| m.is_exact() && !m.is_number());
         let unit = self.unit.filter(|_| (fits == reading.read || kind.is_some()) && self.factor.is_none());
         match (unit, measured) {

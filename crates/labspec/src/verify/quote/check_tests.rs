@@ -24,7 +24,7 @@ fn checked(quote: &str, computed: f64, half: &[f64], starts: &[f64]) -> (QuoteOu
     (outcome, findings)
 }
 
-/// The code and everything that is said.
+/// The code and all messages.
 fn first_finding(findings: &[Finding]) -> (&'static str, String) {
     assert_eq!(findings.len(), 1, "{findings:#?}");
     let f = &findings[0];

@@ -16,7 +16,7 @@ const SAME: &str = "the same as the first run";
 const WIDE: usize = 8;
 /// Longest text of a cell that is written out.
 const LONG: usize = 40;
-/// A number of which no digit can be told.
+/// A number of which no digit is certain.
 pub(super) const OPEN: &str = "~";
 /// Nothing: an expression that threw, or a run that had ended.
 const NOTHING: &str = "-";
