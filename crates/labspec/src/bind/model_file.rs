@@ -34,10 +34,10 @@ pub fn compile_file(
     path: &Path,
     root: &Path,
     sources: &Sources,
-    mark: Option<Hash>,
+    hash: Option<Hash>,
 ) -> Compiled {
     let files = FilesAround::below(path, root, sources);
-    compile_source(file, &files, path.file_name().and_then(|n| n.to_str()), mark, xml::check_xml)
+    compile_source(file, &files, path.file_name().and_then(|n| n.to_str()), hash, xml::check_xml)
 }
 
 /// Compiles the model of a lab that is played: with what is wrong with it, and nothing of what is only doubtful.
@@ -51,10 +51,10 @@ pub(crate) fn compile_to_play(lab: &Lab, folder: &ModelFolder) -> Compiled {
     let name = match lab.scene() {
         None => return Compiled { model: None, findings: Vec::new(), files: Vec::new(), parts: Vec::new() },
         Some(ModelSource::Xml(text)) => {
-            let examined = compile_errors(&text.value, &NoFiles, None);
+            let checked = compile_errors(&text.value, &NoFiles, None);
             let place = |d: &Finding| from_mjcf(d, text.span_of(d.span.clone()));
-            let findings = examined.findings.iter().map(place).collect();
-            return Compiled { model: examined.model, findings, files: Vec::new(), parts: Vec::new() };
+            let findings = checked.findings.iter().map(place).collect();
+            return Compiled { model: checked.model, findings, files: Vec::new(), parts: Vec::new() };
         }
         Some(ModelSource::Model(name)) => name,
     };
@@ -82,10 +82,10 @@ pub(crate) fn compile_to_play(lab: &Lab, folder: &ModelFolder) -> Compiled {
 }
 
 /// A model with its errors, without the warnings of [`xml::check_xml`].
-fn compile_errors(xml: &str, files: &dyn Files, path: Option<&str>) -> Examined {
+fn compile_errors(xml: &str, files: &dyn Files, path: Option<&str>) -> CheckedModel {
     match xml::compile_with(xml, files, path) {
-        Ok(model) => Examined { model: Some(model), findings: Vec::new() },
-        Err(findings) => Examined { model: None, findings },
+        Ok(model) => CheckedModel { model: Some(model), findings: Vec::new() },
+        Err(findings) => CheckedModel { model: None, findings },
     }
 }
 
@@ -130,13 +130,13 @@ pub(super) fn compile_source(
     file: &SourceFile,
     files: &dyn Files,
     name: Option<&str>,
-    mark: Option<Hash>,
-    compile: fn(&str, &dyn Files, Option<&str>) -> Examined,
+    hash: Option<Hash>,
+    compile: fn(&str, &dyn Files, Option<&str>) -> CheckedModel,
 ) -> Compiled {
-    let remembering = Remembering::new(files, mark);
-    let examined = compile(file.text(), &remembering, name);
+    let remembering = Remembering::new(files, hash);
+    let checked = compile(file.text(), &remembering, name);
     let mut sources = Vec::new();
-    if !examined.findings.is_empty() {
+    if !checked.findings.is_empty() {
         sources.push(file.clone());
     }
     let place_of = |d: &Finding| {
@@ -144,8 +144,8 @@ pub(super) fn compile_source(
         let finding = from_mjcf(d, d.span.clone());
         sources.get(at).map_or(finding.clone(), |source| finding.at(source))
     };
-    let findings = examined.findings.iter().map(place_of).collect();
-    Compiled { model: examined.model, findings, files: sources, parts: remembering.parts() }
+    let findings = checked.findings.iter().map(place_of).collect();
+    Compiled { model: checked.model, findings, files: sources, parts: remembering.parts() }
 }
 
 /// Compiles a model file, for itself: the model, what is to be said of it, and the files that this is about. A file that
@@ -221,7 +221,7 @@ mod tests {
 
     #[test]
     fn shown_paths_are_short() {
-        for (folder, path, shown) in [
+        for (folder, path, expected) in [
             ("models", "a.xml", "models/a.xml"),
             ("models", "../stls/a.stl", "stls/a.stl"),
             ("a/b", "../../c/d", "c/d"),
@@ -229,7 +229,7 @@ mod tests {
             ("../a", "../c", "../c"),
             ("..", "../c", "../../c"),
         ] {
-            assert_eq!(joined(folder, path), shown, "{folder} {path}");
+            assert_eq!(joined(folder, path), expected, "{folder} {path}");
         }
     }
 }

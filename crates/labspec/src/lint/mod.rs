@@ -42,7 +42,7 @@ fn check_rules(lesson: &Lesson, models: &ModelFolder) -> Vec<Finding> {
     findings
 }
 
-/// What is said about something that was wrong where a text was read.
+/// The messages about something that was wrong where a text was read.
 pub(crate) fn to_finding(text: &str, problem: &Problem) -> Finding {
     match problem {
         Problem::Fence(problem) => fence::to_finding(text, problem),
