@@ -6,6 +6,7 @@ use crate::lex::{Token, TokenKind, tokens};
 use crate::schema::{Entry, Field, Param, Schema};
 use crate::types::{CollectionId, FunctionId, ObjectId, Type};
 use labspec_finding::Span;
+use labspec_finding::order;
 
 /// How often a variable may stand for another one.
 const MAX_ALIASES: usize = 8;
@@ -358,7 +359,7 @@ impl<'s> Tokens<'s> {
                 _ => {}
             }
         }
-        names.sort_unstable();
+        order::sort_by(&mut names, Ord::cmp);
         names.dedup();
         names
     }

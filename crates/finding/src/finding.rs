@@ -1,5 +1,6 @@
 //! One thing that is wrong or doubtful, and where.
 
+use crate::order::sort_by;
 use crate::place::{Place, Position};
 use crate::rule::Rule;
 use crate::severity::Severity;
@@ -207,7 +208,7 @@ impl std::error::Error for Finding {}
 
 /// Puts findings into their order (file, place, code) and drops those that say the same thing twice.
 pub fn sort(findings: &mut Vec<Finding>) {
-    findings.sort_by(|a, b| {
+    sort_by(findings, |a, b| {
         (&a.path, a.span.start, a.span.end, a.severity, a.code, &a.message).cmp(&(
             &b.path,
             b.span.start,

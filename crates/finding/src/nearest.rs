@@ -1,5 +1,7 @@
 //! "Did you mean": the candidate nearest to what was written. There is no other edit distance in the project.
 
+use crate::order::sort_by;
+
 /// Names longer than this are not compared: nobody means them, and the cost grows with the product of lengths.
 const LONGEST: usize = 64;
 
@@ -43,9 +45,9 @@ fn cost(written: &str, candidate: &str) -> Option<usize> {
         s.split(['_', '/', '.']).filter(|p| !p.is_empty()).map(str::to_ascii_lowercase).collect::<Vec<_>>()
     };
     let (a, mut b) = (parts(written), parts(candidate));
-    b.sort_unstable();
+    sort_by(&mut b, Ord::cmp);
     let mut sorted = a.clone();
-    sorted.sort_unstable();
+    sort_by(&mut sorted, Ord::cmp);
     if sorted == b {
         return Some(5); // the same parts in another order
     }

@@ -5,6 +5,7 @@ use super::{Arg, Function, ROW, Touches, Unit, index, number};
 use labspec_core::reflect::data;
 use labspec_core::{self as core, Obj};
 use labspec_expr::{Heap, Type, Value};
+use labspec_finding::order;
 
 const LIST: Function = Function { object: "lib", returns: Type::List, ..ROW };
 
@@ -245,7 +246,7 @@ fn singular_values(j: &[Vec<f64>]) -> Vec<f64> {
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).fold(0.0, |sum, (x, y)| sum + x * y);
     let a = j.iter().map(|r| j.iter().map(|s| dot(r, s)).collect()).collect();
     let mut values: Vec<f64> = eigenvalues(a, 1e-30).into_iter().map(|x| x.max(0.0).sqrt()).collect();
-    values.sort_by(|x, y| y.total_cmp(x));
+    order::sort_by(&mut values, |x, y| y.total_cmp(x));
     values
 }
 

@@ -6,6 +6,7 @@ use super::{Arg, Function, FunctionPlace, ROW, Touches, Unit, index, number};
 use crate::handle;
 use labspec_core::{self as core, Obj};
 use labspec_expr::{Heap, Type, Value};
+use labspec_finding::order;
 
 /// What `mixed` gives.
 const CONTACT: &[(&str, Type)] = &[
@@ -125,7 +126,7 @@ pub(super) const ROWS: &[Function] = &[
             )?;
             let size: f64 = matrix.iter().flatten().map(|x| x * x).sum();
             let mut values = eigenvalues(matrix, 1e-30 * size);
-            values.sort_by(f64::total_cmp);
+            order::sort_by(&mut values, f64::total_cmp);
             heap.numbers(&values).map_err(|_| "the lists of this lab take too much memory".to_owned())
         },
         ..ROW

@@ -6,6 +6,7 @@ use super::filter::{Pair, dynamic_pair, excluded, explicit_pairs, masks_admit, p
 use super::{Scratch, params, sweep};
 use crate::geometry::pair;
 use crate::model::{Fields, Model};
+use labspec_finding::order;
 use std::collections::BTreeSet;
 
 /// What becomes of a pair of geoms.
@@ -67,7 +68,7 @@ pub(crate) fn pair_statistics(m: &Model, change: Changes) -> Vec<(PairFilterReas
             }
         }
     }
-    counts.sort_by_key(|(reason, _)| *reason);
+    order::sort_by_key(&mut counts, |(reason, _)| *reason);
     counts
 }
 
@@ -113,7 +114,7 @@ pub(crate) fn pair_methods(m: &Model, change: Changes) -> Vec<([i32; 2], usize, 
             None => out.push((types, 1, pair::is_searched(types[0], types[1], false))),
         }
     }
-    out.sort_by_key(|(types, ..)| *types);
+    order::sort_by_key(&mut out, |(types, ..)| *types);
     out
 }
 

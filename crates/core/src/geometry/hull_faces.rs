@@ -2,8 +2,8 @@
 
 use super::Hull;
 use super::hull::vertex;
-use crate::math::sort::sort;
 use crate::math::*;
+use labspec_finding::order;
 
 /// Cosine of the angle between triangles above which they are one side.
 const FLAT: f64 = 1.0 - 1e-7;
@@ -108,7 +108,7 @@ impl HullFaces {
         for side in 0..self.len() {
             pairs.extend(self.vertices(side).iter().map(|&v| (v, side as u32)));
         }
-        sort(&mut pairs);
+        order::sort_by(&mut pairs, Ord::cmp);
         self.first = (0..=n).map(|v| pairs.partition_point(|p| (p.0 as usize) < v) as u32).collect();
         self.around = pairs.into_iter().map(|p| p.1).collect();
     }
@@ -126,7 +126,7 @@ fn merge(vert: &[Vec3], hull: &Hull) -> HullFaces {
     for (t, f) in hull.face.iter().enumerate() {
         edges.extend((0..3).map(|k| (f[k], f[(k + 1) % 3], t)));
     }
-    sort(&mut edges);
+    order::sort_by(&mut edges, Ord::cmp);
     let across = |a: i32, b: i32| {
         let at = edges.partition_point(|&(x, y, _)| (x, y) < (b, a));
         edges.get(at).filter(|&&(x, y, _)| (x, y) == (b, a)).map(|e| e.2)
@@ -159,7 +159,7 @@ fn merge(vert: &[Vec3], hull: &Hull) -> HullFaces {
             group.iter().flat_map(|&t| (0..3).map(move |k| (hull.face[t][k], hull.face[t][(k + 1) % 3])));
         let mut border: Vec<(i32, i32)> =
             edges.filter(|&(a, b)| across(a, b).is_none_or(|n| side_of[n] != side)).collect();
-        sort(&mut border);
+        order::sort_by(&mut border, Ord::cmp);
         let first = out.vertices.len() as u32;
         if border.is_empty() {
             continue;

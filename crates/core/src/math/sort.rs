@@ -1,6 +1,6 @@
 //! Sorting. The standard library's sorts are fast and large, and there is a copy for each type; where a module shall be small
 //! (feature `small`), a heap does it in a few lines (Williams 1964). No two items are equal in the orders that are asked
-//! for, so both give the same.
+//! for, so both give the same. What runs once, when a model is compiled, is sorted by [`labspec_finding::order`].
 
 use super::SMALL;
 use std::cmp::Ordering;
@@ -17,18 +17,6 @@ pub(crate) fn sort_by<T>(items: &mut [T], mut order: impl FnMut(&T, &T) -> Order
 /// Sorts numbers, or tuples of them: of equal ones it does not matter which comes first.
 pub(crate) fn sort<T: Ord>(items: &mut [T]) {
     sort_by(items, T::cmp);
-}
-
-/// Sorts by a key; items with the same key stay in their order.
-#[cfg(any(test, feature = "mjcf"))]
-pub(crate) fn sort_by_key<T, K: Ord>(items: &mut Vec<T>, key: impl Fn(&T) -> K) {
-    if SMALL {
-        let mut numbered: Vec<(usize, T)> = items.drain(..).enumerate().collect();
-        sort_by(&mut numbered, |(i, a), (j, b)| key(a).cmp(&key(b)).then(i.cmp(j)));
-        items.extend(numbered.into_iter().map(|(_, item)| item));
-    } else {
-        items.sort_by_key(key);
-    }
 }
 
 /// No item of a heap is less than the two below it, which are at twice its place and one or two more. The first is the
@@ -69,7 +57,7 @@ mod tests {
             let mut numbered: Vec<(i32, usize)> = items.iter().copied().zip(0..).collect();
             let mut stable = numbered.clone();
             heap_sort(&mut numbered, &mut |a, b| a < b);
-            sort_by_key(&mut stable, |&(x, _)| x);
+            stable.sort_by_key(|&(x, _)| x);
             prop_assert_eq!(&numbered, &stable);
             let mut expected = items.clone();
             expected.sort_unstable();

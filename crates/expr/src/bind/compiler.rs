@@ -10,6 +10,7 @@ use crate::program::Program;
 use crate::rules;
 use crate::schema::{Help, Schema};
 use crate::types::Type;
+use labspec_finding::order;
 
 use labspec_finding::{Finding, Fix, Span};
 
@@ -44,7 +45,7 @@ impl Compiled {
         let mut out = String::new();
         let mut at = 0;
         let mut fixes: Vec<&Fix> = self.named.iter().collect();
-        fixes.sort_by_key(|f| (f.span.start, f.span.end));
+        order::sort_by_key(&mut fixes, |f| (f.span.start, f.span.end));
         for fix in fixes {
             // An index inside an index stays.
             if let Some(before) = source.get(at..fix.span.start) {

@@ -1,5 +1,6 @@
 //! Text to tokens: every token, and every blank between tokens, is read by a parser of its kind.
 
+use labspec_finding::order;
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
@@ -36,7 +37,7 @@ static SYMBOLS: LazyLock<BTreeMap<char, Vec<String>>> = LazyLock::new(|| {
             add(format!("{symbol}="));
         }
     }
-    all.values_mut().for_each(|list| list.sort_by_key(|text| std::cmp::Reverse(text.len())));
+    all.values_mut().for_each(|list| order::sort_by_key(list, |text| std::cmp::Reverse(text.len())));
     all
 });
 

@@ -3,6 +3,7 @@
 //! it begins: a variable that is read in it gets a parameter at its start, which is taken back at the end when nothing
 //! was stored (Braun et al., "Simple and efficient construction of static single assignment form", 2013).
 
+use labspec_finding::order;
 use std::collections::BTreeMap;
 
 use super::builder::{EarlyExits, FunctionBuilder, LoopContext, PendingEdge, Variables};
@@ -16,7 +17,7 @@ use labspec_finding::Span;
 fn stored_on<'w>(edges: impl IntoIterator<Item = &'w PendingEdge>) -> Vec<LocalId> {
     let mut locals: Vec<LocalId> =
         edges.into_iter().flat_map(|w| &w.stored).map(|(local, _)| *local).collect();
-    locals.sort_unstable();
+    order::sort_by(&mut locals, Ord::cmp);
     locals.dedup();
     locals
 }
@@ -124,7 +125,7 @@ impl FunctionBuilder<'_> {
     fn stored_since(&self, mark: usize) -> Vec<(LocalId, Operand)> {
         let log = self.variables.log.get(mark..).unwrap_or(&[]);
         let mut locals: Vec<LocalId> = log.iter().map(|(local, _)| *local).collect();
-        locals.sort_unstable();
+        order::sort_by(&mut locals, Ord::cmp);
         locals.dedup();
         let now = |l: LocalId| self.variables.now.get(l as usize).copied().flatten().map(|(at, _)| (l, at));
         locals.into_iter().filter_map(now).collect()

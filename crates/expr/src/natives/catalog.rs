@@ -1,5 +1,6 @@
 //! All rows, found by name, and how the machine calls them.
 
+use labspec_finding::order;
 use std::sync::OnceLock;
 
 use super::env::Env;
@@ -18,7 +19,7 @@ fn all() -> &'static [&'static Native] {
     ALL.get_or_init(|| {
         let files = [list::ROWS, each::ROWS, text::ROWS, number::ROWS, object::ROWS, object::SOURCE_ROWS];
         let mut all: Vec<&Native> = files.into_iter().flatten().collect();
-        all.sort_by_key(|row| row.name);
+        order::sort_by_key(&mut all, |row| row.name);
         all
     })
 }

@@ -4,6 +4,7 @@ use crate::ast::{Expr, ExprKind, Stmt};
 use crate::host_terms::HostTerms;
 use crate::lex::{self, Token, TokenKind};
 use crate::rules;
+use labspec_finding::order;
 use labspec_finding::{Finding, Span};
 
 /// What a parser understood, and what it could not read.
@@ -60,7 +61,7 @@ pub(crate) fn statements(source: &str, host_terms: &'static HostTerms, tells: bo
 
 /// Findings in source order, and not more than anyone reads.
 pub(crate) fn in_order(mut found: Vec<Finding>) -> Vec<Finding> {
-    found.sort_by_key(|d| (d.span.start, d.span.end));
+    order::sort_by_key(&mut found, |d| (d.span.start, d.span.end));
     if found.len() > MAX_DIAGNOSTICS {
         found.truncate(MAX_DIAGNOSTICS);
         let span = found.last().map_or(Span::default(), |d| Span::new(d.span.end, d.span.end));

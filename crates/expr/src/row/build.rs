@@ -5,6 +5,7 @@ use super::run::{FieldElement, REGISTERS, Row};
 use crate::formula::{Formula, FormulaStep, StepId};
 use crate::math::{FEW, MathEvaluation, MathFunction};
 use crate::operators::BinaryOp;
+use labspec_finding::order;
 
 /// A step whose result is wanted in a register.
 pub(crate) struct WantedResult {
@@ -21,7 +22,7 @@ impl Row {
             if let FormulaStep::Load(field, index) = step { Some((*field, *index)) } else { None }
         };
         let mut elements: Vec<_> = formula.steps.iter().filter_map(load).collect();
-        elements.sort_unstable();
+        order::sort_by(&mut elements, Ord::cmp);
         let loads = u8::try_from(elements.len()).ok()?;
         let free = usize::from(loads)..REGISTERS;
         let mut row = Row::with(formula, &elements, &[], free.filter_map(|r| u8::try_from(r).ok()))?;

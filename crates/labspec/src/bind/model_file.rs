@@ -82,10 +82,10 @@ pub(crate) fn compile_to_play(lab: &Lab, folder: &ModelFolder) -> Compiled {
 }
 
 /// A model with its errors, without the warnings of [`xml::check_xml`].
-fn compile_errors(xml: &str, files: &dyn Files, path: Option<&str>) -> CheckedModel {
+fn compile_errors(xml: &str, files: &dyn Files, path: Option<&str>) -> Examined {
     match xml::compile_with(xml, files, path) {
-        Ok(model) => CheckedModel { model: Some(model), findings: Vec::new() },
-        Err(findings) => CheckedModel { model: None, findings },
+        Ok(model) => Examined { model: Some(model), findings: Vec::new() },
+        Err(findings) => Examined { model: None, findings },
     }
 }
 
@@ -131,7 +131,7 @@ pub(super) fn compile_source(
     files: &dyn Files,
     name: Option<&str>,
     hash: Option<Hash>,
-    compile: fn(&str, &dyn Files, Option<&str>) -> CheckedModel,
+    compile: fn(&str, &dyn Files, Option<&str>) -> Examined,
 ) -> Compiled {
     let remembering = Remembering::new(files, hash);
     let checked = compile(file.text(), &remembering, name);

@@ -2,6 +2,7 @@
 
 use crate::source::SourceFile;
 use labspec_core::xml::{FileProblem, Files};
+use labspec_finding::order;
 use serde::{Deserialize, Serialize};
 use std::cell::RefCell;
 use std::path::Path;
@@ -59,7 +60,7 @@ impl<'f> Remembering<'f> {
     /// Every file that was asked for, once each.
     pub(super) fn parts(self) -> Vec<ModelFile> {
         let mut parts = self.parts.into_inner();
-        parts.sort();
+        order::sort_by(&mut parts, Ord::cmp);
         parts.dedup();
         parts
     }

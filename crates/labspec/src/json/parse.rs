@@ -10,6 +10,7 @@ use super::parser::{Parser, Stop};
 use super::problem::{self, Mistake, Problem};
 use super::{MAX_DEPTH, MAX_MISTAKES, MAX_VALUES};
 use crate::source::{SourceMap, Text};
+use labspec_finding::order;
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -35,7 +36,7 @@ pub fn parse(text: &str, below: &SourceMap) -> Parsed {
         try_repairs(text, &mut reported);
     }
     problems.extend(reported.into_iter().map(|p| p.below(below)));
-    problems.sort_by_key(|p| p.span.start);
+    order::sort_by_key(&mut problems, |p| p.span.start);
     problems.truncate(MAX_MISTAKES);
     Parsed { node, problems, broken }
 }

@@ -3,6 +3,7 @@
 use super::MAX_MISTAKES;
 use super::problem::{self, Mistake, Problem, RepeatedMistake, TextChange};
 use crate::source::SourceMap;
+use labspec_finding::order;
 use std::ops::Range;
 
 /// Reading is over: a limit is reached, which is reported.
@@ -127,7 +128,7 @@ impl<'a> Parser<'a> {
             let list = self.changes.get(kind as usize).map_or(&[][..], Vec::as_slice);
             all.extend(problem::together(kind, list, self.text, self.below));
         }
-        all.sort_by_key(|p| p.span.start);
+        order::sort_by_key(&mut all, |p| p.span.start);
         all.truncate(MAX_MISTAKES);
         all
     }

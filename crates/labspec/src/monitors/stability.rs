@@ -12,6 +12,7 @@
 
 use labspec_core::math::{MINVAL, rows};
 use labspec_core::{Model, Obj, disable, integrator, joint, servo_gains, trntype};
+use labspec_finding::order;
 
 /// A spring, servo or constraint that no step of this length can follow.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,7 +52,7 @@ pub fn suspects(m: &Model) -> Vec<Suspect> {
         }
     }
     list.retain(|s| s.excess > 1.0);
-    list.sort_by(|a, b| b.excess.total_cmp(&a.excess));
+    order::sort_by(&mut list, |a, b| b.excess.total_cmp(&a.excess));
     list
 }
 

@@ -1,9 +1,5 @@
 //! The examples of rules as files that can be checked.
 
-use labspec_finding::Example;
-use serde_json::{Value, json};
-use std::ops::Range;
-
 /// The model that the expressions and statements of examples are about: a free ball, an arm on a hinge with a motor.
 pub const MODEL: &str = "<mujoco><worldbody><geom name='floor' type='plane' size='2 2 .1'/>\
     <body name='ball' pos='0 0 1'><freejoint name='ball'/><geom name='ball' size='.1' mass='1'/></body>\
@@ -25,36 +21,49 @@ run as it stands
 end of 1 labs
 "##;
 
-/// An example as files, by their names; the first is the one to check. A name that ends with `/` is a folder.
-pub fn files(example: &Example) -> Vec<(String, Vec<u8>)> {
-    let lab = match example {
-        Example::Expression(_) | Example::Long(..) => {
-            json!({"xml": MODEL, "readouts": [{"label": "shown", "expr": example.text()}]})
-        }
-        Example::Statements(_) => json!({"xml": MODEL, "stopAt": 0.1, "controller": example.text()}),
-        Example::Files(files) => {
-            let others = files.iter().skip(1).map(|(name, bytes)| ((*name).to_string(), bytes.to_vec()));
-            return std::iter::once((example.name().to_string(), example.bytes())).chain(others).collect();
-        }
-        _ => return vec![(example.name().to_string(), example.bytes())],
-    };
-    vec![(example.name().to_string(), format!("```lab simlab\n{lab}\n```\n").into_bytes())]
-}
+#[cfg(feature = "docs")]
+pub use files::{files, marked};
 
-/// Bytes of the first of an example's files that its rule points at; `None` where the example does not mark them.
-pub fn marked(example: &Example) -> Option<Range<usize>> {
-    let mark = example.marked()?;
-    match example {
-        Example::Expression(_) | Example::Statements(_) | Example::Long(..) => {
-            // The code stands in a JSON text, where some characters are written as two.
-            let code = example.text();
-            let (_, file) = files(example).into_iter().next()?;
-            let file = String::from_utf8(file).ok()?;
-            let json = |text: &str| Value::from(text).to_string();
-            let start = file.find(&json(&code))?;
-            let place = |at: usize| Some(start + json(code.get(..at)?).len() - 1);
-            Some(place(mark.start)?..place(mark.end)?)
+#[cfg(feature = "docs")]
+mod files {
+    use super::MODEL;
+    use labspec_finding::Example;
+    use serde_json::{Value, json};
+    use std::ops::Range;
+
+    /// An example as files, by their names; the first is the one to check. A name that ends with `/` is a folder.
+    pub fn files(example: &Example) -> Vec<(String, Vec<u8>)> {
+        let lab = match example {
+            Example::Expression(_) | Example::Long(..) => {
+                json!({"xml": MODEL, "readouts": [{"label": "shown", "expr": example.text()}]})
+            }
+            Example::Statements(_) => json!({"xml": MODEL, "stopAt": 0.1, "controller": example.text()}),
+            Example::Files(files) => {
+                let others = files.iter().skip(1).map(|(name, bytes)| ((*name).to_string(), bytes.to_vec()));
+                return std::iter::once((example.name().to_string(), example.bytes()))
+                    .chain(others)
+                    .collect();
+            }
+            _ => return vec![(example.name().to_string(), example.bytes())],
+        };
+        vec![(example.name().to_string(), format!("```lab simlab\n{lab}\n```\n").into_bytes())]
+    }
+
+    /// Bytes of the first of an example's files that its rule points at; `None` where the example does not mark them.
+    pub fn marked(example: &Example) -> Option<Range<usize>> {
+        let mark = example.marked()?;
+        match example {
+            Example::Expression(_) | Example::Statements(_) | Example::Long(..) => {
+                // The code stands in a JSON text, where some characters are written as two.
+                let code = example.text();
+                let (_, file) = files(example).into_iter().next()?;
+                let file = String::from_utf8(file).ok()?;
+                let json = |text: &str| Value::from(text).to_string();
+                let start = file.find(&json(&code))?;
+                let place = |at: usize| Some(start + json(code.get(..at)?).len() - 1);
+                Some(place(mark.start)?..place(mark.end)?)
+            }
+            _ => Some(mark),
         }
-        _ => Some(mark),
     }
 }

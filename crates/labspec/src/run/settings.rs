@@ -6,6 +6,7 @@ use crate::bind::{ControlProgram, Programs, scalar};
 use crate::printable::printable;
 use crate::spec::{Choice, Control, ControlKind, Lab};
 use labspec_expr::Value;
+use labspec_finding::order;
 
 /// How far a value may be from the grid of a slider, in steps: what rounding does to `min + k * step`.
 const ON_GRID: f64 = 1e-9;
@@ -109,7 +110,7 @@ pub fn presses(programs: &Programs, press: &[(String, f64)]) -> Result<Vec<(usiz
             )));
         }
     }
-    list.sort_by(|a, b| a.1.total_cmp(&b.1));
+    order::sort_by(&mut list, |a, b| a.1.total_cmp(&b.1));
     Ok(list)
 }
 

@@ -3,8 +3,8 @@
 use super::is_fixed;
 use crate::dynamics::walk;
 use crate::kinds::wraptype;
-use crate::math::sort::sort;
 use crate::model::Model;
+use labspec_finding::order;
 
 /// `ten_J_rownnz`, `ten_J_rowadr`, `ten_J_colind`, `nJten`, `tendon_treenum` and `tendon_treeid`.
 ///
@@ -66,11 +66,11 @@ fn moving(m: &Model, t: usize) -> Vec<i32> {
         dofs.extend(joints.iter().map(|&j| m.jnt_dofadr[j as usize]));
     } else {
         let mut bodies: Vec<usize> = bodies(m, t).collect();
-        sort(&mut bodies);
+        order::sort_by(&mut bodies, Ord::cmp);
         bodies.dedup();
         dofs.extend(bodies.into_iter().flat_map(|b| walk::moving(m, b)).map(|k| k as i32));
     }
-    sort(&mut dofs);
+    order::sort_by(&mut dofs, Ord::cmp);
     dofs.dedup();
     dofs
 }

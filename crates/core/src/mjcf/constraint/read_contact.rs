@@ -1,12 +1,12 @@
 //! Explicit contact pairs, and bodies that do not touch.
 
-use crate::math::sort::sort_by_key;
 use crate::mjcf::context::Context;
 use crate::mjcf::gather::listed;
 use crate::mjcf::ids::References;
 use crate::mjcf::rules;
 use crate::mjcf::spec::{BodySpec, ExcludeSpec, PairSpec, SOLIMP, SOLREF};
 use crate::mjcf::text::tree::{Node, name};
+use labspec_finding::order::sort_by_key;
 
 /// All pairs and exclusions, each in the order of their bodies.
 pub(crate) fn contacts(

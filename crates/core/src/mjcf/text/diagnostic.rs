@@ -4,8 +4,8 @@
 //! A model may be written in several files. The passes know one text, in which the files follow each other: a
 //! span is a range of bytes there, and only [`Report::finish`] tells which file it belongs to.
 
-use crate::math::sort::sort_by_key;
 use crate::mjcf::rules::{self, Rule};
+use labspec_finding::order::sort_by_key;
 use labspec_finding::{Finding, Lines, Position, Severity, floor};
 use std::fmt;
 use std::ops::Range;

@@ -5,9 +5,9 @@
 
 use super::diagnostic::nearest;
 use super::xml::{Attribute, Element};
-use crate::math::sort::sort;
 use crate::mjcf::gather::listed;
 use crate::mjcf::schema::{self, INCLUDE, Kind, ROOT};
+use labspec_finding::order;
 
 /// Elements that stand at most once and may be left out of a text; the second one stands in the first.
 const SETTINGS: [(&str, &str); 5] = [
@@ -200,7 +200,7 @@ fn set(list: &mut [Element], at: usize, attribute: &str, value: &str) {
 
 fn no_kind<'k>(kind: &str, kinds: impl Iterator<Item = &'k str>) -> Refusal {
     let mut kinds: Vec<&str> = listed(kinds);
-    sort(&mut kinds);
+    order::sort_by(&mut kinds, Ord::cmp);
     kinds.dedup();
     Refusal {
         message: format!("the model has no element `{kind}`"),

@@ -10,11 +10,11 @@ pub(crate) use cell::Cell;
 pub use cell::{Elem, View, ViewMut};
 pub use field_set::FieldSet;
 
-use crate::math::sort::sort_by;
 use crate::model::bytes::fingerprint;
 use crate::model::fields::{data_fields, model_fields, option_fields, statistic_fields};
 use crate::model::{Fields, Model};
 use cell::Typed;
+use labspec_finding::order::sort_by;
 use std::sync::LazyLock;
 
 /// The struct that a field belongs to.

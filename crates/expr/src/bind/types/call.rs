@@ -14,6 +14,7 @@ use crate::rules;
 use crate::schema::{FunctionInfo, Help, Param, signature};
 use crate::types::{CollectionId, FunctionId, ObjectId, Type};
 use crate::value::Value;
+use labspec_finding::order;
 use labspec_finding::{Finding, Span};
 
 /// Functions of an angle.
@@ -377,7 +378,7 @@ impl<'a> Binder<'a> {
                     Some((n.as_str().into(), Value::Number(f64::from(self.schema.lookup(collection, n)?.0))))
                 };
                 let mut of: Vec<_> = names.iter().filter_map(id).collect();
-                of.sort_by(|a: &(std::sync::Arc<str>, Value), b| a.0.cmp(&b.0));
+                order::sort_by(&mut of, |a: &(std::sync::Arc<str>, Value), b| a.0.cmp(&b.0));
                 let picks = MemberTable { noun, of, scalar: false };
                 Ok(Ir::new(IrKind::Pick(picks.into(), Box::new(name)), Type::Number, arg.span))
             }

@@ -1,5 +1,6 @@
 //! Members of values, and of objects whose name is computed while running.
 
+use labspec_finding::order;
 use std::sync::Arc;
 
 use super::binder::{Binder, Entity, MethodReceiver};
@@ -188,7 +189,7 @@ impl<'a> Binder<'a> {
                 self.show(field);
             }
         }
-        of.sort_by(|a, b| a.0.cmp(&b.0));
+        order::sort_by(&mut of, |a, b| a.0.cmp(&b.0));
         of.dedup_by(|a, b| a.0 == b.0);
         let ty = match of.first() {
             Some((_, Value::View(_))) if scalar => Type::Number,

@@ -1,6 +1,7 @@
 //! What the types pass knows of the parts of a text when it is done: what the lints look at. Parts of written methods, which
 //! nobody wrote here, are left out.
 
+use labspec_finding::order;
 use std::collections::BTreeSet;
 
 use crate::ir::{Index, Ir, IrKind};
@@ -65,7 +66,7 @@ fn element(ir: &Ir) -> Option<(FieldKey, usize)> {
 impl TypedText {
     /// All is known.
     pub(super) fn sort(&mut self) {
-        self.shapes.sort_by_key(|(span, _)| *span);
+        order::sort_by_key(&mut self.shapes, |(span, _)| *span);
     }
 
     /// What is known of the expression at a place.

@@ -3,18 +3,19 @@
 use super::plot::DIGITS;
 use super::{Absent, Family, Key, Object, PairHalf, Together, Type, Word, key};
 use crate::spec::Form;
+use labspec_finding::docs;
 
 static TYPES: [Word; 3] = [
-    Word { text: "slider", doc: "a number between two ends" },
-    Word { text: "select", doc: "one of several values" },
-    Word { text: "button", doc: "statements that run when a student presses it" },
+    Word { text: "slider", doc: docs("a number between two ends") },
+    Word { text: "select", doc: docs("one of several values") },
+    Word { text: "button", doc: docs("statements that run when a student presses it") },
 ];
 
 /// A slider, a select or a button.
 pub static CONTROL: Family = Family {
     name: "control",
     what: "a control",
-    doc: "What a student can change.",
+    doc: docs("What a student can change."),
     key: "type",
     words: &TYPES,
     objects: &[&SLIDER, &SELECT, &BUTTON],
@@ -64,7 +65,7 @@ const EFFECT: &[Together] =
 pub static SLIDER: Object = Object {
     name: "slider",
     what: "a slider",
-    doc: "A number between two ends.",
+    doc: docs("A number between two ends."),
     tag: Some(("type", "slider")),
     minimal: r#"{"label": "gravity", "min": -20, "max": 0, "value": -9.81, "set": "model.opt.gravity[2]"}"#,
     keys: &[
@@ -103,7 +104,7 @@ static CHOICE: Type = Type::Pair(&CHOICE_PARTS);
 pub static SELECT: Object = Object {
     name: "select",
     what: "a select",
-    doc: "One of several values, chosen by its text.",
+    doc: docs("One of several values, chosen by its text."),
     tag: Some(("type", "select")),
     minimal: r#"{"type": "select", "label": "integrator", "options": [["Euler", 0], ["RK4", 1]], "value": 0, "set": "model.opt.integrator"}"#,
     keys: &[
@@ -132,12 +133,12 @@ pub static SELECT: Object = Object {
 pub static BUTTON: Object = Object {
     name: "button",
     what: "a button",
-    doc: "Statements that run whenever a student presses it. The simulation is not reset; `mj_forward` follows.",
+    doc: docs("Statements that run whenever a student presses it. The simulation is not reset; `mj_forward` follows."),
     tag: Some(("type", "button")),
     minimal: r#"{"type": "button", "label": "Push", "run": "data.joint('ball').qvel[0] = 1"}"#,
     keys: &[
         Key { example: r#""button""#, ..TYPE }.must(""),
-        Key { example: r#""Push""#, doc: "the text on the button; runs press it by this name", ..LABEL },
+        Key { example: r#""Push""#, doc: docs("the text on the button; runs press it by this name"), ..LABEL },
         key(
             "run",
             Type::Code(Form::Statements),

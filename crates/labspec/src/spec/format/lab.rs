@@ -3,17 +3,18 @@
 use super::lint::lint_key;
 use super::{Absent, CONTROL, Key, Named, Object, PLOT, READOUT, Together, Type, VERIFY, Word, key};
 use crate::spec::Form;
+use labspec_finding::docs;
 
 /// What can be drawn over the scene.
 pub static OVERLAYS: [Word; 8] = [
-    Word { text: "frames", doc: "coordinate frames" },
-    Word { text: "joints", doc: "joints" },
-    Word { text: "contacts", doc: "the points of contact" },
-    Word { text: "forces", doc: "the contact forces; `forceScale` sets their length" },
-    Word { text: "com", doc: "centres of mass" },
-    Word { text: "sites", doc: "sites" },
-    Word { text: "cameras", doc: "cameras" },
-    Word { text: "shadows", doc: "shadows" },
+    Word { text: "frames", doc: docs("coordinate frames") },
+    Word { text: "joints", doc: docs("joints") },
+    Word { text: "contacts", doc: docs("the points of contact") },
+    Word { text: "forces", doc: docs("the contact forces; `forceScale` sets their length") },
+    Word { text: "com", doc: docs("centres of mass") },
+    Word { text: "sites", doc: docs("sites") },
+    Word { text: "cameras", doc: docs("cameras") },
+    Word { text: "shadows", doc: docs("shadows") },
 ];
 
 static OVERLAY: Type = Type::Words(&OVERLAYS);
@@ -25,7 +26,9 @@ static NUMBER: Type = Type::Number;
 /// What a lab can be expected to do.
 static EXPECTED: [Word; 1] = [Word {
     text: "breaks",
-    doc: "the simulation meets a bad number or gains energy without a source, and the lab shows this on purpose",
+    doc: docs(
+        "the simulation meets a bad number or gains energy without a source, and the lab shows this on purpose",
+    ),
 }];
 
 /// `verify`, on a lab and on a question. (A function: a constant may not lead back to itself.)
@@ -42,7 +45,7 @@ pub(super) const fn verify_key() -> Key {
 pub static LAB: Object = Object {
     name: "lab",
     what: "a lab",
-    doc: "A model, the controls for a student, and what the page displays of it.",
+    doc: docs("A model, the controls for a student, and what the page displays of it."),
     tag: None,
     minimal: r#"{"model": "fall"}"#,
     keys: &[
@@ -178,7 +181,9 @@ pub static LAB: Object = Object {
 pub static CAMERA: Object = Object {
     name: "camera",
     what: "a camera",
-    doc: "The view of the scene. The camera looks at the target from a distance, in a direction given by two angles.",
+    doc: docs(
+        "The view of the scene. The camera looks at the target from a distance, in a direction given by two angles.",
+    ),
     tag: None,
     minimal: "{}",
     keys: &[

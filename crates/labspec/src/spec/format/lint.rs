@@ -1,6 +1,7 @@
 //! What an author has looked at and wants to keep as it is.
 
 use super::{Key, Object, Type, key};
+use labspec_finding::docs;
 
 static CODE: Type = Type::Text;
 
@@ -18,7 +19,9 @@ pub(super) const fn lint_key() -> Key {
 pub static LINT: Object = Object {
     name: "lint",
     what: "a lint object",
-    doc: "Findings to suppress for the object that carries it. Errors cannot be suppressed. In prose, a comment before a block does the same: `<!-- labspec allow CODE: reason -->`.",
+    doc: docs(
+        "Findings to suppress for the object that carries it. Errors cannot be suppressed. In prose, a comment before a block does the same: `<!-- labspec allow CODE: reason -->`.",
+    ),
     tag: None,
     minimal: r#"{"allow": ["duplicate-readout"], "why": "both are read in the text"}"#,
     keys: &[

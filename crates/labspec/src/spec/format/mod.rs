@@ -33,6 +33,7 @@ pub use schema::{Root, schema};
 pub use verify::{CLOSED_FORM, COLUMN, FIND, RUN, RUN_LENGTH, SPAN, VERIFY};
 
 use super::Form;
+use labspec_finding::docs;
 
 /// An object of the format.
 #[derive(Debug)]
@@ -251,8 +252,8 @@ const fn key(name: &'static str, of: Type, doc: &'static str, example: &'static 
         },
         limits: Limits { above: None, least: None, most: None },
         items: 0,
-        doc,
-        example,
+        doc: docs(doc),
+        example: docs(example),
         since: FIRST,
     }
 }

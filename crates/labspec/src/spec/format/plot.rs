@@ -2,6 +2,7 @@
 
 use super::{Absent, Key, Object, Type, key};
 use crate::spec::Form;
+use labspec_finding::docs;
 
 /// Most decimals that a number is printed with: a double has 17 significant digits.
 pub const MAX_DIGITS: u32 = 17;
@@ -18,7 +19,7 @@ static ONE_REF_LINE: Type = Type::Object(&REF_LINE);
 pub static PLOT: Object = Object {
     name: "plot",
     what: "a plot",
-    doc: "Curves over time.",
+    doc: docs("Curves over time."),
     tag: None,
     minimal: r#"{"traces": [{"label": "height (m)", "expr": "data.joint('ball').qpos[2]"}]}"#,
     keys: &[
@@ -59,7 +60,7 @@ pub static PLOT: Object = Object {
 pub static TRACE: Object = Object {
     name: "trace",
     what: "a trace",
-    doc: "One curve of a plot.",
+    doc: docs("One curve of a plot."),
     tag: None,
     minimal: r#"{"label": "height (m)", "expr": "data.joint('ball').qpos[2]"}"#,
     keys: &[
@@ -86,7 +87,7 @@ pub static TRACE: Object = Object {
 pub static REF_LINE: Object = Object {
     name: "refLine",
     what: "a reference line",
-    doc: "A horizontal line in a plot.",
+    doc: docs("A horizontal line in a plot."),
     tag: None,
     minimal: r#"{"y": 2}"#,
     keys: &[
@@ -101,7 +102,7 @@ pub static REF_LINE: Object = Object {
 pub static READOUT: Object = Object {
     name: "readout",
     what: "a readout",
-    doc: "A value displayed as text.",
+    doc: docs("A value displayed as text."),
     tag: None,
     minimal: r#"{"label": "time (s)", "expr": "data.time"}"#,
     keys: &[

@@ -3,21 +3,22 @@
 use super::lab::verify_key;
 use super::lint::lint_key;
 use super::{Absent, Family, Key, LAB, Object, Type, Word, key};
+use labspec_finding::docs;
 
 static KINDS: [Word; 6] = [
-    Word { text: "mcq", doc: "one of several options" },
-    Word { text: "debug", doc: "the same, about a mistake that the student must find" },
-    Word { text: "predict", doc: "the same, before a simulation shows the correct answer" },
-    Word { text: "numeric", doc: "a number, correct within a tolerance" },
-    Word { text: "open", doc: "a text, which is not graded" },
-    Word { text: "code", doc: "a program, which is not graded" },
+    Word { text: "mcq", doc: docs("one of several options") },
+    Word { text: "debug", doc: docs("the same, about a mistake that the student must find") },
+    Word { text: "predict", doc: docs("the same, before a simulation shows the correct answer") },
+    Word { text: "numeric", doc: docs("a number, correct within a tolerance") },
+    Word { text: "open", doc: docs("a text, which is not graded") },
+    Word { text: "code", doc: docs("a program, which is not graded") },
 ];
 
 /// A question of any kind.
 pub static QUESTION: Family = Family {
     name: "question",
     what: "a question",
-    doc: "What a quiz asks.",
+    doc: docs("What a quiz asks."),
     key: "kind",
     words: &KINDS,
     objects: &[&MCQ, &DEBUG, &PREDICT, &NUMERIC, &OPEN, &CODE],
@@ -30,7 +31,7 @@ static HTML: Type = Type::Html;
 pub static QUIZ: Object = Object {
     name: "quiz",
     what: "a quiz",
-    doc: "Questions with answers.",
+    doc: docs("Questions with answers."),
     tag: None,
     minimal: r#"{"id": "fall", "questions": [{"q": "Does mass matter?", "options": ["yes", "no"], "answer": 1}]}"#,
     keys: &[
@@ -82,7 +83,7 @@ const ANSWER: Key = key("answer", Type::Whole, "the index of the correct option,
 pub static MCQ: Object = Object {
     name: "mcq",
     what: "a question of kind mcq",
-    doc: "The student chooses one of several options and has one try.",
+    doc: docs("The student chooses one of several options and has one try."),
     tag: Some(("kind", "mcq")),
     minimal: r#"{"q": "How fast is the ball after 1 s?", "options": ["about 5 m/s", "about 10 m/s", "about 20 m/s"], "answer": 1}"#,
     keys: &[
@@ -102,7 +103,9 @@ pub static MCQ: Object = Object {
 pub static DEBUG: Object = Object {
     name: "debug",
     what: "a question of kind debug",
-    doc: "As `mcq`, about a mistake: a listing, a model or a plot in which the student finds the fault.",
+    doc: docs(
+        "As `mcq`, about a mistake: a listing, a model or a plot in which the student finds the fault.",
+    ),
     tag: Some(("kind", "debug")),
     minimal: r#"{"kind": "debug", "q": "The ball rises. What is wrong?", "options": ["gravity is positive", "the mass is too large"], "answer": 0}"#,
     keys: &[
@@ -122,7 +125,7 @@ pub static DEBUG: Object = Object {
 pub static PREDICT: Object = Object {
     name: "predict",
     what: "a question of kind predict",
-    doc: "As `mcq`; after the student chooses, a lab shows what happens.",
+    doc: docs("As `mcq`; after the student chooses, a lab shows what happens."),
     tag: Some(("kind", "predict")),
     minimal: r#"{"kind": "predict", "q": "How fast is the ball after 1 s?", "options": ["about 5 m/s", "about 10 m/s"], "answer": 1, "sim": {"model": "fall"}}"#,
     keys: &[
@@ -152,7 +155,7 @@ pub const TOLERANCE: f64 = 0.02;
 pub static NUMERIC: Object = Object {
     name: "numeric",
     what: "a question of kind numeric",
-    doc: "The student types a number and can try again.",
+    doc: docs("The student types a number and can try again."),
     tag: Some(("kind", "numeric")),
     minimal: r#"{"kind": "numeric", "q": "How fast is the ball after 1 s, in m/s?", "answer": 9.81}"#,
     keys: &[
@@ -188,7 +191,7 @@ const REFERENCE: Key = key(
 pub static OPEN: Object = Object {
     name: "open",
     what: "an open question",
-    doc: "The student writes a text and compares it with the reference. It is not graded.",
+    doc: docs("The student writes a text and compares it with the reference. It is not graded."),
     tag: Some(("kind", "open")),
     minimal: r#"{"kind": "open", "q": "Why does mass not matter?"}"#,
     keys: &[
@@ -207,7 +210,7 @@ pub static OPEN: Object = Object {
 pub static CODE: Object = Object {
     name: "code",
     what: "a question of kind code",
-    doc: "As `open`, with a program instead of the text.",
+    doc: docs("As `open`, with a program instead of the text."),
     tag: Some(("kind", "code")),
     minimal: r#"{"kind": "code", "q": "Print the height of the ball after every step."}"#,
     keys: &[

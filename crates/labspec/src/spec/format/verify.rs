@@ -2,6 +2,7 @@
 
 use super::{Absent, LAB, Map, Object, PairHalf, Together, Type, Word, key};
 use crate::spec::Form;
+use labspec_finding::docs;
 
 /// How long a run is where nothing says it, in s.
 pub const RUN_LENGTH: f64 = 2.0;
@@ -55,7 +56,7 @@ static PRESS: Type = Type::Pair(&PRESSED);
 pub static VERIFY: Object = Object {
     name: "verify",
     what: "a verify object",
-    doc: "How the checker tests the claims of the text: runs of a lab, measures of every run, and conditions that must hold. It can also be in a comment before a block of the text, `<!-- labspec verify {…} -->`, and then it is about this block. The guide is [verify.md](../verify.md).",
+    doc: docs("How the checker tests the claims of the text: runs of a lab, measures of every run, and conditions that must hold. It can also be in a comment before a block of the text, `<!-- labspec verify {…} -->`, and then it is about this block. The guide is [verify.md](../verify.md)."),
     tag: None,
     minimal: r##"{"lab": "#1", "measure": {"speed": "final(-data.joint('ball').qvel[2])"}, "says": [["9.81 m/s", "speed"]]}"##,
     keys: &[
@@ -146,13 +147,13 @@ pub static VERIFY: Object = Object {
 };
 
 static EXPECTED: [Word; 1] =
-    [Word { text: "breaks", doc: "the lesson shows this run breaking, and then it must break" }];
+    [Word { text: "breaks", doc: docs("the lesson shows this run breaking, and then it must break") }];
 
 /// A run.
 pub static RUN: Object = Object {
     name: "run",
     what: "a run",
-    doc: "One run of the lab, with what a student does in it, or a change that the text asks for.",
+    doc: docs("One run of the lab, with what a student does in it, or a change that the text asks for."),
     tag: None,
     minimal: r#"{"until": 1}"#,
     keys: &[
@@ -227,7 +228,7 @@ pub static RUN: Object = Object {
 pub static COLUMN: Object = Object {
     name: "column",
     what: "a column of a table",
-    doc: "The origin of the numbers in a column of a table of the text, or of the number in one cell.",
+    doc: docs("The origin of the numbers in a column of a table of the text, or of the number in one cell."),
     tag: None,
     minimal: r#"{"column": "touchdown (s)", "by": ["height (m)", "fall.value"], "is": "fall.touch"}"#,
     keys: &[
@@ -260,7 +261,7 @@ pub static COLUMN: Object = Object {
 pub static FIND: Object = Object {
     name: "find",
     what: "a search",
-    doc: "The largest or the smallest value for which a condition holds, found by bisection over runs.",
+    doc: docs("The largest or the smallest value for which a condition holds, found by bisection over runs."),
     tag: None,
     minimal: r#"{"largest": "timestep", "from": 0.001, "to": 0.05, "while": "final(data.qpos[2] + 4.905 * data.time ** 2) > initial(data.qpos[2]) - 0.1", "tol": 1e-3}"#,
     keys: &[
@@ -295,7 +296,7 @@ pub static FIND: Object = Object {
 pub static SPAN: Object = Object {
     name: "span",
     what: "a span of values",
-    doc: "Values at equal distances, both ends included.",
+    doc: docs("Values at equal distances, both ends included."),
     tag: None,
     minimal: r#"{"from": 0.2, "to": 2, "count": 5}"#,
     keys: &[
@@ -311,7 +312,7 @@ pub static SPAN: Object = Object {
 pub static CLOSED_FORM: Object = Object {
     name: "closedForm",
     what: "a closed form",
-    doc: "A formula that a trace must follow, with the allowed difference.",
+    doc: docs("A formula that a trace must follow, with the allowed difference."),
     tag: None,
     minimal: r#"{"is": "2 - 0.5 * 9.81 * data.time ** 2", "tol": 0.01}"#,
     keys: &[

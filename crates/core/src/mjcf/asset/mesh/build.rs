@@ -4,11 +4,11 @@ use super::bulk;
 use super::bulk::Body;
 use super::bulk::Mass;
 use super::normals;
-use crate::math::sort::sort;
 use crate::math::{IDENTITY, MINVAL, Quat, Vec3, mat_t_mul_vec, quat_normalize, quat_to_mat, sub};
 use crate::mjcf::asset::mesh::{Flat, Hull, Mesh, Problem, Raw, triangle};
 use crate::mjcf::body::inertia::principal_to;
 use crate::mjcf::gather::listed;
+use labspec_finding::order;
 
 /// How well the axes of a mesh are found, and how far apart moments are that are not equal: as a part of the largest element
 /// of its inertia. MuJoCo 3.14.0 was measured: boxes that are turned, and whose sides differ, by little.
@@ -153,7 +153,7 @@ fn check_sense(raw: &Raw) -> Result<(), Problem> {
     let solid = |f: &&[i32; 3]| triangle(f.map(corner)).0 > libm::sqrt(MINVAL);
     let mut edges: Vec<(i32, i32)> =
         listed(raw.face.iter().filter(solid).flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]));
-    sort(&mut edges);
+    order::sort_by(&mut edges, Ord::cmp);
     match edges.windows(2).find(|pair| pair[0] == pair[1]) {
         None => Ok(()),
         Some(pair) => Err(Problem::new(

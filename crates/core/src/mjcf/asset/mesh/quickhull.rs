@@ -5,8 +5,8 @@
 //! coplanar, and no cloud, however degenerate, can lead the algorithm astray. (A hull does not change when an axis is
 //! stretched, so each axis has a grid of its own.)
 
-use crate::math::sort::sort;
 use crate::mjcf::gather::listed;
+use labspec_finding::order;
 use std::collections::{BTreeMap, BinaryHeap};
 
 use crate::math::Vec3;
@@ -54,7 +54,7 @@ impl Hull {
         let place = |v: i32| self.vertex.partition_point(|&x| (x as i32) < v) as i32;
         let mut edges: Vec<(i32, i32)> =
             listed(self.face.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]));
-        sort(&mut edges);
+        order::sort_by(&mut edges, Ord::cmp);
         let mut graph = vec![self.vertex.len() as i32, self.face.len() as i32];
         let (mut starts, mut lists) = (Vec::new(), Vec::with_capacity(self.vertex.len() + edges.len()));
         let mut rest = edges.as_slice();
@@ -349,7 +349,7 @@ impl Growing {
                 }
             }
         }
-        sort(&mut face);
+        order::sort_by(&mut face, Ord::cmp);
         let vertex = listed((0..meet.len() as u32).filter(|&v| is_corner(v)));
         Hull { vertex, face }
     }
