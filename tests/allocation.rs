@@ -21,9 +21,9 @@ use std::fmt::Write;
 
 /// A demand that reads the coordinates only.
 fn coordinates() -> AccessSet {
-    let mut demand = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
-    demand.reads.insert(field(Object::Data, "qpos").unwrap());
-    demand
+    let mut access = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+    access.reads.insert(field(Object::Data, "qpos").unwrap());
+    access
 }
 
 /// Steps a model from its start, once to warm up and once to count, with the full pipeline, with a plan for

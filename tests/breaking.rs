@@ -4,7 +4,7 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::needs::needs;
-use crate::program::{run_in, shown_in, snapshot};
+use crate::program::{run_in, snapshot, stdout_in};
 use crate::support::workspace;
 use serde_json::Value;
 use std::path::Path;
@@ -15,9 +15,9 @@ fn lessons() -> std::path::PathBuf {
 
 #[test]
 fn run_a_lab_that_breaks() {
-    let told = |lab: &str| shown_in(&lessons(), &["run", lab]);
-    snapshot("run-diverges", told("diverges.md"));
-    snapshot("run-grows", ["grows.md#1", "grows.md#2", "grows.md#3"].map(told).join("\n"));
+    let stdout_of_lab = |lab: &str| stdout_in(&lessons(), &["run", lab]);
+    snapshot("run-diverges", stdout_of_lab("diverges.md"));
+    snapshot("run-grows", ["grows.md#1", "grows.md#2", "grows.md#3"].map(stdout_of_lab).join("\n"));
 }
 
 #[test]
@@ -33,7 +33,7 @@ fn run_a_lab_that_breaks_for_programs() {
 #[test]
 fn check_labs_that_break() {
     for name in ["diverges", "grows", "stiff"] {
-        snapshot(&format!("check-{name}"), shown_in(&lessons(), &["check", &format!("{name}.md")]));
+        snapshot(&format!("check-{name}"), stdout_in(&lessons(), &["check", &format!("{name}.md")]));
     }
 }
 
@@ -59,13 +59,13 @@ fn no_lab_that_is_well_is_said_to_go_wrong() {
         return;
     }
     for folder in ["corpus/labs", "corpus/quizzes", "lesson-0.1"] {
-        let told = grows(found(&shared, &[folder, "--models", "corpus/models"]));
+        let reported = grows(found(&shared, &[folder, "--models", "corpus/models"]));
         // Two balls at the lower end of the damping ratio: 0.625 J before they meet, 1.376 J after it, in the library as here
         // (`golden/stability_labs.json`, physics-lab_04).
-        let known = |message: &str| message.contains("\"contact damping ratio\" at 0.02");
-        let other: Vec<_> = told.iter().filter(|(_, message)| !known(message)).collect();
+        let is_expected = |message: &str| message.contains("\"contact damping ratio\" at 0.02");
+        let other: Vec<_> = reported.iter().filter(|(_, message)| !is_expected(message)).collect();
         assert!(other.is_empty(), "{folder}: {other:?}");
-        assert_eq!(told.is_empty(), folder != "corpus/labs");
+        assert_eq!(reported.is_empty(), folder != "corpus/labs");
     }
 }
 

@@ -30,7 +30,7 @@ const PENDULUM: &str = "<mujoco><option timestep='.01'/><worldbody><body><joint 
 const THROWS: &str = "mj.mj_contactForce(model, data, 0, [0, 0, 0, 0, 0, 0])";
 
 /// The check of a lab over a scene with more keys.
-fn look(xml: &str, more: Value) -> Checked {
+fn check_lab(xml: &str, more: Value) -> Checked {
     let mut lab = json!({"xml": xml});
     for (key, value) in more.as_object().unwrap() {
         lab[key] = value.clone();
@@ -48,7 +48,7 @@ fn tried(checked: &Checked) -> Tried {
     checked.labs[0].tried.clone().unwrap()
 }
 
-fn shown(checked: &Checked) -> Vec<(&'static str, String)> {
+fn messages(checked: &Checked) -> Vec<(&'static str, String)> {
     checked.findings.iter().map(|f| (f.code, f.message.clone())).collect()
 }
 
@@ -59,42 +59,43 @@ fn count(checked: &Checked, code: &str) -> usize {
 #[test]
 fn the_first_throw_of_a_controller_ends_the_run() {
     for controller in ["for (;;) {}", "let n = 1; while (n > 0) n++", THROWS] {
-        let checked = look(
+        let checked = check_lab(
             PENDULUM,
             json!({"controller": controller, "controls": [{"label": "g", "set": "model.opt.gravity[2]", "min": -10, "max": -1, "value": -9}]}),
         );
         let t = tried(&checked);
         assert_eq!((t.runs, t.skipped, t.covered, t.broke), (1, 2, 0.0, true), "{controller}: {t:?}");
         assert_eq!(t.ended.as_deref(), Some("frozen after 0 of 10 s"));
-        assert_eq!(codes(&checked).len(), 1, "{:?}", shown(&checked));
+        assert_eq!(codes(&checked).len(), 1, "{:?}", messages(&checked));
     }
     // Later, too, and what was covered is said.
-    let checked = look(PENDULUM, json!({"controller": format!("if (data.time > 3.995) {{ {THROWS} }}")}));
+    let checked =
+        check_lab(PENDULUM, json!({"controller": format!("if (data.time > 3.995) {{ {THROWS} }}")}));
     assert_eq!(tried(&checked).ended.as_deref(), Some("frozen after 4 of 10 s"));
 }
 
 #[test]
 fn a_setup_that_does_not_end() {
-    let checked = look(
+    let checked = check_lab(
         PENDULUM,
         json!({"setup": "let n = 1; while (n > 0) n++", "readouts": [{"label": "t", "expr": "data.time"}]}),
     );
     assert_eq!(tried(&checked).covered, 0.0);
-    assert_eq!(codes(&checked), ["too-many-steps"], "{:?}", shown(&checked));
+    assert_eq!(codes(&checked), ["too-many-steps"], "{:?}", messages(&checked));
 }
 
 #[test]
 fn steps_in_programs_cost_what_steps_cost() {
     let steps = "for (let i = 0; i < 1e6; i++) mj.mj_step(model, data)";
-    let checked = look(PENDULUM, json!({"controller": steps}));
-    assert_eq!(codes(&checked), ["too-many-steps"], "{:?}", shown(&checked));
-    let checked = look(PENDULUM, json!({"controls": [{"type": "button", "label": "On", "run": steps}]}));
-    assert_eq!(count(&checked, "too-many-steps"), 1, "{:?}", shown(&checked));
+    let checked = check_lab(PENDULUM, json!({"controller": steps}));
+    assert_eq!(codes(&checked), ["too-many-steps"], "{:?}", messages(&checked));
+    let checked = check_lab(PENDULUM, json!({"controls": [{"type": "button", "label": "On", "run": steps}]}));
+    assert_eq!(count(&checked, "too-many-steps"), 1, "{:?}", messages(&checked));
     // As it stands, with the button, after a touch, and for long.
     assert_eq!((tried(&checked).runs, tried(&checked).covered), (4, 10.0));
     let readout = format!("(() => {{ {steps}; return data.time }})()");
-    let checked = look(PENDULUM, json!({"readouts": [{"label": "t", "expr": readout}]}));
-    assert_eq!(count(&checked, "too-many-steps"), 1, "{:?}", shown(&checked));
+    let checked = check_lab(PENDULUM, json!({"readouts": [{"label": "t", "expr": readout}]}));
+    assert_eq!(count(&checked, "too-many-steps"), 1, "{:?}", messages(&checked));
     // It is not tried again, so the run goes on.
     assert_eq!(tried(&checked).covered, 10.0);
 }
@@ -104,8 +105,8 @@ fn ten_traces_that_do_not_end() {
     let readouts: Vec<Value> = (0..10)
         .map(|i| json!({"label": i.to_string(), "expr": format!("(() => {{ let n = {i}; while (n >= 0) n++; return n }})()")}))
         .collect();
-    let checked = look(PENDULUM, json!({"readouts": readouts}));
-    assert_eq!(count(&checked, "too-many-steps"), 10, "{:?}", shown(&checked));
+    let checked = check_lab(PENDULUM, json!({"readouts": readouts}));
+    assert_eq!(count(&checked, "too-many-steps"), 10, "{:?}", messages(&checked));
     assert_eq!((tried(&checked).runs, tried(&checked).covered), (1, 10.0));
 }
 
@@ -116,11 +117,11 @@ fn a_hundred_sliders_with_a_slow_loop() {
             .map(|i| json!({"label": i.to_string(), "min": 0, "max": 1, "value": 0, "apply": format!("let s = value; for (let i = 0; i < {turns}; i++) s += value; ctx.s{i} = s")}))
             .collect()
     };
-    let checked = look(PENDULUM, json!({"controls": controls("2e5")}));
+    let checked = check_lab(PENDULUM, json!({"controls": controls("2e5")}));
     let t = tried(&checked);
     assert!(t.runs > 1 && t.runs + t.skipped == 201, "{t:?}");
     // Each of these alone is too much; the run does not come to its start.
-    let checked = look(PENDULUM, json!({"controls": controls("1e9")}));
+    let checked = check_lab(PENDULUM, json!({"controls": controls("1e9")}));
     let t = tried(&checked);
     assert_eq!((t.runs, t.skipped, t.covered), (1, 200, 0.0), "{t:?}");
 }
@@ -132,11 +133,11 @@ fn two_thousand_balls_in_one_place() {
         let _ = write!(xml, "<body pos='0 0 {}'><freejoint/><geom size='.1'/></body>", f64::from(i) * 1e-6);
     }
     xml.push_str("</worldbody></mujoco>");
-    let checked = look(&xml, json!({"stopAt": 20}));
+    let checked = check_lab(&xml, json!({"stopAt": 20}));
     let t = tried(&checked);
     println!("{t:?}");
     assert!(t.covered < 1.0 && t.ended.unwrap().starts_with("first "));
-    assert!(!codes(&checked).contains(&"simulation-diverges"), "{:?}", shown(&checked));
+    assert!(!codes(&checked).contains(&"simulation-diverges"), "{:?}", messages(&checked));
 }
 
 #[test]
@@ -157,7 +158,7 @@ fn a_thousand_sensors_of_four_million_pairs() {
         side("a", 0.0),
         side("b", 5.0)
     );
-    let checked = look(&xml, json!({"readouts": [{"label": "d", "expr": "data.sensordata[0]"}]}));
+    let checked = check_lab(&xml, json!({"readouts": [{"label": "d", "expr": "data.sensordata[0]"}]}));
     let t = tried(&checked);
     // Sensors that look at the same pairs begin with the best distance so far: some steps are made within the budget.
     assert!(t.covered < 0.1, "{t:?}");
@@ -172,7 +173,7 @@ fn a_grid_of_a_million_cells_ends() {
         <geom type='hfield' hfield='grid'/>
         <body pos='0 0 .9'><freejoint/><geom type='ellipsoid' size='600 600 1'/></body>
         </worldbody></mujoco>";
-    let checked = look(xml, json!({"readouts": [{"label": "z", "expr": "data.qpos[2]"}]}));
+    let checked = check_lab(xml, json!({"readouts": [{"label": "z", "expr": "data.qpos[2]"}]}));
     let t = tried(&checked);
     println!("{t:?}");
     assert!(t.covered < 0.1 && t.ended.unwrap().starts_with("first 0"));
@@ -195,12 +196,12 @@ fn iterations_without_number_end() {
         let many = format!(
             "solver='{solver}' tolerance='0' ls_tolerance='0' iterations='1000000000' ls_iterations='1000000000' noslip_iterations='1000000000' noslip_tolerance='0' ccd_iterations='1000000000' sdf_iterations='1000000000'"
         );
-        let t = tried(&look(&boxes(&many), json!({})));
+        let t = tried(&check_lab(&boxes(&many), json!({})));
         println!("{solver} {t:?}");
         assert!(t.covered == t.wanted || t.ended.unwrap().starts_with("first "), "{solver}");
     }
     let setup = "model.opt.tolerance = 0; model.opt.noslip_tolerance = 0; model.opt.noslip_iterations = 1e9; model.opt.iterations = 1e9";
-    let t = tried(&look(&boxes(""), json!({"setup": setup})));
+    let t = tried(&check_lab(&boxes(""), json!({"setup": setup})));
     assert!(t.covered == t.wanted || t.ended.unwrap().starts_with("first "));
 }
 
@@ -221,12 +222,12 @@ fn a_lab_is_run_for_as_long_as_it_is_looked_at() {
     ] {
         let mut lab = more.clone();
         lab["controller"] = late(t);
-        let checked = look(PENDULUM, lab);
+        let checked = check_lab(PENDULUM, lab);
         assert_eq!(
             codes(&checked).contains(&"simulation-diverges"),
             found,
             "{more} {t}: {:?}",
-            shown(&checked)
+            messages(&checked)
         );
         let t = tried(&checked);
         assert_eq!((t.covered, t.ended, t.broke), (t.wanted, None, found), "{more}");
@@ -248,8 +249,8 @@ fn everything_that_is_shown_is_looked_at() {
         (readout("data.time > 1 ? Infinity : 0"), vec![]),
         (trace("data.time"), vec![]),
     ] {
-        let checked = look(PENDULUM, lab.clone());
-        assert_eq!(codes(&checked), expected, "{lab}: {:?}", shown(&checked));
+        let checked = check_lab(PENDULUM, lab.clone());
+        assert_eq!(codes(&checked), expected, "{lab}: {:?}", messages(&checked));
     }
 }
 
@@ -257,22 +258,24 @@ fn everything_that_is_shown_is_looked_at() {
 fn gaps_that_are_meant_are_silent() {
     let trace = json!([{"traces": [{"label": "x", "expr": "ctx.x"}]}]);
     // Until a button is pressed; until a routine has finished, which says so itself.
-    let checked = look(
+    let checked = check_lab(
         PENDULUM,
         json!({"plots": trace, "controls": [{"type": "button", "label": "Go", "run": "ctx.x = data.time"}]}),
     );
-    assert_eq!(codes(&checked), Vec::<&str>::new(), "{:?}", shown(&checked));
-    let checked = look(
+    assert_eq!(codes(&checked), Vec::<&str>::new(), "{:?}", messages(&checked));
+    let checked = check_lab(
         PENDULUM,
         json!({"plots": trace, "setup": "ctx.x = NaN", "controller": "if (data.time > 3) { ctx.x = 1 }"}),
     );
-    assert_eq!(codes(&checked), Vec::<&str>::new(), "{:?}", shown(&checked));
+    assert_eq!(codes(&checked), Vec::<&str>::new(), "{:?}", messages(&checked));
     // A gap that nothing ever fills.
-    let checked = look(PENDULUM, json!({"plots": trace, "controller": "if (data.time > 300) { ctx.x = 1 }"}));
-    assert_eq!(codes(&checked), ["shows-nan"], "{:?}", shown(&checked));
+    let checked =
+        check_lab(PENDULUM, json!({"plots": trace, "controller": "if (data.time > 300) { ctx.x = 1 }"}));
+    assert_eq!(codes(&checked), ["shows-nan"], "{:?}", messages(&checked));
     // No number that is computed.
-    let checked = look(PENDULUM, json!({"plots": trace, "controller": "ctx.x = Math.sqrt(-1 - data.time)"}));
-    assert_eq!(codes(&checked), ["shows-nan"], "{:?}", shown(&checked));
+    let checked =
+        check_lab(PENDULUM, json!({"plots": trace, "controller": "ctx.x = Math.sqrt(-1 - data.time)"}));
+    assert_eq!(codes(&checked), ["shows-nan"], "{:?}", messages(&checked));
 }
 
 #[test]
@@ -281,17 +284,18 @@ fn with_each_setting_of_a_control() {
         "controls": [{"label": "k", "param": "k", "min": 0, "max": 2, "step": 1, "value": 1}],
         "readouts": [{"label": "x", "expr": "1 / ctx.k"}],
     });
-    let checked = look(PENDULUM, lab);
+    let checked = check_lab(PENDULUM, lab);
     assert_eq!(codes(&checked), ["shows-infinite"]);
-    assert!(checked.findings[0].message.contains("with \"k\" at 0"), "{:?}", shown(&checked));
+    assert!(checked.findings[0].message.contains("with \"k\" at 0"), "{:?}", messages(&checked));
     // As it stands and at both ends; after a touch, moved while it runs, and for long.
     assert_eq!((tried(&checked).runs, tried(&checked).skipped), (6, 0));
 }
 
 #[test]
 fn every_warning_of_the_engine_is_a_finding() {
-    let checked = look(PENDULUM, json!({"setup": "model.body_mass[1] = -1; model.body_inertia.fill(-1)"}));
-    assert!(codes(&checked).contains(&"engine-warning"), "{:?}", shown(&checked));
+    let checked =
+        check_lab(PENDULUM, json!({"setup": "model.body_mass[1] = -1; model.body_inertia.fill(-1)"}));
+    assert!(codes(&checked).contains(&"engine-warning"), "{:?}", messages(&checked));
     assert!(tried(&checked).broke);
 }
 
@@ -328,7 +332,7 @@ fn real_labs_are_covered() {
             }
             let new = ["shows-nan", "shows-infinite", "text-in-plot", "engine-warning", "stiff-for-timestep"];
             let found =
-                shown(&checked).into_iter().filter(|(code, _)| new.contains(code)).collect::<Vec<_>>();
+                messages(&checked).into_iter().filter(|(code, _)| new.contains(code)).collect::<Vec<_>>();
             assert_eq!(found, [], "{}", path.display());
         }
     }

@@ -3,7 +3,7 @@
 #![allow(clippy::panic, clippy::unwrap_used)]
 
 use crate::needs::needs;
-use crate::program::{CLEAN, Done, FALL, folder, json_of, keys, program, run, run_in, shown, snapshot};
+use crate::program::{CLEAN, Done, FALL, folder, json_of, keys, program, run, run_in, snapshot, stdout_of};
 use crate::support::workspace;
 use serde_json::{Value, json};
 use std::io::Read;
@@ -13,13 +13,13 @@ use std::process::Stdio;
 #[test]
 fn check_a_clean_lesson() {
     assert_eq!(run(&["check", "clean.md"]).code, 0);
-    snapshot("check-clean", shown(&["check", "clean.md"]));
+    snapshot("check-clean", stdout_of(&["check", "clean.md"]));
 }
 
 #[test]
 fn check_a_wrong_lesson() {
     assert_eq!(run(&["check", "wrong.md"]).code, 1);
-    snapshot("check-wrong", shown(&["check", "wrong.md"]));
+    snapshot("check-wrong", stdout_of(&["check", "wrong.md"]));
 }
 
 #[test]
@@ -62,7 +62,7 @@ fn check_the_real_lesson() {
 
 #[test]
 fn check_a_lesson_with_a_broken_model() {
-    snapshot("check-broken-model", shown(&["check", "broken/lesson.md"]));
+    snapshot("check-broken-model", stdout_of(&["check", "broken/lesson.md"]));
 }
 
 #[test]
@@ -112,7 +112,7 @@ fn check_for_programs() {
 
 #[test]
 fn verify_shows_every_measure() {
-    snapshot("verify", shown(&["verify", "clean.md"]));
+    snapshot("verify", stdout_of(&["verify", "clean.md"]));
 }
 
 #[test]
@@ -141,7 +141,7 @@ fn what_cannot_run_says_why() {
         &["record", "models/ball_drop.xml", "--states", "clean.md"],
         &["precision", "models/ball_drop.xml"],
     ] {
-        let text = shown(arguments);
+        let text = stdout_of(arguments);
         assert!(text.contains("\nexit 2\n"), "{text}");
         all.push_str(&text);
         all.push('\n');

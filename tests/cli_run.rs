@@ -3,15 +3,15 @@
 
 #![allow(clippy::unwrap_used)]
 
-use crate::program::{folder, json_of, keys, run, run_in, shown, snapshot};
+use crate::program::{folder, json_of, keys, run, run_in, snapshot, stdout_of};
 use serde_json::{Value, json};
 
 #[test]
 fn run_for_people() {
-    snapshot("run", shown(&["run", "clean.md#1", "--until", "1"]));
-    snapshot("run-set", shown(&["run", "clean.md#1", "--set", "gravity=-1.6", "--press", "Kick@0.5"]));
+    snapshot("run", stdout_of(&["run", "clean.md#1", "--until", "1"]));
+    snapshot("run-set", stdout_of(&["run", "clean.md#1", "--set", "gravity=-1.6", "--press", "Kick@0.5"]));
     // A question's sim, and a model alone.
-    snapshot("run-sim", shown(&["run", "clean.md#drop.1", "--steps", "3"]));
+    snapshot("run-sim", stdout_of(&["run", "clean.md#drop.1", "--steps", "3"]));
 }
 
 #[test]
@@ -95,7 +95,7 @@ fn a_run_that_breaks_is_a_finding() {
 
 #[test]
 fn plan_gives_reasons() {
-    snapshot("plan", shown(&["plan", "fall.json", "--no-run"]));
+    snapshot("plan", stdout_of(&["plan", "fall.json", "--no-run"]));
     let plan = json_of(&["plan", "clean.md#1", "--format", "json"]);
     assert_eq!(keys(&plan)[..5], ["schemaVersion", "report", "reads", "writes", "stages"]);
     assert_eq!(plan["reads"], json!(["time", "qpos", "ncon"]));
@@ -178,7 +178,7 @@ fn a_full_run_is_the_same_run() {
 
 #[test]
 fn precision_against_the_closed_form() {
-    let table = shown(&["precision", "fall.json"]);
+    let table = stdout_of(&["precision", "fall.json"]);
     // Run times, the mark that follows from them and the advice are this machine's.
     let stripped: Vec<String> = table
         .lines()
@@ -195,8 +195,8 @@ fn precision_against_the_closed_form() {
     let report = json_of(&["precision", "fall.json", "--format", "json", "--until", "0.2"]);
     assert_eq!(report["truth"], json!(["closedForm"]));
     // Euler is of first order: the error is g h t / 2.
-    let own = report["rows"].as_array().unwrap().iter().find(|row| row["own"] == true).unwrap();
-    let error = own["errors"][0].as_f64().unwrap();
+    let lab_row = report["rows"].as_array().unwrap().iter().find(|row| row["own"] == true).unwrap();
+    let error = lab_row["errors"][0].as_f64().unwrap();
     assert!((error - 9.81 * 0.002 * 0.2 / 2.0).abs() < 1e-12, "{error}");
 
     let folder = folder();

@@ -6,7 +6,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use crate::needs::needs;
-use crate::recorded::examine;
+use crate::recorded::compare_with_recording;
 use crate::standing::{Exception, Standing};
 use crate::support::{models, read_json, workspace};
 use crate::zoo::ORDER;
@@ -70,14 +70,14 @@ fn every_shared_model_is_as_recorded() {
         return;
     }
     let fresh = ask("conformance.py", &["--states", "8", "--out", "."]);
-    let kept = workspace().join("tests/golden/conformance");
-    let recordings = fresh.as_ref().map_or(kept.as_path(), |folder| folder.path());
+    let stored = workspace().join("tests/golden/conformance");
+    let recordings = fresh.as_ref().map_or(stored.as_path(), |folder| folder.path());
     let mut standing = Standing::default();
     for (kind, folder) in FOLDERS {
         for name in models(&shared.join(folder)) {
             let recording = read_json(&recordings.join(kind).join(format!("{name}.json")));
             let model = shared.join(folder).join(format!("{name}.xml"));
-            standing.add(format!("{kind}/{name}"), examine(&model, &recording));
+            standing.add(format!("{kind}/{name}"), compare_with_recording(&model, &recording));
         }
     }
     assert!(standing.refused() <= MOST_REFUSED, "{} models are refused", standing.refused());
@@ -94,7 +94,7 @@ fn random_models_are_as_the_library_has_them() {
     let mut standing = Standing::default();
     for name in models(folder.path()) {
         let at = |ending: &str| folder.path().join(format!("{name}.{ending}"));
-        standing.add(format!("random {name}"), examine(&at("xml"), &read_json(&at("json"))));
+        standing.add(format!("random {name}"), compare_with_recording(&at("xml"), &read_json(&at("json"))));
     }
     standing.check(None, &[]);
 }

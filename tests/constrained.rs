@@ -101,7 +101,7 @@ fn rounding_of_forces(d: &Data) -> f64 {
     d.efc_force.iter().map(|f| f.abs() * f64::EPSILON).sum()
 }
 
-fn examine(path: &Path, recording: &Value) -> Outcome {
+fn compare_with_recording(path: &Path, recording: &Value) -> Outcome {
     let mut compiled = match xml::compile_file(path) {
         Ok(m) => m,
         Err(Error::File(MjcfFileError::Model { diagnostics, .. })) => {
@@ -159,7 +159,7 @@ fn rows_and_forces_are_those_of_mujoco() {
     let (mut wrong, mut exceptions) = (String::new(), 0);
     for name in models(&folder) {
         let recording = read_json(&folder.join(format!("{name}.json")));
-        match examine(&folder.join(format!("{name}.xml")), &recording) {
+        match compare_with_recording(&folder.join(format!("{name}.xml")), &recording) {
             Outcome::Same { rows, solution } => {
                 println!("{name}: rows {rows:.1e} apart at most, solution {solution:.1e}")
             }
@@ -200,7 +200,7 @@ fn shared_models_with_constraints() {
         for name in models(&shared.join(folder)) {
             let recording = read_json(&recordings.join(kind).join(format!("{name}.json")));
             let model = shared.join(folder).join(format!("{name}.xml"));
-            let outcome = examine(&model, &recording);
+            let outcome = compare_with_recording(&model, &recording);
             if let Ok(m) = xml::compile_file(&model) {
                 let start = &recording["cases"][0]["states"][0]["state"];
                 let path = trajectory(&m, start, &recording["trajectory"], PATH);
@@ -269,9 +269,9 @@ fn shared_models_with_constraints() {
     if std::env::var_os("LABSPEC_BLESS").is_some() {
         std::fs::write(&path, &text).unwrap();
     }
-    let kept = std::fs::read_to_string(&path).unwrap_or_default();
+    let stored = std::fs::read_to_string(&path).unwrap_or_default();
     assert!(
-        kept == text,
+        stored == text,
         "tests/golden/constrained.md is stale: LABSPEC_BLESS=1 cargo test -p labspec-cli constrained"
     );
 }

@@ -19,13 +19,13 @@ use labspec_proposals::trace::{Origin, trace};
 use std::time::Instant;
 
 /// A lesson of the course.
-pub(super) struct Own {
+pub(super) struct CourseLesson {
     pub(super) name: String,
     pub(super) text: String,
 }
 
 /// All lessons, by name.
-pub(super) fn course() -> Vec<Own> {
+pub(super) fn course() -> Vec<CourseLesson> {
     let folder = workspace().join("specs/lessons");
     let mut names: Vec<String> = std::fs::read_dir(folder.as_path())
         .unwrap()
@@ -34,7 +34,8 @@ pub(super) fn course() -> Vec<Own> {
         .collect();
     names.sort();
     assert_eq!(names.len(), 10, "{names:?}");
-    let read = |name: String| Own { text: std::fs::read_to_string(folder.join(&name)).unwrap(), name };
+    let read =
+        |name: String| CourseLesson { text: std::fs::read_to_string(folder.join(&name)).unwrap(), name };
     names.into_iter().map(read).collect()
 }
 
@@ -49,12 +50,13 @@ pub(super) fn checked(name: &str, text: &str, models: &Models, depth: CheckLevel
 
 /// Warnings and errors, and what the settings of the course make an error (`specs/labspec.toml`), each in a line.
 pub(super) fn complaints(checked: &Checked) -> Vec<String> {
-    let told = checked.findings.iter().filter(|f| counts(f));
-    told.map(|f| {
-        let at = checked.lesson.file.position(f.span.start);
-        format!("{}:{}: {}: {}", at.line, at.column, f.code, f.message)
-    })
-    .collect()
+    let counted = checked.findings.iter().filter(|f| counts(f));
+    counted
+        .map(|f| {
+            let at = checked.lesson.file.position(f.span.start);
+            format!("{}:{}: {}: {}", at.line, at.column, f.code, f.message)
+        })
+        .collect()
 }
 
 pub(super) fn counts(f: &labspec::finding::Finding) -> bool {
@@ -74,32 +76,32 @@ fn the_settings_of_the_course_are_those_that_are_tested() {
 #[test]
 fn everything_that_the_course_says_is_true() {
     let models = models();
-    let begun = Instant::now();
+    let start = Instant::now();
     let mut questions = 0;
     let mut quotes = 0;
-    for own in course() {
-        let checked = checked(&own.name, &own.text, &models, CheckLevel::FULL);
-        assert_eq!(complaints(&checked), [] as [&str; 0], "{}", own.name);
+    for lesson in course() {
+        let checked = checked(&lesson.name, &lesson.text, &models, CheckLevel::FULL);
+        assert_eq!(complaints(&checked), [] as [&str; 0], "{}", lesson.name);
         let mut asked = 0;
         for claim in &checked.claims {
             for quote in &claim.judgement.quotes {
-                assert_eq!(quote.state, QuoteState::Right, "{}, {}: {}", own.name, claim.name, quote.text);
+                assert_eq!(quote.state, QuoteState::Right, "{}, {}: {}", lesson.name, claim.name, quote.text);
                 quotes += 1;
             }
             let Some(answer) = &claim.judgement.answer else { continue };
             let sure = matches!(answer.verdict, Verdict::Verified | Verdict::Computed);
-            assert!(sure, "{}, {}: {} {}", own.name, claim.name, answer.verdict.as_str(), answer.reason);
+            assert!(sure, "{}, {}: {} {}", lesson.name, claim.name, answer.verdict.as_str(), answer.reason);
             asked += 1;
         }
         // An open question has no answer that could be checked.
         let all = checked.lesson.quizzes.iter().flat_map(|q| q.numbered());
         let closed = all.filter(|(_, q)| !matches!(q.kind, QuestionKind::Open { .. }));
-        assert_eq!(asked, closed.count(), "{}", own.name);
+        assert_eq!(asked, closed.count(), "{}", lesson.name);
         questions += asked;
     }
     eprintln!(
         "{questions} answers and {quotes} numbers in {:.2} s, on one processor",
-        begun.elapsed().as_secs_f64()
+        start.elapsed().as_secs_f64()
     );
     assert!(questions >= 40 && quotes > 300, "{questions} {quotes}");
 }
@@ -109,12 +111,15 @@ fn everything_that_the_course_says_is_true() {
 fn no_number_is_unclaimed() {
     let models = models();
     let mut count = 0;
-    for own in course() {
-        let lesson = load_lesson(SourceFile::new(own.name.as_str(), own.text.as_str()), models.folder());
+    for course_lesson in course() {
+        let lesson = load_lesson(
+            SourceFile::new(course_lesson.name.as_str(), course_lesson.text.as_str()),
+            models.folder(),
+        );
         for n in trace(&lesson, &models, &mut |_| ()).numbers {
             count += 1;
             let claimed = matches!(n.origin, Origin::Claimed) || n.stated.answer;
-            assert!(claimed, "{}: {} is not claimed", own.name, n.stated.quote);
+            assert!(claimed, "{}: {} is not claimed", course_lesson.name, n.stated.quote);
         }
     }
     assert!(count > 300, "{count}");

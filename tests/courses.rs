@@ -8,7 +8,7 @@ use crate::support::workspace;
 use std::path::Path;
 
 /// Output and exit code, with a folder for results or without.
-fn shown(here: &Path, cache: Option<&Path>, arguments: &[&str]) -> (String, Option<i32>) {
+fn stdout_and_code(here: &Path, cache: Option<&Path>, arguments: &[&str]) -> (String, Option<i32>) {
     let mut command = program(here, arguments);
     if let Some(cache) = cache {
         command.env("LABSPEC_CACHE", cache);
@@ -29,12 +29,12 @@ fn all_lessons() -> Vec<&'static str> {
 
 #[test]
 fn threads_and_the_cache_change_no_byte() {
-    let kept = tempfile::tempdir().unwrap();
+    let cache_folder = tempfile::tempdir().unwrap();
     for folder in all_lessons() {
         for format in ["human", "json"] {
             let of = |cache: Option<&Path>, more: &[&str]| {
                 let all = [&["check", folder, "--format", format], more].concat();
-                shown(&workspace(), cache, &all)
+                stdout_and_code(&workspace(), cache, &all)
             };
             let alone = of(None, &["--jobs", "1"]);
             assert!(alone.0.len() > 1000 && alone.1.is_some_and(|code| code < 2), "{folder}: {}", alone.0);
@@ -42,15 +42,15 @@ fn threads_and_the_cache_change_no_byte() {
                 (None, &["--jobs", "2"][..]),
                 (None, &["--jobs", "8"]),
                 // The first fills the cache for the second; the other format reads what both left.
-                (Some(kept.path()), &["--jobs", "2"]),
-                (Some(kept.path()), &[]),
+                (Some(cache_folder.path()), &["--jobs", "2"]),
+                (Some(cache_folder.path()), &[]),
             ] {
                 assert!(of(cache, more) == alone, "{folder} {format} {more:?}");
             }
         }
     }
     // One file for each lesson, and one for the program.
-    let files = std::fs::read_dir(kept.path()).unwrap().count();
+    let files = std::fs::read_dir(cache_folder.path()).unwrap().count();
     assert!(files > 50, "{files}");
 }
 
@@ -63,7 +63,7 @@ fn the_cache_can_be_switched_off() {
     };
     let before = names();
     for off in ["", "off"] {
-        shown(here.path(), Some(Path::new(off)), &["check", "clean.md"]);
+        stdout_and_code(here.path(), Some(Path::new(off)), &["check", "clean.md"]);
     }
     assert_eq!(names(), before);
 }
@@ -96,27 +96,27 @@ fn findings_are_printed_as_lessons_are_done() {
 
 #[test]
 fn without_a_cache_nothing_is_kept() {
-    let (folder, kept) = (folder(), tempfile::tempdir().unwrap());
-    let files = || std::fs::read_dir(kept.path()).unwrap().count();
-    shown(folder.path(), Some(kept.path()), &["check", "clean.md", "--no-cache"]);
+    let (folder, cache_folder) = (folder(), tempfile::tempdir().unwrap());
+    let files = || std::fs::read_dir(cache_folder.path()).unwrap().count();
+    stdout_and_code(folder.path(), Some(cache_folder.path()), &["check", "clean.md", "--no-cache"]);
     assert_eq!(files(), 0);
-    shown(folder.path(), Some(kept.path()), &["check", "clean.md"]);
+    stdout_and_code(folder.path(), Some(cache_folder.path()), &["check", "clean.md"]);
     assert_eq!(files(), 2);
     // Where nothing can be written, nothing is kept, and nothing is missing.
     let blocked = folder.path().join("fall.json");
     let [here, there] =
-        [None, Some(blocked.as_path())].map(|c| shown(folder.path(), c, &["check", "clean.md"]));
+        [None, Some(blocked.as_path())].map(|c| stdout_and_code(folder.path(), c, &["check", "clean.md"]));
     assert_eq!(here, there);
 }
 
 /// A model that changes, entries that are damaged: the report is that of a check without a cache.
 #[test]
 fn what_is_kept_is_never_trusted_beyond_its_bytes() {
-    let (folder, kept) = (folder(), tempfile::tempdir().unwrap());
+    let (folder, cache_folder) = (folder(), tempfile::tempdir().unwrap());
     let arguments = ["check", "clean.md", "wrong.md", "fall.json", "broken/lesson.md"];
     let same = || {
-        let cached = shown(folder.path(), Some(kept.path()), &arguments);
-        assert_eq!(cached, shown(folder.path(), None, &arguments));
+        let cached = stdout_and_code(folder.path(), Some(cache_folder.path()), &arguments);
+        assert_eq!(cached, stdout_and_code(folder.path(), None, &arguments));
         cached.0
     };
     let before = same();
@@ -128,7 +128,7 @@ fn what_is_kept_is_never_trusted_beyond_its_bytes() {
     assert_ne!(same(), before);
     std::fs::write(&model, &text).unwrap();
     assert_eq!(same(), before);
-    let files = || std::fs::read_dir(kept.path()).unwrap().map(|f| f.unwrap().path());
+    let files = || std::fs::read_dir(cache_folder.path()).unwrap().map(|f| f.unwrap().path());
     for cut in [0, 1, 64, 65, 100] {
         for path in files() {
             let bytes = std::fs::read(&path).unwrap();
@@ -143,11 +143,11 @@ fn what_is_kept_is_never_trusted_beyond_its_bytes() {
         std::fs::write(&other, format!("# Labs\n\n```lab simlab\n{lab}\n```\n")).unwrap();
     };
     let claim = r##"{"lab": "labs.md#1", "runs": {"fall": {"until": 0.1}}, "measure": {"top": "max(data.qpos[2])"}, "says": [["3 m", "top"]]}"##;
-    let said = format!("<!-- labspec verify {claim} -->\nIt begins at 3 m.\n");
-    std::fs::write(folder.path().join("said.md"), said).unwrap();
+    let lesson = format!("<!-- labspec verify {claim} -->\nIt begins at 3 m.\n");
+    std::fs::write(folder.path().join("said.md"), lesson).unwrap();
     let quoted = || {
-        let cached = shown(folder.path(), Some(kept.path()), &["check", "said.md"]);
-        assert_eq!(cached, shown(folder.path(), None, &["check", "said.md"]));
+        let cached = stdout_and_code(folder.path(), Some(cache_folder.path()), &["check", "said.md"]);
+        assert_eq!(cached, stdout_and_code(folder.path(), None, &["check", "said.md"]));
         cached.1
     };
     for (height, code) in [(3.0, 0), (2.0, 1), (3.0, 0)] {

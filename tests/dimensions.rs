@@ -31,7 +31,7 @@ fn every_expression_has_a_dimension_or_none_that_is_known() {
         return;
     }
     let models = material::models();
-    let (mut page, mut known, mut loose, mut literal, mut unknown) = (String::new(), 0, 0, 0, 0);
+    let (mut page, mut certain, mut loose, mut literal, mut unknown) = (String::new(), 0, 0, 0, 0);
     for piece in material::pieces().iter().filter(|p| p.what == What::Lab) {
         let models = &models[piece.models];
         let (name, text) = piece.file(&piece.json);
@@ -47,7 +47,7 @@ fn every_expression_has_a_dimension_or_none_that_is_known() {
             let measure = measured.as_ref().unwrap().value;
             match measure {
                 Measure::Known(d) if d.factor.is_nan() => loose += 1,
-                Measure::Known(_) => known += 1,
+                Measure::Known(_) => certain += 1,
                 Measure::Anything => literal += 1,
                 Measure::Unknown => unknown += 1,
             }
@@ -78,14 +78,14 @@ fn every_expression_has_a_dimension_or_none_that_is_known() {
     }
     writeln!(
         page,
-        "\n{known} known, {loose} known but for a factor, {literal} numbers of the text, {unknown} unknown"
+        "\n{certain} known, {loose} known but for a factor, {literal} numbers of the text, {unknown} unknown"
     )
     .unwrap();
     insta::assert_snapshot!(page);
 }
 
 /// What is told of one lab: its model has two slides, `left` and `right`, a hinge `door` and a ball `ball`.
-fn told(keys: &str) -> Vec<String> {
+fn reported(keys: &str) -> Vec<String> {
     let body = |name: &str, joint: &str| {
         format!(
             "<body name='{name}'><joint name='{name}' type='{joint}' axis='0 1 0'/><geom size='.1'/></body>"
@@ -111,7 +111,7 @@ fn told(keys: &str) -> Vec<String> {
 }
 
 fn readout(label: &str, expr: &str) -> Vec<String> {
-    told(&format!("\"readouts\": [{}]", serde_json::json!({"label": label, "expr": expr})))
+    reported(&format!("\"readouts\": [{}]", serde_json::json!({"label": label, "expr": expr})))
 }
 
 #[test]
@@ -171,7 +171,7 @@ fn what_may_be_right_is_not_told() {
         let setup = "\"setup\": \"ctx.kept = data.qpos[0]; ctx.kept = data.time\"";
         let readouts = serde_json::json!([{"label": label, "expr": expr}]);
         assert_eq!(
-            told(&format!("{setup}, \"readouts\": {readouts}")),
+            reported(&format!("{setup}, \"readouts\": {readouts}")),
             Vec::<String>::new(),
             "{label}, {expr}"
         );
@@ -192,7 +192,7 @@ fn variables_and_loops_keep_what_is_stored() {
     ] {
         let readouts = serde_json::json!([{"label": "x (mm)", "expr": expr}]);
         let setup = serde_json::json!(setup);
-        let all = told(&format!("\"setup\": {setup}, \"readouts\": {readouts}"));
+        let all = reported(&format!("\"setup\": {setup}, \"readouts\": {readouts}"));
         assert_eq!(!all.is_empty(), found, "{setup}: {all:?}");
     }
 }
@@ -235,7 +235,7 @@ fn lists_texts_and_functions_keep_what_they_are_given() {
 #[test]
 fn controls_are_held_against_what_they_set() {
     let slider = |unit: &str, key: &str, text: &str| {
-        told(&format!(
+        reported(&format!(
             "\"controls\": [{}]",
             serde_json::json!({"label": "c", "unit": unit, key: text, "min": 0, "max": 1, "value": 0})
         ))
@@ -288,7 +288,7 @@ fn sums_of_what_cannot_be_added_are_told() {
 fn labels_that_name_another_are_told() {
     let both = |readouts: &[(&str, &str)]| {
         let list: Vec<_> = readouts.iter().map(|(l, e)| serde_json::json!({"label": l, "expr": e})).collect();
-        told(&format!("\"readouts\": {}", serde_json::json!(list)))
+        reported(&format!("\"readouts\": {}", serde_json::json!(list)))
     };
     let (l, r) = ("data.qpos[0]", "data.qpos[1]");
     for (readouts, count) in [

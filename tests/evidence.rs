@@ -104,16 +104,16 @@ fn the_table_of_units_is_so() {
     let text = std::fs::read_to_string(workspace().join("docs/verify.md")).unwrap();
     let section = text.split("\n## Units\n").nth(1).unwrap().split("\n## ").next().unwrap();
     let row = |line: &str| {
-        let (said, rest) = line.strip_prefix("| `")?.split_once("` | `")?;
+        let (quoted, rest) = line.strip_prefix("| `")?.split_once("` | `")?;
         let (expr, becomes) = rest.split_once("` | ")?;
-        Some((said.to_string(), expr.to_string(), becomes.strip_suffix(" |")?.to_string()))
+        Some((quoted.to_string(), expr.to_string(), becomes.strip_suffix(" |")?.to_string()))
     };
     let rows: Vec<_> = section.lines().filter_map(row).collect();
     assert!(rows.len() > 20);
-    for (said, expr, becomes) in rows {
-        let verify = json!({"lab": "#1", "runs": {"run": {"until": 1}}, "measure": measures(), "says": [[said, expr]]});
+    for (quoted, expr, becomes) in rows {
+        let verify = json!({"lab": "#1", "runs": {"run": {"until": 1}}, "measure": measures(), "says": [[quoted, expr]]});
         let text = format!(
-            "# A fall\n\n```lab\n{}\n```\n\n<!-- labspec verify {verify} -->\nIt takes {said} here.\n",
+            "# A fall\n\n```lab\n{}\n```\n\n<!-- labspec verify {verify} -->\nIt takes {quoted} here.\n",
             lab()
         );
         let checked = check_text("lesson.md", &text);
@@ -123,7 +123,7 @@ fn the_table_of_units_is_so() {
             QuoteState::Wrong => "wrong",
             QuoteState::Unclear => "unclear",
         };
-        assert_eq!(state, becomes, "{said}: {}", quote.reason);
+        assert_eq!(state, becomes, "{quoted}: {}", quote.reason);
     }
 }
 
@@ -152,8 +152,8 @@ fn a_value_is_a_number_that_could_be_another_one() {
         let checked = numeric("z", 0.05, &json!({"wrong": [wrong]}));
         assert_eq!(verdict(&checked), Verdict::Failed, "{wrong}: {:?}", codes(&checked));
     }
-    let told = numeric("z", 0.05, &json!({"wrong": ["z + 1", "7"]}));
-    assert_eq!((verdict(&told), codes(&told)), (Verdict::Verified, vec![]));
+    let checked = numeric("z", 0.05, &json!({"wrong": ["z + 1", "7"]}));
+    assert_eq!((verdict(&checked), codes(&checked)), (Verdict::Verified, vec![]));
 }
 
 #[test]

@@ -15,8 +15,8 @@ mod spaces;
 mod values;
 
 use crate::support::for_each;
-use conditions::Known;
-use lesson::{Claim, Fate, Truth};
+use conditions::MeasuredNumber;
+use lesson::{Claim, Outcome, Truth};
 use random::Random;
 use scenes::Scene;
 use std::collections::BTreeMap;
@@ -49,14 +49,14 @@ struct Tally {
 }
 
 impl Tally {
-    fn count(&mut self, kind: &str, truth: Truth, way: &str, fate: Fate) {
-        let count = self.counts.entry((truth != Truth::True, kind.into(), way.into())).or_default();
+    fn count(&mut self, kind: &str, truth: Truth, variant: &str, outcome: Outcome) {
+        let count = self.counts.entry((truth != Truth::True, kind.into(), variant.into())).or_default();
         count.made += 1;
-        match fate {
-            Fate::Verified => count.verified += 1,
-            Fate::Computed => count.computed += 1,
-            Fate::Refuted => count.refuted += 1,
-            Fate::Open => count.open += 1,
+        match outcome {
+            Outcome::Verified => count.verified += 1,
+            Outcome::Computed => count.computed += 1,
+            Outcome::Refuted => count.refuted += 1,
+            Outcome::Open => count.open += 1,
         }
     }
 
@@ -79,36 +79,36 @@ impl Tally {
 }
 
 /// What the runs of a lab measure, where it is a number that can be claimed.
-fn known(scene: &Scene) -> Vec<Known> {
+fn measured(scene: &Scene) -> Vec<MeasuredNumber> {
     let measured = lesson::measured(scene);
     let mut all = Vec::new();
     for (name, x) in measured {
         let of = name.split('.').next_back().unwrap();
         let measure = scene.measures.iter().find(|m| m.name == of);
         if let Some(m) = measure.filter(|_| x.is_finite()) {
-            all.push(Known { name, x, unit: m.unit, positive: m.positive });
+            all.push(MeasuredNumber { name, x, unit: m.unit, positive: m.positive });
         }
     }
     all
 }
 
 fn claims(random: &mut Random, scene: &Scene) -> Vec<Claim> {
-    let known = known(scene);
-    assert!(!known.is_empty(), "nothing is measured in {}", scene.family);
+    let measured = measured(scene);
+    assert!(!measured.is_empty(), "nothing is measured in {}", scene.family);
     let mut all = Vec::new();
     for _ in 0..DRAWS {
-        all.extend(conditions::right(random, &known));
-        all.extend(values::right(random, &known));
-        all.extend(quotes::right(random, &known));
+        all.extend(conditions::right(random, &measured));
+        all.extend(values::right(random, &measured));
+        all.extend(quotes::right(random, &measured));
     }
     for _ in 0..DRAWS {
-        all.extend(conditions::wrong(random, &known));
-        all.extend(conditions::empty(random, &known));
-        all.extend(values::wrong(random, &known));
-        all.extend(values::empty(random, &known));
-        all.extend(quotes::wrong(random, &known));
-        all.extend(quotes::empty(random, &known));
-        all.extend(conditions::texts(random, &known));
+        all.extend(conditions::wrong(random, &measured));
+        all.extend(conditions::empty(random, &measured));
+        all.extend(values::wrong(random, &measured));
+        all.extend(values::empty(random, &measured));
+        all.extend(quotes::wrong(random, &measured));
+        all.extend(quotes::empty(random, &measured));
+        all.extend(conditions::texts(random, &measured));
     }
     match random.below(5) {
         0 => all.extend(spaces::over(scene)),
@@ -130,22 +130,22 @@ fn lesson_of(seed: u64, tally: &mut Tally) {
     let claims = claims(&mut random, &scene);
     let checked = lesson::check(&scene, &claims);
     tally.lessons += 1;
-    for (claim, (fate, found)) in claims.iter().zip(lesson::fates(&checked, &claims)) {
-        tally.count(claim.kind, claim.truth, &claim.way, fate);
-        let wrong = match (claim.truth, fate) {
-            (Truth::True, Fate::Verified) | (Truth::Worked, Fate::Computed) => None,
-            (Truth::True, Fate::Refuted) => Some("a true claim is refuted"),
+    for (claim, (outcome, found)) in claims.iter().zip(lesson::outcomes(&checked, &claims)) {
+        tally.count(claim.kind, claim.truth, &claim.variant, outcome);
+        let wrong = match (claim.truth, outcome) {
+            (Truth::True, Outcome::Verified) | (Truth::Worked, Outcome::Computed) => None,
+            (Truth::True, Outcome::Refuted) => Some("a true claim is refuted"),
             (Truth::True, _) if found.is_empty() => Some("a true claim is open without a reason"),
-            (Truth::True, Fate::Computed) => Some("a true claim is only computed"),
-            (Truth::True, Fate::Open) => None,
-            (_, Fate::Verified) => Some("verified"),
-            (_, Fate::Computed) => Some("computed"),
-            (_, Fate::Refuted | Fate::Open) => None,
+            (Truth::True, Outcome::Computed) => Some("a true claim is only computed"),
+            (Truth::True, Outcome::Open) => None,
+            (_, Outcome::Verified) => Some("verified"),
+            (_, Outcome::Computed) => Some("computed"),
+            (_, Outcome::Refuted | Outcome::Open) => None,
         };
         if let Some(wrong) = wrong {
             tally.wrong.push(format!(
-                "{wrong}: {} / {} ({:?}, {fate:?}, {}, seed {seed}): {found}\n    {:?}",
-                claim.kind, claim.way, claim.truth, scene.family, claim.body
+                "{wrong}: {} / {} ({:?}, {outcome:?}, {}, seed {seed}): {found}\n    {:?}",
+                claim.kind, claim.variant, claim.truth, scene.family, claim.body
             ));
         }
     }
@@ -157,12 +157,19 @@ fn snapshots_of(seed: u64, tally: &mut Tally) {
     let scenes: Vec<Scene> = (0..3).map(|_| scenes::scene(&mut random)).collect();
     let stored = snapshots::stored(&scenes);
     tally.lessons += 1;
-    let mut hold = |truth: Truth, ways: &[&str], text: &str| {
-        for ((way, kept), scene) in ways.iter().zip(snapshots::kept(&scenes, text)).zip(&scenes) {
-            tally.count("snapshot", truth, way, if kept { Fate::Verified } else { Fate::Refuted });
-            if kept != (truth == Truth::True) {
+    let mut hold = |truth: Truth, variants: &[&str], text: &str| {
+        for ((variant, unchanged), scene) in
+            variants.iter().zip(snapshots::unchanged(&scenes, text)).zip(&scenes)
+        {
+            tally.count(
+                "snapshot",
+                truth,
+                variant,
+                if unchanged { Outcome::Verified } else { Outcome::Refuted },
+            );
+            if unchanged != (truth == Truth::True) {
                 tally.wrong.push(format!(
-                    "snapshot / {way} ({}, seed {seed}): as stored: {kept}\n{text}",
+                    "snapshot / {variant} ({}, seed {seed}): as stored: {unchanged}\n{text}",
                     scene.family
                 ));
             }
@@ -170,8 +177,8 @@ fn snapshots_of(seed: u64, tally: &mut Tally) {
     };
     hold(Truth::True, &["", "", ""], &stored);
     for _ in 0..3 {
-        let (text, ways) = snapshots::changed(&mut random, &stored);
-        hold(Truth::False, &ways, &text);
+        let (text, variants) = snapshots::changed(&mut random, &stored);
+        hold(Truth::False, &variants, &text);
     }
 }
 
@@ -179,11 +186,11 @@ fn snapshots_of(seed: u64, tally: &mut Tally) {
 fn tally(seed: u64, from: usize, count: usize) -> Tally {
     let one = |i: usize| {
         let mut tally = Tally::default();
-        let own = seed.wrapping_mul(1_000_003).wrapping_add((from + i) as u64);
+        let case_seed = seed.wrapping_mul(1_000_003).wrapping_add((from + i) as u64);
         if (from + i) % SNAPSHOTS == SNAPSHOTS - 1 {
-            snapshots_of(own, &mut tally);
+            snapshots_of(case_seed, &mut tally);
         } else {
-            lesson_of(own, &mut tally);
+            lesson_of(case_seed, &mut tally);
         }
         tally
     };
@@ -193,14 +200,14 @@ fn tally(seed: u64, from: usize, count: usize) -> Tally {
 }
 
 /// What is wrong, each kind and way once.
-fn told(tally: &Tally) -> String {
-    let mut known = BTreeMap::new();
+fn format_tally(tally: &Tally) -> String {
+    let mut measured = BTreeMap::new();
     for wrong in &tally.wrong {
         let what = wrong.split(" (").next().unwrap_or("").to_string();
-        known.entry(what).or_insert_with(Vec::new).push(wrong.clone());
+        measured.entry(what).or_insert_with(Vec::new).push(wrong.clone());
     }
     let mut text = String::new();
-    for (what, all) in known {
+    for (what, all) in measured {
         let _ = writeln!(text, "{what}: {} times, as", all.len());
         for wrong in all.iter().take(if std::env::var_os("LABSPEC_ALL").is_some() { 60 } else { 4 }) {
             let _ = writeln!(text, "  {wrong}");
@@ -213,8 +220,8 @@ fn table(tally: &Tally) -> String {
     let mut text = String::from(
         "| claim | made | verified | computed | refuted | reported |\n|---|---:|---:|---:|---:|---:|\n",
     );
-    for ((changed, kind, way), c) in &tally.counts {
-        let what = if *changed { format!("{kind}: {way}") } else { format!("{kind}, true") };
+    for ((changed, kind, variant), c) in &tally.counts {
+        let what = if *changed { format!("{kind}: {variant}") } else { format!("{kind}, true") };
         let Count { made, verified, computed, refuted, open } = c;
         let _ = writeln!(text, "| {what} | {made} | {verified} | {computed} | {refuted} | {open} |");
     }
@@ -249,5 +256,5 @@ fn false_claims_are_never_verified() {
         );
         println!("{}", table(&all));
     }
-    assert!(all.wrong.is_empty(), "{} are wrong:\n{}", all.wrong.len(), told(&all));
+    assert!(all.wrong.is_empty(), "{} are wrong:\n{}", all.wrong.len(), format_tally(&all));
 }

@@ -388,10 +388,10 @@ fn no_option_replaces_a_file_of_another_kind() {
     let lab = json!({"model": "free_fall", "stopAt": 0.02, "controls": knobs});
     std::fs::write(folder.path().join("map.json"), lab.to_string()).unwrap();
     // An option that is new in the program has to be put into one of the lists.
-    let mut known: Vec<String> = WRITERS.iter().map(|(option, _)| (*option).to_string()).collect();
-    known.extend(READERS.iter().map(|option| (*option).to_string()));
-    known.sort();
-    assert_eq!(file_options(folder.path()), known);
+    let mut expected: Vec<String> = WRITERS.iter().map(|(option, _)| (*option).to_string()).collect();
+    expected.extend(READERS.iter().map(|option| (*option).to_string()));
+    expected.sort();
+    assert_eq!(file_options(folder.path()), expected);
     let others = of_others(folder.path());
     // What the other options write is foreign, too.
     let mut written: Vec<(String, &str)> = Vec::new();

@@ -33,7 +33,7 @@ impl Case {
     }
 
     /// What the labs show.
-    fn shown(&self, text: &str) -> Traces {
+    fn traces_of(&self, text: &str) -> Traces {
         let lesson = load_lesson(SourceFile::new(self.name.as_str(), text), &self.models);
         traces(&lesson, &Models::new(self.models.clone()))
     }
@@ -77,23 +77,23 @@ fn fault(case: &Case, finding: &Finding, before: &(Vec<Finding>, usize)) -> Opti
     let fix = finding.fix.as_ref()?;
     let repaired = apply(&case.text, fix);
     let (after, broken) = case.findings(&repaired);
-    let told = |f: &Finding| format!("{} {}", f.code, f.message);
-    let shown = || {
-        let list: Vec<String> = after.iter().map(told).collect();
+    let describe_finding = |f: &Finding| format!("{} {}", f.code, f.message);
+    let describe = || {
+        let list: Vec<String> = after.iter().map(describe_finding).collect();
         format!(
             "{}: {}\nfix {:?} -> {:?}\nbefore:\n{}\nafter:\n{repaired}\nleft: {list:#?}",
             case.name,
-            told(finding),
+            describe_finding(finding),
             case.text.get(fix.span.clone()),
             fix.text,
             case.text
         )
     };
     if broken > before.1 {
-        return Some(format!("breaks the JSON\n{}", shown()));
+        return Some(format!("breaks the JSON\n{}", describe()));
     }
     if repaired == case.text {
-        return Some(format!("changes nothing\n{}", shown()));
+        return Some(format!("changes nothing\n{}", describe()));
     }
     // Where a place of the old text is in the new one.
     let shift = |at: usize| {
@@ -110,7 +110,7 @@ fn fault(case: &Case, finding: &Finding, before: &(Vec<Finding>, usize)) -> Opti
     let of_syntax = is_syntax(&finding);
     let fewer = if of_syntax { syntax(&after) < syntax(&before.0) } else { after.len() < before.0.len() };
     if !gone && !fewer {
-        return Some(format!("does not go away\n{}", shown()));
+        return Some(format!("does not go away\n{}", describe()));
     }
     let errors = |list: &[Finding]| list.iter().filter(|f| f.severity == Severity::Error).count();
     // What a mistake has hidden shows itself now: behind broken JSON anything can be; else it is named below.
@@ -123,20 +123,20 @@ fn fault(case: &Case, finding: &Finding, before: &(Vec<Finding>, usize)) -> Opti
     if let Some(new) = new
         && (of_syntax || errors(&after) >= errors(&before.0))
     {
-        return Some(format!("a new error: {}\n{}", told(new), shown()));
+        return Some(format!("a new error: {}\n{}", describe_finding(new), describe()));
     }
     None
 }
 
 /// What a fix that is called safe changes of what the labs show; `None` when it changes nothing.
-fn unproven(case: &Case, finding: &Finding, shown: &Traces) -> Option<String> {
+fn unproven(case: &Case, finding: &Finding, before: &Traces) -> Option<String> {
     let fix = finding.fix.as_ref().filter(|fix| fix.applicability == Applicability::Safe)?;
     // Its own run shows what the repair changes.
     if finding.code == "missing-setconst" {
         return None;
     }
     let repaired = apply(&case.text, fix);
-    let same = shown.is_subset(&case.shown(&repaired));
+    let same = before.is_subset(&case.traces_of(&repaired));
     (!same).then(|| format!("{} is called safe and changes a trace\n{}\n{repaired}", finding.code, case.text))
 }
 
@@ -144,9 +144,9 @@ fn unproven(case: &Case, finding: &Finding, shown: &Traces) -> Option<String> {
 fn try_all(case: &Case) -> (usize, Vec<String>) {
     let before = case.findings(&case.text);
     let with_fix: Vec<&Finding> = before.0.iter().filter(|f| f.fix.is_some()).collect();
-    let shown = if with_fix.is_empty() { Traces::new() } else { case.shown(&case.text) };
+    let before_fix = if with_fix.is_empty() { Traces::new() } else { case.traces_of(&case.text) };
     let faults =
-        with_fix.iter().filter_map(|f| fault(case, f, &before).or_else(|| unproven(case, f, &shown)));
+        with_fix.iter().filter_map(|f| fault(case, f, &before).or_else(|| unproven(case, f, &before_fix)));
     (with_fix.len(), faults.collect())
 }
 
@@ -193,12 +193,12 @@ fn fixes_of_real_lessons_hold() {
     }
     let mut cases = Vec::new();
     let corpus = ModelFolder::open(&shared.join("corpus/models")).unwrap();
-    let own = ModelFolder::open(&workspace().join("specs/models")).unwrap();
+    let specs = ModelFolder::open(&workspace().join("specs/models")).unwrap();
     for (folder, models) in [
         (shared.join("lesson-0.1"), &corpus),
         (shared.join("corpus/labs"), &corpus),
         (shared.join("corpus/quizzes"), &corpus),
-        (workspace().join("specs/lessons"), &own),
+        (workspace().join("specs/lessons"), &specs),
     ] {
         for path in files(&folder) {
             let name = path.file_name().unwrap().to_str().unwrap().to_string();
@@ -434,11 +434,11 @@ fn repairs_that_change_what_a_lab_shows_are_guesses() {
     let cases = cases.chain(statements.iter().map(|s| (*s, lab("data.qvel[6]", s))));
     let mut changed = 0;
     for (mistake, case) in cases {
-        let shown = case.shown(&case.text);
-        assert!(!shown.is_empty(), "{mistake} does not run");
+        let traces = case.traces_of(&case.text);
+        assert!(!traces.is_empty(), "{mistake} does not run");
         let found = case.findings(&case.text).0;
         for (finding, fix) in found.iter().filter_map(|f| Some((f, f.fix.as_ref()?))) {
-            let same = shown.is_subset(&case.shown(&apply(&case.text, fix)));
+            let same = traces.is_subset(&case.traces_of(&apply(&case.text, fix)));
             changed += usize::from(!same);
             let guess = fix.applicability != Applicability::Safe;
             assert!(same || guess, "{mistake}: {} changes what is shown, unasked", finding.code);
@@ -448,8 +448,8 @@ fn repairs_that_change_what_a_lab_shows_are_guesses() {
             let (findings, broken) = case.findings(text);
             labspec::repair::CheckedText { text: text.to_string(), findings, broken }
         };
-        let (safe, _) = labspec::repair::repair(look(&case.text), false, &look, &|text| case.shown(text));
-        assert!(shown.is_subset(&case.shown(&safe)), "{mistake}");
+        let (safe, _) = labspec::repair::repair(look(&case.text), false, &look, &|text| case.traces_of(text));
+        assert!(traces.is_subset(&case.traces_of(&safe)), "{mistake}");
     }
     assert!(changed >= 8, "only {changed} repairs change anything: nothing is tried here");
 }

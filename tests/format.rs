@@ -132,9 +132,9 @@ fn outcome(program: &Program, globals: &Globals, world: &World) -> (String, Vec<
         context.store(globals, slot, Value::Number(0.1 * f64::from(slot)));
     }
     let result = program.run(&mut world, &mut context, Some(&Value::Number(0.3)));
-    let kept: Vec<_> = (0..globals.len() as u32).map(|s| context.get(s).clone()).collect();
+    let before: Vec<_> = (0..globals.len() as u32).map(|s| context.get(s).clone()).collect();
     let bits = |list: Vec<f64>| list.into_iter().map(f64::to_bits).collect();
-    (format!("{result:?} {kept:?}"), snapshot(&world).into_iter().map(bits).collect())
+    (format!("{result:?} {before:?}"), snapshot(&world).into_iter().map(bits).collect())
 }
 
 #[test]

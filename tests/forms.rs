@@ -162,10 +162,10 @@ fn sarif_is_what_its_standard_asks_for() {
     assert_eq!(ids.len(), rules.len());
     assert_eq!(run["columnKind"], "unicodeCodePoints");
     let results = run["results"].as_array().unwrap();
-    let own = findings(folder.path());
-    assert_eq!(results.len(), own.len());
+    let ours_list = findings(folder.path());
+    assert_eq!(results.len(), ours_list.len());
     let (mut marks, mut repaired) = (BTreeSet::new(), 0);
-    for (result, f) in results.iter().zip(&own) {
+    for (result, f) in results.iter().zip(&ours_list) {
         assert_eq!((&result["ruleId"], &result["level"]), (&f["code"], &f["severity"]));
         let index = result["ruleIndex"].as_u64().unwrap() as usize;
         assert_eq!(rules[index]["id"], f["code"]);
@@ -238,12 +238,12 @@ fn gitlab_can_read_its_report() {
     });
     let schemas = BTreeMap::from([("gitlab".to_string(), schema)]);
     assert_eq!(problems(&schemas, "gitlab", &report), [""; 0]);
-    let own = findings(folder.path());
+    let ours_list = findings(folder.path());
     let all = report.as_array().unwrap();
-    assert_eq!(all.len(), own.len());
+    assert_eq!(all.len(), ours_list.len());
     let marks: BTreeSet<String> = all.iter().map(|f| f["fingerprint"].to_string()).collect();
     assert_eq!(marks.len(), all.len(), "a fingerprint stands twice");
-    for (theirs, ours) in all.iter().zip(&own) {
+    for (theirs, ours) in all.iter().zip(&ours_list) {
         let path = theirs["location"]["path"].as_str().unwrap();
         // Relative to the repository, and without a dot before it.
         assert!(!path.starts_with("./") && !path.starts_with('/'), "{path}");
@@ -264,7 +264,7 @@ fn gitlab_can_read_its_report() {
 }
 
 /// The attributes that the schema of Jenkins gives an element, and which of them have to stand there.
-fn known(element: &str) -> (&'static [&'static str], &'static [&'static str]) {
+fn allowed_attributes(element: &str) -> (&'static [&'static str], &'static [&'static str]) {
     match element {
         "testsuites" => (&["name", "time", "tests", "failures", "disabled", "errors"], &[]),
         "testsuite" => (
@@ -299,7 +299,7 @@ fn junit_has_the_elements_that_jenkins_knows() {
     let elements = |node: Node<'_, '_>| node.children().filter(Node::is_element).count();
     for node in tree.descendants().filter(Node::is_element) {
         let name = node.tag_name().name();
-        let (may, must) = known(name);
+        let (may, must) = allowed_attributes(name);
         for attribute in node.attributes() {
             assert!(may.contains(&attribute.name()), "{name} has no attribute {}", attribute.name());
         }
@@ -350,14 +350,14 @@ fn junit_has_the_elements_that_jenkins_knows() {
 fn github_shows_every_finding_at_its_place() {
     let folder = course();
     let text = form(folder.path(), "github");
-    let own = findings(folder.path());
+    let ours_list = findings(folder.path());
     let plain = |text: &str, more: bool| {
         let text = text.replace("%0A", "\n").replace("%0D", "\r");
         let text = if more { text.replace("%3A", ":").replace("%2C", ",") } else { text };
         text.replace("%25", "%")
     };
-    assert_eq!(text.lines().count(), own.len());
-    for (line, f) in text.lines().zip(&own) {
+    assert_eq!(text.lines().count(), ours_list.len());
+    for (line, f) in text.lines().zip(&ours_list) {
         // `::name key=value,key=value::words`, as the runner reads it.
         let rest = line.strip_prefix("::").unwrap();
         let (head, words) = rest.split_once("::").unwrap();
@@ -372,8 +372,8 @@ fn github_shows_every_finding_at_its_place() {
             .split(',')
             .map(|pair| pair.split_once('=').map(|(key, value)| (key, plain(value, true))).unwrap())
             .collect();
-        let known = ["file", "line", "endLine", "col", "endColumn", "title"];
-        assert!(properties.keys().all(|key| known.contains(key)), "{line}");
+        let properties_allowed = ["file", "line", "endLine", "col", "endColumn", "title"];
+        assert!(properties.keys().all(|key| properties_allowed.contains(key)), "{line}");
         assert_eq!(properties["file"], f["file"].as_str().unwrap().trim_start_matches("./"));
         assert_eq!(properties["title"], format!("labspec {}", f["code"].as_str().unwrap()));
         if f["line"].is_null() {
@@ -406,7 +406,7 @@ fn every_lesson_of_ours_has_its_forms() {
     let junit = of("junit");
     let tree = Document::parse(&junit).unwrap();
     for node in tree.descendants().filter(Node::is_element) {
-        let (may, _) = known(node.tag_name().name());
+        let (may, _) = allowed_attributes(node.tag_name().name());
         assert!(node.attributes().all(|a| may.contains(&a.name())));
     }
 }

@@ -149,7 +149,7 @@ fn scenes(seed: u64) -> Vec<Scene> {
 #[derive(Default)]
 struct Seen {
     warned: bool,
-    told: bool,
+    reported: bool,
     /// The largest kinetic energy, J.
     fastest: f64,
     /// The ends of where middles of bodies were, m.
@@ -165,7 +165,7 @@ fn run(m: &Model, each: usize, watched: bool) -> Seen {
     let mut d = Data::new(m);
     core::reset_data_keyframe(m, &mut d, m.keys().next().unwrap()).unwrap();
     core::forward(m, &mut d).unwrap();
-    let mut own = Data::new(m);
+    let mut scratch = Data::new(m);
     let mut watch = watched.then(|| watch::watch(m, &d, false));
     let mut seen = Seen { ends: vec![[f64::INFINITY, f64::NEG_INFINITY]; 3 * m.nbody], ..Seen::default() };
     for k in 0..=STEPS {
@@ -181,12 +181,12 @@ fn run(m: &Model, each: usize, watched: bool) -> Seen {
         if seen.warned {
             break;
         }
-        let edit = own.edit();
+        let edit = scratch.edit();
         edit.qpos.copy_from_slice(&d.qpos);
         edit.qvel.copy_from_slice(&d.qvel);
-        let energy = core::mechanical_energy(m, &mut own).unwrap();
+        let energy = core::mechanical_energy(m, &mut scratch).unwrap();
         seen.fastest = seen.fastest.max(energy.map_or(0.0, |e| e.kinetic));
-        for (ends, x) in seen.ends.iter_mut().zip(&own.xipos) {
+        for (ends, x) in seen.ends.iter_mut().zip(&scratch.xipos) {
             *ends = [ends[0].min(*x), ends[1].max(*x)];
         }
         for j in (0..m.njnt).filter(|&j| m.jnt_limited[j]) {
@@ -195,7 +195,7 @@ fn run(m: &Model, each: usize, watched: bool) -> Seen {
         }
     }
     seen.depth = d.contact.iter().map(|c| -c.dist / 0.2).fold(0.0, f64::max);
-    seen.told = watch.is_some_and(|w| watch::noticed(&w).time().is_finite());
+    seen.reported = watch.is_some_and(|w| watch::noticed(&w).time().is_finite());
     seen
 }
 
@@ -242,7 +242,7 @@ pub(crate) struct Rates {
     pub(crate) scenes: usize,
     pub(crate) warned: usize,
     pub(crate) wrong: usize,
-    pub(crate) told: usize,
+    pub(crate) reported: usize,
     pub(crate) well: usize,
     pub(crate) alarms: usize,
     pub(crate) between: usize,
@@ -272,15 +272,17 @@ pub(crate) fn section() -> (String, Rates, Vec<String>) {
             r.scenes += 1;
             match truth {
                 _ if coarse.warned => r.warned += 1,
-                Truth::Wrong => (r.wrong, r.told) = (r.wrong + 1, r.told + usize::from(coarse.told)),
-                Truth::Well => (r.well, r.alarms) = (r.well + 1, r.alarms + usize::from(coarse.told)),
+                Truth::Wrong => {
+                    (r.wrong, r.reported) = (r.wrong + 1, r.reported + usize::from(coarse.reported))
+                }
+                Truth::Well => (r.well, r.alarms) = (r.well + 1, r.alarms + usize::from(coarse.reported)),
                 Truth::Between => r.between += 1,
             }
         }
-        if !coarse.warned && coarse.told != (truth == Truth::Wrong) && truth != Truth::Between {
+        if !coarse.warned && coarse.reported != (truth == Truth::Wrong) && truth != Truth::Between {
             list.push(format!(
                 "{truth:?}, told: {}; energy {:.3e} beside {:.3e}, depth {:.2} beside {:.2}, beyond {:.2} beside {:.2}\n  {}",
-                coarse.told, coarse.fastest, fine.fastest, coarse.depth, fine.depth, coarse.beyond, fine.beyond, scene.xml
+                coarse.reported, coarse.fastest, fine.fastest, coarse.depth, fine.depth, coarse.beyond, fine.beyond, scene.xml
             ));
         }
     }
@@ -298,7 +300,7 @@ pub(crate) fn section() -> (String, Rates, Vec<String>) {
         let _ = writeln!(
             text,
             "| {kind} | {} | {} | {} | {} | {} | {} | {} |",
-            r.scenes, r.warned, r.wrong, r.told, r.well, r.alarms, r.between
+            r.scenes, r.warned, r.wrong, r.reported, r.well, r.alarms, r.between
         );
     }
     (text, all, list)

@@ -132,18 +132,18 @@ fn every_question_stands_in_the_page_with_its_verdict() {
                 };
                 assert_eq!(seen(with_class(*article, "asked")[0]), normal(&question.q.value));
                 let QuestionKind::Choice { options, .. } = &question.kind else { continue };
-                let shown: Vec<Node<'_, '_>> =
+                let items: Vec<Node<'_, '_>> =
                     with_class(*article, "options")[0].children().filter(Node::is_element).collect();
-                assert_eq!(shown.len(), options.len());
-                for (i, (item, option)) in shown.iter().zip(options).enumerate() {
+                assert_eq!(items.len(), options.len());
+                for (i, (item, option)) in items.iter().zip(options).enumerate() {
                     let keyed = question.right_option() == Some(i);
                     let text = format!("{}{}", normal(&option.value), if keyed { " key" } else { "" });
                     assert_eq!(seen(item.first_element_child().unwrap()), text);
                     assert_eq!(item.attribute("class") == Some("key"), keyed);
                     if let Some(condition) = question.verify.as_ref().and_then(|v| v.options.get(i)) {
                         let held = seen(with_class(*item, "condition")[0]);
-                        let told = condition.value.trim() == "undecided" || held.contains("hold");
-                        assert!(told, "{file}: {name}: {held}");
+                        let is_stated = condition.value.trim() == "undecided" || held.contains("hold");
+                        assert!(is_stated, "{file}: {name}: {held}");
                     }
                 }
             }
@@ -176,8 +176,8 @@ fn every_question_stands_in_the_page_with_its_verdict() {
             }
             for quote in claim["quotes"].as_array().unwrap() {
                 quotes += 1;
-                let said = quote["text"].as_str().unwrap().split_whitespace().collect::<Vec<_>>().join(" ");
-                assert!(text.contains(&said), "{file}: {name}: {said}");
+                let quoted = quote["text"].as_str().unwrap().split_whitespace().collect::<Vec<_>>().join(" ");
+                assert!(text.contains(&quoted), "{file}: {name}: {quoted}");
             }
         }
     }
@@ -239,8 +239,8 @@ fn the_page_says_nothing_of_the_machine() {
     assert!(!absolute.contains(whole.to_str().unwrap()));
     assert_eq!(absolute, relative);
     harmless(&absolute);
-    for told in ["✗</span> refuted", "wrong.md", "unknown-field", "0.450 s", "in the baseline"] {
-        assert_eq!(absolute.contains(told), told != "in the baseline", "{told}");
+    for part in ["✗</span> refuted", "wrong.md", "unknown-field", "0.450 s", "in the baseline"] {
+        assert_eq!(absolute.contains(part), part != "in the baseline", "{part}");
     }
 }
 
@@ -307,9 +307,9 @@ fn numbers_that_nothing_claims_are_those_of_the_rule() {
         format!("# Long\n\nIt is {}, below 20 m, and 11 m.\n\n```quiz\n{quiz}\n```\n", numbers.join(", "));
     std::fs::write(folder.path().join("a.md"), text).unwrap();
     let (page, report) = page_of(folder.path(), &["a.md"]);
-    let told: Vec<&str> =
+    let messages: Vec<&str> =
         report["findings"].as_array().unwrap().iter().filter_map(|f| f["message"].as_str()).collect();
-    assert_eq!(told, ["no `verify` quotes 11 m, although nearly all of the other 10 numbers are quoted"]);
+    assert_eq!(messages, ["no `verify` quotes 11 m, although nearly all of the other 10 numbers are quoted"]);
     let tree = parse(&page);
     let listed: Vec<String> = with_class(tree.root(), "numbers")[0]
         .descendants()
@@ -413,7 +413,7 @@ fn runs_have_their_settings_beside_them() {
     assert_eq!(recorded.len(), all.len());
     for (row, run) in all.iter().zip(recorded) {
         let s = &run["settings"];
-        let told = format!(
+        let expected = format!(
             "timestep {} s, {}, solver {} (at most {} iterations, tolerance {}), {} cone",
             s["timestep"],
             s["integrator"].as_str().unwrap(),
@@ -422,7 +422,7 @@ fn runs_have_their_settings_beside_them() {
             "1e-8",
             s["cone"].as_str().unwrap()
         );
-        assert!(row[3].starts_with(&told), "{} and not {told}", row[3]);
+        assert!(row[3].starts_with(&expected), "{} and not {expected}", row[3]);
         assert_eq!(row[3].ends_with(", gravity 0 0 -1.5"), row[0] == "all", "{}", row[3]);
     }
     // What all runs have is said once.

@@ -62,8 +62,8 @@ fn value(heap: &Heap, v: &Value) -> Json {
         Value::Boolean(b) => json!(b),
         Value::String(s) => json!(&**s),
         Value::Record(_) => {
-            let known = ["potential", "kinetic", "total"];
-            known.iter().filter_map(|k| Some((k.to_string(), value(heap, &heap.get(v, k)?)))).collect()
+            let names = ["potential", "kinetic", "total"];
+            names.iter().filter_map(|k| Some((k.to_string(), value(heap, &heap.get(v, k)?)))).collect()
         }
         list => match heap.to_numbers(list) {
             Some(list) => numbers(&list),

@@ -116,12 +116,12 @@ fn a_request_holds_the_models_as_the_runs_have_them() {
 fn a_judge_that_agrees_changes_nothing() {
     let folder = folder();
     let (_, recording) = asked(folder.path());
-    let (code, report, told) = judged(folder.path(), &recording);
+    let (code, report, stdout) = judged(folder.path(), &recording);
     assert_eq!((code, &report["findings"]), (0, &json!([])));
     assert_eq!((&report["judge"]["compared"], &report["judge"]["turned"]), (&json!(8), &json!(0)));
     assert!(
-        told.contains("judge.json: agrees with MuJoCo 3.14.0: 8 of 8 measures, all 2 verdicts\n"),
-        "{told}"
+        stdout.contains("judge.json: agrees with MuJoCo 3.14.0: 8 of 8 measures, all 2 verdicts\n"),
+        "{stdout}"
     );
 }
 
@@ -129,25 +129,25 @@ fn a_judge_that_agrees_changes_nothing() {
 #[test]
 fn what_is_not_judged_is_counted() {
     let folder = folder();
-    let own = json!({"runs": {"plain": {}}, "measure": {"height": "final(data.qpos[2])"},
+    let verify = json!({"runs": {"plain": {}}, "measure": {"height": "final(data.qpos[2])"},
         "find": {"limit": {"largest": "gravity", "from": 5, "to": 15, "run": "plain", "while": "height > 0.5", "tol": 0.01}},
         "says": [["11.03 m/s^2", "limit"]],
         "exact": {"height": "1 - 0.5 * 10 * data.time * data.time"}});
     let text = lesson()
         .replace("at 0.55 m.", "at 0.55 m. Above 0.5 m it is up to 11.03 m/s^2.")
         .replace("\"says\":", "\"over\":{\"gravity\":[9,10]},\"says\":")
-        .replace("\"stopAt\":", &format!("\"verify\":{own},\"stopAt\":"));
+        .replace("\"stopAt\":", &format!("\"verify\":{verify},\"stopAt\":"));
     std::fs::write(folder.path().join("fall.md"), text).unwrap();
     let (request, recording) = asked(folder.path());
     assert_eq!(request["runs"].as_array().unwrap().len(), 5);
-    let (code, report, told) = judged(folder.path(), &recording);
-    assert_eq!((code, &report["judge"]["unjudged"]), (0, &json!([])), "{told}");
+    let (code, report, stdout) = judged(folder.path(), &recording);
+    assert_eq!((code, &report["judge"]["unjudged"]), (0, &json!([])), "{stdout}");
     assert_eq!(report["judge"]["notJudged"], json!({"searches": 1, "ranges": 1, "closedForms": 1}));
     assert!(
-        told.contains(
+        stdout.contains(
             "9 of 9 measures, all 3 judged verdicts; not judged: 1 search, 1 range, 1 closed form\n"
         ),
-        "{told}"
+        "{stdout}"
     );
 }
 
@@ -156,7 +156,7 @@ fn a_verdict_that_turns_over_is_found() {
     let folder = folder();
     let (_, mut recording) = asked(folder.path());
     recording["runs"][0]["values"]["height"] = json!(0.46);
-    let (code, report, told) = judged(folder.path(), &recording);
+    let (code, report, stdout) = judged(folder.path(), &recording);
     assert_eq!(code, 1);
     let found: Vec<(&str, &str)> = report["findings"]
         .as_array()
@@ -178,17 +178,17 @@ fn a_verdict_that_turns_over_is_found() {
         ]
     );
     assert_eq!(report["judge"]["differing"][0]["theirs"], json!(0.46));
-    assert!(told.contains("differs from MuJoCo 3.14.0: 7 of 8 measures, 0 of 2 verdicts"), "{told}");
-    assert!(told.contains("`plain.height` is"), "{told}");
+    assert!(stdout.contains("differs from MuJoCo 3.14.0: 7 of 8 measures, 0 of 2 verdicts"), "{stdout}");
+    assert!(stdout.contains("`plain.height` is"), "{stdout}");
 
     // A number that differs and turns nothing over is told, and is no fault.
     let (_, mut recording) = asked(folder.path());
     recording["runs"][2]["values"]["height"] = json!(0.7);
-    let (code, report, told) = judged(folder.path(), &recording);
+    let (code, report, stdout) = judged(folder.path(), &recording);
     assert_eq!((code, &report["findings"], &report["judge"]["turned"]), (0, &json!([]), &json!(0)));
     assert!(
-        told.contains("7 of 8 measures, all 2 verdicts") && told.contains("`many[0].height` is"),
-        "{told}"
+        stdout.contains("7 of 8 measures, all 2 verdicts") && stdout.contains("`many[0].height` is"),
+        "{stdout}"
     );
 
     // A run that breaks there and not here is evidence of nothing there.
@@ -204,21 +204,21 @@ fn a_recording_of_another_text_is_told_and_not_used() {
     recording["runs"][0]["values"]["height"] = json!(0.46);
     let text = lesson().replace("\"value\":10", "\"value\":11").replace("0.55 m", "0.50 m");
     std::fs::write(folder.path().join("fall.md"), text).unwrap();
-    let (code, report, told) = judged(folder.path(), &recording);
+    let (code, report, stdout) = judged(folder.path(), &recording);
     assert_eq!((&report["judge"]["staleRuns"], &report["judge"]["compared"]), (&json!(4), &json!(0)));
     assert!(report["findings"].as_array().unwrap().iter().all(|f| f["code"] != "engine-dependent"));
-    assert_eq!(code, 3, "{told}");
-    assert!(told.contains("not judged 8 measures: the lesson or its model has changed"), "{told}");
+    assert_eq!(code, 3, "{stdout}");
+    assert!(stdout.contains("not judged 8 measures: the lesson or its model has changed"), "{stdout}");
 
     // What is not recorded at all, and what the judge could not take.
     let (_, mut recording) = asked(folder.path());
     recording["runs"].as_array_mut().unwrap().truncate(1);
     recording["runs"][0]["values"].as_object_mut().unwrap().remove("never");
     recording["runs"][0]["refused"] = json!({"never": "first is not known"});
-    let (code, report, told) = judged(folder.path(), &recording);
+    let (code, report, stdout) = judged(folder.path(), &recording);
     assert_eq!((code, &report["judge"]["missingRuns"]), (3, &json!(3)));
-    assert!(told.contains("not judged 1 measure: first is not known"), "{told}");
-    assert!(told.contains("not judged 6 measures: its run is not recorded"), "{told}");
+    assert!(stdout.contains("not judged 1 measure: first is not known"), "{stdout}");
+    assert!(stdout.contains("not judged 6 measures: its run is not recorded"), "{stdout}");
 }
 
 #[test]

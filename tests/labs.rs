@@ -28,7 +28,7 @@ const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// A few nudges show the order of what rounding does, not the worst of it.
 const WIDER: f64 = 2.0;
 /// The step of a perturbed start.
-const NUDGE: f64 = 1e-14;
+const PERTURBATION: f64 = 1e-14;
 
 /// Traces that are not known so well, and why: lab, trace, in so many runs at most. Beyond this list nothing is excused.
 const EXCUSED: &[(&str, &str, usize, &str)] = &[
@@ -60,7 +60,7 @@ const GRIP: &str =
 enum How {
     /// As it was recorded.
     Recorded,
-    /// Coordinates and gravity moved, each by so many times [`NUDGE`].
+    /// Coordinates and gravity moved, each by so many times [`PERTURBATION`].
     Nudged(f64, f64),
     /// The solver run to rounding.
     Tight,
@@ -90,7 +90,8 @@ fn ours(shared: &Path, recording: &Json, how: How) -> Json {
         .model_of_lab(lab, &mut findings)
         .unwrap_or_else(|| panic!("{name}: {:?}", models.take_findings()));
     let mut model: Model = (*model).clone();
-    let [moved, pulled] = if let How::Nudged(q, g) = how { [q * NUDGE, g * NUDGE] } else { [0.0; 2] };
+    let [moved, pulled] =
+        if let How::Nudged(q, g) = how { [q * PERTURBATION, g * PERTURBATION] } else { [0.0; 2] };
     let edit = model.edit();
     edit.qpos0.iter_mut().chain(edit.key_qpos).for_each(|q| *q += moved);
     model.edit().opt.gravity.iter_mut().for_each(|g| *g *= 1.0 + pulled);
@@ -149,7 +150,7 @@ fn labs_trace_what_they_trace_on_a_page() {
     }
     let path = std::env::var_os("LABSPEC_LABS")
         .map_or_else(|| workspace().join("tests/golden/labs.json"), std::path::PathBuf::from);
-    let (mut wrong, mut own, mut same) = (Vec::new(), BTreeMap::new(), 0.0_f64);
+    let (mut wrong, mut excess, mut same) = (Vec::new(), BTreeMap::new(), 0.0_f64);
     let recordings = read_json(&path);
     let recordings = recordings.as_array().unwrap();
     for recording in recordings {
@@ -169,34 +170,35 @@ fn labs_trace_what_they_trace_on_a_page() {
                 continue;
             }
             let others = others.get_or_insert_with(|| OTHERWISE.map(|how| ours(&shared, recording, how)));
-            let [solved, nudged @ ..] = others.each_ref().map(|other| apart(recording, i, &found, other));
-            let nudged = nudged.into_iter().fold(0.0, f64::max);
+            let [solved, perturbed @ ..] = others.each_ref().map(|other| apart(recording, i, &found, other));
+            let perturbed = perturbed.into_iter().fold(0.0, f64::max);
             let line = format!(
-                "{what} {name}: {theirs:.1e} of its range from theirs; from itself {nudged:.1e} nudged, {solved:.1e} solved"
+                "{what} {name}: {theirs:.1e} of its range from theirs; from itself {perturbed:.1e} nudged, {solved:.1e} solved"
             );
-            if theirs <= WIDER * nudged.max(solved) {
+            if theirs <= WIDER * perturbed.max(solved) {
                 println!("{line}");
-                *own.entry((recording["lab"].as_str().unwrap(), name.as_str().unwrap()))
+                *excess
+                    .entry((recording["lab"].as_str().unwrap(), name.as_str().unwrap()))
                     .or_insert(0_usize) += 1;
             } else {
                 wrong.push(line);
             }
         }
     }
-    let excused: usize = own.values().sum();
+    let excused: usize = excess.values().sum();
     println!(
         "{} runs, traces within {same:.1e} of their range; {excused} not known so well",
         recordings.len()
     );
     // Another file of recordings has other runs.
     if std::env::var_os("LABSPEC_LABS").is_none() {
-        for ((lab, trace), runs) in &own {
+        for ((lab, trace), runs) in &excess {
             let listed = EXCUSED.iter().find(|(l, t, ..)| l == lab && t == trace).map_or(0, |e| e.2);
             if *runs > listed {
                 wrong.push(format!("{lab}, {trace}: excused in {runs} runs, listed for {listed}"));
             }
         }
-        for (lab, trace, ..) in EXCUSED.iter().filter(|(l, t, ..)| !own.contains_key(&(*l, *t))) {
+        for (lab, trace, ..) in EXCUSED.iter().filter(|(l, t, ..)| !excess.contains_key(&(*l, *t))) {
             wrong.push(format!("{lab}, {trace}: is listed as excused, and is as on the page"));
         }
     }

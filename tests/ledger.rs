@@ -151,7 +151,7 @@ fn ledger(text: &str) -> Ledger {
     check::ledger(std::slice::from_ref(&checked), &checked.findings)
 }
 
-fn of(ledger: &Ledger, subject: Subject) -> Vec<&Entry> {
+fn entries_of(ledger: &Ledger, subject: Subject) -> Vec<&Entry> {
     ledger.entries().iter().filter(|e| e.subject == subject).collect()
 }
 
@@ -160,13 +160,13 @@ fn holds(height: f64, steps: u32, damage: &[Damage]) -> Result<(), TestCaseError
     let text = lesson(height, steps, damage);
     let ledger = ledger(&text);
     for subject in [Subject::File, Subject::Lab, Subject::Answer, Subject::Quote, Subject::ClosedForm] {
-        let taken = damage.iter().any(|&d| takes(d).contains(&subject));
+        let affected = damage.iter().any(|&d| takes(d).contains(&subject));
         let gone = subject == Subject::Quote && damage.contains(&Damage::VerifyRemoved);
-        let entries = of(&ledger, subject);
+        let entries = entries_of(&ledger, subject);
         prop_assert_eq!(entries.len(), usize::from(!gone), "{:?} {:?}", subject, entries);
         for entry in entries {
             let is_true = matches!(entry.state, State::True(_));
-            prop_assert_eq!(is_true, !taken, "{:?}: {:?}\n{}", damage, entry, text);
+            prop_assert_eq!(is_true, !affected, "{:?}: {:?}\n{}", damage, entry, text);
         }
     }
     let harmless = damage.iter().all(|&d| d == Damage::VerifyRemoved);
@@ -337,12 +337,12 @@ fn a_baseline_hides_no_claim_that_changed() {
     };
     write(&CLEAN.replace("\"answer\": 2", "\"answer\": 0"));
     assert_eq!(check(&["--update-baseline"]).code, 0);
-    let known = check(&[]);
-    assert_eq!(known.code, 0, "{}", known.stdout);
+    let baselined = check(&[]);
+    assert_eq!(baselined.code, 0, "{}", baselined.stdout);
     assert!(
-        last_line(&known).contains("2 already in the baseline: no problems outside the baseline"),
+        last_line(&baselined).contains("2 already in the baseline: no problems outside the baseline"),
         "{}",
-        known.stdout
+        baselined.stdout
     );
     // Another key, which is refuted as well.
     write(&CLEAN.replace("\"answer\": 2", "\"answer\": 1"));

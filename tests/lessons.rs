@@ -23,9 +23,9 @@ fn beside(path: &str) -> Option<PathBuf> {
     needs(&format!("../shared/{path}")).then(|| workspace().join("../shared").join(path))
 }
 
-fn load(path: &Path, shown: &str, models: &ModelFolder) -> Lesson {
+fn load(path: &Path, display_path: &str, models: &ModelFolder) -> Lesson {
     let text = std::fs::read_to_string(path).unwrap();
-    load_lesson(SourceFile::new(shown, text), models)
+    load_lesson(SourceFile::new(display_path, text), models)
 }
 
 fn sorted(folder: &Path) -> Vec<PathBuf> {
@@ -45,10 +45,10 @@ fn every_wrong_lesson_reads_as_its_snapshot() {
         };
         let lesson = load(&path, name, &models);
         assert!(!lesson.findings.is_empty(), "{name} is meant to be wrong");
-        let shown = report::human(&lesson.findings, &[&lesson.file], false);
-        let shown = format!("{shown}{}", report::Summary::of(&lesson.findings));
+        let output = report::human(&lesson.findings, &[&lesson.file], false);
+        let output = format!("{output}{}", report::Summary::count(&lesson.findings));
         insta::with_settings!({prepend_module_to_snapshot => false, omit_expression => true, snapshot_path => "lessons/snapshots"}, {
-            insta::assert_snapshot!(name.replace('.', "-"), shown);
+            insta::assert_snapshot!(name.replace('.', "-"), output);
         });
     }
 }
@@ -148,9 +148,9 @@ fn real_labs_and_quizzes_have_no_false_error() {
         for path in sorted(&corpus.join(folder)) {
             let name = path.file_name().and_then(|n| n.to_str()).unwrap_or("").to_string();
             let lesson = load(&path, &name, &models);
-            let told: Vec<_> = lesson.findings.iter().map(|f| (name.as_str(), f.code)).collect();
-            let known: &[_] = if name == "4.2_01.json" { &[("4.2_01.json", "long-answer")] } else { &[] };
-            assert_eq!(told, known, "{}", report::human(&lesson.findings, &[&lesson.file], false));
+            let reported: Vec<_> = lesson.findings.iter().map(|f| (name.as_str(), f.code)).collect();
+            let expected: &[_] = if name == "4.2_01.json" { &[("4.2_01.json", "long-answer")] } else { &[] };
+            assert_eq!(reported, expected, "{}", report::human(&lesson.findings, &[&lesson.file], false));
             assert_eq!(lesson.labs.len() + lesson.quizzes.len(), 1, "{name}");
             lessons.push(lesson);
         }

@@ -45,7 +45,7 @@ fn parsed(done: &Done) -> Value {
 }
 
 /// Exit code and the codes that are told.
-fn told(folder: &TempDir, arguments: &[&str]) -> (i32, Vec<String>) {
+fn reported_codes(folder: &TempDir, arguments: &[&str]) -> (i32, Vec<String>) {
     let all: Vec<&str> = arguments.iter().copied().chain(["--format", "json"]).collect();
     let done = check(folder, &all);
     report::hold(&done.stdout);
@@ -61,12 +61,12 @@ fn codes(list: &[&str]) -> Vec<String> {
 fn rules_are_chosen_and_left_out() {
     let folder = folder(&[("a.md", TWICE)]);
     let twice = codes(&["duplicate-readout"]);
-    assert_eq!(told(&folder, &["a.md"]), (1, twice.clone()));
-    assert_eq!(told(&folder, &["a.md", "--select", "structure"]), (1, twice.clone()));
-    assert_eq!(told(&folder, &["a.md", "--select", "run"]), (0, vec![]));
-    assert_eq!(told(&folder, &["a.md", "--ignore", "duplicate-readout"]), (0, vec![]));
-    assert_eq!(told(&folder, &["a.md", "--ignore", "structure,model"]), (0, vec![]));
-    assert_eq!(told(&folder, &["a.md", "--ignore", "warnings"]), (0, vec![]));
+    assert_eq!(reported_codes(&folder, &["a.md"]), (1, twice.clone()));
+    assert_eq!(reported_codes(&folder, &["a.md", "--select", "structure"]), (1, twice.clone()));
+    assert_eq!(reported_codes(&folder, &["a.md", "--select", "run"]), (0, vec![]));
+    assert_eq!(reported_codes(&folder, &["a.md", "--ignore", "duplicate-readout"]), (0, vec![]));
+    assert_eq!(reported_codes(&folder, &["a.md", "--ignore", "structure,model"]), (0, vec![]));
+    assert_eq!(reported_codes(&folder, &["a.md", "--ignore", "warnings"]), (0, vec![]));
     let done = check(&folder, &["a.md", "--ignore", "duplicate-readout"]);
     assert!(done.stdout.contains("(1 warning ignored)"), "{}", done.stdout);
     let denied = parsed(&check(&folder, &["a.md", "--deny", "warnings", "--format", "json"]));
@@ -81,7 +81,7 @@ fn rules_are_chosen_and_left_out() {
 fn an_error_that_is_ignored_is_left_out_and_not_clean() {
     let broken = TWICE.replace("data.qvel[2]", "data.qvle[2]").replacen("\"z\"", "\"v\"", 1);
     let folder = folder(&[("a.md", &broken)]);
-    assert_eq!(told(&folder, &["a.md"]).0, 1);
+    assert_eq!(reported_codes(&folder, &["a.md"]).0, 1);
     let done = check(&folder, &["a.md", "--ignore", "unknown-field"]);
     assert_ne!(done.code, 0, "{}", done.stdout);
     assert!(!done.stdout.contains("no problems found"), "{}", done.stdout);
@@ -94,14 +94,14 @@ fn settings_of_the_nearest_file_count() {
         ("a.md", TWICE),
         ("drafts/b.md", TWICE),
     ]);
-    assert_eq!(told(&folder, &["."]), (1, codes(&["duplicate-readout"])));
-    assert_eq!(told(&folder, &["drafts"]), (0, vec![]));
+    assert_eq!(reported_codes(&folder, &["."]), (1, codes(&["duplicate-readout"])));
+    assert_eq!(reported_codes(&folder, &["drafts"]), (0, vec![]));
     write(folder.path(), "labspec.toml", "ignore = [\"nonsense\"]\n");
     let done = check(&folder, &["."]);
     assert_eq!(done.code, 2);
     assert!(done.stderr.contains("labspec.toml: ignore: `nonsense` is not a rule"), "{}", done.stderr);
     write(folder.path(), "other.toml", "ignore = [\"structure\"]\n");
-    assert_eq!(told(&folder, &[".", "--config", "other.toml"]), (0, vec![]));
+    assert_eq!(reported_codes(&folder, &[".", "--config", "other.toml"]), (0, vec![]));
 }
 
 #[test]
@@ -117,19 +117,25 @@ fn an_author_allows_with_a_reason() {
         ("d.md", &TWICE.replace("```lab", "<!-- labspec allow duplicate-readout -->\n\n```lab")),
         ("e.md", &with(r#""lint": {"allow": ["duplicate-readout"]}"#)),
     ]);
-    assert_eq!(told(&folder, &["a.md"]), (0, vec![]));
-    assert_eq!(told(&folder, &["b.md"]), (0, vec![]));
+    assert_eq!(reported_codes(&folder, &["a.md"]), (0, vec![]));
+    assert_eq!(reported_codes(&folder, &["b.md"]), (0, vec![]));
     assert_eq!(
-        told(&folder, &["c.md"]),
+        reported_codes(&folder, &["c.md"]),
         (1, codes(&["unused-allowance", "unknown-rule", "duplicate-readout"]))
     );
-    assert_eq!(told(&folder, &["d.md"]), (1, codes(&["allowance-without-reason", "duplicate-readout"])));
-    assert!(told(&folder, &["e.md"]).1.contains(&"missing-key".to_string()));
+    assert_eq!(
+        reported_codes(&folder, &["d.md"]),
+        (1, codes(&["allowance-without-reason", "duplicate-readout"]))
+    );
+    assert!(reported_codes(&folder, &["e.md"]).1.contains(&"missing-key".to_string()));
     let done = check(&folder, &["a.md", "--show-allowed"]);
     assert!(done.stdout.contains("suppressed: both are read aloud"), "{}", done.stdout);
     assert!(done.stdout.contains("1 finding suppressed by the lessons"), "{}", done.stdout);
-    let aside = &parsed(&check(&folder, &["a.md", "--format", "json"]))["aside"];
-    assert_eq!((&aside["allowed"][0]["code"], &aside["ignored"]), (&json!("duplicate-readout"), &json!(0)));
+    let suppressed = &parsed(&check(&folder, &["a.md", "--format", "json"]))["aside"];
+    assert_eq!(
+        (&suppressed["allowed"][0]["code"], &suppressed["ignored"]),
+        (&json!("duplicate-readout"), &json!(0))
+    );
 }
 
 #[test]
@@ -138,16 +144,16 @@ fn what_the_baseline_knows_is_not_told_again() {
     let folder = folder(&[("lessons/a.md", &broken)]);
     let written = check(&folder, &["lessons", "--baseline", "known.json", "--update-baseline"]);
     assert_eq!(written.code, 0, "{}", written.stderr);
-    assert_eq!(told(&folder, &["lessons", "--baseline", "known.json"]), (0, vec![]));
+    assert_eq!(reported_codes(&folder, &["lessons", "--baseline", "known.json"]), (0, vec![]));
     let done = check(&folder, &["lessons", "--baseline", "known.json"]);
     assert!(done.stdout.contains("no problems outside the baseline"), "{}", done.stdout);
     assert!(!done.stdout.contains("no problems found"), "{}", done.stdout);
     // Text that moves stays known; what is new is told.
     let moved = broken.replace("# Fall", "# Fall\n\nA ball falls.\n\nIt falls fast.");
     write(folder.path(), "lessons/a.md", &moved);
-    assert_eq!(told(&folder, &["lessons", "--baseline", "known.json"]), (0, vec![]));
+    assert_eq!(reported_codes(&folder, &["lessons", "--baseline", "known.json"]), (0, vec![]));
     write(folder.path(), "lessons/a.md", &moved.replace("data.qpos[2]", "data.qops[2]"));
-    let (code, found) = told(&folder, &["lessons", "--baseline", "known.json"]);
+    let (code, found) = reported_codes(&folder, &["lessons", "--baseline", "known.json"]);
     assert_eq!((code, found), (1, codes(&["unknown-field"])));
     assert_eq!(check(&folder, &["lessons", "--baseline", "none.json"]).code, 2);
 }

@@ -36,7 +36,7 @@ impl Editor {
         let options = json!({"inlayHints": {"units": true}, "runOnSave": true});
         let root = editor.root.clone();
         editor.ask("initialize", json!({"rootUri": root, "initializationOptions": options})).unwrap();
-        editor.tell("initialized", json!({}));
+        editor.notify("initialized", json!({}));
         editor
     }
 
@@ -50,7 +50,7 @@ impl Editor {
         self.raw(format!("Content-Length: {}\r\n\r\n{text}", text.len()).as_bytes());
     }
 
-    fn tell(&mut self, method: &str, params: Value) {
+    fn notify(&mut self, method: &str, params: Value) {
         self.say(&json!({"jsonrpc": "2.0", "method": method, "params": params}));
     }
 
@@ -102,7 +102,7 @@ impl Editor {
 
     fn did_open(&mut self, file: &str, text: &str) -> Value {
         let document = json!({"uri": self.uri(file), "languageId": "markdown", "version": 1, "text": text});
-        self.tell("textDocument/didOpen", json!({"textDocument": document}));
+        self.notify("textDocument/didOpen", json!({"textDocument": document}));
         self.found(file, 1)
     }
 
@@ -111,7 +111,7 @@ impl Editor {
         let range = json!({"start": place(before, part.start), "end": place(before, part.end)});
         let document = json!({"uri": self.uri(file), "version": version});
         let changes = json!([{"range": range, "text": text}]);
-        self.tell("textDocument/didChange", json!({"textDocument": document, "contentChanges": changes}));
+        self.notify("textDocument/didChange", json!({"textDocument": document, "contentChanges": changes}));
     }
 
     /// The next findings about a version of a document.
@@ -154,7 +154,7 @@ impl Editor {
     /// Ends as the protocol says, and gives the exit code.
     fn end(mut self) -> i32 {
         self.ask("shutdown", Value::Null).unwrap();
-        self.tell("exit", Value::Null);
+        self.notify("exit", Value::Null);
         self.child.wait().unwrap().code().unwrap()
     }
 }
@@ -212,14 +212,14 @@ fn a_session_as_it_was_recorded() {
     let folder = folder();
     let mut editor = Editor::silent(folder.path());
     let root = editor.root.clone();
-    let mut told = String::new();
+    let mut transcript = String::new();
     let mut note = |what: &str, answer: &Value| {
         let text = serde_json::to_string_pretty(answer).unwrap().replace(&root, "file:///course");
-        told.push_str(&format!("## {what}\n{text}\n\n"));
+        transcript.push_str(&format!("## {what}\n{text}\n\n"));
     };
     let hello = json!({"rootUri": editor.root, "initializationOptions": {"inlayHints": {"units": true}}});
     note("initialize", &editor.ask("initialize", hello).unwrap()["capabilities"].clone());
-    editor.tell("initialized", json!({}));
+    editor.notify("initialized", json!({}));
     let text = lab(
         "\"setup\": \"data.qpos[2] = 1\", \"readouts\": [{\"label\": \"speed\", \"exprr\": \"data.qvel[2]\"}, {\"label\": \"height\", \"expr\": \"data.body('heavy').xpso[2]\"}]",
     );
@@ -244,10 +244,10 @@ fn a_session_as_it_was_recorded() {
     editor.change("a.md", 2, &text, at..at + 5, "expr");
     note("findings after a change", &editor.found("a.md", 2));
     note("shutdown", &editor.ask("shutdown", Value::Null).unwrap());
-    editor.tell("exit", Value::Null);
+    editor.notify("exit", Value::Null);
     assert_eq!(editor.child.wait().unwrap().code(), Some(0));
     insta::with_settings!({prepend_module_to_snapshot => false, omit_expression => true}, {
-        insta::assert_snapshot!("lsp-session", told);
+        insta::assert_snapshot!("lsp-session", transcript);
     });
 }
 
@@ -331,7 +331,7 @@ fn completions_know_the_language_the_model_and_the_format() {
 fn a_hover_tells_the_value_at_the_start() {
     let folder = folder();
     let mut editor = Editor::open(folder.path());
-    for (inside, told) in [
+    for (inside, expected) in [
         ("\"setup\": \"data.qpos[|2] = 7\"", "z position, m"),
         ("\"setup\": \"data.qpos[2] = 7\", \"controller\": \"ctx.z = data.qpos[|2]\"", "= **7**"),
         ("\"setup\": \"data.qpos[2] = 7\", \"controller\": \"ctx.z = data.q|pos\"", "= **[-0.2, 0, 7"),
@@ -342,9 +342,9 @@ fn a_hover_tells_the_value_at_the_start() {
     ] {
         let (text, byte) = marked(&lab(inside));
         editor.did_open("h.md", &text);
-        let shown = editor.at("hover", "h.md", &text, byte);
-        let shown = shown["contents"]["value"].as_str().unwrap_or("").to_string();
-        assert!(shown.contains(told), "{inside}: {shown}");
+        let hover = editor.at("hover", "h.md", &text, byte);
+        let hover = hover["contents"]["value"].as_str().unwrap_or("").to_string();
+        assert!(hover.contains(expected), "{inside}: {hover}");
     }
     assert_eq!(editor.end(), 0);
 }
@@ -362,7 +362,7 @@ fn a_name_leads_to_the_model_and_back() {
     assert_eq!(there[0]["range"]["start"], place(&model, at));
     let uri = editor.uri("models/ball_drop.xml");
     let document = json!({"uri": uri, "languageId": "xml", "version": 1, "text": model});
-    editor.tell("textDocument/didOpen", json!({"textDocument": document}));
+    editor.notify("textDocument/didOpen", json!({"textDocument": document}));
     let back = editor.at("definition", "models/ball_drop.xml", &model, at + 2);
     let uris: Vec<&str> = back.as_array().unwrap().iter().map(|l| l["uri"].as_str().unwrap()).collect();
     assert!(
@@ -390,8 +390,8 @@ fn claims_in_comments_are_code() {
     std::fs::write(folder.path().join("said.md"), &text).unwrap();
     assert_eq!(codes(&editor.did_open("said.md", &text)), [""; 0]);
     let byte = text.find("heavy').xpos").unwrap() + 2;
-    let shown = editor.at("hover", "said.md", &text, byte);
-    assert!(shown["contents"]["value"].as_str().unwrap_or("").contains("heavy"), "{shown}");
+    let hover = editor.at("hover", "said.md", &text, byte);
+    assert!(hover["contents"]["value"].as_str().unwrap_or("").contains("heavy"), "{hover}");
     let answer = editor.try_at("rename", "said.md", &text, byte, json!({"newName": "iron"})).unwrap();
     let edits = &answer["changes"][editor.uri("said.md").as_str()];
     let new = edited(&text, edits);
@@ -480,11 +480,14 @@ fn repairs_are_offered_and_made() {
     };
     let made = |action: &Value| edited(&text, &action["edit"]["documentChanges"][0]["edits"]);
     assert!(made(&offered("title")).contains("\"title\": \"A\""));
-    let kept = made(&offered("suppress `duplicate-readout`"));
-    assert!(kept.contains("\"lint\": {\"allow\": [\"duplicate-readout\"], \"why\": \"\"}"), "{kept}");
+    let suppressed = made(&offered("suppress `duplicate-readout`"));
+    assert!(
+        suppressed.contains("\"lint\": {\"allow\": [\"duplicate-readout\"], \"why\": \"\"}"),
+        "{suppressed}"
+    );
     // Once a reason stands there, it is no longer told.
-    let kept = kept.replace("\"why\": \"\"", "\"why\": \"on purpose\"");
-    assert!(!codes(&editor.did_open("f.md", &kept)).contains(&"duplicate-readout"));
+    let suppressed = suppressed.replace("\"why\": \"\"", "\"why\": \"on purpose\"");
+    assert!(!codes(&editor.did_open("f.md", &suppressed)).contains(&"duplicate-readout"));
     let mut asked = ask(json!(["source.fixAll"]));
     editor.did_open("f.md", &text);
     asked["textDocument"]["uri"] = editor.uri("f.md").into();
@@ -501,7 +504,7 @@ fn runs_go_on_beside_and_stop_when_the_text_changes() {
     let text = crate::program::wrong();
     let typed = editor.did_open("wrong.md", &text);
     assert!(!codes(&typed).contains(&"quote-wrong"), "{typed}");
-    editor.tell("textDocument/didSave", json!({"textDocument": {"uri": editor.uri("wrong.md")}}));
+    editor.notify("textDocument/didSave", json!({"textDocument": {"uri": editor.uri("wrong.md")}}));
     let ran = editor.found("wrong.md", 1);
     assert!(
         codes(&ran).contains(&"control-without-effect")
@@ -513,7 +516,7 @@ fn runs_go_on_beside_and_stop_when_the_text_changes() {
         "\"stopAt\": 20000, \"setup\": \"data.qpos[2] = 1\", \"readouts\": [{\"label\": \"a\", \"expr\": \"data.qpos[2]\"}]",
     );
     editor.did_open("slow.md", &slow);
-    editor.tell("textDocument/didSave", json!({"textDocument": {"uri": editor.uri("slow.md")}}));
+    editor.notify("textDocument/didSave", json!({"textDocument": {"uri": editor.uri("slow.md")}}));
     let at = slow.find("qpos[2]\"}").unwrap();
     editor.change("slow.md", 2, &slow, at..at + 4, "qpso");
     assert!(codes(&editor.found("slow.md", 2)).contains(&"unknown-field"));
@@ -527,7 +530,7 @@ fn whatever_is_said_the_server_goes_on() {
     let mut editor = Editor::silent(folder.path());
     let code = |answer: Result<Value, Value>| answer.unwrap_err()["code"].as_i64().unwrap();
     assert_eq!(code(editor.ask("textDocument/hover", json!({}))), -32002);
-    editor.tell(
+    editor.notify(
         "textDocument/didOpen",
         json!({"textDocument": {"uri": "file:///x.md", "text": "", "version": 1}}),
     );
@@ -537,8 +540,8 @@ fn whatever_is_said_the_server_goes_on() {
     assert_eq!(code(editor.ask("textDocument/somethingElse", json!({}))), -32601);
     for bad in ["{", "[]", "3", "{\"jsonrpc\":\"2.0\"}", "\u{1}"] {
         editor.raw(format!("Content-Length: {}\r\n\r\n{bad}", bad.len()).as_bytes());
-        let told = editor.hear().unwrap();
-        assert_eq!((&told["id"], &told["error"]["code"]), (&Value::Null, &json!(-32700)), "{bad}");
+        let answer = editor.hear().unwrap();
+        assert_eq!((&answer["id"], &answer["error"]["code"]), (&Value::Null, &json!(-32700)), "{bad}");
     }
     editor.raw(b"Nonsense\r\n");
     assert_eq!(editor.hear().unwrap()["error"]["code"], -32700);
@@ -582,7 +585,7 @@ fn whatever_is_said_the_server_goes_on() {
             "$/cancelRequest",
             "workspace/didChangeWatchedFiles",
         ] {
-            editor.tell(method, params.clone());
+            editor.notify(method, params.clone());
         }
     }
     // Every place of a damaged lesson.
@@ -596,7 +599,7 @@ fn whatever_is_said_the_server_goes_on() {
     }
     editor.ask("shutdown", Value::Null).unwrap();
     assert_eq!(code(editor.ask("textDocument/hover", json!({}))), -32600);
-    editor.tell("exit", Value::Null);
+    editor.notify("exit", Value::Null);
     assert_eq!(editor.child.wait().unwrap().code(), Some(0));
 }
 
@@ -605,7 +608,7 @@ fn whatever_is_said_the_server_goes_on() {
 fn an_editor_that_vanishes_leaves_nothing_behind() {
     let folder = folder();
     let mut editor = Editor::open(folder.path());
-    editor.tell("exit", Value::Null);
+    editor.notify("exit", Value::Null);
     assert_eq!(editor.child.wait().unwrap().code(), Some(1));
     let Editor { mut child, to, .. } = Editor::open(folder.path());
     drop(to);
@@ -626,29 +629,29 @@ fn places_are_those_of_editors() {
             );
             let text = text.replace('\n', end);
             // An editor has the text without its mark.
-            let shown = text.trim_start_matches('\u{feff}');
+            let displayed = text.trim_start_matches('\u{feff}');
             let found = editor.did_open("u.md", &text);
-            let at = shown.find("xpso").unwrap();
+            let at = displayed.find("xpso").unwrap();
             let wrong = found.as_array().unwrap().iter().find(|d| d["code"] == "unknown-field").unwrap();
             assert_eq!(
                 wrong["range"],
-                json!({"start": place(shown, at), "end": place(shown, at + 4)}),
+                json!({"start": place(displayed, at), "end": place(displayed, at + 4)}),
                 "{found}"
             );
-            let byte = shown.find("qpos[2]").unwrap();
-            let hover = editor.at("hover", "u.md", shown, byte + 1);
+            let byte = displayed.find("qpos[2]").unwrap();
+            let hover = editor.at("hover", "u.md", displayed, byte + 1);
             let whole = byte - "data.".len();
-            assert_eq!(hover["range"]["start"], place(shown, whole), "{hover}");
-            let all = editor.at("completion", "u.md", shown, byte + 2);
+            assert_eq!(hover["range"]["start"], place(displayed, whole), "{hover}");
+            let all = editor.at("completion", "u.md", displayed, byte + 2);
             let item = all.as_array().unwrap().iter().find(|i| i["label"] == "qpos").unwrap();
-            let range = json!({"start": place(shown, byte), "end": place(shown, byte + 4)});
+            let range = json!({"start": place(displayed, byte), "end": place(displayed, byte + 4)});
             assert_eq!(item["textEdit"]["range"], range, "{item}");
-            let name = shown.find("heavy'").unwrap();
-            let renamed = editor.try_at("rename", "u.md", shown, name, json!({"newName": "Fe"})).unwrap();
-            let new = edited(shown, &renamed["changes"][editor.uri("u.md")]);
-            assert_eq!(new, shown.replace("heavy'", "Fe'"));
+            let name = displayed.find("heavy'").unwrap();
+            let renamed = editor.try_at("rename", "u.md", displayed, name, json!({"newName": "Fe"})).unwrap();
+            let new = edited(displayed, &renamed["changes"][editor.uri("u.md")]);
+            assert_eq!(new, displayed.replace("heavy'", "Fe'"));
             // An edit in the middle of the line, as the editor counts.
-            editor.change("u.md", 2, shown, at..at + 4, "xpos");
+            editor.change("u.md", 2, displayed, at..at + 4, "xpos");
             assert!(!codes(&editor.found("u.md", 2)).contains(&"unknown-field"));
             // What is allowed stands on a line of its own, which ends like the others.
             let about = json!({"textDocument": {"uri": editor.uri("u.md")}, "range": wrong["range"], "context": {"diagnostics": []}});
@@ -678,7 +681,7 @@ fn unsaved_texts_and_linked_folders_are_what_the_editor_sees() {
     let model = format!("<!-- not saved -->\n{model}");
     let uri = editor.uri("models/ball_drop.xml");
     let document = json!({"uri": uri, "languageId": "xml", "version": 1, "text": model});
-    editor.tell("textDocument/didOpen", json!({"textDocument": document}));
+    editor.notify("textDocument/didOpen", json!({"textDocument": document}));
     let byte = unsaved.find("'heavy')").unwrap() + 2;
     let there = editor.at("definition", "clean.md", &unsaved, byte);
     assert_eq!(there[0]["uri"], uri.as_str(), "{there}");
@@ -711,7 +714,7 @@ fn files_may_go_away() {
     assert!(editor.at("definition", "clean.md", CLEAN, byte).is_array());
     let model = editor.uri("models/ball_drop.xml");
     std::fs::remove_dir_all(folder.path().join("models")).unwrap();
-    editor.tell("workspace/didChangeWatchedFiles", json!({"changes": [{"uri": model, "type": 3}]}));
+    editor.notify("workspace/didChangeWatchedFiles", json!({"changes": [{"uri": model, "type": 3}]}));
     let codes_now = |found: Value| codes(&found).iter().map(|c| c.to_string()).collect::<Vec<_>>();
     assert!(codes_now(editor.found("clean.md", 1)).contains(&"no-model-folder".to_string()));
     for what in ["definition", "hover", "completion", "references", "prepareRename"] {
@@ -737,17 +740,18 @@ fn a_closed_document_is_told_of_no_more() {
     let uri = editor.uri("wrong.md");
     for _ in 0..5 {
         editor.did_open("wrong.md", &text);
-        editor.tell("textDocument/didSave", json!({"textDocument": {"uri": uri}}));
-        editor.tell("textDocument/didClose", json!({"textDocument": {"uri": uri}}));
+        editor.notify("textDocument/didSave", json!({"textDocument": {"uri": uri}}));
+        editor.notify("textDocument/didClose", json!({"textDocument": {"uri": uri}}));
         let found = editor.did_open("wrong.md", "# Only words\n");
         assert_eq!(found, json!([]));
-        editor.tell("textDocument/didClose", json!({"textDocument": {"uri": uri}}));
+        editor.notify("textDocument/didClose", json!({"textDocument": {"uri": uri}}));
         // Whatever was under way comes to nothing: only what was opened and closed is told.
         std::thread::sleep(Duration::from_millis(50));
         let _ = editor.ask("textDocument/nothing", json!({}));
-        let told = std::mem::take(&mut editor.heard);
-        let told: Vec<_> = told.iter().filter(|m| m["params"]["uri"] == uri.as_str()).collect();
-        assert!(told.iter().all(|m| m["params"]["diagnostics"] == json!([])), "{told:?}");
+        let notifications = std::mem::take(&mut editor.heard);
+        let notifications: Vec<_> =
+            notifications.iter().filter(|m| m["params"]["uri"] == uri.as_str()).collect();
+        assert!(notifications.iter().all(|m| m["params"]["diagnostics"] == json!([])), "{notifications:?}");
     }
     assert_eq!(editor.end(), 0);
 }
@@ -766,13 +770,13 @@ fn a_cancelled_request_is_answered_once() {
     for i in 0..20 {
         let id = if i % 2 == 0 { json!(1000 + i) } else { json!(format!("text {i}")) };
         if i % 3 == 0 {
-            editor.tell("$/cancelRequest", json!({"id": id}));
+            editor.notify("$/cancelRequest", json!({"id": id}));
         }
         editor.say(&ask(id.clone()));
-        editor.tell("$/cancelRequest", json!({"id": id}));
+        editor.notify("$/cancelRequest", json!({"id": id}));
         answered.push(id);
     }
-    editor.tell("$/cancelRequest", json!({"id": "nobody"}));
+    editor.notify("$/cancelRequest", json!({"id": "nobody"}));
     for id in &answered {
         let message = editor.hear().unwrap();
         assert_eq!(message["id"], *id);
@@ -810,7 +814,7 @@ fn huge_documents_are_answered() {
 fn a_hover_tells_the_dimension() {
     let folder = folder();
     let mut editor = Editor::open(folder.path());
-    for (inside, told) in [
+    for (inside, expected) in [
         (
             "\"controller\": \"ctx.v = Math.hypot(data.qvel[0], data.qvel[1]); ctx.w = ctx.|v\"",
             Some("is in m/s"),
@@ -827,11 +831,11 @@ fn a_hover_tells_the_dimension() {
     ] {
         let (text, byte) = marked(&lab(inside));
         editor.did_open("d.md", &text);
-        let shown = editor.at("hover", "d.md", &text, byte);
-        let shown = shown["contents"]["value"].as_str().unwrap_or("").to_string();
-        match told {
-            Some(told) => assert!(shown.contains(told), "{inside}: {shown}"),
-            None => assert!(!shown.contains("dimension"), "{inside}: {shown}"),
+        let hover = editor.at("hover", "d.md", &text, byte);
+        let hover = hover["contents"]["value"].as_str().unwrap_or("").to_string();
+        match expected {
+            Some(expected) => assert!(hover.contains(expected), "{inside}: {hover}"),
+            None => assert!(!hover.contains("dimension"), "{inside}: {hover}"),
         }
     }
     assert_eq!(editor.end(), 0);
@@ -852,23 +856,23 @@ fn a_hundred_labs_answer_at_once() {
         ));
     }
     editor.did_open("100.md", &text);
-    let mut taken: [Vec<Duration>; 3] = Default::default();
+    let mut durations: [Vec<Duration>; 3] = Default::default();
     for (round, (at, _)) in text.clone().match_indices("data.ncon").step_by(9).enumerate() {
         let version = round as u64 + 2;
         let start = Instant::now();
         editor.change("100.md", version, &text, at + 5..at + 9, if round % 2 == 0 { "ncno" } else { "qqqq" });
         text.replace_range(at + 5..at + 9, if round % 2 == 0 { "ncno" } else { "qqqq" });
         let found = editor.found("100.md", version);
-        taken[0].push(start.elapsed());
+        durations[0].push(start.elapsed());
         assert_eq!(found.as_array().unwrap().len(), round + 1, "{found}");
         let start = Instant::now();
         assert!(editor.at("completion", "100.md", &text, at + 5).as_array().unwrap().len() > 50);
-        taken[1].push(start.elapsed());
+        durations[1].push(start.elapsed());
         let start = Instant::now();
         assert!(editor.at("hover", "100.md", &text, at + 2).is_object());
-        taken[2].push(start.elapsed());
+        durations[2].push(start.elapsed());
     }
-    for (what, times) in ["findings", "completion", "hover"].into_iter().zip(&mut taken) {
+    for (what, times) in ["findings", "completion", "hover"].into_iter().zip(&mut durations) {
         times.sort();
         let (median, slowest) = (times[times.len() / 2], times[times.len() - 1]);
         println!("{what}: {median:?}, at most {slowest:?}");
@@ -895,19 +899,19 @@ fn shown_in_editor(found: &Value) -> Vec<(String, u64)> {
 fn an_editor_says_of_a_lesson_with_neighbours_what_the_program_says() {
     let folder = crate::ledger::with_neighbours();
     let text = crate::ledger::READER;
-    let said = |more: &[&str]| {
+    let codes_of = |more: &[&str]| {
         let arguments = [&["check", "reader.md", "--format", "json"], more].concat();
         let done = crate::program::run_in(folder.path(), &arguments);
         crate::ledger::found(&serde_json::from_str(&done.stdout).unwrap())
     };
-    let (typed, saved) = (said(&["--no-run"]), said(&[]));
+    let (typed, saved) = (codes_of(&["--no-run"]), codes_of(&[]));
     assert!(typed != saved && typed.iter().any(|(code, _)| code == "dead-link"), "{typed:?}");
     let mut editor = Editor::open(folder.path());
     assert_eq!(shown_in_editor(&editor.did_open("reader.md", text)), typed);
     editor.change("reader.md", 2, text, 2..2, "");
     assert_eq!(shown_in_editor(&editor.found("reader.md", 2)), typed);
     let document = json!({"textDocument": {"uri": editor.uri("reader.md")}});
-    editor.tell("textDocument/didSave", document);
+    editor.notify("textDocument/didSave", document);
     assert_eq!(shown_in_editor(&editor.found("reader.md", 2)), saved);
     assert_eq!(editor.end(), 0);
 }
@@ -925,21 +929,21 @@ fn unsaved_neighbours_are_seen() {
     editor.did_open("labs.md", labs);
     let at = labs.len();
     editor.change("labs.md", 2, labs, at..at, "\n## Elsewhere\n");
-    let told = editor.found("reader.md", 1);
-    assert!(!has(&told, "dead-link") && !has(&told, "unknown-lab"), "{told}");
+    let reported = editor.found("reader.md", 1);
+    assert!(!has(&reported, "dead-link") && !has(&reported, "unknown-lab"), "{reported}");
     let now = format!("{labs}\n## Elsewhere\n");
     let lab = now.find("```lab").unwrap();
     editor.change("labs.md", 3, &now, lab..now.len(), "");
     assert!(has(&editor.found("reader.md", 1), "unknown-lab"));
     let document = json!({"textDocument": {"uri": editor.uri("labs.md")}});
-    editor.tell("textDocument/didClose", document);
+    editor.notify("textDocument/didClose", document);
     let closed = editor.found("reader.md", 1);
     assert!(!has(&closed, "unknown-lab") && has(&closed, "dead-link"), "{closed}");
     // The model as it is typed.
     let model = std::fs::read_to_string(folder.path().join("models/free_fall.xml")).unwrap();
     let open =
         json!({"uri": editor.uri("models/free_fall.xml"), "languageId": "xml", "version": 1, "text": model});
-    editor.tell("textDocument/didOpen", json!({"textDocument": open}));
+    editor.notify("textDocument/didOpen", json!({"textDocument": open}));
     let body = model.find("<body").unwrap();
     editor.change("models/free_fall.xml", 2, &model, body + 1..body + 5, "bodi");
     assert!(has(&editor.found("reader.md", 1), "model-broken"));
@@ -952,9 +956,9 @@ fn unsaved_neighbours_are_seen() {
     assert!(has(&new, "unknown-model") && has(&new, "dead-link"), "{new}");
     let open =
         json!({"uri": editor.uri("models/soon.xml"), "languageId": "xml", "version": 1, "text": model});
-    editor.tell("textDocument/didOpen", json!({"textDocument": open}));
-    let told = editor.found("new.md", 1);
-    assert!(!has(&told, "unknown-model"), "{told}");
+    editor.notify("textDocument/didOpen", json!({"textDocument": open}));
+    let reported = editor.found("new.md", 1);
+    assert!(!has(&reported, "unknown-model"), "{reported}");
     editor.did_open("soon.md", "# Soon\n");
     assert!(!has(&editor.found("new.md", 1), "dead-link"));
     assert_eq!(editor.end(), 0);
@@ -972,7 +976,7 @@ fn a_keystroke_asks_the_disk_nothing() {
     editor.change("reader.md", 2, text, 2..2, "");
     assert_eq!(shown_in_editor(&editor.found("reader.md", 2)), first);
     let changed = json!({"changes": [{"uri": editor.uri("labs.md"), "type": 3}]});
-    editor.tell("workspace/didChangeWatchedFiles", changed);
+    editor.notify("workspace/didChangeWatchedFiles", changed);
     let now = editor.found("reader.md", 2);
     for code in ["unknown-lab", "no-model-folder"] {
         assert!(codes(&now).contains(&code), "{code}: {now}");
@@ -983,7 +987,7 @@ fn a_keystroke_asks_the_disk_nothing() {
     editor.change("reader.md", 3, text, 2..2, "");
     assert!(counts(&editor.found("reader.md", 3)));
     let changed = json!({"changes": [{"uri": editor.uri("labspec.toml"), "type": 1}]});
-    editor.tell("workspace/didChangeWatchedFiles", changed);
+    editor.notify("workspace/didChangeWatchedFiles", changed);
     assert!(!counts(&editor.found("reader.md", 3)));
     assert_eq!(editor.end(), 0);
 }

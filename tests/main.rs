@@ -1,5 +1,7 @@
 //! Tests that cross crates.
 
+#![allow(clippy::too_many_lines, reason = "a test is a table of cases or one sequence of steps")]
+
 mod allocation;
 mod answers;
 mod breaking;
@@ -45,13 +47,13 @@ mod player;
 mod precision;
 mod precision_truth;
 mod program;
+mod quote_forms;
 mod readme;
 mod recorded;
 mod refresh;
 mod reports;
 mod reproduction;
 mod rules;
-mod said;
 mod scaffold;
 mod scenery;
 mod scenes;

@@ -50,7 +50,7 @@ struct Mutant {
 
 /// What became of it.
 #[derive(Clone, Copy, PartialEq)]
-enum Fate {
+enum Detection {
     Unseen,
     Found,
     Survived,
@@ -145,45 +145,45 @@ fn planted_mistakes_are_found() {
     let kinds = kinds();
     let mutants = planted(&pieces);
     assert!(mutants.len() <= 2200, "{}", mutants.len());
-    let fates = for_each(mutants.len(), |i| {
+    let detections = for_each(mutants.len(), |i| {
         let Mutant { kind, piece, json } = &mutants[i];
         let (seen, before, claimed) = &originals[*piece];
         let piece = &pieces[*piece];
         let models = &models[piece.models];
         let kind = kinds[*kind].1;
-        let shown = eyes::seen(piece, json, models);
+        let displayed = eyes::seen(piece, json, models);
         let right = kind.right.map(|right| eyes::seen(piece, &right(json), models));
         let case = Case { piece, json, models };
-        let ground = match (claims::known(kind.name, &case), claims::claimed(&case)) {
+        let ground = match (claims::is_measurable(kind.name, &case), claims::claimed(&case)) {
             (true, _) => Ground::Itself,
             (false, true) => Ground::Claimed,
             (false, false) => Ground::Unclaimed,
         };
-        if shown == *seen || right.is_some_and(|right| right == shown) {
-            return (Fate::Unseen, ground);
+        if displayed == *seen || right.is_some_and(|right| right == displayed) {
+            return (Detection::Unseen, ground);
         }
         let more = |now: &BTreeMap<_, usize>, before: &BTreeMap<_, usize>| {
             now.iter().any(|(code, n)| before.get(code).is_none_or(|b| b < n))
         };
         let new = more(&codes(piece, json, models), before)
             || ground == Ground::Claimed && more(&claims_say(piece, json, models), claimed);
-        (if new { Fate::Found } else { Fate::Survived }, ground)
+        (if new { Detection::Found } else { Detection::Survived }, ground)
     });
     drop(kinds);
     if let Some(path) = std::env::var_os("LABSPEC_SURVIVORS") {
-        std::fs::write(path, survivors(&pieces, &mutants, &fates)).unwrap();
+        std::fs::write(path, survivors(&pieces, &mutants, &detections)).unwrap();
     }
-    let [_, seen, found] = count(&mutants, &fates, |_, ground| ground == Ground::Itself);
+    let [_, seen, found] = count(&mutants, &detections, |_, ground| ground == Ground::Itself);
     assert!(100 * found >= 95 * seen, "without a claim: {found} of {seen}");
-    let [_, seen, found] = count(&mutants, &fates, |_, ground| ground == Ground::Claimed);
+    let [_, seen, found] = count(&mutants, &detections, |_, ground| ground == Ground::Claimed);
     assert!(found == seen && seen > 0, "with a claim: {found} of {seen}");
-    hold(&table(&pieces, &mutants, &fates));
+    hold(&table(&pieces, &mutants, &detections));
 }
 
 /// Every mutant that is seen and not found: its kind, its piece, and what was changed.
-fn survivors(pieces: &[Piece], mutants: &[Mutant], fates: &[(Fate, Ground)]) -> String {
+fn survivors(pieces: &[Piece], mutants: &[Mutant], detections: &[(Detection, Ground)]) -> String {
     let (kinds, mut page) = (kinds(), String::new());
-    for (m, (_, ground)) in mutants.iter().zip(fates).filter(|(_, f)| f.0 == Fate::Survived) {
+    for (m, (_, ground)) in mutants.iter().zip(detections).filter(|(_, f)| f.0 == Detection::Survived) {
         let piece = &pieces[m.piece];
         let needs = match ground {
             Ground::Itself => "known",
@@ -199,12 +199,12 @@ fn survivors(pieces: &[Piece], mutants: &[Mutant], fates: &[(Fate, Ground)]) -> 
 /// How many were seen and found, of those that a rule picks.
 fn count(
     mutants: &[Mutant],
-    fates: &[(Fate, Ground)],
+    detections: &[(Detection, Ground)],
     which: impl Fn(&Mutant, Ground) -> bool,
 ) -> [usize; 3] {
-    let own = || mutants.iter().zip(fates).filter(|(m, (_, ground))| which(m, *ground));
-    let seen = own().filter(|(_, f)| f.0 != Fate::Unseen).count();
-    [own().count(), seen, own().filter(|(_, f)| f.0 == Fate::Found).count()]
+    let selected = || mutants.iter().zip(detections).filter(|(m, (_, ground))| which(m, *ground));
+    let seen = selected().filter(|(_, f)| f.0 != Detection::Unseen).count();
+    [selected().count(), seen, selected().filter(|(_, f)| f.0 == Detection::Found).count()]
 }
 
 fn share([_, seen, found]: [usize; 3]) -> String {
@@ -212,7 +212,7 @@ fn share([_, seen, found]: [usize; 3]) -> String {
 }
 
 /// The page.
-fn table(pieces: &[Piece], mutants: &[Mutant], fates: &[(Fate, Ground)]) -> String {
+fn table(pieces: &[Piece], mutants: &[Mutant], detections: &[(Detection, Ground)]) -> String {
     let mut page = String::new();
     let labs = pieces.iter().filter(|p| p.what == What::Lab).count();
     let kinds = kinds();
@@ -235,10 +235,10 @@ fn table(pieces: &[Piece], mutants: &[Mutant], fates: &[(Fate, Ground)]) -> Stri
         ("needs a claim, and the lesson has a `verify` object for it", Ground::Claimed),
         ("needs a claim, and the lesson has none", Ground::Unclaimed),
     ] {
-        let [all, seen, found] = count(mutants, fates, |_, g| g == ground);
+        let [all, seen, found] = count(mutants, detections, |_, g| g == ground);
         writeln!(page, "| {words} | {all} | {seen} | {found} | {} |", share([all, seen, found])).unwrap();
     }
-    let [all, seen, found] = count(mutants, fates, |_, _| true);
+    let [all, seen, found] = count(mutants, detections, |_, _| true);
     writeln!(
         page,
         "| **all** {} kinds | {all} | {seen} | {found} | {} |",
@@ -251,9 +251,9 @@ fn table(pieces: &[Piece], mutants: &[Mutant], fates: &[(Fate, Ground)]) -> Stri
          | kind | mistake | planted | seen | found | share | itself | claimed | unclaimed |\n|---|---|---:|---:|---:|---:|---:|---:|---:|\n",
     );
     for (i, (_, kind)) in kinds.iter().enumerate() {
-        let [all, seen, found] = count(mutants, fates, |m, _| m.kind == i);
+        let [all, seen, found] = count(mutants, detections, |m, _| m.kind == i);
         let parts = [Ground::Itself, Ground::Claimed, Ground::Unclaimed].map(|ground| {
-            let [_, seen, found] = count(mutants, fates, |m, g| m.kind == i && g == ground);
+            let [_, seen, found] = count(mutants, detections, |m, g| m.kind == i && g == ground);
             if seen == 0 { "–".to_string() } else { format!("{found} / {seen}") }
         });
         let share = share([all, seen, found]);
@@ -269,17 +269,25 @@ fn table(pieces: &[Piece], mutants: &[Mutant], fates: &[(Fate, Ground)]) -> Stri
         }
     }
     page.push_str("\n## Mistakes that are not found\n\nRecognizable without a claim, but not found:\n\n");
-    missed(&mut page, pieces, mutants, fates, Ground::Itself);
+    undetected(&mut page, pieces, mutants, detections, Ground::Itself);
     page.push_str("\nRecognizable only through a claim, in lessons without one:\n\n");
-    missed(&mut page, pieces, mutants, fates, Ground::Unclaimed);
+    undetected(&mut page, pieces, mutants, detections, Ground::Unclaimed);
     page
 }
 
 /// The kinds of what is not found, with the first of the pieces.
-fn missed(page: &mut String, pieces: &[Piece], mutants: &[Mutant], fates: &[(Fate, Ground)], ground: Ground) {
+fn undetected(
+    page: &mut String,
+    pieces: &[Piece],
+    mutants: &[Mutant],
+    detections: &[(Detection, Ground)],
+    ground: Ground,
+) {
     for (i, (_, kind)) in kinds().iter().enumerate() {
-        let survived =
-            mutants.iter().zip(fates).filter(|(m, f)| m.kind == i && **f == (Fate::Survived, ground));
+        let survived = mutants
+            .iter()
+            .zip(detections)
+            .filter(|(m, f)| m.kind == i && **f == (Detection::Survived, ground));
         let mut names: Vec<&str> = survived.map(|(m, _)| pieces[m.piece].name.as_str()).collect();
         let count = names.len();
         names.dedup();
@@ -306,6 +314,9 @@ fn hold(page: &str) {
         std::fs::write(&path, page).unwrap();
         return;
     }
-    let kept = std::fs::read_to_string(&path).unwrap_or_default();
-    assert!(kept == page, "docs/measured/mutants.md is not what was found; LABSPEC_BLESS=1 writes:\n{page}");
+    let stored = std::fs::read_to_string(&path).unwrap_or_default();
+    assert!(
+        stored == page,
+        "docs/measured/mutants.md is not what was found; LABSPEC_BLESS=1 writes:\n{page}"
+    );
 }

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use crate::program::{run, run_in, shown, snapshot};
+use crate::program::{run, run_in, snapshot, stdout_of};
 use crate::support::workspace;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 #[test]
 fn what_is_left_out_is_said_and_counted() {
     assert_eq!(run(&["check", "clean.md", "--no-run"]).code, 3);
-    snapshot("check-no-run", shown(&["check", "clean.md", "fall.json", "--no-run"]));
+    snapshot("check-no-run", stdout_of(&["check", "clean.md", "fall.json", "--no-run"]));
     let report: Value =
         serde_json::from_str(&run(&["check", "clean.md", "--no-run", "--format", "json"]).stdout).unwrap();
     assert_eq!(report["summary"]["outcome"], "partial");
@@ -45,13 +45,13 @@ fn a_wrong_name_is_found_without_a_run() {
         assert_eq!(done.code, 1, "{to}");
         done.stdout
     };
-    for (from, to, said) in [
+    for (from, to, message) in [
         ("contact('heavy_geom')", "contact('heavy_gem')", "heavy_gem"),
         ("\"heavy > light\"", "\"heavy > ligth\"", "ligth"),
         ("[\"0.440 s\", \"heavy\"]", "[\"0.440 s\", \"haevy\"]", "haevy"),
     ] {
         let out = lesson(from, to);
-        assert!(out.contains(said) && out.contains("did you mean"), "{out}");
+        assert!(out.contains(message) && out.contains("did you mean"), "{out}");
     }
 }
 
@@ -87,11 +87,11 @@ fn it_says_less_and_never_more() {
             serde_json::from_str::<Value>(&done.stdout).unwrap()
         };
         let (full, without) = (of(&[]), of(&["--no-run"]));
-        let said = |report: &Value| -> BTreeSet<String> {
+        let messages = |report: &Value| -> BTreeSet<String> {
             let findings = report["findings"].as_array().unwrap();
             findings.iter().map(|f| format!("{} {} {}", f["file"], f["start"], f["message"])).collect()
         };
-        let more: Vec<_> = said(&without).difference(&said(&full)).cloned().collect();
+        let more: Vec<_> = messages(&without).difference(&messages(&full)).cloned().collect();
         assert_eq!(more, Vec::<String>::new(), "{folder}");
         let counted = |report: &Value| -> BTreeMap<(String, String), usize> {
             let mut counts = BTreeMap::new();

@@ -31,8 +31,8 @@ fn check(xml: &str, controls: Json, verify: Json, says: &[(&str, &str)]) -> Chec
 fn verified(xml: &str, controls: Json, verify: Json, says: &[(&str, &str)]) {
     let checked = check(xml, controls, verify, says);
     // Some of these numbers are those of a timestep, which is noted; and one slider puts the balls back where they began.
-    let known = ["quote-of-timestep", "setconst-jumps"];
-    let wrong: Vec<_> = codes(&checked).into_iter().filter(|c| !known.contains(c)).collect();
+    let expected = ["quote-of-timestep", "setconst-jumps"];
+    let wrong: Vec<_> = codes(&checked).into_iter().filter(|c| !expected.contains(c)).collect();
     assert_eq!(wrong, [""; 0], "{:#?}", checked.findings);
     let claim = &checked.claims[0];
     let right = claim.judgement.quotes.iter().filter(|q| q.state == QuoteState::Right).count();
@@ -183,8 +183,8 @@ fn the_mass_slider_in_mid_run() {
     let programs = Programs::compile(lab, &model, &mut findings);
     assert_eq!(findings, []);
     // A page that may read anything, and a run that needs nothing else: both see what the library sees.
-    for demand in [programs.demand, AccessSet::ANY] {
-        let plan = Some(Plan::new(&model, &demand));
+    for access in [programs.access, AccessSet::ANY] {
+        let plan = Some(Plan::new(&model, &access));
         let mut session = Session::start(&programs, &model, Start { plan, ..Start::default() });
         let text = std::fs::read_to_string(workspace().join("tests/golden/slider.json")).unwrap();
         let golden: Json = serde_json::from_str(&text).unwrap();
@@ -321,8 +321,8 @@ fn touchdown_from_five_heights() {
 #[test]
 fn poses_are_old_until_forward() {
     let m = compile(&model_text("ball_drop"));
-    for demand in [AccessSet::ANY, AccessSet::OBSERVE] {
-        let mut d = Data::planned(&m, Plan::new(&m, &demand));
+    for access in [AccessSet::ANY, AccessSet::OBSERVE] {
+        let mut d = Data::planned(&m, Plan::new(&m, &access));
         core::forward(&m, &mut d).unwrap();
         d.edit().qpos[2] = 0.5;
         assert_eq!(d.fields().xpos[5], 1.0);

@@ -44,8 +44,8 @@ const RULES: [&str; 7] = [
     "claim-of-mismatch",
 ];
 
-fn lab(xml: &str, controls: &Json, shown: &str) -> Json {
-    json!({"xml": xml, "stopAt": 1, "controls": controls, "readouts": [{"label": "shown (m/s)", "expr": shown, "digits": 3}]})
+fn lab(xml: &str, controls: &Json, displayed: &str) -> Json {
+    json!({"xml": xml, "stopAt": 1, "controls": controls, "readouts": [{"label": "shown (m/s)", "expr": displayed, "digits": 3}]})
 }
 
 fn slider(range: [f64; 3], action: &Json) -> Json {
@@ -124,8 +124,8 @@ fn what_is_no_slider_is_held_to_the_same() {
     repaired(&setup, "mass-alone");
     let button = json!([{"type": "button", "label": "Load", "run": "model.body_mass[1] = 20"}]);
     let all = found(&lab(CYLINDER, &button, "data.qvel[0]"));
-    let told: Vec<&str> = all.iter().map(|f| f.code).collect();
-    assert_eq!(told, ["mass-alone", "missing-setconst"], "{all:#?}");
+    let reported: Vec<&str> = all.iter().map(|f| f.code).collect();
+    assert_eq!(reported, ["mass-alone", "missing-setconst"], "{all:#?}");
     let mut choice = slider(
         [0.0; 3],
         &json!({"apply": MASS, "type": "select", "options": [["light", 1], ["heavy", 10]], "value": 1}),
@@ -224,8 +224,8 @@ fn an_inertia_that_no_body_has() {
 
 #[test]
 fn a_size_takes_its_bounds_and_its_inertia_along() {
-    let size = |xml: &str, apply: &str, shown: &str| {
-        lab(xml, &slider([0.05, 0.3, 0.05], &json!({"apply": apply})), shown)
+    let size = |xml: &str, apply: &str, displayed: &str| {
+        lab(xml, &slider([0.05, 0.3, 0.05], &json!({"apply": apply})), displayed)
     };
     let finding = found(&size(DROP, "model.geom_size[3] = value", "data.qpos[2]")).remove(0);
     assert!(finding.message.contains("but not `model.geom_rbound`"), "{finding:?}");
@@ -350,9 +350,9 @@ fn a_claim_of_a_body_that_does_not_exist_is_refuted() {
     let swept = r#""runs": {"run": {"sweep": {"x": [1, 10]}}}, "measure": {"v": "final(data.qvel[0])"}, "options": ["run.v[1] > 1.2 * run.v[0]", "abs(run.v[1] - run.v[0]) < 0.05"]"#;
     let (verdict, codes) = judged(&lesson(MASS, "", swept, KEY));
     assert_eq!(verdict, Verdict::Refuted, "{codes:?}");
-    let own = verify
+    let verify = verify
         .replace(r#""set": {"x": 10}"#, r#""setup": "model.body_mass[1] = 10; mj.mj_setConst(model, data)""#);
-    let (verdict, codes) = judged(&lesson(BOTH, "", &own, KEY));
+    let (verdict, codes) = judged(&lesson(BOTH, "", &verify, KEY));
     assert_eq!((verdict, codes), (Verdict::Refuted, vec!["mass-alone", "claim-of-mismatch"]));
 }
 
@@ -370,8 +370,8 @@ fn a_change_of_a_written_out_inertia_is_held_to_the_same() {
         let text = lesson("model.opt.gravity[1] = 0 * value", "", &format!("{runs}, {FASTER}"), KEY);
         judged(&text.replace(&serde_json::to_string(RAMP).unwrap(), &serde_json::to_string(xml).unwrap()))
     };
-    let told = vec!["mass-alone", "claim-of-mismatch"];
-    assert_eq!(of(&xml, r#"{"inertial mass": 10}"#), (Verdict::Refuted, told));
+    let codes = vec!["mass-alone", "claim-of-mismatch"];
+    assert_eq!(of(&xml, r#"{"inertial mass": 10}"#), (Verdict::Refuted, codes));
     // Where the mass of a geom changes, the inertia is computed from it.
     let (verdict, codes) = of(RAMP, r#"{"body ball geom mass": 10}"#);
     assert!(verdict != Verdict::Verified && !codes.contains(&"claim-of-mismatch"), "{codes:?}");

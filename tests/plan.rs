@@ -140,15 +140,15 @@ fn bits<S: Scope>(m: &Model, d: &Data<S>, f: FieldId) -> Vec<u64> {
 }
 
 /// Runs a scene with a plan and with the full pipeline; the first field that differs, with its step.
-fn difference(m: &Model, demand: &AccessSet, events: &[Event]) -> Option<String> {
-    difference_of(m, Data::planned(m, Plan::new(m, demand)), demand, events)
+fn difference(m: &Model, access: &AccessSet, events: &[Event]) -> Option<String> {
+    difference_of(m, Data::planned(m, Plan::new(m, access)), access, events)
 }
 
 /// The same of data whose plan is already decided.
 fn difference_of(
     m: &Model,
     mut planned: Data<Planned>,
-    demand: &AccessSet,
+    access: &AccessSet,
     events: &[Event],
 ) -> Option<String> {
     let (mut m1, mut m2) = (m.clone(), m.clone());
@@ -160,11 +160,11 @@ fn difference_of(
         }
         core::step(&m1, &mut planned).unwrap();
         core::step(&m2, &mut full).unwrap();
-        for f in demand.reads.iter() {
+        for f in access.reads.iter() {
             let (mut a, mut b) = (bits(&m1, &planned, f), bits(&m2, &full, f));
             // Of the sensors, those that are read.
             for (i, (a, b)) in a.iter_mut().zip(&mut b).enumerate() {
-                if !demand.reads.contains_element(f, i) {
+                if !access.reads.contains_element(f, i) {
                     (*a, *b) = (0, 0);
                 }
             }
@@ -217,13 +217,13 @@ proptest! {
     ) {
         let m = compile(&scene.xml());
         let all = data_fields();
-        let mut demand = AccessSet { reads: FieldSet::EMPTY, writes: writes(&events) };
-        reads.iter().for_each(|i| demand.reads.insert(*i.get(&all)));
+        let mut access = AccessSet { reads: FieldSet::EMPTY, writes: writes(&events) };
+        reads.iter().for_each(|i| access.reads.insert(*i.get(&all)));
         // The state is what every lab shows, whatever else it reads.
         for name in ["time", "qpos", "qvel"] {
-            demand.reads.insert(field(Object::Data, name));
+            access.reads.insert(field(Object::Data, name));
         }
-        let difference = difference(&m, &demand, &events);
+        let difference = difference(&m, &access, &events);
         prop_assert!(difference.is_none(), "{}", difference.unwrap_or_default());
     }
 
@@ -235,14 +235,14 @@ proptest! {
         events in vec(event(), 0..6),
     ) {
         let m = compile(&scene.xml());
-        let mut demand = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
-        reads.iter().for_each(|i| demand.reads.insert(*i.get(&data_fields())));
+        let mut access = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+        reads.iter().for_each(|i| access.reads.insert(*i.get(&data_fields())));
         for name in ["time", "qpos", "qvel"] {
-            demand.reads.insert(field(Object::Data, name));
+            access.reads.insert(field(Object::Data, name));
         }
-        let told = AccessSet { writes: writes(&events), ..demand };
-        let difference = difference(&m, &demand, &events)
-            .or_else(|| difference_of(&m, Data::planned(&m, Plan::for_any_value(&m, &told)), &told, &events));
+        let announced = AccessSet { writes: writes(&events), ..access };
+        let difference = difference(&m, &access, &events)
+            .or_else(|| difference_of(&m, Data::planned(&m, Plan::for_any_value(&m, &announced)), &announced, &events));
         prop_assert!(difference.is_none(), "{}", difference.unwrap_or_default());
     }
 
@@ -255,14 +255,14 @@ proptest! {
         events in vec(event(), 0..4),
     ) {
         let m = compile(&scene.xml());
-        let mut demand = AccessSet { reads: FieldSet::EMPTY, writes: writes(&events) };
-        others.iter().for_each(|i| demand.reads.insert(*i.get(&data_fields())));
+        let mut access = AccessSet { reads: FieldSet::EMPTY, writes: writes(&events) };
+        others.iter().for_each(|i| access.reads.insert(*i.get(&data_fields())));
         let sensors: Vec<core::SensorId> = m.sensors().collect();
         for i in &reads {
             let places = i.get(&sensors).values(&m);
-            demand.reads.insert_elements(field(Object::Data, "sensordata"), places.start, Some(places.len()));
+            access.reads.insert_elements(field(Object::Data, "sensordata"), places.start, Some(places.len()));
         }
-        let difference = difference(&m, &demand, &events);
+        let difference = difference(&m, &access, &events);
         prop_assert!(difference.is_none(), "{}", difference.unwrap_or_default());
     }
 
@@ -275,26 +275,26 @@ proptest! {
         events in vec(event(), 0..4),
     ) {
         let m = compile(&scene.xml());
-        let mut demand = AccessSet { reads: FieldSet::EMPTY, writes: writes(&events) };
-        reads.iter().for_each(|i| demand.reads.insert(*i.get(&data_fields())));
+        let mut access = AccessSet { reads: FieldSet::EMPTY, writes: writes(&events) };
+        reads.iter().for_each(|i| access.reads.insert(*i.get(&data_fields())));
         for name in ["time", "qpos", "qvel"] {
-            demand.reads.insert(field(Object::Data, name));
+            access.reads.insert(field(Object::Data, name));
         }
         let stages: Vec<Stage> = Plan::full().decisions().iter().map(|d| d.stage).collect();
-        let plan = Plan::with(&m, &demand, *more.get(&stages));
+        let plan = Plan::with(&m, &access, *more.get(&stages));
         prop_assert!(plan.keeps(*more.get(&stages)));
         let mut data = Data::planned(&m, plan);
         core::clock(&mut data, || 0);
-        let difference = difference_of(&m, data, &demand, &events);
+        let difference = difference_of(&m, data, &access, &events);
         prop_assert!(difference.is_none(), "{}", difference.unwrap_or_default());
     }
 
     #[test]
     fn a_plan_that_may_be_asked_anything_is_the_full_run(scene in tied_scene(), events in vec(event(), 0..4)) {
         let m = compile(&scene.xml());
-        let mut demand = AccessSet { reads: FieldSet::EMPTY, writes: writes(&events) };
-        data_fields().into_iter().for_each(|f| demand.reads.insert(f));
-        let difference = difference(&m, &demand, &events);
+        let mut access = AccessSet { reads: FieldSet::EMPTY, writes: writes(&events) };
+        data_fields().into_iter().for_each(|f| access.reads.insert(f));
+        let difference = difference(&m, &access, &events);
         prop_assert!(difference.is_none(), "{}", difference.unwrap_or_default());
     }
 }
@@ -323,8 +323,8 @@ fn a_clock_sees_what_the_plan_keeps() {
             let lap = laps.stage_time(decision.stage);
             work += lap.work;
             // What sensors show is left out of the passes within a step.
-            let shown = matches!(decision.stage, Stage::Sensors | Stage::SubtreeVel | Stage::RnePost);
-            let least = if shown { 10 } else { 10 * passes };
+            let displayed = matches!(decision.stage, Stage::Sensors | Stage::SubtreeVel | Stage::RnePost);
+            let least = if displayed { 10 } else { 10 * passes };
             assert_eq!(
                 decision.keep,
                 lap.runs >= least,
@@ -349,10 +349,10 @@ fn sensors_that_nobody_reads_are_left_out() {
     );
     let (data, name) = (field(Object::Data, "sensordata"), |name: &str| m.sensor(name).unwrap());
     for (read, left, stage) in [("clock", "pulled", false), ("pulled", "clock", true)] {
-        let mut demand = reading(&[]);
+        let mut access = reading(&[]);
         let places = name(read).values(&m);
-        demand.reads.insert_elements(data, places.start, Some(places.len()));
-        let plan = Plan::new(&m, &demand);
+        access.reads.insert_elements(data, places.start, Some(places.len()));
+        let plan = Plan::new(&m, &access);
         assert!(plan.evaluates(&m, name(read)) && !plan.evaluates(&m, name(left)));
         assert_eq!(plan.keeps(Stage::RnePost), stage);
         let mut d = Data::planned(&m, plan);
@@ -368,9 +368,9 @@ fn sensors_that_nobody_reads_are_left_out() {
 
 /// A demand that reads these fields of the data and writes nothing.
 fn reading(names: &[&str]) -> AccessSet {
-    let mut demand = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
-    names.iter().for_each(|n| demand.reads.insert(field(Object::Data, n)));
-    demand
+    let mut access = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+    names.iter().for_each(|n| access.reads.insert(field(Object::Data, n)));
+    access
 }
 
 /// Fields that a stage may leave to whoever resets the data: they hold their values from there.
@@ -432,12 +432,12 @@ fn the_full_plan_keeps_everything() {
 #[test]
 fn a_written_flag_keeps_what_it_may_switch_on() {
     let m = compile(&model_text("free_fall"));
-    let mut demand = reading(&["energy", "qpos"]);
-    assert!(!Plan::new(&m, &demand).keeps(Stage::Energy));
-    demand.writes.insert(field(Object::Option, "enableflags"));
-    let any = Plan::for_any_value(&m, &demand);
+    let mut access = reading(&["energy", "qpos"]);
+    assert!(!Plan::new(&m, &access).keeps(Stage::Energy));
+    access.writes.insert(field(Object::Option, "enableflags"));
+    let any = Plan::for_any_value(&m, &access);
     assert!(any.keeps(Stage::Energy) && any.keeps(Stage::Kinematics));
-    let plan = Plan::new(&m, &demand);
+    let plan = Plan::new(&m, &access);
     assert!(!plan.keeps(Stage::Energy));
     let mut d = Data::planned(&m, plan);
     let mut m = m;
@@ -450,7 +450,7 @@ fn a_written_flag_keeps_what_it_may_switch_on() {
 
 #[test]
 fn decisions_read_as_reasons() {
-    let mut shown = String::new();
+    let mut output = String::new();
     for (name, reads) in [
         ("free_fall", &["qpos"][..]),
         ("free_fall", &["qpos", "xpos"]),
@@ -459,15 +459,15 @@ fn decisions_read_as_reasons() {
         ("pendulum", &["qpos", "energy"]),
         ("mocap", &["xpos"]),
     ] {
-        let _ = writeln!(shown, "{name}, reading {}", reads.join(", "));
+        let _ = writeln!(output, "{name}, reading {}", reads.join(", "));
         for d in Plan::new(&model(name), &reading(reads)).decisions() {
             let verb = if d.keep { "keep" } else { "leave" };
-            let _ = writeln!(shown, "  {verb:<5} {:<12} {}", format!("{:?}", d.stage), d.reason);
+            let _ = writeln!(output, "  {verb:<5} {:<12} {}", format!("{:?}", d.stage), d.reason);
         }
-        shown.push('\n');
+        output.push('\n');
     }
     insta::with_settings!({prepend_module_to_snapshot => false, omit_expression => true}, {
-        insta::assert_snapshot!("plan-decisions", shown);
+        insta::assert_snapshot!("plan-decisions", output);
     });
 }
 

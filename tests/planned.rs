@@ -134,14 +134,14 @@ fn world(model: &Model, plan: Plan, change: Option<Change>) -> World {
 }
 
 /// What an expression gives, as text with every bit.
-fn shown(world: &mut World, text: &str, demand: Option<&mut AccessSet>) -> Option<String> {
+fn evaluate(world: &mut World, text: &str, access: Option<&mut AccessSet>) -> Option<String> {
     let mut globals = Globals::new();
     let program = {
         let names = ModelNames::new(&world.model, Scope::Measure);
         Compiler::new(&names, &mut globals).expression(text).program?
     };
-    if let Some(demand) = demand {
-        include(program.effects(), demand);
+    if let Some(access) = access {
+        include(program.effects(), access);
         return Some(String::new());
     }
     let mut context = Context::for_globals(&globals);
@@ -166,17 +166,17 @@ fn compare(model: &Model, change: Option<Change>, announced: bool) -> (usize, Ve
     let full = world(model, Plan::full(), change);
     let (mut count, mut wrong) = (0, Vec::new());
     for text in expressions(model) {
-        let mut demand = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+        let mut access = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
         let mut blank = full.clone();
-        if shown(&mut blank, &text, Some(&mut demand)).is_none() {
+        if evaluate(&mut blank, &text, Some(&mut access)).is_none() {
             continue;
         }
         if let Some((object, name, ..)) = change.filter(|_| announced) {
-            demand.writes.insert(reflect::field(object, name).unwrap());
+            access.writes.insert(reflect::field(object, name).unwrap());
         }
-        let mut planned = world(model, Plan::new(model, &demand), change);
-        let Some(ours) = shown(&mut planned, &text, None) else { continue };
-        let theirs = shown(&mut full.clone(), &text, None).unwrap_or_default();
+        let mut planned = world(model, Plan::new(model, &access), change);
+        let Some(ours) = evaluate(&mut planned, &text, None) else { continue };
+        let theirs = evaluate(&mut full.clone(), &text, None).unwrap_or_default();
         count += 1;
         if ours != theirs {
             wrong.push(format!("{text}: planned {ours}, full {theirs}"));
@@ -228,8 +228,8 @@ fn planned_equals_full_whatever_is_switched() {
     let done = for_each(cases.len(), |i| {
         let (title, model, change, announced) = &cases[i];
         let (count, wrong) = compare(model, Some(*change), *announced);
-        let told = if *announced { "announced" } else { "not announced" };
-        (count, wrong.into_iter().map(|w| format!("{title}, {} {told}: {w}", change.1)).collect::<Vec<_>>())
+        let label = if *announced { "announced" } else { "not announced" };
+        (count, wrong.into_iter().map(|w| format!("{title}, {} {label}: {w}", change.1)).collect::<Vec<_>>())
     });
     let wrong: Vec<&String> = done.iter().flat_map(|(_, wrong)| wrong).collect();
     let count: usize = done.iter().map(|(n, _)| n).sum();

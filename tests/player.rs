@@ -48,7 +48,7 @@ fn a_page_draws_what_the_lab_says() {
     let options = vec![("PGS".to_string(), Value::Number(0.0)), ("Newton".to_string(), Value::Number(2.0))];
     assert_eq!(player.controls()[1].kind, ControlKind::Select { options });
     assert_eq!(player.controls()[2].kind, ControlKind::Button);
-    let shown: Vec<_> =
+    let displayed: Vec<_> =
         player.displayed().iter().map(|s| (s.label.as_str(), s.unit.as_str(), s.place)).collect();
     let expected = [
         ("heavy", "m", DisplayedIn::Plot(0)),
@@ -56,7 +56,7 @@ fn a_page_draws_what_the_lab_says() {
         ("peak (m)", "m", DisplayedIn::Readout(4)),
         ("kicks", "", DisplayedIn::Readout(3)),
     ];
-    assert_eq!(shown, expected);
+    assert_eq!(displayed, expected);
     assert_eq!((player.numbers().len(), player.values()[3].rounded(3).as_str()), (4, "none"));
     assert_eq!(player.reads(), ["data.qpos", "data.qvel"]);
     assert_eq!(player.writes(), ["model.opt.solver", "data.qpos", "data.qvel"]);
@@ -68,10 +68,10 @@ fn a_page_draws_what_the_lab_says() {
 fn programs_of_another_model_are_not_run() {
     let lesson = load_lesson(labspec::source::SourceFile::new("lab.json", LAB), &models().into());
     let lab = lesson.all_labs()[0];
-    let [own, twin] = [(); 2].map(|()| crate::support::model("ball_drop"));
-    let programs = labspec::bind::Programs::compile(lab, &own, &mut Vec::new());
+    let [model, twin] = [(); 2].map(|()| crate::support::model("ball_drop"));
+    let programs = labspec::bind::Programs::compile(lab, &model, &mut Vec::new());
     let options = RunOptions { steps: Some(10), ..RunOptions::default() };
-    let table = run::run(lab, &own.clone(), &programs, &options).unwrap();
+    let table = run::run(lab, &model.clone(), &programs, &options).unwrap();
     assert_eq!((table.rows.len(), table.errors.len()), (11, 0));
     // Even a model of the same text is another one.
     let table = run::run(lab, &twin, &programs, &options).unwrap();
@@ -84,13 +84,14 @@ fn programs_of_another_model_are_not_run() {
 fn a_recording_takes_no_samples_of_another_model() {
     let lesson = load_lesson(labspec::source::SourceFile::new("lab.json", LAB), &models().into());
     let lab = lesson.all_labs()[0];
-    let [own, twin] = [(); 2].map(|()| crate::support::model("ball_drop"));
-    let [of_own, of_twin] = [&own, &twin].map(|m| labspec::bind::Programs::compile(lab, m, &mut Vec::new()));
-    let mut samples = run::Samples::new(&of_own, 4);
+    let [model, twin] = [(); 2].map(|()| crate::support::model("ball_drop"));
+    let [of_model, of_twin] =
+        [&model, &twin].map(|m| labspec::bind::Programs::compile(lab, m, &mut Vec::new()));
+    let mut samples = run::Samples::new(&of_model, 4);
     let mut theirs = run::Session::start(&of_twin, &twin, run::Start::default());
     assert_eq!(theirs.ended(), None);
     assert!(samples.take(&mut theirs).is_err());
-    let mut ours = run::Session::start(&of_own, &own, run::Start::default());
+    let mut ours = run::Session::start(&of_model, &model, run::Start::default());
     samples.take(&mut ours).unwrap();
     assert_eq!(samples.rows().len(), 1);
 }
@@ -100,10 +101,11 @@ fn a_recording_takes_no_samples_of_another_model() {
 fn a_session_evaluates_nothing_of_another_model() {
     let lesson = load_lesson(labspec::source::SourceFile::new("lab.json", LAB), &models().into());
     let lab = lesson.all_labs()[0];
-    let [own, twin] = [(); 2].map(|()| crate::support::model("ball_drop"));
-    let [of_own, of_twin] = [&own, &twin].map(|m| labspec::bind::Programs::compile(lab, m, &mut Vec::new()));
-    let mut session = run::Session::start(&of_own, &own, run::Start::default());
-    for (programs, good) in [(&of_own, true), (&of_twin, false)] {
+    let [model, twin] = [(); 2].map(|()| crate::support::model("ball_drop"));
+    let [of_model, of_twin] =
+        [&model, &twin].map(|m| labspec::bind::Programs::compile(lab, m, &mut Vec::new()));
+    let mut session = run::Session::start(&of_model, &model, run::Start::default());
+    for (programs, good) in [(&of_model, true), (&of_twin, false)] {
         let bound = programs.probes[0].bound.as_ref().unwrap();
         assert_eq!(session.evaluate(&bound.program, &bound.text).is_some(), good);
     }
@@ -281,9 +283,9 @@ fn a_player_can_be_sent_to_another_thread() {
         player.play_to(0.5).unwrap();
         bits(&player)
     });
-    let mut own = self::player();
-    own.play_to(0.5).unwrap();
-    assert_eq!(elsewhere.join().unwrap(), bits(&own));
+    let mut here = self::player();
+    here.play_to(0.5).unwrap();
+    assert_eq!(elsewhere.join().unwrap(), bits(&here));
 }
 
 /// A lesson of the repository from its folder, from memory, and from a closure: the same findings and the same ledger.

@@ -13,7 +13,7 @@ use labspec::run::{INTEGRATORS, Integrator};
 use labspec::source::SourceFile;
 use labspec::spec::Lab;
 use labspec_core::{Model, integrator};
-use labspec_numerics::precision::{Fate, Kind, Options, Report, Row, Setting, compare};
+use labspec_numerics::precision::{Kind, Options, Report, Row, RunStatus, Setting, compare};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -65,7 +65,7 @@ fn standard() -> Vec<PathBuf> {
 
 /// The order that a method shows at the shortest timesteps that are above rounding.
 fn order(report: &Report, id: i32) -> f64 {
-    let rows = report.rows.iter().filter(|r| r.setting.integrator.id == id && r.fate == Fate::Good);
+    let rows = report.rows.iter().filter(|r| r.setting.integrator.id == id && r.status == RunStatus::Good);
     rows.filter_map(|r| r.errors[0].order).next_back().unwrap()
 }
 
@@ -108,7 +108,10 @@ fn what_a_teacher_cares_about_is_ten_times_closer() {
         let report = open(path, ModelFolder::unknown()).compare(&all);
         // In the engine's own count of work, which is the same on every machine.
         let good = |shared: bool| {
-            report.rows.iter().filter(move |r| r.setting.integrator.shared == shared && r.fate == Fate::Good)
+            report
+                .rows
+                .iter()
+                .filter(move |r| r.setting.integrator.shared == shared && r.status == RunStatus::Good)
         };
         let mut compared = 0;
         for theirs in good(true).filter(|r| r.setting.integrator.id == integrator::RK4) {
@@ -127,8 +130,8 @@ fn what_a_teacher_cares_about_is_ten_times_closer() {
 /// The advised setting against steps of Runge and Kutta's method that are far shorter, both as the page would run them. `false`
 /// where the lab's own code sets the timestep as it starts, so that nobody else can.
 fn advice_holds(name: &str, lab: &Opened, report: &Report, setting: &Setting) -> bool {
-    let own = lab.model.opt.timestep;
-    let fine = own.min(setting.timestep) / 8.0;
+    let timestep = lab.model.opt.timestep;
+    let fine = timestep.min(setting.timestep) / 8.0;
     let every = (setting.timestep / fine).round() as usize;
     // Long steps need not divide the run: to the last whole one.
     let length = setting.timestep * (report.length / setting.timestep + 1e-9).floor();
@@ -186,7 +189,7 @@ fn advice_holds_in_an_independent_run() {
             r.setting.integrator.id == than.setting.integrator.id
                 && r.setting.timestep <= than.setting.timestep
         };
-        let right = |r: &Row| r.fate == Fate::Good && r.score <= 1.0;
+        let right = |r: &Row| r.status == RunStatus::Good && r.score <= 1.0;
         let shared = report.rows.iter().filter(|r| r.setting.integrator.shared);
         let good: Vec<&Row> =
             shared.filter(|r| report.rows.iter().filter(|s| shorter(s, r)).all(right)).collect();

@@ -12,7 +12,7 @@ use labspec::run::{self, Cell, RunOptions, rounded};
 use labspec::source::SourceFile;
 use labspec::spec::{Lab, Lesson};
 use labspec_core::{Model, integrator};
-use labspec_numerics::precision::{Fate, Kind, Options, Report, Row, compare};
+use labspec_numerics::precision::{Kind, Options, Report, Row, RunStatus, compare};
 use labspec_numerics::stability;
 use serde_json::Value;
 use std::path::PathBuf;
@@ -53,7 +53,7 @@ fn column(lab: &Lab, (id, timestep): (i32, f64), length: f64, label: &str) -> Ve
     table.rows.iter().map(|row| if let Cell::Number(x) = row[at] { x } else { f64::NAN }).collect()
 }
 
-fn own(report: &Report) -> &Row {
+fn lab_row(report: &Report) -> &Row {
     report.rows.iter().find(|r| r.is_own).unwrap()
 }
 
@@ -84,9 +84,9 @@ fn events_and_ends_are_those_of_equations_by_hand() {
     for (_, lab) in labs {
         let title = lab.title();
         let report = report(lab, &Options::default());
-        let known = &truth[title];
-        assert!(!known.is_null(), "{title}");
-        for (name, time) in known["events"].as_object().unwrap() {
+        let expected = &truth[title];
+        assert!(!expected.is_null(), "{title}");
+        for (name, time) in expected["events"].as_object().unwrap() {
             let time = time.as_f64().unwrap();
             let event = report.events.iter().find(|e| e.name == *name && e.time.is_finite());
             let Some(event) = event else { panic!("{title}: {name} at {time} is not found") };
@@ -96,17 +96,20 @@ fn events_and_ends_are_those_of_equations_by_hand() {
             times += 1;
         }
         // What is said of the lab's own run at the end is its distance from the truth.
-        let mine = own(&report);
-        for (label, end) in known["end"].as_object().unwrap() {
+        let mine = lab_row(&report);
+        for (label, end) in expected["end"].as_object().unwrap() {
             let i = report.targets.iter().position(|t| t.label == *label).unwrap();
-            if mine.fate != Fate::Good {
+            if mine.status != RunStatus::Good {
                 continue;
             }
             let setting = (mine.setting.integrator.id, mine.setting.timestep);
             let last = column(lab, setting, report.length, label).pop().unwrap();
             let off = (last - end.as_f64().unwrap()).abs();
-            let (said, doubt) = (mine.errors[i].end, report.targets[i].uncertain);
-            assert!((off - said).abs() <= doubt, "{title}: {label}: {off:e} off, said {said:e} ± {doubt:e}");
+            let (estimated, doubt) = (mine.errors[i].end, report.targets[i].uncertain);
+            assert!(
+                (off - estimated).abs() <= doubt,
+                "{title}: {label}: {off:e} off, said {estimated:e} ± {doubt:e}"
+            );
             ends += 1;
         }
         // Nothing is shown below its doubt.
@@ -191,7 +194,7 @@ fn a_run_that_breaks_is_no_measure_of_a_plot() {
     // The lab's own setting turns the gyroscope's axis over, with numbers of any size.
     let lab = labs.iter().find(|(_, l)| l.title() == "A gyroscope").unwrap().1;
     let report = report(lab, &Options::default());
-    assert_ne!(own(&report).fate, Fate::Good);
+    assert_ne!(lab_row(&report).status, RunStatus::Good);
     // Its speed across keeps within 11 rad/s: half a pixel of that is little.
     assert!(report.targets[1].unseen < 0.06, "{}", report.targets[1].unseen);
     let best = right(&report);
@@ -236,7 +239,7 @@ fn late_contacts_count() {
     let work = |until: f64| {
         let integrators = vec![Integrator::named("Euler").unwrap()];
         let options = Options { until: Some(until), integrators, ..Options::default() };
-        own(&report(one(&lesson), &options)).cost.work
+        lab_row(&report(one(&lesson), &options)).cost.work
     };
     let (air, whole) = (work(0.8), work(2.0));
     assert!(whole > 1.8 * air, "{air} {whole}");
@@ -333,7 +336,7 @@ fn nothing_reads_zero_where_more_is_true() {
     let lesson = load_lesson(SourceFile::read(&kinds()).unwrap(), &ModelFolder::unknown());
     for (_, lab) in lesson.addressed() {
         let report = report(lab, &Options::default());
-        for row in report.rows.iter().filter(|r| r.fate == Fate::Good) {
+        for row in report.rows.iter().filter(|r| r.status == RunStatus::Good) {
             for (e, target) in row.errors.iter().zip(&report.targets).filter(|(_, t)| t.is_compared()) {
                 assert!(e.largest > target.uncertain || e.below, "{}: {:?} {e:?}", lab.title(), row.setting);
             }
@@ -345,15 +348,15 @@ fn nothing_reads_zero_where_more_is_true() {
 #[test]
 fn units_stand_where_they_are_known() {
     let lesson = load_lesson(SourceFile::read(&kinds()).unwrap(), &ModelFolder::unknown());
-    let mut known = 0;
+    let mut with_unit = 0;
     for (_, lab) in lesson.addressed() {
         let integrators = vec![Integrator::named("RK4").unwrap()];
         let report = report(lab, &Options { integrators, until: Some(0.04), ..Options::default() });
         for target in report.targets {
             let stated = target.label.contains('(');
             assert!(!stated || target.unit.as_ref().is_some_and(|u| target.label.contains(u.as_str())));
-            known += usize::from(target.unit.is_some());
+            with_unit += usize::from(target.unit.is_some());
         }
     }
-    assert!(known >= 25, "{known}");
+    assert!(with_unit >= 25, "{with_unit}");
 }

@@ -150,11 +150,11 @@ pub(crate) fn json_of(arguments: &[&str]) -> Value {
 }
 
 /// Command, exit code and everything printed.
-pub(crate) fn shown(arguments: &[&str]) -> String {
-    shown_in(folder().path(), arguments)
+pub(crate) fn stdout_of(arguments: &[&str]) -> String {
+    stdout_in(folder().path(), arguments)
 }
 
-pub(crate) fn shown_in(folder: &Path, arguments: &[&str]) -> String {
+pub(crate) fn stdout_in(folder: &Path, arguments: &[&str]) -> String {
     let done = run_in(folder, arguments);
     let part = |name: &str, text: &str| match text {
         "" => String::new(),

@@ -14,9 +14,9 @@ fn run(arguments: &[&str]) -> String {
         .current_dir(workspace())
         .output()
         .unwrap();
-    let shown = String::from_utf8(done.stdout).unwrap();
-    hold(&shown);
-    shown
+    let output = String::from_utf8(done.stdout).unwrap();
+    hold(&output);
+    output
 }
 
 fn file(name: &str) -> String {
@@ -25,12 +25,12 @@ fn file(name: &str) -> String {
 
 #[test]
 fn the_example_lessons_print_what_the_readme_shows() {
-    let shown = run(&["check", "specs/lessons"]);
+    let output = run(&["check", "specs/lessons"]);
     // The last lesson and the sum of all; the others are many.
-    let last = shown.rfind("\n\nspecs/lessons/").unwrap();
-    let shown = shown[last..].trim();
-    assert!(shown.contains("no problems found"), "{shown}");
-    assert!(file("README.md").contains(shown), "the README shows something else than\n{shown}");
+    let last = output.rfind("\n\nspecs/lessons/").unwrap();
+    let output = output[last..].trim();
+    assert!(output.contains("no problems found"), "{output}");
+    assert!(file("README.md").contains(output), "the README shows something else than\n{output}");
 }
 
 /// The lesson behind the three findings that the README shows.
@@ -54,8 +54,8 @@ fn the_findings_of_the_readme_are_real() {
         .output()
         .unwrap();
     assert_eq!(done.status.code(), Some(1));
-    let shown = String::from_utf8(done.stdout).unwrap();
-    let findings = shown.split("\n\nwrong.md\n").next().unwrap();
+    let output = String::from_utf8(done.stdout).unwrap();
+    let findings = output.split("\n\nwrong.md\n").next().unwrap();
     assert!(file("README.md").contains(findings.trim()), "the README shows something else than\n{findings}");
 }
 
@@ -105,10 +105,10 @@ fn rows(page: &str) -> Vec<Vec<String>> {
 /// The README shows some columns of the measurement, and changes none.
 #[test]
 fn the_speeds_of_the_readme_are_those_that_were_measured() {
-    let (shown, measured) = (rows(&file("README.md")), rows(&file("docs/measured/speed.md")));
-    assert!(shown.len() > 8 && shown.len() == measured.len());
-    for (shown, measured) in shown.iter().zip(&measured) {
+    let (documented, measured) = (rows(&file("README.md")), rows(&file("docs/measured/speed.md")));
+    assert!(documented.len() > 8 && documented.len() == measured.len());
+    for (documented, measured) in documented.iter().zip(&measured) {
         let columns = [0, 1, 2, 3, 4, 5, 7, 8, 10].map(|i| measured[i].clone());
-        assert_eq!(*shown, columns);
+        assert_eq!(*documented, columns);
     }
 }

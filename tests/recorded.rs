@@ -80,7 +80,7 @@ pub(crate) enum Verdict {
 }
 
 impl Verdict {
-    fn of(differences: Vec<Difference>, worst: f64) -> Verdict {
+    fn from_differences(differences: Vec<Difference>, worst: f64) -> Verdict {
         if differences.is_empty() { Verdict::Same(worst) } else { Verdict::Differs(differences) }
     }
 }
@@ -106,7 +106,7 @@ impl fmt::Display for Verdict {
 pub(crate) type Outcome = Result<Vec<Verdict>, String>;
 
 /// Loads a model and holds it against its recording.
-pub(crate) fn examine(model: &Path, recording: &Value) -> Outcome {
+pub(crate) fn compare_with_recording(model: &Path, recording: &Value) -> Outcome {
     let m = compile_unconstrained(model).map_err(|list| reason(&list))?;
     let mut verdicts = vec![compiled(&m, &recording["compiled"]), forward(&m, &recording["forward"])];
     for (path, state) in [("calm", 0), ("trajectories", 1)] {
@@ -147,7 +147,7 @@ fn compiled(m: &Model, recording: &Value) -> Verdict {
     }
     for (kind, theirs) in recording["names"].as_object().into_iter().flatten() {
         let theirs: Vec<&str> = theirs.as_array().into_iter().flatten().filter_map(Value::as_str).collect();
-        let ours = obj(kind).map_or(&[][..], |o| m.names.of(o));
+        let ours = obj(kind).map_or(&[][..], |o| m.names.of_kind(o));
         if let Some(index) = (0..ours.len().max(theirs.len()))
             .find(|&i| ours.get(i).map(String::as_str) != theirs.get(i).copied())
         {
@@ -163,7 +163,7 @@ fn compiled(m: &Model, recording: &Value) -> Verdict {
             });
         }
     }
-    Verdict::of(found, worst)
+    Verdict::from_differences(found, worst)
 }
 
 /// Hulls are found in another order, and flat sides of more than three corners are cut otherwise: what counts is which
@@ -254,7 +254,7 @@ fn forward(m: &Model, states: &Value) -> Verdict {
     found.retain(|d: &Difference| seen.insert(d.field.clone()));
     match sensitive {
         Some((apart, spread)) if found.is_empty() => Verdict::Sensitive(apart, spread),
-        _ => Verdict::of(found, worst),
+        _ => Verdict::from_differences(found, worst),
     }
 }
 
@@ -381,7 +381,7 @@ pub(crate) fn trajectory(m: &Model, start: &Value, recording: &Value, tolerance:
         }
         worst = worst.max(apart);
     }
-    Verdict::of(warnings(&d, &recording["warnings"]), worst)
+    Verdict::from_differences(warnings(&d, &recording["warnings"]), worst)
 }
 
 /// Warnings that were raised another number of times.

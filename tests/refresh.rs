@@ -267,7 +267,7 @@ fn the_real_labs_are_warned_only_of_what_a_run_shows() {
         println!("skipped: {} is not there", shared.display());
         return;
     }
-    let mut said = Vec::new();
+    let mut messages = Vec::new();
     for folder in ["labs", "quizzes"] {
         let mut files: Vec<_> =
             std::fs::read_dir(shared.join(folder)).unwrap().map(|e| e.unwrap().path()).collect();
@@ -286,9 +286,9 @@ fn the_real_labs_are_warned_only_of_what_a_run_shows() {
                     _ => continue,
                 };
                 assert!(f.why.as_ref().is_some_and(|why| why.contains(evidence)), "{name}: {f:?}");
-                said.push(format!("{name}: {}", f.message));
+                messages.push(format!("{name}: {}", f.message));
             }
         }
     }
-    insta::assert_snapshot!(said.join("\n"));
+    insta::assert_snapshot!(messages.join("\n"));
 }

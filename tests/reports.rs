@@ -11,19 +11,19 @@ use std::collections::BTreeSet;
 /// Every key of a schema is in one style, says what it holds, and each schema is of one report.
 #[test]
 fn schemas_describe_every_key() {
-    fn look(file: &str, schema: &Value, keys: &mut BTreeSet<String>) {
+    fn check_properties(file: &str, schema: &Value, keys: &mut BTreeSet<String>) {
         for (key, value) in schema["properties"].as_object().into_iter().flatten() {
             let plain = key.starts_with(|c: char| c.is_ascii_lowercase())
                 && key.chars().all(|c| c.is_ascii_alphanumeric());
             assert!(plain, "{file}: `{key}` is not in camelCase");
-            let said = value.get("description").or(value.get("$ref")).or(value.get("const"));
-            assert!(said.is_some(), "{file}: nothing is said of `{key}`");
+            let documentation = value.get("description").or(value.get("$ref")).or(value.get("const"));
+            assert!(documentation.is_some(), "{file}: nothing is said of `{key}`");
             keys.insert(key.clone());
         }
         for value in schema.as_object().into_iter().flat_map(|o| o.values()) {
-            look(file, value, keys);
+            check_properties(file, value, keys);
         }
-        schema.as_array().into_iter().flatten().for_each(|value| look(file, value, keys));
+        schema.as_array().into_iter().flatten().for_each(|value| check_properties(file, value, keys));
     }
     let all = schemas();
     let names = [
@@ -41,7 +41,7 @@ fn schemas_describe_every_key() {
     ];
     assert_eq!(all.keys().cloned().collect::<Vec<_>>(), names.map(|n| format!("report-{n}.json")));
     let mut keys = BTreeSet::new();
-    all.iter().for_each(|(file, schema)| look(file, schema, &mut keys));
+    all.iter().for_each(|(file, schema)| check_properties(file, schema, &mut keys));
     assert!(keys.len() > 80, "{}", keys.len());
 }
 
@@ -211,8 +211,8 @@ fn places_lead_to_their_text() {
     let text = &lesson[number("/start")..number("/end")];
     assert!(text.contains("modle"), "{text}");
     // An editor has the text without its mark, in units of UTF-16.
-    let shown: Vec<Vec<u16>> = lesson[3..].split("\r\n").map(|l| l.encode_utf16().collect()).collect();
-    let line = &shown[number("/range/start/line")];
+    let lines: Vec<Vec<u16>> = lesson[3..].split("\r\n").map(|l| l.encode_utf16().collect()).collect();
+    let line = &lines[number("/range/start/line")];
     let part = &line[number("/range/start/character")..number("/range/end/character")];
     assert_eq!(String::from_utf16(part).unwrap(), text);
     let characters: Vec<char> = lesson.lines().nth(number("/line") - 1).unwrap().chars().collect();
@@ -226,7 +226,7 @@ fn the_examples_of_the_guide_are_real() {
     let guide = std::fs::read_to_string(workspace().join("docs/reports.md")).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let (mut lines, mut before, mut command) = (guide.lines(), "", "");
-    let mut shown = BTreeSet::new();
+    let mut documented = BTreeSet::new();
     while let Some(line) = lines.next() {
         let ticks = line.len() - line.trim_start_matches('`').len();
         if ticks < 3 {
@@ -247,20 +247,20 @@ fn the_examples_of_the_guide_are_real() {
                 let arguments: Vec<&str> = words.split_whitespace().skip(1).collect();
                 let done = run_in(folder.path(), &arguments);
                 assert_eq!(done.code.to_string(), code, "{command}\n{}", done.stderr);
-                let told = |text: &str| {
+                let comparable = |text: &str| {
                     let mut report: Value = serde_json::from_str(text).unwrap();
                     unmeasured(&mut report);
                     serde_json::to_string_pretty(&report).unwrap()
                 };
                 // Texts, because the order of keys is part of the promise.
-                similar(command, &told(&inside.join("\n")), &told(&done.stdout));
-                shown.insert(arguments[0].to_string());
+                similar(command, &comparable(&inside.join("\n")), &comparable(&done.stdout));
+                documented.insert(arguments[0].to_string());
             }
             other => panic!("a block of {other}"),
         }
     }
     let all: BTreeSet<String> = schemas().keys().map(|f| f[7..f.len() - 5].to_string()).collect();
-    assert_eq!(shown, all);
+    assert_eq!(documented, all);
 }
 
 /// Run times and the version are of the machine and of the day.
@@ -281,10 +281,10 @@ fn unmeasured(value: &mut Value) {
 }
 
 /// The first line in which two texts differ.
-fn similar(what: &str, shown: &str, real: &str) {
-    let mut lines = shown.lines().zip(real.lines());
-    let differ = lines.find(|(shown, real)| shown != real);
-    assert!(shown == real, "{what}: the guide shows {differ:?}, in\n{real}");
+fn similar(what: &str, documented: &str, real: &str) {
+    let mut lines = documented.lines().zip(real.lines());
+    let differ = lines.find(|(documented, real)| documented != real);
+    assert!(documented == real, "{what}: the guide shows {differ:?}, in\n{real}");
 }
 
 /// Numbers of every pattern of bits, written as literals into a lab, come out of the program as they went in.

@@ -61,8 +61,8 @@ fn a_record_says_what_every_verdict_rests_on() {
     let folder = folder();
     let record = record(folder.path(), &[]);
     let mut all = schemas();
-    let own = read_json(&workspace().join("docs/schema/reproduction.json"));
-    all.insert("reproduction.json".into(), own);
+    let schema = read_json(&workspace().join("docs/schema/reproduction.json"));
+    all.insert("reproduction.json".into(), schema);
     assert_eq!(problems(&all, "reproduction.json", &record), Vec::<String>::new());
     let mut bad = record.clone();
     bad["lessons"][0]["claims"][0]["runs"][0]["settings"]["timestep"] = json!("0.02");
@@ -180,8 +180,8 @@ fn a_model_that_changed_is_told_with_what_it_changed() {
     let friction = step("causes", "friction of the geom \"floor\" of the run heavy");
     assert_eq!((&friction["before"][0], &friction["now"][0]), (&json!(0.5), &json!(0.6)));
     let done = run_in(folder.path(), &["check", "lessons", "--since", "records/now.json"]);
-    let told: Vec<&str> = done.stdout.lines().skip_while(|l| !l.starts_with("since ")).collect();
-    snapshot("since-model", told.join("\n"));
+    let comparison: Vec<&str> = done.stdout.lines().skip_while(|l| !l.starts_with("since ")).collect();
+    snapshot("since-model", comparison.join("\n"));
 }
 
 /// What is no record is refused with what to do, and nothing that is read is overwritten.

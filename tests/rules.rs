@@ -37,14 +37,14 @@ fn found(example: &Example) -> (Vec<Found>, String) {
         arguments.extend(["--judge", "judge.json"]);
     }
     let out = run_in(folder.path(), &arguments);
-    let said = format!("{}{}", out.stdout, out.stderr);
+    let output = format!("{}{}", out.stdout, out.stderr);
     let report: serde_json::Value = serde_json::from_str(&out.stdout).unwrap_or_default();
     let found = |f: &serde_json::Value| {
         let text = |value: &serde_json::Value| value.as_str().unwrap_or("").to_string();
         let byte = |key: &str| f[key].as_u64().unwrap_or(0) as usize;
         (text(&f["code"]), text(&f["file"]), byte("start")..byte("end"))
     };
-    (report["findings"].as_array().into_iter().flatten().map(found).collect(), said)
+    (report["findings"].as_array().into_iter().flatten().map(found).collect(), output)
 }
 
 fn start(text: &str, most: usize) -> String {
@@ -58,22 +58,24 @@ const WITHOUT_A_PLACE: [&str; 1] = ["model-unreadable"];
 fn hold(layer: Layer) {
     let mut wrong = Vec::new();
     for Rule { code, bad, good, .. } in rules::all().filter(|rule| rule.layer == layer) {
-        let (all, said) = found(bad);
+        let (all, output) = found(bad);
         let file = example::files(bad).swap_remove(0).0;
         let place = example::marked(bad);
         let there =
             |(c, f, at): &Found| c == code && place.as_ref().is_none_or(|place| *f == file && at == place);
         if !all.iter().any(there) {
-            wrong
-                .push(format!("{code} at {place:?}: the wrong example gives {all:?}\n{}", start(&said, 200)));
+            wrong.push(format!(
+                "{code} at {place:?}: the wrong example gives {all:?}\n{}",
+                start(&output, 200)
+            ));
         }
         let long = matches!(bad, Example::Repeated(..) | Example::Long(..) | Example::LongModel(..));
         if place.is_none() && !long && !WITHOUT_A_PLACE.contains(code) {
             wrong.push(format!("{code}: the wrong example does not mark its place: {all:?}"));
         }
-        let (all, said) = found(good);
+        let (all, output) = found(good);
         if !all.is_empty() || good.marked().is_some() {
-            wrong.push(format!("{code}: the right example gives {all:?}\n{}", start(&said, 900)));
+            wrong.push(format!("{code}: the right example gives {all:?}\n{}", start(&output, 900)));
         }
     }
     assert!(wrong.is_empty(), "{}\n{} wrong", wrong.join("\n"), wrong.len());

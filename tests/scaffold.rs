@@ -12,13 +12,13 @@ use labspec::verify::Verdict;
 use labspec_proposals::scaffold::{Scaffold, ScaffoldOutcome, scaffold, written};
 use serde_json::Value;
 
-fn look(name: &str, text: &str, models: &Models) -> (Lesson, Vec<Scaffold>) {
+fn scaffold_text(name: &str, text: &str, models: &Models) -> (Lesson, Vec<Scaffold>) {
     let lesson = load_lesson(SourceFile::new(name, text), models.folder());
     let all = scaffold(&lesson, models, &mut |_| ());
     (lesson, all)
 }
 
-fn of<'s>(all: &'s [Scaffold], name: &str) -> &'s ScaffoldOutcome {
+fn outcome_of<'s>(all: &'s [Scaffold], name: &str) -> &'s ScaffoldOutcome {
     &all.iter().find(|one| one.name == name).unwrap_or_else(|| panic!("{name}: {all:?}")).found
 }
 
@@ -42,26 +42,26 @@ fn predictions_of_real_lessons_are_scaffolded() {
         ("corpus/quizzes/5.3_01.json", &["quiz 5.3-check, question 5"]),
     ] {
         let text = std::fs::read_to_string(shared.join(file)).unwrap();
-        let (lesson, all) = look(file, &text, &models);
+        let (lesson, all) = scaffold_text(file, &text, &models);
         for name in names {
-            assert!(verified(of(&all, name)), "{name}: {:#?}", of(&all, name));
+            assert!(verified(outcome_of(&all, name)), "{name}: {:#?}", outcome_of(&all, name));
             good += 1;
         }
         let with = written(&lesson, &all);
         for line in text.lines() {
-            let kept = with.lines().any(|new| {
+            let is_unchanged = with.lines().any(|new| {
                 new == line || new.trim_end_matches(',') == line.trim_end_matches(['}', ']', ' '])
             });
-            assert!(kept || line.contains('}'), "{file}: the line is not kept: {line}");
+            assert!(is_unchanged || line.contains('}'), "{file}: the line is not kept: {line}");
         }
         let moved =
             text.replace("\"answer\": 1,", "\"answer\": 0,").replace("\"answer\": 2,", "\"answer\": 1,");
-        let (_, all) = look(file, &moved, &models);
+        let (_, all) = scaffold_text(file, &moved, &models);
         for name in names {
             assert!(
-                matches!(of(&all, name), ScaffoldOutcome::Contradicted { .. }),
+                matches!(outcome_of(&all, name), ScaffoldOutcome::Contradicted { .. }),
                 "{name}: {:#?}",
-                of(&all, name)
+                outcome_of(&all, name)
             );
         }
     }
@@ -80,7 +80,7 @@ fn quiz(question: &str) -> String {
 }
 
 fn one(question: &str) -> (Lesson, Vec<Scaffold>) {
-    look("fall.md", &quiz(question), &Models::new(ModelFolder::unknown()))
+    scaffold_text("fall.md", &quiz(question), &Models::new(ModelFolder::unknown()))
 }
 
 #[test]
@@ -91,7 +91,8 @@ fn words_of_change_move_a_control() {
         )
     };
     let (lesson, all) = one(&ask(0));
-    let ScaffoldOutcome::Proposed { verify, verdict, undecided, values } = of(&all, "quiz fall, question 1")
+    let ScaffoldOutcome::Proposed { verify, verdict, undecided, values } =
+        outcome_of(&all, "quiz fall, question 1")
     else {
         panic!("{all:?}")
     };
@@ -112,7 +113,7 @@ fn words_of_change_move_a_control() {
     assert_eq!(plain["questions"][0]["verify"], verify);
     let (_, all) = one(&ask(1));
     assert!(
-        matches!(of(&all, "quiz fall, question 1"), ScaffoldOutcome::Contradicted { option: 0, .. }),
+        matches!(outcome_of(&all, "quiz fall, question 1"), ScaffoldOutcome::Contradicted { option: 0, .. }),
         "{all:?}"
     );
 }
@@ -128,14 +129,15 @@ fn what_cannot_be_told_is_left_open_with_the_reason() {
         (r#"{"kind": "mcq", "q": "What happens?", "options": ["It rises", "It stays the same"]}"#, "no key"),
     ] {
         let (_, all) = one(question);
-        let ScaffoldOutcome::Open(reason) = of(&all, "quiz fall, question 1") else {
+        let ScaffoldOutcome::Open(reason) = outcome_of(&all, "quiz fall, question 1") else {
             panic!("{question}: {all:?}")
         };
         assert!(reason.contains(why), "{question}: {reason}");
     }
     let numeric = r#"{"kind": "numeric", "q": "With which speed does it fall after 0.3 s?", "answer": 2.943, "tol": 0.01, "unit": "m/s", "explain": "<p>$v = g t = 9.81 \\times 0.3$ = 2.943 m/s.</p>"}"#;
     let (_, all) = one(numeric);
-    let ScaffoldOutcome::Proposed { verdict: Some((verdict, _)), .. } = of(&all, "quiz fall, question 1")
+    let ScaffoldOutcome::Proposed { verdict: Some((verdict, _)), .. } =
+        outcome_of(&all, "quiz fall, question 1")
     else {
         panic!("{all:?}")
     };

@@ -5,7 +5,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
-use crate::recorded::{examine, list, named, objects, start, worst};
+use crate::recorded::{compare_with_recording, list, named, objects, start, worst};
 use crate::standing::Standing;
 use crate::support::{models, numbers, recording, workspace};
 use labspec_core::reflect::Object;
@@ -29,7 +29,7 @@ fn every_model_of_the_lessons_is_as_recorded() {
     assert!(all.len() >= 16, "{all:?}");
     for name in all {
         let model = folder().join(format!("{name}.xml"));
-        standing.add(name.clone(), examine(&model, &recording(&format!("course/{name}"))));
+        standing.add(name.clone(), compare_with_recording(&model, &recording(&format!("course/{name}"))));
     }
     assert_eq!(standing.refused(), 0);
     standing.check(None, &[]);

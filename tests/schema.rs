@@ -236,10 +236,10 @@ fn mistakes_of_the_format_are_refused() {
     }
     let schemas: BTreeMap<String, Value> =
         [Root::Lab, Root::Quiz, Root::Lesson].map(|root| (format!("{root:?}"), schema(root))).into();
-    let (mut turn, mut refused, mut taken) = (0, 0, 0);
+    let (mut turn, mut refused, mut accepted_count) = (0, 0, 0);
     let mut wrong = Vec::new();
-    let sound = folders.iter().flat_map(|f| files(f)).flat_map(|path| objects(&path));
-    for (root, value, _) in sound.filter(|(.., errors)| !errors) {
+    let valid = folders.iter().flat_map(|f| files(f)).flat_map(|path| objects(&path));
+    for (root, value, _) in valid.filter(|(.., errors)| !errors) {
         let mut all = Vec::new();
         places(&value, "", &mut all);
         for at in all.iter().filter(|at| !at.is_empty()) {
@@ -262,7 +262,7 @@ fn mistakes_of_the_format_are_refused() {
                         ));
                     }
                 } else if errors().next().is_none() {
-                    taken += 1;
+                    accepted_count += 1;
                     if !accepted {
                         wrong.push(format!("refused at {at}: {mutant:.300}"));
                     }
@@ -270,13 +270,13 @@ fn mistakes_of_the_format_are_refused() {
             }
         }
     }
-    println!("{refused} refused, {taken} taken");
+    println!("{refused} refused, {accepted_count} taken");
     assert!(
         wrong.is_empty(),
         "{} wrong of {}:\n{}",
         wrong.len(),
-        refused + taken,
+        refused + accepted_count,
         wrong[..wrong.len().min(12)].join("\n")
     );
-    assert!(refused > 500 && taken > 50, "{refused} refused, {taken} taken");
+    assert!(refused > 500 && accepted_count > 50, "{refused} refused, {accepted_count} taken");
 }

@@ -48,8 +48,8 @@ fn measured(run: &Json, name: &str) -> f64 {
 fn refused(run: &Json) -> (String, String) {
     let (checked, text) = checked(run);
     // A label that is none is also found without a run.
-    let known = |c: &&str| *c == "run-impossible" || *c == "unknown-control";
-    assert!(codes(&checked).iter().all(known), "{run}: {:?}", checked.findings);
+    let expected = |c: &&str| *c == "run-impossible" || *c == "unknown-control";
+    assert!(codes(&checked).iter().all(expected), "{run}: {:?}", checked.findings);
     assert!(checked.claims[0].judgement.unmade.is_some());
     let finding = checked.findings.iter().find(|f| f.code == "run-impossible").unwrap();
     (text[finding.span.clone()].to_string(), finding.message.clone())
@@ -78,10 +78,10 @@ fn a_verified_run_with_a_setting_that_no_student_can_make_is_refused_at_its_valu
         (json!({"Kick": 1}), "1", "press it instead of setting it"),
         (json!({"gravty": -5}), "gravty", "did you mean \"gravity\"?"),
     ];
-    for (set, place, message) in cases {
-        let (at, said) = refused(&json!({"set": set, "until": 0.1}));
+    for (set, place, expected) in cases {
+        let (at, message) = refused(&json!({"set": set, "until": 0.1}));
         assert_eq!(at, place, "{set}");
-        assert!(said.contains(message), "{said}");
+        assert!(message.contains(expected), "{message}");
     }
 }
 
@@ -123,7 +123,7 @@ fn a_run_takes_what_a_student_can_choose_and_nothing_else() {
     assert_eq!(run_with(&[("gravity", Value::Number(-9.81))], &[]), Ok(fell), "the start is always possible");
     assert!(run_with(&[("integrator", "discrete".into())], &[]).is_ok());
     assert!(run_with(&[], &[("Kick", 0.05)]).unwrap() > fell);
-    for (set, said) in [
+    for (set, message) in [
         (("integrator", "Discrete".into()), "is not an option"),
         (("gravity", Value::Number(f64::NAN)), "cannot be chosen"),
         (("gravity", Value::Number(f64::NEG_INFINITY)), "cannot be chosen"),
@@ -131,7 +131,7 @@ fn a_run_takes_what_a_student_can_choose_and_nothing_else() {
         (("gravity", "-5".into()), "it needs a number"),
     ] {
         let error = run_with(&[set], &[]).unwrap_err();
-        assert!(error.contains(said), "{error}");
+        assert!(error.contains(message), "{error}");
     }
     assert!(run_with(&[], &[("Kick", 0.2)]).unwrap_err().contains("the run ends at 0.1 s"));
     for time in [-0.1, f64::NAN, f64::INFINITY] {

@@ -80,13 +80,13 @@ fn what_is_tied_sleeps_and_wakes_as_recorded() {
 fn a_plan_lets_trees_sleep_as_they_do() {
     for scene in ["sleep", "sleep_pile", "sleep_ties"] {
         let m = model(scene);
-        let mut demand = AccessSet { reads: Default::default(), writes: Default::default() };
-        demand.reads.insert(reflect::field(Object::Data, "tree_asleep").unwrap());
+        let mut access = AccessSet { reads: Default::default(), writes: Default::default() };
+        access.reads.insert(reflect::field(Object::Data, "tree_asleep").unwrap());
         let run = |plan: Plan| {
             let mut d = Data::planned(&m, plan);
             (0..300).for_each(|_| core::step(&m, &mut d).unwrap());
             (d.fields().tree_asleep.clone(), d.fields().qpos.clone())
         };
-        assert_eq!(run(Plan::new(&m, &demand)), run(Plan::full()), "{scene}");
+        assert_eq!(run(Plan::new(&m, &access)), run(Plan::full()), "{scene}");
     }
 }

@@ -155,7 +155,7 @@ fn what_changed_about_a_lab_is_said() {
     let changes = |from: &str, to: &str| {
         let (code, all) = after(from, to);
         assert_eq!(code, 1, "{all}");
-        let said = |lab: &Value| {
+        let output = |lab: &Value| {
             lab["changes"]
                 .as_array()
                 .unwrap()
@@ -163,7 +163,7 @@ fn what_changed_about_a_lab_is_said() {
                 .map(|c| c.as_str().unwrap().to_string())
                 .collect::<Vec<_>>()
         };
-        all.as_array().unwrap().iter().flat_map(said).collect::<Vec<String>>()
+        all.as_array().unwrap().iter().flat_map(output).collect::<Vec<String>>()
     };
     assert_eq!(
         changes("\"label\":\"rate\"", "\"label\":\"speed\""),
@@ -261,12 +261,12 @@ fn the_cache_sees_another_snapshot() {
     let row = text.lines().find(|line| line.contains("plot/0/angle")).unwrap();
     std::fs::write(folder.path().join("two.md.snap"), text.replace(row, &row.replace("0.50000", "0.51000")))
         .unwrap();
-    let (code, said) = check();
-    assert!(code == 1 && said.contains("two.md.snap has 0.51000"), "{said}");
-    assert_eq!(check(), (code, said));
+    let (code, output) = check();
+    assert!(code == 1 && output.contains("two.md.snap has 0.51000"), "{output}");
+    assert_eq!(check(), (code, output));
     std::fs::remove_file(folder.path().join("two.md.snap")).unwrap();
-    let (code, said) = check();
-    assert!(code == 0 && !said.contains("snapshot"), "{said}");
+    let (code, output) = check();
+    assert!(code == 0 && !output.contains("snapshot"), "{output}");
 }
 
 /// A file that is cut off, edited, empty, huge, no text or a folder: a finding with its place, and claims that could not be checked.
@@ -277,7 +277,7 @@ fn a_file_that_is_no_snapshot_has_a_place() {
     let row = text.lines().position(|line| line.contains("plot/0/angle")).unwrap() + 1;
     let half = &text[..text.find("lab \"#2\"").unwrap()];
     let huge = "1".repeat(5 << 20);
-    for (bytes, said) in [
+    for (bytes, output) in [
         (half.as_bytes(), "the file is incomplete: the line"),
         (
             text.replacen("0.50000", "0.5OOOO", 1).as_bytes(),
@@ -301,13 +301,13 @@ fn a_file_that_is_no_snapshot_has_a_place() {
     ] {
         std::fs::write(&path, bytes).unwrap();
         let done = run_in(folder.path(), &["check", "two.md"]);
-        assert_eq!(done.code, 1, "{said}");
-        let found = done.stdout.contains("error[snapshot-unreadable]") && done.stdout.contains(said);
-        assert!(found, "{said}:\n{}", done.stdout);
+        assert_eq!(done.code, 1, "{output}");
+        let found = done.stdout.contains("error[snapshot-unreadable]") && done.stdout.contains(output);
+        assert!(found, "{output}:\n{}", done.stdout);
         assert!(done.stdout.contains("2 snapshots could not be checked"), "{}", done.stdout);
         let done = run_in(folder.path(), &["snapshot", "two.md", "--format", "json"]);
         let report: Value = serde_json::from_str(&done.stdout).unwrap();
-        assert_eq!((done.code, &report["files"][0]["standing"]), (1, &json!("unreadable")), "{said}");
+        assert_eq!((done.code, &report["files"][0]["standing"]), (1, &json!("unreadable")), "{output}");
     }
     assert_eq!(run_in(folder.path(), &["snapshot", "two.md", "--accept"]).code, 0);
     assert_eq!(stored(folder.path()), text);

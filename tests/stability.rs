@@ -31,24 +31,24 @@ fn run(xml: &str, steps: u64, long: u64, keep: &Json) -> Json {
     let mut done = 0;
     let mut out = out_of(&d, keep, "way");
     let mut watch = watch::watch(&m, &d, false);
-    let mut told = Json::Null;
+    let mut reported = Json::Null;
     while done < total {
         let before = d.time;
         for _ in 0..each {
             core::step(&m, &mut d).unwrap();
             watch::observe(&mut watch, &m, &d);
-            if told.is_null() && watch::noticed(&watch).time().is_finite() {
-                told = said(watch::noticed(&watch));
+            if reported.is_null() && watch::noticed(&watch).time().is_finite() {
+                reported = to_json(watch::noticed(&watch));
             }
         }
         done += each;
         for which in [Warning::BadQpos, Warning::BadQvel, Warning::BadQacc] {
             let stat = d.warning[which as usize];
             if stat.number > 0 {
-                return json!({"warning": which.name().trim_start_matches("bad"), "time": before, "dof": stat.lastinfo, "told": told});
+                return json!({"warning": which.name().trim_start_matches("bad"), "time": before, "dof": stat.lastinfo, "told": reported});
             }
         }
-        // Never a silent NaN: a step that left one would be told by the next.
+        // Never a silent NaN: a step that left one would be reported by the next.
         reach = reach.max(largest(&d.qpos));
         out = out.max(out_of(&d, keep, "way"));
     }
@@ -58,7 +58,7 @@ fn run(xml: &str, steps: u64, long: u64, keep: &Json) -> Json {
     );
     let out = out.max(out_of(&d, keep, "end"));
     let mut out = json!({"reach": reach, "out": out, "speed": largest(&d.qvel), "qpos": d.qpos.iter().take(KEPT).collect::<Vec<_>>()});
-    out["told"] = told;
+    out["told"] = reported;
     if long > 0 {
         let end = energy(&mut m, &d);
         out["energy"] = json!(if start == 0.0 { end } else { (end - start) / start.abs().max(1e-12) });
@@ -70,7 +70,7 @@ fn run(xml: &str, steps: u64, long: u64, keep: &Json) -> Json {
 }
 
 /// What was noticed first, and when.
-fn said(noticed: &Noticed) -> Json {
+fn to_json(noticed: &Noticed) -> Json {
     let pushed = noticed.growth.is_some_and(|g| matches!(g.source, Source::Damper(_)));
     let grows = if pushed { "a damper pushes" } else { "energy grows" };
     let list = [
@@ -80,8 +80,8 @@ fn said(noticed: &Noticed) -> Json {
         ("sunk in", noticed.sunk.map(|x| x.time)),
         ("solver stopped", noticed.unsolved.map(|x| x.time)),
     ];
-    let told = list.into_iter().find_map(|(what, time)| Some((what, time?)));
-    told.map_or(Json::Null, |(what, time)| json!({"what": what, "time": time}))
+    let first = list.into_iter().find_map(|(what, time)| Some((what, time?)));
+    first.map_or(Json::Null, |(what, time)| json!({"what": what, "time": time}))
 }
 
 /// How far a run is out of what its case keeps.
@@ -109,7 +109,7 @@ fn largest(v: &[f64]) -> f64 {
 }
 
 /// What a run came to, in words. A run that left its bounds went wrong and nobody said so.
-fn words(outcome: &Json, bound: f64) -> String {
+fn describe_outcome(outcome: &Json, bound: f64) -> String {
     if let Some(kind) = outcome["warning"].as_str() {
         return format!("bad {kind} at {} s", short(outcome["time"].as_f64().unwrap()));
     }
@@ -160,8 +160,8 @@ struct Class {
     well: [usize; 2],
     loud: [usize; 2],
     silent: [usize; 2],
-    /// Silent runs here that are told, and runs that go well and are called wrong.
-    told: usize,
+    /// Silent runs here that are reported, and runs that go well and are called wrong.
+    reported: usize,
     called: usize,
 }
 
@@ -170,7 +170,7 @@ struct Class {
 struct Classes {
     list: Vec<Class>,
     alarms: Vec<String>,
-    missed: Vec<String>,
+    undetected: Vec<String>,
 }
 
 impl Classes {
@@ -193,13 +193,13 @@ impl Classes {
             of[side] += 1;
         }
         let Some(ours) = outcomes[1] else { return };
-        let told = ours["told"].is_object();
+        let reported = ours["told"].is_object();
         if fine(ours, bound) {
-            c.called += usize::from(told);
-            self.alarms.extend(told.then(|| format!("{class}, {name}: {ours}")));
+            c.called += usize::from(reported);
+            self.alarms.extend(reported.then(|| format!("{class}, {name}: {ours}")));
         } else if !ours["warning"].is_string() {
-            c.told += usize::from(told);
-            self.missed.extend((!told).then(|| format!("{class}, {name}: {ours}")));
+            c.reported += usize::from(reported);
+            self.undetected.extend((!reported).then(|| format!("{class}, {name}: {ours}")));
         }
     }
 
@@ -207,7 +207,8 @@ impl Classes {
     fn sum(&self) -> Class {
         let mut sum = Class { name: "**all**".into(), ..Class::default() };
         for c in &self.list {
-            (sum.runs, sum.told, sum.called) = (sum.runs + c.runs, sum.told + c.told, sum.called + c.called);
+            (sum.runs, sum.reported, sum.called) =
+                (sum.runs + c.runs, sum.reported + c.reported, sum.called + c.called);
             for side in 0..2 {
                 sum.well[side] += c.well[side];
                 sum.loud[side] += c.loud[side];
@@ -229,11 +230,11 @@ impl Classes {
                 let theirs = if searched { "–".into() } else { pair[0].to_string() };
                 format!("{theirs} | {}", pair[1])
             };
-            let told =
-                if c.silent[1] == 0 { String::new() } else { format!("{} of {}", c.told, c.silent[1]) };
+            let reported =
+                if c.silent[1] == 0 { String::new() } else { format!("{} of {}", c.reported, c.silent[1]) };
             let _ = writeln!(
                 text,
-                "| {} | {} | {} | {} | {} | {told} | {} |",
+                "| {} | {} | {} | {} | {} | {reported} | {} |",
                 c.name,
                 c.runs,
                 of(c.well),
@@ -246,8 +247,8 @@ impl Classes {
     }
 }
 
-/// What was told of a run: what was noticed and when, or that nobody did.
-fn told(outcome: &Json, bound: f64) -> String {
+/// What was reported of a run: what was noticed and when, or that nobody did.
+fn reported(outcome: &Json, bound: f64) -> String {
     match (outcome["told"]["what"].as_str(), outcome["told"]["time"].as_f64()) {
         (Some(what), Some(time)) => format!("{what}, {} s", short(time)),
         _ if fine(outcome, bound) || outcome["warning"].is_string() => String::new(),
@@ -278,14 +279,14 @@ fn table(
         if fine(theirs, bound) && !fine(&ours, bound) {
             wrong.push(format!("{section}, {title}: {ours}, theirs {theirs}"));
         }
-        let words = |o: &Json| words(o, bound);
+        let describe = |o: &Json| describe_outcome(o, bound);
         let _ = writeln!(
             text,
             "| {title} | {} | {} | {} | {} |",
-            words(theirs),
-            words(&ours),
+            describe(theirs),
+            describe(&ours),
             apart(theirs, &ours),
-            told(&ours, bound)
+            reported(&ours, bound)
         );
     }
     text
@@ -355,7 +356,7 @@ fn stiff_and_extreme_scenes() {
     let golden = workspace().join("tests/golden");
     let recording = read_json(&golden.join("stability.json"));
     let bless = std::env::var_os("LABSPEC_BLESS").is_some();
-    let kept = golden.join("stability_long.json");
+    let recorded = golden.join("stability_long.json");
     let (long, cases): (Vec<Json>, Vec<Json>) =
         recording["cases"].as_array().unwrap().iter().cloned().partition(|c| c["long"] != 0);
     if bless && std::env::var("LABSPEC_STABILITY").is_ok_and(|v| v == "long") {
@@ -368,7 +369,7 @@ fn stiff_and_extreme_scenes() {
                 )
             })
             .collect();
-        std::fs::write(&kept, serde_json::to_string_pretty(&runs).unwrap() + "\n").unwrap();
+        std::fs::write(&recorded, serde_json::to_string_pretty(&runs).unwrap() + "\n").unwrap();
     }
     for case in &long {
         // The beginning of a long run is a test that nothing breaks soon.
@@ -388,7 +389,7 @@ fn stiff_and_extreme_scenes() {
     let searches = recording["searches"].as_array().unwrap();
     let largest = searched(searches, &timesteps, &mut differ, &mut classes);
     let sum = classes.sum();
-    let runs = read_json(&kept);
+    let runs = read_json(&recorded);
     let mut text = format!(
         "# Stiff and extreme scenes\n\n`tests/stability.rs` writes this page from the cases of `tests/golden/stability.py`. It compares labspec with MuJoCo 3.14.0.\n\nOf {} runs \
          of labspec, {} go well and {} end with a warning. {} fail without a warning of the engine. labspec reports {} of these, with {} false \
@@ -412,7 +413,7 @@ fn stiff_and_extreme_scenes() {
         sum.well[1],
         sum.loud[1],
         sum.silent[1],
-        sum.told,
+        sum.reported,
         sum.called,
         classes.table(),
         timesteps.iter().map(|h| format!("{} ms", short(1e3 * h))).collect::<Vec<_>>().join(", "),
@@ -426,8 +427,8 @@ fn stiff_and_extreme_scenes() {
         let _ = writeln!(
             text,
             "| {name} | {} | {} | {} | {} | {} | {} |",
-            words(theirs, bound),
-            words(ours, bound),
+            describe_outcome(theirs, bound),
+            describe_outcome(ours, bound),
             number(theirs, "energy"),
             number(ours, "energy"),
             number(theirs, "norm"),
@@ -440,25 +441,30 @@ fn stiff_and_extreme_scenes() {
     if bless {
         std::fs::write(&path, &text).unwrap();
     }
-    for line in wrong.iter().chain(&differ).chain(&classes.alarms).chain(&classes.missed).chain(&mistakes) {
+    for line in wrong.iter().chain(&differ).chain(&classes.alarms).chain(&classes.undetected).chain(&mistakes)
+    {
         println!("{line}");
     }
-    // A set that nobody chose: most of what goes wrong is told, and next to nothing is called wrong that goes well.
+    // A set that nobody chose: most of what goes wrong is reported, and next to nothing is called wrong that goes well.
     assert!(rates.wrong >= 30 && rates.well >= 60, "{} and {} scenes", rates.wrong, rates.well);
-    assert!(4 * rates.told >= 3 * rates.wrong, "{} of {} are told", rates.told, rates.wrong);
+    assert!(4 * rates.reported >= 3 * rates.wrong, "{} of {} are told", rates.reported, rates.wrong);
     assert!(50 * rates.alarms <= rates.well, "{} of {} are called wrong", rates.alarms, rates.well);
     assert!(sum.well[1] > 1000 && sum.silent[1] > 60, "{} and {} runs", sum.well[1], sum.silent[1]);
     assert!(sum.called == 0, "runs that go well, said to go wrong:\n{}", classes.alarms.join("\n"));
-    assert!(classes.missed.is_empty(), "what goes wrong and nobody tells:\n{}", classes.missed.join("\n"));
+    assert!(
+        classes.undetected.is_empty(),
+        "what goes wrong and nobody tells:\n{}",
+        classes.undetected.join("\n")
+    );
     assert!(wrong.is_empty(), "scenes that end well with MuJoCo and not here:\n{}", wrong.join("\n"));
-    let kept = std::fs::read_to_string(&path).unwrap_or_default();
+    let stored = std::fs::read_to_string(&path).unwrap_or_default();
     assert!(
         differ.len() <= searches.len() / 20,
         "longest stable timesteps that are not MuJoCo's:\n{}",
         differ.join("\n")
     );
     assert!(
-        subjects(&kept) == subjects(&text),
+        subjects(&stored) == subjects(&text),
         "docs/measured/stability.md is stale: LABSPEC_BLESS=1 cargo test -p labspec-cli --test all stiff"
     );
 }

@@ -1,4 +1,4 @@
-//! The order of the house: what a room may look at, and that no files look at each other in a circle.
+//! The order of modules: which modules a module may import, and that files form no import cycles.
 
 // A test that fails says why.
 #![allow(clippy::panic, clippy::unwrap_used)]
@@ -7,8 +7,8 @@ use crate::support::workspace;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-/// The files of a room by module, and which modules each of them uses.
-struct Room {
+/// The files of a folder by module, and which modules each of them imports.
+struct ModuleGraph {
     text: BTreeMap<String, String>,
     uses: BTreeMap<String, BTreeSet<String>>,
 }
@@ -66,9 +66,9 @@ fn imports(code: &str) -> Vec<String> {
     out
 }
 
-impl Room {
+impl ModuleGraph {
     /// A folder of a crate, its subfolders included; their modules are named by their paths.
-    fn read(krate: &str, folder: &str) -> Room {
+    fn read(krate: &str, folder: &str) -> ModuleGraph {
         let root = workspace().join("crates").join(krate).join("src").join(folder);
         let inside = if folder.is_empty() { 1 } else { 2 };
         let mut text = BTreeMap::new();
@@ -92,11 +92,11 @@ impl Room {
                 }
             }
         }
-        let mut room = Room { text, uses: BTreeMap::new() };
-        for (module, text) in &room.text {
+        let mut graph = ModuleGraph { text, uses: BTreeMap::new() };
+        for (module, text) in &graph.text {
             let mut used = BTreeSet::new();
             let is_folder =
-                module.is_empty() || room.text.keys().any(|k| k.starts_with(&format!("{module}::")));
+                module.is_empty() || graph.text.keys().any(|k| k.starts_with(&format!("{module}::")));
             for path in imports(text) {
                 let mut parts: Vec<&str> = path.split("::").collect();
                 let mut at: Vec<&str> = module.split("::").filter(|p| !p.is_empty()).collect();
@@ -114,17 +114,17 @@ impl Room {
                     _ => continue,
                 }
                 at.extend(parts);
-                used.extend(room.owner(&at));
+                used.extend(graph.owner(&at));
             }
             // Drivers call the checks of rules by their pages.
             for (at, _) in text.match_indices("rules::") {
                 let name = text[at + 7..].split(|c: char| !c.is_alphanumeric() && c != '_').next();
-                used.extend(name.and_then(|name| room.owner(&["rules", name])).filter(|m| !m.is_empty()));
+                used.extend(name.and_then(|name| graph.owner(&["rules", name])).filter(|m| !m.is_empty()));
             }
             used.remove(module);
-            room.uses.insert(module.clone(), used);
+            graph.uses.insert(module.clone(), used);
         }
-        room
+        graph
     }
 
     /// The module that a path leads to: the longest beginning that is one, or where that one has the name from.
@@ -151,8 +151,8 @@ impl Room {
         Some(from.filter(|m| self.text.contains_key(m)).unwrap_or(module))
     }
 
-    /// A circle of modules, parents and their children left out.
-    fn circle(&self) -> Option<Vec<String>> {
+    /// A cycle of modules, parents and their children left out.
+    fn cycle(&self) -> Option<Vec<String>> {
         let kin = |a: &str, b: &str| {
             a.is_empty()
                 || b.is_empty()
@@ -161,21 +161,21 @@ impl Room {
         };
         let mut done = BTreeSet::new();
         for start in self.uses.keys() {
-            let mut road = vec![(start.clone(), self.uses[start].iter().cloned().collect::<Vec<_>>())];
-            while let Some((at, next)) = road.last_mut() {
+            let mut path = vec![(start.clone(), self.uses[start].iter().cloned().collect::<Vec<_>>())];
+            while let Some((at, next)) = path.last_mut() {
                 let Some(to) = next.pop() else {
                     done.insert(at.clone());
-                    road.pop();
+                    path.pop();
                     continue;
                 };
                 if kin(at, &to) || done.contains(&to) {
                     continue;
                 }
-                if let Some(k) = road.iter().position(|(m, _)| *m == to) {
-                    return Some(road[k..].iter().map(|(m, _)| m.clone()).collect());
+                if let Some(k) = path.iter().position(|(m, _)| *m == to) {
+                    return Some(path[k..].iter().map(|(m, _)| m.clone()).collect());
                 }
                 let after = self.uses.get(&to).map_or(Vec::new(), |u| u.iter().cloned().collect());
-                road.push((to, after));
+                path.push((to, after));
             }
         }
         None
@@ -185,20 +185,20 @@ impl Room {
 /// Shapes, rays, distances and contacts know numbers and kinds of shapes, and nothing of models, data or dynamics.
 #[test]
 fn geometry_takes_shapes() {
-    let room = Room::read("core", "geometry");
-    assert!(room.text.len() > 20 && room.uses.values().map(BTreeSet::len).sum::<usize>() > 40);
-    for (module, text) in &room.text {
+    let graph = ModuleGraph::read("core", "geometry");
+    assert!(graph.text.len() > 20 && graph.uses.values().map(BTreeSet::len).sum::<usize>() > 40);
+    for (module, text) in &graph.text {
         for path in imports(text).iter().filter(|p| p.starts_with("crate::")) {
-            let known = ["crate::math", "crate::kinds", "crate::geometry"];
-            assert!(known.iter().any(|k| path.starts_with(k)), "geometry::{module} uses {path}");
+            let allowed = ["crate::math", "crate::kinds", "crate::geometry"];
+            assert!(allowed.iter().any(|k| path.starts_with(k)), "geometry::{module} uses {path}");
         }
         let rest = text.split(';').filter(|s| !s.trim_start().starts_with("use ")).collect::<String>();
         assert!(!rest.contains("crate::Model") && !rest.contains("crate::Data"), "geometry::{module}");
     }
 }
 
-/// The rooms of the engine, from the lowest to the highest. A file looks at its own room and at lower ones.
-const ROOMS: [&str; 14] = [
+/// The modules of the engine, from the lowest to the highest. A file imports its own module and lower ones.
+const MODULES: [&str; 14] = [
     "math",
     "kinds",
     "geometry",
@@ -216,17 +216,20 @@ const ROOMS: [&str; 14] = [
 ];
 
 #[test]
-fn rooms_of_the_engine_look_down() {
-    let room = Room::read("core", "");
-    assert!(room.text.len() > 150 && room.uses.values().map(BTreeSet::len).sum::<usize>() > 600);
+fn engine_modules_import_only_lower_modules() {
+    let graph = ModuleGraph::read("core", "");
+    assert!(graph.text.len() > 150 && graph.uses.values().map(BTreeSet::len).sum::<usize>() > 600);
     let place = |module: &str| {
         let top = module.split("::").next().unwrap_or_default();
-        ROOMS.iter().position(|r| *r == top).unwrap_or_else(|| panic!("{module} is in no room"))
+        MODULES
+            .iter()
+            .position(|r| *r == top)
+            .unwrap_or_else(|| panic!("{module} is not in the order of modules"))
     };
-    for (module, uses) in room.uses.iter().filter(|(module, _)| !module.is_empty()) {
+    for (module, uses) in graph.uses.iter().filter(|(module, _)| !module.is_empty()) {
         for used in uses {
-            assert!(!used.is_empty(), "{module} asks the crate's root for what a room has");
-            assert!(place(used) <= place(module), "{module} looks up at {used}");
+            assert!(!used.is_empty(), "{module} imports from the crate's root what a module has");
+            assert!(place(used) <= place(module), "{module} imports the higher module {used}");
         }
     }
 }
@@ -276,25 +279,25 @@ const LANGUAGE: [&str; 37] = [
 /// A module of the language uses those before it, never one that comes after.
 #[test]
 fn a_module_of_the_language_uses_those_before_it() {
-    let mut room = Room::read("expr", "");
+    let mut graph = ModuleGraph::read("expr", "");
     // A host for tests alone, which uses everything.
-    room.uses.remove("mock");
-    assert!(room.text.len() > 120 && room.uses.values().map(BTreeSet::len).sum::<usize>() > 400);
+    graph.uses.remove("mock");
+    assert!(graph.text.len() > 120 && graph.uses.values().map(BTreeSet::len).sum::<usize>() > 400);
     let place = |module: &str| {
         let top = module.split("::").next().unwrap_or_default();
         LANGUAGE.iter().position(|r| *r == top).unwrap_or_else(|| panic!("{module} is not in the language"))
     };
-    for (module, uses) in room.uses.iter().filter(|(module, _)| !module.is_empty()) {
+    for (module, uses) in graph.uses.iter().filter(|(module, _)| !module.is_empty()) {
         for used in uses {
             assert!(!used.is_empty(), "{module} asks the crate's root for what a module has");
-            assert!(place(used) <= place(module), "{module} looks ahead at {used}");
+            assert!(place(used) <= place(module), "{module} imports the later module {used}");
         }
     }
 }
 
 #[test]
-fn files_of_the_language_do_not_use_each_other_in_a_circle() {
-    assert_eq!(Room::read("expr", "").circle(), None);
+fn files_of_the_language_form_no_import_cycles() {
+    assert_eq!(ModuleGraph::read("expr", "").cycle(), None);
 }
 
 /// The pipeline of a lesson, in order: what a text is, what stands in it, what the rules say of that, what it means to the engine, what
@@ -333,8 +336,8 @@ const PIPELINE: [&str; 27] = [
 /// check uses.
 #[test]
 fn a_module_of_the_pipeline_uses_those_before_it() {
-    let room = Room::read("labspec", "");
-    assert!(room.text.len() > 150 && room.uses.values().map(BTreeSet::len).sum::<usize>() > 600);
+    let graph = ModuleGraph::read("labspec", "");
+    assert!(graph.text.len() > 150 && graph.uses.values().map(BTreeSet::len).sum::<usize>() > 600);
     let mut places: BTreeMap<&str, usize> = BTreeMap::new();
     let place = |places: &BTreeMap<&str, usize>, module: &str| {
         let top = module.split("::").next().unwrap_or_default();
@@ -345,23 +348,23 @@ fn a_module_of_the_pipeline_uses_those_before_it() {
             .or_else(of_module)
             .unwrap_or_else(|| panic!("{module} is not in the pipeline"))
     };
-    let pages: Vec<_> = room.uses.iter().filter(|(module, _)| module.starts_with("rules::")).collect();
+    let pages: Vec<_> = graph.uses.iter().filter(|(module, _)| module.starts_with("rules::")).collect();
     // The highest is reached by way of so many pages at most.
     for (page, uses) in pages.iter().flat_map(|_| &pages) {
         let highest = uses.iter().map(|used| place(&places, used)).max();
         places.insert(page, highest.unwrap_or(0).max(place(&places, page)));
     }
     let place = |module: &str| place(&places, module);
-    for (module, uses) in room.uses.iter().filter(|(module, _)| !module.is_empty()) {
+    for (module, uses) in graph.uses.iter().filter(|(module, _)| !module.is_empty()) {
         for used in uses.iter().filter(|used| !used.is_empty()) {
-            assert!(place(used) <= place(module), "{module} looks ahead at {used}");
+            assert!(place(used) <= place(module), "{module} imports the later module {used}");
         }
     }
 }
 
 #[test]
-fn files_of_the_engine_do_not_use_each_other_in_a_circle() {
-    assert_eq!(Room::read("core", "").circle(), None);
+fn files_of_the_engine_form_no_import_cycles() {
+    assert_eq!(ModuleGraph::read("core", "").cycle(), None);
 }
 
 /// The crates in which no two files use each other.
@@ -369,11 +372,11 @@ const WITHOUT_CIRCLES: [&str; 10] =
     ["bind", "cli", "developer", "expr", "finding", "labspec", "lsp", "numerics", "plot", "proposals"];
 
 #[test]
-fn files_of_a_crate_do_not_use_each_other_in_a_circle() {
+fn files_of_a_crate_form_no_import_cycles() {
     for krate in WITHOUT_CIRCLES {
-        let room = Room::read(krate, "");
-        assert!(!room.text.is_empty(), "there is no crate {krate}");
-        assert_eq!(room.circle(), None, "in the crate {krate}");
+        let graph = ModuleGraph::read(krate, "");
+        assert!(!graph.text.is_empty(), "there is no crate {krate}");
+        assert_eq!(graph.cycle(), None, "in the crate {krate}");
     }
 }
 
@@ -427,8 +430,8 @@ fn the_language_has_no_words_of_labs() {
             } else if name.ends_with(".rs") && !matches!(name.as_str(), "mock.rs" | "tests.rs") {
                 // The examples of a rule are texts of labs. Every second piece between quotes is a text.
                 let code = code(&path);
-                let own = code.split("bad: Example::").next().unwrap_or("");
-                for text in own.split('"').skip(1).step_by(2) {
+                let outside_examples = code.split("bad: Example::").next().unwrap_or("");
+                for text in outside_examples.split('"').skip(1).step_by(2) {
                     texts += 1;
                     let text = text.to_lowercase();
                     let found = WORDS.iter().find(|word| text.contains(*word));

@@ -361,11 +361,11 @@ fn findings_for_people() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("servo.json"), servo(3e6).to_string()).unwrap();
     std::fs::write(folder.path().join("thrown.json"), thrown(300.0, 0.002).to_string()).unwrap();
-    let told = |name: &str| {
+    let report_of = |name: &str| {
         let done = run_in(folder.path(), &["stability", name]);
         format!("exit {}\n{}{}", done.code, untimed(&done.stdout), done.stderr)
     };
-    snapshot("stability", ["servo.json", "thrown.json"].map(told).join("\n"));
+    snapshot("stability", ["servo.json", "thrown.json"].map(report_of).join("\n"));
     let done = run_in(folder.path(), &["stability", "servo.json", "--margins", "--map", "kp,target"]);
     snapshot("stability-margins", untimed(&done.stdout));
 }

@@ -135,9 +135,9 @@ fn nothing_of_a_lesson_reaches_the_terminal_raw() {
 fn a_title_and_a_label_stay_on_their_line() {
     let folder = folder();
     std::fs::write(folder.path().join("lab.json"), hostile_lab()).unwrap();
-    let shown = run_in(folder.path(), &["run", "lab.json"]).stdout;
-    assert!(shown.starts_with("title\\u{1b}[2K\\r\\u{9b}31m\\u{202e}"), "{shown}");
-    assert!(!shown.lines().any(|line| line.trim_start().starts_with("verified")), "{shown}");
+    let output = run_in(folder.path(), &["run", "lab.json"]).stdout;
+    assert!(output.starts_with("title\\u{1b}[2K\\r\\u{9b}31m\\u{202e}"), "{output}");
+    assert!(!output.lines().any(|line| line.trim_start().starts_with("verified")), "{output}");
 }
 
 #[test]
@@ -261,22 +261,22 @@ fn ctrl_c_prints_what_is_finished() {
         let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
         // (`--foreground`: else `timeout` sends the signal twice, which ends the program at once.)
         // `timeout` itself says 124; the program's own code is asked for below.
-        let shown = read("out");
-        hold(&shown);
-        shown
+        let output = read("out");
+        hold(&output);
+        output
     };
-    let shown = interrupt("run slow.json");
-    assert!(shown.contains("stopped by Ctrl-C at t = ") && shown.starts_with("Slow, after"), "{shown}");
+    let output = interrupt("run slow.json");
+    assert!(output.contains("stopped by Ctrl-C at t = ") && output.starts_with("Slow, after"), "{output}");
     // A table that is cut short says so.
-    let shown = interrupt("run slow.json --format json");
-    assert!(shown.contains("\"errors\":[\"stopped by Ctrl-C at t = "), "{shown:.300}");
+    let output = interrupt("run slow.json --format json");
+    assert!(output.contains("\"errors\":[\"stopped by Ctrl-C at t = "), "{output:.300}");
     // A check is cut short in the middle of a lesson's runs; what was checked before stays.
     let late: String = (0..60).map(|_| format!("```lab simlab\n{lab}\n```\n\n")).collect();
     std::fs::write(folder.path().join("late.md"), late).unwrap();
     let started = std::time::Instant::now();
-    let shown = interrupt("check clean.md late.md");
-    assert!(started.elapsed().as_secs() < 10, "{shown}");
-    assert!(shown.contains("late.md") && shown.contains("interrupted before it was checked"), "{shown}");
+    let output = interrupt("check clean.md late.md");
+    assert!(started.elapsed().as_secs() < 10, "{output}");
+    assert!(output.contains("late.md") && output.contains("interrupted before it was checked"), "{output}");
     let exit = code(
         folder.path(),
         "timeout --foreground --preserve-status --signal=INT --kill-after=60 2 $L run slow.json --csv some.csv > out",

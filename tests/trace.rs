@@ -143,14 +143,14 @@ const OTHERS: [(&str, &str); 5] = [
 fn numbers_of_a_real_lesson_are_traced() {
     let Some(case) = Case::open("lesson-0.1/lesson-0.1.md") else { return };
     let all = traced(&case);
-    let mut missed = Vec::new();
+    let mut untraced = Vec::new();
     for (line, quote, run, measure) in LESSON {
         let here = all.iter().filter(|(l, q, _)| (*l, q.as_str()) == (line, quote));
         if !here.clone().any(|(_, _, from)| from.contains(run) && from.contains(measure)) {
-            missed.push((line, quote, here.map(|(.., from)| from.as_str()).collect::<Vec<_>>()));
+            untraced.push((line, quote, here.map(|(.., from)| from.as_str()).collect::<Vec<_>>()));
         }
     }
-    assert!(missed.is_empty(), "{missed:#?}");
+    assert!(untraced.is_empty(), "{untraced:#?}");
     // What is told beside these is right, too.
     for (line, quote, from) in &all {
         let set = ["set: ", "chance", "unknown"].iter().any(|w| from.starts_with(w));

@@ -24,9 +24,13 @@ type Column = (&'static str, Vec<f64>);
 
 /// The field that differs most between two ways after a forward pass, or the state after three steps more, with its difference
 /// relative to its largest number.
-fn difference(m: &Model, start: impl Fn(&mut Data<Planned>), ways: TreeAlgorithms) -> (f64, &'static str) {
-    let run = |ways| {
-        let mut d = Data::planned(m, Plan::by_algorithms(m, &AccessSet::ANY, ways));
+fn difference(
+    m: &Model,
+    start: impl Fn(&mut Data<Planned>),
+    algorithms: TreeAlgorithms,
+) -> (f64, &'static str) {
+    let run = |algorithms| {
+        let mut d = Data::planned(m, Plan::by_algorithms(m, &AccessSet::ANY, algorithms));
         start(&mut d);
         core::forward(m, &mut d).unwrap();
         let now: Vec<Column> = FIELDS.iter().map(|name| (*name, numbers(m, &d, name))).collect();
@@ -42,7 +46,7 @@ fn difference(m: &Model, start: impl Fn(&mut Data<Planned>), ways: TreeAlgorithm
         let apart = a.iter().zip(&b).fold(0.0_f64, |s, (x, y)| s.max((x - y).abs()));
         (if a.len() == b.len() { apart / size } else { f64::INFINITY }, name)
     };
-    run(ways)
+    run(algorithms)
         .into_iter()
         .zip(run(TreeAlgorithms::GENERAL))
         .map(of)
@@ -51,8 +55,9 @@ fn difference(m: &Model, start: impl Fn(&mut Data<Planned>), ways: TreeAlgorithm
 
 /// Each way alone, and all of them.
 fn every() -> impl Iterator<Item = TreeAlgorithms> {
-    let alone =
-        |way| TreeAlgorithm::short().filter(|w| *w != way).fold(TreeAlgorithms::ALL, TreeAlgorithms::without);
+    let alone = |algorithm| {
+        TreeAlgorithm::short().filter(|w| *w != algorithm).fold(TreeAlgorithms::ALL, TreeAlgorithms::without)
+    };
     TreeAlgorithm::short().map(alone).chain([TreeAlgorithms::ALL])
 }
 
@@ -60,14 +65,14 @@ fn every() -> impl Iterator<Item = TreeAlgorithms> {
 fn every_way_computes_the_zoo_as_the_general_one() {
     let mut wrong = Vec::new();
     for (name, m, state) in animals() {
-        let mut begun = Data::new(&m);
-        crate::recorded::set(&m, &mut begun, &state);
-        for ways in every() {
+        let mut initial = Data::new(&m);
+        crate::recorded::set(&m, &mut initial, &state);
+        for algorithms in every() {
             let start =
-                |d: &mut Data<Planned>| core::state::copy(&m, &begun, d, core::state::INTEGRATION).unwrap();
-            let (apart, field) = difference(&m, start, ways);
+                |d: &mut Data<Planned>| core::state::copy(&m, &initial, d, core::state::INTEGRATION).unwrap();
+            let (apart, field) = difference(&m, start, algorithms);
             if apart > 1e-9 {
-                wrong.push(format!("{name}, {ways:?}: {field} {apart:e}"));
+                wrong.push(format!("{name}, {algorithms:?}: {field} {apart:e}"));
             }
         }
     }
@@ -92,9 +97,9 @@ proptest! {
                 *v = numbers[(7 * i + 3) % numbers.len()];
             }
         };
-        for ways in every() {
-            let (apart, field) = difference(&m, start, ways);
-            prop_assert!(apart < 1e-9, "{ways:?}: {field} {apart:e}\n{}", scene.smooth());
+        for algorithms in every() {
+            let (apart, field) = difference(&m, start, algorithms);
+            prop_assert!(apart < 1e-9, "{algorithms:?}: {field} {apart:e}\n{}", scene.smooth());
         }
     }
 }

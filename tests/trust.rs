@@ -236,7 +236,7 @@ fn doubtful_answers_show_what_was_measured() {
     let folder = folder();
     let verify = json!({"runs": {"run": {"until": 0.5}}, "measure": {"fall": "2 - final(data.qpos[2])"}, "options": ["fall < 1", "fall >= 1"]});
     std::fs::write(folder.path().join("q.json"), question(0, verify).to_string()).unwrap();
-    let shown = run_in(folder.path(), &["check", "q.json"]).stdout;
+    let stdout = run_in(folder.path(), &["check", "q.json"]).stdout;
     for part in [
         "refuted",
         "fall = 1.23116   (1.2287",
@@ -244,7 +244,7 @@ fn doubtful_answers_show_what_was_measured() {
         "option 0 does not hold, by 0.231",
         "option 1 holds, by 0.231",
     ] {
-        assert!(shown.contains(part), "{part} is not in\n{shown}");
+        assert!(stdout.contains(part), "{part} is not in\n{stdout}");
     }
 }
 

@@ -80,14 +80,14 @@ fn the_tutorial_is_followed_word_for_word() {
     let folder = tempfile::tempdir().unwrap();
     let mut terminal = Terminal { here: folder.path().into() };
     // What stands on the terminal and was not looked at, and the page as it should be.
-    let (mut shown, mut real) = (None, String::new());
+    let (mut output, mut real) = (None, String::new());
     let (mut before, mut typed, mut pictures) = ("", 0, 0);
     for part in parts(&page) {
         let (ticks, kind, inside) = match part {
             Part::Words(line) => {
                 if !line.is_empty() {
                     assert_eq!(
-                        shown.take().unwrap_or_default(),
+                        output.take().unwrap_or_default(),
                         "",
                         "nothing of this is shown before {line}"
                     );
@@ -96,11 +96,11 @@ fn the_tutorial_is_followed_word_for_word() {
                 if let Some((_, rest)) = line.split_once("](pictures/") {
                     let name = rest.split(')').next().unwrap();
                     let drawn = std::fs::read_to_string(terminal.here.join(name)).unwrap();
-                    let kept = workspace().join("docs/pictures").join(name);
+                    let stored = workspace().join("docs/pictures").join(name);
                     if bless {
-                        std::fs::write(&kept, &drawn).unwrap();
+                        std::fs::write(&stored, &drawn).unwrap();
                     }
-                    assert!(drawn == std::fs::read_to_string(kept).unwrap(), "{name} shows something else");
+                    assert!(drawn == std::fs::read_to_string(stored).unwrap(), "{name} shows something else");
                     pictures += 1;
                 }
                 real += &format!("{line}\n");
@@ -111,10 +111,10 @@ fn the_tutorial_is_followed_word_for_word() {
         let name = before.rsplit('`').nth(1);
         let mut block = inside.clone();
         match kind {
-            "sh" if inside == BUILD => shown = Some(terminal.types("labspec --version")),
-            "sh" => shown = Some(terminal.types(&inside)),
+            "sh" if inside == BUILD => output = Some(terminal.types("labspec --version")),
+            "sh" => output = Some(terminal.types(&inside)),
             "text" => {
-                block = shown.take().unwrap();
+                block = output.take().unwrap();
                 typed += 1;
             }
             "diff" => terminal.changes(name.unwrap(), &inside),

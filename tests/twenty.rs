@@ -67,13 +67,13 @@ fn broken_settings_are_reported_and_sound_ones_are_not() {
         let setting = &settings[i];
         run(&labs[setting["lab"].as_u64().unwrap() as usize], given(setting))
     });
-    let (mut broken, mut sound) = ([0usize; 2], [0usize; 2]);
+    let (mut broken, mut intact) = ([0usize; 2], [0usize; 2]);
     let mut wrong = Vec::new();
     for (setting, codes) in settings.iter().zip(reports) {
         let reported = codes.iter().any(|code| *code != "creeps");
         let count = match setting["broken"].as_bool() {
             Some(true) => &mut broken,
-            Some(false) => &mut sound,
+            Some(false) => &mut intact,
             None => continue,
         };
         count[0] += 1;
@@ -84,12 +84,12 @@ fn broken_settings_are_reported_and_sound_ones_are_not() {
     }
     println!(
         "{} of {} broken settings are reported, {} of {} sound ones",
-        broken[1], broken[0], sound[1], sound[0]
+        broken[1], broken[0], intact[1], intact[0]
     );
     wrong.iter().for_each(|line| println!("{line}"));
-    assert!(broken[0] >= 1000 && sound[0] >= 3000, "{broken:?} {sound:?}");
+    assert!(broken[0] >= 1000 && intact[0] >= 3000, "{broken:?} {intact:?}");
     assert!(broken[1] as f64 >= REPORTED * broken[0] as f64, "{broken:?}");
-    assert!(sound[1] as f64 <= ALARMS * sound[0] as f64, "{sound:?}");
+    assert!(intact[1] as f64 <= ALARMS * intact[0] as f64, "{intact:?}");
 }
 
 /// What `stability` calls what `check` and `run` report by this code.
@@ -229,12 +229,12 @@ fn others(folder: &Path, name: &str, text: &str, models: Option<&str>) -> Result
         .collect();
     // The lab's own setting is among those that are compared, whichever integrators are named.
     let precision = report("precision", &["--until", &until, "--integrator", "Euler"]);
-    let own = precision["rows"].as_array().unwrap().iter().find(|row| row["own"] == true);
-    if let Some(own) = own {
-        let told = own["told"].as_array().unwrap().iter().map(|t| t.as_str().unwrap().to_string());
-        let told: BTreeSet<String> = told.collect();
-        if told != loud {
-            return Err(format!("{name}: run {loud:?}, precision {told:?}"));
+    let lab_row = precision["rows"].as_array().unwrap().iter().find(|row| row["own"] == true);
+    if let Some(lab_row) = lab_row {
+        let reported = lab_row["told"].as_array().unwrap().iter().map(|t| t.as_str().unwrap().to_string());
+        let reported: BTreeSet<String> = reported.collect();
+        if reported != loud {
+            return Err(format!("{name}: run {loud:?}, precision {reported:?}"));
         }
     }
     let checked = report("check", &[]);
@@ -254,11 +254,11 @@ fn others(folder: &Path, name: &str, text: &str, models: Option<&str>) -> Result
     let column =
         run["columns"].as_array().unwrap().iter().position(|c| c.as_str().unwrap().starts_with("readout/"));
     let last = run["rows"].as_array().unwrap().last().unwrap();
-    let shown = column.and_then(|c| last[c].as_f64());
-    if shown.is_some_and(|shown| shown.to_bits() != measured.to_bits()) {
-        return Err(format!("{name}: run {shown:?}, verify {measured}"));
+    let displayed = column.and_then(|c| last[c].as_f64());
+    if displayed.is_some_and(|displayed| displayed.to_bits() != measured.to_bits()) {
+        return Err(format!("{name}: run {displayed:?}, verify {measured}"));
     }
-    Ok(shown.is_some())
+    Ok(displayed.is_some())
 }
 
 /// What `trace` finds of the first readout at the end of a lab's own run, quoted in a sentence: the measures that it proposes have the
@@ -307,8 +307,8 @@ fn traced(folder: &Path, name: &str, text: &str, models: Option<&str>) -> Result
 
 #[test]
 fn trace_says_what_verify_says() {
-    let own = texts().into_iter().enumerate().map(|(i, text)| (format!("lab-{i}"), text, None));
-    let mut labs: Vec<Named> = own.collect();
+    let lab_texts = texts().into_iter().enumerate().map(|(i, text)| (format!("lab-{i}"), text, None));
+    let mut labs: Vec<Named> = lab_texts.collect();
     labs.extend(corpus());
     let folder = tempfile::tempdir().unwrap();
     let found = for_each(labs.len(), |i| traced(folder.path(), &labs[i].0, &labs[i].1, labs[i].2));
@@ -320,13 +320,13 @@ fn trace_says_what_verify_says() {
 
 #[test]
 fn precision_and_verify_say_what_run_says() {
-    let own = texts().into_iter().enumerate().map(|(i, text)| (format!("lab-{i}"), text, None));
-    let mut labs: Vec<Named> = own.collect();
+    let lab_texts = texts().into_iter().enumerate().map(|(i, text)| (format!("lab-{i}"), text, None));
+    let mut labs: Vec<Named> = lab_texts.collect();
     labs.extend(corpus());
     let folder = tempfile::tempdir().unwrap();
-    let said = for_each(labs.len(), |i| others(folder.path(), &labs[i].0, &labs[i].1, labs[i].2));
-    let wrong: Vec<String> = said.iter().filter_map(|s| s.clone().err()).collect();
+    let comparisons = for_each(labs.len(), |i| others(folder.path(), &labs[i].0, &labs[i].1, labs[i].2));
+    let wrong: Vec<String> = comparisons.iter().filter_map(|s| s.clone().err()).collect();
     assert!(wrong.is_empty(), "{} of {}:\n{}", wrong.len(), labs.len(), wrong.join("\n"));
-    let compared = said.iter().filter(|s| **s == Ok(true)).count();
+    let compared = comparisons.iter().filter(|s| **s == Ok(true)).count();
     assert!(compared >= 15, "{compared} numbers were compared");
 }

@@ -97,8 +97,8 @@ fn runs(lab: &str, theirs: &Json, ours: &Json, list: &mut Vec<String>) -> Count 
         }
         // What `watch.mjs` has no criterion for; what sinks in is what is pressed deep for good.
         let other = ["engineWarns", "throws", "solverStopsEarly"];
-        let kept = b.into_iter().filter(|k| !other.contains(k));
-        let b: BTreeSet<&str> = kept.map(|k| if k == "sinksIn" { "penetration" } else { k }).collect();
+        let renamed = b.into_iter().filter(|k| !other.contains(k));
+        let b: BTreeSet<&str> = renamed.map(|k| if k == "sinksIn" { "penetration" } else { k }).collect();
         let warned = !there["warnings"].as_object().unwrap().is_empty();
         count.warned += usize::from(warned);
         count.heard += usize::from(warned && !texts(&here["wrong"]).is_empty());
@@ -180,12 +180,12 @@ fn what_the_library_warns_of_is_found_and_margins_are_its() {
     let recorded = recording("stability_labs");
     let shared = needs("../shared/corpus");
     let all = recorded["labs"].as_array().unwrap();
-    let own = |l: &&Json| {
+    let from_course = |l: &&Json| {
         shared
             || l["lab"].as_str().unwrap().contains(".md#")
                 && !l["lab"].as_str().unwrap().starts_with("lesson")
     };
-    let labs: Vec<&Json> = all.iter().filter(own).collect();
+    let labs: Vec<&Json> = all.iter().filter(from_course).collect();
     let names: Vec<&str> = labs.iter().map(|l| l["lab"].as_str().unwrap()).collect();
     let (mut differ, mut far) = (Vec::new(), Vec::new());
     let (mut table, mut largest, mut many) = (String::new(), String::new(), [0; 2]);

@@ -47,22 +47,22 @@ fn expect(name: &str, verdict: Verdict, prose: &str, question: &str) {
     let checked = check_text("fall.md", &text);
     let claim = &checked.claims[0];
     let answer = claim.judgement.answer.as_ref().unwrap();
-    let mut shown = format!("{}: {} {}\n", claim.name, answer.verdict.as_str(), answer.reason);
+    let mut output = format!("{}: {} {}\n", claim.name, answer.verdict.as_str(), answer.reason);
     for quote in &claim.judgement.quotes {
-        let _ = writeln!(shown, "  {}: {} {}", quote.text, quote.verdict(), quote.reason);
+        let _ = writeln!(output, "  {}: {} {}", quote.text, quote.verdict(), quote.reason);
     }
     for m in &claim.judgement.measures {
         // Nine digits: the last bits are no promise to a reader.
         let halved = m.halved.map_or(String::new(), |x| format!(", {x:.9} at half the timestep"));
-        let _ = writeln!(shown, "  {} = {:.9}{halved}", m.name, m.value);
+        let _ = writeln!(output, "  {} = {:.9}{halved}", m.name, m.value);
     }
     for weight in &answer.weights {
         let margin = weight.margin.map_or("-".into(), |m| format!("{m:.9}"));
-        let _ = writeln!(shown, "  option {:?}: {}, margin {margin}", weight.option, weight.describe());
+        let _ = writeln!(output, "  option {:?}: {}, margin {margin}", weight.option, weight.describe());
     }
-    let _ = write!(shown, "\n{}", report::human(&checked.findings, &[&checked.lesson.file], false));
+    let _ = write!(output, "\n{}", report::human(&checked.findings, &[&checked.lesson.file], false));
     insta::with_settings!({prepend_module_to_snapshot => false, omit_expression => true}, {
-        insta::assert_snapshot!(format!("verify-{name}"), shown);
+        insta::assert_snapshot!(format!("verify-{name}"), output);
     });
     assert_eq!(answer.verdict, verdict);
     assert_eq!(checked.claims.len(), 1);
@@ -392,11 +392,11 @@ fn digits_of_a_chaotic_motion_are_never_recommended() {
     let right = computed(&check("-77.25", 20));
     for quote in [format!("{right:.2}"), format!("{:.2}", right + 10.0)] {
         let checked = check(&quote, 20);
-        let said = &checked.claims[0].judgement.quotes[0];
+        let quote = &checked.claims[0].judgement.quotes[0];
         let found: Vec<&str> = checked.findings.iter().map(|f| f.code).collect();
         // A number that no run comes near is wrong besides.
         assert!(found.contains(&"quote-chaotic") || found.contains(&"quote-wrong"), "{found:?}");
-        assert_ne!(said.state, QuoteState::Right, "{said:?}");
+        assert_ne!(quote.state, QuoteState::Right, "{quote:?}");
         for finding in &checked.findings {
             let help = finding.help.as_deref().unwrap_or("");
             assert!(!help.contains(&format!("{right:.2}")) && finding.fix.is_none(), "{finding:?}");
@@ -536,12 +536,12 @@ fn dropped(
 ) -> (Vec<&'static str>, Vec<labspec::finding::Finding>) {
     let mut verify = verify;
     verify["says"] = json!(says);
-    let said: Vec<&str> = says.iter().map(|s| s[0]).collect();
+    let quotes: Vec<&str> = says.iter().map(|s| s[0]).collect();
     let lab = json!({
         "xml": "<mujoco><worldbody><geom name='floor' type='plane' size='1 1 1'/><body name='ball' pos='0 0 1'><freejoint/>\
             <geom name='ball' type='sphere' size='0.05' mass='1'/></body></worldbody>\
             <keyframe><key name='low' qpos='0 0 0.5 1 0 0 0'/></keyframe></mujoco>",
-        "note": said.join("; "), "controller": "data.qfrc_applied[2] = 9.81",
+        "note": quotes.join("; "), "controller": "data.qfrc_applied[2] = 9.81",
         "controls": [{"label": "start (m)", "apply": "data.qpos[2] = value", "min": 0.1, "max": 2, "step": 0.05, "value": 1, "init": true},
             {"label": "timestep h", "set": "model.opt.timestep", "min": 0.001, "max": 0.05, "step": 0.001, "value": 0.002, "reset": true}],
         "readouts": [{"label": "height (m)", "expr": "data.qpos[2]", "digits": 2}],

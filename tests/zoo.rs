@@ -1,6 +1,6 @@
 //! The zoo (`specs/models/zoo`, one model a feature) against what MuJoCo 3.14.0 computes for it.
 
-use crate::recorded::{examine, list, objects, set};
+use crate::recorded::{compare_with_recording, list, objects, set};
 use crate::standing::{Exception, Standing};
 use crate::support::{compile_unconstrained, models, recording, workspace};
 use labspec_core::reflect::{self, FieldSet, Object};
@@ -84,7 +84,7 @@ fn every_model_of_the_zoo_is_as_recorded() {
     let mut standing = Standing::default();
     for name in models(&folder()) {
         let model = folder().join(format!("{name}.xml"));
-        let outcome = examine(&model, &recording(&format!("zoo/{name}")));
+        let outcome = compare_with_recording(&model, &recording(&format!("zoo/{name}")));
         standing.add(name, outcome);
     }
     standing.check(Some("zoo"), EXCEPTIONS);
@@ -118,7 +118,7 @@ fn the_fields_that_we_lack() {
 }
 
 /// Data in a recorded state.
-fn begun(m: &Model, state: &Value) -> Data {
+fn initial_data(m: &Model, state: &Value) -> Data {
     let mut d = Data::new(m);
     set(m, &mut d, state);
     d
@@ -132,15 +132,15 @@ fn a_plan_for_any_field_changes_no_bit_of_it() {
     for (name, m, state) in animals() {
         let run = |plan: Plan| {
             let mut d = Data::planned(&m, plan);
-            core::state::copy(&m, &begun(&m, &state), &mut d, core::state::INTEGRATION).unwrap();
+            core::state::copy(&m, &initial_data(&m, &state), &mut d, core::state::INTEGRATION).unwrap();
             (0..3).for_each(|_| core::step(&m, &mut d).unwrap());
             d
         };
         let full = run(Plan::full());
         for &f in &fields {
-            let mut demand = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
-            demand.reads.insert(f);
-            let planned = run(Plan::new(&m, &demand));
+            let mut access = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+            access.reads.insert(f);
+            let planned = run(Plan::new(&m, &access));
             let bits = |d: &Data<Planned>| list(&m, d, f).into_iter().map(f64::to_bits).collect::<Vec<_>>();
             if bits(&planned) != bits(&full) {
                 wrong.push(format!("{name}: {}", f.info().name));

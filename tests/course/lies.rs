@@ -1,7 +1,7 @@
 //! Lies, planted in turn into every answer and every claimed number of the course.
 
 use super::places::{Place, digits, places, quotes, verifies};
-use super::{Own, checked, complaints, counts, course, for_each, models};
+use super::{CourseLesson, checked, complaints, counts, course, for_each, models};
 use labspec::bind::scene::Models;
 use labspec::check::CheckLevel;
 use labspec::verify::QuoteState;
@@ -68,9 +68,9 @@ const UNITS: [(&str, &str); 24] = [
 fn unit(quote: &str) -> Option<String> {
     let at = digits(quote);
     let rest = &quote[at.end..];
-    let own = rest.trim_start();
-    let (_, other) = UNITS.iter().find(|(unit, _)| *unit == own)?;
-    let space = &rest[..rest.len() - own.len()];
+    let printed = rest.trim_start();
+    let (_, other) = UNITS.iter().find(|(unit, _)| *unit == printed)?;
+    let space = &rest[..rest.len() - printed.len()];
     Some(format!("{}{space}{other}", &quote[..at.end]))
 }
 
@@ -129,12 +129,14 @@ fn is_found(name: &str, text: &str, place: &Place, lie: &str, models: &Models) -
 fn a_number_that_is_changed_in_the_text_is_found() {
     let models = models();
     let mut cases = Vec::new();
-    let lessons: Vec<Own> =
-        course().into_iter().map(|own| Own { text: without_runs(&own.text), ..own }).collect();
-    for (l, own) in lessons.iter().enumerate() {
-        let plain = checked(&own.name, &own.text, &models, CheckLevel::CLAIMS);
-        assert_eq!(complaints(&plain), [] as [&str; 0], "{}", own.name);
-        for place in places(&own.text) {
+    let lessons: Vec<CourseLesson> = course()
+        .into_iter()
+        .map(|lesson| CourseLesson { text: without_runs(&lesson.text), ..lesson })
+        .collect();
+    for (l, lesson) in lessons.iter().enumerate() {
+        let plain = checked(&lesson.name, &lesson.text, &models, CheckLevel::CLAIMS);
+        assert_eq!(complaints(&plain), [] as [&str; 0], "{}", lesson.name);
+        for place in places(&lesson.text) {
             for (how, lie) in LIES {
                 cases.extend(lie(&place.quote).map(|lie| (l, place.clone(), how, lie)));
             }
@@ -144,28 +146,28 @@ fn a_number_that_is_changed_in_the_text_is_found() {
         let (l, place, _, lie) = &cases[i];
         is_found(&lessons[*l].name, &lessons[*l].text, place, lie, &models)
     });
-    let mut missed = Vec::new();
+    let mut undetected = Vec::new();
     for ((l, place, how, lie), _) in cases.iter().zip(&found).filter(|(_, found)| !**found) {
         let line = lessons[*l].text[..place.at.start].matches('\n').count() + 1;
-        missed.push(format!("{}:{line}: {} as {lie} ({how})", lessons[*l].name, place.quote));
+        undetected.push(format!("{}:{line}: {} as {lie} ({how})", lessons[*l].name, place.quote));
     }
-    eprintln!("{} lies in the text, {} missed", cases.len(), missed.len());
+    eprintln!("{} lies in the text, {} missed", cases.len(), undetected.len());
     assert!(cases.len() > 900, "{}", cases.len());
-    assert!(missed.is_empty(), "{}", missed.join("\n"));
+    assert!(undetected.is_empty(), "{}", undetected.join("\n"));
 }
 
 /// What the course says when somebody believes this lie about each of its numbers that can be told so, and writes it into the text
 /// and into the claim: how many there are, and those that are held to be right.
-fn believed(own: &Own, how: &str, lie: Lie, models: &Models) -> (usize, Vec<String>) {
+fn believed(lesson: &CourseLesson, how: &str, lie: Lie, models: &Models) -> (usize, Vec<String>) {
     // All at once: each is judged by itself.
     let mut changes: Vec<_> =
-        places(&own.text).into_iter().filter_map(|p| Some((p.at, lie(&p.quote)?))).collect();
+        places(&lesson.text).into_iter().filter_map(|p| Some((p.at, lie(&p.quote)?))).collect();
     let mut lies = Vec::new();
-    for object in verifies(&own.text) {
+    for object in verifies(&lesson.text) {
         let mut from = object.start;
-        for quote in quotes(&own.text[object.clone()]) {
+        for quote in quotes(&lesson.text[object.clone()]) {
             let pair = format!("[\"{quote}\"");
-            let at = from + own.text[from..object.end].find(&pair).unwrap() + 2;
+            let at = from + lesson.text[from..object.end].find(&pair).unwrap() + 2;
             from = at;
             let Some(other) = lie(&quote) else { continue };
             changes.push((at..at + quote.len(), other.clone()));
@@ -173,13 +175,13 @@ fn believed(own: &Own, how: &str, lie: Lie, models: &Models) -> (usize, Vec<Stri
         }
     }
     changes.sort_by_key(|(at, _)| at.start);
-    let checked = checked(&own.name, &replaced(&own.text, &changes), models, CheckLevel::CLAIMS);
+    let checked = checked(&lesson.name, &replaced(&lesson.text, &changes), models, CheckLevel::CLAIMS);
     let quoted: Vec<_> = checked.claims.iter().flat_map(|c| &c.judgement.quotes).collect();
     let all: Vec<_> = quoted.into_iter().filter(|q| lies.contains(&q.text)).collect();
-    assert_eq!(all.len(), lies.len(), "{}", own.name);
+    assert_eq!(all.len(), lies.len(), "{}", lesson.name);
     let either = digit(EITHER).unwrap();
     let right = all.iter().filter(|q| q.state == QuoteState::Right && q.text != either);
-    (lies.len(), right.map(|q| format!("{}: {} ({how})", own.name, q.text)).collect())
+    (lies.len(), right.map(|q| format!("{}: {} ({how})", lesson.name, q.text)).collect())
 }
 
 /// Somebody believes another number, and writes it into the text and into the claim.
@@ -188,14 +190,14 @@ fn a_number_that_is_claimed_wrongly_is_refuted() {
     let models = models();
     let lessons = course();
     let cases: Vec<_> = (0..lessons.len()).flat_map(|l| LIES[..2].iter().map(move |lie| (l, *lie))).collect();
-    let missed = for_each(cases.len(), |i| {
+    let undetected = for_each(cases.len(), |i| {
         let (l, (how, lie)) = cases[i];
         believed(&lessons[l], how, lie, &models)
     });
-    let count: usize = missed.iter().map(|(count, _)| count).sum();
-    let missed: Vec<String> = missed.into_iter().flat_map(|(_, missed)| missed).collect();
-    eprintln!("{count} false claims, {} held to be right", missed.len());
-    assert!(count > 600 && missed.is_empty(), "{}", missed.join("\n"));
+    let count: usize = undetected.iter().map(|(count, _)| count).sum();
+    let undetected: Vec<String> = undetected.into_iter().flat_map(|(_, undetected)| undetected).collect();
+    eprintln!("{count} false claims, {} held to be right", undetected.len());
+    assert!(count > 600 && undetected.is_empty(), "{}", undetected.join("\n"));
 }
 
 /// Somebody believes that the number has another unit, and writes it into the text and into the claim. It is found where the fields
@@ -204,11 +206,16 @@ fn a_number_that_is_claimed_wrongly_is_refuted() {
 fn a_unit_that_is_claimed_wrongly_is_refuted() {
     let models = models();
     let lessons = course();
-    let missed = for_each(lessons.len(), |l| believed(&lessons[l], "a unit", unit, &models));
-    let count: usize = missed.iter().map(|(count, _)| count).sum();
-    let missed: Vec<String> = missed.into_iter().flat_map(|(_, missed)| missed).collect();
-    eprintln!("{count} false units, {} held to be right", missed.len());
-    assert!(count > 300 && missed.len() * 7 <= count, "{} of {count}:\n{}", missed.len(), missed.join("\n"));
+    let undetected = for_each(lessons.len(), |l| believed(&lessons[l], "a unit", unit, &models));
+    let count: usize = undetected.iter().map(|(count, _)| count).sum();
+    let undetected: Vec<String> = undetected.into_iter().flat_map(|(_, undetected)| undetected).collect();
+    eprintln!("{count} false units, {} held to be right", undetected.len());
+    assert!(
+        count > 300 && undetected.len() * 7 <= count,
+        "{} of {count}:\n{}",
+        undetected.len(),
+        undetected.join("\n")
+    );
 }
 
 /// The keys of a lesson: the bytes of each `"answer": N` of a question with options, and how many options there are.
@@ -233,28 +240,28 @@ fn every_wrong_key_is_found() {
     let models = models();
     let lessons = course();
     let mut cases = Vec::new();
-    for (l, own) in lessons.iter().enumerate() {
-        for (at, right, count) in keys(&own.text) {
+    for (l, lesson) in lessons.iter().enumerate() {
+        for (at, right, count) in keys(&lesson.text) {
             cases.extend((0..count).filter(|k| *k != right).map(|k| (l, at.clone(), k.to_string())));
         }
-        for (start, found) in own.text.match_indices("\"answer\": ") {
+        for (start, found) in lesson.text.match_indices("\"answer\": ") {
             let at = start + found.len();
-            let end = at + own.text[at..].find(',').unwrap();
-            if own.text[end..].starts_with(", \"tol\"") {
-                let value: f64 = own.text[at..end].parse().unwrap();
+            let end = at + lesson.text[at..].find(',').unwrap();
+            if lesson.text[end..].starts_with(", \"tol\"") {
+                let value: f64 = lesson.text[at..end].parse().unwrap();
                 cases.push((l, at..end, format!("{}", 1.1 * value)));
             }
         }
     }
     let found = for_each(cases.len(), |i| {
         let (l, at, key) = &cases[i];
-        let own = &lessons[*l];
-        let lied = replaced(&own.text, &[(at.clone(), key.clone())]);
-        let checked = checked(&own.name, &lied, &models, CheckLevel::CLAIMS);
+        let lesson = &lessons[*l];
+        let lied = replaced(&lesson.text, &[(at.clone(), key.clone())]);
+        let checked = checked(&lesson.name, &lied, &models, CheckLevel::CLAIMS);
         let end = at.start + key.len();
         checked.findings.iter().any(|f| counts(f) && f.span.start < end && at.start < f.span.end)
     });
-    let missed: Vec<String> = cases
+    let undetected: Vec<String> = cases
         .iter()
         .zip(&found)
         .filter(|(_, found)| !**found)
@@ -263,12 +270,12 @@ fn every_wrong_key_is_found() {
             format!("{}:{line}: answer {key}", lessons[*l].name)
         })
         .collect();
-    eprintln!("{} wrong keys, {} missed", cases.len(), missed.len());
+    eprintln!("{} wrong keys, {} missed", cases.len(), undetected.len());
     assert!(
-        cases.len() > 80 && missed.is_empty(),
+        cases.len() > 80 && undetected.is_empty(),
         "{} of {}:\n{}",
-        missed.len(),
+        undetected.len(),
         cases.len(),
-        missed.join("\n")
+        undetected.join("\n")
     );
 }

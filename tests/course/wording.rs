@@ -101,15 +101,15 @@ fn another_layout_and_other_words_are_no_lie() {
     let models = models();
     let lessons = course();
     let wrong = for_each(lessons.len() * CHANGES.len(), |i| {
-        let (own, (how, change)) = (&lessons[i % lessons.len()], CHANGES[i / lessons.len()]);
-        let text = change(&own.text);
-        assert!(text != own.text || how == "other words", "{how} changes nothing of {}", own.name);
-        assert_eq!(verifies(&text).len(), verifies(&own.text).len());
-        let checked = checked(&own.name, &text, &models, CheckLevel::CLAIMS);
+        let (lesson, (how, change)) = (&lessons[i % lessons.len()], CHANGES[i / lessons.len()]);
+        let text = change(&lesson.text);
+        assert!(text != lesson.text || how == "other words", "{how} changes nothing of {}", lesson.name);
+        assert_eq!(verifies(&text).len(), verifies(&lesson.text).len());
+        let checked = checked(&lesson.name, &text, &models, CheckLevel::CLAIMS);
         let quotes = checked.claims.iter().flat_map(|c| &c.judgement.quotes);
         let unsure = quotes.filter(|q| q.state != QuoteState::Right).map(|q| q.reason.clone());
         let all: Vec<String> = complaints(&checked).into_iter().chain(unsure).collect();
-        all.into_iter().map(|what| format!("{}, {how}: {what}", own.name)).collect::<Vec<_>>()
+        all.into_iter().map(|what| format!("{}, {how}: {what}", lesson.name)).collect::<Vec<_>>()
     });
     let wrong: Vec<String> = wrong.into_iter().flatten().collect();
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));

@@ -8,7 +8,7 @@ use serde_json::json;
 
 /// A measure of a run, as a claim reads it, with its value.
 #[derive(Clone)]
-pub(super) struct Known {
+pub(super) struct MeasuredNumber {
     pub(super) name: String,
     pub(super) x: f64,
     pub(super) unit: &'static str,
@@ -18,7 +18,7 @@ pub(super) struct Known {
 /// A question with this condition at the keyed option.
 pub(super) fn question(
     kind: &'static str,
-    way: &str,
+    variant: &str,
     truth: Truth,
     condition: &str,
     others: [&str; 2],
@@ -27,26 +27,26 @@ pub(super) fn question(
         "q": "What happens?", "options": ["This", "That", "Another thing"], "answer": 0, "explain": "It is so.",
         "verify": {"use": "#1", "options": [condition, others[0], others[1]]}
     });
-    Claim { kind, way: way.into(), truth, body: Body::Question(q) }
+    Claim { kind, variant: variant.into(), truth, body: Body::Question(q) }
 }
 
 /// Conditions that do not hold, and could.
-fn not_so(k: &Known) -> [String; 2] {
-    let Known { name, x, .. } = k;
+fn not_so(k: &MeasuredNumber) -> [String; 2] {
+    let MeasuredNumber { name, x, .. } = k;
     let far = 2.0 * x.abs() + 1.0;
     [format!("{name} > {}", x + far), format!("{name} < {}", x - far)]
 }
 
-fn option(way: &str, truth: Truth, condition: &str, k: &Known) -> Claim {
+fn option(variant: &str, truth: Truth, condition: &str, k: &MeasuredNumber) -> Claim {
     // The others read something that may be below zero, so that they could hold.
     let others = not_so(k);
-    question("option", way, truth, condition, [&others[0], &others[0]])
+    question("option", variant, truth, condition, [&others[0], &others[0]])
 }
 
 /// True conditions.
-pub(super) fn right(random: &mut Random, known: &[Known]) -> Vec<Claim> {
-    let k = random.pick(known);
-    let Known { name, x, .. } = k;
+pub(super) fn right(random: &mut Random, measured: &[MeasuredNumber]) -> Vec<Claim> {
+    let k = random.pick(measured);
+    let MeasuredNumber { name, x, .. } = k;
     let d = 0.05 * x.abs() + 0.02;
     let texts = [
         format!("abs({name} - {x}) < {d}"),
@@ -58,9 +58,9 @@ pub(super) fn right(random: &mut Random, known: &[Known]) -> Vec<Claim> {
 }
 
 /// False ones.
-pub(super) fn wrong(random: &mut Random, known: &[Known]) -> Vec<Claim> {
-    let k = random.pick(known);
-    let Known { name, x, .. } = k;
+pub(super) fn wrong(random: &mut Random, measured: &[MeasuredNumber]) -> Vec<Claim> {
+    let k = random.pick(measured);
+    let MeasuredNumber { name, x, .. } = k;
     let d = 0.05 * x.abs() + 0.02;
     let away = d * (1.5 + random.below(40) as f64) * if random.below(2) == 0 { 1.0 } else { -1.0 };
     let mut made = vec![
@@ -79,16 +79,16 @@ pub(super) fn wrong(random: &mut Random, known: &[Known]) -> Vec<Claim> {
     if (x - x * x).abs() > d * 2.0 {
         made.push(("a factor", format!("abs({name} ** 2 - {x}) < {d}")));
     }
-    let other = random.pick(known);
+    let other = random.pick(measured);
     if (other.x - x).abs() > 1.1 * d {
-        let way = if other.name.split('.').next_back() == name.split('.').next_back() {
+        let variant = if other.name.split('.').next_back() == name.split('.').next_back() {
             "another run"
         } else {
             "another measure"
         };
-        made.push((way, format!("abs({} - {x}) < {d}", other.name)));
+        made.push((variant, format!("abs({} - {x}) < {d}", other.name)));
     }
-    made.into_iter().map(|(way, text)| option(way, Truth::False, &text, k)).collect()
+    made.into_iter().map(|(variant, text)| option(variant, Truth::False, &text, k)).collect()
 }
 
 /// Conditions that say nothing about a measure `m`, of value `x`, and another one `n`.
@@ -294,9 +294,9 @@ const TIED: &[&str] = &[
     "{r}.late > 0.02 && {r}.late < 0.1 && {r}.seven === 7",
 ];
 
-pub(super) fn empty(random: &mut Random, known: &[Known]) -> Vec<Claim> {
-    let k = random.pick(known);
-    let other = random.pick(known);
+pub(super) fn empty(random: &mut Random, measured: &[MeasuredNumber]) -> Vec<Claim> {
+    let k = random.pick(measured);
+    let other = random.pick(measured);
     let run = k.name.split('.').next().unwrap();
     let z = format!("{run}.{}", random.pick(&NEVER).name);
     let in_run = |text: &str| {
@@ -323,19 +323,19 @@ pub(super) fn empty(random: &mut Random, known: &[Known]) -> Vec<Claim> {
     for _ in 0..2 {
         all.push(("samples that are no number", (*random.pick(MISSING)).to_string()));
     }
-    all.iter().map(|(way, text)| option(way, Truth::Empty, &in_run(text), k)).collect()
+    all.iter().map(|(variant, text)| option(variant, Truth::Empty, &in_run(text), k)).collect()
 }
 
 /// Options whose own text states a number, beside a condition on the same measure.
-pub(super) fn texts(random: &mut Random, known: &[Known]) -> Vec<Claim> {
-    let k = random.pick(known);
+pub(super) fn texts(random: &mut Random, measured: &[MeasuredNumber]) -> Vec<Claim> {
+    let k = random.pick(measured);
     let Some((x, _)) = printed(k.x).filter(|_| !k.unit.is_empty() && k.x > 0.05) else { return Vec::new() };
     let unit = k.unit;
     let d = 0.04 * k.x;
     let condition = format!("abs({} - {}) < {d}", k.name, k.x);
     let others = not_so(k);
-    let claim = |way: &str, truth, text: &str| {
-        let mut made = question("text of an option", way, truth, &condition, [&others[0], &others[0]]);
+    let claim = |variant: &str, truth, text: &str| {
+        let mut made = question("text of an option", variant, truth, &condition, [&others[0], &others[0]]);
         if let Body::Question(q) = &mut made.body {
             q["options"][0] = json!(text);
         }

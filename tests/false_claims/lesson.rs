@@ -32,14 +32,14 @@ pub(super) enum Body {
 pub(super) struct Claim {
     pub(super) kind: &'static str,
     /// How it was made of a true one; empty for a true one.
-    pub(super) way: String,
+    pub(super) variant: String,
     pub(super) truth: Truth,
     pub(super) body: Body,
 }
 
 /// What became of a claim.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Fate {
+pub(super) enum Outcome {
     Verified,
     Computed,
     Refuted,
@@ -114,7 +114,7 @@ pub(super) fn measured(scene: &Scene) -> Vec<(String, f64)> {
 }
 
 /// What became of each claim, and the first finding at it.
-pub(super) fn fates(checked: &Checked, claims: &[Claim]) -> Vec<(Fate, String)> {
+pub(super) fn outcomes(checked: &Checked, claims: &[Claim]) -> Vec<(Outcome, String)> {
     let is_question = |c: &Claim| matches!(c.body, Body::Question(_));
     let count = claims.iter().filter(|c| is_question(c)).count();
     // The lab comes first, then all questions, then all comments.
@@ -136,34 +136,34 @@ pub(super) fn fates(checked: &Checked, claims: &[Claim]) -> Vec<(Fate, String)> 
         let found = found.map_or(String::new(), |f| format!("{}: {}", f.code, f.message));
         let reasons: Vec<&str> = judged.judgement.quotes.iter().map(|q| q.reason.as_str()).collect();
         let found = if found.is_empty() { reasons.join("; ") } else { found };
-        all.push((fate(&judged.judgement), found));
+        all.push((outcome(&judged.judgement), found));
     }
     all
 }
 
-fn fate(judgement: &Judgement) -> Fate {
+fn outcome(judgement: &Judgement) -> Outcome {
     let answer = judgement.answer.iter().map(|a| match a.verdict {
-        Verdict::Verified => Fate::Verified,
-        Verdict::Computed => Fate::Computed,
-        Verdict::Refuted | Verdict::Ambiguous => Fate::Refuted,
-        Verdict::Fragile | Verdict::Failed | Verdict::Unverified => Fate::Open,
+        Verdict::Verified => Outcome::Verified,
+        Verdict::Computed => Outcome::Computed,
+        Verdict::Refuted | Verdict::Ambiguous => Outcome::Refuted,
+        Verdict::Fragile | Verdict::Failed | Verdict::Unverified => Outcome::Open,
     });
     let quotes = judgement.quotes.iter().map(|q| match q.state {
-        QuoteState::Right if q.verdict() == "verified" => Fate::Verified,
-        QuoteState::Right => Fate::Computed,
-        QuoteState::Wrong => Fate::Refuted,
-        QuoteState::Unclear => Fate::Open,
+        QuoteState::Right if q.verdict() == "verified" => Outcome::Verified,
+        QuoteState::Right => Outcome::Computed,
+        QuoteState::Wrong => Outcome::Refuted,
+        QuoteState::Unclear => Outcome::Open,
     });
     let exact = judgement.exact.iter().map(|e| match e.state {
-        State::True(_) => Fate::Verified,
-        State::False => Fate::Refuted,
-        _ => Fate::Open,
+        State::True(_) => Outcome::Verified,
+        State::False => Outcome::Refuted,
+        _ => Outcome::Open,
     });
-    let rank = |f: &Fate| match f {
-        Fate::Verified => 0,
-        Fate::Computed => 1,
-        Fate::Open => 2,
-        Fate::Refuted => 3,
+    let rank = |f: &Outcome| match f {
+        Outcome::Verified => 0,
+        Outcome::Computed => 1,
+        Outcome::Open => 2,
+        Outcome::Refuted => 3,
     };
-    answer.chain(quotes).chain(exact).max_by_key(rank).unwrap_or(Fate::Open)
+    answer.chain(quotes).chain(exact).max_by_key(rank).unwrap_or(Outcome::Open)
 }

@@ -1,21 +1,21 @@
 //! Numbers of the text and of tables, quoted: true ones, and what was made of them.
 
-use super::conditions::Known;
+use super::conditions::MeasuredNumber;
 use super::lesson::{Body, Claim, Truth};
 use super::random::{Random, printed};
 use super::scenes::NEVER;
 use super::values::{other_units, through_code};
 use serde_json::json;
 
-fn says(way: &str, truth: Truth, quote: &str, expr: &str, block: String) -> Claim {
+fn says(variant: &str, truth: Truth, quote: &str, expr: &str, block: String) -> Claim {
     let verify = json!({"use": "#1", "says": [[quote, expr]]});
-    Claim { kind: "says", way: way.into(), truth, body: Body::Text(verify, block) }
+    Claim { kind: "says", variant: variant.into(), truth, body: Body::Text(verify, block) }
 }
 
-fn table(way: &str, truth: Truth, heading: &str, cell: &str, is: &str) -> Claim {
+fn table(variant: &str, truth: Truth, heading: &str, cell: &str, is: &str) -> Claim {
     let verify = json!({"use": "#1", "table": [{"column": heading, "row": "here", "is": is}]});
     let block = format!("| place | {heading} |\n|---|---|\n| here | {cell} |");
-    Claim { kind: "table", way: way.into(), truth, body: Body::Text(verify, block) }
+    Claim { kind: "table", variant: variant.into(), truth, body: Body::Text(verify, block) }
 }
 
 struct Number {
@@ -25,7 +25,7 @@ struct Number {
     minus: bool,
 }
 
-fn number(k: &Known) -> Option<Number> {
+fn number(k: &MeasuredNumber) -> Option<Number> {
     let (text, decimals) = printed(k.x)?;
     // The text is at the edge of what it may be: half a step of the run could decide.
     let unit = 10f64.powi(-(decimals as i32));
@@ -42,8 +42,8 @@ fn with_unit(number: &str, unit: &str) -> String {
     if unit.is_empty() { number.to_string() } else { format!("{number} {unit}") }
 }
 
-pub(super) fn right(random: &mut Random, known: &[Known]) -> Vec<Claim> {
-    let k = random.pick(known);
+pub(super) fn right(random: &mut Random, measured: &[MeasuredNumber]) -> Vec<Claim> {
+    let k = random.pick(measured);
     let Some(n) = number(k) else { return Vec::new() };
     let text = with_unit(&n.text, k.unit);
     let blocks = [
@@ -260,8 +260,8 @@ const STRUCK: [(&str, &str); 6] = [
     ("{N}", "```python\n{B}\n```\n\nNothing is here."),
 ];
 
-pub(super) fn wrong(random: &mut Random, known: &[Known]) -> Vec<Claim> {
-    let k = random.pick(known);
+pub(super) fn wrong(random: &mut Random, measured: &[MeasuredNumber]) -> Vec<Claim> {
+    let k = random.pick(measured);
     let Some(n) = number(k) else { return Vec::new() };
     let whole = with_unit(&n.text, k.unit);
     let (size, unit) = (n.size.as_str(), k.unit);
@@ -282,7 +282,7 @@ pub(super) fn wrong(random: &mut Random, known: &[Known]) -> Vec<Claim> {
         all.push(table("another number", Truth::False, &format!("result ({unit})"), &cell, &k.name));
     }
     // The quote is the whole text, or the number in it.
-    let mut around = |way: &str, template: &str, random: &mut Random| {
+    let mut around = |variant: &str, template: &str, random: &mut Random| {
         let text = fill(template);
         // The quote is looked for as a reader sees it.
         let inner = match random.below(3) {
@@ -290,9 +290,9 @@ pub(super) fn wrong(random: &mut Random, known: &[Known]) -> Vec<Claim> {
             1 => fill("{N}"),
             _ => size.to_string(),
         };
-        all.push(says(way, Truth::False, &inner, &k.name, format!("It is {text} here.")));
+        all.push(says(variant, Truth::False, &inner, &k.name, format!("It is {text} here.")));
         if random.below(2) == 0 {
-            all.push(table(way, Truth::False, &format!("result ({unit})"), &text, &k.name));
+            all.push(table(variant, Truth::False, &format!("result ({unit})"), &text, &k.name));
         }
     };
     // Factors of one, and signs of a number that is negative already, change nothing.
@@ -375,7 +375,7 @@ pub(super) fn wrong(random: &mut Random, known: &[Known]) -> Vec<Claim> {
         all.push(says("words that are denied", Truth::False, "hold", &so, block.into()));
     }
     // Another measure, or the same one of another run.
-    let other = random.pick(known);
+    let other = random.pick(measured);
     if (other.x - k.x).abs() > 3.0 * 10f64.powi(-(n.decimals as i32)) {
         all.push(says(
             "another measure or run",
@@ -403,8 +403,8 @@ pub(super) fn wrong(random: &mut Random, known: &[Known]) -> Vec<Claim> {
     all
 }
 
-pub(super) fn empty(random: &mut Random, known: &[Known]) -> Vec<Claim> {
-    let k = random.pick(known);
+pub(super) fn empty(random: &mut Random, measured: &[MeasuredNumber]) -> Vec<Claim> {
+    let k = random.pick(measured);
     let Some(n) = number(k) else { return Vec::new() };
     let whole = with_unit(&n.text, k.unit);
     let run = k.name.split('.').next().unwrap();
@@ -425,19 +425,19 @@ pub(super) fn empty(random: &mut Random, known: &[Known]) -> Vec<Claim> {
         ("a text for a number", format!("'{x}'")),
     ];
     for _ in 0..4 {
-        let (way, expr) = random.pick(&list);
-        all.push(says(way, Truth::Empty, &whole, expr, format!("It is {whole} here.")));
-        let (way, expr) = random.pick(&list);
-        all.push(table(way, Truth::Empty, &format!("result ({})", k.unit), &n.text, expr));
+        let (variant, expr) = random.pick(&list);
+        all.push(says(variant, Truth::Empty, &whole, expr, format!("It is {whole} here.")));
+        let (variant, expr) = random.pick(&list);
+        all.push(table(variant, Truth::Empty, &format!("result ({})", k.unit), &n.text, expr));
     }
-    for (way, expr) in [
+    for (variant, expr) in [
         ("decided by what is no number", format!("!({z} < 1)")),
         ("decided by what is no number", format!("{z} || true")),
         ("the same whatever is measured", format!("{m} === {m}")),
         ("the same whatever is measured", format!("{m} > 0 || {m} <= 0")),
         ("a constant", "true".to_string()),
     ] {
-        all.push(says(way, Truth::Empty, "it is so", &expr, "Now it is so.".into()));
+        all.push(says(variant, Truth::Empty, "it is so", &expr, "Now it is so.".into()));
     }
     all
 }

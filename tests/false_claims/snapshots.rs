@@ -26,7 +26,7 @@ pub(super) fn stored(scenes: &[Scene]) -> String {
 }
 
 /// Of each lab, whether it is as stored.
-pub(super) fn kept(scenes: &[Scene], snapshot: &str) -> Vec<bool> {
+pub(super) fn unchanged(scenes: &[Scene], snapshot: &str) -> Vec<bool> {
     let models = Models::new(ModelFolder::unknown());
     let checked = check::check_lesson(lesson(scenes, Some(snapshot)), &models, DEPTH);
     let of = |i: usize| {
@@ -40,18 +40,18 @@ pub(super) fn kept(scenes: &[Scene], snapshot: &str) -> Vec<bool> {
 
 /// The snapshot with one place changed in every lab, and how.
 pub(super) fn changed(random: &mut Random, snapshot: &str) -> (String, Vec<&'static str>) {
-    let mut ways = Vec::new();
+    let mut variants = Vec::new();
     let mut parts = snapshot.split("\nlab \"");
     let mut whole = parts.next().unwrap_or("").to_string();
     for part in parts {
         let mut lines: Vec<String> = part.lines().map(String::from).collect();
-        let way = change(random, &mut lines);
-        ways.push(way);
+        let variant = change(random, &mut lines);
+        variants.push(variant);
         whole += "\nlab \"";
         whole += &lines.join("\n");
         whole.push('\n');
     }
-    (whole, ways)
+    (whole, variants)
 }
 
 /// Changes one line of a lab.

@@ -20,15 +20,15 @@ impl Law {
     }
 }
 
-fn choice(kind: &'static str, way: &str, truth: Truth, mut verify: Value, options: [String; 3]) -> Claim {
+fn choice(kind: &'static str, variant: &str, truth: Truth, mut verify: Value, options: [String; 3]) -> Claim {
     verify["options"] = json!(options);
     let q = json!({"q": "What happens?", "options": ["This", "That", "Another thing"], "answer": 0, "explain": "So.", "verify": verify});
-    Claim { kind, way: way.into(), truth, body: Body::Question(q) }
+    Claim { kind, variant: variant.into(), truth, body: Body::Question(q) }
 }
 
 fn numeric(
     kind: &'static str,
-    way: &str,
+    variant: &str,
     truth: Truth,
     mut verify: Value,
     value: &str,
@@ -38,7 +38,7 @@ fn numeric(
     verify["value"] = json!(value);
     let [answer, tol] = [answer, tol].map(|x| format!("{x:.5}").parse::<f64>().unwrap());
     let q = json!({"kind": "numeric", "q": "How much?", "answer": answer, "tol": tol, "explain": "So.", "verify": verify});
-    Claim { kind, way: way.into(), truth, body: Body::Question(q) }
+    Claim { kind, variant: variant.into(), truth, body: Body::Question(q) }
 }
 
 pub(super) fn over(scene: &Scene) -> Vec<Claim> {
@@ -49,10 +49,10 @@ pub(super) fn over(scene: &Scene) -> Vec<Claim> {
     let far = [format!("{m} > {}", 5.0 * most), format!("{m} > {}", 6.0 * most)];
     let holds = format!("{m} > {} && {m} < {}", 0.9 * least, 1.1 * most);
     let options = |keyed: &str| [keyed.to_string(), far[0].clone(), far[1].clone()];
-    let claim = |way: &str, truth, runs: Value, slider: &str, range: [f64; 2], keyed: &str| {
+    let claim = |variant: &str, truth, runs: Value, slider: &str, range: [f64; 2], keyed: &str| {
         let mut verify = law.verify(runs);
         verify["over"] = json!({slider: range});
-        choice("over", way, truth, verify, options(keyed))
+        choice("over", variant, truth, verify, options(keyed))
     };
     let free = json!({"r": {"until": law.until}});
     let set = json!({"r": {"set": {law.slider: now}, "until": law.until}});
@@ -125,14 +125,14 @@ pub(super) fn find(random: &mut Random, scene: &Scene) -> Vec<Claim> {
     let middle = from + (to - from) * (0.3 + 0.04 * random.below(11) as f64);
     let bound = law.at(middle);
     let limit = law.reached(bound);
-    let object = |way: &str, condition: &str| {
+    let object = |variant: &str, condition: &str| {
         let mut verify = law.verify(json!({"r": {"until": law.until}}));
-        verify["find"] = json!({"limit": {way: law.slider, "from": from, "to": to, "run": "r", "while": condition, "tol": 0.01 * from}});
+        verify["find"] = json!({"limit": {variant: law.slider, "from": from, "to": to, "run": "r", "while": condition, "tol": 0.01 * from}});
         verify
     };
     let (right, tol) = (format!("{m} > {bound}"), 0.03 * limit);
-    let claim = |way: &str, truth, verify: Value, answer: f64| {
-        numeric("find", way, truth, verify, "limit", answer, tol)
+    let claim = |variant: &str, truth, verify: Value, answer: f64| {
+        numeric("find", variant, truth, verify, "limit", answer, tol)
     };
     let mut all = vec![
         claim("", Truth::True, object("largest", &right), limit),
@@ -177,10 +177,10 @@ pub(super) fn find(random: &mut Random, scene: &Scene) -> Vec<Claim> {
         if sure && (truth == Truth::True || (text - limit).abs() > 1.0) {
             let mut verify = object("largest", &right);
             verify["says"] = json!([[quote, "limit"]]);
-            let way = if truth == Truth::True { "" } else { "another limit" };
+            let variant = if truth == Truth::True { "" } else { "another limit" };
             all.push(Claim {
                 kind: "find",
-                way: way.into(),
+                variant: variant.into(),
                 truth,
                 body: Body::Text(verify, format!("It holds up to {quote} here.")),
             });
@@ -196,15 +196,15 @@ pub(super) fn fit(scene: &Scene) -> Vec<Claim> {
     let verify = law.verify(json!({"r": {"sweep": {law.slider: values}, "until": law.until}}));
     let m = format!("r.{}", law.measure);
     let power = format!("fit({m}, 'power')");
-    let claim = |way: &str, truth, text: &str, answer: f64| {
-        numeric("fit", way, truth, verify.clone(), text, answer, 0.03)
+    let claim = |variant: &str, truth, text: &str, answer: f64| {
+        numeric("fit", variant, truth, verify.clone(), text, answer, 0.03)
     };
     let option = |text: &str| {
         let others = [format!("{m}[0] > 1e6"), format!("{m}[1] > 1e6")];
-        let way = "the same whatever is measured";
+        let variant = "the same whatever is measured";
         choice(
             "fit",
-            way,
+            variant,
             Truth::Empty,
             verify.clone(),
             [text.to_string(), others[0].clone(), others[1].clone()],
@@ -246,9 +246,9 @@ pub(super) fn fit(scene: &Scene) -> Vec<Claim> {
 
 /// Runs that end where something holds.
 pub(super) fn stop() -> Vec<Claim> {
-    let claim = |way: &str, truth, stop: &str, keyed: &str| {
+    let claim = |variant: &str, truth, stop: &str, keyed: &str| {
         let verify = json!({"lab": "#1", "runs": {"r": {"stop": stop, "until": 1}}, "measure": {"end": "final(data.time)"}});
-        choice("stop", way, truth, verify, [keyed.to_string(), "end > 5".into(), "end > 6".into()])
+        choice("stop", variant, truth, verify, [keyed.to_string(), "end > 5".into(), "end > 6".into()])
     };
     let mut all = vec![
         claim("", Truth::True, "data.time > 0.3", "abs(end - 0.3) < 0.02"),
@@ -270,11 +270,11 @@ pub(super) fn stop() -> Vec<Claim> {
 }
 
 pub(super) fn exact(random: &mut Random, scene: &Scene) -> Vec<Claim> {
-    let claim = |way: &str, truth, trace: &str, form: Value| {
+    let claim = |variant: &str, truth, trace: &str, form: Value| {
         let verify = json!({"lab": "#1", "exact": {trace: form}});
         Claim {
             kind: "exact",
-            way: way.into(),
+            variant: variant.into(),
             truth,
             body: Body::Text(verify, "It follows a formula.".into()),
         }
@@ -288,13 +288,13 @@ pub(super) fn exact(random: &mut Random, scene: &Scene) -> Vec<Claim> {
             all.push(claim("another formula", Truth::False, form.trace, json!(wrong)));
         }
         let traced = scene.lab["plots"][0]["traces"].as_array().unwrap();
-        let own = traced.iter().find(|t| t["label"] == form.trace).unwrap()["expr"].as_str().unwrap();
+        let trace_expr = traced.iter().find(|t| t["label"] == form.trace).unwrap()["expr"].as_str().unwrap();
         let reads = [
-            own.to_string(),
-            format!("1 * {own}"),
-            format!("{own} + 0 * data.time"),
-            format!("(() => {own})()"),
-            format!("data.time > 1e6 ? 0 : {own}"),
+            trace_expr.to_string(),
+            format!("1 * {trace_expr}"),
+            format!("{trace_expr} + 0 * data.time"),
+            format!("(() => {trace_expr})()"),
+            format!("data.time > 1e6 ? 0 : {trace_expr}"),
         ];
         all.push(claim("reads the data", Truth::Empty, form.trace, json!(random.pick(&reads))));
         let tol = json!({"is": random.pick(&reads), "tol": 0.01});
@@ -320,13 +320,13 @@ pub(super) fn columns(random: &mut Random, scene: &Scene) -> Vec<Claim> {
     let [from, to] = law.range;
     let values: Vec<f64> = (0..3).map(|i| (from + (to - from) * f64::from(i) / 2.0).round()).collect();
     let unit = if law.slider == "g" { "m/s^2" } else { "N/m" };
-    let claim = |way: &str, truth, heads: [&str; 2], rows: &[[String; 2]]| {
+    let claim = |variant: &str, truth, heads: [&str; 2], rows: &[[String; 2]]| {
         let mut verify = law.verify(json!({"r": {"sweep": {law.slider: values}, "until": law.until}}));
         let is = format!("r.{}", law.measure);
         verify["table"] = json!([{"column": heads[1], "by": [heads[0], "r.value"], "is": is}]);
         let rows: String = rows.iter().map(|[a, b]| format!("| {a} | {b} |\n")).collect();
         let block = format!("| {} | {} |\n|---|---|\n{}", heads[0], heads[1], rows.trim_end());
-        Claim { kind: "column", way: way.into(), truth, body: Body::Text(verify, block) }
+        Claim { kind: "column", variant: variant.into(), truth, body: Body::Text(verify, block) }
     };
     // Two digits, and none that half a step of the run could decide.
     let cell = |x: f64| {

@@ -1,6 +1,6 @@
 //! Numeric questions: a value, its tolerance and unit, the values of mistakes; and what was made of them.
 
-use super::conditions::Known;
+use super::conditions::MeasuredNumber;
 use super::lesson::{Body, Claim, Truth};
 use super::random::Random;
 use super::scenes::NEVER;
@@ -14,7 +14,7 @@ struct Asked<'a> {
 
 fn question(
     kind: &'static str,
-    way: &str,
+    variant: &str,
     truth: Truth,
     asked: &Asked<'_>,
     value: &str,
@@ -28,19 +28,19 @@ fn question(
     if !asked.unit.is_empty() {
         q["unit"] = Value::from(asked.unit);
     }
-    Claim { kind, way: way.into(), truth, body: Body::Question(q) }
+    Claim { kind, variant: variant.into(), truth, body: Body::Question(q) }
 }
 
 fn rounded(x: f64) -> f64 {
     format!("{x:.4}").parse().unwrap()
 }
 
-fn asked(k: &Known) -> Asked<'static> {
+fn asked(k: &MeasuredNumber) -> Asked<'static> {
     Asked { answer: rounded(k.x), tol: rounded(0.03 * k.x.abs() + 0.01), unit: k.unit }
 }
 
-pub(super) fn right(random: &mut Random, known: &[Known]) -> Vec<Claim> {
-    let k = random.pick(known);
+pub(super) fn right(random: &mut Random, measured: &[MeasuredNumber]) -> Vec<Claim> {
+    let k = random.pick(measured);
     let asked = asked(k);
     let far = format!("{} + {}", k.name, rounded(3.0 * asked.tol));
     vec![
@@ -69,7 +69,7 @@ pub(super) fn other_units(unit: &str) -> &'static [&'static str] {
 }
 
 /// The same number, by a text that does something with it.
-pub(super) fn through_code(random: &mut Random, k: &Known) -> String {
+pub(super) fn through_code(random: &mut Random, k: &MeasuredNumber) -> String {
     let texts = [
         "{m}",
         "[{m}][0]",
@@ -89,12 +89,13 @@ pub(super) fn through_code(random: &mut Random, k: &Known) -> String {
     random.pick(&texts).replace("{m}", &k.name)
 }
 
-pub(super) fn wrong(random: &mut Random, known: &[Known]) -> Vec<Claim> {
-    let k = random.pick(known);
+pub(super) fn wrong(random: &mut Random, measured: &[MeasuredNumber]) -> Vec<Claim> {
+    let k = random.pick(measured);
     let a = asked(k);
     let with = |answer: f64| Asked { answer: rounded(answer), ..asked(k) };
-    let value =
-        |way: &str, truth, asked: &Asked<'_>, text: &str| question("value", way, truth, asked, text, &[]);
+    let value = |variant: &str, truth, asked: &Asked<'_>, text: &str| {
+        question("value", variant, truth, asked, text, &[])
+    };
     let away = a.tol * (1.2 + 0.5 * random.below(60) as f64);
     let mut all = vec![
         value("another number", Truth::False, &with(k.x + away), &k.name),
@@ -114,7 +115,7 @@ pub(super) fn wrong(random: &mut Random, known: &[Known]) -> Vec<Claim> {
             all.push(value("an unknown unit", Truth::False, &Asked { unit, ..asked(k) }, &k.name));
         }
     }
-    let other = random.pick(known);
+    let other = random.pick(measured);
     if (other.x - k.x).abs() > 1.2 * a.tol {
         all.push(value("another measure or run", Truth::False, &a, &other.name));
     }
@@ -151,14 +152,15 @@ pub(super) fn wrong(random: &mut Random, known: &[Known]) -> Vec<Claim> {
     all
 }
 
-pub(super) fn empty(random: &mut Random, known: &[Known]) -> Vec<Claim> {
-    let k = random.pick(known);
+pub(super) fn empty(random: &mut Random, measured: &[MeasuredNumber]) -> Vec<Claim> {
+    let k = random.pick(measured);
     let a = asked(k);
     let (m, x) = (&k.name, a.answer);
     let run = m.split('.').next().unwrap();
     let z = format!("{run}.{}", random.pick(&NEVER).name);
-    let value =
-        |way: &str, asked: &Asked<'_>, text: String| question("value", way, Truth::Empty, asked, &text, &[]);
+    let value = |variant: &str, asked: &Asked<'_>, text: String| {
+        question("value", variant, Truth::Empty, asked, &text, &[])
+    };
     let truth = Asked { answer: 1.0, tol: 0.1, unit: "" };
     let half = Asked { answer: 0.5, tol: 0.01, unit: "" };
     let mut all = Vec::new();

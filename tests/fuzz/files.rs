@@ -153,8 +153,8 @@ fn grow(root: &Path, random: &mut Random) -> Vec<PathBuf> {
 }
 
 /// Runs the program to its end, or ends it; how it ended and what it said of errors.
-fn run(root: &Path, said: &Path, arguments: &[String]) -> Result<String, String> {
-    let out = |name: &str| File::create(said.join(name)).unwrap();
+fn run(root: &Path, outputs: &Path, arguments: &[String]) -> Result<String, String> {
+    let out = |name: &str| File::create(outputs.join(name)).unwrap();
     let mut child = Command::new(env!("CARGO_BIN_EXE_labspec"))
         .args(arguments)
         .env("LABSPEC_CACHE", "")
@@ -176,10 +176,10 @@ fn run(root: &Path, said: &Path, arguments: &[String]) -> Result<String, String>
         }
         std::thread::sleep(Duration::from_millis(2));
     };
-    let text = String::from_utf8_lossy(&std::fs::read(said.join("stderr")).unwrap()).into_owned();
+    let text = String::from_utf8_lossy(&std::fs::read(outputs.join("stderr")).unwrap()).into_owned();
     match status.code() {
         Some(0..=2) => {
-            hold(&String::from_utf8_lossy(&std::fs::read(said.join("stdout")).unwrap()));
+            hold(&String::from_utf8_lossy(&std::fs::read(outputs.join("stdout")).unwrap()));
             Ok(text)
         }
         other => Err(format!("ends with {other:?}: {text}")),
@@ -190,9 +190,9 @@ fn run(root: &Path, said: &Path, arguments: &[String]) -> Result<String, String>
 fn odd_files_and_command_lines_end_with_0_1_or_2() {
     tries(CASES, |n| {
         let mut random = Random(n);
-        let (folder, said) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+        let (folder, outputs) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
         let all = grow(folder.path(), &mut random);
-        let mut shown = String::new();
+        let mut transcript = String::new();
         for _ in 0..3 {
             let command = random.word(&[
                 "check",
@@ -220,11 +220,11 @@ fn odd_files_and_command_lines_end_with_0_1_or_2() {
                     random.word(WORDS).to_string()
                 });
             }
-            shown += &format!("{arguments:?}\n");
-            if let Err(how) = run(folder.path(), said.path(), &arguments) {
+            transcript += &format!("{arguments:?}\n");
+            if let Err(how) = run(folder.path(), outputs.path(), &arguments) {
                 panic!("labspec {arguments:?} {how}\nin {all:#?}");
             }
         }
-        shown
+        transcript
     });
 }

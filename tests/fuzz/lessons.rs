@@ -202,7 +202,7 @@ fn holds_nothing(text: &str) -> bool {
 }
 
 /// What a check says of a text: the report for people and the one for programs. Every place lies in the file.
-fn said(name: &str, text: &str, models: &ModelFolder, depth: CheckLevel) -> String {
+fn messages(name: &str, text: &str, models: &ModelFolder, depth: CheckLevel) -> String {
     let mut models = Models::new(models.clone());
     let lesson = load_lesson(SourceFile::new(name, text), models.folder());
     let checked = check::check_lesson(lesson, &models, depth);
@@ -219,8 +219,8 @@ fn said(name: &str, text: &str, models: &ModelFolder, depth: CheckLevel) -> Stri
             .chain(finding.why.as_deref());
         // (A backtick of the author's own, other than those of fences, may stand beside one of ours.)
         let rest = |l: &str| l.trim_start_matches(['>', ' ']).trim_start_matches("```").contains('`');
-        let own = text.lines().any(rest) || (name.ends_with("json") && text.contains('`'));
-        texts.for_each(|t| assert!(own || !holds_nothing(t), "{finding:?}"));
+        let has_code = text.lines().any(rest) || (name.ends_with("json") && text.contains('`'));
+        texts.for_each(|t| assert!(has_code || !holds_nothing(t), "{finding:?}"));
         let here = finding.related.iter().filter(|place| place.path == *file.path());
         here.for_each(|place| assert!(inside(&place.span), "{finding:?}"));
     }
@@ -247,8 +247,8 @@ fn damaged_lessons_are_read_checked_and_reported() {
         }
         let depth = if runs { CheckLevel::FULL } else { CheckLevel::STATIC };
         let name = if text.trim_start().starts_with(['{', '[']) { "lesson.json" } else { "lesson.md" };
-        let first = said(name, &text, &models, depth);
-        assert!(runs || first == said(name, &text, &models, depth), "not the same twice");
+        let first = messages(name, &text, &models, depth);
+        assert!(runs || first == messages(name, &text, &models, depth), "not the same twice");
         let lesson = load_lesson(SourceFile::new(name, text.clone()), &models);
         format(&lesson, None);
         text

@@ -60,10 +60,10 @@ fn running() -> Option<Duration> {
 /// Tries `cases` cases, or as many as `LABSPEC_FUZZ_SECONDS` give room for. A case gives back its input.
 fn tries(cases: u64, mut case: impl FnMut(u64) -> String) {
     if let Some(n) = variable("LABSPEC_FUZZ_CASE") {
-        let kept = Path::new(env!("CARGO_TARGET_TMPDIR")).join("case");
+        let case_file = Path::new(env!("CARGO_TARGET_TMPDIR")).join("case");
         let input = case(n);
-        std::fs::write(&kept, &input).unwrap();
-        println!("the input of case {n} is in {}", kept.display());
+        std::fs::write(&case_file, &input).unwrap();
+        println!("the input of case {n} is in {}", case_file.display());
         return;
     }
     let limit = variable("LABSPEC_FUZZ_SECONDS").map(Duration::from_secs);
@@ -73,8 +73,8 @@ fn tries(cases: u64, mut case: impl FnMut(u64) -> String) {
         let (begin, ran) = (Instant::now(), running());
         let done = catch_unwind(AssertUnwindSafe(|| case(first + n)));
         assert!(done.is_ok(), "case {} fails", first + n);
-        let taken = running().zip(ran).map_or(begin.elapsed(), |(now, ran)| now - ran);
-        assert!(taken < LONGEST, "case {} takes {taken:?}", first + n);
+        let elapsed = running().zip(ran).map_or(begin.elapsed(), |(now, ran)| now - ran);
+        assert!(elapsed < LONGEST, "case {} takes {elapsed:?}", first + n);
         n += 1;
     }
     println!("{n} cases");

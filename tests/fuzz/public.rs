@@ -209,7 +209,7 @@ fn stored_models_come_back_or_are_refused() {
     for m in &all {
         assert_eq!(Model::from_bytes(&m.to_bytes()).unwrap(), *m);
     }
-    let mut taken = 0;
+    let mut accepted = 0;
     tries(CASES, |n| {
         let mut random = Random(n);
         let mut bytes = random.pick(&all).to_bytes();
@@ -222,7 +222,7 @@ fn stored_models_come_back_or_are_refused() {
         let sum = fingerprint(&bytes[..end]);
         bytes[end..].copy_from_slice(&sum.to_le_bytes());
         if let Ok(m) = Model::from_bytes(&bytes) {
-            taken += 1;
+            accepted += 1;
             let mut d = Data::new(&m);
             core::limit(&mut d, 50_000_000);
             for _ in 0..3 {
@@ -232,5 +232,5 @@ fn stored_models_come_back_or_are_refused() {
         }
         String::new()
     });
-    assert!(taken > 50, "{taken}");
+    assert!(accepted > 50, "{accepted}");
 }

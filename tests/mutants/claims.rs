@@ -145,7 +145,7 @@ pub(super) fn needs(kind: &str) -> Needs {
 }
 
 /// Whether this mistake can be known without a claim.
-pub(super) fn known(kind: &str, case: &Case<'_>) -> bool {
+pub(super) fn is_measurable(kind: &str, case: &Case<'_>) -> bool {
     match needs(kind) {
         Needs::Nothing => true,
         Needs::Claim(_) => false,
@@ -178,7 +178,7 @@ fn changed<'v>(a: &'v Value, b: &'v Value, list: &str, key: &str) -> Vec<(usize,
 }
 
 /// Traces and readouts as they stand in the order of a lab's programs, each with the label of its plot.
-fn shown(lab: &Value) -> Vec<(&Value, &str)> {
+fn displayed(lab: &Value) -> Vec<(&Value, &str)> {
     let list = |v: &'_ Value| v.as_array().map_or(0, Vec::len);
     let mut all = Vec::new();
     for p in 0..list(&lab["plots"]) {
@@ -206,8 +206,9 @@ fn names(json: &Value, models: &Models) -> Vec<String> {
     let model =
         lesson.all_labs().into_iter().next().and_then(|lab| models.model_of_lab(lab, &mut Vec::new()));
     let kinds = [Obj::Body, Obj::Joint, Obj::Geom, Obj::Site, Obj::Actuator, Obj::Sensor];
-    let of =
-        |m: &labspec_core::Model| kinds.iter().flat_map(|k| m.names.of(*k).to_vec()).collect::<Vec<String>>();
+    let of = |m: &labspec_core::Model| {
+        kinds.iter().flat_map(|k| m.names.of_kind(*k).to_vec()).collect::<Vec<String>>()
+    };
     model.map_or(Vec::new(), |m| of(&m))
 }
 
@@ -218,7 +219,7 @@ fn parted(label: &str) -> (&str, &str) {
 }
 
 fn measures_another(case: &Case<'_>) -> bool {
-    let (old, new) = (shown(&case.piece.json), shown(case.json));
+    let (old, new) = (displayed(&case.piece.json), displayed(case.json));
     let Some(i) = old.iter().zip(&new).position(|(a, b)| a.0["expr"] != b.0["expr"]) else { return false };
     let ((one, axis), text) = (old[i], new[i].0["expr"].as_str().unwrap_or(""));
     let inside = text.split_once("hypot(").map_or("", |(_, t)| t.split(')').next().unwrap_or(""));
@@ -270,7 +271,7 @@ fn never_negative(case: &Case<'_>) -> bool {
         "nv",
         "|",
     ];
-    let (old, new) = (shown(&case.piece.json), shown(case.json));
+    let (old, new) = (displayed(&case.piece.json), displayed(case.json));
     let it = old.iter().zip(&new).find(|(a, b)| a.0["expr"] != b.0["expr"]);
     it.is_some_and(|((one, _), _)| {
         let [label, text] = ["label", "expr"].map(|k| one[k].as_str().unwrap_or(""));
@@ -357,7 +358,7 @@ fn explained(case: &Case<'_>) -> bool {
 
 fn labels_tell(case: &Case<'_>) -> bool {
     let names = names(&case.piece.json, case.models);
-    let (old, new) = (shown(&case.piece.json), shown(case.json));
+    let (old, new) = (displayed(&case.piece.json), displayed(case.json));
     let both: Vec<&str> = old
         .iter()
         .zip(&new)
@@ -372,7 +373,7 @@ fn labels_tell(case: &Case<'_>) -> bool {
 }
 
 fn known_measure(case: &Case<'_>) -> bool {
-    let (old, new) = (shown(&case.piece.json), shown(case.json));
+    let (old, new) = (displayed(&case.piece.json), displayed(case.json));
     let at = old.iter().zip(&new).position(|(a, b)| a != b);
     let all = measures(case.json, case.models).unwrap_or_default();
     at.is_some_and(|i| matches!(all.get(i), Some(Measure::Known(d)) if d.is_exact()))

@@ -46,7 +46,7 @@ pub(super) fn controls(json: &Value, change: impl Fn(&mut Value) -> Option<()>) 
 }
 
 /// The text of every trace and readout, changed.
-pub(super) fn shown(json: &Value, change: impl Fn(&str) -> Option<String>) -> Vec<Value> {
+pub(super) fn displayed_code(json: &Value, change: impl Fn(&str) -> Option<String>) -> Vec<Value> {
     let mut all = text(json, &["plots", "*", "traces", "*", "expr"], &change);
     all.extend(text(json, &["readouts", "*", "expr"], &change));
     all
@@ -65,7 +65,7 @@ pub(super) fn statements(json: &Value, change: impl Fn(&str) -> Option<String>) 
 /// All code, changed.
 pub(super) fn code(json: &Value, change: impl Fn(&str) -> Option<String>) -> Vec<Value> {
     let mut all = statements(json, &change);
-    all.extend(shown(json, &change));
+    all.extend(displayed_code(json, &change));
     all
 }
 

@@ -44,13 +44,13 @@ fn start_with_every_stage<'p>(lab: &Lab, model: &Model, programs: &'p Programs) 
 
 /// All that can be seen, as a text.
 pub(crate) fn seen(piece: &Piece, json: &Value, models: &Models) -> String {
-    let mut shown = json.clone();
+    let mut visible = json.clone();
     if piece.what == What::Quiz {
         // The labs of its questions are pieces of their own.
-        return shown.to_string();
+        return visible.to_string();
     }
-    hide(&mut shown);
-    let mut text = shown.to_string();
+    hide(&mut visible);
+    let mut text = visible.to_string();
     let lesson = load_lesson(SourceFile::new("piece.json", json.to_string()), models.folder());
     let Some(lab) = lesson.all_labs().into_iter().next() else { return text };
     let Some(model) = models.model_of_lab(lab, &mut Vec::new()) else { return text };

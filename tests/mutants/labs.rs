@@ -1,7 +1,9 @@
 //! Kinds of mistakes in labs.
 
 use super::Kind;
-use super::edit::{code, controls, each, move_index, setup, shown, statements, swap, text, with, without};
+use super::edit::{
+    code, controls, displayed_code, each, move_index, setup, statements, swap, text, with, without,
+};
 use serde_json::{Value, json};
 
 /// The texts of traces and readouts.
@@ -39,15 +41,19 @@ pub(super) const TEXTS: [Kind; 18] = [
         code(l, |t| swap(t, "('", "('x"))
     }),
     kind("misspelt-variable", "a text reads a variable of `ctx` that nothing stores", |l| {
-        shown(l, |t| swap(t, "ctx.", "ctx.the_"))
+        displayed_code(l, |t| swap(t, "ctx.", "ctx.the_"))
     }),
-    kind("next-index", "an index is one too high", |l| shown(l, |t| move_index(t, 1))),
+    kind("next-index", "an index is one too high", |l| displayed_code(l, |t| move_index(t, 1))),
     kind("far-index", "an index is beyond the end", |l| code(l, |t| move_index(t, 500))),
     kind("written-index", "statements write the element after the intended one", |l| {
         statements(l, |t| move_index(t, 1))
     }),
-    kind("wrong-sign", "the displayed value has the wrong sign", |l| shown(l, |t| Some(format!("-({t})")))),
-    kind("wrong-unit", "a factor of a thousand is missing", |l| shown(l, |t| swap(t, "1000 * ", ""))),
+    kind("wrong-sign", "the displayed value has the wrong sign", |l| {
+        displayed_code(l, |t| Some(format!("-({t})")))
+    }),
+    kind("wrong-unit", "a factor of a thousand is missing", |l| {
+        displayed_code(l, |t| swap(t, "1000 * ", ""))
+    }),
     kind("degrees", "degrees are used where radians are required", |l| {
         code(l, |t| swap(t, " * Math.PI / 180", ""))
     }),
@@ -61,7 +67,7 @@ pub(super) const TEXTS: [Kind; 18] = [
         text(l, &TRACE, |t| Some(format!("({t}) * Math.sqrt(0.2 - data.time)")))
     }),
     kind("nan-at-start", "the displayed value is divided by time, which is 0 at the start", |l| {
-        shown(l, |t| Some(format!("({t}) * data.time / data.time")))
+        displayed_code(l, |t| Some(format!("({t}) * data.time / data.time")))
     }),
     kind("infinite", "the displayed value is divided by 0", |l| {
         text(l, &READOUT, |t| Some(format!("1 / (({t}) - ({t}))")))
@@ -376,10 +382,10 @@ pub(super) const SCENES: [Kind; 18] = [
         |l| {
             let mut all = setup(l, "data.qpos[0] += 0.3; ctx.begins = data.xpos[3] + data.xpos[5]");
             all.iter_mut().for_each(|l| {
-                let shown = json!({"label": "begins at", "expr": "ctx.begins", "digits": 4});
+                let readout = json!({"label": "begins at", "expr": "ctx.begins", "digits": 4});
                 match l["readouts"].as_array_mut() {
-                    Some(list) => list.push(shown),
-                    None => l["readouts"] = json!([shown]),
+                    Some(list) => list.push(readout),
+                    None => l["readouts"] = json!([readout]),
                 }
             });
             all
@@ -392,10 +398,10 @@ pub(super) const SCENES: [Kind; 18] = [
         }
         let mut all = setup(l, "data.qpos[0] += 0.3; ctx.measured = data.sensordata[0]");
         all.iter_mut().for_each(|l| {
-            let shown = json!({"label": "measured", "expr": "ctx.measured", "digits": 4});
+            let readout = json!({"label": "measured", "expr": "ctx.measured", "digits": 4});
             match l["readouts"].as_array_mut() {
-                Some(list) => list.push(shown),
-                None => l["readouts"] = json!([shown]),
+                Some(list) => list.push(readout),
+                None => l["readouts"] = json!([readout]),
             }
         });
         all

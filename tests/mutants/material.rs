@@ -59,8 +59,8 @@ impl Piece {
     pub(crate) fn lesson(&self, json: &Value) -> Option<String> {
         let Home { before, behind, whole, at } = self.home.as_ref()?;
         let mut whole = whole.clone();
-        let own = whole.pointer_mut(at)?;
-        *own = carried(&self.json, json, own);
+        let target = whole.pointer_mut(at)?;
+        *target = carried(&self.json, json, target);
         Some(format!("{before}{}\n{behind}", serde_json::to_string_pretty(&whole).unwrap()))
     }
 }
@@ -172,8 +172,8 @@ fn add(all: &mut Vec<Piece>, name: &str, models: usize, text: &str, around: Opti
     };
     for (i, question) in questions.iter().enumerate().filter(|(_, q)| q["sim"].is_object()) {
         let name = format!("{name}?{}", i + 1);
-        let own = question["verify"].is_object() && question["verify"]["lab"].is_null();
-        let home = home(format!("/questions/{i}/sim")).filter(|_| own);
+        let is_local = question["verify"].is_object() && question["verify"]["lab"].is_null();
+        let home = home(format!("/questions/{i}/sim")).filter(|_| is_local);
         all.push(Piece { name, what: What::Lab, json: alone(&question["sim"]), models, around: None, home });
     }
     let around = around.filter(|_| questions.iter().any(|q| q["verify"].is_object()));
@@ -190,8 +190,8 @@ fn alone(lab: &Value) -> Value {
     let plots = object.get_mut("plots").and_then(Value::as_array_mut);
     let any = plots.as_ref().is_some_and(|p| !p.is_empty());
     for plot in plots.into_iter().flatten() {
-        let own = plot["window"].as_f64().unwrap_or(5.0);
-        plot["window"] = json!(own.min(LONGEST));
+        let window = plot["window"].as_f64().unwrap_or(5.0);
+        plot["window"] = json!(window.min(LONGEST));
     }
     if !any && !object.contains_key("stopAt") {
         object.insert("stopAt".into(), json!(LONGEST));

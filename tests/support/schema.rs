@@ -101,9 +101,9 @@ impl<'s> Look<'s> {
                     true
                 }
                 "additionalProperties" => {
-                    let known = keywords.get("properties").and_then(Value::as_object);
+                    let declared = keywords.get("properties").and_then(Value::as_object);
                     for (key, inside) in value.as_object().into_iter().flatten() {
-                        if known.is_none_or(|known| !known.contains_key(key)) {
+                        if declared.is_none_or(|declared| !declared.contains_key(key)) {
                             self.check(file, want, inside, &format!("{at}/{key}"));
                             spoken.insert(key.clone());
                         }

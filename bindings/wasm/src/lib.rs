@@ -137,8 +137,8 @@ impl Lab {
     }
 
     /// The traces of the plots, then the readouts: the order of `numbers`.
-    #[wasm_bindgen(getter)]
-    pub fn shown(&self) -> Result<ShownList, JsValue> {
+    #[wasm_bindgen(getter, js_name = "shown")]
+    pub fn displayed(&self) -> Result<ShownList, JsValue> {
         let one = |s: &labspec::player::DisplayedValue| match s.place {
             DisplayedIn::Plot(plot) => json!({"label": s.label, "unit": s.unit, "plot": plot}),
             DisplayedIn::Readout(digits) => json!({"label": s.label, "unit": s.unit, "digits": digits}),

@@ -43,8 +43,8 @@ pub(crate) fn release(folder: Option<PathBuf>) -> Result<PathBuf, String> {
 
 /// What the program says of itself: `labspec 0.1.0`.
 fn version(program: &Path) -> Result<String, String> {
-    let said = Command::new(program).arg("--version").output().map_err(|e| e.to_string())?;
-    let text = String::from_utf8_lossy(&said.stdout).into_owned();
+    let output = Command::new(program).arg("--version").output().map_err(|e| e.to_string())?;
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
     text.split_whitespace()
         .nth(1)
         .map(String::from)
@@ -54,8 +54,8 @@ fn version(program: &Path) -> Result<String, String> {
 /// The machine that it was built for.
 fn host() -> Result<String, String> {
     let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
-    let said = Command::new(rustc).arg("-vV").output().map_err(|e| format!("cannot run rustc: {e}"))?;
-    let text = String::from_utf8_lossy(&said.stdout).into_owned();
+    let output = Command::new(rustc).arg("-vV").output().map_err(|e| format!("cannot run rustc: {e}"))?;
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
     let host = text.lines().find_map(|line| line.strip_prefix("host: ").map(String::from));
     host.ok_or_else(|| "rustc does not say what it builds for".into())
 }

@@ -78,7 +78,7 @@ pub(super) fn owner(m: &Model, f: FieldId, index: usize) -> Option<(Obj, usize)>
     let dim = f.rows()?;
     let kinds = super::handle::KINDS.iter().map(|(kind, _)| *kind);
     for kind in kinds.filter(|kind| has_rows(*kind, dim)) {
-        let count = m.names.of(kind).len();
+        let count = m.names.of_kind(kind).len();
         let holds =
             |i: &usize| row(m, f, kind, *i).is_some_and(|(first, n)| (first..first + n).contains(&index));
         if let Some(i) = (0..count).find(holds) {
@@ -101,7 +101,7 @@ pub(super) fn help(m: &Model, f: FieldId, index: usize) -> Option<String> {
     let (kind, object) = owner(m, f, index)?;
     let (first, count) = row(m, f, kind, object)?;
     let noun = super::handle::KINDS.iter().find(|(k, _)| *k == kind).map_or("object", |(_, noun)| noun);
-    let name = m.names.of(kind).get(object).map_or("", String::as_str);
+    let name = m.names.of_kind(kind).get(object).map_or("", String::as_str);
     let name = if name.is_empty() { format!("{object}") } else { name.to_owned() };
     let at = index - first;
     let info = f.info();
@@ -219,7 +219,7 @@ mod tests {
                     continue;
                 };
                 let holder = if info.object == Object::Data { "data" } else { "model" };
-                let objects = m.names.of(*kind);
+                let objects = m.names.of_kind(*kind);
                 let mut covered = 0;
                 for (i, name) in objects.iter().enumerate() {
                     let Some((first, count)) = row(&m, f, *kind, i) else { continue };

@@ -3,8 +3,8 @@
 use crate::Error;
 use crate::functions::{self, is_taken};
 use labspec_expr::{
-    CollectionId, Compiler, Entry, FunctionId, FunctionInfo, Globals, ObjectId, Param, ResultDimension,
-    Schema, Touch, Type, Value,
+    AccessedFields, CollectionId, Compiler, Entry, FunctionId, FunctionInfo, Globals, ObjectId, Param,
+    ResultDimension, Schema, Type, Value,
 };
 use std::fmt;
 use std::sync::Arc;
@@ -85,8 +85,8 @@ impl Functions {
             members: Vec::new(),
             length: None,
             aggregate: false,
-            reads: Touch::Nothing,
-            writes: Touch::Nothing,
+            reads: AccessedFields::Nothing,
+            writes: AccessedFields::Nothing,
             gives: ResultDimension::Unknown,
             doc: function.doc.clone(),
         })

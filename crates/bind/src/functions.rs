@@ -16,7 +16,7 @@ use super::units;
 use labspec_core::Obj;
 use labspec_core::reflect::{self, FieldId, Kind, Object, Stage, data, option};
 use labspec_expr::dimension::Dimension;
-use labspec_expr::{FieldKey, FunctionId, FunctionInfo, Param, ResultDimension, Touch, Type, Value};
+use labspec_expr::{AccessedFields, FieldKey, FunctionId, FunctionInfo, Param, ResultDimension, Type, Value};
 
 /// The objects that hold functions.
 pub(super) const OBJECTS: [&str; 3] = ["mj", "sim", "lib"];
@@ -212,8 +212,8 @@ fn info(f: &Function) -> FunctionInfo {
         members: f.members.iter().map(|(name, ty)| (name.to_string(), *ty)).collect(),
         length: f.length,
         aggregate: f.aggregate,
-        reads: touch(&[f.reads]),
-        writes: touch(f.writes),
+        reads: accessed_fields(&[f.reads]),
+        writes: accessed_fields(f.writes),
         gives: match f.unit {
             Unit::Of(unit) => units::parse(unit).map_or(ResultDimension::Unknown, ResultDimension::This),
             Unit::Argument(factor) => ResultDimension::Argument(0, Dimension::NUMBER.times(factor)),
@@ -234,7 +234,7 @@ fn path(f: &Function) -> String {
 /// What the Jacobian of a site follows from.
 const MOTION: [FieldId; 5] = [data::xanchor, data::xaxis, data::xmat, data::xpos, data::site_xpos];
 
-fn touch(touches: &[Touches]) -> Touch {
+fn accessed_fields(touches: &[Touches]) -> AccessedFields {
     let is = |f: &FieldId, t: &Touches| {
         let i = f.info();
         match t {
@@ -254,7 +254,7 @@ fn touch(touches: &[Touches]) -> Touch {
         .filter(|f| touches.iter().any(|t| is(f, t)))
         .map(|f| FieldKey(f.index() as u32))
         .collect();
-    if fields.is_empty() { Touch::Nothing } else { Touch::Fields(fields) }
+    if fields.is_empty() { AccessedFields::Nothing } else { AccessedFields::Fields(fields) }
 }
 
 /// The name of a function, without what holds it.
@@ -325,6 +325,6 @@ mod tests {
     fn every_touch_is_of_some_field() {
         use Touches::*;
         let all = [Derived, State, Coordinates, Contacts, Energy, Flags, Places, Motion, Mass];
-        assert!(all.iter().all(|t| matches!(touch(&[*t]), Touch::Fields(_))));
+        assert!(all.iter().all(|t| matches!(accessed_fields(&[*t]), AccessedFields::Fields(_))));
     }
 }

@@ -7,8 +7,8 @@ use super::enums::ENUMS;
 use super::field_entry::{field, member_name, noun, owner, short_name};
 use super::functions::{self, FunctionPlace, OBJECTS, TABLE};
 use super::handle::{self, KINDS, Side, Thing};
+use super::host_terms::HOST_TERMS;
 use super::measures;
-use super::words::WORDS;
 use labspec_core::reflect::{self, FieldId, Object, data, option};
 use labspec_core::{Model, Obj};
 use labspec_expr::dimension::Measure;
@@ -103,7 +103,7 @@ impl ModelNames<'_> {
             "id" => return Some(Entry::Constant(Value::Number(index as f64))),
             "name" => {
                 return Some(Entry::Constant(Value::String(
-                    self.model.names.of(kind).get(index)?.as_str().into(),
+                    self.model.names.of_kind(kind).get(index)?.as_str().into(),
                 )));
             }
             _ => {}
@@ -120,7 +120,7 @@ impl ModelNames<'_> {
     /// How an author writes an object: `data.joint("hinge")`.
     fn path(&self, side: Side, kind: Obj, index: usize) -> String {
         let holder = if side == Side::Data { "data" } else { "model" };
-        let name = self.model.names.of(kind).get(index).map_or("", String::as_str);
+        let name = self.model.names.of_kind(kind).get(index).map_or("", String::as_str);
         format!("{holder}.{}(\"{name}\")", noun(kind))
     }
 
@@ -263,7 +263,7 @@ impl Schema for ModelNames<'_> {
                 format!("mj.{holder}.{}", members.get(j).map_or("", |(n, _)| n))
             }
             Some(Thing::Named(_, kind, index)) => {
-                let name = self.model.names.of(kind).get(index).map_or("", String::as_str);
+                let name = self.model.names.of_kind(kind).get(index).map_or("", String::as_str);
                 format!("the {} \"{name}\"", noun(kind))
             }
             None => String::new(),
@@ -283,7 +283,7 @@ impl Schema for ModelNames<'_> {
             return self.displayed.map_or(Vec::new(), |displayed| displayed.labels().to_vec());
         }
         let Some((_, kind, _)) = handle::of_collection(collection) else { return Vec::new() };
-        self.model.names.of(kind).iter().filter(|n| !n.is_empty()).cloned().collect()
+        self.model.names.of_kind(kind).iter().filter(|n| !n.is_empty()).cloned().collect()
     }
 
     fn noun(&self, collection: CollectionId) -> &str {
@@ -327,7 +327,7 @@ impl Schema for ModelNames<'_> {
         let (first, _) = elements::row(self.model, field, kind, object)?;
         // A name that needs escapes is not worth it.
         let plain = |n: &&String| !n.is_empty() && !n.contains(['\'', '\\']) && !n.contains(char::is_control);
-        let name = self.model.names.of(kind).get(object).filter(plain)?;
+        let name = self.model.names.of_kind(kind).get(object).filter(plain)?;
         let short = member_name(field.info().object, field.info().name, kind);
         let holder = if side == Side::Data { "data" } else { "model" };
         // In single quotes, which need no escapes in the JSON of a lab.
@@ -364,7 +364,7 @@ impl Schema for ModelNames<'_> {
     }
 
     fn host_terms(&self) -> &'static HostTerms {
-        &WORDS
+        &HOST_TERMS
     }
 
     fn refresh(&self) -> Option<String> {

@@ -22,7 +22,7 @@ const STORED: StoredReport = StoredReport {
 
 /// What a finding is known by.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-struct Mark {
+struct BaselineKey {
     file: String,
     code: String,
     message: String,
@@ -31,7 +31,7 @@ struct Mark {
 
 /// The claim that a finding is about: whose it is, what was claimed, and what came out.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-struct ClaimMark {
+struct ClaimKey {
     claim: String,
     result: String,
 }
@@ -39,11 +39,11 @@ struct ClaimMark {
 #[derive(Serialize, Deserialize)]
 struct BaselineEntry {
     #[serde(flatten)]
-    mark: Mark,
+    key: BaselineKey,
     #[serde(default = "once")]
     count: usize,
     #[serde(flatten)]
-    claim: Option<ClaimMark>,
+    claim: Option<ClaimKey>,
 }
 
 fn once() -> usize {
@@ -55,15 +55,15 @@ struct BaselineFile {
     findings: Vec<BaselineEntry>,
 }
 
-/// How often each is known.
+/// How often each finding is in the baseline.
 #[derive(Debug, Default)]
 pub(super) struct Baseline {
     folder: PathBuf,
-    baselined: BTreeMap<(Mark, Option<ClaimMark>), usize>,
+    baselined: BTreeMap<(BaselineKey, Option<ClaimKey>), usize>,
 }
 
 impl Baseline {
-    /// Nothing is known; files are named from the folder of a file.
+    /// An empty baseline; files are named from the folder of a file.
     pub(super) fn new(path: &Path) -> Baseline {
         let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
@@ -74,21 +74,21 @@ impl Baseline {
     /// It cannot be read, or is no baseline.
     pub(super) fn read(path: &Path) -> Result<Baseline, Failure> {
         let mut all = Baseline::new(path);
-        for BaselineEntry { mark, count, claim } in read_report::<BaselineFile>(path, &STORED)?.findings {
-            let baselined = all.baselined.entry((mark, claim)).or_default();
+        for BaselineEntry { key, count, claim } in read_report::<BaselineFile>(path, &STORED)?.findings {
+            let baselined = all.baselined.entry((key, claim)).or_default();
             *baselined = baselined.saturating_add(count);
         }
         Ok(all)
     }
 
-    /// Takes out what is known.
+    /// Removes the findings of the baseline.
     pub(super) fn apply(&self, findings: &mut Vec<Finding>, files: &[&SourceFile]) -> Vec<Finding> {
         let mut met: BTreeMap<_, usize> = BTreeMap::new();
         let mut baselined = Vec::new();
         findings.retain(|f| {
-            let mark = self.mark(f, files);
-            let Some(&most) = self.baselined.get(&mark) else { return true };
-            let count = met.entry(mark).or_default();
+            let key = self.key(f, files);
+            let Some(&most) = self.baselined.get(&key) else { return true };
+            let count = met.entry(key).or_default();
             *count += 1;
             if *count <= most {
                 baselined.push(f.clone());
@@ -98,7 +98,7 @@ impl Baseline {
         baselined
     }
 
-    /// Makes findings known, and writes them.
+    /// Adds findings to the baseline, and writes it.
     ///
     /// # Errors
     /// The file cannot be written.
@@ -109,14 +109,14 @@ impl Baseline {
         files: &[&SourceFile],
     ) -> Result<(), Failure> {
         for f in findings {
-            *self.baselined.entry(self.mark(f, files)).or_default() += 1;
+            *self.baselined.entry(self.key(f, files)).or_default() += 1;
         }
         let entries = self.baselined.into_iter();
-        let findings = entries.map(|((mark, claim), count)| BaselineEntry { mark, count, claim }).collect();
+        let findings = entries.map(|((key, claim), count)| BaselineEntry { key, count, claim }).collect();
         write_report(path, &STORED, &BaselineFile { findings })
     }
 
-    fn mark(&self, f: &Finding, files: &[&SourceFile]) -> (Mark, Option<ClaimMark>) {
+    fn key(&self, f: &Finding, files: &[&SourceFile]) -> (BaselineKey, Option<ClaimKey>) {
         let path = Path::new(&*f.path);
         let whole = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
         let name = whole.strip_prefix(&self.folder).unwrap_or(&whole);
@@ -124,12 +124,12 @@ impl Baseline {
             name.components().map(|c| c.as_os_str().to_string_lossy().into_owned()).collect();
         let file = files.iter().find(|file| *file.path() == f.path);
         let line = file.map_or("", |file| line(file.text(), f.span.start));
-        let claim = f.claim.as_ref().map(|c| ClaimMark {
+        let claim = f.claim.as_ref().map(|c| ClaimKey {
             claim: if c.part.is_empty() { c.owner.clone() } else { format!("{}, {}", c.owner, c.part) },
             result: c.result.clone(),
         });
         let (file, code, message) = (name.join("/"), f.code.to_string(), f.message.clone());
-        (Mark { file, code, message, line: line.to_string() }, claim)
+        (BaselineKey { file, code, message, line: line.to_string() }, claim)
     }
 }
 

@@ -49,23 +49,23 @@ impl Cache {
         self.folder.is_none() && self.memory.is_none()
     }
 
-    /// What is found in a lesson: kept, or found now and kept from now on, unless `cancelled` says that it was cut short.
-    pub(super) fn examine(
+    /// The findings of a lesson: from the cache, or computed and stored, unless `cancelled` says that the check was cut short.
+    pub(super) fn check_cached(
         &self,
         path: &Path,
         lesson: &Lesson,
         models: &Models,
-        depth: CheckLevel,
+        level: CheckLevel,
         cancelled: impl Fn() -> bool,
     ) -> LabOutcome {
         if self.is_off() {
-            return check::examine(lesson, models, depth);
+            return check::run_checks(lesson, models, level);
         }
-        let (slot, key) = (slot(path, depth), self.key(lesson, models, depth));
+        let (slot, key) = (slot(path, level), self.key(lesson, models, level));
         if let Some(found) = self.load(&slot).and_then(|text| recall(&text, &key, lesson, models)) {
             return found;
         }
-        let found = check::examine(lesson, models, depth);
+        let found = check::run_checks(lesson, models, level);
         if !cancelled()
             && let Some(text) = entry(&key, lesson, models, &found)
         {
@@ -75,9 +75,9 @@ impl Cache {
     }
 
     /// Everything that a result depends on, but for the models.
-    fn key(&self, lesson: &Lesson, models: &Models, depth: CheckLevel) -> String {
+    fn key(&self, lesson: &Lesson, models: &Models, level: CheckLevel) -> String {
         let flags =
-            [depth.programs, depth.labs, depth.claims, models.folder().names().is_some()].map(u8::from);
+            [level.programs, level.labs, level.claims, models.folder().names().is_some()].map(u8::from);
         let file = &lesson.file;
         let (stored, snapshot) = match &lesson.snapshot {
             None => (0, ""),
@@ -129,9 +129,9 @@ fn folder() -> Option<PathBuf> {
 }
 
 /// The name of a lesson's file in the cache.
-fn slot(path: &Path, depth: CheckLevel) -> String {
+fn slot(path: &Path, level: CheckLevel) -> String {
     let real = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
-    let flags = [depth.programs, depth.labs, depth.claims].map(u8::from);
+    let flags = [level.programs, level.labs, level.claims].map(u8::from);
     digest::hex_of(&[real.as_os_str().as_encoded_bytes(), &flags])
 }
 
@@ -197,8 +197,8 @@ fn with_digest(body: &str) -> String {
 
 /// What stands below its digest, if it is whole.
 fn whole(text: &str) -> Option<&str> {
-    let (mark, body) = text.split_once('\n')?;
-    (digest::hex(body.as_bytes()) == mark).then_some(body)
+    let (hash, body) = text.split_once('\n')?;
+    (digest::hex(body.as_bytes()) == hash).then_some(body)
 }
 
 /// The version and the digest of this program's file. Reading all of it takes longer than many a check, so its digest is
@@ -281,7 +281,7 @@ mod tests {
     }
 
     fn models(top: &Path) -> Models {
-        Models::marked(ModelFolder::open(&top.join("models")).unwrap(), digest::hex_of)
+        Models::with_hash(ModelFolder::open(&top.join("models")).unwrap(), digest::hex_of)
     }
 
     fn lesson(models: &Models, text: &str) -> Lesson {
@@ -293,7 +293,7 @@ mod tests {
         let top = course();
         let models = models(top.path());
         let lesson = lesson(&models, LESSON);
-        let found = check::examine(&lesson, &models, DEEP);
+        let found = check::run_checks(&lesson, &models, DEEP);
         assert!(
             !found.findings.is_empty() && found.labs[0].runs == 5 && found.claims.len() == 1,
             "{found:?}"
@@ -310,7 +310,7 @@ mod tests {
         let top = course();
         let models = models(top.path());
         let lesson = lesson(&models, LESSON);
-        let found = check::examine(&lesson, &models, DEEP);
+        let found = check::run_checks(&lesson, &models, DEEP);
         let text = entry("key", &lesson, &models, &found).unwrap();
         for i in 0..text.len() {
             for bit in [0x01, 0x20, 0x80] {
@@ -340,7 +340,7 @@ mod tests {
     fn a_result_is_about_the_same_bytes() {
         let top = course();
         let cache = Cache { folder: Some(top.path().join("cache")), memory: None, program: "one".into() };
-        let fresh = |cache: &Cache, text: &str, depth: CheckLevel| {
+        let fresh = |cache: &Cache, text: &str, level: CheckLevel| {
             let models = models(top.path());
             let asked = Cell::new(false);
             let cancelled = || {
@@ -348,7 +348,7 @@ mod tests {
                 false
             };
             let lesson = lesson(&models, text);
-            cache.examine(&top.path().join("drop.json"), &lesson, &models, depth, cancelled);
+            cache.check_cached(&top.path().join("drop.json"), &lesson, &models, level, cancelled);
             asked.get()
         };
         let newer = LESSON.replace("Drop", "Fall");
@@ -383,7 +383,7 @@ mod tests {
         write_ball(top.path(), "text <geom size='0.05'/>");
         let mut first = models(top.path());
         let read = lesson(&first, LESSON);
-        let found = check::examine(&read, &first, DEEP);
+        let found = check::run_checks(&read, &first, DEEP);
         let text = entry("key", &read, &first, &found).unwrap();
         let mut second = models(top.path());
         assert!(recall(&text, "key", &read, &second).is_some());

@@ -70,10 +70,10 @@ fn settle_suppressed(ledger: &mut Ledger, results: &CourseResults) {
     let concerns = |e: &Entry, findings: Option<&Vec<Finding>>| {
         findings.is_some_and(|all| all.iter().any(|f| is_about(f, e)))
     };
-    ledger.know(|e| concerns(e, baselined.get(&e.path)) && !concerns(e, reported.get(&e.path)));
+    ledger.mark_baselined(|e| concerns(e, baselined.get(&e.path)) && !concerns(e, reported.get(&e.path)));
     let ignored = results.suppressed.ignored.iter().filter(|f| f.is_error()).cloned().collect();
     for (path, all) in group_by_path(ignored) {
-        ledger.add(left_out_entry(Path::new(&*path), format!("{} ignored", Summary::of(&all))));
+        ledger.add(left_out_entry(Path::new(&*path), format!("{} ignored", Summary::count(&all))));
     }
 }
 

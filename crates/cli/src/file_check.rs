@@ -102,7 +102,7 @@ pub(super) fn plan_tasks(
             *task = FileTask::CheckLesson(*number);
         }
     }
-    Ok((tasks, folders.into_values().map(|folder| Models::marked(folder, hash)).collect()))
+    Ok((tasks, folders.into_values().map(|folder| Models::with_hash(folder, hash)).collect()))
 }
 
 /// Checks one file. A panic ends the check of this file alone.
@@ -151,8 +151,8 @@ fn check_lesson(
     if !named && is_other_json(&lesson) {
         return FileOutcome::OtherJson;
     }
-    let examined = threads::apart(|| cache.examine(path, &lesson, models, request.level, interrupted));
-    let mut outcome = match examined {
+    let checked = threads::apart(|| cache.check_cached(path, &lesson, models, request.level, interrupted));
+    let mut outcome = match checked {
         Ok(outcome) => outcome,
         Err(panic) => return FileOutcome::Lesson(Box::new(cancelled_lesson(lesson, &panic))),
     };

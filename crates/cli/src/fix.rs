@@ -58,7 +58,7 @@ pub(super) fn fix(request: &CheckRequest<'_>, mode: FixMode) -> Result<Repaired,
         let policy = policies.policy_for(&path)?;
         let models = Models::new(folder);
         let look = |lesson: Lesson| {
-            let found = check::examine(&lesson, &models, request.level);
+            let found = check::run_checks(&lesson, &models, request.level);
             let broken = lesson.broken.len();
             let checked = check::join(lesson, found, request.level);
             let mut findings = checked.findings;

@@ -10,7 +10,7 @@ use labspec::check::{Recording, file_name};
 use labspec::report::printable_lines;
 use labspec::report::{nonfinite, printable_path, to_value};
 use labspec::source::read_text;
-use labspec::verify::judge::{Left, RecordedRun, RunTask, shown_as};
+use labspec::verify::judge::{Left, RecordedRun, RunTask, format_value};
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -187,9 +187,9 @@ pub(super) fn read(file: &Path) -> Result<Recording, Failure> {
             text(&row.claim, "claim")?,
             text(&row.run, "run")?,
         ]);
-        let taken = taken(row).map_err(|why| no(&format!("run {i}: {why}")))?;
-        if let Some(before) = recording.runs.insert(text(&row.hash, "hash")?, taken.clone())
-            && format!("{before:?}") != format!("{taken:?}")
+        let recorded = recorded(row).map_err(|why| no(&format!("run {i}: {why}")))?;
+        if let Some(before) = recording.runs.insert(text(&row.hash, "hash")?, recorded.clone())
+            && format!("{before:?}") != format!("{recorded:?}")
         {
             return Err(no(&format!("run {i} is recorded twice, with different numbers")));
         }
@@ -210,24 +210,24 @@ fn number(of: &RecordedNumber) -> Option<f64> {
 }
 
 /// What is recorded of a run.
-fn taken(row: &RecordingRow) -> Result<RecordedRun, String> {
-    let mut taken = RecordedRun::default();
+fn recorded(row: &RecordingRow) -> Result<RecordedRun, String> {
+    let mut recorded = RecordedRun::default();
     for (name, value) in row.values.valid().ok_or("it has no \"values\"")? {
         let x = value.valid().and_then(number);
         let x = x.ok_or_else(|| format!("the value of \"{name}\" is not a number"))?;
-        taken.values.insert(name.clone(), x);
+        recorded.values.insert(name.clone(), x);
     }
     for (name, why) in row.refused.valid().into_iter().flatten() {
         let why = why.valid().ok_or_else(|| format!("the reason for refusing \"{name}\" is not a text"))?;
-        taken.refused.insert(name.clone(), why.clone());
+        recorded.refused.insert(name.clone(), why.clone());
     }
     if let Some(n) = &row.warnings {
-        taken.warnings = *n.valid().ok_or("its \"warnings\" is not a count")?;
+        recorded.warnings = *n.valid().ok_or("its \"warnings\" is not a count")?;
     }
     if let Some(why) = &row.broke {
-        taken.broke = Some(why.valid().ok_or("its \"broke\" is not a text")?.clone());
+        recorded.broke = Some(why.valid().ok_or("its \"broke\" is not a text")?.clone());
     }
-    Ok(taken)
+    Ok(recorded)
 }
 
 impl<'c> JudgeReport<'c> {
@@ -295,7 +295,7 @@ pub(super) fn summary(file: &Path, engine: &str, results: &CourseResults) -> Str
     text.push_str(&left);
     text.push('\n');
     for Differing { file, owner, measure, ours, theirs, .. } in &all.differing {
-        let [ours, theirs] = [*ours, *theirs].map(shown_as);
+        let [ours, theirs] = [*ours, *theirs].map(format_value);
         let _ = writeln!(text, "  differs    {file}, {owner}: `{measure}` is {ours} here but {theirs} there");
     }
     let mut reasons: BTreeMap<&str, usize> = BTreeMap::new();

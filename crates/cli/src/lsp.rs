@@ -26,7 +26,7 @@ pub(super) struct Arguments {
 
 pub(super) fn lsp(a: &Arguments) -> Result<Outcome, Failure> {
     Policies::new(&a.policy)?;
-    // What cannot be read is said once, on standard error: editors keep it in their log.
+    // What cannot be read is reported once, on standard error: editors keep it in their log.
     let reported = RefCell::new(BTreeSet::new());
     let say = |why: Failure| {
         if reported.borrow_mut().insert(why.clone()) {

@@ -58,7 +58,7 @@ pub(super) fn check_report<'a>(
     sources: &[&SourceFile],
 ) -> CheckReport<'a> {
     let CourseResults { checked, ledger, suppressed, .. } = results;
-    let Summary { errors, warnings, notes } = Summary::of(&results.findings);
+    let Summary { errors, warnings, notes } = Summary::count(&results.findings);
     let claims = object(Subject::ALL.iter().map(|s| (key(s.as_str()), ledger.count(*s))));
     let allowed = suppressed.allowed.iter().map(|a| AllowedRow {
         code: a.finding.code,

@@ -254,11 +254,11 @@ pub(super) fn wanted(outputs: &[(OutputKind<'static>, &Option<PathBuf>)]) -> Vec
 /// One would overwrite a file that is read or another output, or cannot be written.
 pub(super) fn look_ahead(read: &[PathBuf], outputs: &[PlannedOutput]) -> Result<(), Failure> {
     let inputs: Vec<Identity> = read.iter().filter_map(|p| Identity::read(p).ok()).collect();
-    let mut taken: Vec<(Identity, String)> = Vec::new();
+    let mut written: Vec<(Identity, String)> = Vec::new();
     // Where standard output itself goes to a file.
     #[cfg(unix)]
     if let Some(meta) = fs::metadata("/dev/stdout").ok().filter(fs::Metadata::is_file) {
-        taken.push((Identity { place: PathBuf::new(), number: number(&meta) }, "the output".into()));
+        written.push((Identity { place: PathBuf::new(), number: number(&meta) }, "the output".into()));
     }
     for PlannedOutput { kind, path } in outputs {
         let named = format!("{} {}", kind.option(), printable_path(path));
@@ -276,12 +276,12 @@ pub(super) fn look_ahead(read: &[PathBuf], outputs: &[PlannedOutput]) -> Result<
                 "{named} would overwrite a file that labspec did not write with this option, so nothing was written; name another file, or remove that one first"
             ));
         }
-        if let Some((_, other)) = taken.iter().find(|(t, _)| t.is(&identity)) {
+        if let Some((_, other)) = written.iter().find(|(t, _)| t.is(&identity)) {
             return Err(format!(
                 "{named} and {other} are the same file, so nothing was written; name different ones"
             ));
         }
-        taken.push((identity, named));
+        written.push((identity, named));
     }
     Ok(())
 }

@@ -102,7 +102,7 @@ fn format_entries(entry: &Entry, n: usize) -> Option<String> {
 
 /// The last line: all claims in numbers, and the conclusion.
 pub(super) fn format_summary(results: &CourseResults) -> String {
-    let found = Summary::of(&results.findings);
+    let found = Summary::count(&results.findings);
     let found = if results.findings.is_empty() { String::new() } else { found.to_string() };
     let judgement = results.ledger.conclusion(&found);
     format!("{}: {judgement}{}", results.ledger.summary(), format_suppressed(results))
@@ -111,7 +111,7 @@ pub(super) fn format_summary(results: &CourseResults) -> String {
 /// The number of suppressed findings.
 fn format_suppressed(results: &CourseResults) -> String {
     let suppressed = &results.suppressed;
-    let ignored = Summary::of(&suppressed.ignored);
+    let ignored = Summary::count(&suppressed.ignored);
     let parts = [
         (suppressed.ignored.len(), format!("{ignored} ignored")),
         (

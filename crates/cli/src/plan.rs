@@ -66,8 +66,8 @@ fn percent(share: f64) -> String {
 fn human(report: &PlanReport) -> String {
     let mut text = String::new();
     let list = |names: Vec<&str>| if names.is_empty() { "nothing".to_string() } else { names.join(", ") };
-    let _ = writeln!(text, "reads   {}", list(names(&report.demand.reads)));
-    let _ = writeln!(text, "writes  {}\n", list(names(&report.demand.writes)));
+    let _ = writeln!(text, "reads   {}", list(names(&report.access.reads)));
+    let _ = writeln!(text, "writes  {}\n", list(names(&report.access.writes)));
     let measured = report.step.is_some();
     if measured {
         let _ = writeln!(text, "{:20} {:>6} {:>8}", "", "share", "ns");
@@ -393,8 +393,8 @@ fn machine(of: &PlanReport) -> Report<'_> {
     });
     let seen = of.pairs.seen;
     Report {
-        reads: names(&of.demand.reads),
-        writes: names(&of.demand.writes),
+        reads: names(&of.access.reads),
+        writes: names(&of.access.writes),
         stages: stages.collect(),
         step,
         pairs: pair_row(&of.pairs),

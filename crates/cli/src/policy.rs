@@ -249,7 +249,7 @@ fn read(path: &Path) -> Result<PolicyFile, Failure> {
     Ok(PolicyFile { select, ignore, deny, widgets, paths })
 }
 
-/// The tables of `[[paths]]`; none where nothing is said of paths.
+/// The tables of `[[paths]]`; none if the settings have none.
 fn of_paths(table: &toml::Table) -> Result<Vec<&toml::Table>, String> {
     let Some(value) = table.get("paths") else { return Ok(Vec::new()) };
     let tables = value.as_array().and_then(|list| list.iter().map(toml::Value::as_table).collect());
@@ -346,17 +346,17 @@ mod tests {
     fn mistakes_in_settings_are_told() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("labspec.toml");
-        let told = |text: &str| {
+        let error = |text: &str| {
             std::fs::write(&path, text).unwrap();
             read(&path).unwrap_err()
         };
-        assert!(told("ignor = []").contains("did you mean `ignore`"));
-        assert!(told("ignore = [\"duplicate-readouts\"]").contains("did you mean `duplicate-readout`"));
-        assert!(told("ignore = 3").contains("a list of texts"));
-        assert!(told("\nignore = ").contains("line 2"));
-        assert!(told("[[paths]]\nignore = []").contains("needs `match`"));
-        assert!(told("paths = 1").contains("[[paths]]"));
-        assert!(told("paths = [1]").contains("[[paths]]"));
-        assert!(told("widgets = \"playground\"").contains("a list of texts"));
+        assert!(error("ignor = []").contains("did you mean `ignore`"));
+        assert!(error("ignore = [\"duplicate-readouts\"]").contains("did you mean `duplicate-readout`"));
+        assert!(error("ignore = 3").contains("a list of texts"));
+        assert!(error("\nignore = ").contains("line 2"));
+        assert!(error("[[paths]]\nignore = []").contains("needs `match`"));
+        assert!(error("paths = 1").contains("[[paths]]"));
+        assert!(error("paths = [1]").contains("[[paths]]"));
+        assert!(error("widgets = \"playground\"").contains("a list of texts"));
     }
 }

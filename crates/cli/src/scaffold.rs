@@ -44,7 +44,7 @@ pub(super) fn scaffold(a: &Arguments) -> Result<Outcome, Failure> {
     let lesson = load_lesson_file(&a.lesson, &folder)?;
     let models = Models::new(folder.clone());
     let progress = Progress::new(a.format == Format::Human);
-    let all = look(&lesson, &models, &mut |text| progress.tell(text));
+    let all = look(&lesson, &models, &mut |text| progress.report(text));
     drop(progress);
     if interrupted() {
         return Ok(Outcome::Clean);
@@ -66,13 +66,12 @@ pub(super) fn scaffold(a: &Arguments) -> Result<Outcome, Failure> {
         Format::Human => print(&human(a, &lesson, &all))?,
         Format::Json => print_report("scaffold", &machine(&lesson, &all))?,
     }
-    let done =
-        |one: &Scaffold| matches!(&one.found, ScaffoldOutcome::Proposed { verdict, .. } if sound(verdict));
+    let done = |one: &Scaffold| matches!(&one.found, ScaffoldOutcome::Proposed { verdict, .. } if is_confirmed(verdict));
     Ok(if all.iter().all(done) { Outcome::Clean } else { Outcome::Findings })
 }
 
 /// Whether a proposal is true as it stands.
-fn sound(verdict: &Option<(Verdict, String)>) -> bool {
+fn is_confirmed(verdict: &Option<(Verdict, String)>) -> bool {
     verdict.as_ref().is_none_or(|(v, _)| matches!(v, Verdict::Verified | Verdict::Computed))
 }
 

@@ -76,7 +76,7 @@ fn owners(lesson: &LessonRecord) -> BTreeSet<String> {
 fn effects(owner: &str, old: &LessonRecord, new: &LessonRecord) -> Vec<ChangedValue> {
     let mut steps = Vec::new();
     let [a, b] = [old, new].map(|lesson| {
-        // Several about the same are told apart by their order.
+        // Several about the same are distinguished by their order.
         let mut counts: BTreeMap<(&str, &str), usize> = BTreeMap::new();
         let verdicts = lesson.verdicts.iter().filter(|v| v.owner == owner).map(|v| {
             let count = counts.entry((&v.subject, &v.what)).or_default();
@@ -122,7 +122,7 @@ fn causes_of(owner: &str, old: &LessonRecord, new: &LessonRecord) -> Vec<Changed
     differ("the text", c.map(|lab| &*lab.block), d.map(|lab| &*lab.block), &mut steps);
     let [x, y] = [c, d].map(|lab| lab.and_then(|lab| lab.model.as_deref()));
     differ("the model", x, y, &mut steps);
-    // What the model itself is has been said.
+    // What the model itself is has been reported.
     let model_changed = x != y;
     let [x, y] = [c, d].map(|lab| lab.and_then(|lab| lab.settings.as_ref()));
     settings("", x, y, model_changed, &mut steps);
@@ -159,7 +159,7 @@ fn parameters(s: Option<&SettingsRecord>) -> BTreeMap<(Option<&str>, &str), Valu
     options.chain(contacts).map(|(at, value)| (at, value.as_slice().into())).collect()
 }
 
-/// Settings of a run that begins. `model_changed`: that has been said.
+/// Settings of a run that begins. `model_changed`: that has been reported.
 fn settings(
     of: &str,
     a: Option<&SettingsRecord>,

@@ -50,7 +50,7 @@ enum Format {
     Json,
 }
 
-/// What is to be said of the snapshot of a lesson.
+/// The findings about the snapshot of a lesson.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Standing {
     /// None was stored.
@@ -245,7 +245,7 @@ fn store(one: &mut Looked, everything: bool) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What is said of a lab that is not as stored.
+/// The messages about a lab that is not as stored.
 fn about(lab: &RenewedLab) -> String {
     let snapshot = &lab.result;
     let mut text = format!(
@@ -260,7 +260,7 @@ fn about(lab: &RenewedLab) -> String {
     text
 }
 
-/// Everything, for people. What was asked about is not told again.
+/// Everything, for people. What was asked about is not repeated.
 fn summary(all: &[Looked], asked: bool) -> String {
     let mut text = String::new();
     let (mut same, mut open) = (0, 0);

@@ -55,18 +55,18 @@ pub(super) fn clear_progress() {
 
 /// One line on a terminal that says what long work is at, and is gone when it ends.
 pub(super) struct Progress {
-    is_shown: bool,
+    is_visible: bool,
 }
 
 impl Progress {
     /// Shown where a person looks at the terminal.
     pub(super) fn new(for_people: bool) -> Progress {
-        Progress { is_shown: for_people && io::stderr().is_terminal() }
+        Progress { is_visible: for_people && io::stderr().is_terminal() }
     }
 
     /// Says what is being done now.
-    pub(super) fn tell(&self, text: &str) {
-        if self.is_shown {
+    pub(super) fn report(&self, text: &str) {
+        if self.is_visible {
             show_progress(text);
         }
     }
@@ -74,6 +74,6 @@ impl Progress {
 
 impl Drop for Progress {
     fn drop(&mut self) {
-        self.tell("");
+        self.report("");
     }
 }

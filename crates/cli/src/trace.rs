@@ -38,7 +38,7 @@ pub(super) fn trace(a: &Arguments) -> Result<Outcome, Failure> {
     let lesson = load_lesson_file(&a.lesson, &folder)?;
     let models = Models::new(folder);
     let progress = Progress::new(a.format == Format::Human);
-    let found = trace::trace(&lesson, &models, &mut |text| progress.tell(text));
+    let found = trace::trace(&lesson, &models, &mut |text| progress.report(text));
     drop(progress);
     if interrupted() {
         return Ok(Outcome::Clean);

@@ -5,6 +5,7 @@
 
 // A test that fails says why.
 #![allow(clippy::panic, clippy::unwrap_used)]
+#![allow(clippy::too_many_lines, reason = "a test is one sequence of steps")]
 
 use labspec_core::nalgebra::{self as algebra, FiniteDifferences, Transition, transition_fd};
 use labspec_core::{self as core, AccessSet, Data, Error, Integrator, Model, Plan, reflect};
@@ -91,7 +92,7 @@ fn what_mujoco_computes() {
         check(&of_point.translation, "jac_p", 1e-10);
         check(&of_point.rotation, "jac_r", 1e-10);
         let before = data.clone();
-        for (centered, way) in [(false, "forward"), (true, "centered")] {
+        for (centered, scheme) in [(false, "forward"), (true, "centered")] {
             let eps = case["eps"].as_f64().unwrap();
             let how = FiniteDifferences { eps, centered, sensors: true };
             let ours = transition_fd(&model, &data, &how).unwrap();
@@ -101,7 +102,7 @@ fn what_mujoco_computes() {
                 [&ours.a, &ours.b, &ours.c, &ours.d].into_iter().zip(shapes).zip("abcd".chars())
             {
                 assert_eq!(matrix.shape(), shape);
-                let key = format!("{key}_{way}");
+                let key = format!("{key}_{scheme}");
                 if matrix.nrows() == n {
                     check(matrix, &key, 1e-6);
                     continue;
@@ -403,18 +404,18 @@ fn what_a_plan_left_out_is_an_error_and_what_it_kept_is_the_same() {
 #[test]
 fn errors_of_a_linearization() {
     let (model, data) = tree();
-    let told = |data: &Data, eps: f64| {
+    let error_of = |data: &Data, eps: f64| {
         let how = FiniteDifferences { eps, ..FiniteDifferences::default() };
         transition_fd(&model, data, &how).unwrap_err().to_string()
     };
-    assert_eq!(told(&data, 0.0), "`eps` of finite differences must be above zero");
-    assert_eq!(told(&data, f64::NAN), "`eps` of finite differences must be above zero");
+    assert_eq!(error_of(&data, 0.0), "`eps` of finite differences must be above zero");
+    assert_eq!(error_of(&data, f64::NAN), "`eps` of finite differences must be above zero");
     let mut bad = data.clone();
     bad.edit().qvel[2] = 1e11;
-    assert!(told(&bad, 1e-6).contains("must be finite"));
+    assert!(error_of(&bad, 1e-6).contains("must be finite"));
     let mut spent = data.clone();
     core::limit(&mut spent, 1);
-    assert!(told(&spent, 1e-6).contains("work limit"));
+    assert!(error_of(&spent, 1e-6).contains("work limit"));
     let (other, _) = tree();
     assert!(matches!(transition_fd(&other, &data, &FiniteDifferences::default()), Err(Error::ForeignData)));
 }

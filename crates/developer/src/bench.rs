@@ -75,10 +75,10 @@ fn specialized_algorithm() -> impl TypedValueParser<Value = TreeAlgorithm> {
 
 /// Measures the steps of a lab, or of a model as a lab that shows nothing. Ctrl-C ends it after the last finished repetition.
 pub fn measure_steps(lab: &Lab, model: &Model, programs: &Programs, options: &Options) -> StepTime {
-    let reads = if options.full { FieldSet::ALL } else { programs.demand.reads };
-    let demand = AccessSet { reads, ..programs.demand };
+    let reads = if options.full { FieldSet::ALL } else { programs.access.reads };
+    let access = AccessSet { reads, ..programs.access };
     let algorithms = options.without.iter().fold(TreeAlgorithms::ALL, |all, &one| all.without(one));
-    let plan = Plan::by_algorithms(model, &demand, algorithms);
+    let plan = Plan::by_algorithms(model, &access, algorithms);
     let start = Start { plan: Some(plan), ..Start::of_lab(lab) };
     let mut session = Session::start(programs, model, start);
     let steps = options.steps.clamp(1, MAX_STEPS);

@@ -60,7 +60,7 @@ pub struct FieldMention {
     pub span: Span,
 }
 
-/// All names of objects in a text, in order. Where it is broken, those that can be told.
+/// All names of objects in a text, in order. Where it is broken, those that can be recognized.
 pub fn names_in(schema: &dyn Schema, source: &str) -> Vec<NamedObject> {
     let all = Tokens::read(schema, source);
     let named = (0..all.list.len()).filter_map(|i| all.named(i));

@@ -1,4 +1,4 @@
-//! Where programs run: variables, lists and room for computing.
+//! Where programs run: variables, lists and registers.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -10,8 +10,8 @@ use crate::runtime_event::RuntimeEvent;
 use crate::value::Value;
 use crate::watch::Watch;
 
-/// Where programs run: the `ctx` variables, the results of aggregates and room for computing. One for all
-/// programs of a lab; a numeric program allocates nothing once the room has grown.
+/// Where programs run: the `ctx` variables, the results of aggregates and registers. One for all
+/// programs of a lab; a numeric program allocates nothing once the registers have grown.
 #[derive(Clone, Debug, Default)]
 pub struct Context {
     /// The lists, records and functions that values refer to.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::schema::Touch;
+use crate::schema::AccessedFields;
 use crate::types::{FieldKey, FunctionId};
 
 /// Elements of a field that a program reads or writes.
@@ -77,11 +77,11 @@ impl Effects {
         self.can_throw = true;
     }
 
-    pub(crate) fn call(&mut self, function: FunctionId, reads: &Touch, writes: &Touch) {
+    pub(crate) fn call(&mut self, function: FunctionId, reads: &AccessedFields, writes: &AccessedFields) {
         add(&mut self.calls, function);
         self.can_throw = true;
-        touch(reads, &mut self.reads, &mut self.reads_everything);
-        touch(writes, &mut self.writes, &mut self.writes_everything);
+        add_accessed(reads, &mut self.reads, &mut self.reads_everything);
+        add_accessed(writes, &mut self.writes, &mut self.writes_everything);
     }
 
     pub(crate) fn read_global(&mut self, slot: u32) {
@@ -99,11 +99,11 @@ fn add<T: PartialEq>(list: &mut Vec<T>, item: T) {
     }
 }
 
-fn touch(touch: &Touch, list: &mut Vec<Access>, everything: &mut bool) {
-    match touch {
-        Touch::Nothing => {}
-        Touch::Everything => *everything = true,
-        Touch::Fields(fields) => {
+fn add_accessed(accessed: &AccessedFields, list: &mut Vec<Access>, everything: &mut bool) {
+    match accessed {
+        AccessedFields::Nothing => {}
+        AccessedFields::Everything => *everything = true,
+        AccessedFields::Fields(fields) => {
             let whole = |a: &&Access| a.first == 0 && a.count.is_none();
             let whole_fields: BTreeSet<FieldKey> = list.iter().filter(whole).map(|a| a.field).collect();
             let new = fields.iter().filter(|f| !whole_fields.contains(f));

@@ -92,7 +92,8 @@ pub use program::{Aggregate, Program};
 pub use reference::language_page;
 pub use runtime_event::{EventKind, RuntimeError, RuntimeEvent};
 pub use schema::{
-    AngleAdvice, Entry, Field, FieldKind, FunctionInfo, Help, Param, ResultDimension, Role, Schema, Touch,
+    AccessedFields, AngleAdvice, Entry, Field, FieldKind, FunctionInfo, Help, Param, ResultDimension, Role,
+    Schema,
 };
 pub use types::{CollectionId, Elem, FieldKey, FunctionId, ObjectId, Type};
 pub use value::{Ref, Value, View};

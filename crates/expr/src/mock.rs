@@ -245,8 +245,8 @@ impl Schema for Mock {
             members: Vec::new(),
             length: None,
             aggregate: false,
-            reads: Touch::Nothing,
-            writes: Touch::Nothing,
+            reads: AccessedFields::Nothing,
+            writes: AccessedFields::Nothing,
             gives: ResultDimension::Unknown,
             doc: doc.into(),
         };
@@ -254,13 +254,13 @@ impl Schema for Mock {
         match function.0 {
             0 => FunctionInfo {
                 implied: true,
-                reads: Touch::Everything,
-                writes: Touch::Fields(vec![FieldKey(7)]),
+                reads: AccessedFields::Everything,
+                writes: AccessedFields::Fields(vec![FieldKey(7)]),
                 ..info("mj.mj_setConst", both, Type::Void, "computes what follows from masses and inertias")
             },
             1 => FunctionInfo {
                 optional: 1,
-                writes: Touch::Everything,
+                writes: AccessedFields::Everything,
                 ..info(
                     "mj.mj_resetDataKeyframe",
                     [both, vec![Param::Number]].concat(),

@@ -1,4 +1,4 @@
-//! What the operators mean to numbers, said once: folding, formulas (by row and by column) and the machine all ask here.
+//! What the operators mean to numbers, defined once: folding, formulas (by row and by column) and the machine all ask here.
 //! The functions of `Math` stand in a table of their own, `math`.
 //!
 //! Everything is inlined: where an operator is known while this crate is compiled, nothing is left of the choice.

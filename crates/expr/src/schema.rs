@@ -90,7 +90,7 @@ pub enum FieldKind {
 
 /// What a function of the host touches.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub enum Touch {
+pub enum AccessedFields {
     /// Nothing.
     #[default]
     Nothing,
@@ -120,9 +120,9 @@ pub struct FunctionInfo {
     /// The arguments are sub-programs that the host evaluates over many samples, see [`crate::Aggregate`].
     pub aggregate: bool,
     /// What it reads.
-    pub reads: Touch,
+    pub reads: AccessedFields,
     /// What it writes.
-    pub writes: Touch,
+    pub writes: AccessedFields,
     /// What the numbers that it gives measure.
     pub gives: ResultDimension,
     /// One line of documentation.

@@ -13,7 +13,7 @@ use std::sync::Arc;
 pub enum Applicability {
     /// A program: it changes only what the author certainly meant.
     Safe,
-    /// A program that was told to: it is a guess, as good as any.
+    /// A program that was asked to: it is a guess.
     Unsafe,
     /// Nobody but the author: it shows how the right thing looks.
     Display,

@@ -178,8 +178,8 @@ impl Example {
         text.into_bytes()
     }
 
-    /// The text as it is shown: what is repeated is said, not repeated.
-    pub fn shown(&self) -> String {
+    /// The rendered text: a repetition is named, not repeated.
+    pub fn render(&self) -> String {
         let text = match self {
             Example::Repeated(text, times) => {
                 format!("{}\n… and so on, {times} times", text.trim_end())
@@ -226,7 +226,7 @@ impl Rule {
             text.push_str(&format!(
                 "\n## {title}\n\n````{}\n{}\n````\n",
                 example.language(),
-                example.shown().trim_end()
+                example.render().trim_end()
             ));
         }
         text

@@ -15,7 +15,7 @@ use std::path::Path;
 #[derive(Debug)]
 pub struct Checker {
     models: scene::Models,
-    depth: CheckLevel,
+    level: CheckLevel,
     rules: Rules,
     sources: Sources,
 }
@@ -59,14 +59,14 @@ impl Checker {
     /// A checker of lessons whose labs name these models: a map, a closure ([`Models`](crate::Models)), or a folder
     /// ([`ModelFolder`]). Only a folder is ever looked for among files.
     pub fn new(models: impl Into<ModelFolder>) -> Checker {
-        let depth = CheckLevel::FULL;
+        let level = CheckLevel::FULL;
         let (rules, sources) = (Rules::default(), Sources::default());
-        Checker { models: scene::Models::new(models.into()), depth, rules, sources }
+        Checker { models: scene::Models::new(models.into()), level, rules, sources }
     }
 
     /// The same without runs of labs or without verdicts on claims: quicker, and it says less.
-    pub fn depth(mut self, depth: CheckLevel) -> Checker {
-        self.depth = depth;
+    pub fn level(mut self, level: CheckLevel) -> Checker {
+        self.level = level;
         self
     }
 
@@ -101,7 +101,7 @@ impl Checker {
         lint::withhold_fixes(&lesson, &mut of_rules);
         lesson.findings.extend(of_rules.into_iter().map(|f| f.at(&lesson.file)));
         finding::sort(&mut lesson.findings);
-        let checked = check::check_lesson(lesson, &self.models, self.depth);
+        let checked = check::check_lesson(lesson, &self.models, self.level);
         let mut findings = lint::check_course(&[&checked.lesson]);
         findings.extend(checked.findings.iter().cloned());
         findings.extend(self.models.take_findings());

@@ -294,39 +294,8 @@ impl Ledger {
     pub fn summary(&self) -> String {
         let mut parts = Vec::new();
         for subject in Subject::ALL {
-            let c = self.count(subject);
-            let total = c.simulated + c.computed + c.wrong + c.unchecked;
-            match subject {
-                Subject::File => tell(&mut parts, subject, [(total, ""), (0, "")]),
-                // Runs are the means of the claims that read them: they are told where one breaks.
-                Subject::Run => {
-                    tell(&mut parts, subject, [(c.wrong, "broken"), (c.unchecked, "impossible")]);
-                    tell(&mut parts, subject, [(c.left_out, "left out"), (0, "")]);
-                }
-                Subject::Widget => {
-                    tell(&mut parts, subject, [(c.not_claimed, "not run"), (c.left_out, "not checked")]);
-                }
-                Subject::Model => {
-                    tell(&mut parts, subject, [(c.computed, "loaded"), (c.wrong + c.unchecked, "refused")])
-                }
-                Subject::Lab => {
-                    tell(&mut parts, subject, [(c.simulated, "run"), (c.wrong, "broken")]);
-                    tell(&mut parts, subject, [(c.unchecked, "not run in full"), (c.left_out, "left out")]);
-                }
-                Subject::Option => tell(&mut parts, subject, [(c.not_claimed, "not decided"), (0, "")]),
-                Subject::Snapshot => {
-                    tell(&mut parts, subject, [(c.simulated, "as stored"), (c.wrong, "not as stored")]);
-                    tell(
-                        &mut parts,
-                        subject,
-                        [(c.unchecked, "could not be checked"), (c.left_out, "left out")],
-                    );
-                }
-                Subject::Answer | Subject::Quote | Subject::ClosedForm => {
-                    tell(&mut parts, subject, [(c.simulated, "verified"), (c.computed, "computed")]);
-                    tell(&mut parts, subject, [(c.wrong, "wrong"), (c.unchecked, "could not be checked")]);
-                    tell(&mut parts, subject, [(c.not_claimed, "without a check"), (c.left_out, "left out")]);
-                }
+            for counts in summary_counts(subject, &self.count(subject)) {
+                push_counts(&mut parts, subject, counts);
             }
         }
         let baselined = self.baselined();
@@ -355,8 +324,8 @@ impl Ledger {
         }
     }
 
-    /// Marks what is false or could not be checked as known, where somebody says so; and files in which something known is wrong.
-    pub fn know(&mut self, baselined: impl Fn(&Entry) -> bool) {
+    /// Marks entries that are false or could not be checked as baselined, where `baselined` says so, and the files of such entries.
+    pub fn mark_baselined(&mut self, baselined: impl Fn(&Entry) -> bool) {
         for entry in &mut self.entries {
             let bad = matches!(entry.state, State::False | State::Unchecked);
             let file = entry.subject == Subject::File && matches!(entry.state, State::True(_));
@@ -367,7 +336,34 @@ impl Ledger {
     }
 }
 
-fn tell(parts: &mut Vec<String>, subject: Subject, counts: [(usize, &str); 2]) {
+/// The counts of a subject that the summary names, each pair with the words behind the numbers.
+fn summary_counts(subject: Subject, c: &Count) -> Vec<[(usize, &'static str); 2]> {
+    match subject {
+        Subject::File => vec![[(c.simulated + c.computed + c.wrong + c.unchecked, ""), (0, "")]],
+        // Runs are the means of the claims that read them: they are reported where one breaks.
+        Subject::Run => {
+            vec![[(c.wrong, "broken"), (c.unchecked, "impossible")], [(c.left_out, "left out"), (0, "")]]
+        }
+        Subject::Widget => vec![[(c.not_claimed, "not run"), (c.left_out, "not checked")]],
+        Subject::Model => vec![[(c.computed, "loaded"), (c.wrong + c.unchecked, "refused")]],
+        Subject::Lab => vec![
+            [(c.simulated, "run"), (c.wrong, "broken")],
+            [(c.unchecked, "not run in full"), (c.left_out, "left out")],
+        ],
+        Subject::Option => vec![[(c.not_claimed, "not decided"), (0, "")]],
+        Subject::Snapshot => vec![
+            [(c.simulated, "as stored"), (c.wrong, "not as stored")],
+            [(c.unchecked, "could not be checked"), (c.left_out, "left out")],
+        ],
+        Subject::Answer | Subject::Quote | Subject::ClosedForm => vec![
+            [(c.simulated, "verified"), (c.computed, "computed")],
+            [(c.wrong, "wrong"), (c.unchecked, "could not be checked")],
+            [(c.not_claimed, "without a check"), (c.left_out, "left out")],
+        ],
+    }
+}
+
+fn push_counts(parts: &mut Vec<String>, subject: Subject, counts: [(usize, &str); 2]) {
     for (n, word) in counts.into_iter().filter(|(n, _)| *n > 0) {
         let mut part = counted(n, subject.as_str());
         let space = if word.is_empty() { "" } else { " " };
@@ -433,25 +429,29 @@ mod tests {
             }
             let good = State::True(Evidence::Simulated);
             (0..count(4)).for_each(|_| ledger.add(entry(Subject::Quote, good)));
-            let said = ledger.conclusion("");
+            let message = ledger.conclusion("");
             for (&(_, one, more), digit) in states.iter().zip(0..) {
                 assert_eq!(
-                    said.contains(one),
+                    message.contains(one),
                     count(digit) == 1 || one == more && count(digit) > 0,
-                    "{said}"
+                    "{message}"
                 );
                 assert_eq!(
-                    said.contains(more),
+                    message.contains(more),
                     count(digit) == 2 || one == more && count(digit) > 0,
-                    "{said}"
+                    "{message}"
                 );
             }
             let bad = count(0) + count(1) > 0;
-            assert_eq!(said.contains("the checked part has no problems"), !bad && count(2) > 0, "{said}");
+            assert_eq!(
+                message.contains("the checked part has no problems"),
+                !bad && count(2) > 0,
+                "{message}"
+            );
             let clean = (0..4).all(|digit| count(digit) == 0);
-            assert_eq!(said == "no problems found", clean && count(4) > 0, "{said}");
-            assert_eq!(said == "nothing to check", code == 0, "{said}");
-            assert_eq!(ledger.outcome() == Outcome::Findings, bad, "{said}");
+            assert_eq!(message == "no problems found", clean && count(4) > 0, "{message}");
+            assert_eq!(message == "nothing to check", code == 0, "{message}");
+            assert_eq!(ledger.outcome() == Outcome::Findings, bad, "{message}");
         }
         let mut ledger = Ledger::default();
         ledger.add(entry(Subject::File, State::False));

@@ -75,7 +75,7 @@ mod tests {
 
     #[test]
     fn what_acts_on_a_terminal_is_written_out() {
-        for (text, shown) in [
+        for (text, printed) in [
             ("plain – “α” ⚠️ 日本", "plain – “α” ⚠️ 日本"),
             ("a\u{1b}[2Jb", "a\\u{1b}[2Jb"),
             ("refuted\rverified", "refuted\\rverified"),
@@ -84,7 +84,7 @@ mod tests {
             ("\u{202e}deifirev\u{2066}\u{200f}\u{61c}", "\\u{202e}deifirev\\u{2066}\\u{200f}\\u{61c}"),
             ("a\u{2028}b\u{200b}c\u{feff}\u{e0041}", "a\\u{2028}b\\u{200b}c\\u{feff}\\u{e0041}"),
         ] {
-            assert_eq!(printable(text), shown);
+            assert_eq!(printable(text), printed);
         }
         assert_eq!(printable_lines("a\nb\r\u{1b}"), "a\nb\\r\\u{1b}");
     }
@@ -93,8 +93,8 @@ mod tests {
     fn json_keeps_its_meaning() {
         let value = serde_json::json!({"a\u{9b}": ["\u{202e}x\u{e0041}\n\u{1b}", 1.5]});
         let json = serde_json::to_string_pretty(&value).unwrap();
-        let shown = printable_json(&json);
-        assert!(shown.is_ascii(), "{shown}");
-        assert_eq!(serde_json::from_str::<serde_json::Value>(&shown).unwrap(), value);
+        let printed = printable_json(&json);
+        assert!(printed.is_ascii(), "{printed}");
+        assert_eq!(serde_json::from_str::<serde_json::Value>(&printed).unwrap(), value);
     }
 }

@@ -17,7 +17,7 @@ pub fn pages() -> Vec<(&'static str, String)> {
         ("format.md", format!("{GENERATED}\n{}", format::page())),
         ("fields.md", fields()),
         ("functions.md", function_list()),
-        ("language.md", format!("{GENERATED}\n{}", labspec_expr::language_page(&labspec_bind::WORDS))),
+        ("language.md", format!("{GENERATED}\n{}", labspec_expr::language_page(&labspec_bind::HOST_TERMS))),
         ("codes.md", codes()),
         ("compatibility.md", compatibility()),
     ]

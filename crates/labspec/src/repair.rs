@@ -40,9 +40,9 @@ pub fn traces(lesson: &Lesson, models: &Models) -> Traces {
             continue;
         }
         let Some((model, programs, 0)) = check::bind(lab, models, &mut Vec::new()) else { continue };
-        let Ok(own) = run::count_steps(lab, None, None, model.opt.timestep) else { continue };
+        let Ok(steps) = run::count_steps(lab, None, None, model.opt.timestep) else { continue };
         for (number, options) in runs(lab).into_iter().enumerate() {
-            let options = RunOptions { steps: Some(own.min(STEPS)), ..options };
+            let options = RunOptions { steps: Some(steps.min(STEPS)), ..options };
             let Ok(table) = run::run(lab, &model, &programs, &options) else { continue };
             for column in 0..table.columns.len() {
                 let samples = table.rows.iter().filter_map(|row| row.get(column)).map(written).collect();

@@ -62,20 +62,20 @@ fn check_blocks(
     blocks: &mut BTreeMap<String, Vec<Finding>>,
     models: &Models,
 ) -> Vec<Finding> {
-    let mut kept = BTreeMap::new();
+    let mut next_blocks = BTreeMap::new();
     let mut findings = Vec::new();
     let models_now = models_hash(models);
     for unit in units(lesson) {
         let key = format!("{models_now}\0{}", block_key(lesson, &unit));
-        let cached = blocks.get(&key).or_else(|| kept.get(&key)).cloned();
+        let cached = blocks.get(&key).or_else(|| next_blocks.get(&key)).cloned();
         let found = cached.unwrap_or_else(|| check_block(lesson, &unit, models));
         findings.extend(found.iter().map(|f| moved(f, |at| at + unit.start)));
         // A finding that points out of its block rests on more than the block.
         if found.iter().all(|f| spans(f).all(|span| span.end <= unit.len())) {
-            kept.insert(key, found);
+            next_blocks.insert(key, found);
         }
     }
-    *blocks = kept;
+    *blocks = next_blocks;
     let found = LabOutcome::from_findings(findings);
     check::join(lesson.clone(), found, CheckLevel::STATIC).findings
 }
@@ -162,7 +162,7 @@ fn check_block(lesson: &Lesson, unit: &Range<usize>, models: &Models) -> Vec<Fin
         snapshot: None,
         place: None,
     };
-    let found = check::examine(&part, models, CheckLevel::STATIC).findings;
+    let found = check::run_checks(&part, models, CheckLevel::STATIC).findings;
     let inside = found.into_iter().filter(|f| (unit.start..=unit.end).contains(&f.span.start));
     inside.map(|f| moved(&f, |at| at.wrapping_sub(unit.start))).collect()
 }

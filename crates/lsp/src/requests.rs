@@ -215,8 +215,8 @@ fn rename_at(state: &mut ServerState<'_>, params: RenameParams) -> Answer<FileEd
     let Some((name, _)) = name_at(state, &params.text_document_position)? else {
         return Err(failed("there is no name of the model here".into()));
     };
-    let taken = QualifiedName { name: new.clone(), ..name.clone() };
-    if new != name.name && find_occurrences(state, &taken).all.iter().any(|occurrence| occurrence.defines) {
+    let renamed = QualifiedName { name: new.clone(), ..name.clone() };
+    if new != name.name && find_occurrences(state, &renamed).all.iter().any(|occurrence| occurrence.defines) {
         return Err(failed(format!("a {} `{new}` already exists", name.noun)));
     }
     rename(&name, &find_occurrences(state, &name), &new, &search_scope(state)).map_err(failed)

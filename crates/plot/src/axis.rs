@@ -101,7 +101,7 @@ pub(super) fn range(data: Option<(f64, f64)>, low: Option<f64>, high: Option<f64
         let margin = 0.1 * magnitude;
         (a, b) = if free_low || !free_high { (a - margin, b + margin) } else { (a, b + 2.0 * margin) };
     } else if b - a < 1e-13 * magnitude {
-        // Closer than doubles can be told apart in a picture.
+        // Closer than doubles can be distinguished in a picture.
         (a, b) = (a - 1e-13 * magnitude, b + 1e-13 * magnitude);
     }
     Range { low: a, high: b, free_low, free_high }
@@ -112,12 +112,12 @@ pub(super) fn range(data: Option<(f64, f64)>, low: Option<f64>, high: Option<f64
 pub(super) fn linear(range: Range, count: usize, slack: f64) -> Axis {
     let Range { mut low, mut high, free_low, free_high } = range;
     let step = TickStep::over((high - low) / count.max(1) as f64);
-    let room = slack * (high - low);
+    let allowance = slack * (high - low);
     let (below, above) = ((low / step.size() + 1e-9).floor(), (high / step.size() - 1e-9).ceil());
-    if free_low && low - step.value(below) <= room {
+    if free_low && low - step.value(below) <= allowance {
         low = step.value(below);
     }
-    if free_high && step.value(above) - high <= room {
+    if free_high && step.value(above) - high <= allowance {
         high = step.value(above);
     }
     let first = (low / step.size() - 1e-9).ceil() as i64;

@@ -139,15 +139,15 @@ pub(super) fn segment(from: Point, to: Point, frame: &Frame) -> Option<(Point, P
         (dy, frame.bottom - from.1),
     ];
     let (mut enter, mut leave) = (0.0f64, 1.0f64);
-    for (towards, room) in edges {
+    for (towards, distance) in edges {
         if towards == 0.0 {
-            if room < 0.0 {
+            if distance < 0.0 {
                 return None;
             }
         } else if towards < 0.0 {
-            enter = enter.max(room / towards);
+            enter = enter.max(distance / towards);
         } else {
-            leave = leave.min(room / towards);
+            leave = leave.min(distance / towards);
         }
     }
     if enter > leave {
@@ -182,7 +182,7 @@ fn simplify(piece: &[Point]) -> Vec<Point> {
             open.extend([(start, farthest.1), (farthest.1, end)]);
         }
     }
-    piece.iter().zip(keep).filter(|(_, is_kept)| *is_kept).map(|(point, _)| *point).collect()
+    piece.iter().zip(keep).filter(|(_, selected)| *selected).map(|(point, _)| *point).collect()
 }
 
 /// The distance of a point from the line between two others.
@@ -262,11 +262,11 @@ mod tests {
             mut samples in prop::collection::vec((0.0..100.0f64, 0.0..100.0f64), 1..3000)
         ) {
             samples.sort_by(|a, b| a.0.total_cmp(&b.0));
-            let is_kept = drawn(&samples).concat();
-            prop_assert!(is_kept.len() <= 2 * 101 + 4);
-            prop_assert!(is_kept.iter().all(|p| FRAME.holds(*p)));
+            let points = drawn(&samples).concat();
+            prop_assert!(points.len() <= 2 * 101 + 4);
+            prop_assert!(points.iter().all(|p| FRAME.holds(*p)));
             let top = |points: &[Point]| points.iter().fold(f64::MAX, |m, p| m.min(p.1));
-            prop_assert!((top(&is_kept) - top(&samples)).abs() <= TOLERANCE);
+            prop_assert!((top(&points) - top(&samples)).abs() <= TOLERANCE);
         }
 
         #[test]

@@ -138,8 +138,8 @@ fn label(canvas: &mut Canvas, outer: &Frame, x: &Axis, y: &Axis, words: &Words) 
         canvas.text((outer.left, EDGE + TITLE - 2.0), &title);
         canvas.close();
     }
-    let taken = y.note.as_ref().map_or(0.0, |note| EDGE + note.width(TICK) + 10.0);
-    let start = outer.left.max(taken);
+    let note_width = y.note.as_ref().map_or(0.0, |note| EDGE + note.width(TICK) + 10.0);
+    let start = outer.left.max(note_width);
     let row = outer.top - 11.0;
     canvas.open(&style(LABEL, INK, "start"));
     let ylabel = fit(&clean(words.ylabel), LABEL, end - start);
@@ -151,12 +151,12 @@ fn label(canvas: &mut Canvas, outer: &Frame, x: &Axis, y: &Axis, words: &Words) 
         shared(canvas, note, (EDGE, row), "start");
     }
 
-    let (row, room) = (outer.bottom + 35.0, outer.width());
-    let taken = x.note.as_ref().map_or(0.0, |note| note.width(TICK) + 10.0);
-    let xlabel = fit(&clean(words.xlabel), LABEL, (room - taken).max(room / 2.0));
+    let (row, available) = (outer.bottom + 35.0, outer.width());
+    let note_width = x.note.as_ref().map_or(0.0, |note| note.width(TICK) + 10.0);
+    let xlabel = fit(&clean(words.xlabel), LABEL, (available - note_width).max(available / 2.0));
     if !xlabel.is_empty() {
-        let wish = outer.left + room / 2.0;
-        let most = outer.right - taken - width(&xlabel, LABEL) / 2.0;
+        let wish = outer.left + available / 2.0;
+        let most = outer.right - note_width - width(&xlabel, LABEL) / 2.0;
         canvas.open(&style(LABEL, INK, "middle"));
         canvas.text((wish.min(most), row), &xlabel);
         canvas.close();

@@ -33,23 +33,23 @@ pub(super) fn arrange(
     wishes.sort_by_key(|wish| !wish.first);
     wishes.dedup_by(|a, b| a.point == b.point && a.text == b.text);
     let marks: Vec<Frame> = marks.iter().map(|p| around(*p, MARK - 1.0, MARK - 1.0)).collect();
-    let mut taken: Vec<Frame> = Vec::new();
+    let mut occupied: Vec<Frame> = Vec::new();
     let mut placed = Vec::new();
     for wish in wishes.into_iter().filter(|w| !w.text.is_empty()) {
-        let free = |room: &Frame| {
-            frame.left <= room.left
-                && room.right <= frame.right
-                && frame.top <= room.top
-                && room.bottom <= frame.bottom
-                && !taken.iter().chain(&marks).any(|other| other.overlaps(room))
+        let free = |slot: &Frame| {
+            frame.left <= slot.left
+                && slot.right <= frame.right
+                && frame.top <= slot.top
+                && slot.bottom <= frame.bottom
+                && !occupied.iter().chain(&marks).any(|other| other.overlaps(slot))
                 && !curves.iter().flat_map(|c| c.windows(2)).any(|pair| match pair {
-                    [a, b] => segment(*a, *b, room).is_some(),
+                    [a, b] => segment(*a, *b, slot).is_some(),
                     _ => false,
                 })
         };
-        let Some(room) = candidates(&wish).into_iter().find(free) else { continue };
-        taken.push(room);
-        placed.push(((room.left + 1.0, room.bottom - 2.0), wish.text));
+        let Some(slot) = candidates(&wish).into_iter().find(free) else { continue };
+        occupied.push(slot);
+        placed.push(((slot.left + 1.0, slot.bottom - 2.0), wish.text));
     }
     placed
 }

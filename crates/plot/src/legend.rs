@@ -53,17 +53,17 @@ pub(super) fn plan(entries: Vec<Entry>, size: f64, height: f64, beside_plot: boo
 }
 
 fn rows(entries: Vec<Entry>, size: f64, height: f64) -> Plan {
-    let room = size - 2.0 * EDGE;
+    let available = size - 2.0 * EDGE;
     let most = (0.4 * height / ROW).floor().max(1.0);
     let mut plan = Plan { right: 0.0, below: 0.0, entries: Vec::new(), more: None };
     let (mut x, mut row) = (0.0, 0.0);
     let count = entries.len();
     for (i, entry) in entries.into_iter().enumerate() {
-        let label = fit(&entry.label, LABEL, room - SAMPLE);
+        let label = fit(&entry.label, LABEL, available - SAMPLE);
         let wide = SAMPLE + width(&label, LABEL);
         // The last row keeps room for the number of curves that found none, if any are left.
         let reserve = if row + 1.0 >= most && i + 1 < count { BETWEEN + 60.0 } else { 0.0 };
-        if x > 0.0 && x + wide + reserve > room {
+        if x > 0.0 && x + wide + reserve > available {
             if row + 1.0 >= most {
                 plan.more = Some((x, row * ROW, count - i));
                 break;

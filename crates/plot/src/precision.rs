@@ -91,7 +91,7 @@ struct Run<'a> {
     spread: Option<[f64; 2]>,
 }
 
-/// The least positive value that is told from zero.
+/// The least positive value that is distinguished from zero.
 const TINY: f64 = 1e-300;
 
 /// Draws a work–precision chart as a complete SVG document. Any data give a picture; without runs it says so.
@@ -280,8 +280,8 @@ fn plot(canvas: &mut Canvas, chart: &WorkPrecision, methods: &[Vec<Placed>], fra
     let lines: Vec<Vec<Point>> = curves.into_iter().flatten().collect();
     canvas.open(&style(SMALL, SOFT, "start"));
     // To the right, a label may reach into the space before the legend.
-    let room = Frame { right: frame.right + 8.0, ..*frame };
-    for (at, text) in arrange(wishes, &marks, &lines, &room) {
+    let bounds = Frame { right: frame.right + 8.0, ..*frame };
+    for (at, text) in arrange(wishes, &marks, &lines, &bounds) {
         canvas.text(at, &text);
     }
     canvas.close();

@@ -64,16 +64,16 @@ fn advance(c: char) -> f64 {
     }
 }
 
-/// The text, cut with an ellipsis where it is wider than `room` pixels. Empty if not even one character fits.
-pub(super) fn fit(text: &str, size: f64, room: f64) -> String {
-    if width(text, size) <= room {
+/// The text, cut with an ellipsis where it is wider than `limit` pixels. Empty if not even one character fits.
+pub(super) fn fit(text: &str, size: f64, limit: f64) -> String {
+    if width(text, size) <= limit {
         return text.to_owned();
     }
     let mut cut = String::new();
     let mut used = width("…", size);
     for c in text.chars() {
         used += advance(c) * size;
-        if used > room {
+        if used > limit {
             break;
         }
         cut.push(c);

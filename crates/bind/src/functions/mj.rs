@@ -250,7 +250,7 @@ pub(super) const ROWS: &[Function] = &[
         example: ("mj.mj_id2name(model, mj.mjtObj.mjOBJ_SITE.value, 0)", "tip"),
         run: |w, _, args| {
             let index = args.get(1).map_or(-1.0, Value::to_number);
-            let names = kind(number(args)?).map(|kind| w.names().of(kind)).unwrap_or(&[]);
+            let names = kind(number(args)?).map(|kind| w.names().of_kind(kind)).unwrap_or(&[]);
             let name = if index >= 0.0 { names.get(index as usize) } else { None };
             let name = name.filter(|n| !n.is_empty());
             Ok(name.map_or(Value::Null, |n| Value::from(n.as_str())))

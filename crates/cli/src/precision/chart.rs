@@ -3,7 +3,7 @@
 use super::table::named;
 use labspec::run::INTEGRATORS;
 use labspec::verify::significant;
-use labspec_numerics::precision::{Errors, Fate, Report, Row, milliseconds};
+use labspec_numerics::precision::{Errors, Report, Row, RunStatus, milliseconds};
 use labspec_plot::{Method, MethodPoint, WorkPrecision, work_precision};
 
 /// Log-log chart of the first trace: error across, cost upwards, one curve per integrator.
@@ -24,7 +24,7 @@ pub(super) fn chart(report: &Report, title: &str) -> String {
         let note = format!("{} ms", milliseconds(row.setting.timestep));
         let spread = Some([row.cost.low, row.cost.high]);
         let failed = MethodPoint { cost: row.cost.median, failed: true, ..MethodPoint::default() };
-        let point = if row.fate == Fate::Good { point(&row.errors, row.cost.median)? } else { failed };
+        let point = if row.status == RunStatus::Good { point(&row.errors, row.cost.median)? } else { failed };
         Some(MethodPoint { note, spread, ..point })
     };
     let used = INTEGRATORS.iter().filter(|i| report.rows.iter().any(|r| r.setting.integrator == **i));

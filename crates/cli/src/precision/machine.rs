@@ -3,7 +3,7 @@
 use super::super::report_json::with_nonfinite;
 use labspec::report::key;
 use labspec_numerics::precision::{
-    Advice, BesideRow, Compared, Errors, Event, Fate, LeftOut, Nearby, Report, Row, RunCost,
+    Advice, BesideRow, Compared, Errors, Event, LeftOut, Nearby, Report, Row, RunCost, RunStatus,
 };
 use serde::Serialize;
 use serde_json::{Map, Value};
@@ -20,7 +20,7 @@ pub(super) fn csv(report: &Report, out: &mut dyn io::Write) -> io::Result<()> {
         let start =
             format!("{},{solver},{},{}", row.setting.integrator.name, row.setting.timestep, row.is_own);
         let RunCost { median, low, high, work } = row.cost;
-        let end = format!("{},{median},{low},{high},{work}", key(row.fate.word()));
+        let end = format!("{},{median},{low},{high},{work}", key(row.status.word()));
         if row.errors.is_empty() {
             writeln!(out, "{start},,,,,,,,,{end}")?;
         }
@@ -73,7 +73,8 @@ struct RunRow<'a> {
     solver: Option<String>,
     #[serde(rename = "own")]
     is_own: bool,
-    fate: String,
+    #[serde(rename = "fate")]
+    status: String,
     diverged: bool,
     #[serde(rename = "told")]
     reported: &'a [String],
@@ -185,8 +186,8 @@ fn run_row(row: &Row, report: &Report) -> Map<String, Value> {
         timestep: row.setting.timestep,
         solver: row.setting.solver.map(|s| s.name()),
         is_own: row.is_own,
-        fate: key(row.fate.word()),
-        diverged: row.fate == Fate::Diverged,
+        status: key(row.status.word()),
+        diverged: row.status == RunStatus::Diverged,
         reported: &row.reported,
         wrong: row.errors.iter().map(|e| e.wrong).collect(),
         compared: row.errors.iter().map(|e| e.samples).collect(),

@@ -17,7 +17,7 @@ use labspec::report::{printable, printable_path};
 use labspec::run::{INTEGRATORS, Integrator};
 use labspec::source::read_text;
 use labspec::verify::significant;
-use labspec_numerics::precision::{Axis, Fate, Options, Recording, Report, compare, milliseconds};
+use labspec_numerics::precision::{Axis, Options, Recording, Report, RunStatus, compare, milliseconds};
 use machine::{csv, machine};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -84,9 +84,10 @@ pub(super) fn precision(a: &Arguments) -> Result<Outcome, Failure> {
     };
     let mut findings = Vec::new();
     let progress = Progress::new(matches!(a.format, Format::Human));
-    let mut tell = |text: &str| progress.tell(text);
-    let report = compare(&target.lab, &target.model, &target.programs, &options, &mut findings, &mut tell)
-        .map_err(|e| e.0)?;
+    let mut report_progress = |text: &str| progress.report(text);
+    let report =
+        compare(&target.lab, &target.model, &target.programs, &options, &mut findings, &mut report_progress)
+            .map_err(|e| e.0)?;
     drop(progress);
     if let Some(f) = findings.first() {
         return Err(format!(
@@ -113,7 +114,7 @@ pub(super) fn precision(a: &Arguments) -> Result<Outcome, Failure> {
 
 /// Whether the lab as it stands is no good, or the truth is not known to its end.
 fn lost(report: &Report) -> bool {
-    report.rows.iter().any(|r| r.is_own && r.fate != Fate::Good)
+    report.rows.iter().any(|r| r.is_own && r.status != RunStatus::Good)
         || report.targets.iter().any(|t| t.until.is_some())
 }
 
@@ -153,7 +154,7 @@ fn human(report: &Report) -> String {
     let mut text = String::new();
     match &report.reference {
         None => {
-            let why = match report.rows.iter().any(|r| r.fate == Fate::Good) {
+            let why = match report.rows.iter().any(|r| r.status == RunStatus::Good) {
                 true => "the methods of high order need more work than a run allows; shorten it with --until",
                 false => "no method completes this lab",
             };
@@ -219,7 +220,7 @@ fn fates(report: &Report, text: &mut String) {
             "  {} at {} ms {}{reason}",
             setting(row),
             milliseconds(row.setting.timestep),
-            row.fate.word()
+            row.status.word()
         );
     }
 }

@@ -3,7 +3,7 @@
 use labspec::report::printable;
 use labspec::run::two_digits;
 use labspec::verify::significant;
-use labspec_numerics::precision::{Beside, Compared, Errors, Fate, Report, Row, milliseconds};
+use labspec_numerics::precision::{Beside, Compared, Errors, Report, Row, RunStatus, milliseconds};
 use std::fmt::Write;
 
 pub(super) fn setting(row: &Row) -> String {
@@ -45,8 +45,10 @@ pub(super) fn table(report: &Report, text: &mut String) {
                 true => format!("{:.0} ±{spread:>2.0}%", row.cost.median),
                 false => String::new(),
             };
-            let cells: String = match row.fate {
-                Fate::Good | Fate::Warned => some.iter().map(|c| format!(" {:>10}", c.cells[i])).collect(),
+            let cells: String = match row.status {
+                RunStatus::Good | RunStatus::Warned => {
+                    some.iter().map(|c| format!(" {:>10}", c.cells[i])).collect()
+                }
                 other => format!("  {}", other.word()),
             };
             let best = if report.front.contains(&i) { " ‹" } else { "" };

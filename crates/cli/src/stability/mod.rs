@@ -61,8 +61,9 @@ pub(super) fn stability(a: &Arguments) -> Result<Outcome, Failure> {
     let (set, press) = (a.handled.set(&target.lab)?, a.handled.press(&target.lab)?);
     let options = Options { until: a.until, margins: a.margins, map, set, press };
     let progress = Progress::new(a.format == Format::Human);
-    let mut tell = |text: &str| progress.tell(text);
-    let report = probe(&target.lab, &target.model, &target.programs, &options, &mut tell).map_err(|e| e.0)?;
+    let mut report_progress = |text: &str| progress.report(text);
+    let report = probe(&target.lab, &target.model, &target.programs, &options, &mut report_progress)
+        .map_err(|e| e.0)?;
     drop(progress);
     if let (Some(file), Some(map)) = (&a.png, &report.map) {
         write_png(file, &chart(map, target.lab.title()))?;

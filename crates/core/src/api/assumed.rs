@@ -32,7 +32,7 @@ pub(super) struct Assumed {
 impl Assumed {
     /// What a plan that was just made takes for granted. One that was made for any value stays so.
     pub(super) fn from_plan(plan: &mut Plan) -> Assumed {
-        let wide = plan.any != never_asked(&plan.demand) && plan.made_for.is_some();
+        let wide = plan.any != never_asked(&plan.access) && plan.made_for.is_some();
         let settled = if wide { u64::MAX } else { 0 };
         Assumed { made_for: plan.made_for.take(), any: plan.any, wide, settled, due: false }
     }
@@ -70,16 +70,16 @@ mod tests {
         <body pos='.2 0 0'><joint axis='0 1 0'/><geom size='.05' pos='.2 0 0' contype='0'/></body></body>\
         </worldbody></mujoco>";
 
-    fn demand(writes: &[FieldId]) -> AccessSet {
-        let mut demand = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
-        demand.reads.insert(data::qpos);
-        writes.iter().for_each(|&field| demand.writes.insert(field));
-        demand
+    fn access(writes: &[FieldId]) -> AccessSet {
+        let mut access = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+        access.reads.insert(data::qpos);
+        writes.iter().for_each(|&field| access.writes.insert(field));
+        access
     }
 
     fn start(writes: &[FieldId]) -> (Model, Data<Planned>) {
         let m = Model::from_xml(CHAIN).unwrap();
-        let d = Data::planned(&m, Plan::new(&m, &demand(writes)));
+        let d = Data::planned(&m, Plan::new(&m, &access(writes)));
         (m, d)
     }
 
@@ -103,7 +103,7 @@ mod tests {
             (option::solver, 0, 1.0),
         ];
         let all = fields.map(|(field, ..)| field);
-        let fixed = |m: &Model| Plan::new(m, &demand(&[]));
+        let fixed = |m: &Model| Plan::new(m, &access(&[]));
         let same = |m: &Model, d: &Data<Planned>| {
             let (a, b) = (d.plan(), fixed(m));
             let kept_stages = |plan: &Plan| {
@@ -119,7 +119,7 @@ mod tests {
             same(&m, &d);
         }
         let (m, _) = start(&all);
-        let any = Plan::for_any_value(&m, &demand(&all));
+        let any = Plan::for_any_value(&m, &access(&all));
         assert!(any.keeps(Stage::Passive) && any.keeps(Stage::Solve) && !fixed(&m).keeps(Stage::Solve));
     }
 
@@ -129,7 +129,7 @@ mod tests {
         let xml = "<mujoco><worldbody><body><joint name='j' axis='0 1 0'/><geom size='.05' pos='.2 0 0'/></body></worldbody>\
             <actuator><motor joint='j'/></actuator></mujoco>";
         let mut m = Model::from_xml(xml).unwrap();
-        let mut d = Data::planned(&m, Plan::new(&m, &demand(&[model::actuator_damping])));
+        let mut d = Data::planned(&m, Plan::new(&m, &access(&[model::actuator_damping])));
         let mut full = Data::unplanned(&m);
         write(&mut m, &mut d, model::actuator_damping, 0, 0.6);
         for constants in [false, true] {
@@ -153,7 +153,7 @@ mod tests {
         let xml = "<mujoco><worldbody><geom name='still' size='.05'/>\
             <body pos='.08 0 0'><joint axis='0 0 1' pos='0 -.05 0'/><geom size='.05'/></body></worldbody></mujoco>";
         let mut m = Model::from_xml(xml).unwrap();
-        let mut d = Data::planned(&m, Plan::new(&m, &demand(&[model::geom_pos])));
+        let mut d = Data::planned(&m, Plan::new(&m, &access(&[model::geom_pos])));
         let mut full = Data::unplanned(&m);
         write(&mut m, &mut d, model::geom_pos, 0, 9.0);
         let mut touched = Vec::new();

@@ -172,9 +172,9 @@ mod tests {
     }
 
     fn coordinates() -> AccessSet {
-        let mut demand = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
-        demand.reads.insert(data::qpos);
-        demand
+        let mut access = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+        access.reads.insert(data::qpos);
+        access
     }
 
     /// Steps with one clone after the other, which are written by hand and by edits, end as full steps.
@@ -185,9 +185,9 @@ mod tests {
     ) -> Result<(), TestCaseError> {
         let mut clones = [scene(), Model::new(crate::mjcf::compile("<mujoco/>").unwrap())];
         clones[1] = clones[0].clone();
-        let mut demand = coordinates();
-        announced.iter().for_each(|&i| demand.writes.insert(WRITES[i].0));
-        let mut planned = Data::planned(&clones[0], Plan::new(&clones[made_with], &demand));
+        let mut access = coordinates();
+        announced.iter().for_each(|&i| access.writes.insert(WRITES[i].0));
+        let mut planned = Data::planned(&clones[0], Plan::new(&clones[made_with], &access));
         let mut full = Data::unplanned(&clones[0]);
         for &(what, at, which) in events {
             let other = clones[(which + 1) % 2].clone();
@@ -242,9 +242,9 @@ mod tests {
         let sleepy = Model::from_xml(&text).unwrap();
         let mut awake = sleepy.clone();
         awake.set_enabled(crate::kinds::enable::SLEEP, false);
-        let mut demand = coordinates();
-        demand.reads.insert(data::tree_asleep);
-        let mut planned = Data::planned(&sleepy, Plan::new(&sleepy, &demand));
+        let mut access = coordinates();
+        access.reads.insert(data::tree_asleep);
+        let mut planned = Data::planned(&sleepy, Plan::new(&sleepy, &access));
         let mut full = Data::unplanned(&sleepy);
         let mut slept = false;
         for (model, steps) in [(&sleepy, 3000), (&awake, 20)] {
@@ -275,13 +275,13 @@ mod tests {
         assert_eq!(d.fields().qpos, from.qpos);
     }
 
-    /// A write in every step that the plan was told of makes one other plan, after which any value is right.
+    /// A write in every step that was announced to the plan makes one other plan, after which any value is right.
     #[test]
     fn writes_in_every_step_do_not_plan() {
         let mut m = scene();
-        let mut demand = coordinates();
-        demand.writes.insert(model::dof_damping);
-        let mut d = Data::planned(&m, Plan::new(&m, &demand));
+        let mut access = coordinates();
+        access.writes.insert(model::dof_damping);
+        let mut d = Data::planned(&m, Plan::new(&m, &access));
         m.edit().body_mass[1] *= 2.0;
         call::step(&m, &mut d).unwrap();
         let mut plans = Vec::new();

@@ -78,8 +78,8 @@ pub struct Data<S: Scope = Full> {
     copied: u64,
     /// What the plan takes for granted.
     pub(super) assumed: Assumed,
-    pub(super) demand: AccessSet,
-    /// Whether inputs may have been written that the plan was not told of.
+    pub(super) access: AccessSet,
+    /// Whether inputs may have been written that were not announced to the plan.
     pub(super) touched: bool,
     scope: PhantomData<S>,
 }
@@ -145,7 +145,7 @@ impl<S: Scope> Data<S> {
             model: m.contents.model,
             version: 0,
             copied: m.contents.copied,
-            demand: plan.demand,
+            access: plan.access,
             touched: !S::FULL,
             scope: PhantomData,
         }
@@ -184,7 +184,7 @@ impl<S: Scope> Data<S> {
         }
         let written = matches!(info.kind, Kind::State | Kind::Input);
         let view = reflect::view_data(&self.fields, field);
-        if S::FULL || written || self.demand.reads.contains_whole(field, view.len()) {
+        if S::FULL || written || self.access.reads.contains_whole(field, view.len()) {
             Ok(view)
         } else {
             Err(Error::LeftOut { field, stage: info.stage })
@@ -200,19 +200,19 @@ impl<S: Scope> Data<S> {
         if !reflect::is_writable(field) {
             return Err(Error::NotWritable(field));
         }
-        self.touched |= !S::FULL && !self.demand.writes.contains(field);
+        self.touched |= !S::FULL && !self.access.writes.contains(field);
         Ok(reflect::view_data_mut(&mut self.fields, field))
     }
 
     /// What is read and written of these data.
-    pub fn demand(&self) -> &AccessSet {
-        &self.demand
+    pub fn access(&self) -> &AccessSet {
+        &self.access
     }
 
     /// The plan that decides what is computed.
     pub fn plan(&self) -> Plan {
         let (inner, made_for) = (self.fields.plan.clone(), self.assumed.made_for.clone());
-        Plan { inner, demand: self.demand, made_for, any: self.assumed.any() }
+        Plan { inner, access: self.access, made_for, any: self.assumed.any() }
     }
 
     /// That the data belong to a model, whose parameters are known.
@@ -248,27 +248,27 @@ impl<S: Scope> Data<S> {
         Ok((&mut self.fields, &mut self.scratch))
     }
 
-    /// Forces are applied that the plan was not told of, or controls are, or an equality constraint is switched on: it is made again,
-    /// or they would not act.
+    /// Forces or controls are applied that were not announced to the plan, or an equality constraint is switched on: the plan is
+    /// made again, or they would not act.
     #[cold]
     fn replan_for_inputs(&mut self, m: &Model) -> Result<(), Error> {
         self.belongs_to(m)?;
         self.touched = false;
-        let before = self.demand.writes;
+        let before = self.access.writes;
         let Fields { qfrc_applied, xfrc_applied, ctrl, eq_active, .. } = &self.fields;
         for (field, list) in [(data::qfrc_applied, qfrc_applied), (data::xfrc_applied, xfrc_applied)] {
             if list.iter().any(|&x| x != 0.0) {
-                self.demand.writes.insert(field);
+                self.access.writes.insert(field);
             }
         }
         let plan = &self.fields.plan;
         if !plan.keeps(Stage::Actuation) && ctrl.iter().any(|&u| u != 0.0) {
-            self.demand.writes.insert(data::ctrl);
+            self.access.writes.insert(data::ctrl);
         }
         if !plan.has(PlanFlag::Equalities) && eq_active.contains(&true) {
-            self.demand.writes.insert(data::eq_active);
+            self.access.writes.insert(data::eq_active);
         }
-        if self.demand.writes != before {
+        if self.access.writes != before {
             self.plan_again(m);
             self.touched = false;
         }
@@ -295,7 +295,7 @@ impl<S: Scope> Data<S> {
     /// Replaces the plan.
     pub(super) fn replan(&mut self, m: &Model, mut plan: Plan) -> Result<(), Error> {
         self.belongs_to(m)?;
-        (self.version, self.demand, self.assumed) = (0, plan.demand, Assumed::from_plan(&mut plan));
+        (self.version, self.access, self.assumed) = (0, plan.access, Assumed::from_plan(&mut plan));
         reset::set_plan(m, &mut self.fields, &mut self.scratch, plan.inner);
         self.touched = !S::FULL;
         Ok(())
@@ -337,7 +337,7 @@ impl<S: Scope> Data<S> {
             if !narrower {
                 self.assumed.due |= calm;
                 let mut any = self.assumed.any;
-                any.extend(&changed.intersection(&self.demand.writes));
+                any.extend(&changed.intersection(&self.access.writes));
                 self.plan_for(m, any);
             }
             self.assumed.settled = self.assumed.settled.max(unrest);
@@ -351,7 +351,7 @@ impl<S: Scope> Data<S> {
         }
         if narrower {
             self.assumed.due = false;
-            self.plan_for(m, never_asked(&self.demand));
+            self.plan_for(m, never_asked(&self.access));
         }
         self.version = self.assumed.version_of(&m.contents);
         Ok(())
@@ -365,19 +365,19 @@ impl<S: Scope> Data<S> {
     /// Makes the plan anew, for the model as it is.
     pub(super) fn plan_again(&mut self, m: &Model) {
         let mut any = self.assumed.any;
-        any.extend(&never_asked(&self.demand));
+        any.extend(&never_asked(&self.access));
         self.plan_for(m, any);
     }
 
     /// The same for any value of some fields.
     fn plan_for(&mut self, m: &Model, any: FieldSet) {
         let PlanTable { algorithms, more, .. } = self.fields.plan;
-        let plan = Plan::made(m, &self.demand, any, |demand| PlanTable::with(m, demand, algorithms, more));
+        let plan = Plan::made(m, &self.access, any, |access| PlanTable::with(m, access, algorithms, more));
         reset::set_plan(m, &mut self.fields, &mut self.scratch, plan.inner);
         // What the data hold may be more than the plan takes for granted.
         self.touched = !S::FULL;
         self.assumed.any = any;
-        self.assumed.wide = any != never_asked(&self.demand);
+        self.assumed.wide = any != never_asked(&self.access);
         match &mut self.assumed.made_for {
             Some(planned) => planned.follow(&m.contents),
             None => self.assumed.made_for = plan.made_for,

@@ -412,7 +412,7 @@ impl SensorId {
 /// The id of a named object.
 pub(super) fn find(names: &Names, kind: Obj, name: &str) -> Result<usize, Error> {
     names.id(kind, name).ok_or_else(|| {
-        let nearest = nearest(name, names.of(kind).iter().map(String::as_str)).map(String::from);
+        let nearest = nearest(name, names.of_kind(kind).iter().map(String::as_str)).map(String::from);
         Error::NoName { kind, name: name.to_string(), nearest }
     })
 }

@@ -102,11 +102,11 @@ fn a_chain_may_leave_its_plane() {
 /// Nothing of bodies in space is computed, and planned numbers are those of a full run.
 #[test]
 fn no_spatial_bodies_are_needed() {
-    let mut demand = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
-    demand.reads.insert(data::qpos);
+    let mut access = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+    access.reads.insert(data::qpos);
     for more in ["", TIE, TENDON] {
         let m = chain(12, "", more);
-        let plan = Plan::new(&m, &demand);
+        let plan = Plan::new(&m, &access);
         if more.is_empty() {
             assert!(
                 ![Stage::Kinematics, Stage::ComPos, Stage::ComVel, Stage::Solve]

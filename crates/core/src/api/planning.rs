@@ -35,7 +35,7 @@ use crate::step::deciding;
 #[derive(Clone, Debug)]
 pub struct Plan {
     pub(super) inner: Inner,
-    pub(super) demand: AccessSet,
+    pub(super) access: AccessSet,
     /// The contents that it was made for; `None` where it holds for any.
     pub(super) made_for: Option<Contents>,
     /// The fields of which it holds for any value.
@@ -45,7 +45,7 @@ pub struct Plan {
 impl PartialEq for Plan {
     /// Whether two plans decide the same for the same demand, whatever model they were made for.
     fn eq(&self, other: &Plan) -> bool {
-        self.inner == other.inner && self.demand == other.demand
+        self.inner == other.inner && self.access == other.access
     }
 }
 
@@ -54,51 +54,51 @@ impl Plan {
     ///
     /// What decides it is taken as the model has it now, also where programs may write it: data that were planned are planned
     /// again when such a value changes.
-    pub fn new(m: &Model, demand: &AccessSet) -> Plan {
-        Plan::by_algorithms(m, demand, TreeAlgorithms::ALL)
+    pub fn new(m: &Model, access: &AccessSet) -> Plan {
+        Plan::by_algorithms(m, access, TreeAlgorithms::ALL)
     }
 
     /// The same with trees computed by some algorithms alone: to measure the gain of each, or to compare it with the general one.
-    pub fn by_algorithms(m: &Model, demand: &AccessSet, algorithms: TreeAlgorithms) -> Plan {
-        Plan::made(m, demand, deciding::never_asked(demand), |d| Inner::new(m, d, algorithms))
+    pub fn by_algorithms(m: &Model, access: &AccessSet, algorithms: TreeAlgorithms) -> Plan {
+        Plan::made(m, access, deciding::never_asked(access), |d| Inner::new(m, d, algorithms))
     }
 
     /// The same with a stage more, and what it uses, wanted or not: to measure what it would cost. No number changes.
-    pub fn with(m: &Model, demand: &AccessSet, more: Stage) -> Plan {
-        Plan::made(m, demand, deciding::never_asked(demand), |d| {
+    pub fn with(m: &Model, access: &AccessSet, more: Stage) -> Plan {
+        Plan::made(m, access, deciding::never_asked(access), |d| {
             Inner::with(m, d, TreeAlgorithms::ALL, Some(more))
         })
     }
 
     /// The stages that a scene may come to need, whatever programs write.
-    pub fn for_any_value(m: &Model, demand: &AccessSet) -> Plan {
-        Plan::made(m, demand, demand.writes, |d| Inner::new(m, d, TreeAlgorithms::ALL))
+    pub fn for_any_value(m: &Model, access: &AccessSet) -> Plan {
+        Plan::made(m, access, access.writes, |d| Inner::new(m, d, TreeAlgorithms::ALL))
     }
 
     /// A plan that holds for any values of some fields and for those at hand of all others.
     pub(super) fn made(
         m: &Model,
-        demand: &AccessSet,
+        access: &AccessSet,
         any: FieldSet,
         inner: impl FnOnce(&AccessSet) -> Inner,
     ) -> Plan {
-        let inner = inner(&AccessSet { reads: demand.reads, writes: any });
-        Plan { inner, demand: *demand, made_for: Some(m.contents.clone()), any }
+        let inner = inner(&AccessSet { reads: access.reads, writes: any });
+        Plan { inner, access: *access, made_for: Some(m.contents.clone()), any }
     }
 
     /// Every stage, needed or not: the reference that plans are held against.
     pub fn full() -> Plan {
-        Plan { inner: Inner::full(), demand: AccessSet::ANY, made_for: None, any: FieldSet::ALL }
+        Plan { inner: Inner::full(), access: AccessSet::ANY, made_for: None, any: FieldSet::ALL }
     }
 
     /// Every stage but the one that lets trees sleep.
     pub fn awake() -> Plan {
-        Plan { inner: Inner::awake(), demand: AccessSet::ANY, made_for: None, any: FieldSet::ALL }
+        Plan { inner: Inner::awake(), access: AccessSet::ANY, made_for: None, any: FieldSet::ALL }
     }
 
     /// What it was made for.
-    pub fn demand(&self) -> &AccessSet {
-        &self.demand
+    pub fn access(&self) -> &AccessSet {
+        &self.access
     }
 
     /// Whether a stage runs.

@@ -48,10 +48,10 @@ fn everything() -> Model {
 
 /// Runs a test in a thread of its own, and fails where it does not end.
 fn ends(test: fn()) {
-    let (tell, done) = channel();
+    let (sender, done) = channel();
     let thread = std::thread::spawn(move || {
         test();
-        let _ = tell.send(());
+        let _ = sender.send(());
     });
     match done.recv_timeout(Duration::from_secs(500)) {
         Err(RecvTimeoutError::Timeout) => panic!("a case does not end"),

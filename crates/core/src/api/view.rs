@@ -30,7 +30,7 @@ macro_rules! objects {
         }
         impl Which<$id> for $id {
             fn find_in(&self, names: &Names) -> Result<usize, Error> {
-                let count = names.of(Obj::$kind).len();
+                let count = names.of_kind(Obj::$kind).len();
                 if self.0 < count { Ok(self.0) } else { Err(Error::NoId { kind: $noun, id: self.0, count }) }
             }
         }
@@ -50,7 +50,7 @@ macro_rules! objects {
 
             /// Its name, empty when it has none.
             pub fn name(&self) -> &'a str {
-                self.data.names.of(Obj::$kind).get(self.id).map_or("", |n| n.as_str())
+                self.data.names.of_kind(Obj::$kind).get(self.id).map_or("", |n| n.as_str())
             }
 
             $($(#[$fdoc])* pub fn $field(&self) -> $ret {
@@ -215,6 +215,6 @@ impl<S: super::data::Scope> Data<S> {
 impl Model {
     /// The name of an object of a kind, `None` when there is no such object.
     pub fn name_of(&self, kind: Obj, id: usize) -> Option<&str> {
-        self.names.of(kind).get(id).map(String::as_str)
+        self.names.of_kind(kind).get(id).map(String::as_str)
     }
 }

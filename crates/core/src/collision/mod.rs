@@ -176,7 +176,7 @@ fn narrow(m: &Model, d: &mut Fields, work: &mut Narrow, pair: &Pair, params: &Pa
 fn general(m: &Model, d: &mut Fields, work: &mut Narrow, pair: &Pair, params: &Params) {
     let (g1, g2) = (pair.geom1 as usize, pair.geom2 as usize);
     work.touches.clear();
-    (work.room.cost, work.room.most) = (0, Some(d.meter.left()));
+    (work.convex.cost, work.convex.most) = (0, Some(d.meter.left()));
     let (a, b) = (Shape::geom(m, d, g1), Shape::geom(m, d, g2));
     pair::contacts(
         pair.method,
@@ -184,13 +184,13 @@ fn general(m: &Model, d: &mut Fields, work: &mut Narrow, pair: &Pair, params: &P
         &b,
         params.reach,
         || pair::PairSettings::from_model(m),
-        &mut work.room,
+        &mut work.convex,
         &mut work.touches,
     );
     for t in &work.touches {
         d.contact.push(params::contact(params, g1, g2, t, frame_along(t.normal, t.tangent)));
     }
-    d.meter.add(100 + work.room.cost);
+    d.meter.add(100 + work.convex.cost);
 }
 
 #[cfg(test)]

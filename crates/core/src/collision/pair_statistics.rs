@@ -1,4 +1,4 @@
-//! A census of the pairs of geoms: how many can ever touch, and why the others cannot.
+//! Statistics of the pairs of geoms: how many can ever touch, and why the others cannot.
 
 use super::candidates::{Changes, candidate_pairs};
 use super::extent::Extents;
@@ -57,17 +57,17 @@ pub(crate) fn pair_statistics(m: &Model, change: Changes) -> Vec<(PairFilterReas
     for a in 0..m.ngeom {
         for b in a + 1..m.ngeom {
             let named = named.contains(&[a as i32, b as i32]);
-            let mut fate = fate(m, a, b, change.bits, named);
-            if fate == PairFilterReason::CanTouch && extents.as_ref().is_some_and(|e| apart(m, e, a, b)) {
-                fate = PairFilterReason::OutOfReach;
+            let mut reason = reason(m, a, b, change.bits, named);
+            if reason == PairFilterReason::CanTouch && extents.as_ref().is_some_and(|e| apart(m, e, a, b)) {
+                reason = PairFilterReason::OutOfReach;
             }
-            match counts.iter_mut().find(|(f, _)| *f == fate) {
+            match counts.iter_mut().find(|(f, _)| *f == reason) {
                 Some((_, n)) => *n += 1,
-                None => counts.push((fate, 1)),
+                None => counts.push((reason, 1)),
             }
         }
     }
-    counts.sort_by_key(|(fate, _)| *fate);
+    counts.sort_by_key(|(reason, _)| *reason);
     counts
 }
 
@@ -84,7 +84,7 @@ fn ordered(a: i32, b: i32) -> [i32; 2] {
 }
 
 /// What becomes of two geoms; a pair that the model names asks for neither bits nor parents.
-fn fate(m: &Model, a: usize, b: usize, may_change: bool, named: bool) -> PairFilterReason {
+fn reason(m: &Model, a: usize, b: usize, may_change: bool, named: bool) -> PairFilterReason {
     let bodies @ [ba, bb] = [a, b].map(|g| m.geom_bodyid[g] as usize);
     let welds @ [wa, wb] = bodies.map(|body| m.body_weldid[body] as usize);
     let (small, large) = (m.geom_type[a].min(m.geom_type[b]), m.geom_type[a].max(m.geom_type[b]));

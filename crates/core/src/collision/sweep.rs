@@ -66,7 +66,7 @@ pub(super) struct Sweep {
     pub(super) near: Vec<Pair>,
     explicit: Vec<Pair>,
     /// Pairs of spheres that were looked at in the last step, and those of them that were near.
-    pub(super) examined: usize,
+    pub(super) tested: usize,
     asked: usize,
 }
 
@@ -92,7 +92,7 @@ impl Sweep {
             active: Vec::with_capacity(n),
             near: Vec::with_capacity(8 * n),
             explicit: filter::explicit_pairs(m).collect(),
-            examined: 0,
+            tested: 0,
             asked: 0,
         }
     }
@@ -100,7 +100,7 @@ impl Sweep {
     /// Finds the pairs whose bounds overlap now; returns what that cost.
     pub(super) fn run(&mut self, m: &Model, d: &Fields) -> u64 {
         let width = self.place(m, rows::<3>(&d.geom_xpos));
-        (self.examined, self.asked) = (0, 0);
+        (self.tested, self.asked) = (0, 0);
         self.near.clear();
         self.near.extend_from_slice(&self.explicit);
         self.in_columns(m);
@@ -115,7 +115,7 @@ impl Sweep {
         }
         sort_by(&mut self.near, |p, q| p.order(m).cmp(&q.order(m)));
         let listed = m.npair + m.nexclude;
-        let rest = self.shadows.len() * (100 + 10 * self.planes.len()) + 5 * self.examined;
+        let rest = self.shadows.len() * (100 + 10 * self.planes.len()) + 5 * self.tested;
         (rest + self.asked * (20 + listed) + 100 * self.near.len()) as u64
     }
 
@@ -165,7 +165,7 @@ impl Sweep {
             for &(place, k) in column {
                 let s = &self.shadows[k as usize];
                 self.active.retain(|&other| self.shadows[other as usize].high >= s.low);
-                self.examined += self.active.len();
+                self.tested += self.active.len();
                 for &other in &self.active {
                     let other = &self.shadows[other as usize];
                     // In several columns together, they are a pair in the first.
@@ -187,7 +187,7 @@ impl Sweep {
             let s = &self.shadows[k as usize];
             let later = self.wide[i + 1..].iter().map(|&other| &self.shadows[other as usize]);
             for other in later.take_while(|other| other.low <= s.high) {
-                self.examined += 1;
+                self.tested += 1;
                 if other.near(s) {
                     self.asked += 1;
                     if self.near.len() < MOST_NEAR {
@@ -205,7 +205,7 @@ impl Sweep {
             if s.spans() > self.shadows.len() as i64 {
                 // Looking into so many columns costs more than looking at every geom.
                 for other in self.shadows.iter().filter(|other| !other.wide) {
-                    self.examined += 1;
+                    self.tested += 1;
                     if other.near(s) {
                         self.asked += 1;
                         if self.near.len() < MOST_NEAR {
@@ -227,7 +227,7 @@ impl Sweep {
                     if other.low > s.high {
                         break;
                     }
-                    self.examined += 1;
+                    self.tested += 1;
                     if other.near(s) && s.first_common(other) == place {
                         self.asked += 1;
                         if self.near.len() < MOST_NEAR {

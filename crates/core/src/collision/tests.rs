@@ -106,13 +106,13 @@ fn random(mut state: u64) -> impl FnMut() -> f64 {
 }
 
 /// Pairs that the sweep looks at for every geom, and pairs whose bounds overlap.
-fn examined(m: &Model) -> (f64, usize) {
+fn tested_pairs(m: &Model) -> (f64, usize) {
     let mut d = Workspace::unplanned(&pile(4, 1.0)).fields;
     d.geom_xpos.clone_from(&m.geom_pos);
     d.geom_xmat = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0].repeat(m.ngeom);
     let mut sweep = Sweep::new(m, false);
     sweep.run(m, &d);
-    (sweep.examined as f64 / m.ngeom as f64, sweep.near.len())
+    (sweep.tested as f64 / m.ngeom as f64, sweep.near.len())
 }
 
 /// From 10 to 10,000 geoms in a heap, a layer and a row, of one size or of very different ones: the pairs looked at grow
@@ -126,7 +126,7 @@ fn cost_grows_with_the_number_of_geoms() {
             for n in [10, 100, 1000, 10_000] {
                 let side = 0.25 * (n as f64).powf(1.0 / f64::from(dims));
                 let sides = std::array::from_fn(|k| if (k as i32) < dims { side } else { 0.05 });
-                let (rate, near) = examined(&cloud(n, sides, size));
+                let (rate, near) = tested_pairs(&cloud(n, sides, size));
                 println!("| {name}, {kind} | {n} | {:.0} | {rate:.1} | {near} |", rate * n as f64);
                 rates.push(rate);
             }
@@ -143,7 +143,7 @@ fn columns_find_what_all_pairs_do() {
     for seed in 0..20 {
         let size = |g: usize| 0.02 * [1.0, 0.01, 3.0, 30.0][(g * (seed + 3) / 7) % 4];
         let m = cloud(300, [1.0, 0.5 + 0.1 * seed as f64, 0.3], size);
-        let (_, near) = examined(&m);
+        let (_, near) = tested_pairs(&m);
         let at = rows::<3>(&m.geom_pos);
         let touch = |a: usize, b: usize| norm(sub(at[a], at[b])) <= m.geom_rbound[a] + m.geom_rbound[b];
         let all = (0..300).flat_map(|a| (0..a).map(move |b| (a, b)));

@@ -46,19 +46,19 @@ impl Cost {
 
 /// What there is of x where a row pushes: nothing else costs.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(super) fn pushed(x: f64) -> f64 {
+pub(super) fn clamp_unilateral(x: f64) -> f64 {
     if x < 0.0 { x } else { 0.0 }
 }
 
 /// The second derivative of the cost of a row that pushes.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(super) fn push_curvature(x: f64, stiff: f64) -> f64 {
+pub(super) fn unilateral_curvature(x: f64, stiff: f64) -> f64 {
     if x < 0.0 { stiff } else { 0.0 }
 }
 
 /// What such a row costs at x + α v more than at x, and the first and second derivative of that along v.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(super) fn push_along(x: f64, v: f64, alpha: f64, stiff: f64) -> [f64; 3] {
+pub(super) fn unilateral_along(x: f64, v: f64, alpha: f64, stiff: f64) -> [f64; 3] {
     let now = x + alpha * v;
     let (before, after) = (x.min(0.0), now.min(0.0));
     // The difference of squares, without squaring first: near the minimum it is all rounding.
@@ -89,19 +89,19 @@ pub(super) enum Curvature<const R: usize> {
 /// Where x is: what the cost is like there.
 enum Zone<const R: usize> {
     /// None: a cone that is open.
-    Open,
+    Satisfied,
     /// Quadratic in all rows.
-    Stick,
+    Quadratic,
     /// In the rows that are below zero.
-    Push,
+    Unilateral,
     /// Linear: dry friction at its largest force, to the side of this sign.
-    Slip(f64),
+    Linear(f64),
     /// That of a cone that slides.
-    Slide(Slide<R>),
+    Cone(SlidingCone<R>),
 }
 
 /// A sliding contact, in the coordinates in which its cone is round: N = μ x₀, U = f x along the friction directions.
-struct Slide<const R: usize> {
+struct SlidingCone<const R: usize> {
     mu: f64,
     /// Scale of each row.
     scale: [f64; R],
@@ -113,7 +113,7 @@ struct Slide<const R: usize> {
     stiff: f64,
 }
 
-impl<const R: usize> Slide<R> {
+impl<const R: usize> SlidingCone<R> {
     /// N - μ |U|: how far x is from the cone, negative.
     fn depth(&self) -> f64 {
         self.u[0] - self.mu * self.t
@@ -132,14 +132,14 @@ impl<const R: usize> Shape<'_, R> {
     fn value_in(&self, zone: &Zone<R>, x: &[f64; R]) -> (f64, [f64; R]) {
         let mut force = [0.0; R];
         match zone {
-            Zone::Open => (0.0, force),
-            Zone::Stick => self.quadratic(x),
-            Zone::Push => self.quadratic(&x.map(pushed)),
-            Zone::Slip(side) => {
+            Zone::Satisfied => (0.0, force),
+            Zone::Quadratic => self.quadratic(x),
+            Zone::Unilateral => self.quadratic(&x.map(clamp_unilateral)),
+            Zone::Linear(side) => {
                 force[0] = -side * self.loss;
                 (self.loss * (side * x[0] - 0.5 * self.loss / self.stiff[0]), force)
             }
-            Zone::Slide(s) => {
+            Zone::Cone(s) => {
                 let depth = s.depth();
                 let normal = -s.stiff * depth * s.mu;
                 force = std::array::from_fn(|j| -normal / s.t * s.u[j] * s.scale[j]);
@@ -161,12 +161,12 @@ impl<const R: usize> Shape<'_, R> {
     #[inline]
     fn zone(&self, x: &[f64; R]) -> Zone<R> {
         match self.cost {
-            Cost::Quadratic => Zone::Stick,
-            Cost::Unilateral => Zone::Push,
+            Cost::Quadratic => Zone::Quadratic,
+            Cost::Unilateral => Zone::Unilateral,
             Cost::DryFriction if x[0].abs() >= self.loss / self.stiff[0] => {
-                Zone::Slip(if x[0] < 0.0 { -1.0 } else { 1.0 })
+                Zone::Linear(if x[0] < 0.0 { -1.0 } else { 1.0 })
             }
-            Cost::DryFriction => Zone::Stick,
+            Cost::DryFriction => Zone::Quadratic,
             Cost::Cone => self.zone_of_cone(x),
         }
     }
@@ -175,7 +175,7 @@ impl<const R: usize> Shape<'_, R> {
     #[inline]
     fn zone_of_cone(&self, x: &[f64; R]) -> Zone<R> {
         // A cone has a normal and two, three or five directions of friction: for other numbers of rows there is no code.
-        let Some(c) = self.contact.filter(|_| (3..=6).contains(&R)) else { return Zone::Open };
+        let Some(c) = self.contact.filter(|_| (3..=6).contains(&R)) else { return Zone::Satisfied };
         let mu = c.mu;
         let scale: [f64; R] = std::array::from_fn(|j| if j == 0 { mu } else { c.friction[(j - 1).min(4)] });
         let u: [f64; R] = std::array::from_fn(|j| scale[j] * x[j]);
@@ -185,12 +185,12 @@ impl<const R: usize> Shape<'_, R> {
         }
         let (n, t) = (u[0], square.sqrt());
         if n >= mu * t || t <= 0.0 && n >= 0.0 {
-            Zone::Open
+            Zone::Satisfied
         } else if mu * n + t <= 0.0 || t <= 0.0 && n < 0.0 {
-            Zone::Stick
+            Zone::Quadratic
         } else {
             let stiff = self.stiff[0] / (mu * mu * (1.0 + mu * mu)).max(MINVAL);
-            Zone::Slide(Slide { mu, scale, u, t, stiff })
+            Zone::Cone(SlidingCone { mu, scale, u, t, stiff })
         }
     }
 
@@ -203,11 +203,13 @@ impl<const R: usize> Shape<'_, R> {
     #[inline]
     fn curvature_in(&self, zone: &Zone<R>, x: &[f64; R]) -> Curvature<R> {
         match zone {
-            Zone::Open | Zone::Slip(_) => Curvature::Flat,
-            Zone::Stick => Curvature::Diagonal(*self.stiff),
-            Zone::Push if x.iter().all(|&x| x >= 0.0) => Curvature::Flat,
-            Zone::Push => Curvature::Diagonal(std::array::from_fn(|r| push_curvature(x[r], self.stiff[r]))),
-            Zone::Slide(s) => Curvature::Full(s.curvature()),
+            Zone::Satisfied | Zone::Linear(_) => Curvature::Flat,
+            Zone::Quadratic => Curvature::Diagonal(*self.stiff),
+            Zone::Unilateral if x.iter().all(|&x| x >= 0.0) => Curvature::Flat,
+            Zone::Unilateral => {
+                Curvature::Diagonal(std::array::from_fn(|r| unilateral_curvature(x[r], self.stiff[r])))
+            }
+            Zone::Cone(s) => Curvature::Full(s.curvature()),
         }
     }
 
@@ -223,13 +225,15 @@ impl<const R: usize> Shape<'_, R> {
             slope -= force[r] * v[r];
         }
         let change = match (&before, &after) {
-            (Zone::Open, Zone::Open) => 0.0,
-            (Zone::Stick, Zone::Stick) => {
+            (Zone::Satisfied, Zone::Satisfied) => 0.0,
+            (Zone::Quadratic, Zone::Quadratic) => {
                 (0..R).map(|r| 0.5 * self.stiff[r] * alpha * v[r] * (x[r] + now[r])).sum()
             }
-            (Zone::Push, Zone::Push) => (0..R).map(|r| push_along(x[r], v[r], alpha, self.stiff[r])[0]).sum(),
-            (Zone::Slip(a), Zone::Slip(b)) if a == b => a * self.loss * alpha * v[0],
-            (Zone::Slide(a), Zone::Slide(b)) => {
+            (Zone::Unilateral, Zone::Unilateral) => {
+                (0..R).map(|r| unilateral_along(x[r], v[r], alpha, self.stiff[r])[0]).sum()
+            }
+            (Zone::Linear(a), Zone::Linear(b)) if a == b => a * self.loss * alpha * v[0],
+            (Zone::Cone(a), Zone::Cone(b)) => {
                 let squares: f64 = (1..R).map(|j| a.scale[j] * alpha * v[j] * (a.u[j] + b.u[j])).sum();
                 let change = a.mu * alpha * v[0] - a.mu * squares / (a.t + b.t);
                 0.5 * a.stiff * change * (a.depth() + b.depth())
@@ -244,9 +248,9 @@ impl<const R: usize> Shape<'_, R> {
     pub(super) fn stays(&self, x: &[f64; R], v: &[f64; R]) -> bool {
         let now: [f64; R] = std::array::from_fn(|r| x[r] + v[r]);
         match (self.zone(x), self.zone(&now)) {
-            (Zone::Open, Zone::Open) | (Zone::Stick, Zone::Stick) => true,
-            (Zone::Push, Zone::Push) => (0..R).all(|r| (x[r] < 0.0) == (now[r] < 0.0)),
-            (Zone::Slip(a), Zone::Slip(b)) => a == b,
+            (Zone::Satisfied, Zone::Satisfied) | (Zone::Quadratic, Zone::Quadratic) => true,
+            (Zone::Unilateral, Zone::Unilateral) => (0..R).all(|r| (x[r] < 0.0) == (now[r] < 0.0)),
+            (Zone::Linear(a), Zone::Linear(b)) => a == b,
             _ => false,
         }
     }
@@ -254,19 +258,19 @@ impl<const R: usize> Shape<'_, R> {
     /// `efc_state` at x, of each row.
     pub(super) fn state(&self, x: &[f64; R]) -> [i32; R] {
         match self.zone(x) {
-            Zone::Open => [state::SATISFIED; R],
-            Zone::Stick => [state::QUADRATIC; R],
-            Zone::Push => x.map(|x| if x < 0.0 { state::QUADRATIC } else { state::SATISFIED }),
-            Zone::Slip(side) if side < 0.0 => [state::LINEARNEG; R],
-            Zone::Slip(_) => [state::LINEARPOS; R],
-            Zone::Slide(_) => [state::CONE; R],
+            Zone::Satisfied => [state::SATISFIED; R],
+            Zone::Quadratic => [state::QUADRATIC; R],
+            Zone::Unilateral => x.map(|x| if x < 0.0 { state::QUADRATIC } else { state::SATISFIED }),
+            Zone::Linear(side) if side < 0.0 => [state::LINEARNEG; R],
+            Zone::Linear(_) => [state::LINEARPOS; R],
+            Zone::Cone(_) => [state::CONE; R],
         }
     }
 }
 
-impl<const R: usize> Slide<R> {
+impl<const R: usize> SlidingCone<R> {
     fn curvature(&self) -> [[f64; R]; R] {
-        let Slide { mu, scale, u, t, stiff } = self;
+        let SlidingCone { mu, scale, u, t, stiff } = self;
         let (n, t2) = (u[0], t * t);
         std::array::from_fn(|i| {
             std::array::from_fn(|j| {

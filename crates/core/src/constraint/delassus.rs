@@ -10,7 +10,7 @@ pub(super) struct Dual {
     /// M⁻¹ Jᵀ, block by block as J, over all degrees of freedom of the trees that a block touches.
     pub(super) inverse: Jacobian,
     /// Blocks of A, row by row, and where each begins.
-    pub(super) gram: Vec<f64>,
+    pub(super) delassus_blocks: Vec<f64>,
     pub(super) start: Vec<u32>,
     /// M⁻¹ Jᵀ f.
     pub(super) acceleration: Vec<f64>,
@@ -35,7 +35,7 @@ impl Dual {
     /// Fills M⁻¹ Jᵀ and the blocks of A.
     pub(super) fn build(&mut self, m: &Model, d: &Fields, jac: &Jacobian) {
         self.inverse.clear();
-        self.gram.clear();
+        self.delassus_blocks.clear();
         self.start.clear();
         self.acceleration.resize(m.nv, 0.0);
         self.x.resize(m.nv, 0.0);
@@ -52,7 +52,7 @@ impl Dual {
         let trees = jac.trees(m, b);
         let values = self.inverse.push_zeros(b, trees.clone().flat_map(|t| m.tree_dofs(t)));
         let terms = || jac.terms(b);
-        self.start.push(self.gram.len() as u32);
+        self.start.push(self.delassus_blocks.len() as u32);
         for r in 0..n {
             for t in trees.clone() {
                 self.x[m.tree_dofs(t)].fill(0.0);
@@ -67,10 +67,10 @@ impl Dual {
             for (value, k) in values.chunks_exact_mut(n).zip(dofs) {
                 value[r] = self.x[k];
             }
-            let row = self.gram.len();
-            self.gram.resize(row + n, 0.0);
+            let row = self.delassus_blocks.len();
+            self.delassus_blocks.resize(row + n, 0.0);
             for (&k, v) in terms() {
-                for (sum, v) in self.gram[row..].iter_mut().zip(v) {
+                for (sum, v) in self.delassus_blocks[row..].iter_mut().zip(v) {
                     *sum += v * self.x[k as usize];
                 }
             }
@@ -81,6 +81,8 @@ impl Dual {
     pub(super) fn delassus<const N: usize>(&self, b: &Block, group: RowGroup) -> [[f64; N]; N] {
         let (at, n) = (self.start[group.block as usize] as usize, b.nrow as usize);
         let first = group.first as usize;
-        std::array::from_fn(|i| std::array::from_fn(|j| self.gram[at + (first + i) * n + first + j]))
+        std::array::from_fn(|i| {
+            std::array::from_fn(|j| self.delassus_blocks[at + (first + i) * n + first + j])
+        })
     }
 }

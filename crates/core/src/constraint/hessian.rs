@@ -9,7 +9,7 @@
 mod tree_order;
 
 use super::island::Islands;
-use super::jacobian::{Gram, Jacobian};
+use super::jacobian::{HessianAccumulator, Jacobian};
 use crate::dynamics::mass;
 use crate::math::lanes::total;
 use crate::math::{self, MINVAL, broken_invariant};
@@ -94,8 +94,8 @@ impl Hessian {
         self.made_for.1
     }
 
-    /// Room for a vector.
-    pub(super) fn room(&self) -> usize {
+    /// Number of entries of a vector.
+    pub(super) fn capacity(&self) -> usize {
         4 * self.blocks.len()
     }
 
@@ -250,7 +250,7 @@ impl Hessian {
         for (i, &BlockRow { first, start }) in self.blocks.iter().enumerate() {
             self.values[start..start + i + 1 - first].fill([[0.0; 4]; 4]);
         }
-        for i in self.len..self.room() {
+        for i in self.len..self.capacity() {
             self.values.as_flattened_mut().as_flattened_mut()[place(&self.blocks, i, i)] = 1.0;
         }
     }
@@ -372,7 +372,7 @@ fn place(blocks: &[BlockRow], row: usize, column: usize) -> usize {
     16 * (start + column / 4 - first) + row % 4 * 4 + column % 4
 }
 
-impl Gram for Hessian {
+impl HessianAccumulator for Hessian {
     fn place(&self, dof: u32) -> usize {
         self.local[dof as usize] as usize
     }
@@ -384,15 +384,15 @@ impl Gram for Hessian {
     }
 
     #[cfg_attr(not(feature = "small"), inline(always))]
-    fn add_gram<const R: usize>(
+    fn add_weighted_gram<const R: usize>(
         &mut self,
         columns: &[u32],
         v: &[[f64; R]],
-        weigh: &dyn Fn(&[f64; R]) -> [f64; R],
+        apply_weights: &dyn Fn(&[f64; R]) -> [f64; R],
     ) {
-        let stand = self.find_lanes(columns);
+        let index = self.find_lanes(columns);
         let Hessian { lanes, blocks, values, fours, .. } = self;
-        let lanes = &lanes[stand];
+        let lanes = &lanes[index];
         if fours.len() < R * lanes.len() {
             fours.resize(R * lanes.len(), [0.0; 4]);
         }
@@ -408,7 +408,7 @@ impl Gram for Hessian {
             let (lanes, fours) = (&lanes[..=q], &fours[..=q]);
             for (lane, p) in lane_columns.of.into_iter().enumerate() {
                 let Some(v) = v.get(p as usize) else { continue };
-                let w = weigh(v).map(f64x4::splat);
+                let w = apply_weights(v).map(f64x4::splat);
                 for (to, four) in lanes.iter().zip(fours) {
                     let mut sums = f64x4::new(four[0]) * w[0];
                     for r in 1..R {

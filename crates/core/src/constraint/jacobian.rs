@@ -12,34 +12,39 @@ use std::ops::Range;
 use wide::f64x4;
 
 /// A matrix over the degrees of freedom of an island, to which second derivatives of costs are added.
-pub(super) trait Gram {
+pub(super) trait HessianAccumulator {
     /// The row of a degree of freedom, and the entry of the lower triangle in a row and a column.
     fn place(&self, dof: u32) -> usize;
     fn entry(&mut self, row: usize, column: usize) -> Option<&mut f64>;
-    /// H ← H + Jᵀ W J for the R rows of a block, given by its columns, ascending, where `weigh` gives W v.
-    fn add_gram<const R: usize>(
+    /// H ← H + Jᵀ W J for the R rows of a block, given by its columns, ascending, where `apply_weights` gives W v.
+    fn add_weighted_gram<const R: usize>(
         &mut self,
         columns: &[u32],
         v: &[[f64; R]],
-        weigh: &dyn Fn(&[f64; R]) -> [f64; R],
+        apply_weights: &dyn Fn(&[f64; R]) -> [f64; R],
     ) where
         Self: Sized;
 }
 
-/// [`Gram::add_gram`], entry by entry, for any number of rows of which `weigh` gives W v.
-pub(super) fn add_entries(h: &mut dyn Gram, columns: &[u32], v: &[f64], weigh: &dyn Fn(&[f64], &mut [f64])) {
+/// [`HessianAccumulator::add_weighted_gram`], entry by entry, for any number of rows of which `apply_weights` gives W v.
+pub(super) fn add_entries(
+    h: &mut dyn HessianAccumulator,
+    columns: &[u32],
+    v: &[f64],
+    apply_weights: &dyn Fn(&[f64], &mut [f64]),
+) {
     let n = (v.len() / columns.len().max(1)).max(1);
-    let mut weighed = [0.0; MOST_ROWS];
-    let weighed = &mut weighed[..n];
+    let mut weighted = [0.0; MOST_ROWS];
+    let weighted = &mut weighted[..n];
     for (&ci, vi) in columns.iter().zip(v.chunks_exact(n)) {
-        weigh(vi, weighed);
+        apply_weights(vi, weighted);
         let row = h.place(ci);
         for (&cj, vj) in columns.iter().zip(v.chunks_exact(n)) {
             let column = h.place(cj);
             if column <= row
                 && let Some(entry) = h.entry(row, column)
             {
-                *entry += dot_in_order(weighed, vj);
+                *entry += dot_in_order(weighted, vj);
             }
         }
     }
@@ -127,7 +132,7 @@ fn four_products<const R: usize>(v: &[[f64; R]; 4], f: &[f64; R]) -> f64x4 {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Jacobian {
     pub(super) blocks: Vec<Block>,
-    /// Room that grows and is written over; the blocks say how much of it is used.
+    /// Scratch that grows and is written over; the blocks say how much of it is used.
     values: Vec<f64>,
     columns: Vec<u32>,
     used_values: usize,

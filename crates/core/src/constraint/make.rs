@@ -20,16 +20,16 @@ pub(crate) fn make(m: &Model, d: &mut Fields, w: &mut Scratch) {
     let equal = d.plan.has(PlanFlag::Equalities) && on(disable::EQUALITY);
     let friction = d.plan.has(PlanFlag::FrictionLoss) && on(disable::FRICTIONLOSS);
     let limits = d.plan.has(PlanFlag::Limits) && on(disable::LIMIT);
-    // Room for all that may come; the arrays keep their length from step to step as long as contacts stay.
+    // Memory for all rows that may come; the arrays keep their length from step to step as long as contacts stay.
     let limits = if limits { single::count_limits(m, d) } else { 0 };
-    let mut room = contact_rows::count(m, d) + limits;
-    room += if equal { equality_rows::count(m, d) } else { 0 };
-    room += if friction { single::count_friction(m) } else { 0 };
-    if room > 0 || !d.efc_type.is_empty() {
-        resize(d, room);
+    let mut capacity = contact_rows::count(m, d) + limits;
+    capacity += if equal { equality_rows::count(m, d) } else { 0 };
+    capacity += if friction { single::count_friction(m) } else { 0 };
+    if capacity > 0 || !d.efc_type.is_empty() {
+        resize(d, capacity);
     }
     (d.nefc, d.ne, d.nf, d.nl) = (0, 0, 0, 0);
-    if room > 0 {
+    if capacity > 0 {
         fill(m, d, w, [equal, friction, limits > 0]);
     }
 }

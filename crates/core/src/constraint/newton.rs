@@ -3,9 +3,9 @@
 //! The cost is convex and, but for elliptic cones, piecewise quadratic, so the method ends after finitely many steps
 //! (Nocedal and Wright 2006, ch. 3).
 
-use super::cost::{Cost, Curvature, push_curvature};
+use super::cost::{Cost, Curvature, unilateral_curvature};
 use super::iterate::Reached;
-use super::jacobian::{Block, Gram, Jacobian, add_entries};
+use super::jacobian::{Block, HessianAccumulator, Jacobian, add_entries};
 use super::primal::{Direction, Problem, shape};
 use super::row_counts::by_rows;
 use super::six::Six;
@@ -39,13 +39,13 @@ impl Problem<'_> {
         });
     }
 
-    /// Whether the Hessian of the island is worth its room.
+    /// Whether the Hessian of the island is worth its memory.
     fn lay_out(&mut self) -> bool {
         let s = &mut *self.s;
         s.take_up(self.island);
         let fits = s.hessian.lay_out(self.m, self.jac, self.islands, self.island);
         s.rhs.clear();
-        s.rhs.resize(s.hessian.room(), 0.0);
+        s.rhs.resize(s.hessian.capacity(), 0.0);
         fits
     }
 
@@ -105,13 +105,13 @@ fn add_curvatures(
     jac: &Jacobian,
     jar: &[f64],
     blocks: impl Iterator<Item = usize>,
-    h: &mut impl Gram,
+    h: &mut impl HessianAccumulator,
 ) {
     for b in blocks {
         let b = &jac.blocks[b];
         match (b.cost, b.nrow) {
-            (Cost::Unilateral, 1) => add_push::<1>(d, jac, jar, b, h),
-            (Cost::Unilateral, 4) => add_push::<4>(d, jac, jar, b, h),
+            (Cost::Unilateral, 1) => add_unilateral::<1>(d, jac, jar, b, h),
+            (Cost::Unilateral, 4) => add_unilateral::<4>(d, jac, jar, b, h),
             _ => by_rows!(b.nrow, R => add_curvature::<R>(d, jac, jar, b, h)),
         }
     }
@@ -119,20 +119,32 @@ fn add_curvatures(
 
 /// One block whose rows push.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn add_push<const R: usize>(d: &Fields, jac: &Jacobian, jar: &[f64], b: &Block, h: &mut impl Gram) {
+fn add_unilateral<const R: usize>(
+    d: &Fields,
+    jac: &Jacobian,
+    jar: &[f64],
+    b: &Block,
+    h: &mut impl HessianAccumulator,
+) {
     let (Some(x), Some(stiff)) = (jar[b.rows()].first_chunk::<R>(), d.efc_D[b.rows()].first_chunk::<R>())
     else {
         return;
     };
     if x.iter().any(|&x| x < 0.0) {
-        let w: [f64; R] = from_fn(|r| push_curvature(x[r], stiff[r]));
+        let w: [f64; R] = from_fn(|r| unilateral_curvature(x[r], stiff[r]));
         add(h, jac, b, &|v: &[f64; R]| from_fn(|r| w[r] * v[r]));
     }
 }
 
 /// One block of any other kind.
 #[inline(never)]
-fn add_curvature<const R: usize>(d: &Fields, jac: &Jacobian, jar: &[f64], b: &Block, h: &mut impl Gram) {
+fn add_curvature<const R: usize>(
+    d: &Fields,
+    jac: &Jacobian,
+    jar: &[f64],
+    b: &Block,
+    h: &mut impl HessianAccumulator,
+) {
     let (Some(shape), Some(x)) = (shape::<R>(d, b), jar[b.rows()].first_chunk::<R>()) else { return };
     match shape.curvature(x) {
         Curvature::Flat => {}
@@ -141,16 +153,21 @@ fn add_curvature<const R: usize>(d: &Fields, jac: &Jacobian, jar: &[f64], b: &Bl
     }
 }
 
-/// H ← H + Jᵀ W J over a block, where `weigh` gives W v.
+/// H ← H + Jᵀ W J over a block, where `apply_weights` gives W v.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn add<const R: usize>(h: &mut impl Gram, jac: &Jacobian, b: &Block, weigh: &dyn Fn(&[f64; R]) -> [f64; R]) {
+fn add<const R: usize>(
+    h: &mut impl HessianAccumulator,
+    jac: &Jacobian,
+    b: &Block,
+    apply_weights: &dyn Fn(&[f64; R]) -> [f64; R],
+) {
     let (columns, v) = (jac.columns(b), jac.values(b));
     if SMALL {
-        return add_entries(h, columns, v, &|v, weighed| {
+        return add_entries(h, columns, v, &|v, weighted| {
             if let Some(v) = v.first_chunk() {
-                weighed.copy_from_slice(&weigh(v));
+                weighted.copy_from_slice(&apply_weights(v));
             }
         });
     }
-    h.add_gram::<R>(columns, v.as_chunks().0, weigh);
+    h.add_weighted_gram::<R>(columns, v.as_chunks().0, apply_weights);
 }

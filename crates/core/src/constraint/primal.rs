@@ -1,7 +1,7 @@
 //! The primal problem of one island, and what all methods share that solve it: cost, forces and gradient at the current
 //! acceleration, the exact search along a direction, and the loop over directions.
 
-use super::cost::{Cost, Shape, push_along, pushed};
+use super::cost::{Cost, Shape, clamp_unilateral, unilateral_along};
 use super::island::Islands;
 use super::iterate::{Iterate, Reached};
 use super::jacobian::{Block, Jacobian};
@@ -150,11 +150,11 @@ impl<'a> Problem<'a> {
         else {
             return 0.0;
         };
-        let pushed: [f64; R] = x.map(pushed);
-        let force: [f64; R] = std::array::from_fn(|r| -w[r] * pushed[r]);
+        let below: [f64; R] = x.map(clamp_unilateral);
+        let force: [f64; R] = std::array::from_fn(|r| -w[r] * below[r]);
         d.efc_force[rows].copy_from_slice(&force);
         self.jac.add_transposed(b, &force, &mut d.qfrc_constraint);
-        -0.5 * dot(force, pushed)
+        -0.5 * dot(force, below)
     }
 
     /// The same for any kind of constraint.
@@ -299,7 +299,7 @@ fn stays_other<const R: usize>(d: &Fields, s: &Iterate, b: &Block) -> bool {
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn add_push(p: &mut Point, d: &Fields, s: &Iterate, b: &Block) {
     for r in b.rows() {
-        let [cost, slope, curvature] = push_along(s.jar[r], s.jv[r], p.alpha, d.efc_D[r]);
+        let [cost, slope, curvature] = unilateral_along(s.jar[r], s.jv[r], p.alpha, d.efc_D[r]);
         p.slope += slope;
         p.curvature += curvature;
         p.cost += cost;

@@ -1,7 +1,7 @@
 //! Newton's direction of an island of six degrees of freedom, one free body as a rule: all of the Hessian fits in registers
 //! and needs no layout.
 
-use super::jacobian::Gram;
+use super::jacobian::HessianAccumulator;
 use crate::dynamics::mass;
 use crate::math::{FREE_DOFS as N, Ldl, MINVAL, dot};
 use crate::model::Model;
@@ -27,7 +27,7 @@ impl Six {
     }
 }
 
-impl Gram for Six {
+impl HessianAccumulator for Six {
     fn place(&self, dof: u32) -> usize {
         dof as usize - self.start
     }
@@ -37,15 +37,15 @@ impl Gram for Six {
     }
 
     #[cfg_attr(not(feature = "small"), inline(always))]
-    fn add_gram<const R: usize>(
+    fn add_weighted_gram<const R: usize>(
         &mut self,
         columns: &[u32],
         v: &[[f64; R]],
-        weigh: &dyn Fn(&[f64; R]) -> [f64; R],
+        apply_weights: &dyn Fn(&[f64; R]) -> [f64; R],
     ) {
         if let (N, Some(v)) = (columns.len(), v.first_chunk::<N>()) {
             for i in 0..N {
-                let w = weigh(&v[i]);
+                let w = apply_weights(&v[i]);
                 for j in 0..=i {
                     self.values[i][j] += dot(w, v[j]);
                 }
@@ -53,7 +53,7 @@ impl Gram for Six {
             return;
         }
         for (i, (&ci, vi)) in columns.iter().zip(v).enumerate() {
-            let (w, row) = (weigh(vi), &mut self.values[ci as usize - self.start]);
+            let (w, row) = (apply_weights(vi), &mut self.values[ci as usize - self.start]);
             for (&cj, vj) in columns[..=i].iter().zip(v) {
                 row[cj as usize - self.start] += dot(w, *vj);
             }

@@ -4,7 +4,7 @@
 //! costs to miss the reference (Todorov 2014).
 
 use super::Scratch;
-use super::cost::{Cost, pushed};
+use super::cost::{Cost, clamp_unilateral};
 use super::island::Islands;
 use super::iterate::{Iterate, Reached};
 use super::jacobian::{Block, Jacobian};
@@ -178,7 +178,7 @@ fn warm_start(
 /// Whether the unconstrained acceleration costs less than `most`. No constraint costs less than nothing, so that the first ones
 /// may tell.
 fn costs_less(d: &Fields, jac: &Jacobian, s: &mut Iterate, most: f64) -> bool {
-    let push = |x: f64, w: f64| 0.5 * w * pushed(x) * pushed(x);
+    let cost_of = |x: f64, w: f64| 0.5 * w * clamp_unilateral(x) * clamp_unilateral(x);
     let mut cost = 0.0;
     for b in &jac.blocks {
         jac.mul_block(b, &d.qacc_smooth, &mut s.jv);
@@ -186,7 +186,7 @@ fn costs_less(d: &Fields, jac: &Jacobian, s: &mut Iterate, most: f64) -> bool {
             s.jv[r] -= d.efc_aref[r];
         }
         cost += match b.cost {
-            Cost::Unilateral => b.rows().map(|r| push(s.jv[r], d.efc_D[r])).sum(),
+            Cost::Unilateral => b.rows().map(|r| cost_of(s.jv[r], d.efc_D[r])).sum(),
             _ => by_rows!(b.nrow, R => block_cost::<R>(d, b, &s.jv)),
         };
         if cost >= most {

@@ -17,7 +17,7 @@ pub(crate) struct Path {
 }
 
 impl Path {
-    /// Room for the longest row of a model.
+    /// Scratch for the longest row of a model.
     pub(crate) fn new(m: &Model) -> Path {
         let longest = m.M_rownnz.iter().copied().max().unwrap_or(0) as usize;
         Path { blocks: vec![Default::default(); longest.div_ceil(SIDE)] }

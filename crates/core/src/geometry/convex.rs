@@ -11,7 +11,7 @@ use super::support::Body;
 use crate::math::*;
 
 pub(crate) use super::difference::Limits as Effort;
-pub(crate) use super::epa::Scratch as Room;
+pub(crate) use super::epa::Scratch as ConvexScratch;
 pub(crate) use super::support::Body as Convex;
 
 /// Where two bodies are nearest, or overlap most.
@@ -34,11 +34,11 @@ pub(crate) fn nearest(
     b: &mut Body,
     cutoff: f64,
     limits: Limits,
-    room: &mut Room,
+    scratch: &mut ConvexScratch,
 ) -> Option<Nearest> {
     let radii = [a.radius(), b.radius()];
     let reach = radii[0] + radii[1];
-    let core = nearest_of_cores(a, b, cutoff + reach, limits, room)?;
+    let core = nearest_of_cores(a, b, cutoff + reach, limits, scratch)?;
     let dist = core.dist - reach;
     let [on_a, on_b] = core.witness;
     (dist <= cutoff).then_some(Nearest {
@@ -55,21 +55,27 @@ fn nearest_of_cores(
     b: &mut Body,
     cutoff: f64,
     limits: Limits,
-    room: &mut Room,
+    scratch: &mut ConvexScratch,
 ) -> Option<Nearest> {
     let before = a.work + b.work;
-    let found = search(a, b, cutoff, limits, room);
-    room.cost += a.work + b.work - before;
+    let found = search(a, b, cutoff, limits, scratch);
+    scratch.cost += a.work + b.work - before;
     found
 }
 
 /// The search itself; what its support points cost is kept by the bodies.
-fn search(a: &mut Body, b: &mut Body, cutoff: f64, limits: Limits, room: &mut Room) -> Option<Nearest> {
+fn search(
+    a: &mut Body,
+    b: &mut Body,
+    cutoff: f64,
+    limits: Limits,
+    scratch: &mut ConvexScratch,
+) -> Option<Nearest> {
     let GjkResult { dist, corral, steps } = distance(a, b, cutoff, limits);
-    room.cost += steps as u64 * STEP;
+    scratch.cost += steps as u64 * STEP;
     let dist = dist?;
     // So near to touching that the direction between them is best seen from the side that overlaps.
-    let deep = if dist > limits.tolerance { None } else { epa::depth(&corral, a, b, limits, room) };
+    let deep = if dist > limits.tolerance { None } else { epa::depth(&corral, a, b, limits, scratch) };
     let corners = a.discrete() && b.discrete();
     if let Some(Reach { normal, height, witness }) = deep {
         let dist = if corners && height < 0.0 { dist } else { -height };

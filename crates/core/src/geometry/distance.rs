@@ -31,7 +31,7 @@ pub(crate) fn shape_distance(
         return None;
     }
     if CONVEX && matches!(method, Method::Field) {
-        let found = pair::field_distance(first, second, most, settings, &mut work.room);
+        let found = pair::field_distance(first, second, most, settings, &mut work.convex);
         return Some(found.map_or(best, |n| {
             let [p, q] = n.witness;
             Distance { dist: n.dist, fromto: if flip { [q, p] } else { [p, q] } }
@@ -39,11 +39,11 @@ pub(crate) fn shape_distance(
     }
     if CONVEX && searched {
         let (mut u, mut v) = (Convex::new(a), Convex::new(b));
-        let found = nearest(&mut u, &mut v, most, settings.effort, &mut work.room);
+        let found = nearest(&mut u, &mut v, most, settings.effort, &mut work.convex);
         return Some(found.map_or(best, |n| Distance { dist: n.dist, fromto: n.witness }));
     }
     work.touches.clear();
-    pair::contacts(method, first, second, most, || *settings, &mut work.room, &mut work.touches);
+    pair::contacts(method, first, second, most, || *settings, &mut work.convex, &mut work.touches);
     for t in &work.touches {
         if t.dist < best.dist {
             let half = scale(t.normal, 0.5 * t.dist);
@@ -57,9 +57,9 @@ pub(crate) fn shape_distance(
     Some(best)
 }
 
-/// Room for the contacts of one pair, kept so that steps do not allocate.
+/// Scratch for the contacts of one pair, stored so that steps do not allocate.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Narrow {
-    pub(crate) room: super::convex::Room,
+    pub(crate) convex: super::convex::ConvexScratch,
     pub(crate) touches: Vec<pair::ContactPoint>,
 }

@@ -11,7 +11,7 @@ const FLAT: f64 = 1.0 - 1e-7;
 /// The sides of a hull.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct HullFaces {
-    sides: Vec<Side>,
+    faces: Vec<Side>,
     vertices: Vec<u32>,
     /// Sides at each vertex: where its list begins in `around`, and one more.
     first: Vec<u32>,
@@ -29,17 +29,17 @@ struct Side {
 impl HullFaces {
     /// The sides of the hull of some vertices.
     pub fn from_hull(vert: &[Vec3], hull: &Hull) -> HullFaces {
-        let mut sides = merge(vert, hull);
-        sides.index(vert.len());
-        sides
+        let mut faces = merge(vert, hull);
+        faces.index(vert.len());
+        faces
     }
 
     /// Appends all of it as numbers: integers, and floats.
     pub(crate) fn numbers(&self) -> (Vec<u32>, Vec<f64>) {
         let head = [&self.vertices, &self.first, &self.around].map(|list| list.len() as u32);
-        let places = self.sides.iter().flat_map(|s| [s.first, s.count]);
+        let places = self.faces.iter().flat_map(|s| [s.first, s.count]);
         let lists = [&self.vertices, &self.first, &self.around].into_iter().flatten().copied();
-        let floats = self.sides.iter().flat_map(|s| s.normal);
+        let floats = self.faces.iter().flat_map(|s| s.normal);
         (head.into_iter().chain(places).chain(lists).collect(), floats.collect())
     }
 
@@ -54,39 +54,39 @@ impl HullFaces {
         };
         let places = take(2 * count)?;
         let (corners, first, around) = (take(a as usize)?, take(b as usize)?, take(c as usize)?);
-        let sides = places.as_chunks::<2>().0.iter().zip(floats.as_chunks::<3>().0);
-        let sides = sides.map(|(&[first, count], &normal)| Side { normal, first, count });
-        let out = HullFaces { sides: sides.collect(), vertices: corners, first, around };
+        let faces = places.as_chunks::<2>().0.iter().zip(floats.as_chunks::<3>().0);
+        let faces = faces.map(|(&[first, count], &normal)| Side { normal, first, count });
+        let out = HullFaces { faces: faces.collect(), vertices: corners, first, around };
         let corners = out.vertices.len() as u64;
         let good = rest.is_empty()
             && floats.len().is_multiple_of(3)
-            && out.sides.iter().all(|s| u64::from(s.first) + u64::from(s.count) <= corners)
+            && out.faces.iter().all(|s| u64::from(s.first) + u64::from(s.count) <= corners)
             && out.vertices.iter().all(|&v| (v as usize) < vertices)
-            && out.around.iter().all(|&s| (s as usize) < out.sides.len())
+            && out.around.iter().all(|&s| (s as usize) < out.faces.len())
             && out.first.is_sorted()
             && out.first.iter().all(|&at| at as usize <= out.around.len())
-            && (out.sides.is_empty() || out.first.len() == vertices + 1);
+            && (out.faces.is_empty() || out.first.len() == vertices + 1);
         good.then_some(out)
     }
 
     /// Number of sides.
     pub fn len(&self) -> usize {
-        self.sides.len()
+        self.faces.len()
     }
 
     /// Whether there are none: the hull is not known.
     pub fn is_empty(&self) -> bool {
-        self.sides.is_empty()
+        self.faces.is_empty()
     }
 
     /// Unit normal of a side, outwards, in the frame of the mesh.
     pub fn normal(&self, side: usize) -> Vec3 {
-        self.sides[side].normal
+        self.faces[side].normal
     }
 
     /// Vertices of a side, counterclockwise as seen from outside.
     pub fn vertices(&self, side: usize) -> &[u32] {
-        let s = &self.sides[side];
+        let s = &self.faces[side];
         &self.vertices[s.first as usize..(s.first + s.count) as usize]
     }
 
@@ -137,7 +137,7 @@ fn merge(vert: &[Vec3], hull: &Hull) -> HullFaces {
         if side_of[start] != usize::MAX {
             continue;
         }
-        let side = out.sides.len();
+        let side = out.faces.len();
         side_of[start] = side;
         let mut group = vec![start];
         let mut next = 0;
@@ -166,7 +166,7 @@ fn merge(vert: &[Vec3], hull: &Hull) -> HullFaces {
         }
         walk_around(&border, &mut out.vertices);
         let count = out.vertices.len() as u32 - first;
-        out.sides.push(Side { normal: normals[start], first, count });
+        out.faces.push(Side { normal: normals[start], first, count });
     }
     out
 }

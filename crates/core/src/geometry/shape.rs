@@ -32,7 +32,7 @@ pub(crate) struct Mesh<'a> {
     /// The convex hull, when it is known.
     pub hull: Option<Hull<'a>>,
     /// The flat sides of the hull, when contacts may lie on them.
-    pub sides: Option<&'a HullFaces>,
+    pub hull_faces: Option<&'a HullFaces>,
 }
 
 impl Mesh<'_> {

@@ -159,9 +159,9 @@ impl<'a> Body<'a> {
                 geom::MESH => {
                     let vertex = self.mesh_vertex(&s.mesh(), mat_t_mul_vec(&s.mat, dir));
                     let at = |v: usize| s.mesh().vertex(v);
-                    let Some(sides) = s.mesh().sides else { return List::new() };
-                    for (side, place) in sides.around(vertex) {
-                        let list = sides.vertices(side);
+                    let Some(faces) = s.mesh().hull_faces else { return List::new() };
+                    for (side, place) in faces.around(vertex) {
+                        let list = faces.vertices(side);
                         let other = list[(place + 1) % list.len()] as usize;
                         consider(mat_mul_vec(&s.mat, unit_vector(sub(at(other), at(vertex))).0));
                     }

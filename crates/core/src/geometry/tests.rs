@@ -27,7 +27,7 @@ struct Assets {
     vert: BTreeMap<String, Vec<Vec3>>,
     face: BTreeMap<String, Vec<[i32; 3]>>,
     graph: BTreeMap<String, Vec<i32>>,
-    sides: BTreeMap<String, HullFaces>,
+    hull_faces: BTreeMap<String, HullFaces>,
     field: Option<(Vec<f64>, Vec<f64>)>,
 }
 
@@ -52,10 +52,10 @@ impl Assets {
                     assets.face.insert(name.into(), ints(parts[1]).as_chunks().0.to_vec());
                     assets.graph.insert(name.into(), ints(parts[2]));
                     let mesh = assets.mesh(name);
-                    let sides = mesh
+                    let hull_faces = mesh
                         .hull
                         .map_or_else(HullFaces::default, |hull| HullFaces::from_hull(mesh.vert, &hull));
-                    assets.sides.insert(name.into(), sides);
+                    assets.hull_faces.insert(name.into(), hull_faces);
                 }
                 "field" => assets.field = Some((floats(rest), floats(parts[1]))),
                 _ => break,
@@ -69,7 +69,7 @@ impl Assets {
             vert: &self.vert[name],
             face: &self.face[name],
             hull: Hull::from_graph(&self.graph[name]),
-            sides: self.sides.get(name),
+            hull_faces: self.hull_faces.get(name),
         }
     }
 
@@ -238,7 +238,7 @@ fn patient() -> PairSettings {
     settings
 }
 
-/// The library's search over round sides was told to stop within 1e-9 m: so well are distances known, and points and
+/// The library's search over round sides stops within 1e-9 m: so well are distances known, and points and
 /// directions to about the root of it. (Of bodies with corners alone they are exact, on both sides.)
 const DEPTH: f64 = 1e-8;
 const POINT: f64 = 2e-4;
@@ -321,6 +321,7 @@ const CONTACTS: &[Known] = &[
 ];
 
 #[test]
+#[expect(clippy::too_many_lines, reason = "one comparison of every recorded case")]
 fn contacts_are_those_of_mujoco() {
     let (text, print) = cases("pairs.txt", include_str!("golden/pairs.txt"));
     let assets = Assets::read(&text);
@@ -338,7 +339,7 @@ fn contacts_are_those_of_mujoco() {
             continue;
         }
         work.touches.clear();
-        pair::contacts(method, &a, &b, margin, patient, &mut work.room, &mut work.touches);
+        pair::contacts(method, &a, &b, margin, patient, &mut work.convex, &mut work.touches);
         let mut got = Vec::new();
         for t in &work.touches {
             got.push(t.dist);
@@ -403,7 +404,7 @@ fn distance_is_symmetric() {
         }
         let mut there = |a: &Shape, b: &Shape| {
             let (mut u, mut v) = (Convex::new(a), Convex::new(b));
-            nearest(&mut u, &mut v, 1e3, settings().effort, &mut work.room).map_or(f64::NAN, |n| n.dist)
+            nearest(&mut u, &mut v, 1e3, settings().effort, &mut work.convex).map_or(f64::NAN, |n| n.dist)
         };
         let (x, y) = (there(&a, &b), there(&b, &a));
         assert!((x - y).abs() < 1e-5 * (1.0 + norm(a.size) + norm(b.size)), "{x} {y}: {line}");
@@ -447,7 +448,7 @@ fn hostile_numbers_are_harmless() {
                         &second,
                         margin,
                         settings,
-                        &mut work.room,
+                        &mut work.convex,
                         &mut work.touches,
                     );
                     // Over a ground of many prisms as many as MuJoCo keeps; two bodies touch along a face at most.

@@ -15,7 +15,7 @@ use crate::mjcf::rules;
 use crate::mjcf::text::diagnostic::Report;
 use crate::mjcf::text::tree::{Attribute, Node, Tree};
 use crate::mjcf::text::values::Value;
-use crate::mjcf::words::Words;
+use crate::mjcf::word_map::WordMap;
 
 /// A class copies its parent, so their number is bounded.
 const MAX_CLASSES: usize = 2000;
@@ -23,7 +23,7 @@ const MAX_CLASSES: usize = 2000;
 /// The attributes that hold for an element: its own over those of its class.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Props {
-    values: Words<(Value, Range<usize>)>,
+    values: WordMap<(Value, Range<usize>)>,
     /// The elements that these are the attributes of.
     #[cfg(test)]
     elements: Vec<&'static super::schema::Element>,
@@ -43,7 +43,7 @@ impl Props {
     }
 
     /// The same, as long as there is room for lists that are partly the element's own.
-    fn overlay_within(&mut self, node: &Node, room: &CompletionBudget) {
+    fn overlay_within(&mut self, node: &Node, budget: &CompletionBudget) {
         #[cfg(test)]
         self.elements.push(node.element);
         let is_name = |a: &&Attribute| matches!(a.attr.kind, Kind::Name(_) | Kind::Class);
@@ -54,7 +54,7 @@ impl Props {
             let below = self.values.get(a.attr.name).map(|(v, _)| v);
             let value = match (below, &a.value) {
                 (Some(Value::Reals(below)), Value::Reals(over)) if below.len() > over.len() => {
-                    Value::Reals(room.overlaid(below, over, a))
+                    Value::Reals(budget.overlaid(below, over, a))
                 }
                 (_, over) => over.clone(),
             };
@@ -150,7 +150,7 @@ const MAX_COMPLETED: usize = 10_000_000;
 /// What completing lists takes.
 #[derive(Debug, Default)]
 struct CompletionBudget {
-    taken: Cell<usize>,
+    spent: Cell<usize>,
     /// The first list that there was no room for.
     exceeded: Cell<Option<usize>>,
 }
@@ -159,12 +159,12 @@ impl CompletionBudget {
     /// `over` laid over `below` from the front.
     fn overlaid(&self, below: &[f64], over: &Rc<Vec<f64>>, a: &Attribute) -> Rc<Vec<f64>> {
         // Short lists are kept in no place of their own.
-        let taken = self.taken.get() + if below.len() > SHORT { below.len() } else { 0 };
-        if taken > MAX_COMPLETED {
+        let spent = self.spent.get() + if below.len() > SHORT { below.len() } else { 0 };
+        if spent > MAX_COMPLETED {
             self.exceeded.set(self.exceeded.get().or(Some(a.span.start)));
             return over.clone();
         }
-        self.taken.set(taken);
+        self.spent.set(spent);
         Rc::new(listed(over.iter().chain(below.iter().skip(over.len())).copied()))
     }
 }
@@ -177,7 +177,7 @@ const SHORT: usize = 20;
 struct Class {
     parent: usize,
     /// Shared with the classes that say nothing else.
-    entries: Words<Rc<Props>>,
+    entries: WordMap<Rc<Props>>,
     /// The elements of the class itself, in the order of the text.
     nodes: Vec<usize>,
 }
@@ -188,7 +188,7 @@ pub(crate) struct Classes {
     list: Vec<Class>,
     names: BTreeMap<String, usize>,
     main: usize,
-    room: CompletionBudget,
+    budget: CompletionBudget,
 }
 
 impl Classes {
@@ -202,7 +202,7 @@ impl Classes {
             list: vec![Class::default()],
             names: BTreeMap::new(),
             main: 0,
-            room: CompletionBudget::default(),
+            budget: CompletionBudget::default(),
         };
         let mut of_node: Vec<Option<usize>> = vec![None; tree.nodes.len()];
         for (i, node) in tree.nodes.iter().enumerate().filter(|(_, n)| n.element.name == "default") {
@@ -213,11 +213,11 @@ impl Classes {
                 (None, false) => classes.main,
                 (None, true) => node.text("class").and_then(|name| classes.find(name)).unwrap_or(0),
             };
-            let mut entries = classes.list.get(parent).map_or_else(Words::default, |c| c.entries.clone());
+            let mut entries = classes.list.get(parent).map_or_else(WordMap::default, |c| c.entries.clone());
             let mut nodes = Vec::new();
             for (at, entry) in tree.children(i).filter(|(_, e)| e.element.name != "default") {
                 let props = Rc::make_mut(entries.or_default(entry.element.name));
-                props.overlay_within(entry, &classes.room);
+                props.overlay_within(entry, &classes.budget);
                 nodes.push(at);
             }
             let index = classes.list.len();
@@ -268,7 +268,7 @@ impl Classes {
 
     /// Reports the first list that was too much to complete from its defaults.
     pub(crate) fn check_room(&self, report: &mut Report) {
-        if let Some(at) = self.room.exceeded.get() {
+        if let Some(at) = self.budget.exceeded.get() {
             let message = format!("lists completed by defaults have more than {MAX_COMPLETED} numbers");
             report
                 .error(rules::LIMIT, at..at, message)
@@ -286,7 +286,7 @@ impl Classes {
     pub(crate) fn props_of(&self, entry: &str, node: &Node, childclass: Option<usize>) -> Props {
         let entry = self.list.get(self.class_of(node, childclass)).and_then(|c| c.entries.get(entry));
         let mut props = entry.map_or_else(Props::default, |p| Props::clone(p));
-        props.overlay_within(node, &self.room);
+        props.overlay_within(node, &self.budget);
         props
     }
 }

@@ -23,6 +23,7 @@ mod gather;
 mod geom;
 mod ids;
 mod layout;
+mod lints;
 mod names;
 mod passes;
 pub mod rules;
@@ -35,9 +36,8 @@ mod tendon;
 #[cfg(test)]
 mod tests;
 mod text;
-mod traps;
 mod unsimulated;
-mod words;
+mod word_map;
 
 use std::io::Read;
 use std::path::Path;
@@ -115,7 +115,7 @@ pub(crate) fn check_patched(
     let (mut report, mut refusals) = (Report::new(), Vec::new());
     let built = built(xml, files, path, (patches, &mut refusals), &mut report);
     if let Some((tree, model)) = &built {
-        traps::tell(tree, model, &mut report);
+        lints::check_model(tree, model, &mut report);
     }
     (Examined { model: built.map(|(_, model)| model), findings: report.finish() }, refusals)
 }

@@ -8,12 +8,12 @@ use crate::mjcf::rules;
 use crate::mjcf::text::diagnostic::{Report, nearest, shorten_name};
 use crate::mjcf::text::tree::{Attribute, Node, Tree};
 use crate::mjcf::text::values::Value;
-use crate::mjcf::words::Words;
+use crate::mjcf::word_map::WordMap;
 
 /// Named elements by kind and name.
 #[derive(Debug, Default)]
 pub(crate) struct NameTable<'t> {
-    nodes: Words<BTreeMap<&'t str, usize>>,
+    nodes: WordMap<BTreeMap<&'t str, usize>>,
 }
 
 /// The world body's name, and its place in the table: it is no element.
@@ -31,8 +31,8 @@ impl<'t> NameTable<'t> {
                 if name.is_empty() {
                     continue;
                 }
-                let taken = table.nodes.or_default(kind).insert(name, i);
-                if taken.is_some() {
+                let previous = table.nodes.or_default(kind).insert(name, i);
+                if previous.is_some() {
                     report
                         .error(
                             rules::DUPLICATE_NAME,

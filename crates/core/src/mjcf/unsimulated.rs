@@ -44,7 +44,7 @@ fn asleep(tree: &Tree, m: &Model, report: &mut Report) {
     let d = Workspace::new(m).fields;
     let awake = |t: &usize| m.tree_sleep_policy[*t] == policy::INIT && d.tree_asleep[*t] < 0;
     for t in (0..m.ntree).filter(awake) {
-        let body = m.names.of(Obj::Body).get(m.tree_bodyadr[t] as usize).filter(|name| !name.is_empty());
+        let body = m.names.of_kind(Obj::Body).get(m.tree_bodyadr[t] as usize).filter(|name| !name.is_empty());
         let who = body.map_or("a body without a name".into(), |name| format!("body `{name}`"));
         report
             .error(rules::JOINT, span(), format!("{who} cannot start asleep"))

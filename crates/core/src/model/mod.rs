@@ -183,7 +183,7 @@ macro_rules! objects {
             }
 
             /// All names of one kind.
-            pub fn of(&self, kind: Obj) -> &[String] {
+            pub fn of_kind(&self, kind: Obj) -> &[String] {
                 match kind {
                     Obj::Body | Obj::XBody => &self.body,
                     Obj::Dof => &[],
@@ -222,6 +222,6 @@ impl Names {
         if name.is_empty() {
             return None;
         }
-        self.of(kind).iter().position(|n| n == name)
+        self.of_kind(kind).iter().position(|n| n == name)
     }
 }

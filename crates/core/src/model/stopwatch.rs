@@ -56,7 +56,7 @@ pub(crate) struct Stopwatch {
 }
 
 impl PartialEq for Stopwatch {
-    /// Two clocks cannot be told apart; what they have measured can.
+    /// Two clocks cannot be compared; what they have measured can.
     fn eq(&self, other: &Stopwatch) -> bool {
         (&self.laps, self.ended) == (&other.laps, other.ended)
     }

@@ -15,10 +15,10 @@ pub(crate) fn geom_distance(
     [geom1, geom2]: [usize; 2],
     most: f64,
 ) -> Option<Distance> {
-    (work.room.cost, work.room.most) = (0, Some(d.meter.left()));
+    (work.convex.cost, work.convex.most) = (0, Some(d.meter.left()));
     let (a, b) = (Shape::geom(m, d, geom1), Shape::geom(m, d, geom2));
     let distance = shape_distance(&a, &b, most, &PairSettings::from_model(m), work);
-    d.meter.add(100 + work.room.cost);
+    d.meter.add(100 + work.convex.cost);
     distance
 }
 

@@ -44,7 +44,7 @@ impl<'a> Mesh<'a> {
             hull: usize::try_from(m.mesh_graphadr[id])
                 .ok()
                 .and_then(|adr| Hull::from_graph(&m.mesh_graph[adr..])),
-            sides: m.mesh_sides.get(id),
+            hull_faces: m.mesh_sides.get(id),
         }
     }
 }

@@ -202,7 +202,7 @@ pub(crate) fn has_length(m: &Model, i: usize) -> bool {
 mod tests {
     use crate::mjcf::compile;
 
-    /// An arm; what the compiler is told, the options, what is said of the joint, actuators.
+    /// An arm; compiler settings, options, attributes of the joint, actuators.
     fn arm(lengthrange: &str, option: &str, joint: &str, actuators: &str) -> Result<Vec<f64>, String> {
         let model = format!(
             "<mujoco><compiler><lengthrange {lengthrange}/></compiler><option {option}/><worldbody><body>

@@ -76,9 +76,9 @@ mod tests {
     }
 
     fn reading() -> AccessSet {
-        let mut demand = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
-        demand.reads.insert(data::qpos);
-        demand
+        let mut access = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+        access.reads.insert(data::qpos);
+        access
     }
 
     /// Steps of planned data end as those of full ones.

@@ -128,7 +128,7 @@ fn model(m: &Model) -> u64 {
     let mut out = Vec::new();
     reflect::write_structure(m, &mut out);
     for kind in [Obj::Body, Obj::Joint, Obj::Geom, Obj::Site, Obj::Tendon, Obj::Actuator, Obj::Sensor] {
-        for name in m.names.of(kind) {
+        for name in m.names.of_kind(kind) {
             out.extend_from_slice(name.as_bytes());
             out.push(0);
         }

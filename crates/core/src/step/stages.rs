@@ -49,7 +49,7 @@ pub(crate) struct Flow {
 }
 
 impl Flow {
-    /// Room for the state, and for so many slopes.
+    /// Scratch for the state, and for so many slopes.
     pub(super) fn make_room(&mut self, m: &Model, slopes: usize) {
         let n = 2 * m.nv + m.na;
         self.qpos.resize(m.nq, 0.0);

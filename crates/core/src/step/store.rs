@@ -66,8 +66,8 @@ pub(crate) fn write(m: &Model) -> Vec<u8> {
     put_list(&m.exclude_bodies, &mut out, |pair, out| pair.put(out));
     put_list(&m.visual_geoms, &mut out, |geom, out| geom.put(out));
     put_list(&m.planar_trees, &mut out, |tree, out| tree.put(out));
-    put_list(&m.mesh_sides, &mut out, |sides, out| {
-        let (integers, floats) = sides.numbers();
+    put_list(&m.mesh_sides, &mut out, |hull_faces, out| {
+        let (integers, floats) = hull_faces.numbers();
         put_list(&integers, out, |x, out| x.put(out));
         put_list(&floats, out, |x, out| x.put(out));
     });

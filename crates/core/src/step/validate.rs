@@ -107,7 +107,7 @@ fn count(m: &Model, kind: i32) -> Option<usize> {
     kinds.into_iter().find(|(k, _)| *k as i32 == kind).map(|(_, n)| n)
 }
 
-/// What of the model the engine could not index by; `None` when all is sound.
+/// What of the model the engine could not index by; `None` when the model is valid.
 pub(crate) fn validate(m: &Model) -> Option<&'static str> {
     let sizes = [
         m.nuserdata,
@@ -124,7 +124,7 @@ pub(crate) fn validate(m: &Model) -> Option<&'static str> {
         m.nout,
     ];
     let of_data = reflect::fields().filter(|f| f.info().object == Object::Data);
-    let room = of_data.fold(0, |sum: usize, f| sum.saturating_add(reflect::length(m, f)));
+    let total_length = of_data.fold(0, |sum: usize, f| sum.saturating_add(reflect::length(m, f)));
     let ids = IDS.iter().all(|&(field, count, low)| {
         let end = size(m, count);
         list(m, field).iter().all(|&x| x >= low && (x < 0 || within(x, end)))
@@ -137,7 +137,13 @@ pub(crate) fn validate(m: &Model) -> Option<&'static str> {
             .all(|(a, n)| a >= -1 && n >= 0 && (a >= 0 || n == 0) && a.max(0) + n <= end)
     });
     let checks = [
-        ("sizes", m.nbody > 0 && m.nmocap <= m.nbody && sizes.iter().all(|&n| n <= MOST) && room <= 4 * MOST),
+        (
+            "sizes",
+            m.nbody > 0
+                && m.nmocap <= m.nbody
+                && sizes.iter().all(|&n| n <= MOST)
+                && total_length <= 4 * MOST,
+        ),
         ("ids", ids),
         ("lists", spans),
     ];

@@ -35,11 +35,15 @@ fn bits_that_are_switched_do_what_they_do_in_the_library() {
         };
         let writes: Vec<_> = writes.split("; ").filter(|w| !w.is_empty()).map(write).collect();
         let m = compile(xml).unwrap();
-        let mut demand = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
-        demand.reads.insert(field(Object::Data, "qpos").unwrap());
-        let told = AccessSet { writes: FieldSet::ALL, ..demand };
-        let plans =
-            [Plan::full(), Plan::new(&m, &demand), Plan::new(&m, &told), Plan::for_any_value(&m, &told)];
+        let mut access = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+        access.reads.insert(field(Object::Data, "qpos").unwrap());
+        let announced = AccessSet { writes: FieldSet::ALL, ..access };
+        let plans = [
+            Plan::full(),
+            Plan::new(&m, &access),
+            Plan::new(&m, &announced),
+            Plan::for_any_value(&m, &announced),
+        ];
         let ours = plans.map(|plan| height(&m, Data::planned(&m, plan), &writes));
         assert!(ours.iter().all(|x| x.to_bits() == ours[0].to_bits()), "{name}: {ours:?}");
         // Far below, a thousandth of a metre is far less than what a step falls.

@@ -216,10 +216,10 @@ impl FunctionBuilder<'_> {
     fn present(&mut self, object: &Ir, span: Span) -> Val {
         let value = self.value(object);
         let mark = self.chains.last().map_or(0, |chain| chain.mark);
-        let way = self.jump_if(Terminator::IfNothing(true, value, BlockEdge::default()), mark, span);
+        let edge = self.jump_if(Terminator::IfNothing(true, value, BlockEdge::default()), mark, span);
         // A chain is around it.
         if let Some(chain) = self.chains.last_mut() {
-            chain.exits.extend(way);
+            chain.exits.extend(edge);
         }
         value
     }

@@ -141,9 +141,10 @@ impl FunctionBuilder<'_> {
 
     /// Ends the block; on to a place that is not known yet. `mark`: what was stored since goes along.
     pub(super) fn jump(&mut self, mark: usize, span: Span) -> Option<PendingEdge> {
-        let way = (!self.dead).then(|| PendingEdge { from: self.here(), stored: self.stored_since(mark) });
+        let pending =
+            (!self.dead).then(|| PendingEdge { from: self.here(), stored: self.stored_since(mark) });
         self.end(Terminator::Jump(BlockEdge::default()), span);
-        way
+        pending
     }
 
     /// Ends the block with a question; the work goes on where the answer is the other one.
@@ -158,11 +159,11 @@ impl FunctionBuilder<'_> {
             // The answer is known: there is one way.
             return if truthy(x) == when { self.jump(mark, span) } else { None };
         }
-        let way = PendingEdge { from: self.here(), stored: self.stored_since(mark) };
-        let after = way.from;
+        let pending = PendingEdge { from: self.here(), stored: self.stored_since(mark) };
+        let after = pending.from;
         self.end(end, span);
         self.begin(after);
-        Some(way)
+        Some(pending)
     }
 
     fn edge(&mut self, from: BlockId) -> Option<&mut BlockEdge> {
@@ -185,13 +186,13 @@ impl FunctionBuilder<'_> {
         }
         self.begin(after);
         let to = self.here();
-        for way in &edges {
-            if let Some(edge) = self.edge(way.from) {
+        for pending in &edges {
+            if let Some(edge) = self.edge(pending.from) {
                 edge.to = to;
             }
         }
         for local in stored_on(&edges) {
-            let held: Vec<Option<Operand>> = edges.iter().map(|way| way.held(local)).collect();
+            let held: Vec<Option<Operand>> = edges.iter().map(|pending| pending.held(local)).collect();
             let before = if held.contains(&None) { self.find(local) } else { None };
             let held: Option<Vec<Operand>> = held.into_iter().map(|at| at.or(before)).collect();
             // What one of the ways does not know is not used any more.
@@ -203,8 +204,8 @@ impl FunctionBuilder<'_> {
                 continue;
             }
             let param = self.like(first);
-            for (way, at) in edges.iter().zip(held) {
-                if let Some(edge) = self.edge(way.from) {
+            for (pending, at) in edges.iter().zip(held) {
+                if let Some(edge) = self.edge(pending.from) {
                     edge.args.push(at);
                 }
             }
@@ -224,11 +225,11 @@ impl FunctionBuilder<'_> {
         there: impl FnOnce(&mut Self),
     ) {
         let (mark, from, question) = (self.mark(), self.here(), question(&test));
-        let way = self.jump_if(test, mark, span);
+        let pending = self.jump_if(test, mark, span);
         next(self);
         let end = self.jump(mark, span);
         self.back_to(mark);
-        self.land(from, [way]);
+        self.land(from, [pending]);
         there(self);
         let other = self.jump(mark, span);
         self.back_to(mark);
@@ -238,11 +239,11 @@ impl FunctionBuilder<'_> {
     /// The same where the second way has nothing on it.
     pub(super) fn skip(&mut self, test: Terminator, span: Span, next: impl FnOnce(&mut Self)) {
         let (mark, from, question) = (self.mark(), self.here(), question(&test));
-        let way = self.jump_if(test, mark, span);
+        let pending = self.jump_if(test, mark, span);
         next(self);
         let end = self.jump(mark, span);
         self.back_to(mark);
-        self.meet(from, question, way, end);
+        self.meet(from, question, pending, end);
     }
 
     /// Two ways of a question come together. Where little was computed on them, and nothing else done, there is no
@@ -324,8 +325,8 @@ impl FunctionBuilder<'_> {
         let returns = (exit_count(&self.inlines), exit_count(&self.chains));
         let (header, params) = (self.here(), BTreeMap::new());
         let (breaks, continues) = (Vec::new(), Vec::new());
-        if let Some(way) = &entry
-            && let Some(edge) = self.edge(way.from)
+        if let Some(pending) = &entry
+            && let Some(edge) = self.edge(pending.from)
         {
             edge.to = header;
         }
@@ -335,9 +336,9 @@ impl FunctionBuilder<'_> {
     /// Leaves the innermost loop, or goes on to its next turn.
     pub(super) fn leave_turn(&mut self, leaves: bool) {
         let Some(mark) = self.loops.last().map(|l| l.mark) else { return };
-        let way = self.jump(mark, Span::default());
+        let pending = self.jump(mark, Span::default());
         if let Some(level) = self.loops.last_mut() {
-            if leaves { level.breaks.extend(way) } else { level.continues.extend(way) }
+            if leaves { level.breaks.extend(pending) } else { level.continues.extend(pending) }
         }
     }
 
@@ -355,9 +356,9 @@ impl FunctionBuilder<'_> {
     /// The question whether a loop goes on.
     pub(super) fn loop_test(&mut self, holds: Num, span: Span) {
         let Some(mark) = self.loops.last().map(|l| l.mark) else { return };
-        let way = self.jump_if(Terminator::If(false, holds, BlockEdge::default()), mark, span);
+        let pending = self.jump_if(Terminator::If(false, holds, BlockEdge::default()), mark, span);
         if let Some(level) = self.loops.last_mut() {
-            level.breaks.extend(way);
+            level.breaks.extend(pending);
         }
     }
 
@@ -367,7 +368,7 @@ impl FunctionBuilder<'_> {
         let back = self.jump(mark, span);
         self.back_to(mark);
         let Some(mut level) = self.loops.pop() else { return };
-        for (local, at) in back.iter().chain(&level.breaks).flat_map(|way| &way.stored) {
+        for (local, at) in back.iter().chain(&level.breaks).flat_map(|pending| &pending.stored) {
             if !level.params.contains_key(local)
                 && let Some(before) = self.find(*local)
             {
@@ -377,7 +378,7 @@ impl FunctionBuilder<'_> {
         }
         let mut changed = Vec::new();
         for (local, (param, before)) in &level.params {
-            let stored = back.as_ref().and_then(|way| way.held(*local));
+            let stored = back.as_ref().and_then(|pending| pending.held(*local));
             let next = stored.map_or(*param, |at| self.unit.same.at(at));
             if next == *param || next == self.unit.same.at(*before) {
                 self.unit.same.join(*param, *before);
@@ -392,7 +393,7 @@ impl FunctionBuilder<'_> {
         if let Some(edge) = from.and_then(|from| self.edge(from)) {
             edge.args = changed.iter().map(|k| k.2).collect();
         }
-        if let Some(block) = back.and_then(|way| self.unit.blocks.get_mut(way.from as usize)) {
+        if let Some(block) = back.and_then(|pending| self.unit.blocks.get_mut(pending.from as usize)) {
             let args = changed.iter().map(|k| k.3).collect();
             block.end = Terminator::Again(BlockEdge { to: level.header, args });
         }
@@ -403,9 +404,9 @@ impl FunctionBuilder<'_> {
                 self.inlines.last_mut().into_iter().flat_map(|e| e.exits.iter_mut().skip(level.returns.0));
             let chains =
                 self.chains.last_mut().into_iter().flat_map(|e| e.exits.iter_mut().skip(level.returns.1));
-            for way in returns.chain(chains) {
-                if let Err(at) = way.stored.binary_search_by_key(local, |s| s.0) {
-                    way.stored.insert(at, (*local, *param));
+            for pending in returns.chain(chains) {
+                if let Err(at) = pending.stored.binary_search_by_key(local, |s| s.0) {
+                    pending.stored.insert(at, (*local, *param));
                 }
             }
         }

@@ -156,9 +156,9 @@ impl FunctionBuilder<'_> {
         };
         let at = self.in_slot(result, value);
         self.write(result, at);
-        let way = self.jump(mark, span);
+        let edge = self.jump(mark, span);
         if let Some(inline) = self.inlines.last_mut() {
-            inline.exits.extend(way);
+            inline.exits.extend(edge);
         }
     }
 }

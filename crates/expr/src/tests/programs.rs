@@ -243,8 +243,8 @@ fn a_host_may_tell_of_typographic_quotes_itself() {
             compiled.program.is_none() && compiled.diagnostics.iter().all(|d| d.code != "bad-character"),
             "{source}"
         );
-        let untold = Compiler::new(&Mock, &mut globals).expression(source);
-        assert!(untold.diagnostics.iter().any(|d| d.code == "bad-character"), "{source}");
+        let bound = Compiler::new(&Mock, &mut globals).expression(source);
+        assert!(bound.diagnostics.iter().any(|d| d.code == "bad-character"), "{source}");
     }
     let other = Compiler::new(&Mock, &mut globals).without_quotes().expression("data.time × 2");
     assert_eq!(other.diagnostics.first().map(|d| d.code), Some("bad-character"));

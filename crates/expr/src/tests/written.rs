@@ -1,4 +1,4 @@
-//! Methods that are written in the language itself: what is wrong with a call is told at the call, in words.
+//! Methods that are written in the language itself: a wrong call is reported at the call, in words.
 
 use crate::mock::Mock;
 use crate::natives;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::collections::describe;
-use super::machine::{Machine, RegisterFrame, StepError, taken};
+use super::machine::{Machine, RegisterFrame, StepError, result_value};
 use crate::code::{MachineCode, MachineFunction};
 use crate::heap::HeapObject;
 use crate::ir::{FreeFunctionId, MethodId};
@@ -51,7 +51,7 @@ impl Machine<'_> {
         let result = self.execute(&code, function, frame);
         self.depth -= 1;
         result.map_err(StepError::Inside)?;
-        Ok(taken(function.result, self.context.numbers.get(frame.n), self.context.values.get(frame.v)))
+        Ok(result_value(function.result, self.context.numbers.get(frame.n), self.context.values.get(frame.v)))
     }
 
     /// `receiver.name(args)`: a method, or a function that a record holds.

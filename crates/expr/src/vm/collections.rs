@@ -16,6 +16,10 @@ use crate::value::{Value, View};
 impl Machine<'_> {
     /// Operations on lists, records and functions. One `match`, so that each is found at once; what is longer than a few
     /// lines is a function of its own.
+    #[expect(
+        clippy::too_many_lines,
+        reason = "one match over the operations: a split costs a jump for each that runs"
+    )]
     pub(super) fn step_collection(
         &mut self,
         op: Op,

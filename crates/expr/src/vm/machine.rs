@@ -46,14 +46,14 @@ pub(crate) fn run(
     let Machine { context, budget: left, of_host, .. } = machine;
     context.work += budget.saturating_sub(left).saturating_sub(of_host);
     match done {
-        Ok(slot) => Ok(taken(slot, context.numbers.first(), context.values.first())),
+        Ok(slot) => Ok(result_value(slot, context.numbers.first(), context.values.first())),
         Err(error) => Err(*error),
     }
 }
 
 /// What a function left in its first registers as its result. Made where it is wanted: to hand a value on is slow.
 #[inline(always)]
-pub(super) fn taken(slot: Representation, number: Option<&f64>, value: Option<&Value>) -> Value {
+pub(super) fn result_value(slot: Representation, number: Option<&f64>, value: Option<&Value>) -> Value {
     let x = number.copied().unwrap_or(f64::NAN);
     match (slot, value) {
         (Representation::Number, _) => Value::Number(x),
@@ -144,6 +144,10 @@ impl Machine<'_> {
 
     /// The same; `WATCHED`: the watch of the context notes what happens. One loop over one `match`: every split of it would
     /// cost a jump for each operation that runs.
+    #[expect(
+        clippy::too_many_lines,
+        reason = "one loop over one match: a split costs a jump for each operation that runs"
+    )]
     fn execute_as<const WATCHED: bool>(
         &mut self,
         code: &Arc<MachineCode>,

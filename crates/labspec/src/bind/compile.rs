@@ -6,7 +6,7 @@ use crate::json::{Scalar, fix_in_code};
 use crate::rules;
 use crate::source::Text;
 use crate::spec::{Action, Control, ControlKind, Lab};
-use labspec_bind::{Functions, ModelNames, Scope, WORDS};
+use labspec_bind::{Functions, HOST_TERMS, ModelNames, Scope};
 use labspec_core::reflect::FieldSet;
 use labspec_core::{AccessSet, Model};
 use labspec_expr::{Compiled, Compiler, Globals, ProgramId, Type, Value};
@@ -47,12 +47,12 @@ impl Programs {
                 bound: work.expression(&readout.expr),
             });
         }
-        for (id, d) in globals.unset(&WORDS) {
+        for (id, d) in globals.unset(&HOST_TERMS) {
             if let Some((_, text)) = texts.iter().find(|(t, _)| *t == id) {
                 findings.push(to_finding(&d, text));
             }
         }
-        let demand = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+        let access = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
         let functions = functions.clone();
         let mut programs = Programs {
             setup,
@@ -60,17 +60,17 @@ impl Programs {
             controls,
             probes,
             globals,
-            demand,
+            access,
             functions,
             model: model.identity(),
             coupled: None,
             observed: None,
         };
-        let mut demand = programs.demand;
+        let mut access = programs.access;
         for bound in programs.bound() {
-            include(bound.program.effects(), &mut demand);
+            include(bound.program.effects(), &mut access);
         }
-        programs.demand = demand;
+        programs.access = access;
         programs
     }
 }
@@ -95,7 +95,7 @@ impl Work<'_> {
     }
 
     fn compiler(&mut self, value: Option<Type>) -> Compiler<'_> {
-        // Typographic quotes are told once for a whole text, by a rule of their own.
+        // Typographic quotes are reported once for a whole text, by a rule of their own.
         Compiler::new(self.names, self.globals).with_value(value).without_quotes()
     }
 

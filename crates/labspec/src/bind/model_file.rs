@@ -31,10 +31,10 @@ pub fn compile_file(
     path: &Path,
     root: &Path,
     sources: &Sources,
-    mark: Option<Hash>,
+    hash: Option<Hash>,
 ) -> Compiled {
     let files = FilesAround::below(path, root, sources);
-    compile_source(file, &files, path.file_name().and_then(|n| n.to_str()), mark)
+    compile_source(file, &files, path.file_name().and_then(|n| n.to_str()), hash)
 }
 
 /// A model file, as an editor holds it or else as it is saved.
@@ -78,12 +78,12 @@ pub(super) fn compile_source(
     file: &SourceFile,
     files: &dyn Files,
     name: Option<&str>,
-    mark: Option<Hash>,
+    hash: Option<Hash>,
 ) -> Compiled {
-    let remembering = Remembering::new(files, mark);
-    let examined = xml::check_xml(file.text(), &remembering, name);
+    let remembering = Remembering::new(files, hash);
+    let checked = xml::check_xml(file.text(), &remembering, name);
     let mut sources = Vec::new();
-    if !examined.findings.is_empty() {
+    if !checked.findings.is_empty() {
         sources.push(file.clone());
     }
     let place_of = |d: &Finding| {
@@ -91,8 +91,8 @@ pub(super) fn compile_source(
         let finding = from_mjcf(d, d.span.clone());
         sources.get(at).map_or(finding.clone(), |source| finding.at(source))
     };
-    let findings = examined.findings.iter().map(place_of).collect();
-    Compiled { model: examined.model, findings, files: sources, parts: remembering.parts() }
+    let findings = checked.findings.iter().map(place_of).collect();
+    Compiled { model: checked.model, findings, files: sources, parts: remembering.parts() }
 }
 
 /// Compiles a model file, for itself: the model, what is to be said of it, and the files that this is about. A file that
@@ -168,7 +168,7 @@ mod tests {
 
     #[test]
     fn shown_paths_are_short() {
-        for (folder, path, shown) in [
+        for (folder, path, expected) in [
             ("models", "a.xml", "models/a.xml"),
             ("models", "../stls/a.stl", "stls/a.stl"),
             ("a/b", "../../c/d", "c/d"),
@@ -176,7 +176,7 @@ mod tests {
             ("../a", "../c", "../c"),
             ("..", "../c", "../../c"),
         ] {
-            assert_eq!(joined(folder, path), shown, "{folder} {path}");
+            assert_eq!(joined(folder, path), expected, "{folder} {path}");
         }
     }
 }

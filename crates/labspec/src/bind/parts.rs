@@ -21,39 +21,39 @@ pub struct ModelFile {
 }
 
 /// The mark of a model file's text.
-pub(super) fn mark_of_text(mark: Hash, text: Result<&str, &str>) -> String {
+pub(super) fn hash_text(hash: Hash, text: Result<&str, &str>) -> String {
     match text {
-        Ok(text) => mark(&[b"text", text.as_bytes()]),
-        Err(why) => mark(&[b"none", why.as_bytes()]),
+        Ok(text) => hash(&[b"text", text.as_bytes()]),
+        Err(why) => hash(&[b"none", why.as_bytes()]),
     }
 }
 
-fn mark_of_bytes(mark: Hash, bytes: &Result<Vec<u8>, FileProblem>) -> String {
+fn hash_bytes(hash: Hash, bytes: &Result<Vec<u8>, FileProblem>) -> String {
     match bytes {
-        Ok(bytes) => mark(&[b"bytes", bytes]),
-        Err(why) => mark(&[b"none", format!("{why:?}").as_bytes()]),
+        Ok(bytes) => hash(&[b"bytes", bytes]),
+        Err(why) => hash(&[b"none", format!("{why:?}").as_bytes()]),
     }
 }
 
 /// The mark of a part as it is now.
-pub(super) fn mark_now(mark: Hash, model: &Path, files: &dyn Files, path: &str, limit: usize) -> String {
+pub(super) fn hash_now(hash: Hash, model: &Path, files: &dyn Files, path: &str, limit: usize) -> String {
     if path.is_empty() {
         let file = SourceFile::read(model);
-        return mark_of_text(mark, file.as_ref().map(SourceFile::text).map_err(String::as_str));
+        return hash_text(hash, file.as_ref().map(SourceFile::text).map_err(String::as_str));
     }
-    mark_of_bytes(mark, &files.read(path, limit))
+    hash_bytes(hash, &files.read(path, limit))
 }
 
 /// Files that remember what was read of them, when it is to be marked.
 pub(super) struct Remembering<'f> {
     files: &'f dyn Files,
-    mark: Option<Hash>,
+    hash: Option<Hash>,
     parts: RefCell<Vec<ModelFile>>,
 }
 
 impl<'f> Remembering<'f> {
-    pub(super) fn new(files: &'f dyn Files, mark: Option<Hash>) -> Remembering<'f> {
-        Remembering { files, mark, parts: RefCell::default() }
+    pub(super) fn new(files: &'f dyn Files, hash: Option<Hash>) -> Remembering<'f> {
+        Remembering { files, hash, parts: RefCell::default() }
     }
 
     /// Every file that was asked for, once each.
@@ -68,9 +68,9 @@ impl<'f> Remembering<'f> {
 impl Files for Remembering<'_> {
     fn read(&self, path: &str, limit: usize) -> Result<Vec<u8>, FileProblem> {
         let bytes = self.files.read(path, limit);
-        if let Some(mark) = self.mark {
-            let mark = mark_of_bytes(mark, &bytes);
-            self.parts.borrow_mut().push(ModelFile { path: path.to_string(), limit, hash: mark });
+        if let Some(hash) = self.hash {
+            let hash = hash_bytes(hash, &bytes);
+            self.parts.borrow_mut().push(ModelFile { path: path.to_string(), limit, hash });
         }
         bytes
     }

@@ -61,7 +61,7 @@ pub struct Programs {
     /// The `ctx` variables.
     pub globals: Globals,
     /// What all of them read and write.
-    pub demand: AccessSet,
+    pub access: AccessSet,
     /// Functions of the embedding program, which they may call.
     pub functions: Functions,
     /// The model that they were compiled for (`Model::identity`).
@@ -97,24 +97,24 @@ impl Programs {
     }
 }
 
-/// Adds what a program touches to a demand.
-pub fn include(effects: &Effects, demand: &mut AccessSet) {
+/// Adds what a program accesses to an access set.
+pub fn include(effects: &Effects, set: &mut AccessSet) {
     if effects.reads_everything {
-        demand.reads = FieldSet::ALL;
+        set.reads = FieldSet::ALL;
     }
     if effects.writes_everything {
-        demand.writes = FieldSet::ALL;
+        set.writes = FieldSet::ALL;
     }
     for access in &effects.reads {
         if let Some(field) = FieldId::new(access.field.0 as usize) {
-            demand.reads.insert_elements(field, access.first, access.count);
+            set.reads.insert_elements(field, access.first, access.count);
         }
     }
     for access in &effects.writes {
         // What a function recomputes is not set by hand: derived fields do not change a plan.
         if let Some(field) = FieldId::new(access.field.0 as usize).filter(|f| f.info().kind != Kind::Derived)
         {
-            demand.writes.insert(field);
+            set.writes.insert(field);
         }
     }
 }

@@ -26,12 +26,12 @@ pub use super::model_file::{check_model_file, from_mjcf};
 pub struct Models {
     folder: ModelFolder,
     compiled: Mutex<BTreeMap<String, Arc<OnceLock<Loaded>>>>,
-    /// What is to be said of each model, until somebody takes it.
+    /// The findings about each model, until somebody takes it.
     reported: Mutex<BTreeMap<String, Said>>,
     /// Functions of the embedding program, which labs may call.
     functions: Functions,
     /// How the files are marked; `None` when nobody keeps results.
-    mark: Option<Hash>,
+    hash: Option<Hash>,
     /// Texts that somebody holds in place of the folder's files.
     sources: Sources,
     /// Marks of parts, looked at once.
@@ -40,7 +40,7 @@ pub struct Models {
     files: Vec<SourceFile>,
 }
 
-/// What is to be said of a model, and the files that this is about.
+/// The findings about a model, and the files that this is about.
 type Said = (Vec<Finding>, Vec<SourceFile>);
 
 /// A model of the folder.
@@ -64,8 +64,8 @@ impl Models {
     }
 
     /// The models of a folder for somebody who keeps results: every file that is read is marked, see [`Models::parts`].
-    pub fn marked(folder: ModelFolder, mark: Hash) -> Models {
-        Models { folder, mark: Some(mark), ..Models::default() }
+    pub fn with_hash(folder: ModelFolder, hash: Hash) -> Models {
+        Models { folder, hash: Some(hash), ..Models::default() }
     }
 
     /// The same, for labs that may call functions of the embedding program.
@@ -108,9 +108,9 @@ impl Models {
     pub fn model_of_lab(&self, lab: &Lab, findings: &mut Vec<Finding>) -> Option<Arc<Model>> {
         match lab.scene()? {
             ModelSource::Xml(text) => {
-                let examined = xml::check_xml(&text.value, &NoFiles, None);
-                findings.extend(examined.findings.iter().map(|d| inline(d, text)));
-                examined.model.map(Arc::new)
+                let checked = xml::check_xml(&text.value, &NoFiles, None);
+                findings.extend(checked.findings.iter().map(|d| inline(d, text)));
+                checked.model.map(Arc::new)
             }
             ModelSource::Model(name) => {
                 let model = self.load(&name.value);
@@ -139,14 +139,14 @@ impl Models {
     pub fn changed(&self, lab: &Lab, patches: &[Patch]) -> Result<Arc<Model>, (Option<usize>, Refusal)> {
         let unreadable =
             || (None, Refusal { message: "the model cannot be read".into(), help: String::new() });
-        let (examined, refusals) = self
+        let (checked, refusals) = self
             .texts(lab, |text, files, path| xml::check_patched(text, files, path, patches))
             .ok_or_else(unreadable)?;
         if let Some((i, refusal)) = refusals.into_iter().enumerate().find_map(|(i, r)| Some((i, r?))) {
             return Err((Some(i), refusal));
         }
-        examined.model.map(Arc::new).ok_or_else(|| {
-            let first = examined.findings.into_iter().find(|f| f.severity == Severity::Error);
+        checked.model.map(Arc::new).ok_or_else(|| {
+            let first = checked.findings.into_iter().find(|f| f.severity == Severity::Error);
             let message = first.map_or("the changed model is invalid".into(), |f| f.message);
             (None, Refusal { message, help: "change it to a value that the model accepts".into() })
         })
@@ -177,7 +177,7 @@ impl Models {
     /// The names that somebody who writes a lesson asks for ([`crate::spec::format::completions`]).
     pub fn names(&self, asked: Asked<'_>) -> Vec<String> {
         let sites = |model: &Model| {
-            let named = model.names.of(Obj::Site).iter().filter(|name| !name.is_empty());
+            let named = model.names.of_kind(Obj::Site).iter().filter(|name| !name.is_empty());
             named.cloned().collect()
         };
         match asked {
@@ -190,7 +190,7 @@ impl Models {
     }
 
     /// What a model that is in the folder was made of, and whether something is said of it. Nothing is known of models
-    /// that are not [`Models::marked`].
+    /// that are not [`Models::with_hash`].
     pub fn parts(&self, name: &str) -> Option<(Vec<ModelFile>, bool)> {
         self.loaded(name, |loaded| (loaded.parts.clone(), loaded.has_diagnostics))
     }
@@ -242,12 +242,12 @@ impl Models {
         let read = read_file(path, &self.sources);
         let text = read.as_ref().map(SourceFile::text).map_err(String::as_str);
         let main_file =
-            |mark| ModelFile { path: String::new(), limit: 0, hash: parts::mark_of_text(mark, text) };
-        let mut made_of: Vec<ModelFile> = self.mark.map(main_file).into_iter().collect();
+            |hash| ModelFile { path: String::new(), limit: 0, hash: parts::hash_text(hash, text) };
+        let mut made_of: Vec<ModelFile> = self.hash.map(main_file).into_iter().collect();
         let (model, findings, files) = match read {
             Ok(file) => {
                 let file = SourceFile::new(file_name, file.text());
-                let compiled = compile_file(&file, path, self.folder.root(), &self.sources, self.mark);
+                let compiled = compile_file(&file, path, self.folder.root(), &self.sources, self.hash);
                 made_of.extend(compiled.parts);
                 (compiled.model.map(Arc::new), compiled.findings, compiled.files)
             }
@@ -263,7 +263,7 @@ impl Models {
 
     /// Whether a model's files still are what they were.
     pub fn is_made_of(&self, name: &str, parts: &[ModelFile]) -> bool {
-        let (Some(path), Some(mark)) = (self.folder.path(name), self.mark) else { return false };
+        let (Some(path), Some(hash)) = (self.folder.path(name), self.hash) else { return false };
         let place = path.parent().unwrap_or(Path::new(""));
         let folder = Folder::at(self.folder.root(), place).ok();
         let files: &dyn Files = folder.as_ref().map_or(&NoFiles, |folder| folder);
@@ -274,7 +274,7 @@ impl Models {
                 let at = (named, part.path.is_empty(), part.limit);
                 let cached = open(&self.marks).get(&at).cloned();
                 let now = cached.unwrap_or_else(|| {
-                    let now = parts::mark_now(mark, &path, files, &part.path, part.limit);
+                    let now = parts::hash_now(hash, &path, files, &part.path, part.limit);
                     open(&self.marks).insert(at, now.clone());
                     now
                 });
@@ -323,7 +323,7 @@ mod tests {
         std::fs::write(top.path().join("robot/labspec.toml"), "").unwrap();
         let (some, findings, files) = check_model_file(&path, None);
         assert_eq!(some.unwrap().nmesh, 1);
-        // What is doubtful is said, and stops nothing.
+        // What is doubtful is reported, and stops nothing.
         let [warning] = findings.as_slice() else { panic!("{findings:?}") };
         assert_eq!((warning.code, warning.severity), ("mjcf-text", Severity::Warning));
         assert_eq!(files[0].slice(warning.span.clone()), ">");

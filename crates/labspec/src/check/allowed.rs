@@ -20,7 +20,7 @@ pub struct Allowed {
 pub(super) fn suppress_allowed(
     lesson: &Lesson,
     findings: &mut Vec<Finding>,
-    depth: CheckLevel,
+    level: CheckLevel,
 ) -> Vec<Allowed> {
     let allowances = lesson.allowances();
     if allowances.is_empty() {
@@ -46,7 +46,7 @@ pub(super) fn suppress_allowed(
     });
     errors.dedup();
     findings.extend(errors.into_iter().map(|(code, span)| rules::error_allowed::refuse(&code, span)));
-    findings.extend(check_allowances(lesson, &allowances, &used, depth));
+    findings.extend(check_allowances(lesson, &allowances, &used, level));
     suppressed
 }
 
@@ -58,7 +58,7 @@ fn check_allowances(
     lesson: &Lesson,
     allowances: &[Allowance],
     used: &[AllowedCode],
-    depth: CheckLevel,
+    level: CheckLevel,
 ) -> Vec<Finding> {
     let mut wrong = Vec::new();
     for allowance in allowances {
@@ -72,7 +72,7 @@ fn check_allowances(
         let unused = allowance.codes.iter().filter(|code| !used.contains(code));
         wrong.extend(unused.filter_map(|(code, span)| match rules::find(code) {
             None => Some(rules::unknown_rule::name_nearest(code, span.clone(), rules::all())),
-            Some(rule) => rules::unused_allowance::check_use(rule, span.clone(), depth),
+            Some(rule) => rules::unused_allowance::check_use(rule, span.clone(), level),
         }));
     }
     if wrong.len() > MAX_FINDINGS {

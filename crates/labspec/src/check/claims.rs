@@ -7,7 +7,7 @@ use crate::bind::scene::Models;
 use crate::finding::Finding;
 use crate::ledger::State;
 use crate::spec::{Lab, Lesson, Question, QuestionKind, Remark, Verify};
-use crate::verify::{self, Answer, BoundLab, BoundVerify, Judgement, QuoteState, ShownText, Stage};
+use crate::verify::{self, Answer, BoundLab, BoundVerify, Judgement, QuoteState, RenderedText, Stage};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
@@ -109,8 +109,9 @@ pub(super) fn bind(lesson: &Lesson, ready: &[PreparedLab<'_>], models: &Models, 
     let stage = Stage::new(models);
     for (_, owner) in owners(lesson) {
         if let Some((verify, lab, _)) = owner.claim(lesson)
-            && let Some(cast) = resolve_labs(lesson, ready, verify, lab, &stage, findings)
-            && let Some(bound) = BoundVerify::new(verify, cast.base.as_ref(), &cast.runs, &stage, findings)
+            && let Some(resolved) = resolve_labs(lesson, ready, verify, lab, &stage, findings)
+            && let Some(bound) =
+                BoundVerify::new(verify, resolved.base.as_ref(), &resolved.runs, &stage, findings)
         {
             verify::lint_verify(&bound, verify, findings);
         }
@@ -130,26 +131,26 @@ pub(super) fn check_claims<'l>(
     models: &Models,
     findings: &mut Vec<Finding>,
 ) -> Vec<Claim> {
-    let rendered = ShownText::of_lesson(lesson);
+    let rendered = RenderedText::of_lesson(lesson);
     let candidates = partners::observe(lesson, ready);
     let ready = &*ready;
     let partners = Partners::new(lesson, ready, models, candidates);
-    let mut court =
+    let mut checker =
         ClaimChecker { lesson, ready, rendered, stage: Stage::new(models), partners, list: Vec::new() };
     for (name, owner) in owners(lesson) {
         match owner {
-            Owner::Lab(lab) => court.judge_lab(name, lab, findings),
-            Owner::Question(question) => court.judge_question(name, question, findings),
-            Owner::Remark(remark) => court.judge_remark(name, remark, findings),
+            Owner::Lab(lab) => checker.judge_lab(name, lab, findings),
+            Owner::Question(question) => checker.judge_question(name, question, findings),
+            Owner::Remark(remark) => checker.judge_remark(name, remark, findings),
         }
     }
-    court.list
+    checker.list
 }
 
 struct ClaimChecker<'a> {
     lesson: &'a Lesson,
     ready: &'a [PreparedLab<'a>],
-    rendered: ShownText,
+    rendered: RenderedText,
     stage: Stage<'a>,
     partners: Partners<'a>,
     list: Vec<Claim>,
@@ -192,7 +193,7 @@ impl ClaimChecker<'_> {
         verify: &Verify,
         lab: Option<&Lab>,
         question: Option<&Question>,
-        rendered: &ShownText,
+        rendered: &RenderedText,
         findings: &mut Vec<Finding>,
     ) -> Judgement {
         let mut found = Vec::new();
@@ -212,7 +213,7 @@ impl ClaimChecker<'_> {
         verify: &Verify,
         lab: Option<&Lab>,
         question: Option<&Question>,
-        rendered: &ShownText,
+        rendered: &RenderedText,
         findings: &mut Vec<Finding>,
     ) -> Judgement {
         let verify = self.lesson.whole(verify);

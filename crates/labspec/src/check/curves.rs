@@ -25,8 +25,8 @@ pub fn curves(lesson: &Lesson, models: &Models) -> Vec<Drawn> {
     let stage = Stage::new(models);
     let owners = claims::owners(lesson).into_iter();
     let drawn = owners.filter_map(|(_, owner)| {
-        let (verify, own, _) = owner.claim(lesson)?;
-        let runs = record_curves(lesson, &ready, verify, own, &stage, RUNS);
+        let (verify, lab, _) = owner.claim(lesson)?;
+        let runs = record_curves(lesson, &ready, verify, lab, &stage, RUNS);
         (!runs.is_empty()).then(|| Drawn { span: verify.span.clone(), runs })
     });
     drawn.collect()

@@ -129,12 +129,12 @@ impl LessonEntries<'_> {
         self.entries.push(Entry { remark: "it cannot be read".into(), ..about });
     }
 
-    /// The widgets that are not ours. Where the claims alone are verified, nothing is said of what the page shows.
+    /// The widgets that are not ours. Where the claims alone are verified, nothing is reported of what the page shows.
     fn add_widgets(&mut self) {
-        let depth = &self.checked.depth;
+        let level = &self.checked.level;
         for widget in &self.checked.lesson.widgets {
             let owner = format!("widget {}", widget.name);
-            let (state, word, remark) = match depth.claims && !depth.labs {
+            let (state, word, remark) = match level.claims && !level.labs {
                 true => (State::NotClaimed, "not run", String::new()),
                 false => (State::LeftOut, "unknown", unknown_widget(&widget.name)),
             };
@@ -197,8 +197,8 @@ impl LessonEntries<'_> {
     }
 }
 
-/// What could be run and judged, and was not, because nobody asked for it. Where the claims alone are verified, nothing is said
-/// of the labs.
+/// What could be run and judged, and was not, because nobody asked for it. Where the claims alone are verified, the labs
+/// have no entries.
 fn left_out(c: &Checked, ledger: &mut Vec<Entry>) {
     let entry = |subject, owner: &str, span: Range<usize>, what: &str| Entry {
         subject,
@@ -210,12 +210,12 @@ fn left_out(c: &Checked, ledger: &mut Vec<Entry>) {
         what: what.to_string(),
         remark: String::new(),
     };
-    if !c.depth.labs && !c.depth.claims {
+    if !c.level.labs && !c.level.claims {
         for (address, lab) in c.lesson.addressed() {
             ledger.push(entry(Subject::Lab, &format!("lab {address}"), lab.span.clone(), lab.title()));
         }
     }
-    let owners = if c.depth.claims { Vec::new() } else { claims::owners(&c.lesson) };
+    let owners = if c.level.claims { Vec::new() } else { claims::owners(&c.lesson) };
     for (name, owner) in owners {
         if let Owner::Question(question) = owner
             && let Some(answer) = claims::unclaimed(question)

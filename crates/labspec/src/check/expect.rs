@@ -15,7 +15,7 @@ const BROKE: [&str; 8] = [
     rules::SOLVER_STOPS_EARLY.code,
     rules::RUNS_AWAY.code,
 ];
-/// What is only said of a scene, or of settings that are not sound though nothing breaks: beside what breaks, it is no news.
+/// What is only said of a scene, or of settings with a fault though nothing breaks: beside what breaks, it is no news.
 const LIKELY: [&str; 5] = [
     rules::STIFF_FOR_TIMESTEP.code,
     rules::NEAR_ITS_LIMIT.code,

@@ -8,7 +8,7 @@ use crate::finding::Finding;
 use crate::json::to_value;
 use crate::spec::Lesson;
 use crate::verify::judge::{self, Judged, Left, RecordedRun, Reference, RunTask};
-use crate::verify::{ShownText, Stage};
+use crate::verify::{RenderedText, Stage};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A run that a judge is asked to make.
@@ -54,54 +54,54 @@ pub struct CrossCheck {
 pub fn hear(
     lesson: &Lesson,
     models: &Models,
-    mark: Hash,
+    hash_bytes: Hash,
     recording: Option<&Recording>,
     findings: &mut Vec<Finding>,
 ) -> CrossCheck {
     let ready = super::of_claims(lesson, models);
     let stage = Stage::new(models);
-    let rendered = ShownText::of_lesson(lesson);
-    let mut hearing = CrossCheck::default();
+    let rendered = RenderedText::of_lesson(lesson);
+    let mut cross_check = CrossCheck::default();
     for (name, owner) in claims::owners(lesson) {
-        let Some((verify, own, question)) = owner.claim(lesson) else { continue };
+        let Some((verify, lab, question)) = owner.claim(lesson) else { continue };
         let narrow = owner.block().map(|block| rendered.within(block, verify));
         let rendered = narrow.as_ref().unwrap_or(&rendered);
-        hearing.left = hearing.left.and(Left::count(verify));
-        let Some(bound) = bind_claim(lesson, &ready, verify, own, &stage) else { continue };
+        cross_check.left = cross_check.left.and(Left::count(verify));
+        let Some(bound) = bind_claim(lesson, &ready, verify, lab, &stage) else { continue };
         let requests = judge::tasks(&bound, verify).into_iter().map(|one| {
             let text = one.task.as_ref().map_or(String::new(), |task| to_value(task).to_string());
-            let hash: String = mark(&[text.as_bytes()]).chars().take(16).collect();
+            let hash: String = hash_bytes(&[text.as_bytes()]).chars().take(16).collect();
             Request { claim: name.clone(), run: one.run, hash, task: one.task }
         });
         let requests: Vec<Request> = requests.collect();
         if let Some(recording) = recording {
-            let runs = requests.iter().map(|r| taken(lesson, recording, r, &mut hearing)).collect();
-            let witness = Reference { engine: &recording.engine, runs };
-            let judged = judge::judge(&bound, verify, question, rendered, &witness, findings);
-            hearing.claims.extend(judged.map(|judged| (name.clone(), judged)));
+            let runs = requests.iter().map(|r| recorded(lesson, recording, r, &mut cross_check)).collect();
+            let reference = Reference { engine: &recording.engine, runs };
+            let judged = judge::judge(&bound, verify, question, rendered, &reference, findings);
+            cross_check.claims.extend(judged.map(|judged| (name.clone(), judged)));
         }
-        hearing.requests.extend(requests);
+        cross_check.requests.extend(requests);
     }
-    hearing
+    cross_check
 }
 
 /// What is recorded of a run; or why nothing is.
-fn taken<'r>(
+fn recorded<'r>(
     lesson: &Lesson,
     recording: &'r Recording,
     request: &Request,
-    hearing: &mut CrossCheck,
+    cross_check: &mut CrossCheck,
 ) -> Result<&'r RecordedRun, String> {
     request.task.as_ref().map_err(Clone::clone)?;
-    if let Some(taken) = recording.runs.get(&request.hash) {
-        return Ok(taken);
+    if let Some(recorded) = recording.runs.get(&request.hash) {
+        return Ok(recorded);
     }
     let key = [file_name(lesson), request.claim.clone(), request.run.clone()];
     if recording.recorded.contains(&key) {
-        hearing.stale += 1;
+        cross_check.stale += 1;
         return Err("the lesson or its model has changed since it was recorded".into());
     }
-    hearing.missing += 1;
+    cross_check.missing += 1;
     Err("its run is not recorded".into())
 }
 

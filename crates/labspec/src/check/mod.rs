@@ -75,10 +75,10 @@ pub struct Checked {
     pub claims: Vec<Claim>,
     /// Of each lab, whether it shows what is stored; nothing where nothing is.
     pub snapshots: Vec<SnapshotResult>,
-    /// What would be found, and the author has put aside with a reason.
+    /// What would be found, and the author has suppressed with a reason.
     pub allowed: Vec<Allowed>,
     /// What was asked for.
-    pub depth: CheckLevel,
+    pub level: CheckLevel,
 }
 
 /// What a check does beyond structure, models and the names in every text.
@@ -127,30 +127,30 @@ impl LabOutcome {
 }
 
 /// Checks a lesson that has been read. Findings of model files are left in `models`.
-pub fn check_lesson(lesson: Lesson, models: &Models, depth: CheckLevel) -> Checked {
-    let found = examine(&lesson, models, depth);
-    join(lesson, found, depth)
+pub fn check_lesson(lesson: Lesson, models: &Models, level: CheckLevel) -> Checked {
+    let found = run_checks(&lesson, models, level);
+    join(lesson, found, level)
 }
 
 /// Binds, runs and verifies.
-pub fn examine(lesson: &Lesson, models: &Models, depth: CheckLevel) -> LabOutcome {
+pub fn run_checks(lesson: &Lesson, models: &Models, level: CheckLevel) -> LabOutcome {
     let mut findings = Vec::new();
     let labs = lesson.all_labs();
     let mut ready: Vec<PreparedLab<'_>> =
-        labs.into_iter().filter_map(|lab| prepare(lab, models, depth, &mut findings)).collect();
-    if depth.programs {
+        labs.into_iter().filter_map(|lab| prepare(lab, models, level, &mut findings)).collect();
+    if level.programs {
         ready.iter().for_each(|r| rules::param_unread::check_params(lesson, r, &mut findings));
         ready.iter().for_each(|r| rules::contact_time_late::check_contact_times(r, &mut findings));
     }
-    let labs = if depth.labs { lab_runs::run_labs(lesson, &ready, &mut findings) } else { Vec::new() };
+    let labs = if level.labs { lab_runs::run_labs(lesson, &ready, &mut findings) } else { Vec::new() };
     deduplicate(lesson, &mut findings);
-    let snapshots = snapshot::check_snapshots(lesson, &ready, depth, &mut findings);
+    let snapshots = snapshot::check_snapshots(lesson, &ready, level, &mut findings);
     // An editor looks at a block at a time, and cannot know what the others claim.
-    if depth.claims {
+    if level.claims {
         rules::numbers_unclaimed::check_left_out(lesson, &mut findings);
     }
     ready.extend(beside(lesson, models));
-    let claims = if depth.claims {
+    let claims = if level.claims {
         claims::check_claims(lesson, &mut ready, models, &mut findings)
     } else {
         claims::bind(lesson, &ready, models, &mut findings);
@@ -159,7 +159,7 @@ pub fn examine(lesson: &Lesson, models: &Models, depth: CheckLevel) -> LabOutcom
     LabOutcome { findings, labs, claims, snapshots }
 }
 
-/// All labs that claims of a lesson are about. What is wrong with them has been told.
+/// All labs that claims of a lesson are about. What is wrong with them has been reported.
 fn of_claims<'l>(lesson: &'l Lesson, models: &Models) -> Vec<PreparedLab<'l>> {
     let labs = lesson.all_labs().into_iter();
     let prepared = labs.filter_map(|lab| prepare(lab, models, CheckLevel::STATIC, &mut Vec::new()));
@@ -170,7 +170,7 @@ fn of_claims<'l>(lesson: &'l Lesson, models: &Models) -> Vec<PreparedLab<'l>> {
 fn beside<'l>(lesson: &'l Lesson, models: &Models) -> impl Iterator<Item = PreparedLab<'l>> {
     let labs = lesson.others.iter().filter_map(|other| other.lab.as_ref().ok());
     let others = labs.filter_map(|lab| {
-        // What is wrong with it is told where it stands.
+        // What is wrong with it is reported at its own place.
         let (model, programs, mistakes) = bind(lab, models, &mut Vec::new())?;
         (mistakes == 0).then_some(PreparedLab { lab, model, programs, mistakes })
     });
@@ -187,7 +187,7 @@ fn empty() -> Option<PreparedLab<'static>> {
     Some(PreparedLab { lab: &NOTHING, model, programs, mistakes: 0 })
 }
 
-/// A control of which a reset takes everything away changes nothing, and the reset is what is told.
+/// A control of which a reset takes everything away changes nothing, and the reset is reported.
 fn deduplicate(lesson: &Lesson, findings: &mut Vec<Finding>) {
     let of = |code: &str, f: &Finding| f.code == code;
     let lost = |span: &std::ops::Range<usize>, findings: &[Finding]| {
@@ -203,29 +203,29 @@ fn deduplicate(lesson: &Lesson, findings: &mut Vec<Finding>) {
 }
 
 /// A lesson together with what was found.
-pub fn join(lesson: Lesson, found: LabOutcome, depth: CheckLevel) -> Checked {
+pub fn join(lesson: Lesson, found: LabOutcome, level: CheckLevel) -> Checked {
     let LabOutcome { mut findings, labs, claims, snapshots } = found;
     let mut all = lesson.findings.clone();
     crate::lint::withhold_fixes(&lesson, &mut findings);
     all.extend(findings);
-    let mut allowed = allowed::suppress_allowed(&lesson, &mut all, depth);
+    let mut allowed = allowed::suppress_allowed(&lesson, &mut all, level);
     let mut all: Vec<Finding> = all.into_iter().map(|f| f.at(&lesson.file)).collect();
     for suppressed in &mut allowed {
         suppressed.finding = suppressed.finding.clone().at(&lesson.file);
     }
     finding::sort(&mut all);
-    Checked { lesson, findings: all, labs, claims, snapshots, allowed, depth }
+    Checked { lesson, findings: all, labs, claims, snapshots, allowed, level }
 }
 
 /// Loads the model of a lab and binds its programs, and looks at what they do.
 fn prepare<'l>(
     lab: &'l Lab,
     models: &Models,
-    depth: CheckLevel,
+    level: CheckLevel,
     findings: &mut Vec<Finding>,
 ) -> Option<PreparedLab<'l>> {
     let (model, programs, mistakes) = bind(lab, models, findings)?;
-    if depth.programs {
+    if level.programs {
         setconst::check_setconst(lab, &model, &programs, findings);
         rules::lost_at_reset::check_resets(lab, &model, &programs, findings);
         units::check_units(lab, &model, &programs, findings);

@@ -1,5 +1,5 @@
 //! What a check rested on: models, settings and contacts of every lab and every run, so that it can be made again and that a
-//! change can be told from its cause.
+//! change can be distinguished from its cause.
 
 use super::PreparedLab;
 use super::claims::{self, Owner};
@@ -73,17 +73,17 @@ pub struct Basis {
     pub claims: Vec<ClaimBasis>,
 }
 
-/// Finds what a check of the lesson rests on: models are compiled and runs are set up, and nothing is run. `mark` makes digests.
-pub fn basis(lesson: &Lesson, models: &Models, mark: Hash) -> Basis {
+/// Finds what a check of the lesson rests on: models are compiled and runs are set up, and nothing is run. `hash` makes digests.
+pub fn basis(lesson: &Lesson, models: &Models, hash: Hash) -> Basis {
     let ready = super::of_claims(lesson, models);
-    let block = |span: &Range<usize>| mark(&[lesson.file.slice(span.clone()).as_bytes()]);
-    let compiled = |ready: &PreparedLab<'_>| mark(&[&ready.model.to_bytes()]);
+    let block = |span: &Range<usize>| hash(&[lesson.file.slice(span.clone()).as_bytes()]);
+    let compiled = |ready: &PreparedLab<'_>| hash(&[&ready.model.to_bytes()]);
     let labs = lesson.addressed().into_iter().map(|(address, lab)| {
         let one = ready.iter().find(|r| std::ptr::eq(r.lab, lab));
         let settings = one.map(|r| {
             let start = Start { budget: Budget::TRIAL, ..Start::of_lab(lab) };
             let session = Session::start(&r.programs, &r.model, start);
-            settings(&session.world.model, mark)
+            settings(&session.world.model, hash)
         });
         LabBasis { lab: address.to_string(), block: block(&lab.span), model: one.map(compiled), settings }
     });
@@ -97,19 +97,19 @@ pub fn basis(lesson: &Lesson, models: &Models, mark: Hash) -> Basis {
             Owner::Remark(remark) => &remark.span,
         };
         let started = start_runs(lesson, &ready, verify, written, &stage);
-        let model = started.as_ref().and_then(|b| b.model.as_ref()).map(|m| mark(&[&m.to_bytes()]));
+        let model = started.as_ref().and_then(|b| b.model.as_ref()).map(|m| hash(&[&m.to_bytes()]));
         let runs = started.map_or(Vec::new(), |started| started.runs);
-        let runs = runs.into_iter().map(|(name, model)| (name, model.map(|m| settings(&m, mark)))).collect();
+        let runs = runs.into_iter().map(|(name, model)| (name, model.map(|m| settings(&m, hash)))).collect();
         Some(ClaimBasis { name, block: block(span), model, runs })
     });
     let claims = claims.collect();
     Basis { labs, claims }
 }
 
-fn settings(model: &Model, mark: Hash) -> RunSettings {
+fn settings(model: &Model, hash: Hash) -> RunSettings {
     let opt = &model.opt;
     RunSettings {
-        model: mark(&[&model.to_bytes()]),
+        model: hash(&[&model.to_bytes()]),
         integrator: Integrator::of_model(model).name,
         solver: match opt.solver {
             solver::PGS => "PGS",
@@ -152,7 +152,7 @@ const CONTACT: [(&str, FieldId, &[f64]); 6] = [
 ];
 
 fn contacts(model: &Model) -> BTreeMap<String, BTreeMap<&'static str, Vec<f64>>> {
-    let names = model.names.of(Obj::Geom);
+    let names = model.names.of_kind(Obj::Geom);
     let mut all: BTreeMap<String, BTreeMap<&'static str, Vec<f64>>> = BTreeMap::new();
     let fields = CONTACT.iter().map(|(_, field, _)| *field);
     for ((key, _, default), (_, values)) in CONTACT.into_iter().zip(numbers(model, fields)) {

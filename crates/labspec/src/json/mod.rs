@@ -1,7 +1,7 @@
 //! JSON with a place for every value, read to its end whatever is wrong with it.
 //!
 //! The page reads a block with `JSON.parse`: one wrong character and the whole block is gone. So acceptance is strict
-//! (that of `serde_json`, by a property test), but reading goes on behind every mistake: each is told at its place,
+//! (that of `serde_json`, by a property test), but reading goes on behind every mistake: each is reported at its place,
 //! in the words of a person who does not know what a token is, and what was meant is read as a value, so that the
 //! rest of the block is checked too.
 
@@ -32,7 +32,7 @@ pub(crate) use strings::{fix_in, fix_in_code};
 pub const MAX_DEPTH: usize = 64;
 /// Most values in one JSON text. Labs have a few hundred.
 pub const MAX_VALUES: usize = 20_000;
-/// Most mistakes that are told of one JSON text.
+/// Most mistakes that are reported for one JSON text.
 pub const MAX_MISTAKES: usize = 200;
 
 /// What a type of ours writes, as a value.

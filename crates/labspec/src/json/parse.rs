@@ -47,7 +47,7 @@ const MAX_TRIED: usize = 128 << 10;
 /// Keeps the repairs that repair: each is made by itself and the text is read again; there must be fewer mistakes
 /// then, and none that was not there before.
 fn try_repairs(text: &str, problems: &mut [Problem]) {
-    // What is told once counts once: two brackets may be missing at one place.
+    // What is reported once counts once: two brackets may be missing at one place.
     fn to_mistakes(list: &[Problem]) -> Vec<Mistake> {
         let mut all: Vec<&Problem> = Vec::new();
         for problem in list {

@@ -24,7 +24,7 @@ pub(super) struct Parser<'a> {
     pub(super) changes: [Vec<Vec<TextChange>>; 3],
     /// Problems whose spans are bytes of the file.
     pub(super) placed: Vec<Problem>,
-    /// The end of the text was met inside of brackets, and said.
+    /// The end of the text was met inside of brackets, and reported.
     pub(super) ended: bool,
     pub(super) comment_open: bool,
     next_quote: Option<usize>,
@@ -112,7 +112,7 @@ impl<'a> Parser<'a> {
         self.say(Problem::new(Mistake::Stray(text), range));
     }
 
-    /// A mistake that is told together with others of its kind: the changes that repair it.
+    /// A mistake that is reported together with others of its kind: the changes that repair it.
     pub(super) fn change(&mut self, kind: RepeatedMistake, changes: Vec<TextChange>) {
         self.broken = true;
         if let Some(list) = self.changes.get_mut(kind as usize) {
@@ -120,7 +120,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// What was said, in order; spans are bytes of the text.
+    /// What was reported, in order; spans are bytes of the text.
     pub(super) fn finish(mut self) -> Vec<Problem> {
         let mut all = std::mem::take(&mut self.problems);
         for kind in [RepeatedMistake::Typographic, RepeatedMistake::Single, RepeatedMistake::Invisible] {

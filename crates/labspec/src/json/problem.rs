@@ -7,7 +7,7 @@ use std::ops::Range;
 /// A replacement of some bytes.
 pub(super) type TextChange = (Range<usize>, String);
 
-/// Mistakes that come in crowds and are told once for a whole text.
+/// Mistakes that occur many times and are reported once for a whole text.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum RepeatedMistake {
     Typographic,
@@ -249,7 +249,7 @@ pub(super) fn string_open(open: usize, end: usize, last: bool, fixed: bool) -> P
     if fixed { problem.repair(end..end, "\"") } else { problem }
 }
 
-/// What JSON does not allow inside of a text. Line breaks and quotes are told for the whole text at once: [`inside`].
+/// What JSON does not allow inside of a text. Line breaks and quotes are reported for the whole text at once: [`inside`].
 pub(super) fn in_string(span: Range<usize>, trouble: Trouble) -> Problem {
     let slash = span.start..span.start + 1;
     match trouble {

@@ -89,7 +89,7 @@ impl Parser<'_> {
         self.say(Problem::replaced(Mistake::ExtraComma { first }, start..start + 1, ""));
     }
 
-    /// The text ends inside of brackets: said once, with all that is missing.
+    /// The text ends inside of brackets: reported once, with all that is missing.
     pub(super) fn unclosed(&mut self) {
         if std::mem::replace(&mut self.ended, true) {
             return;

@@ -12,8 +12,8 @@ pub(super) fn run(text: &str) -> Parsed {
 fn complaints(text: &str) -> Vec<(String, String)> {
     let parsed = run(text);
     assert!(parsed.broken, "{text} was accepted");
-    let told = |p: &Problem| (to_finding(p).message, text[p.span.clone()].to_string());
-    parsed.problems.iter().map(told).collect()
+    let message_and_text = |p: &Problem| (to_finding(p).message, text[p.span.clone()].to_string());
+    parsed.problems.iter().map(message_and_text).collect()
 }
 
 /// The text with all fixes applied, from the back.
@@ -34,7 +34,8 @@ fn value(text: &str) -> serde_json::Value {
 
 /// One mistake: its message, its place, what was read, and the repaired text (the same when there is no repair).
 #[test]
-fn mistakes_are_told_in_plain_words_and_reading_goes_on() {
+#[expect(clippy::too_many_lines, reason = "a table of mistakes")]
+fn mistakes_are_reported_and_reading_goes_on() {
     for (text, message, place, read, repaired) in [
         (r#"{"a": 1 "b": 2}"#, "a comma is missing here", "", r#"{"a":1,"b":2}"#, r#"{"a": 1, "b": 2}"#),
         (r#"[1 {"b": 2}]"#, "a comma is missing here", "", r#"[1,{"b":2}]"#, r#"[1, {"b": 2}]"#),
@@ -254,8 +255,8 @@ fn all_mistakes_of_a_block_are_told_at_once() {
   "camera": {"azimuth": +90, "elevation" 10,},
   "readouts": [{"label": "z", "expr": "data.qpos[2]"}
 }"#;
-    let said: Vec<_> = complaints(text).into_iter().map(|(message, _)| message).collect();
-    insta::assert_debug_snapshot!(said, @r#"
+    let messages: Vec<_> = complaints(text).into_iter().map(|(message, _)| message).collect();
+    insta::assert_debug_snapshot!(messages, @r#"
     [
         "JSON has a single quote where it needs a double quote",
         "the key `stopAt` has no quotes",

@@ -4,7 +4,7 @@ use crate::finding::Finding;
 use crate::markdown::{MAX_BLOCKS, MAX_MARKUP, Problem};
 use crate::rules::{self, fence_line, fence_missing, fence_name, fence_unclosed, fence_unseen};
 
-/// What is said about damaged fences.
+/// The messages about damaged fences.
 pub(super) fn to_finding(text: &str, problem: &Problem) -> Finding {
     match problem {
         Problem::TooMuchMarkup => {

@@ -1,4 +1,4 @@
-//! What is said about objects that are not as the format says. What is wrong is found in `spec/`, where they are read.
+//! The messages about objects that are not as the format says. What is wrong is found in `spec/`, where they are read.
 
 use crate::finding::Finding;
 use crate::rules;
@@ -6,7 +6,7 @@ use crate::source::MAX_FILE;
 use crate::spec::{Misfit, Mistake};
 use std::ops::Range;
 
-/// What is said about a misfit.
+/// The messages about a misfit.
 pub(super) fn to_finding(misfit: &Misfit) -> Finding {
     let mut finding = finding_at(misfit.span.clone(), &misfit.mistake);
     // The page does not read a `verify` object: it is nothing to the student, and everything to the check.

@@ -1,10 +1,10 @@
-//! What is said about broken JSON, by the page of its rule. What is broken, and which change repairs it, is decided in `json/`.
+//! The messages about broken JSON, by the page of its rule. What is broken, and which change repairs it, is decided in `json/`.
 
 use crate::finding::Finding;
 use crate::json::{Mistake, Problem};
 use crate::rules::{duplicate_key, json_limit, json_syntax, typographic_quote};
 
-/// What is said about broken JSON.
+/// The messages about broken JSON.
 pub(crate) fn to_finding(problem: &Problem) -> Finding {
     let (span, related) = (problem.span.clone(), problem.related.clone());
     let finding = match &problem.mistake {

@@ -42,7 +42,7 @@ fn check_rules(lesson: &Lesson, models: &ModelFolder) -> Vec<Finding> {
     findings
 }
 
-/// What is said about something that was wrong where it was read.
+/// The messages about something that was wrong where it was read.
 fn to_finding(lesson: &Lesson, problem: &Problem) -> Finding {
     match problem {
         Problem::Fence(problem) => fence::to_finding(lesson.file.text(), problem),

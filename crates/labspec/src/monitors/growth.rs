@@ -27,8 +27,8 @@
 //! A step in which something turns by more than half a turn does not follow that motion at all: where nothing is elastic, a gain
 //! that is seen a few times there is growth, whether it lasts or not. A pendulum at a step of a second throws itself about like this.
 //!
-//! A joint whose damping is below zero is a motor without end: what it gives is a gain like any other, and is told by its name.
-//! (Where the damping becomes positive at larger speeds, as in an oscillator that keeps itself going, the end is there, and
+//! A joint whose damping is below zero is a motor without end: what it gives is a gain like any other, and is reported by its
+//! name. (Where the damping becomes positive at larger speeds, as in an oscillator that keeps itself going, the end is there, and
 //! the watch is over.)
 //!
 //! A servo or motor without states pulls along its length x with the force clip(a - k x), whose potential is closed. Whatever
@@ -62,7 +62,7 @@ const LEAPS: u32 = 4;
 /// the diagonal of M is taken anew after so many looks only.
 const SLOW: f64 = 0.5;
 const FEW: usize = 12;
-const WEIGHED: u32 = 64;
+const LOOKS_PER_UPDATE: u32 = 64;
 /// A scene at rest may drift by this part of its size in a second.
 const DRIFT: f64 = 0.01;
 
@@ -99,7 +99,7 @@ pub struct GrowthMonitor {
     start: Option<StartEnergy>,
     /// Roots of the diagonal of M, the largest that were seen, and looks until they are seen again.
     roots: Vec<f64>,
-    weighed: u32,
+    looks_until_update: u32,
     unit: [Vec<f64>; 2],
     /// How large a sudden gain is, in parts of what can be there.
     sudden: f64,
@@ -128,7 +128,7 @@ pub fn watch<S: Scope>(m: &Model, d: &Data<S>) -> GrowthMonitor {
         copied: Data::planned(m, Plan::awake()),
         start: None,
         roots: vec![0.0; m.nv],
-        weighed: 0,
+        looks_until_update: 0,
         unit: [vec![0.0; m.nv], vec![0.0; m.nv]],
         sudden: 0.0,
         rest: 0,
@@ -159,7 +159,7 @@ pub fn restart<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>) {
         let energy = mechanical_energy(m, &mut w.copied).ok().flatten();
         w.start = energy.map(|energy| start(m, &w.copied, energy));
         w.roots.fill(0.0);
-        w.weighed = 0;
+        w.looks_until_update = 0;
         w.sudden = sudden(m);
         update_inertia_scale(w, m);
     }
@@ -173,11 +173,11 @@ fn sudden(m: &Model) -> f64 {
 
 /// Keeps the roots of the diagonal of M where they are larger than before.
 fn update_inertia_scale(w: &mut GrowthMonitor, m: &Model) {
-    w.weighed = w.weighed.saturating_sub(1);
-    if w.weighed > 0 {
+    w.looks_until_update = w.looks_until_update.saturating_sub(1);
+    if w.looks_until_update > 0 {
         return;
     }
-    w.weighed = if m.nv <= FEW { 1 } else { WEIGHED };
+    w.looks_until_update = if m.nv <= FEW { 1 } else { LOOKS_PER_UPDATE };
     let [unit, column] = &mut w.unit;
     for k in 0..w.roots.len() {
         unit.fill(0.0);

@@ -38,7 +38,7 @@ fn a_spring_just_beyond_its_limit_grows_and_below_it_does_not() {
     for integrator in ["Euler", "implicit", "implicitfast"] {
         // The longest step that follows k = 1e4 N/m on 1 kg is 2/ω = 0.02 s. With s = hω/2 < 1 energy swings by the factor
         // (1 + s)/(1 - s): by 39 at 0.019 s, by 667 at 0.01994 s; as much of it is in the spring as in the motion, and it comes
-        // back within some steps. Within 0.1 % of the limit a swing lasts longer than LASTS: that may be told, and is not
+        // back within some steps. Within 0.1 % of the limit a swing lasts longer than LASTS: that may be reported, and is not
         // claimed either way.
         for (h, grows) in [(0.0201, true), (0.01994, false), (0.019, false), (0.015, false), (0.002, false)] {
             let text =

@@ -113,7 +113,7 @@ pub fn observe<S: Scope>(w: &mut LimitMonitor, d: &Data<S>) -> Option<Past> {
     })
 }
 
-/// What is to be said of a joint that is far beyond its limit.
+/// The findings about a joint that is far beyond its limit.
 #[cold]
 fn far(j: &mut Limited, time: f64, [before, q]: [f64; 2]) -> Option<Past> {
     let step = q - before;
@@ -170,7 +170,7 @@ mod tests {
         // A method whose stages see the limit ends its step with another speed than it moved with.
         let rk4 = run("range=\"-45 45\"", "<option integrator=\"RK4\"/>", 1e4).unwrap();
         assert!(rk4.time < 0.003 && rk4.step.unwrap() > 10.0, "{rk4:?}");
-        // Nothing is said where nothing limits.
+        // Nothing is reported where nothing limits.
         assert_eq!(run("", "", 1000.0), None);
     }
 

@@ -43,7 +43,7 @@ pub struct TunnellingMonitor {
     mat: Vec<f64>,
     /// How far each geom moved in the last step, its turning included, m.
     moved: Vec<f64>,
-    is_kept: bool,
+    is_stored: bool,
     left: u32,
 }
 
@@ -63,14 +63,14 @@ pub fn watch<S: Scope>(m: &Model, d: &Data<S>) -> TunnellingMonitor {
         pos: poses(3),
         mat: poses(9),
         moved: poses(1),
-        is_kept: false,
+        is_stored: false,
         left: 0,
     }
 }
 
 /// Forgets what was seen: something from outside has changed the state.
 pub fn restart(w: &mut TunnellingMonitor) {
-    (w.is_kept, w.left) = (false, 0);
+    (w.is_stored, w.left) = (false, 0);
 }
 
 /// To be called after each step.
@@ -91,14 +91,14 @@ fn pass(w: &mut TunnellingMonitor, m: &Model, f: &Fields) -> Option<Through> {
         return None;
     }
     let mut found = None;
-    let mut awake = !w.is_kept;
-    if w.is_kept {
+    let mut awake = !w.is_stored;
+    if w.is_stored {
         let fastest = measure(w, f);
         if fastest > 0.5 * FAST * w.thinnest {
             (awake, found) = walls(w, m, f);
         }
     }
-    w.is_kept = awake;
+    w.is_stored = awake;
     if awake {
         w.pos.copy_from_slice(&f.geom_xpos);
         w.mat.copy_from_slice(&f.geom_xmat);
@@ -160,8 +160,8 @@ fn passed(w: &TunnellingMonitor, m: &Model, f: &Fields, g: usize, wall: usize) -
         let far = (before[k] - after[k]).abs() > 2.0 * FAST * half[k];
         far && (0.0..=1.0).contains(&part) && (0..3).all(|j| j == k || at(j).abs() < half[j])
     });
-    let way = [0, 1, 2].map(|k| after[k] - before[k]).map(|x| x * x).iter().sum::<f64>().sqrt();
-    crossed.then_some(way)
+    let length = [0, 1, 2].map(|k| after[k] - before[k]).map(|x| x * x).iter().sum::<f64>().sqrt();
+    crossed.then_some(length)
 }
 
 /// The middle of a geom in the frame of another one.

@@ -83,8 +83,8 @@ impl Player {
         };
         let lab = Arc::new(lab.clone());
         // Whoever draws a scene may read everything.
-        let demand = AccessSet { reads: FieldSet::ALL, ..programs.demand };
-        let start = Start { plan: Some(Plan::new(&model, &demand)), ..Start::of_lab(&lab) };
+        let access = AccessSet { reads: FieldSet::ALL, ..programs.access };
+        let start = Start { plan: Some(Plan::new(&model, &access)), ..Start::of_lab(&lab) };
         let mut session = Session::start(Arc::new(programs), &model, start);
         session.watch();
         let (controls, displayed) = (control::list(&lab), displayed::list(&lab));

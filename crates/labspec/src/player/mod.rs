@@ -211,12 +211,12 @@ impl Player {
 
     /// The fields that the programs of the lab read: `data.qpos`, `model.opt.timestep`.
     pub fn reads(&self) -> Vec<String> {
-        names(&self.now.session.programs().demand.reads)
+        names(&self.now.session.programs().access.reads)
     }
 
     /// The fields that the programs of the lab write.
     pub fn writes(&self) -> Vec<String> {
-        names(&self.now.session.programs().demand.writes)
+        names(&self.now.session.programs().access.writes)
     }
 
     fn stop(&self) -> Option<f64> {

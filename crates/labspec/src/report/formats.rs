@@ -51,7 +51,7 @@ pub fn jsonl(findings: &[Finding], files: &[&SourceFile]) -> String {
     for f in findings {
         let _ = writeln!(text, "{}", to_value(&FindingRow::new(f, files)));
     }
-    let _ = writeln!(text, "{}", to_value(&BTreeMap::from([("summary", Summary::of(findings))])));
+    let _ = writeln!(text, "{}", to_value(&BTreeMap::from([("summary", Summary::count(findings))])));
     printable_json(&text).into_owned()
 }
 
@@ -240,6 +240,6 @@ pub fn statistics(findings: &[Finding]) -> String {
         let summary = rules::find(code).map_or("", |rule| rule.summary);
         let _ = writeln!(text, "{count:>6}  {:<8} {code}: {}{fix}", severity.as_str(), printable(summary));
     }
-    let _ = writeln!(text, "{:>6}  {}", findings.len(), Summary::of(findings));
+    let _ = writeln!(text, "{:>6}  {}", findings.len(), Summary::count(findings));
     text
 }

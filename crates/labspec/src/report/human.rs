@@ -142,9 +142,9 @@ mod tests {
         let finding = Finding::new(rules::UNKNOWN_KEY, at..at + 5, "no key `exprr`")
             .help("did you mean `expr`?")
             .at(&file);
-        let shown = human(&[finding], &[&file], false);
-        assert!(shown.lines().all(|l| l.chars().count() < 130), "{shown}");
-        insta::assert_snapshot!(shown);
+        let rendered = human(&[finding], &[&file], false);
+        assert!(rendered.lines().all(|l| l.chars().count() < 130), "{rendered}");
+        insta::assert_snapshot!(rendered);
     }
 
     #[test]

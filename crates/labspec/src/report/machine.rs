@@ -47,7 +47,7 @@ pub fn json(findings: &[Finding], files: &[&SourceFile]) -> Value {
         summary: Summary,
     }
     let rows = findings.iter().map(|f| FindingRow::new(f, files)).collect();
-    to_value(&Findings { findings: rows, summary: Summary::of(findings) })
+    to_value(&Findings { findings: rows, summary: Summary::count(findings) })
 }
 
 /// A finding as programs read it.

@@ -43,7 +43,7 @@ pub struct Summary {
 
 impl Summary {
     /// Counts findings.
-    pub fn of(findings: &[Finding]) -> Summary {
+    pub fn count(findings: &[Finding]) -> Summary {
         let count = |severity| findings.iter().filter(|f| f.severity == severity).count();
         Summary {
             errors: count(Severity::Error),

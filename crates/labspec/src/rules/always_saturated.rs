@@ -31,7 +31,7 @@ pub(crate) fn check_saturation(observed: &ObservedLab<'_>, findings: &mut Vec<Fi
         }
         let [low, high] =
             [0, 1].map(|k| ready.model.actuator_ctrlrange.get(2 * i + k).copied().unwrap_or(0.0));
-        let name = ready.model.names.of(Obj::Actuator).get(i).filter(|n| !n.is_empty());
+        let name = ready.model.names.of_kind(Obj::Actuator).get(i).filter(|n| !n.is_empty());
         let who = name.map_or_else(|| format!("data.ctrl[{i}]"), |n| format!("the input of \"{n}\""));
         findings.push(
             Finding::warning(ALWAYS_SATURATED, ready.lab.place(), format!("{who} is outside its range all the time"))

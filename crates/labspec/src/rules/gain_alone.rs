@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Decided by `judge` in `check/setconst/words.rs`.
+/// Decided by `judge` in `check/setconst/findings.rs`.
 pub const GAIN_ALONE: &Rule = &Rule {
     code: "gain-alone",
     severity: Severity::Warning,

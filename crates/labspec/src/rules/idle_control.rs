@@ -1,12 +1,12 @@
 //! Controls that change nothing anybody sees: over all of their range, or over a part of it.
 //!
 //! What two runs show is compared to the last bit, so what matters only a little matters. Two controls may act together only: each is
-//! tried with the others moved, too, early and in mid-run. Where the work for that is spent before all is tried, nothing is said.
+//! tried with the others moved, too, early and in mid-run. If the work budget ends before all is tried, nothing is reported.
 
 use super::{IDLE_RANGE, needs_reset};
 use crate::bind::ControlProgram;
 use crate::check::observations::{
-    Mark, Move, ObservationBench, ObservedLab, Setting, longest_equal, settings, values,
+    Move, ObservationBench, ObservationHash, ObservedLab, Setting, longest_equal, settings, values,
 };
 use crate::check::setconst::digits;
 use crate::spec::{Control, ControlKind};
@@ -53,11 +53,11 @@ pub(crate) fn check_idle_controls(observed: &mut ObservedLab<'_>, findings: &mut
         if values.is_empty() || observed.reported.contains(&index) || !judged(observed, index) {
             continue;
         }
-        let moved: Vec<Mark> = observed
+        let moved: Vec<ObservationHash> = observed
             .records
             .iter()
             .filter(|r| r.moved.as_ref().is_some_and(|m| m.0 == index))
-            .map(|r| r.mark)
+            .map(|r| r.hash)
             .collect();
         // Each was set, and everything computed anew: what the run as it stands shows may differ by that alone.
         let all_same = moved.windows(2).all(|pair| matches!(pair, [a, b] if a == b));
@@ -83,7 +83,7 @@ pub(crate) fn check_idle_controls(observed: &mut ObservedLab<'_>, findings: &mut
     }
 }
 
-/// Whether this control is meant to change something that is compared, and is not told by another rule.
+/// Whether this control is meant to change something that is compared, and is not reported by another rule.
 fn judged(observed: &ObservedLab<'_>, index: usize) -> bool {
     let ready = observed.bench.ready;
     let Some((_, program)) = ready.programs.controls.get(index) else { return false };
@@ -128,7 +128,7 @@ fn suspicious(
 ) -> Option<std::ops::Range<usize>> {
     let mut marks = Vec::new();
     for value in values {
-        marks.push(bench.run(&[Move { step: 0, control: index, value: value.clone() }], steps)?.mark);
+        marks.push(bench.run(&[Move { step: 0, control: index, value: value.clone() }], steps)?.hash);
     }
     let best = longest_equal(&marks);
     (best.len() >= IN_A_ROW.min(values.len())).then_some(best)
@@ -158,7 +158,7 @@ fn idle(bench: &mut ObservationBench<'_>, index: usize, values: &[Option<Value>]
         for at in [0, steps / 2] {
             let late = at > 0;
             // Late, a slider comes from the first of the values.
-            let mut seen: Option<Mark> = None;
+            let mut seen: Option<ObservationHash> = None;
             for value in &picked {
                 let tried_move = Move {
                     step: if value.is_none() { at.max(press + 1) } else { at },
@@ -173,17 +173,17 @@ fn idle(bench: &mut ObservationBench<'_>, index: usize, values: &[Option<Value>]
                 moves.extend(presses(&tried_move, steps));
                 moves.extend(setting.iter().filter(|m| m.step > 0).cloned());
                 let Some(record) = bench.run(&moves, steps) else { return false };
-                if seen.is_some_and(|mark| mark != record.mark) {
+                if seen.is_some_and(|hash| hash != record.hash) {
                     return false;
                 }
-                seen = Some(record.mark);
+                seen = Some(record.hash);
             }
             if picked.iter().any(Option::is_none) {
                 // A button: against the run in which everything is only computed anew.
                 let mut moves = setting.clone();
                 moves.extend(presses(&Move::nothing(at.max(press + 1)), steps));
                 let Some(record) = bench.run(&moves, steps) else { return false };
-                if seen != Some(record.mark) {
+                if seen != Some(record.hash) {
                     return false;
                 }
             }

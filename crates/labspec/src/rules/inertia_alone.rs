@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Decided by `judge` in `check/setconst/words.rs`.
+/// Decided by `judge` in `check/setconst/findings.rs`.
 pub const INERTIA_ALONE: &Rule = &Rule {
     code: "inertia-alone",
     severity: Severity::Warning,

@@ -16,7 +16,7 @@ pub const JSON_SYNTAX: &Rule = &Rule {
     good: Example::Lab(r#"{"model": "ball", "stopAt": 2, "dock": true}"#),
 };
 
-/// What is said about a problem: message, reason, help, and what the other place is.
+/// The messages about a problem: message, reason, help, and what the other place is.
 struct MessageParts {
     message: String,
     why: &'static str,
@@ -39,7 +39,7 @@ impl MessageParts {
     }
 }
 
-/// What is said about a mistake that is of no other rule.
+/// The messages about a mistake that is of no other rule.
 pub(crate) fn describe_problem(problem: &Problem) -> Finding {
     let MessageParts { message, why, help, related } = describe(&problem.mistake);
     let mut finding = Finding::new(JSON_SYNTAX, problem.span.clone(), message).help(help);
@@ -61,7 +61,7 @@ pub(crate) fn empty_fence(span: Range<usize>) -> Finding {
 /// Why a text ends on its line.
 const ONE_LINE: &str = "a JSON string must end on the line where it begins";
 
-/// What is said about a mistake: each group of mistakes has its own function.
+/// The messages about a mistake: each group of mistakes has its own function.
 fn describe(mistake: &Mistake) -> MessageParts {
     let groups = [describe_separator, describe_bracket, describe_literal, describe_string, describe_quotes];
     if let Mistake::Nothing = mistake {

@@ -61,7 +61,11 @@ struct DisplayedValue<'l> {
 
 /// Every name of a body, joint, geom, site, actuator or sensor.
 pub(super) fn names(model: &Model) -> impl Iterator<Item = &str> {
-    KINDS.iter().flat_map(|(kind, _)| model.names.of(*kind)).map(String::as_str).filter(|n| !n.is_empty())
+    KINDS
+        .iter()
+        .flat_map(|(kind, _)| model.names.of_kind(*kind))
+        .map(String::as_str)
+        .filter(|n| !n.is_empty())
 }
 
 pub(crate) fn check_names(lab: &Lab, model: &Model, programs: &Programs, findings: &mut Vec<Finding>) {
@@ -281,7 +285,7 @@ fn elements(model: &Model) -> Vec<NamedObject> {
     let mut all = Vec::new();
     for (kind, noun) in KINDS {
         for (index, name) in
-            model.names.of(kind).iter().enumerate().filter(|(_, n)| n.chars().count() > 1).take(MOST)
+            model.names.of_kind(kind).iter().enumerate().filter(|(_, n)| n.chars().count() > 1).take(MOST)
         {
             let body = body_of(model, kind, index).filter(|b| *b != 0);
             // A space of names stands before a stroke.

@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Decided by `judge` in `check/setconst/words.rs`.
+/// Decided by `judge` in `check/setconst/findings.rs`.
 pub const MISSING_SETCONST: &Rule = &Rule {
     code: "missing-setconst",
     severity: Severity::Warning,

@@ -23,7 +23,7 @@ pub const NUMBERS_UNCLAIMED: &Rule = &Rule {
 const LEAST: usize = 10;
 /// Of so many numbers one may be left out.
 const SHARE: usize = 10;
-/// Fewer are not told: one or two are what the text begins with.
+/// Fewer are not reported: one or two are what the text begins with.
 const FEWEST: usize = 3;
 /// Bytes of a lesson in which they are looked for.
 const LONGEST: usize = 2 << 20;

@@ -208,8 +208,8 @@ fn after(
     let set = now(&session);
     session.step();
     let then = now(&session);
-    let (spent, sound) = (session.spent(), session.ended().is_none());
+    let (spent, completed) = (session.spent(), session.ended().is_none());
     drop(session);
     observed.bench.left = observed.bench.left.saturating_sub(spent);
-    (sound && observed.bench.left > 0).then_some((set, then))
+    (completed && observed.bench.left > 0).then_some((set, then))
 }

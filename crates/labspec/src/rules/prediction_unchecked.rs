@@ -26,7 +26,7 @@ fn check_lesson(lesson: &Lesson, findings: &mut Vec<Finding>) {
         .filter(|q| matches!(&q.kind, QuestionKind::Choice { style: ChoiceStyle::Predict, sim: Some(_), .. }))
         .collect();
     let open: Vec<&&Question> = predictions.iter().filter(|q| q.verify.is_none()).collect();
-    // One alone is counted among the answers without a check, and not told.
+    // One alone is counted among the answers without a check, and not reported.
     let Some(first) = open.first().filter(|_| predictions.len() > 1) else { return };
     let (count, of) = (open.len(), predictions.len());
     let message = format!("{count} of {of} predictions have no `verify`; this is the first one");

@@ -66,7 +66,7 @@ pub(crate) fn check_jumps(observed: &ObservedLab<'_>, findings: &mut Vec<Finding
         let model = &ready.model;
         let joint =
             (0..model.njnt).rev().find(|j| model.jnt_qposadr.get(*j).is_some_and(|adr| *adr as usize <= i));
-        let name = joint.and_then(|j| model.names.of(Obj::Joint).get(j)).filter(|n| !n.is_empty());
+        let name = joint.and_then(|j| model.names.of_kind(Obj::Joint).get(j)).filter(|n| !n.is_empty());
         let of = name.map_or(String::new(), |n| format!(" of joint \"{n}\""));
         let [a, b, time] = [a, b, session.world.data.time()].map(|x| digits(x, 4));
         findings.push(

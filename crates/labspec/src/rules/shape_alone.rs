@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Decided by `judge` in `check/setconst/words.rs`.
+/// Decided by `judge` in `check/setconst/findings.rs`.
 pub const SHAPE_ALONE: &Rule = &Rule {
     code: "shape-alone",
     severity: Severity::Warning,

@@ -102,7 +102,7 @@ pub(super) fn parts(text: &str) -> Option<Vec<String>> {
     (!text.contains("//") && !text.contains("/*")).then_some(parts)
 }
 
-/// The statements with `mj_forward` behind each that writes the state; `None` where that cannot be told from the text.
+/// The statements with `mj_forward` behind each that writes the state; `None` where the text does not show that.
 fn with_forward(text: &str) -> Option<String> {
     let parts = parts(text)?;
     let writes = |part: &str| {
@@ -140,9 +140,9 @@ fn amended(
             None => return None,
         },
     }
-    let mut demand = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
-    programs.bound().for_each(|b| include(b.program.effects(), &mut demand));
-    programs.demand = demand;
+    let mut access = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+    programs.bound().for_each(|b| include(b.program.effects(), &mut access));
+    programs.access = access;
     Some(programs)
 }
 

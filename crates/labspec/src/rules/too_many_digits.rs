@@ -102,8 +102,8 @@ fn samples(observed: &mut ObservedLab<'_>, steps: usize, parts: usize) -> Option
         }
         ControlFlow::Continue(())
     });
-    let (spent, sound) = (session.spent(), session.ended().is_none());
+    let (spent, completed) = (session.spent(), session.ended().is_none());
     drop(session);
     observed.bench.left = observed.bench.left.saturating_sub(spent);
-    (sound && observed.bench.left > 0).then_some(rows)
+    (completed && observed.bench.left > 0).then_some(rows)
 }

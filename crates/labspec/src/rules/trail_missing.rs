@@ -28,12 +28,14 @@ fn check_lab(lab: &Lab, model: &Model, findings: &mut Vec<Finding>) {
     // Without a name no path is asked for.
     let Some(trail) = lab.trail.as_ref().filter(|t| !t.as_str().is_empty()) else { return };
     let name = trail.as_str();
-    let sites = || model.names.of(Obj::Site).iter().map(String::as_str).filter(|site| !site.is_empty());
+    let sites = || model.names.of_kind(Obj::Site).iter().map(String::as_str).filter(|site| !site.is_empty());
     if sites().any(|site| site == name) {
         return;
     }
     let others = [(Obj::Body, "body"), (Obj::Geom, "geom"), (Obj::Joint, "joint")];
-    let other = others.into_iter().find(|(kind, _)| model.names.of(*kind).iter().any(|known| known == name));
+    let other = others
+        .into_iter()
+        .find(|(kind, _)| model.names.of_kind(*kind).iter().any(|existing| existing == name));
     let message = match other {
         Some((_, kind)) => format!("{} is a {kind} of the model, but a trail follows a site", named(name)),
         None => format!("the model has no site {}", named(name)),
@@ -71,19 +73,19 @@ mod tests {
 
     #[test]
     fn what_is_no_site_is_told_with_what_there_is() {
-        let told = |trail, sites| {
+        let reported = |trail, sites| {
             let [one] = found(trail, sites).try_into().unwrap();
             let Finding { code, message, help, .. } = one;
             assert_eq!(code, "trail-missing");
             (message, help.unwrap())
         };
         let tip = "<site name='tip'/><site/><site name='end'/>";
-        let (message, help) = told("tpi", tip);
+        let (message, help) = reported("tpi", tip);
         assert_eq!((message.as_str(), help.as_str()), ("the model has no site `tpi`", "did you mean `tip`?"));
-        let (message, help) = told("rod", tip);
+        let (message, help) = reported("rod", tip);
         assert_eq!(message, "`rod` is a body of the model, but a trail follows a site");
         assert_eq!(help, "use one of its sites: tip, end");
-        let (message, help) = told("bar", "<site/>");
+        let (message, help) = reported("bar", "<site/>");
         assert!(message.contains("a geom") && help.contains("name a site in the model"), "{message}: {help}");
     }
 

@@ -25,7 +25,7 @@ const ENOUGH: usize = 3000;
 /// Places that are looked at.
 const MOST: usize = 26;
 
-/// Looks at the whole course: said once, at the first question whose answer stands there.
+/// Checks the whole course: reported once, at the first question whose answer stands there.
 pub(super) fn across(lessons: &[&Lesson]) -> Vec<Finding> {
     let mut keys = Vec::new();
     for lesson in lessons {
@@ -40,23 +40,27 @@ pub(super) fn across(lessons: &[&Lesson]) -> Vec<Finding> {
     }
     keys.truncate(ENOUGH);
     let places = keys.iter().map(|(_, n, ..)| *n).max().unwrap_or(0).min(MOST);
-    let stands = |place: usize| keys.iter().filter(|k| k.0 == place).count();
-    let Some(place) = (0..places).max_by_key(|p| (stands(*p), places - p)) else { return Vec::new() };
+    let count_at = |place: usize| keys.iter().filter(|k| k.0 == place).count();
+    let Some(place) = (0..places).max_by_key(|p| (count_at(*p), places - p)) else { return Vec::new() };
     let chances: Vec<f64> =
         keys.iter().map(|(_, n, ..)| if place < *n { 1.0 / *n as f64 } else { 0.0 }).collect();
     // Any of the places could have been the one.
-    let chance = places as f64 * at_least(&chances, stands(place));
+    let chance = places as f64 * at_least(&chances, count_at(place));
     let Some((.., file, span)) = keys.iter().find(|k| k.0 == place) else { return Vec::new() };
     if chance >= RARE {
         return Vec::new();
     }
-    let counts: Vec<String> = (0..places).map(|p| format!("{} at {p}", stands(p))).collect();
+    let counts: Vec<String> = (0..places).map(|p| format!("{} at {p}", count_at(p))).collect();
     let expected: f64 = chances.iter().sum();
     vec![
         Finding::plain(
             UNEVEN_ANSWERS,
             span.clone(),
-            format!("of {} correct options in the course, {} have index {place}", keys.len(), stands(place)),
+            format!(
+                "of {} correct options in the course, {} have index {place}",
+                keys.len(),
+                count_at(place)
+            ),
         )
         .why(format!(
             "chance gives {expected:.1} on average, and this many in one of {:.0} courses; all: {}",

@@ -43,7 +43,7 @@ fn check_lesson(lesson: &Lesson, findings: &mut Vec<Finding>) {
     }
     for lab in named {
         let VerifyLab::Reference(text, address) = lab else { continue };
-        // A lab that is there and could not be read has been told of.
+        // A lab that is there and could not be read has been reported.
         let broken = matches!(address, LabAddress::Lab(n) if *n <= lesson.labs.len());
         if broken || lesson.lab(address).is_some() {
             continue;

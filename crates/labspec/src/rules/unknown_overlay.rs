@@ -19,7 +19,7 @@ pub(super) const CHECK: Check = Check::Lab(check_lab);
 
 fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
     let written = lab.toggles.iter().chain(lab.overlays.iter().map(|(name, _)| name));
-    for name in written.filter(|name| texts(&OVERLAYS).all(|known| known != name.as_str())) {
+    for name in written.filter(|name| texts(&OVERLAYS).all(|overlay| overlay != name.as_str())) {
         let found =
             Finding::new(UNKNOWN_OVERLAY, name.span(), format!("{} is not an overlay", named(name.as_str())));
         findings.push(match nearest(name.as_str(), texts(&OVERLAYS)) {

@@ -18,19 +18,19 @@ pub const UNUSED_ALLOWANCE: &Rule = &Rule {
 };
 
 /// A code of an allowance that suppresses nothing; `None` where a check to this depth cannot tell.
-pub(crate) fn check_use(rule: &Rule, span: Range<usize>, depth: CheckLevel) -> Option<Finding> {
-    can_find(rule.layer, depth).then(|| {
+pub(crate) fn check_use(rule: &Rule, span: Range<usize>, level: CheckLevel) -> Option<Finding> {
+    can_find(rule.layer, level).then(|| {
         Finding::new(UNUSED_ALLOWANCE, span, format!("`{}` matches no finding here", rule.code))
             .help("delete it")
     })
 }
 
 /// Whether a check to this depth can find what a rule of this layer says.
-fn can_find(layer: Layer, depth: CheckLevel) -> bool {
+fn can_find(layer: Layer, level: CheckLevel) -> bool {
     match layer {
-        Layer::Run => depth.labs,
-        Layer::Claim => depth.claims,
-        Layer::Program => depth.programs,
+        Layer::Run => level.labs,
+        Layer::Claim => level.claims,
+        Layer::Program => level.programs,
         _ => true,
     }
 }

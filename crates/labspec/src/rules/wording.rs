@@ -34,9 +34,9 @@ pub(super) fn visible_text(html: &str) -> String {
 /// The words of a text without capitals and marks, code and formulas too.
 pub(super) fn loose(html: &str) -> String {
     let lower = plain(html).to_lowercase();
-    let without_marks: String =
+    let without_punctuation: String =
         lower.chars().map(|c| if ",;:!?'\"“”‘’()".contains(c) { ' ' } else { c }).collect();
-    let words = without_marks.split_whitespace().map(|w| w.trim_end_matches('.'));
+    let words = without_punctuation.split_whitespace().map(|w| w.trim_end_matches('.'));
     words.filter(|w| !w.is_empty()).collect::<Vec<_>>().join(" ")
 }
 

@@ -29,9 +29,9 @@ pub enum Shorter {
     No,
     /// A shorter one may help, this one by theory where there is one. Nobody has tried it.
     Maybe(Option<f64>),
-    /// A run with this one was sound.
+    /// A run with this one had no fault.
     Tried(f64),
-    /// None of those that were tried was sound.
+    /// No run with those that were tried was free of faults.
     Useless,
 }
 
@@ -114,7 +114,7 @@ impl BreakdownAdvice {
 
 /// What is too stiff: `the servo "lift"`, `the spring of joint "knee"`.
 pub fn owner(model: &Model, s: &Suspect) -> String {
-    let names = model.names.of(s.object);
+    let names = model.names.of_kind(s.object);
     let name = match names.get(s.id) {
         Some(name) if !name.is_empty() => format!("\"{name}\""),
         _ => s.id.to_string(),

@@ -172,8 +172,8 @@ pub(crate) fn begin<'p>(
 /// Takes a sample; nothing more is run when that is not possible.
 pub(crate) fn take(samples: &mut Samples<'_>, session: &mut Session<'_>) -> ControlFlow<()> {
     // Programs of another model end the session before its first step, which the table says.
-    let taken = samples.take(session);
-    if taken.is_err() || samples.text() > MAX_TEXT {
+    let sampled = samples.take(session);
+    if sampled.is_err() || samples.text() > MAX_TEXT {
         ControlFlow::Break(())
     } else {
         ControlFlow::Continue(())
@@ -204,7 +204,7 @@ pub(crate) fn finish(started: StartedRun<'_>, made: usize) -> Result<Table, RunE
 /// # Errors
 /// A control that does not exist, a setting that no student can make, or a run that is too long.
 pub fn run(lab: &Lab, model: &Model, programs: &Programs, options: &RunOptions) -> Result<Table, RunError> {
-    let mut started = begin(lab, model, programs, options, &programs.demand)?;
+    let mut started = begin(lab, model, programs, options, &programs.access)?;
     let StartedRun { session, samples, steps, every, presses, .. } = &mut started;
     let played = Play { steps: *steps, every: *every, presses, watched: true };
     let made = play(session, &played, |session, _| take(samples, session));

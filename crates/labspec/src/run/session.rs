@@ -66,7 +66,7 @@ impl<'p> Session<'p> {
     /// Loads the lab: steps 1 to 3 of the order of events.
     pub fn start(programs: impl Into<Held<'p>>, model: &Model, start: Start) -> Session<'p> {
         let (programs, Start { key, plan, budget }) = (programs.into(), start);
-        let data = Data::planned(model, plan.unwrap_or_else(|| Plan::new(model, &programs.demand)));
+        let data = Data::planned(model, plan.unwrap_or_else(|| Plan::new(model, &programs.access)));
         let before = core::cost(&data);
         let values = programs.controls.iter().map(|(_, c)| match c {
             ControlProgram::Change(value, _) => value.clone(),

@@ -24,7 +24,7 @@ pub struct Table {
     pub errors: Vec<String>,
 }
 
-/// What is said of programs and a model that do not belong together.
+/// The messages about programs and a model that do not belong together.
 const FOREIGN: &str =
     "the programs belong to another model, so nothing was run; compile the lab for this one";
 

@@ -60,7 +60,7 @@ impl SourceFile {
     }
 
     /// A file from its bytes, whatever they are: what is not UTF-8 is replaced, and the first place where it is not is
-    /// told, so that the rest can be checked all the same. UTF-16 is read by its byte order mark.
+    /// reported, so that the rest can still be checked. UTF-16 is read by its byte order mark.
     pub fn from_bytes(path: impl Into<Arc<str>>, bytes: &[u8]) -> (SourceFile, Option<BadText>) {
         let wide = |from: fn([u8; 2]) -> u16| {
             let units = bytes.get(2..).unwrap_or(&[]).chunks_exact(2);

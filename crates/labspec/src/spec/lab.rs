@@ -61,7 +61,7 @@ pub struct Lab {
     pub readouts: Vec<Readout>,
     /// What the lesson claims about this lab.
     pub verify: Option<Verify>,
-    /// Findings that are not told of it.
+    /// Findings that are not reported about it.
     pub lint: Option<Allowance>,
     /// What the author expects of its runs.
     pub expect: Option<Expect>,
@@ -190,7 +190,7 @@ impl Lab {
     pub fn speeds(&self) -> Vec<f64> {
         match self.speeds.as_slice() {
             [] => LAB.numbers("speeds").to_vec(),
-            own => own.iter().map(|s| s.value).collect(),
+            given => given.iter().map(|s| s.value).collect(),
         }
     }
 

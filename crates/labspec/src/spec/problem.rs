@@ -90,7 +90,7 @@ pub enum Mistake {
     NoLab(&'static str),
     /// Something else than one control or attribute with its values.
     NoSweep,
-    /// A column that says neither how its rows are told apart nor which row is meant, or both.
+    /// A column that says neither how its rows are distinguished nor which row is meant, or both.
     NoRows,
     /// A search for neither the largest nor the smallest value, or for both.
     FindsNothing,

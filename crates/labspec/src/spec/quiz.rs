@@ -22,7 +22,7 @@ pub struct Quiz {
     pub title: Option<Text>,
     /// The questions. One that could not be understood is `None`, so that the numbers of the others stay.
     pub questions: Vec<Option<Question>>,
-    /// Findings that are not told of it.
+    /// Findings that are not reported about it.
     pub lint: Option<Allowance>,
 }
 
@@ -41,7 +41,7 @@ pub struct Question {
     pub kind: QuestionKind,
     /// What a machine can check about the answer.
     pub verify: Option<Verify>,
-    /// Findings that are not told of it.
+    /// Findings that are not reported about it.
     pub lint: Option<Allowance>,
 }
 

@@ -55,7 +55,7 @@ pub(super) fn wrong_key(problems: &mut Vec<Problem>, node: &Node, key: &str, exp
     wrong(problems, node, format!("`{key}`"), expected);
 }
 
-/// Something has another type. What could not be read at all has been said.
+/// Something has another type. What could not be read at all has been reported.
 pub(super) fn wrong(problems: &mut Vec<Problem>, node: &Node, what: String, expected: Expected) {
     if node.is_broken() {
         return;

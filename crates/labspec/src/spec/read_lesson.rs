@@ -152,7 +152,7 @@ fn push_lab(lesson: &mut Lesson, span: Range<usize>, lab: Option<Lab>) {
     lesson.labs.push(LabEntry { number, span, broken, lab });
 }
 
-/// A lab, a quiz, or a list of them, told apart by their keys.
+/// A lab, a quiz, or a list of them, distinguished by their keys.
 fn json_file(lesson: &mut Lesson, at: Option<Range<usize>>) {
     let text = lesson.file.text();
     // A byte order mark is no part of JSON, and editors hide it.

@@ -126,7 +126,7 @@ pub type Change<'c> = &'c dyn Fn(&mut Session<'_>);
 impl<'a> StressCase<'a> {
     /// The runs of a lab in which `base` is done before everything else.
     pub fn new(lab: &'a Lab, model: &'a Model, programs: &'a Programs, base: Interaction) -> StressCase<'a> {
-        let mut access = programs.demand;
+        let mut access = programs.access;
         [data::geom_xpos, data::geom_xmat, data::xpos].into_iter().for_each(|f| access.reads.insert(f));
         let probes = || programs.probes.iter().filter_map(|p| p.bound.as_ref());
         let stores = |b: &Bound| {

@@ -109,20 +109,20 @@ fn bodies(m: &Model, half: &[CreepSample]) -> Vec<Fault> {
     let time = last.time - first.time;
     let mut list = Vec::new();
     let place = |i: usize, b: usize| half.get(i).and_then(|at| at.places.get(b)).copied().unwrap_or_default();
-    let way = |b: usize, from: usize, to: usize| norm(sub(place(to, b), place(from, b)));
+    let distance = |b: usize, from: usize, to: usize| norm(sub(place(to, b), place(from, b)));
     let size = |b: usize| sizes(m, b);
     let end = half.len() - 1;
     // The scene rests when every body in it does.
     let moves = |b: usize| m.body_treeid.get(b).is_some_and(|&t| t >= 0);
-    let path = |b: usize| (0..end).map(|i| way(b, i, i + 1)).sum::<f64>();
+    let path = |b: usize| (0..end).map(|i| distance(b, i, i + 1)).sum::<f64>();
     if (1..m.nbody).filter(|b| moves(*b)).any(|b| path(b) > RESTS * size(b) * time) {
         return Vec::new();
     }
     for b in (1..m.nbody).filter(|b| moves(*b)) {
         let rubs = half.iter().all(|at| at.rubs.get(b).copied().unwrap_or(false));
-        let all = way(b, 0, end);
+        let all = distance(b, 0, end);
         let [one, two] =
-            [way(b, 0, end / 2) / (end / 2) as f64, way(b, end / 2, end) / (end - end / 2) as f64];
+            [distance(b, 0, end / 2) / (end / 2) as f64, distance(b, end / 2, end) / (end - end / 2) as f64];
         let even = (one - two).abs() <= EVEN * one.max(two);
         if rubs && all > CREEPS * size(b) && all >= STRAIGHT * path(b) && even {
             list.push(creep(body_name(m, b), first.time, all, time, "m"));
@@ -137,14 +137,14 @@ fn joints(m: &Model, half: &[CreepSample]) -> Vec<Fault> {
     let mut list = Vec::new();
     for (i, (j, _, dof)) in with_friction(m).enumerate() {
         let at = |moment: &CreepSample| moment.joints.get(i).copied().unwrap_or((0.0, false));
-        let way = (at(last).0 - at(first).0).abs();
+        let travel = (at(last).0 - at(first).0).abs();
         let path: f64 =
             half.windows(2).map(|two| two.iter().map(|x| at(x).0).fold(0.0, |a, b| b - a).abs()).sum();
         let slide = m.jnt_type.get(j) == Some(&joint::SLIDE);
         let body = m.jnt_bodyid.get(j).map_or(0, |&b| b as usize);
         let (least, unit) = if slide { (CREEPS * sizes(m, body), "m") } else { (ANGLE, "rad") };
-        if half.iter().all(|moment| at(moment).1) && way > least && way >= STRAIGHT * path {
-            list.push(creep(joint_of_dof(m, dof), first.time, way, last.time - first.time, unit));
+        if half.iter().all(|moment| at(moment).1) && travel > least && travel >= STRAIGHT * path {
+            list.push(creep(joint_of_dof(m, dof), first.time, travel, last.time - first.time, unit));
         }
     }
     list
@@ -172,7 +172,7 @@ fn held(d: &Fields, dof: usize) -> bool {
     force.zip(most).is_some_and(|(force, most)| force.abs() < HOLDS * most)
 }
 
-fn creep(who: String, since: f64, way: f64, time: f64, unit: &'static str) -> Fault {
+fn creep(who: String, since: f64, travel: f64, time: f64, unit: &'static str) -> Fault {
     let speed = if unit == "m" { "m/s" } else { "rad/s" };
     Fault {
         kind: FaultKind::Drifts,
@@ -180,11 +180,11 @@ fn creep(who: String, since: f64, way: f64, time: f64, unit: &'static str) -> Fa
         who,
         cause: "friction is soft: what it holds creeps, slowly and forever".into(),
         evidence: vec![
-            Evidence { name: "speed", value: way / time, unit: speed },
-            Evidence { name: "way", value: way, unit },
+            Evidence { name: "speed", value: travel / time, unit: speed },
+            Evidence { name: "way", value: travel, unit },
             Evidence { name: "for", value: time, unit: "s" },
         ],
-        size: way / time,
+        size: travel / time,
         by_run: false,
     }
 }

@@ -73,9 +73,9 @@ fn surface(m: &Model, p: usize, place: Vec3) -> Option<f64> {
     Some(top * ((1.0 - t) * ((1.0 - s) * a + s * b) + t * ((1.0 - s) * c + s * d)))
 }
 
-fn fell(m: &Model, d: &Fields, [g, p]: [usize; 2], way: f64, depth: f64) -> Fault {
+fn fell(m: &Model, d: &Fields, [g, p]: [usize; 2], travel: f64, depth: f64) -> Fault {
     let thick = geom_thickness(m, g);
-    let cause = if way > thick {
+    let cause = if travel > thick {
         "since it was last above the surface it moved farther than it is thick, so no step found a contact"
     } else {
         "the contact is too weak to hold it, so it is pressed below the surface"
@@ -87,7 +87,7 @@ fn fell(m: &Model, d: &Fields, [g, p]: [usize; 2], way: f64, depth: f64) -> Faul
         cause: cause.into(),
         evidence: vec![
             Evidence { name: "depth below the surface", value: depth, unit: "m" },
-            Evidence { name: "way since it was above it", value: way, unit: "m" },
+            Evidence { name: "way since it was above it", value: travel, unit: "m" },
             Evidence { name: "own thickness", value: thick, unit: "m" },
         ],
         size: depth / thick,

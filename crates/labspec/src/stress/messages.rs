@@ -58,7 +58,7 @@ pub(crate) fn describe(fault: &Fault) -> Option<Breakdown> {
     })
 }
 
-/// The same advice with a timestep that was tried: the longest of some with which the run is sound. Work is taken from `left`.
+/// The same advice with a timestep that was tried: the longest with which the run has no fault. Work is taken from `left`.
 pub(crate) fn with_tried_timestep(
     case: &StressCase<'_>,
     interaction: &Interaction,
@@ -79,7 +79,7 @@ pub(crate) fn with_tried_timestep(
         let outcome = case.run(interaction, Some(&change), length, WORK_OF_RUN.min(budget));
         budget = budget.saturating_sub(outcome.spent);
         *left = left.saturating_sub(outcome.spent);
-        if !is_sound(&outcome, breakdown.rule) {
+        if !has_no_fault(&outcome, breakdown.rule) {
             // A run that was not made to its end says nothing of this timestep, nor of shorter ones, which take longer.
             if outcome.cut {
                 return breakdown;
@@ -96,7 +96,7 @@ pub(crate) fn with_tried_timestep(
 }
 
 /// Whether nothing goes wrong in a run but what creeps, and what was reported is not there.
-fn is_sound(outcome: &RunOutcome, rule: &Rule) -> bool {
+fn has_no_fault(outcome: &RunOutcome, rule: &Rule) -> bool {
     let same = |f: &Fault| f.kind.rule().is_some_and(|r| r.code == rule.code);
     worst_fault(&outcome.faults, &[]).is_none() && !outcome.faults.iter().any(same)
 }
@@ -135,13 +135,13 @@ pub fn watched_run(
         if made == 0 {
             watcher.press_at_start(session);
         }
-        let taken = if made.is_multiple_of(every) || made == steps {
+        let sampled = if made.is_multiple_of(every) || made == steps {
             run::take(samples, session)
         } else {
             ControlFlow::Continue(())
         };
         watcher.observe(session, made, made == steps);
-        taken
+        sampled
     });
     let timestep = started.session.world.model.opt.timestep;
     let (length, faults) = (made as f64 * timestep, watcher.faults(&started.session));

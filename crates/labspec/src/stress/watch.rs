@@ -274,14 +274,14 @@ fn tunnelling(m: &Model, d: &Fields, [g, p]: [usize; 2], from: Vec3, to: Vec3) -
     let h = m.opt.timestep;
     let moves = |g: usize| m.body_treeid.get(body_of(m, g)).is_some_and(|&t| t >= 0);
     let [g, p] = if moves(g) || !moves(p) { [g, p] } else { [p, g] };
-    let way = labspec_core::math::norm(sub(to, from));
+    let travel = labspec_core::math::norm(sub(to, from));
     let [thick, own_thickness] = [geom_thickness(m, p), geom_thickness(m, g)];
-    let cause = if way > thick + own_thickness {
+    let cause = if travel > thick + own_thickness {
         format!(
             "in one step of {} s it moves farther than both are thick, so no step finds a contact",
             crate::run::two_digits(h)
         )
-    } else if way > thick {
+    } else if travel > thick {
         "in one step it moves farther than the other is thick, and is pushed out on the far side".to_string()
     } else {
         "the contact is too weak to hold it, so it is pressed to the other side".to_string()
@@ -292,11 +292,11 @@ fn tunnelling(m: &Model, d: &Fields, [g, p]: [usize; 2], from: Vec3, to: Vec3) -
         who: format!("{} through {}", geom_name(m, g), geom_name(m, p)),
         cause,
         evidence: vec![
-            Evidence { name: "way in one step", value: way, unit: "m" },
+            Evidence { name: "way in one step", value: travel, unit: "m" },
             Evidence { name: "thickness of what it passes", value: thick, unit: "m" },
             Evidence { name: "own thickness", value: own_thickness, unit: "m" },
         ],
-        size: way / thick,
+        size: travel / thick,
         by_run: false,
     }
 }

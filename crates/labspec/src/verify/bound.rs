@@ -328,7 +328,7 @@ impl<'a> BoundVerify<'a> {
     }
 
     /// Every run with its lab, in the order of an outcome.
-    pub(super) fn cast(&self) -> impl Iterator<Item = (&BoundRun<'a>, &BoundScene<'a>)> {
+    pub(super) fn runs_with_scenes(&self) -> impl Iterator<Item = (&BoundRun<'a>, &BoundScene<'a>)> {
         self.runs.iter().filter_map(|run| Some((run, self.scene_of(run)?)))
     }
 

@@ -5,7 +5,7 @@ use super::judgement::{Judgement, Measured, RunReport, unmade};
 use super::options::is_undecided;
 use super::outcome::Outcome;
 use super::outcomes::{Outcomes, run_all_numerics};
-use super::quote::ShownText;
+use super::quote::RenderedText;
 use super::quote_checker::QuoteChecker;
 use super::{answer, exact, says};
 use crate::finding::Finding;
@@ -14,13 +14,13 @@ use crate::rules;
 use crate::run::StepVariant;
 use crate::spec::{Question, Verify};
 
-/// Checks the claims of one `verify` object. `question` is what carries it, unless a lab does; `shown` is what a reader of
+/// Checks the claims of one `verify` object. `question` is what carries it, unless a lab does; `rendered` is what a reader of
 /// the lesson sees.
 pub fn check_verify(
     bound: &BoundVerify<'_>,
     verify: &Verify,
     question: Option<&Question>,
-    rendered: &ShownText,
+    rendered: &RenderedText,
     findings: &mut Vec<Finding>,
 ) -> Judgement {
     match run_all_numerics(bound, verify, findings) {
@@ -35,12 +35,12 @@ pub(crate) fn check_nominal(
     bound: &BoundVerify<'_>,
     verify: &Verify,
     question: Option<&Question>,
-    rendered: &ShownText,
+    rendered: &RenderedText,
 ) -> Option<Judgement> {
     let findings = &mut Vec::new();
     let nominal = bound.outcome(StepVariant::NOMINAL, findings)?;
     let perturbed = std::array::from_fn(|_| Some(nominal.clone()));
-    let outcomes = Outcomes { nominal, perturbed, nudged_back: None };
+    let outcomes = Outcomes { nominal, perturbed, perturbed_back: None };
     Some(judge(bound, &outcomes, verify, question, rendered, findings))
 }
 
@@ -49,7 +49,7 @@ fn judge(
     outcomes: &Outcomes,
     verify: &Verify,
     question: Option<&Question>,
-    rendered: &ShownText,
+    rendered: &RenderedText,
     findings: &mut Vec<Finding>,
 ) -> Judgement {
     let mut judgement = Judgement {

@@ -65,7 +65,7 @@ pub(super) fn check_column(
 
 /// The members of a sweep that the rows of a table are about.
 struct SweepRows<'c> {
-    /// The list that the rows are told apart by, and its numbers.
+    /// The list that distinguishes the rows, and its numbers.
     list: &'c Text,
     values: Vec<f64>,
     /// What they measure.

@@ -317,7 +317,7 @@ fn converges(order: i32, h: &Differences, half: &Differences, quarter: &Differen
     let vanishing = errors[2] <= 0.75 * errors[0];
     let range = quarter.range();
     if vanishing && left <= unsure + rounding {
-        // What cannot be told apart within a hundredth of what the trace does is not called the same, and a formula of which
+        // What cannot be distinguished within a hundredth of what the trace does is not called the same, and a formula of which
         // the lab itself is far off is not what it shows.
         if unsure > UNSURE * range + rounding {
             let how = format!("{shrinks}, so the formula is confirmed only to {}", significant(unsure));
@@ -367,9 +367,9 @@ impl ClosedFormRuns<'_> {
     }
 
     fn start(&self) -> Session<'_> {
-        let mut demand = self.programs.demand;
-        include(self.form.program.effects(), &mut demand);
-        let plan = Some(Plan::new(self.model, &demand));
+        let mut access = self.programs.access;
+        include(self.form.program.effects(), &mut access);
+        let plan = Some(Plan::new(self.model, &access));
         let start = Start { key: self.lab.keyframe(), plan, budget: Budget::TRIAL };
         Session::start(self.programs, self.model, start)
     }

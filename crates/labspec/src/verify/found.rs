@@ -240,7 +240,7 @@ impl BoundVerify<'_> {
     }
 
     /// How a condition came out, and how far it is from the opposite.
-    pub(super) fn weigh_found(&self, found: &MeasuredValue) -> ConditionMargin {
+    pub(super) fn evaluate_margin(&self, found: &MeasuredValue) -> ConditionMargin {
         let holds = found.value.truthy();
         let without_number = found.undecided.as_ref().map(|u| u.part.clone());
         let Some(evaluated) = found.trace.as_ref().filter(|_| without_number.is_none()) else {

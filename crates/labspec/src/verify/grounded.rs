@@ -19,7 +19,7 @@ pub(super) fn grounded_value(
     findings: &mut Vec<Finding>,
 ) -> Result<MeasuredValue, String> {
     let found = decided_value(bound, outcome, text, findings)?;
-    // What has no finite value is told as that.
+    // A value that is not finite is reported as such.
     let some = !matches!(found.value, Value::Number(x) if !x.is_finite());
     if some && (found.unread || !bound.could_differ(&found, None)) {
         return Err(report_constant_claim(text, findings));

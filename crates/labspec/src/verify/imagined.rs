@@ -47,7 +47,7 @@ const DECIDED: usize = 24;
 /// Samples of an imagined run; many, where something is counted, up to so many.
 const SAMPLES: [usize; 3] = [3, 8, 20];
 const MOST_SAMPLES: f64 = 4096.0;
-/// Most looks of measures at samples for one claim: what has not been told apart by then is decided by the sets before.
+/// Most looks of measures at samples for one claim: what has not been distinguished by then is decided by the sets before.
 const MOST_LOOKS: usize = 40_000;
 
 impl BoundVerify<'_> {

@@ -76,13 +76,13 @@ pub use exact::ClosedForm;
 pub use format::significant;
 pub use judgement::{Judgement, Measured, RunReport, unmade};
 pub(crate) use numerics::HALVED;
-pub use numerics::NUDGED;
-pub use numerics::NUDGED_BACK;
+pub use numerics::PERTURBED_BACK;
+pub use numerics::PERTURBED_START;
 pub use options::UNDECIDED;
 pub use outcomes::measure_only_run;
 pub use quote::{
-    Counted, Form, OtherValue, QuoteOutcome, QuoteState, Quoted, ShownText, Stated, Style, Unread, answered,
-    claimed, counted, folded, plain, quoted, stated,
+    Counted, Form, OtherValue, QuoteOutcome, QuoteState, Quoted, RenderedText, Stated, Style, Unread,
+    answered, claimed, counted, folded, plain, quoted, stated,
 };
 pub use quote_checker::Quote;
 pub use reads::labels;

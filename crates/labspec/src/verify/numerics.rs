@@ -15,20 +15,20 @@ pub(super) const RK4: StepVariant = StepVariant { integrator: Some(integrator::R
 pub(super) const TIGHT: StepVariant = StepVariant { tight: true, ..StepVariant::NOMINAL };
 
 /// Far below what anybody could set or measure; a system that shows it after seconds is chaotic.
-pub(super) const NUDGE: f64 = 1e-14;
-/// The start moved by `NUDGE`.
-pub const NUDGED: StepVariant = StepVariant { perturbation: NUDGE, ..StepVariant::NOMINAL };
+pub(super) const PERTURBATION: f64 = 1e-14;
+/// The start moved by `PERTURBATION`.
+pub const PERTURBED_START: StepVariant = StepVariant { perturbation: PERTURBATION, ..StepVariant::NOMINAL };
 /// The start moved back by it.
-pub const NUDGED_BACK: StepVariant = StepVariant { perturbation: -NUDGE, ..StepVariant::NOMINAL };
+pub const PERTURBED_BACK: StepVariant = StepVariant { perturbation: -PERTURBATION, ..StepVariant::NOMINAL };
 
 /// Other numerics that every answer is put to.
 pub(super) const CHANGES: usize = 4;
 
-/// The changes of the numerics that an answer must survive, and how to call them. The first and the third are those of quotes.
+/// The changes of the numerics that an answer must survive, and their names. The first and the third are those of quotes.
 pub(super) const PERTURBED: [(StepVariant, &str); CHANGES] = [
     (HALVED, "at half the timestep"),
     (TIGHT, "with the solver run to convergence"),
-    (NUDGED, "with a start moved by 1e-14"),
+    (PERTURBED_START, "with a start moved by 1e-14"),
     (FAST, "with the integrator implicitfast"),
 ];
 

@@ -37,36 +37,40 @@ pub(super) fn check_options(
         Err(reason) => return Answer::failed(reason),
     };
     let weights = values.iter().enumerate().map(|(i, value)| option_weight(i, value.as_ref())).collect();
-    let weighed = WeighedOptions { verify, options, answer, keyed: keyed.span.clone(), weights };
-    let undecided = weighed.options_with(None);
-    if let Some(answer) = weighed.refuse(&undecided, findings) {
+    let judgement = OptionJudgement { verify, options, answer, keyed: keyed.span.clone(), weights };
+    let undecided = judgement.options_with(None);
+    if let Some(answer) = judgement.refuse(&undecided, findings) {
         return answer;
     }
-    let holds: Vec<Option<bool>> = weighed.weights.iter().map(|w| w.holds).collect();
+    let holds: Vec<Option<bool>> = judgement.weights.iter().map(|w| w.holds).collect();
     let conditions = &verify.options;
     if let Some(reason) =
         check_option_numbers(bound, &outcomes.nominal, options, conditions, &holds, findings)
     {
-        return weighed.judged(Verdict::Failed, reason);
+        return judgement.judged(Verdict::Failed, reason);
     }
-    if undecided.len() + 1 == weighed.weights.len() {
-        return weighed.judged(Verdict::Failed, "no other option is decided".to_string());
+    if undecided.len() + 1 == judgement.weights.len() {
+        return judgement.judged(Verdict::Failed, "no other option is decided".to_string());
     }
-    let mut widened = weighed.weights.clone();
+    let mut widened = judgement.weights.clone();
     let mut turns = |outcome: &Outcome, how: &str, weights: &mut [Weight]| {
-        weighed.turned_over(bound, outcome, how, weights)
+        judgement.turned_over(bound, outcome, how, weights)
     };
     if let Err((verdict, reason)) =
         withstand_numerics(bound, outcomes, &mut widened, keyed.span.clone(), findings, &mut turns)
     {
-        return weighed.judged(verdict, reason);
+        return judgement.judged(verdict, reason);
     }
     let evidence = values.iter().flatten().map(|(value, _)| value.evidence).min();
-    Answer { verdict: verdict_by(evidence), reason: weighed.describe_undecided(&undecided), weights: widened }
+    Answer {
+        verdict: verdict_by(evidence),
+        reason: judgement.describe_undecided(&undecided),
+        weights: widened,
+    }
 }
 
 /// The options of a question, and how each came out under the numerics of the lesson.
-struct WeighedOptions<'q> {
+struct OptionJudgement<'q> {
     verify: &'q Verify,
     options: &'q [Text],
     /// The keyed option, and where its key stands.
@@ -75,7 +79,7 @@ struct WeighedOptions<'q> {
     weights: Vec<Weight>,
 }
 
-impl WeighedOptions<'_> {
+impl OptionJudgement<'_> {
     /// An option in words: `2 ("It slides.")`.
     fn name(&self, i: usize) -> String {
         format!("{} (\"{}\")", i, self.options.get(i).map_or(String::new(), |o| shorten(&o.value)))
@@ -161,7 +165,7 @@ impl WeighedOptions<'_> {
     ) -> Option<Finding> {
         let again = evaluate_conditions(bound, outcome, self.verify, false, &mut Vec::new());
         for (weight, now) in weights.iter_mut().zip(again.iter().flatten()) {
-            weight.widen(now.as_ref().and_then(|(_, weighed)| weighed.margin));
+            weight.widen(now.as_ref().and_then(|(_, condition)| condition.margin));
         }
         let (i, what) = match &again {
             Err(reason) => (self.answer, reason.clone()),
@@ -212,8 +216,8 @@ fn evaluate_conditions(
                 reason = reason.or_else(|| Some("an option has no condition".to_string()));
             }
             Ok(found) => {
-                let weighed = bound.weigh_found(&found);
-                all.push(Some((found, weighed)));
+                let condition = bound.evaluate_margin(&found);
+                all.push(Some((found, condition)));
             }
         }
     }
@@ -259,11 +263,11 @@ pub(super) fn compare_options(
 }
 
 fn option_weight(i: usize, found: Option<&(MeasuredValue, ConditionMargin)>) -> Weight {
-    let weighed = found.map(|(_, w)| w);
+    let condition = found.map(|(_, w)| w);
     Weight {
         option: Some(i),
-        holds: weighed.map(|w| w.holds),
-        margin: weighed.and_then(|w| w.margin),
+        holds: condition.map(|w| w.holds),
+        margin: condition.and_then(|w| w.margin),
         spread: None,
     }
 }

@@ -3,7 +3,7 @@
 
 use super::bound::BoundVerify;
 use super::bound_run::BoundRun;
-use super::numerics::{CHANGES, NUDGED_BACK, PERTURBED};
+use super::numerics::{CHANGES, PERTURBED, PERTURBED_BACK};
 use super::outcome::Outcome;
 use super::search::{self, SearchCase};
 use crate::finding::Finding;
@@ -63,7 +63,7 @@ pub(super) struct Outcomes {
     /// In the order of [`PERTURBED`](super::numerics::PERTURBED); `None` where nothing needs them.
     pub(super) perturbed: [Option<Outcome>; CHANGES],
     /// The other direction, for a value that the first one moved.
-    pub(super) nudged_back: Option<Outcome>,
+    pub(super) perturbed_back: Option<Outcome>,
 }
 
 /// Every run under every numerics that is needed.
@@ -92,6 +92,6 @@ pub(super) fn run_all_numerics(
         }
     }
     let moved = perturbed[2].as_ref().is_some_and(|o| o.list() != nominal.list());
-    let nudged_back = moved.then(|| bound.outcome(NUDGED_BACK, &mut Vec::new())).flatten();
-    Some(Outcomes { nominal, perturbed, nudged_back })
+    let perturbed_back = moved.then(|| bound.outcome(PERTURBED_BACK, &mut Vec::new())).flatten();
+    Some(Outcomes { nominal, perturbed, perturbed_back })
 }

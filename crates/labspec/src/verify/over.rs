@@ -223,10 +223,10 @@ impl Space<'_, '_, '_> {
         while step >= LAST && self.tried.len() < before + SEARCHED {
             let mut nearer = false;
             for k in 0..self.axes.len() {
-                for way in [-step, step] {
+                for offset in [-step, step] {
                     let mut there = here.clone();
                     if let Some(part) = there.get_mut(k) {
-                        *part = (*part + way).clamp(0.0, 1.0);
+                        *part = (*part + offset).clamp(0.0, 1.0);
                     }
                     let (turned, margin) = self.evaluate_at(&there, findings)?;
                     if turned.is_some() {

@@ -5,7 +5,7 @@ use super::found::MeasuredValue;
 use super::grounded::grounded_value;
 use super::outcome::Outcome;
 use super::outcomes::Outcomes;
-use super::quote::ShownText;
+use super::quote::RenderedText;
 use super::quote::{self, OtherValue, QuoteState};
 use super::units;
 use crate::finding::Finding;
@@ -62,7 +62,7 @@ impl Quote {
 pub(super) struct QuoteChecker<'c, 'b> {
     pub(super) bound: &'c BoundVerify<'b>,
     pub(super) outcomes: &'c Outcomes,
-    pub(super) rendered: &'c ShownText,
+    pub(super) rendered: &'c RenderedText,
 }
 
 /// The value of an expression in the lesson's own runs, and in others.
@@ -83,7 +83,7 @@ impl QuotedValue {
         let other = |n: usize, how| value_of(bound, outcomes.perturbed.get(n)?.as_ref()?, expr, how);
         let back = "with a start moved by -1e-14";
         let mut start: Vec<OtherValue> = other(2, "with a start moved by 1e-14").into_iter().collect();
-        start.extend(outcomes.nudged_back.as_ref().and_then(|o| value_of(bound, o, expr, back)));
+        start.extend(outcomes.perturbed_back.as_ref().and_then(|o| value_of(bound, o, expr, back)));
         Ok(QuotedValue { found, timestep: other(0, "at half the timestep").into_iter().collect(), start })
     }
 

@@ -32,7 +32,7 @@ pub struct BoundLab<'a> {
     pub(super) patches: Vec<(Patch, Range<usize>)>,
     /// A change of its model left behind what belongs to a parameter.
     pub(super) left_behind: bool,
-    /// What was changed in the lab of the lesson, told apart from every other change; empty for nothing.
+    /// What was changed in the lab of the lesson, distinguished from every other change; empty for nothing.
     changes: String,
 }
 
@@ -260,7 +260,7 @@ fn cannot(place: Range<usize>, message: String) -> Finding {
 
 /// The index of a keyframe.
 fn keyframe(model: &Model, key: &Scalar, findings: &mut Vec<Finding>) -> Option<usize> {
-    let names = || model.names.of(Obj::Key).iter().map(String::as_str).filter(|n| !n.is_empty());
+    let names = || model.names.of_kind(Obj::Key).iter().map(String::as_str).filter(|n| !n.is_empty());
     let message = match key {
         Scalar::Number(n) if n.value >= 0.0 && n.value.fract() == 0.0 && (n.value as usize) < model.nkey => {
             return Some(n.value as usize);

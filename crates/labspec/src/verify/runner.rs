@@ -28,7 +28,7 @@ pub(super) struct RunRequest<'r, 'a> {
     pub(super) place: Range<usize>,
 }
 
-/// Makes a run, unless the same was made before: then what came of it is known, and was told.
+/// Makes a run, unless the same was made before: then its result is cached, and was reported.
 pub(super) fn perform(
     asked: &RunRequest<'_, '_>,
     stage: &Stage<'_>,
@@ -93,7 +93,7 @@ pub(super) fn ready<'r>(
 ) -> Option<PreparedRun<'r>> {
     let RunRequest { scene: bound, run, numerics, place, .. } = asked;
     let (lab, programs) = (&*bound.scene.lab, &*bound.scene.programs);
-    let plan = Some(Plan::new(&bound.scene.model, &demand(asked)));
+    let plan = Some(Plan::new(&bound.scene.model, &access(asked)));
     let start = Start { key: lab.keyframe(), plan, budget: Budget { left: stage.left() } };
     let mut session = Session::start(bound.scene.programs.clone(), &bound.scene.model, start);
     let mut refuse_at = |place: Range<usize>, e: RunError| {
@@ -224,16 +224,16 @@ pub(super) fn started_models(bound: &BoundScene<'_>, run: &BoundRun<'_>) -> Opti
 }
 
 /// What the programs of the lab and of the run need.
-fn demand(asked: &RunRequest<'_, '_>) -> AccessSet {
-    let mut demand = asked.scene.scene.programs.demand;
+fn access(asked: &RunRequest<'_, '_>) -> AccessSet {
+    let mut access = asked.scene.scene.programs.access;
     let texts_of_run = asked.run.setup.iter().chain(&asked.run.stop).map(|s| &s.program);
     for program in asked.measures.iter().map(|m| &m.program).chain(texts_of_run) {
-        include(program.effects(), &mut demand);
+        include(program.effects(), &mut access);
         for arg in program.aggregates().iter().flat_map(|a| &a.args) {
-            include(arg.effects(), &mut demand);
+            include(arg.effects(), &mut access);
         }
     }
-    demand
+    access
 }
 
 fn undecided_stop(time: f64) -> String {

@@ -280,6 +280,6 @@ fn holds(
     if !bound.is_condition(&found, &find.holds, findings) {
         return None;
     }
-    let weighed = bound.weigh_found(&found);
-    Some(Ok(TriedValue { holds: weighed.holds, margin: weighed.margin }))
+    let margin = bound.evaluate_margin(&found);
+    Some(Ok(TriedValue { holds: margin.holds, margin: margin.margin }))
 }

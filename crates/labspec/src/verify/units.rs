@@ -23,8 +23,9 @@ impl BoundVerify<'_> {
 
 fn units_of_measures(bound: &BoundVerify<'_>) -> Option<MeasureUnits> {
     let BoundLab { lab, model, programs, .. } = bound.lab()?;
-    let runs =
-        bound.cast().map(|(run, scene)| of_scene(scene).into_iter().chain(swept(run, scene)).collect());
+    let runs = bound
+        .runs_with_scenes()
+        .map(|(run, scene)| of_scene(scene).into_iter().chain(swept(run, scene)).collect());
     let runs = runs.collect();
     Some(MeasureUnits { given: given(lab, model, programs), runs })
 }
@@ -102,7 +103,7 @@ fn swept(run: &BoundRun<'_>, scene: &BoundScene<'_>) -> Option<(String, Measure)
                     let field = Compiler::new(&names, &mut globals).expression(&set.value).program?;
                     field.measured(&names, &given).value
                 }
-                known => known,
+                measure => measure,
             },
             None => Measure::Known(units::parse(match what.as_str().rsplit(' ').next()? {
                 "timestep" => "s",

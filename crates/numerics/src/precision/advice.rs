@@ -5,12 +5,12 @@ use super::case::LeftOut;
 use super::judge::Compared;
 use super::numbers::milliseconds;
 use super::report::{Advice, Kind, Report, Row};
-use super::run_record::Fate;
+use super::run_record::RunStatus;
 use labspec::run::two_digits;
 
 /// Whether a row came to its end and is compared.
 fn counts(row: &Row) -> bool {
-    row.fate == Fate::Good && row.score.is_finite()
+    row.status == RunStatus::Good && row.score.is_finite()
 }
 
 /// The error that can be counted on, in times of what nobody sees: the largest of this step and all shorter ones of the same
@@ -55,7 +55,7 @@ pub(super) fn advise(report: &Report) -> Vec<Advice> {
     let own_row = rows.iter().position(|r| r.is_own);
     let mut list = Vec::new();
     if let Some(own_row) = own_row {
-        list.push(Advice { kind: Kind::Own, row: own_row, text: about_own(report, own_row) });
+        list.push(Advice { kind: Kind::LabSetting, row: own_row, text: about_own(report, own_row) });
         list.extend(closer_for_same_work(rows, &usable, own_row));
     }
     let correct = usable.iter().copied().filter(|&i| reliable(rows, i) <= 1.0);
@@ -157,11 +157,11 @@ fn beside(row: &Row, own_row: &Row) -> String {
 fn about_own(report: &Report, own_row: usize) -> String {
     let row = &report.rows[own_row];
     let name = name(row);
-    if !matches!(row.fate, Fate::Good | Fate::Warned) {
+    if !matches!(row.status, RunStatus::Good | RunStatus::Warned) {
         let why = row.reported.first().map_or(String::new(), |t| format!(": {t}"));
         return format!(
             "With the settings of the lab, {name}, the run is not usable ({}{why}).",
-            row.fate.word()
+            row.status.word()
         );
     }
     let compared = report.targets.iter().zip(&row.errors).filter(|(t, _)| t.is_compared());

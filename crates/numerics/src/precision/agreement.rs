@@ -4,7 +4,7 @@ use super::case::PrecisionCase;
 use super::event_finder::EventThresholds;
 use super::event_time::EventTime;
 use super::numbers::range;
-use super::run_record::{Fate, Run, RunRequest};
+use super::run_record::{Run, RunRequest, RunStatus};
 use super::setting::Setting;
 use labspec::run::RunError;
 use labspec::run::{INTEGRATORS, Integrator};
@@ -60,7 +60,7 @@ pub(super) fn run(
     ask: RunRequest<'_>,
 ) -> Result<Option<Run>, RunError> {
     let seen = case.run(&Setting { integrator: method(id), timestep, solver: None }, ask)?;
-    Ok(matches!(seen.fate, Fate::Good | Fate::Warned).then_some(seen))
+    Ok(matches!(seen.status, RunStatus::Good | RunStatus::Warned).then_some(seen))
 }
 
 pub(super) fn too_long(case: &PrecisionCase<'_>, timestep: f64) -> bool {

@@ -77,7 +77,7 @@ pub(super) struct PrecisionCase<'a> {
     pub(super) set: &'a [(String, Value)],
     /// Buttons and the times of their presses, s.
     pub(super) presses: Vec<(usize, f64)>,
-    pub(super) demand: AccessSet,
+    pub(super) access: AccessSet,
     /// Time between samples of the truth, s, and their number, the start not counted.
     pub(super) interval: f64,
     pub(super) count: usize,
@@ -114,7 +114,7 @@ impl<'a> PrecisionCase<'a> {
             left_out: Vec::new(),
             set,
             presses: Vec::new(),
-            demand: programs.demand,
+            access: programs.access,
             interval: 0.0,
             count: 0,
         };
@@ -164,7 +164,7 @@ impl<'a> PrecisionCase<'a> {
             AGAIN
         } else {
             if let Some(e) = &exact {
-                include(e.program.effects(), &mut self.demand);
+                include(e.program.effects(), &mut self.access);
             }
             self.targets.push(ComparedNumber { label: label.to_string(), unit, bound, exact, display });
             return;
@@ -204,7 +204,7 @@ impl<'a> PrecisionCase<'a> {
         if let Some(s) = setting {
             s.apply(&mut model);
         }
-        let plan = Some(Plan::new(&model, &self.demand));
+        let plan = Some(Plan::new(&model, &self.access));
         let start = Start { key: self.lab.keyframe(), plan, budget: Budget::COMPARED };
         let mut session = Session::start(self.programs, &model, start);
         run::set_controls(&mut session, self.lab, self.programs, self.set)?;

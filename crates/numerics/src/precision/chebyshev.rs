@@ -15,7 +15,7 @@ const HALVINGS: usize = 60;
 pub(super) fn turning_point(
     bench: &mut StepReplay<'_>,
     target: usize,
-    way: f64,
+    direction: f64,
     dense: bool,
     evaluate: &Evaluate<'_>,
 ) -> Option<EventTime> {
@@ -23,13 +23,13 @@ pub(super) fn turning_point(
     if count < 3 {
         return None;
     }
-    let at: Vec<f64> = (0..count).map(|j| way * bench.value(j, 0.0, target, evaluate)).collect();
+    let at: Vec<f64> = (0..count).map(|j| direction * bench.value(j, 0.0, target, evaluate)).collect();
     // What a page shows may be of the state before.
     let middle = (1..count - 1).max_by(|&a, &b| at[a].total_cmp(&at[b]))?;
     let [before, now, after] = [at.get(middle + 1)?, at.get(middle)?, at.get(middle - 1)?];
     let (h, next) = (bench.past.step(middle + 1), bench.past.step(middle));
     let start = bench.past.time(middle + 1);
-    let top = way > 0.0;
+    let top = direction > 0.0;
     let parabola = || {
         // Divided differences; steps of a run are of one length but for rounding.
         let (rise, fall) = ((now - before) / h, (after - now) / next);
@@ -44,11 +44,12 @@ pub(super) fn turning_point(
     let half = 0.5 * (h + next);
     let mut node = |i: usize| {
         let x = half * (1.0 - (PI * i as f64 / DEGREE as f64).cos());
-        way * match x {
-            x if x <= 0.0 => bench.value(middle + 1, 0.0, target, evaluate),
-            x if x <= h => bench.value(middle + 1, x, target, evaluate),
-            x => bench.value(middle, x - h, target, evaluate),
-        }
+        direction
+            * match x {
+                x if x <= 0.0 => bench.value(middle + 1, 0.0, target, evaluate),
+                x if x <= h => bench.value(middle + 1, x, target, evaluate),
+                x => bench.value(middle, x - h, target, evaluate),
+            }
     };
     // From the end of the interval to its start, as the points are.
     let values: Vec<f64> = (0..=DEGREE).rev().map(&mut node).collect();

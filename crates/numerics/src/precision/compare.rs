@@ -8,7 +8,7 @@ use super::judge::{self, Compared, Errors};
 use super::ladder::Ladder;
 use super::report::{Options, Report, Row};
 use super::run_cost::{self, RunCost};
-use super::run_record::{Fate, RunRequest};
+use super::run_record::{RunRequest, RunStatus};
 use super::setting::Setting;
 use super::{advice, orders, reference};
 use labspec::bind::Programs;
@@ -20,7 +20,7 @@ use labspec::spec::Lab;
 use labspec::spec::format::RUN_LENGTH;
 use labspec_core::Model;
 
-/// Runs the lab with every setting. `tell` hears what is being done.
+/// Runs the lab with every setting. `report_progress` hears what is being done.
 ///
 /// # Errors
 /// The lab shows no numbers to compare, sets its timestep itself while it runs, cannot be handled as asked, or the runs would take
@@ -31,11 +31,11 @@ pub fn compare(
     programs: &Programs,
     options: &Options,
     findings: &mut Vec<Finding>,
-    tell: &mut dyn FnMut(&str),
+    report_progress: &mut dyn FnMut(&str),
 ) -> Result<Report, RunError> {
     let mut case = PrecisionCase::new(lab, model, programs, &options.set, findings);
     let ladder = prepare(&mut case, options)?;
-    tell("the reference");
+    report_progress("the reference");
     let truth = find_reference(&mut case, &ladder)?;
     let settings = ladder.settings(options);
     let Some(truth) = truth else { return without_reference(case, &settings, &ladder) };
@@ -56,9 +56,9 @@ pub fn compare(
         targets,
         part,
     };
-    let mut rows = judge.rows(&settings, tell)?;
+    let mut rows = judge.rows(&settings, report_progress)?;
     orders::observe_orders(&mut rows, &judge.targets, !truth.jumps && horizon.is_none());
-    tell("run times");
+    report_progress("run times");
     measure_run_times(&case, &mut rows);
     let Comparison { conserved, events, targets, .. } = judge;
     let known_to_end = |x: f64| if horizon.is_none() { x } else { f64::NAN };
@@ -99,7 +99,7 @@ fn find_reference(case: &mut PrecisionCase<'_>, ladder: &Ladder) -> Result<Optio
 /// Measures the run time of every setting that came to its end.
 fn measure_run_times(case: &PrecisionCase<'_>, rows: &mut [Row]) {
     let timed: Vec<Option<Setting>> =
-        rows.iter().map(|r| (r.fate != Fate::Stopped).then_some(r.setting)).collect();
+        rows.iter().map(|r| (r.status != RunStatus::Stopped).then_some(r.setting)).collect();
     for (row, [median, low, high]) in rows.iter_mut().zip(run_cost::measure(case, &timed)) {
         (row.cost.median, row.cost.low, row.cost.high) = (median, low, high);
     }
@@ -152,18 +152,22 @@ struct Comparison<'j, 'a> {
 
 impl Comparison<'_, '_> {
     /// All settings; of each method also longer steps, until something changes that a student sees.
-    fn rows(&self, settings: &[Setting], tell: &mut dyn FnMut(&str)) -> Result<Vec<Row>, RunError> {
+    fn rows(
+        &self,
+        settings: &[Setting],
+        report_progress: &mut dyn FnMut(&str),
+    ) -> Result<Vec<Row>, RunError> {
         let mut rows: Vec<Row> = Vec::new();
         for (i, setting) in settings.iter().enumerate() {
             if interrupt::requested() {
                 break;
             }
-            tell(&format!("setting {} of {}: {}", i + 1, settings.len(), setting.integrator.name));
+            report_progress(&format!("setting {} of {}: {}", i + 1, settings.len(), setting.integrator.name));
             let mut now = vec![self.row(setting)?];
             let begins = rows.last().is_none_or(|r| r.setting.integrator != setting.integrator);
             let longest = begins && setting.solver.is_none() && setting.timestep == self.ladder.coarse();
             while longest
-                && now.last().is_some_and(|r| r.fate == Fate::Good && r.score <= 1.0)
+                && now.last().is_some_and(|r| r.status == RunStatus::Good && r.score <= 1.0)
                 && let Some(step) = now.last().and_then(|r| self.ladder.longer(r.setting.timestep, self.case))
             {
                 now.push(self.row(&Setting { timestep: step, ..*setting })?);
@@ -177,8 +181,8 @@ impl Comparison<'_, '_> {
         let ask = RunRequest { sought: Some(&self.truth.sought), ..RunRequest::default() };
         let run = self.case.run(setting, ask)?;
         let errors = judge::errors(self.case, self.truth, &self.targets, &run, setting.timestep);
-        let score = match run.fate {
-            Fate::Good | Fate::Warned => score(&self.targets, &errors),
+        let score = match run.status {
+            RunStatus::Good | RunStatus::Warned => score(&self.targets, &errors),
             _ => f64::NAN,
         };
         Ok(Row {
@@ -191,7 +195,7 @@ impl Comparison<'_, '_> {
                 .map(|k| self.conserved.momentum[k].map(|_| self.conserved.change(&run, k, self.part))),
             penetration: if self.part < 1.0 { f64::NAN } else { run.penetration },
             cost: RunCost::of_work(run.work),
-            fate: run.fate,
+            status: run.status,
             reported: run.reported,
             score,
         })
@@ -221,7 +225,7 @@ fn without_reference(
             momentum: [None; 2],
             penetration: run.penetration,
             cost: RunCost::of_work(run.work),
-            fate: run.fate,
+            status: run.status,
             reported: run.reported,
             score: f64::NAN,
         });

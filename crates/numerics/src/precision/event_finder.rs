@@ -60,7 +60,7 @@ struct Turn {
     low: f64,
     high: f64,
     /// Up, down, or not known yet.
-    way: f64,
+    direction: f64,
     last: f64,
     candidate: EventTime,
     looks: usize,
@@ -92,7 +92,7 @@ impl<'s> EventFinder<'s> {
         let none = EventTime::NONE;
         let passage = Passage { side: 0.0, last: f64::NAN, candidate: none, done: false };
         let (low, high) = (f64::INFINITY, f64::NEG_INFINITY);
-        let turn = Turn { low, high, way: 0.0, last: f64::NAN, candidate: none, looks: 0, done: false };
+        let turn = Turn { low, high, direction: 0.0, last: f64::NAN, candidate: none, looks: 0, done: false };
         EventFinder {
             sought,
             dense: setting.integrator.is_high(),
@@ -203,11 +203,11 @@ impl<'s> EventFinder<'s> {
             return;
         }
         // The extreme so far was the last sample, and the way back begins.
-        let extreme = if t.way > 0.0 { t.high } else { t.low };
-        let begins = t.way != 0.0 && last == extreme && (now - last) * t.way < 0.0;
+        let extreme = if t.direction > 0.0 { t.high } else { t.low };
+        let begins = t.direction != 0.0 && last == extreme && (now - last) * t.direction < 0.0;
         (t.low, t.high) = (t.low.min(now), t.high.max(now));
-        if t.way == 0.0 {
-            t.way = if now - t.low > *least {
+        if t.direction == 0.0 {
+            t.direction = if now - t.low > *least {
                 1.0
             } else if t.high - now > *least {
                 -1.0
@@ -216,13 +216,13 @@ impl<'s> EventFinder<'s> {
             };
             return;
         }
-        let back = if t.way > 0.0 { t.high - now } else { now - t.low };
-        let (way, looks) = (t.way, t.looks);
+        let back = if t.direction > 0.0 { t.high - now } else { now - t.low };
+        let (direction, looks) = (t.direction, t.looks);
         if begins {
             t.looks += 1;
             let dense = self.dense && looks < MOST_TURNS;
             let mut bench = StepReplay::new(session, &self.past);
-            let found = turning_point(&mut bench, i, way, dense, evaluate);
+            let found = turning_point(&mut bench, i, direction, dense, evaluate);
             let Some(t) = self.turns.get_mut(i) else { return };
             t.candidate = found.unwrap_or(EventTime::NONE);
         }

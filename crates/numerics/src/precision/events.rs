@@ -10,7 +10,7 @@ use labspec_core::integrator;
 use serde::Serialize;
 
 /// How far apart nearby starts are, and the part of its range by which a number has left the other.
-const NUDGE: f64 = 1e-9;
+const PERTURBATION: f64 = 1e-9;
 const LEFT: f64 = 0.01;
 
 /// Something that happens in a run.
@@ -80,7 +80,7 @@ pub(super) fn nearby(
     let setting = Setting { integrator: method(integrator::RKMK8), timestep: timestep / 2.0, solver: None };
     let (one, other) = (
         case.run(&setting, RunRequest::FRESH)?,
-        case.run(&setting, RunRequest { perturbation: NUDGE, ..RunRequest::FRESH })?,
+        case.run(&setting, RunRequest { perturbation: PERTURBATION, ..RunRequest::FRESH })?,
     );
     let leaves = |((a, b), target): ((&Vec<f64>, &Vec<f64>), &Compared)| {
         let far = LEFT * target.range;
@@ -89,5 +89,5 @@ pub(super) fn nearby(
     };
     let first = one.values.iter().zip(&other.values).zip(targets).filter_map(leaves).min();
     let apart = case.rhythm(setting.timestep).stride as f64 * case.interval;
-    Ok(Nearby { apart: NUDGE, until: first.map(|i| i as f64 * apart) })
+    Ok(Nearby { apart: PERTURBATION, until: first.map(|i| i as f64 * apart) })
 }

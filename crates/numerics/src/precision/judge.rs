@@ -3,7 +3,7 @@
 use super::agreement::Reference;
 use super::case::{ComparedNumber, DisplayPrecision, PrecisionCase};
 use super::numbers::range;
-use super::run_record::{Fate, Run};
+use super::run_record::{Run, RunStatus};
 use labspec::run::printed;
 
 /// How far a run is from the truth, in the unit of the trace.
@@ -128,7 +128,7 @@ pub(super) fn compared(case: &PrecisionCase<'_>, reference: &Reference, own_run:
         // A run that breaks is no measure of what a plot hides; one of a number that should not change is.
         let mut range_of = range(values);
         if range_of <= CONSTANT * whole {
-            let mine = if own_run.fate == Fate::Good { range(&own_run.values[i]) } else { 0.0 };
+            let mine = if own_run.status == RunStatus::Good { range(&own_run.values[i]) } else { 0.0 };
             range_of = range_of.max(if mine > 0.0 { mine } else { whole });
         }
         let unseen = target.display.unseen(range_of);

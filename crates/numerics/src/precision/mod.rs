@@ -36,5 +36,5 @@ pub use judge::{Compared, Errors};
 pub use numbers::milliseconds;
 pub use report::{Advice, Kind, Options, Report, Row};
 pub use run_cost::RunCost;
-pub use run_record::Fate;
+pub use run_record::RunStatus;
 pub use setting::{Axis, Setting, Solver};

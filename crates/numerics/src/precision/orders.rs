@@ -2,7 +2,7 @@
 
 use super::judge::Compared;
 use super::report::Row;
-use super::run_record::Fate;
+use super::run_record::RunStatus;
 
 /// An order is one where the error is below this part of the range, so that its first term leads,
 const SMALL: f64 = 0.1;
@@ -55,7 +55,8 @@ fn same_method(rows: &[Row], a: usize, b: usize) -> bool {
 fn observed(rows: &[Row], k: usize, i: usize, target: &Compared) -> Option<f64> {
     let (coarse, fine) = (rows.get(k.checked_sub(1)?)?, rows.get(k)?);
     let longer = coarse.setting.timestep / fine.setting.timestep;
-    let good = [coarse.fate, fine.fate] == [Fate::Good; 2] && same_method(rows, k - 1, k) && longer > 1.0;
+    let good =
+        [coarse.status, fine.status] == [RunStatus::Good; 2] && same_method(rows, k - 1, k) && longer > 1.0;
     let (c, f) = (coarse.errors.get(i)?, fine.errors.get(i)?);
     let above = !c.below && !f.below && f.largest > 10.0 * target.uncertain;
     let order = (c.largest / f.largest).log2() / longer.log2();

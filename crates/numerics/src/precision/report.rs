@@ -5,7 +5,7 @@ use super::case::LeftOut;
 use super::events::{Event, Nearby};
 use super::judge::{Compared, Errors};
 use super::run_cost::RunCost;
-use super::run_record::Fate;
+use super::run_record::RunStatus;
 use super::setting::{Axis, Setting};
 use labspec::run::Integrator;
 use labspec_expr::Value;
@@ -48,7 +48,7 @@ pub struct Row {
     /// What it costs.
     pub cost: RunCost,
     /// What became of the run.
-    pub fate: Fate,
+    pub status: RunStatus,
     /// What was reported about it.
     pub reported: Vec<String>,
     /// The largest error that is possible, as the reference is in doubt, too; in times of what nobody sees. NaN where nothing is
@@ -108,7 +108,7 @@ pub struct Advice {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// What the lab's own setting is off by.
-    Own,
+    LabSetting,
     /// It is closer than the lab's own for the same work.
     Closer,
     /// It is the cheapest that shows every number rightly.

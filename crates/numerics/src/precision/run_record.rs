@@ -60,7 +60,7 @@ pub(super) struct Run {
     /// How deep bodies were in each other at most, m.
     pub(super) penetration: f64,
     /// What became of it.
-    pub(super) fate: Fate,
+    pub(super) status: RunStatus,
     /// Everything that was reported about it.
     pub(super) reported: Vec<String>,
     /// Work, in the engine's own units, per simulated second.
@@ -69,7 +69,7 @@ pub(super) struct Run {
 
 /// What became of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Fate {
+pub enum RunStatus {
     /// It came to its end.
     #[default]
     Good,
@@ -83,15 +83,15 @@ pub enum Fate {
     Stopped,
 }
 
-impl Fate {
+impl RunStatus {
     /// In one word.
     pub fn word(self) -> &'static str {
         match self {
-            Fate::Good => "good",
-            Fate::Diverged => "diverged",
-            Fate::Grows => "gains energy",
-            Fate::Warned => "warned",
-            Fate::Stopped => "stopped",
+            RunStatus::Good => "good",
+            RunStatus::Diverged => "diverged",
+            RunStatus::Grows => "gains energy",
+            RunStatus::Warned => "warned",
+            RunStatus::Stopped => "stopped",
         }
     }
 }
@@ -128,16 +128,16 @@ impl Run {
     pub(super) fn set_fate(&mut self, session: &Session<'_>) {
         let bad = [Warning::BadQpos, Warning::BadQvel, Warning::BadQacc, Warning::BadCtrl];
         self.reported = run::breakdowns_of(session).into_iter().map(|b| b.what).collect();
-        self.fate = match session.ended() {
-            _ if bad.iter().any(|&w| session.warnings[w as usize].number > 0) => Fate::Diverged,
-            _ if session.growth().is_some() => Fate::Grows,
+        self.status = match session.ended() {
+            _ if bad.iter().any(|&w| session.warnings[w as usize].number > 0) => RunStatus::Diverged,
+            _ if session.growth().is_some() => RunStatus::Grows,
             Some(End::Budget { time }) => {
                 self.reported.push(format!("the work budget ran out, so the run ends at {time} s"));
-                Fate::Stopped
+                RunStatus::Stopped
             }
-            Some(_) => Fate::Stopped,
-            None if !self.reported.is_empty() => Fate::Warned,
-            None => Fate::Good,
+            Some(_) => RunStatus::Stopped,
+            None if !self.reported.is_empty() => RunStatus::Warned,
+            None => RunStatus::Good,
         };
         if let Some(trouble) = session.troubles.first() {
             self.reported.push(trouble.message.clone());

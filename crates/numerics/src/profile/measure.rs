@@ -241,12 +241,12 @@ pub(super) fn measure(
 
 /// The plans that are measured: the lab's own, one that reads everything, one with each stage that is left out, one with each reader.
 fn variants(case: &MeasuredLab<'_>, plan: &Plan, readers: &[ExtraReader]) -> Vec<Plan> {
-    let demand = case.programs.demand;
-    let full = Plan::new(case.model, &AccessSet { reads: FieldSet::ALL, ..demand });
+    let access = case.programs.access;
+    let full = Plan::new(case.model, &AccessSet { reads: FieldSet::ALL, ..access });
     let left_out = plan.decisions().iter().map(|d| d.stage).filter(|s| !plan.keeps(*s));
     let mut variants = vec![plan.clone(), full];
-    variants.extend(left_out.map(|s| Plan::with(case.model, &demand, s)));
-    variants.extend(readers.iter().map(|r| Plan::new(case.model, &r.demand)));
+    variants.extend(left_out.map(|s| Plan::with(case.model, &access, s)));
+    variants.extend(readers.iter().map(|r| Plan::new(case.model, &r.access)));
     variants
 }
 

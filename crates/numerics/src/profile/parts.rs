@@ -69,20 +69,22 @@ pub struct PairSummary {
 }
 
 pub(super) fn pairs(model: &Model, plan: &Plan, seen: Option<ConstraintCounts>) -> PairSummary {
-    let census = plan.pairs(model);
-    let all = census.iter().map(|(_, n)| n).sum();
-    if !plan.keeps(Stage::Collision) && census.iter().any(|(fate, _)| *fate == PairFilterReason::CanTouch) {
+    let statistics = plan.pairs(model);
+    let all = statistics.iter().map(|(_, n)| n).sum();
+    if !plan.keeps(Stage::Collision)
+        && statistics.iter().any(|(reason, _)| *reason == PairFilterReason::CanTouch)
+    {
         let left_out = vec![("contacts are switched off", all)];
         return PairSummary { all, can_touch: 0, left_out, tests: Vec::new(), seen };
     }
     let can_touch =
-        census.iter().find(|(fate, _)| *fate == PairFilterReason::CanTouch).map_or(0, |(_, n)| *n);
-    let others = census.iter().filter(|(fate, _)| *fate != PairFilterReason::CanTouch);
+        statistics.iter().find(|(reason, _)| *reason == PairFilterReason::CanTouch).map_or(0, |(_, n)| *n);
+    let others = statistics.iter().filter(|(reason, _)| *reason != PairFilterReason::CanTouch);
     let tests = plan.tests(model).into_iter().map(|(types, n, searched)| (types.map(shape), n, searched));
     PairSummary {
         all,
         can_touch,
-        left_out: others.map(|(fate, n)| (fate.reason(), *n)).collect(),
+        left_out: others.map(|(reason, n)| (reason.reason(), *n)).collect(),
         tests: tests.collect(),
         seen,
     }
@@ -104,7 +106,7 @@ fn shape(kind: i32) -> &'static str {
 /// The sensors in their order.
 pub(super) fn sensors(model: &Model, plan: &Plan) -> Vec<SensorRow> {
     let sensor = |sensor: core::SensorId| {
-        let read = |i| plan.demand().reads.contains_element(data::sensordata, i);
+        let read = |i| plan.access().reads.contains_element(data::sensordata, i);
         let keep = plan.evaluates(model, sensor);
         let reason = match keep {
             true if sensor.values(model).any(read) => "its values are read",
@@ -124,7 +126,7 @@ pub(super) fn solvers(model: &Model, plan: &Plan) -> Vec<EngineOption> {
     let runs = plan.keeps(Stage::Solve);
     let nothing = plan.decisions().iter().find(|d| d.stage == Stage::Solve).map_or("", |d| d.reason.as_str());
     let named = METHODS.iter().find(|(_, id)| *id == model.opt.solver).map_or("newton", |(name, _)| name);
-    let written = plan.demand().writes.contains(option::solver);
+    let written = plan.access().writes.contains(option::solver);
     let methods = METHODS.iter().map(|&(name, _)| EngineOption {
         name,
         keep: runs && name == named,
@@ -135,7 +137,7 @@ pub(super) fn solvers(model: &Model, plan: &Plan) -> Vec<EngineOption> {
             () => format!("the options name {named}"),
         },
     });
-    let slips = plan.demand().writes.contains(option::noslip_iterations);
+    let slips = plan.access().writes.contains(option::noslip_iterations);
     let noslip = EngineOption {
         name: "noslip",
         keep: runs && model.opt.noslip_iterations > 0,
@@ -150,9 +152,9 @@ pub(super) fn solvers(model: &Model, plan: &Plan) -> Vec<EngineOption> {
 }
 
 /// The integrators.
-pub(super) fn integrators(model: &Model, demand: &AccessSet) -> Vec<EngineOption> {
+pub(super) fn integrators(model: &Model, access: &AccessSet) -> Vec<EngineOption> {
     let integrator = labspec::run::Integrator::of_model(model);
-    let written = demand.writes.contains(option::integrator);
+    let written = access.writes.contains(option::integrator);
     let code = |i: labspec::run::Integrator| EngineOption {
         name: i.name,
         keep: i == integrator,
@@ -168,9 +170,9 @@ pub(super) fn integrators(model: &Model, demand: &AccessSet) -> Vec<EngineOption
 /// The algorithms, in their order.
 pub(super) fn tree_algorithms(model: &Model, plan: &Plan) -> Vec<TreeAlgorithmUse> {
     let trees = plan.tree_algorithms(model);
-    let count = |way: core::TreeAlgorithm| {
-        let of = |i: usize| trees.iter().filter(|t| t.get(i) == Some(&way)).count();
-        TreeAlgorithmUse { name: way.name(), trees: [of(0), of(1), of(2)] }
+    let count = |algorithm: core::TreeAlgorithm| {
+        let of = |i: usize| trees.iter().filter(|t| t.get(i) == Some(&algorithm)).count();
+        TreeAlgorithmUse { name: algorithm.name(), trees: [of(0), of(1), of(2)] }
     };
     core::TreeAlgorithm::all().map(count).collect()
 }

@@ -29,7 +29,7 @@ pub struct StageRow {
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlanReport {
     /// What its programs read and write.
-    pub demand: AccessSet,
+    pub access: AccessSet,
     /// The stages, in the order of a step.
     pub rows: Vec<StageRow>,
     /// When the lab's controller runs, where it has one.
@@ -71,7 +71,7 @@ pub fn plan(
     programs: &Programs,
     options: &Options,
 ) -> Result<PlanReport, RunError> {
-    let demand = programs.demand;
+    let access = programs.access;
     let (plan, now) = plan_at_start(lab, model, programs);
     let mut readers = reader::readers(model, programs, &options.read)?;
     let measured = match options.run {
@@ -90,7 +90,7 @@ pub fn plan(
         reader.cost = measured.as_ref().and_then(|m| m.readers.get(i).copied());
     }
     Ok(PlanReport {
-        demand,
+        access,
         rows,
         controller: programs.controller.as_ref().map(|bound| match is_steady(&bound.program) {
             true => "the program of the lab runs only when something that it reads or writes changes",
@@ -99,7 +99,7 @@ pub fn plan(
         pairs: parts::pairs(&now, &plan, measured.as_ref().map(|m| m.seen)),
         cone: if now.opt.cone == 0 { "pyramidal" } else { "elliptic" },
         solvers: parts::solvers(&now, &plan),
-        integrators: parts::integrators(&now, &demand),
+        integrators: parts::integrators(&now, &access),
         tree_algorithms: parts::tree_algorithms(&now, &plan),
         sensors: parts::sensors(&now, &plan),
         readers,

@@ -12,7 +12,7 @@ pub struct ExtraReader {
     /// As it was asked for.
     pub text: String,
     /// What programs read and write with it.
-    pub demand: AccessSet,
+    pub access: AccessSet,
     /// The stages that run with it and not without.
     pub joins: Vec<Stage>,
     /// What a step takes longer, ns; `None` where nothing was run.
@@ -28,13 +28,13 @@ pub(super) fn readers(
     programs: &Programs,
     texts: &[String],
 ) -> Result<Vec<ExtraReader>, RunError> {
-    let mut all = programs.demand;
+    let mut all = programs.access;
     let mut readers = Vec::new();
     for text in texts {
-        let mut demand = programs.demand;
-        read(model, programs, text, &mut demand)?;
+        let mut access = programs.access;
+        read(model, programs, text, &mut access)?;
         read(model, programs, text, &mut all)?;
-        readers.push(reader(model, programs, text, demand));
+        readers.push(reader(model, programs, text, access));
     }
     if texts.len() > 1 {
         readers.push(reader(model, programs, "all of these", all));
@@ -42,28 +42,28 @@ pub(super) fn readers(
     Ok(readers)
 }
 
-fn reader(model: &Model, programs: &Programs, text: &str, demand: AccessSet) -> ExtraReader {
-    let (before, after) = (Plan::new(model, &programs.demand), Plan::new(model, &demand));
+fn reader(model: &Model, programs: &Programs, text: &str, access: AccessSet) -> ExtraReader {
+    let (before, after) = (Plan::new(model, &programs.access), Plan::new(model, &access));
     let joins = after.decisions().iter().map(|d| d.stage).filter(|s| after.keeps(*s) && !before.keeps(*s));
-    ExtraReader { text: text.to_string(), demand, joins: joins.collect(), cost: None }
+    ExtraReader { text: text.to_string(), access, joins: joins.collect(), cost: None }
 }
 
 /// Adds what a field, a sensor by its name, or an expression reads.
-fn read(model: &Model, programs: &Programs, text: &str, demand: &mut AccessSet) -> Result<(), RunError> {
+fn read(model: &Model, programs: &Programs, text: &str, access: &mut AccessSet) -> Result<(), RunError> {
     if let Some(field) = field(Object::Data, text.strip_prefix("data.").unwrap_or(text)) {
-        demand.reads.insert(field);
+        access.reads.insert(field);
         return Ok(());
     }
     if let Ok(sensor) = model.sensor(text) {
         let places = sensor.values(model);
-        demand.reads.insert_elements(data::sensordata, places.start, Some(places.len()));
+        access.reads.insert_elements(data::sensordata, places.start, Some(places.len()));
         return Ok(());
     }
     let names = ModelNames::new(model, Scope::Lab).with(&programs.functions);
     let mut globals = programs.globals.clone();
     let compiled = Compiler::new(&names, &mut globals).expression(text);
     match compiled.program {
-        Some(program) => include(program.effects(), demand),
+        Some(program) => include(program.effects(), access),
         None => {
             let why = compiled.diagnostics.first().map_or(String::new(), |d| format!(": {}", d.message));
             return Err(RunError(format!(

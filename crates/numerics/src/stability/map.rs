@@ -43,7 +43,7 @@ pub(super) fn map(
     case: &StressCase<'_>,
     labels: &[String; 2],
     length: f64,
-    tell: &mut dyn FnMut(&str),
+    report_progress: &mut dyn FnMut(&str),
     work: &mut u64,
 ) -> Result<StabilityMap, RunError> {
     let [(x, across), (y, up)] = [values(case, &labels[0])?, values(case, &labels[1])?];
@@ -53,7 +53,7 @@ pub(super) fn map(
     for b in &up {
         let mut row = Vec::new();
         for a in &across {
-            tell(&format!("map: run {} of {many}", made + 1));
+            report_progress(&format!("map: run {} of {many}", made + 1));
             let set =
                 |control: usize, value: &Value| Action { time: 0.0, control, value: Some(value.clone()) };
             let interaction = case.base.and(Kind::Corner, vec![set(x, a), set(y, b)]);

@@ -71,7 +71,7 @@ const RUN: u64 = 1_000_000_000;
 /// No lab has longer steps, s, nor fewer in a run.
 const LONGEST: f64 = 1.0;
 const STEPS: f64 = 10.0;
-/// Factors between what is tried: a lab may be sound again with steps beyond those with which it breaks first.
+/// Factors between what is tried: a lab may hold again with steps beyond those with which it breaks first.
 const STEPWISE: f64 = 1.2;
 const DOUBLING: f64 = 2.0;
 /// Servos, springs and pairs of bodies that are looked at, at most of each.
@@ -100,7 +100,7 @@ struct RaisedParameter {
 pub(super) fn margins(
     case: &StressCase<'_>,
     length: f64,
-    tell: &mut dyn FnMut(&str),
+    report_progress: &mut dyn FnMut(&str),
     work: &mut u64,
 ) -> (Vec<Margin>, Vec<String>) {
     let model = case.start(&case.base, RUN).world.model;
@@ -121,7 +121,7 @@ pub(super) fn margins(
     list.extend(some(ratios(&model, &base.touching), "pairs of bodies"));
     let mut found = Vec::new();
     for raised in list {
-        tell(&format!("margin: {} of {}", raised.knob.description(), raised.who));
+        report_progress(&format!("margin: {} of {}", raised.knob.description(), raised.who));
         match search(case, &raised, length, work) {
             Ok(margin) => found.push(margin),
             Err(why) => left_out.push(format!(

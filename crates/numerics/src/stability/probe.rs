@@ -112,7 +112,7 @@ impl StressReport {
     }
 }
 
-/// Runs the lab in every way that is tried. `tell` hears what is being done.
+/// Runs the lab in every way that is tried. `report_progress` hears what is being done.
 ///
 /// # Errors
 /// The length is none that a run can have, or no student can set or press what the options say.
@@ -121,7 +121,7 @@ pub fn probe(
     model: &Model,
     programs: &Programs,
     options: &Options,
-    tell: &mut dyn FnMut(&str),
+    report_progress: &mut dyn FnMut(&str),
 ) -> Result<StressReport, RunError> {
     let length = options.until.unwrap_or(LONGER * window(lab));
     let short = window(lab).min(length);
@@ -136,7 +136,7 @@ pub fn probe(
     if let Some(most) = case.watched_pairs_limit() {
         report.left_out.push(format!("only the first {most} pairs of geoms are watched for tunnelling"));
     }
-    let (groups, work_per_second) = run_interactions(&case, &interactions, &mut report, tell);
+    let (groups, work_per_second) = run_interactions(&case, &interactions, &mut report, report_progress);
     report.tried.retain(|t| t.made + t.cut + t.left_out > 0);
     let expects_breaks = matches!(lab.expect, Some(Expect::Breaks(_)));
     let breaks = |kind| matches!(kind, FaultKind::Diverges | FaultKind::Grows | FaultKind::Silent);
@@ -145,16 +145,16 @@ pub fn probe(
         StabilityFinding { group, expected, remedies: Vec::new() }
     };
     report.found = groups.into_iter().map(finding).collect();
-    try_remedies(&case, &mut report, work_per_second, tell);
+    try_remedies(&case, &mut report, work_per_second, report_progress);
     if options.margins {
-        let (margins, more) = margins::margins(&case, short, tell, &mut report.work);
+        let (margins, more) = margins::margins(&case, short, report_progress, &mut report.work);
         report.margins = margins;
         report.left_out.extend(more);
     }
-    tell("sensitivity");
+    report_progress("sensitivity");
     report.sensitivity = sensitivity::sensitivity(&case, short, &mut report.work);
     if let Some(labels) = &options.map {
-        report.map = Some(map::map(&case, labels, short, tell, &mut report.work)?);
+        report.map = Some(map::map(&case, labels, short, report_progress, &mut report.work)?);
     }
     Ok(report)
 }
@@ -188,14 +188,19 @@ fn run_interactions(
     case: &StressCase<'_>,
     interactions: &[Interaction],
     report: &mut StressReport,
-    tell: &mut dyn FnMut(&str),
+    report_progress: &mut dyn FnMut(&str),
 ) -> (Vec<FaultGroup>, f64) {
     let length = report.length;
     let mut left = WORK;
     let mut groups = Vec::new();
     let mut work_per_second = f64::INFINITY;
     for (i, interaction) in interactions.iter().enumerate() {
-        tell(&format!("run {} of {}: {}", i + 1, interactions.len(), interaction.kind.description()));
+        report_progress(&format!(
+            "run {} of {}: {}",
+            i + 1,
+            interactions.len(),
+            interaction.kind.description()
+        ));
         // Work that earlier runs did not use is available to later ones.
         let share = left / (interactions.len() - i) as u64;
         let Some(tried) = report.tried.iter_mut().find(|t| t.kind == interaction.kind) else { continue };
@@ -233,7 +238,7 @@ fn try_remedies(
     case: &StressCase<'_>,
     report: &mut StressReport,
     work_per_second: f64,
-    tell: &mut dyn FnMut(&str),
+    report_progress: &mut dyn FnMut(&str),
 ) {
     let mut tries = RemedyTests {
         case,
@@ -249,7 +254,7 @@ fn try_remedies(
         if matches!(found.group.fault.kind, FaultKind::Throws | FaultKind::Warns) {
             continue;
         }
-        tell(&format!("remedies for finding {} of {many}", i + 1));
+        report_progress(&format!("remedies for finding {} of {many}", i + 1));
         match if i < MOST_REMEDIED { tries.remedies(&found.group) } else { None } {
             Some(list) => found.remedies = list,
             None => untried += 1,

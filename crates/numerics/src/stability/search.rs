@@ -14,7 +14,7 @@ pub(super) struct SearchLimit {
     pub(super) broken: Option<f64>,
 }
 
-/// Searches from 1 up to `most`, by steps of a factor, as what breaks may be sound again beyond. `fine` says whether a multiple is
+/// Searches from 1 up to `most`, by steps of a factor, as what breaks may hold again beyond. `fine` says whether a multiple is
 /// fine; `None` when nothing more can be tried, which ends the search without a result.
 pub(super) fn largest(
     most: f64,

@@ -58,7 +58,7 @@ impl MeasureChoice<'_, '_> {
 /// The best choice: that of which exactly one option is true, and whose measure has most words of the question.
 ///
 /// # Errors
-/// Why nothing can be told.
+/// Why nothing can be proposed.
 pub(super) fn choose<'t, 'l>(
     question: &Question,
     options: &[Text],

@@ -55,13 +55,13 @@ pub enum ScaffoldOutcome {
         /// Measures and their values.
         values: Vec<(String, f64)>,
     },
-    /// Nothing could be told, and why.
+    /// Nothing could be proposed, and why.
     Open(String),
 }
 
-/// Looks at every question and lab of a lesson that claims nothing. `tell` hears what is being done.
-pub fn scaffold(lesson: &Lesson, models: &Models, tell: &mut dyn FnMut(&str)) -> Vec<Scaffold> {
-    let found = trace(lesson, models, tell);
+/// Looks at every question and lab of a lesson that claims nothing. `report_progress` hears what is being done.
+pub fn scaffold(lesson: &Lesson, models: &Models, report_progress: &mut dyn FnMut(&str)) -> Vec<Scaffold> {
+    let found = trace(lesson, models, report_progress);
     let stage = Stage::new(models);
     let mut all = Vec::new();
     let blocks = trace::blocks(&found);
@@ -88,7 +88,7 @@ pub fn scaffold(lesson: &Lesson, models: &Models, tell: &mut dyn FnMut(&str)) ->
                 continue;
             }
             let name = format!("quiz {id}, question {number}");
-            tell(&name);
+            report_progress(&name);
             let found = match &question.verify {
                 Some(_) => ScaffoldOutcome::Open(
                     "it already has a `verify`, but without a condition for each option".into(),
@@ -226,8 +226,8 @@ pub fn written(lesson: &Lesson, all: &[Scaffold]) -> String {
 /// Checks what is proposed, as it would stand in the lesson.
 fn judge(lesson: &Lesson, models: &Models, all: &mut [Scaffold]) {
     let text = written(lesson, all);
-    let depth = CheckLevel { labs: false, ..CheckLevel::FULL };
-    let checked = check::check_lesson(reload_lesson(lesson, &text, models.folder()), models, depth);
+    let level = CheckLevel { labs: false, ..CheckLevel::FULL };
+    let checked = check::check_lesson(reload_lesson(lesson, &text, models.folder()), models, level);
     for one in all {
         let ScaffoldOutcome::Proposed { verdict, .. } = &mut one.found else { continue };
         let claim = checked.claims.iter().find(|c| c.name == one.name);

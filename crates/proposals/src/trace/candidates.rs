@@ -135,7 +135,7 @@ fn displayed_numbers(lab: &Lab, model: &Model, programs: &Programs) -> Vec<Displ
         let text = bound.text.value.trim().to_string();
         let reads = bound.program.effects().reads.iter();
         let owners = reads.filter_map(|r| element_owner(model, r.field, r.first, r.count?));
-        let names = owners.filter_map(|(kind, i)| model.names.of(kind).get(i).map(String::as_str));
+        let names = owners.filter_map(|(kind, i)| model.names.of_kind(kind).get(i).map(String::as_str));
         let words: Vec<&str> = labels.iter().map(|l| l.as_str()).chain(names).collect();
         match all.iter_mut().find(|s| s.text == text) {
             Some(same) => same.words = format!("{} {}", same.words, words.join(" ")),

@@ -6,7 +6,7 @@ use super::rank::{self, Origin};
 use labspec::bind::scene::Models;
 use labspec::interrupt;
 use labspec::spec::{LabAddress, Lesson};
-use labspec::verify::{NUDGED, NUDGED_BACK, Stage, Stated, answered, claimed, stated};
+use labspec::verify::{PERTURBED_BACK, PERTURBED_START, Stage, Stated, answered, claimed, stated};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -26,13 +26,13 @@ pub struct Traces<'l> {
     pub(crate) labs: Vec<TracedLab<'l>>,
 }
 
-/// Looks where every number of a lesson comes from. Labs that cannot run are left out. `tell` is told what is being done.
-pub fn trace<'l>(lesson: &'l Lesson, models: &Models, tell: &mut dyn FnMut(&str)) -> Traces<'l> {
+/// Finds where every number of a lesson comes from. Labs that cannot run are left out. `report_progress` receives each step.
+pub fn trace<'l>(lesson: &'l Lesson, models: &Models, report_progress: &mut dyn FnMut(&str)) -> Traces<'l> {
     let numbers = stated(lesson);
     let stage = Stage::new(models);
     let mut labs = Vec::new();
     for (address, lab) in lesson.addressed() {
-        tell(&format!("trying lab {address}"));
+        report_progress(&format!("trying lab {address}"));
         labs.extend(TracedLab::measure(lesson, (address, lab), &numbers, models, &stage));
     }
     let bindings = bindings(&numbers);
@@ -59,9 +59,9 @@ fn mark_unsteady(numbers: &[Stated], origins: &mut [Origin], labs: &[TracedLab<'
         let Some((tried, trial)) = labs.get(l).and_then(|tried| Some((tried, tried.trials.get(t)?))) else {
             continue;
         };
-        let moved = again
-            .entry((l, t))
-            .or_insert_with(|| [NUDGED, NUDGED_BACK].map(|numerics| tried.values_of(trial, stage, numerics)));
+        let moved = again.entry((l, t)).or_insert_with(|| {
+            [PERTURBED_START, PERTURBED_BACK].map(|numerics| tried.values_of(trial, stage, numerics))
+        });
         let Some(at) = tried.candidates.iter().position(|c| c.text == hit.measure) else { continue };
         let Some(nominal) = tried.values.get(t).and_then(|v| v.get(at)) else { continue };
         let differs = |other: &Vec<f64>| {

@@ -149,21 +149,21 @@ fn runs_by_name<S: Serializer>(
 impl ProposedVerify {
     /// The name of a measure in a run.
     pub(crate) fn measured(&mut self, place: usize, trial: Option<&Trial>, text: &str) -> String {
-        let taken: Vec<&str> = self.runs.values().map(|(name, _)| name.as_str()).collect();
+        let used: Vec<&str> = self.runs.values().map(|(name, _)| name.as_str()).collect();
         let run = match (self.runs.get(&place), trial) {
             (Some((name, _)), _) => name.clone(),
             (None, None) => String::new(),
             (None, Some(trial)) => {
                 let name =
-                    free(if place == 0 { "plain".into() } else { name_of(&trial.words, "run") }, &taken);
+                    free(if place == 0 { "plain".into() } else { name_of(&trial.words, "run") }, &used);
                 self.runs.insert(place, (name.clone(), run(trial)));
                 name
             }
         };
         let measure = self.measure.iter().find(|(_, measure)| measure == text).map(|(name, _)| name.clone());
         let measure = measure.unwrap_or_else(|| {
-            let taken: Vec<&str> = self.measure.iter().map(|(name, _)| name.as_str()).collect();
-            let name = free(name_of(text, "value"), &taken);
+            let used: Vec<&str> = self.measure.iter().map(|(name, _)| name.as_str()).collect();
+            let name = free(name_of(text, "value"), &used);
             self.measure.push((name.clone(), text.to_string()));
             name
         });
@@ -195,11 +195,11 @@ fn name_of(text: &str, otherwise: &str) -> String {
     }
 }
 
-fn free(name: String, taken: &[&str]) -> String {
-    if !taken.contains(&name.as_str()) {
+fn free(name: String, used: &[&str]) -> String {
+    if !used.contains(&name.as_str()) {
         return name;
     }
-    let numbered = (2..).map(|n| format!("{name}_{n}")).find(|name| !taken.contains(&name.as_str()));
+    let numbered = (2..).map(|n| format!("{name}_{n}")).find(|name| !used.contains(&name.as_str()));
     numbered.unwrap_or(name)
 }
 

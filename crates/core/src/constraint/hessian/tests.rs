@@ -1,6 +1,6 @@
 //! The layout of the Hessian, and its sums and solutions against those entry by entry.
 
-use crate::constraint::jacobian::{Gram, add_entries};
+use crate::constraint::jacobian::{HessianAccumulator, add_entries};
 use crate::constraint::six::Six;
 use crate::math::dot;
 use crate::mjcf;
@@ -66,21 +66,22 @@ fn products_are_the_same_entry_by_entry() {
     let (mut six_fours, mut six_entries) = (six(), six());
     // Not the same from left and from right.
     let w: [[f64; 4]; 4] = from_fn(|i| from_fn(|j| 0.1 + (5 * i + j) as f64 / 7.0));
-    let weigh = |v: &[f64; 4]| w.map(|w| dot(w, *v));
+    let apply_weights = |v: &[f64; 4]| w.map(|w| dot(w, *v));
     let mut wide = 0;
     for b in &jac.blocks {
         let (columns, v) = (jac.columns(b), jac.values(b));
-        let by_slice = |v: &[f64], to: &mut [f64]| to.copy_from_slice(&weigh(v.first_chunk().unwrap()));
-        fours.add_gram(columns, v.as_chunks().0, &weigh);
+        let by_slice =
+            |v: &[f64], to: &mut [f64]| to.copy_from_slice(&apply_weights(v.first_chunk().unwrap()));
+        fours.add_weighted_gram(columns, v.as_chunks().0, &apply_weights);
         add_entries(&mut entries, columns, v, &by_slice);
         if columns.iter().all(|&c| c < 6) {
-            six_fours.add_gram(columns, v.as_chunks().0, &weigh);
+            six_fours.add_weighted_gram(columns, v.as_chunks().0, &apply_weights);
             add_entries(&mut six_entries, columns, v, &by_slice);
         }
         wide += usize::from(columns.len() == 12);
     }
     assert!(jac.blocks.len() > wide && wide > 0);
-    let same = |a: &mut dyn Gram, b: &mut dyn Gram, n: usize| {
+    let same = |a: &mut dyn HessianAccumulator, b: &mut dyn HessianAccumulator, n: usize| {
         let mut filled = 0;
         for (i, j) in (0..n).flat_map(|i| (0..=i).map(move |j| (i, j))) {
             let [a, b] = [a.entry(i, j).copied(), b.entry(i, j).copied()];

@@ -52,17 +52,17 @@ struct Curve {
     slope: f64,
 }
 
-/// FL: [`rise`] from lmin to 1, and its mirror image from lmax back to 1.
+/// FL: [`smooth_step`] from lmin to 1, and its mirror image from lmax back to 1.
 fn active_by_length(p: &[f64; 10], length: f64) -> Curve {
     let end = if length <= 1.0 { p[4] } else { p[5] };
     let width = 1.0 - end;
     let width = if width.abs() < MINVAL { MINVAL.copysign(1.0 - length) } else { width };
-    let Curve { value, slope } = rise((length - end) / width);
+    let Curve { value, slope } = smooth_step((length - end) / width);
     Curve { value, slope: slope / width }
 }
 
 /// From 0 at x = 0 to 1 at x = 1, level at both, by two halves of parabolas that meet at (½, ½).
-fn rise(x: f64) -> Curve {
+fn smooth_step(x: f64) -> Curve {
     let x = x.clamp(0.0, 1.0);
     let rest = 1.0 - x;
     Curve { value: if x <= 0.5 { 2.0 * x * x } else { 1.0 - 2.0 * rest * rest }, slope: 4.0 * x.min(rest) }

@@ -34,7 +34,7 @@ pub(super) struct Arc {
 type Vec2 = [f64; 2];
 
 /// The two points on the circle and the length between them.
-type Touch = ([Vec2; 2], f64);
+type WrapSegment = ([Vec2; 2], f64);
 
 /// The path around a shape, `None` when the straight line is free.
 ///
@@ -57,8 +57,8 @@ pub(super) fn around(ends: [Vec3; 2], shape: &Round, side: Option<Vec3>) -> Opti
     let [before, after] = [norm2(sub(first, from)), norm2(sub(last, to))];
     let [bottom, top] = ends.map(|v| dot(v, z));
     let slope = (top - bottom) / (before + arc + after);
-    let point = |[a, b]: Vec2, way: f64| {
-        let height = bottom + slope * way;
+    let point = |[a, b]: Vec2, path_length: f64| {
+        let height = bottom + slope * path_length;
         add_scaled(add_scaled(add_scaled(shape.pos, x, a), y, b), z, height)
     };
     Some(Arc {
@@ -97,7 +97,7 @@ fn across(line: Vec3, mat: &Mat3) -> Vec3 {
 /// From a point at the distance L the tangents touch the circle where its direction is turned by ±φ, cos φ = r/L. A string
 /// that goes round counter-clockwise leaves the first point's tangent at +φ₀ and meets the second one's at -φ₁; clockwise it
 /// is the mirror image. Between them it lies on the circle.
-fn outside(q: [Vec2; 2], radius: f64, side: Option<Vec2>) -> Option<Touch> {
+fn outside(q: [Vec2; 2], radius: f64, side: Option<Vec2>) -> Option<WrapSegment> {
     let lengths = q.map(norm2);
     let span = sub(q[1], q[0]);
     if lengths.iter().any(|&l| l < radius) || radius < MINVAL || dot(span, span) < MINVAL {
@@ -152,7 +152,7 @@ fn nearest_of_segment([a, b]: [Vec2; 2]) -> Vec2 {
 /// are the sines of the two angles with the radius. g(0) ≤ 0 ≤ g(Δ): Newton's method, kept between both, ends at the last
 /// bit. (The real library stops where its own equation holds to 1e-6, and takes the direction half way between both ends
 /// where Newton's method leaves the interval: docs/measured/parity.md.)
-fn inside(q: [Vec2; 2], radius: f64) -> Option<Touch> {
+fn inside(q: [Vec2; 2], radius: f64) -> Option<WrapSegment> {
     /// Newton's method needs about six; halving alone fifty.
     const ITERATIONS: usize = 100;
 

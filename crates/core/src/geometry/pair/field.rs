@@ -4,7 +4,7 @@
 use std::ops::{ControlFlow, RangeInclusive};
 
 use super::{ContactPoint, MOST, PairSettings};
-use crate::geometry::convex::{Convex, Nearest, Room, nearest};
+use crate::geometry::convex::{Convex, ConvexScratch, Nearest, nearest};
 use crate::geometry::{Field, Shape};
 use crate::math::*;
 
@@ -22,7 +22,7 @@ pub(super) fn field(
     b: &Shape,
     margin: f64,
     settings: &PairSettings,
-    room: &mut Room,
+    scratch: &mut ConvexScratch,
     out: &mut Vec<ContactPoint>,
 ) {
     let local = seen_from(ground, b);
@@ -33,8 +33,8 @@ pub(super) fn field(
     }
     let half = 0.5 * margin;
     let start = out.len();
-    each_prism(&ground.field(), &bounds, [0.0, margin], room, |corners, room| {
-        let found = nearest(&mut Convex::prism(corners), &mut body, half, settings.effort, room);
+    each_prism(&ground.field(), &bounds, [0.0, margin], scratch, |corners, scratch| {
+        let found = nearest(&mut Convex::prism(corners), &mut body, half, settings.effort, scratch);
         if let Some(found) = found.filter(|n| n.dist < half) {
             let [on_a, on_b] = found.witness;
             let middle = add_scaled(scale(add(on_a, on_b), 0.5), found.normal, -0.5 * half);
@@ -57,7 +57,7 @@ pub(crate) fn field_distance(
     b: &Shape,
     most: f64,
     settings: &PairSettings,
-    room: &mut Room,
+    scratch: &mut ConvexScratch,
 ) -> Option<Nearest> {
     let local = seen_from(ground, b);
     let mut body = Convex::new(&local);
@@ -66,12 +66,12 @@ pub(crate) fn field_distance(
         return None;
     }
     let mut best: Option<Nearest> = None;
-    each_prism(&ground.field(), &bounds, [most, 0.0], room, |corners, room| {
+    each_prism(&ground.field(), &bounds, [most, 0.0], scratch, |corners, scratch| {
         let cutoff = best.map_or(most, |n| n.dist.min(most));
         if gap(&corners, &bounds) > cutoff.max(0.0) {
             return ControlFlow::Continue(());
         }
-        let found = nearest(&mut Convex::prism(corners), &mut body, cutoff, settings.effort, room);
+        let found = nearest(&mut Convex::prism(corners), &mut body, cutoff, settings.effort, scratch);
         if let Some(found) = found.filter(|n| best.is_none_or(|b| n.dist < b.dist)) {
             best = Some(found);
         }
@@ -126,8 +126,8 @@ fn each_prism(
     field: &Field,
     [x, y, [z0, _]]: &[[f64; 2]; 3],
     [around, raise]: [f64; 2],
-    room: &mut Room,
-    mut visit: impl FnMut([Vec3; 6], &mut Room) -> ControlFlow<()>,
+    scratch: &mut ConvexScratch,
+    mut visit: impl FnMut([Vec3; 6], &mut ConvexScratch) -> ControlFlow<()>,
 ) {
     let [sx, sy, _, base] = field.size;
     let cells = |[low, high]: &[f64; 2], half: f64, n: usize| -> RangeInclusive<usize> {
@@ -143,8 +143,8 @@ fn each_prism(
         let mut corners = [[0.0; 3]; 3];
         let mut seen = 0;
         for c in cols.clone() {
-            room.cost += 2 * SAMPLED;
-            if room.most.is_some_and(|most| room.cost > most) {
+            scratch.cost += 2 * SAMPLED;
+            if scratch.most.is_some_and(|most| scratch.cost > most) {
                 return;
             }
             for row in [r + 1, r] {
@@ -157,8 +157,8 @@ fn each_prism(
                 }
                 let [p, q, s] = corners;
                 let [u, v, w] = corners.map(|p| [p[0], p[1], -base]);
-                room.cost += PASSED;
-                if visit([u, v, w, p, q, s], room).is_break() {
+                scratch.cost += PASSED;
+                if visit([u, v, w, p, q, s], scratch).is_break() {
                     return;
                 }
             }

@@ -16,7 +16,7 @@ pub(crate) use plane::ball_on_plane;
 pub(crate) use round::two_balls;
 
 use super::Shape;
-use super::convex::{Effort, Nearest, Room};
+use super::convex::{ConvexScratch, Effort, Nearest};
 use crate::kinds::geom;
 use crate::math::*;
 
@@ -115,13 +115,13 @@ pub(crate) fn contacts(
     b: &Shape,
     margin: f64,
     settings: impl FnOnce() -> PairSettings,
-    room: &mut Room,
+    scratch: &mut ConvexScratch,
     out: &mut Vec<ContactPoint>,
 ) {
     match method {
         Method::Direct(test) => test(a, b, margin, out),
-        Method::Convex if CONVEX => searched::convex(a, b, margin, &settings(), room, out),
-        Method::Field if CONVEX => field::field(a, b, margin, &settings(), room, out),
+        Method::Convex if CONVEX => searched::convex(a, b, margin, &settings(), scratch, out),
+        Method::Field if CONVEX => field::field(a, b, margin, &settings(), scratch, out),
         Method::Convex | Method::Field => {}
     }
 }

@@ -133,11 +133,12 @@ pub(super) fn mesh(plane: &Shape, other: &Shape, margin: f64, out: &mut Vec<Cont
     if first.dist > margin {
         return;
     }
-    let side = mesh.sides.and_then(|sides| {
-        let here = (0..sides.len()).filter(|&s| sides.vertices(s).contains(&(lowest as u32)));
-        let steeper =
-            |&a: &usize, &b: &usize| dot(sides.normal(a), down).total_cmp(&dot(sides.normal(b), down));
-        here.max_by(steeper).map(|s| sides.vertices(s))
+    let side = mesh.hull_faces.and_then(|hull_faces| {
+        let here = (0..hull_faces.len()).filter(|&s| hull_faces.vertices(s).contains(&(lowest as u32)));
+        let steeper = |&a: &usize, &b: &usize| {
+            dot(hull_faces.normal(a), down).total_cmp(&dot(hull_faces.normal(b), down))
+        };
+        here.max_by(steeper).map(|s| hull_faces.vertices(s))
     });
     let Some(side) = side else { return out.push(first) };
     let start = side.iter().position(|&v| v as usize == lowest).unwrap_or(0);

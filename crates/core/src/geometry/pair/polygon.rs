@@ -8,7 +8,7 @@
 
 use super::{ContactPoint, PairSettings};
 use crate::geometry::clip::{ROUNDING, clip};
-use crate::geometry::convex::{Convex, Room, nearest};
+use crate::geometry::convex::{Convex, ConvexScratch, nearest};
 use crate::geometry::list::List;
 use crate::geometry::{HullFaces, Shape};
 use crate::kinds::geom;
@@ -69,10 +69,10 @@ pub(super) fn contacts(
     a: &Shape,
     b: &Shape,
     settings: &PairSettings,
-    room: &mut Room,
+    scratch: &mut ConvexScratch,
     out: &mut Vec<ContactPoint>,
 ) {
-    let found = nearest(&mut Convex::new(a), &mut Convex::new(b), 0.0, settings.effort, room);
+    let found = nearest(&mut Convex::new(a), &mut Convex::new(b), 0.0, settings.effort, scratch);
     let Some(deep) = found.filter(|n| n.dist < 0.0) else { return };
     let start = out.len();
     if let Some(patch) = patch(a, b, deep.normal) {
@@ -171,8 +171,9 @@ impl Feature {
             }
             geom::BOX => box_corner(s, corner, &mut at_corner),
             _ => {
-                if let (Some(sides), Ok(vertex)) = (s.mesh().sides, usize::try_from(body.corner())) {
-                    mesh_corner(s, sides, vertex, corner, &mut at_corner);
+                if let (Some(hull_faces), Ok(vertex)) = (s.mesh().hull_faces, usize::try_from(body.corner()))
+                {
+                    mesh_corner(s, hull_faces, vertex, corner, &mut at_corner);
                 }
             }
         }
@@ -233,11 +234,11 @@ fn box_corner(s: &Shape, corner: Vec3, out: &mut Feature) {
 }
 
 /// The sides and edges of a mesh that meet in a vertex.
-fn mesh_corner(s: &Shape, sides: &HullFaces, vertex: usize, corner: Vec3, out: &mut Feature) {
-    for (index, at) in sides.around(vertex) {
-        let list = sides.vertices(index);
+fn mesh_corner(s: &Shape, hull_faces: &HullFaces, vertex: usize, corner: Vec3, out: &mut Feature) {
+    for (index, at) in hull_faces.around(vertex) {
+        let list = hull_faces.vertices(index);
         let other = list[(at + 1) % list.len()] as usize;
-        out.faces.push(Face { index, normal: mat_mul_vec(&s.mat, sides.normal(index)) });
+        out.faces.push(Face { index, normal: mat_mul_vec(&s.mat, hull_faces.normal(index)) });
         out.edges.push([corner, s.world(s.mesh().vertex(other))]);
     }
 }
@@ -263,7 +264,7 @@ fn corners(s: &Shape, face: usize) -> Corners {
             }
         }
         _ => {
-            let vertices = s.mesh().sides.map_or(&[][..], |sides| sides.vertices(face));
+            let vertices = s.mesh().hull_faces.map_or(&[][..], |hull_faces| hull_faces.vertices(face));
             for &v in vertices.iter().rev() {
                 out.push(s.world(s.mesh().vertex(v as usize)));
             }

@@ -4,7 +4,7 @@ use super::ContactPoint;
 use super::PairSettings;
 use super::polygon;
 use crate::geometry::Shape;
-use crate::geometry::convex::{Convex, Room, nearest};
+use crate::geometry::convex::{Convex, ConvexScratch, nearest};
 use crate::kinds::geom;
 use crate::math::*;
 
@@ -20,19 +20,19 @@ pub(super) fn convex(
     b: &Shape,
     margin: f64,
     settings: &PairSettings,
-    room: &mut Room,
+    scratch: &mut ConvexScratch,
     out: &mut Vec<ContactPoint>,
 ) {
     let flat = |s: &Shape| matches!(s.kind, geom::CYLINDER | geom::BOX | geom::MESH);
     if settings.several && margin <= 0.0 && flat(a) && flat(b) {
-        polygon::contacts(a, b, settings, room, out);
+        polygon::contacts(a, b, settings, scratch, out);
         return;
     }
-    let Some(first) = deepest(a, b, margin, settings, room) else { return };
+    let Some(first) = deepest(a, b, margin, settings, scratch) else { return };
     out.push(first);
     let smooth = |s: &Shape| matches!(s.kind, geom::ELLIPSOID | geom::SPHERE);
     if settings.several && !smooth(a) && !smooth(b) {
-        rock(a, b, margin, settings, room, first, out);
+        rock(a, b, margin, settings, scratch, first, out);
     }
 }
 
@@ -42,10 +42,10 @@ fn deepest(
     b: &Shape,
     margin: f64,
     settings: &PairSettings,
-    room: &mut Room,
+    scratch: &mut ConvexScratch,
 ) -> Option<ContactPoint> {
     let (mut u, mut v) = (Convex::new(a), Convex::new(b));
-    nearest(&mut u, &mut v, margin, settings.effort, room)
+    nearest(&mut u, &mut v, margin, settings.effort, scratch)
         .filter(|n| n.dist < margin)
         .map(|n| ContactPoint::between(&n))
 }
@@ -57,7 +57,7 @@ fn rock(
     b: &Shape,
     margin: f64,
     settings: &PairSettings,
-    room: &mut Room,
+    scratch: &mut ConvexScratch,
     first: ContactPoint,
     out: &mut Vec<ContactPoint>,
 ) {
@@ -69,7 +69,7 @@ fn rock(
             let turn = quat_to_mat(quat_axis_angle(axis, angle));
             let back = std::array::from_fn(|i| turn[3 * (i % 3) + i / 3]);
             let (a, b) = (turned(a, first.pos, &turn), turned(b, first.pos, &back));
-            let Some(found) = deepest(&a, &b, margin, settings, room) else { continue };
+            let Some(found) = deepest(&a, &b, margin, settings, scratch) else { continue };
             if out[start..].iter().all(|t| norm(sub(t.pos, found.pos)) > apart) {
                 out.push(ContactPoint { dist: first.dist, ..found });
             }

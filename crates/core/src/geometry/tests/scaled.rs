@@ -25,8 +25,9 @@ fn assets_scaled(text: &str, by: f64) -> Assets {
     let names: Vec<String> = assets.vert.keys().cloned().collect();
     for name in names {
         let mesh = assets.mesh(&name);
-        let sides = mesh.hull.map_or_else(HullFaces::default, |hull| HullFaces::from_hull(mesh.vert, &hull));
-        assets.sides.insert(name, sides);
+        let hull_faces =
+            mesh.hull.map_or_else(HullFaces::default, |hull| HullFaces::from_hull(mesh.vert, &hull));
+        assets.hull_faces.insert(name, hull_faces);
     }
     if let Some((head, _)) = &mut assets.field {
         head[2..].iter_mut().for_each(|x| *x *= by);
@@ -59,7 +60,7 @@ fn answer(assets: &Assets, line: &str, by: f64) -> (Vec<ContactPoint>, Vec<f64>)
     let (first, second) = if a.kind <= b.kind { (&a, &b) } else { (&b, &a) };
     if let Some(method) = pair::method(first.kind, second.kind) {
         let near = margin.min(0.01) * by;
-        pair::contacts(method, first, second, near, || settings, &mut work.room, &mut work.touches);
+        pair::contacts(method, first, second, near, || settings, &mut work.convex, &mut work.touches);
     }
     let back = |t: &ContactPoint| ContactPoint { dist: t.dist / by, pos: scale(t.pos, 1.0 / by), ..*t };
     (work.touches.iter().map(back).collect(), distance)
@@ -135,9 +136,9 @@ fn large_and_small_capsules_lie_on_boxes() {
                 lying,
             );
             let cuboid = Shape::new(geom::BOX, scale([1.0, 1.0, 1.0], by), [0.0; 3], EYE);
-            let (mut room, mut touches) = (Default::default(), Vec::new());
+            let (mut scratch, mut touches) = (Default::default(), Vec::new());
             let Some(method) = pair::method(geom::CAPSULE, geom::BOX) else { panic!() };
-            pair::contacts(method, &capsule, &cuboid, 0.0, settings, &mut room, &mut touches);
+            pair::contacts(method, &capsule, &cuboid, 0.0, settings, &mut scratch, &mut touches);
             assert_eq!(touches.len(), 2, "{by} {thick}");
             for t in touches {
                 assert!(
@@ -159,9 +160,9 @@ fn short_capsules_cross() {
         let size = [0.1 * half, half, 0.0];
         let a = Shape::new(geom::CAPSULE, size, [0.0; 3], lying);
         let b = Shape::new(geom::CAPSULE, size, scale([0.3, 0.4, 0.15], half), upright);
-        let (mut room, mut touches) = (Default::default(), Vec::new());
+        let (mut scratch, mut touches) = (Default::default(), Vec::new());
         let Some(method) = pair::method(geom::CAPSULE, geom::CAPSULE) else { panic!() };
-        pair::contacts(method, &a, &b, 0.0, settings, &mut room, &mut touches);
+        pair::contacts(method, &a, &b, 0.0, settings, &mut scratch, &mut touches);
         let [t] = touches[..] else { panic!("{half}: {touches:?}") };
         assert!((t.dist / half + 0.05).abs() < 1e-12, "{half}: {t:?}");
         assert!(norm(sub(scale(t.pos, 1.0 / half), [0.3, 0.0, 0.075])) < 1e-12, "{half}: {t:?}");

@@ -9,7 +9,7 @@
 //! `LABSPEC_CASES` says how many random configurations there are for each pair (100,000 for `docs/measured/contacts.md`).
 
 use super::Random;
-use crate::geometry::convex::{Convex, Nearest, Room, nearest};
+use crate::geometry::convex::{Convex, ConvexScratch, Nearest, nearest};
 use crate::geometry::{HullFaces, Mesh, Shape};
 use crate::kinds::geom;
 use crate::math::*;
@@ -43,7 +43,7 @@ struct Solid {
     vert: Vec<Vec3>,
     face: Vec<[i32; 3]>,
     graph: Vec<i32>,
-    sides: HullFaces,
+    hull_faces: HullFaces,
 }
 
 pub(super) fn farthest(s: &Shape, dir: Vec3) -> Vec3 {
@@ -163,10 +163,10 @@ fn solids() -> Vec<Solid> {
             vert: rows::<3>(&numbers).to_vec(),
             face: ints(parts[1]).as_chunks().0.to_vec(),
             graph: ints(parts[2]),
-            sides: HullFaces::default(),
+            hull_faces: HullFaces::default(),
         };
         let hull = crate::geometry::Hull::from_graph(&solid.graph).unwrap();
-        solid.sides = HullFaces::from_hull(&solid.vert, &hull);
+        solid.hull_faces = HullFaces::from_hull(&solid.vert, &hull);
         out.push(solid);
     }
     out
@@ -175,7 +175,7 @@ fn solids() -> Vec<Solid> {
 impl Solid {
     fn mesh(&self) -> Mesh<'_> {
         let hull = crate::geometry::Hull::from_graph(&self.graph);
-        Mesh { vert: &self.vert, face: &self.face, hull, sides: Some(&self.sides) }
+        Mesh { vert: &self.vert, face: &self.face, hull, hull_faces: Some(&self.hull_faces) }
     }
 }
 
@@ -215,7 +215,7 @@ enum Error {
     /// Of bodies that are apart.
     Distance(f64),
     /// Of bodies that overlap: how much deeper than the reference.
-    Depth(f64),
+    Penetration(f64),
 }
 
 fn error(a: &Shape, b: &Shape, n: &Nearest, tolerance: f64) -> Error {
@@ -227,22 +227,23 @@ fn error(a: &Shape, b: &Shape, n: &Nearest, tolerance: f64) -> Error {
     let corners = |s: &Shape| matches!(s.kind, geom::BOX | geom::MESH);
     let depth =
         if corners(a) && corners(b) { depth_by_axes(a, b) } else { depth_by_sampling(a, b, n.normal) };
-    Error::Depth(-n.dist - depth)
+    Error::Penetration(-n.dist - depth)
 }
 
 /// Whether the reference has the same signed distance for two shapes.
 pub(super) fn is_true(a: &Shape, b: &Shape) -> bool {
     let effort = super::patient().effort;
-    let found = nearest(&mut Convex::new(a), &mut Convex::new(b), 1e3, effort, &mut Room::default());
+    let found = nearest(&mut Convex::new(a), &mut Convex::new(b), 1e3, effort, &mut ConvexScratch::default());
     found.is_some_and(|n| {
-        let (Error::Distance(error) | Error::Depth(error)) = error(a, b, &n, effort.tolerance);
+        let (Error::Distance(error) | Error::Penetration(error)) = error(a, b, &n, effort.tolerance);
         error.abs() < 1e-9 * (norm(a.size) + norm(b.size))
     })
 }
 
 fn check_pair(kind1: i32, kind2: i32, cases: usize) -> Tally {
     let solids = solids();
-    let (mut r, mut room, mut t) = (Random((kind1 * 8 + kind2) as u64), Room::default(), Tally::default());
+    let (mut r, mut scratch, mut t) =
+        (Random((kind1 * 8 + kind2) as u64), ConvexScratch::default(), Tally::default());
     let settings = super::patient();
     let directions: Vec<Vec3> = (0..40).map(|_| r.direction()).collect();
     for case in 0..cases {
@@ -255,7 +256,7 @@ fn check_pair(kind1: i32, kind2: i32, cases: usize) -> Tally {
             let gap = if r.below(2) == 0 { 0.0 } else { 10f64.powf(r.within(-9.0, -3.0)) };
             b.pos = scale(n, reach(&a, &b, n) + if r.below(2) == 0 { gap } else { -gap });
         }
-        let found = nearest(&mut Convex::new(&a), &mut Convex::new(&b), 1e3, settings.effort, &mut room);
+        let found = nearest(&mut Convex::new(&a), &mut Convex::new(&b), 1e3, settings.effort, &mut scratch);
         let Some(n) = found else {
             t.worst = format!("case {case}, nothing found: {a:?} {b:?}");
             t.distance = f64::INFINITY;
@@ -281,7 +282,7 @@ fn check_pair(kind1: i32, kind2: i32, cases: usize) -> Tally {
                 most(&mut t, |t| &mut t.distance, error, "distance");
                 t.apart += 1;
             }
-            Error::Depth(error) => {
+            Error::Penetration(error) => {
                 most(&mut t, |t| &mut t.above, error, "deeper than the reference");
                 most(&mut t, |t| &mut t.below, -error, "less deep than the reference");
                 t.deep += 1;
@@ -343,7 +344,7 @@ fn signed_distances_are_true() {
 #[test]
 fn prisms_of_the_ground_are_true() {
     let solids = solids();
-    let (mut r, mut room) = (Random(77), Room::default());
+    let (mut r, mut scratch) = (Random(77), ConvexScratch::default());
     let mut deep = 0;
     for case in 0..cases(2000) {
         let mut b = shape([geom::BOX, geom::MESH][case % 2], &mut r, &solids);
@@ -353,7 +354,7 @@ fn prisms_of_the_ground_are_true() {
         let corners = [low[0], low[1], low[2], top[0], top[1], top[2]];
         b.pos = scale(r.direction(), r.within(0.0, 0.8));
         let mut prism = Convex::prism(corners);
-        let found = nearest(&mut prism, &mut Convex::new(&b), 1e3, super::settings().effort, &mut room);
+        let found = nearest(&mut prism, &mut Convex::new(&b), 1e3, super::settings().effort, &mut scratch);
         let n = found.unwrap();
         let reach = |n: Vec3| {
             let farthest_corner = corners.iter().map(|c| dot(*c, n)).fold(f64::NEG_INFINITY, f64::max);
@@ -405,8 +406,17 @@ fn contacts_of_faces_are_below_both_surfaces() {
         work.touches.clear();
         let method = crate::geometry::pair::method(a.kind, b.kind).unwrap();
         let settings = super::settings();
-        crate::geometry::pair::contacts(method, &a, &b, 0.0, || settings, &mut work.room, &mut work.touches);
-        let deep = nearest(&mut Convex::new(&a), &mut Convex::new(&b), 0.0, settings.effort, &mut work.room);
+        crate::geometry::pair::contacts(
+            method,
+            &a,
+            &b,
+            0.0,
+            || settings,
+            &mut work.convex,
+            &mut work.touches,
+        );
+        let deep =
+            nearest(&mut Convex::new(&a), &mut Convex::new(&b), 0.0, settings.effort, &mut work.convex);
         let depth = deep.map_or(0.0, |n| -n.dist);
         let say = || format!("case {case}: {:?} {depth} {a:?} {b:?}", work.touches);
         assert!(work.touches.len() <= 4 && (depth < 1e-9 || !work.touches.is_empty()), "{}", say());
@@ -459,7 +469,7 @@ fn distances_of_height_fields_are_those_of_their_prisms() {
                     let mut prism = Shape::new(geom::MESH, [1.0; 3], [0.0; 3], EYE);
                     prism.mesh = Some(Mesh { vert: &vert, ..Default::default() });
                     let (mut u, mut v) = (Convex::new(&prism), Convex::new(&b));
-                    if let Some(n) = nearest(&mut u, &mut v, 1e3, settings.effort, &mut work.room) {
+                    if let Some(n) = nearest(&mut u, &mut v, 1e3, settings.effort, &mut work.convex) {
                         least = least.min(n.dist);
                     }
                 }

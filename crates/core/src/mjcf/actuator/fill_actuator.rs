@@ -104,7 +104,7 @@ pub(crate) fn user(a: &ActuatorSpec) -> List {
     List { numbers: a.user.clone(), span: a.user_span.clone() }
 }
 
-/// Room for the moments; `None` after reporting that it is too much.
+/// Memory for the moments; `None` after reporting that it is too much.
 pub(crate) fn pattern(m: &mut Model, list: &[ActuatorSpec], report: &mut Report) -> Option<()> {
     m.nJmom = transmission::entries(m);
     let span = list.first().map_or(0..0, |a| a.span.clone());

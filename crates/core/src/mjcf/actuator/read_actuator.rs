@@ -48,7 +48,7 @@ pub(crate) fn actuators(
     list
 }
 
-/// An actuator of which nothing is said.
+/// An actuator of which nothing is reported.
 fn unset() -> ActuatorSpec {
     let first = |x: f64| std::array::from_fn(|i| if i == 0 { x } else { 0.0 });
     let auto = RangeSpec { flag: 2, range: [0.0; 2] };

@@ -184,7 +184,7 @@ fn unfilter(filter: u8, row: &mut [u8], above: &[u8], step: usize) -> Result<(),
     for i in 0..row.len() {
         let before = |row: &[u8]| i.checked_sub(step).and_then(|i| row.get(i)).copied().unwrap_or(0);
         let (a, b, c) = (before(row), above.get(i).copied().unwrap_or(0), before(above));
-        let foretold = match filter {
+        let predicted = match filter {
             0 => 0,
             1 => a,
             2 => b,
@@ -192,7 +192,7 @@ fn unfilter(filter: u8, row: &mut [u8], above: &[u8], step: usize) -> Result<(),
             4 => nearest(a, b, c),
             _ => return Err("it has an unknown filter"),
         };
-        row[i] = row[i].wrapping_add(foretold);
+        row[i] = row[i].wrapping_add(predicted);
     }
     Ok(())
 }

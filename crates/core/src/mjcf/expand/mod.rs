@@ -24,7 +24,7 @@ use crate::mjcf::text::diagnostic::Report;
 use crate::mjcf::text::load::Written;
 use crate::mjcf::text::tree::{Attribute, Node, Tree};
 use crate::mjcf::text::values::Value;
-use crate::mjcf::words::Words;
+use crate::mjcf::word_map::WordMap;
 use copy::Rename;
 use followers::{Followers, Uses};
 use references::Names;
@@ -60,7 +60,7 @@ pub(crate) fn model(written: Written, report: &mut Report) -> Expanded {
         written: nodes.len(),
         nodes,
         bytes: 0,
-        sections: Words::default(),
+        sections: WordMap::default(),
         names: BTreeMap::new(),
         parts: vec![AttachedModel { compiler, folder: written.folder }],
         models,
@@ -118,7 +118,7 @@ struct Expander {
     /// How many elements stand in the text: those from there on are copies.
     written: usize,
     /// The last section of each name.
-    sections: Words<usize>,
+    sections: WordMap<usize>,
     /// Bodies and frames by name.
     names: BTreeMap<(&'static str, String), usize>,
     parts: Vec<AttachedModel>,

@@ -1,4 +1,4 @@
-//! What is told of models that load: each against what the engine does.
+//! What is reported about models that load: each against what the engine does.
 
 use crate::mjcf::{NoFiles, Severity, check_xml};
 use crate::step::workspace::Workspace;
@@ -21,7 +21,7 @@ fn grows(xml: &str) -> bool {
     false
 }
 
-/// A spring, a damper or a servo is told exactly where the integrator makes it grow.
+/// A spring, a damper or a servo is reported exactly where the integrator makes it grow.
 #[test]
 fn what_is_too_fast_grows_and_the_rest_does_not() {
     let h: f64 = 0.002;

@@ -20,7 +20,7 @@ fn check_golden(name: &str, xml: &str, recorded: &str) {
         if let Some(names) = line.strip_prefix("names.") {
             let (kind, names) = names.split_once(' ').unwrap();
             let want: Vec<&str> = names.split('|').collect();
-            let got = m.names.of(object(kind));
+            let got = m.names.of_kind(object(kind));
             if got != want {
                 wrong.push(format!("names.{kind}\n   want {want:?}\n   got  {got:?}"));
             }

@@ -17,11 +17,11 @@ fn cases(recorded: &'static str) -> impl Iterator<Item = (&'static str, String)>
 fn text_between_elements_loads_where_mujoco_loads_it() {
     let (mut wrong, mut warned) = (Vec::new(), 0);
     for (answer, text) in cases(include_str!("../golden/texts.txt")) {
-        let examined = check_xml(&text, &NoFiles, None);
-        let ours = if examined.model.is_some() { "loads" } else { "refused" };
-        let texts: Vec<_> = examined.findings.iter().filter(|d| d.code == rules::TEXT).collect();
+        let checked = check_xml(&text, &NoFiles, None);
+        let ours = if checked.model.is_some() { "loads" } else { "refused" };
+        let texts: Vec<_> = checked.findings.iter().filter(|d| d.code == rules::TEXT).collect();
         if ours != answer || texts.iter().any(|d| d.severity == Severity::Error) {
-            wrong.push(format!("{answer} there, {ours} here: {text:?}: {:?}", examined.findings.first()));
+            wrong.push(format!("{answer} there, {ours} here: {text:?}: {:?}", checked.findings.first()));
         }
         for d in texts {
             assert!(text.get(d.span.clone()).is_some_and(|s| !s.trim().is_empty()), "{text:?}: {:?}", d.span);

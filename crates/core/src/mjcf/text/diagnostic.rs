@@ -19,7 +19,7 @@ const MAX_DIAGNOSTICS: usize = 100;
 /// Numbers that a model may ask for: 200 MB, which are copied once or twice on their way.
 const MAX_NUMBERS: usize = 25_000_000;
 
-/// A finding that has just been added, to which its reason and the next step are said.
+/// A finding that has just been added, to which its reason and the next step are added.
 pub(crate) struct Reported<'r>(&'r mut Finding);
 
 impl Reported<'_> {
@@ -43,7 +43,7 @@ pub enum MjcfFileError {
     Io {
         /// The file.
         path: PathBuf,
-        /// What the operating system said.
+        /// The message of the operating system.
         error: std::io::Error,
     },
     /// The file is larger than [`crate::mjcf::MAX_TEXT`].
@@ -209,7 +209,7 @@ impl Report {
     }
 
     /// The findings in the order of the texts, each with its file, line and column. What copies of one element
-    /// have in common is said once.
+    /// have in common is reported once.
     pub(crate) fn finish(mut self) -> Vec<Finding> {
         self.list.truncate(MAX_DIAGNOSTICS);
         self.warnings.truncate(MAX_DIAGNOSTICS);

@@ -33,7 +33,7 @@ pub enum FileProblem {
     Outside,
     /// It has more bytes than the limit allows.
     TooLarge,
-    /// What the operating system said.
+    /// The message of the operating system.
     Unreadable(String),
 }
 
@@ -188,7 +188,7 @@ mod tests {
         let files = Folder::at(&root, &root.join("models")).unwrap();
         assert_eq!(files.read("../stls/x.stl", 9), Ok(b"x".to_vec()));
         assert_eq!(files.read("deep/../../stls/x.stl", 9), Ok(b"x".to_vec()));
-        // What lies above the root is not told from what does not.
+        // What lies above the root is not distinguished from what is missing.
         for path in ["../../secret", "../../nothing", "deep/../../../secret"] {
             let read = files.read(path, 9);
             assert!(matches!(read, Err(FileProblem::Outside)), "{path}: {read:?}");

@@ -1,4 +1,4 @@
-//! From bytes to a tree of elements: files, limits, XML, values of attributes, and what is said of them.
+//! From bytes to a tree of elements: files, limits, XML, values of attributes, and the messages about them.
 
 pub(crate) mod diagnostic;
 pub(crate) mod files;

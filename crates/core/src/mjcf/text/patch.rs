@@ -230,10 +230,10 @@ mod tests {
 
     fn patched(path: &str, value: &str) -> Result<Model, String> {
         let patch = Patch { path: path.into(), value: value.into() };
-        let (examined, refusals) = check_patched(TEXT, &NoFiles, None, &[patch]);
-        match (refusals.into_iter().next().flatten(), examined.model) {
+        let (checked, refusals) = check_patched(TEXT, &NoFiles, None, &[patch]);
+        match (refusals.into_iter().next().flatten(), checked.model) {
             (Some(refusal), _) => Err(format!("{}; {}", refusal.message, refusal.help)),
-            (None, model) => model.ok_or_else(|| examined.findings[0].message.clone()),
+            (None, model) => model.ok_or_else(|| checked.findings[0].message.clone()),
         }
     }
 

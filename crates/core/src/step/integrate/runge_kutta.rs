@@ -16,9 +16,9 @@ pub(super) fn rk4(m: &Model, d: &mut Fields, s: &mut Scratch) {
     w.qpos.copy_from_slice(&d.qpos);
     w.qvel.copy_from_slice(&d.qvel);
     w.act.copy_from_slice(&d.act);
-    weigh(&mut w.dpos, B[0], &d.qvel);
-    weigh(&mut w.dvel, B[0], &d.qacc);
-    weigh(&mut w.dact, B[0], &d.act_dot);
+    assign_scaled(&mut w.dpos, B[0], &d.qvel);
+    assign_scaled(&mut w.dvel, B[0], &d.qacc);
+    assign_scaled(&mut w.dact, B[0], &d.act_dot);
     for stage in 0..3 {
         let a = A[stage] * h;
         w.slope.copy_from_slice(&d.qvel);
@@ -28,9 +28,9 @@ pub(super) fn rk4(m: &Model, d: &mut Fields, s: &mut Scratch) {
         integrate_pos(m, &mut d.qpos, &w.slope, a);
         d.time = start + a;
         forward::forward_unseen(m, d, s);
-        add(&mut w.dpos, B[stage + 1], &d.qvel);
-        add(&mut w.dvel, B[stage + 1], &d.qacc);
-        add(&mut w.dact, B[stage + 1], &d.act_dot);
+        add_scaled(&mut w.dpos, B[stage + 1], &d.qvel);
+        add_scaled(&mut w.dvel, B[stage + 1], &d.qacc);
+        add_scaled(&mut w.dact, B[stage + 1], &d.act_dot);
     }
     // From the first state on, with the sums.
     d.time = start;
@@ -52,14 +52,14 @@ pub(super) fn rk4(m: &Model, d: &mut Fields, s: &mut Scratch) {
 }
 
 /// out ← s x
-fn weigh(out: &mut [f64], s: f64, x: &[f64]) {
+fn assign_scaled(out: &mut [f64], s: f64, x: &[f64]) {
     for (o, x) in out.iter_mut().zip(x) {
         *o = s * x;
     }
 }
 
 /// out ← out + s x
-fn add(out: &mut [f64], s: f64, x: &[f64]) {
+fn add_scaled(out: &mut [f64], s: f64, x: &[f64]) {
     for (o, x) in out.iter_mut().zip(x) {
         *o += s * x;
     }

@@ -68,7 +68,7 @@ pub(super) struct MeasureWalk<'f> {
     pub(super) closures: BTreeMap<u32, (UnitId, Vec<Val>)>,
     /// What is passed to the function that is called next, by its registers, and what the last one gave.
     pub(super) passed: [BTreeMap<u32, Operand>; 2],
-    pub(super) taken: Measure,
+    pub(super) result_measure: Measure,
     /// A function that is not known was called: it may have changed whatever is shared.
     pub(super) wild: bool,
     pub(super) found: TextDimensions,
@@ -84,7 +84,7 @@ impl<'f> MeasureWalk<'f> {
             values: BTreeMap::new(),
             closures: BTreeMap::new(),
             passed: Default::default(),
-            taken: Measure::Unknown,
+            result_measure: Measure::Unknown,
             wild: false,
             found: TextDimensions::default(),
         }

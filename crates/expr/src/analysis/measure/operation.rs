@@ -167,10 +167,10 @@ impl MeasureWalk<'_> {
                     Some((unit, used)) => self.invoke(unit, args, used.into_iter().map(value).collect()),
                     None => {
                         self.wild = true;
-                        self.taken = Measure::Unknown;
+                        self.result_measure = Measure::Unknown;
                     }
                 }
-                self.set(value(d), self.taken);
+                self.set(value(d), self.result_measure);
             }
             Op::InvokeList(d, ..) => {
                 self.wild = true;
@@ -194,8 +194,8 @@ impl MeasureWalk<'_> {
                 });
                 self.invoke(unit, given.collect(), Vec::new());
             }
-            Op::TakeNumber(d) => self.set(number(d), self.taken),
-            Op::TakeValue(d) => self.set(value(d), self.taken),
+            Op::TakeNumber(d) => self.set(number(d), self.result_measure),
+            Op::TakeValue(d) => self.set(value(d), self.result_measure),
             _ => self.unknown(op),
         }
     }
@@ -217,7 +217,7 @@ impl MeasureWalk<'_> {
                 self.join(at, measure);
             }
         }
-        self.taken = result;
+        self.result_measure = result;
     }
 
     /// What is in a list, a record or a shared place.

@@ -9,7 +9,7 @@ pub(in crate::bind) struct NameTable {
     pub(super) uses: BTreeMap<usize, NameMeaning>,
     pub(super) declared: BTreeMap<usize, Declaration>,
     /// Variables of other functions that a function uses, itself or through functions that it names.
-    pub(super) taken: BTreeMap<usize, BTreeSet<usize>>,
+    pub(super) captured: BTreeMap<usize, BTreeSet<usize>>,
     /// There are so many functions, or they name each other so deeply, that the text is not looked at any further.
     pub(in crate::bind) stopped: bool,
 }
@@ -69,7 +69,7 @@ impl NameTable {
     }
 
     /// The variables of other functions that the function at a byte uses.
-    pub(in crate::bind) fn taken(&self, function: usize) -> impl Iterator<Item = usize> + '_ {
-        self.taken.get(&function).into_iter().flatten().copied()
+    pub(in crate::bind) fn captured(&self, function: usize) -> impl Iterator<Item = usize> + '_ {
+        self.captured.get(&function).into_iter().flatten().copied()
     }
 }

@@ -1,5 +1,5 @@
 //! The first pass: what every name of a text means. A name is either declared in the text, or it belongs to the language or
-//! the host; anything else is a mistake, and is told here.
+//! the host; anything else is a mistake, and is reported here.
 //!
 //! The walk goes through a text as it runs: a function is looked into where it is first named, so that a variable it uses is
 //! known to have a value by then, or not. What the walk finds of a variable (is it assigned again? do functions share it?) the

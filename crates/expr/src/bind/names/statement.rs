@@ -55,13 +55,13 @@ impl<'a> NameWalk<'a, '_> {
 
     fn hoist_name(&mut self, name: &Name, constant: bool, first: usize) {
         let is = |byte: &usize| self.names.declared.get(byte).is_some_and(|d| d.name == name.text);
-        let taken = self.reach.iter().skip(first).any(is);
+        let is_declared = self.reach.iter().skip(first).any(is);
         // At the top of a text the names of the lab are parameters of the same function, in JavaScript.
         let top = first == 0 && self.function == WHOLE;
         let host = |schema: &dyn Schema| schema.root(&name.text).is_some();
         let outer = top && (is_language(&name.text) || self.around.schema.is_some_and(host));
-        if taken || outer {
-            self.found.push(report_taken(name, taken));
+        if is_declared || outer {
+            self.found.push(report_taken(name, is_declared));
             return;
         }
         self.declare(name, constant, false);

@@ -1,4 +1,4 @@
-//! What is said of a name that means nothing, or that cannot be used like this.
+//! The messages about a name that means nothing, or that cannot be used like this.
 
 use super::language::list_names;
 use super::walk::{NameUse, NameWalk};

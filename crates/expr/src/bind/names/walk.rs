@@ -342,7 +342,7 @@ impl<'a> NameWalk<'a, '_> {
     pub(super) fn take(&mut self, byte: usize, home: usize) {
         let mut function = self.function;
         while function != home {
-            self.names.taken.entry(function).or_default().insert(byte);
+            self.names.captured.entry(function).or_default().insert(byte);
             let Some(scope) = self.functions.get(&function) else { return };
             function = scope.around;
         }
@@ -350,16 +350,16 @@ impl<'a> NameWalk<'a, '_> {
 
     /// What a function takes, those take that name it and do not hold it.
     fn hand_on(&mut self) {
-        let mut changed: BTreeSet<usize> = self.names.taken.keys().copied().collect();
+        let mut changed: BTreeSet<usize> = self.names.captured.keys().copied().collect();
         while let Some(callee) = changed.pop_last() {
-            let taken: Vec<usize> = self.names.taken(callee).collect();
+            let captured: Vec<usize> = self.names.captured(callee).collect();
             let callers = self.calls.range((callee, 0)..=(callee, usize::MAX));
             for &(_, caller) in callers {
-                for &byte in &taken {
+                for &byte in &captured {
                     let home = self.names.declared.get(&byte).map_or(WHOLE, |d| d.function);
                     let mut function = caller;
                     while function != home && function != WHOLE {
-                        if self.names.taken.entry(function).or_default().insert(byte) {
+                        if self.names.captured.entry(function).or_default().insert(byte) {
                             changed.insert(function);
                         }
                         function = self.functions.get(&function).map_or(WHOLE, |scope| scope.around);

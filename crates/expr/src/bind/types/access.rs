@@ -1,4 +1,4 @@
-//! Elements: indexes of fields, `ctx['name']`, named objects, and what is said of arrays used whole.
+//! Elements: indexes of fields, `ctx['name']`, named objects, and the messages about arrays used whole.
 
 use super::binder::{Binder, Entity};
 use super::member::{quoted, view_of};

@@ -74,7 +74,7 @@ impl<'a> Binder<'a> {
     #[inline(never)]
     fn native_call(&mut self, function: FreeFunctionId, args: &'a [Expr], span: Span) -> Attempt<Ir> {
         let row = function.row();
-        let args = self.taken(args, row.arity().1);
+        let args = self.accepted_args(args, row.arity().1);
         if let (Some(method), [first, rest @ ..]) = (function.source_function(args.len()), args) {
             let first = self.value(first).map(Entity::Value)?;
             return self.inline_method(method, row, first, rest, span);
@@ -92,8 +92,8 @@ impl<'a> Binder<'a> {
         Ok(Ir::new(IrKind::Native(function, items), row.returns(Type::Any), span))
     }
 
-    /// The arguments that a function takes of those that a method of the prelude hands over: element, index and list.
-    fn taken(&self, args: &'a [Expr], most: usize) -> &'a [Expr] {
+    /// The arguments that a function accepts of those that a prelude method passes: element, index and list.
+    fn accepted_args(&self, args: &'a [Expr], most: usize) -> &'a [Expr] {
         if self.site.is_some() { args.get(..most).unwrap_or(args) } else { args }
     }
 
@@ -148,7 +148,7 @@ impl<'a> Binder<'a> {
     fn math_call(&mut self, function: math::MathFunction, args: &'a [Expr], span: Span) -> Attempt<Ir> {
         let path = function.path();
         let title = path.clone();
-        let args = self.taken(args, function.arity().1.unwrap_or(usize::MAX));
+        let args = self.accepted_args(args, function.arity().1.unwrap_or(usize::MAX));
         // A method that calls a function for every element hands over the index and the list as well.
         if let Some(site) = self.site.filter(|_| args.len() > 2 && function.arity().1.is_none()) {
             return self.refuse(report_extra_arguments(&path, &site.called(), span));

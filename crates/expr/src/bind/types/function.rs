@@ -169,7 +169,7 @@ impl<'a> Binder<'a> {
         let Some(called) = self.functions.get(at) else { return };
         let (FactKey { site, at, .. }, names) =
             (called.key, called.site.map_or(self.names, |site| site.names));
-        for byte in names.taken(at) {
+        for byte in names.captured(at) {
             let found = self.variables.get(&FactKey { site, at: byte, what: FactKind::Name }).cloned();
             if let Some(found) = found.filter(|v| !matches!(v.meaning, VariableMeaning::Alias(_))) {
                 self.capture(&found);

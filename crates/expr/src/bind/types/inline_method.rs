@@ -1,5 +1,5 @@
 //! Calls of methods that are written in the language: bound as if their text stood where they are called. Their texts have names
-//! and places of their own; what is wrong there is told in words, at the call.
+//! and places of their own; a mistake there is reported in words, at the call.
 
 use std::sync::OnceLock;
 

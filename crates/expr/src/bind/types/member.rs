@@ -45,7 +45,7 @@ impl<'a> Binder<'a> {
         if let (true, Some(ty)) = (name == "value", self.value) {
             return Ok(Entity::Value(Ir::new(IrKind::Input, ty, span)));
         }
-        // The first pass has told of what means nothing.
+        // The first pass has reported names without a meaning.
         let Some(entry) = self.schema.root(name) else {
             self.unresolved.get_or_insert(span);
             return Err(Reported);

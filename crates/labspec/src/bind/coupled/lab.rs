@@ -19,9 +19,9 @@ impl Coupled {
         let mut globals = Globals::new();
         let set_const = "const q = data.qpos.slice(); mj.mj_setConst(model, data); data.qpos.set(q)";
         if let Some(program) = Compiler::new(&names, &mut globals).statements(set_const).program {
-            include(program.effects(), &mut programs.demand);
+            include(program.effects(), &mut programs.access);
         }
-        PAIRS.iter().for_each(|pair| programs.demand.writes.insert(pair.partner));
+        PAIRS.iter().for_each(|pair| programs.access.writes.insert(pair.partner));
         programs.coupled = Some(self);
     }
 }

@@ -3,7 +3,7 @@
 use super::super::PreparedLab;
 use super::Trial;
 use super::seen::Seen;
-use crate::check::observations::{Beyond, Mark, Record};
+use crate::check::observations::{Beyond, ObservationHash, Record};
 use crate::finding::Finding;
 use crate::run::{self, Budget, End, Play, Session, settings};
 use crate::spec::{Expect, Lab};
@@ -57,25 +57,25 @@ pub(super) fn make(
     findings: &mut Vec<Finding>,
 ) -> Result<Attempt, run::RunError> {
     let (lab, wanted) = (ready.lab, trial.length);
-    for action in &trial.handling.actions {
+    for action in &trial.interaction.actions {
         if let (Some(control), Some(value)) = (lab.controls.get(action.control), &action.value) {
             settings::value(control, value)?;
         }
     }
-    let mut session = case.start(&trial.handling, budget.left);
+    let mut session = case.start(&trial.interaction, budget.left);
     let timestep = session.world.model.opt.timestep;
     // As long as plots show costs what it costs; what an author asks for has a limit.
     let until = lab.stop_at.is_none().then(|| wanted.min(timestep * (run::MAX_STEPS - 1) as f64));
     let steps = run::count_steps(lab, until, None, timestep)?;
 
-    let mut watcher = case.watcher(&trial.handling, &session);
+    let mut watcher = case.watcher(&trial.interaction, &session);
     let every = (steps / SAMPLES).max(1);
     let played = Play { steps, every: 1, presses: &[], watched: true };
-    let (mut rows, mut mark, mut beyond) = (Vec::new(), Mark::default(), Beyond::default());
+    let (mut rows, mut hash, mut beyond) = (Vec::new(), ObservationHash::default(), Beyond::default());
     let made = run::play(&mut session, &played, |session, step| {
         if step % every == 0 || step == steps {
             let row = seen.observe(session, &trial.done);
-            mark.observe(&row, session);
+            hash.observe(&row, session);
             if step > 0 {
                 beyond.observe(session);
             }
@@ -93,8 +93,8 @@ pub(super) fn make(
     let (broke, tried_work) = report_breaks(lab, case, trial, &session, seen, findings);
     findings.extend(seen.take());
     let (spent, faults) = (session.spent() + tried_work, watcher.faults(&session));
-    mark.close(&session.world.model);
-    let record = Record { moved: trial.moved.clone(), rows, mark, beyond };
+    hash.close(&session.world.model);
+    let record = Record { moved: trial.moved.clone(), rows, hash, beyond };
     let lost = !session.troubles.is_empty() || session.warnings.iter().any(|w| w.number > 0);
     Ok(Attempt { covered, spent, broke, lost, ended, model: session.world.model, record, faults })
 }
@@ -119,7 +119,9 @@ fn report_breaks(
         // A lab that is expected to break needs no advice.
         let tried = match matches!(lab.expect, Some(Expect::Breaks(_))) {
             true => breakdown,
-            false => stress::with_tried_timestep(case, &trial.handling, trial.length, breakdown, &mut tries),
+            false => {
+                stress::with_tried_timestep(case, &trial.interaction, trial.length, breakdown, &mut tries)
+            }
         };
         findings.push(run::broke(&tried, &trial.done, trial.place(lab)));
     }

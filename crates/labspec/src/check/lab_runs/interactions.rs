@@ -1,5 +1,5 @@
-//! Whatever else a student may do to a lab that is sound as it stands and with each control at its ends: a touch, several controls
-//! at their ends, buttons in order, everything in turn while it runs, and ten times as long as anybody looks; then twice the
+//! Whatever else a student may do to a lab that has no fault as it stands and with each control at its ends: a touch, several
+//! controls at their ends, buttons in order, everything in turn while it runs, and ten times as long as anybody looks; then twice the
 //! timestep. What `labspec stability` does, as far as a check may work.
 
 use super::{LabRunState, Trial, attempt};
@@ -19,22 +19,22 @@ pub(super) fn nothing() -> Interaction {
 
 /// Makes these runs, while something is left, and reports what was seen in all of them.
 pub(super) fn go_on(state: &mut LabRunState<'_>, left: &mut u64, findings: &mut Vec<Finding>) {
-    let sound = state.tried.as_ref().is_some_and(|t| t.runs > 0 && t.ended.is_none());
-    if !state.hopeless && sound {
+    let completed = state.tried.as_ref().is_some_and(|t| t.runs > 0 && t.ended.is_none());
+    if !state.hopeless && completed {
         try_more(state, left, findings);
     }
     findings.extend(state.faults.iter().filter_map(|found| finding_of(found, state)));
 }
 
 fn try_more(state: &mut LabRunState<'_>, left: &mut u64, findings: &mut Vec<Finding>) {
-    let (handlings, missing) = handlings(state.ready.lab, state.wanted);
+    let (interactions, missing) = list_interactions(state.ready.lab, state.wanted);
     state.skip(missing);
-    for (handling, length) in handlings {
-        let done = match handling.kind {
+    for (interaction, length) in interactions {
+        let done = match interaction.kind {
             Kind::AsItStands => "as it stands, in a long run".to_string(),
-            _ => handling.describe(&state.ready.programs),
+            _ => interaction.describe(&state.ready.programs),
         };
-        let trial = Trial { handling, length, done, control: None, moved: None };
+        let trial = Trial { interaction, length, done, control: None, moved: None };
         let budget = Budget { left: Budget::TRIAL.left.min(*left) };
         let mut of_trial = Vec::new();
         let made = match budget.left {
@@ -46,7 +46,7 @@ fn try_more(state: &mut LabRunState<'_>, left: &mut u64, findings: &mut Vec<Find
             continue;
         };
         *left = left.saturating_sub(attempt.spent);
-        // What a simpler setting has shown already is not told again.
+        // A fault of a simpler setting is not reported again.
         of_trial
             .retain(|f| !findings.iter().any(|reported| reported.code == f.code && reported.span == f.span));
         findings.extend(of_trial);
@@ -70,7 +70,7 @@ fn try_more(state: &mut LabRunState<'_>, left: &mut u64, findings: &mut Vec<Find
 }
 
 /// What is done, and for how long; and how many pairs of settings meet in no run, as there are too many.
-fn handlings(lab: &Lab, wanted: f64) -> (Vec<(Interaction, f64)>, usize) {
+fn list_interactions(lab: &Lab, wanted: f64) -> (Vec<(Interaction, f64)>, usize) {
     let several =
         |h: &Interaction| matches!(h.kind, Kind::Touched | Kind::InOrder | Kind::Corner | Kind::Interleaved);
     let (all, missing) = stress::list_interactions(lab, wanted, &nothing());

@@ -46,7 +46,7 @@ pub struct Tried {
 
 /// One thing that a student may do to a lab.
 struct Trial<'a> {
-    handling: Interaction,
+    interaction: Interaction,
     /// How long it is run, s.
     length: f64,
     /// What was done, for the message.
@@ -91,10 +91,10 @@ struct LabRunState<'a> {
 impl LabRunState<'_> {
     /// Keeps what went wrong in a run, once for each kind and body.
     fn note(&mut self, trial: &Trial<'_>, faults: Vec<Fault>, left: &mut u64) {
-        let Trial { handling, length, .. } = trial;
-        let (faults, spent) = stress::without_pushed_bodies(&self.case, handling, faults, *length, *left);
+        let Trial { interaction, length, .. } = trial;
+        let (faults, spent) = stress::without_pushed_bodies(&self.case, interaction, faults, *length, *left);
         *left = left.saturating_sub(spent);
-        faults.into_iter().for_each(|f| stress::add_fault(&mut self.faults, f, handling));
+        faults.into_iter().for_each(|f| stress::add_fault(&mut self.faults, f, interaction));
     }
 
     /// Counts runs that were not made.
@@ -269,7 +269,7 @@ fn seconds(t: f64) -> String {
 fn trials(lab: &Lab, wanted: f64) -> Vec<Trial<'_>> {
     let alone = |action| Interaction { kind: Kind::End, actions: vec![action] };
     let mut trials = vec![Trial {
-        handling: interactions::nothing(),
+        interaction: interactions::nothing(),
         length: wanted,
         done: "as it stands".into(),
         control: None,
@@ -281,7 +281,7 @@ fn trials(lab: &Lab, wanted: f64) -> Vec<Trial<'_>> {
             trials.push(Trial {
                 done: format!("with \"{label}\" at {value}"),
                 length: wanted,
-                handling: alone(Action { time: 0.0, control: index, value: Some(value.clone()) }),
+                interaction: alone(Action { time: 0.0, control: index, value: Some(value.clone()) }),
                 control: Some(control),
                 moved: Some((index, Some(value))),
             });
@@ -297,7 +297,7 @@ fn trials(lab: &Lab, wanted: f64) -> Vec<Trial<'_>> {
             ControlKind::Button { .. } => trials.push(Trial {
                 done: format!("after \"{label}\" is pressed"),
                 length: wanted,
-                handling: alone(Action { time: PRESS.min(0.5 * wanted), control: index, value: None }),
+                interaction: alone(Action { time: PRESS.min(0.5 * wanted), control: index, value: None }),
                 control: Some(control),
                 moved: Some((index, None)),
             }),

@@ -1,7 +1,7 @@
 //! Runs of a lab that are made to be sure: with several controls moved, or from another state.
 
 use super::moves::Move;
-use super::record::{Beyond, Mark, Record};
+use super::record::{Beyond, ObservationHash, Record};
 use crate::bind::Programs;
 use crate::check::PreparedLab;
 use crate::run::{self, Budget, Cell, Play, Session, Start};
@@ -21,7 +21,7 @@ pub(crate) struct ObservationBench<'a> {
 /// How often a run is observed at.
 const SAMPLES: usize = 60;
 /// How far a state is moved, in turn.
-const NUDGES: [f64; 4] = [0.01, 0.1, 0.4, 1.0];
+const DISPLACEMENTS: [f64; 4] = [0.01, 0.1, 0.4, 1.0];
 /// Steps after each.
 const STEPS: usize = 3;
 
@@ -47,7 +47,7 @@ impl ObservationBench<'_> {
     /// A run with these moves; `None` when it breaks, or when too much was spent.
     pub(crate) fn run(&mut self, moves: &[Move], steps: usize) -> Option<Record> {
         let mut session = self.start();
-        let (mut rows, mut mark) = (Vec::new(), Mark::default());
+        let (mut rows, mut hash) = (Vec::new(), ObservationHash::default());
         let every = (steps / SAMPLES).max(1);
         run::play(&mut session, &Play::steps(steps), |session, step| {
             for m in moves.iter().filter(|m| m.step == step) {
@@ -59,18 +59,18 @@ impl ObservationBench<'_> {
             }
             if step % every == 0 || step == steps {
                 let row = session.sample();
-                mark.observe(&row, session);
+                hash.observe(&row, session);
                 rows.push(row);
             }
             ControlFlow::Continue(())
         });
-        mark.close(&session.world.model);
-        let (spent, sound) =
+        hash.close(&session.world.model);
+        let (spent, completed) =
             (session.spent(), session.ended().is_none() && run::worst_breakdown(&session).is_none());
         drop(session);
         self.left = self.left.saturating_sub(spent);
         self.runs += 1;
-        (sound && self.left > 0).then_some(Record { moved: None, rows, mark, beyond: Beyond::default() })
+        (completed && self.left > 0).then_some(Record { moved: None, rows, hash, beyond: Beyond::default() })
     }
 
     /// What is shown from other states than the lab's own.
@@ -82,7 +82,7 @@ impl ObservationBench<'_> {
             seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             (seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
         };
-        for size in NUDGES {
+        for size in DISPLACEMENTS {
             let edit = session.world.data.edit();
             for list in [edit.qpos, edit.qvel, edit.ctrl, edit.mocap_pos] {
                 list.iter_mut().for_each(|x| *x += size * random());
@@ -138,7 +138,7 @@ impl<'a> ObservedLab<'a> {
 
 /// A geom, in words.
 pub(crate) fn geom_name(model: &Model, g: usize) -> String {
-    match model.names.of(Obj::Geom).get(g).filter(|n| !n.is_empty()) {
+    match model.names.of_kind(Obj::Geom).get(g).filter(|n| !n.is_empty()) {
         Some(geom) => format!("geom \"{geom}\""),
         None => format!("geom {g}"),
     }

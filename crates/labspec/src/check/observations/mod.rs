@@ -1,5 +1,5 @@
 //! What a student sees in the runs of a lab, and what only seems to show something: curves that cannot change, readouts that print
-//! one text, controls that do nothing. Each is told with the runs that show it; what is not certain is not told.
+//! one text, controls that do nothing. Each is reported with the runs that show it; what is not certain is not reported.
 
 mod bench;
 mod moves;
@@ -8,7 +8,7 @@ mod record;
 
 pub(crate) use bench::{ObservationBench, ObservedLab, geom_name};
 pub(crate) use moves::{Move, Setting, settings, single_moves, values};
-pub(crate) use record::{Beyond, Mark, Record, column, constant, longest_equal, same};
+pub(crate) use record::{Beyond, ObservationHash, Record, column, constant, longest_equal, same};
 
 use super::PreparedLab;
 use crate::finding::Finding;

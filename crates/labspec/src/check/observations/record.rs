@@ -12,23 +12,23 @@ pub(crate) struct Record {
     pub(crate) moved: Option<(usize, Option<Value>)>,
     /// Time, then traces, then readouts, at every sample.
     pub(crate) rows: Vec<Vec<Cell>>,
-    /// Two runs that look the same have the same.
-    pub(crate) mark: Mark,
+    /// Two runs that look the same have the same hash.
+    pub(crate) hash: ObservationHash,
     /// Inputs beyond their range.
     pub(crate) beyond: Beyond,
 }
 
-/// A number that follows from others, bit by bit.
+/// A hash of what a run displays, bit by bit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Mark(u64);
+pub(crate) struct ObservationHash(u64);
 
-impl Default for Mark {
-    fn default() -> Mark {
-        Mark(0xcbf2_9ce4_8422_2325)
+impl Default for ObservationHash {
+    fn default() -> ObservationHash {
+        ObservationHash(0xcbf2_9ce4_8422_2325)
     }
 }
 
-impl Mark {
+impl ObservationHash {
     fn add(&mut self, bits: u64) {
         self.0 = (self.0 ^ bits).wrapping_mul(0x0100_0000_01b3).rotate_left(23);
     }

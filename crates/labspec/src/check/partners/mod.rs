@@ -16,7 +16,7 @@ use crate::json::read::named;
 use crate::ledger::State;
 use crate::source::Text;
 use crate::spec::{Lab, Lesson, Question, Run, Verify};
-use crate::verify::{self, BoundVerify, Judgement, Measured, QuoteState, ShownText, Stage};
+use crate::verify::{self, BoundVerify, Judgement, Measured, QuoteState, RenderedText, Stage};
 use rests::Rests;
 use std::cell::OnceCell;
 
@@ -73,7 +73,7 @@ struct ClaimOwner<'c> {
     verify: &'c Verify,
     lab: Option<&'c Lab>,
     question: Option<&'c Question>,
-    rendered: &'c ShownText,
+    rendered: &'c RenderedText,
 }
 
 /// The programs of all labs that write a parameter which others belong to.
@@ -146,7 +146,7 @@ impl<'a> Partners<'a> {
         verify: &Verify,
         lab: Option<&Lab>,
         question: Option<&Question>,
-        rendered: &ShownText,
+        rendered: &RenderedText,
         judgement: &mut Judgement,
         findings: &mut Vec<Finding>,
     ) {
@@ -422,10 +422,10 @@ mod tests {
                 let correction = correction(&observe(&lesson, &mut labs));
                 for (ready, amended) in labs.iter().zip(corrected(&labs, &correction)) {
                     let base = Interaction { kind: Kind::AsItStands, actions: Vec::new() };
-                    for handling in stress::list_interactions(ready.lab, 1.0, &base).0 {
-                        let (seen, behind) = bits(ready, &ready.programs, &handling.actions);
-                        let (wanted, _) = bits(&amended, &amended.programs, &handling.actions);
-                        let what = handling.describe(&ready.programs);
+                    for interaction in stress::list_interactions(ready.lab, 1.0, &base).0 {
+                        let (seen, behind) = bits(ready, &ready.programs, &interaction.actions);
+                        let (wanted, _) = bits(&amended, &amended.programs, &interaction.actions);
+                        let what = interaction.describe(&ready.programs);
                         assert!(behind || seen == wanted, "{}: {what}", path.display());
                         if behind { left += 1 } else { clean += 1 }
                     }

@@ -1,4 +1,4 @@
-//! What becomes of claims that rest on a partner that was left behind, and what is said of them.
+//! What becomes of claims that rest on a partner that was left behind, and the messages about them.
 
 use super::{ClaimOwner, PartnerCandidate, moved, pairs};
 use crate::finding::Finding;

@@ -298,7 +298,7 @@ impl<'a> SetConstBench<'a> {
         if too_long {
             return Err("it takes too long".to_string());
         }
-        is_sound(&session, programs)?;
+        check_completion(&session, programs)?;
         Ok(Performed { rows, left_behind: session.left_behind() })
     }
 
@@ -336,9 +336,9 @@ impl<'a> SetConstBench<'a> {
 
     /// The lab with its own programs or others, for a run with a setup of its own.
     fn start<'p>(&self, programs: &'p Programs, setup: Option<&Bound>) -> Session<'p> {
-        let mut demand = programs.demand;
-        setup.into_iter().for_each(|b| include(b.program.effects(), &mut demand));
-        let plan = Some(Plan::new(self.model, &demand));
+        let mut access = programs.access;
+        setup.into_iter().for_each(|b| include(b.program.effects(), &mut access));
+        let plan = Some(Plan::new(self.model, &access));
         Session::start(programs, self.model, Start { plan, ..Start::of_lab(self.lab) })
     }
 
@@ -385,9 +385,9 @@ impl<'a> SetConstBench<'a> {
             },
             ProgramSite::Run(_) => {}
         }
-        let mut demand = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
-        programs.bound().for_each(|b| include(b.program.effects(), &mut demand));
-        programs.demand = demand;
+        let mut access = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+        programs.bound().for_each(|b| include(b.program.effects(), &mut access));
+        programs.access = access;
         Some(Amended { programs, bound })
     }
 
@@ -448,7 +448,7 @@ fn act(session: &mut Session<'_>, what: &Move) {
 ///
 /// # Errors
 /// A statement failed, the simulation broke, or it ended early. What fails in a trace or a readout is its own matter.
-fn is_sound(session: &Session<'_>, programs: &Programs) -> Result<(), String> {
+fn check_completion(session: &Session<'_>, programs: &Programs) -> Result<(), String> {
     let probe = |t: &Text| programs.probes.iter().any(|p| p.bound.as_ref().is_some_and(|b| b.text == *t));
     if let Some(trouble) = session.troubles.iter().find(|t| !probe(&t.text)) {
         return Err(format!("its statements fail: {}", trouble.message));

@@ -4,18 +4,18 @@
 //!
 //! Constants (subtree masses, inverse weights of contacts) keep their old value until `mj_setConst`, which also puts qpos back to
 //! the model's own. So a lab is run as it is, with the constants computed anew and the state kept, and with the partners of
-//! [`coupled`](crate::bind::coupled) corrected behind the program; where nothing visible differs, nothing is said. The advice
+//! [`coupled`](crate::bind::coupled) corrected behind the program; where nothing visible differs, nothing is reported. The advice
 //! is run too.
 
 mod advice;
 mod bench;
 mod compare;
 mod difference;
-mod words;
+mod findings;
 
 pub(crate) use bench::SetConstBench;
 pub(crate) use difference::digits;
-pub(super) use words::{by_rule, left};
+pub(super) use findings::{by_rule, left};
 
 use crate::bind::coupled::{self, PairSet};
 use crate::bind::{Bound, ControlProgram, Programs, functions, writes_kind};

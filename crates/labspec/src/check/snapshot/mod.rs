@@ -17,10 +17,10 @@ use crate::rules;
 use crate::run::{Budget, StepVariant};
 use crate::source::SourceFile;
 use crate::spec::{Lab, Lesson};
-use crate::verify::{HALVED, NUDGED, NUDGED_BACK, significant};
+use crate::verify::{HALVED, PERTURBED_BACK, PERTURBED_START, significant};
 use compare::Difference;
 use file::{SnapshotFault, StoredLab};
-use runs::{SnapshotRun, TakenLab};
+use runs::{LabRuns, SnapshotRun};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use std::path::Path;
@@ -136,7 +136,7 @@ fn name_of(file: &SourceFile) -> String {
 pub(super) fn check_snapshots(
     lesson: &Lesson,
     ready: &[PreparedLab<'_>],
-    depth: CheckLevel,
+    level: CheckLevel,
     findings: &mut Vec<Finding>,
 ) -> Vec<SnapshotResult> {
     let Some(stored) = stored(lesson) else { return Vec::new() };
@@ -148,8 +148,8 @@ pub(super) fn check_snapshots(
         };
         lesson.addressed().into_iter().map(with_state).collect::<Vec<_>>()
     };
-    if !depth.labs {
-        return if depth.claims { Vec::new() } else { all(State::LeftOut, "") };
+    if !level.labs {
+        return if level.claims { Vec::new() } else { all(State::LeftOut, "") };
     }
     let labs = match stored {
         Ok(labs) => labs,
@@ -159,9 +159,10 @@ pub(super) fn check_snapshots(
             return all(State::Unchecked, "its snapshot cannot be read");
         }
     };
-    let taken = runs::take(lesson, ready);
-    let mut list: Vec<SnapshotResult> = taken.iter().map(|lab| hold(lab, &labs, lesson, findings)).collect();
-    for result in gone(&labs, &taken) {
+    let lab_runs = runs::run_labs(lesson, ready);
+    let mut list: Vec<SnapshotResult> =
+        lab_runs.iter().map(|lab| hold(lab, &labs, lesson, findings)).collect();
+    for result in gone(&labs, &lab_runs) {
         let message = format!("the snapshot has the lab {}, but the lesson does not", printable(&result.lab));
         findings.push(outdated(0..0, message, lesson));
         list.push(result);
@@ -184,9 +185,9 @@ fn unchecked(address: &crate::spec::LabAddress, lab: &Lab) -> SnapshotResult {
 /// Labs that are stored and no longer there.
 fn gone<'a>(
     labs: &'a [StoredLab],
-    taken: &'a [TakenLab<'_, '_>],
+    lab_runs: &'a [LabRuns<'_, '_>],
 ) -> impl Iterator<Item = SnapshotResult> + 'a {
-    let is_gone = |lab: &&StoredLab| taken.iter().all(|now| now.address.to_string() != lab.address);
+    let is_gone = |lab: &&StoredLab| lab_runs.iter().all(|now| now.address.to_string() != lab.address);
     labs.iter().filter(is_gone).map(|lab| SnapshotResult {
         lab: lab.address.clone(),
         span: 0..0,
@@ -200,7 +201,7 @@ fn gone<'a>(
 
 /// One lab against what is stored of it.
 fn hold(
-    now: &TakenLab<'_, '_>,
+    now: &LabRuns<'_, '_>,
     labs: &[StoredLab],
     lesson: &Lesson,
     findings: &mut Vec<Finding>,
@@ -217,7 +218,7 @@ fn hold(
         findings.push(outdated(place, message, lesson));
         return result;
     };
-    let runs: Vec<&SnapshotRun> = now.runs.iter().map(|(_, taken)| taken).collect();
+    let runs: Vec<&SnapshotRun> = now.runs.iter().map(|(_, run)| run).collect();
     let Difference { changes, first, rows } = compare::compare(old, &runs);
     let file = lesson.snapshot.as_ref().and_then(|s| s.as_ref().ok()).map_or(String::new(), name_of);
     if let Some((d, probe)) = &first {
@@ -269,14 +270,14 @@ pub fn renew(lesson: &Lesson, models: &Models) -> Renewal {
         Some(Ok(labs)) => (labs, None),
         Some(Err(fault)) => (Vec::new(), Some(fault)),
     };
-    let taken = runs::take(lesson, &ready);
-    let one = |now: &TakenLab<'_, '_>| {
+    let lab_runs = runs::run_labs(lesson, &ready);
+    let one = |now: &LabRuns<'_, '_>| {
         let result = hold(now, &old, lesson, &mut Vec::new());
         let stored_text = old.iter().find(|lab| lab.address == result.lab).map(|lab| lab.text.clone());
         RenewedLab { result, old: stored_text, new: fresh(now) }
     };
-    let mut labs: Vec<RenewedLab> = taken.iter().map(one).collect();
-    let lost = gone(&old, &taken).map(|result| {
+    let mut labs: Vec<RenewedLab> = lab_runs.iter().map(one).collect();
+    let lost = gone(&old, &lab_runs).map(|result| {
         let text = old.iter().find(|lab| lab.address == result.lab).map(|lab| lab.text.clone());
         RenewedLab { result, old: text, new: None }
     });
@@ -288,18 +289,19 @@ pub fn renew(lesson: &Lesson, models: &Models) -> Renewal {
 }
 
 /// The lines of a lab, with the digits that its numerics can tell.
-fn fresh(now: &TakenLab<'_, '_>) -> Option<String> {
+fn fresh(now: &LabRuns<'_, '_>) -> Option<String> {
     let ready = now.ready.filter(|_| !now.runs.is_empty())?;
-    let under = |numerics: StepVariant, handling| {
+    let under = |numerics: StepVariant, input| {
         let budget = Budget { left: 3 * Budget::TRIAL.left };
-        runs::play(ready, handling, numerics, budget).ok().map(|(taken, _)| taken)
+        runs::play(ready, input, numerics, budget).ok().map(|(run, _)| run)
     };
     let runs: Vec<(SnapshotRun, Vec<SnapshotRun>)> = now
         .runs
         .iter()
-        .map(|(handling, taken)| {
-            let others = [HALVED, NUDGED, NUDGED_BACK].into_iter().filter_map(|n| under(n, handling));
-            (taken.clone(), others.collect())
+        .map(|(input, run)| {
+            let others =
+                [HALVED, PERTURBED_START, PERTURBED_BACK].into_iter().filter_map(|n| under(n, input));
+            (run.clone(), others.collect())
         })
         .collect();
     Some(file::lab(&now.address.to_string(), now.lab.title.as_ref().map_or("", |t| t.as_str()), &runs))

@@ -33,8 +33,8 @@ pub(super) fn picture(times: &[f64], stored: &[f64], now: &[f64]) -> Vec<String>
         picture.push(format!("{label:>width$} | {line}").trim_end().to_string());
     }
     let [first, last] = [times.first(), times.last()].map(|t| significant(t.copied().unwrap_or(0.0)));
-    let room = ((times.len() - 1) * WIDE + 1).saturating_sub(first.len());
-    picture.push(format!("{:width$}   {first}{last:>room$} s    o stored, x now, * both", ""));
+    let space = ((times.len() - 1) * WIDE + 1).saturating_sub(first.len());
+    picture.push(format!("{:width$}   {first}{last:>space$} s    o stored, x now, * both", ""));
     picture
 }
 

@@ -35,7 +35,7 @@ pub(super) struct SnapshotRun {
 }
 
 /// A lab with its runs.
-pub(super) struct TakenLab<'r, 'l> {
+pub(super) struct LabRuns<'r, 'l> {
     pub(super) address: LabAddress,
     pub(super) lab: &'l Lab,
     /// `None` where it cannot run.
@@ -44,7 +44,7 @@ pub(super) struct TakenLab<'r, 'l> {
 }
 
 /// The runs of all labs of a lesson, within the budget of a file: as it stands each is run in any case.
-pub(super) fn take<'r, 'l>(lesson: &'l Lesson, ready: &'r [PreparedLab<'l>]) -> Vec<TakenLab<'r, 'l>> {
+pub(super) fn run_labs<'r, 'l>(lesson: &'l Lesson, ready: &'r [PreparedLab<'l>]) -> Vec<LabRuns<'r, 'l>> {
     let addressed = lesson.addressed();
     let (mut left, mut others) = (Budget::FILE.left, addressed.len() as u64);
     let mut all = Vec::new();
@@ -53,22 +53,22 @@ pub(super) fn take<'r, 'l>(lesson: &'l Lesson, ready: &'r [PreparedLab<'l>]) -> 
         others = others.saturating_sub(1);
         let one = ready.iter().find(|r| std::ptr::eq(r.lab, lab));
         let mut runs = Vec::new();
-        for (i, handling) in handlings(lab).into_iter().enumerate() {
+        for (i, input) in snapshot_inputs(lab).into_iter().enumerate() {
             let Some(one) = one.filter(|_| i == 0 || share > 0) else { break };
-            let Ok((taken, spent)) = play(one, &handling, StepVariant::NOMINAL, Budget::TRIAL) else {
+            let Ok((run, spent)) = play(one, &input, StepVariant::NOMINAL, Budget::TRIAL) else {
                 continue;
             };
             share = share.saturating_sub(spent);
             left = left.saturating_sub(spent);
-            runs.push((handling, taken));
+            runs.push((input, run));
         }
-        all.push(TakenLab { address, lab, ready: one, runs });
+        all.push(LabRuns { address, lab, ready: one, runs });
     }
     all
 }
 
 /// As it stands, then with each control moved.
-fn handlings(lab: &Lab) -> Vec<SnapshotInput> {
+fn snapshot_inputs(lab: &Lab) -> Vec<SnapshotInput> {
     let mut all = vec![SnapshotInput { name: "as it stands".into(), set: Vec::new(), press: Vec::new() }];
     for control in &lab.controls {
         let label = &control.label.value;
@@ -101,19 +101,19 @@ fn handlings(lab: &Lab) -> Vec<SnapshotInput> {
 /// Makes a run; with the work that it took.
 pub(super) fn play(
     ready: &PreparedLab<'_>,
-    handling: &SnapshotInput,
+    input: &SnapshotInput,
     numerics: StepVariant,
     budget: Budget,
 ) -> Result<(SnapshotRun, u64), RunError> {
     let (lab, programs) = (ready.lab, &ready.programs);
     let start = Start { budget, ..Start::of_lab(lab) };
     let mut session = Session::start(programs, &ready.model, start);
-    run::set_controls(&mut session, lab, programs, &handling.set)?;
-    let presses = run::presses(programs, &handling.press)?;
+    run::set_controls(&mut session, lab, programs, &input.set)?;
+    let presses = run::presses(programs, &input.press)?;
     let about = about(lab, &session.world.model);
     let timestep = session.world.model.opt.timestep;
     let count = run::count_steps(lab, Some(window(lab)), None, timestep)?;
-    let stated = states_timestep(ready, handling);
+    let stated = states_timestep(ready, input);
     session.perturb(numerics, stated);
     // As many steps as reach as far.
     let finer = if stated { 1 } else { (1.0 / numerics.timestep).round() as usize };
@@ -134,7 +134,7 @@ pub(super) fn play(
     };
     let rows = programs.probes.iter().enumerate().map(|(i, p)| (p.name.clone(), column(i + 1))).collect();
     let times = looks.iter().map(|&step| step as f64 * timestep).collect();
-    Ok((SnapshotRun { name: handling.name.clone(), about, times, rows }, session.spent()))
+    Ok((SnapshotRun { name: input.name.clone(), about, times, rows }, session.spent()))
 }
 
 /// Its length and its numerics.
@@ -156,8 +156,8 @@ fn about(lab: &Lab, model: &Model) -> Vec<String> {
 }
 
 /// Whether the lesson itself states the timestep: then half of it says nothing of the digits.
-fn states_timestep(ready: &PreparedLab<'_>, handling: &SnapshotInput) -> bool {
+fn states_timestep(ready: &PreparedLab<'_>, input: &SnapshotInput) -> bool {
     let writes = |e: &Effects| e.writes.iter().any(|a| a.field.0 as usize == option::timestep.index());
-    let set = handling.set.iter().filter_map(|(label, _)| ready.programs.effects_of(label));
+    let set = input.set.iter().filter_map(|(label, _)| ready.programs.effects_of(label));
     set.chain(ready.programs.setup.iter().map(|b| b.program.effects())).any(writes)
 }

@@ -4,7 +4,7 @@ use super::text::Names;
 use crate::check::{Basis, Drawn, RunSettings};
 use crate::ledger::{Entry, State, Subject};
 use crate::spec::Lesson;
-use crate::verify::ShownText;
+use crate::verify::RenderedText;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -13,7 +13,7 @@ pub(super) struct LessonContext<'a> {
     pub(super) lesson: &'a Lesson,
     pub(super) names: &'a Names,
     pub(super) curves: &'a [Drawn],
-    pub(super) rendered: ShownText,
+    pub(super) rendered: RenderedText,
     pub(super) basis: Option<&'a Basis>,
     pub(super) entries: BTreeMap<(Subject, usize, usize), Vec<&'a Entry>>,
 }

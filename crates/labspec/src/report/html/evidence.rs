@@ -133,7 +133,7 @@ fn runs(claim: &Claim, spec: Option<&Verify>, context: &LessonContext<'_>) -> St
         context.runs(&claim.name).filter(|started| started.len() == judgement.runs.len()).unwrap_or(&[]);
     let numerics: Vec<String> =
         started.iter().map(|(_, s)| s.as_ref().map_or(String::new(), settings::numerics)).collect();
-    // What all of them have is said once.
+    // What all of them have is reported once.
     let same = numerics.first().filter(|first| numerics.iter().all(|other| other == *first));
     let row = |(i, r): (usize, &crate::verify::RunReport)| {
         let outcome = match (&judgement.unmade, &r.broke, r.expected) {

@@ -217,7 +217,7 @@ fn argument(text: &str) -> Option<(&str, &str)> {
 mod tests {
     use super::text;
 
-    fn shown(t: &str) -> String {
+    fn rendered(t: &str) -> String {
         let all = text(t);
         all.trim_start_matches("<bdi>").trim_end_matches("</bdi>").to_string()
     }
@@ -236,7 +236,7 @@ mod tests {
             (r"$a < b$", "a &lt; b"),
             (r"$v_{\mathrm{max}}$ and $x_{i_1}$", "v<sub>max</sub> and x<sub>i<sub>1</sub></sub>"),
         ] {
-            assert_eq!(shown(tex), read, "{tex}");
+            assert_eq!(rendered(tex), read, "{tex}");
         }
     }
 
@@ -256,19 +256,19 @@ mod tests {
             r"x_{a",
         ] {
             let escaped = tex.replace('&', "&amp;");
-            assert_eq!(shown(&format!("is ${tex}$ m")), format!("is <code>{escaped}</code> m"));
+            assert_eq!(rendered(&format!("is ${tex}$ m")), format!("is <code>{escaped}</code> m"));
         }
     }
 
     #[test]
     fn a_dollar_is_no_formula() {
         for t in ["$5 and $6", "a $ b", "$", "$$", r"\$5$", r"a \ b", "$ x $", "costs $5"] {
-            assert_eq!(shown(t), t);
+            assert_eq!(rendered(t), t);
         }
         assert_eq!(text(""), "");
-        assert_eq!(shown("$<script>$"), "&lt;script&gt;");
+        assert_eq!(rendered("$<script>$"), "&lt;script&gt;");
         // What cannot be seen is written out, in formulas, too.
-        assert_eq!(shown("$a\u{202e}b$"), "<code>a\\u{202e}b</code>");
-        assert_eq!(shown("$a_0\u{e000}$"), "<code>a_0\u{e000}</code>");
+        assert_eq!(rendered("$a\u{202e}b$"), "<code>a\\u{202e}b</code>");
+        assert_eq!(rendered("$a_0\u{e000}$"), "<code>a_0\u{e000}</code>");
     }
 }

@@ -13,7 +13,7 @@ use crate::ledger::{Entry, Ledger, State, Subject};
 use crate::printable::counted;
 use crate::source::SourceFile;
 use crate::spec::{Quiz, Verify};
-use crate::verify::ShownText;
+use crate::verify::RenderedText;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -55,7 +55,7 @@ impl<'a> LessonPage<'a> {
             lesson,
             names,
             curves,
-            rendered: ShownText::of_lesson(lesson),
+            rendered: RenderedText::of_lesson(lesson),
             basis: page.bases.get(number - 1),
             entries,
         };

@@ -75,7 +75,7 @@ fn table(parts: &[LessonPage<'_>]) -> String {
             part.anchor,
             text(part.name),
             if answers.is_empty() { "none".to_string() } else { answers.join(" ") },
-            if findings.is_empty() { "none".to_string() } else { Summary::of(&findings).to_string() }
+            if findings.is_empty() { "none".to_string() } else { Summary::count(&findings).to_string() }
         );
     }
     out.push_str("</tbody></table></div>\n");

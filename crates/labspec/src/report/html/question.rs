@@ -62,7 +62,7 @@ pub(super) fn write(asked: &QuestionPage<'_>, context: &LessonContext<'_>) -> St
                     if keyed { (" class=\"key\"", " <b class=\"badge\">key</b>") } else { ("", "") };
                 let _ = write!(out, "<li{class}><p>{}{key}</p>", formula::of_html(&option.value));
                 let written = spec.and_then(|v| v.options.get(i)).map(|t| t.value.as_str());
-                out.push_str(&weighed(written, asked.weight(Some(i))));
+                out.push_str(&format_condition(written, asked.weight(Some(i))));
                 out.push_str("</li>\n");
             }
             out.push_str("</ol>\n");
@@ -78,7 +78,7 @@ pub(super) fn write(asked: &QuestionPage<'_>, context: &LessonContext<'_>) -> St
             };
             let _ = writeln!(out, "<p class=\"key\">{keyed}</p>");
             let written = spec.and_then(|v| v.value.as_ref()).map(|t| t.value.as_str());
-            out.push_str(&weighed(written, asked.weight(None)));
+            out.push_str(&format_condition(written, asked.weight(None)));
         }
         QuestionKind::Open { .. } => {
             out.push_str("<p class=\"soft\">An open question: no answer is keyed.</p>\n");
@@ -102,7 +102,7 @@ pub(super) fn write(asked: &QuestionPage<'_>, context: &LessonContext<'_>) -> St
 }
 
 /// A condition, and how well it holds.
-fn weighed(written: Option<&str>, weight: Option<&Weight>) -> String {
+fn format_condition(written: Option<&str>, weight: Option<&Weight>) -> String {
     let Some(written) = written else { return String::new() };
     let held = weight.map_or(String::new(), |w| condition(w.holds, &w.describe()));
     if written.trim() == verify::UNDECIDED {

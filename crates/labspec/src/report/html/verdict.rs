@@ -1,4 +1,4 @@
-//! A verdict as a word and a mark, told apart without colours.
+//! A verdict as a word and a mark, distinguishable without colours.
 
 use super::text::plain;
 use crate::finding::Severity;

@@ -98,12 +98,12 @@ enum Holder {
 
 fn holder(whole: Option<&'static Object>, found: &JsonScan, index: usize) -> Holder {
     // From the outermost to this one.
-    let mut road = vec![index];
-    while let Some((parent, _)) = road.last().and_then(|&i| found.scopes.get(i)?.parent.as_ref()) {
-        road.push(*parent);
+    let mut ancestors = vec![index];
+    while let Some((parent, _)) = ancestors.last().and_then(|&i| found.scopes.get(i)?.parent.as_ref()) {
+        ancestors.push(*parent);
     }
     let mut at = Holder::Unknown;
-    for (depth, scope) in road.iter().rev().filter_map(|&i| found.scopes.get(i)).enumerate() {
+    for (depth, scope) in ancestors.iter().rev().filter_map(|&i| found.scopes.get(i)).enumerate() {
         let outer_list = depth == 1 && matches!(at, Holder::Unknown);
         at = match &scope.parent {
             None if scope.list => Holder::Unknown,
@@ -176,10 +176,10 @@ fn meant(family: &'static Family, scope: &JsonScope) -> Vec<&'static Object> {
 fn allowed(objects: &[&'static Object], scope: &JsonScope) -> Vec<&'static Key> {
     let mut all: Vec<&'static Key> = Vec::new();
     for object in objects {
-        let stands = |name: &str| scope.keys.iter().any(|(key, _)| key == name);
+        let is_present = |name: &str| scope.keys.iter().any(|(key, _)| key == name);
         let excluded = |name: &str| {
             let other =
-                |names: &[&str]| names.contains(&name) && names.iter().any(|n| *n != name && stands(n));
+                |names: &[&str]| names.contains(&name) && names.iter().any(|n| *n != name && is_present(n));
             object.together.iter().any(|rule| match rule {
                 Together::ExactlyOne(names) => other(names),
                 Together::AtMostOne(names) | Together::FirstCounts(names) => other(names.as_slice()),
@@ -187,7 +187,7 @@ fn allowed(objects: &[&'static Object], scope: &JsonScope) -> Vec<&'static Key> 
             })
         };
         for key in object.keys {
-            if !all.iter().any(|k| k.name == key.name) && (stands(key.name) || !excluded(key.name)) {
+            if !all.iter().any(|k| k.name == key.name) && (is_present(key.name) || !excluded(key.name)) {
                 all.push(key);
             }
         }
@@ -196,12 +196,12 @@ fn allowed(objects: &[&'static Object], scope: &JsonScope) -> Vec<&'static Key> 
 }
 
 fn keys(holder: &Holder, scope: &JsonScope, spot: &CursorSpot, colon: bool) -> Vec<Completion> {
-    let stands = |name: &str| scope.keys.iter().any(|(key, _)| key == name);
+    let is_present = |name: &str| scope.keys.iter().any(|(key, _)| key == name);
     let insert = |name: &str| format!("\"{name}\"{}", if colon { "" } else { ": " });
     match holder {
         Holder::Keys(keys) => keys
             .iter()
-            .filter(|k| !stands(k.name))
+            .filter(|k| !is_present(k.name))
             .map(|k| Completion {
                 text: k.name.into(),
                 is_key: true,
@@ -215,7 +215,7 @@ fn keys(holder: &Holder, scope: &JsonScope, spot: &CursorSpot, colon: bool) -> V
             .collect(),
         Holder::Of(Type::Switches(words)) => words
             .iter()
-            .filter(|w| !stands(w.text))
+            .filter(|w| !is_present(w.text))
             .map(|w| Completion {
                 text: w.text.into(),
                 is_key: true,

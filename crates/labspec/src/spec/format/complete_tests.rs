@@ -25,7 +25,7 @@ fn all(marked: &str) -> Vec<Completion> {
 }
 
 /// The text with a completion put in.
-fn taken(marked: &str, word: &str) -> String {
+fn apply_completion(marked: &str, word: &str) -> String {
     let completion = all(marked).into_iter().find(|c| c.text == word).unwrap();
     let mut text = marked.replace('¦', "");
     text.replace_range(completion.replace, &completion.insert);
@@ -81,9 +81,12 @@ fn what_is_written_chooses() {
     assert_eq!(at(r#"{"model": "fall", "¦"}"#), names(&LAB, &["model", "xml"]));
     // No key begins like this: all are given.
     assert_eq!(at(r#"{"model": "fall", "zzz¦"}"#), names(&LAB, &["model", "xml"]));
-    assert_eq!(taken(r#"{"model": "fall", "con¦"}"#, "controls"), r#"{"model": "fall", "controls": }"#);
-    assert_eq!(taken(r#"{"con¦t": []}"#, "controls"), r#"{"controls": []}"#);
-    assert_eq!(taken("{\"con¦\n\"model\": 1}", "controls"), "{\"controls\": \n\"model\": 1}");
+    assert_eq!(
+        apply_completion(r#"{"model": "fall", "con¦"}"#, "controls"),
+        r#"{"model": "fall", "controls": }"#
+    );
+    assert_eq!(apply_completion(r#"{"con¦t": []}"#, "controls"), r#"{"controls": []}"#);
+    assert_eq!(apply_completion("{\"con¦\n\"model\": 1}", "controls"), "{\"controls\": \n\"model\": 1}");
 }
 
 #[test]
@@ -100,7 +103,10 @@ fn a_value_takes_its_words() {
     assert_eq!(at(r#"{"model": "a", "toggles": ["com", "¦", "sites"]}"#).len(), OVERLAYS.len() - 2);
     assert_eq!(at(r#"{"model": "a", "overlays": {"com": true, "s¦"}}"#), ["sites", "shadows"]);
     assert_eq!(at(r#"{"model": "a", "overlays": {"com": ¦}}"#), ["true", "false"]);
-    assert_eq!(taken(r#"{"controls": [{"type": se¦}]}"#, "select"), r#"{"controls": [{"type": "select"}]}"#);
+    assert_eq!(
+        apply_completion(r#"{"controls": [{"type": se¦}]}"#, "select"),
+        r#"{"controls": [{"type": "select"}]}"#
+    );
 }
 
 /// The models give their own names and those of their sites, of the lab that stands around the place.

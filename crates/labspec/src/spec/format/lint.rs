@@ -14,7 +14,7 @@ pub(super) const fn lint_key() -> Key {
     )
 }
 
-/// What is not told of a lab, a quiz or a question.
+/// What is not reported about a lab, a quiz or a question.
 pub static LINT: Object = Object {
     name: "lint",
     what: "a lint object",

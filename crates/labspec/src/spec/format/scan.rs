@@ -42,7 +42,7 @@ pub(super) struct CursorSpot {
     pub(super) written: Range<usize>,
 }
 
-/// What a text holds, as far as it can be told.
+/// What a text holds, as far as it can be recognized.
 #[derive(Debug, Default)]
 pub(super) struct JsonScan {
     /// The objects and lists; the first one is the outermost.

@@ -115,9 +115,9 @@ fn every_object_is_declared_once_and_can_be_reached() {
         assert!(!roots(object, &parse(object.minimal)).is_empty(), "{}", object.name);
     }
     for family in [&CONTROL, &QUESTION] {
-        let told: Vec<_> = family.objects.iter().filter_map(|o| o.tag).collect();
+        let tags: Vec<_> = family.objects.iter().filter_map(|o| o.tag).collect();
         let words: Vec<_> = family.words.iter().map(|w| (family.key, w.text)).collect();
-        assert_eq!(told, words);
+        assert_eq!(tags, words);
         for object in family.objects {
             assert!(OBJECTS.iter().any(|o| o.name == object.name));
             let first = family.object(None).unwrap().name == object.name;
@@ -183,9 +183,9 @@ fn every_example_is_right() {
         let all = roots(object, &whole);
         // There is no other object in this lesson.
         if (object.name, key.name) == (VERIFY.name, "use") {
-            let told =
+            let is_reported =
                 |f: &Finding| f.message.contains("has no `verify`") || f.message.contains("uses itself");
-            assert!(all.iter().all(|(root, v)| load(root, v).findings.iter().all(told)));
+            assert!(all.iter().all(|(root, v)| load(root, v).findings.iter().all(is_reported)));
             continue;
         }
         let clean: Vec<_> = all.iter().filter(|(root, v)| load(root, v).findings.is_empty()).collect();
@@ -209,8 +209,8 @@ fn every_example_runs() {
         let found: Vec<Vec<Finding>> = all.iter().map(|(root, value)| checked(root, value)).collect();
         // Nothing breaks here, and that is what this key is about.
         if key.name == "expect" {
-            let told = |f: &Vec<Finding>| f.len() == 1 && f.iter().all(|f| f.message.contains("break"));
-            assert!(found.iter().all(told), "{found:#?}");
+            let is_break = |f: &Vec<Finding>| f.len() == 1 && f.iter().all(|f| f.message.contains("break"));
+            assert!(found.iter().all(is_break), "{found:#?}");
             continue;
         }
         // What these keys are about is not in this lesson: a measure of a sweep is a list, there is no table, and no smallest value.
@@ -223,8 +223,8 @@ fn every_example_runs() {
             _ => None,
         };
         if let Some(words) = absent {
-            let told = |f: &Vec<Finding>| !f.is_empty() && f.iter().all(|f| f.message.contains(words));
-            assert!(found.iter().all(told), "{}.{}: {found:#?}", object.name, key.name);
+            let is_expected = |f: &Vec<Finding>| !f.is_empty() && f.iter().all(|f| f.message.contains(words));
+            assert!(found.iter().all(is_expected), "{}.{}: {found:#?}", object.name, key.name);
             continue;
         }
         // Nothing is found that could be allowed.

@@ -19,7 +19,7 @@ use super::format::significant;
 use super::numerics::CHANGES;
 use super::outcome::Outcome;
 use super::outcomes::Outcomes;
-use super::quote::ShownText;
+use super::quote::RenderedText;
 use super::quote_checker::Quote;
 use super::quote_checker::QuoteChecker;
 use super::verdict::Answer;
@@ -74,13 +74,13 @@ pub(crate) fn judge(
     bound: &BoundVerify<'_>,
     verify: &Verify,
     question: Option<&Question>,
-    rendered: &ShownText,
-    witness: &Reference<'_>,
+    rendered: &RenderedText,
+    reference: &Reference<'_>,
     findings: &mut Vec<Finding>,
 ) -> Option<Judged> {
     let nominal = bound.outcome(StepVariant::NOMINAL, &mut Vec::new())?;
     let mut judged = Judged::default();
-    let theirs = numbers::replaced(bound, verify, &nominal, witness, &mut judged);
+    let theirs = numbers::replaced(bound, verify, &nominal, reference, &mut judged);
     numbers::compare(bound, verify, &nominal, &theirs, &mut judged);
     if judged.compared == 0 {
         return Some(judged);
@@ -94,7 +94,7 @@ pub(crate) fn judge(
             Finding::new(
                 rules::ENGINE_DEPENDENT,
                 place,
-                format!("{what} depends on the engine: {before} here, but {after} with {}", witness.engine),
+                format!("{what} depends on the engine: {before} here, but {after} with {}", reference.engine),
             )
             .why(format!("{values}: a student whose page has another version sees something else"))
             .help(
@@ -107,7 +107,7 @@ pub(crate) fn judge(
         .iter()
         .take(3)
         .map(|(name, ours, theirs)| {
-            format!("`{name}` is {} here but {} there", shown_as(*ours), shown_as(*theirs))
+            format!("`{name}` is {} here but {} there", format_value(*ours), format_value(*theirs))
         })
         .collect();
     let values = if most.is_empty() { "a run breaks in one of them".to_string() } else { most.join(", ") };
@@ -122,8 +122,11 @@ pub(crate) fn judge(
     for (ours, now) in ours.1.iter().zip(&now.1) {
         judged.claims += 1;
         if ours.state != now.state {
-            let numbers =
-                format!("it is {} here but {} there", shown_as(ours.computed), shown_as(now.computed));
+            let numbers = format!(
+                "it is {} here but {} there",
+                format_value(ours.computed),
+                format_value(now.computed)
+            );
             turn(ours.span.clone(), &format!("\"{}\"", ours.text), ours.verdict(), now.verdict(), numbers);
         }
     }
@@ -131,7 +134,7 @@ pub(crate) fn judge(
 }
 
 /// Enough digits to see that two numbers are not the same.
-pub fn shown_as(x: f64) -> String {
+pub fn format_value(x: f64) -> String {
     let short = significant(x);
     if x.is_finite() && short.parse::<f64>().is_ok_and(|y| y != x) {
         format!("{x:.9e}").parse::<f64>().map_or(short, |y| y.to_string())
@@ -145,11 +148,11 @@ fn verdicts(
     bound: &BoundVerify<'_>,
     verify: &Verify,
     question: Option<&Question>,
-    rendered: &ShownText,
+    rendered: &RenderedText,
     outcome: &Outcome,
 ) -> (Option<Answer>, Vec<Quote>) {
     let outcomes =
-        Outcomes { nominal: outcome.clone(), perturbed: [const { None }; CHANGES], nudged_back: None };
+        Outcomes { nominal: outcome.clone(), perturbed: [const { None }; CHANGES], perturbed_back: None };
     let ignored = &mut Vec::new();
     let answer = question.and_then(|q| answer::check_answer(bound, &outcomes, verify, q, ignored));
     let checker = QuoteChecker { bound, outcomes: &outcomes, rendered };

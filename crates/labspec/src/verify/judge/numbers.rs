@@ -4,7 +4,7 @@ use super::task::own_texts;
 use super::{Judged, Reference};
 use crate::spec::Verify;
 use crate::verify::bound::BoundVerify;
-use crate::verify::numerics::{NUDGED, TIGHT};
+use crate::verify::numerics::{PERTURBED_START, TIGHT};
 use crate::verify::outcome::Outcome;
 
 /// A number that differs by less than this part of itself, and by less than a thousandth of that at zero, is the same.
@@ -17,15 +17,15 @@ pub(super) fn replaced(
     bound: &BoundVerify<'_>,
     verify: &Verify,
     nominal: &Outcome,
-    witness: &Reference<'_>,
+    reference: &Reference<'_>,
     judged: &mut Judged,
 ) -> Outcome {
     let mut theirs = nominal.clone();
     let unknown = || Err("its run is not recorded".to_string());
     for (i, run) in theirs.runs.iter_mut().enumerate() {
         let title = run.title();
-        let taken = match witness.runs.get(i).cloned().unwrap_or_else(unknown) {
-            Ok(taken) => taken,
+        let recorded = match reference.runs.get(i).cloned().unwrap_or_else(unknown) {
+            Ok(recorded) => recorded,
             Err(why) => {
                 let names = run.measures.iter().map(|(m, _)| (format!("{title}.{m}"), why.clone()));
                 judged.unjudged.extend(names);
@@ -33,25 +33,25 @@ pub(super) fn replaced(
             }
         };
         for (name, x) in &mut run.measures {
-            match taken.values.get(name) {
+            match recorded.values.get(name) {
                 Some(value) => *x = *value,
                 None => {
-                    let why = taken.refused.get(name).map_or("it is not recorded", String::as_str);
+                    let why = recorded.refused.get(name).map_or("it is not recorded", String::as_str);
                     judged.unjudged.push((format!("{title}.{name}"), why.to_string()));
                 }
             }
         }
         // What only we notice, energy from nothing, stays noticed; a bad number that only one of both has does not.
-        let only_ours = run.warnings > 0 && taken.warnings == 0;
-        run.broke = taken.broke.clone().or(run.broke.take().filter(|_| !only_ours));
-        run.warnings = taken.warnings;
+        let only_ours = run.warnings > 0 && recorded.warnings == 0;
+        run.broke = recorded.broke.clone().or(run.broke.take().filter(|_| !only_ours));
+        run.warnings = recorded.warnings;
     }
     for text in own_texts(bound, verify) {
-        let taken = witness.runs.first().and_then(|run| run.as_ref().ok());
-        match taken.and_then(|t| t.values.get(&text.value)) {
+        let recorded = reference.runs.first().and_then(|run| run.as_ref().ok());
+        match recorded.and_then(|t| t.values.get(&text.value)) {
             Some(x) => theirs.elsewhere.push((text.value.clone(), *x)),
             None => {
-                let why = taken.and_then(|t| t.refused.get(&text.value));
+                let why = recorded.and_then(|t| t.refused.get(&text.value));
                 let why = why.map_or("it is not recorded", String::as_str);
                 judged.unjudged.push((text.value.clone(), why.to_string()));
             }
@@ -91,7 +91,7 @@ pub(super) fn compare(
             continue;
         }
         let others = other.get_or_insert_with(|| {
-            let made = [NUDGED, TIGHT].map(|n| bound.outcome(n, &mut Vec::new()));
+            let made = [PERTURBED_START, TIGHT].map(|n| bound.outcome(n, &mut Vec::new()));
             made.iter().flatten().map(|o| numbers(o).into_iter().map(|(_, x)| x).collect()).collect()
         });
         let moved = others.iter().filter_map(|list| list.get(i)).map(|x| (x - a).abs()).fold(0.0, f64::max);

@@ -75,7 +75,7 @@ pub(crate) fn tasks(bound: &BoundVerify<'_>, verify: &Verify) -> Vec<Task> {
         let run_name = title(run);
         Task { run: run_name, task: task(bound, run, scene, &texts) }
     };
-    bound.cast().map(task).collect()
+    bound.runs_with_scenes().map(task).collect()
 }
 
 fn title(run: &BoundRun<'_>) -> String {

@@ -4,7 +4,7 @@ use super::messages;
 use super::number::Quoted;
 use super::quote_claim::{OtherValue, QuoteClaim, QuoteOutcome, QuotePlace, QuoteState, QuoteValue};
 use super::read::{Reading, Unread};
-use super::rendered::ShownText;
+use super::rendered::RenderedText;
 use super::unit;
 use super::unit_check::{Held, conversion, hold, is_power_of_ten};
 use super::unit_text::{Link, Unit};
@@ -20,7 +20,7 @@ pub(in crate::verify) fn check_quote(
     reading: &Result<Reading, Unread>,
     mut places: Vec<QuotePlace>,
     value: &QuoteValue<'_>,
-    rendered: &ShownText,
+    rendered: &RenderedText,
     findings: &mut Vec<Finding>,
 ) -> QuoteOutcome {
     let mut outcome = QuoteOutcome {
@@ -166,7 +166,7 @@ impl<'q> Comparison<'q> {
         findings: &mut Vec<Finding>,
     ) -> QuoteOutcome {
         let Comparison { claim, reading, measured, read, .. } = self;
-        // Of a fraction that is told in percent the number is right in any unit, and a converted one is in that unit.
+        // Of a fraction that is stated in percent the number is right in any unit, and a converted one is in that unit.
         let kind = measured.filter(|m| m.is_exact() && !m.is_number());
         let unit = self.unit.filter(|_| (fits == reading.read || kind.is_some()) && self.factor.is_none());
         match (unit, measured) {
@@ -224,7 +224,7 @@ impl<'q> Comparison<'q> {
 pub(in crate::verify) fn places_of_quote(
     quote: &Text,
     question: Option<&Question>,
-    rendered: &ShownText,
+    rendered: &RenderedText,
 ) -> Vec<QuotePlace> {
     let inside =
         |p: &&QuotePlace| question.is_some_and(|q| q.span.start <= p.at.start && p.at.end <= q.span.end);

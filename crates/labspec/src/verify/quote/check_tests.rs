@@ -11,20 +11,20 @@ fn checked(quote: &str, computed: f64, half: &[f64], starts: &[f64]) -> (QuoteOu
     let lab = serde_json::json!({"xml": "<mujoco/>", "verify": {"says": [[quote, "x"]]}});
     let text = format!("It is {quote} here, and {quote} there.\n\n```lab simlab\n{lab}\n```\n");
     let lesson = load_lesson(SourceFile::new("a.md", text), &ModelFolder::unknown());
-    let said = &lesson.labs[0].lab.as_ref().unwrap().verify.as_ref().unwrap().says[0];
+    let says = &lesson.labs[0].lab.as_ref().unwrap().verify.as_ref().unwrap().says[0];
     let other = |how| move |&value: &f64| OtherValue { how, value };
     let half: Vec<_> = half.iter().map(other("at half the timestep")).collect();
     let starts: Vec<_> = starts.iter().map(other("with a start moved by 1e-14")).collect();
     let mut findings = Vec::new();
-    let rendered = ShownText::of_lesson(&lesson);
+    let rendered = RenderedText::of_lesson(&lesson);
     let value = QuoteValue { computed, timestep: &half, start: &starts, unit: &|| None };
-    let claim = QuoteClaim { quote: &said.quote, part: said.quote.as_str(), expr: &said.exprs[0] };
-    let places = places_of_quote(&said.quote, None, &rendered);
+    let claim = QuoteClaim { quote: &says.quote, part: says.quote.as_str(), expr: &says.exprs[0] };
+    let places = places_of_quote(&says.quote, None, &rendered);
     let outcome = check_quote(&claim, &reading(quote), places, &value, &rendered, &mut findings);
     (outcome, findings)
 }
 
-/// The code and everything that is said.
+/// The code and all messages.
 fn first_finding(findings: &[Finding]) -> (&'static str, String) {
     assert_eq!(findings.len(), 1, "{findings:#?}");
     let f = &findings[0];

@@ -11,7 +11,7 @@ use nom::{IResult, Parser};
 use std::ops::Range;
 
 /// The folded text and the way back. Pieces that a page shows apart are lines. With `flat`, a dash is a minus:
-/// so texts are compared; without it, `0.4–0.5` can still be told from `0.4-0.5`: so numbers are read.
+/// so texts are compared; without it, `0.4–0.5` can still be distinguished from `0.4-0.5`: so numbers are read.
 /// One step for each form that stands at the place: their order matters, so that they stay together.
 pub(super) fn fold(text: &str, flat: bool) -> (String, SourceMap) {
     let mut out = Out {

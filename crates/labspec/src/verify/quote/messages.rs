@@ -1,4 +1,4 @@
-//! What is told to an author about a quoted number.
+//! The messages to an author about a quoted number.
 
 use super::number::{Form, Quoted, ten};
 use super::quote_claim::{QuoteClaim, QuoteOutcome};

@@ -38,7 +38,7 @@ pub use quote_claim::{OtherValue, QuoteOutcome, QuoteState};
 pub(super) use quote_claim::{QuoteClaim, QuotePlace, QuoteValue};
 pub(super) use read::{QuotePart, parts, reading, whole};
 pub use read::{Unread, quoted};
-pub use rendered::ShownText;
+pub use rendered::RenderedText;
 pub use stated::{Counted, Stated, answered, claimed, counted, stated};
 pub(super) use table_cells::{cells_of_column, reads_the_same};
 pub(super) use unit_check::{AnswerUnit, Held, answer_unit, conversion, hold, is_unit};

@@ -80,7 +80,7 @@ impl Quoted {
         if style.times { format!("{digits}×10^{exponent}") } else { format!("{digits}e{exponent}") }
     }
 
-    /// Whether two computed numbers are told apart by what is printed: where this number is right for one of them, it
+    /// Whether the printed number distinguishes two computed numbers: where this number is right for one of them, it
     /// is not for the other; else they print differently.
     pub fn differ(&self, a: f64, b: f64) -> bool {
         if self.is(a) || self.is(b) { self.is(a) != self.is(b) } else { self.print(a) != self.print(b) }

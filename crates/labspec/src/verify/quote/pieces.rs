@@ -6,7 +6,7 @@ use super::prose;
 use crate::source::Text;
 use crate::spec::{Control, ControlKind, Lab, Lesson, Question, QuestionKind};
 
-pub(super) fn shown_pieces(lesson: &Lesson) -> Vec<Text> {
+pub(super) fn rendered_pieces(lesson: &Lesson) -> Vec<Text> {
     let mut all = prose::pieces(lesson);
     for (_, lab) in lesson.addressed() {
         push_lab(lab, &mut all);

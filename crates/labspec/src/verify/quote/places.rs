@@ -7,7 +7,7 @@ use super::{fold, html};
 use labspec_bind::units::is_wide;
 use std::ops::Range;
 
-/// Most places that are told of one quote.
+/// Most places that are reported for one quote.
 pub(super) const MAX_PLACES: usize = 1000;
 
 /// Longest text that is looked for, in bytes: so much may be walked at every number.
@@ -159,7 +159,7 @@ pub(super) struct Readable {
 }
 
 impl Readable {
-    /// `chars` are those of `flat`, with dashes told apart.
+    /// `chars` are those of `flat`, with dashes distinguished.
     pub(super) fn new(flat: String, chars: &[char]) -> Readable {
         let mut character = Vec::with_capacity(flat.len() + 1);
         for (i, c) in flat.chars().enumerate() {
@@ -199,20 +199,20 @@ fn says(all: &[Quantity], range: Range<usize>, quantities: &[Quantity]) -> Optio
         let inside = theirs.digits == start + mine.digits && theirs.number_end == start + mine.number_end;
         // A plus before it changes nothing.
         let begins = theirs.whole.start >= start || theirs.whole.start + 1 == start;
-        // What a quote cannot be read as is told when it is read.
+        // A quote that cannot be read is reported when it is read.
         let clear = mine.refused.is_some() || theirs.refused.is_none();
         if !(inside && begins && clear && mine.says(theirs)) {
             return None;
         }
         let text = |q: &Quantity| q.unit.as_ref().map(|u| u.text.clone());
         if text(mine) == text(theirs) {
-            if theirs.whole.end > end && theirs.unit.as_ref().is_some_and(|u| u.link == Link::Own) {
+            if theirs.whole.end > end && theirs.unit.as_ref().is_some_and(|u| u.link == Link::Direct) {
                 return None;
             }
             continue;
         }
         let last = i + 1 == quantities.len();
-        if mine.unit.is_some() && !mine.unit.as_ref().is_some_and(|u| u.link != Link::Own) || !last {
+        if mine.unit.is_some() && !mine.unit.as_ref().is_some_and(|u| u.link != Link::Direct) || !last {
             return None;
         }
         // Of `0.7 mm per step` the number alone says nothing.

@@ -39,7 +39,7 @@ fn read(lesson: &Lesson) -> (Vec<Text>, Vec<Table>) {
     if lesson.file.path().to_ascii_lowercase().ends_with(".json") {
         return Default::default();
     }
-    // More than the parser has room for, which is told.
+    // More than the parser accepts, which is reported.
     let too_much = |p: &Problem| matches!(p, Problem::Fence(markdown::Problem::TooMuchMarkup));
     if lesson.problems.iter().any(too_much) {
         return Default::default();

@@ -3,7 +3,7 @@
 
 use super::denial::is_denied;
 use super::markdown_cell::unit_of_column;
-use super::pieces::shown_pieces;
+use super::pieces::rendered_pieces;
 use super::places::{MAX_PLACES, Readable, Search};
 use super::quote_claim::QuotePlace;
 use super::table::Table;
@@ -16,7 +16,7 @@ use std::ops::Range;
 
 /// Where the quotes of a lesson stand in what is shown of it. Made once for a lesson.
 #[derive(Debug, Default)]
-pub struct ShownText {
+pub struct RenderedText {
     places: BTreeMap<String, Vec<QuotePlace>>,
     /// Where a quote stands that no reader sees: in code, a key, a listing.
     hidden: BTreeMap<String, Range<usize>>,
@@ -30,9 +30,9 @@ const MAX_WORDS: usize = 200;
 /// Most quotes that are looked for where nobody sees them: each is a walk through the file.
 const MAX_HIDDEN: usize = 16;
 
-impl ShownText {
+impl RenderedText {
     /// Looks for all quotes of a lesson.
-    pub fn of_lesson(lesson: &Lesson) -> ShownText {
+    pub fn of_lesson(lesson: &Lesson) -> RenderedText {
         let file = lesson.file.text();
         let mut search = Search::new();
         let mut numbers: BTreeMap<&str, usize> = BTreeMap::new();
@@ -44,12 +44,12 @@ impl ShownText {
         }
         let tabled = lesson.verifies().any(|verify| !verify.table.is_empty());
         let tables = if tabled { prose::tables(lesson) } else { Vec::new() };
-        let mut rendered = ShownText { tables, ..ShownText::default() };
+        let mut rendered = RenderedText { tables, ..RenderedText::default() };
         if numbers.is_empty() {
             return rendered;
         }
         let wordy: Vec<&str> = numbers.keys().copied().filter(|q| !has_number(q)).take(MAX_WORDS).collect();
-        let (text, map) = join(shown_pieces(lesson), !wordy.is_empty());
+        let (text, map) = join(rendered_pieces(lesson), !wordy.is_empty());
         search.walk(&text);
         let sliders = at_sliders(lesson, &numbers);
         for (&quote, &number) in &numbers {
@@ -88,7 +88,7 @@ impl ShownText {
     }
 
     /// What of the quotes and tables of one object stands within some bytes of the file.
-    pub fn within(&self, block: &Range<usize>, verify: &Verify) -> ShownText {
+    pub fn within(&self, block: &Range<usize>, verify: &Verify) -> RenderedText {
         let inside = |r: &&Range<usize>| block.start <= r.start && r.end <= block.end;
         let places = verify.says.iter().map(|quoted| {
             let quote = quoted.quote.as_str();
@@ -96,7 +96,7 @@ impl ShownText {
         });
         let begins = |t: &&Table| t.head.first().is_some_and(|cell| inside(&&cell.span));
         let tables = self.tables.iter().filter(|_| !verify.table.is_empty()).filter(begins);
-        ShownText { places: places.collect(), hidden: BTreeMap::new(), tables: tables.cloned().collect() }
+        RenderedText { places: places.collect(), hidden: BTreeMap::new(), tables: tables.cloned().collect() }
     }
 
     /// The tables that have these columns.

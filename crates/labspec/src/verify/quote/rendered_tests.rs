@@ -23,7 +23,7 @@ fn lesson(markdown: &str, quotes: &[&str]) -> Lesson {
 /// The shown places of a quote, as they stand in the file.
 fn places(markdown: &str, quote: &str) -> Vec<String> {
     let lesson = lesson(markdown, &[quote]);
-    let rendered = ShownText::of_lesson(&lesson);
+    let rendered = RenderedText::of_lesson(&lesson);
     rendered.places(quote).iter().map(|r| lesson.file.slice(r.clone()).to_string()).collect()
 }
 
@@ -109,7 +109,7 @@ fn labs_show_their_labels_and_not_their_code() {
 #[test]
 fn what_stands_only_in_code_is_told() {
     let lesson = lesson("```python\nt = '0.4425 s'\n```", &["0.4425 s", "0.442 s", "7.5 s"]);
-    let rendered = ShownText::of_lesson(&lesson);
+    let rendered = RenderedText::of_lesson(&lesson);
     assert_eq!(lesson.file.slice(rendered.hidden("0.4425 s").unwrap()), "0.4425 s");
     assert!(rendered.hidden("7.5 s").is_none());
 }
@@ -130,7 +130,7 @@ fn many_quotes_in_a_large_lesson_are_found() {
     let markdown = line.repeat((1 << 20) / line.len());
     let quotes: Vec<String> = (0..400).map(|i| format!("0.44{i} s")).collect();
     let lesson = lesson(&markdown, &quotes.iter().map(String::as_str).collect::<Vec<_>>());
-    let rendered = ShownText::of_lesson(&lesson);
+    let rendered = RenderedText::of_lesson(&lesson);
     let found: Vec<usize> = quotes.iter().map(|q| rendered.places(q).len()).filter(|&n| n > 0).collect();
     assert_eq!(found, [1000]);
 }
@@ -151,7 +151,7 @@ fn hostile_texts_are_survived() {
         "~~~\n0",
     ] {
         let lesson = lesson(&text.repeat(2000), &["0.442 s", "1", "0 0", "²", "½"]);
-        let rendered = ShownText::of_lesson(&lesson);
+        let rendered = RenderedText::of_lesson(&lesson);
         for quote in ["1", "0 0", "½"] {
             assert!(
                 rendered.places(quote).iter().all(|r| lesson.file.text().get(r.clone()).is_some()),

@@ -4,10 +4,10 @@ use super::context::BOUND;
 use super::markdown_cell::{LONG, MarkdownCell, unit_of_head};
 use super::number::Quoted;
 use super::numeral::Chars;
-use super::pieces::shown_pieces;
+use super::pieces::rendered_pieces;
 use super::quantity::quantities_apart;
 use super::read::quoted;
-use super::rendered::ShownText;
+use super::rendered::RenderedText;
 use super::table_cells::cells_of_column;
 use super::unit_text::Unit;
 use super::{fold, html};
@@ -51,7 +51,7 @@ const MOST: usize = 1000;
 /// Every number with a unit that a reader of the lesson sees, and the answers of its numeric questions.
 pub fn stated(lesson: &Lesson) -> Vec<Stated> {
     let mut all = Vec::new();
-    for text in shown_pieces(lesson) {
+    for text in rendered_pieces(lesson) {
         if text.value.contains(|c: char| c.is_ascii_digit()) {
             add_numbers(lesson, &text, &mut all);
         }
@@ -86,7 +86,7 @@ pub fn stated(lesson: &Lesson) -> Vec<Stated> {
 
 /// Where the text stands that the lesson quotes itself.
 pub fn claimed(lesson: &Lesson) -> Vec<Range<usize>> {
-    let rendered = ShownText::of_lesson(lesson);
+    let rendered = RenderedText::of_lesson(lesson);
     let mut all = Vec::new();
     for (verify, block) in lesson.scoped() {
         let narrow = block.map(|block| rendered.within(block, verify));

@@ -1,6 +1,6 @@
 //! The cells that a claim about a column of a table is about.
 
-use super::rendered::ShownText;
+use super::rendered::RenderedText;
 use super::table;
 use crate::json::nearest;
 use crate::source::{SourceMap, Text};
@@ -12,7 +12,7 @@ use crate::spec::Column;
 /// Why there are none, and what to do.
 pub(in crate::verify) fn cells_of_column(
     claim: &Column,
-    rendered: &ShownText,
+    rendered: &RenderedText,
 ) -> Result<Vec<[Text; 2]>, [String; 2]> {
     let key = claim.by.as_ref().map(|(heading, _)| heading.as_str());
     let headings: Vec<&str> = [Some(claim.column.as_str()), key].into_iter().flatten().collect();

@@ -42,7 +42,9 @@ pub(in crate::verify) fn hold(unit: &Unit, found: Option<&Dimension>) -> Held {
     if !contradicts(found, wanted) && !turns {
         return Held::Fits;
     }
-    match unit.link == Link::Clause || unit.is_doubtful() && unit.link == Link::Own && !found.agrees(wanted) {
+    match unit.link == Link::Clause
+        || unit.is_doubtful() && unit.link == Link::Direct && !found.agrees(wanted)
+    {
         true => Held::Unsure,
         false => Held::Wrong,
     }

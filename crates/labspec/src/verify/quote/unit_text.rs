@@ -26,7 +26,7 @@ pub(in crate::verify) struct Unit {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::verify) enum Link {
     /// It stands behind it.
-    Own,
+    Direct,
     /// It stands behind a later number, or in the head of the column.
     Shared,
     /// The clause of the number names it: it may be that of something else.
@@ -88,7 +88,7 @@ fn unit(line: &str) -> IResult<&str, Unit> {
 }
 
 fn unit_named(text: &str, dimension: Option<Dimension>) -> Unit {
-    Unit { text: text.to_string(), dimension, link: Link::Own }
+    Unit { text: text.to_string(), dimension, link: Link::Direct }
 }
 
 /// `m/s`, `per second`, `/s`; of `0.7 mm per step` and `0.7 mm/step` all of it.

@@ -14,12 +14,12 @@ fn state(text: &str, quote: &str, computed: f64, unit: &str) -> QuoteState {
         SourceFile::new("a.md", format!("{text}\n\n```lab simlab\n{lab}\n```\n")),
         &ModelFolder::unknown(),
     );
-    let said = &lesson.labs[0].lab.as_ref().unwrap().verify.as_ref().unwrap().says[0];
-    let rendered = ShownText::of_lesson(&lesson);
+    let says = &lesson.labs[0].lab.as_ref().unwrap().verify.as_ref().unwrap().says[0];
+    let rendered = RenderedText::of_lesson(&lesson);
     let dimension = parse(unit);
     let value = QuoteValue { computed, timestep: &[], start: &[], unit: &|| dimension };
-    let claim = QuoteClaim { quote: &said.quote, part: said.quote.as_str(), expr: &said.exprs[0] };
-    let places = places_of_quote(&said.quote, None, &rendered);
+    let claim = QuoteClaim { quote: &says.quote, part: says.quote.as_str(), expr: &says.exprs[0] };
+    let places = places_of_quote(&says.quote, None, &rendered);
     let mut findings = Vec::new();
     let outcome = check_quote(&claim, &reading(quote), places, &value, &rendered, &mut findings);
     assert_eq!(

@@ -2,7 +2,7 @@
 
 use super::messages;
 use super::quote_claim::{QuoteClaim, QuoteState};
-use super::rendered::ShownText;
+use super::rendered::RenderedText;
 use crate::finding::{Finding, Severity};
 use crate::rules;
 use std::ops::Range;
@@ -23,7 +23,7 @@ pub(in crate::verify) fn check_words(
     claim: &QuoteClaim<'_>,
     places: &[Range<usize>],
     condition: &QuotedCondition,
-    rendered: &ShownText,
+    rendered: &RenderedText,
     findings: &mut Vec<Finding>,
 ) -> (QuoteState, String) {
     let Some(first) = places.first() else {

@@ -1,5 +1,5 @@
 use super::*;
-use crate::geometry::convex::{Convex, Effort, Room, nearest};
+use crate::geometry::convex::{Convex, ConvexScratch, Effort, nearest};
 use crate::geometry::tests::Random;
 use crate::kinds::geom;
 
@@ -107,14 +107,14 @@ fn the_first_ball_is_nearest() {
 /// The general algorithm for convex shapes is the reference: it shares nothing with this one.
 #[test]
 fn a_pierced_box_is_parted_by_the_least_translation() {
-    let (mut random, mut room) = (Random(3), Room::default());
+    let (mut random, mut scratch) = (Random(3), ConvexScratch::default());
     let effort = Effort { tolerance: 1e-12, iterations: 300 };
     let mut pierced = [0; 2];
     for n in 0..100_000 {
         let (capsule, cuboid) = random.capsule_and_box();
         let scale = norm(capsule.pos) + norm(capsule.size) + norm(cuboid.size);
         let core = Shape { size: [0.0, capsule.size[1], 0.0], ..capsule };
-        let found = nearest(&mut Convex::new(&core), &mut Convex::new(&cuboid), 0.0, effort, &mut room);
+        let found = nearest(&mut Convex::new(&core), &mut Convex::new(&cuboid), 0.0, effort, &mut scratch);
         let Some(depth) = found.map(|n| -n.dist).filter(|depth| *depth > 1e-9 * scale) else { continue };
         let mut out = vec![];
         capsule_box(&capsule, &cuboid, 0.0, &mut out);

@@ -104,8 +104,8 @@ mod tests {
     fn cuboid(half: Vec3, at: Vec3) -> Vec<Triangle> {
         let corner =
             |i: usize| std::array::from_fn(|k| at[k] + if i >> k & 1 == 1 { half[k] } else { -half[k] });
-        let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
-        quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).map(|t| t.map(corner)).collect()
+        let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        faces.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).map(|t| t.map(corner)).collect()
     }
 
     proptest! {

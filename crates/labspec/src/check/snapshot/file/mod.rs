@@ -16,7 +16,7 @@ const SAME: &str = "the same as the first run";
 const WIDE: usize = 8;
 /// Longest text of a cell that is written out.
 const LONG: usize = 40;
-/// A number of which no digit can be told.
+/// A number of which no digit is certain.
 pub(super) const OPEN: &str = "~";
 /// Nothing: an expression that threw, or a run that had ended.
 const NOTHING: &str = "-";
@@ -67,7 +67,7 @@ mod tests {
     use crate::run::Cell;
     use crate::source::SourceFile;
 
-    fn taken(name: &str, z: &[f64]) -> SnapshotRun {
+    fn snapshot_run(name: &str, z: &[f64]) -> SnapshotRun {
         SnapshotRun {
             name: name.into(),
             about: vec!["0.2 s".into(), "timestep 0.1 s".into()],
@@ -80,9 +80,11 @@ mod tests {
     }
 
     fn text() -> String {
-        let nominal = taken("as it stands", &[1.0, 0.5, -0.26]);
-        let runs =
-            [(nominal, vec![taken("", &[1.0, 0.5004, 0.3])]), (taken("with \"k\" at 2", &[0.0; 3]), vec![])];
+        let nominal = snapshot_run("as it stands", &[1.0, 0.5, -0.26]);
+        let runs = [
+            (nominal, vec![snapshot_run("", &[1.0, 0.5004, 0.3])]),
+            (snapshot_run("with \"k\" at 2", &[0.0; 3]), vec![]),
+        ];
         whole("fall.md", [lab("#1", "A\nfall", &runs).as_str()].into_iter())
     }
 

@@ -96,10 +96,10 @@ pub(in crate::check::snapshot) fn plain(cell: &Cell) -> String {
         Cell::Text(text) if text.chars().count() <= LONG => quoted(text),
         Cell::Text(text) => {
             let start: String = text.chars().take(LONG).collect();
-            let mark = text.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |mark, byte| {
-                (mark ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+            let hash = text.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+                (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
             });
-            quoted(&format!("{start}… ({} bytes, {mark:016x})", text.len()))
+            quoted(&format!("{start}… ({} bytes, {hash:016x})", text.len()))
         }
     }
 }

@@ -1,7 +1,7 @@
-//! What a model may say without an error, and does not mean: names that nothing uses, times that are too short for the timestep,
-//! ranges that are left at once. MuJoCo takes all of it in silence.
+//! Constructs that are valid and rarely intended: names that nothing uses, times that are too short for the timestep,
+//! ranges that are left at once. MuJoCo accepts all of them without a message.
 //!
-//! These look at a model that is in order. Each says what follows, in numbers of this model.
+//! The lints run on a model without errors. Each states the consequence in numbers of this model.
 
 mod contradicted;
 mod overlapping;
@@ -14,13 +14,13 @@ use super::text::tree::{Node, Tree};
 use crate::model::Model;
 use std::ops::Range;
 
-/// Tells what is doubtful in a model.
-pub(super) fn tell(tree: &Tree, m: &Model, report: &mut Report) {
-    unused_names::tell(tree, report);
-    contradicted::tell(tree, m, report);
-    too_fast::tell(tree, m, report);
-    weights::tell(tree, m, report);
-    overlapping::tell(tree, m, report);
+/// Reports what is doubtful in a model.
+pub(super) fn check_model(tree: &Tree, m: &Model, report: &mut Report) {
+    unused_names::check_names(tree, report);
+    contradicted::check_ranges(tree, m, report);
+    too_fast::check_time_constants(tree, m, report);
+    weights::check_masses(tree, m, report);
+    overlapping::check_overlaps(tree, m, report);
 }
 
 /// The element of this name among those that `kinds` names; of one without a name, the root.

@@ -1,9 +1,9 @@
-//! The words of labs, for the messages of the language.
+//! The host terms of labs, for the messages of the language.
 
 use labspec_expr::HostTerms;
 
 /// What the language calls the things of a lab.
-pub static WORDS: HostTerms = HostTerms {
+pub static HOST_TERMS: HostTerms = HostTerms {
     lab: "lab",
     lesson: "lesson",
     world: "simulation",

@@ -2,15 +2,15 @@
 
 /// A value for some words.
 #[derive(Clone, Debug)]
-pub(super) struct Words<V>(Vec<(&'static str, V)>);
+pub(super) struct WordMap<V>(Vec<(&'static str, V)>);
 
-impl<V> Default for Words<V> {
-    fn default() -> Words<V> {
-        Words(Vec::new())
+impl<V> Default for WordMap<V> {
+    fn default() -> WordMap<V> {
+        WordMap(Vec::new())
     }
 }
 
-impl<V> Words<V> {
+impl<V> WordMap<V> {
     /// The value of a word.
     pub(super) fn get(&self, word: &str) -> Option<&V> {
         self.0.iter().find(|(w, _)| *w == word).map(|(_, value)| value)
@@ -44,11 +44,11 @@ impl<V> Words<V> {
 
 #[cfg(test)]
 mod tests {
-    use super::Words;
+    use super::WordMap;
 
     #[test]
     fn every_word_has_one_value() {
-        let mut words = Words::default();
+        let mut words = WordMap::default();
         words.insert("pos", 1);
         *words.or_default("quat") += 2;
         *words.or_default("pos") += 3;

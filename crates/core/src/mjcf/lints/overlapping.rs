@@ -16,14 +16,14 @@ const MOST: usize = 500;
 /// Nor is one looked at to the end that takes more work than this, in the units of the engine: about 50 ms.
 const WORK: u64 = 50_000_000;
 
-pub(super) fn tell(tree: &Tree, m: &Model, report: &mut Report) {
+pub(super) fn check_overlaps(tree: &Tree, m: &Model, report: &mut Report) {
     let Some(d) = placed(m) else { return };
     let depth =
         |pair: [usize; 2], dist: f64| (-dist > DEEP * half_thickness_of_pair(m, pair)).then_some(-dist);
     let deep = d.contact.iter().filter(|c| c.efc_address.is_some());
     let deep = deep.filter_map(|c| Some(([c.geom1, c.geom2], depth([c.geom1, c.geom2], c.dist)?)));
     let Some(([a, b], depth)) = deep.max_by(|x, y| x.1.total_cmp(&y.1)) else { return };
-    let name = |g: usize| m.names.of(Obj::Geom).get(g).map_or("", String::as_str);
+    let name = |g: usize| m.names.of_kind(Obj::Geom).get(g).map_or("", String::as_str);
     let message = format!(
         "{} begins {} mm inside {}",
         format_name("geom", name(b), b),

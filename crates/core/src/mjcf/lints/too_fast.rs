@@ -18,7 +18,7 @@ const RUNGE_KUTTA: f64 = 2.78;
 /// Attributes with the time constants of constraints, and those of what touches.
 const TIMES: [&str; 5] = ["solref", "solreflimit", "solreffix", "solreffriction", "solreflimitspring"];
 
-pub(super) fn tell(tree: &Tree, m: &Model, report: &mut Report) {
+pub(super) fn check_time_constants(tree: &Tree, m: &Model, report: &mut Report) {
     joints(tree, m, report);
     constraints(tree, m, report);
 }
@@ -86,7 +86,7 @@ fn joints(tree: &Tree, m: &Model, report: &mut Report) {
         if !grows || (a.spring <= 0.0 && a.explicit <= 0.0) {
             continue;
         }
-        let name = m.names.of(Obj::Joint).get(j).map_or("", String::as_str);
+        let name = m.names.of_kind(Obj::Joint).get(j).map_or("", String::as_str);
         let spring = h * h * a.spring >= h * a.explicit;
         let (what, time) = match spring {
             true => ("a spring", (mass / a.spring).sqrt()),

@@ -1,4 +1,4 @@
-//! What is said of a program that leaves constants or partners behind.
+//! The findings about a program that leaves constants or partners behind.
 
 use super::advice::SetConstAdvice;
 use super::bench::SetConstBench;

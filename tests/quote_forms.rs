@@ -179,8 +179,8 @@ fn runs_and_measures_are_shared() {
     assert_eq!(judged.answer.unwrap().verdict, Verdict::Verified);
     assert_eq!(judged.runs.iter().map(|r| r.name.as_str()).collect::<Vec<_>>(), ["earth", "moon"]);
     // What both name is as it is here.
-    let own = json!({"use": "#1", "runs": {"moon": {"set": {"gravity": -3.24}, "until": 2}}, "value": "moon.lands"});
-    let checked = check_text("fall.md", &text(own));
+    let verify = json!({"use": "#1", "runs": {"moon": {"set": {"gravity": -3.24}, "until": 2}}, "value": "moon.lands"});
+    let checked = check_text("fall.md", &text(verify));
     assert!(codes(&checked).contains(&"answer-refuted"), "{:?}", codes(&checked));
     // One that is not there is told, and so is one that uses itself.
     let none = json!({"use": "#2", "lab": "#1", "value": "max(data.time)"});

@@ -20,7 +20,7 @@ const PAIRS: [(&str, &str); 4] = [
 const SOFT: f64 = 0.01;
 const SERVOS: [&str; 2] = ["position", "intvelocity"];
 
-pub(super) fn tell(tree: &Tree, m: &Model, report: &mut Report) {
+pub(super) fn check_ranges(tree: &Tree, m: &Model, report: &mut Report) {
     switched_off(tree, report);
     keys(tree, m, report);
     servos(tree, m, report);
@@ -66,7 +66,7 @@ fn keys(tree: &Tree, m: &Model, report: &mut Report) {
             };
             let beyond = (low - x).max(x - high);
             if beyond > SOFT * (high - low) {
-                let name = m.names.of(Obj::Joint).get(j).map_or("", String::as_str);
+                let name = m.names.of_kind(Obj::Joint).get(j).map_or("", String::as_str);
                 let key = format_name("key", own_name(node).unwrap_or(""), k);
                 let message = format!(
                     "{key} puts {} at {}, but its range is {} to {}",
@@ -84,7 +84,7 @@ fn keys(tree: &Tree, m: &Model, report: &mut Report) {
     }
 }
 
-/// Position servos that go wherever they are told, with any force.
+/// Position servos that follow any target with any force.
 fn servos(tree: &Tree, m: &Model, report: &mut Report) {
     let nodes: Vec<&Node> =
         listed(tree.sections("actuator").flat_map(|(i, _)| tree.children(i).map(|(_, n)| n)));
@@ -99,7 +99,7 @@ fn servos(tree: &Tree, m: &Model, report: &mut Report) {
     let all: Vec<usize> = listed((0..nodes.len()).filter(servo));
     let open: Vec<usize> = listed(all.iter().copied().filter(free));
     let Some(first) = open.first() else { return };
-    let name = m.names.of(Obj::Actuator).get(*first).map_or("", String::as_str);
+    let name = m.names.of_kind(Obj::Actuator).get(*first).map_or("", String::as_str);
     let span = nodes.get(*first).map_or_else(|| place(tree, &SERVOS, name), |n| n.span.clone());
     let message = match open.len() {
         1 => format!("{} has neither `ctrlrange` nor `forcerange`", format_name("servo", name, *first)),

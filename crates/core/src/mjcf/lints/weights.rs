@@ -7,13 +7,13 @@ use crate::mjcf::text::diagnostic::Report;
 use crate::mjcf::text::tree::Tree;
 use crate::model::{Model, Obj};
 
-/// Neighbours whose masses differ by more are told.
+/// Neighbours whose masses differ by more are reported.
 const APART: f64 = 1e4;
-/// What turns with less than this is told, kg m².
+/// A smaller inertia is reported, kg m².
 const TINY: f64 = 1e-9;
 
-pub(super) fn tell(tree: &Tree, m: &Model, report: &mut Report) {
-    let body = |b: usize| m.names.of(Obj::Body).get(b).map_or("", String::as_str);
+pub(super) fn check_masses(tree: &Tree, m: &Model, report: &mut Report) {
+    let body = |b: usize| m.names.of_kind(Obj::Body).get(b).map_or("", String::as_str);
     for b in 1..m.nbody {
         let parent = m.body_parentid.get(b).and_then(|p| usize::try_from(*p).ok()).unwrap_or(0);
         let moves = |b: usize| m.body_weldid.get(b).is_some_and(|w| *w != 0);
@@ -42,7 +42,7 @@ pub(super) fn tell(tree: &Tree, m: &Model, report: &mut Report) {
         let turns = m.jnt_type.get(j) == Some(&joint::HINGE);
         let inverse = m.jnt_dofadr.get(j).and_then(|d| m.dof_invweight0.get(usize::try_from(*d).ok()?));
         if let Some(inverse) = inverse.filter(|w| turns && **w > 1.0 / TINY) {
-            let name = m.names.of(Obj::Joint).get(j).map_or("", String::as_str);
+            let name = m.names.of_kind(Obj::Joint).get(j).map_or("", String::as_str);
             let message = format!(
                 "{} turns an inertia of {} kg m²",
                 format_name("joint", name, j),

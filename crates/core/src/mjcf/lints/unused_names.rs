@@ -12,7 +12,7 @@ const CLASS: &str = "default class";
 /// Assets that are there to be named.
 const ASSETS: [&str; 4] = ["mesh", "material", "texture", "hfield"];
 
-pub(super) fn tell(tree: &Tree, report: &mut Report) {
+pub(super) fn check_names(tree: &Tree, report: &mut Report) {
     // A file of classes and assets alone is there for others to include.
     if !tree.nodes.iter().any(|n| n.element.name == "geom" && n.parent.is_some_and(|p| holds_bodies(tree, p)))
     {
