@@ -26,7 +26,7 @@ pub(super) trait HessianAccumulator {
         Self: Sized;
 }
 
-/// [`Gram::add_gram`], entry by entry, for any number of rows of which `apply_weights` gives W v.
+/// [`HessianAccumulator::add_weighted_gram`], entry by entry, for any number of rows of which `apply_weights` gives W v.
 pub(super) fn add_entries(
     h: &mut dyn HessianAccumulator,
     columns: &[u32],

@@ -14,7 +14,7 @@ use crate::rules;
 use crate::run::StepVariant;
 use crate::spec::{Question, Verify};
 
-/// Checks the claims of one `verify` object. `question` is what carries it, unless a lab does; `shown` is what a reader of
+/// Checks the claims of one `verify` object. `question` is what carries it, unless a lab does; `rendered` is what a reader of
 /// the lesson sees.
 pub fn check_verify(
     bound: &BoundVerify<'_>,
