@@ -66,8 +66,8 @@ pub(crate) fn compile_to_play(lab: &Lab, folder: &ModelFolder) -> Compiled {
         return compile_source(&file, &FilesOf(given), Some(&own_name), None, compile_errors);
     }
     let Some(path) = folder.path(&name.value) else {
-        let known = folder.names().unwrap_or_default();
-        let close = nearest(&name.value, known.iter().map(String::as_str));
+        let existing = folder.names().unwrap_or_default();
+        let close = nearest(&name.value, existing.iter().map(String::as_str));
         let help = close.map_or("pass it with the models".into(), |close| format!("write `{close}`"));
         return refused(rules::UNKNOWN_MODEL, name, format!("there is no model `{}`", name.value), help);
     };
