@@ -36,6 +36,33 @@ fn bits(player: &Player) -> Vec<u64> {
     std::iter::once(&d.time).chain(all).map(|x| x.to_bits()).collect()
 }
 
+/// The scene has every field of the present state, also after a reset and a return, and the lab goes on as if nobody had looked.
+#[test]
+fn a_scene_is_the_present_state_and_changes_nothing() {
+    let (mut drawn, mut plain) = (player(), player());
+    let start = drawn.save();
+    let mut has_touched = false;
+    for step in 0..1200 {
+        let height = drawn.data().fields().qpos[2];
+        let scene = drawn.scene().unwrap();
+        assert_eq!(scene.body("ball").unwrap().xpos()[2].to_bits(), height.to_bits(), "step {step}");
+        has_touched |= scene.ncon > 0 && scene.efc_force.iter().any(|force| *force > 0.0);
+        assert_eq!(drawn.scene().unwrap().time, plain.time());
+        for lab in [&mut drawn, &mut plain] {
+            if step == 700 {
+                lab.press("Kick").unwrap();
+            }
+            lab.step().unwrap();
+        }
+    }
+    assert!(has_touched);
+    assert_eq!(bits(&drawn), bits(&plain));
+    drawn.restore(&start).unwrap();
+    assert_eq!(drawn.scene().unwrap().time, 0.0);
+    drawn.set("height", 1.5).unwrap();
+    assert_eq!(drawn.scene().unwrap().qpos[2], drawn.data().fields().qpos[2]);
+}
+
 #[test]
 fn a_page_draws_what_the_lab_says() {
     let player = player();

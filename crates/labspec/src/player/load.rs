@@ -10,8 +10,7 @@ use crate::lint::{ModelFolder, load_lesson, to_finding};
 use crate::run::{Session, Start};
 use crate::source::SourceFile;
 use crate::spec::{Lab, LabAddress, read_lab_json};
-use labspec_core::reflect::FieldSet;
-use labspec_core::{AccessSet, Model, Plan};
+use labspec_core::Model;
 use std::sync::Arc;
 
 impl Player {
@@ -116,14 +115,11 @@ impl Player {
         model: &Model,
         programs: Programs,
     ) -> Player {
-        // Whoever draws a scene may read everything.
-        let access = AccessSet { reads: FieldSet::ALL, ..programs.access };
-        let start = Start { plan: Some(Plan::new(model, &access)), ..Start::of_lab(&lab) };
-        let mut session = Session::start(Arc::new(programs), model, start);
+        let mut session = Session::start(Arc::new(programs), model, Start::of_lab(&lab));
         session.watch();
         let (controls, displayed) = (control::list(&lab), displayed::list(&lab));
         let now = Saved { lab: Arc::clone(&lab), session, cells: Vec::new(), numbers: Vec::new() };
-        let mut player = Player { lab, file, loaded, controls, displayed, now };
+        let mut player = Player { lab, file, loaded, controls, displayed, now, scene: None };
         player.observe();
         player
     }

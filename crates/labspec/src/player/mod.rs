@@ -6,6 +6,7 @@
 mod control;
 mod displayed;
 mod load;
+mod scene;
 
 pub use control::{Control, ControlKind, Which};
 pub use displayed::{DisplayedIn, DisplayedValue};
@@ -19,6 +20,7 @@ use crate::spec::Lab;
 use labspec_core::reflect::{FieldSet, Object};
 use labspec_core::{Data, Model, Planned};
 use labspec_expr::Value;
+use scene::Scene;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
@@ -32,6 +34,7 @@ pub struct Player {
     controls: Vec<Control>,
     displayed: Vec<DisplayedValue>,
     now: Saved,
+    scene: Option<Scene>,
 }
 
 /// A state of a lab: all that decides how it goes on, the model and the `ctx` variables included.
@@ -89,7 +92,7 @@ impl Player {
         &self.now.session.world.model
     }
 
-    /// The data, to draw the scene from.
+    /// The data: state, inputs, and what the programs of the lab read, as the last step has left it. [`Player::scene`] has everything.
     pub fn data(&self) -> &Data<Planned> {
         &self.now.session.world.data
     }
@@ -206,6 +209,7 @@ impl Player {
             ));
         }
         self.now.clone_from(saved);
+        self.mark_scene_stale();
         Ok(())
     }
 
@@ -236,6 +240,7 @@ impl Player {
 
     /// Takes the values of everything that is shown.
     fn observe(&mut self) {
+        self.mark_scene_stale();
         let mut row = self.now.session.sample().into_iter();
         // Time stands first.
         row.next();
@@ -243,6 +248,10 @@ impl Player {
         self.now.cells.extend(row);
         self.now.numbers.clear();
         self.now.numbers.extend(self.now.cells.iter().map(Cell::number));
+    }
+
+    fn mark_scene_stale(&mut self) {
+        self.scene.iter_mut().for_each(|scene| scene.is_stale = true);
     }
 
     /// Why the lab stands still, if something broke it.

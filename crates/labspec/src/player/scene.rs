@@ -1,0 +1,49 @@
+//! What a page draws. The steps of a lab compute what its programs read; the rest is computed here from its state, when a page asks.
+
+use super::Player;
+use crate::error::Error;
+use labspec_core::reflect::{FieldId, FieldSet, Kind, Object, View, ViewMut};
+use labspec_core::{Data, Full, Model, Planned, forward};
+
+/// All fields at one state of a lab.
+#[derive(Clone, Debug)]
+pub(super) struct Scene {
+    data: Data<Full>,
+    /// The lab has moved since.
+    pub(super) is_stale: bool,
+}
+
+impl Player {
+    /// All fields of the data at the present state: poses, contacts, forces. They are computed as `mj_forward` does it, once for each
+    /// state for which they are asked, and the lab goes on as if nobody had asked. Its own data ([`Player::data`]) belong to the state
+    /// before the last step, as after `mj_step`, and hold what its programs read.
+    ///
+    /// # Errors
+    /// The engine refuses the model as the lab has changed it.
+    pub fn scene(&mut self) -> Result<&Data<Full>, Error> {
+        let world = &self.now.session.world;
+        let scene = self.scene.get_or_insert_with(|| Scene { data: Data::new(&world.model), is_stale: true });
+        if scene.is_stale {
+            refresh(&world.model, &world.data, &mut scene.data).map_err(|e| Error::Call(e.to_string()))?;
+            scene.is_stale = false;
+        }
+        Ok(&scene.data)
+    }
+}
+
+/// Copies state and inputs, and computes everything else.
+fn refresh(model: &Model, from: &Data<Planned>, to: &mut Data<Full>) -> Result<(), labspec_core::Error> {
+    let written = |f: &FieldId| {
+        let info = f.info();
+        info.object == Object::Data && matches!(info.kind, Kind::State | Kind::Input)
+    };
+    for field in FieldSet::ALL.iter().filter(written) {
+        match (from.read(field)?, to.write(field)?) {
+            (View::F64(from), ViewMut::F64(to)) if from.len() == to.len() => to.copy_from_slice(from),
+            (View::I32(from), ViewMut::I32(to)) if from.len() == to.len() => to.copy_from_slice(from),
+            (View::Bool(from), ViewMut::Bool(to)) if from.len() == to.len() => to.copy_from_slice(from),
+            _ => debug_assert!(false, "state and inputs of one model have one size: {}", field.info().name),
+        }
+    }
+    forward(model, to)
+}
