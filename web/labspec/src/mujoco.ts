@@ -1,0 +1,1 @@
+export default async function loadMujoco(): Promise<Record<string, unknown>> { return {}; }
