@@ -2,6 +2,7 @@ import * as check from "./arguments.js";
 import { LabspecError, call } from "./error.js";
 import { ready } from "./glue.js";
 import { Data, Model } from "./model.js";
+import { EXPRESSION, weight } from "./weight.js";
 import type { RawExpression } from "#glue";
 
 /** What an expression may give. */
@@ -10,6 +11,7 @@ export type ExpressionValue = number | string | boolean | null;
 /** An expression or statements of the accessor language, compiled for a model: names, indexes and types are checked. */
 export class Expression {
   #raw: RawExpression | undefined;
+  #weight: ArrayBuffer | undefined = weight(EXPRESSION);
   readonly #texts: ReadonlyMap<string, string>;
   /** How many texts were compiled together. */
   readonly count: number;
@@ -45,7 +47,7 @@ export class Expression {
   /** Gives the memory back. Without it, the garbage collector does, later. */
   free(): void {
     this.#raw?.free();
-    this.#raw = undefined;
+    [this.#raw, this.#weight] = [undefined, undefined];
   }
 
   [Symbol.dispose](): void {

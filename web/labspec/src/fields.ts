@@ -99,6 +99,7 @@ export class FieldCache {
   }
 
   set(field: Field, value: unknown): void {
+    if (this.#source.place === undefined) return this.#source.write(field.index, 0, new Float64Array(0));
     if (!field.writable) {
       throw new LabspecError("read-only", `\`${field.name}\` cannot be written: the engine computes it or indexes by it`);
     }

@@ -5,6 +5,7 @@ import type { DataFields, ModelFields, OptionFields, StatisticFields } from "./f
 import { FieldCache, defineFields, type FieldSource, fields } from "./fields.js";
 import { ready } from "./glue.js";
 import { Model, type ObjectKind } from "./model.js";
+import { LAB, STATE, weight } from "./weight.js";
 import type { Lab as RawLab, State as RawState } from "#glue";
 
 /** Models by name (MJCF), and files that they name, by path. */
@@ -84,6 +85,7 @@ export class LabState {
   readonly #raw: RawState;
   readonly #actions: readonly Action[];
   readonly #lab: string;
+  readonly #weight = weight(STATE);
 
   /** @internal */
   constructor(raw: RawState, actions: readonly Action[], lab: string) {
@@ -98,6 +100,7 @@ export class LabState {
   /** The state as bytes, for `Lab.resume`: what was done to the lab since it was opened. */
   toBytes(): Uint8Array {
     const content = { format: FORMAT, lab: this.#lab, actions: this.#actions };
+    void this.#weight;
     return new TextEncoder().encode(JSON.stringify({ labspec: content }));
   }
 }
@@ -182,6 +185,7 @@ export class Lab {
   #poses: Float32Array | undefined;
   #data: LabData | undefined;
   #model: LabModel | undefined;
+  #weight: ArrayBuffer | undefined = weight(LAB);
 
   /** Opens a lab from its JSON (text, or the object itself). `models` are the models that it names. */
   constructor(json: string | object, models: Models = {}) {
@@ -470,7 +474,7 @@ export class Lab {
   /** Gives the memory back. Without it, the garbage collector does, later. */
   free(): void {
     this.#raw?.free();
-    this.#raw = undefined;
+    [this.#raw, this.#weight] = [undefined, undefined];
   }
 
   [Symbol.dispose](): void {

@@ -4,6 +4,7 @@ import { LabspecError, call } from "./error.js";
 import type { DataFields, ModelFields, OptionFields, StatisticFields } from "./field-types.js";
 import { FieldCache, defineFields, fields, type FieldSource } from "./fields.js";
 import { ready } from "./glue.js";
+import { DATA, weight } from "./weight.js";
 import type { RawData, RawModel } from "#glue";
 
 /** Kinds of objects, by MuJoCo's words for their lists. */
@@ -40,6 +41,7 @@ export class Model {
   readonly #stat: Statistic;
   readonly #owned = new WeakMap<object, RawModel>();
   #viewed = false;
+  #weight: ArrayBuffer | undefined = weight(DATA);
 
   private constructor(raw: RawModel) {
     this.#raw = raw;
@@ -134,7 +136,7 @@ export class Model {
   /** Gives the memory back; that of views that are still in use when these are collected. */
   free(): void {
     if (!this.#viewed) this.#raw?.free();
-    this.#raw = undefined;
+    [this.#raw, this.#weight] = [undefined, undefined];
   }
 
   [Symbol.dispose](): void {
@@ -164,6 +166,7 @@ export class Data {
   readonly #cache: FieldCache;
   readonly #owned = new WeakMap<object, RawData>();
   #viewed = false;
+  #weight: ArrayBuffer | undefined = weight(DATA);
   #poses: Float32Array | undefined;
 
   constructor(model: Model) {
@@ -321,7 +324,7 @@ export class Data {
   /** Gives the memory back; that of views that are still in use when these are collected. */
   free(): void {
     if (!this.#viewed) this.#raw?.free();
-    this.#raw = undefined;
+    [this.#raw, this.#weight] = [undefined, undefined];
   }
 
   [Symbol.dispose](): void {
