@@ -118,5 +118,5 @@ test("everything works afterwards", () => {
   assert.equal(bits(a.record(600)), bits(b.record(600)));
   const data = new Data(a.toModel());
   data.step(600);
-  assert.equal(data.qpos[2], a.numbers[0]);
+  assert.equal(data.xpos[5], a.numbers[0]);
 });
