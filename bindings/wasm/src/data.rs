@@ -277,6 +277,58 @@ impl RawData {
         done.map(|()| qfrc).map_err(|e| refused(&e))
     }
 
+    /// Acceleration of an object as an accelerometer feels it: angular, then linear.
+    #[wasm_bindgen(js_name = objectAcceleration)]
+    pub fn object_acceleration(
+        &self,
+        model: &RawModel,
+        of: &str,
+        id: usize,
+        local: bool,
+    ) -> Result<Vec<f64>, JsValue> {
+        let found = core::object_acceleration(&model.model, self.data(), kind(of)?, id, local);
+        found.map(|v| v.to_vec()).map_err(|e| refused(&e))
+    }
+
+    /// The distance of two geoms, and the nearest points.
+    #[wasm_bindgen(js_name = geomDistance)]
+    pub fn geom_distance(
+        &mut self,
+        model: &RawModel,
+        geom1: usize,
+        geom2: usize,
+        most: f64,
+    ) -> Result<Vec<f64>, JsValue> {
+        let found = core::geom_distance(&model.model, &mut self.world.data, geom1, geom2, most);
+        let found = found.map_err(|e| refused(&e))?;
+        let [[a, b, c], [x, y, z]] = found.fromto;
+        Ok(vec![found.dist, a, b, c, x, y, z])
+    }
+
+    /// The position that a velocity leads to in a time.
+    #[wasm_bindgen(js_name = integratePos)]
+    pub fn integrate_pos(
+        &self,
+        model: &RawModel,
+        mut qpos: Vec<f64>,
+        v: &[f64],
+        h: f64,
+    ) -> Result<Vec<f64>, JsValue> {
+        core::integrate_pos(&model.model, &mut qpos, v, h).map(|()| qpos).map_err(|e| refused(&e))
+    }
+
+    /// The velocity that leads from a position to another one in a time.
+    #[wasm_bindgen(js_name = differentiatePos)]
+    pub fn differentiate_pos(
+        &self,
+        model: &RawModel,
+        h: f64,
+        from: &[f64],
+        to: &[f64],
+    ) -> Result<Vec<f64>, JsValue> {
+        core::differentiate_pos(&model.model, h, from, to).map_err(|e| refused(&e))
+    }
+
     /// A state as a list of numbers.
     #[wasm_bindgen(js_name = getState)]
     pub fn get_state(&self, model: &RawModel, signature: i32) -> Result<Vec<f64>, JsValue> {

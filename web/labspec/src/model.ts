@@ -33,6 +33,12 @@ class Part {
 class Options extends Part {}
 class Statistic extends Part {}
 
+/** @internal Compiles MJCF. */
+export function compile(text: string, files: Record<string, string | Uint8Array>): RawModel {
+  const glue = ready();
+  return call(() => glue.RawModel.fromXml(text, files), new Map([["model.xml", text]]));
+}
+
 /** A compiled model. Its fields have MuJoCo's names: `model.body_mass`, `model.opt.timestep`. */
 export class Model {
   #raw: RawModel | undefined;
@@ -43,7 +49,9 @@ export class Model {
   #viewed = false;
   #weight: ArrayBuffer | undefined = weight(DATA);
 
-  private constructor(raw: RawModel) {
+  /** @internal Models are made by `fromXML`, `fromBytes` or `Lab.toModel`. */
+  constructor(raw: RawModel) {
+    if (!(raw instanceof ready().RawModel)) throw new LabspecError("wrong-type", "a model is made by `Model.fromXML` or `Model.fromBytes`");
     this.#raw = raw;
     defineFields(Model.prototype, "model", (of: Model) => of.#cache);
     defineFields(Options.prototype, "opt", (of: Options) => of.cache);
@@ -69,8 +77,7 @@ export class Model {
   /** Compiles a model from MJCF. `files` are what it includes or names, by path. */
   static fromXML(xml: string, files: Readonly<Record<string, string | Uint8Array>> = {}): Model {
     const [text, own] = [check.text(xml, "MJCF"), check.models(files)];
-    const glue = ready();
-    return new Model(call(() => glue.RawModel.fromXml(text, own), new Map([["", text], ["model.xml", text]])));
+    return new Model(compile(text, own));
   }
 
   /** A model from the bytes of `toBytes`. */
@@ -306,6 +313,31 @@ export class Data {
     const hit = this.#with((raw, model) => raw.ray(model, point, direction, statics, exclude));
     if (hit.length === 0) return undefined;
     return { distance: hit[0] ?? NaN, geom: hit[1] ?? NaN, normal: hit.slice(2) };
+  }
+
+  /** The acceleration of an object as an accelerometer feels it: angular, then linear. Needs `pass("mj_rnePostConstraint")`. */
+  objectAcceleration(kind: "body" | "geom" | "site" | "cam", which: Which, local = false): Float64Array {
+    const [id, own] = [this.model.id(kind, which), check.boolean(local, "`local`")];
+    return this.#with((raw, model) => raw.objectAcceleration(model, kind, id, own));
+  }
+
+  /** The distance of two geoms up to `most`, and the nearest points, m. */
+  geomDistance(geom1: Which, geom2: Which, most: number): { readonly dist: number; readonly fromto: Float64Array } {
+    const [a, b, limit] = [this.model.id("geom", geom1), this.model.id("geom", geom2), check.number(most, "a distance")];
+    const found = this.#with((raw, model) => raw.geomDistance(model, a, b, limit));
+    return { dist: found[0] ?? NaN, fromto: found.slice(1) };
+  }
+
+  /** The position that a velocity leads to in a time. */
+  integratePos(qpos: ArrayLike<number>, v: ArrayLike<number>, h: number): Float64Array {
+    const [from, velocity, time] = [check.numbers(qpos, "a position"), check.numbers(v, "a velocity"), check.number(h, "a time")];
+    return this.#with((raw, model) => raw.integratePos(model, from, velocity, time));
+  }
+
+  /** The velocity that leads from a position to another one in a time. */
+  differentiatePos(h: number, from: ArrayLike<number>, to: ArrayLike<number>): Float64Array {
+    const [time, a, b] = [check.number(h, "a time"), check.numbers(from, "a position"), check.numbers(to, "a position")];
+    return this.#with((raw, model) => raw.differentiatePos(model, time, a, b));
   }
 
   /** The generalized force of a force and a torque at a point of a body, all in world axes. */
