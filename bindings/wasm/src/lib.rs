@@ -3,20 +3,33 @@
 //! Nothing is evaluated as JavaScript. Mistakes are thrown as an `Error` whose `findings` tell what is wrong and where. Numbers of traces
 //! are seen where they lie in the module's memory: a view is good until the next call into the module.
 
-use js_sys::{Array, Error, Float64Array, JSON, Object, Reflect};
-use labspec::finding::Finding;
-use labspec::player::{ControlKind, DisplayedIn, Saved};
+mod data;
+mod error;
+mod expression;
+mod fields;
+mod files;
+mod model;
+
+use error::{call_error, thrown};
+use files::PageModels;
+#[cfg(feature = "checker")]
+use js_sys::{Array, Object};
+use js_sys::{Error, Float32Array, Float64Array, JSON};
 #[cfg(feature = "checker")]
 use labspec::Checker;
 use labspec::Player;
+use labspec::finding::Finding;
+use labspec::player::{ControlKind, DisplayedIn, Saved};
 use serde_json::{Value as Json, json};
+#[cfg(feature = "checker")]
 use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &str = r#"
-/** Models by their names: MJCF. */
-export type Models = Record<string, string>;
+/** Models by their names: MJCF; and files that they name, by path. */
+export type Models = Record<string, string | Uint8Array>;
 
 /** Lessons whose labs others name, and snapshots, by their paths. */
 export type Neighbours = Record<string, string>;
@@ -100,6 +113,10 @@ pub struct Lab {
     player: Player,
     /// Rows of the last recording: time, then every number that is shown.
     rows: Vec<f64>,
+    /// Poses of geoms, as they were asked for last.
+    poses: Vec<f32>,
+    /// Pairs of geoms that touched after the last step of [`Lab::advance`].
+    touching: Vec<(usize, usize)>,
 }
 
 /// A state to which a lab can go back.
@@ -111,8 +128,19 @@ impl Lab {
     /// Opens a lab from its JSON.
     #[wasm_bindgen(constructor)]
     pub fn new(json: &str, models: &Models) -> Result<Lab, JsValue> {
-        let player = Player::of_lab(json, named(models, MODELS)?).map_err(|e| thrown(&e))?;
-        Ok(Lab { player, rows: Vec::new() })
+        let player = Player::of_lab(json, PageModels::new(models)?).map_err(|e| thrown(&e))?;
+        Ok(Lab::of(player))
+    }
+
+    /// Opens a lab of a lesson by its address: `#2` is the second one, `#quiz-id.1` that of a question.
+    #[wasm_bindgen(js_name = ofLesson)]
+    pub fn of_lesson(path: &str, text: &str, address: &str, models: &Models) -> Result<Lab, JsValue> {
+        let models = PageModels::new(models)?;
+        Player::of_lesson(path, text, address, models).map(Lab::of).map_err(|e| thrown(&e))
+    }
+
+    fn of(player: Player) -> Lab {
+        Lab { player, rows: Vec::new(), poses: Vec::new(), touching: Vec::new() }
     }
 
     /// The sliders, selects and buttons.
@@ -205,10 +233,93 @@ impl Lab {
         self.player.play_to(time).map_err(|e| thrown(&e))
     }
 
+    /// Plays at most `most` steps towards a time. `levels` are pairs: the place of a number, and a level; the call ends after a
+    /// step in which a number crosses its level, or, with `contacts`, in which other geoms touch than before.
+    pub fn advance(
+        &mut self,
+        time: f64,
+        most: usize,
+        levels: &[f64],
+        contacts: bool,
+    ) -> Result<usize, JsValue> {
+        let mut before: Vec<bool> = Vec::with_capacity(levels.len() / 2);
+        let over = |numbers: &dyn Fn(usize) -> f64, pair: &[f64]| match pair {
+            [at, level] => numbers(*at as usize) > *level,
+            _ => false,
+        };
+        let now = self.player.numbers();
+        before
+            .extend(levels.chunks(2).map(|pair| over(&|at| now.get(at).copied().unwrap_or(f64::NAN), pair)));
+        let touching = &mut self.touching;
+        let done = self.player.play_while(time, most, |data, cells| {
+            let number = |at: usize| cells.get(at).map_or(f64::NAN, labspec::run::Cell::number);
+            let crossed = levels.chunks(2).zip(&before).any(|(pair, was)| over(&number, pair) != *was);
+            let moved = contacts && changed(touching, data.fields());
+            if crossed || moved { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        done.map_err(|e| thrown(&e))
+    }
+
+    /// The poses of all geoms: for each a matrix of 4 x 4, column after column.
+    pub fn poses(&mut self) -> Result<Float32Array, JsValue> {
+        let scene = self.player.scene().map_err(|e| thrown(&e))?;
+        data::write_poses(&scene.geom_xpos, &scene.geom_xmat, &mut self.poses);
+        // SAFETY: the page copies it before it calls again.
+        Ok(unsafe { Float32Array::view(&self.poses) })
+    }
+
+    /// The contacts with their forces: see [`data::contacts`].
+    pub fn contacts(&mut self) -> Result<Vec<f64>, JsValue> {
+        let (model, scene) = self.player.model_and_scene().map_err(|e| thrown(&e))?;
+        data::contacts(model, scene)
+    }
+
+    /// The numbers of a field of the model or the data, as they are now.
+    pub fn field(&mut self, field: usize) -> Result<JsValue, JsValue> {
+        let field = fields::by_index(field)?;
+        let (model, scene) = self.player.model_and_scene().map_err(|e| thrown(&e))?;
+        let view = labspec_core::view(model, scene, field).map_err(|e| error::refused(&e))?;
+        Ok(fields::copied(view))
+    }
+
+    /// The names of all objects of a kind, in the order of their ids.
+    pub fn names(&self, kind: &str) -> Result<Vec<String>, JsValue> {
+        model::names(self.player.model(), kind)
+    }
+
+    /// The model as controls and programs left it, as one of its own.
+    pub fn model(&self) -> model::RawModel {
+        model::RawModel::of(self.player.model().clone())
+    }
+
+    /// The current value of a control; `null` where there is none.
+    pub fn value(&self, label: &str) -> Result<JsValue, JsValue> {
+        object(&self.player.value(label).map_or(Json::Null, value))
+    }
+
+    /// The fields that the programs of the lab read.
+    pub fn reads(&self) -> Vec<String> {
+        self.player.reads()
+    }
+
+    /// The fields that the programs of the lab write.
+    pub fn writes(&self) -> Vec<String> {
+        self.player.writes()
+    }
+
     /// Makes so many steps, and gives a row for the start and for every step: time, then `numbers`. A view, good until the next
     /// call; it ends early when the lab does.
     pub fn record(&mut self, steps: usize) -> Result<Float64Array, JsValue> {
         self.rows.clear();
+        let width = self.player.numbers().len() + 1;
+        if steps.checked_mul(width).is_none_or(|size| size > MAX_RECORDED) {
+            return Err(call_error(
+                "too-long",
+                &format!(
+                    "{steps} steps of {width} numbers are too many to record; the limit is {MAX_RECORDED} numbers: record them in parts"
+                ),
+            ));
+        }
         for step in 0..=steps {
             if step > 0 {
                 if self.player.is_over() {
@@ -250,7 +361,7 @@ pub fn check(
     models: &Models,
     neighbours: Option<Neighbours>,
 ) -> Result<Report, JsValue> {
-    let mut checker = Checker::new(named(models, MODELS)?);
+    let mut checker = Checker::new(PageModels::new(models)?);
     if let Some(texts) = neighbours {
         let wrong = "`neighbours` is an object: paths, and lessons or snapshots as text";
         checker = checker.neighbours(named(&texts, wrong)?);
@@ -267,10 +378,22 @@ pub fn check(
     Ok(object(&whole)?.unchecked_into())
 }
 
-/// What is said where models are given in another form.
-const MODELS: &str = "`models` is an object: names, and MJCF as text";
+/// Numbers of one recording.
+const MAX_RECORDED: usize = 1 << 24;
+
+/// Takes the pairs of geoms that touch now; whether they are others.
+fn changed(touching: &mut Vec<(usize, usize)>, fields: &labspec_core::Fields) -> bool {
+    let pairs = || fields.contact.iter().filter(|c| c.exclude == 0).map(|c| (c.geom1, c.geom2));
+    let mut now: Vec<(usize, usize)> = pairs().collect();
+    now.sort_unstable();
+    now.dedup();
+    let other = now != *touching;
+    *touching = now;
+    other
+}
 
 /// Texts by their names from an object of JavaScript; `expected` says what it is when it is none.
+#[cfg(feature = "checker")]
 fn named(texts: &JsValue, expected: &str) -> Result<BTreeMap<String, String>, JsValue> {
     let wrong = || JsValue::from(Error::new(expected));
     let object: &Object = texts.dyn_ref().ok_or_else(wrong)?;
@@ -281,7 +404,7 @@ fn named(texts: &JsValue, expected: &str) -> Result<BTreeMap<String, String>, Js
     Object::entries(object).iter().map(pair).collect::<Option<_>>().ok_or_else(wrong)
 }
 
-fn finding(f: &Finding) -> Json {
+pub(crate) fn finding(f: &Finding) -> Json {
     json!({
         "code": f.code, "severity": f.severity.as_str(), "file": &*f.path, "start": f.span.start, "end": f.span.end,
         "line": f.position.map(|p| p.line), "column": f.position.map(|p| p.column),
@@ -289,7 +412,7 @@ fn finding(f: &Finding) -> Json {
     })
 }
 
-fn value(v: &labspec::Value) -> Json {
+pub(crate) fn value(v: &labspec::Value) -> Json {
     match v {
         labspec::Value::Number(x) => json!(x),
         labspec::Value::Boolean(b) => json!(b),
@@ -298,16 +421,6 @@ fn value(v: &labspec::Value) -> Json {
     }
 }
 
-fn object(json: &Json) -> Result<JsValue, JsValue> {
+pub(crate) fn object(json: &Json) -> Result<JsValue, JsValue> {
     JSON::parse(&json.to_string())
-}
-
-/// An error of JavaScript, with the findings behind it.
-fn thrown(e: &labspec::Error) -> JsValue {
-    let error = Error::new(&e.to_string());
-    let findings: Json = e.findings().iter().map(finding).collect();
-    if let Ok(findings) = object(&findings) {
-        let _ = Reflect::set(&error, &"findings".into(), &findings);
-    }
-    error.into()
 }

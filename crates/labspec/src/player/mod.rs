@@ -165,16 +165,48 @@ impl Player {
         })
     }
 
+    /// Plays at most `most` steps towards a time, and stops early where `each` breaks: it gets the data and the values after
+    /// every step.
+    ///
+    /// # Errors
+    /// As for [`Player::play_to`].
+    pub fn play_while(
+        &mut self,
+        time: f64,
+        most: usize,
+        mut each: impl FnMut(&Data<Planned>, &[Cell]) -> ControlFlow<()>,
+    ) -> Result<usize, Error> {
+        self.play_steps(time, most, |session, made| match made {
+            0 => ControlFlow::Continue(()),
+            _ => {
+                let row = session.sample();
+                each(&session.world.data, row.get(1..).unwrap_or(&[]))
+            }
+        })
+    }
+
     fn play(&mut self, time: f64, mut each: impl FnMut(&mut Session<'_>, usize)) -> Result<usize, Error> {
+        self.play_steps(time, usize::MAX, |session, made| {
+            each(session, made);
+            ControlFlow::Continue(())
+        })
+    }
+
+    fn play_steps(
+        &mut self,
+        time: f64,
+        most: usize,
+        mut each: impl FnMut(&mut Session<'_>, usize) -> ControlFlow<()>,
+    ) -> Result<usize, Error> {
         if time.is_nan() {
             return Err(Error::Call("a lab cannot run to the time NaN; pass a time in seconds".into()));
         }
         let ahead = (time - self.time()).max(0.0);
-        let steps = run::count_steps(&self.lab, Some(ahead), None, self.timestep())?;
+        let steps = run::count_steps(&self.lab, Some(ahead), None, self.timestep())?.min(most);
         let stop = self.stop().unwrap_or(f64::INFINITY).min(time);
         self.now.session.renew(Budget::ASKED);
         let made = run::play(&mut self.now.session, &Play::steps(steps), |session, made| {
-            each(session, made);
+            each(session, made)?;
             if session.world.data.time() >= stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
         self.observe();

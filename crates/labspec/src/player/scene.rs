@@ -21,13 +21,21 @@ impl Player {
     /// # Errors
     /// The engine refuses the model as the lab has changed it.
     pub fn scene(&mut self) -> Result<&Data<Full>, Error> {
+        self.model_and_scene().map(|(_, scene)| scene)
+    }
+
+    /// The model as controls and programs left it, and [`Player::scene`].
+    ///
+    /// # Errors
+    /// As for [`Player::scene`].
+    pub fn model_and_scene(&mut self) -> Result<(&Model, &Data<Full>), Error> {
         let world = &self.now.session.world;
         let scene = self.scene.get_or_insert_with(|| Scene { data: Data::new(&world.model), is_stale: true });
         if scene.is_stale {
             refresh(&world.model, &world.data, &mut scene.data).map_err(|e| Error::Call(e.to_string()))?;
             scene.is_stale = false;
         }
-        Ok(&scene.data)
+        Ok((&world.model, &scene.data))
     }
 }
 

@@ -1,0 +1,230 @@
+//! Models of one's own.
+
+use crate::error::{call_error, refused, thrown};
+use crate::fields::{by_index, copied, is_live, place};
+use crate::files::PageModels;
+use labspec_core::reflect::{self, FieldId, Object, View, ViewMut};
+use labspec_core::{AccessSet, Data, Model, Obj, Plan, Planned};
+use labspec_finding::{Finding, Lines};
+use std::sync::{Arc, OnceLock};
+use wasm_bindgen::prelude::*;
+
+/// A compiled model, with the fields that a page sees where they lie.
+#[wasm_bindgen]
+pub struct RawModel {
+    pub(crate) model: Model,
+    /// Fields that the page may write behind our back, with what they held last.
+    exposed: Vec<(FieldId, Vec<u64>)>,
+    /// Data of nobody, which writes are given.
+    nobody: Data<Planned>,
+}
+
+/// An empty model.
+pub(crate) fn nothing() -> Model {
+    static NOTHING: OnceLock<Model> = OnceLock::new();
+    // An empty text has no mistakes.
+    #[allow(clippy::unwrap_used)]
+    NOTHING.get_or_init(|| Model::from_xml("<mujoco/>").unwrap()).clone()
+}
+
+impl RawModel {
+    pub(crate) fn of(model: Model) -> RawModel {
+        let nothing = nothing();
+        let nobody = Data::planned(&nothing, Plan::new(&nothing, &AccessSet::ANY));
+        RawModel { model, exposed: Vec::new(), nobody }
+    }
+
+    /// Tells the model what a page wrote into its views.
+    pub(crate) fn sync(&mut self) {
+        if self.exposed.is_empty() {
+            return;
+        }
+        for at in 0..self.exposed.len() {
+            let (field, held) = &self.exposed[at];
+            let Some(view) = self.model.field(*field) else { continue };
+            if same(view, held) {
+                continue;
+            }
+            let (field, held) = (*field, snapshot(view));
+            self.exposed[at].1 = held;
+            // A field is written through the table so that its stamp is a new one.
+            write(&mut self.model, &mut self.nobody, field, |_| ());
+        }
+    }
+}
+
+#[wasm_bindgen]
+impl RawModel {
+    /// Compiles a model from MJCF. `files` are what it includes or names.
+    #[wasm_bindgen(js_name = fromXml)]
+    pub fn from_xml(xml: &str, files: &JsValue) -> Result<RawModel, JsValue> {
+        let files = PageModels::new(files)?;
+        Model::from_xml_with(xml, &files).map(RawModel::of).map_err(|e| mistakes(xml, &e))
+    }
+
+    /// A model from the bytes of `toBytes`.
+    #[wasm_bindgen(js_name = fromBytes)]
+    pub fn from_bytes(bytes: &[u8]) -> Result<RawModel, JsValue> {
+        Model::from_bytes(bytes).map(RawModel::of).map_err(|e| refused(&e))
+    }
+
+    /// The model as bytes.
+    #[wasm_bindgen(js_name = toBytes)]
+    pub fn to_bytes(&mut self) -> Vec<u8> {
+        self.sync();
+        self.model.to_bytes()
+    }
+
+    /// Address and count of a field that is seen where it lies.
+    pub fn place(&mut self, field: usize) -> Result<Vec<u32>, JsValue> {
+        let field = by_index(field)?;
+        let view = self.model.field(field).ok_or_else(|| foreign(field))?;
+        let found = place(view).filter(|_| is_live(field)).ok_or_else(|| foreign(field))?;
+        if reflect::is_writable(field) && self.exposed.iter().all(|(f, _)| *f != field) {
+            let held = snapshot(view);
+            self.exposed.push((field, held));
+        }
+        Ok(found.to_vec())
+    }
+
+    /// The numbers of a field.
+    pub fn field(&self, field: usize) -> Result<JsValue, JsValue> {
+        let field = by_index(field)?;
+        self.model.field(field).map(copied).ok_or_else(|| foreign(field))
+    }
+
+    /// A size or another number of the model.
+    pub fn number(&self, field: usize) -> f64 {
+        by_index(field).ok().and_then(|f| self.model.field(f)?.get(0)).unwrap_or(f64::NAN)
+    }
+
+    /// Writes numbers from an element of a field on.
+    pub fn write(&mut self, field: usize, from: usize, values: &[f64]) -> Result<(), JsValue> {
+        let field = by_index(field)?;
+        if field.info().object == Object::Data {
+            return Err(foreign(field));
+        }
+        if !reflect::is_writable(field) {
+            return Err(refused(&labspec_core::Error::NotWritable(field)));
+        }
+        let mut fits = true;
+        write(&mut self.model, &mut self.nobody, field, |view| fits = store(view, from, values));
+        if fits { Ok(()) } else { Err(past_the_end(field)) }
+    }
+
+    /// The names of all objects of a kind, in the order of their ids.
+    pub fn names(&self, kind: &str) -> Result<Vec<String>, JsValue> {
+        names(&self.model, kind)
+    }
+
+    /// The name of the model.
+    pub fn title(&self) -> String {
+        self.model.names.model.clone()
+    }
+}
+
+/// The mistakes of a model, with their lines.
+fn mistakes(xml: &str, e: &labspec_core::Error) -> JsValue {
+    if e.diagnostics().is_empty() {
+        return refused(e);
+    }
+    let lines = Lines::new(xml);
+    let located = |f: &Finding| {
+        let own = f.path.is_empty();
+        let path = if own { Arc::from("model.xml") } else { Arc::clone(&f.path) };
+        let position = if own { Some(lines.position(xml, f.span.start)) } else { f.position };
+        Finding { path, position, ..f.clone() }
+    };
+    thrown(&labspec::Error::Findings(e.diagnostics().iter().map(located).collect()))
+}
+
+/// Writes a field of the model through the table.
+fn write(model: &mut Model, nobody: &mut Data<Planned>, field: FieldId, what: impl FnOnce(&mut ViewMut<'_>)) {
+    // The engine writes a model beside data: these are nobody's.
+    if let Ok(mut view) = labspec_core::view_mut(model, nobody, field) {
+        what(&mut view);
+    }
+}
+
+/// Stores numbers; `false` when there are not as many elements.
+pub(crate) fn store(view: &mut ViewMut<'_>, from: usize, values: &[f64]) -> bool {
+    let len = match view {
+        ViewMut::F64(v) => v.len(),
+        ViewMut::I32(v) => v.len(),
+        ViewMut::Bool(v) => v.len(),
+        ViewMut::Fixed => 0,
+    };
+    if from.checked_add(values.len()).is_none_or(|end| end > len) {
+        return false;
+    }
+    values.iter().enumerate().all(|(i, &x)| view.set(from + i, x))
+}
+
+pub(crate) fn past_the_end(field: FieldId) -> JsValue {
+    call_error("wrong-length", &format!("`{}` has fewer elements", field.info().name))
+}
+
+fn foreign(field: FieldId) -> JsValue {
+    call_error("unknown-field", &format!("`{}` is not a field that can be read here", field.info().name))
+}
+
+fn snapshot(view: View<'_>) -> Vec<u64> {
+    match view {
+        View::F64(list) => list.iter().map(|x| x.to_bits()).collect(),
+        View::I32(list) => list.iter().map(|&x| x as u32 as u64).collect(),
+        View::Bool(_) | View::Size(_) => Vec::new(),
+    }
+}
+
+fn same(view: View<'_>, held: &[u64]) -> bool {
+    match view {
+        View::F64(list) => list.len() == held.len() && list.iter().zip(held).all(|(x, h)| x.to_bits() == *h),
+        View::I32(list) => {
+            list.len() == held.len() && list.iter().zip(held).all(|(&x, h)| x as u32 as u64 == *h)
+        }
+        View::Bool(_) | View::Size(_) => true,
+    }
+}
+
+/// Kinds of objects, by MuJoCo's words for their lists.
+const KINDS: [(&str, Obj); 21] = [
+    ("body", Obj::Body),
+    ("jnt", Obj::Joint),
+    ("geom", Obj::Geom),
+    ("site", Obj::Site),
+    ("cam", Obj::Camera),
+    ("light", Obj::Light),
+    ("mesh", Obj::Mesh),
+    ("skin", Obj::Skin),
+    ("hfield", Obj::HField),
+    ("tex", Obj::Texture),
+    ("mat", Obj::Material),
+    ("pair", Obj::Pair),
+    ("exclude", Obj::Exclude),
+    ("eq", Obj::Equality),
+    ("tendon", Obj::Tendon),
+    ("actuator", Obj::Actuator),
+    ("sensor", Obj::Sensor),
+    ("numeric", Obj::Numeric),
+    ("text", Obj::Text),
+    ("tuple", Obj::Tuple),
+    ("key", Obj::Key),
+];
+
+/// The kind of this word.
+pub(crate) fn kind(word: &str) -> Result<Obj, JsValue> {
+    let known = KINDS.iter().find(|(name, _)| *name == word);
+    known.map(|(_, kind)| *kind).ok_or_else(|| {
+        let words: Vec<&str> = KINDS.iter().map(|(name, _)| *name).collect();
+        call_error(
+            "unknown-kind",
+            &format!("`{word}` is not a kind of objects: it is one of {}", words.join(", ")),
+        )
+    })
+}
+
+/// The names of all objects of a kind.
+pub(crate) fn names(model: &Model, word: &str) -> Result<Vec<String>, JsValue> {
+    let kind = kind(word)?;
+    Ok((0..).map_while(|id| model.name_of(kind, id)).map(String::from).collect())
+}

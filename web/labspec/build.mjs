@@ -1,0 +1,88 @@
+// Builds the package from the modules that `bindings/xtask` has put into `generated/`.
+import { build } from "esbuild";
+import { execFileSync } from "node:child_process";
+import { copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { gzipSync } from "node:zlib";
+
+const root = dirname(fileURLToPath(import.meta.url));
+const at = (...parts) => join(root, ...parts);
+process.chdir(root);
+
+/** The types of fields, from the table in the module. */
+async function fieldTypes() {
+  const glue = await import(at("generated/checker/labspec.js"));
+  glue.initSync({ module: readFileSync(at("generated/checker/labspec_bg.wasm")) });
+  const rows = JSON.parse(glue.fieldTable());
+  const docs = JSON.parse(glue.fieldDocs());
+  const arrays = { f64: "Float64Array", i32: "Int32Array", bool: "Uint8Array" };
+  const interfaces = [
+    ["model", "ModelFields", "Fields of a model."], ["opt", "OptionFields", "Options of the simulation."],
+    ["stat", "StatisticFields", "Statistics of a model."], ["data", "DataFields", "Fields of data."],
+  ];
+  let text = "// Made by build.mjs from the table of fields of the engine.\nimport type { FieldView } from \"./fields.js\";\n";
+  for (const [object, name, doc] of interfaces) {
+    text += `\n/** ${doc} */\nexport interface ${name} {\n`;
+    rows.forEach(([of, field, elem, dims, , writable], i) => {
+      if (of !== object) return;
+      const [unit, what] = docs[i];
+      const shape = dims.length > 0 ? ` [${dims.join(", ")}]` : "";
+      const type = dims.length > 0 ? `FieldView<${arrays[elem]}>` : elem === "bool" ? "boolean" : "number";
+      text += `  /** ${what.replaceAll("*/", "* /")}${unit === "" ? "" : `, ${unit}`}${shape} */\n`;
+      const setter = writable && dims.length > 0;
+      if (setter) text += `  get ${field}(): ${type};\n  set ${field}(values: ${type} | readonly number[]);\n`;
+      else text += `  ${writable ? "" : "readonly "}${field}: ${type};\n`;
+    });
+    text += "}\n";
+  }
+  const file = at("src/field-types.ts");
+  if (!existsSync(file) || readFileSync(file, "utf8") !== text) writeFileSync(file, text);
+}
+
+const conditions = ["browser", "inline", "node", "workerd"];
+const modules = { "": "player", checker: "checker" };
+
+/** One module with its entries. */
+async function bundle(folder, module) {
+  const out = at("dist", folder);
+  mkdirSync(out, { recursive: true });
+  const wasm = at("generated", module, "labspec_bg.wasm");
+  copyFileSync(wasm, join(out, "labspec.wasm"));
+  const text = gzipSync(readFileSync(wasm), { level: 9 }).toString("base64");
+  writeFileSync(join(out, "inline-module.js"), `export default "${text}";\n`);
+  const glue = { name: "glue", setup: (b) => b.onResolve({ filter: /^#glue$/ }, () => ({ path: at("generated", module, "labspec.js") })) };
+  const outside = ["./labspec.wasm", "./inline-module.js", "node:*"];
+  const common = { bundle: true, outdir: out, target: "es2022", legalComments: "none", plugins: [glue], external: outside, logLevel: "warning" };
+  const names = folder === "" ? [...conditions, "slim", ...conditions.map((c) => `mujoco-${c}`), "worker-browser", "worker-node", "worker-host", "worker-host-node"] : conditions.map((c) => `checker-${c}`);
+  await build({ ...common, entryPoints: names.map((name) => at("src/entry", `${name}.ts`)), format: "esm", splitting: true, chunkNames: "shared-[hash]" });
+  const required = folder === "" ? ["node", "slim", "mujoco-node", "worker-node"] : ["checker-node"];
+  await build({
+    ...common, entryPoints: required.map((name) => at("src/entry", `${name}.ts`)), format: "cjs", outExtension: { ".js": ".cjs" },
+    define: { "import.meta.url": "importMetaUrl" },
+    banner: { js: 'const importMetaUrl = typeof __filename === "string" ? require("node:url").pathToFileURL(__filename).href : "";' },
+  });
+}
+
+/** The types once more for `require`. */
+function requiredTypes() {
+  const walk = (folder) => {
+    for (const entry of readdirSync(folder, { withFileTypes: true })) {
+      const path = join(folder, entry.name);
+      if (entry.isDirectory()) walk(path);
+      else if (path.endsWith(".d.ts")) {
+        const text = readFileSync(path, "utf8").replaceAll(/(from\s+"\.[^"]*)\.js"/g, '$1.cjs"').replaceAll(/(import\("\.[^"]*)\.js"/g, '$1.cjs"');
+        writeFileSync(path.replace(/\.d\.ts$/, ".d.cts"), text);
+      }
+    }
+  };
+  walk(at("dist/types"));
+}
+
+rmSync(at("dist"), { recursive: true, force: true });
+await fieldTypes();
+for (const [folder, module] of Object.entries(modules)) await bundle(folder, module);
+execFileSync(process.execPath, [at("../node_modules/typescript/bin/tsc"), "-p", at("tsconfig.json")], { stdio: "inherit" });
+// Nothing that is exported names the module's own types.
+for (const file of ["glue.d.ts", "worker-host.d.ts", "entry/inline-module.d.ts"]) rmSync(at("dist/types", file), { force: true });
+requiredTypes();

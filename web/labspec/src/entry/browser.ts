@@ -1,0 +1,6 @@
+import { inlined } from "./inlined.js";
+import { load } from "./load-browser.js";
+
+await load(inlined);
+
+export * from "../api.js";

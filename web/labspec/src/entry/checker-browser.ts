@@ -1,0 +1,2 @@
+export * from "./browser.js";
+export { Checker, type Entry, type Report } from "../checker.js";

@@ -1,0 +1,3 @@
+import "./inline.js";
+export * from "../mujoco.js";
+export { default } from "../mujoco.js";

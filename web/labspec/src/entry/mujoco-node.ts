@@ -1,0 +1,3 @@
+import "./node.js";
+export * from "../mujoco.js";
+export { default } from "../mujoco.js";

@@ -1,0 +1,3 @@
+import "./workerd.js";
+export * from "../mujoco.js";
+export { default } from "../mujoco.js";

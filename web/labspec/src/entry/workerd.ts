@@ -1,0 +1,6 @@
+import module from "./labspec.wasm";
+import { start } from "../glue.js";
+
+start(module);
+
+export * from "../api.js";

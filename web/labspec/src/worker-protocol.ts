@@ -1,0 +1,21 @@
+/** What a page asks of the worker. */
+export interface Request {
+  readonly id: number;
+  /** The lab; 0 for calls of the worker itself. */
+  readonly lab: number;
+  readonly call: string;
+  readonly args: readonly unknown[];
+}
+
+/** What the worker answers. */
+export interface Reply {
+  readonly id: number;
+  readonly result?: unknown;
+  readonly error?: { readonly code: string; readonly message: string; readonly findings: readonly unknown[] };
+}
+
+/** Either end. */
+export interface Port {
+  post(message: unknown, transfer: readonly ArrayBuffer[]): void;
+  listen(listener: (message: unknown) => void): void;
+}

@@ -1,0 +1,191 @@
+// The tarball as others use it: node, bundlers, other hosts, pages.
+import assert from "node:assert/strict";
+import { execFileSync, spawnSync } from "node:child_process";
+import { copyFileSync, existsSync, symlinkSync } from "node:fs";
+import { join } from "node:path";
+import test, { after } from "node:test";
+import { chromium, expected, installed, program, resultOf, root, serve, web, write } from "./server.mjs";
+
+const { folder, tarball } = installed();
+const browser = await chromium();
+after(() => browser.close());
+const run = (command, args, options = {}) => execFileSync(command, args, { cwd: folder, encoding: "utf8", ...options }).trim();
+const page = (script, more = "") => `<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,">${more}<script type="module" src="${script}"></script>`;
+
+/** Runs a page of a folder in Chromium. */
+async function inChromium(path, { headers = {}, at = folder } = {}) {
+  const server = await serve(at, headers);
+  const tab = await browser.newPage();
+  try {
+    return { ...(await resultOf(tab, `${server.url}/${path}`)), requests: server.requests };
+  } finally {
+    await tab.close();
+    server.close();
+  }
+}
+
+test("node: ESM and CommonJS", () => {
+  write(folder, { "app.mjs": program(), "app.cjs": program().replace(/import (.*) from (.*);/, "const $1 = require($2);").replace("export ", "") });
+  assert.equal(run("node", ["app.mjs"]), expected);
+  assert.equal(run("node", ["app.cjs"]), expected);
+  for (const entry of ["checker", "mujoco", "worker", "slim"]) {
+    assert.match(run("node", ["-e", `console.log(Object.keys(require("labspec/${entry}")).join())`]), /\w/);
+    assert.match(run("node", ["--input-type=module", "-e", `console.log(Object.keys(await import("labspec/${entry}")).join())`]), /\w/);
+  }
+  const again = (entry, sample) => run("node", ["--input-type=module", "-e", `import { ${sample} as a } from "labspec"; import * as b from "labspec/${entry}"; console.log(b.${sample} === undefined || a === b.${sample})`]);
+  assert.equal(again("mujoco", "LabspecError"), "true");
+});
+
+for (const [host, args] of [["deno", ["run", "--allow-read"]], ["bun", ["run"]]]) {
+  const found = [`/tmp/hosts/node_modules/.bin/${host}`, `/usr/local/bin/${host}`].find(existsSync);
+  test(host, { skip: found === undefined ? "not installed" : false }, () => {
+    assert.equal(run(found, [...args, "app.mjs"]), expected);
+  });
+}
+
+const workerd = ["/tmp/hosts/node_modules/.bin/workerd"].find(existsSync);
+test("workerd", { skip: workerd === undefined ? "not installed" : false }, async () => {
+  const { build } = await import("esbuild");
+  write(folder, { "src/workerd.mjs": `${program().replace("export const", "const")}\nexport default { async test() { if (result !== ${JSON.stringify(expected)}) throw new Error(result); } };` });
+  await build({
+    absWorkingDir: folder, entryPoints: ["src/workerd.mjs"], bundle: true, format: "esm", conditions: ["workerd"], outfile: join(folder, "out/workerd.js"),
+    external: ["./labspec.wasm"], logLevel: "error",
+  });
+  copyFileSync(join(folder, "node_modules/labspec/dist/labspec.wasm"), join(folder, "out/labspec.wasm"));
+  write(folder, {
+    "out/config.capnp": `using Workerd = import "/workerd/workerd.capnp";
+const unitTests :Workerd.Config = (services = [(name = "main", worker = (modules = [(name = "workerd.js", esModule = embed "workerd.js"), (name = "labspec.wasm", wasm = embed "labspec.wasm")], compatibilityDate = "2025-01-01"))]);`,
+  });
+  const done = spawnSync(workerd, ["test", "config.capnp"], { cwd: join(folder, "out"), encoding: "utf8" });
+  assert.equal(done.status, 0, done.stderr);
+});
+
+test("a page without a bundler: an import map", async () => {
+  const map = JSON.stringify({ imports: { labspec: "/node_modules/labspec/dist/browser.js" } });
+  write(folder, { "app.js": program(), "map.html": page("/app.js", `<script type="importmap">${map}</script>`) });
+  const { result, requests, problems } = await inChromium("map.html");
+  assert.equal(result, expected);
+  assert.deepEqual(problems, []);
+  assert.deepEqual(requests.filter((r) => /inline/.test(r)), [], "the inlined module is fetched only where it is needed");
+  const inline = JSON.stringify({ imports: { labspec: "/node_modules/labspec/dist/inline.js" } });
+  write(folder, { "inline.html": page("/app.js", `<script type="importmap">${inline}</script>`) });
+  const other = await inChromium("inline.html");
+  assert.equal(other.result, expected);
+  assert.deepEqual(other.requests.filter((r) => r.endsWith(".wasm")), []);
+});
+
+test("esbuild", async () => {
+  const { build } = await import("esbuild");
+  write(folder, { "src/app.js": program(), "dist-esbuild/index.html": page("app.js") });
+  await build({ absWorkingDir: folder, entryPoints: ["src/app.js"], bundle: true, format: "esm", outfile: join(folder, "dist-esbuild/app.js"), logLevel: "error" });
+  assert.equal((await inChromium("dist-esbuild/index.html")).result, expected);
+  copyFileSync(join(folder, "node_modules/labspec/dist/labspec.wasm"), join(folder, "dist-esbuild/labspec.wasm"));
+  assert.deepEqual((await inChromium("dist-esbuild/index.html")).problems, []);
+});
+
+test("vite, with a worker", async () => {
+  const { build } = await import("vite");
+  write(folder, {
+    "vite/index.html": page("./app.js"),
+    "vite/app.js": program().replace("globalThis.result = result;", "") + `
+import { startWorker } from "labspec/worker";
+const far = await startWorker().open({ model: "drop", readouts: [{ label: "height (m)", expr: "data.body('bob').xpos[2]" }] }, { drop });
+await far.playTo(0.2);
+globalThis.result = (await far.numbers)[0] === lab.numbers[0] ? result : "other numbers in the worker";`,
+  });
+  await build({ root: join(folder, "vite"), base: "./", logLevel: "error", build: { outDir: join(folder, "dist-vite"), target: "es2022", assetsInlineLimit: 0 } });
+  const { result, problems } = await inChromium("dist-vite/index.html");
+  assert.equal(result, expected);
+  assert.deepEqual(problems, []);
+});
+
+test("webpack", async () => {
+  const { default: webpack } = await import("webpack");
+  const stats = await new Promise((resolve, reject) => webpack({
+    context: folder, mode: "production", entry: "./src/app.js", output: { path: join(folder, "dist-webpack"), filename: "app.js", module: true },
+    experiments: { outputModule: true }, performance: false,
+  }, (e, s) => (e ? reject(e) : resolve(s))));
+  assert.ok(!stats.hasErrors(), stats.toString("errors-only"));
+  write(folder, { "dist-webpack/index.html": page("app.js") });
+  const { result, problems } = await inChromium("dist-webpack/index.html");
+  assert.equal(result, expected);
+  assert.deepEqual(problems, []);
+});
+
+test("rolldown", async () => {
+  const { rolldown } = await import("rolldown");
+  const bundle = await rolldown({ cwd: folder, input: "src/app.js", platform: "browser", logLevel: "silent" });
+  await bundle.write({ dir: join(folder, "dist-rolldown"), format: "esm" });
+  write(folder, { "dist-rolldown/index.html": page("app.js") });
+  assert.equal((await inChromium("dist-rolldown/index.html")).result, expected);
+});
+
+const CSP = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; connect-src 'self'; worker-src 'self'; img-src data:";
+test("a strict policy: 'self' and 'wasm-unsafe-eval' are enough", async () => {
+  const { result, problems } = await inChromium("dist-vite/index.html", { headers: { "content-security-policy": CSP } });
+  assert.equal(result, expected);
+  assert.deepEqual(problems, []);
+});
+
+const official = ["/tmp/oracle/node_modules/@mujoco/mujoco", join(web, "node_modules/@mujoco/mujoco")].find(existsSync);
+test("the official package needs more than this policy", { skip: official === undefined ? "not installed" : false }, async () => {
+  symlinkSync(official, join(folder, "official"));
+  write(folder, {
+    "official.html": page("/official.js"),
+    "official.js": "import load from './official/mujoco.js'; try { const m = await load(); m.MjModel.from_xml_string('<mujoco/>'); globalThis.result = 'works'; } catch (e) { globalThis.result = String(e); }",
+  });
+  const free = await inChromium("official.html");
+  assert.equal(free.result, "works");
+  const strict = await inChromium("official.html", { headers: { "content-security-policy": CSP } });
+  assert.match(strict.result, /EvalError|unsafe-eval|Content Security Policy/);
+});
+
+test("a sandboxed frame of another origin", async () => {
+  const inner = await serve(folder, { "access-control-allow-origin": "*", "content-security-policy": "script-src 'self' 'wasm-unsafe-eval' 'unsafe-inline'" });
+  const tab = await browser.newPage();
+  write(folder, { "outer/index.html": `<!doctype html><link rel="icon" href="data:,"><iframe sandbox="allow-scripts" src="${inner.url}/dist-webpack/index.html"></iframe>` });
+  const outer = await serve(join(folder, "outer"));
+  await tab.goto(`${outer.url}/index.html`);
+  const frame = await (await tab.waitForSelector("iframe")).contentFrame();
+  await frame.waitForFunction("globalThis.result !== undefined", undefined, { timeout: 20_000 });
+  assert.equal(await frame.evaluate("globalThis.result"), expected);
+  assert.equal(await frame.evaluate("globalThis.origin"), "null");
+  assert.equal(await frame.evaluate("globalThis.crossOriginIsolated"), false);
+  await tab.close();
+  inner.close();
+  outer.close();
+});
+
+test("publint and the types", () => {
+  const lint = spawnSync("npx", ["publint", "--strict", tarball], { cwd: web, encoding: "utf8" });
+  assert.equal(lint.status, 0, lint.stdout + lint.stderr);
+  const args = ["attw", tarball, "--profile", "node16", "--exclude-entrypoints", "labspec.wasm", "checker.wasm", "--no-emoji", "--format", "ascii"];
+  const types = spawnSync("npx", args, { cwd: web, encoding: "utf8" });
+  assert.equal(types.status, 0, types.stdout + types.stderr);
+});
+
+test("the types are strict", () => {
+  write(folder, {
+    "typed.ts": `
+import { Data, Expression, Lab, LabspecError, Model, type Control } from "labspec";
+import { Checker } from "labspec/checker";
+import { startWorker } from "labspec/worker";
+import { init } from "labspec/slim";
+const model: Model = Model.fromXML("<mujoco/>");
+const data = new Data(model);
+const qpos: Float64Array = data.qpos;
+const shape: readonly number[] = data.qpos.shape;
+model.opt.timestep = 0.001;
+data.qpos = [1, 2];
+// @ts-expect-error there is no such field
+data.qpso;
+// @ts-expect-error sizes cannot be written
+model.nq = 3;
+const controls: readonly Control[] = new Lab("{}").controls;
+export { Checker, Expression, LabspecError, controls, init, qpos, shape, startWorker };`,
+    "tsconfig.json": JSON.stringify({ compilerOptions: { strict: true, noEmit: true, module: "nodenext", target: "es2022", lib: ["es2022", "dom", "esnext.disposable"], types: [], skipLibCheck: false, exactOptionalPropertyTypes: true }, files: ["typed.ts"] }),
+  });
+  const done = spawnSync(process.execPath, [join(web, "node_modules/typescript/bin/tsc"), "-p", "."], { cwd: folder, encoding: "utf8" });
+  assert.equal(done.status, 0, done.stdout);
+  assert.equal(spawnSync("grep", ["-rnwE", ": any|<any>|any\\[\\]", join(root, "dist/types")], { encoding: "utf8" }).stdout, "");
+});
