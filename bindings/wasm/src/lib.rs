@@ -132,13 +132,6 @@ impl Lab {
         Ok(Lab::of(player))
     }
 
-    /// Opens a lab of a lesson by its address: `#2` is the second one, `#quiz-id.1` that of a question.
-    #[wasm_bindgen(js_name = ofLesson)]
-    pub fn of_lesson(path: &str, text: &str, address: &str, models: &Models) -> Result<Lab, JsValue> {
-        let models = PageModels::new(models)?;
-        Player::of_lesson(path, text, address, models).map(Lab::of).map_err(|e| thrown(&e))
-    }
-
     fn of(player: Player) -> Lab {
         Lab { player, rows: Vec::new(), poses: Vec::new(), touching: Vec::new() }
     }
@@ -348,6 +341,18 @@ impl Lab {
     /// Goes back to a state of this lab.
     pub fn restore(&mut self, state: &State) -> Result<(), JsValue> {
         self.player.restore(&state.0).map_err(|e| thrown(&e))
+    }
+}
+
+/// Reading Markdown is the checker's.
+#[cfg(feature = "checker")]
+#[wasm_bindgen]
+impl Lab {
+    /// Opens a lab of a lesson by its address: `#2` is the second one, `#quiz-id.1` that of a question.
+    #[wasm_bindgen(js_name = ofLesson)]
+    pub fn of_lesson(path: &str, text: &str, address: &str, models: &Models) -> Result<Lab, JsValue> {
+        let models = PageModels::new(models)?;
+        Player::of_lesson(path, text, address, models).map(Lab::of).map_err(|e| thrown(&e))
     }
 }
 

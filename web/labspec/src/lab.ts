@@ -204,13 +204,19 @@ export class Lab {
     this.#reported = this.findings.length;
   }
 
-  /** Opens a lab of a lesson (Markdown or JSON, by the ending of `path`): `#2` is the second one, `#quiz-id.1` that of a question. */
+  /**
+   * Opens a lab of a lesson (Markdown or JSON, by the ending of `path`): `#2` is the second one, `#quiz-id.1` that of a question.
+   * Of `labspec/checker`: the player does not read Markdown.
+   */
   static ofLesson(path: string, lesson: string, address: string, models: Models = {}): Lab {
     const [where, content, which] = [check.text(path, "a path"), check.text(lesson, "a lesson"), check.text(address, "an address")];
     const own = check.models(models);
     const texts = new Map<string, string>([[where, content]]);
-    const glue = ready();
-    const raw = call(() => glue.Lab.ofLesson(where, content, which, own), texts);
+    const { ofLesson } = ready().Lab as unknown as { ofLesson?: (...args: unknown[]) => RawLab };
+    if (ofLesson === undefined) {
+      throw new LabspecError("not-in-player", "the player does not read lessons: import Lab from \"labspec/checker\", or pass the JSON of the lab");
+    }
+    const raw = call(() => ofLesson(where, content, which, own), texts);
     return new Lab(new Opened(raw, content, own, texts) as unknown as string);
   }
 

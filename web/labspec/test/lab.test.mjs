@@ -2,6 +2,7 @@ import assert from "node:assert/strict";
 import { createRequire } from "node:module";
 import test from "node:test";
 import { Data, Expression, Lab, LabspecError, Model } from "labspec";
+import { Lab as Checked } from "labspec/checker";
 import { bits, drop, lab as json } from "./common.mjs";
 
 const models = { drop };
@@ -30,9 +31,11 @@ test("a lab opens, moves and plays", () => {
 
 test("a lesson's lab opens by its address", () => {
   const block = (object) => `\`\`\`lab\n${JSON.stringify(object)}\n\`\`\`\n`;
-  const lab = Lab.ofLesson("a.md", block({ model: "none" }) + block(json), "#2", models);
+  const lesson = block({ model: "none" }) + block(json);
+  throws(() => Lab.ofLesson("a.md", lesson, "#2", models), "not-in-player", /labspec\/checker/);
+  const lab = Checked.ofLesson("a.md", lesson, "#2", models);
   assert.equal(lab.controls.length, 2);
-  throws(() => Lab.ofLesson("a.md", "nothing", "#1", models), "call", /no lab/);
+  assert.throws(() => Checked.ofLesson("a.md", "nothing", "#1", models), /no lab/);
 });
 
 test("CommonJS is ready at once and has the same numbers", () => {
