@@ -90,9 +90,9 @@ impl RawData {
 
     /// A call by MuJoCo's name.
     pub fn pass(&mut self, model: &mut RawModel, name: &str) -> Result<(), JsValue> {
-        let known = PASSES.iter().find(|(known, _)| *known == name);
+        let found = PASSES.iter().find(|(listed, _)| *listed == name);
         let (_, pass) =
-            known.ok_or_else(|| call_error("unknown-function", &format!("there is no function `{name}`")))?;
+            found.ok_or_else(|| call_error("unknown-function", &format!("there is no function `{name}`")))?;
         model.sync();
         pass(&model.model, &mut self.world.data).map_err(|e| refused(&e))
     }

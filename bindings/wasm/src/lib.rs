@@ -129,10 +129,10 @@ impl Lab {
     #[wasm_bindgen(constructor)]
     pub fn new(json: &str, models: &Models) -> Result<Lab, JsValue> {
         let player = Player::of_lab(json, PageModels::new(models)?).map_err(|e| thrown(&e))?;
-        Ok(Lab::of(player))
+        Ok(Lab::from_player(player))
     }
 
-    fn of(player: Player) -> Lab {
+    fn from_player(player: Player) -> Lab {
         Lab { player, rows: Vec::new(), poses: Vec::new(), touching: Vec::new() }
     }
 
@@ -282,7 +282,7 @@ impl Lab {
 
     /// The model as controls and programs left it, as one of its own.
     pub fn model(&self) -> model::RawModel {
-        model::RawModel::of(self.player.model().clone())
+        model::RawModel::from_model(self.player.model().clone())
     }
 
     /// The current value of a control; `null` where there is none.
@@ -352,7 +352,7 @@ impl Lab {
     #[wasm_bindgen(js_name = ofLesson)]
     pub fn of_lesson(path: &str, text: &str, address: &str, models: &Models) -> Result<Lab, JsValue> {
         let models = PageModels::new(models)?;
-        Player::of_lesson(path, text, address, models).map(Lab::of).map_err(|e| thrown(&e))
+        Player::of_lesson(path, text, address, models).map(Lab::from_player).map_err(|e| thrown(&e))
     }
 }
 

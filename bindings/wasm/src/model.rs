@@ -28,7 +28,7 @@ pub(crate) fn nothing() -> Model {
 }
 
 impl RawModel {
-    pub(crate) fn of(model: Model) -> RawModel {
+    pub(crate) fn from_model(model: Model) -> RawModel {
         let nothing = nothing();
         let nobody = Data::planned(&nothing, Plan::new(&nothing, &AccessSet::ANY));
         RawModel { model, exposed: Vec::new(), nobody }
@@ -59,13 +59,13 @@ impl RawModel {
     #[wasm_bindgen(js_name = fromXml)]
     pub fn from_xml(xml: &str, files: &JsValue) -> Result<RawModel, JsValue> {
         let files = PageModels::new(files)?;
-        Model::from_xml_with(xml, &files).map(RawModel::of).map_err(|e| mistakes(xml, &e))
+        Model::from_xml_with(xml, &files).map(RawModel::from_model).map_err(|e| mistakes(xml, &e))
     }
 
     /// A model from the bytes of `toBytes`.
     #[wasm_bindgen(js_name = fromBytes)]
     pub fn from_bytes(bytes: &[u8]) -> Result<RawModel, JsValue> {
-        Model::from_bytes(bytes).map(RawModel::of).map_err(|e| refused(&e))
+        Model::from_bytes(bytes).map(RawModel::from_model).map_err(|e| refused(&e))
     }
 
     /// The model as bytes.
@@ -130,9 +130,9 @@ fn mistakes(xml: &str, e: &labspec_core::Error) -> JsValue {
     }
     let lines = Lines::new(xml);
     let located = |f: &Finding| {
-        let own = f.path.is_empty();
-        let path = if own { Arc::from("model.xml") } else { Arc::clone(&f.path) };
-        let position = if own { Some(lines.position(xml, f.span.start)) } else { f.position };
+        let is_main = f.path.is_empty();
+        let path = if is_main { Arc::from("model.xml") } else { Arc::clone(&f.path) };
+        let position = if is_main { Some(lines.position(xml, f.span.start)) } else { f.position };
         Finding { path, position, ..f.clone() }
     };
     thrown(&labspec::Error::Findings(e.diagnostics().iter().map(located).collect()))
@@ -213,8 +213,8 @@ const KINDS: [(&str, Obj); 21] = [
 
 /// The kind of this word.
 pub(crate) fn kind(word: &str) -> Result<Obj, JsValue> {
-    let known = KINDS.iter().find(|(name, _)| *name == word);
-    known.map(|(_, kind)| *kind).ok_or_else(|| {
+    let found = KINDS.iter().find(|(name, _)| *name == word);
+    found.map(|(_, kind)| *kind).ok_or_else(|| {
         let words: Vec<&str> = KINDS.iter().map(|(name, _)| *name).collect();
         call_error(
             "unknown-kind",
