@@ -71,6 +71,8 @@ fn build(folder: Option<PathBuf>) -> Result<PathBuf, String> {
         let module = target.join(TARGET).join(&profile).join("labspec_wasm.wasm");
         let inside = web.join("labspec/generated").join(name);
         let forms = others.iter().map(|other| (*other, folder.join(other)));
+        // All forms have the same module: it is optimized once.
+        let mut optimized: Option<[Vec<u8>; 2]> = None;
         for (form, out) in std::iter::once(("web", inside.clone())).chain(forms) {
             let mut bindgen = wasm_bindgen_cli_support::Bindgen::new();
             bindgen.input_path(&module).typescript(true).remove_name_section(true).out_name("labspec");
@@ -82,7 +84,18 @@ fn build(folder: Option<PathBuf>) -> Result<PathBuf, String> {
             };
             chosen.and_then(|b| b.generate(&out)).map_err(|e| format!("{}: {e:#}", out.display()))?;
             if profile == "release" {
-                optimize(&web, &out.join("labspec_bg.wasm"))?;
+                let file = out.join("labspec_bg.wasm");
+                let read = || std::fs::read(&file).map_err(|e| format!("{}: {e}", file.display()));
+                let before = read()?;
+                match &optimized {
+                    Some([same, after]) if *same == before => {
+                        std::fs::write(&file, after).map_err(|e| format!("{}: {e}", file.display()))?;
+                    }
+                    _ => {
+                        optimize(&web, &file)?;
+                        optimized = Some([before, read()?]);
+                    }
+                }
             }
         }
     }

@@ -153,11 +153,18 @@ class ModelOfLab extends LabFields {
   }
 }
 
-/** Gives the event loop its turn. */
-async function turn(): Promise<void> {
-  const scheduler = (globalThis as { scheduler?: { yield?: () => Promise<void> } }).scheduler;
-  if (scheduler?.yield !== undefined) return scheduler.yield();
-  await new Promise((resolve) => setTimeout(resolve, 0));
+/** Gives the event loop its turn: timers and input alike, which `scheduler.yield` lets wait. */
+function turn(): Promise<void> {
+  const immediate = (globalThis as { setImmediate?: (resolve: () => void) => void }).setImmediate;
+  return new Promise((resolve) => {
+    if (immediate !== undefined) return immediate(resolve);
+    const { port1, port2 } = new MessageChannel();
+    port1.onmessage = () => {
+      port1.close();
+      resolve();
+    };
+    port2.postMessage(0);
+  });
 }
 
 /** A lab that the module has opened already. */
