@@ -10,6 +10,7 @@ use labspec::run::{self, RunOptions};
 use labspec::{Checker, Engine, Error, Models, NoModels, Player, Value};
 use labspec_core::xml::FileProblem;
 use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 
 const LAB: &str = r#"{
   "model": "ball_drop", "setup": "data.qpos[2] = ctx.height",
@@ -180,6 +181,30 @@ fn a_page_gets_every_sample_of_a_curve() {
         stepped.step().unwrap();
         assert_eq!((stepped.time(), stepped.values()), (time, values.as_slice()));
     }
+}
+
+#[test]
+fn pieces_of_a_run_are_the_run() {
+    let (mut whole, mut pieces) = (player(), player());
+    let steps = whole.play_to(0.3).unwrap();
+    let mut made = 0;
+    loop {
+        let mut seen = 0;
+        let piece = pieces.play_while(0.3, 7, |data, values| {
+            seen += 1;
+            assert!(data.time() > 0.0 && !values.is_empty());
+            if seen == 5 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        let piece = piece.unwrap();
+        assert!(piece == seen && piece <= 5);
+        made += piece;
+        if piece == 0 {
+            break;
+        }
+    }
+    assert_eq!((made, bits(&pieces)), (steps, bits(&whole)));
+    assert!(pieces.play_while(f64::NAN, 7, |_, _| ControlFlow::Continue(())).is_err());
+    assert_eq!(pieces.play_while(9.0, 0, |_, _| ControlFlow::Continue(())), Ok(0));
 }
 
 #[test]

@@ -70,6 +70,7 @@ impl RawModel {
 
     /// The model as bytes.
     #[wasm_bindgen(js_name = toBytes)]
+    #[allow(clippy::wrong_self_convention)] // what a page wrote is taken over first
     pub fn to_bytes(&mut self) -> Vec<u8> {
         self.sync();
         self.model.to_bytes()

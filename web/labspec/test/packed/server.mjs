@@ -20,6 +20,9 @@ export function installed() {
   return { folder, tarball };
 }
 
+/** A page tells its server: what evaluates text in a page would need another policy than the page has. */
+export const REPORT = `if (globalThis.document !== undefined) fetch("/result?" + new URLSearchParams({ result: globalThis.result, origin: globalThis.origin, isolated: globalThis.crossOriginIsolated }));`;
+
 /** A program that plays a lab and gives what it shows. */
 export const program = (from = "labspec") => `
 import { Lab } from ${JSON.stringify(from)};
@@ -29,6 +32,7 @@ lab.playTo(0.2);
 export const result = "height " + lab.numbers[0];
 globalThis.result = result;
 console.log(result);
+${REPORT}
 `;
 export const expected = "height 0.8057620000000003";
 
@@ -37,8 +41,15 @@ const TYPES = { ".html": "text/html", ".js": "text/javascript", ".mjs": "text/ja
 /** Serves a folder; `headers` are added to all answers. */
 export async function serve(folder, headers = {}) {
   const requests = [];
+  let report;
+  const result = new Promise((resolve) => { report = resolve; });
   const server = createServer((request, response) => {
-    const path = normalize(decodeURIComponent(new URL(request.url, "http://x").pathname));
+    const { pathname, searchParams } = new URL(request.url, "http://x");
+    const path = normalize(decodeURIComponent(pathname));
+    if (path === "/result") {
+      response.writeHead(204, headers).end();
+      return report(Object.fromEntries(searchParams));
+    }
     requests.push(path);
     const file = join(folder, path);
     if (!existsSync(file) || path.endsWith("/")) {
@@ -49,7 +60,7 @@ export async function serve(folder, headers = {}) {
   });
   await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
   server.unref();
-  return { url: `http://127.0.0.1:${server.address().port}`, requests, close: () => server.close() };
+  return { url: `http://127.0.0.1:${server.address().port}`, requests, result, close: () => server.close() };
 }
 
 /** Chromium, as Debian has it. */
@@ -59,18 +70,14 @@ export async function chromium() {
   return chromium.launch({ executablePath, args: ["--no-sandbox", "--js-flags=--expose-gc"] });
 }
 
-/** What a page made of the program. */
-export async function resultOf(page, url) {
+/** What a page of a server made of the program. */
+export async function resultOf(page, server, path) {
   const problems = [];
   page.on("pageerror", (e) => problems.push(e.message));
   page.on("console", (m) => m.type() === "error" && problems.push(m.text()));
-  await page.goto(url);
-  try {
-    await page.waitForFunction("globalThis.result !== undefined", undefined, { timeout: 20_000 });
-  } catch (e) {
-    throw new Error(`${e.message}: ${problems.join("; ")}`);
-  }
-  return { result: await page.evaluate("globalThis.result"), problems };
+  await page.goto(`${server.url}/${path}`);
+  const late = new Promise((_, reject) => setTimeout(() => reject(new Error(`no result: ${problems.join("; ")}`)), 20_000).unref());
+  return { ...(await Promise.race([server.result, late])), problems };
 }
 
 export function write(folder, files) {
