@@ -261,6 +261,12 @@ impl Lab {
         Ok(unsafe { Float32Array::view(&self.poses) })
     }
 
+    /// The pairs of geoms that touched in the last step, one after the other: what `advance` stops at.
+    pub fn touching(&self) -> Vec<u32> {
+        let pairs = touching_pairs(self.player.data().fields());
+        pairs.into_iter().flat_map(|(a, b)| [a as u32, b as u32]).collect()
+    }
+
     /// The contacts with their forces: see [`data::contacts`].
     pub fn contacts(&mut self) -> Result<Vec<f64>, JsValue> {
         let (model, scene) = self.player.model_and_scene().map_err(|e| thrown(&e))?;
@@ -386,12 +392,18 @@ pub fn check(
 /// Numbers of one recording.
 const MAX_RECORDED: usize = 1 << 24;
 
+/// The pairs of geoms that touched in the last step.
+fn touching_pairs(fields: &labspec_core::Fields) -> Vec<(usize, usize)> {
+    let pairs = fields.contact.iter().filter(|c| c.exclude == 0).map(|c| (c.geom1, c.geom2));
+    let mut pairs: Vec<(usize, usize)> = pairs.collect();
+    pairs.sort_unstable();
+    pairs.dedup();
+    pairs
+}
+
 /// Takes the pairs of geoms that touch now; whether they are others.
 fn changed(touching: &mut Vec<(usize, usize)>, fields: &labspec_core::Fields) -> bool {
-    let pairs = || fields.contact.iter().filter(|c| c.exclude == 0).map(|c| (c.geom1, c.geom2));
-    let mut now: Vec<(usize, usize)> = pairs().collect();
-    now.sort_unstable();
-    now.dedup();
+    let now = touching_pairs(fields);
     let other = now != *touching;
     *touching = now;
     other

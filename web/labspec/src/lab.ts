@@ -411,12 +411,15 @@ export class Lab {
     });
   }
 
-  /** The contacts now, with their forces. */
+  /** The contacts at the present state, with their forces. */
   get contacts(): readonly ContactInfo[] {
     return call(() => contactsOf(this.#lab().contacts()));
   }
 
-  /** The fields of the data, as copies: `lab.data.qpos`. */
+  /**
+   * The fields of the data as copies: `lab.data.qpos`. All of them are of the present state, as `mj_forward` computes it; the steps of
+   * the lab itself compute what its programs read.
+   */
   get data(): LabData {
     this.#lab();
     defineFields(DataOfLab.prototype, "data", (of: DataOfLab) => of.cache);
@@ -554,7 +557,8 @@ export class Lab {
   }
 
   #pairs(): Set<string> {
-    return new Set(this.contacts.filter((c) => c.exclude === 0).map((c) => `${c.geom1} ${c.geom2}`));
+    const list = call(() => this.#lab().touching());
+    return new Set(Array.from({ length: list.length / 2 }, (_, i) => `${list[2 * i]} ${list[2 * i + 1]}`));
   }
 
   #emit<T extends keyof LabEvents>(type: T, event: LabEvents[T]): void {
