@@ -93,7 +93,7 @@ def measure(bench, name, model, warm=100, steps=20000):
     return cells
 
 
-# Scenes that show what the short ways of computing trees are worth, with warm-up steps.
+# Scenes that show what the tree algorithms are worth, with warm-up steps.
 WAY_SCENES = [
     ("free fall", "../shared/corpus/models/free_fall.xml", 100),
     ("two balls at rest", "../shared/corpus/models/ball_drop.xml", 2000),
@@ -111,23 +111,23 @@ WAY_SCENES = [
 ]
 
 
-def short_ways():
+def tree_algorithms():
     """The names that `--without` takes: those of the program's own table."""
     text = subprocess.run([OURS, "bench", "-h"], capture_output=True, text=True, check=True).stdout
     return re.search(r"--without [^\[]*\[possible values: ([^\]]*)\]", " ".join(text.split())).group(1).split(", ")
 
 
 def ablation(folder):
-    """What a step costs without each short way, in times of what it costs with all of them: instructions."""
-    ways = short_ways()
-    lines = ["| scene | " + " | ".join(f"without {way}" for way in ways) + " | without any |",
-             "|---" + "|---:" * (len(ways) + 1) + "|"]
+    """What a step costs without each tree algorithm, in times of what it costs with all of them: instructions."""
+    algorithms = tree_algorithms()
+    lines = ["| scene | " + " | ".join(f"without {one}" for one in algorithms) + " | without any |",
+             "|---" + "|---:" * (len(algorithms) + 1) + "|"]
     for name, model, warm in WAY_SCENES:
         model = switched(model, "contact", folder) if "contacts off" in name else model
         cost = lambda without: collected(
-            ours(model, warm, 200, False) + [x for way in without for x in ("--without", way)], ADVANCE) / 200
+            ours(model, warm, 200, False) + [x for name in without for x in ("--without", name)], ADVANCE) / 200
         best = cost([])
-        ratios = [cost([way]) / best for way in ways] + [cost(ways) / best]
+        ratios = [cost([one]) / best for one in algorithms] + [cost(algorithms) / best]
         lines.append("| " + " | ".join([name] + ["" if r < 1.005 else f"{r:.2f}" for r in ratios]) + " |")
         print(lines[-1], flush=True)
     return "\n".join(lines)
@@ -189,18 +189,18 @@ def main():
     p.add_argument("bench")
     p.add_argument("scenes", nargs="*")
     p.add_argument("--out", type=pathlib.Path)
-    p.add_argument("--ways", action="store_true", help="write only the tables of tree algorithms and profiles; the first table in --out is kept")
+    p.add_argument("--algorithms", action="store_true", help="write only the tables of tree algorithms and profiles; the first table in --out is kept")
     a = p.parse_intermixed_args()
     heads = ["scene", "every field, ns", "planned, ns", "MuJoCo, ns", "ratio", "planned"]
     if shutil.which("valgrind"):
         heads += ["every field, instructions", "planned", "MuJoCo", "ratio", "planned"]
     lines = ["| " + " | ".join(heads) + " |", "|---" + "|---:" * (len(heads) - 1) + "|"]
     with tempfile.TemporaryDirectory() as folder:
-        if a.ways:
+        if a.algorithms:
             old = a.out.read_text()
             lines = [line for line in old.split("\n## ")[0].split("\n") if line.startswith("|")]
             processor_of = re.search(r"measured on (.*) by", old).group(1)
-        for scene in [] if a.ways else a.scenes or SCENES:
+        for scene in [] if a.algorithms else a.scenes or SCENES:
             name, rest = scene.split("=", 1)
             model, *numbers = rest.split(",")
             off = numbers.pop() if numbers and not numbers[-1].isdigit() else None
@@ -208,16 +208,16 @@ def main():
             lines.append("| " + " | ".join(measure(a.bench, name, model, *map(int, numbers))) + " |")
             print(lines[-1], flush=True)
         counted = a.out and shutil.which("valgrind")
-        profile, ways = (profiles(folder), ablation(folder)) if counted else ("", "")
+        profile, algorithms = (profiles(folder), ablation(folder)) if counted else ("", "")
     if a.out:
-        where = processor_of if a.ways else processor()
+        where = processor_of if a.algorithms else processor()
         # What is written by hand stays: the reasons after the profiles. What other programs measure stays, too: the labs before
-        # the ways, the checks at the end.
+        # the tree algorithms, the checks at the end.
         old = a.out.read_text() if a.out.exists() else ""
         reasons = re.search(r"\n## Profiles\n.*?\n\|[^\n]*\n\n(.*?)\n*(?=\n## |\Z)", old, re.S)
-        page = PAGE.format(processor=where, table="\n".join(lines), ways=ways, profile=profile,
+        page = PAGE.format(processor=where, table="\n".join(lines), algorithms=algorithms, profile=profile,
                            reasons=reasons.group(1) if reasons else "")
-        labs = re.search(r"\n## Labs\n.*?(?=\n## Tree algorithms)", old, re.S)
+        labs = re.search(r"\n## Kinds of labs\n.*?(?=\n## Tree algorithms)", old, re.S)
         if labs:
             page = page.replace("\n## Tree algorithms", labs.group(0) + "\n## Tree algorithms", 1)
         _, mark, rest = old.partition("\n## Checks\n")
@@ -242,8 +242,8 @@ Causes of the difference:
 
 * Forces and inertias of four bodies are computed in the SIMD lanes of a vector (`math/lanes.rs`), frames as columns of vectors.
 * M and its factorization are computed only in steps in which constraints act, if nothing else reads them.
-* Trees of at most six slides and hinges have their equations of motion in closed form (`dynamics/ways/chain/`), without spatial bodies.
-* Larger trees are factorized as articulated bodies (`dynamics/ways/articulated.rs`): the time grows with the number of bodies, not with
+* Trees of at most six slides and hinges have their equations of motion in closed form (`dynamics/tree_algorithms/chain/`), without spatial bodies.
+* Larger trees are factorized as articulated bodies (`dynamics/tree_algorithms/articulated.rs`): the time grows with the number of bodies, not with
   the square of the depth, and the implicit damping of Euler's method costs one more pass instead of one more factorization of M.
 * Rows of M and of its factorization are products along the path to the root, eight columns at a time (`dynamics/path.rs`).
 * The Hessian of the constraints is stored and factorized in blocks of four by four (`constraint/hessian.rs`); constraints add to the blocks
@@ -253,11 +253,11 @@ Causes of the difference:
 
 ## Tree algorithms
 
-The table shows the cost of a planned step without one specialized tree algorithm , relative to its cost with all of them, in
-instructions. A cell is empty if the scene does not use the algorithm. `dynamics/ways/` documents the algorithms,
+The table shows the cost of a planned step without one specialized tree algorithm, relative to its cost with all of them, in
+instructions. A cell is empty if the scene does not use the algorithm. `dynamics/tree_algorithms/` documents the algorithms,
 `labspec bench --without ALGORITHM` measures a scene, and `tests/tree_algorithms.rs` compares each with the general algorithm.
 
-{ways}
+{algorithms}
 
 ## Profiles
 
