@@ -2,8 +2,9 @@
 
 use super::Player;
 use crate::error::Error;
+use crate::run::Budget;
 use labspec_core::reflect::{FieldId, FieldSet, Kind, Object, View, ViewMut};
-use labspec_core::{Data, Full, Model, Planned, forward};
+use labspec_core::{Data, Full, Model, Planned, exhausted, forward, limit};
 
 /// All fields at one state of a lab.
 #[derive(Clone, Debug)]
@@ -19,7 +20,7 @@ impl Player {
     /// before the last step, as after `mj_step`, and hold what its programs read.
     ///
     /// # Errors
-    /// The engine refuses the model as the lab has changed it.
+    /// The engine refuses the model as the lab has changed it, or the scene needs more work than a page allows.
     pub fn scene(&mut self) -> Result<&Data<Full>, Error> {
         self.model_and_scene().map(|(_, scene)| scene)
     }
@@ -32,7 +33,11 @@ impl Player {
         let world = &self.now.session.world;
         let scene = self.scene.get_or_insert_with(|| Scene { data: Data::new(&world.model), is_stale: true });
         if scene.is_stale {
+            limit(&mut scene.data, Budget::TRIAL.left);
             refresh(&world.model, &world.data, &mut scene.data).map_err(|e| Error::Call(e.to_string()))?;
+            if exhausted(&scene.data) {
+                return Err(Error::Call("this scene needs more work than a page allows: simplify it".into()));
+            }
             scene.is_stale = false;
         }
         Ok((&world.model, &scene.data))
