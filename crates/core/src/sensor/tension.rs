@@ -8,12 +8,13 @@ use crate::forces::tendon;
 use crate::forces::tendon::spatial_tendon;
 use crate::kinds::{disable, trntype};
 use crate::math::*;
-use crate::model::{Fields, Model, asleep};
+use crate::model::{Fields, Model};
 
-/// Calls `apply` with each body that some tendon pulls, the point and the force, world. A tendon that sleeps pulls nobody: it has no
-/// length, and others may have taken the place of its points (`tendon::tendons`).
+/// Calls `apply` with each body that some tendon pulls, the point and the force, world. A tendon that slept when lengths were
+/// computed pulls nobody, even if its tree has woken since: it has no length and no Jacobian in this pass, and others may have taken
+/// the place of its points (`tendon::tendons`). One whose sites coincide has no direction.
 pub(crate) fn pulls(m: &Model, d: &Fields, mut apply: impl FnMut(usize, Vec3, Vec3)) {
-    let spatial = |&t: &usize| !tendon::is_fixed(m, t) && !asleep::tendon(m, d, t);
+    let spatial = |&t: &usize| !tendon::is_fixed(m, t) && d.ten_length[t] != 0.0;
     for t in (0..m.ntendon).filter(spatial) {
         let force = passive(m, d, t) + actuators(m, d, t) + constraint::tendon_force(m, d, t);
         let force = force - inertial(m, d, t);
@@ -50,6 +51,7 @@ fn inertial(m: &Model, d: &Fields, t: usize) -> f64 {
 mod tests {
     use super::*;
     use crate::mjcf::compile;
+    use crate::model::asleep;
     use crate::step::workspace::Workspace;
     use crate::step::{forward, step};
 
@@ -72,5 +74,37 @@ mod tests {
         let mut pulled = Vec::new();
         pulls(&m, &d, |body, _, _| pulled.push(body));
         assert_eq!(pulled, [0, 2]);
+    }
+
+    /// The ball touches the box, which wakes after lengths were computed. MuJoCo 3.14.0 shows the same, in the same step: no length and
+    /// no force of the spring.
+    #[test]
+    fn a_tendon_that_wakes_pulls_from_the_next_pass_on() {
+        let m = compile(
+            "<mujoco><option><flag sleep='enable'/></option><worldbody><geom type='plane' size='5 5 1'/>\
+            <site name='anchor' pos='0 0 .5'/><site name='other' pos='1 0 .5'/>\
+            <body name='a' pos='0 0 .0998' sleep='init'><freejoint/><geom type='box' size='.1 .1 .1'/><site name='sa' pos='0 0 .1'/></body>\
+            <body name='b' pos='0 0 .26'><freejoint/><geom type='sphere' size='.05'/><site name='sb'/></body></worldbody>\
+            <tendon><spatial name='t0' stiffness='5' damping='1' springlength='.1'><site site='anchor'/><site site='sa'/></spatial>\
+            <spatial stiffness='3' springlength='.1'><pulley divisor='2'/><site site='other'/><site site='sb'/></spatial></tendon>\
+            </mujoco>"
+        )
+        .unwrap();
+        let Workspace { fields: mut d, scratch: mut s } = Workspace::new(&m);
+        let mut steps = 0;
+        while steps < 2 || d.tree_awake[0] == 0 {
+            step(&m, &mut d, &mut s);
+            steps += 1;
+        }
+        assert_eq!((steps, d.ten_length[0]), (24, 0.0));
+        let pulled = |d: &Fields| {
+            let mut bodies = Vec::new();
+            pulls(&m, d, |body, _, _| bodies.push(body));
+            bodies
+        };
+        assert_eq!(pulled(&d), [0, 2]);
+        step(&m, &mut d, &mut s);
+        assert!(d.ten_length[0] > 0.3);
+        assert_eq!(pulled(&d), [0, 1, 0, 2]);
     }
 }
