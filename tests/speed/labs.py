@@ -100,20 +100,26 @@ class Run:
         return sum(statistics.median(times) for times in self.chunks.values()) / self.steps
 
 
-def whole_run_ns(lab, lengths=(20_000, 60_000)):
-    """A step of `labspec run --full`, with all that it watches: the slope of its processor time over the number of steps."""
+def whole_run_ns(lab, lengths=(20_000, 60_000), settings=()):
+    """A step of `labspec run --full`, with all that it watches: the slope of its processor time over the number of steps.
+
+    A run that breaks is no measure of its steps: `lengths` and `settings` (of `--set`) are such that it does not.
+    """
 
     def seconds(steps):
         before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-        ours("run", lab, "--full", "--steps", str(steps), "--every", "10000", "--format", "json")
+        arguments = [part for setting in settings for part in ("--set", setting)]
+        report = ours("run", lab, "--full", "--steps", str(steps), "--every", "10000", "--format", "json", *arguments)
+        if report["breakdowns"]:
+            sys.exit(f"{lab}: the run breaks: {report['breakdowns']}")
         return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
 
     short, long = map(seconds, lengths)
     return 1e9 * (long - short) / (lengths[1] - lengths[0])
 
 
-def measure(lab, rounds):
-    """A line of the table."""
+def measure(lab, rounds, whole=None):
+    """A line of the table; `whole`: arguments of `whole_run_ns`."""
     with tempfile.TemporaryDirectory() as folder:
         first = ours("plan", lab, "--format", "json")
         if first["step"] is None:
@@ -121,16 +127,16 @@ def measure(lab, rounds):
         run = Run(lab, first, folder)
         run.times(1)
         run.chunks.clear()
-        planned, full, whole = [], [], []
+        planned, full, times = [], [], []
         for _ in range(rounds):
             step = ours("plan", lab, "--format", "json")["step"]
             planned.append(step["ns"])
             full.append(step["fullNs"])
-            whole.append(whole_run_ns(lab))
+            times.append(whole_run_ns(lab, **(whole or {})))
             run.times()
-    planned, full, whole = map(statistics.median, (planned, full, whole))
+    planned, full, run_ns = map(statistics.median, (planned, full, times))
     library = run.step_ns()
-    ratio, full_ratio, run_ratio = library / planned, library / full, library / whole
+    ratio, full_ratio, run_ratio = library / planned, library / full, library / run_ns
     rows, touch = first["solver"]["rows"], first["pairs"]["canTouch"] > 0
     aim = 3 if touch or rows["most"] else 6
     kept = sum(stage["keep"] for stage in first["stages"])

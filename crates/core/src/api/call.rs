@@ -387,10 +387,27 @@ pub fn servo_gains(m: &Model, actuator: usize) -> Option<[f64; 2]> {
 }
 
 /// The energy at `qpos` and `qvel`, for the controls at hand. `None` where some actuator has no potential: it may feed the
-/// scene. Computes where things are, how long they are and how heavy, and nothing else.
+/// scene. Computes poses, lengths and velocities of bodies, and nothing else.
+///
+/// # Errors
+///
+/// When the data belongs to another model, or its plan leaves out inertias and velocities of bodies.
 pub fn mechanical_energy<S: Scope>(m: &Model, d: &mut Data<S>) -> Result<Option<Energy>, Error> {
+    d.has(&[data::cinert, data::cvel])?;
     let (d, s) = d.engine(m)?;
     Ok(balance::mechanical_energy(m, d, s))
+}
+
+/// Computes `M` for the poses of bodies at hand, for example after [`mechanical_energy`].
+///
+/// # Errors
+///
+/// When the data belongs to another model, or its plan leaves out `M` or inertias of bodies.
+pub fn mass_matrix<S: Scope>(m: &Model, d: &mut Data<S>) -> Result<(), Error> {
+    d.has(&[data::cinert, data::M])?;
+    let (d, s) = d.engine(m)?;
+    step::forward::mass_matrix(m, d, s);
+    Ok(())
 }
 
 /// The numbers of any field.

@@ -2,7 +2,8 @@
 
 use super::forward;
 use super::workspace::Scratch;
-use crate::dynamics::mass;
+use crate::dynamics::reflected::tendons_have_inertia;
+use crate::dynamics::{com, mass};
 use crate::forces::passive::spring;
 use crate::forces::{actuation, transmission};
 use crate::kinds::disable;
@@ -28,7 +29,7 @@ impl Energy {
 }
 
 /// The energy at `qpos` and `qvel`, for the controls at hand. `None` where some actuator has no potential: it may feed the
-/// scene. Computes where things are, how long they are and how heavy, and nothing else.
+/// scene. Computes poses, lengths and velocities of bodies, and nothing else.
 pub(crate) fn mechanical_energy(m: &Model, d: &mut Fields, s: &mut Scratch) -> Option<Energy> {
     forward::placed(m, d, s);
     transmission::transmissions(m, d, &mut s.forces);
@@ -40,7 +41,24 @@ pub(crate) fn mechanical_energy(m: &Model, d: &mut Fields, s: &mut Scratch) -> O
     }
     let springs = if m.opt.disabled(disable::SPRING) { 0.0 } else { spring::energy(m, d) };
     let elastic = springs + servos(m, d)?;
-    Some(Energy { kinetic: 0.5 * mass::quadratic(m, &d.M, &d.qvel), gravity, elastic })
+    Some(Energy { kinetic: kinetic(m, d, s), gravity, elastic })
+}
+
+/// ½ vᵀ M v, J.
+///
+/// Without inertia of tendons it is ½ Σ Vᵀ I V + ½ Σ a v², with the spatial velocity V and inertia I of each body and the armature a of
+/// each degree of freedom: the time grows with the number of bodies, while M has up to nv² numbers. M contains the inertia of
+/// a tendon only where its sparsity has an entry, so that with such tendons M itself decides.
+fn kinetic(m: &Model, d: &mut Fields, s: &mut Scratch) -> f64 {
+    if tendons_have_inertia(m) {
+        forward::mass_matrix(m, d, s);
+        return 0.5 * mass::quadratic(m, &d.M, &d.qvel);
+    }
+    com::com_vel(m, d);
+    let bodies = rows::<10>(&d.cinert).iter().zip(rows::<6>(&d.cvel)).skip(1);
+    let of_bodies: f64 = bodies.map(|(inertia, v)| dot(inertia_mul(inertia, v), *v)).sum();
+    let of_armature: f64 = d.qvel.iter().enumerate().map(|(k, v)| mass::armature(m, k) * v * v).sum();
+    0.5 * (of_bodies + of_armature)
 }
 
 /// The potential of all actuators; `None` where one of them has none.
@@ -63,4 +81,46 @@ fn servos(m: &Model, d: &mut Fields) -> Option<f64> {
         sum += if k != 0.0 { c * (u - 0.5 * c) / k } else { -c * length };
     }
     Some(sum)
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)] // a test that fails says why
+mod tests {
+    use super::*;
+    use crate::mjcf::compile;
+    use crate::step::workspace::Workspace;
+
+    /// The kinetic energy of bodies, armatures and tendons is ½ vᵀ M v.
+    #[test]
+    fn kinetic_energy_is_that_of_the_mass_matrix() {
+        for inertia in [0.0, 0.3] {
+            kinetic_energy_of_scene(inertia);
+        }
+    }
+
+    fn kinetic_energy_of_scene(inertia: f64) {
+        let m = compile(&format!(
+            "<mujoco><worldbody><site name='anchor' pos='0 0 2'/>\
+            <body name='a'><freejoint/><geom type='box' size='.1 .2 .3' mass='2' pos='.1 0 .05'/><site name='s' pos='.1 .1 0'/>\
+              <body pos='.3 0 0'><joint type='ball' armature='.2'/><geom type='capsule' size='.05' fromto='0 0 0 .2 .1 .3'/>\
+                <body pos='.2 .1 .3'><joint name='h' axis='1 2 0' armature='.1'/><joint type='slide' axis='0 1 1'/><geom size='.1'/></body></body></body>\
+            <body pos='2 0 0'><joint name='x' type='slide' axis='1 0 0'/><geom size='.1'/></body></worldbody>\
+            <tendon><spatial name='t' armature='{inertia}'><site site='anchor'/><site site='s'/></spatial>\
+              <fixed name='f' armature='{inertia}'><joint joint='h' coef='2'/><joint joint='x' coef='-1'/></fixed></tendon>\
+            <actuator><motor joint='h' gear='3'/><motor tendon='f' gear='2'/></actuator></mujoco>"
+        ))
+        .unwrap();
+        let Workspace { fields: mut d, scratch: mut s } = Workspace::new(&m);
+        for (k, q) in d.qpos.iter_mut().enumerate() {
+            *q += 0.1 * (k as f64 + 1.0).sin();
+        }
+        for (k, v) in d.qvel.iter_mut().enumerate() {
+            *v = (3.0 * k as f64 + 1.0).cos();
+        }
+        let energy = mechanical_energy(&m, &mut d, &mut s).unwrap();
+        forward::forward(&m, &mut d, &mut s);
+        let product = 0.5 * mass::quadratic(&m, &d.M, &d.qvel);
+        assert!(product > 1.0, "{product}");
+        assert!((energy.kinetic - product).abs() < 1e-13 * product, "{} and {product}", energy.kinetic);
+    }
 }

@@ -1,9 +1,8 @@
 //! The forward pass (`mj_forward`) and its parts: the stages that the plan keeps, in their order.
 
-use super::sequence::{INPUTS, POSITIONS, VELOCITIES};
+use super::sequence::{BEFORE_MASS, COLLISION, FOR_LENGTHS, INPUTS, POSITIONS, VELOCITIES};
 use super::{calls, sleep};
 use crate::model::plan::PlanFlag;
-use crate::model::stage::Stage;
 use crate::model::{Fields, Model};
 use crate::step::workspace::Scratch;
 
@@ -39,7 +38,7 @@ pub(crate) fn position(m: &Model, d: &mut Fields, s: &mut Scratch) {
 /// The contacts of geoms where they are.
 pub(crate) fn contacts(m: &Model, d: &mut Fields, s: &mut Scratch) {
     let [bits, ..] = d.plan.passes[0];
-    POSITIONS.run(m, d, s, bits & POSITIONS.stage_bits(Stage::Collision));
+    POSITIONS.run(m, d, s, bits & COLLISION);
 }
 
 /// What depends on `qvel` as well.
@@ -64,9 +63,14 @@ pub(crate) fn from_velocities(m: &Model, d: &mut Fields, s: &mut Scratch) {
     from_inputs(m, d, s);
 }
 
-/// Where things are and M, without what touches: what energies follow from.
+/// Poses of bodies, their spatial inertias, and lengths of tendons.
 pub(crate) fn placed(m: &Model, d: &mut Fields, s: &mut Scratch) {
     let [bits, ..] = d.plan.passes[0];
-    POSITIONS.run(m, d, s, bits & POSITIONS.before(Stage::MassMatrix));
+    let lengths = if m.ntendon + m.nactuator > 0 { FOR_LENGTHS } else { 0 };
+    POSITIONS.run(m, d, s, bits & BEFORE_MASS & (!FOR_LENGTHS | lengths));
+}
+
+/// M of these poses.
+pub(crate) fn mass_matrix(m: &Model, d: &mut Fields, s: &mut Scratch) {
     calls::fill_mass_matrix(m, d, s, d.plan.has(PlanFlag::Composite), true);
 }

@@ -2,7 +2,6 @@
 
 use super::clocked::{self, CLOCKED, Run};
 use super::pipeline::{PassPart, STAGES};
-use crate::math::broken_invariant;
 use crate::model::stage::Stage;
 use crate::model::{Fields, Model};
 use crate::step::workspace::Scratch;
@@ -38,16 +37,29 @@ impl Sequence {
         self.stage.iter().enumerate().filter(|(_, s)| s.is_some_and(&of)).map(|(i, _)| 1 << i).sum()
     }
 
-    /// The bits of the stages before one.
-    pub(crate) fn before(&self, stage: Stage) -> u32 {
-        let n = self.stage.iter().position(|s| *s == Some(stage));
-        let n = n.unwrap_or_else(|| broken_invariant("a stage runs in this part of a pass"));
-        (1 << n) - 1
+    /// The bits of some stages.
+    const fn stage_bits(&self, stages: &[Stage]) -> u32 {
+        let (mut bits, mut n) = (0, 0);
+        while n < 32 {
+            let mut k = 0;
+            while k < stages.len() {
+                if let Some(stage) = self.stage[n]
+                    && stage as u32 == stages[k] as u32
+                {
+                    bits |= 1 << n;
+                }
+                k += 1;
+            }
+            n += 1;
+        }
+        bits
     }
 
-    /// The bits of one stage.
-    pub(crate) fn stage_bits(&self, stage: Stage) -> u32 {
-        self.bits(|s| s == stage)
+    /// The bits of the stages before one of this part.
+    const fn before(&self, stage: Stage) -> u32 {
+        let bits = self.stage_bits(&[stage]);
+        assert!(bits.is_power_of_two(), "the stage runs once in this part");
+        bits - 1
     }
 
     /// Runs what the bits say.
@@ -64,9 +76,18 @@ impl Sequence {
     }
 }
 
-pub(crate) static POSITIONS: Sequence = Sequence::new(PassPart::Positions);
+const OF_POSITIONS: Sequence = Sequence::new(PassPart::Positions);
+pub(crate) static POSITIONS: Sequence = OF_POSITIONS;
 pub(crate) static VELOCITIES: Sequence = Sequence::new(PassPart::Velocities);
 pub(crate) static INPUTS: Sequence = Sequence::new(PassPart::Inputs);
+
+/// In the part of positions: what finds contacts; what the mass matrix follows from and lengths, and what of that tendons and
+/// transmissions alone need.
+pub(crate) const COLLISION: u32 = OF_POSITIONS.stage_bits(&[Stage::Collision]);
+pub(crate) const BEFORE_MASS: u32 =
+    OF_POSITIONS.before(Stage::MassMatrix) & !OF_POSITIONS.stage_bits(&[Stage::CameraPoses]);
+pub(crate) const FOR_LENGTHS: u32 =
+    OF_POSITIONS.stage_bits(&[Stage::Orientations, Stage::GeomPoses, Stage::SitePoses]);
 
 /// The same passes by the clock.
 pub(crate) fn by_the_clock(passes: [[u32; 3]; 2]) -> [[u32; 3]; 2] {

@@ -38,7 +38,7 @@
 use super::stability;
 use labspec_core::math::{MINVAL, norm, rows};
 use labspec_core::{Data, Energy, Fields, Model, Plan, Planned, Scope, disable, joint};
-use labspec_core::{exhausted, forward, limit, mechanical_energy, mul_m, work_left};
+use labspec_core::{exhausted, forward, limit, mass_matrix, mechanical_energy, mul_m, work_left};
 
 /// How many times what can be there a gain of one step has to be, at least and near the limit of a spring, and how many times
 /// the swing of the stiffest spring.
@@ -100,7 +100,6 @@ pub struct GrowthMonitor {
     /// Roots of the diagonal of M, the largest that were seen, and looks until they are seen again.
     roots: Vec<f64>,
     looks_until_update: u32,
-    unit: [Vec<f64>; 2],
     /// How large a sudden gain is, in parts of what can be there.
     sudden: f64,
     /// Steps without a look, and Σ √m_k |v_k| at the last one.
@@ -129,7 +128,6 @@ pub fn watch<S: Scope>(m: &Model, d: &Data<S>) -> GrowthMonitor {
         start: None,
         roots: vec![0.0; m.nv],
         looks_until_update: 0,
-        unit: [vec![0.0; m.nv], vec![0.0; m.nv]],
         sudden: 0.0,
         rest: 0,
         speed: 0.0,
@@ -178,12 +176,14 @@ fn update_inertia_scale(w: &mut GrowthMonitor, m: &Model) {
         return;
     }
     w.looks_until_update = if m.nv <= FEW { 1 } else { LOOKS_PER_UPDATE };
-    let [unit, column] = &mut w.unit;
-    for k in 0..w.roots.len() {
-        unit.fill(0.0);
-        unit[k] = 1.0;
-        if mul_m(m, &w.copied, unit, column).is_ok() {
-            w.roots[k] = w.roots[k].max(column[k].max(0.0).sqrt());
+    if mass_matrix(m, &mut w.copied).is_err() {
+        return;
+    }
+    let mass_matrix = &w.copied.fields().M;
+    // A row of M ends with its diagonal.
+    for ((root, &start), &length) in w.roots.iter_mut().zip(&m.M_rowadr).zip(&m.M_rownnz) {
+        if let Some(diagonal) = mass_matrix.get((start + length - 1) as usize) {
+            *root = root.max(diagonal.max(0.0).sqrt());
         }
     }
 }
@@ -250,7 +250,7 @@ fn compare<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>, start: Start
             None if turn > TURN => Source::LongSteps(turn),
             None => Source::Steps,
         };
-        let dof = liveliest(m, &w.copied);
+        let dof = liveliest(m, &mut w.copied);
         w.found = Some(Growth { time: w.since, gain, held: held + lift, dof, source });
     }
     w.found
@@ -310,10 +310,11 @@ fn size(m: &Model, d: &Fields) -> f64 {
 }
 
 /// The degree of freedom whose part v (M v) of the kinetic energy is the largest.
-fn liveliest(m: &Model, d: &Data<Planned>) -> usize {
+fn liveliest(m: &Model, d: &mut Data<Planned>) -> usize {
     let mut momentum = vec![0.0; m.nv];
+    let filled = mass_matrix(m, d);
     let qvel = &d.fields().qvel;
-    if mul_m(m, d, qvel, &mut momentum).is_err() {
+    if filled.and_then(|()| mul_m(m, d, qvel, &mut momentum)).is_err() {
         return 0;
     }
     let part = |k: usize| (qvel[k] * momentum[k]).abs();
