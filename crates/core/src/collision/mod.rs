@@ -39,7 +39,7 @@ pub(crate) struct Scratch {
 pub(crate) struct Pairs {
     pairs: Vec<Pair>,
     params: Vec<Params>,
-    /// Bounding spheres of the pairs with fixed parameters, except pairs with a closed-form sphere test.
+    /// Bounding spheres of the pairs with fixed parameters, except for pairs of spheres and pairs with an unbounded geom.
     spheres: Spheres,
     /// Whether filters are evaluated at every step, because the fields that they depend on may be written.
     filter: bool,

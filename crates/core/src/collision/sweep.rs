@@ -2,10 +2,10 @@
 //!
 //! Sort and sweep (Baraff, *Dynamic Simulation of Non-Penetrating Rigid Bodies*, 1992): only geoms whose projections
 //! onto an axis overlap can touch. The axis is the one with the largest variance of the centres. In a heap most
-//! projections overlap many others. The space is therefore divided into square columns along the axis, about as wide
-//! as a typical geom, and each column is swept separately (Ericson 2005, *Real-Time Collision Detection*, section
-//! 7.1). The remaining pairs are tested by bounding spheres. For n geoms of similar size the cost is that of sorting
-//! them.
+//! projections overlap many others. The space is therefore divided into square columns along the axis, whose
+//! width is twice the mean diameter of the geoms, and each column is swept separately (Ericson 2005, *Real-Time
+//! Collision Detection*, section 7.1). The remaining pairs are tested by bounding spheres. For n geoms of similar size
+//! the cost is that of sorting them.
 
 use super::filter::{self, Pair};
 use super::params;

@@ -97,7 +97,7 @@ enum Zone<const R: usize> {
     Unilateral,
     /// Linear: dry friction at its largest force. The sign is that of x.
     Linear(f64),
-    /// The distance from the cone: a sliding contact.
+    /// Proportional to the squared distance from the cone: a sliding contact.
     Cone(SlidingCone<R>),
 }
 

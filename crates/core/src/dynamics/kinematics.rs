@@ -124,7 +124,7 @@ impl Frames {
         frames
     }
 
-    /// Reads the parameters that can be written from the model.
+    /// Reads from the model the parameters that can be written.
     pub(crate) fn load(&mut self, m: &Model) {
         let places = rows::<3>(&m.body_pos).iter().zip(rows::<4>(&m.body_quat));
         let inertial = rows::<3>(&m.body_ipos).iter().zip(rows::<4>(&m.body_iquat)).zip(&m.body_sameframe);

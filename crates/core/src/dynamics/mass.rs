@@ -88,7 +88,7 @@ pub(crate) fn armature(m: &Model, i: usize) -> f64 {
 
 /// Factorizes the rows of the degrees of freedom `dofs` (ascending, whole trees) in place, M = Lᵀ D L with unit L. On
 /// input, `ld` contains M; on output, it contains L below the diagonal and D on it, and `diag_inv` contains 1/D.
-/// Returns a degree of freedom whose D is not positive, if there is one; the smallest one that was found.
+/// Returns the first degree of freedom whose D is not positive.
 ///
 /// The rows are processed from the last to the first. Each row is eliminated from those of its ancestors. Rows of a
 /// serial chain are processed four at a time, so that the row of an ancestor is read and written once for four

@@ -50,7 +50,7 @@ pub(crate) struct Scratch {
     low: Vec<u32>,
     /// For each vertex, the new face whose outer edge starts there.
     fan: Vec<u32>,
-    /// Half-edges still to be crossed in the search for visible faces.
+    /// Half-edges still to be crossed in the search for visible faces, and the half-edges on the border of these faces.
     pending: Vec<u32>,
     border: Vec<u32>,
     /// Work units done so far.

@@ -44,7 +44,7 @@ impl Corral {
         self.len == 4
     }
 
-    /// Adds a vertex that is nearer to the origin than the plane through the nearest point, normal to it. Returns
+    /// Adds a vertex. It must lie on the origin's side of the plane through the nearest point x and normal to x. Returns
     /// `false` and changes nothing if, due to rounding, the distance does not decrease.
     pub(super) fn admit(&mut self, new: Vertex) -> bool {
         let before = *self;

@@ -71,7 +71,7 @@ pub(crate) enum Datatype {
 
 /// The stage in which the values of a sensor are available (mjtStage).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)] // named by the quantities that are available
+#[allow(missing_docs)] // positions; velocities; accelerations and forces are available
 pub(crate) enum When {
     Position = 1,
     Velocity = 2,
@@ -180,7 +180,7 @@ kinds! {
     USER "user" User 0 Real "" Acceleration [] Of measure::nothing;
 }
 
-/// The row of sensor `s`. An unknown type counts as a user sensor, which reads nothing.
+/// The row of sensor `s`. An unknown type counts as a user sensor, for which nothing is measured: its values are zero.
 pub(super) fn for_sensor(m: &Model, s: usize) -> &'static Kind {
     let number = usize::try_from(m.sensor_type[s]).unwrap_or(usize::MAX);
     KINDS.get(number).unwrap_or(&KINDS[Number::USER as usize])

@@ -254,7 +254,7 @@ fn with_carrier(
     Some((rest.first()?, above.get_mut(carrier)?))
 }
 
-#[inline(never)] // so that scenes with small trees do not execute its setup code; likewise below
+#[inline(never)] // so that scenes with small trees do not execute its setup code; the same applies below
 fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
     let bad = prepare(m, d, w, None);
     w.rows_due = d.plan.has(PlanFlag::MassForRows);

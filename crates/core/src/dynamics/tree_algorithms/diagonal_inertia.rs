@@ -30,7 +30,7 @@ fn has_inertia(m: &Model, tree: usize) -> bool {
     m.tree_dofs(tree).all(|dof| m.dof_M0[dof] >= MINVAL)
 }
 
-/// Whether the bias force depends on poses: weight acts along slides, which have world axes.
+/// Whether the bias force depends on poses: the weight acts along the axes of slides.
 fn slides(m: &Model, tree: usize) -> bool {
     m.tree_dofs(tree).any(|dof| m.jnt_type[m.dof_jntid[dof] as usize] == joint::SLIDE)
 }

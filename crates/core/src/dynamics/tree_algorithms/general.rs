@@ -90,7 +90,7 @@ fn bias(m: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
     }
 }
 
-#[inline(never)] // so that scenes with small trees do not execute its setup code; likewise below
+#[inline(never)] // so that scenes with small trees do not execute its setup code; the same applies below
 fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
     let mut bad = None;
     for dofs in w.algorithms.general.factors.iter().cloned() {

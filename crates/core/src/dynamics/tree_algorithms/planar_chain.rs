@@ -14,7 +14,7 @@
 //! M q).
 //!
 //! Which trees are such chains is determined when a model is compiled, and stored in the model. If axes or frames are
-//! written afterwards, a chain may no longer be planar. It is then computed like with the general algorithm.
+//! written afterwards, a chain may no longer be planar. It is then computed by the general algorithm.
 
 use super::planar_passes::{Joint, Link, forward_kinematics, inward, outward, solve_known};
 use super::{Assignment, Damped, Factors, Forces, NOTHING, Row, chain};
@@ -172,7 +172,7 @@ impl Trees {
 }
 
 /// Computes the positions of the links, and the rows of M if they are read.
-#[inline(never)] // so that scenes without such chains do not execute its setup code; likewise below
+#[inline(never)] // so that scenes without such chains do not execute its setup code; the same applies below
 fn mass(m: &Model, d: &mut Fields, w: &mut Scratch) {
     let rows = w.rows_wanted;
     let trees = &mut w.algorithms.planar_chain;

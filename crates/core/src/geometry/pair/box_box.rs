@@ -2,11 +2,12 @@
 //!
 //! Two boxes are separate if and only if their projections onto one of 15 axes are disjoint: the face normals of both
 //! boxes, and the common perpendiculars of an edge of each (Gottschalk, Lin, Manocha, *OBBTree*, SIGGRAPH 1996). The
-//! largest gap along these axes is the separation of separate boxes. For overlapping boxes it is negative: minus the
-//! penetration depth, which is the length of the shortest translation that separates them. If the axis of this gap is
-//! a face normal, the face of the other box that most directly faces this face is clipped by the side planes of this
-//! face. Every corner of the clipped polygon is a contact, with its depth below the face. If the axis is a
-//! perpendicular of two edges, the contact is the midpoint between the closest points of these edges.
+//! largest gap along these axes determines the contacts. For separate boxes it is positive: their separation along this
+//! axis. For overlapping boxes it is negative: minus the penetration depth, which is the length of the shortest
+//! translation that separates them. If the axis is a face normal, the face of the other box that most directly faces
+//! this face is clipped by the side planes of this face. Every corner of the clipped polygon is a contact, with its
+//! depth below the face. If the axis is a perpendicular of two edges, the contact is the midpoint between the closest
+//! points of these edges.
 
 use super::ContactPoint;
 use super::polygon::FACING;

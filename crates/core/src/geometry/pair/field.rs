@@ -14,8 +14,8 @@ const SAMPLED: u64 = 4;
 
 /// Contacts with the prisms below a shape, in the order of the grid.
 ///
-/// With a margin, the surface of the height field is raised by the margin, and half of the margin is subtracted from
-/// distances, as if the shape were thicker by this (measured on MuJoCo 3.14.0).
+/// With a margin, the surface of the height field is raised by the margin, and the shape is thickened by half of the
+/// margin. Distances are those between the modified shapes (measured on MuJoCo 3.14.0).
 #[cfg_attr(not(feature = "small"), inline(never))]
 pub(super) fn field(
     ground: &Shape,

@@ -72,7 +72,8 @@ pub(super) fn cylinder(plane: &Shape, cylinder: &Shape, margin: f64, out: &mut V
         (down, steepness) = (cylinder.axis(0), 0.0);
     }
     let down = scale(down, radius);
-    // Heights of the centre of the lower end, and of the lowest point of a rim, relative to the respective centre.
+    // Height of the centre of the lower end relative to the centre of the cylinder, and height of the lowest point of
+    // a rim relative to its centre.
     let (to_end, to_rim) = (-half * slope.abs(), -radius * steepness);
     let mut add_contact = |offset: Vec3, dist: f64| {
         if dist <= margin {
