@@ -1,4 +1,4 @@
-//! The pairs that are tested: all that can ever touch, as far as nothing keeps them apart that may be written later.
+//! The pairs of geoms to test: all pairs that can ever be in contact, under every change that may be written later.
 
 use super::extent::Extents;
 use super::filter::{Pair, bodies_may_touch, dynamic_pair, explicit_pairs};
@@ -7,22 +7,22 @@ use crate::math::sort::sort_by;
 use crate::model::Model;
 use crate::model::index::element_range;
 
-/// Most pairs in the list of a scene; scenes with more search for the near ones at every step.
+/// Maximum number of pairs in the list of a scene. Scenes with more pairs search for the near ones at every step.
 pub(crate) const MOST_LISTED: usize = 4096;
 
-/// What may change after pairs were chosen.
+/// Fields that may be written after the pairs were selected.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Changes {
     /// Contact bits and flags.
     pub(crate) bits: bool,
-    /// The parameters of contacts.
+    /// Contact parameters.
     pub(crate) params: bool,
-    /// Where bodies, joints and geoms are in the model.
+    /// Positions and orientations of bodies, joints and geoms in the model.
     pub(crate) places: bool,
 }
 
-/// All pairs that can ever touch, in the order in which they are tested. The list ends early when it becomes longer
-/// than [`MOST_LISTED`].
+/// All pairs that can ever be in contact, in the order in which they are tested. The function stops early, with an
+/// incomplete list, when the list becomes longer than [`MOST_LISTED`].
 pub(crate) fn candidate_pairs(m: &Model, change: Changes) -> Vec<Pair> {
     let extents = (!change.places && !change.params).then(|| Extents::new(m));
     let meet = |p: &Pair| !extents.as_ref().is_some_and(|e| e.keep_apart(m, p, params::params(m, p).reach));

@@ -1,11 +1,12 @@
-//! Where the geoms of a model can be, whatever its state: pairs that are out of reach of each other for good.
+//! The regions where the geoms of a model can be in any state, to find pairs that can never reach each other.
 //!
-//! A body that hangs on the world by hinges and balls stays within a sphere about the first of them: the distances from joint to joint,
-//! and from the last of them to the geom, add up. A slide lets all that follows be anywhere along its axis; limits are soft, and
-//! bound nothing. What a free joint or a mocap body carries can be anywhere.
+//! A body that is connected to the world by hinge and ball joints stays within a sphere about the first of these
+//! joints: the distances from joint to joint, and from the last joint to the geom, add up. A slide joint allows its
+//! descendants any position along its axis; joint limits are soft and do not bound the position. The descendants of a
+//! free joint and mocap bodies can be anywhere.
 //!
-//! The proof is about bounding spheres, which contacts are looked for within: where they cannot meet, no contact is found by a full
-//! run either.
+//! The proof uses bounding spheres. Contacts are only searched within bounding spheres, so a full run finds no
+//! contact of such a pair either.
 
 use super::filter::Pair;
 use crate::dynamics::kinematics::sameframe;
@@ -15,7 +16,7 @@ use crate::model::Model;
 use crate::model::index::element_range;
 use crate::model::reflect::{FieldId, model as fields_of};
 
-/// What the proof follows from, besides the parameters of contacts.
+/// The fields that the proof depends on, besides contact parameters.
 pub(crate) const FIELDS: [FieldId; 8] = [
     fields_of::body_pos,
     fields_of::body_quat,
@@ -27,19 +28,20 @@ pub(crate) const FIELDS: [FieldId; 8] = [
     fields_of::geom_quat,
 ];
 
-/// How much nearer than they can come things are taken to come by rounding, as a part of all lengths in question.
+/// Safety margin for rounding errors, as a fraction of all lengths involved.
 const ROUNDING: f64 = 1e-9;
 
-/// Where a point of a body can be.
+/// The region where a point of a body can be.
 #[derive(Clone, Copy, Debug)]
 struct Extent {
-    /// Within `radius` of `centre`, but for the axes of the world along which it can be anywhere.
+    /// The point is within `radius` of `centre`, m, except along the world axes in `free`, along which it can be
+    /// anywhere.
     centre: Vec3,
     radius: f64,
     free: [bool; 3],
-    /// The point, in the frame of the body.
+    /// The point, in the frame of the body, m.
     point: Vec3,
-    /// The orientation of the body, where it stays.
+    /// The orientation of the body if it is constant.
     turned: Option<Quat>,
 }
 
@@ -52,7 +54,7 @@ impl Extent {
         turned: Some([1.0, 0.0, 0.0, 0.0]),
     };
 
-    /// Where another point of the body can be.
+    /// The region of another point of the same body.
     fn at(self, point: Vec3) -> Extent {
         let by = sub(point, self.point);
         match self.turned {
@@ -61,14 +63,14 @@ impl Extent {
         }
     }
 
-    /// A joint of the body moves it.
+    /// The region after joint `j` of the body has moved it.
     fn moved(self, m: &Model, j: usize) -> Extent {
         let axis = rows::<3>(&m.jnt_axis)[j];
         match (m.jnt_type[j], self.turned) {
             (joint::HINGE | joint::BALL, _) => Extent { turned: None, ..self.at(rows::<3>(&m.jnt_pos)[j]) },
             (joint::SLIDE, Some(turned)) => {
                 let along = rotate(axis, turned).map(|x| x != 0.0);
-                // Along one axis of the world, the other coordinates stay as they are to the last bit.
+                // If the slide is along a world axis, the other coordinates are constant, bit for bit.
                 let one = along.iter().filter(|&&x| x).count() == 1;
                 let free = [0, 1, 2].map(|k| self.free[k] || along[k] || !one);
                 Extent { free, ..self }
@@ -78,7 +80,7 @@ impl Extent {
     }
 }
 
-/// Where each geom can be.
+/// The region of each geom.
 pub(super) struct Extents {
     geoms: Vec<Extent>,
 }
@@ -87,7 +89,7 @@ impl Extents {
     pub(super) fn new(m: &Model) -> Extents {
         let mut bodies: Vec<Extent> = Vec::with_capacity(m.nbody);
         for b in 0..m.nbody {
-            // Parents come before their children.
+            // Parents precede their children.
             let parent = bodies.get(m.body_parentid[b] as usize).copied().filter(|_| b > 0);
             let from = parent.unwrap_or(Extent::WORLD).at(rows::<3>(&m.body_pos)[b]);
             let quat = quat_normalize(rows::<4>(&m.body_quat)[b]);
@@ -110,7 +112,7 @@ impl Extents {
         Extents { geoms: (0..m.ngeom).map(geom).collect() }
     }
 
-    /// Whether a pair cannot come within a distance of each other.
+    /// Whether the two geoms can never come within the distance `reach` (m) of each other.
     pub(super) fn keep_apart(&self, m: &Model, pair: &Pair, reach: f64) -> bool {
         let [g1, g2] = [pair.geom1 as usize, pair.geom2 as usize];
         let (Some(a), Some(b)) = (self.geoms.get(g1), self.geoms.get(g2)) else { return false };
@@ -133,8 +135,9 @@ impl Extents {
     }
 }
 
-/// The pose of a geom in the frame of its body, from which its pose in the world is computed (`dynamics::kinematics`): where it coincides
-/// with a frame of the body, its own numbers have no effect until `mj_setConst` compares them again.
+/// The pose of a geom in the frame of its body, from which its world pose is computed (`dynamics::kinematics`). Where
+/// it coincides with a frame of the body (`geom_sameframe`), `geom_pos` and `geom_quat` have no effect until
+/// `mj_setConst` compares them again.
 fn attached(m: &Model, g: usize) -> (Vec3, Quat) {
     const IDENTITY: Quat = [1.0, 0.0, 0.0, 0.0];
     let b = m.geom_bodyid[g] as usize;
@@ -159,7 +162,8 @@ fn attached(m: &Model, g: usize) -> (Vec3, Quat) {
     (pos, quat)
 }
 
-/// How far a geom is above a plane that stays where it is; nothing where it does not.
+/// The height of the centre of a geom's region above a fixed plane, m; minus infinity if the plane can move or the
+/// height is unbounded.
 fn above(plane: &Extent, other: &Extent, between: Vec3) -> f64 {
     let Some(turned) = plane.turned.filter(|_| plane.radius == 0.0 && plane.free == [false; 3]) else {
         return f64::NEG_INFINITY;
@@ -170,7 +174,7 @@ fn above(plane: &Extent, other: &Extent, between: Vec3) -> f64 {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)] // a test that fails says why
+#[allow(clippy::unwrap_used)] // a failing test prints the reason
 mod tests {
     use super::super::candidates::{Changes, candidate_pairs};
     use crate::mjcf::compile;
@@ -180,7 +184,7 @@ mod tests {
         candidate_pairs(&m, Changes::default()).len()
     }
 
-    /// A pendulum of 1 m with a bob of 0.1 m above a floor, a cart on rails, two pendulums beside each other.
+    /// A pendulum of 1 m with a bob of 0.1 m above a floor, a cart on rails, and two pendulums next to each other.
     #[test]
     fn what_is_out_of_reach_is_left_out() {
         let floor = "<geom type='plane' size='1 1 1'/>";
@@ -201,17 +205,17 @@ mod tests {
         ] {
             assert_eq!(left(&format!("{floor}{}", pendulum(0.0, 9.0, free))), 1, "{free}");
         }
-        // Anchored elsewhere than at the body's own place, and two links.
+        // A joint anchor off the origin of the body, and a chain of two links.
         let moved = "<joint axis='0 1 0' pos='0 0 -1'/>";
         assert_eq!(left(&format!("{floor}{}", pendulum(0.0, 1.2, moved))), 0);
         let two = "<body pos='0 0 2.2'><joint axis='0 1 0'/><geom size='.1' pos='0 0 -1'/>\
             <body pos='0 0 -1'><joint axis='0 1 0'/><geom size='.1' pos='0 0 -1'/></body></body>";
         assert_eq!(left(&format!("{floor}{two}")), 0);
         assert_eq!(left(&format!("{floor}{}", two.replace("2.2", "1.9"))), 1);
-        // Beside each other: spheres about the pivots.
+        // Pendulums next to each other stay within spheres about their pivots.
         let beside = |x: f64| left(&(pendulum(0.0, 2.0, hinge) + &pendulum(x, 2.0, hinge)));
         assert_eq!((beside(2.3), beside(2.1)), (0, 1));
-        // A margin counts, and so does a mocap body.
+        // Margins and mocap bodies are taken into account.
         let wide = pendulum(0.0, 1.2, hinge).replace("size='.1'", "size='.1' margin='.2'");
         assert_eq!(left(&format!("{floor}{wide}")), 1);
         let hand = "<body mocap='true' pos='9 9 9'><geom size='.1'/></body>";

@@ -1,4 +1,4 @@
-//! Collision detection: which geoms touch, where, and with which contact parameters.
+//! Collision detection: pairs of geoms in contact, the contact points, and the contact parameters.
 
 mod candidates;
 mod extent;
@@ -25,30 +25,30 @@ use crate::kinds::geom;
 use crate::math::*;
 use crate::model::{Fields, Model, Warning, asleep};
 
-/// What the stage keeps.
+/// Scratch memory of the collision stage.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Scratch {
     /// Pairs of geoms to test.
     pub(crate) pairs: Pairs,
-    /// Contacts of one pair.
+    /// Buffers for the contacts of one pair.
     narrow: Narrow,
 }
 
-/// The pairs that a plan tests, with their contact parameters when nothing can change these.
+/// The pairs that a plan tests, with their contact parameters if these cannot change.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Pairs {
     pairs: Vec<Pair>,
     params: Vec<Params>,
-    /// Together with these, their bounding spheres, but for pairs that have a test of their own.
+    /// Bounding spheres of the pairs with fixed parameters, except for pairs of spheres and pairs with an unbounded geom.
     spheres: Spheres,
-    /// Filters are asked at every step, because what they look at may be written.
+    /// Whether filters are evaluated at every step, because the fields that they depend on may be written.
     filter: bool,
-    /// Too many pairs for a list: the near ones are found at every step.
+    /// Replaces the list if it would have too many pairs: finds the near pairs at every step.
     sweep: Option<Box<Sweep>>,
 }
 
-/// Finds the pairs that may touch: all that can ever, when contact bits and flags may be written later,
-/// otherwise those that they admit now.
+/// Selects the pairs to test. If contact bits and flags may be written later, these are all pairs that can ever be in
+/// contact; otherwise the pairs that the current bits and flags admit.
 pub(crate) fn pairs(m: &Model, change: Changes) -> Pairs {
     let pairs = candidate_pairs(m, change);
     if pairs.len() > MOST_LISTED {
@@ -71,10 +71,10 @@ pub(crate) fn pairs(m: &Model, change: Changes) -> Pairs {
     list
 }
 
-/// Contacts that are kept at most: what touches beyond that is left out with a warning.
+/// Maximum number of contacts. Further contacts are dropped with a warning.
 pub(crate) const MOST_CONTACTS: usize = 1 << 16;
 
-/// `contact`, `ncon`: tests the pairs of the plan in their order.
+/// `contact`, `ncon`: tests the pairs of the plan in order.
 #[inline(never)]
 pub(crate) fn collide(m: &Model, d: &mut Fields, w: &mut Scratch) {
     d.contact.clear();
@@ -125,20 +125,20 @@ pub(crate) fn collide(m: &Model, d: &mut Fields, w: &mut Scratch) {
     d.ncon = d.contact.len();
 }
 
-/// Whether filters, as they are now, keep a pair from touching.
+/// Whether the current contact filters exclude a pair.
 #[cfg_attr(not(feature = "small"), inline(never))]
 fn is_refused(m: &Model, pair: &Pair) -> bool {
     pair.explicit == Pair::DYNAMIC && !filter::admitted(m, pair.geom1 as usize, pair.geom2 as usize)
 }
 
-/// No contacts: they are switched off.
+/// Clears the contacts, for models with contacts disabled.
 pub(crate) fn none(d: &mut Fields) {
     d.contact.clear();
     d.ncon = 0;
 }
 
 impl Pairs {
-    /// Whether filters or sleep keep a pair of the list from touching.
+    /// Whether contact filters or sleep exclude a pair of the list.
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn leaves_out(&self, m: &Model, d: &Fields, pair: &Pair) -> bool {
         let [g1, g2] = [pair.geom1 as usize, pair.geom2 as usize];
@@ -146,17 +146,18 @@ impl Pairs {
     }
 }
 
-/// The exact test of one pair whose parameters may have been written.
+/// The exact test of a pair whose parameters may have been written.
 #[inline(never)]
 fn narrow_mixed(m: &Model, d: &mut Fields, work: &mut Narrow, pair: &Pair) {
     narrow(m, d, work, pair, &params::params(m, pair));
 }
 
-/// The exact test of one pair whose bounds have not been compared. Spheres, the commonest, have a short way.
+/// The exact test of a pair whose bounds have not been compared yet. Spheres, the most common case, take a shortcut.
 #[inline(never)]
 fn narrow(m: &Model, d: &mut Fields, work: &mut Narrow, pair: &Pair, params: &Params) {
     let (g1, g2) = (pair.geom1 as usize, pair.geom2 as usize);
-    // A sphere whose size was written alone is looked for within its old bounds, as the library does.
+    // If only the size of a sphere was written and not `geom_rbound`, contacts are searched within the old bounding
+    // sphere, as in MuJoCo. Such a sphere cannot take the shortcut.
     let bounded = |g: usize| m.geom_rbound[g] == m.geom_size[3 * g];
     let touch = match (m.geom_type[g1], m.geom_type[g2]) {
         (geom::PLANE, geom::SPHERE) if bounded(g2) => primitive::plane_sphere(m, d, g1, g2, params.reach),
@@ -171,7 +172,7 @@ fn narrow(m: &Model, d: &mut Fields, work: &mut Narrow, pair: &Pair, params: &Pa
     }
 }
 
-/// The exact test of any pair.
+/// The exact test of a pair of any types.
 #[inline(never)]
 fn general(m: &Model, d: &mut Fields, work: &mut Narrow, pair: &Pair, params: &Params) {
     let (g1, g2) = (pair.geom1 as usize, pair.geom2 as usize);

@@ -1,4 +1,4 @@
-//! Statistics of the pairs of geoms: how many can ever touch, and why the others cannot.
+//! Statistics of the pairs of geoms: how many can be in contact, and why the others cannot.
 
 use super::candidates::{Changes, candidate_pairs};
 use super::extent::Extents;
@@ -9,12 +9,12 @@ use crate::model::{Fields, Model};
 use labspec_finding::order;
 use std::collections::BTreeSet;
 
-/// What becomes of a pair of geoms.
+/// Whether a pair of geoms can be in contact, and the reason if it cannot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum PairFilterReason {
-    /// They can touch: they are looked at in every step.
+    /// The geoms can be in contact; the pair is tested at every step.
     CanTouch,
-    /// They belong to one body.
+    /// The geoms belong to one body.
     SameBody,
     /// Their bodies are welded together.
     Welded,
@@ -26,14 +26,14 @@ pub enum PairFilterReason {
     ParentAndChild,
     /// Their contact bits admit no contact.
     Masks,
-    /// Such shapes pass through each other.
+    /// Geoms of these types do not collide.
     Shapes,
-    /// They are out of reach of each other, wherever their joints are.
+    /// The geoms cannot reach each other in any configuration.
     OutOfReach,
 }
 
 impl PairFilterReason {
-    /// Why such a pair never touches, in words; of one that can, that it can.
+    /// The reason as a phrase.
     pub fn reason(self) -> &'static str {
         match self {
             PairFilterReason::CanTouch => "they can touch",
@@ -49,8 +49,8 @@ impl PairFilterReason {
     }
 }
 
-/// How many pairs of geoms meet each fate, each pair counted once; fates that none meets are not listed. What programs may write
-/// keeps no pair apart.
+/// The number of pairs of geoms for each reason. Each pair is counted once, and reasons without pairs are omitted.
+/// Filters that depend on fields in `change` exclude no pair.
 pub(crate) fn pair_statistics(m: &Model, change: Changes) -> Vec<(PairFilterReason, usize)> {
     let extents = (!change.places && !change.params).then(|| Extents::new(m));
     let named: BTreeSet<[i32; 2]> = (0..m.npair).map(|p| ordered(m.pair_geom1[p], m.pair_geom2[p])).collect();
@@ -72,7 +72,7 @@ pub(crate) fn pair_statistics(m: &Model, change: Changes) -> Vec<(PairFilterReas
     counts
 }
 
-/// Whether two geoms are out of reach of each other, by the pairs that name them as well.
+/// Whether two geoms are out of reach of each other, also with the margins of their explicit pairs.
 fn apart(m: &Model, extents: &Extents, a: usize, b: usize) -> bool {
     let both = ordered(a as i32, b as i32);
     let of = |p: &Pair| ordered(p.geom1 as i32, p.geom2 as i32) == both;
@@ -84,7 +84,7 @@ fn ordered(a: i32, b: i32) -> [i32; 2] {
     [a.min(b), a.max(b)]
 }
 
-/// What becomes of two geoms; a pair that the model names asks for neither bits nor parents.
+/// The reason for one pair of geoms. Explicit pairs (`named`) are not filtered by bits and parents.
 fn reason(m: &Model, a: usize, b: usize, may_change: bool, named: bool) -> PairFilterReason {
     let bodies @ [ba, bb] = [a, b].map(|g| m.geom_bodyid[g] as usize);
     let welds @ [wa, wb] = bodies.map(|body| m.body_weldid[body] as usize);
@@ -103,8 +103,8 @@ fn reason(m: &Model, a: usize, b: usize, may_change: bool, named: bool) -> PairF
     }
 }
 
-/// How the pairs that can touch are tested, by the types of their geoms: how many there are, and whether their contacts are
-/// searched for by the general algorithm. Of a scene with too many pairs for a list, those at its start.
+/// The pairs that can be in contact, grouped by types: types, number of pairs, and whether the general algorithm
+/// computes their contacts. If a scene has too many pairs for a list, only the first ones are counted.
 pub(crate) fn pair_methods(m: &Model, change: Changes) -> Vec<([i32; 2], usize, bool)> {
     let mut out: Vec<([i32; 2], usize, bool)> = Vec::new();
     for Pair { geom1, geom2, .. } in candidate_pairs(m, change) {
@@ -118,8 +118,8 @@ pub(crate) fn pair_methods(m: &Model, change: Changes) -> Vec<([i32; 2], usize, 
     out
 }
 
-/// How many of the pairs of the plan have bounds within reach of each other where the geoms are now: the others cost one
-/// comparison each.
+/// The number of planned pairs whose bounding spheres are currently within reach of each other. Each of the other
+/// pairs costs one comparison.
 pub(crate) fn in_reach(m: &Model, d: &Fields, w: &Scratch) -> usize {
     if let Some(sweep) = &w.pairs.sweep {
         return sweep.near.len();

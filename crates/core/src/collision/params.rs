@@ -1,4 +1,4 @@
-//! Contact parameters from those of two geoms: priority, mixing, margin.
+//! Contact parameters computed from those of two geoms: priority, mixing, margin.
 
 use super::filter::Pair;
 use crate::geometry::pair::ContactPoint;
@@ -9,24 +9,24 @@ use crate::model::{Contact, Model};
 /// Smallest friction coefficient of a contact.
 const MINMU: f64 = 1e-5;
 
-/// What the two geoms of a pair make of a contact, wherever it is.
+/// The contact parameters of a pair, which are independent of the contact point.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Params {
     /// Distance up to which a contact is detected, m.
     pub(super) reach: f64,
-    /// Distance at which it starts to push, m.
+    /// Distance below which it exerts a force, m.
     margin: f64,
     friction: [f64; 5],
     solref: [f64; 2],
-    /// The same for friction; zero when friction uses `solref`.
+    /// `solref` of the friction rows; zero if they use `solref`.
     solreffriction: [f64; 2],
     solimp: [f64; 5],
-    /// Force with which it pulls, N.
+    /// Adhesion force, N.
     adhesion: f64,
     dim: usize,
 }
 
-/// The parameters of a pair: its own, or a mix of those of both geoms.
+/// The parameters of a pair: those of the explicit pair, or mixed from both geoms.
 pub(super) fn params(m: &Model, pair: &Pair) -> Params {
     match pair.explicit {
         Pair::DYNAMIC => mixed(m, pair.geom1 as usize, pair.geom2 as usize),
@@ -34,7 +34,7 @@ pub(super) fn params(m: &Model, pair: &Pair) -> Params {
     }
 }
 
-/// Distance from a geom up to which it takes part in contacts: its share of the pair's reach, m.
+/// Distance from a geom within which contacts are detected, m: its share of the reach of a pair.
 pub(super) fn half_reach(m: &Model, g: usize) -> f64 {
     let margin = if m.opt.enabled(enable::OVERRIDE) { 0.5 * m.opt.o_margin } else { m.geom_margin[g] };
     margin + m.geom_gap[g]
@@ -57,7 +57,7 @@ fn explicit(m: &Model, p: usize) -> Params {
     )
 }
 
-/// Applies the overriding options and the limits of all contacts.
+/// Applies the override options and the limits for all contacts.
 fn finish(m: &Model, gap: f64, p: Params) -> Params {
     let mut p = p;
     if m.opt.enabled(enable::OVERRIDE) {
@@ -67,7 +67,7 @@ fn finish(m: &Model, gap: f64, p: Params) -> Params {
     Params {
         reach: p.margin + gap,
         friction: p.friction.map(|f| f.max(MINMU)),
-        // Written to the model, a number that is no dimension means the next that is one.
+        // Invalid dimensions that were written to the model are rounded up to the next valid one.
         dim: match p.dim {
             0 | 1 => 1,
             2 | 3 => 3,
@@ -78,9 +78,9 @@ fn finish(m: &Model, gap: f64, p: Params) -> Params {
     }
 }
 
-/// The geom of higher priority decides alone. At equal priority condim and friction are the larger of the
-/// two, solref and solimp their mean weighted by `solmix` (the smaller solref when one is in the direct,
-/// negative format).
+/// Mixes the parameters of two geoms. A geom with higher priority determines all of them. At equal priority, condim
+/// and friction are the maxima of both; solref and solimp are means weighted by `solmix` (solref is the minimum of
+/// both if one has the direct, negative format).
 fn mixed(m: &Model, g1: usize, g2: usize) -> Params {
     let (solref, solimp) = (rows::<2>(&m.geom_solref), rows::<5>(&m.geom_solimp));
     let friction3 = rows::<3>(&m.geom_friction);
@@ -120,11 +120,11 @@ fn mixed(m: &Model, g1: usize, g2: usize) -> Params {
     )
 }
 
-/// A contact of the pair at `touch`.
+/// The contact of a pair at the contact point `touch`.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn contact(p: &Params, g1: usize, g2: usize, touch: &ContactPoint, frame: Mat3) -> Contact {
     let apart = touch.dist >= p.margin;
-    // What sticks pulls across the gap, too: it holds the normal alone.
+    // An adhesive contact also acts within the gap, but there only in the normal direction.
     let sticks = p.adhesion != 0.0;
     Contact {
         dist: touch.dist,
@@ -145,7 +145,7 @@ pub(super) fn contact(p: &Params, g1: usize, g2: usize, touch: &ContactPoint, fr
     }
 }
 
-/// Weight of the first of two `solmix`.
+/// Weight of the first geom, given both `solmix`.
 fn mix(a: f64, b: f64) -> f64 {
     match (a >= MINVAL, b >= MINVAL) {
         (true, true) => a / (a + b),

@@ -1,5 +1,5 @@
-//! The short way of the commonest pairs: spheres on planes and on each other, without looking at them as shapes. What touches
-//! where, `geometry::pair` says, of these as of shapes.
+//! Shortcuts for the most common pairs, plane–sphere and sphere–sphere, without the construction of shapes. The
+//! contacts are computed by the same functions of `geometry::pair` as for shapes.
 
 use crate::geometry::pair::{ContactPoint, ball_on_plane, two_balls};
 use crate::math::*;

@@ -1,7 +1,8 @@
-//! Broad phase of small scenes: which pairs of a list have their bounding spheres in reach, four at a time.
+//! Broad phase for small scenes: tests the bounding spheres of the pairs of a list, four at a time.
 //!
-//! A geom is held against four others at once, in the lanes of a vector. Which of them are its pairs, and from which distance on
-//! these are out of reach, is found once, when the list is made. A small module leaves it to the test of each pair.
+//! A geom is compared with four others at once, in SIMD lanes. The assignment of pairs to lanes and the distance
+//! limits are computed once, when the list is created. Builds with the feature `small` skip this and test each pair
+//! separately.
 
 use super::filter::Pair;
 use crate::math::sort::sort;
@@ -9,33 +10,36 @@ use crate::math::{SMALL, Vec3};
 use std::array::from_fn;
 use wide::f64x4;
 
-/// The pairs of a list by their bounding spheres.
+/// The bounding spheres of the pairs of a list.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Spheres {
-    /// The geoms whose spheres are compared, and their centres by fours: x, y, z.
+    /// The geoms whose spheres are compared, and their centres in groups of four: x, y, z.
     geoms: Vec<u32>,
     centres: Vec<[[f64; 4]; 3]>,
     comparisons: Vec<Comparison>,
-    /// A bit for each pair of the list: whether its spheres are not compared, and whether they are in reach now.
+    /// One bit for each pair of the list: pairs whose spheres are not compared, and pairs that are currently in
+    /// reach.
     others: Vec<u64>,
     near: Vec<u64>,
 }
 
-/// A geom and four others, by their number among the fours.
+/// A geom and a group of four others, by the index of the group.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Comparison {
     geom: u32,
     four: u32,
-    /// The squared distance of centres beyond which each is out of reach, and the pair that it makes; [`NONE`] beyond any distance.
+    /// For each lane, the squared distance of the centres above which the pair is out of reach, and the index of the
+    /// pair. Unused lanes have the limit -∞ and the index [`NONE`].
     limits: [f64; 4],
     pairs: [u32; 4],
 }
 
-/// No pair.
+/// Marks a lane without a pair.
 const NONE: u32 = u32::MAX;
 
 impl Spheres {
-    /// For pairs with the squared distances of centres beyond which they are out of reach; infinite where spheres say nothing.
+    /// Prepares the comparisons. `limits` contains, for each pair, the squared distance of the centres above which it
+    /// is out of reach; infinity if its spheres are not to be compared.
     pub(super) fn new(pairs: &[Pair], limits: &[f64]) -> Spheres {
         let is_compared = |&p: &usize| !SMALL && limits[p] < f64::INFINITY;
         let mut others = vec![0; pairs.len().div_ceil(64)];
@@ -70,7 +74,7 @@ impl Spheres {
         Spheres { near: vec![0; others.len()], geoms, centres, comparisons, others }
     }
 
-    /// Compares them where the geoms are now.
+    /// Compares the spheres at the current positions of the geoms.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn compare(&mut self, places: &[Vec3]) {
         if !SMALL && !self.comparisons.is_empty() {
@@ -100,13 +104,14 @@ impl Spheres {
         }
     }
 
-    /// How many words there are of a bit for each pair of the list.
+    /// The number of 64-bit words that hold one bit for each pair of the list.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn word_count(&self) -> usize {
         self.others.len()
     }
 
-    /// Takes a word of what may touch: a bit for each pair in reach, and a bit for each whose spheres are not compared.
+    /// Returns and clears one word of results: a bit for each pair in reach, and a bit for each pair whose spheres
+    /// are not compared.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn take(&mut self, word: usize) -> [u64; 2] {
         [std::mem::take(&mut self.near[word]), self.others[word]]

@@ -1,9 +1,11 @@
-//! Broad phase of large scenes: sort and sweep, in columns.
+//! Broad phase for large scenes: sort and sweep within columns.
 //!
-//! Baraff, *Dynamic Simulation of Non-Penetrating Rigid Bodies* (1992): the shadows of two geoms on an axis must overlap.
-//! The axis is the one along which the geoms are spread widest. In a heap most shadows overlap many others; so space is cut into
-//! square columns along that axis, as wide as a usual geom, and the sweep runs in each (Ericson 2005, *Real-Time Collision
-//! Detection*, section 7.1). What remains is tested by bounding spheres. The cost of n geoms of like size is that of sorting them.
+//! Sort and sweep (Baraff, *Dynamic Simulation of Non-Penetrating Rigid Bodies*, 1992): only geoms whose projections
+//! onto an axis overlap can touch. The axis is the one with the largest variance of the centres. In a heap most
+//! projections overlap many others. The space is therefore divided into square columns along the axis, whose
+//! width is twice the mean diameter of the geoms, and each column is swept separately (Ericson 2005, *Real-Time
+//! Collision Detection*, section 7.1). The remaining pairs are tested by bounding spheres. For n geoms of similar size
+//! the cost is that of sorting them.
 
 use super::filter::{self, Pair};
 use super::params;
@@ -11,7 +13,8 @@ use crate::math::sort::{sort, sort_by};
 use crate::math::*;
 use crate::model::{Fields, Model};
 
-/// A geom's bounding sphere, wide enough for its margin, its shadow on the axis, and the columns that it meets.
+/// The bounding sphere of a geom, enlarged by its margin, its interval on the axis, and the columns that it
+/// intersects.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Shadow {
     low: f64,
@@ -19,9 +22,9 @@ struct Shadow {
     centre: Vec3,
     radius: f64,
     geom: u32,
-    /// First and last columns along both other axes.
+    /// First and last column along each of the other two axes.
     columns: [[i32; 2]; 2],
-    /// Wider than a column.
+    /// Whether it is wider than a column.
     wide: bool,
 }
 
@@ -33,51 +36,51 @@ impl Shadow {
         dot(between, between) <= reach * reach
     }
 
-    /// The first column that two geoms share, given that they share some.
+    /// The first column that two geoms share. They must share at least one.
     fn first_common(&self, other: &Shadow) -> [i32; 2] {
         let [a, b] = [self.columns, other.columns];
         [a[0][0].max(b[0][0]), a[1][0].max(b[1][0])]
     }
 
-    /// How many columns it meets.
+    /// The number of columns that it intersects.
     fn spans(&self) -> i64 {
         let number = |[first, last]: [i32; 2]| 1 + i64::from(last) - i64::from(first);
         self.columns.map(number).into_iter().fold(1, i64::saturating_mul)
     }
 }
 
-/// A geom in a column: places of the column, place of the shadow in their order along the axis.
+/// A geom in a column: the coordinates of the column, and the index of its interval in the sorted order.
 type Entry = ([i32; 2], u32);
 
-/// What the broad phase keeps from step to step.
+/// State of the broad phase that is kept between steps.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Sweep {
-    /// Bounded geoms, sorted by the lower end as of the last step.
+    /// Bounded geoms, sorted by the lower end of their interval in the last step.
     shadows: Vec<Shadow>,
-    /// Planes, which are everywhere.
+    /// Planes, which are unbounded.
     planes: Vec<u32>,
-    /// Geoms wider than a column, by the lower end.
+    /// Geoms wider than a column, sorted by lower end.
     wide: Vec<u32>,
-    /// The others by columns, in each by the lower end.
+    /// The other geoms, sorted by column, then by lower end.
     entries: Vec<Entry>,
-    /// Shadows of the column that have begun and not ended.
+    /// Intervals that are open at the current point of the sweep of a column.
     active: Vec<u32>,
-    /// Pairs whose bounds overlap, in the order in which they are tested.
+    /// Pairs with overlapping bounds, in the order in which they are tested.
     pub(super) near: Vec<Pair>,
     explicit: Vec<Pair>,
-    /// Pairs of spheres that were looked at in the last step, and those of them that were near.
+    /// Number of pairs of spheres tested in the last step, and how many of them were near.
     pub(super) tested: usize,
     asked: usize,
 }
 
-/// Most columns that a geom no wider than a column can meet.
+/// Maximum number of columns that a geom not wider than a column can intersect.
 const MOST_COLUMNS: usize = 4;
-/// Most pairs that are kept: a scene whose bounds overlap so often has more contacts than are kept long before.
+/// Maximum number of pairs. A scene with more overlapping bounds exceeds the maximum number of contacts long before.
 const MOST_NEAR: usize = 1 << 22;
 
 impl Sweep {
     pub(super) fn new(m: &Model, may_change: bool) -> Sweep {
-        // A geom that can touch nothing does not take part.
+        // A geom without contact bits does not take part.
         let bits = |g: usize| may_change || m.geom_contype[g] != 0 || m.geom_conaffinity[g] != 0;
         let of = |bounded: bool| {
             let size = move |g: &usize| (m.geom_rbound[*g] > 0.0) == bounded;
@@ -97,7 +100,7 @@ impl Sweep {
         }
     }
 
-    /// Finds the pairs whose bounds overlap now; returns what that cost.
+    /// Finds the pairs with overlapping bounds at the current positions. Returns the work units.
     pub(super) fn run(&mut self, m: &Model, d: &Fields) -> u64 {
         let width = self.place(m, rows::<3>(&d.geom_xpos));
         (self.tested, self.asked) = (0, 0);
@@ -119,7 +122,7 @@ impl Sweep {
         (rest + self.asked * (20 + listed) + 100 * self.near.len()) as u64
     }
 
-    /// Shadows and columns of all geoms, sorted; returns the width of a column.
+    /// Computes and sorts the intervals and columns of all geoms. Returns the width of a column, m.
     fn place(&mut self, m: &Model, centres: &[Vec3]) -> f64 {
         let axis = widest(&self.shadows, centres);
         let mut sum = 0.0;
@@ -130,22 +133,22 @@ impl Sweep {
             (s.low, s.high) = (s.centre[axis] - s.radius, s.centre[axis] + s.radius);
             sum += s.radius;
         }
-        // Twice the usual diameter: few geoms are wider, and most are in one column only.
+        // Twice the mean diameter: few geoms are wider, and most geoms are in a single column.
         let width = 4.0 * sum / self.shadows.len().max(1) as f64;
         let others = [(axis + 1) % 3, (axis + 2) % 3];
         for s in &mut self.shadows {
-            // Conversions saturate: geoms beyond all columns share the last one.
+            // Casts saturate: geoms beyond all columns share the last one.
             let column = |x: f64| (x / width).floor() as i32;
             let both = |k: usize| [s.centre[k] - s.radius, s.centre[k] + s.radius].map(column);
             s.columns = others.map(both);
-            // Also where a bound is no number.
+            // A geom with a NaN bound counts as wide.
             s.wide = 2.0 * s.radius > width || s.radius.is_nan() || width.is_nan();
         }
         sort_by(&mut self.shadows, |a, b| a.low.total_cmp(&b.low).then(a.geom.cmp(&b.geom)));
         width
     }
 
-    /// Sweeps through every column.
+    /// Sweeps each column.
     fn in_columns(&mut self, m: &Model) {
         self.entries.clear();
         self.wide.clear();
@@ -168,7 +171,7 @@ impl Sweep {
                 self.tested += self.active.len();
                 for &other in &self.active {
                     let other = &self.shadows[other as usize];
-                    // In several columns together, they are a pair in the first.
+                    // Geoms that share several columns are paired only in the first one.
                     if other.near(s) && s.first_common(other) == place {
                         self.asked += 1;
                         if self.near.len() < MOST_NEAR {
@@ -181,7 +184,7 @@ impl Sweep {
         }
     }
 
-    /// Sweeps through the geoms that are wider than a column: a plain sweep.
+    /// Sweeps the geoms that are wider than a column, without columns.
     fn wide_and_wide(&mut self, m: &Model) {
         for (i, &k) in self.wide.iter().enumerate() {
             let s = &self.shadows[k as usize];
@@ -198,12 +201,12 @@ impl Sweep {
         }
     }
 
-    /// Holds wide geoms against what is in their columns beside them.
+    /// Tests wide geoms against the narrow geoms in their columns.
     fn wide_and_others(&mut self, m: &Model, width: f64) {
         for &k in &self.wide {
             let s = &self.shadows[k as usize];
             if s.spans() > self.shadows.len() as i64 {
-                // Looking into so many columns costs more than looking at every geom.
+                // For so many columns, searching each column costs more than testing every geom.
                 for other in self.shadows.iter().filter(|other| !other.wide) {
                     self.tested += 1;
                     if other.near(s) {
@@ -217,7 +220,7 @@ impl Sweep {
             }
             let [along, across] = s.columns;
             for place in (along[0]..=along[1]).flat_map(|i| (across[0]..=across[1]).map(move |j| [i, j])) {
-                // A narrow one that is beside begins at most a width earlier.
+                // A narrow geom that overlaps begins at most one column width earlier.
                 let first = s.low - width;
                 let before =
                     |e: &Entry| e.0 < place || e.0 == place && self.shadows[e.1 as usize].low < first;
@@ -244,7 +247,7 @@ fn may_touch(m: &Model, a: usize, b: usize) -> Option<Pair> {
     filter::dynamic_pair(m, a.min(b), a.max(b), false)
 }
 
-/// The axis along which centres vary most.
+/// The axis with the largest variance of the centres.
 fn widest(shadows: &[Shadow], centres: &[Vec3]) -> usize {
     let n = shadows.len().max(1) as f64;
     let (mut sum, mut squares) = ([0.0; 3], [0.0; 3]);
@@ -259,7 +262,7 @@ fn widest(shadows: &[Shadow], centres: &[Vec3]) -> usize {
     (1..3).fold(0, |best, i| if spread(i) > spread(best) { i } else { best })
 }
 
-/// Whether the bounding spheres of two geoms, or a sphere and a plane, are farther apart than `reach`.
+/// Whether the bounding spheres of two geoms, or a bounding sphere and a plane, are farther apart than `reach`.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn far_apart(m: &Model, d: &Fields, a: usize, b: usize, reach: f64) -> bool {
     let (pos, mat) = (rows::<3>(&d.geom_xpos), rows::<9>(&d.geom_xmat));

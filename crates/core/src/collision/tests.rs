@@ -1,4 +1,4 @@
-//! Laws of the broad phase: what it finds does not depend on how it looks.
+//! Properties of the broad phase: its result does not depend on the method.
 
 use super::*;
 use crate::dynamics::kinematics;
@@ -7,7 +7,7 @@ use crate::model::Contact;
 use crate::step::reset::reset_data;
 use crate::step::workspace::Workspace;
 
-/// Free bodies of random shapes in a cube, on a plane. The shapes are written over compiled spheres.
+/// Free bodies of random shapes in a cube, above a plane. The shapes replace compiled spheres.
 fn pile(bodies: usize, side: f64) -> Model {
     let mut random = random(0x2545_f491_4f6c_dd1d);
     let mut xml = String::from("<mujoco><worldbody><geom type='plane' size='1 1 1'/>");
@@ -30,7 +30,7 @@ fn pile(bodies: usize, side: f64) -> Model {
     m
 }
 
-/// Contacts by the list of all pairs, or by the sweep.
+/// Contacts found with the list of all pairs, or with the sweep.
 fn contacts(m: &Model, sweep: bool) -> Vec<Contact> {
     let Workspace { fields: mut d, scratch: mut s } = Workspace::unplanned(m);
     reset_data(m, &mut d, &mut s);
@@ -39,7 +39,7 @@ fn contacts(m: &Model, sweep: bool) -> Vec<Contact> {
         s.collision.pairs = Pairs { sweep: Some(Box::new(Sweep::new(m, false))), ..Pairs::default() };
     }
     kinematics(m, &mut d, &mut s.dynamics);
-    // Twice: the second run starts from the order of the first.
+    // Two runs: the second one starts with the order of the first.
     for _ in 0..2 {
         collide(m, &mut d, &mut s.collision);
     }
@@ -56,7 +56,7 @@ fn sweep_finds_what_the_list_finds() {
     }
 }
 
-/// Contacts come by bodies, then by geoms in the order of their types.
+/// Contacts are ordered by bodies, then by geoms in the order of their types.
 #[test]
 fn contacts_are_in_order() {
     let m = pile(40, 1.0);
@@ -70,14 +70,14 @@ fn contacts_are_in_order() {
     assert!(keys.is_sorted(), "{keys:?}");
 }
 
-/// Long lists of pairs give way to the sweep.
+/// Scenes with too many pairs for a list use the sweep.
 #[test]
 fn large_scenes_sweep() {
     assert!(pairs(&pile(20, 1.0), Changes::default()).sweep.is_none());
     assert!(pairs(&pile(60, 1.0), Changes::default()).sweep.is_some());
 }
 
-/// Spheres of one size at random in a box whose sides are given per cube root (square root, count) of their number.
+/// `n` spheres at random positions in a box with the sides `sides`, m; sphere g has the radius `sizes(g)`.
 fn cloud(n: usize, sides: Vec3, sizes: impl Fn(usize) -> f64) -> Model {
     let mut m = pile(4, 1.0);
     let mut next = random(0x9e37_79b9_7f4a_7c15);
@@ -95,7 +95,7 @@ fn cloud(n: usize, sides: Vec3, sizes: impl Fn(usize) -> f64) -> Model {
     m
 }
 
-/// Numbers below one that look random.
+/// Pseudorandom numbers in [0, 1).
 fn random(mut state: u64) -> impl FnMut() -> f64 {
     move || {
         state ^= state << 13;
@@ -105,7 +105,7 @@ fn random(mut state: u64) -> impl FnMut() -> f64 {
     }
 }
 
-/// Pairs that the sweep looks at for every geom, and pairs whose bounds overlap.
+/// The number of pairs that the sweep tests per geom, and the number of pairs with overlapping bounds.
 fn tested_pairs(m: &Model) -> (f64, usize) {
     let mut d = Workspace::unplanned(&pile(4, 1.0)).fields;
     d.geom_xpos.clone_from(&m.geom_pos);
@@ -115,8 +115,9 @@ fn tested_pairs(m: &Model) -> (f64, usize) {
     (sweep.tested as f64 / m.ngeom as f64, sweep.near.len())
 }
 
-/// From 10 to 10,000 geoms in a heap, a layer and a row, of one size or of very different ones: the pairs looked at grow
-/// with the number of geoms. `docs/measured/contacts.md` has the table (`--nocapture`).
+/// From 10 to 10,000 geoms in a heap, a layer and a row, of equal size or of very different sizes: the number of
+/// tested pairs is proportional to the number of geoms. `--nocapture` prints the table of
+/// `docs/measured/contacts.md`.
 #[test]
 fn cost_grows_with_the_number_of_geoms() {
     for (name, dims) in [("heap", 3), ("layer", 2), ("row", 1)] {
@@ -130,14 +131,15 @@ fn cost_grows_with_the_number_of_geoms() {
                 println!("| {name}, {kind} | {n} | {:.0} | {rate:.1} | {near} |", rate * n as f64);
                 rates.push(rate);
             }
-            // A plain sweep of a heap looks at 4.6 times as many for every geom when there are ten times as many, of a
-            // layer at 3.2 times as many. Those near a large geom are many, and each has to be looked at.
+            // With ten times as many geoms, a sweep without columns tests 4.6 times as many pairs per geom in a heap,
+            // and 3.2 times as many in a layer. The bound allows for large geoms, which have many neighbours that all
+            // must be tested.
             assert!(rates[3] < 1.5 * rates[2] + 5.0, "{name}, {kind}: {rates:?}");
         }
     }
 }
 
-/// The columns lose no pair: held against all pairs, with sizes over four decades.
+/// The columns miss no pair: comparison with a test of all pairs, with sizes over four decades.
 #[test]
 fn columns_find_what_all_pairs_do() {
     for seed in 0..20 {
@@ -152,7 +154,7 @@ fn columns_find_what_all_pairs_do() {
     }
 }
 
-/// More contacts than are kept: a warning says so, and the memory stays what it is.
+/// If there are more contacts than the maximum, a warning is reported and the memory does not grow.
 #[test]
 fn too_many_contacts_are_left_out_with_a_warning() {
     let balls = "<body><freejoint/><geom size='.1'/></body>".repeat(400);
@@ -164,8 +166,9 @@ fn too_many_contacts_are_left_out_with_a_warning() {
     assert_eq!((d.ncon, stat.number, stat.lastinfo), (MOST_CONTACTS, 1, MOST_CONTACTS));
 }
 
-/// A box tilted by one degree lies on the ridge between a small level side of a mesh and a large one that falls by four: both
-/// look at the box, and the contacts are along the level one, which is nearer to the direction of least depth.
+/// A box tilted by one degree lies on the ridge between a small horizontal face of a mesh and a large face with a
+/// slope of four degrees. Both faces face the box. The contacts must be on the horizontal face, which is nearer to
+/// the direction of least depth.
 #[test]
 fn of_several_sides_the_nearest_to_the_direction_of_least_depth() {
     let profile = [(-1.0, -0.07), (0.0, 0.0), (0.1, 0.0), (0.1, -1.0), (-1.0, -1.0)];
@@ -179,7 +182,7 @@ fn of_several_sides_the_nearest_to_the_direction_of_least_depth() {
     let m = compile(&xml).unwrap();
     let Workspace { fields: mut d, scratch: mut s } = Workspace::unplanned(&m);
     reset_data(&m, &mut d, &mut s);
-    // The mesh where it was drawn: the model has it about its centre.
+    // Places the mesh where its vertices were given: the compiled model centres it.
     rows_mut::<3>(&mut d.qpos[..3])[0] = [0.0; 3];
     let found = {
         kinematics(&m, &mut d, &mut s.dynamics);
@@ -193,8 +196,8 @@ fn of_several_sides_the_nearest_to_the_direction_of_least_depth() {
     }
 }
 
-/// A roof with its ridge down, off the middle of a box. The side that looks away from most of the box is steeper than the other, and
-/// across it the two are less deep in each other: the contact is with that.
+/// A roof with its ridge down, near the edge of a box. The face towards the edge of the box is steeper than the
+/// other, and the penetration depth along its normal is smaller. The contact must be with this face.
 #[test]
 fn of_several_faces_those_of_least_depth_meet() {
     let (h, slopes) = (0.1, [3.0_f64, 2.0].map(|degrees| degrees.to_radians().tan()));
@@ -210,7 +213,7 @@ fn of_several_faces_those_of_least_depth_meet() {
     ))
     .unwrap();
     let found = contacts(&m, false);
-    // From the box up to the roof, across the steeper side.
+    // The normal points from the box up to the roof and is normal to the steeper face.
     let (sin, cos) = 3.0_f64.to_radians().sin_cos();
     assert!(!found.is_empty());
     for c in found {

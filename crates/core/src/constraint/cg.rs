@@ -1,13 +1,13 @@
 //! The conjugate gradient method with the mass matrix as preconditioner.
 //!
-//! Directions follow Hager and Zhang 2005 (*A new conjugate gradient method with guaranteed descent and an efficient
-//! line search*), with their truncation.
+//! Search directions and the truncation of β follow Hager and Zhang 2005 (*A new conjugate gradient method with
+//! guaranteed descent and an efficient line search*).
 
 use super::iterate::Reached;
 use super::primal::{Direction, Problem};
 use crate::math::MINVAL;
 
-/// Keeps the truncation finite where the gradient vanishes.
+/// η of the truncation, which keeps it finite if the gradient vanishes.
 const ETA: f64 = 0.01;
 
 impl Problem<'_> {
@@ -21,7 +21,7 @@ impl Problem<'_> {
         self.descend(from, price, Self::conjugate_direction);
     }
 
-    /// search ← β search - M⁻¹ g, and what the next β compares with.
+    /// search ← β search - M⁻¹ g. Also stores g and M⁻¹ g for the next β.
     fn conjugate_direction(&mut self, before: Option<f64>) -> Option<Direction> {
         self.decrement_by_mass();
         let beta = before.map(|gradient| self.beta(gradient));
@@ -33,8 +33,8 @@ impl Problem<'_> {
         Some(Direction::Other)
     }
 
-    /// How much of the last direction d stays: (y·Mg - 2 (y·My) (d·g) / (d·y)) / (d·y), where y is the change of the
-    /// gradient g and M its preconditioner; not below -1 / (|d| min(η, |g|)) with the gradient before.
+    /// The factor β of the previous direction d: (y·Mg - 2 (y·My) (d·g) / (d·y)) / (d·y), where y is the change of
+    /// the gradient g, and M is the preconditioner. β is at least -1 / (|d| min(η, |g|)), with the previous gradient.
     fn beta(&mut self, gradient: f64) -> f64 {
         let (dofs, s) = (self.dofs(), &mut *self.s);
         let mut sums = [0.0; 5];

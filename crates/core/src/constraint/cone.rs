@@ -1,34 +1,38 @@
-//! The force of one contact with an elliptic cone: the minimum of ½ xᵀ A x + bᵀ x over |x_t / μ| ≤ x₀, or over the friction x_t
-//! alone where the normal force x₀ is given.
+//! The force of one contact with an elliptic cone: the minimum of ½ xᵀ A x + bᵀ x over |x_t / μ| ≤ x₀, or over the
+//! friction x_t only if the normal force x₀ is given.
 //!
-//! With y = x/μ, G = μ A μ and g = μ b the cone is a circular one, which is its own dual, and y is optimal if and only if G y + g
-//! is in the cone too and across y (Boyd and Vandenberghe, *Convex Optimization*, 5.9). There are three cases: g is in the cone
-//! and y = 0; the free minimum -G⁻¹ g is in the cone; y is on its boundary.
+//! With y = x/μ, G = μ A μ and g = μ b the cone is circular and its own dual. y is optimal if and only if G y + g is
+//! also in the cone and is orthogonal to y (Boyd and Vandenberghe, *Convex Optimization*, 5.9). There are three
+//! cases: g is in the cone and y = 0; the unconstrained minimum -G⁻¹ g is in the cone; y is on the boundary of the
+//! cone.
 //!
-//! Friction under a normal force n is optimal if and only if (G_t + λ) y_t = -(g_t + c n), where c couples G's first row, and λ ≥ 0
-//! is zero unless |y_t| = n. The length of y_t falls as λ grows, and 1/|y_t| is almost linear in λ: Newton's method on that
-//! (Hebden 1973; Moré and Sorensen, *Computing a trust region step*, SIAM Journal on Scientific and Statistical Computing 4,
-//! 1983) meets n in a few steps, between bounds that hold it where G_t is singular.
+//! Friction for a normal force n is optimal if and only if (G_t + λ) y_t = -(g_t + c n), where c is the first row of
+//! G without G₀₀, and λ ≥ 0 is zero unless |y_t| = n. |y_t| decreases as λ increases, and 1/|y_t| is almost linear in
+//! λ. Newton's method on 1/|y_t| (Hebden 1973; Moré and Sorensen, *Computing a trust region step*, SIAM Journal on
+//! Scientific and Statistical Computing 4, 1983) therefore converges in a few steps. Bounds of λ keep it safe if G_t
+//! is singular.
 //!
-//! On the boundary what is left is convex in n, with the slope
+//! On the boundary the remaining problem is convex in n, with the derivatives
 //!
 //! > φ'(n) = (G₀₀ - λ) n + c·y_t + g₀,  φ''(n) = G₀₀ - λ - c·p + (n + y_t·p)² / (y_t·q),
 //!
-//! where (G_t + λ) p = c and (G_t + λ) q = y_t. Its root is found by Newton's method too.
+//! where (G_t + λ) p = c and (G_t + λ) q = y_t. The root of φ' is also found by Newton's method.
 
 use crate::math::broken_invariant;
 use crate::math::{Ldl, add_scaled, dot};
 
-/// Part of the trace of G_t that is added to it: rounding, and a direction without friction, or without mass, has a diagonal.
+/// Fraction of the trace of G_t that is added to its diagonal. It is as small as rounding, and keeps the diagonal
+/// positive in directions without friction or inertia.
 const RIDGE: f64 = 1e-15;
-/// Part of n that |y_t| may miss it by.
+/// Tolerance of |y_t| = n, relative to n.
 const CLOSE: f64 = 1e-14;
-/// Part of n below which Newton's step for it leaves an error of rounding: its square.
+/// If Newton's step for n is below this fraction of n, the relative error after it is the square of this, which is
+/// rounding.
 const LAST_STEP: f64 = 1e-7;
-/// Newton's method needs about five.
+/// Maximum number of Newton steps; about five are needed.
 const MOST_STEPS: usize = 60;
 
-/// The friction under the normal force `n`, in the rows 1 to N - 1 of A, `b` and the result; row 0 is left out.
+/// The friction force for the normal force `n`, in rows 1 to N - 1 of A, `b` and the result. Row 0 is not used.
 pub(super) fn friction<const N: usize>(a: &[[f64; N]; N], b: &[f64; N], mu: &[f64; 5], n: f64) -> [f64; N] {
     let scale = scales(mu, 0.0);
     let disc = Disc::new(&scaled(a, &scale));
@@ -37,7 +41,7 @@ pub(super) fn friction<const N: usize>(a: &[[f64; N]; N], b: &[f64; N], mu: &[f6
     std::array::from_fn(|i| y[i] * scale[i])
 }
 
-/// The force of a whole cone. `guess` is a normal force near the answer, or zero.
+/// The force of a whole cone. `guess` is an estimate of the normal force, or zero.
 pub(super) fn cone_force<const N: usize>(
     a: &[[f64; N]; N],
     b: &[f64; N],
@@ -84,7 +88,7 @@ fn on_boundary<const N: usize>(matrix: &[[f64; N]; N], g: &[f64; N], guess: f64)
         let mut curvature = matrix[0][0] - lambda - dot(couple, p);
         let mut by_n = p.map(|p| -p);
         if lambda > 0.0 {
-            // |y_t| = n as n changes gives the derivative of λ.
+            // The condition |y_t| = n determines the derivative of λ with respect to n.
             let q = factor.solve(y);
             let growth = (n + dot(y, p)) / dot(y, q);
             curvature += growth * (n + dot(y, p));
@@ -106,7 +110,7 @@ fn on_boundary<const N: usize>(matrix: &[[f64; N]; N], g: &[f64; N], guess: f64)
     y
 }
 
-/// The normal force of the minimum along the steepest ray of the boundary from the apex.
+/// The normal force at the minimum along the steepest ray from the apex on the boundary.
 fn along_steepest_ray<const N: usize>(matrix: &[[f64; N]; N], g: &[f64; N]) -> f64 {
     let pull = length_of_tangents(g);
     let ray: [f64; N] = std::array::from_fn(|i| {
@@ -121,17 +125,18 @@ fn along_steepest_ray<const N: usize>(matrix: &[[f64; N]; N], g: &[f64; N]) -> f
     -dot(ray, *g) / dot(ray, matrix.map(|row| dot(row, ray)))
 }
 
-/// Friction in the coordinates in which what a normal force allows is a ball: G_t, and how large its eigenvalues are at most.
+/// The friction problem in coordinates in which the admissible forces form a ball: G_t, and an upper bound of its
+/// eigenvalues.
 struct Disc<const N: usize> {
     matrix: [[f64; N]; N],
     trace: f64,
 }
 
-/// A minimum over the ball.
+/// A minimum over the ball, and its multiplier.
 struct Tangents<const N: usize> {
     y: [f64; N],
     lambda: f64,
-    /// Of G_t + λ.
+    /// Factorization of G_t + λ.
     factor: Ldl<N, 1>,
 }
 
@@ -143,16 +148,17 @@ impl<const N: usize> Disc<N> {
         Disc { matrix, trace }
     }
 
-    /// (G_t + λ) y = load with |y| ≤ n; the search begins at the multiplier `guess`, or at the bounds.
+    /// Solves (G_t + λ) y = load with |y| ≤ n. The search starts at the multiplier `guess`, or at the bounds if it is
+    /// outside.
     fn minimum(&self, load: &[f64; N], n: f64, guess: f64) -> Option<Tangents<N>> {
-        // Where |y| = n, λ lies between these: |load| / (λ + trace) ≤ |y| ≤ |load| / λ.
+        // If |y| = n, λ lies between these bounds: |load| / (λ + trace) ≤ |y| ≤ |load| / λ.
         let most = length_of_tangents(load) / n;
         let [mut low, mut high] = [(most - self.trace).max(0.0), most];
         let mut lambda = guess.max(low).min(high);
         let mut found = None;
         for _ in 0..MOST_STEPS {
             let Some(factor) = Ldl::<N, 1>::positive(&self.matrix, lambda) else {
-                // Too near to singular: further inside.
+                // The matrix is too close to singular: the next λ is further inside the bounds.
                 low = lambda;
                 lambda = 0.5 * (low + high);
                 continue;
@@ -180,7 +186,7 @@ impl<const N: usize> Disc<N> {
     }
 }
 
-/// Moves a force to the nearest one of its cone, in the coordinates in which that is circular (Boyd and Vandenberghe, exercise
+/// Projects a force onto its cone, in the coordinates in which the cone is circular (Boyd and Vandenberghe, exercise
 /// 8.3).
 pub(super) fn nearest_in_cone(force: &mut [f64], mu: &[f64; 5]) {
     let Some((normal, tangents)) = force.split_first_mut() else {
@@ -189,20 +195,20 @@ pub(super) fn nearest_in_cone(force: &mut [f64], mu: &[f64; 5]) {
     let size = tangents.iter().zip(mu).map(|(f, mu)| (f / mu) * (f / mu)).sum::<f64>().sqrt();
     if size > *normal {
         let onto = (0.5 * (*normal + size)).max(0.0);
-        // Below the apex, without friction, there is no direction to keep.
+        // A force below the apex without friction has no direction to preserve.
         let part = if size > 0.0 { onto / size } else { 0.0 };
         tangents.iter_mut().for_each(|f| *f *= part);
         *normal = onto;
     }
 }
 
-/// y_t, whose length is at most n but for rounding, brought to this length.
+/// Scales y_t to the length n if rounding has made it longer.
 fn shortened<const N: usize>(y: [f64; N], n: f64) -> [f64; N] {
     let size = length_of_tangents(&y);
     if size > n { y.map(|y| y * (n / size)) } else { y }
 }
 
-/// What takes y to x = μ y: `normal`, then the coefficients of friction.
+/// The factors from y to x = μ y: `normal`, then the friction coefficients.
 fn scales<const N: usize>(mu: &[f64; 5], normal: f64) -> [f64; N] {
     std::array::from_fn(|i| if i == 0 { normal } else { mu[i - 1] })
 }
@@ -221,9 +227,9 @@ mod tests {
     use super::{cone_force, friction, nearest_in_cone};
     use crate::geometry::tests::Random;
 
-    /// A convex problem: a force is the answer when and only when a step downhill, brought back into the ellipsoid, leaves
-    /// it where it is. Whatever the matrix, singular ones, no friction in a direction, and hardly any normal force included.
-    /// How far it moves at most, as a part of the normal force: with a regular matrix, with a singular one.
+    /// The problem is convex: a force is optimal if and only if a gradient step, projected back onto the ellipsoid,
+    /// does not change it. The cases include singular matrices, directions without friction, and very small normal
+    /// forces. Returns the largest change, relative to the normal force, for regular and for singular matrices.
     fn moves<const N: usize>(cases: usize) -> [f64; 2] {
         let mut r = Random(N as u64);
         let mut worst = [0.0_f64; 2];
@@ -243,7 +249,7 @@ mod tests {
             let normal = 10f64.powf(r.within(-6.0, 3.0));
             let x = friction(&a, &b, &mu, normal);
             assert_eq!(x[0], 0.0);
-            // In the ball of y = x/μ.
+            // The force is in the ball of y = x/μ.
             let y: Vec<f64> = (1..N).map(|i| if mu[i - 1] > 0.0 { x[i] / mu[i - 1] } else { 0.0 }).collect();
             let length = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
             assert!(length(&y) <= normal * (1.0 + 1e-12), "{y:?} {normal}");
@@ -251,7 +257,7 @@ mod tests {
                 (1..N).map(|i| mu[i - 1] * (b[i] + (1..N).map(|j| a[i][j] * x[j]).sum::<f64>())).collect();
             let steepest = (1..N).map(|i| a[i][i] * mu[i - 1] * mu[i - 1]).sum::<f64>();
             let pull = (1..N).map(|i| (mu[i - 1] * b[i]).abs()).sum::<f64>();
-            // Far enough that a slope is seen, whatever the units.
+            // A step long enough to show a gradient, in any units.
             let step = normal / (pull + steepest * normal).max(f64::MIN_POSITIVE);
             let moved: Vec<f64> = y.iter().zip(&slope).map(|(y, s)| y - step * s).collect();
             let onto = (normal / length(&moved)).min(1.0);
@@ -266,13 +272,13 @@ mod tests {
     fn friction_is_the_best_that_the_cone_allows() {
         for [regular, singular] in [moves::<3>(100_000), moves::<4>(100_000), moves::<6>(100_000)] {
             println!("{regular:e} {singular:e}");
-            // Along what has no mass a force is known to the root of rounding.
+            // Along directions without inertia, forces are accurate only to the square root of rounding.
             assert!(regular < 1e-10 && singular < 1e-7, "{regular:e} {singular:e}");
         }
     }
 
-    /// In the coordinates in which the cone is circular: y and G y + g are in it, and across each other. How far a random
-    /// problem misses that, as a part of its own numbers.
+    /// Optimality conditions in the coordinates in which the cone is circular: y and G y + g are in the cone and
+    /// orthogonal. Returns the largest relative violation over random problems.
     fn misses_optimality<const N: usize>(cases: usize, zones: &mut [usize; 3]) -> f64 {
         let mut random = Random(N as u64);
         let mut worst = 0.0_f64;
@@ -298,7 +304,7 @@ mod tests {
             let y: Vec<f64> = (0..N).map(|i| x[i] / scale(i)).collect();
             let slope: Vec<f64> =
                 (0..N).map(|i| scale(i) * (b[i] + (0..N).map(|j| a[i][j] * x[j]).sum::<f64>())).collect();
-            // What the slope is rounded by.
+            // The magnitude of the terms of the slope, to which rounding is proportional.
             let sizes =
                 (0..N).map(|i| scale(i) * (b[i].abs() + (0..N).map(|j| (a[i][j] * x[j]).abs()).sum::<f64>()));
             let size = sizes.fold(0.0, f64::max);

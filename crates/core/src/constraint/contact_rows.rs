@@ -1,4 +1,4 @@
-//! The rows of contacts: along the normal, and for friction the edges of a pyramid or the axes of a cone.
+//! The rows of contacts: the normal direction, and for friction the edges of a pyramid or the axes of a cone.
 
 use super::Scratch;
 use super::cost::Cost;
@@ -12,7 +12,7 @@ use crate::math::*;
 use crate::model::{Contact, Fields, Model};
 use wide::f64x4;
 
-/// Number of rows that the contacts may need.
+/// Upper limit of the number of contact rows.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn count(m: &Model, d: &Fields) -> usize {
     let rows = |c: &Contact| match c.dim {
@@ -23,10 +23,10 @@ pub(super) fn count(m: &Model, d: &Fields) -> usize {
     d.contact.iter().map(rows).sum()
 }
 
-/// Rows of all contacts that touch, in their order.
+/// Creates the rows of all active contacts, in their order.
 ///
-/// A contact that no joint opens or closes has no rows, but for two geoms that move as one body: with dense matrices they
-/// have rows of zeros, as in MuJoCo, whose forces act on nothing.
+/// A contact that no degree of freedom opens or closes has no rows. There is one exception: with dense matrices, two
+/// geoms on the same moving body have rows of zeros, as in MuJoCo. The forces of these rows have no effect.
 pub(super) fn make(m: &Model, d: &mut Fields, w: &mut Scratch) {
     let mut list = std::mem::take(&mut d.contact);
     let Scratch { jac, columns, .. } = w;
@@ -38,7 +38,7 @@ pub(super) fn make(m: &Model, d: &mut Fields, w: &mut Scratch) {
         let bodies = [m.geom_bodyid[c.geom1] as usize, m.geom_bodyid[c.geom2] as usize];
         jacobian::point_difference(m, d, bodies, c.pos, &c.frame, columns);
         if columns.dofs().is_empty() && !(super::is_dense(m) && columns.stand_still(m, bodies[0])) {
-            // Where nothing moves, nothing asks which contacts have rows.
+            // In a model without degrees of freedom, nothing reads which contacts have rows, so they are not marked.
             c.exclude = if m.nv > 0 { exclude::NO_DOFS } else { exclude::NO };
             continue;
         }
@@ -51,13 +51,13 @@ pub(super) fn make(m: &Model, d: &mut Fields, w: &mut Scratch) {
     d.contact = list;
 }
 
-/// What all rows of a contact share.
+/// The properties common to all rows of a contact.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn shared<const R: usize>(c: &Contact, id: usize, kind: i32, kbi: Kbi, others: Kbi, r: [f64; R]) -> Rows<R> {
     Rows { kind, id, pos: [c.dist; R], margin: [c.includemargin; R], loss: 0.0, kbi, others, r }
 }
 
-/// Without friction, or with the pyramid of sliding friction: the edges n ± μ t.
+/// Creates the rows of contacts without friction, and of pyramids for sliding friction, with the edges n ± μ t.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn common(
     m: &Model,
@@ -85,7 +85,7 @@ fn common(
     push::<4>(d, &shared(c, id, kind::CONTACT_PYRAMIDAL, kbi, kbi, r));
 }
 
-/// Contacts that also resist spinning and rolling, and elliptic cones.
+/// Creates the rows of contacts with torsional and rolling friction, and of elliptic cones.
 #[inline(never)]
 fn other(
     m: &Model,
@@ -109,14 +109,15 @@ fn other(
     }
 }
 
-/// Velocities of a column in the contact's space: normal, two tangents, spin, two rolls.
+/// For each column, velocities in the contact frame: along the normal, along two tangents, about the normal, about
+/// both tangents.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn space(columns: &Columns) -> impl Iterator<Item = [f64; 6]> {
     let both = columns.values().iter().zip(columns.turns());
     both.map(|(v, w)| [v[0], v[1], v[2], w[0], w[1], w[2]])
 }
 
-/// A pair of edges n ± μ t for each of the R / 2 directions of friction.
+/// Creates a pair of edges n ± μ t for each of the R / 2 friction directions.
 fn pyramid<const R: usize>(
     m: &Model,
     d: &mut Fields,
@@ -138,7 +139,7 @@ fn pyramid<const R: usize>(
     push::<R>(d, &shared(c, id, kind::CONTACT_PYRAMIDAL, kbi, kbi, r));
 }
 
-/// The normal, and R - 1 directions of friction, which have no stiffness.
+/// Creates the row of the normal, and R - 1 rows for the friction directions, which have no stiffness.
 fn cone<const R: usize>(
     m: &Model,
     d: &mut Fields,
@@ -154,17 +155,18 @@ fn cone<const R: usize>(
     let others = Kbi { k: 0.0, ..kbi_friction(m, c, kbi) };
     let r = friction(m, c, true, regularization(kbi.imp, inverse_weight(m, bodies, 0)));
     let mut rows = shared::<R>(c, id, kind::CONTACT_ELLIPTIC, kbi, others, r);
-    // The violation is that of the normal alone.
+    // Only the normal row has a violation.
     for r in 1..R {
         (rows.pos[r], rows.margin[r]) = (0.0, 0.0);
     }
     push::<R>(d, &rows);
 }
 
-/// R of the rows of a contact with friction, given that of the first; sets the coefficient of the cone, μ = μ1 / √impratio.
+/// The regularization R of all rows of a contact with friction, from that of the normal. Also sets the friction
+/// coefficient of the regularized cone, μ = μ1 / √impratio.
 ///
-/// Every edge of a pyramid is as soft as the cone is: 2 μ² R. In a cone each direction of friction is as soft as makes
-/// all of it isotropic: R μ1² / (impratio μj²).
+/// Every edge of a pyramid has 2 μ² R, which is as soft as the cone. In an elliptic cone, friction direction j has R
+/// μ1² / (impratio μj²), which makes the regularization isotropic.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn friction<const R: usize>(m: &Model, c: &mut Contact, elliptic: bool, normal: f64) -> [f64; R] {
     let mut r = [0.0; R];
@@ -172,7 +174,7 @@ pub(super) fn friction<const R: usize>(m: &Model, c: &mut Contact, elliptic: boo
     r
 }
 
-/// The same for any number of rows.
+/// Like [`friction`], for any number of rows.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn frictions(m: &Model, c: &mut Contact, elliptic: bool, normal: f64, r: &mut [f64]) {
     let impratio = m.opt.impratio.max(MINVAL);
@@ -192,7 +194,7 @@ pub(super) fn frictions(m: &Model, c: &mut Contact, elliptic: bool, normal: f64,
     }
 }
 
-/// Adds the motion of surfaces that move by themselves to `efc_vel`: along the tangents, and spinning about the normal.
+/// Adds the velocity of moving surfaces (`geom_surfacevel`) to `efc_vel`: along the tangents, and about the normal.
 pub(super) fn surfaces(m: &Model, d: &mut Fields) {
     for i in 0..d.contact.len() {
         let c = &d.contact[i];
@@ -214,7 +216,7 @@ pub(super) fn surfaces(m: &Model, d: &mut Fields) {
     }
 }
 
-/// Velocity of a geom's surface at a point, and its angular velocity, relative to the geom, world axes.
+/// Velocity of the surface of a geom at a point, and its angular velocity, relative to the geom, in world axes.
 fn surface(m: &Model, d: &Fields, g: usize, point: Vec3) -> (Vec3, Vec3) {
     let v = &rows::<6>(&m.geom_surfacevel)[g];
     let mat = &rows::<9>(&d.geom_xmat)[g];
@@ -222,7 +224,7 @@ fn surface(m: &Model, d: &Fields, g: usize, point: Vec3) -> (Vec3, Vec3) {
     (add(linear, cross(turn, sub(point, rows::<3>(&d.geom_xpos)[g]))), turn)
 }
 
-/// Adds to `efc_aref` what keeps the violation of a contact that pulls as it is without the pull: R times its force.
+/// Adds R times the adhesion force to `efc_aref`, so that adhesion does not change the violation of a contact.
 pub(super) fn adhesion(d: &mut Fields) {
     for c in d.contact.iter().filter(|c| c.adhesion != 0.0) {
         let Some(row) = c.efc_address else { continue };

@@ -1,25 +1,25 @@
-//! What it costs to miss the reference acceleration, and the force that follows: minus the gradient of the cost.
+//! Cost of the deviation from the reference acceleration, and the force, which is minus the gradient of the cost.
 //!
-//! With x = J a - aref for the rows of a constraint and D = 1/R (MuJoCo's documentation, "Computation: Constraint
-//! model"): an equality costs ½ D x²; dry friction the same up to its largest force, and beyond it grows linearly (Huber
-//! 1964); a limit or contact that pushes costs only where x < 0. A contact with an elliptic cone has three zones:
-//! nothing where the contact opens, all of ½ D x² where it sticks, and the squared distance from the dual cone where
-//! it slides.
+//! Let x = J a - aref for the rows of a constraint, and D = 1/R (MuJoCo's documentation, "Computation: Constraint
+//! model"). The cost of an equality is ½ D x². That of dry friction is the same up to the largest force, and linear
+//! beyond it (Huber 1964). A unilateral row (limit or contact normal) has a cost only for x < 0. A contact with an
+//! elliptic cone has three zones: zero cost if the contact separates, the full ½ D x² if it sticks, and the squared
+//! distance from the dual cone if it slides.
 
 use super::kind;
 use crate::math::MINVAL;
 use crate::model::Contact;
 
-/// The shape of a cost.
+/// The type of a cost function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Cost {
-    /// Both ways, without bound.
+    /// Acts in both directions, without a limit.
     Quadratic,
-    /// Both ways, up to a largest force.
+    /// Acts in both directions, up to a largest force.
     DryFriction,
-    /// One way.
+    /// Acts in one direction.
     Unilateral,
-    /// Normal and friction together.
+    /// Normal and friction of an elliptic cone together.
     Cone,
 }
 
@@ -33,7 +33,7 @@ pub(super) mod state {
 }
 
 impl Cost {
-    /// Of a row with this `efc_type`.
+    /// The cost function of a row with the given `efc_type`.
     pub(super) fn for_row(kind: i32) -> Cost {
         match kind {
             kind::EQUALITY => Cost::Quadratic,
@@ -44,63 +44,65 @@ impl Cost {
     }
 }
 
-/// What there is of x where a row pushes: nothing else costs.
+/// x if a unilateral row pushes, zero otherwise.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn clamp_unilateral(x: f64) -> f64 {
     if x < 0.0 { x } else { 0.0 }
 }
 
-/// The second derivative of the cost of a row that pushes.
+/// The second derivative of the cost of a unilateral row.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn unilateral_curvature(x: f64, stiff: f64) -> f64 {
     if x < 0.0 { stiff } else { 0.0 }
 }
 
-/// What such a row costs at x + α v more than at x, and the first and second derivative of that along v.
+/// The change of the cost of a unilateral row from x to x + α v, and its first and second derivative along v at x + α
+/// v.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn unilateral_along(x: f64, v: f64, alpha: f64, stiff: f64) -> [f64; 3] {
     let now = x + alpha * v;
     let (before, after) = (x.min(0.0), now.min(0.0));
-    // The difference of squares, without squaring first: near the minimum it is all rounding.
+    // The difference of squares is factored: near the minimum, subtracting squares would leave only rounding errors.
     let change = if before < 0.0 && after < 0.0 { alpha * v } else { after - before };
     let cost = 0.5 * stiff * change * (after + before);
     if now < 0.0 { [cost, stiff * now * v, stiff * v * v] } else { [cost, 0.0, 0.0] }
 }
 
-/// What the cost of one constraint depends on besides x.
+/// The parameters of the cost of one constraint.
 #[derive(Clone, Copy)]
 pub(super) struct Shape<'a, const R: usize> {
     pub(super) cost: Cost,
     /// 1/R of each row.
     pub(super) stiff: &'a [f64; R],
-    /// Largest force of dry friction.
+    /// Largest force of dry friction, N or N m.
     pub(super) loss: f64,
-    /// The contact of a cone.
+    /// The contact, for a cone.
     pub(super) contact: Option<&'a Contact>,
 }
 
-/// Second derivative of a cost.
+/// Second derivative of a cost: zero, a diagonal matrix, or a full matrix.
 pub(super) enum Curvature<const R: usize> {
     Flat,
     Diagonal([f64; R]),
     Full([[f64; R]; R]),
 }
 
-/// Where x is: what the cost is like there.
+/// The region of x, which determines the form of the cost.
 enum Zone<const R: usize> {
-    /// None: a cone that is open.
+    /// Zero: the contact of a cone separates.
     Satisfied,
     /// Quadratic in all rows.
     Quadratic,
-    /// In the rows that are below zero.
+    /// Quadratic in the rows that are negative.
     Unilateral,
-    /// Linear: dry friction at its largest force, to the side of this sign.
+    /// Linear: dry friction at its largest force. The sign is that of x.
     Linear(f64),
-    /// That of a cone that slides.
+    /// Proportional to the squared distance from the cone: a sliding contact.
     Cone(SlidingCone<R>),
 }
 
-/// A sliding contact, in the coordinates in which its cone is round: N = μ x₀, U = f x along the friction directions.
+/// A sliding contact, in the coordinates in which its cone is circular: N = μ x₀, U = f x along the friction
+/// directions.
 struct SlidingCone<const R: usize> {
     mu: f64,
     /// Scale of each row.
@@ -114,7 +116,7 @@ struct SlidingCone<const R: usize> {
 }
 
 impl<const R: usize> SlidingCone<R> {
-    /// N - μ |U|: how far x is from the cone, negative.
+    /// N - μ |U|, negative: minus the distance from the cone, up to a constant factor.
     fn depth(&self) -> f64 {
         self.u[0] - self.mu * self.t
     }
@@ -127,7 +129,7 @@ impl<const R: usize> Shape<'_, R> {
         self.value_in(&self.zone(x), x)
     }
 
-    /// The same in a zone that is known: so below.
+    /// Cost and force at x in a known zone.
     #[inline]
     fn value_in(&self, zone: &Zone<R>, x: &[f64; R]) -> (f64, [f64; R]) {
         let mut force = [0.0; R];
@@ -171,10 +173,11 @@ impl<const R: usize> Shape<'_, R> {
         }
     }
 
-    /// The zone of a cone; a block without a contact is as good as open.
+    /// The zone of a cone. A block without a contact counts as separated.
     #[inline]
     fn zone_of_cone(&self, x: &[f64; R]) -> Zone<R> {
-        // A cone has a normal and two, three or five directions of friction: for other numbers of rows there is no code.
+        // A cone has one normal and two, three or five friction directions. This condition removes the code for other
+        // numbers of rows.
         let Some(c) = self.contact.filter(|_| (3..=6).contains(&R)) else { return Zone::Satisfied };
         let mu = c.mu;
         let scale: [f64; R] = std::array::from_fn(|j| if j == 0 { mu } else { c.friction[(j - 1).min(4)] });
@@ -213,8 +216,9 @@ impl<const R: usize> Shape<'_, R> {
         }
     }
 
-    /// Cost at x + α v less that at x, and its first and second derivative along v. Differences are formed without the
-    /// costs themselves where both ends are in the same zone: near the minimum these are all rounding.
+    /// The change of the cost from x to x + α v, and its first and second derivative along v at x + α v. If both ends
+    /// are in the same zone, the difference is computed without the two costs: near the minimum, subtracting them
+    /// would leave only rounding errors.
     #[inline]
     pub(super) fn along(&self, x: &[f64; R], v: &[f64; R], alpha: f64) -> [f64; 3] {
         let now: [f64; R] = std::array::from_fn(|r| x[r] + alpha * v[r]);
@@ -243,7 +247,7 @@ impl<const R: usize> Shape<'_, R> {
         [change, slope, self.curvature_in(&after, &now).along(v)]
     }
 
-    /// Whether the cost is one quadratic from x to x + v.
+    /// Whether the cost is a single quadratic function from x to x + v.
     #[inline]
     pub(super) fn stays(&self, x: &[f64; R], v: &[f64; R]) -> bool {
         let now: [f64; R] = std::array::from_fn(|r| x[r] + v[r]);
@@ -255,7 +259,7 @@ impl<const R: usize> Shape<'_, R> {
         }
     }
 
-    /// `efc_state` at x, of each row.
+    /// `efc_state` of each row at x.
     pub(super) fn state(&self, x: &[f64; R]) -> [i32; R] {
         match self.zone(x) {
             Zone::Satisfied => [state::SATISFIED; R],
@@ -309,7 +313,8 @@ mod tests {
     }
 
     proptest! {
-        /// Force is minus the gradient, the curvature its derivative, and the change along a line adds up, in all zones.
+        /// The force is minus the gradient, the curvature is its derivative, and the change along a line is
+        /// consistent, in all zones.
         #[test]
         fn derivatives(
             x in prop::array::uniform6(-2.0f64..2.0),
@@ -353,7 +358,7 @@ mod tests {
         let along = |f: [f64; R]| -(0..R).map(|r| f[r] * v[r]).sum::<f64>();
         let (next, last) = (s.value(&at(0.7 + h)).1, s.value(&at(0.7 - h)).1);
         prop_assert!(close(slope, along(s.value(&at(0.7)).1), there));
-        // A kink of the force may lie between the two.
+        // There may be a kink of the force between the two points.
         if s.state(&at(0.7 + h)) == s.state(&at(0.7 - h)) {
             let numeric = (along(next) - along(last)) / (2.0 * h);
             prop_assert!(

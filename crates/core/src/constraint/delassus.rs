@@ -1,38 +1,38 @@
-//! What the dual methods keep: M⁻¹ Jᵀ, and the blocks of A = J M⁻¹ Jᵀ on its diagonal.
+//! Matrices of the dual methods: M⁻¹ Jᵀ, and the diagonal blocks of A = J M⁻¹ Jᵀ.
 
 use super::jacobian::{Block, Jacobian};
 use crate::dynamics::mass;
 use crate::model::{Fields, Model};
 
-/// What the dual methods keep.
+/// Matrices and scratch of the dual methods.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Dual {
-    /// M⁻¹ Jᵀ, block by block as J, over all degrees of freedom of the trees that a block touches.
+    /// M⁻¹ Jᵀ, in the blocks of J, with columns for all degrees of freedom of the trees that a block moves.
     pub(super) inverse: Jacobian,
-    /// Blocks of A, row by row, and where each begins.
+    /// Diagonal blocks of A, row-major, and the start of each.
     pub(super) delassus_blocks: Vec<f64>,
     pub(super) start: Vec<u32>,
     /// M⁻¹ Jᵀ f.
     pub(super) acceleration: Vec<f64>,
     /// A column of M⁻¹ Jᵀ.
     pub(super) x: Vec<f64>,
-    /// The forces that the present sweep starts from, and those after the sweep before.
+    /// The forces at the start of the current sweep, and those after the previous sweep.
     pub(super) iterate: Vec<f64>,
     pub(super) previous: Vec<f64>,
-    /// What a sweep solves, in its order.
+    /// The row groups that a sweep solves, in order.
     pub(super) groups: Vec<RowGroup>,
 }
 
-/// Rows that are solved together: one, or all of an equality or an elliptic cone.
+/// Rows that are solved together: a single row, or all rows of an equality or an elliptic cone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct RowGroup {
     pub(super) block: u32,
-    /// First row, counted from the block's first.
+    /// First row, relative to the first row of the block.
     pub(super) first: u32,
 }
 
 impl Dual {
-    /// Fills M⁻¹ Jᵀ and the blocks of A.
+    /// Computes M⁻¹ Jᵀ and the diagonal blocks of A.
     pub(super) fn build(&mut self, m: &Model, d: &Fields, jac: &Jacobian) {
         self.inverse.clear();
         self.delassus_blocks.clear();
@@ -77,7 +77,7 @@ impl Dual {
         }
     }
 
-    /// The diagonal block of A that belongs to N rows.
+    /// The diagonal block of A for N rows.
     pub(super) fn delassus<const N: usize>(&self, b: &Block, group: RowGroup) -> [[f64; N]; N] {
         let (at, n) = (self.start[group.block as usize] as usize, b.nrow as usize);
         let first = group.first as usize;

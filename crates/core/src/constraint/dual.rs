@@ -1,9 +1,9 @@
-//! The dual problem of one island: the forces themselves are what is looked for.
+//! The dual problem of one island. Its unknowns are the constraint forces.
 //!
-//! min over f of ½ fᵀ (A + R) f + bᵀ f with A = J M⁻¹ Jᵀ, where b is how far the unconstrained acceleration misses the
-//! reference, and each force stays where it is allowed to be. A is never formed: the acceleration M⁻¹ Jᵀ f follows
-//! every change of a force, as in Mirtich and Canny's and Erleben's solvers by impulses; only the blocks of A on its
-//! diagonal are kept.
+//! min over f of ½ fᵀ (A + R) f + bᵀ f with A = J M⁻¹ Jᵀ, where b is the deviation of the unconstrained acceleration
+//! from the reference, and each force is limited to its admissible set. A is never formed: the acceleration M⁻¹ Jᵀ f
+//! is updated with every change of a force, as in the impulse-based solvers of Mirtich and Canny and of Erleben. Only
+//! the diagonal blocks of A are stored.
 
 use super::delassus::RowGroup;
 use super::jacobian::Block;
@@ -12,11 +12,12 @@ use super::row_counts::by_rows;
 use crate::dynamics::mass;
 use crate::math::broken_invariant;
 
-/// Most sweeps over the rows, whatever a model asks for: a step ends, also where nothing limits its work.
+/// Maximum number of sweeps over the rows, whatever a model requests, so that a step terminates even without a work
+/// limit.
 pub(super) const MOST_SWEEPS: i32 = 100_000;
 
 impl Problem<'_> {
-    /// What a sweep over the forces of the island costs.
+    /// Work units of one sweep over the forces of the island.
     pub(super) fn price_of_sweep(&self) -> u64 {
         let [blocks, _, values] = self.s.dual.inverse.size();
         let mine = self.islands.blocks.len(self.island) as u64;
@@ -39,7 +40,7 @@ impl Problem<'_> {
         }
     }
 
-    /// b + A f of N rows: how far the acceleration misses the reference.
+    /// b + A f of N rows: the deviation of the acceleration from the reference.
     #[inline]
     pub(super) fn residual<const N: usize>(&self, b: &Block, group: RowGroup) -> [f64; N] {
         let first = group.first as usize;
@@ -85,7 +86,7 @@ impl Problem<'_> {
                 let group = RowGroup { block: i as u32, first };
                 let [residual] = self.residual::<1>(&b, group);
                 let (f, d) = (self.d.efc_force[row], &*self.d);
-                // Half of b + A f, and half of b.
+                // ½ f (b + A f), and ½ f b.
                 cost += 0.5 * f * (residual + d.efc_b[row] + d.efc_R[row] * f);
             }
         }

@@ -1,13 +1,14 @@
-//! Equality constraints: what `mj_setConst` completes of their data, where they act, and which force and torque
-//! their rows mean.
+//! Equality constraints: completion of their data for `mj_setConst`, the points where they act, and the force and
+//! torque of their rows.
 //!
-//! `eq_data` of a constraint between bodies: for `connect` the anchor in the first body's frame (0..3) and in
-//! the second's (3..6); for `weld` the anchor in the second body's frame (0..3), position (3..6) and orientation
-//! (6..10) of the second relative to the first; then the ratio of torque to force.
+//! `eq_data` of a constraint between bodies. For `connect`: the anchor in the frame of the first body (0..3) and in
+//! that of the second (3..6). For `weld`: the anchor in the frame of the second body (0..3), position (3..6) and
+//! orientation (6..10) of the second body relative to the first, and the ratio of torque to force.
 //!
-//! A connect holds two points together, a weld two frames. The rotation rows of a weld are the vector part of
-//! q₂⁻¹ q₁ q_rel times that ratio, so a force f along them is the torque ½ q₂ f (q₁ q_rel)⁻¹ on body 1: the transpose
-//! of how angular velocity changes them (MuJoCo's documentation, chapter "Computation", section on equality).
+//! A connect constrains two points, a weld two frames. The rotational rows of a weld are the vector part of q₂⁻¹ q₁
+//! q_rel times that ratio. A force f along them is therefore the torque ½ q₂ f (q₁ q_rel)⁻¹ on body 1, by the
+//! transpose of the map from angular velocities to their rate (MuJoCo's documentation, chapter "Computation", section
+//! on equality).
 
 use crate::dynamics::object;
 use crate::kinds::eqtype;
@@ -15,11 +16,11 @@ use crate::math::*;
 use crate::model::index::object_index;
 use crate::model::{Fields, Model, Obj};
 
-/// Numbers of a constraint in `eq_data`.
+/// Length of a row of `eq_data`.
 const DATA: usize = 11;
 
-/// Completes `eq_data`, with `d` at the default configuration: the anchor of `connect` in the second body's
-/// frame, and the relative pose of a `weld` that has none.
+/// Completes `eq_data`, with `d` in the default configuration: the anchor of `connect` in the frame of the second
+/// body, and the relative pose of a `weld` that does not specify one.
 pub(crate) fn set_const(m: &mut Model, d: &Fields) {
     let (xpos, xmat, xquat) = (rows::<3>(&d.xpos), rows::<9>(&d.xmat), rows::<4>(&d.xquat));
     for i in 0..m.neq {
@@ -29,7 +30,7 @@ pub(crate) fn set_const(m: &mut Model, d: &Fields) {
         let [b1, b2] = [m.eq_obj1id[i], m.eq_obj2id[i]].map(|b| b as usize);
         let data = &mut rows_mut::<DATA>(&mut m.eq_data)[i];
         let anchor = [data[0], data[1], data[2]];
-        // The anchor, given in one body's frame, in the other's.
+        // Transforms the anchor from the frame of one body to that of another.
         let moved = |from: usize, to: usize| {
             let world = add(mat_mul_vec(&xmat[from], anchor), xpos[from]);
             mat_t_mul_vec(&xmat[to], sub(world, xpos[to]))
@@ -50,7 +51,7 @@ pub(crate) fn set_const(m: &mut Model, d: &Fields) {
     }
 }
 
-/// One end of a constraint: its body, the point that is held, and, of a weld, the orientation, world.
+/// One end of a constraint: its body, the constrained point, and for a weld the orientation, world frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct End {
     pub(crate) body: usize,
@@ -67,7 +68,7 @@ pub(crate) fn rows_of(m: &Model, e: usize) -> usize {
     }
 }
 
-/// Both ends of a connect or weld. `None` for constraints of joints and tendons.
+/// Both ends of a connect or weld. Returns `None` for constraints of joints and tendons.
 pub(crate) fn ends(m: &Model, d: &Fields, e: usize) -> Option<[End; 2]> {
     let data = rows::<DATA>(&m.eq_data).get(e)?;
     let weld = m.eq_type[e] == eqtype::WELD;
@@ -83,7 +84,7 @@ pub(crate) fn ends(m: &Model, d: &Fields, e: usize) -> Option<[End; 2]> {
         };
         return Some([end(ids[0])?, end(ids[1])?]);
     }
-    // A weld lists the anchor on body 2 first, then the pose of body 2 in body 1.
+    // The data of a weld contain the anchor on body 2 first, then the pose of body 2 in body 1.
     let (first, second) = ([data[0], data[1], data[2]], [data[3], data[4], data[5]]);
     let anchors = if weld { [second, first] } else { [first, second] };
     let relative = if weld { [data[6], data[7], data[8], data[9]] } else { IDENTITY };
@@ -95,8 +96,8 @@ pub(crate) fn ends(m: &Model, d: &Fields, e: usize) -> Option<[End; 2]> {
     Some([end(ids[0], anchors[0], relative)?, end(ids[1], anchors[1], IDENTITY)?])
 }
 
-/// Force and torque on body 1 of the rows of a constraint with ends `ends`, world; those on body 2 are opposite,
-/// each at its own point.
+/// Force and torque on body 1, in world axes, for the forces `rows` of a constraint with the ends `ends`. Those on
+/// body 2 are opposite; each acts at the point of its own end.
 pub(crate) fn wrench(m: &Model, e: usize, ends: &[End; 2], rows: &[f64]) -> (Vec3, Vec3) {
     let (Some(&force), turn) = (rows.first_chunk::<3>(), rows.get(3..)) else { return ([0.0; 3], [0.0; 3]) };
     let Some(&f) = turn.and_then(|t| t.first_chunk::<3>()) else { return (force, [0.0; 3]) };

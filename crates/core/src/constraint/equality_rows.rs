@@ -1,8 +1,8 @@
-//! The rows of equality constraints, and the part of their acceleration that velocities cause.
+//! The rows of equality constraints, and the velocity-dependent part of their acceleration.
 //!
-//! A connect holds two points together, a weld two frames: x₁ - x₂ = 0 and Im(q₂⁻¹ q₁) = 0, whose rate is
-//! ½ Im(q₂⁻¹ (ω₁ - ω₂) q₁). Joints and tendons follow a polynomial of each other (MuJoCo's documentation,
-//! "Computation: Constraint model, Equality").
+//! A connect constrains two points, a weld two frames: x₁ - x₂ = 0 and Im(q₂⁻¹ q₁) = 0, whose rate is ½ Im(q₂⁻¹ (ω₁ -
+//! ω₂) q₁). One joint or tendon follows a polynomial of another (MuJoCo's documentation, "Computation: Constraint
+//! model, Equality").
 
 use super::Scratch;
 use super::cost::Cost;
@@ -23,7 +23,7 @@ pub(super) fn count(m: &Model, d: &Fields) -> usize {
     (0..m.neq).filter(|&e| d.eq_active[e]).map(|e| ends::rows_of(m, e)).sum()
 }
 
-/// Rows of all active constraints, by id.
+/// Creates the rows of all active constraints, ordered by id.
 pub(super) fn make(m: &Model, d: &mut Fields, w: &mut Scratch) {
     let Scratch { jac, columns, .. } = w;
     for e in 0..m.neq {
@@ -40,7 +40,7 @@ pub(super) fn make(m: &Model, d: &mut Fields, w: &mut Scratch) {
     }
 }
 
-/// Appends the scalars of a constraint; its impedance is that of the distance `off` from where it should be.
+/// Appends the scalar quantities of a constraint. Its impedance is that of the violation `off`.
 fn scalars<const R: usize>(m: &Model, d: &mut Fields, e: usize, pos: [f64; R], off: f64, weight: [f64; R]) {
     let kbi = kbi(m, Acts::BothWays, rows::<2>(&m.eq_solref)[e], rows::<5>(&m.eq_solimp)[e], off);
     let r = weight.map(|w| regularization(kbi.imp, w));
@@ -95,13 +95,14 @@ fn polynomial(coefficients: &[f64], x: f64) -> (f64, f64) {
     coefficients.iter().rev().fold((0.0, 0.0), |(value, slope), c| (value * x + c, slope * x + value))
 }
 
-/// How much the force of a tendon equality pulls at its second tendon.
+/// Force on the second tendon of a tendon equality per unit force on the first.
 pub(super) fn ratio(m: &Model, d: &Fields, e: usize) -> f64 {
     let second = usize::try_from(m.eq_obj2id[e]).ok();
     coupled(m, e, 0.0, second.map(|t| d.ten_length[t] - m.tendon_length0[t])).1
 }
 
-/// q₁ - ref₁ = c(q₂ - ref₂), or = c₀ without a second one: the difference, and what the second moves it by.
+/// The constraint is q₁ - ref₁ = c(q₂ - ref₂), or = c₀ without a second object. Returns the violation, and its
+/// derivative with respect to the second coordinate.
 fn coupled(m: &Model, e: usize, first: f64, second: Option<f64>) -> (f64, f64) {
     let data = &rows::<11>(&m.eq_data)[e];
     match second {
@@ -158,7 +159,7 @@ pub(super) fn bias(m: &Model, d: &mut Fields) {
                 *aref -= x;
             }
             if m.eq_type[e] == eqtype::WELD {
-                // d/dt of ½ Im(q₂⁻¹ (ω₁ - ω₂) q₁) without accelerations, where q̇ = ½ ω q.
+                // d/dt of ½ Im(q₂⁻¹ (ω₁ - ω₂) q₁) at zero joint accelerations, where q̇ = ½ ω q.
                 let spin = sub(a.spin, b.spin);
                 let torquescale = rows::<11>(&m.eq_data)[e][10];
                 let quat = |v: Vec3| [0.0, v[0], v[1], v[2]];

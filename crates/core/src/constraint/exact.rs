@@ -1,4 +1,4 @@
-//! The `diagexact` flag: regularization from the diagonal of J M⁻¹ Jᵀ itself, instead of its estimate at `qpos0`.
+//! The `diagexact` flag: regularization from the exact diagonal of J M⁻¹ Jᵀ instead of its estimate at `qpos0`.
 
 use super::Scratch;
 use super::contact_rows;
@@ -8,7 +8,7 @@ use super::rows::{regularization, soften};
 use crate::dynamics::mass;
 use crate::model::{Fields, Model};
 
-/// Replaces `efc_R` and what follows from it.
+/// Replaces `efc_R` and the quantities that are derived from it.
 pub(super) fn regularize(m: &Model, d: &mut Fields, w: &mut Scratch) {
     for i in 0..w.jac.blocks.len() {
         d.meter.add(u64::from(w.jac.blocks[i].nrow) * (m.nv + 2 * m.nC) as u64);

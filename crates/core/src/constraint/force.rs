@@ -1,10 +1,10 @@
-//! Forces of constraints, as those who look at them want them.
+//! Contact forces in the contact frame.
 
 use crate::kinds::cone;
 use crate::model::{Contact, Fields, Model};
 
-/// Force and torque of a contact in the contact's frame: normal, two tangents, then three torques
-/// (`mj_contactForce`), N and N m. Zero when the contact has no constraint.
+/// Force (N) and torque (N m) of a contact in the contact frame: normal, two tangents, then three torques
+/// (`mj_contactForce`). Zero if the contact has no constraint rows.
 pub(crate) fn contact_force(m: &Model, d: &Fields, contact: &Contact) -> [f64; 6] {
     let mut out = [0.0; 6];
     let Some(force) = contact.efc_address.and_then(|row| d.efc_force.get(row..)) else { return out };
@@ -13,13 +13,13 @@ pub(crate) fn contact_force(m: &Model, d: &Fields, contact: &Contact) -> [f64; 6
             *out = *f;
         }
     } else {
-        // Pyramid: each edge pushes along n ± μ t.
+        // Each edge of a pyramid pushes along n ± μ t.
         for (k, edges) in force.chunks_exact(2).take(contact.dim.saturating_sub(1).min(5)).enumerate() {
             out[0] += edges[0] + edges[1];
             out[1 + k] = (edges[0] - edges[1]) * contact.friction[k];
         }
     }
-    // What sticks presses with that much less.
+    // The adhesion force reduces the normal force.
     out[0] -= contact.adhesion;
     out
 }

@@ -1,10 +1,11 @@
 //! The Hessian of an island, M + Jᵀ C J, and its factorization H = L Lᵀ.
 //!
-//! The lower triangle is kept in blocks of four by four, the lanes of a vector. Each row of blocks is kept from its first
-//! block that is not zero up to the diagonal; L fills nothing outside of that (George and Liu 1981, *Computer Solution of
-//! Large Sparse Positive Definite Systems*, ch. 4). Each tree comes from its leaves to its root, so that its branches do not meet
-//! before the bodies that carry them. In large islands, where most pairs of trees do not touch, trees are ordered so that
-//! rows are short: breadth first from an end of the island, reversed (Cuthill and McKee 1969, George 1971).
+//! The lower triangle is stored in blocks of 4 x 4, which fit SIMD lanes. Each row of blocks is stored from its first
+//! nonzero block to the diagonal. L creates no fill-in outside of this profile (George and Liu 1981, *Computer
+//! Solution of Large Sparse Positive Definite Systems*, ch. 4). Each tree is numbered from its leaves to its root, so
+//! that its branches share no rows before the bodies that carry them. In large islands, most pairs of trees do not
+//! interact. Their trees are ordered so that rows are short: breadth first from an end of the island, reversed
+//! (Cuthill and McKee 1969, George 1971).
 
 mod tree_order;
 
@@ -19,19 +20,20 @@ use std::ops::Range;
 use tree_order::Order;
 use wide::f64x4;
 
-/// Degrees of freedom up to which trees stay in the order of the file.
+/// Maximum number of degrees of freedom for which trees keep the order of the model.
 const SMALL: usize = 120;
 
-/// The sum of the squares of the lengths of rows up to which an island is solved with its Hessian: that of a thousand
-/// degrees of freedom, each tied to each. Beyond that a step would take minutes; conjugate gradients find the same
-/// solution without it.
+/// Maximum of the sum of squared row lengths for which an island is solved with its Hessian: that of a thousand
+/// degrees of freedom that all interact. Beyond that a step would take minutes, and conjugate gradients find the same
+/// solution without the Hessian.
 const MOST_WORK: usize = 330_000_000;
 
-/// Four numbers of a row that follow each other, and a block of four by four, row by row.
+/// Four consecutive numbers of a row, and a block of 4 x 4, row-major.
 type Four = [f64; 4];
 type Tile = [Four; 4];
 
-/// A symmetric matrix: the lower triangle, by rows of blocks. Rows that fill the last one up are those of the identity.
+/// A symmetric matrix: its lower triangle in rows of blocks. The last row of blocks is padded with rows of the
+/// identity.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Hessian {
     /// Position of each degree of freedom of the model in its island.
@@ -40,73 +42,76 @@ pub(super) struct Hessian {
     /// Inverse diagonal of L.
     inverse: Vec<Four>,
     blocks: Vec<BlockRow>,
-    /// Number of rows without those that fill up.
+    /// Number of rows without padding.
     len: usize,
-    /// What the layout was made for: how many times islands had been found, the island, and whether there is room.
+    /// What the current layout is for: the count of island searches and the island. `fits` is false if the island
+    /// exceeds [`MOST_WORK`].
     made_for: (u64, usize),
     fits: bool,
-    /// What a factorization costs.
+    /// Work units of a factorization.
     pub(super) work: u64,
     /// The first column of each row.
     first: Vec<u32>,
-    /// Where the numbers of M go, those of the island row by row.
+    /// Index in `values` of each number of M, for the rows of the island in order.
     mass: Vec<u32>,
-    /// The columns of the blocks of the Jacobian, where they are here, and how many of these blocks have been passed.
+    /// For blocks of the Jacobian: their columns, the column blocks of H that contain them, and the number of blocks
+    /// already added.
     column_blocks: Vec<ColumnBlocks>,
     listed_columns: Vec<u32>,
     lanes: Vec<ColumnBlock>,
     passed: usize,
-    /// Scratch of a block of the Jacobian: its rows by fours of columns.
+    /// Scratch for a block of the Jacobian: its rows in groups of four columns.
     fours: Vec<Four>,
     order: Order,
-    /// How many times it was laid out.
+    /// How many times a layout was computed.
     #[cfg(test)]
     pub(super) laid_out: usize,
 }
 
-/// Four rows: their first block, and where it lies.
+/// A row of blocks: the column of its first block, and its index in `values`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct BlockRow {
     first: usize,
     start: usize,
 }
 
-/// Where columns of a block of the Jacobian, or of several that follow each other, are listed, and the fours that they are among.
+/// The columns of a block of the Jacobian, or of consecutive blocks with the same columns: ranges in `listed_columns`
+/// and `lanes`.
 #[derive(Clone, Debug, PartialEq)]
 struct ColumnBlocks {
     columns: Range<usize>,
     lanes: Range<usize>,
 }
 
-/// Four columns that a block of H begins with: which column of a block of the Jacobian each is, or [`NONE`].
+/// A column block of H, and for each of its four columns the corresponding column of the Jacobian block, or [`NONE`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct ColumnBlock {
     block: u32,
     of: [u32; 4],
 }
 
-/// No column.
+/// Marks a column that the Jacobian block does not have.
 const NONE: u32 = u32::MAX;
 
 impl Hessian {
-    /// The island that it is laid out for.
+    /// The island of the current layout.
     pub(super) fn island(&self) -> usize {
         self.made_for.1
     }
 
-    /// Number of entries of a vector.
+    /// Number of elements of a vector, including padding.
     pub(super) fn capacity(&self) -> usize {
         4 * self.blocks.len()
     }
 
-    /// Numbers of the matrix that are kept.
+    /// Number of stored matrix elements.
     #[cfg(test)]
     pub(super) fn block_count(&self) -> usize {
         16 * self.values.len()
     }
 
-    /// Numbers the degrees of freedom of an island, and lays out its rows. `false`, and no room is made, where to
-    /// factorize them would take more than [`MOST_WORK`].
+    /// Numbers the degrees of freedom of an island and computes the layout of its rows. Returns `false`, without
+    /// allocating memory, if the factorization would take more than [`MOST_WORK`].
     pub(super) fn lay_out(&mut self, m: &Model, jac: &Jacobian, islands: &Islands, island: usize) -> bool {
         if self.made_for == (islands.found, island) {
             return self.fits;
@@ -152,7 +157,7 @@ impl Hessian {
         self.fits
     }
 
-    /// Numbers the degrees of freedom from the last to the first.
+    /// Numbers the degrees of freedom in reverse, starting with the last number.
     fn number(&mut self, m: &Model, trees: impl Iterator<Item = usize>) {
         let mut left = self.len as u32;
         for k in trees.flat_map(|t| m.tree_dofs(t)) {
@@ -161,7 +166,8 @@ impl Hessian {
         }
     }
 
-    /// The first column of every row: those of M begin with the first descendant, those of a block of the Jacobian together.
+    /// Finds the first column of every row. Rows of M begin at the first descendant; rows of a Jacobian block all
+    /// begin at its first column.
     fn find_first(&mut self, m: &Model, jac: &Jacobian, islands: &Islands, island: usize) {
         let (first, local) = (&mut self.first, &self.local);
         first.clear();
@@ -186,18 +192,18 @@ impl Hessian {
         }
     }
 
-    /// Finds where the numbers of M go.
+    /// Finds the index of each number of M.
     fn place_mass(&mut self, m: &Model, runs: impl Iterator<Item = Range<usize>>) {
         self.mass.clear();
         for k in runs.flatten() {
-            // It comes before its ancestors here.
+            // In this numbering a degree of freedom precedes its ancestors.
             let (blocks, local, column) = (&self.blocks, &self.local, self.local[k] as usize);
             let place = |&j: &i32| place(blocks, local[j as usize] as usize, column) as u32;
             self.mass.extend(m.M_colind[mass::row(m, k)].iter().map(place));
         }
     }
 
-    /// Finds where the columns of blocks of the Jacobian go, by the fours of columns of H that they are among.
+    /// Finds the column blocks of H for the columns of Jacobian blocks.
     fn place_columns(&mut self, jac: &Jacobian, blocks: impl Iterator<Item = usize>) {
         self.column_blocks.clear();
         self.listed_columns.clear();
@@ -212,7 +218,7 @@ impl Hessian {
             }
             let (column, first) = (self.listed_columns.len(), self.lanes.len());
             self.listed_columns.extend_from_slice(columns);
-            // Ascending in the file, so that those of a tree descend here.
+            // Columns are ascending in the model, so those of a tree are descending in this numbering.
             for (p, &k) in columns.iter().enumerate().rev() {
                 let local = self.local[k as usize];
                 let (block, lane) = (local / 4, local as usize % 4);
@@ -233,7 +239,7 @@ impl Hessian {
         }
     }
 
-    /// Where the columns of a block of the Jacobian are; blocks come in their order.
+    /// The range in `lanes` of the columns of a Jacobian block. Blocks must be looked up in order.
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn find_lanes(&mut self, columns: &[u32]) -> Range<usize> {
         let left = &self.column_blocks[self.passed..];
@@ -244,7 +250,7 @@ impl Hessian {
         left[k].lanes.clone()
     }
 
-    /// All numbers zero, but for the identity of the rows that fill up.
+    /// Sets all elements to zero, except the identity in the padding rows.
     pub(super) fn clear(&mut self) {
         self.passed = 0;
         for (i, &BlockRow { first, start }) in self.blocks.iter().enumerate() {
@@ -255,7 +261,7 @@ impl Hessian {
         }
     }
 
-    /// Adds M, of which the degrees of freedom of the island are given.
+    /// Adds M for the given degrees of freedom of the island.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn add_mass(&mut self, m: &Model, mass: &[f64], runs: impl Iterator<Item = Range<usize>>) {
         let (mut places, values) = (self.mass.as_slice(), self.values.as_flattened_mut().as_flattened_mut());
@@ -269,7 +275,8 @@ impl Hessian {
         }
     }
 
-    /// H = L Lᵀ, in place: each block of L takes that of H, transposed, so that its lanes are the rows of the block.
+    /// H = L Lᵀ, in place. Each block of L replaces that of H, transposed, so that its lanes are the rows of the
+    /// block.
     #[inline(never)]
     pub(super) fn factor(&mut self) {
         for (i, &BlockRow { first, start }) in self.blocks.iter().enumerate() {
@@ -277,7 +284,7 @@ impl Hessian {
             let target = &mut below[..i + 1 - first];
             for j in first..=i {
                 let mut block = transposed(target[j - first]);
-                // Less the products of what is to the left of it in both rows.
+                // Subtracts the products of the blocks to the left in both rows.
                 let up = self.blocks[j].first;
                 let row = if j < i { &above[self.blocks[j].start..][..j + 1 - up] } else { &*target };
                 let from = first.max(up);
@@ -314,7 +321,7 @@ impl Hessian {
         }
     }
 
-    /// x ← H⁻¹ x, factorized.
+    /// x ← H⁻¹ x, using the factorization.
     #[inline(never)]
     pub(super) fn solve(&self, x: &mut [f64]) {
         let x = x.as_chunks_mut::<4>().0;
@@ -360,13 +367,13 @@ impl Hessian {
         }
     }
 
-    /// The rows of blocks of L, each by its four columns, from the first block to the diagonal.
+    /// The rows of blocks of L, from the first block to the diagonal, each block by columns.
     fn rows(&self) -> impl DoubleEndedIterator<Item = (usize, &[Tile])> {
         self.blocks.iter().enumerate().map(|(i, b)| (i, &self.values[b.start..][..i + 1 - b.first]))
     }
 }
 
-/// Where the number in a row and a column lies.
+/// The index of an element in the flattened `values`.
 fn place(blocks: &[BlockRow], row: usize, column: usize) -> usize {
     let BlockRow { first, start } = blocks[row / 4];
     16 * (start + column / 4 - first) + row % 4 * 4 + column % 4
@@ -404,7 +411,7 @@ impl HessianAccumulator for Hessian {
         for (q, lane_columns) in lanes.iter().enumerate() {
             let BlockRow { first, start } = blocks[lane_columns.block as usize];
             let row = &mut values[start..][..lane_columns.block as usize + 1 - first];
-            // Beyond the diagonal a row counts as zero, whatever is there.
+            // Elements of diagonal blocks above the diagonal are never read, so they may be overwritten.
             let (lanes, fours) = (&lanes[..=q], &fours[..=q]);
             for (lane, p) in lane_columns.of.into_iter().enumerate() {
                 let Some(v) = v.get(p as usize) else { continue };
@@ -428,5 +435,5 @@ fn transposed(rows: Tile) -> [f64x4; 4] {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)] // a test that fails says why
+#[allow(clippy::unwrap_used)] // a failing test prints the reason
 mod tests;

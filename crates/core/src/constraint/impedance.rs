@@ -1,12 +1,12 @@
-//! From `solref` and `solimp` to the stiffness, damping and impedance of a constraint.
+//! Stiffness, damping and impedance of a constraint, computed from `solref` and `solimp`.
 //!
-//! The formulas are those of the documentation, "Computation: Constraint model, Parameters".
+//! The formulas are those of MuJoCo's documentation, "Computation: Constraint model, Parameters".
 
 use crate::kinds::{disable, integrator};
 use crate::math::MINVAL;
 use crate::model::{Contact, Model};
 
-/// Stiffness K (1/s²), damping B (1/s), impedance I, at the current violation.
+/// Stiffness K (1/s²), damping B (1/s) and impedance I at the current violation.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Kbi {
     pub(super) k: f64,
@@ -20,23 +20,23 @@ pub(super) struct Kbi {
 const MINIMP: f64 = 1e-4;
 const MAXIMP: f64 = 0.9999;
 
-/// What a row acts on: it decides how `refsafe` keeps the discrete integrator from bouncing.
+/// The direction in which a row acts. It determines how `refsafe` prevents rebound with the discrete integrator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Acts {
-    /// Both ways, as equalities and friction do.
+    /// In both directions: equalities and friction.
     BothWays,
-    /// One way, as limits and the normals of contacts do.
+    /// In one direction: limits and contact normals.
     OneWay,
 }
 
-/// Parameters of a row at violation `r` = position - margin.
+/// Parameters of a row at the violation `r` = position - margin.
 pub(super) fn kbi(m: &Model, acts: Acts, solref: [f64; 2], solimp: [f64; 5], r: f64) -> Kbi {
     let solref = safe_solref(m, solref);
     let dmin = solimp[0].clamp(MINIMP, MAXIMP);
     let dmax = solimp[1].clamp(MINIMP, MAXIMP);
     let (imp, slope) = impedance([dmin, dmax, solimp[2], solimp[3], solimp[4]], r);
     let (mut k, mut b) = if solref[0] > 0.0 {
-        // Time constant and damping ratio of the mass-spring-damper that the constraint behaves like.
+        // Time constant and damping ratio of the equivalent mass-spring-damper.
         let [timeconst, dampratio] = solref;
         (
             1.0 / (dmax * dmax * timeconst * timeconst * dampratio * dampratio).max(MINVAL),
@@ -46,8 +46,8 @@ pub(super) fn kbi(m: &Model, acts: Acts, solref: [f64; 2], solimp: [f64; 5], r: 
         (-solref[0] / (dmax * dmax), -solref[1] / dmax)
     };
     if discrete(m) && acts == Acts::OneWay && solref[0] > 0.0 && refsafe(m) {
-        // A row of the discrete integrator is solved at the end of the step: it is stable however stiff, but beyond
-        // this it would throw back what it stops.
+        // The discrete integrator solves a row at the end of the step, so it is stable for any stiffness. Above this
+        // stiffness, however, a row would make the bodies rebound.
         let stiffest = 1.0 / (imp * m.opt.timestep * m.opt.timestep);
         if k > stiffest {
             k = stiffest;
@@ -65,8 +65,8 @@ fn refsafe(m: &Model) -> bool {
     !m.opt.disabled(disable::REFSAFE)
 }
 
-/// The same for the friction of an elliptic cone, whose impedance is that of its normal: `solreffriction` where it is
-/// given, without mixed signs.
+/// Parameters for the friction rows of an elliptic cone, with the impedance of the normal row: from `solreffriction`
+/// if it is given and has no mixed signs.
 pub(super) fn kbi_friction(m: &Model, c: &Contact, normal: Kbi) -> Kbi {
     let [a, b] = c.solreffriction;
     let is_direct = [a, b] != [0.0; 2] && (a > 0.0) == (b > 0.0);
@@ -77,19 +77,20 @@ pub(super) fn kbi_friction(m: &Model, c: &Contact, normal: Kbi) -> Kbi {
     Kbi { imp: normal.imp, slope: normal.slope, ..kbi(m, Acts::BothWays, solref, c.solimp, 0.0) }
 }
 
-/// Mixed signs are an error of the model: the default replaces them. A time constant below two steps would
-/// be integrated unstably: `refsafe` raises it.
+/// Mixed signs are an error of the model and are replaced by the default. A time constant below two timesteps would
+/// make the integration unstable; `refsafe` raises it.
 fn safe_solref(m: &Model, solref: [f64; 2]) -> [f64; 2] {
     let [a, b] = if (solref[0] > 0.0) != (solref[1] > 0.0) { [0.02, 1.0] } else { solref };
     if a > 0.0 && refsafe(m) && !discrete(m) { [a.max(2.0 * m.opt.timestep), b] } else { [a, b] }
 }
 
-/// d(r) and its slope. With x = |r| / width, d = d0 + y(x) (dwidth - d0), where the sigmoid y is of two powers that meet at the
-/// midpoint (documentation, "Modeling: Solver parameters, Impedance"):
+/// The impedance d(r) and its slope. With x = |r| / width, d = d0 + y(x) (dwidth - d0), where the sigmoid y consists
+/// of two power functions that meet at the midpoint (MuJoCo's documentation, "Modeling: Solver parameters,
+/// Impedance"):
 ///
 /// > y = xᵖ / mᵖ⁻¹ for x ≤ m,  y = 1 - (1 - x)ᵖ / (1 - m)ᵖ⁻¹ above.
 ///
-/// Without a width d is the mean of both (measured on MuJoCo 3.14.0).
+/// If the width is zero, d is the mean of d0 and dwidth (measured on MuJoCo 3.14.0).
 fn impedance([d0, dwidth, width, midpoint, power]: [f64; 5], r: f64) -> (f64, f64) {
     if width <= MINVAL {
         return (0.5 * (d0 + dwidth), 0.0);
@@ -115,7 +116,7 @@ fn impedance([d0, dwidth, width, midpoint, power]: [f64; 5], r: f64) -> (f64, f6
     (d0 + y * range, dy * range / width * r.signum())
 }
 
-/// x^p, with plain products for the exponents that nearly every model has.
+/// x^p, without a call of `pow` for the most common exponents.
 #[inline]
 fn pow(x: f64, p: f64) -> f64 {
     if p == 1.0 {

@@ -1,8 +1,8 @@
-//! Rows at the end of a step, for the discrete integrator.
+//! Constraint rows at the end of a step, for the discrete integrator.
 //!
-//! The damped spring of a row acts with the violation r + h v⁺ and the velocity v⁺ = v + h a at the end of the step. Written
-//! for the acceleration a it is a row again: with s = 1 + h B + h² K d its regularization is R/s and its reference
-//! -((B + h K d) v + K d r)/s (derived from MuJoCo 3.14.0's numbers).
+//! The spring and damper of a row act with the violation r + h v⁺ and the velocity v⁺ = v + h a at the end of the
+//! step. Solved for the acceleration a, this is again a row: with s = 1 + h B + h² K d, its regularization is R/s and
+//! its reference is -((B + h K d) v + K d r)/s (derived from numbers of MuJoCo 3.14.0).
 
 use super::Scratch;
 use super::contact_rows;
@@ -17,8 +17,8 @@ use crate::math::*;
 use crate::model::plan::PlanFlag;
 use crate::model::{Fields, Model};
 
-/// Replaces `efc_R` with what follows from it, and sets `efc_aref`. `metric` is the diagonal of the matrix that takes the
-/// place of M.
+/// Replaces `efc_R` and the quantities derived from it, and sets `efc_aref`. `metric` is the diagonal of the matrix
+/// that replaces M.
 pub(crate) fn at_end_of_step(m: &Model, d: &mut Fields, w: &Scratch, metric: &[f64]) {
     for b in &w.jac.blocks {
         soften_block(m, d, &w.jac, metric, b);
@@ -44,10 +44,10 @@ fn growth(h: f64, [k, b, imp, _]: &[f64; 4]) -> f64 {
     1.0 + h * b + h * h * k * imp
 }
 
-/// R/s of the rows of a block, for the inertia that they meet now.
+/// Sets R/s for the rows of a block, scaled to the inertia of the current metric.
 fn soften_block(m: &Model, d: &mut Fields, jac: &Jacobian, metric: &[f64], b: &Block) {
     let (row, n) = (b.row as usize, b.nrow as usize);
-    // Σ J²/M' over Σ J²/M, with diagonals alone.
+    // Ratio of Σ J²/M' to Σ J²/M, using only the diagonals.
     let (mut now, mut before) = ([0.0; MOST_ROWS], [0.0; MOST_ROWS]);
     for (&k, v) in jac.terms(b) {
         let k = k as usize;
@@ -71,14 +71,15 @@ fn soften_block(m: &Model, d: &mut Fields, jac: &Jacobian, metric: &[f64], b: &B
     if (elliptic || d.efc_type[row] == kind::CONTACT_PYRAMIDAL)
         && let Some(c) = d.contact.get_mut(d.efc_id[row] as usize)
     {
-        // Friction is as soft as its normal makes it; an edge's R is 2 μ² times that of the normal.
+        // The regularization of friction follows from that of the normal. R of an edge is 2 μ² times R of the normal.
         let normal = if elliptic { old } else { old / (2.0 * c.mu * c.mu) };
         contact_rows::frictions(m, c, elliptic, (normal * first).max(MINVAL), new);
     }
     soften(d, row, imp, new);
 }
 
-/// Appends a row that costs ½ `stiff` x² for x = J a: a part of the metric that M's pattern has no room for.
+/// Appends a row with the cost ½ `stiff` x² for x = J a: a term of the metric that does not fit into the pattern of
+/// M.
 pub(crate) fn push_metric(d: &mut Fields, w: &mut Scratch, columns: &[i32], values: &[f64], stiff: f64) {
     let row = d.nefc;
     resize(d, row + 1);
@@ -88,7 +89,7 @@ pub(crate) fn push_metric(d: &mut Fields, w: &mut Scratch, columns: &[i32], valu
     (d.efc_aref[row], d.efc_D[row], d.efc_R[row], d.efc_frictionloss[row]) = (0.0, stiff, 1.0 / stiff, 0.0);
 }
 
-/// Takes the rows from `rows` on back, and their force out of `qfrc_constraint`.
+/// Removes all rows starting at `rows`, and subtracts their force from `qfrc_constraint`.
 pub(crate) fn pop_metric(d: &mut Fields, w: &mut Scratch, rows: usize) {
     while let Some(&b) = w.jac.blocks.last()
         && b.row as usize >= rows

@@ -1,47 +1,47 @@
-//! Islands: kinematic trees that constraints tie together. Each is a problem of its own.
+//! Islands: sets of kinematic trees connected by constraints. Each is a separate problem.
 //!
-//! Connected components by union-find with path halving (Tarjan and van Leeuwen 1984).
+//! They are the connected components, found by union-find with path halving (Tarjan and van Leeuwen 1984).
 
 use super::jacobian::Jacobian;
 use crate::kinds::disable;
 use crate::model::Model;
 use std::ops::Range;
 
-/// Which constraints and trees belong together.
+/// The constraints and trees of each island.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Islands {
     /// Trees of each island, ascending.
     pub(super) trees: Lists,
     /// Blocks of the Jacobian of each island, ascending.
     pub(super) blocks: Lists,
-    /// Degrees of freedom of each island: those of trees that follow each other as one range.
+    /// Degrees of freedom of all islands; those of consecutive trees form one range.
     runs: Vec<Range<usize>>,
-    /// Where those of each island end.
+    /// The end of the ranges of each island in `runs`.
     run_ends: Vec<usize>,
-    /// Per tree: parent in the forest of the union-find.
+    /// For each tree, its parent in the union-find forest.
     link: Vec<u32>,
-    /// Per tree: its island, or [`NONE`].
+    /// For each tree, its island, or [`NONE`].
     island: Vec<u32>,
-    /// What the lists were made from: the end of each block's columns, all columns, and whether islands are
-    /// switched off.
+    /// The inputs of the lists: the end of the columns of each block, all columns, and whether islands are disabled.
     ends: Vec<u32>,
     columns: Vec<u32>,
     together: bool,
-    /// Number of islands, and how many times they were found: what was derived from them holds as long as that stays.
+    /// Number of islands, and the count of searches. Data derived from islands stay valid while this count does not
+    /// change.
     count: usize,
     pub(super) found: u64,
 }
 
-/// Several lists of small numbers.
+/// Several lists of small integers in one array.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Lists {
-    /// The items, list by list; and where each list begins.
+    /// The items of all lists in order, and the start of each list.
     items: Vec<u32>,
     begin: Vec<usize>,
 }
 
 impl Lists {
-    /// Lists the items, each given with its list, in the order in which they come.
+    /// Fills the lists with items, each given with the index of its list. The order of items is preserved.
     fn fill(&mut self, lists: usize, items: impl Iterator<Item = (u32, usize)> + Clone) {
         self.begin.clear();
         self.begin.resize(lists + 2, 0);
@@ -59,7 +59,7 @@ impl Lists {
         }
     }
 
-    /// How many items a list has.
+    /// The number of items of a list.
     pub(super) fn len(&self, list: usize) -> usize {
         self.begin[list + 1] - self.begin[list]
     }
@@ -71,9 +71,9 @@ impl Lists {
     }
 }
 
-/// No island, no item.
+/// Marks a tree without an island.
 const NONE: u32 = u32::MAX;
-/// A constraint touches the tree; its island has no number yet.
+/// Marks a tree that a constraint moves and whose island has no number yet.
 const TOUCHED: u32 = u32::MAX - 1;
 
 fn root(link: &mut [u32], mut i: usize) -> usize {
@@ -90,13 +90,13 @@ impl Islands {
         self.trees.members(island)
     }
 
-    /// Whether some constraint touches a tree.
+    /// Whether any constraint moves a tree.
     pub(crate) fn has(&self, tree: usize) -> bool {
         self.island.get(tree).is_some_and(|&island| island != NONE)
     }
 
-    /// Groups the blocks of the Jacobian; returns the number of islands, which are numbered by their first
-    /// tree. Nothing is done while the blocks have the columns that they had at the last step.
+    /// Groups the blocks of the Jacobian and returns the number of islands, which are numbered by their first tree.
+    /// If the columns of the blocks are those of the last step, nothing is computed.
     pub(super) fn find(&mut self, m: &Model, jac: &Jacobian) -> usize {
         let together = m.opt.disabled(disable::ISLAND);
         if self.together == together && jac.same_columns(&self.ends, &self.columns) {
@@ -136,21 +136,21 @@ impl Islands {
         }
     }
 
-    /// The degrees of freedom of an island, ascending.
+    /// The degrees of freedom of an island as ascending ranges.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn dofs(&self, island: usize) -> impl Iterator<Item = Range<usize>> + Clone + use<'_> {
         let first = if island == 0 { 0 } else { self.run_ends[island - 1] };
         self.runs[first..self.run_ends[island]].iter().cloned()
     }
 
-    /// The degrees of freedom of an island whose trees follow each other without a gap.
+    /// The degrees of freedom of an island if they form a single range.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn one_run(&self, island: usize) -> Option<Range<usize>> {
         let mut runs = self.dofs(island);
         runs.next().filter(|_| runs.next().is_none())
     }
 
-    /// Gives each touched tree the number of its island; returns how many there are.
+    /// Assigns the number of its island to each tree that a constraint moves. Returns the number of islands.
     fn number(&mut self, m: &Model, jac: &Jacobian) -> usize {
         self.link.clear();
         self.link.extend(0..m.ntree as u32);
@@ -165,7 +165,7 @@ impl Islands {
                 }
             }
         }
-        // A root is the smallest tree of its island, so it is numbered before the others ask.
+        // A root is the smallest tree of its island, so it gets a number before the other trees read it.
         let mut n = 0;
         for t in 0..m.ntree {
             if self.island[t] == TOUCHED {

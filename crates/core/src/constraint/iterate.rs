@@ -1,17 +1,17 @@
-//! What the solvers keep while they go from one acceleration to the next.
+//! State of the solvers between iterations.
 
 use super::delassus::Dual;
 use super::hessian::Hessian;
 
-/// Where the solver stands, and its scratch: vectors over all degrees of freedom or all rows, of which each island uses its own.
+/// The current iterate and scratch: vectors over all degrees of freedom or all rows. Each island uses its own part.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Iterate {
     /// M a.
     pub(super) ma: Vec<f64>,
-    /// Gradient of the cost, and M⁻¹ or H⁻¹ times it.
+    /// Gradient of the cost, and its product with M⁻¹ or H⁻¹.
     pub(super) grad: Vec<f64>,
     pub(super) step: Vec<f64>,
-    /// The same before the last step.
+    /// Both before the last step.
     pub(super) grad_old: Vec<f64>,
     pub(super) step_old: Vec<f64>,
     /// Search direction and M times it.
@@ -20,19 +20,19 @@ pub(super) struct Iterate {
     /// J a - aref, and J search.
     pub(super) jar: Vec<f64>,
     pub(super) jv: Vec<f64>,
-    /// Hessian of the island at hand, those of the others as they were laid out, and a right-hand side.
+    /// Hessian of the current island, those of the others with their layouts, and a right-hand side.
     pub(super) hessian: Hessian,
     pub(super) apart: Vec<Hessian>,
     pub(super) rhs: Vec<f64>,
-    /// What the dual methods keep.
+    /// Matrices of the dual methods.
     pub(super) dual: Dual,
-    /// Where each island stands after the warm start.
+    /// State of each island after the warm start.
     pub(super) reached: Vec<Reached>,
 }
 
 impl Iterate {
-    /// Brings the Hessian of an island to hand, laid out as it was left. Islands share no degree of freedom, so that one list of
-    /// their positions serves all.
+    /// Makes the Hessian of an island the current one, with the layout that it had. Islands share no degrees of
+    /// freedom, so one list of positions (`local`) serves all.
     pub(super) fn take_up(&mut self, island: usize) {
         let at = self.hessian.island();
         if at == island {
@@ -63,14 +63,14 @@ impl Iterate {
     }
 }
 
-/// Where an island stands.
+/// State of an island.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Reached {
     pub(super) cost: f64,
     /// Norm of the gradient.
     pub(super) gradient: f64,
-    /// What makes costs and gradients comparable between scenes.
+    /// Factor that makes costs and gradients comparable between scenes.
     pub(super) scale: f64,
-    /// Certified to be the minimum.
+    /// Whether it is proven to be the minimum.
     pub(super) minimum: bool,
 }

@@ -1,7 +1,8 @@
-//! The Jacobian of the constraints, in blocks: the rows of one contact or limit, which share their columns.
+//! The Jacobian of the constraints, in blocks. A block contains the rows of one contact or limit, which have the same
+//! columns.
 //!
-//! Values are stored column by column within a block, so that products run along the rows: four rows of a
-//! frictional contact fill vector registers.
+//! Values are stored column by column within a block, so that products run along the rows: the four rows of a
+//! frictional contact fill SIMD registers.
 
 use super::cost::Cost;
 use super::row_counts::{MOST_ROWS, by_rows};
@@ -11,12 +12,12 @@ use crate::model::{Fields, Model};
 use std::ops::Range;
 use wide::f64x4;
 
-/// A matrix over the degrees of freedom of an island, to which second derivatives of costs are added.
+/// A matrix over the degrees of freedom of an island, which accumulates second derivatives of costs.
 pub(super) trait HessianAccumulator {
-    /// The row of a degree of freedom, and the entry of the lower triangle in a row and a column.
+    /// The row of a degree of freedom, and the element of the lower triangle in a row and a column.
     fn place(&self, dof: u32) -> usize;
     fn entry(&mut self, row: usize, column: usize) -> Option<&mut f64>;
-    /// H ← H + Jᵀ W J for the R rows of a block, given by its columns, ascending, where `apply_weights` gives W v.
+    /// H ← H + Jᵀ W J for the R rows of a block with the given ascending columns. `apply_weights` computes W v.
     fn add_weighted_gram<const R: usize>(
         &mut self,
         columns: &[u32],
@@ -26,7 +27,8 @@ pub(super) trait HessianAccumulator {
         Self: Sized;
 }
 
-/// [`HessianAccumulator::add_weighted_gram`], entry by entry, for any number of rows of which `apply_weights` gives W v.
+/// Like [`HessianAccumulator::add_weighted_gram`], element by element, for any number of rows. `apply_weights`
+/// computes W v.
 pub(super) fn add_entries(
     h: &mut dyn HessianAccumulator,
     columns: &[u32],
@@ -57,21 +59,21 @@ pub(super) struct Block {
     pub(super) row: u32,
     /// Number of rows.
     pub(super) nrow: u32,
-    /// What missing the reference acceleration costs.
+    /// Cost of the deviation from the reference acceleration.
     pub(super) cost: Cost,
     /// First value.
     adr: u32,
     /// First column index, and their number.
     col: u32,
     ncol: u32,
-    /// Where its degrees of freedom are those of one or two free bodies, six that follow each other of each: the first of each.
+    /// Set if its degrees of freedom are exactly those of one or two free bodies.
     free: Free,
 }
 
 /// Degrees of freedom of two free bodies.
 const TWO_FREE: usize = 2 * FREE_DOFS;
 
-/// How many free bodies, and the first degree of freedom of each.
+/// The number of free bodies, and the first degree of freedom of each.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Free {
     bodies: u32,
@@ -79,7 +81,7 @@ struct Free {
 }
 
 impl Free {
-    /// The free bodies whose degrees of freedom are these, which descend.
+    /// The free bodies with the given degrees of freedom, which are in descending order.
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn from_columns(descending: &[u32]) -> Free {
         let six = |last: u32, first: u32| last - first + 1 == FREE_DOFS as u32;
@@ -95,14 +97,14 @@ impl Free {
 }
 
 impl Block {
-    /// Its rows, as indices of the `efc_*` arrays.
+    /// Its rows, as indexes of the `efc_*` arrays.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn rows(&self) -> Range<usize> {
         self.row as usize..(self.row + self.nrow) as usize
     }
 }
 
-/// The range of the columns when there is no gap between them: one body's, as a rule.
+/// The range of the columns if they are consecutive, as for a single body.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn contiguous(columns: &[u32]) -> Option<Range<usize>> {
     let (&first, &last) = (columns.first()?, columns.last()?);
@@ -110,7 +112,7 @@ fn contiguous(columns: &[u32]) -> Option<Range<usize>> {
     (range.len() == columns.len()).then_some(range)
 }
 
-/// Items, the last first.
+/// Writes items in reverse order.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn reversed<T>(items: impl Iterator<Item = T>, to: &mut [T]) {
     for (to, item) in to.iter_mut().rev().zip(items) {
@@ -118,7 +120,7 @@ fn reversed<T>(items: impl Iterator<Item = T>, to: &mut [T]) {
     }
 }
 
-/// v f of four columns.
+/// v f for four columns.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn four_products<const R: usize>(v: &[[f64; R]; 4], f: &[f64; R]) -> f64x4 {
     let mut sum = f64x4::new(v.map(|v| v[0])) * f[0];
@@ -132,7 +134,8 @@ fn four_products<const R: usize>(v: &[[f64; R]; 4], f: &[f64; R]) -> f64x4 {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Jacobian {
     pub(super) blocks: Vec<Block>,
-    /// Scratch that grows and is written over; the blocks say how much of it is used.
+    /// Buffers that only grow and are overwritten in each step; `used_values` and `used_columns` are the lengths in
+    /// use.
     values: Vec<f64>,
     columns: Vec<u32>,
     used_values: usize,
@@ -140,7 +143,7 @@ pub(crate) struct Jacobian {
 }
 
 impl Jacobian {
-    /// Numbers of blocks, of columns and of values.
+    /// Numbers of blocks, columns and values.
     pub(super) fn size(&self) -> [u64; 3] {
         [self.blocks.len(), self.used_columns, self.used_values].map(|n| n as u64)
     }
@@ -167,7 +170,7 @@ impl Jacobian {
         }
     }
 
-    /// Appends a block of `nrow` rows with columns in descending order; the room for its values.
+    /// Appends a block of `nrow` rows with columns in descending order. Returns its values, to be filled.
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn open_rows(&mut self, cost: Cost, row: usize, nrow: usize, descending: &[u32]) -> &mut [f64] {
         let n = descending.len();
@@ -192,14 +195,14 @@ impl Jacobian {
         let items = descending.iter().copied();
         match n {
             FREE_DOFS if !SMALL => reversed(items, &mut columns[..FREE_DOFS]),
-            // Worth a copy of its own for the commonest contacts alone.
+            // Specialized code is only worth it for the most common contacts.
             TWO_FREE if nrow == 4 && !SMALL => reversed(items, &mut columns[..TWO_FREE]),
             _ => reversed(items, columns),
         }
         &mut self.values[adr..adr + nrow * n]
     }
 
-    /// The free bodies of a block: the first degree of freedom of each, and its values.
+    /// The free bodies of a block: the first degree of freedom and the values of each.
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn free_bodies<const R: usize>(
         &self,
@@ -216,7 +219,7 @@ impl Jacobian {
         &self.columns[b.col as usize..(b.col + b.ncol) as usize]
     }
 
-    /// Whether the blocks have these columns.
+    /// Whether the columns of the blocks equal the given ones.
     #[inline]
     pub(super) fn same_columns(&self, ends: &[u32], columns: &[u32]) -> bool {
         ends.len() == self.blocks.len()
@@ -231,7 +234,7 @@ impl Jacobian {
         columns.extend_from_slice(&self.columns[..self.used_columns]);
     }
 
-    /// Appends a block of one row: its columns in ascending order with a value each.
+    /// Appends a block of one row. Its columns are ascending, with one value each.
     pub(super) fn push_sparse(
         &mut self,
         cost: Cost,
@@ -245,7 +248,7 @@ impl Jacobian {
         }
     }
 
-    /// Appends the row a + factor b. The columns of both ascend.
+    /// Appends the row a + factor b. The columns of both are ascending.
     pub(super) fn push_sum(
         &mut self,
         cost: Cost,
@@ -274,7 +277,8 @@ impl Jacobian {
         }
     }
 
-    /// Appends a block with the rows of another over other columns, in ascending order; its values, all zero.
+    /// Appends a block with the rows of another block and other, ascending columns. Returns its values, which are
+    /// zero.
     pub(super) fn push_zeros(&mut self, like: &Block, columns: impl Iterator<Item = usize>) -> &mut [f64] {
         self.open(like.cost, like.row as usize);
         let (adr, col) = (self.used_values, self.used_columns);
@@ -309,13 +313,13 @@ impl Jacobian {
         self.columns(b).iter().map(of).filter(move |&t| std::mem::replace(&mut last, t) != t)
     }
 
-    /// Begins a block of one row.
+    /// Starts a block of one row.
     fn open(&mut self, cost: Cost, row: usize) {
         let (adr, col) = (self.used_values as u32, self.used_columns as u32);
         self.blocks.push(Block { row: row as u32, nrow: 1, cost, adr, col, ncol: 0, free: Free::default() });
     }
 
-    /// Adds a column to it.
+    /// Adds a column to the last block.
     fn append(&mut self, column: i32, value: f64) {
         let (at, col) = (self.used_values, self.used_columns);
         (self.used_values, self.used_columns) = (at + 1, col + 1);
@@ -331,7 +335,7 @@ impl Jacobian {
         }
     }
 
-    /// Keeps the last block if it moves anything, otherwise takes it back.
+    /// Removes the last block if it moves nothing. Returns whether the block was kept.
     pub(super) fn keep_moving(&mut self, m: &Model) -> bool {
         let dense = super::is_dense(m);
         let moves = |b: &Block| if dense { self.values(b).iter().any(|&v| v != 0.0) } else { b.ncol > 0 };
@@ -342,7 +346,7 @@ impl Jacobian {
         keep
     }
 
-    /// Takes back the last block.
+    /// Removes the last block.
     pub(super) fn pop(&mut self) {
         if let Some(b) = self.blocks.pop() {
             (self.used_values, self.used_columns) = (b.adr as usize, b.col as usize);
@@ -355,12 +359,12 @@ impl Jacobian {
         &self.values[b.adr as usize..(b.adr + b.nrow * b.ncol) as usize]
     }
 
-    /// Whether some row has a column among these degrees of freedom.
+    /// Whether any row has a column in the range of degrees of freedom.
     pub(crate) fn touches(&self, dofs: Range<usize>) -> bool {
         self.columns[..self.used_columns].iter().any(|&k| dofs.contains(&(k as usize)))
     }
 
-    /// out ← J x, all rows.
+    /// out ← J x for all rows.
     #[inline]
     pub(super) fn mul(&self, x: &[f64], out: &mut [f64]) {
         for b in &self.blocks {
@@ -368,7 +372,7 @@ impl Jacobian {
         }
     }
 
-    /// out ← J x - aref, all rows.
+    /// out ← J x - aref for all rows.
     #[inline]
     pub(super) fn residual(&self, x: &[f64], aref: &[f64], out: &mut [f64]) {
         self.mul(x, out);
@@ -391,7 +395,7 @@ impl Jacobian {
         }
     }
 
-    /// The columns of a block, with a value for each row.
+    /// The columns of a block, each with its values for all rows.
     #[inline]
     pub(super) fn terms(&self, b: &Block) -> impl Iterator<Item = (&u32, &[f64])> {
         self.columns(b).iter().zip(self.values(b).chunks_exact(b.nrow as usize))
@@ -459,7 +463,7 @@ impl Jacobian {
 }
 
 impl Jacobian {
-    /// out ← out + Jᵀ f for some rows of a block, from `first` on.
+    /// out ← out + Jᵀ f for the rows of a block that start at its row `first`.
     pub(super) fn add_rows_transposed(&self, b: &Block, first: usize, f: &[f64], out: &mut [f64]) {
         for (&k, v) in self.terms(b) {
             out[k as usize] += dot_in_order(&v[first..], f);

@@ -1,4 +1,4 @@
-//! The constraint rows of the current position: Jacobian, violation, regularization.
+//! Creation of the constraint rows for the current position: Jacobian, violation, regularization.
 //!
 //! Order: equalities, dry friction of joints and tendons, limits of joints and tendons, contacts.
 
@@ -12,7 +12,7 @@ use crate::kinds::{disable, enable};
 use crate::model::plan::PlanFlag;
 use crate::model::{Fields, Model};
 
-/// `efc_*` up to R and D, `nefc`.
+/// Computes `nefc` and `efc_*` up to R and D.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn make(m: &Model, d: &mut Fields, w: &mut Scratch) {
     w.jac.clear();
@@ -20,7 +20,8 @@ pub(crate) fn make(m: &Model, d: &mut Fields, w: &mut Scratch) {
     let equal = d.plan.has(PlanFlag::Equalities) && on(disable::EQUALITY);
     let friction = d.plan.has(PlanFlag::FrictionLoss) && on(disable::FRICTIONLOSS);
     let limits = d.plan.has(PlanFlag::Limits) && on(disable::LIMIT);
-    // Memory for all rows that may come; the arrays keep their length from step to step as long as contacts stay.
+    // Memory for the maximum number of rows. The arrays keep their length between steps while the contacts do not
+    // change.
     let limits = if limits { single::count_limits(m, d) } else { 0 };
     let mut capacity = contact_rows::count(m, d) + limits;
     capacity += if equal { equality_rows::count(m, d) } else { 0 };
@@ -34,7 +35,7 @@ pub(crate) fn make(m: &Model, d: &mut Fields, w: &mut Scratch) {
     }
 }
 
-/// The rows themselves: equalities, dry friction and limits where there can be any, contacts.
+/// Creates the rows: equalities, dry friction and limits if the model has them, and contacts.
 #[inline(never)]
 fn fill(m: &Model, d: &mut Fields, w: &mut Scratch, [equal, friction, limits]: [bool; 3]) {
     if equal {
@@ -58,7 +59,7 @@ fn fill(m: &Model, d: &mut Fields, w: &mut Scratch, [equal, friction, limits]: [
     }
 }
 
-/// No rows and no contacts.
+/// Clears rows and contacts.
 pub(crate) fn none(d: &mut Fields, w: &mut Scratch) {
     w.jac.clear();
     resize(d, 0);

@@ -1,8 +1,8 @@
-//! Soft constraints: rows, their stiffness and damping, independent islands, and the solver.
+//! Soft constraints: rows, their stiffness and damping, independent islands, and the solvers.
 //!
-//! The dynamics with constraints is a convex problem (Todorov 2014, *Convex and analytically-invertible
-//! dynamics with contacts and constraints*): among all accelerations, the one nearest to the unconstrained
-//! in the metric of M, where each constraint adds a cost for missing its reference acceleration.
+//! The constrained dynamics is a convex problem (Todorov 2014, *Convex and analytically-invertible dynamics with
+//! contacts and constraints*). Its solution minimizes the squared distance from the unconstrained acceleration in the
+//! metric M, plus a cost for each constraint that deviates from its reference acceleration.
 
 mod cg;
 mod cone;
@@ -48,7 +48,7 @@ pub(crate) use island::Islands;
 use iterate::Iterate;
 use jacobian::Jacobian;
 
-/// What these stages keep from one to the next, and from step to step.
+/// Scratch memory of the constraint stages, kept between stages and between steps.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Scratch {
     /// Jacobian of the constraints.
@@ -67,10 +67,11 @@ impl Scratch {
     }
 }
 
-/// Degrees of freedom below which matrices are dense where the choice is left open.
+/// Number of degrees of freedom below which matrices are dense if the model does not specify it.
 const MOST_DENSE: usize = 60;
 
-/// Whether the library works with dense matrices: it asks whether values are zero, with sparse ones whether there are columns.
+/// Whether MuJoCo would use dense matrices. It then drops rows whose values are all zero; with sparse matrices it
+/// drops rows without columns.
 fn is_dense(m: &Model) -> bool {
     match m.opt.jacobian {
         kinds::jacobian::AUTO => m.nv < MOST_DENSE,

@@ -1,7 +1,7 @@
 //! Newton's method: the direction -H⁻¹ g with H = M + Jᵀ C J, where C is the second derivative of the costs.
 //!
-//! The cost is convex and, but for elliptic cones, piecewise quadratic, so the method ends after finitely many steps
-//! (Nocedal and Wright 2006, ch. 3).
+//! The cost is convex and, except for elliptic cones, piecewise quadratic, so the method terminates after finitely
+//! many steps (Nocedal and Wright 2006, ch. 3).
 
 use super::cost::{Cost, Curvature, unilateral_curvature};
 use super::iterate::Reached;
@@ -31,7 +31,7 @@ impl Problem<'_> {
         let Reached { gradient, scale, .. } = from;
         self.descend(from, price, |p, before| {
             p.newton_direction(&six);
-            // The first direction is gone while the gradient is large.
+            // While the gradient is large, the first direction is always taken.
             let small = before.is_some() || scale * gradient < tol;
             let decrement = p.decrement();
             let done = small && scale * decrement < tol;
@@ -39,7 +39,7 @@ impl Problem<'_> {
         });
     }
 
-    /// Whether the Hessian of the island is worth its memory.
+    /// Computes the layout of the Hessian of the island. Returns `false` if the Hessian is too expensive.
     fn lay_out(&mut self) -> bool {
         let s = &mut *self.s;
         s.take_up(self.island);
@@ -117,7 +117,7 @@ fn add_curvatures(
     }
 }
 
-/// One block whose rows push.
+/// Adds the second derivative for a block of unilateral rows.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn add_unilateral<const R: usize>(
     d: &Fields,
@@ -136,7 +136,7 @@ fn add_unilateral<const R: usize>(
     }
 }
 
-/// One block of any other kind.
+/// Adds the second derivative for a block of any other kind.
 #[inline(never)]
 fn add_curvature<const R: usize>(
     d: &Fields,
@@ -153,7 +153,7 @@ fn add_curvature<const R: usize>(
     }
 }
 
-/// H ← H + Jᵀ W J over a block, where `apply_weights` gives W v.
+/// H ← H + Jᵀ W J for a block. `apply_weights` computes W v.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn add<const R: usize>(
     h: &mut impl HessianAccumulator,

@@ -1,8 +1,9 @@
-//! The removal of slip: friction is solved again as if it were rigid, with what the solver found for everything else.
+//! Removal of slip: friction is solved again without softness, with the other forces of the solver unchanged.
 //!
-//! The softness R lets a contact creep. Without it the friction f_t minimizes ½ f_tᵀ A f_t + (b + A f_rest)ᵀ f_t under the limits
-//! that the other forces set: the largest force of dry friction, and μ times the normal force of a contact, which stays. The minimum
-//! is found by sweeps of Gauss and Seidel over the constraints (`pgs`), each solved to its optimality conditions.
+//! The softness R lets contacts creep. Without it, the friction f_t minimizes ½ f_tᵀ A f_t + (b + A f_rest)ᵀ f_t
+//! under limits given by the other forces: the largest force of dry friction, and μ times the normal force of a
+//! contact, which does not change. The minimum is found by Gauss–Seidel sweeps over the constraints (`pgs`). Each
+//! constraint is solved to its optimality conditions.
 
 use super::cone::friction;
 use super::cost::Cost;
@@ -16,8 +17,8 @@ use crate::math::broken_invariant;
 use crate::math::dot;
 
 impl Problem<'_> {
-    /// Sweeps over the friction of the island until one improves the scaled dual objective by no more than
-    /// `opt.noslip_tolerance` (0 where it is negative) or `opt.noslip_iterations` of them are done.
+    /// Sweeps over the friction rows of the island until one sweep improves the scaled dual objective by at most
+    /// `opt.noslip_tolerance` (0 if it is negative), or until `opt.noslip_iterations` sweeps are done.
     pub(super) fn remove_slip(&mut self) {
         let (tolerance, scale) = (self.m.opt.noslip_tolerance.max(0.0), self.scale_of_all());
         let price = self.price_of_sweep();
@@ -45,7 +46,8 @@ impl Problem<'_> {
         }
     }
 
-    /// Dry friction of a joint or tendon: |f| ≤ `efc_frictionloss`.
+    /// Solves dry friction of a joint or tendon: |f| ≤ `efc_frictionloss`. Returns the improvement, like the
+    /// functions below.
     fn rigid_dry_friction(&mut self, b: &Block, group: RowGroup) -> f64 {
         let row = b.row as usize;
         let (force, loss) = (self.d.efc_force[row], self.d.efc_frictionloss[row]);
@@ -56,7 +58,7 @@ impl Problem<'_> {
         improvement(solved - force, slope, curvature)
     }
 
-    /// The friction of an elliptic cone under its normal force.
+    /// Solves the friction of an elliptic cone for its normal force.
     fn rigid_cone<const N: usize>(&mut self, b: &Block, group: RowGroup) -> f64 {
         let row = b.row as usize;
         let Some(&force) = self.d.efc_force[row..].first_chunk::<N>() else {
@@ -82,7 +84,8 @@ impl Problem<'_> {
         -dot(change, slope) - 0.5 * dot(change, a.map(|row| dot(row, change)))
     }
 
-    /// Each pair of opposite edges of a pyramid: the forces are n ± y, where n, half their sum, stays and |y| ≤ n.
+    /// Solves each pair of opposite edges of a pyramid. Their forces are n ± y, where n, half of their sum, is
+    /// constant and |y| ≤ n.
     fn rigid_pyramid(&mut self, b: &Block, group: RowGroup) -> f64 {
         let mut decrease = 0.0;
         for first in (0..b.nrow).step_by(2) {
@@ -96,20 +99,21 @@ impl Problem<'_> {
             let solved = minimum_within(y, slope, curvature, n);
             let edges = [n + solved, n - solved];
             self.set_forces(b, group, edges);
-            // Only what the edges keep of the change counts: beside a large n its last digits are lost, or all of it.
+            // Only the change that the stored edge forces represent counts: next to a large n, its last digits or all
+            // of it may be lost to rounding.
             decrease += improvement(0.5 * (edges[0] - edges[1]) - y, slope, curvature);
         }
         decrease
     }
 }
 
-/// Where a parabola with this slope and curvature at x is least within ±`limit`; x itself where it is flat.
+/// The minimum within ±`limit` of a parabola with the given slope and curvature at x. Without curvature, it is x.
 fn minimum_within(x: f64, slope: f64, curvature: f64, limit: f64) -> f64 {
     let free = if curvature > 0.0 { x - slope / curvature } else { x };
     free.max(-limit).min(limit)
 }
 
-/// The decrease of the same parabola over a change of x.
+/// The decrease of this parabola for a change of x.
 fn improvement(change: f64, slope: f64, curvature: f64) -> f64 {
     -change * (slope + 0.5 * curvature * change)
 }

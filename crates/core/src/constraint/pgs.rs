@@ -1,14 +1,16 @@
 //! Projected Gauss–Seidel with momentum on the dual problem.
 //!
-//! The forces f minimize ½ fᵀ (A + R) f + bᵀ f over a product of sets: all of space for an equality, intervals for dry friction,
-//! half lines for limits, frictionless contacts and edges of pyramids, cones for elliptic contacts. They are the minimum if and
-//! only if every group of rows that shares a set is optimal while the others stay. A sweep solves the groups one by one, in
-//! an order drawn anew for each sweep (Nesterov, *Efficiency of coordinate descent methods on huge-scale optimization
-//! problems*, 2012), so that no stack is always swept against its loads.
+//! The forces f minimize ½ fᵀ (A + R) f + bᵀ f over a product of sets: all of space for equalities, intervals for dry
+//! friction, half lines for limits, frictionless contacts and edges of pyramids, cones for elliptic contacts. They
+//! are the minimum if and only if every group of rows that share a set is optimal for fixed forces of the others. A
+//! sweep solves the groups one by one, in a new random order for each sweep (Nesterov, *Efficiency of coordinate
+//! descent methods on huge-scale optimization problems*, 2012), so that no stack is always swept in an unfavourable
+//! direction.
 //!
-//! Between sweeps the forces are extrapolated with the momentum of Beck and Teboulle (*A fast iterative shrinkage-thresholding
-//! algorithm for linear inverse problems*, 2009), and brought back into their sets. Momentum restarts where a sweep turns
-//! against the last change (O'Donoghue and Candès, *Adaptive restart for accelerated gradient schemes*, 2015).
+//! Between sweeps the forces are extrapolated with the momentum of Beck and Teboulle (*A fast iterative
+//! shrinkage-thresholding algorithm for linear inverse problems*, 2009), and projected onto their sets. The momentum
+//! restarts if a sweep reverses the last change (O'Donoghue and Candès, *Adaptive restart for accelerated gradient
+//! schemes*, 2015).
 
 use super::cone::{cone_force, nearest_in_cone};
 use super::cost::Cost;
@@ -20,8 +22,8 @@ use super::row_counts::{by_cone_rows, by_rows};
 use crate::math::{Ldl, dot};
 
 impl Problem<'_> {
-    /// Sweeps from the present forces on, until one improves the scaled dual objective by no more than `opt.tolerance` (the
-    /// documented meaning of that tolerance) or `opt.iterations` of them are done.
+    /// Sweeps, starting from the current forces, until one sweep improves the scaled dual objective by at most
+    /// `opt.tolerance` (the documented meaning of this tolerance), or until `opt.iterations` sweeps are done.
     pub(super) fn gauss_seidel(&mut self) {
         let (tolerance, scale) = (self.m.opt.tolerance.max(0.0), self.scale_of_all());
         let price = self.price_of_sweep();
@@ -45,7 +47,7 @@ impl Problem<'_> {
         }
     }
 
-    /// Lists the groups of rows, and stores the forces at hand and the acceleration that they cause.
+    /// Lists the groups of rows, stores the current forces, and computes the acceleration that they cause.
     fn start_sweeps(&mut self) {
         self.accelerate();
         let blocks = self.blocks();
@@ -60,7 +62,7 @@ impl Problem<'_> {
         }
     }
 
-    /// y = f + β (f - previous f), brought into the sets: where the next sweep begins.
+    /// y = f + β (f - previous f), projected onto the sets: the start of the next sweep.
     fn extrapolate(&mut self, beta: f64) {
         for i in self.blocks() {
             let b = self.jac.blocks[i];
@@ -79,7 +81,8 @@ impl Problem<'_> {
         }
     }
 
-    /// (y - f) · (f - previous f) > 0, in the metric of R: y - f stands for the gradient where the sweep began.
+    /// Whether (y - f) · (f - previous f) > 0 in the metric of R. y - f approximates the direction of the gradient at
+    /// the start of the sweep.
     fn turns_back(&self) -> bool {
         let (d, w) = (&*self.d, &self.s.dual);
         let rows = self.blocks().flat_map(|i| self.jac.blocks[i].rows());
@@ -88,7 +91,7 @@ impl Problem<'_> {
         rows.map(product).sum::<f64>() > 0.0
     }
 
-    /// Solves one group after the other; returns the decrease of the dual objective.
+    /// Solves one group after the other. Returns the decrease of the dual objective.
     fn sweep(&mut self) -> f64 {
         let mut improvement = 0.0;
         for k in 0..self.s.dual.groups.len() {
@@ -103,7 +106,7 @@ impl Problem<'_> {
         improvement
     }
 
-    /// f ← the nearest of its set to f - (b + A f + R f) / (A + R).
+    /// f ← the projection of f - (b + A f + R f) / (A + R) onto its set.
     fn solve_row(&mut self, b: &Block, group: RowGroup) -> f64 {
         let row = (b.row + group.first) as usize;
         let (force, r) = (self.d.efc_force[row], self.d.efc_R[row]);
@@ -116,7 +119,8 @@ impl Problem<'_> {
         -change * (gradient + 0.5 * a * change)
     }
 
-    /// f ← the minimum of ½ fᵀ (A + R) f + (b + what the other forces cause)ᵀ f over all of space or an elliptic cone.
+    /// f ← the minimum over all of space, or over an elliptic cone, of ½ fᵀ (A + R) f + cᵀ f, where c is b plus the
+    /// effect of the other forces.
     fn solve_group<const N: usize>(&mut self, b: &Block, group: RowGroup) -> f64 {
         let row = b.row as usize;
         let (Some(&force), Some(&r)) =
@@ -144,7 +148,7 @@ impl Problem<'_> {
         -dot(change, gradient) - 0.5 * dot(change, a.map(|row| dot(row, change)))
     }
 
-    /// Moves the forces of a block to the nearest of their sets.
+    /// Projects the forces of a block onto their sets.
     fn move_into_sets(&mut self, b: &Block) {
         if b.cost == Cost::Cone {
             if let Some(contact) = self.d.contact.get(self.d.efc_id[b.row as usize] as usize) {
@@ -157,7 +161,7 @@ impl Problem<'_> {
         }
     }
 
-    /// The nearest force that a row may have.
+    /// The projection of the force of a row onto its set.
     fn nearest_in_set(&self, b: &Block, row: usize, force: f64) -> f64 {
         let loss = self.d.efc_frictionloss[row];
         match b.cost {
@@ -168,16 +172,16 @@ impl Problem<'_> {
     }
 }
 
-/// Random orders, the same in every run: the state of Knuth's linear congruential generator for MMIX (*The Art of Computer
-/// Programming* 2, 3.3.4).
+/// Random orders that are the same in every run: the state of Knuth's linear congruential generator for MMIX (*The
+/// Art of Computer Programming* 2, 3.3.4).
 struct Order(u64);
 
 impl Order {
-    /// All orders are as likely (Knuth, 3.4.2, algorithm P).
+    /// Shuffles the groups; all orders are equally likely (Knuth, 3.4.2, algorithm P).
     fn shuffle(&mut self, groups: &mut [RowGroup]) {
         for last in (1..groups.len()).rev() {
             self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            // High bits, which are the random ones, as a part of `last + 1`.
+            // The high bits, which are the most random, scaled to the range of `last + 1`.
             let part = u128::from(self.0) * (last as u128 + 1);
             groups.swap(last, (part >> 64) as usize);
         }
@@ -185,15 +189,16 @@ impl Order {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)] // a test that fails says why
+#[allow(clippy::unwrap_used)] // a failing test prints the reason
 mod tests {
     use super::{Order, RowGroup};
     use crate::mjcf::compile;
     use crate::step::step;
     use crate::step::workspace::Workspace;
 
-    /// Balls above each other on vertical slides have elliptic cones and no friction at all: extrapolated forces may lie below the apex, with
-    /// no direction along the boundary. Sweeps find the same motion as Newton's method.
+    /// Balls above each other on vertical slides have elliptic cones without any friction. Extrapolated forces can
+    /// lie below the apex, where they have no direction along the boundary. The sweeps must find the same motion as
+    /// Newton's method.
     #[test]
     fn cones_without_friction_are_solved() {
         let heights = |solver: &str| {

@@ -1,5 +1,5 @@
-//! The primal problem of one island, and what all methods share that solve it: cost, forces and gradient at the current
-//! acceleration, the exact search along a direction, and the loop over directions.
+//! The primal problem of one island, and the parts common to the primal methods: cost, forces and gradient at the
+//! current acceleration, the exact line search, and the loop over search directions.
 
 use super::cost::{Cost, Shape, clamp_unilateral, unilateral_along};
 use super::island::Islands;
@@ -13,13 +13,14 @@ use crate::math::{MINVAL, combine, dot, dot_slice, sum, zero};
 use crate::model::{Fields, Model};
 use std::ops::Range;
 
-/// What is known of the cost along a direction where it begins.
+/// What is known of the cost at the start of a search direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Direction {
-    /// Its slope; the direction is Newton's, so that the curvature is minus that. The first one leads to the minimum itself
-    /// unless a constraint changes its zone on the way; later ones may be so short that they are all rounding.
+    /// The slope. For a Newton direction the curvature is minus the slope. The first direction leads exactly to the
+    /// minimum, unless a constraint changes its zone on the way. Later directions may be so short that they consist
+    /// of rounding errors.
     Newton { slope: f64, first: bool },
-    /// Nothing.
+    /// Nothing is known.
     Other,
 }
 
@@ -35,8 +36,8 @@ pub(super) struct Problem<'a> {
 }
 
 impl<'a> Problem<'a> {
-    /// Forces, cost and gradient at the current acceleration, and whether it is already the minimum: the
-    /// decrease that M⁻¹ promises and the gradient are both small.
+    /// Computes forces, cost and gradient at the current acceleration. Also tests whether it is already the minimum:
+    /// the gradient, and the decrease that M⁻¹ predicts, are both small.
     pub(super) fn reached(&mut self) -> Reached {
         let (tol, scale) = (self.m.opt.tolerance, self.scale());
         let (cost, gradient) = self.update();
@@ -47,9 +48,9 @@ impl<'a> Problem<'a> {
         Reached { cost, gradient, scale, minimum }
     }
 
-    /// Goes down the cost, along one direction after the other. `direct` puts the next one into `search` and says whether it is
-    /// worth going, and then what is known of it; it is given the norm of the gradient where the last one began, none for the
-    /// first. A step costs `price`.
+    /// Reduces the cost along successive directions. `direct` writes the next direction to `search` and returns what
+    /// is known of it, or `None` to stop. Its argument is the norm of the gradient before the last step, `None` for
+    /// the first direction. A step costs `price` work units.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn descend(
         &mut self,
@@ -79,7 +80,7 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// What going once through the rows and degrees of freedom of the island costs, and products of columns.
+    /// Work units of one pass over the rows and degrees of freedom of the island, and of the products of columns.
     pub(super) fn prices(&self) -> [u64; 2] {
         let [blocks, columns, values] = self.jac.size();
         let (mine, all) = (self.islands.blocks.len(self.island) as u64, blocks.max(1));
@@ -87,19 +88,19 @@ impl<'a> Problem<'a> {
         [50 + mine * (15 + 2 * values / all) + 5 * dofs as u64, mine * (values / all) * (columns / all) / 2]
     }
 
-    /// The degrees of freedom.
+    /// The degrees of freedom of the island.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn dofs(&self) -> impl Iterator<Item = Range<usize>> + Clone + use<'a> {
         self.islands.dofs(self.island)
     }
 
-    /// The constraints, by their place in the Jacobian's blocks.
+    /// The constraints of the island, as indexes of the blocks of the Jacobian.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn blocks(&self) -> impl Iterator<Item = usize> + Clone + use<'a> {
         self.islands.blocks.members(self.island)
     }
 
-    /// Makes costs and gradients comparable between scenes of any mass.
+    /// Factor that makes costs and gradients comparable between scenes of different mass.
     pub(super) fn scale(&self) -> f64 {
         let m = self.m;
         if m.opt.disabled(disable::ISLAND) {
@@ -109,13 +110,13 @@ impl<'a> Problem<'a> {
         1.0 / sum.max(MINVAL)
     }
 
-    /// The same for the whole scene: dual methods judge every island by it.
+    /// The same factor for the whole scene; the dual methods use it for every island.
     pub(super) fn scale_of_all(&self) -> f64 {
         1.0 / (self.m.stat.meaninertia * self.m.nv.max(1) as f64).max(MINVAL)
     }
 
-    /// Forces, which are added to the zeros of `qfrc_constraint`, and gradient at the current acceleration; returns the cost
-    /// and the norm of the gradient.
+    /// Computes forces and gradient at the current acceleration. `qfrc_constraint` must be zero before. Returns the
+    /// cost and the norm of the gradient.
     pub(super) fn update(&mut self) -> (f64, f64) {
         let mut cost = 0.0;
         let jac = self.jac;
@@ -140,7 +141,7 @@ impl<'a> Problem<'a> {
         (cost, square.sqrt())
     }
 
-    /// Forces of one constraint; returns its cost.
+    /// Computes the forces of a block of unilateral rows. Returns its cost.
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn push_block<const R: usize>(&mut self, b: &Block) -> f64 {
         let (d, s) = (&mut *self.d, &*self.s);
@@ -157,7 +158,7 @@ impl<'a> Problem<'a> {
         -0.5 * dot(force, below)
     }
 
-    /// The same for any kind of constraint.
+    /// Computes the forces of a block of any other kind. Returns its cost.
     #[inline(never)]
     fn other_block<const R: usize>(&mut self, b: &Block) -> f64 {
         let (d, s) = (&mut *self.d, &*self.s);
@@ -170,7 +171,7 @@ impl<'a> Problem<'a> {
         cost
     }
 
-    /// ½ gᵀ M⁻¹ g; step ← M⁻¹ g.
+    /// Returns ½ gᵀ M⁻¹ g. Also sets step ← M⁻¹ g.
     pub(super) fn decrement_by_mass(&mut self) -> f64 {
         tree_algorithms::complete(self.m, self.d, self.trees);
         for dofs in self.dofs() {
@@ -180,7 +181,7 @@ impl<'a> Problem<'a> {
         self.decrement()
     }
 
-    /// ½ gᵀ M⁻¹ g where M is diagonal.
+    /// ½ gᵀ M⁻¹ g for a diagonal M.
     fn decrement_by_diagonal(&mut self) -> f64 {
         tree_algorithms::complete(self.m, self.d, self.trees);
         let of =
@@ -193,7 +194,7 @@ impl<'a> Problem<'a> {
         0.5 * self.dofs().map(|r| dot_slice(&self.s.grad[r.clone()], &self.s.step[r])).sum::<f64>()
     }
 
-    /// The best step along `search`.
+    /// The step length along `search` with the lowest cost.
     pub(super) fn line_search(&mut self, scale: f64, direction: Direction) -> f64 {
         let price = 20 + 12 * self.islands.blocks.len(self.island) as u64;
         let most = (self.d.meter.left() / price).max(16);
@@ -249,7 +250,7 @@ impl<'a> Problem<'a> {
         best
     }
 
-    /// a ← a + α search, where there are no forces yet.
+    /// a ← a + α search. Also sets `qfrc_constraint` to zero, for the next [`Problem::update`].
     pub(super) fn advance(&mut self, alpha: f64) {
         let (dofs, blocks) = (self.dofs(), self.blocks());
         let (d, s) = (&mut *self.d, &mut *self.s);
@@ -267,7 +268,7 @@ impl<'a> Problem<'a> {
     }
 }
 
-/// What the cost of a constraint of R rows depends on.
+/// The parameters of the cost of a constraint of R rows.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn shape<'a, const R: usize>(d: &'a Fields, b: &Block) -> Option<Shape<'a, R>> {
     let row = b.row as usize;
@@ -276,7 +277,7 @@ pub(super) fn shape<'a, const R: usize>(d: &'a Fields, b: &Block) -> Option<Shap
     Some(Shape { cost: b.cost, stiff, loss: d.efc_frictionloss[row], contact })
 }
 
-/// Whether the cost of a block is one quadratic all along the search direction.
+/// Whether the cost of a block is a single quadratic function along the whole step `search`.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn stays(d: &Fields, s: &Iterate, b: &Block) -> bool {
     match b.cost {
@@ -286,7 +287,7 @@ fn stays(d: &Fields, s: &Iterate, b: &Block) -> bool {
     }
 }
 
-/// The same for a constraint that does not push.
+/// The same test for a constraint that is not unilateral.
 #[inline(never)]
 fn stays_other<const R: usize>(d: &Fields, s: &Iterate, b: &Block) -> bool {
     match (shape::<R>(d, b), s.jar[b.rows()].first_chunk(), s.jv[b.rows()].first_chunk()) {
@@ -295,7 +296,7 @@ fn stays_other<const R: usize>(d: &Fields, s: &Iterate, b: &Block) -> bool {
     }
 }
 
-/// Adds the rows of a block that push to a point of the line.
+/// Adds the rows of a unilateral block to a point of the line.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn add_push(p: &mut Point, d: &Fields, s: &Iterate, b: &Block) {
     for r in b.rows() {
@@ -306,7 +307,7 @@ fn add_push(p: &mut Point, d: &Fields, s: &Iterate, b: &Block) {
     }
 }
 
-/// The same for a constraint of any other kind.
+/// Adds a constraint of any other kind to a point of the line.
 #[inline(never)]
 fn add_other<const R: usize>(p: &mut Point, d: &Fields, s: &Iterate, b: &Block) {
     let (Some(x), Some(v)) = (s.jar[b.rows()].first_chunk::<R>(), s.jv[b.rows()].first_chunk::<R>()) else {

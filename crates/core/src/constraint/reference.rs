@@ -1,4 +1,4 @@
-//! The reference acceleration: what a damped spring on the violation would do.
+//! The reference acceleration of constraints: that of a damped spring acting on the violation.
 
 use super::Scratch;
 use super::contact_rows;
@@ -8,7 +8,7 @@ use crate::math::*;
 use crate::model::plan::PlanFlag;
 use crate::model::{Fields, Model};
 
-/// `efc_vel` = J v and `efc_aref` = -B J v - K d r, less the acceleration J̇ v that is there already.
+/// `efc_vel` = J v and `efc_aref` = -B J v - K d r, minus the velocity-dependent acceleration J̇ v.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn reference(m: &Model, d: &mut Fields, w: &Scratch) {
     if d.nefc > 0 {
@@ -23,7 +23,7 @@ fn ask(m: &Model, d: &mut Fields, w: &Scratch) {
         contact_rows::surfaces(m, d);
     }
     if m.opt.integrator == integrator::DISCRETE {
-        // The reference at the end of the step depends on forces: it comes later.
+        // With this integrator, the reference is computed at the end of the step, because it depends on forces.
         return;
     }
     let rows = d.efc_pos.iter().zip(&d.efc_margin).zip(rows::<4>(&d.efc_KBIP)).zip(&d.efc_vel);

@@ -1,10 +1,11 @@
-//! Numbers of rows that a block of constraints can have, as constants: loops over them are unrolled.
+//! The possible numbers of rows of a block as constants, so that loops over rows are unrolled.
 
-/// Rows of the largest block.
+/// Maximum number of rows of a block.
 pub(super) const MOST_ROWS: usize = 10;
 
-/// Runs an expression with the constant `$rows` equal to the number of rows of a block: 1 for what is a number, 3 for a
-/// point, 4 and 6 for pyramids and cones with friction, 6 for a frame, 10 for the pyramid with all friction.
+/// Evaluates an expression with the constant `$rows` equal to the number of rows of a block: 1 for a scalar, 3 for a
+/// point, 4 and 6 for pyramids and cones with friction, 6 for a frame, 10 for the pyramid with torsional and rolling
+/// friction.
 macro_rules! by_rows {
     ($n:expr, $rows:ident => $run:expr) => {
         match $n {
@@ -33,7 +34,8 @@ macro_rules! by_rows {
 }
 pub(super) use by_rows;
 
-/// The same for an elliptic cone: a normal, and two, three or five directions of friction.
+/// Evaluates an expression with the number of rows of an elliptic cone: one normal, and two, three or five friction
+/// directions.
 macro_rules! by_cone_rows {
     ($n:expr, $rows:ident => $run:expr) => {
         match $n {

@@ -1,12 +1,12 @@
 //! The scalars of constraint rows: type, violation, stiffness, regularization.
 //!
-//! A row is a scalar `J a`; its regularization R makes it soft.
+//! A row is a scalar constraint on J a. Its regularization R makes it soft.
 
 use super::impedance::Kbi;
 use crate::math::*;
 use crate::model::{Fields, Model};
 
-/// Gives the arrays a length.
+/// Sets the length of the `efc_*` arrays.
 pub(super) fn resize(d: &mut Fields, rows: usize) {
     if d.efc_type.len() == rows && d.efc_force.len() == rows {
         return;
@@ -22,7 +22,7 @@ pub(super) fn resize(d: &mut Fields, rows: usize) {
     }
 }
 
-/// Sum over both bodies of the inverse inertia, for translation (0) or rotation (1).
+/// Sum of the inverse weights of both bodies, for translation (0) or rotation (1).
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn inverse_weight(m: &Model, [b1, b2]: [usize; 2], part: usize) -> f64 {
     m.body_invweight0[2 * b1 + part] + m.body_invweight0[2 * b2 + part]
@@ -43,7 +43,7 @@ pub(super) struct Rows<const R: usize> {
     pub(super) r: [f64; R],
 }
 
-/// Appends the scalars of a constraint; its Jacobian is there already.
+/// Appends the scalar quantities of a constraint, after its Jacobian.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn push<const R: usize>(d: &mut Fields, s: &Rows<R>) {
     append(d, s.kind, s.id, s.loss, [&s.pos, &s.margin, &s.r], [&s.kbi, &s.others]);
@@ -65,7 +65,7 @@ fn append(d: &mut Fields, kind: i32, id: usize, loss: f64, [pos, margin, r]: [&[
     soften(d, rows.start, kbi[0].imp, r);
 }
 
-/// `efc_R`, `efc_D`, and the diagonal of J M⁻¹ Jᵀ that they would follow from.
+/// Sets `efc_R`, `efc_D`, and `efc_diagA`, the diagonal of J M⁻¹ Jᵀ that corresponds to R.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn soften(d: &mut Fields, row: usize, imp: f64, r: &[f64]) {
     let rows = row..row + r.len();
@@ -75,7 +75,7 @@ pub(super) fn soften(d: &mut Fields, row: usize, imp: f64, r: &[f64]) {
     put(&mut d.efc_D[rows], &|r| 1.0 / r);
 }
 
-/// R = (1 - d)/d A, so that the constraint acts with the fraction d of the force that would hold it rigid.
+/// R = (1 - d)/d A, so that the constraint acts with the fraction d of the force that would make it rigid.
 #[inline]
 pub(super) fn regularization(imp: f64, diag: f64) -> f64 {
     ((1.0 - imp) / imp * diag).max(MINVAL)

@@ -1,10 +1,10 @@
 //! Line search: the minimum of the cost along a direction.
 //!
-//! Along a line the cost is convex, and quadratic between the places where a row changes its state: its slope is a rising
-//! line with kinks (bent a little where a contact slides on an elliptic cone). The minimum is the one zero of that line.
-//! Newton's method finds it in one step from any place on the same straight piece; a bracket, which every evaluation
-//! narrows, keeps it from walking to and fro between two pieces (safeguarded steps: Nocedal, Wright, Numerical
-//! Optimization, section 3.5).
+//! Along a line the cost is convex, and quadratic between the points where a row changes its state. Its slope is
+//! increasing and piecewise linear (slightly curved where a contact slides on an elliptic cone). The minimum is the
+//! zero of the slope. Newton's method finds it in one step from any point on the same linear piece. A bracket, which
+//! every evaluation narrows, prevents the iteration from alternating between two pieces (safeguarded steps: Nocedal,
+//! Wright, Numerical Optimization, section 3.5).
 
 /// Cost along the line, relative to its start: value, first and second derivative.
 #[derive(Clone, Copy, Debug)]
@@ -16,15 +16,15 @@ pub(super) struct Point {
 }
 
 impl Point {
-    /// Where the tangent of the slope is zero.
+    /// The zero of the tangent of the slope.
     fn newton(&self) -> f64 {
         // M is positive definite, but a search direction may be so short that its square underflows.
         self.alpha - self.slope / self.curvature.max(f64::MIN_POSITIVE)
     }
 }
 
-/// The places nearest to the minimum on either side of it: the cost falls on the way to the one and rises from the other
-/// on.
+/// The points nearest to the minimum on both sides: the slope is negative at the lower one, and not negative at the
+/// upper one.
 #[derive(Default)]
 struct Bracket {
     falls: Option<Point>,
@@ -37,12 +37,13 @@ impl Bracket {
         *end = Some(p);
     }
 
-    /// Where to look next after `last`, and whether it is inside; `None` when rounding leaves no place between the ends.
+    /// The next point to evaluate after `last`. Returns `None` if rounding leaves no point between the ends.
     fn next(&self, last: &Point, halve: bool) -> Option<f64> {
         let tangent = last.newton();
         let (Some(low), Some(high)) = (&self.falls, &self.rises) else { return Some(tangent) };
         let inside = |x: &f64| low.alpha < *x && *x < high.alpha;
-        // The other end's tangent, which is exact when the minimum is on its piece; the chord of both.
+        // Alternatives: the tangent at the other end, which is exact if the minimum is on its piece, and the chord
+        // between both ends.
         let other = if last.slope < 0.0 { high.newton() } else { low.newton() };
         let chord = low.alpha - low.slope * (high.alpha - low.alpha) / (high.slope - low.slope);
         let middle = 0.5 * (low.alpha + high.alpha);
@@ -57,21 +58,21 @@ impl Bracket {
         }
     }
 
-    /// The end where the cost is lower.
+    /// The end with the lower cost.
     fn lower(&self) -> Option<Point> {
         let ends = self.falls.into_iter().chain(self.rises);
         ends.min_by(|a, b| a.cost.total_cmp(&b.cost))
     }
 }
 
-/// The step that minimizes `eval` to |slope| < `gtol`, from a point that is known, in at most `budget` evaluations with that one,
-/// two at least. 0 when no step lowers the cost.
+/// The step length that minimizes `eval` to |slope| < `gtol`, starting from an evaluated point. It uses at most
+/// `budget` evaluations including the start, but at least two. Returns 0 if no step lowers the cost.
 pub(super) fn minimize(gtol: f64, budget: usize, start: Point, mut eval: impl FnMut(f64) -> Point) -> f64 {
     let mut bracket = Bracket::default();
     let (mut last, mut halve) = (start, false);
     for _ in 1..budget.max(2) {
         bracket.narrow(last);
-        // A slope that is no number leads nowhere, nor does a step that rounding takes away.
+        // The search ends if the step is not finite, or too small to change α.
         let next = bracket.next(&last, halve).filter(|alpha| alpha.is_finite() && *alpha != last.alpha);
         let Some(alpha) = next else { break };
         let width = bracket.width();
@@ -79,7 +80,7 @@ pub(super) fn minimize(gtol: f64, budget: usize, start: Point, mut eval: impl Fn
         if last.slope.abs() < gtol {
             return last.alpha;
         }
-        // A step that leaves more than half of the bracket is followed by one that halves it.
+        // A step that leaves more than half of the bracket is followed by a bisection.
         let left = match (last.slope < 0.0, &bracket.falls, &bracket.rises) {
             (true, _, Some(high)) => high.alpha - last.alpha,
             (false, Some(low), _) => last.alpha - low.alpha,
@@ -96,7 +97,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// However many evaluations are allowed.
+    /// The search also terminates with an unlimited budget.
     #[test]
     fn what_is_no_number_ends_the_search() {
         for (slope, curvature) in [(f64::NAN, 1.0), (-1.0, f64::NAN), (-1.0, 0.0), (f64::NEG_INFINITY, 1.0)] {
@@ -112,7 +113,7 @@ mod tests {
     }
 
     proptest! {
-        /// Random sums of one-sided quadratics on top of a strictly convex one.
+        /// Random sums of one-sided quadratic functions plus a strictly convex one.
         #[test]
         fn finds_the_minimum(rows in prop::collection::vec((0.01f64..1e4, -2.0f64..2.0, -3.0f64..3.0), 0..12), b in -5.0f64..-0.01) {
             let eval = |alpha: f64| {

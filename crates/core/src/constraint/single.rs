@@ -1,4 +1,4 @@
-//! Constraints of single rows: dry friction of joints and tendons, limits of joints and tendons.
+//! Constraints with a single row: dry friction and limits of joints and tendons.
 
 use super::cost::Cost;
 use super::equality_rows;
@@ -11,13 +11,13 @@ use crate::kinds::{eqtype, joint};
 use crate::math::*;
 use crate::model::{Fields, Model, asleep};
 
-/// Number of rows of dry friction.
+/// Number of dry friction rows.
 pub(super) fn count_friction(m: &Model) -> usize {
     let some = |list: &[f64]| list.iter().filter(|&&f| f > 0.0).count();
     some(&m.dof_frictionloss) + some(&m.tendon_frictionloss)
 }
 
-/// Rows that the limits of joints and tendons have at most: what is within its range needs none.
+/// Upper limit of the number of limit rows of joints and tendons. A coordinate within its range needs none.
 pub(super) fn count_limits(m: &Model, d: &Fields) -> usize {
     let joints = m.jnt_limited.iter().zip(&m.jnt_type).zip(&m.jnt_qposadr);
     let joints = joints.zip(rows::<2>(&m.jnt_range).iter().zip(&m.jnt_margin));
@@ -39,13 +39,13 @@ pub(super) fn count_limits(m: &Model, d: &Fields) -> usize {
     count
 }
 
-/// How many sides of a range are nearer than the margin: see [`sides`].
+/// The number of sides of a range whose distance is below the margin: see [`sides`].
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn near([lower, upper]: [f64; 2], value: f64, margin: f64) -> usize {
     usize::from(value - lower < margin) + usize::from(upper - value < margin)
 }
 
-/// What a row is about: `efc_type`, `efc_id`, the violation with its margin, and the largest force of dry friction.
+/// The scalar quantities of a row: `efc_type`, `efc_id`, violation, margin, and the largest force of dry friction.
 #[derive(Clone, Copy)]
 struct Row {
     kind: i32,
@@ -55,7 +55,7 @@ struct Row {
     loss: f64,
 }
 
-/// Appends the scalars of a row whose Jacobian is there.
+/// Appends the scalar quantities of a row, after its Jacobian.
 fn scalars(m: &Model, d: &mut Fields, row: Row, solref: [f64; 2], solimp: [f64; 5], weight: f64) {
     let Row { kind, id, pos, margin, loss } = row;
     let dry = Cost::for_row(kind) == Cost::DryFriction;
@@ -68,7 +68,7 @@ fn scalars(m: &Model, d: &mut Fields, row: Row, solref: [f64; 2], solimp: [f64; 
     push::<1>(d, &Rows { kind, id, pos: [pos], margin: [margin], loss, kbi, others: kbi, r });
 }
 
-/// A row for each degree of freedom and each tendon with dry friction.
+/// Creates a row for each degree of freedom and each tendon with dry friction.
 pub(super) fn friction(m: &Model, d: &mut Fields, jac: &mut Jacobian) {
     for k in 0..m.nv {
         let loss = m.dof_frictionloss[k];
@@ -89,7 +89,8 @@ pub(super) fn friction(m: &Model, d: &mut Fields, jac: &mut Jacobian) {
     }
 }
 
-/// A row for each violated side of a limit, lower side first; one for a ball's cone.
+/// Creates a row for each violated side of a limit, the lower side first, and a single row for the angle of a ball
+/// joint.
 pub(super) fn limits(m: &Model, d: &mut Fields, jac: &mut Jacobian) {
     for j in 0..m.njnt {
         if !m.jnt_limited[j] || asleep::body(m, d, m.jnt_bodyid[j] as usize) {
@@ -132,7 +133,8 @@ pub(super) fn limits(m: &Model, d: &mut Fields, jac: &mut Jacobian) {
     }
 }
 
-/// The sides of a range that are nearer than the margin: distance, and the direction that leads away.
+/// The sides of a range whose distance is below the margin: distance, and the sign of the direction away from the
+/// side.
 fn sides(range: [f64; 2], value: f64, margin: f64) -> impl Iterator<Item = (f64, f64)> {
     let both = [(range[0], 1.0), (range[1], -1.0)];
     both.into_iter().map(move |(side, sign)| (sign * (value - side), sign)).filter(move |s| s.0 < margin)
@@ -148,7 +150,7 @@ fn joint_limit(m: &Model, d: &mut Fields, jac: &mut Jacobian, j: usize, pos: f64
     scalars(m, d, row, solref, solimp, m.dof_invweight0[dof]);
 }
 
-/// Appends the Jacobian of a tendon's length, times `sign`; `false` when nothing moves the tendon.
+/// Appends the Jacobian of the length of a tendon, times `sign`. Returns `false` if nothing moves the tendon.
 fn along_tendon(m: &Model, d: &Fields, jac: &mut Jacobian, cost: Cost, t: usize, sign: f64) -> bool {
     let row = tendon::row(m, t);
     let values = d.ten_J[row.clone()].iter().map(|j| sign * j);
@@ -156,7 +158,7 @@ fn along_tendon(m: &Model, d: &Fields, jac: &mut Jacobian, cost: Cost, t: usize,
     jac.keep_moving(m)
 }
 
-/// The force of all constraints along the length of a tendon, N.
+/// The force of all constraints along a tendon, N.
 pub(crate) fn tendon_force(m: &Model, d: &Fields, t: usize) -> f64 {
     let range = sides(rows::<2>(&m.tendon_range)[t], d.ten_length[t], m.tendon_margin[t]);
     let mut signs = range.map(|(_, sign)| sign);
@@ -170,7 +172,8 @@ pub(crate) fn tendon_force(m: &Model, d: &Fields, t: usize) -> f64 {
                 sum += if tied[1] { force * equality_rows::ratio(m, d, id) } else { 0.0 };
             }
             kind::FRICTION_TENDON if id == t => sum += force,
-            // The range may have been written since: a row that it does not explain counts as that of its lower end.
+            // If the range was written after the rows were created, a row without a matching side counts as one of
+            // the lower side.
             kind::LIMIT_TENDON if id == t => sum += force * signs.next().unwrap_or(1.0),
             _ => {}
         }

@@ -1,12 +1,12 @@
-//! Newton's direction of an island of six degrees of freedom, one free body as a rule: all of the Hessian fits in registers
-//! and needs no layout.
+//! The Newton direction of an island with six degrees of freedom, usually one free body. The Hessian is a small dense
+//! matrix and needs no layout.
 
 use super::jacobian::HessianAccumulator;
 use crate::dynamics::mass;
 use crate::math::{FREE_DOFS as N, Ldl, MINVAL, dot};
 use crate::model::Model;
 
-/// H = M + Jᵀ C J, of which the lower triangle is looked at.
+/// H = M + Jᵀ C J. Only the lower triangle is read.
 pub(super) struct Six {
     /// The first degree of freedom.
     start: usize,
@@ -14,7 +14,7 @@ pub(super) struct Six {
 }
 
 impl Six {
-    /// M of the degrees of freedom from `start` on.
+    /// Initializes H with M for the six degrees of freedom that begin at `start`.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn new(m: &Model, inertia: &[f64], start: usize) -> Six {
         Six { start, values: mass::free_block(m, inertia, start) }
@@ -66,7 +66,7 @@ mod tests {
     use super::*;
     use std::array::from_fn;
 
-    /// H x = g, for matrices of any condition.
+    /// H x = g, for matrices with different condition numbers.
     #[test]
     fn the_solution_solves() {
         for scale in [1.0, 1e3, 1e6] {

@@ -1,7 +1,7 @@
-//! The constraint solver: where it starts, and which method goes on from there, island by island.
+//! The constraint solver: its starting point, and the method that is used for each island.
 //!
-//! min over a of ½ (a - a₀)ᵀ M (a - a₀) + Σ s(J a - aref), where a₀ is the unconstrained acceleration and s what it
-//! costs to miss the reference (Todorov 2014).
+//! min over a of ½ (a - a₀)ᵀ M (a - a₀) + Σ s(J a - aref), where a₀ is the unconstrained acceleration and s is the
+//! cost of the deviation from the reference acceleration (Todorov 2014).
 
 use super::Scratch;
 use super::cost::{Cost, clamp_unilateral};
@@ -16,7 +16,7 @@ use crate::math::{copy, zero};
 use crate::model::plan::PlanFlag;
 use crate::model::{Fields, Model};
 
-/// `qacc`, `efc_force`, `qfrc_constraint`, `solver_niter`, from `qacc_smooth` and the rows.
+/// Computes `qacc`, `efc_force`, `qfrc_constraint` and `solver_niter` from `qacc_smooth` and the rows.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn solve(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut Trees) {
     d.solver_niter = 0;
@@ -28,13 +28,13 @@ pub(crate) fn solve(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut Tree
     }
 }
 
-#[inline(never)] // a step in which nothing touches does not carry its set-up
+#[inline(never)] // so that steps without constraint rows do not execute its setup code
 fn solve_rows(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut Trees) {
     let [_, columns, values] = w.jac.size();
     d.meter.add(8 * (columns + values) + 40 * d.nefc as u64);
     let dual = m.opt.solver == solver::PGS || m.opt.noslip_iterations > 0;
     if dual {
-        // Each row is solved with M over its trees.
+        // For each row, a system with M of its trees is solved.
         d.meter.add(d.nefc as u64 * 2 * m.nC as u64 / m.ntree.max(1) as u64);
     }
     if d.meter.over() {
@@ -70,7 +70,7 @@ fn solve_rows(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut Trees) {
     }
 }
 
-/// Newton's method or conjugate gradients, from the better start.
+/// Newton's method or conjugate gradients, from the better of two starting points.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn primal(m: &Model, d: &mut Fields, s: &mut Iterate, trees: &mut Trees, islands: &Islands, jac: &Jacobian) {
     if !m.opt.disabled(disable::WARMSTART) && warm_start(m, d, s, trees, islands, jac) {
@@ -87,7 +87,8 @@ fn primal(m: &Model, d: &mut Fields, s: &mut Iterate, trees: &mut Trees, islands
     }
 }
 
-/// The forces that the dual method starts from: those at the last step's acceleration, unless none cost less.
+/// Sets the starting forces of the dual method: those at the acceleration of the last step, or zero if zero forces
+/// have a lower cost.
 fn dual_start(
     m: &Model,
     d: &mut Fields,
@@ -112,7 +113,7 @@ fn dual_start(
     }
 }
 
-/// `efc_force` and `qfrc_constraint` at the acceleration `qacc` (`mj_invConstraint`).
+/// Computes `efc_force` and `qfrc_constraint` for the acceleration `qacc` (`mj_invConstraint`).
 pub(crate) fn inverse(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut Trees) {
     d.qfrc_constraint.fill(0.0);
     if d.nefc == 0 {
@@ -128,12 +129,11 @@ pub(crate) fn inverse(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut Tr
     }
 }
 
-/// Starts from the last step's acceleration, and goes on from there unless the unconstrained one costs less.
-/// `true` when the problem is solved: at rest the last acceleration is still the answer, and the other one need
-/// not be looked at.
+/// Starts from the acceleration of the last step, and continues from there unless the unconstrained acceleration has
+/// a lower cost. Returns `true` if the problem is solved. At rest, the last acceleration is still the solution, and
+/// the cost of the unconstrained one is not computed.
 ///
-/// The choice is made once for the whole system; what no constraint touches keeps the unconstrained
-/// acceleration.
+/// The choice is made once for the whole system. Trees without constraints keep the unconstrained acceleration.
 #[inline(never)]
 fn warm_start(
     m: &Model,
@@ -157,11 +157,12 @@ fn warm_start(
     }
     let mut done = reached.iter().all(|r| r.minimum);
     if !done {
-        // The unconstrained acceleration has no Gauss cost; the last one has it everywhere, in islands and out of them.
+        // The Gauss cost of the unconstrained acceleration is zero. That of the last acceleration includes the trees
+        // outside of islands.
         let gauss = |k: usize| 0.5 * (s.ma[k] - d.qfrc_smooth[k]) * (d.qacc_warmstart[k] - d.qacc_smooth[k]);
         let apart = (0..m.ntree).filter(|&tree| !islands.has(tree)).flat_map(|tree| m.tree_dofs(tree));
         let warm = reached.iter().map(|r| r.cost).sum::<f64>() + apart.map(gauss).sum::<f64>();
-        // Where all costs are quadratic, Newton's first step ends at the minimum from anywhere.
+        // If all costs are quadratic, Newton's first step reaches the minimum from any starting point.
         let quadratic =
             || m.opt.solver == solver::NEWTON && jac.blocks.iter().all(|b| b.cost == Cost::Quadratic);
         if quadratic() || !costs_less(d, jac, s, warm) {
@@ -175,8 +176,8 @@ fn warm_start(
     done
 }
 
-/// Whether the unconstrained acceleration costs less than `most`. No constraint costs less than nothing, so that the first ones
-/// may tell.
+/// Whether the unconstrained acceleration has a cost lower than `most`. Costs are not negative, so the summation
+/// stops as soon as it reaches `most`.
 fn costs_less(d: &Fields, jac: &Jacobian, s: &mut Iterate, most: f64) -> bool {
     let cost_of = |x: f64, w: f64| 0.5 * w * clamp_unilateral(x) * clamp_unilateral(x);
     let mut cost = 0.0;
@@ -193,7 +194,7 @@ fn costs_less(d: &Fields, jac: &Jacobian, s: &mut Iterate, most: f64) -> bool {
             return false;
         }
     }
-    // Where the last acceleration is no number, it is left.
+    // If a cost is NaN, the last acceleration is discarded.
     cost < most || most.is_nan() || cost.is_nan()
 }
 
@@ -209,7 +210,7 @@ pub(crate) fn unconstrained_residual(d: &mut Fields, jac: &Jacobian) {
     jac.residual(&d.qacc_smooth, &d.efc_aref, &mut d.efc_b);
 }
 
-/// `efc_b` and `efc_state`, for those who read them.
+/// Computes `efc_b` and `efc_state`, if they are read.
 fn details(d: &mut Fields, jac: &Jacobian, jar: &[f64]) {
     unconstrained_residual(d, jac);
     for i in 0..jac.blocks.len() {
@@ -226,7 +227,7 @@ fn block_state<const R: usize>(d: &mut Fields, b: &Block, jar: &[f64]) {
 }
 
 impl Problem<'_> {
-    /// Goes on from a start with the method of the model.
+    /// Solves the problem from a starting point, with the method that the model selects.
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn run(&mut self, from: Reached) {
         match self.m.opt.solver {

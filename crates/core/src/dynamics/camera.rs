@@ -1,4 +1,4 @@
-//! Poses of cameras and lights, which may follow a body or look at one.
+//! Poses of cameras and lights, which can track a body or be directed at one.
 
 use crate::kinds::camlight;
 use crate::math::*;
@@ -18,8 +18,8 @@ pub(crate) fn cameras(m: &Model, d: &mut Fields) {
     }
 }
 
-/// The same where camera `c` on body `b` follows or looks at something.
-#[inline(never)] // most are fixed
+/// Pose of camera `c` on body `b` if it tracks a body or is directed at one.
+#[inline(never)] // most cameras are fixed
 fn move_camera(m: &Model, d: &mut Fields, c: usize, b: usize) {
     let is_static = is_static(m, d, b);
     let (xpos, com) = (rows::<3>(&d.xpos), rows::<3>(&d.subtree_com));
@@ -56,8 +56,8 @@ pub(crate) fn lights(m: &Model, d: &mut Fields) {
     }
 }
 
-/// The same where light `l` on body `b` follows or looks at something.
-#[inline(never)] // most are fixed
+/// Pose of light `l` on body `b` if it tracks a body or is directed at one.
+#[inline(never)] // most lights are fixed
 fn move_light(m: &Model, d: &mut Fields, l: usize, b: usize) {
     let is_static = is_static(m, d, b);
     let (xpos, com) = (rows::<3>(&d.xpos), rows::<3>(&d.subtree_com));
@@ -79,12 +79,13 @@ fn move_light(m: &Model, d: &mut Fields, l: usize, b: usize) {
     }
 }
 
-/// Whether body `b` cannot move while trees may sleep: nothing that stands is looked at then, and what it tracks moves away.
+/// Whether sleep is enabled and body `b` is static. Static bodies are then not updated, so their cameras and lights
+/// do not follow a moving centre of mass.
 fn is_static(m: &Model, d: &Fields, b: usize) -> bool {
     asleep::on(m, d) && d.body_awake[b] == awake::STATIC
 }
 
-/// The point that something looks at.
+/// The point at which a camera or light is directed.
 fn target(kind: i32, body: i32, xpos: &[Vec3], com: &[Vec3]) -> Option<Vec3> {
     let body = usize::try_from(body).ok()?;
     match kind {
@@ -94,7 +95,7 @@ fn target(kind: i32, body: i32, xpos: &[Vec3], com: &[Vec3]) -> Option<Vec3> {
     }
 }
 
-/// The frame whose z axis is along `back`, with x level: a camera looks along -z.
+/// The frame whose z axis is along `back`, with a horizontal x axis. A camera looks along -z.
 fn looking(back: Vec3) -> Mat3 {
     let z = normalize(back).0;
     let x = normalize(cross([0.0, 0.0, 1.0], z)).0;
@@ -102,8 +103,8 @@ fn looking(back: Vec3) -> Mat3 {
     [x[0], y[0], z[0], x[1], y[1], z[1], x[2], y[2], z[2]]
 }
 
-/// Where cameras and lights are at the default configuration, relative to what they may follow. The centre of mass
-/// is that of the target's subtree where there is a target.
+/// Computes the poses of cameras and lights in the default configuration, relative to what they can track. The centre
+/// of mass is that of the subtree of the target body, if there is one.
 pub(crate) fn set_const(m: &mut Model, d: &Fields) {
     let (xpos, com, xquat) = (rows::<3>(&d.xpos), rows::<3>(&d.subtree_com), rows::<4>(&d.xquat));
     for c in 0..m.ncam {

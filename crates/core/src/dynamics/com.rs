@@ -1,7 +1,7 @@
-//! Centres of mass, and inertias, motion axes and velocities about them.
+//! Centres of mass, and inertias, motion axes and velocities relative to them.
 //!
-//! All spatial quantities of a kinematic tree are expressed about the centre of mass of the tree
-//! (`subtree_com` of its root), in world axes: far from the origin nothing is lost to cancellation.
+//! All spatial quantities of a kinematic tree are expressed about the centre of mass of the tree (`subtree_com` of
+//! its root), in world axes. This avoids cancellation far from the origin.
 
 use crate::kinds::joint;
 use crate::math::{lanes, *};
@@ -18,7 +18,7 @@ pub(crate) fn com_pos(m: &Model, d: &mut Fields) {
     motion_axes(m, d);
 }
 
-/// `cinert`: inertias of bodies about the centre of mass of their tree.
+/// `cinert`: spatial inertias of bodies about the centre of mass of their tree.
 pub(crate) fn body_inertias(m: &Model, d: &mut Fields) {
     let com = rows::<3>(&d.subtree_com);
     let (xipos, ximat) = (rows::<3>(&d.xipos), rows::<9>(&d.ximat));
@@ -34,7 +34,7 @@ pub(crate) fn body_inertias(m: &Model, d: &mut Fields) {
     }
 }
 
-/// `cdof`: the axis of each degree of freedom, as the motion of a body whose reference point is the centre of mass of its tree.
+/// `cdof`: the motion axis of each degree of freedom, as a spatial velocity about the centre of mass of the tree.
 fn motion_axes(m: &Model, d: &mut Fields) {
     let com = rows::<3>(&d.subtree_com);
     let (xanchor, xaxis, xmat) = (rows::<3>(&d.xanchor), rows::<3>(&d.xaxis), rows::<9>(&d.xmat));
@@ -58,7 +58,7 @@ fn motion_axes(m: &Model, d: &mut Fields) {
                         k += 1;
                     }
                 }
-                // Three hinges along the body's own axes.
+                // Three hinge axes along the axes of the body.
                 for i in 0..3 {
                     cdof[k + i] = turning(column(&xmat[body], i));
                 }
@@ -102,14 +102,14 @@ pub(crate) fn com_vel(m: &Model, d: &mut Fields) {
                 }
                 kind => {
                     if kind == joint::FREE {
-                        // World axes do not turn.
+                        // World axes do not rotate.
                         for i in 0..3 {
                             cdof_dot[k] = [0.0; 6];
                             v[3 + i] += qvel[k];
                             k += 1;
                         }
                     }
-                    // The three axes turn together: all see the velocity before the joint.
+                    // The three axes rotate together, so all use the velocity before the joint.
                     let before = v;
                     for _ in 0..3 {
                         cdof_dot[k] = cross_motion(&before, &cdof[k]);

@@ -1,6 +1,6 @@
 //! Forward kinematics: poses of bodies, joints, geoms and sites from `qpos`.
 //!
-//! Each body's pose follows from its parent's, joint by joint (Featherstone 2008, section 4.4).
+//! The pose of each body is computed from that of its parent, joint by joint (Featherstone 2008, section 4.4).
 
 use crate::kinds::joint;
 use crate::math::lanes::{Axes, Lane3, along, axes, lane3, matrix, product, turned, vec3};
@@ -10,21 +10,22 @@ use crate::model::reflect::{FieldId, model as fields_of};
 use crate::model::{Fields, Model};
 use std::ops::Range;
 
-/// How a frame coincides with that of its body, so that poses are copied, not multiplied: the copy is exact.
+/// Values of `sameframe`: which frame of its body a frame coincides with. Poses of coinciding frames are copied
+/// instead of multiplied, which is exact.
 pub(crate) mod sameframe {
-    /// Its own frame.
+    /// It coincides with no frame of the body.
     pub(crate) const NONE: i32 = 0;
-    /// The body's frame.
+    /// Position and orientation coincide with the body frame.
     pub(crate) const BODY: i32 = 1;
-    /// The body's inertial frame.
+    /// Position and orientation coincide with the inertial frame of the body.
     pub(crate) const INERTIA: i32 = 2;
-    /// The orientation of the body's frame.
+    /// Only the orientation coincides with that of the body frame.
     pub(crate) const BODYROT: i32 = 3;
-    /// The orientation of the inertial frame.
+    /// Only the orientation coincides with that of the inertial frame.
     pub(crate) const INERTIAROT: i32 = 4;
 }
 
-/// The world's pose, which never changes.
+/// The pose of the world body, which is constant.
 pub(crate) fn world(d: &mut Fields) {
     if let (Some(q), Some(r), Some(i)) =
         (d.xquat.first_chunk_mut(), d.xmat.first_chunk_mut(), d.ximat.first_chunk_mut())
@@ -33,57 +34,58 @@ pub(crate) fn world(d: &mut Fields) {
     }
 }
 
-/// Bodies and joints as the model describes them, side by side in the order in which they are used.
+/// Parameters of bodies and joints, copied from the model in the order of use.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Frames {
     bodies: Vec<Frame>,
     joints: Vec<Joint>,
-    /// Where bodies are, as the bodies that they carry find it.
+    /// Poses of bodies, read by their children.
     poses: Vec<Pose>,
 }
 
-/// The origin and the axes of a body, world.
+/// The origin and the axes of a body, world frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Pose {
     at: Lane3,
     axes: Axes,
 }
 
-/// A body.
+/// Parameters of a body.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Frame {
     parent: usize,
     joints: Range<usize>,
     free: bool,
     mocap: Option<usize>,
-    /// Its frame in its parent's, before its joints move it; `straight` when the axes are the same.
+    /// Pose in the frame of its parent, before its joints move it. `straight` is set if the orientation is the
+    /// identity.
     at: Vec3,
     quat: Quat,
     axes: [Vec3; 3],
     straight: bool,
-    /// Centre of mass and principal axes of inertia in its frame.
+    /// Centre of mass and principal axes of inertia in the frame of the body.
     com: Vec3,
     principal: [Vec3; 3],
     same: i32,
 }
 
-/// A joint.
+/// Parameters of a joint, and the angle of a hinge.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Joint {
     kind: i32,
-    /// Its first coordinate in qpos.
+    /// Index of its first coordinate in `qpos`.
     coordinate: usize,
-    /// The displacement at which the body is where the model puts it.
+    /// The coordinate for which the body has the pose given in the model (`qpos0`).
     reference: f64,
     anchor: Vec3,
-    /// Whether it turns about the origin of the body, as most do.
+    /// Whether its anchor is the origin of the body, as for most joints.
     central: bool,
     axis: Vec3,
     /// Sine and cosine of half the angle of a hinge.
     half: (f64, f64),
 }
 
-/// What is written to the model and changes frames.
+/// Fields of the model that determine these parameters.
 pub(crate) const FIELDS: [FieldId; 7] = [
     fields_of::body_pos,
     fields_of::body_quat,
@@ -95,7 +97,7 @@ pub(crate) const FIELDS: [FieldId; 7] = [
 ];
 
 impl Frames {
-    /// The frames of a model.
+    /// Creates the parameters of a model.
     pub(crate) fn new(m: &Model) -> Frames {
         let body = |i: usize| {
             let joints = element_range(m.body_jntadr[i], m.body_jntnum[i]);
@@ -122,7 +124,7 @@ impl Frames {
         frames
     }
 
-    /// Takes the parameters from the model.
+    /// Reads from the model the parameters that can be written.
     pub(crate) fn load(&mut self, m: &Model) {
         let places = rows::<3>(&m.body_pos).iter().zip(rows::<4>(&m.body_quat));
         let inertial = rows::<3>(&m.body_ipos).iter().zip(rows::<4>(&m.body_iquat)).zip(&m.body_sameframe);
@@ -188,7 +190,7 @@ pub(crate) fn bodies(d: &mut Fields, frames: &mut Frames) {
                     }
                     _ => here.axes = product(&here.axes, &columns(quaternion(&qpos[joint.coordinate..]))),
                 }
-                // Rotating about an anchor off the origin moves the origin.
+                // A rotation about an anchor off the origin moves the origin.
                 if !joint.central {
                     here.at = anchor - along(&here.axes, joint.anchor);
                 }
@@ -196,7 +198,7 @@ pub(crate) fn bodies(d: &mut Fields, frames: &mut Frames) {
         }
         poses[i] = here;
         (xpos[i], xmat[i]) = (vec3(here.at), matrix(&here.axes));
-        // Copies where frames coincide: they are exact.
+        // Coinciding frames are copied, which is exact.
         let same_axes = matches!(f.same, sameframe::BODY | sameframe::BODYROT);
         xipos[i] = if f.same == sameframe::BODY { xpos[i] } else { vec3(here.at + along(&here.axes, f.com)) };
         ximat[i] = if same_axes { xmat[i] } else { matrix(&product(&here.axes, &f.principal)) };
@@ -210,7 +212,7 @@ fn columns(quat: Quat) -> [Vec3; 3] {
     [column(&m, 0), column(&m, 1), column(&m, 2)]
 }
 
-/// The unit quaternion that four coordinates stand for.
+/// Four coordinates as a unit quaternion.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn quaternion(q: &[f64]) -> Quat {
     quat_normalize([q[0], q[1], q[2], q[3]])
@@ -247,7 +249,7 @@ pub(crate) fn orientations(d: &mut Fields, frames: &Frames) {
     }
 }
 
-/// The poses of bodies that something may be attached to.
+/// The poses of bodies and inertial frames, for attached frames.
 struct Poses<'a> {
     xpos: &'a [Vec3],
     xmat: &'a [Mat3],
@@ -256,7 +258,7 @@ struct Poses<'a> {
 }
 
 impl Poses<'_> {
-    /// The pose of something attached to body `b`, by its `sameframe`.
+    /// Computes the pose of a frame attached to body `b`, using its `sameframe`.
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn attached(&self, b: usize, same: i32, pos: Vec3, quat: Quat, out_pos: &mut Vec3, out_mat: &mut Mat3) {
         *out_pos = match same {

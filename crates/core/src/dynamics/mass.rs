@@ -1,9 +1,9 @@
 //! The mass matrix: composite rigid bodies, sparse factorization, products and solves.
 //!
-//! M is stored as the rows of its lower triangle over the chain of ancestors of each degree of freedom,
-//! ancestors ascending and the diagonal last. The composite rigid body algorithm and the factorization
-//! M = Lᵀ D L, which creates no fill-in on this pattern, are in Featherstone 2008, chapter 6. Trees of many degrees of
-//! freedom are factorized by articulated bodies (`tree_algorithms`).
+//! M is stored as rows of its lower triangle. The row of a degree of freedom contains the columns of its ancestors in
+//! ascending order and the diagonal as the last element. The composite rigid body algorithm and the factorization M =
+//! Lᵀ D L, which creates no fill-in for this pattern, are in Featherstone 2008, chapter 6. Trees with many degrees of
+//! freedom are factorized with the articulated-body algorithm (`tree_algorithms`).
 
 use super::path::Path;
 use super::reflected::{self, On};
@@ -14,7 +14,7 @@ use crate::model::{Fields, Model};
 use std::ops::Range;
 use wide::f64x4;
 
-/// `crb` of all bodies, and the rows of `M` of some degrees of freedom (ascending, whole trees).
+/// Computes `crb` of all bodies, and the rows of `M` for the given degrees of freedom (ascending, whole trees).
 pub(crate) fn composite_inertia(m: &Model, d: &mut Fields, path: &mut Path, of: &[Range<usize>]) {
     d.crb.copy_from_slice(&d.cinert);
     let crb = rows_mut::<10>(&mut d.crb);
@@ -36,7 +36,7 @@ pub(crate) fn composite_inertia(m: &Model, d: &mut Fields, path: &mut Path, of: 
     }
 }
 
-/// The diagonal of M as the model knows it, for a scene whose M is diagonal and constant, and its factorization.
+/// Copies the diagonal of M from the model, for scenes with a constant diagonal M, and computes its factorization.
 pub(crate) fn constant(m: &Model, d: &mut Fields) {
     d.M.copy_from_slice(&m.dof_M0);
     d.qLD.copy_from_slice(&m.dof_M0);
@@ -59,39 +59,40 @@ pub(crate) fn quadratic(m: &Model, mass: &[f64], v: &[f64]) -> f64 {
     sum
 }
 
-/// Where the row of degree of freedom `i` is.
+/// The index range of the row of degree of freedom `i`.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn row(m: &Model, i: usize) -> Range<usize> {
     let start = m.M_rowadr[i] as usize;
     start..start + m.M_rownnz[i] as usize
 }
 
-/// Where the rows of the degrees of freedom `dofs` are.
+/// The index range of the rows of the degrees of freedom `dofs`.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn rows_of(m: &Model, dofs: Range<usize>) -> Range<usize> {
     if dofs.is_empty() { 0..0 } else { row(m, dofs.start).start..row(m, dofs.end - 1).end }
 }
 
-/// Whether the rows of the degrees of freedom `dofs` hold their diagonal alone, as those of simple bodies do.
+/// Whether the rows of the degrees of freedom `dofs` consist of the diagonal only, as for simple bodies.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn is_diagonal(m: &Model, dofs: &Range<usize>) -> bool {
     rows_of(m, dofs.clone()).len() == dofs.len()
 }
 
-/// Inertia that is added to degree of freedom `i`: its own and that of actuators.
+/// The armature of degree of freedom `i`: that of the joint plus the reflected inertia of actuators.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn armature(m: &Model, i: usize) -> f64 {
     let (armature, joint) = (m.dof_armature[i], m.dof_jntid[i] as usize);
-    // Few joints have an actuator with inertia of its own.
+    // Few joints have an actuator with inertia.
     if m.jnt_actuatorid[joint] == -1 { armature } else { armature + reflected::armature(m, On::Joint(joint)) }
 }
 
-/// Factorizes the rows of the degrees of freedom `dofs` (ascending, whole trees) in place, M = Lᵀ D L with unit L: `ld`
-/// holds M and becomes L below the diagonal and D on it, `diag_inv` becomes 1/D. Returns the first degree of freedom whose D is not positive.
+/// Factorizes the rows of the degrees of freedom `dofs` (ascending, whole trees) in place, M = Lᵀ D L with unit L. On
+/// input, `ld` contains M; on output, it contains L below the diagonal and D on it, and `diag_inv` contains 1/D.
+/// Returns the first degree of freedom whose D is not positive.
 ///
-/// From the last row to the first, each row is eliminated from those of its ancestors. The rows of a serial
-/// chain are taken four at a time, so that an ancestor's row is read and written once for four eliminations;
-/// every element sees the same operations in the same order.
+/// The rows are processed from the last to the first. Each row is eliminated from those of its ancestors. Rows of a
+/// serial chain are processed four at a time, so that the row of an ancestor is read and written once for four
+/// eliminations. The operations on each element and their order do not change.
 #[inline(never)]
 pub(crate) fn factor(m: &Model, ld: &mut [f64], diag_inv: &mut [f64], dofs: Range<usize>) -> Option<usize> {
     if let Some(n) = whole_chain(m) {
@@ -133,8 +134,8 @@ pub(crate) fn factor(m: &Model, ld: &mut [f64], diag_inv: &mut [f64], dofs: Rang
     bad
 }
 
-/// Eliminates the four rows of a serial chain from `first` on from each other, then together from those of their common ancestors;
-/// the first row whose D is not positive.
+/// Eliminates the four rows of a serial chain, starting with row `first`, from each other, then together from those
+/// of their common ancestors. Returns the first of these rows whose D is not positive.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn eliminate_four(m: &Model, ld: &mut [f64], diag_inv: &mut [f64], first: usize) -> Option<usize> {
     let mut bad = None;
@@ -149,7 +150,7 @@ fn eliminate_four(m: &Model, ld: &mut [f64], diag_inv: &mut [f64], first: usize)
         }
         let inv = 1.0 / row[diag];
         diag_inv[k] = inv;
-        // The other rows of the block; the chain of an ancestor is a prefix of this row's columns.
+        // The other rows of the block. The chain of an ancestor is a prefix of the columns of this row.
         for i in (first..k).rev() {
             let at = (m.M_rowadr[i] - m.M_rowadr[first]) as usize;
             let len = m.M_rownnz[i] as usize;
@@ -177,7 +178,7 @@ fn eliminate_four(m: &Model, ld: &mut [f64], diag_inv: &mut [f64], first: usize)
     bad
 }
 
-/// The same with the rows of another matrix, which stays.
+/// Factorizes the rows of the matrix `mass` like [`factor`], without changing `mass`.
 pub(crate) fn factor_copy(
     m: &Model,
     mass: &[f64],
@@ -190,7 +191,7 @@ pub(crate) fn factor_copy(
     factor(m, ld, diag_inv, dofs)
 }
 
-/// x ← (M + B)⁻¹ x for a diagonal matrix B (nv), with scratch for a factorization.
+/// x ← (M + B)⁻¹ x for a diagonal matrix B (nv). `ld` and `diag_inv` are scratch for the factorization.
 pub(crate) fn solve_with(
     m: &Model,
     mass: &[f64],
@@ -208,13 +209,13 @@ pub(crate) fn solve_with(
     solve(m, ld, diag_inv, x, dofs);
 }
 
-/// Size of the small serial tree that is all the model has.
+/// The number of degrees of freedom, if the whole model is one small serial tree.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn whole_chain(m: &Model) -> Option<usize> {
     if m.nv > 3 || m.nv == 0 { None } else { triangle::size_before(m, m.nv).filter(|&n| n == m.nv) }
 }
 
-/// Eliminates row `k` from those of its ancestors; whether its D is not positive.
+/// Eliminates row `k` from those of its ancestors. Returns whether its D is not positive.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn eliminate(m: &Model, ld: &mut [f64], diag_inv: &mut [f64], k: usize) -> bool {
     let start = m.M_rowadr[k] as usize;
@@ -229,7 +230,7 @@ fn eliminate(m: &Model, ld: &mut [f64], diag_inv: &mut [f64], k: usize) -> bool 
     diag_inv[k] = inv;
     let row = &mut row[..n];
     for a in (0..n).rev() {
-        // The chain of an ancestor is a prefix of this row's columns.
+        // The chain of an ancestor is a prefix of the columns of this row.
         let i = m.M_rowadr[m.M_colind[start + a] as usize] as usize;
         let factor = row[a] * inv;
         subtract(&mut above[i..i + a + 1], row, factor);
@@ -240,10 +241,10 @@ fn eliminate(m: &Model, ld: &mut [f64], diag_inv: &mut [f64], k: usize) -> bool 
     bad
 }
 
-/// Number of rows that end before `end` and are taken together: four of a serial chain, or one.
+/// The number of rows before `end` that are eliminated together: four of a serial chain, or one.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn chain(m: &Model, end: usize) -> usize {
-    // Shorter rows are not worth the trouble.
+    // For shorter rows, elimination in groups does not pay off.
     if end < 4 || m.M_rownnz[end - 1] < 8 {
         return 1;
     }
@@ -251,7 +252,8 @@ fn chain(m: &Model, end: usize) -> usize {
     if serial(end - 1) && serial(end - 2) && serial(end - 3) { 4 } else { 1 }
 }
 
-/// Four rows that follow each other, the first of `len` numbers and each longer by one; their first `len`.
+/// The first `len` elements of four consecutive rows. The first row has `len` elements, and each row has one more
+/// than the previous one.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn four_rows(block: &[f64], len: usize) -> [&[f64]; 4] {
     [0, len, 2 * len + 1, 3 * len + 3].map(|at| &block[at..at + len])
@@ -265,8 +267,8 @@ fn subtract(target: &mut [f64], row: &[f64], factor: f64) {
     }
 }
 
-/// The same for four rows, one after the other. The rows are at least as long as the target.
-#[inline(never)] // as a function of its own the compiler knows that the rows do not overlap
+/// Subtracts four rows, one after the other, each times its factor. The rows are at least as long as the target.
+#[inline(never)] // a separate function, so that the compiler knows that the rows do not overlap
 fn subtract_four(target: &mut [f64], rows: [&[f64]; 4], f: [f64; 4]) {
     let n = target.len();
     let [a, b, c, d] = rows.map(|r| &r[..n]);
@@ -288,7 +290,8 @@ pub(crate) fn solve(m: &Model, ld: &[f64], diag_inv: &[f64], x: &mut [f64], dofs
         triangle::solve_rows(n, ld, diag_inv, x);
         return;
     }
-    // The rows that the tree begins with are done at once, when both passes have come to them.
+    // The leading small chain of the tree, if it has one, is solved in one call between the backward and the forward
+    // pass.
     let head = dofs.start + triangle::size_from(m, &dofs);
     for i in (head..dofs.end).rev() {
         let (values, columns) = below(m, ld, i);
@@ -321,7 +324,7 @@ pub(crate) fn solve(m: &Model, ld: &[f64], diag_inv: &[f64], x: &mut [f64], dofs
     }
 }
 
-/// The part of row `i` below the diagonal, and its columns.
+/// The elements of row `i` left of the diagonal, and their columns.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn below<'a>(m: &'a Model, ld: &'a [f64], i: usize) -> (&'a [f64], &'a [i32]) {
     let start = m.M_rowadr[i] as usize;
@@ -329,7 +332,7 @@ fn below<'a>(m: &'a Model, ld: &'a [f64], i: usize) -> (&'a [f64], &'a [i32]) {
     (&ld[start..end], &m.M_colind[start..end])
 }
 
-/// Columns that follow each other, as those of a serial chain do and of what it carries.
+/// The range of columns that are consecutive, as for a serial chain and the bodies that it carries.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn consecutive(columns: &[i32]) -> Option<Range<usize>> {
     let range = *columns.first()? as usize..*columns.last()? as usize + 1;
@@ -343,7 +346,7 @@ pub(crate) fn mul(m: &Model, mass: &[f64], v: &[f64], out: &mut [f64], dofs: Ran
         combine(&mut out[dofs.clone()], [diagonal, &v[dofs]], |_, [mass, v]| mass * v);
         return;
     }
-    // The same lengths, so that what is inside of one is inside of both.
+    // Slices of equal length let the compiler remove bounds checks.
     let (v, out) = (&v[..dofs.end], &mut out[..dofs.end]);
     for i in dofs {
         let row = row(m, i);
@@ -358,7 +361,8 @@ pub(crate) fn mul(m: &Model, mass: &[f64], v: &[f64], out: &mut [f64], dofs: Ran
         let ((fours, rest), (by_four, columns)) = (before.as_chunks::<4>(), columns.as_chunks::<4>());
         let vi = v[i];
         let mut sum = diagonal * vi;
-        // The upper triangle, too: the columns are ancestors of i, so that their own sums are already begun.
+        // The upper triangle is added as well: the columns are ancestors of i, so their sums have been initialized
+        // already.
         for (a, &j) in rest.iter().zip(columns) {
             sum += a * v[j as usize];
             out[j as usize] += a * vi;
@@ -388,13 +392,13 @@ pub(crate) fn mul(m: &Model, mass: &[f64], v: &[f64], out: &mut [f64], dofs: Ran
     }
 }
 
-/// Where the diagonal element of degree of freedom `i` is.
+/// The index of the diagonal element of degree of freedom `i`.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn diagonal(m: &Model, i: usize) -> usize {
     (m.M_rowadr[i] + m.M_rownnz[i]) as usize - 1
 }
 
-/// The dense block of a free joint, given its first degree of freedom, in a matrix with the pattern of M.
+/// The dense 6×6 block of a free joint with the first degree of freedom `first`, from a matrix with the pattern of M.
 pub(crate) fn free_block(m: &Model, mass: &[f64], first: usize) -> [Spatial; 6] {
     let mut out = [[0.0; 6]; 6];
     let dofs = first..first + 6;
@@ -414,12 +418,12 @@ pub(crate) fn free_block(m: &Model, mass: &[f64], first: usize) -> [Spatial; 6] 
     out
 }
 
-/// Adds s x xᵀ for a vector with few non-zeros where M has an entry: `dofs` ascend.
+/// Adds s x xᵀ for a sparse vector x, at the entries of M only. `dofs` are ascending.
 pub(crate) fn add_outer(m: &Model, dofs: &[i32], values: &[f64], s: f64, out: &mut [f64]) {
     for (&i, x) in dofs.iter().zip(values) {
         let start = m.M_rowadr[i as usize] as usize;
         let columns = &m.M_colind[start..diagonal(m, i as usize) + 1];
-        // Both lists ascend.
+        // Both lists are in ascending order.
         let mut at = 0;
         for (&j, y) in dofs.iter().zip(values) {
             while at < columns.len() && columns[at] < j {
@@ -443,8 +447,8 @@ pub(crate) fn trace(m: &Model, mass: &[f64], dofs: Range<usize>) -> f64 {
     dofs.map(|k| mass[diagonal(m, k)]).sum()
 }
 
-/// x ← D^-½ L⁻ᵀ x (`mj_solveM2`): half of the solution, so that xᵀ M⁻¹ x is the square of its norm.
-/// A vector of nv numbers.
+/// x ← D^-½ L⁻ᵀ x for a vector of nv numbers (`mj_solveM2`): half of the solution, so that the squared norm of the
+/// result is xᵀ M⁻¹ x.
 pub(crate) fn solve_m2(m: &Model, d: &Fields, x: &mut [f64]) {
     for i in (0..m.nv).rev() {
         let row = m.M_rowadr[i] as usize..diagonal(m, i);

@@ -1,9 +1,10 @@
-//! Trees of bodies: where they are, how they move, M, its factorization and the bias force.
+//! Kinematic trees: poses, velocities, the mass matrix M, its factorization, and the bias force.
 //!
-//! `tree_algorithms` is the table of algorithms: each tree takes the first that its structure allows. The general one gives poses from
-//! `qpos` (`kinematics`, `camera`), the centres of mass and the axes along which degrees of freedom move (`com`), M and its
-//! factorization (`mass`, `triangle`), and the force of gravity, Coriolis and centrifugal terms (`rne`). Points of bodies move as
-//! their Jacobians say (`jacobian`, `object`, `path`).
+//! `tree_algorithms` is the table of algorithms. Each tree uses the first one that its structure allows. The general
+//! algorithm computes poses from `qpos` (`kinematics`, `camera`), the centres of mass and the motion axes of the
+//! degrees of freedom (`com`), M and its factorization (`mass`, `triangle`), and the bias force, which consists of
+//! gravity, Coriolis and centrifugal terms (`rne`). Jacobians map joint velocities to velocities of points
+//! (`jacobian`, `object`, `path`).
 
 pub(crate) mod camera;
 pub(crate) mod com;
@@ -24,21 +25,21 @@ use crate::model::{Fields, Model};
 use path::Path;
 use tree_algorithms::AlgorithmStates;
 
-/// What these stages keep from one to the next, so that they do not allocate.
+/// Scratch memory of the stages, allocated once.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Scratch {
-    /// What each tree algorithm keeps of its trees.
+    /// State of each tree algorithm.
     algorithms: AlgorithmStates,
-    /// Whether `qLD` and `qLDiagInv` are still to be made of what a factorization has left.
+    /// Whether `qLD` and `qLDiagInv` still have to be computed from the result of another factorization.
     rows_due: bool,
-    /// Whether somebody looks at the rows of M now.
+    /// Whether the rows of M are read in this pass.
     rows_wanted: bool,
-    /// Motions of ancestors, for rows of M.
+    /// Motion axes of ancestors, for rows of M.
     pub(crate) path: Path,
     /// Spatial accelerations and forces of bodies.
     cacc: Vec<f64>,
     cfrc: Vec<f64>,
-    /// A factorization that is nobody's: rows and 1/D.
+    /// A temporary factorization: rows and 1/D.
     pub(crate) ld: Vec<f64>,
     pub(crate) diag_inv: Vec<f64>,
 }

@@ -1,12 +1,12 @@
-//! Frames of objects, and how they move: `mj_objectVelocity`, `mj_objectAcceleration`.
+//! Frames of objects and their velocities and accelerations: `mj_objectVelocity`, `mj_objectAcceleration`.
 //!
-//! A body's spatial velocity and acceleration are kept about the centre of mass of its tree; carried to another
-//! point they are those of an object fixed to the body (Featherstone 2008, section 2.8).
+//! The spatial velocity and acceleration of a body are stored about the centre of mass of its tree. Transformed to
+//! another point, they are those of an object fixed to the body (Featherstone 2008, section 2.8).
 
 use crate::math::*;
 use crate::model::{Fields, Model, Obj};
 
-/// Position, orientation and body of an object.
+/// Position and orientation (world frame) and body of an object.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Frame {
     pub(crate) pos: Vec3,
@@ -14,7 +14,7 @@ pub(crate) struct Frame {
     pub(crate) body: usize,
 }
 
-/// The frame of an object of kind `objtype` (mjtObj); `None` when there is no such object, or it has no frame.
+/// The frame of an object of type `objtype` (mjtObj). Returns `None` if the object does not exist or has no frame.
 pub(crate) fn frame(m: &Model, d: &Fields, objtype: i32, id: usize) -> Option<Frame> {
     let (pos, mat, body) = match objtype {
         t if t == Obj::Body as i32 => (&d.xipos, &d.ximat, Some(id)),
@@ -31,8 +31,8 @@ fn at(bodies: &[i32], id: usize) -> Option<usize> {
     bodies.get(id).map(|&b| b as usize)
 }
 
-/// The orientation of an object as a quaternion, world: composed of the body's and its own, so that a camera
-/// that turns by itself has the orientation it was given.
+/// The orientation of an object in the world as a quaternion, computed from those of the body and of the object in
+/// the body. For cameras with a tracking or targeting mode, this is the orientation that the model gives.
 pub(crate) fn orientation(m: &Model, d: &Fields, objtype: i32, id: usize) -> Option<Quat> {
     let (frame, body) = match objtype {
         t if t == Obj::XBody as i32 => return rows(&d.xquat).get(id).copied(),
@@ -45,16 +45,17 @@ pub(crate) fn orientation(m: &Model, d: &Fields, objtype: i32, id: usize) -> Opt
     Some(quat_mul(*rows(&d.xquat).get(body?)?, *rows(frame).get(id)?))
 }
 
-/// Angular and linear velocity of an object (`mj_objectVelocity`), rad/s and m/s: in the axes of the world, or
-/// of the object when `local`. Zero for what does not exist.
+/// Angular and linear velocity of an object (`mj_objectVelocity`), rad/s and m/s, in world axes, or in the axes of
+/// the object if `local`. Zero if the object does not exist.
 pub(crate) fn object_velocity(m: &Model, d: &Fields, kind: Obj, id: usize, local: bool) -> Spatial {
     let Some(f) = frame(m, d, kind as i32, id) else { return [0.0; 6] };
     velocity(m, d, &f, local)
 }
 
-/// Angular and linear acceleration of an object (`mj_objectAcceleration`), rad/s² and m/s², as an accelerometer
-/// feels it: at rest it points up with the strength of gravity. Axes as for [`object_velocity`]; needs
-/// [`rne_post_constraint`](crate::rne_post_constraint). Zero for what cannot move.
+/// Angular and linear acceleration of an object (`mj_objectAcceleration`), rad/s² and m/s², as measured by an
+/// accelerometer: for an object at rest it is the acceleration of gravity, directed upwards. The axes are those of
+/// [`object_velocity`]. Requires [`rne_post_constraint`](crate::rne_post_constraint). Zero for objects that cannot
+/// move.
 pub(crate) fn object_acceleration(m: &Model, d: &Fields, kind: Obj, id: usize, local: bool) -> Spatial {
     let Some(f) = frame(m, d, kind as i32, id) else { return [0.0; 6] };
     acceleration(m, d, &f, local)
@@ -71,7 +72,8 @@ pub(crate) fn acceleration(m: &Model, d: &Fields, f: &Frame, local: bool) -> Spa
     }
     let mut a = carried(m, d, f, &rows::<6>(&d.cacc)[f.body]);
     let v = carried(m, d, f, &rows::<6>(&d.cvel)[f.body]);
-    // The acceleration of the point that is at the object now, and of the object along its curve: ω × v more.
+    // The linear part is the acceleration of the body-fixed point; the acceleration along its path in space has the
+    // additional term ω × v.
     let bend = cross(angular(&v), linear(&v));
     for i in 0..3 {
         a[3 + i] += bend[i];
@@ -79,7 +81,7 @@ pub(crate) fn acceleration(m: &Model, d: &Fields, f: &Frame, local: bool) -> Spa
     if local { turned(&f.mat, &a) } else { a }
 }
 
-/// A motion of the body of `f`, about its tree's centre of mass, carried to the position of `f`.
+/// Transforms a motion of the body of `f`, given about the centre of mass of its tree, to the position of `f`.
 fn carried(m: &Model, d: &Fields, f: &Frame, motion: &Spatial) -> Spatial {
     let com = rows::<3>(&d.subtree_com)[m.body_rootid[f.body] as usize];
     let w = angular(motion);
@@ -87,7 +89,7 @@ fn carried(m: &Model, d: &Fields, f: &Frame, motion: &Spatial) -> Spatial {
     [w[0], w[1], w[2], l[0], l[1], l[2]]
 }
 
-/// Both parts in the axes of `mat`.
+/// Rotates both parts to the axes of `mat`.
 pub(crate) fn turned(mat: &Mat3, s: &Spatial) -> Spatial {
     let (w, l) = (mat_t_mul_vec(mat, angular(s)), mat_t_mul_vec(mat, linear(s)));
     [w[0], w[1], w[2], l[0], l[1], l[2]]

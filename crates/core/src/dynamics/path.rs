@@ -1,29 +1,29 @@
-//! Rows of M and of its factorization: products of one vector with the motions of all ancestors.
+//! Rows of M and of its factorization: products of one vector with the motion axes of all ancestors.
 //!
-//! The columns of a row are the ancestors of its degree of freedom from the root on. Degrees of freedom are numbered
-//! depth first, so that one list serves all rows: at each degree of freedom, what stands before its own place are its
-//! ancestors. Eight motions stand side by side, component by component, as processors add them.
+//! The columns of a row are the ancestors of its degree of freedom, starting at the root. Degrees of freedom are
+//! numbered depth first, so one list serves all rows: the elements before the position of a degree of freedom are its
+//! ancestors. Motion axes are stored in blocks of eight, component by component, for SIMD instructions.
 
 use crate::math::Spatial;
 use crate::model::Model;
 
-/// Motions that stand side by side.
+/// Number of motion axes in a block.
 const SIDE: usize = 8;
 
-/// The motions of a degree of freedom and its ancestors.
+/// The motion axes of a degree of freedom and its ancestors.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Path {
     blocks: Vec<[[f64; SIDE]; 6]>,
 }
 
 impl Path {
-    /// Scratch for the longest row of a model.
+    /// Allocates scratch for the longest row of a model.
     pub(crate) fn new(m: &Model) -> Path {
         let longest = m.M_rownnz.iter().copied().max().unwrap_or(0) as usize;
         Path { blocks: vec![Default::default(); longest.div_ceil(SIDE)] }
     }
 
-    /// Puts the motion of a degree of freedom behind those of its ancestors, of which there are `depth`.
+    /// Appends the motion axis of a degree of freedom with `depth` ancestors, after those of its ancestors.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn extend(&mut self, depth: usize, motion: &Spatial) {
         if let Some(block) = self.blocks.get_mut(depth / SIDE) {
@@ -33,7 +33,7 @@ impl Path {
         }
     }
 
-    /// out ← the product of each motion with v, from the root on.
+    /// out ← the product of each motion axis with v, starting at the root.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn product(&self, v: &Spatial, out: &mut [f64]) {
         let (whole, rest) = out.as_chunks_mut::<SIDE>();
@@ -50,7 +50,7 @@ impl Path {
     }
 }
 
-#[inline(never)] // inlined into a loop, the compiler would add along the wrong direction
+#[inline(never)] // inlined into a loop, it would be vectorized along the wrong dimension
 fn products(block: &[[f64; SIDE]; 6], v: &Spatial, out: &mut [f64; SIDE]) {
     for i in 0..SIDE {
         out[i] = block[0][i] * v[0]

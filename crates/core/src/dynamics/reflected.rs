@@ -1,23 +1,24 @@
-//! Inertia and damping that joints and tendons have of the actuators that act on them, and the inertia of tendons.
+//! Reflected inertia and damping: what actuators add to the joints and tendons that they act on, and the inertia of
+//! tendons.
 //!
-//! With a gear g a rotor turns g times as fast as what it moves, so that both appear multiplied by g².
+//! With a gear ratio g, a rotor turns g times as fast as the joint, so its inertia and damping are multiplied by g².
 
 use crate::kinds::trntype;
 use crate::model::Model;
 
-/// What actuator `i` acts on, and the second site where there is one.
+/// The object that actuator `i` acts on, and the second site if there is one.
 pub(crate) fn target(m: &Model, i: usize) -> (usize, Option<usize>) {
     (m.actuator_trnid[2 * i] as usize, usize::try_from(m.actuator_trnid[2 * i + 1]).ok())
 }
 
-/// What an actuator adds to.
+/// The joint or tendon to which an actuator adds inertia and damping.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum On {
     Joint(usize),
     Tendon(usize),
 }
 
-/// The actuators with inertia or damping of their own on a joint or tendon.
+/// The range of actuators that may add inertia or damping to a joint or tendon.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn actuators(m: &Model, on: On) -> std::ops::Range<usize> {
     let id = match on {
@@ -26,7 +27,7 @@ fn actuators(m: &Model, on: On) -> std::ops::Range<usize> {
     };
     match id {
         -1 => 0..0,
-        // Several: all are looked at.
+        // Several actuators: the callers search all of them.
         -2 => 0..m.nactuator,
         i => i as usize..i as usize + 1,
     }
@@ -41,13 +42,13 @@ fn acts(m: &Model, i: usize, on: On) -> bool {
     }
 }
 
-/// g² of actuator `i`.
+/// The squared gear ratio g² of actuator `i`.
 fn square(m: &Model, i: usize) -> f64 {
     let gear = m.actuator_gear[6 * m.actuator_outadr[i] as usize];
     gear * gear
 }
 
-/// Inertia, kg or kg m².
+/// Reflected inertia of all actuators on a joint or tendon, kg or kg m².
 pub(crate) fn armature(m: &Model, on: On) -> f64 {
     let mut sum = 0.0;
     for i in actuators(m, on) {
@@ -58,7 +59,7 @@ pub(crate) fn armature(m: &Model, on: On) -> f64 {
     sum
 }
 
-/// Damping, and its growth with speed.
+/// Reflected damping of all actuators on a joint or tendon: the linear coefficient and the two polynomial ones.
 pub(crate) fn damping(m: &Model, on: On) -> [f64; 3] {
     let mut sum = [0.0; 3];
     for i in actuators(m, on) {
@@ -71,12 +72,12 @@ pub(crate) fn damping(m: &Model, on: On) -> [f64; 3] {
     sum
 }
 
-/// The inertia of tendon `t`, its own and that of actuators, kg.
+/// The inertia of tendon `t`, including that of actuators, kg.
 pub(crate) fn tendon_inertia(m: &Model, t: usize) -> f64 {
     m.tendon_armature[t] + armature(m, On::Tendon(t))
 }
 
-/// Whether some tendon has inertia of its own or of an actuator: it ties trees together.
+/// Whether any tendon has inertia, by itself or from an actuator. Such a tendon couples trees.
 pub(crate) fn tendons_have_inertia(m: &Model) -> bool {
     (0..m.ntendon).any(|t| tendon_inertia(m, t) != 0.0)
 }

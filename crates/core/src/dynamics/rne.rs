@@ -1,4 +1,4 @@
-//! `qfrc_bias`: gravity, Coriolis and centrifugal force.
+//! `qfrc_bias`: gravity, Coriolis and centrifugal forces.
 
 use crate::dynamics::Scratch;
 use crate::kinds::disable;
@@ -14,11 +14,11 @@ pub(crate) fn newton_euler(m: &Model, d: &mut Fields, w: &mut Scratch, gravity: 
     d.qfrc_bias = out;
 }
 
-/// The generalized force (nv) that causes the acceleration `qacc` (nv), or none when it is not given: gravity,
-/// Coriolis and centrifugal force then (`mj_rne`). The inertia of joints (armature) does not count. `None` when an
-/// array is shorter.
+/// The generalized force (nv) that causes the acceleration `qacc` (nv) (`mj_rne`). Without `qacc` the acceleration is
+/// zero, and the result consists of gravity, Coriolis and centrifugal forces. The inertia of joints (armature) is not
+/// included. Returns `None` if an array is too short.
 ///
-/// It needs the position and velocity stages of a full pipeline.
+/// Requires the position and velocity stages of a full pipeline.
 pub(crate) fn rne(
     m: &Model,
     d: &mut Fields,
@@ -34,8 +34,8 @@ pub(crate) fn rne(
     Some(())
 }
 
-/// The force for an acceleration (Featherstone 2008, section 5.3). Gravity enters as an upward acceleration of the
-/// world.
+/// The generalized force for an acceleration (Featherstone 2008, section 5.3). Gravity is included as an upward
+/// acceleration of the world.
 fn recursion(
     m: &Model,
     d: &mut Fields,

@@ -1,19 +1,20 @@
 //! Momentum of subtrees (`mj_subtreeVel`).
 //!
-//! The angular momentum of a system about its own centre of mass is that of its parts about theirs, and what the
-//! parts have by moving against the whole: L = Σ Lᵢ + mᵢ (cᵢ - c) × (vᵢ - v).
+//! The angular momentum of a system about its centre of mass is the sum of the angular momenta of its parts about
+//! their centres of mass and those of the motion of the parts relative to the system: L = Σ Lᵢ + mᵢ (cᵢ - c) × (vᵢ -
+//! v).
 
 use crate::math::*;
 use crate::model::{Fields, Model};
 
-/// `subtree_linvel`, `subtree_angmom` of every body with its descendants, world; needs `cvel`.
+/// `subtree_linvel`, `subtree_angmom` of every body with its descendants, world frame. Requires `cvel`.
 pub(crate) fn subtree_vel(m: &Model, d: &mut Fields) {
     let (xipos, com) = (rows::<3>(&d.xipos), rows::<3>(&d.subtree_com));
     let (ximat, cvel) = (rows::<9>(&d.ximat), rows::<6>(&d.cvel));
     let inertia = rows::<3>(&m.body_inertia);
     let (linvel, angmom) = (rows_mut::<3>(&mut d.subtree_linvel), rows_mut::<3>(&mut d.subtree_angmom));
 
-    // Momentum first, velocity after all descendants are added.
+    // `linvel` holds momenta until all descendants are added, then velocities.
     for i in 0..m.nbody {
         linvel[i] = scale(body_velocity(m, i, xipos, com, cvel), m.body_mass[i]);
         let w = mat_t_mul_vec(&ximat[i], angular(&cvel[i]));
@@ -28,7 +29,8 @@ pub(crate) fn subtree_vel(m: &Model, d: &mut Fields) {
         linvel[i] = scale(linvel[i], 1.0 / m.body_subtreemass[i].max(MINVAL));
     }
     for i in (0..m.nbody).rev() {
-        // The body itself moves against its subtree, and the subtree against that of the parent.
+        // Adds the motion of the body relative to its subtree, and that of the subtree relative to the subtree of the
+        // parent.
         let v = sub(body_velocity(m, i, xipos, com, cvel), linvel[i]);
         angmom[i] = add(angmom[i], scale(cross(sub(xipos[i], com[i]), v), m.body_mass[i]));
         if i > 0 {

@@ -1,6 +1,6 @@
-//! Packed lower triangles of at most three rows: what M of a few degrees of freedom is that stand one after the other.
+//! Packed lower triangles of at most three rows: the rows of M for a few degrees of freedom in series.
 //!
-//! They are factorized and solved with all sizes known.
+//! They are factorized and solved with sizes known at compile time.
 
 use crate::math::MINVAL;
 use crate::model::Model;
@@ -18,7 +18,7 @@ macro_rules! by_size {
 }
 pub(super) use by_size;
 
-/// The same with the number of rows alone, which may be none.
+/// Calls a function with the number of rows as a constant. The number may be zero.
 macro_rules! by_length {
     ($n:expr, $function:ident($($argument:expr),*)) => {
         match $n {
@@ -30,22 +30,22 @@ macro_rules! by_length {
     };
 }
 
-/// Size of the serial tree whose last degree of freedom is the one before `end`, when it is small.
+/// The size of the serial tree whose last degree of freedom is `end` - 1, if it has at most three.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn size_before(m: &Model, end: usize) -> Option<usize> {
     let n = m.M_rownnz[end - 1] as usize;
-    // Columns ascend: they are consecutive when the first is where consecutive ones would begin.
+    // Columns are ascending: they are consecutive if the first one is where a consecutive range would begin.
     (n <= 3 && m.M_colind[m.M_rowadr[end - 1] as usize] as usize == end - n).then_some(n)
 }
 
-/// How many rows a tree begins with that are a triangle.
+/// The number of leading rows of a tree that form a packed triangle, at most three.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn size_from(m: &Model, dofs: &Range<usize>) -> usize {
     let lengths = m.M_rownnz[dofs.clone()].iter().zip(1..=3);
     lengths.take_while(|&(&length, n)| length == n).count()
 }
 
-/// The factorization of a packed triangle of `n` rows, in place.
+/// Factorizes a packed triangle of `n` rows in place.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn factor_rows(n: usize, ld: &mut [f64], diag_inv: &mut [f64]) -> Option<usize> {
     by_size!(n, factor_part(ld, diag_inv))
@@ -101,7 +101,7 @@ fn less_part<const N: usize>(s: f64, row: &[f64], x: &[f64]) -> f64 {
     }
 }
 
-/// N numbers from a place on.
+/// The N numbers starting at index `at`.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn part<const N: usize>(of: &[f64], at: usize) -> Option<&[f64; N]> {
     of.get(at..)?.first_chunk()
@@ -112,7 +112,7 @@ pub(super) fn part_mut<const N: usize>(of: &mut [f64], at: usize) -> Option<&mut
     of.get_mut(at..)?.first_chunk_mut()
 }
 
-/// The factorization of a packed triangle of N rows, T numbers.
+/// Factorizes a packed triangle of N rows and T numbers in place.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn factor<const N: usize, const T: usize>(
     ld: &mut [f64; T],

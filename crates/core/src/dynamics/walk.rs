@@ -1,26 +1,26 @@
-//! Walks from bodies up to the root: which degrees of freedom move a body, or one of two and not the other.
+//! Iteration from bodies to the root: the degrees of freedom that move a body, or one or both of two bodies.
 
 use crate::model::Model;
 
-/// Last degree of freedom that moves body `b`, -1 when it cannot move.
+/// The last degree of freedom that moves body `b`; -1 if the body cannot move.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn last_dof(m: &Model, b: usize) -> i32 {
     let w = m.body_weldid[b] as usize;
     m.body_dofadr[w] + m.body_dofnum[w] - i32::from(m.body_dofnum[w] > 0)
 }
 
-/// A degree of freedom and those that move it, up to the root; none of -1.
+/// A degree of freedom and its ancestors, up to the root; empty for -1.
 pub(crate) fn upward(m: &Model, dof: i32) -> impl Iterator<Item = usize> + '_ {
     let some = |k: i32| usize::try_from(k).ok();
     std::iter::successors(some(dof), move |&k| some(m.dof_parentid[k]))
 }
 
-/// The degrees of freedom that move a body, the last first.
+/// The degrees of freedom that move a body, in descending order.
 pub(crate) fn moving(m: &Model, body: usize) -> impl Iterator<Item = usize> + '_ {
     upward(m, last_dof(m, body))
 }
 
-/// Which of two bodies a degree of freedom moves.
+/// The bodies, of two, that a degree of freedom moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Side {
     First,
@@ -28,11 +28,11 @@ pub(crate) enum Side {
     Both,
 }
 
-/// The degrees of freedom that move either of two bodies, the last first. Those that move both come after all others.
+/// The degrees of freedom that move at least one of two bodies, in descending order. Those that move both come last.
 pub(crate) fn moving_either(m: &Model, bodies: [usize; 2]) -> impl Iterator<Item = (usize, Side)> + '_ {
     let mut last = bodies.map(|b| last_dof(m, b));
     std::iter::from_fn(move || {
-        // The walk that has reached less far up goes on.
+        // The chain with the larger degree of freedom moves up.
         let k = last[0].max(last[1]);
         let dof = usize::try_from(k).ok()?;
         let side = match (last[0] == k, last[1] == k) {
@@ -49,7 +49,8 @@ pub(crate) fn moving_either(m: &Model, bodies: [usize; 2]) -> impl Iterator<Item
     })
 }
 
-/// The degrees of freedom that move one of two bodies and not the other, the last first: which, and 0 or 1 for the body.
+/// The degrees of freedom that move exactly one of two bodies, in descending order, each with the index (0 or 1) of
+/// this body.
 pub(crate) fn moving_one(m: &Model, bodies: [usize; 2]) -> impl Iterator<Item = (usize, usize)> + '_ {
     moving_either(m, bodies).map_while(|(k, side)| match side {
         Side::First => Some((k, 0)),

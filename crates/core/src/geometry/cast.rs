@@ -1,15 +1,15 @@
-//! A ray against a shape, by its kind.
+//! Intersection of a ray with a shape of any type.
 
 use super::ray::{self, Hit, Ray};
 use super::{Shape, surface};
 use crate::kinds::geom;
 use crate::math::*;
 
-/// Work of a ray against a shape, besides the triangles that it looks at.
+/// Work units of a ray against a shape, without the triangles that it tests.
 const PRICE: u64 = 20;
 
-/// The nearest point of the ray `from` + x `along` (x ≥ 0; world) on the surface of a shape. A plane is hit from
-/// its front only, inside its drawn rectangle. What was done is added to `work`.
+/// The nearest intersection of the ray `from` + x `along` (x ≥ 0; world frame) with the surface of a shape. A plane
+/// is hit from its front side only, inside its rendered rectangle. The work done is added to `work`.
 pub(crate) fn ray_shape(shape: &Shape, from: Vec3, along: Vec3, work: &mut u64) -> Option<Hit> {
     *work += PRICE;
     if shape.kind == geom::SPHERE {

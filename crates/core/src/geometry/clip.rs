@@ -4,12 +4,12 @@
 use super::list::List;
 use crate::math::*;
 
-/// Rounding of a coordinate as a part of the size of the shapes: a corner goes through two rotations, a shift and some cuts, each
-/// with a rounding of 1.1e-16.
+/// Rounding error of a coordinate, relative to the size of the shapes. A corner undergoes two rotations, a
+/// translation and some cuts, each with a rounding error of 1.1e-16.
 pub(super) const ROUNDING: f64 = 1e-14;
 
-/// Leaves the part of a convex polygon where a linear function `height` is not negative. A corner within the rounding of `size`
-/// is on the plane: it stays, and no edge is cut next to it.
+/// Keeps the part of a convex polygon where a linear function `height` is not negative. A corner within the rounding
+/// error of `size` counts as on the plane: it is kept, and no edge is cut next to it.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn clip<const N: usize>(polygon: &mut List<Vec3, N>, height: impl Fn(Vec3) -> f64, size: f64) {
     let slack = ROUNDING * size;
@@ -18,7 +18,7 @@ pub(super) fn clip<const N: usize>(polygon: &mut List<Vec3, N>, height: impl Fn(
     }
 }
 
-/// The corners above the plane, and where edges pass it.
+/// The corners with non-negative height, and the points where edges cross the plane.
 fn cut<const N: usize>(polygon: &List<Vec3, N>, height: impl Fn(Vec3) -> f64, slack: f64) -> List<Vec3, N> {
     let mut out = List::new();
     let corners = polygon.all();

@@ -1,7 +1,8 @@
-//! Signed distance of two convex bodies: GJK where they are apart, an expanding polytope where they overlap.
+//! Signed distance of two convex bodies: GJK for separate bodies, an expanding polytope for overlapping ones.
 //!
-//! A sphere is a point and a capsule a segment with a radius around: the signed distance is that of these cores less the
-//! radii, whatever the sign, and their nearest or deepest points lie on the same line.
+//! A sphere is a point with a radius, and a capsule is a segment with a radius. The signed distance equals that of
+//! these cores minus the radii, whatever its sign. The nearest or deepest points of the bodies and those of the cores
+//! lie on one line.
 
 use super::difference::Limits;
 use super::epa;
@@ -14,21 +15,22 @@ pub(crate) use super::difference::Limits as Effort;
 pub(crate) use super::epa::Scratch as ConvexScratch;
 pub(crate) use super::support::Body as Convex;
 
-/// Where two bodies are nearest, or overlap most.
+/// Where two bodies are nearest, or where they overlap most.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Nearest {
     /// Signed distance, m.
     pub(crate) dist: f64,
-    /// From the first body to the second, unit length.
+    /// Unit vector from the first body to the second.
     pub(crate) normal: Vec3,
-    /// A point of each body: the nearest to the other, or the deepest in it.
+    /// One point of each body: the nearest to the other body, or the deepest in it.
     pub(crate) witness: [Vec3; 2],
 }
 
-/// Work of a step of the search for the nearest point, besides its support points.
+/// Work units of one step of GJK, without its support points.
 const STEP: u64 = 60;
 
-/// Signed distance up to `cutoff`; `None` when it is larger, or when the bodies have no direction between them.
+/// Signed distance up to `cutoff`. Returns `None` if the distance is larger, or if the direction between the bodies
+/// is undefined.
 pub(crate) fn nearest(
     a: &mut Body,
     b: &mut Body,
@@ -48,8 +50,8 @@ pub(crate) fn nearest(
     })
 }
 
-/// The same without radii. Of bodies with corners alone the searches are exact; round ones are brought from their tolerance
-/// to rounding.
+/// Signed distance of the cores, without radii. If both bodies are polyhedra, the searches are exact. Results for
+/// round bodies are refined from the tolerance to rounding accuracy.
 fn nearest_of_cores(
     a: &mut Body,
     b: &mut Body,
@@ -63,7 +65,7 @@ fn nearest_of_cores(
     found
 }
 
-/// The search itself; what its support points cost is kept by the bodies.
+/// The search for the nearest points of the cores. The bodies count the cost of their support points.
 fn search(
     a: &mut Body,
     b: &mut Body,
@@ -74,7 +76,8 @@ fn search(
     let GjkResult { dist, corral, steps } = distance(a, b, cutoff, limits);
     scratch.cost += steps as u64 * STEP;
     let dist = dist?;
-    // So near to touching that the direction between them is best seen from the side that overlaps.
+    // This close to touching, the direction between the bodies is more accurate when computed by the penetration
+    // algorithm.
     let deep = if dist > limits.tolerance { None } else { epa::depth(&corral, a, b, limits, scratch) };
     let corners = a.discrete() && b.discrete();
     if let Some(Reach { normal, height, witness }) = deep {

@@ -1,27 +1,28 @@
-//! The Minkowski difference a - b of two bodies: they overlap when it holds the origin, and its point nearest to the origin
-//! says how far they are apart, or how deep they overlap. Only its support points are ever asked for.
+//! The Minkowski difference a - b of two bodies. The bodies overlap if it contains the origin. The distance of the
+//! origin from its boundary is the separation or the penetration depth. Only support points of the difference are
+//! computed.
 
 use super::support::Body;
 use crate::math::*;
 
-/// A point of the Minkowski difference and where it comes from.
+/// A point of the Minkowski difference and the two points that it comes from.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Vertex {
     pub(super) on_a: Vec3,
     pub(super) on_b: Vec3,
     /// a - b
     pub(super) point: Vec3,
-    /// Corners of bodies that have some.
+    /// Corner indexes of the points, for bodies with corners.
     pub(super) corners: [i32; 2],
 }
 
-/// The support point of the difference in a direction of unit length.
+/// The support point of the difference in the direction of a unit vector.
 pub(super) fn support(a: &mut Body, b: &mut Body, dir: Vec3) -> Vertex {
     let (on_a, on_b) = (a.support(dir), b.support(scale(dir, -1.0)));
     Vertex { on_a, on_b, point: sub(on_a, on_b), corners: [a.corner, b.corner] }
 }
 
-/// Accuracy and effort.
+/// Accuracy and iteration limit.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Limits {
     /// `opt.ccd_tolerance`, m.
@@ -30,5 +31,5 @@ pub(crate) struct Limits {
     pub(crate) iterations: usize,
 }
 
-/// Lengths below this part of the size of the difference are rounding.
+/// Relative rounding error: lengths below this fraction of the size of the difference are treated as zero.
 pub(super) const ROUNDING: f64 = 4.0 * f64::EPSILON;

@@ -1,4 +1,4 @@
-//! Signed distance of two shapes, by the method of their pair.
+//! Signed distance of two shapes, by the method for their types.
 
 use super::Shape;
 use super::convex::{Convex, nearest};
@@ -8,13 +8,14 @@ use crate::math::*;
 /// Distance and nearest points of two geoms.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Distance {
-    /// Signed distance, m, no larger than what was asked for; negative is penetration.
+    /// Signed distance, m, at most the requested distance. Penetration is negative.
     pub dist: f64,
-    /// A point on the surface of each geom, m, world; zero when the distance is not smaller than asked.
+    /// A point on the surface of each geom, m, world frame; zero if the distance is not below the requested one.
     pub fromto: [Vec3; 2],
 }
 
-/// The distance of two shapes up to `most`; `None` where it is searched for by the general algorithm and this build has none.
+/// The distance of two shapes up to `most`. Returns `None` if the pair needs the general convex algorithm and this
+/// build does not contain it.
 pub(crate) fn shape_distance(
     a: &Shape,
     b: &Shape,
@@ -57,7 +58,7 @@ pub(crate) fn shape_distance(
     Some(best)
 }
 
-/// Scratch for the contacts of one pair, stored so that steps do not allocate.
+/// Scratch memory for the contacts of one pair. It is reused, so that steps do not allocate.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Narrow {
     pub(crate) convex: super::convex::ConvexScratch,

@@ -1,12 +1,12 @@
-//! How deep two convex bodies overlap: the point of the border of their Minkowski difference a - b nearest to the origin,
-//! by an expanding polytope (van den Bergen, *Proximity queries and penetration depth computation on 3D game objects*,
-//! Game Developers Conference 2001).
+//! Penetration depth of two convex bodies: the boundary point of their Minkowski difference a - b nearest to the
+//! origin, found with an expanding polytope (van den Bergen, *Proximity queries and penetration depth computation on
+//! 3D game objects*, Game Developers Conference 2001).
 //!
-//! The polytope is the hull of support points, so every one of its faces is a lower bound of the depth along the face's
-//! normal, and the support point along that normal an upper bound for all directions. The face with the lowest bound is
-//! pushed out to its support point until both bounds agree; for round bodies Newton's method (`polish`) goes the rest of the
-//! way. Offsets of faces are signed: nothing changes when the origin is on the border of the polytope or a little outside, and
-//! a negative upper bound says that the bodies are apart.
+//! The polytope is the hull of support points. The offset of each face is a lower bound of the depth along its
+//! normal. The support point along this normal gives an upper bound of the depth over all directions. The face with
+//! the lowest bound is expanded to its support point until both bounds agree. For round bodies Newton's method
+//! (`polish`) refines the result. Offsets of faces are signed: the algorithm also works if the origin is on the
+//! boundary of the polytope or slightly outside. A negative upper bound means that the bodies are separate.
 
 use super::difference::{Limits, ROUNDING, Vertex, support};
 use super::polish::{Reach, least_reach};
@@ -14,9 +14,11 @@ use super::simplex::{Corral, barycentric};
 use super::support::Body;
 use crate::math::*;
 
-/// A triangle whose edges meet at an angle of a smaller sine has no normal of its own; a solid that is flatter has no inside.
+/// A triangle is degenerate if the sine of the angle between two edges is smaller than this; a flatter solid has no
+/// volume.
 const SLIVER: f64 = 1e-10;
-/// Faces are parts of one side when their normals differ by less than this, and their offsets by this part of the size.
+/// Faces belong to the same flat side if their normals differ by less than this, and their offsets by less than this
+/// fraction of the size.
 const SAME_SIDE: f64 = 1e-9;
 
 /// A plane: unit normal and signed offset from the origin, m.
@@ -31,45 +33,45 @@ struct Plane {
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Face {
     plane: Plane,
-    /// Where each half-edge begins.
+    /// Start vertex of each half-edge.
     from: [u32; 3],
-    /// The half-edge of the neighbour that runs the other way.
+    /// The half-edge of the neighbouring face in the opposite direction.
     twin: [u32; 3],
-    /// Whether it is on the surface.
+    /// Whether the face is on the surface of the polytope.
     alive: bool,
 }
 
-/// The polytope, kept between calls so that they do not allocate.
+/// The polytope. Its memory is reused, so that calls do not allocate.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Scratch {
     vertices: Vec<Vertex>,
     faces: Vec<Face>,
-    /// Faces that may have the lowest bound.
+    /// Candidates for the face with the lowest bound.
     low: Vec<u32>,
-    /// The new face whose outer edge begins at a vertex.
+    /// For each vertex, the new face whose outer edge starts there.
     fan: Vec<u32>,
-    /// Half-edges to be crossed while the visible faces are found, and those of the faces that are not.
+    /// Half-edges still to be crossed in the search for visible faces, and the half-edges on the border of these faces.
     pending: Vec<u32>,
     border: Vec<u32>,
-    /// Work done with it.
+    /// Work units done so far.
     pub(crate) cost: u64,
-    /// Most work that may be done with it: grids end where it is done.
+    /// Limit of work units: the search in a height field stops when it is reached.
     pub(crate) most: Option<u64>,
 }
 
-/// Of round bodies the depth is known to `ccd_tolerance`, but at least to this part of it: two that hardly touch would have
-/// any direction otherwise.
+/// The depth of round bodies is computed to `ccd_tolerance`, but at least to this fraction of the depth. Otherwise
+/// the direction would be arbitrary for bodies that barely touch.
 const SURE: f64 = 0.01;
 
 const NONE: u32 = u32::MAX;
 
-/// Face and place of a half-edge.
+/// Face and position in the face of a half-edge.
 fn place(edge: u32) -> (usize, usize) {
     ((edge >> 2) as usize, (edge & 3) as usize)
 }
 
-/// The depth of two bodies. The difference holds, or almost holds, the origin in the hull of the corral; `None` when it has
-/// no inside.
+/// The penetration depth of two bodies. The hull of the corral contains the origin, or almost contains it. Returns
+/// `None` if the difference has no volume.
 pub(super) fn depth(
     corral: &Corral,
     a: &mut Body,
@@ -92,7 +94,8 @@ pub(super) fn depth(
     let mut least = least_reach(a, b, plane.normal, limits);
     while left > 0 && least.height > 0.0 && SURE * least.height < tolerance {
         tolerance = SURE * least.height;
-        // With this point on it, the polytope has no lower bound much below its height nearby.
+        // This support point is a vertex of the expanded polytope, so no nearby face has a bound much below its
+        // height.
         p.vertices.push(support(a, b, least.normal));
         let seen = p.facing(rounding);
         if seen.is_some_and(|face| !p.grow(face, rounding)) {
@@ -115,7 +118,8 @@ impl Scratch {
         self.faces[face as usize].from.map(|v| self.point(v))
     }
 
-    /// Adds support points until four vertices span a tetrahedron; returns the largest distance from the origin.
+    /// Adds support points until four vertices span a tetrahedron. Returns the largest distance of a vertex from the
+    /// origin; `None` if the difference has no volume.
     fn span_space(&mut self, a: &mut Body, b: &mut Body) -> Option<f64> {
         let mut size = self.vertices.iter().fold(0.0_f64, |s, v| s.max(norm(v.point)));
         while !self.spans() {
@@ -152,7 +156,7 @@ impl Scratch {
         Some(size)
     }
 
-    /// Whether the vertices are corners of a simplex that is not almost flat.
+    /// Whether the vertices form a simplex that is not almost degenerate.
     fn spans(&self) -> bool {
         let Some((first, rest)) = self.vertices.split_first() else { return true };
         let edges = rest.iter().map(|v| sub(v.point, first.point));
@@ -167,7 +171,7 @@ impl Scratch {
         content > SLIVER * size
     }
 
-    /// The four faces of the first four vertices.
+    /// Creates the tetrahedron of the first four vertices.
     fn tetrahedron(&mut self) {
         let [p, q, r, s] = [0, 1, 2, 3].map(|v| self.point(v));
         if dot(cross(sub(q, p), sub(r, p)), sub(s, p)) > 0.0 {
@@ -175,7 +179,7 @@ impl Scratch {
         }
         self.faces.clear();
         self.low.clear();
-        // Seen from the fourth vertex the first three run clockwise.
+        // Seen from the fourth vertex, the first three are in clockwise order.
         let faces = [
             ([0, 1, 2], [6, 10, 14]),
             ([0, 3, 1], [13, 8, 0]),
@@ -193,7 +197,7 @@ impl Scratch {
         self.faces.push(face);
     }
 
-    /// The plane of a triangle; `None` for a sliver.
+    /// The plane of a triangle; `None` if the triangle is degenerate.
     fn plane(&self, vertices: [u32; 3]) -> Option<Plane> {
         let [a, b, c] = vertices.map(|v| self.point(v));
         let (u, v) = (sub(b, a), sub(c, a));
@@ -203,8 +207,8 @@ impl Scratch {
         (area2 > SLIVER * SLIVER * dot(u, u) * dot(v, v)).then(|| Plane { normal, offset: dot(normal, a) })
     }
 
-    /// Grows until the lowest bounds agree within `tolerance`. Returns the face and the plane of the lowest upper bound,
-    /// `None` when none is below `upper`.
+    /// Expands the polytope until the lowest lower and upper bound differ by at most `tolerance`. Returns the face
+    /// and the plane of the lowest upper bound, `None` if no bound is below `upper`.
     fn expand(
         &mut self,
         a: &mut Body,
@@ -238,7 +242,8 @@ impl Scratch {
         best
     }
 
-    /// The face with the lowest offset. Those that are gone, or above an upper bound, are dropped from the list.
+    /// The face with the lowest offset. Faces that are no longer on the surface, or whose offset is above an upper
+    /// bound, are removed from the list.
     fn lowest(&mut self, upper: f64) -> Option<u32> {
         let mut lowest = (f64::INFINITY, None);
         let mut k = 0;
@@ -256,15 +261,15 @@ impl Scratch {
         lowest.1
     }
 
-    /// A face that the last vertex sees.
+    /// A face that is visible from the last vertex.
     fn facing(&self, rounding: f64) -> Option<u32> {
         let w = self.vertices.last()?.point;
         let height = |plane: &Plane| dot(plane.normal, w) - plane.offset;
         self.faces.iter().position(|f| f.alive && height(&f.plane) > rounding).map(|f| f as u32)
     }
 
-    /// Replaces all faces that the last vertex sees, `seen` among them, by a fan around it; `false` when rounding does not
-    /// leave a border to attach it to.
+    /// Replaces all faces that are visible from the last vertex, including `seen`, by a fan around this vertex.
+    /// Returns `false` if rounding errors leave no valid border for the fan.
     fn grow(&mut self, seen: u32, rounding: f64) -> bool {
         let apex = self.vertices.len() as u32 - 1;
         let w = self.point(apex);
@@ -301,7 +306,8 @@ impl Scratch {
             self.fan[start as usize] = face;
             self.faces[f].twin[k] = 4 * face;
             let from = [start, end, apex];
-            // A sliver continues its neighbour: the new vertex is on the line of their edge.
+            // For a degenerate triangle the new vertex is on the line of the outer edge, so the triangle takes the
+            // plane of its neighbour.
             let plane = self.plane(from).unwrap_or(plane);
             self.add(Face { plane, from, twin: [outer, NONE, NONE], alive: true });
         }
@@ -316,7 +322,7 @@ impl Scratch {
         self.border.len() > 2
     }
 
-    /// The points of both bodies at the foot of the origin on the side that a face is part of.
+    /// The points of both bodies at the projection of the origin onto the flat side that contains the face.
     fn witness(&self, face: u32, size: f64) -> [Vec3; 2] {
         let plane = self.faces[face as usize].plane;
         let foot = scale(plane.normal, plane.offset);
@@ -337,7 +343,8 @@ impl Scratch {
             }
         }
         let (_, face, weights) = best;
-        // The foot is in one of the faces; what rounding puts outside goes to the border.
+        // The foot of the perpendicular is in one of the faces. Rounding may place it slightly outside; it is then
+        // moved to the border.
         let weights = weights.map(|w| w.max(0.0));
         let sum: f64 = weights.iter().sum();
         let vertices = self.faces[face as usize].from.map(|v| &self.vertices[v as usize]);

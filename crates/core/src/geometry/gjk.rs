@@ -1,27 +1,28 @@
 //! Distance of convex bodies by the algorithm of Gilbert, Johnson and Keerthi (*A fast procedure for computing the
-//! distance between complex objects in three-dimensional space*, IEEE Journal of Robotics and Automation 4, 1988) on
-//! their Minkowski difference a - b, of which only support points are asked for.
+//! distance between complex objects in three-dimensional space*, IEEE Journal of Robotics and Automation 4, 1988). It
+//! uses only support points of the Minkowski difference a - b.
 //!
-//! The nearest point x of the support points found so far is an upper bound. The support point w towards the origin
-//! gives a lower one, x·w / |x|: the plane through w across x has all of the difference on its far side.
+//! The distance of the nearest point x in the hull of the support points found so far is an upper bound. The support
+//! point w towards the origin gives a lower bound, x·w / |x|, because the whole difference is on the far side of the
+//! plane through w normal to x.
 
 use super::difference::{Limits, ROUNDING, support};
 use super::simplex::Corral;
 use super::support::Body;
 use crate::math::*;
 
-/// What came out.
+/// The result of the search.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct GjkResult {
-    /// Distance, m; zero when the origin is in the difference, `None` when it is larger than asked.
+    /// Distance, m; zero if the difference contains the origin, `None` if the distance is larger than `cutoff`.
     pub(super) dist: Option<f64>,
-    /// The simplex that holds the nearest point.
+    /// The simplex that contains the nearest point.
     pub(super) corral: Corral,
-    /// Support points that were asked for.
+    /// Number of support points computed.
     pub(super) steps: usize,
 }
 
-/// Distance up to `cutoff`.
+/// The distance of the bodies, up to `cutoff`.
 pub(super) fn distance(a: &mut Body, b: &mut Body, cutoff: f64, limits: Limits) -> GjkResult {
     let towards = unit_vector(sub(b.centre(), a.centre())).0;
     let first = support(a, b, towards);
@@ -44,7 +45,7 @@ pub(super) fn distance(a: &mut Body, b: &mut Body, cutoff: f64, limits: Limits) 
             found.dist = None;
             break;
         }
-        // x is as near to the true nearest point as the root of this.
+        // The square root of this bounds the distance between x and the true nearest point.
         let error2 = (upper - lower) * upper;
         let accuracy2 = if discrete { 0.0 } else { 0.5 * limits.tolerance * limits.tolerance };
         if error2 <= accuracy2.max(ROUNDING * size * upper) {

@@ -5,13 +5,13 @@ use crate::math::{Vec3, broken_invariant};
 /// The graph of a convex hull (`mesh_graph`).
 #[derive(Clone, Copy, Debug)]
 pub struct Hull<'a> {
-    /// For each vertex of the hull where its neighbours begin in `edges`.
+    /// For each vertex of the hull, the start of its list of neighbours in `edges`.
     pub first_edge: &'a [i32],
-    /// For each vertex of the hull its index among the mesh's vertices.
+    /// For each vertex of the hull, its index among the vertices of the mesh.
     pub vertex: &'a [i32],
-    /// Lists of neighbours, as vertices of the hull; each list ends with -1.
+    /// Lists of neighbours, as vertices of the hull. Each list ends with -1.
     pub edges: &'a [i32],
-    /// Vertices of the mesh at the corners of each triangle of the hull.
+    /// For each triangle of the hull, the mesh vertices at its corners.
     pub face: &'a [[i32; 3]],
 }
 
@@ -24,8 +24,9 @@ impl Hull<'_> {
 }
 
 impl<'a> Hull<'a> {
-    /// Layout: numbers of vertices and triangles, where each vertex's neighbours begin, the vertices, the lists of
-    /// neighbours (six for each pair of triangles, and an end for each vertex), the triangles.
+    /// Parses `mesh_graph`. Its layout: number of vertices, number of triangles, start of the neighbour list of each
+    /// vertex, mesh index of each vertex, neighbour lists (six entries for each pair of triangles, and an end marker
+    /// for each vertex), triangles. Returns `None` if the array is too short or has no vertices.
     pub(crate) fn from_graph(graph: &'a [i32]) -> Option<Hull<'a>> {
         let [vertices, faces, rest @ ..] = graph else { return None };
         let (n, f) = (usize::try_from(*vertices).ok()?, usize::try_from(*faces).ok()?);
@@ -37,7 +38,7 @@ impl<'a> Hull<'a> {
     }
 }
 
-/// The vertex that a triangle, a side or a hull names.
+/// The vertex with index `v` of a mesh.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn vertex(vert: &[Vec3], v: usize) -> Vec3 {
     vert.get(v).copied().unwrap_or_else(|| broken_invariant("a mesh has the vertices that its faces name"))

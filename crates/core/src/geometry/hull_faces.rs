@@ -1,24 +1,24 @@
-//! The flat sides of a convex hull: its triangles, merged where they lie in one plane.
+//! The flat faces of a convex hull: triangles in one plane are merged.
 
 use super::Hull;
 use super::hull::vertex;
 use crate::math::*;
 use labspec_finding::order;
 
-/// Cosine of the angle between triangles above which they are one side.
+/// Triangles belong to one face if the cosine of the angle between their normals is above this.
 const FLAT: f64 = 1.0 - 1e-7;
 
-/// The sides of a hull.
+/// The faces of a hull.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct HullFaces {
     faces: Vec<Side>,
     vertices: Vec<u32>,
-    /// Sides at each vertex: where its list begins in `around`, and one more.
+    /// For each vertex, the start of its list of faces in `around`; one more entry marks the end.
     first: Vec<u32>,
     around: Vec<u32>,
 }
 
-/// A flat side.
+/// A flat face: its unit normal, and its range in `vertices`.
 #[derive(Clone, Debug, PartialEq)]
 struct Side {
     normal: Vec3,
@@ -27,14 +27,14 @@ struct Side {
 }
 
 impl HullFaces {
-    /// The sides of the hull of some vertices.
+    /// The faces of the hull of a mesh with the vertices `vert`.
     pub fn from_hull(vert: &[Vec3], hull: &Hull) -> HullFaces {
         let mut faces = merge(vert, hull);
         faces.index(vert.len());
         faces
     }
 
-    /// Appends all of it as numbers: integers, and floats.
+    /// Serializes the faces to integers and floats.
     pub(crate) fn numbers(&self) -> (Vec<u32>, Vec<f64>) {
         let head = [&self.vertices, &self.first, &self.around].map(|list| list.len() as u32);
         let places = self.faces.iter().flat_map(|s| [s.first, s.count]);
@@ -43,7 +43,8 @@ impl HullFaces {
         (head.into_iter().chain(places).chain(lists).collect(), floats.collect())
     }
 
-    /// What [`HullFaces::numbers`] gave, for a hull of so many vertices; `None` for what no hull has.
+    /// Deserializes the output of [`HullFaces::numbers`] for a mesh with the given number of vertices. Returns `None`
+    /// if the numbers are inconsistent.
     pub(crate) fn from_numbers(integers: &[u32], floats: &[f64], vertices: usize) -> Option<HullFaces> {
         let (&[a, b, c], mut rest) = integers.split_first_chunk::<3>()?;
         let count = floats.len() / 3;
@@ -69,28 +70,28 @@ impl HullFaces {
         good.then_some(out)
     }
 
-    /// Number of sides.
+    /// Number of faces.
     pub fn len(&self) -> usize {
         self.faces.len()
     }
 
-    /// Whether there are none: the hull is not known.
+    /// Whether there are no faces: the hull is not known.
     pub fn is_empty(&self) -> bool {
         self.faces.is_empty()
     }
 
-    /// Unit normal of a side, outwards, in the frame of the mesh.
+    /// Outward unit normal of a face, in the frame of the mesh.
     pub fn normal(&self, side: usize) -> Vec3 {
         self.faces[side].normal
     }
 
-    /// Vertices of a side, counterclockwise as seen from outside.
+    /// Vertices of a face, counterclockwise as seen from outside.
     pub fn vertices(&self, side: usize) -> &[u32] {
         let s = &self.faces[side];
         &self.vertices[s.first as usize..(s.first + s.count) as usize]
     }
 
-    /// The sides that meet in a vertex, and its place in the list of each.
+    /// The faces that meet at a vertex, each with the position of the vertex in the list of that face.
     pub(crate) fn around(&self, vertex: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
         let range = match (self.first.get(vertex), self.first.get(vertex + 1)) {
             (Some(&from), Some(&to)) => from as usize..to as usize,
@@ -102,7 +103,7 @@ impl HullFaces {
         })
     }
 
-    /// Lists the sides at each of `n` vertices.
+    /// Builds the lists of faces for each of `n` vertices.
     fn index(&mut self, n: usize) {
         let mut pairs: Vec<(u32, u32)> = Vec::with_capacity(self.vertices.len());
         for side in 0..self.len() {
@@ -121,7 +122,7 @@ fn merge(vert: &[Vec3], hull: &Hull) -> HullFaces {
         .iter()
         .map(|&[a, b, c]| unit_vector(cross(sub(corner(b), corner(a)), sub(corner(c), corner(a)))).0)
         .collect();
-    // Every edge of a triangle, found by its two ends.
+    // Half-edges of all triangles, sorted so that they can be found by their two ends.
     let mut edges: Vec<(i32, i32, usize)> = Vec::new();
     for (t, f) in hull.face.iter().enumerate() {
         edges.extend((0..3).map(|k| (f[k], f[(k + 1) % 3], t)));
@@ -154,7 +155,7 @@ fn merge(vert: &[Vec3], hull: &Hull) -> HullFaces {
                 }
             }
         }
-        // The border: edges whose other triangle is in another side, each leading to the next.
+        // The border consists of the edges whose other triangle belongs to another face.
         let edges =
             group.iter().flat_map(|&t| (0..3).map(move |k| (hull.face[t][k], hull.face[t][(k + 1) % 3])));
         let mut border: Vec<(i32, i32)> =
@@ -171,7 +172,8 @@ fn merge(vert: &[Vec3], hull: &Hull) -> HullFaces {
     out
 }
 
-/// The vertices of a border, whose edges are sorted, from the first edge on.
+/// Appends the vertices of a border in order, starting with the first edge. The edges are sorted by their first
+/// vertex.
 fn walk_around(border: &[(i32, i32)], vertices: &mut Vec<u32>) {
     let Some(&(mut at, _)) = border.first() else { return };
     for _ in 0..border.len() {

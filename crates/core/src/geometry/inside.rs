@@ -1,11 +1,11 @@
-//! Whether a point is inside a shape; its surface does not count.
+//! Tests whether a point is strictly inside a shape.
 
 use super::Shape;
 use crate::kinds::geom;
 use crate::math::*;
 
-/// Whether a point (world, m) is inside a primitive shape, or below a plane. Meshes and height fields have no
-/// inside here.
+/// Whether a point (world frame, m) is inside a primitive shape, or below a plane. Meshes and height fields are
+/// treated as having no inside.
 pub(crate) fn inside_shape(shape: &Shape, point: Vec3) -> bool {
     let [x, y, z] = shape.local(point);
     let [a, b, c] = shape.size;

@@ -1,6 +1,6 @@
-//! Short lists that need no allocation.
+//! Short lists with a fixed capacity that do not allocate.
 
-/// A small list without allocation.
+/// A list with a capacity of `N` items. Items beyond the capacity are discarded.
 #[derive(Clone, Copy)]
 pub(crate) struct List<T, const N: usize> {
     items: [T; N],

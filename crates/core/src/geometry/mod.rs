@@ -1,7 +1,7 @@
 //! Pure geometry of shapes: rays, containment, support points, distance and penetration.
 //!
-//! A [`Shape`] is a type, sizes and a pose; nothing here knows of a model, its data or dynamics. What asks these is in
-//! [`crate::query`].
+//! A [`Shape`] consists of a type, sizes and a pose. This module does not depend on models, data or dynamics. Queries
+//! of a model use it through [`crate::query`].
 
 mod cast;
 mod clip;

@@ -1,59 +1,62 @@
-//! The direction between two convex bodies, to rounding: Newton's method on the support function of their difference.
+//! Refines the direction between two convex bodies to rounding accuracy with Newton's method on the support function
+//! of their Minkowski difference.
 //!
-//! h(n) = max n·(a - b) bounds the depth from above for every unit vector n, and the depth is its least value; of bodies
-//! that are apart, -h(n) is how far a plane across n parts them, and the distance its largest value. Where the bodies are
-//! round, h has a gradient, the support point w(n), and a Hessian H(n), the radii of curvature: on the sphere a
-//! step δ across n solves (H - h) δ = -w. Where a body has an edge or a face, h has a kink, and the least value lies in it
-//! as often as not: then n stays across the edge.
+//! For every unit vector n, h(n) = max n·(a - b) is an upper bound of the penetration depth, and the depth is the
+//! minimum of h. For separate bodies, -h(n) is the separation along n, and the distance is its maximum. Where the
+//! bodies are round, h has a gradient, which is the support point w(n), and a Hessian H(n), which contains the radii
+//! of curvature. On the unit sphere, a step δ normal to n solves (H - h) δ = -w. Where a body has an edge or a face,
+//! h has a kink, and the minimum is often in a kink. In this case n is constrained to the plane normal to the edge.
 
 use super::difference::{Limits, support};
 use super::gjk::distance;
 use super::support::Body;
 use crate::math::*;
 
-/// Sine of the angle up to which a kink may be the place where h is least.
+/// Sine of the largest angle of a kink from the start direction for which the kink is examined as a possible minimum
+/// of h.
 const NEAR: f64 = 0.03;
-/// Most steps; near its end every one doubles the digits.
+/// Maximum number of steps. Near the minimum each step doubles the number of correct digits.
 const MOST_STEPS: usize = 20;
-/// After a step of this length, rad, the next would change nothing.
+/// Step length, rad, below which a further step would change nothing.
 const SMALL: f64 = 1e-11;
-/// Sine of the angle up to which a direction is across an edge.
+/// Sine of the largest angle for which a direction counts as normal to an edge.
 const HELD: f64 = 1e-6;
-/// A support point is along a direction when it is off by no more than this part of its length.
+/// A support point counts as parallel to a direction if its deviation is at most this fraction of its length.
 const STRAIGHT: f64 = 1e-8;
-/// Most that a direction turns in one step, rad.
+/// Largest rotation of the direction in one step, rad.
 const TURN: f64 = 0.3;
-/// Sine of the angle up to which a direction may be across it after all.
+/// Sine of the largest angle for which a direction might be normal to an edge; between [`HELD`] and this, the
+/// classification is unclear.
 const UNCLEAR: f64 = 1e-3;
-/// Angle that shows the ends of an edge, rad.
+/// Tilt angle that makes the ends of an edge support points, rad.
 const TILT: f64 = 1e-4;
-/// Edges of both bodies.
+/// Directions of edges of both bodies.
 type Kinks = super::list::List<Vec3, 4>;
 
-/// A direction, and how far the difference reaches along it.
+/// A unit direction, and the extent of the difference along it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reach {
     pub(super) normal: Vec3,
-    /// m; negative when the bodies are apart.
+    /// Extent, m; negative if the bodies are separate.
     pub(super) height: f64,
     /// The nearest or deepest point of each body.
     pub(super) witness: [Vec3; 2],
 }
 
-/// The direction near `start` along which the difference reaches least.
+/// The direction near `start` along which the extent of the difference is smallest.
 pub(super) fn least_reach(a: &mut Body, b: &mut Body, start: Vec3, limits: Limits) -> Reach {
     let mut kinks = Kinks::new();
     let of_a = a.kinks(start, NEAR);
     let of_b = b.kinks(scale(start, -1.0), NEAR);
     of_a.all().iter().chain(of_b.all()).for_each(|&k| kinks.push(k));
-    // Never above the start.
+    // The result is never above the value at the start.
     let (mut best, is_flat) = free(a, b, start);
     let mut consider = |found: (Vec3, f64)| {
         if found.1 < best.1 {
             best = found;
         }
     };
-    // At the bottom of a bowl nothing nearby is lower.
+    // If a smooth minimum was found, no kink nearby is lower.
     let list = if is_flat { &[] } else { kinks.all() };
     for (i, &edge) in list.iter().enumerate() {
         consider(across(a, b, start, edge));
@@ -68,19 +71,20 @@ pub(super) fn least_reach(a: &mut Body, b: &mut Body, start: Vec3, limits: Limit
     Reach { normal, height, witness: witness(a, b, normal, height, limits) }
 }
 
-/// How far the difference reaches along a direction.
+/// The extent of the difference along a direction.
 fn height(a: &mut Body, b: &mut Body, n: Vec3) -> (Vec3, f64) {
     (n, dot(n, support(a, b, n).point))
 }
 
-/// Downhill in any direction; and whether the bottom of a bowl was found, where the support point is along the direction.
+/// Minimizes the extent over all directions. Also returns whether a smooth minimum was found, where the support point
+/// is parallel to the direction.
 fn free(a: &mut Body, b: &mut Body, start: Vec3) -> ((Vec3, f64), bool) {
     let (n, w, h) = descend(a, b, start, |n, w, h, bend| {
         let f = frame(n);
         let (s, t) = ([f[3], f[4], f[5]], [f[6], f[7], f[8]]);
         let [ss, st, tt] = bend(n, s, t);
         let (ss, tt) = (ss - h, tt - h);
-        // The two principal directions: a rotation that makes the matrix diagonal.
+        // The two principal directions: a rotation that diagonalizes the matrix.
         let (sin, cos) = libm::sincos(0.5 * libm::atan2(2.0 * st, ss - tt));
         let (both, mixed) = (cos * cos * ss + sin * sin * tt, 2.0 * sin * cos * st);
         let first = downhill(cos * dot(s, w) + sin * dot(t, w), both + mixed);
@@ -90,7 +94,7 @@ fn free(a: &mut Body, b: &mut Body, start: Vec3) -> ((Vec3, f64), bool) {
     ((n, h), norm(sub(w, scale(n, h))) <= STRAIGHT * norm(w))
 }
 
-/// Downhill among the directions across an edge.
+/// Minimizes the extent over the directions normal to an edge.
 fn across(a: &mut Body, b: &mut Body, start: Vec3, edge: Vec3) -> (Vec3, f64) {
     let start = normalize(add_scaled(start, edge, -dot(start, edge))).0;
     let (n, _, h) = descend(a, b, start, |n, w, h, bend| {
@@ -100,13 +104,15 @@ fn across(a: &mut Body, b: &mut Body, start: Vec3, edge: Vec3) -> (Vec3, f64) {
     (n, h)
 }
 
-/// The step of Newton's method along one direction; away from a hilltop as far as it would go to it.
+/// The Newton step along one direction. If the curvature is negative, the step has the length of the Newton step, but
+/// leads away from the maximum.
 fn downhill(slope: f64, curvature: f64) -> f64 {
     if slope == 0.0 { 0.0 } else { (-slope / curvature.abs()).clamp(-TURN, TURN) }
 }
 
-/// Steps as long as they lead down; those that do not are cut to a quarter. `step` gets a direction n, its support point,
-/// the height there, and the Hessian between two tangents: ss, st, tt. Returns the first three at the end.
+/// Takes steps as long as the extent decreases. A step that does not decrease it is shortened to a quarter. `step`
+/// gets a direction n, its support point, the extent, and a function that returns the Hessian for two tangents: ss,
+/// st, tt. Returns the final direction, support point and extent.
 fn descend(
     a: &mut Body,
     b: &mut Body,
@@ -137,10 +143,10 @@ fn descend(
     (at.0, at.1, h)
 }
 
-/// The points of both bodies on the line along the least reach. Along an edge a support point may be anywhere: it goes where
-/// the other body's is; along edges that cross to the crossing, along parallel ones to the middle of what they share.
-/// Faces share a point with what lies on them once the bodies are moved apart so that they touch, and so does what may be
-/// a face.
+/// The nearest or deepest points of both bodies along the direction n of least extent. On an edge normal to n, the
+/// support point is arbitrary. It is then moved opposite to the support point of the other body. For two crossing
+/// edges, the points at the crossing are taken, and for two parallel edges, the midpoint of their common part. For
+/// faces, and for features that might be faces, the bodies are moved until they touch, and a common point is taken.
 fn witness(a: &mut Body, b: &mut Body, n: Vec3, h: f64, limits: Limits) -> [Vec3; 2] {
     let v = support(a, b, n);
     let apart = scale(n, h);
@@ -177,13 +183,13 @@ fn witness(a: &mut Body, b: &mut Body, n: Vec3, h: f64, limits: Limits) -> [Vec3
     }
 }
 
-/// The point of a line where its coordinate is `at`.
+/// Moves a point along an edge direction until its coordinate along the edge is `at`.
 fn onto(line: Vec3, edge: Vec3, at: f64) -> Vec3 {
     add_scaled(line, edge, at - dot(edge, line))
 }
 
-/// The middle of what both bodies have of an edge, as a coordinate along it: tilted a little to and fro they touch with
-/// its ends.
+/// The midpoint of the common part of two parallel edges, as a coordinate along them. The ends of the edges are
+/// support points of slightly tilted directions.
 fn shared_middle(a: &mut Body, b: &mut Body, n: Vec3, edge: Vec3) -> f64 {
     let end = |body: &mut Body, towards: f64, side: f64| {
         let tilted = normalize(add_scaled(scale(n, towards), edge, side * TILT)).0;

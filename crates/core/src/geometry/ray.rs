@@ -1,22 +1,23 @@
-//! Rays against primitive shapes: the first point of a half line on a surface, from outside or inside.
+//! Rays against primitive shapes: the first intersection of a half line with a surface, from outside or inside.
 //!
-//! A line p + x v is within a convex body along an interval of x, and within the intersection of two bodies along the intersection
-//! of their intervals. A box is the intersection of three slabs |pᵢ| ≤ sᵢ (Kay, Kajiya, *Ray tracing complex scenes*, SIGGRAPH 1986),
-//! a cylinder that of a tube and a slab, and a capsule is a cylinder and two balls, whose intervals overlap. Balls, tubes and
-//! ellipsoids are |q|² ≤ 1 of coordinates divided by their radii, which is a quadratic of x. The ray hits where the
-//! interval begins or, when it starts inside, where it ends.
+//! A line p + x v intersects a convex body in an interval of x, and the intersection of two bodies in the
+//! intersection of their intervals. A box is the intersection of three slabs |pᵢ| ≤ sᵢ (Kay, Kajiya, *Ray tracing
+//! complex scenes*, SIGGRAPH 1986). A cylinder is the intersection of a tube and a slab. A capsule is the union of a
+//! cylinder and two balls with overlapping intervals. Balls, tubes and ellipsoids are given by |q|² ≤ 1 in
+//! coordinates divided by their radii, which is a quadratic inequality in x. The ray hits the surface where the
+//! interval begins, or where it ends if the ray starts inside.
 //!
-//! Rays that graze a surface to rounding miss it. What counts as rounding is a part of the lengths at hand, never a length: a scene may
-//! be of any size, and the direction of a ray of any length.
+//! Rays that are tangent to a surface to within rounding miss it. Rounding thresholds are relative to the lengths
+//! involved, never absolute, because scenes may have any size, and directions of rays any length.
 
 use crate::math::*;
 
-/// Where a ray meets a surface.
+/// The intersection of a ray with a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Hit {
-    /// Distance in lengths of the ray's direction, not negative.
+    /// Distance as a multiple of the length of the ray's direction, not negative.
     pub distance: f64,
-    /// Unit normal of the surface, out of the shape, in the frame of the ray.
+    /// Outward unit normal of the surface, in the frame of the ray.
     pub normal: Vec3,
 }
 
@@ -33,14 +34,14 @@ impl Ray {
         add_scaled(self.from, self.along, x)
     }
 
-    /// The same ray with its coordinates divided.
+    /// The ray with its coordinates divided by those of `by`.
     fn divided(&self, by: Vec3) -> Ray {
         let divide = |v: Vec3| std::array::from_fn(|i| v[i] / by[i]);
         Ray { from: divide(self.from), along: divide(self.along) }
     }
 }
 
-/// Keeps the nearer of two hits, the first one when they are equal.
+/// Replaces the best hit if the new one is nearer; of equal distances the first is kept.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn nearer(best: &mut Option<Hit>, distance: f64, normal: impl FnOnce() -> Vec3) {
     if distance >= 0.0 && best.is_none_or(|b| distance < b.distance) {
@@ -48,24 +49,25 @@ pub(super) fn nearer(best: &mut Option<Hit>, distance: f64, normal: impl FnOnce(
     }
 }
 
-/// A component of a direction of unit length below this is zero.
+/// A component of a unit direction below this counts as zero.
 pub(super) const PARALLEL: f64 = MINVAL;
 
-/// Where a line is inside: from the first number to the second.
+/// The parameters x for which a line is inside a body: lower and upper end.
 type Interval = [f64; 2];
 
-/// Where both are; `None` where that is nowhere, or a number is none.
+/// The intersection of two intervals; `None` if it is empty or contains NaN.
 fn both([a, b]: Interval, [c, d]: Interval) -> Option<Interval> {
     let (from, to) = (a.max(c), b.min(d));
     (from <= to).then_some([from, to])
 }
 
-/// The first end of an interval that is not behind the start of the ray.
+/// The first end of an interval that is finite and not behind the start of the ray.
 fn first([from, to]: Interval) -> Option<f64> {
     [from, to].into_iter().find(|x| (0.0..f64::INFINITY).contains(x))
 }
 
-/// Where |p + x v| ≤ `half`, of one coordinate: of a coordinate that does not change everywhere or nowhere.
+/// The interval where |p + x v| ≤ `half` for one coordinate. If the coordinate is constant, this is all of x or an
+/// empty interval.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn slab(p: f64, v: f64, half: f64) -> Interval {
     if v == 0.0 {
@@ -76,7 +78,8 @@ pub(super) fn slab(p: f64, v: f64, half: f64) -> Interval {
     [(-reach - p) / v, (reach - p) / v]
 }
 
-/// Where |p + x v| ≤ 1 over the first N coordinates: a x² + 2 b x + c ≤ 0. Nowhere when both ends are one to rounding.
+/// The interval where |p + x v| ≤ 1 over the first N coordinates: a x² + 2 b x + c ≤ 0. Returns `None` if the
+/// interval is empty, or is a single point to within rounding.
 fn unit_ball<const N: usize>(ray: &Ray) -> Option<Interval> {
     let product = |u: Vec3, w: Vec3| (0..N).map(|i| u[i] * w[i]).sum::<f64>();
     let Ray { from: p, along: v } = *ray;
@@ -108,7 +111,7 @@ pub(super) fn sphere(radius: f64, ray: &Ray) -> Option<Hit> {
 pub(super) fn ellipsoid(size: Vec3, ray: &Ray) -> Option<Hit> {
     let scaled = ray.divided(size);
     let distance = first(unit_ball::<3>(&scaled)?)?;
-    // The gradient of Σ (qᵢ / sᵢ)².
+    // The normal is the gradient of Σ (qᵢ / sᵢ)².
     let on = scaled.at(distance);
     Some(Hit { distance, normal: unit_vector(std::array::from_fn(|i| on[i] / size[i])).0 })
 }
@@ -140,11 +143,11 @@ pub(super) fn cuboid(size: Vec3, ray: &Ray) -> Option<Hit> {
     Some(Hit { distance: crossing.distance, normal: crossing.normal() })
 }
 
-/// Where a line crosses the surface of a box.
+/// The intersection of a line with the surface of a box.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Crossing {
     pub(super) distance: f64,
-    /// The axis across the face, and -1 or 1 for its lower or upper side.
+    /// The axis normal to the face, and -1 or 1 for its lower or upper side.
     pub(super) axis: usize,
     pub(super) side: f64,
 }
@@ -157,7 +160,7 @@ impl Crossing {
     }
 }
 
-/// Where a line goes into a box about the origin, and where it comes out.
+/// The points where a line enters and leaves a box centred at the origin.
 pub(super) fn crossings(size: Vec3, ray: &Ray) -> Option<[Crossing; 2]> {
     let nowhere = Crossing { distance: f64::NEG_INFINITY, axis: 0, side: 0.0 };
     let (mut enters, mut leaves) = (nowhere, Crossing { distance: f64::INFINITY, ..nowhere });

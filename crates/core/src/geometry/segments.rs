@@ -2,14 +2,14 @@
 
 use crate::math::*;
 
-/// The points `centre` + t `half`, t from -1 to 1.
+/// The points `centre` + t `half` with t from -1 to 1.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Segment {
     pub(super) centre: Vec3,
     pub(super) half: Vec3,
 }
 
-/// Squared sine of the angle up to which two segments are parallel.
+/// Squared sine of the largest angle between two segments that count as parallel.
 const PARALLEL: f64 = 1e-12;
 
 impl Segment {
@@ -18,14 +18,15 @@ impl Segment {
         add_scaled(self.centre, self.half, t)
     }
 
-    /// The parameter of the point that is closest to another point. (That of a segment without length is its centre.)
+    /// The parameter of the point of the segment that is closest to `point`. For a segment of length zero it is 0,
+    /// the centre.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn closest_to(&self, point: Vec3) -> f64 {
         let length2 = dot(self.half, self.half);
         if length2 > 0.0 { clamp(dot(self.half, sub(point, self.centre)) / length2, -1.0, 1.0) } else { 0.0 }
     }
 
-    /// Whether two segments have the same direction, or one of them none.
+    /// Whether two segments are parallel. A segment of length zero is parallel to every segment.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn is_parallel(&self, other: &Segment) -> bool {
         let (aa, ab, bb) = products(self, other);
@@ -41,16 +42,17 @@ fn products(a: &Segment, b: &Segment) -> (f64, f64, f64) {
 
 /// The parameters of the closest points of two segments.
 ///
-/// The squared distance |d + x u - y v|², d = a - b, is a convex quadratic of x and y. Least over all y it is one of x alone, with
-/// its minimum at x = (uv dv - vv du) / (uu vv - uv²); within the ends of the first segment the best x is that number clamped. If the
-/// best y for it is beyond an end of the second segment, then y is that end, and x the best for it.
+/// The squared distance |d + x u - y v|², d = a - b, is a convex quadratic function of x and y. Its minimum over all
+/// y is a function of x alone, with the minimum at x = (uv dv - vv du) / (uu vv - uv²). Within the ends of the first
+/// segment, the best x is this value, clamped. If the best y for this x is beyond an end of the second segment, y is
+/// that end, and x is the best value for this y.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn closest_points(a: &Segment, b: &Segment) -> [f64; 2] {
     let (uu, uv, vv) = products(a, b);
     let d = sub(a.centre, b.centre);
     let (du, dv) = (dot(d, a.half), dot(d, b.half));
     let det = uu * vv - uv * uv;
-    // Of parallel lines every x is as good.
+    // For parallel lines every x is equally good.
     let x = if det > 0.0 { clamp((uv * dv - vv * du) / det, -1.0, 1.0) } else { 0.0 };
     let y = b.closest_to(a.at(x));
     [a.closest_to(b.at(y)), y]
@@ -75,7 +77,7 @@ mod tests {
             }
             let [x, y] = closest_points(&a, &b);
             let between = sub(b.at(y), a.at(x));
-            // Half the derivatives of the squared distance: zero, or pointing out at an end.
+            // Half the derivatives of the squared distance: each is zero, or, at an end, it points outwards.
             for (slope, at) in [(-dot(between, a.half), x), (dot(between, b.half), y)] {
                 let out = at.abs() == 1.0 && slope * at <= 1e-9;
                 assert!(at.abs() <= 1.0 && (slope.abs() < 1e-9 || out), "case {case}: {slope} at {at}");

@@ -1,24 +1,24 @@
-//! A shape in the world: type, sizes, pose; for meshes and height fields a view of their data.
+//! A shape in the world: type, sizes and pose. Meshes and height fields also have a view of their data.
 
 use super::hull::vertex;
 use super::{Hull, HullFaces};
 use crate::kinds::geom;
 use crate::math::*;
 
-/// A geom or site as geometry sees it.
+/// The geometry of a geom or site.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shape<'a> {
     /// `geom_type`.
     pub kind: i32,
     /// Sizes as in `geom_size`, m.
     pub size: Vec3,
-    /// Position of its frame, m, world.
+    /// Position of its frame, m, world frame.
     pub pos: Vec3,
-    /// Orientation of its frame, world.
+    /// Orientation of its frame, world frame.
     pub mat: Mat3,
-    /// Its vertices, when it is a mesh.
+    /// Data of a mesh; `None` for other types.
     pub mesh: Option<Mesh<'a>>,
-    /// Its samples, when it is a height field.
+    /// Data of a height field; `None` for other types.
     pub field: Option<Field<'a>>,
 }
 
@@ -27,32 +27,32 @@ pub(crate) struct Shape<'a> {
 pub(crate) struct Mesh<'a> {
     /// Vertices, m.
     pub vert: &'a [Vec3],
-    /// Vertices of each triangle; outside is where they run counterclockwise.
+    /// Vertices of each triangle, counterclockwise as seen from outside.
     pub face: &'a [[i32; 3]],
-    /// The convex hull, when it is known.
+    /// The convex hull, if it is known.
     pub hull: Option<Hull<'a>>,
-    /// The flat sides of the hull, when contacts may lie on them.
+    /// The flat faces of the hull, if contacts can have several points on them.
     pub hull_faces: Option<&'a HullFaces>,
 }
 
 impl Mesh<'_> {
-    /// A vertex.
+    /// The position of vertex `v`, m.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn vertex(&self, v: usize) -> Vec3 {
         vertex(self.vert, v)
     }
 }
 
-/// The data of a height field, a grid over its base.
+/// The data of a height field: a grid of elevations above its base.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Field<'a> {
     /// Half lengths in x and y, height of the top, depth of the base, m.
     pub size: [f64; 4],
-    /// Number of samples in y and in x.
+    /// Number of samples in y.
     pub nrow: usize,
     /// Number of samples in x.
     pub ncol: usize,
-    /// Elevations from 0 to 1, row by row.
+    /// Elevations from 0 to 1, row-major.
     pub data: &'a [f64],
 }
 
@@ -79,23 +79,23 @@ impl<'a> Shape<'a> {
         Shape { kind, size, pos, mat, mesh: None, field: None }
     }
 
-    /// Its vertices; none when it is no mesh.
+    /// Its mesh data; empty for other types.
     pub(crate) fn mesh(&self) -> Mesh<'a> {
         self.mesh.unwrap_or_default()
     }
 
-    /// Its samples; none when it is no height field.
+    /// Its height field data; empty for other types.
     pub(crate) fn field(&self) -> Field<'a> {
         self.field.unwrap_or_default()
     }
 
-    /// The axis `i` of its frame, world.
+    /// Axis `i` of its frame, world frame.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn axis(&self, i: usize) -> Vec3 {
         column(&self.mat, i)
     }
 
-    /// The radius of a sphere about its frame that holds it, m; of a plane and a height field there is none that is asked for.
+    /// The radius of a bounding sphere about the origin of its frame, m. It is not used for planes and height fields.
     pub(crate) fn bounding_radius(&self) -> f64 {
         let [x, y, _] = self.size;
         match self.kind {
@@ -107,13 +107,13 @@ impl<'a> Shape<'a> {
         }
     }
 
-    /// A point of the world in its frame.
+    /// Transforms a point from the world frame to the frame of the shape.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn local(&self, point: Vec3) -> Vec3 {
         mat_t_mul_vec(&self.mat, sub(point, self.pos))
     }
 
-    /// A point of its frame in the world.
+    /// Transforms a point from the frame of the shape to the world frame.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn world(&self, point: Vec3) -> Vec3 {
         add(mat_mul_vec(&self.mat, point), self.pos)

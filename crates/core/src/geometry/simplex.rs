@@ -1,14 +1,14 @@
-//! The point of a simplex nearest to the origin, kept while support points come in: Wolfe, *Finding the nearest point in
-//! a polytope*, Mathematical Programming 11 (1976).
+//! The point of a simplex nearest to the origin, updated as support points are added: Wolfe, *Finding the nearest
+//! point in a polytope*, Mathematical Programming 11 (1976).
 //!
-//! A corral is a simplex whose point nearest to the origin is in its inside. A new vertex makes it larger; then the
-//! weights go straight to those of the nearest point of the affine hull, and where a weight would turn negative on the
-//! way, its vertex leaves and the walk begins anew. Every walk brings the point nearer.
+//! A corral is a simplex whose point nearest to the origin is in its interior. Adding a vertex enlarges it. Then the
+//! weights move in a straight line to those of the nearest point of the affine hull. If a weight would become
+//! negative on the way, its vertex is removed and the procedure repeats. Every added vertex reduces the distance.
 
 use super::difference::Vertex;
 use crate::math::*;
 
-/// A determinant below this part of the product of its edges has no direction.
+/// A simplex is degenerate if its determinant is below this fraction of the product of its edge lengths.
 const FLAT: f64 = 1e-14;
 
 /// Up to four vertices and the weights of the point nearest to the origin.
@@ -28,24 +28,24 @@ impl Corral {
         &self.vertex[..self.len]
     }
 
-    /// The weighted mean of something of the vertices.
+    /// The weighted mean of a property of the vertices.
     pub(super) fn mean(&self, of: impl Fn(&Vertex) -> Vec3) -> Vec3 {
         let terms = self.vertices().iter().zip(self.weight);
         terms.fold([0.0; 3], |sum, (v, w)| add_scaled(sum, of(v), w))
     }
 
-    /// The nearest point.
+    /// The point nearest to the origin.
     pub(super) fn point(&self) -> Vec3 {
         self.mean(|v| v.point)
     }
 
-    /// Whether the simplex has an inside, and the origin is in it.
+    /// Whether the simplex is a tetrahedron, which then contains the origin.
     pub(super) fn holds_origin(&self) -> bool {
         self.len == 4
     }
 
-    /// Takes in a vertex that is nearer to the origin than the plane through the nearest point; `false`, with nothing
-    /// changed, when rounding leaves nothing to gain and the point comes no nearer.
+    /// Adds a vertex. It must lie on the origin's side of the plane through the nearest point x and normal to x. Returns
+    /// `false` and changes nothing if, due to rounding, the distance does not decrease.
     pub(super) fn admit(&mut self, new: Vertex) -> bool {
         let before = *self;
         let Some(slot) = self.vertex.get_mut(self.len) else { return false };
@@ -72,7 +72,8 @@ impl Corral {
         false
     }
 
-    /// The vertex whose weight is the first to vanish on the way to other weights, and the part of the way until then.
+    /// The vertex whose weight is the first to reach zero on the way to the weights `goal`, and the fraction of the
+    /// way at which it does.
     fn first_to_leave(&self, goal: &[f64; 4]) -> Option<(usize, f64)> {
         let mut first = None;
         let mut shortest = f64::INFINITY;
@@ -86,8 +87,8 @@ impl Corral {
         first
     }
 
-    /// Weights of the point nearest to the origin on the line, plane or space through the vertices; `None` when these
-    /// do not span one.
+    /// Weights of the point nearest to the origin on the line, plane or space through the vertices. Returns `None` if
+    /// the vertices are affinely dependent.
     fn nearest_of_affine_hull(&self) -> Option<[f64; 4]> {
         let [p, q, r, s] = self.vertex.map(|v| v.point);
         match self.len {
@@ -112,7 +113,7 @@ impl Corral {
     }
 }
 
-/// Weights of the point of a triangle's plane that is nearest to a point; `None` when the triangle is a line.
+/// Weights of the projection of a point onto the plane of a triangle. Returns `None` if the triangle is degenerate.
 pub(super) fn barycentric([a, b, c]: [Vec3; 3], point: Vec3) -> Option<Vec3> {
     let (u, v) = (sub(b, a), sub(c, a));
     let normal = cross(u, v);

@@ -1,36 +1,37 @@
-//! Support points: the point of a convex shape that is farthest in a direction.
+//! Support points: the farthest point of a convex shape in a direction.
 
 use super::list::List;
 use super::{Hull, Mesh, Shape};
 use crate::kinds::geom;
 use crate::math::*;
 
-/// What a convex body is made of.
+/// The geometry of a convex body.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Form<'a> {
-    /// A convex shape; of a mesh, its hull.
+    /// A convex shape, or the convex hull of a mesh.
     Shape(&'a Shape<'a>),
-    /// A triangle prism of a height field: the bottom, then the top above it.
+    /// A triangular prism of a height field: the three bottom corners, then the three top corners above them.
     Prism([Vec3; 6]),
 }
 
-/// A convex body as the distance algorithms see it. A sphere is its centre, a capsule its axis: the rest is [`Body::radius`].
+/// A convex body for the distance algorithms. The core of a sphere is its centre, that of a capsule its axis; the
+/// remaining thickness is [`Body::radius`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Body<'a> {
     pub(crate) form: Form<'a>,
-    /// The body stands this far from where its shape is, m, world.
+    /// Translation of the body from the position of its shape, m, world frame.
     shift: Vec3,
-    /// The corner found last, of what has corners only; else -1.
+    /// The last corner found, for bodies with corners; -1 for others.
     pub(super) corner: i32,
-    /// The vertex of the hull found last: neighbouring directions have neighbouring answers.
+    /// The last hull vertex found, as the start of the next search: similar directions have nearby support points.
     hull_vertex: usize,
-    /// Work that its support points were.
+    /// Work units of its support points.
     pub(super) work: u64,
 }
 
-/// Work of a support point, besides the vertices of a mesh that it looks at.
+/// Work units of a support point, without the mesh vertices that it examines.
 const SUPPORT: u64 = 40;
-/// Hulls with fewer vertices are searched through.
+/// Hulls with fewer vertices are searched exhaustively.
 const CLIMB_FROM: usize = 10;
 
 impl<'a> Body<'a> {
@@ -46,12 +47,12 @@ impl<'a> Body<'a> {
         Body { form, shift: [0.0; 3], corner: -1, hull_vertex: 0, work: 0 }
     }
 
-    /// The same body somewhere else.
+    /// The same body, translated.
     pub(super) fn moved(&self, by: Vec3) -> Body<'a> {
         Body { shift: by, ..*self }
     }
 
-    /// The corner found last, -1 when the body has none.
+    /// The last corner found; -1 if the body has no corners.
     pub(crate) fn corner(&self) -> i32 {
         self.corner
     }
@@ -64,7 +65,7 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// A point inside.
+    /// A point inside the body.
     pub(super) fn centre(&self) -> Vec3 {
         match self.form {
             Form::Shape(s) => add(s.pos, self.shift),
@@ -72,7 +73,7 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// How far the shape reaches around its core, m; zero when it has none.
+    /// The radius of the body around its core, m; zero for types without a core.
     pub(super) fn radius(&self) -> f64 {
         match self.form {
             Form::Shape(s) if matches!(s.kind, geom::SPHERE | geom::CAPSULE) => s.size[0],
@@ -85,7 +86,7 @@ impl<'a> Body<'a> {
         !matches!(self.kind(), geom::ELLIPSOID | geom::CYLINDER)
     }
 
-    /// The farthest point of the core in a direction of unit length, world.
+    /// The farthest point of the core in the direction of a unit vector, m, world frame.
     pub(crate) fn support(&mut self, dir: Vec3) -> Vec3 {
         self.work += SUPPORT;
         let point = match self.form {
@@ -101,8 +102,9 @@ impl<'a> Body<'a> {
         add(point, self.shift)
     }
 
-    /// The Hessian of the support function in a direction of unit length, or in the opposite one, between two vectors
-    /// (world): ss, st, tt, m. On tangents the radii of curvature where the body is round; zero at corners.
+    /// The Hessian of the support function for a unit direction or its opposite, applied to two vectors (world
+    /// frame): ss, st, tt, m. On tangents it contains the radii of curvature where the body is round; it is zero at
+    /// corners.
     pub(super) fn bend(&self, dir: Vec3, s: Vec3, t: Vec3) -> Vec3 {
         let Form::Shape(shape) = self.form else { return [0.0; 3] };
         if !matches!(shape.kind, geom::ELLIPSOID | geom::CYLINDER) {
@@ -111,7 +113,7 @@ impl<'a> Body<'a> {
         let [n, s, t] = [dir, s, t].map(|v| mat_t_mul_vec(&shape.mat, v));
         let size = shape.size;
         if shape.kind == geom::CYLINDER {
-            // h = r ρ with ρ the length across the axis, so H = r / ρ along the rim.
+            // h = r ρ, where ρ is the length of n across the axis, so H = r / ρ along the rim.
             let rho2 = n[0] * n[0] + n[1] * n[1];
             if rho2 < MINVAL * MINVAL {
                 return [0.0; 3];
@@ -128,10 +130,10 @@ impl<'a> Body<'a> {
         [between(s, s), between(s, t), between(t, t)]
     }
 
-    /// Up to two edges that are nearly across a direction (world, unit length): there the support function has a kink.
-    /// A flat end of a cylinder counts as two.
+    /// Up to two edges that are nearly normal to a direction (world frame, unit length). The support function has a
+    /// kink there. A flat end of a cylinder counts as two edges.
     pub(super) fn kinks(&mut self, dir: Vec3, near: f64) -> List<Vec3, 2> {
-        // The two that are most across, the flattest first.
+        // The two edges closest to normal, the closest first.
         let mut flattest: [(f64, Vec3); 2] = [(near, [0.0; 3]); 2];
         let mut consider = |edge: Vec3| {
             let slope = dot(edge, dir).abs();
@@ -193,7 +195,7 @@ impl<'a> Body<'a> {
             geom::CYLINDER => {
                 let out2 = dir[0] * dir[0] + dir[1] * dir[1];
                 let out = if out2 > MINVAL * MINVAL { s.size[0] / out2.sqrt() } else { 0.0 };
-                // A direction along the rim has no higher end: the middle.
+                // For a direction normal to the axis, both ends are equally high: the middle is taken.
                 let up = if dir[2] == 0.0 { 0.0 } else { dir[2].signum() };
                 [dir[0] * out, dir[1] * out, up * s.size[1]]
             }
@@ -211,7 +213,7 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// The farthest vertex, starting from the last one.
+    /// The farthest vertex. The search starts from the last vertex found.
     fn mesh_vertex(&mut self, mesh: &Mesh, dir: Vec3) -> usize {
         match &mesh.hull {
             Some(hull) if mesh.vert.len() >= CLIMB_FROM => {
@@ -228,7 +230,7 @@ impl<'a> Body<'a> {
     }
 }
 
-/// The farthest vertex of a hull by steps to a farther neighbour, and how many vertices were looked at.
+/// The farthest vertex of a hull, found by hill climbing over neighbours, and the number of vertices examined.
 pub(super) fn climb(mesh: &Mesh, hull: &Hull, dir: Vec3, start: usize) -> (usize, u64) {
     let mut highest = f64::NEG_INFINITY;
     let (mut best, mut seen) = (start, 0);
@@ -247,7 +249,7 @@ pub(super) fn climb(mesh: &Mesh, hull: &Hull, dir: Vec3, start: usize) -> (usize
     }
 }
 
-/// The farthest of all vertices.
+/// The farthest of all vertices of a mesh.
 pub(super) fn search(mesh: &Mesh, dir: Vec3, start: Option<usize>) -> usize {
     let height = |v: usize| dot(dir, mesh.vert[v]);
     let mut best = start.unwrap_or(0);
@@ -260,7 +262,7 @@ pub(super) fn search(mesh: &Mesh, dir: Vec3, start: Option<usize>) -> usize {
     best
 }
 
-/// The corner of a prism: of the three below for a direction that falls, else of the three on top.
+/// The farthest corner of a prism: one of the bottom corners for a downward direction, else one of the top corners.
 fn prism(corners: &[Vec3; 6], dir: Vec3) -> usize {
     let first = if dir[2] < 0.0 { 0 } else { 3 };
     (first..first + 3)

@@ -1,13 +1,13 @@
-//! Rays against triangles: meshes and height fields.
+//! Rays against triangles of meshes and height fields.
 
 use super::ray::{Crossing, Hit, PARALLEL, Ray, crossings, nearer};
 use super::{Field, Mesh};
 use crate::math::*;
 
-/// Work of a ray against a triangle.
+/// Work units of a ray against a triangle.
 const TRIANGLE: u64 = 10;
 
-/// A ray with two axes across it, in which triangles are looked at along the ray.
+/// A ray with two axes normal to it. Triangles are projected along the ray onto these axes.
 struct Sight<'a> {
     ray: &'a Ray,
     across: [Vec3; 2],
@@ -17,7 +17,8 @@ impl Sight<'_> {
     fn new(ray: &Ray) -> Sight<'_> {
         let v = ray.along;
         let [x, y, z] = v.map(f64::abs);
-        // Perpendicular to the largest component, so that it is never along the ray.
+        // The start vector has no component along the largest component of the ray, so it is never parallel to the
+        // ray.
         let start = if x >= y && x >= z {
             [0.0, 1.0, 1.0]
         } else if y >= z {
@@ -30,21 +31,21 @@ impl Sight<'_> {
         Sight { ray, across: [side, up] }
     }
 
-    /// Distance at which the ray passes a triangle, also behind its start; and (a - c) × (b - c).
+    /// Distance at which the ray crosses a triangle, negative behind its start, and the normal (a - c) × (b - c).
     fn triangle(&self, [a, b, c]: [Vec3; 3]) -> Option<(f64, Vec3)> {
         let flat = |p: Vec3| self.across.map(|axis| dot(axis, sub(p, self.ray.from)));
         let (pa, pb, pc) = (flat(a), flat(b), flat(c));
-        // All corners on one side of the ray.
+        // All corners are on one side of the ray.
         for i in 0..2 {
             let three = [pa[i], pb[i], pc[i]];
             if three.iter().all(|&x| x > 0.0) || three.iter().all(|&x| x < 0.0) {
                 return None;
             }
         }
-        // The ray's point as c + s (a - c) + t (b - c).
+        // The crossing point is c + s (a - c) + t (b - c).
         let (u, w) = (sub(pa, pc), sub(pb, pc));
         let det = u[0] * w[1] - w[0] * u[1];
-        // Seen from its edge.
+        // The ray is parallel to the plane of the triangle.
         if det.abs() <= PARALLEL * (dot2(u, u) * dot2(w, w)).sqrt() {
             return None;
         }
@@ -66,7 +67,7 @@ fn dot2(a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }
 
-/// The nearest triangle of a mesh; `size` is the box about the origin that holds it.
+/// The nearest triangle of a mesh. `size` contains the half sizes of a bounding box centred at the origin.
 pub(super) fn mesh(mesh: &Mesh, size: Vec3, ray: &Ray, work: &mut u64) -> Option<Hit> {
     crossings(size, ray).filter(|[_, leaves]| leaves.distance >= 0.0)?;
     let sight = Sight::new(ray);
@@ -81,7 +82,7 @@ pub(super) fn mesh(mesh: &Mesh, size: Vec3, ray: &Ray, work: &mut u64) -> Option
     best
 }
 
-/// A height field: the box under it, the triangles of its top, and the walls between the two.
+/// A ray against a height field: the box below it, the triangles of its surface, and the side walls between them.
 pub(super) fn field(field: &Field, ray: &Ray, work: &mut u64) -> Option<Hit> {
     let [sx, sy, top, base] = field.size;
     let shifted = |z: f64| Ray { from: sub(ray.from, [0.0, 0.0, z]), ..*ray };
@@ -91,7 +92,7 @@ pub(super) fn field(field: &Field, ray: &Ray, work: &mut u64) -> Option<Hit> {
     }
     let top = crossings([sx, sy, 0.5 * top], &shifted(0.5 * top));
     let Some(walls) = top.filter(|[_, leaves]| leaves.distance >= 0.0) else { return best };
-    // The part of the ray in the box of the top; from its start when that is inside.
+    // The part of the ray in the bounding box of the surface; it begins at the start of the ray if that is inside.
     let ends = walls.map(|c| ray.at(c.distance.max(0.0)));
     let sight = Sight::new(ray);
     let (cols, rows) = (cells(ends, sx, 0, field.ncol), cells(ends, sy, 1, field.nrow));
@@ -115,17 +116,17 @@ pub(super) fn field(field: &Field, ray: &Ray, work: &mut u64) -> Option<Hit> {
     best
 }
 
-/// The cells along axis `i` that a segment passes, and one more on each side.
+/// The grid cells along axis `i` that a segment crosses, and one more on each side.
 fn cells(ends: [Vec3; 2], half: f64, i: usize, samples: usize) -> std::ops::Range<usize> {
     let step = 2.0 * half / (samples as f64 - 1.0);
     let [a, b] = ends.map(|p| (p[i] + half) / step);
-    // Casts saturate: a ray from far away cannot leave the grid.
+    // Casts saturate, so a ray from far away stays within the grid.
     let first = (a.min(b).floor() - 1.0).max(0.0) as usize;
     let last = ((a.max(b).ceil() + 1.0).max(0.0) as usize).min(samples.saturating_sub(1));
     first..last
 }
 
-/// Whether a point of a side wall is below the edge of the top.
+/// Whether a point of a side wall is below the edge of the surface.
 fn below_rim(field: &Field, on: Vec3, wall: &Crossing) -> bool {
     let along = 1 - wall.axis;
     let samples = if along == 1 { field.nrow } else { field.ncol };

@@ -1,7 +1,8 @@
-//! Rays, distances and contacts against what MuJoCo 3.14.0 finds: `golden/record.py` recorded it.
+//! Rays, distances and contacts compared with MuJoCo 3.14.0, recorded by `golden/record.py`.
 //!
-//! `LABSPEC_GEOMETRY` may name a folder with more cases than the repository keeps; then every pair's worst difference
-//! is printed as well, and the tables of `docs/measured/contacts.md` are written to `contacts.md` and `distances.md` in it.
+//! `LABSPEC_GEOMETRY` can name a folder with more cases than the repository contains. Then the largest difference of
+//! each pair is also printed, and the tables of `docs/measured/contacts.md` are written to `contacts.md` and
+//! `distances.md` in this folder.
 
 mod figures;
 mod random;
@@ -73,7 +74,7 @@ impl Assets {
         }
     }
 
-    /// The shape that the next words say.
+    /// Parses a shape from the next words.
     fn shape<'a>(&'a self, words: &mut std::str::SplitWhitespace<'_>) -> Shape<'a> {
         let kind = KINDS.iter().position(|k| Some(*k) == words.clone().next()).unwrap() as i32;
         words.next();
@@ -96,7 +97,8 @@ impl Assets {
     }
 }
 
-/// The recorded cases: from the folder that the environment names, or those of the repository.
+/// The recorded cases, from the folder that the environment variable names or from the repository. The flag is true
+/// for the former.
 fn cases(file: &str, ours: &str) -> (String, bool) {
     match std::env::var("LABSPEC_GEOMETRY") {
         Ok(folder) => (std::fs::read_to_string(format!("{folder}/{file}")).unwrap(), true),
@@ -104,24 +106,24 @@ fn cases(file: &str, ours: &str) -> (String, bool) {
     }
 }
 
-/// Writes a table beside the recordings that the environment names.
+/// Writes a table to the folder that the environment variable names.
 fn keep(file: &str, table: &str) {
     if let Ok(folder) = std::env::var("LABSPEC_GEOMETRY") {
         std::fs::write(format!("{folder}/{file}"), table).unwrap();
     }
 }
 
-/// Cases that are beyond the bound, and why that is no mistake: quantity or pair, numbers of the cases, reason. A case that
-/// is not listed fails, and a listed one that is within the bound, too.
+/// Cases beyond the bound for a known reason: quantity or pair, numbers of the cases, reason. A case beyond the bound
+/// that is not listed fails the test, and so does a listed case within the bound.
 type Known = (&'static str, &'static [usize], &'static str);
 
 /// Cases of one pair of types.
 #[derive(Default)]
 struct Cases {
     number: usize,
-    /// Beyond the bound: number of the case, difference, what was given and found.
+    /// Cases beyond the bound: number of the case, difference, input and result.
     beyond: Vec<(usize, f64, String)>,
-    /// The largest difference of the others.
+    /// The largest difference of the other cases.
     worst: f64,
 }
 
@@ -139,7 +141,8 @@ impl Report {
         }
     }
 
-    /// Fails where the cases beyond the bound are not those that are known; other recordings are printed alone.
+    /// Fails if the cases beyond the bound are not exactly the listed ones. Results of other recordings are only
+    /// printed.
     fn finish(self, print: bool, allowed: &[Known]) {
         let (mut text, mut wrong) = (String::new(), String::new());
         for (name, r) in &self.0 {
@@ -169,7 +172,7 @@ impl Report {
     }
 }
 
-/// Largest difference of two lists of numbers, infinite when their lengths differ.
+/// Largest difference of two lists of numbers; infinite if their lengths differ.
 fn difference(a: &[f64], b: &[f64]) -> f64 {
     if a.len() != b.len() {
         return f64::INFINITY;
@@ -178,7 +181,7 @@ fn difference(a: &[f64], b: &[f64]) -> f64 {
     apart.fold(0.0, |m, d| if d.is_nan() { f64::INFINITY } else { m.max(d) })
 }
 
-/// The contacts of one list in the order of another, each next to the nearest that is left.
+/// Reorders one list of contacts like another: each contact is matched with the nearest one that remains.
 fn in_order_of(want: &[f64], got: &[f64]) -> Vec<f64> {
     let (want, mut left) = (rows::<10>(want), rows::<10>(got).to_vec());
     let mut out = Vec::new();
@@ -191,15 +194,16 @@ fn in_order_of(want: &[f64], got: &[f64]) -> Vec<f64> {
     out
 }
 
-/// Without contacts that repeat an earlier one: of a capsule and a box, or of two capsules end to end, the library lists some twice.
+/// Removes repeated contacts: MuJoCo lists some contacts twice, for a capsule and a box and for two capsules end to
+/// end.
 fn distinct(contacts: Vec<f64>) -> Vec<f64> {
     let list = rows::<10>(&contacts);
     let repeats = |k: usize| list[..k].iter().any(|c| difference(c, &list[k]) == 0.0);
     (0..list.len()).filter(|&k| !repeats(k)).flat_map(|k| list[k]).collect()
 }
 
-/// Whether the axis of a capsule goes into a box. The library then takes the nearest face of one of its points, and not the least
-/// translation that parts the two (`pair/cuboid/tests.rs` holds ours to that).
+/// Whether the axis of a capsule intersects a box. MuJoCo then uses the nearest face of one point of the axis, not
+/// the shortest translation that separates the two (`pair/cuboid/tests.rs` verifies ours).
 fn pierced(a: &Shape, b: &Shape) -> bool {
     let core = Shape { size: [0.0, a.size[1], 0.0], ..*a };
     let near = |core| {
@@ -231,38 +235,40 @@ fn settings() -> PairSettings {
     PairSettings::from_model(&Model { opt: crate::model::Options::default(), ..Model::default() })
 }
 
-/// With more iterations than the default of 35, which do not always do for round bodies deep in each other.
+/// Settings with more iterations than the default of 35, which is not always enough for round bodies in deep
+/// penetration.
 fn patient() -> PairSettings {
     let mut settings = settings();
     settings.effort.iterations = 300;
     settings
 }
 
-/// The library's search over round sides stops within 1e-9 m: so well are distances known, and points and
-/// directions to about the root of it. (Of bodies with corners alone they are exact, on both sides.)
+/// MuJoCo's search for round bodies stops within 1e-9 m. Distances have this accuracy; points and directions are
+/// accurate to about its square root. (For bodies with corners only, both results are exact.)
 const DEPTH: f64 = 1e-8;
 const POINT: f64 = 2e-4;
-/// Distances of less are no more than that the bodies touch, m.
+/// Distances smaller than this mean that the bodies just touch, m.
 const CLOSE: f64 = 1e-6;
 
-/// Whether a shape has corners only.
+/// Whether a shape is a polyhedron.
 fn cornered(s: &Shape) -> bool {
     matches!(s.kind, geom::BOX | geom::MESH)
 }
 
-/// The library finds nothing, or a distance of zero, where the centres of two convex bodies are the same.
+/// Whether the centres of two bodies coincide. MuJoCo then finds no contact, or a distance of zero, for convex
+/// bodies.
 fn concentric(a: &Shape, b: &Shape) -> bool {
     norm(sub(a.pos, b.pos)) < MINVAL
 }
 
-/// Points of a face or a line are equally near.
+/// All points of a face or a line are equally near.
 const FLAT: &str =
     "a face or a line that lies on a face: all of its points are as near, and each side names another";
 
 const DISTANCES: &[Known] = &[("box-box fromto", &[1235], FLAT), ("capsule-cylinder fromto", &[829], FLAT)];
 
-/// Distances of height fields are left out: the library measures them with the margins of its contacts, which for a
-/// largest distance of 1000 m makes 490 m of penetration of bodies of a metre. `reference.rs` has them.
+/// Distances of height fields are excluded. MuJoCo measures them with the margins of its contacts: for a maximum
+/// distance of 1000 m, it reports 490 m of penetration for bodies of one metre. `tests/truth.rs` tests them.
 #[test]
 fn distances_are_those_of_mujoco() {
     let (text, print) = cases("pairs.txt", include_str!("golden/pairs.txt"));
@@ -294,10 +300,10 @@ fn distances_are_those_of_mujoco() {
         let (depth, point) = if exact { (1e-10, 1e-7) } else { (DEPTH, POINT) };
         let apart = difference(&got[..1], &want[..1]);
         if searched && apart > depth * scale && truth::is_true(&a, &b) {
-            continue; // The library's search stopped before it was there.
+            continue; // MuJoCo's search stopped before it converged.
         }
         report.note(name("dist"), case, apart, depth * scale, &rendered);
-        // Where bodies hardly touch, the points are anywhere along the slit.
+        // For bodies that barely touch, the nearest points can be anywhere along the gap.
         if !searched || got[0].abs() > CLOSE {
             report.note(name("fromto"), case, difference(&got[1..], &want[1..]), point * scale, &rendered);
         }
@@ -306,7 +312,7 @@ fn distances_are_those_of_mujoco() {
     report.finish(print, DISTANCES);
 }
 
-/// Two contacts in one place, or one on the line between two others.
+/// Two contacts at the same position, or one on the line between two others.
 const TWICE: &str = "one side lists a point of the face or line twice: 1e-16 m apart, or between two others";
 
 const CONTACTS: &[Known] = &[
@@ -351,7 +357,7 @@ fn contacts_are_those_of_mujoco() {
             (want, got) = (distinct(want), distinct(got));
         }
         let kinds = format!("{}-{}", KINDS[a.kind as usize], KINDS[b.kind as usize]);
-        // Contacts are a set: their order is that in which a method finds them.
+        // Contacts are compared as a set: their order depends on the method.
         got = in_order_of(&want, &got);
         if pierced(&a, &b) {
             figures.contacts(&format!("{kinds}, axis in the box"), &want, &got);
@@ -366,8 +372,8 @@ fn contacts_are_those_of_mujoco() {
         }
         let number = (got.len().abs_diff(want.len()) / 10) as f64;
         report.note(format!("{kinds} number"), case, number, 0.5, &rendered);
-        // The library's search from inside a prism of the ground ends too early where the other shape has corners: it takes
-        // every corner of the prism for the same one.
+        // MuJoCo's search from inside a prism of the height field ends too early if the other shape has corners,
+        // because it treats all corners of the prism as the same one.
         let ends_early = a.kind == geom::HFIELD && matches!(b.kind, geom::BOX | geom::MESH);
         if number == 0.0 && !ends_early {
             let (dist, rest): (Vec<_>, Vec<_>) = got
@@ -377,7 +383,7 @@ fn contacts_are_those_of_mujoco() {
                 .unzip();
             let most = |list: &[f64]| list.iter().copied().fold(0.0, f64::max);
             if most(&dist) > DEPTH * scale && a.kind != geom::HFIELD && truth::is_true(&a, &b) {
-                continue; // The library's search stopped before it was there.
+                continue; // MuJoCo's search stopped before it converged.
             }
             let exact = margin == 0.0 && cornered(&a) && cornered(&b);
             let (depth, point) = if exact { (1e-10, 1e-7) } else { (DEPTH, POINT) };
@@ -411,7 +417,7 @@ fn distance_is_symmetric() {
     }
 }
 
-/// No size, pose or direction makes a panic, a hang or an endless list.
+/// Sizes, poses and directions with arbitrary numbers cause no panic, no endless loop and no unbounded list.
 #[test]
 fn hostile_numbers_are_harmless() {
     let assets = Assets::read(include_str!("golden/pairs.txt"));
@@ -451,7 +457,8 @@ fn hostile_numbers_are_harmless() {
                         &mut work.convex,
                         &mut work.touches,
                     );
-                    // Over a ground of many prisms as many as MuJoCo keeps; two bodies touch along a face at most.
+                    // A height field with many prisms has at most as many contacts as MuJoCo keeps; two bodies have
+                    // at most those of a face.
                     let most = if b == 1 || a == 1 { pair::MOST } else { 8 };
                     assert!(work.touches.len() <= most, "{}-{}, {k}", KINDS[a], KINDS[b]);
                 }

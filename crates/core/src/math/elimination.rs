@@ -2,8 +2,8 @@
 
 use super::{MINVAL, Spatial, Vec3};
 
-/// x ← a⁻¹ x by Gauss' elimination with the largest pivots; `false` for a singular matrix. Forces that do not turn and torques
-/// that do not push are found by themselves.
+/// x ← a⁻¹ x by Gaussian elimination with partial pivoting. Returns `false` if the matrix is singular. If the angular
+/// and the linear part of the system are not coupled, each 3×3 block is solved separately.
 pub(crate) fn solve_six(a: &mut [Spatial; 6], x: &mut Spatial) -> bool {
     let [_, _, _, d, e, f] = &a;
     let apart = a[..3].iter().all(|r| r[3..] == [0.0; 3]) && [d, e, f].iter().all(|r| r[..3] == [0.0; 3]);
@@ -19,7 +19,8 @@ pub(crate) fn solve_six(a: &mut [Spatial; 6], x: &mut Spatial) -> bool {
     })
 }
 
-/// The same for three rows, of which each may stand alone: that costs divisions which do not wait for each other.
+/// Solves a system of three equations like [`solve_six`]. A diagonal matrix takes three divisions that are
+/// independent of each other.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn solve_three(a: &mut [Vec3; 3], x: &mut Vec3) -> bool {
     let [[d0, a01, a02], [a10, d1, a12], [a20, a21, d2]] = *a;
@@ -30,7 +31,8 @@ fn solve_three(a: &mut [Vec3; 3], x: &mut Vec3) -> bool {
     [d0, d1, d2].iter().all(|d| d.abs() >= MINVAL)
 }
 
-/// The same for any number of rows.
+/// Gaussian elimination with partial pivoting for `N` equations. Returns `false` if a pivot is smaller than
+/// [`MINVAL`].
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn eliminate<const N: usize>(a: &mut [[f64; N]; N], x: &mut [f64; N]) -> bool {
     for k in 0..N {

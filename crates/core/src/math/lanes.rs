@@ -1,24 +1,24 @@
-//! The lanes of a vector of the processor: the three components of a vector in space, or the same component of four
-//! bodies, where what is computed is the same for all and independent from one to the next.
+//! SIMD lanes. They hold the three components of one vector, or the same component of four bodies in a computation
+//! that is identical for all bodies and independent between them.
 
 use crate::math::{Mat3, Vec3};
 use std::array::from_fn;
 use wide::f64x4;
 
-/// The rows of four bodies, component by component.
+/// Transposes the rows of four bodies: lane i of result k is component k of the row of body `of[i]`.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn gather<const N: usize>(rows: &[[f64; N]], of: [usize; 4]) -> [f64x4; N] {
     let [a, b, c, d] = of.map(|i| &rows[i]);
     from_fn(|k| f64x4::new([a[k], b[k], c[k], d[k]]))
 }
 
-/// The same for one number of each.
+/// One number of each of four bodies.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn gather_one(numbers: &[f64], of: [usize; 4]) -> f64x4 {
     f64x4::new(of.map(|i| numbers[i]))
 }
 
-/// The other way round.
+/// Writes lanes back to the rows of four bodies: the inverse of [`gather`].
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn scatter<const N: usize>(lanes: [f64x4; N], rows: &mut [[f64; N]], of: [usize; 4]) {
     let columns = lanes.map(|v| v.to_array());
@@ -34,17 +34,18 @@ pub(crate) fn total(lanes: f64x4) -> f64 {
     (a + c) + (b + d)
 }
 
-/// The bodies 1 to n-1 by fours; the last ones repeat themselves to fill a vector, which changes nothing.
+/// The bodies 1 to n-1 in groups of four. The last body is repeated to fill the last group; computing it more than
+/// once gives the same result.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn by_fours(n: usize) -> impl Iterator<Item = [usize; 4]> {
     let last = n.saturating_sub(1);
     (1..n).step_by(4).map(move |first| from_fn(|lane| (first + lane).min(last)))
 }
 
-/// A vector in space; the last lane follows the third.
+/// A 3-vector in SIMD lanes; the fourth lane repeats the third.
 pub(crate) type Lane3 = f64x4;
 
-/// A rotation matrix by columns.
+/// The columns of a rotation matrix.
 pub(crate) type Axes = [Lane3; 3];
 
 #[cfg_attr(not(feature = "small"), inline(always))]
@@ -58,41 +59,42 @@ pub(crate) fn vec3(v: Lane3) -> Vec3 {
     [x, y, z]
 }
 
-/// The columns of a matrix.
+/// The columns of a matrix as lanes.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn axes(m: &Mat3) -> Axes {
     from_fn(|c| lane3([m[c], m[3 + c], m[6 + c]]))
 }
 
-/// The matrix of these columns.
+/// The matrix with the given columns.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn matrix(axes: &Axes) -> Mat3 {
     let [a, b, c] = axes.map(|v| v.to_array());
     [a[0], b[0], c[0], a[1], b[1], c[1], a[2], b[2], c[2]]
 }
 
-/// The vector with components v along the axes.
+/// The vector whose components in the frame `axes` are v.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn along(axes: &Axes, v: Vec3) -> Lane3 {
     axes[0] * v[0] + axes[1] * v[1] + axes[2] * v[2]
 }
 
-/// The axes whose components along others are the columns of a matrix.
+/// The product of two matrices by columns: `axes` times the matrix with the columns `columns`.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn product(axes: &Axes, columns: &[Vec3; 3]) -> Axes {
     columns.map(|c| along(axes, c))
 }
 
-/// A matrix whose columns, the axes, are turned by an angle, with sine s and cosine c, about a unit vector given along them.
+/// Rotates the columns of a matrix about a unit vector, given in the frame of the columns, by the angle with sine s
+/// and cosine c.
 pub(crate) fn matrix_turned(m: &Mat3, axis: Vec3, s: f64, c: f64) -> Mat3 {
     matrix(&turned(&axes(m), axis, s, c))
 }
 
-/// Axes turned by an angle, with sine s and cosine c, about a unit vector given along them.
+/// Rotates axes about a unit vector, given in the frame of the axes, by the angle with sine s and cosine c.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn turned(axes: &Axes, axis: Vec3, s: f64, c: f64) -> Axes {
     let [x, y, z] = *axes;
-    // About one of the axes themselves, the other two turn in their plane.
+    // Rotation about one of the axes only mixes the other two.
     let plane = |a: Lane3, b: Lane3, s: f64| (a * c + b * s, b * c - a * s);
     if axis[2].abs() == 1.0 {
         let (x, y) = plane(x, y, s * axis[2]);

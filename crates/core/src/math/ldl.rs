@@ -1,14 +1,15 @@
-//! The factorization of a small dense symmetric matrix whose size is known when the engine is compiled: L D Lᵀ, which waits for no
-//! square roots (Golub and Van Loan, *Matrix Computations*, 4.1).
+//! The factorization L D Lᵀ of a small dense symmetric matrix whose size is known at compile time. It needs no square
+//! roots (Golub and Van Loan, *Matrix Computations*, 4.1).
 
-/// L, with ones on its diagonal, and D⁻¹ for the rows and columns `FIRST..N` of a symmetric positive matrix.
+/// L (unit diagonal) and D⁻¹ for the rows and columns `FIRST..N` of a symmetric positive definite matrix.
 pub(crate) struct Ldl<const N: usize, const FIRST: usize> {
     l: [[f64; N]; N],
     inverse: [f64; N],
 }
 
 impl<const N: usize, const FIRST: usize> Ldl<N, FIRST> {
-    /// Of G + λ, of which the lower triangle is read; `pivot` gives what is taken for an entry of D, or refuses it.
+    /// Factorizes G + λ. Only the lower triangle of G is read. `pivot` maps each entry of D to the value that is
+    /// used, or rejects it.
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn factor(g: &[[f64; N]; N], lambda: f64, pivot: impl Fn(f64) -> Option<f64>) -> Option<Self> {
         let (mut l, mut inverse) = ([[0.0; N]; N], [0.0; N]);
@@ -30,18 +31,18 @@ impl<const N: usize, const FIRST: usize> Ldl<N, FIRST> {
         Some(Ldl { l, inverse })
     }
 
-    /// Of G + λ; `None` where it is not positive.
+    /// Factorizes G + λ; `None` if it is not positive definite.
     pub(crate) fn positive(g: &[[f64; N]; N], lambda: f64) -> Option<Self> {
         Self::factor(g, lambda, |d| (d > 0.0).then_some(d))
     }
 
-    /// Of G, with entries of D raised to `floor`.
+    /// Factorizes G, with entries of D below `floor` replaced by `floor`.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn raised(g: &[[f64; N]; N], floor: f64) -> Option<Self> {
         Self::factor(g, 0.0, |d| Some(d.max(floor)))
     }
 
-    /// G⁻¹ x; what is before `FIRST` becomes zero.
+    /// G⁻¹ x; the entries before `FIRST` become zero.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn solve(&self, mut x: [f64; N]) -> [f64; N] {
         let Ldl { l, inverse } = self;

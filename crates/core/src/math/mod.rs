@@ -1,7 +1,8 @@
 //! Vectors, quaternions, rotation matrices and spatial algebra on plain arrays.
 //!
 //! Conventions: quaternions are `w x y z`, matrices row-major, spatial vectors angular part first
-//! (Featherstone, *Rigid Body Dynamics Algorithms*, 2008, chapter 2). `rows` looks at a flat array as rows.
+//! (Featherstone, *Rigid Body Dynamics Algorithms*, 2008, chapter 2). [`rows`] views a flat array as an array of
+//! rows.
 
 mod elimination;
 mod invariant;
@@ -33,26 +34,26 @@ pub type Spatial = [f64; 6];
 /// Rigid-body inertia about a point: `Ixx Iyy Izz Ixy Ixz Iyz, m·dx m·dy m·dz, m`.
 pub type Inertia = [f64; 10];
 
-/// What formulas are written in: a number, or several at once in the lanes of a vector of the processor. The same
-/// operations in the same order give every lane the bits that the number alone would have.
+/// The number type of formulas: one number, or several in SIMD lanes. The same operations in the same order give each
+/// lane bit-identical results to the scalar computation.
 pub trait Real: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {}
 
 impl<T: Copy + Add<Output = T> + Sub<Output = T> + Mul<Output = T>> Real for T {}
 
-/// A flat array as rows of `N`.
+/// Views a flat array as rows of `N`.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub fn rows<const N: usize>(a: &[f64]) -> &[[f64; N]] {
     a.as_chunks().0
 }
 
-/// A flat array as mutable rows of `N`.
+/// Views a flat array as mutable rows of `N`.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub fn rows_mut<const N: usize>(a: &mut [f64]) -> &mut [[f64; N]] {
     a.as_chunks_mut().0
 }
 
-/// x, no less than `low` and no more than `high`; whatever these are it does not panic, as the standard library's would with
-/// a message that prints numbers.
+/// x limited to the range from `low` to `high`. Unlike `f64::clamp`, it never panics for invalid limits. The panic
+/// message of `f64::clamp` would also add number formatting to the module.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn clamp(x: f64, low: f64, high: f64) -> f64 {
     if x < low {
@@ -64,7 +65,7 @@ pub(crate) fn clamp(x: f64, low: f64, high: f64) -> f64 {
     }
 }
 
-/// Calls `f` with 0, 1, … n - 1: without a loop for the one or two numbers that the state of many labs has.
+/// Calls `f` with 0, 1, … n - 1. One or two calls, which are common for the state of labs, are made without a loop.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn each(n: usize, mut f: impl FnMut(usize)) {
     match n {
@@ -77,15 +78,15 @@ pub(crate) fn each(n: usize, mut f: impl FnMut(usize)) {
     }
 }
 
-/// Whether the module shall be small (feature `small`): then what is there for speed alone is left to a plain loop, which adds
-/// in the same order.
+/// Whether the build is optimized for size (feature `small`). Code that exists only for speed is then replaced by a
+/// plain loop with the same order of additions.
 pub(crate) const SMALL: bool = cfg!(feature = "small");
 
-/// Degrees of freedom of a free body: loops over them are worth code of their own, without a loop.
+/// Degrees of freedom of a free body. Loops over this count are common enough to have an unrolled version.
 pub(crate) const FREE_DOFS: usize = 6;
 
-/// out ← f(out, inputs), number by number; the inputs are at least as long. Four at a time where there are many: the lanes
-/// of a vector.
+/// out ← f(out, inputs), element by element. The inputs are at least as long as `out`. More than two elements are
+/// processed in groups of four, so that the compiler can use SIMD lanes.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn combine<const N: usize>(
     out: &mut [f64],
@@ -117,7 +118,8 @@ fn combine_fours<const N: usize>(out: &mut [f64], inputs: [&[f64]; N], f: impl F
     }
 }
 
-/// Σ f(inputs), number by number; all are as long as the first.
+/// Σ f(inputs) over the elements. All inputs are as long as the first. Four partial sums are accumulated and then
+/// added in a fixed order.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn sum<const N: usize>(inputs: [&[f64]; N], f: impl Fn([f64; N]) -> f64) -> f64 {
     match inputs[0].len() {
@@ -147,7 +149,7 @@ fn sum_fours<const N: usize>(inputs: [&[f64]; N], f: impl Fn([f64; N]) -> f64) -
     (sums[0] + sums[2]) + (sums[1] + sums[3])
 }
 
-/// Copies numbers; as many as the shorter array has.
+/// Copies numbers; the shorter array determines how many.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn copy(from: &[f64], to: &mut [f64]) {
     let n = from.len().min(to.len());
@@ -271,7 +273,7 @@ pub fn normalize(a: Vec3) -> (Vec3, f64) {
     if n < MINVAL { ([1.0, 0.0, 0.0], n) } else { (scale(a, 1.0 / n), n) }
 }
 
-/// a / |a| and |a|, however short it is: the direction of a length that depends on the scale of a scene. Zero becomes the
+/// a / |a| and |a|, however short a is, for vectors whose length depends on the scale of the scene. Zero becomes the
 /// x axis.
 pub fn unit_vector(a: Vec3) -> (Vec3, f64) {
     let n = norm(a);
@@ -312,7 +314,8 @@ pub(crate) fn frame(normal: Vec3) -> Mat3 {
     [normal[0], normal[1], normal[2], t1[0], t1[1], t1[2], t2[0], t2[1], t2[2]]
 }
 
-/// Normal and two tangents as rows, the first tangent along a given direction unless that is short.
+/// Normal and two tangents as rows. The first tangent follows the given direction, unless that vector is shorter than
+/// 0.5.
 pub(crate) fn frame_along(normal: Vec3, tangent: Vec3) -> Mat3 {
     if norm(tangent) < 0.5 {
         return frame(normal);
@@ -322,12 +325,12 @@ pub(crate) fn frame_along(normal: Vec3, tangent: Vec3) -> Mat3 {
     [normal[0], normal[1], normal[2], t1[0], t1[1], t1[2], t2[0], t2[1], t2[2]]
 }
 
-/// The largest number that a simulation means.
+/// The largest magnitude that counts as a valid number of a simulation.
 pub(crate) const LARGEST: f64 = 1e10;
 
-/// A number that no simulation means: NaN, or a larger one.
+/// Whether a number is invalid in a simulation: NaN, or larger in magnitude than [`LARGEST`].
 #[cfg_attr(not(feature = "small"), inline(always))]
-#[allow(clippy::neg_cmp_op_on_partial_ord)] // one comparison that NaN fails, too: it runs for every number of the state
+#[allow(clippy::neg_cmp_op_on_partial_ord)] // one comparison that is also false for NaN: it runs for every number of the state
 pub(crate) fn bad(x: f64) -> bool {
     !(x.abs() <= LARGEST)
 }
@@ -400,7 +403,7 @@ pub fn inertia_mul<T: Real>(i: &[T; 10], v: &[T; 6]) -> [T; 6] {
     ]
 }
 
-/// x in a range; the lower end where the range is none, NaN for NaN.
+/// x limited to a range. An empty range gives its lower end; NaN gives NaN.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub fn clip(x: f64, [lower, upper]: [f64; 2]) -> f64 {
     if x < lower {
@@ -417,7 +420,7 @@ pub(crate) fn spatial(w: Vec3, v: Vec3) -> Spatial {
     [w[0], w[1], w[2], v[0], v[1], v[2]]
 }
 
-/// Whether two slices hold the same numbers, bit by bit.
+/// Whether two slices hold the same numbers, bit for bit.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn same_bits(a: &[f64], b: &[f64]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits())

@@ -1,9 +1,9 @@
-//! Unit quaternions, `w x y z`: products, rotations, matrices, and the way from angular velocities to orientations.
+//! Unit quaternions, `w x y z`: products, rotations, matrices, and the integration of angular velocities.
 
 use super::{EYE, IDENTITY, MINVAL, Mat3, Quat, Vec3, cross, dot, normalize, scale};
 
-/// The unit quaternion nearest to q. A zero quaternion becomes the identity; one whose norm is 1 to
-/// rounding is returned as it is, bit for bit.
+/// The unit quaternion in the direction of q. A zero quaternion becomes the identity. A quaternion whose norm differs
+/// from 1 only by rounding is returned unchanged, bit for bit.
 pub fn quat_normalize(q: Quat) -> Quat {
     let n = dot(q, q).sqrt();
     if n < MINVAL {
@@ -83,7 +83,7 @@ pub fn quat_to_vel(q: Quat) -> Vec3 {
     scale(axis, angle)
 }
 
-/// q rotated for a time h by the angular velocity w, given in the rotating frame (rad/s).
+/// q rotated for a time h (s) by the angular velocity w (rad/s), given in the rotating frame.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub fn quat_integrate(q: Quat, w: Vec3, h: f64) -> Quat {
     if w == [0.0; 3] {

@@ -1,6 +1,6 @@
-//! Sorting. The standard library's sorts are fast and large, and there is a copy for each type; where a module shall be small
-//! (feature `small`), a heap does it in a few lines (Williams 1964). No two items are equal in the orders that are asked
-//! for, so both give the same. What runs once, when a model is compiled, is sorted by [`labspec_finding::order`].
+//! Sorting. The sorts of the standard library are fast, but large, and are compiled once for each type. With the
+//! feature `small`, a short heapsort (Williams 1964) replaces them. In the orders that are used no two items compare
+//! equal, so both give the same result. Sorts that run only when a model is compiled use [`labspec_finding::order`].
 
 use super::SMALL;
 use std::cmp::Ordering;
@@ -14,13 +14,13 @@ pub(crate) fn sort_by<T>(items: &mut [T], mut order: impl FnMut(&T, &T) -> Order
     }
 }
 
-/// Sorts numbers, or tuples of them: of equal ones it does not matter which comes first.
+/// Sorts numbers or tuples of numbers. Equal items are indistinguishable, so their order does not matter.
 pub(crate) fn sort<T: Ord>(items: &mut [T]) {
     sort_by(items, T::cmp);
 }
 
-/// No item of a heap is less than the two below it, which are at twice its place and one or two more. The first is the
-/// largest: it goes to the end, and the rest is made a heap again.
+/// Heapsort. In the heap no item is less than its two children; the children of item k are at 2 k + 1 and 2 k + 2.
+/// The first item is the largest: it is swapped to the end, and the remaining items are made a heap again.
 fn heap_sort<T>(items: &mut [T], less: &mut dyn FnMut(&T, &T) -> bool) {
     for top in (0..items.len() / 2).rev() {
         sink(items, top, less);
@@ -31,7 +31,7 @@ fn heap_sort<T>(items: &mut [T], less: &mut dyn FnMut(&T, &T) -> bool) {
     }
 }
 
-/// Lets an item sink to its place.
+/// Swaps an item with its larger child until no child is larger.
 fn sink<T>(heap: &mut [T], mut at: usize, less: &mut dyn FnMut(&T, &T) -> bool) {
     loop {
         let mut below = 2 * at + 1;

@@ -6,8 +6,8 @@ use crate::geometry::{Distance, Narrow, Shape, shape_distance};
 use crate::kinds::disable;
 use crate::model::{Fields, Model};
 
-/// The distance of two geoms up to `most`, with the segment from the first to the second; `None` where this build cannot
-/// find it.
+/// The distance of two geoms up to `most`, with the segment from the first to the second. Returns `None` if this
+/// build cannot compute it.
 pub(crate) fn geom_distance(
     m: &Model,
     d: &mut Fields,
@@ -22,7 +22,7 @@ pub(crate) fn geom_distance(
     distance
 }
 
-/// Iterations beyond this cost more than they can give.
+/// Upper limit of `ccd_iterations`; more iterations do not improve the result.
 const MOST_ITERATIONS: i32 = 10_000;
 
 impl PairSettings {

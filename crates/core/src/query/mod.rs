@@ -1,6 +1,6 @@
-//! What is asked of a model with its data and leaves them as they are: rays, distances, what is inside of a site.
+//! Read-only queries of a model and its data: rays, distances, points inside sites.
 //!
-//! The geometry itself is in [`crate::geometry`] and knows neither.
+//! The geometry itself is in [`crate::geometry`], which does not depend on models and data.
 
 mod apart;
 mod ray_hits;

@@ -4,26 +4,26 @@ use crate::geometry::{Shape, ray_shape};
 use crate::math::*;
 use crate::model::{Fields, Model};
 
-/// Which geoms a ray can hit, besides being visible.
+/// Selects the geoms that a ray can hit. Invisible geoms are never hit.
 #[derive(Clone, Copy, Debug)]
 pub struct RayFilter {
-    /// Groups that count, by `geom_group` from 0 to 5; all of them when `None`.
+    /// The groups that can be hit, by `geom_group` from 0 to 5; all of them if `None`.
     pub groups: Option<[bool; 6]>,
-    /// Whether geoms count that are fixed to the world.
+    /// Whether geoms fixed to the world can be hit.
     pub statics: bool,
-    /// A body whose geoms do not count.
+    /// A body whose geoms are not hit.
     pub exclude_body: Option<usize>,
 }
 
 impl Default for RayFilter {
-    /// Everything that is visible.
+    /// Admits all visible geoms.
     fn default() -> Self {
         RayFilter { groups: None, statics: true, exclude_body: None }
     }
 }
 
 impl RayFilter {
-    /// Whether a geom can be hit. What is drawn with opacity zero cannot.
+    /// Whether a geom can be hit. Geoms with zero opacity cannot.
     fn admits(&self, m: &Model, g: usize) -> bool {
         let body = m.geom_bodyid[g] as usize;
         let colour = match usize::try_from(m.geom_matid[g]) {
@@ -38,23 +38,23 @@ impl RayFilter {
     }
 }
 
-/// The first geom on a ray.
+/// The nearest geom on a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RayHit {
-    /// Distance in lengths of the ray's direction.
+    /// Distance as a multiple of the length of the ray's direction.
     pub distance: f64,
     /// The geom.
     pub geom: usize,
-    /// Unit normal of its surface, world.
+    /// Unit normal of its surface, world frame.
     pub normal: Vec3,
 }
 
-/// The nearest geom on the ray `from` + x `along`, x ≥ 0 (`mj_ray`). A direction of no length hits nothing.
+/// The nearest geom on the ray `from` + x `along`, x ≥ 0 (`mj_ray`). A direction of length zero hits nothing.
 pub(crate) fn ray(m: &Model, d: &Fields, from: Vec3, along: Vec3, filter: &RayFilter) -> Option<RayHit> {
     counted_ray(m, d, from, along, filter, &mut 0)
 }
 
-/// The same; what was done is added to `work`.
+/// Like [`ray`]; the work units are added to `work`.
 pub(crate) fn counted_ray(
     m: &Model,
     d: &Fields,

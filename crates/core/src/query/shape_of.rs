@@ -1,4 +1,4 @@
-//! The shapes of a model's geoms and sites, where the data have them.
+//! The shapes of geoms and sites of a model, at their poses in the data.
 
 use crate::geometry::{Field, Hull, Mesh, Shape};
 use crate::kinds::geom;
@@ -7,7 +7,7 @@ use crate::model::index::element_range;
 use crate::model::{Fields, Model};
 
 impl<'a> Shape<'a> {
-    /// A geom where the data have it.
+    /// The shape of geom `g`.
     pub(crate) fn geom(m: &'a Model, d: &Fields, g: usize) -> Shape<'a> {
         let (size, pos, mat) =
             (rows::<3>(&m.geom_size)[g], rows::<3>(&d.geom_xpos)[g], rows::<9>(&d.geom_xmat)[g]);
@@ -22,7 +22,7 @@ impl<'a> Shape<'a> {
         shape
     }
 
-    /// A site where the data have it.
+    /// The shape of site `s`.
     pub(crate) fn site(m: &'a Model, d: &Fields, s: usize) -> Shape<'a> {
         let (size, pos, mat) =
             (rows::<3>(&m.site_size)[s], rows::<3>(&d.site_xpos)[s], rows::<9>(&d.site_xmat)[s]);

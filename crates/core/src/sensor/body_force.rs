@@ -1,8 +1,8 @@
-//! Accelerations of bodies and the forces on them, once everything is known (`mj_rnePostConstraint`).
+//! Accelerations of bodies and the forces on them, computed after the constraint forces (`mj_rnePostConstraint`).
 //!
-//! Recursive Newton–Euler (Featherstone 2008, section 5.3): accelerations from the root to the leaves, then the
-//! force that each body needs from its parent, from the leaves to the root. All spatial quantities are about
-//! the centre of mass of the tree.
+//! Recursive Newton–Euler algorithm (Featherstone 2008, section 5.3): accelerations from the root to the leaves, then
+//! the force between each body and its parent from the leaves to the root. All spatial quantities are about the
+//! centre of mass of the tree.
 
 use super::tension;
 use crate::constraint::{self, ends};
@@ -10,10 +10,10 @@ use crate::kinds::disable;
 use crate::math::*;
 use crate::model::{Fields, Model};
 
-/// `cacc`, `cfrc_ext`, `cfrc_int`; needs `qacc` and the forces of constraints.
+/// Computes `cacc`, `cfrc_ext` and `cfrc_int`. Requires `qacc` and the constraint forces.
 ///
-/// Gravity enters as an upward acceleration of the world: a body at rest has the acceleration of an
-/// accelerometer at rest.
+/// Gravity is included as an upward acceleration of the world, so a body at rest has the acceleration that an
+/// accelerometer at rest measures.
 pub(crate) fn rne_post_constraint(m: &Model, d: &mut Fields) {
     external(m, d);
     let gravity = if m.opt.disabled(disable::GRAVITY) { [0.0; 3] } else { m.opt.gravity };
@@ -41,13 +41,13 @@ pub(crate) fn rne_post_constraint(m: &Model, d: &mut Fields) {
     }
 }
 
-/// `cfrc_ext`: forces applied to bodies, those of equality constraints, contacts and spatial tendons.
+/// Computes `cfrc_ext`: forces applied to bodies, and those of equality constraints, contacts and spatial tendons.
 fn external(m: &Model, d: &mut Fields) {
     let mut cfrc_ext = std::mem::take(&mut d.cfrc_ext);
     let out = rows_mut::<6>(&mut cfrc_ext);
     out.fill([0.0; 6]);
     let com = rows::<3>(&d.subtree_com);
-    // Adds a force and a torque at a point; the world feels nothing.
+    // Adds a force and a torque at a point; those on the world body are ignored.
     let mut apply = |body: usize, point: Vec3, force: Vec3, torque: Vec3| {
         if body > 0 {
             let t = add(torque, cross(sub(point, com[m.body_rootid[body] as usize]), force));

@@ -1,4 +1,4 @@
-//! Sensors of contacts: touch, and contacts themselves, filtered and reduced.
+//! Contact sensors: touch, and contacts that are filtered and reduced.
 
 use super::Scratch;
 use super::data_layout;
@@ -12,8 +12,9 @@ use crate::model::index::object_index;
 use crate::model::{Contact, Fields, Model, Obj};
 use crate::query::inside_site;
 
-/// The sum of the normal forces on the body of a site, of all contacts whose normal, from the contact into the
-/// other body, meets the volume of the site: it lies around the contact or behind it.
+/// The sum of the normal forces on the body of a site. It includes each contact whose normal, as a ray from the
+/// contact point into the other body, hits the volume of the site: the volume contains the contact point or is behind
+/// it.
 pub(super) fn touch(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
     let site = object_index(m.sensor_objid[s]);
     let body = m.site_bodyid[site];
@@ -39,13 +40,13 @@ fn normal(c: &Contact) -> Vec3 {
     [c.frame[0], c.frame[1], c.frame[2]]
 }
 
-/// How several contacts become few: the second parameter of a contact sensor.
+/// How several contacts are reduced to few: the second parameter of a contact sensor.
 mod reduce {
-    /// The smallest distances.
+    /// Selects the contacts with the smallest distances.
     pub(super) const MINDIST: i32 = 1;
-    /// The largest forces.
+    /// Selects the contacts with the largest forces.
     pub(super) const MAXFORCE: i32 = 2;
-    /// One force that replaces them all.
+    /// Replaces all contacts by their net force.
     pub(super) const NETFORCE: i32 = 3;
 }
 
@@ -53,13 +54,14 @@ mod reduce {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Match {
     contact: usize,
-    /// The sensor looks at it from the side of geom 2.
+    /// Whether the contact is reported from the side of geom 2.
     flip: bool,
-    /// Smallest first.
+    /// Sort key, smallest first.
     key: f64,
 }
 
-/// The contacts of a filter, one slot of data fields each, as many as there are slots; zeros where there are no more.
+/// Writes the contacts that pass the filter, one slot of data fields each, up to the number of slots. Unused slots
+/// are zero.
 pub(super) fn contacts(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize, out: &mut [f64]) {
     out.fill(0.0);
     d.meter.add(20 * d.contact.len() as u64);
@@ -89,8 +91,8 @@ pub(super) fn contacts(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize, out
     }
 }
 
-/// Whether a contact passes the filter, and if so whether it is seen from the side of geom 2: the first object is to be
-/// on the side that the normal comes from.
+/// Whether a contact passes the filter. If it does, returns whether it is reported from the side of geom 2: the first
+/// object must be on the side where the normal starts.
 fn admitted(m: &Model, d: &Fields, s: usize, c: &Contact) -> Option<bool> {
     let first = (m.sensor_objtype[s], m.sensor_objid[s]);
     let second = (m.sensor_reftype[s], m.sensor_refid[s]);
@@ -115,14 +117,15 @@ fn admitted(m: &Model, d: &Fields, s: usize, c: &Contact) -> Option<bool> {
     }
 }
 
-/// Whether a geom of a contact is, or belongs to, an object of the filter. No object and a site admit every geom.
+/// Whether a geom of a contact is an object of the filter or belongs to one. An unspecified object and a site admit
+/// every geom.
 fn takes_part(m: &Model, (kind, id): (i32, i32), geom: usize) -> bool {
     let body = m.geom_bodyid[geom];
     match kind {
         k if k == Obj::Geom as i32 => id == geom as i32,
         k if k == Obj::Body as i32 => id == body,
         k if k == Obj::XBody as i32 => {
-            // Parents have smaller numbers; the world has none.
+            // Parents have smaller indexes than their children; the world has no parent.
             let mut up = body;
             while up > id.max(0) {
                 up = m.body_parentid[up as usize];
@@ -133,7 +136,8 @@ fn takes_part(m: &Model, (kind, id): (i32, i32), geom: usize) -> bool {
     }
 }
 
-/// Fields of one contact. Seen from the other side its frame turns half around about the second tangent.
+/// Writes the fields of one contact. Reported from the other side, its frame is rotated by 180° about the second
+/// tangent.
 fn single(m: &Model, d: &Fields, found: &Match, count: usize, mask: i32, out: &mut [f64]) {
     let c = &d.contact[found.contact];
     let f = contact_force(m, d, c);
@@ -145,7 +149,7 @@ fn single(m: &Model, d: &Fields, found: &Match, count: usize, mask: i32, out: &m
     data_layout::write(mask, &[&[count as f64], &force, &torque, &[c.dist], &c.pos, &normal, &tangent], out);
 }
 
-/// One force and torque for all, world, at the mean of their points weighted by force.
+/// Writes the net force and torque, world frame, at the mean of the contact points weighted by force.
 fn net(m: &Model, d: &Fields, list: &[Match], mask: i32, out: &mut [f64]) {
     let wrench = |found: &Match| {
         let c = &d.contact[found.contact];

@@ -1,5 +1,5 @@
-//! Sensors of frames: where a body, geom, site or camera is, how it is turned, how it moves, and the forces
-//! at a site.
+//! Frame sensors: position, orientation, velocity and acceleration of a body, geom, site or camera, and the forces at
+//! a site.
 
 use super::put;
 use crate::dynamics::object::{self, Frame};
@@ -12,7 +12,7 @@ fn sensed(m: &Model, d: &Fields, s: usize) -> Option<Frame> {
     object::frame(m, d, m.sensor_objtype[s], usize::try_from(m.sensor_objid[s]).ok()?)
 }
 
-/// The frame that the sensed object is seen from; `None` for the world.
+/// The reference frame of the sensor; `None` for the world.
 fn reference(m: &Model, d: &Fields, s: usize) -> Option<Frame> {
     object::frame(m, d, m.sensor_reftype[s], usize::try_from(m.sensor_refid[s]).ok()?)
 }
@@ -29,14 +29,14 @@ pub(super) fn orientation(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) 
     put(out, r.map_or(q, |r| quat_mul(quat_conj(r), q)));
 }
 
-/// Axis I of the frame.
+/// Axis I of the sensed frame.
 pub(super) fn axis<const I: usize>(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
     let Some(f) = sensed(m, d, s) else { return };
     let axis = column(&f.mat, I);
     put(out, reference(m, d, s).map_or(axis, |r| mat_t_mul_vec(&r.mat, axis)));
 }
 
-/// Velocity in the axes of the world, or as the reference frame sees it, which moves and turns itself.
+/// Velocity in world axes, or relative to the reference frame, which may move and rotate.
 fn velocity(m: &Model, d: &Fields, s: usize) -> Option<Spatial> {
     let f = sensed(m, d, s)?;
     let v = object::velocity(m, d, &f, false);
@@ -78,7 +78,7 @@ pub(super) fn angular_acceleration(m: &Model, d: &mut Fields, s: usize, out: &mu
     put(out, sensed(m, d, s).map_or([0.0; 3], |f| angular(&object::acceleration(m, d, &f, false))));
 }
 
-/// What the parent exerts on the body of the site: torque about the site, then force, in its axes.
+/// The torque about the site and the force that the parent exerts on the body of the site, in the axes of the site.
 fn interaction(m: &Model, d: &Fields, s: usize) -> Spatial {
     let Some(f) = sensed(m, d, s) else { return [0.0; 6] };
     let c = rows::<6>(&d.cfrc_int)[f.body];
@@ -99,7 +99,7 @@ pub(super) fn magnetometer(m: &Model, d: &mut Fields, s: usize, out: &mut [f64])
     put(out, sensed(m, d, s).map_or([0.0; 3], |f| mat_t_mul_vec(&f.mat, m.opt.magnetic)));
 }
 
-/// 1 when the origin of the frame is inside the site, else 0.
+/// 1 if the origin of the frame is inside the site, otherwise 0.
 pub(super) fn inside_site(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
     let (Some(f), Ok(site)) = (sensed(m, d, s), usize::try_from(m.sensor_refid[s])) else { return };
     put(out, [f64::from(u8::from(query::inside_site(m, d, site, f.pos)))]);

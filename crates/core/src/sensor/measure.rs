@@ -1,5 +1,5 @@
-//! Sensors that read a number which the engine has anyway: of joints, tendons, actuators, limits, subtrees,
-//! and of the scene as a whole.
+//! Sensors that read a number that other stages compute: of joints, tendons, actuators, limits and subtrees, and of
+//! the whole scene.
 
 use super::put;
 use crate::constraint;
@@ -14,7 +14,7 @@ fn object(m: &Model, s: usize) -> usize {
     object_index(m.sensor_objid[s])
 }
 
-/// A sensor that measures nothing: its values stay zero.
+/// A sensor without a measurement. Its values are zero.
 pub(super) fn nothing(_: &Model, _: &mut Fields, _: usize, out: &mut [f64]) {
     out.fill(0.0);
 }
@@ -23,7 +23,7 @@ pub(super) fn clock(_: &Model, d: &mut Fields, _: usize, out: &mut [f64]) {
     put(out, [d.time]);
 }
 
-/// Computed whether the energy flag is on or not, and then `energy` shows it, too.
+/// The potential energy. It is computed, and written to `energy`, whether the energy flag is set or not.
 pub(super) fn potential_energy(m: &Model, d: &mut Fields, _: usize, out: &mut [f64]) {
     energy::potential(m, d);
     put(out, [d.energy[0]]);
@@ -91,7 +91,7 @@ fn outputs(m: &Model, s: usize, of: &[f64], out: &mut [f64]) {
     out.copy_from_slice(&of[first..first + out.len()]);
 }
 
-/// The first row of the limit of a joint or tendon; `None` while it is not active.
+/// The first row of the limit of a joint or tendon; `None` if the limit is not active.
 fn limit(m: &Model, d: &Fields, s: usize, kind: i32) -> Option<usize> {
     (0..d.nefc).find(|&row| d.efc_type[row] == kind && d.efc_id[row] == m.sensor_objid[s])
 }

@@ -1,7 +1,7 @@
-//! Sensors: `sensordata`, stage by stage as what they measure becomes known.
+//! Sensors: `sensordata`, computed in each stage for the sensors whose inputs are then available.
 //!
-//! What there is to know of a kind of sensor stands in one `table`; the functions that read them are in the
-//! other files, by what they look at. Meanings follow MuJoCo's XML reference, chapter "sensor".
+//! All properties of a type of sensor are in one `table`. The functions that read sensors are in the other files,
+//! grouped by their inputs. The meaning of each sensor follows MuJoCo's XML reference, chapter "sensor".
 
 pub(crate) mod body_force;
 mod contact_sensor;
@@ -32,35 +32,36 @@ use crate::model::stage::Stage;
 use crate::model::{Fields, Model, Obj, asleep};
 use std::ops::Range;
 
-/// What sensors use, kept so that they do not allocate.
+/// Scratch memory of sensors, allocated once.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Scratch {
     /// Contacts that pass the filter of a sensor.
     matches: Vec<Match>,
-    /// Distances.
+    /// Scratch for distances.
     pub(crate) narrow: Narrow,
-    /// Centres and radii of the bounding spheres of a body's geoms.
+    /// Centres (m, world frame) and radii (m) of the bounding spheres of the geoms of a body.
     bounds: Vec<([f64; 3], f64)>,
 }
 
-/// The unit of a sensor's values, as its row has it: `m or rad` is that of a slide or of a hinge. Empty where it is none, or not known.
+/// The unit of the values of a sensor, as in its row of the table. `m or rad` means m for a slide and rad for a
+/// hinge. Empty if there is no unit, or if it is not known.
 pub fn unit(m: &Model, s: usize) -> &'static str {
     let kind = m.sensor_type.get(s).and_then(|&t| KINDS.get(usize::try_from(t).ok()?));
     kind.map_or("", |k| k.unit)
 }
 
-/// The places of a sensor's values in `sensordata`.
+/// The range of the values of a sensor in `sensordata`.
 pub(crate) fn places(m: &Model, s: usize) -> Range<usize> {
     let first = m.sensor_adr[s] as usize;
     first..first + m.sensor_dim[s] as usize
 }
 
-/// Whether somebody reads a value of a sensor.
+/// Whether any value of a sensor is read.
 pub(crate) fn is_read(m: &Model, s: usize, sensed: Values) -> bool {
     sensed.some(places(m, s))
 }
 
-/// The sensors whose values are known at a stage, and are read. While sensors are switched off values stay as they are.
+/// Evaluates the sensors of a stage that are read. While sensors are disabled, their values do not change.
 pub(crate) fn evaluate(m: &Model, d: &mut Fields, w: &mut Scratch, when: When) {
     if m.opt.disabled(disable::SENSOR) || d.meter.over() {
         return;
@@ -72,11 +73,12 @@ pub(crate) fn evaluate(m: &Model, d: &mut Fields, w: &mut Scratch, when: When) {
     }
 }
 
-/// What sensor `s` shows, if it is read: a past value, or what it measures now; while all of it sleeps, what it has shown.
-#[inline(never)] // most are of another stage
+/// Writes the values of sensor `s`, if it is read: past values, or the current measurement. If everything that it
+/// measures sleeps, the values do not change.
+#[inline(never)] // most sensors belong to another stage
 fn show(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize) {
     if (d.plan.every_sensor || is_read(m, s, d.plan.sensed)) && !sleeps(m, d, s) {
-        // Taken out, because reading a sensor uses scratch of the data; nothing is allocated.
+        // `sensordata` is taken out because reading a sensor needs the data mutably; this allocates nothing.
         let mut values = std::mem::take(&mut d.sensordata);
         let out = &mut values[places(m, s)];
         if !timing::past(m, d, s, out) {
@@ -86,7 +88,7 @@ fn show(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize) {
     }
 }
 
-/// Whether all that sensor `s` measures sleeps or cannot move: its values stay as they are.
+/// Whether everything that sensor `s` measures sleeps or cannot move, so that its values do not change.
 fn sleeps(m: &Model, d: &Fields, s: usize) -> bool {
     if !asleep::some(m, d) {
         return false;
@@ -105,7 +107,8 @@ fn sleeps(m: &Model, d: &Fields, s: usize) -> bool {
     }
 }
 
-/// What sensor `s` measures now, cut off. The cutoff of a segment is that of its length; contacts have none.
+/// Measures the current values of sensor `s` and applies its cutoff. The cutoff of `fromto` applies to the distance,
+/// not to the points; contact sensors have no cutoff.
 fn read(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize, out: &mut [f64]) {
     match table::for_sensor(m, s).read {
         Read::Of(read) => read(m, d, s, out),
@@ -125,7 +128,7 @@ fn read(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize, out: &mut [f64]) {
     }
 }
 
-/// Whether what sensor `s` senses is there, and of the kind that its type needs.
+/// Whether the objects of sensor `s` exist and are of the kind that its type needs.
 pub(crate) fn fits(m: &Model, s: usize) -> bool {
     let within = |id: i32, n: usize| usize::try_from(id).is_ok_and(|id| id < n);
     let (kind, id) = (m.sensor_objtype[s], m.sensor_objid[s]);
@@ -136,7 +139,7 @@ pub(crate) fn fits(m: &Model, s: usize) -> bool {
         k if k == Obj::Geom as i32 => within(id, m.ngeom),
         _ => false,
     };
-    // What a contact is filtered by: an object that is there, or none at all.
+    // The object of a contact filter must exist or be unspecified.
     let takes_part = |kind: i32, id: i32| match kind {
         k if k == Obj::XBody as i32 => within(id, m.nbody),
         k if k == Obj::Site as i32 => within(id, m.nsite),
@@ -161,12 +164,12 @@ pub(crate) fn fits(m: &Model, s: usize) -> bool {
     }
 }
 
-/// Whether some sensor of the model uses the results of a stage.
+/// Whether any sensor of the model uses the results of a stage.
 pub(crate) fn needs(m: &Model, stage: Stage) -> bool {
     needs_of(m, stage, |_| true)
 }
 
-/// Whether one of some sensors does.
+/// Whether any of the selected sensors uses the results of a stage.
 pub(crate) fn needs_of(m: &Model, stage: Stage, among: impl Fn(usize) -> bool) -> bool {
     (0..m.nsensor).filter(|&s| among(s)).any(|s| {
         table::for_sensor(m, s).needs.contains(&stage)
@@ -176,7 +179,7 @@ pub(crate) fn needs_of(m: &Model, stage: Stage, among: impl Fn(usize) -> bool) -
     })
 }
 
-/// Whether a stage computes the frames of a kind of objects.
+/// Whether a stage computes the frames of a type of object.
 fn poses(stage: Stage, objtype: i32) -> bool {
     let kinds: &[Obj] = match stage {
         Stage::Kinematics => &[Obj::Body, Obj::XBody],
@@ -188,7 +191,7 @@ fn poses(stage: Stage, objtype: i32) -> bool {
     kinds.iter().any(|&k| k as i32 == objtype)
 }
 
-/// Whether a stage is run for the sensors of a user, who may look at all that is known then.
+/// Whether a stage must run for user sensors, which may read all results that are available in their stage.
 fn offers(stage: Stage, needstage: i32) -> bool {
     match stage {
         Stage::SubtreeVel => needstage == When::Velocity as i32,
@@ -197,12 +200,12 @@ fn offers(stage: Stage, needstage: i32) -> bool {
     }
 }
 
-/// Whether some sensor measures the potential energy, and so computes it while the energy flag is off.
+/// Whether any sensor measures the potential energy, and therefore computes it while the energy flag is off.
 pub(crate) fn measures_potential(m: &Model) -> bool {
     m.sensor_type.contains(&kind::E_POTENTIAL)
 }
 
-/// Whether some sensor measures an energy.
+/// Whether any sensor measures an energy.
 pub(crate) fn measures_energy(m: &Model) -> bool {
     measures_potential(m) || m.sensor_type.contains(&kind::E_KINETIC)
 }

@@ -1,11 +1,11 @@
-//! Which sensors ask for a distance that no closed form gives.
+//! Sensors that need a distance without a closed form.
 
 use super::pair::geoms;
 use super::table::kind;
 use crate::geometry::pair::is_searched;
 use crate::model::Model;
 
-/// Two geoms whose distance a sensor would have to search for.
+/// The first pair of geoms whose distance a sensor needs and the general algorithm would compute.
 pub(crate) fn searched_pair(m: &Model) -> Option<[usize; 2]> {
     let of_pairs =
         |&s: &usize| matches!(m.sensor_type[s], kind::GEOMDIST | kind::GEOMNORMAL | kind::GEOMFROMTO);

@@ -1,6 +1,6 @@
-//! Sensors of two things that may collide: their distance, its direction, and the segment between them.
+//! Sensors of two bodies or geoms: their distance, its direction, and the segment between the nearest points.
 //!
-//! What is farther apart than the cutoff is not looked at: the distance is the cutoff, the rest zero.
+//! If the distance exceeds the cutoff, the reported distance is the cutoff, and the other values are zero.
 
 use super::{Scratch, put};
 use crate::geometry::Shape;
@@ -10,12 +10,12 @@ use crate::model::index::{element_range, object_index};
 use crate::model::{Fields, Model, Obj};
 use crate::query::geom_distance;
 
-/// Work of two geoms that turn out to be too far apart.
+/// Work units of two geoms that are too far apart.
 const LOOKED_AT: u64 = 4;
-/// Part of a distance that is left to rounding before it counts as too far.
+/// Relative tolerance for rounding errors before a pair counts as too far apart.
 const ROUNDING: f64 = 1e-9;
 
-/// The geoms of a body, or one geom.
+/// The geoms of a body, or a single geom.
 pub(super) fn geoms(m: &Model, objtype: i32, id: i32) -> std::ops::Range<usize> {
     let id = object_index(id);
     if objtype != Obj::Body as i32 {
@@ -24,13 +24,13 @@ pub(super) fn geoms(m: &Model, objtype: i32, id: i32) -> std::ops::Range<usize> 
     element_range(m.body_geomadr[id], m.body_geomnum[id])
 }
 
-/// The nearest pair among the geoms of both sides: signed distance, and the segment from the first to the
-/// second.
+/// The nearest pair among the geoms of both sides: signed distance, and the segment from the first to the second
+/// geom.
 fn nearest(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize) -> (f64, [Vec3; 2]) {
     let cutoff = m.sensor_cutoff[s];
     let mut best = (cutoff, [[0.0; 3]; 2]);
     let others = geoms(m, m.sensor_reftype[s], m.sensor_refid[s]);
-    // Their bounds once, not once for every partner.
+    // Computes the bounds of the second side once.
     w.bounds.clear();
     w.bounds.extend(others.clone().map(|g| (rows::<3>(&d.geom_xpos)[g], bound(m, d, g))));
     for g1 in geoms(m, m.sensor_objtype[s], m.sensor_objid[s]) {
@@ -46,7 +46,8 @@ fn nearest(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize) -> (f64, [Vec3;
             if dot(apart, apart) > reach * reach {
                 continue;
             }
-            // A model that needs what this build has not is refused when it is read: see `needs_search`.
+            // Models that need the general algorithm are refused when they are read by a build without it: see
+            // `needs_search`.
             let Some(found) = geom_distance(m, d, &mut w.narrow, [g1, g2], best.0) else {
                 return (f64::NAN, [[f64::NAN; 3]; 2]);
             };
@@ -58,7 +59,7 @@ fn nearest(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize) -> (f64, [Vec3;
     best
 }
 
-/// The radius of the bounding sphere of a geom. Planes and height fields have none.
+/// The radius of the bounding sphere of a geom, m. It is infinite for planes and height fields.
 fn bound(m: &Model, d: &Fields, g: usize) -> f64 {
     match m.geom_type[g] {
         geom::PLANE | geom::HFIELD => f64::INFINITY,
@@ -71,7 +72,7 @@ pub(super) fn distance(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize, out
     put(out, [nearest(m, d, w, s).0]);
 }
 
-/// From the first to the second; from the deepest point outwards when they overlap.
+/// The direction from the first to the second geom. If they overlap, it points outwards from the deepest point.
 pub(super) fn normal(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize, out: &mut [f64]) {
     let (_, [from, to]) = nearest(m, d, w, s);
     let along = sub(to, from);

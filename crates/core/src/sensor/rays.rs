@@ -1,7 +1,7 @@
-//! Sensors along lines of sight: rangefinders, from a site or for every pixel of a camera, and the place of a site
-//! in a camera's image.
+//! Line-of-sight sensors: rangefinders of a site or for every pixel of a camera, and the position of a site in the
+//! image of a camera.
 //!
-//! A pinhole camera sees along -z with y up; pixels count from the upper left corner (MuJoCo's documentation,
+//! A pinhole camera looks along -z with y up. Pixels are counted from the upper left corner (MuJoCo's documentation,
 //! element "camera").
 
 use super::data_layout;
@@ -13,7 +13,7 @@ use crate::math::*;
 use crate::model::{Fields, Model, Obj};
 use crate::query::{self, RayFilter};
 
-/// A ray: where it starts and its unit direction, world.
+/// A ray: its start (m) and its unit direction, world frame.
 struct Ray {
     from: Vec3,
     along: Vec3,
@@ -39,8 +39,9 @@ pub(super) fn rangefinder(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) 
     }
 }
 
-/// What a ray from the frame `f` meets: distance -1 and no direction, point and normal where it meets nothing. The
-/// body that the sensor is fixed to is not seen. A camera's depth is along its axis, a site's along the ray.
+/// Writes the data of a ray from the frame `f`. If it hits nothing, distance and depth are -1; direction, point and
+/// normal are zero. The body of the sensor itself is not hit. The depth of a camera is measured along its axis, that
+/// of a site along the ray.
 fn cast(m: &Model, d: &mut Fields, ray: &Ray, f: &Frame, in_image: bool, mask: i32, out: &mut [f64]) {
     let filter = RayFilter { exclude_body: Some(f.body), ..RayFilter::default() };
     let none = [0.0; 3];
@@ -65,9 +66,9 @@ struct Camera {
     focal: [f64; 2],
     /// The point of the image on the optical axis.
     principal: [f64; 2],
-    /// How far the middle of the image is from the optical axis, to the right and down.
+    /// Offset of the centre of the image from the optical axis, to the right and down.
     shift: [f64; 2],
-    /// Side of the square that a camera without perspective sees, m.
+    /// Side length of the square field of view of an orthographic camera, m.
     extent: Option<f64>,
 }
 
@@ -78,7 +79,8 @@ impl Camera {
         // An image with a negative size has no pixels.
         let resolution = [m.cam_resolution[2 * id], m.cam_resolution[2 * id + 1]].map(|n| n.max(0) as usize);
         let [width, height] = resolution.map(|n| n as f64);
-        // Lengths on the sensor to pixels, in the single precision that MuJoCo stores optics with.
+        // Converts lengths on the image sensor to pixels, in single precision, with which MuJoCo stores camera
+        // intrinsics.
         let pixels =
             |length: f64, axis: usize| f64::from(length as f32 / size[axis] as f32 * resolution[axis] as f32);
         let (focal, principal, shift) = if size[0] != 0.0 && size[1] != 0.0 {
@@ -97,7 +99,7 @@ impl Camera {
         }
     }
 
-    /// The ray through the centre of a pixel, of a camera at `f`.
+    /// The ray through the centre of a pixel, for a camera with the frame `f`.
     fn ray(&self, f: &Frame, row: usize, col: usize) -> Ray {
         let (u, v) = (col as f64 + 0.5, row as f64 + 0.5);
         if let Some(extent) = self.extent {
@@ -111,10 +113,11 @@ impl Camera {
     }
 }
 
-/// Pixel coordinates of a site: its direction times the focal lengths, from where the optical axis meets the image.
+/// Pixel coordinates of a site: its direction times the focal lengths, relative to the point where the optical axis
+/// meets the image.
 ///
-/// The picture that MuJoCo 3.14.0 draws is shifted by the principal point, to the right and down (`frustum_center` and
-/// `frustum_top` of `mjvGLCamera`); its sensor leaves that out, ours does not.
+/// The image that MuJoCo 3.14.0 draws is shifted to the right and down by the principal point (`frustum_center` and
+/// `frustum_top` of `mjvGLCamera`). MuJoCo's sensor ignores this shift; ours includes it.
 pub(super) fn camera_projection(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
     let (Ok(site), Ok(id)) = (usize::try_from(m.sensor_objid[s]), usize::try_from(m.sensor_refid[s])) else {
         return;
@@ -122,7 +125,7 @@ pub(super) fn camera_projection(m: &Model, d: &mut Fields, s: usize, out: &mut [
     let Some(f) = object::frame(m, d, Obj::Camera as i32, id) else { return };
     let camera = Camera::from_model(m, id);
     let [x, y, z] = mat_t_mul_vec(&f.mat, sub(rows::<3>(&d.site_xpos)[site], f.pos));
-    // In the plane of the camera there is no image: the pixel is far outside.
+    // A point in the plane of the camera has no image: its pixel is placed far outside.
     let depth = if z.abs() < MINVAL { MINVAL.copysign(z) } else { z };
     let [width, height] = camera.resolution.map(|n| n as f64);
     let [fx, fy] = camera.focal;

@@ -1,8 +1,8 @@
-//! The table of sensors: every kind with its name in MJCF, what it senses, what its values are, when they are
-//! known, which results they need and the function that reads them.
+//! The table of sensors. For each type: its name in MJCF, what it senses, the kind of its values, the stage in which
+//! they are available, the results that it needs, and the function that reads it.
 //!
-//! The compiler, the evaluation, the plan and the schema all come from it. Order and numbers are MuJoCo's
-//! (mjtSensor), meanings those of its XML reference, chapter "sensor".
+//! The compiler, the evaluation, the plan and the schema are generated from this table. Order and numbers are those
+//! of mjtSensor; the meaning follows MuJoCo's XML reference, chapter "sensor".
 
 use super::Scratch;
 use super::contact_sensor;
@@ -13,14 +13,14 @@ use super::rays;
 use crate::model::stage::Stage;
 use crate::model::{Fields, Model};
 
-/// What a sensor can be attached to: it decides the attributes in MJCF.
+/// What a sensor senses. It determines the attributes in MJCF.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Senses {
-    /// Nothing in particular.
+    /// No particular object.
     Nothing,
     /// A site.
     Site,
-    /// A site, or every pixel of a camera; with a list of data fields.
+    /// A site, or every pixel of a camera, with a list of data fields.
     Ray,
     /// A site in the image of a camera.
     SiteInImage,
@@ -38,30 +38,30 @@ pub(crate) enum Senses {
     Actuator,
     /// The frame of a body, geom, site or camera.
     Frame,
-    /// The same, possibly as another frame sees it.
+    /// The frame of a body, geom, site or camera, optionally relative to another frame.
     RelativeFrame,
-    /// The same, against the volume of a site.
+    /// The frame of a body, geom, site or camera, and the volume of a site.
     FrameInSite,
     /// A body with its descendants.
     Subtree,
-    /// Two geoms, or all geoms of a body.
+    /// Two objects, each a geom or a body with all its geoms.
     Pair,
-    /// Contacts, by the geom, body, subtree or site that takes part; with a list of data fields.
+    /// Contacts, filtered by geom, body, subtree or site, with a list of data fields.
     Contacts,
-    /// What the user says.
+    /// Defined by the user.
     User,
     /// The vertices of a mesh, as taxels. Not supported.
     Tactile,
-    /// What a plugin says. Not supported.
+    /// Defined by a plugin. Not supported.
     Plugin,
 }
 
-/// What the values of a sensor are, and so how a cutoff acts (mjtDataType).
+/// The kind of the values of a sensor, which determines the effect of a cutoff (mjtDataType).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Datatype {
     /// Any number: clamped on both sides.
     Real,
-    /// Zero or more, where negative means nothing: clamped from above.
+    /// Zero or positive; a negative value means that nothing was measured. Clamped from above.
     Positive,
     /// A unit vector: cannot be clamped.
     Axis,
@@ -69,16 +69,16 @@ pub(crate) enum Datatype {
     Quaternion,
 }
 
-/// When the values of a sensor are known (mjtStage).
+/// The stage in which the values of a sensor are available (mjtStage).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)] // positions, velocities, accelerations and forces
+#[allow(missing_docs)] // positions; velocities; accelerations and forces are available
 pub(crate) enum When {
     Position = 1,
     Velocity = 2,
     Acceleration = 3,
 }
 
-/// Reads a sensor: model, data, number of the sensor, its values; some with scratch.
+/// Reads a sensor. Arguments: model, data, scratch (in `With`), index of the sensor, its values.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Read {
     Of(fn(&Model, &mut Fields, usize, &mut [f64])),
@@ -90,17 +90,17 @@ pub(super) enum Read {
 pub(crate) struct Kind {
     /// The element in MJCF.
     pub name: &'static str,
-    /// What it can be attached to.
+    /// What it senses.
     pub senses: Senses,
-    /// Number of values, 0 when the sensed object or the sensor's own parameters decide.
+    /// Number of values; 0 if the sensed object or parameters of the sensor determine it.
     pub dim: i32,
-    /// What the values are.
+    /// The kind of the values.
     pub datatype: Datatype,
-    /// When they are known.
+    /// The stage in which they are available.
     pub when: When,
-    /// Their unit: of a joint or an actuator that of a slide, then that of a hinge; empty where it depends on more.
+    /// Their unit. For joints and actuators: that of a slide, then that of a hinge. Empty if it depends on more.
     pub unit: &'static str,
-    /// The results that they are computed from, besides the poses of the sensed objects.
+    /// The stages whose results they are computed from, besides the poses of the sensed objects.
     pub(super) needs: &'static [Stage],
     pub(super) read: Read,
 }
@@ -110,7 +110,7 @@ macro_rules! kinds {
         #[allow(non_camel_case_types, clippy::upper_case_acronyms, dead_code)] // the names of the constants
         enum Number { $($id),* }
         /// Types of sensors, values of `sensor_type` (mjtSensor).
-        #[allow(missing_docs, dead_code)] // each is named as in MJCF, also those that nothing here asks for
+        #[allow(missing_docs, dead_code)] // named as in MJCF; some are not used here
         pub(crate) mod kind {
             use super::Number;
             $(pub(crate) const $id: i32 = Number::$id as i32;)*
@@ -180,7 +180,7 @@ kinds! {
     USER "user" User 0 Real "" Acceleration [] Of measure::nothing;
 }
 
-/// The row of sensor `s`; a number without a row means values of the user, which the engine leaves as they are.
+/// The row of sensor `s`. An unknown type counts as a user sensor, for which nothing is measured: its values are zero.
 pub(super) fn for_sensor(m: &Model, s: usize) -> &'static Kind {
     let number = usize::try_from(m.sensor_type[s]).unwrap_or(usize::MAX);
     KINDS.get(number).unwrap_or(&KINDS[Number::USER as usize])

@@ -1,5 +1,5 @@
-//! Forces along spatial tendons, as forces on the bodies that they pass: what springs, dampers, constraints and actuators
-//! do to the length, seen from outside.
+//! Forces along spatial tendons as forces on the bodies along their paths: the external effect of springs, dampers,
+//! constraints and actuators of tendons.
 
 use crate::constraint;
 use crate::dynamics::reflected::tendon_inertia;
@@ -10,9 +10,10 @@ use crate::kinds::{disable, trntype};
 use crate::math::*;
 use crate::model::{Fields, Model};
 
-/// Calls `apply` with each body that some tendon pulls, the point and the force, world. A tendon that slept when lengths were
-/// computed pulls nobody, even if its tree has woken since: it has no length and no Jacobian in this pass, and others may have taken
-/// the place of its points (`tendon::tendons`). One whose sites coincide has no direction.
+/// Calls `apply` with each body that a tendon pulls, the point, and the force (world frame). A tendon that slept when
+/// lengths were computed exerts no force, even if its tree has woken since: it has no length and no Jacobian in this
+/// pass, and its path points may have been overwritten by others (`tendon::tendons`). A tendon whose sites coincide
+/// has no direction.
 pub(crate) fn pulls(m: &Model, d: &Fields, mut apply: impl FnMut(usize, Vec3, Vec3)) {
     let spatial = |&t: &usize| !tendon::is_fixed(m, t) && d.ten_length[t] != 0.0;
     for t in (0..m.ntendon).filter(spatial) {
@@ -24,13 +25,13 @@ pub(crate) fn pulls(m: &Model, d: &Fields, mut apply: impl FnMut(usize, Vec3, Ve
     }
 }
 
-/// The force of the spring and the damper along the length, N.
+/// The force of the spring and the damper along the tendon, N.
 fn passive(m: &Model, d: &Fields, t: usize) -> f64 {
     let (springs, dampers) = (!m.opt.disabled(disable::SPRING), !m.opt.disabled(disable::DAMPER));
     spring::tendon_force(m, d, t, springs, dampers).into_iter().sum()
 }
 
-/// That of actuators.
+/// The force of actuators along the tendon, N.
 fn actuators(m: &Model, d: &Fields, t: usize) -> f64 {
     let on = |i: &usize| m.actuator_trntype[*i] == trntype::TENDON && m.actuator_trnid[2 * i] == t as i32;
     let force = |i: usize| {
@@ -40,14 +41,14 @@ fn actuators(m: &Model, d: &Fields, t: usize) -> f64 {
     if m.opt.disabled(disable::ACTUATION) { 0.0 } else { (0..m.nactuator).filter(on).map(force).sum() }
 }
 
-/// What accelerates the inertia of the tendon itself: a (J q̈ + J̇ v), N.
+/// The force that accelerates the inertia of the tendon: a (J q̈ + J̇ v), N.
 fn inertial(m: &Model, d: &Fields, t: usize) -> f64 {
     let a = tendon_inertia(m, t);
     if a == 0.0 { 0.0 } else { a * (tendon::along(m, d, t, &d.qacc) + spatial_tendon::acceleration(m, d, t)) }
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)] // a test that fails says why
+#[allow(clippy::unwrap_used)] // a failing test prints the reason
 mod tests {
     use super::*;
     use crate::mjcf::compile;
@@ -55,7 +56,8 @@ mod tests {
     use crate::step::workspace::Workspace;
     use crate::step::{forward, step};
 
-    /// The second tendon, whose path begins with a pulley, has written its points over those of the first one, which sleeps.
+    /// The path of the second tendon begins with a pulley, and its points have overwritten those of the first tendon,
+    /// which sleeps.
     #[test]
     fn a_tendon_that_sleeps_pulls_nobody() {
         let m = compile(
@@ -76,8 +78,8 @@ mod tests {
         assert_eq!(pulled, [0, 2]);
     }
 
-    /// The ball touches the box, which wakes after lengths were computed. MuJoCo 3.14.0 shows the same, in the same step: no length and
-    /// no force of the spring.
+    /// The ball touches the box, which wakes after lengths were computed. MuJoCo 3.14.0 does the same in the same
+    /// step: the tendon has no length, and its spring no force.
     #[test]
     fn a_tendon_that_wakes_pulls_from_the_next_pass_on() {
         let m = compile(

@@ -1,4 +1,4 @@
-//! Sensors against what MuJoCo 3.14.0 reads: `golden/record.py` recorded it.
+//! Sensors compared with MuJoCo 3.14.0, recorded by `golden/record.py`.
 
 use crate::math::rows;
 use crate::mjcf;
@@ -24,20 +24,20 @@ fn numbers(m: &Model, d: &Fields, object: Object, name: &str) -> Vec<f64> {
     (0..view.len()).filter_map(|i| view.get(i)).collect()
 }
 
-/// The largest difference, relative to the largest number above 1, with its index.
+/// The largest difference, relative to the largest magnitude (at least 1), with its index.
 fn difference(got: &[f64], want: &[f64]) -> (f64, usize) {
     let scale = want.iter().fold(1.0_f64, |s, x| s.max(x.abs()));
     let of = |(i, (a, b)): (usize, (&f64, &f64))| ((a - b).abs() / scale, i);
     got.iter().zip(want).enumerate().map(of).fold((0.0, 0), |a, b| if b.0 > a.0 { b } else { a })
 }
 
-/// Which sensor a value belongs to.
+/// The name and index of the sensor that a value belongs to.
 fn sensor(m: &Model, value: usize) -> String {
     let s = (0..m.nsensor).rfind(|&s| m.sensor_adr[s] as usize <= value && m.sensor_dim[s] > 0).unwrap();
     format!("{} {s}", super::table::for_sensor(m, s).name)
 }
 
-/// Constants of cameras and lights that are put into the model: the tests of the compiler compare them.
+/// Constants of cameras and lights, which are written to the model here; tests of the compiler compare them.
 const OPTICS: [&str; 15] = [
     "cam_mode",
     "cam_bodyid",
@@ -56,7 +56,7 @@ const OPTICS: [&str; 15] = [
     "light_dir",
 ];
 
-/// Compares all constants and all states of a model; results that are not computed here are left out.
+/// Compares all recorded constants and states of a model with a tolerance. Recorded inputs are written instead.
 fn check_recorded(xml: &str, recorded: &str, tolerance: f64) {
     let mut m = compile(xml);
     let Workspace { fields: mut d, scratch: mut s } = Workspace::new(&m);
@@ -112,7 +112,7 @@ fn check_recorded(xml: &str, recorded: &str, tolerance: f64) {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// Adds what the library leaves out of projections: the picture is shifted by the principal point of its camera, pixels.
+/// Adds what MuJoCo ignores in projections: the image is shifted by the principal point of its camera, pixels.
 fn with_principal_points(m: &Model, want: &mut [f64]) {
     for s in 0..m.nsensor {
         let at = m.sensor_adr[s] as usize;
@@ -150,8 +150,8 @@ golden! {
     delays_rk4 1e-12;
 }
 
-/// Forces of constraints on bodies, for rows that are put into the data: their sizes, kinds and forces are the
-/// business of the solver.
+/// Forces of constraints on bodies. The rows, with their types and forces, are written to the data, so that the test
+/// does not depend on the solver.
 #[test]
 fn equality_constraints_act_where_they_hold() {
     let m = compile(include_str!("golden/equality.xml"));

@@ -1,8 +1,8 @@
-//! Sensors that keep past values: delays, and readings at intervals.
+//! Sensors with stored past values: delays, and readings at intervals.
 //!
-//! At the end of a step the value of that time goes into the buffer of the sensor; a delayed sensor shows what
-//! was put there a delay ago, a sensor with a period the last reading. The owner's slot of the buffer holds the time
-//! of the last tick of the period, which readings follow as the steps allow.
+//! At the end of a step, the current value is stored in the buffer of the sensor. A delayed sensor reports the value
+//! stored a delay ago; a sensor with an interval reports the last reading. The first slot of the buffer contains the
+//! time of the last tick of the interval. Readings follow the ticks as closely as the timesteps allow.
 
 use super::Scratch;
 use super::table::for_sensor;
@@ -13,19 +13,19 @@ use crate::model::stage::Stage;
 use crate::model::{Fields, Model};
 use crate::sensor::body_force;
 
-/// Where the buffer of a sensor is, and how many samples it has; `None` when it keeps none.
+/// The range of the buffer of a sensor, and its number of samples; `None` if it has no buffer.
 fn buffer(m: &Model, s: usize) -> Option<(std::ops::Range<usize>, usize)> {
     let n = usize::try_from(m.sensor_history[2 * s]).ok().filter(|&n| n > 0)?;
     let at = usize::try_from(m.sensor_historyadr[s]).ok()?;
     Some((at..at + history::size(n, m.sensor_dim[s] as usize), n))
 }
 
-/// Whether a reading is due: the last tick was a period ago.
+/// Whether a reading is due: at least one interval has passed since the last tick.
 fn due(m: &Model, d: &Fields, s: usize, at: usize) -> bool {
     d.history[at] + m.sensor_interval[2 * s] <= d.time
 }
 
-/// Shows a past value; `false` when the sensor shows what it reads now.
+/// Writes a past value. Returns `false` if the sensor reports its current reading.
 pub(super) fn past(m: &Model, d: &Fields, s: usize, out: &mut [f64]) -> bool {
     let Some((range, n)) = buffer(m, s) else { return false };
     let delay = m.sensor_delay[s];
@@ -39,10 +39,10 @@ pub(super) fn past(m: &Model, d: &Fields, s: usize, out: &mut [f64]) -> bool {
     true
 }
 
-/// Puts the values of this time into the buffers, before time advances.
+/// Stores the values of the current time in the buffers, before time advances.
 ///
-/// After the stages of a Runge–Kutta step, bodies are where the last stage left them. What is kept then is what
-/// MuJoCo keeps: the state at the start of the step, seen with the poses and forces of the last stage.
+/// After a Runge–Kutta step, the poses of bodies are those of the last stage. The stored values are then the same as
+/// in MuJoCo: the state at the start of the step, evaluated with the poses and forces of the last stage.
 pub(crate) fn record(m: &Model, d: &mut Fields, w: &mut Scratch) {
     let delayed = |s: &usize| m.sensor_delay[*s] > 0.0 && m.sensor_history[2 * s] > 0;
     if integrator::many_stages(m.opt.integrator) {
@@ -75,7 +75,7 @@ pub(crate) fn record(m: &Model, d: &mut Fields, w: &mut Scratch) {
     }
 }
 
-/// Zeros at the times before the start at which the sensor would have been read.
+/// Fills the buffers with zeros, at the times before the start at which the sensor would have been read.
 pub(crate) fn reset(m: &Model, d: &mut Fields) {
     let h = m.opt.timestep;
     for s in 0..m.nsensor {

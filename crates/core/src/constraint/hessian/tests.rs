@@ -1,4 +1,4 @@
-//! The layout of the Hessian, and its sums and solutions against those entry by entry.
+//! The layout of the Hessian, and its sums and solutions compared with computations entry by entry.
 
 use crate::constraint::jacobian::{HessianAccumulator, add_entries};
 use crate::constraint::six::Six;
@@ -11,7 +11,8 @@ use crate::step::workspace::Workspace;
 use std::array::from_fn;
 use std::fmt::Write;
 
-/// Two hundred balls in one place, each of which touches each: no room is made for the Hessian, and the step is done.
+/// Two hundred balls in one place, which all touch each other: no Hessian is allocated, and the step is computed
+/// nevertheless.
 #[test]
 fn an_island_that_is_too_large_is_solved_without_its_hessian() {
     let ball = |i: usize| {
@@ -27,7 +28,7 @@ fn an_island_that_is_too_large_is_solved_without_its_hessian() {
     assert!(d.solver_niter > 0 && d.qacc.iter().all(|a| a.is_finite()));
 }
 
-/// Free boxes at these places, by name, on a floor.
+/// Boxes with free joints and the given names, positions and sizes, on a floor.
 fn boxes(list: impl Iterator<Item = (usize, [f64; 3], [f64; 3])>) -> Model {
     let mut text = String::from("<mujoco><worldbody><geom type=\"plane\" size=\"9 9 1\"/>");
     for (i, [x, y, z], [a, b, c]) in list {
@@ -52,7 +53,8 @@ fn row(i: usize) -> (usize, [f64; 3], [f64; 3]) {
     (i, [0.1995 * i as f64, 0.0, 0.0995], SMALL_BOX)
 }
 
-/// What a small module adds entry by entry has the bits of what is added by fours, in both matrices.
+/// The sums of the feature `small`, computed entry by entry, are bit-identical to those computed in blocks of four,
+/// in both matrices.
 #[test]
 fn products_are_the_same_entry_by_entry() {
     let (_, Workspace { fields: d, scratch: s }) = blocks(&boxes((0..3).map(row)));
@@ -64,7 +66,7 @@ fn products_are_the_same_entry_by_entry() {
         mjcf::compile("<mujoco><worldbody><body><freejoint/><geom size='1'/></body></worldbody></mujoco>");
     let six = || Six::new(free.as_ref().unwrap(), &none, 0);
     let (mut six_fours, mut six_entries) = (six(), six());
-    // Not the same from left and from right.
+    // A weight matrix that is not symmetric.
     let w: [[f64; 4]; 4] = from_fn(|i| from_fn(|j| 0.1 + (5 * i + j) as f64 / 7.0));
     let apply_weights = |v: &[f64; 4]| w.map(|w| dot(w, *v));
     let mut wide = 0;
@@ -97,7 +99,7 @@ fn products_are_the_same_entry_by_entry() {
 fn a_row_of_boxes_takes_a_band() {
     let (count, Workspace { fields: d, .. }) = blocks(&boxes((0..100).map(row)));
     assert_eq!(d.nisland, 1);
-    // Twelve columns and what fills up blocks of four.
+    // Twelve columns per row, and the padding of blocks.
     assert!(count <= 600 * 16, "{count} numbers of {}", 600 * 601 / 2);
 }
 
@@ -110,7 +112,8 @@ fn a_plate_under_all_others_does_not_fill_the_matrix() {
     assert!(count <= 600 * 16, "{count} numbers of {}", 600 * 601 / 2);
 }
 
-/// Four hundred twigs on one stem, which a constraint holds: the twigs do not meet, and only the stem meets all.
+/// A constrained stem with four hundred twigs: the twigs do not interact with each other, but all interact with the
+/// stem.
 #[test]
 fn branches_meet_in_the_body_that_carries_them() {
     let twigs = "<body><joint/><geom size='0.1'/></body>".repeat(400);
@@ -120,7 +123,7 @@ fn branches_meet_in_the_body_that_carries_them() {
     ));
     let (count, Workspace { fields: d, .. }) = blocks(&m.unwrap());
     assert_eq!((d.nisland, d.nefc), (1, 6));
-    // A block on the diagonal for each four twigs, and whole rows for the stem's two.
+    // One diagonal block for every four twigs, and two full rows of blocks for the stem.
     assert!(count <= 16 * (100 + 2 * 102), "{count} numbers of {}", 203 * 407);
 }
 
@@ -128,11 +131,11 @@ fn branches_meet_in_the_body_that_carries_them() {
 fn pairs_apart_take_a_matrix_each() {
     let pair = |i: usize| (i, [0.5 * (i / 2) as f64 + 0.1995 * (i % 2) as f64, 0.0, 0.0995], SMALL_BOX);
     let (count, Workspace { fields: d, .. }) = blocks(&boxes((0..300).map(pair)));
-    // Three rows of blocks: one block of four by four, then two, then three.
+    // Three rows of blocks for each pair, with one, two and three blocks.
     assert_eq!((d.nisland, count), (150, 96));
 }
 
-/// Islands are laid out when they are found, not in every step.
+/// Layouts are computed when islands are found, not in every step.
 #[test]
 fn islands_keep_their_layouts() {
     let pair = |i: usize| (i, [0.5 * (i / 2) as f64 + 0.1995 * (i % 2) as f64, 0.0, 0.0995], SMALL_BOX);
@@ -153,7 +156,7 @@ fn islands_keep_their_layouts() {
 
 #[test]
 fn the_order_in_the_file_changes_rounding_alone() {
-    // By steps of 37 through a hundred: neighbours stand far from each other in the file.
+    // In steps of 37 modulo a hundred, so that neighbours are far from each other in the model.
     let (near, far) = (boxes((0..100).map(row)), boxes((0..100).map(|i| row(i * 37 % 100))));
     let ((_, a), (count, b)) = (blocks(&near), blocks(&far));
     assert!(count <= 600 * 16, "{count}");

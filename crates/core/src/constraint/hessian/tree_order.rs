@@ -1,36 +1,36 @@
-//! The order of the trees of a large island, in which the rows of its Hessian are short: breadth first from an end of the island
-//! (Cuthill and McKee 1969); its numbers run backwards (George 1971).
+//! An order of the trees of a large island for which the rows of the Hessian are short: breadth first from an end of
+//! the island (Cuthill and McKee 1969), numbered in reverse (George 1971).
 
 use crate::constraint::island::Islands;
 use crate::constraint::jacobian::Jacobian;
 use crate::math::sort::sort;
 use crate::model::Model;
 
-/// Scratch of the ordering of trees.
+/// Scratch for ordering trees.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Order {
-    /// Pairs of trees that some block ties together, both ways, ascending; and where those of each tree begin.
+    /// Pairs of trees that a block connects, in both directions, ascending, and the start of those of each tree.
     pairs: Vec<[u32; 2]>,
     begin: Vec<u32>,
-    /// Trees in their order, and whether each is there.
+    /// Trees in order, and whether each tree is in the list.
     pub(super) list: Vec<u32>,
     seen: Vec<bool>,
 }
 
 impl Order {
-    /// The trees of an island, breadth first from one that is far from the others, reversed.
+    /// Orders the trees of an island breadth first, starting at a tree far from the others, and reverses the order.
     pub(super) fn sort(&mut self, m: &Model, jac: &Jacobian, islands: &Islands, island: usize) {
         self.tie(m, jac, islands, island);
         let trees = || islands.trees_of(island);
         let degree = |begin: &[u32], t: usize| begin[t + 1] - begin[t];
         let Some(start) = trees().min_by_key(|&t| degree(&self.begin, t)) else { return };
         self.walk(start);
-        // Twice from the last that was reached: there is an end of the island.
+        // Two more searches from the last tree reached find an end of the island.
         for _ in 0..2 {
             let Some(&end) = self.list.last() else { break };
             self.walk(end as usize);
         }
-        // What nothing ties together is one island only when islands are switched off.
+        // Trees that no block connects belong to one island only if islands are disabled.
         for t in trees() {
             if !self.seen[t] {
                 self.reach(t);
@@ -39,7 +39,7 @@ impl Order {
         self.list.reverse();
     }
 
-    /// Lists the pairs of trees that blocks tie together.
+    /// Lists the pairs of trees that blocks connect.
     fn tie(&mut self, m: &Model, jac: &Jacobian, islands: &Islands, island: usize) {
         self.pairs.clear();
         for i in islands.blocks.members(island) {
@@ -67,7 +67,7 @@ impl Order {
         self.reach(start);
     }
 
-    /// Appends a tree and all that can be reached from it, the nearest first.
+    /// Appends a tree and all trees reachable from it, in breadth-first order.
     fn reach(&mut self, start: usize) {
         let mut at = self.list.len();
         self.list.push(start as u32);

@@ -1,4 +1,4 @@
-//! Jacobians of points: how the velocity of a point follows from `qvel`.
+//! Jacobians of points: the linear map from `qvel` to the velocity of a point.
 
 mod points;
 
@@ -13,7 +13,7 @@ pub(crate) use points::{
     apply_ft, jac, jac_body, jac_body_com, jac_dot, jac_geom, jac_site, jac_subtree_com,
 };
 
-/// Angular velocity, and the velocity of `point`, for a unit velocity of degree of freedom `k`.
+/// Angular velocity of the body and velocity of `point` for a unit velocity of degree of freedom `k`.
 pub(crate) fn dof_motion(m: &Model, d: &Fields, k: usize, point: Vec3) -> (Vec3, Vec3) {
     let j = m.dof_jntid[k] as usize;
     let i = k - m.jnt_dofadr[j] as usize;
@@ -21,13 +21,13 @@ pub(crate) fn dof_motion(m: &Model, d: &Fields, k: usize, point: Vec3) -> (Vec3,
         joint::SLIDE => return ([0.0; 3], rows::<3>(&d.xaxis)[j]),
         joint::HINGE => rows::<3>(&d.xaxis)[j],
         joint::FREE if i < 3 => return ([0.0; 3], std::array::from_fn(|c| f64::from(u8::from(c == i)))),
-        // Ball and free rotations: the body's own axes.
+        // The rotation axes of ball and free joints are the axes of the body.
         _ => column(&rows::<9>(&d.xmat)[m.jnt_bodyid[j] as usize], i % 3),
     };
     (axis, cross(axis, sub(point, rows::<3>(&d.xanchor)[j])))
 }
 
-/// out += Jᵀ f: the generalized force of a force and a torque on body `b`, the force at `point`.
+/// out += Jᵀ f: the generalized force of a force at `point` and a torque on body `b`.
 pub(crate) fn apply(
     m: &Model,
     d: &Fields,
@@ -43,8 +43,8 @@ pub(crate) fn apply(
     }
 }
 
-/// Columns of a Jacobian along a frame, in descending order of the degrees of freedom. The arrays have room
-/// for every degree of freedom of the model.
+/// Columns of a Jacobian in the axes of a frame, in descending order of the degrees of freedom. The arrays have a
+/// capacity for all degrees of freedom of the model.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Columns {
     dofs: Vec<u32>,
@@ -70,7 +70,8 @@ impl Columns {
         &self.values[..self.len]
     }
 
-    /// Angular velocity along each row of the frame, likewise; where it was asked for.
+    /// Angular velocity along each row of the frame, for a unit velocity of each degree of freedom. Valid only after
+    /// a function computed it.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn turns(&self) -> &[Vec3] {
         &self.turns[..self.len]
@@ -81,7 +82,8 @@ impl Columns {
         &mut self.turns[..self.len]
     }
 
-    /// One column of zeros for a body that moves, so that a row belongs to its tree; whether it moves.
+    /// Writes a single column of zeros for a moving body, so that a row is assigned to its tree. Returns whether the
+    /// body can move.
     pub(crate) fn stand_still(&mut self, m: &Model, body: usize) -> bool {
         let Ok(last) = usize::try_from(last_dof(m, body)) else { return false };
         (self.dofs[0], self.values[0], self.turns[0]) = (last as u32, [0.0; 3], [0.0; 3]);
@@ -89,7 +91,7 @@ impl Columns {
         true
     }
 
-    /// Appends N columns, of which the first belongs to degree of freedom `last`.
+    /// Appends N columns for the degrees of freedom `last`, `last` - 1, ….
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn push<const N: usize>(&mut self, last: usize, values: [Lane3; N]) {
         let range = self.len..self.len + N;
@@ -103,8 +105,8 @@ impl Columns {
     }
 }
 
-/// The Jacobian difference of one point fixed to two bodies, J(b2) - J(b1), along the rows of `frame`: the
-/// degrees of freedom that move only one of the bodies (those that move both cancel).
+/// The Jacobian difference of a point fixed to two bodies, J(b2) - J(b1), in the axes given by the rows of `frame`.
+/// Only degrees of freedom that move one of the bodies have columns; those that move both cancel.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn point_difference(
     m: &Model,
@@ -116,10 +118,10 @@ pub(crate) fn point_difference(
 ) {
     out.len = 0;
     let mut last = [last_dof(m, bodies[0]), last_dof(m, bodies[1])];
-    // The frame by columns: each lane is a row of it.
+    // The frame by columns: each lane corresponds to a row.
     let frame = axes(frame);
     while last[0] != last[1] {
-        // The chain that reaches farther down goes one joint up.
+        // The chain with the larger degree of freedom moves up by one joint.
         let side = usize::from(last[1] > last[0]);
         let sign = if side == 1 { 1.0 } else { -1.0 };
         let end = last[side] as usize;
@@ -129,8 +131,8 @@ pub(crate) fn point_difference(
     }
 }
 
-/// Columns of one joint, the last degree of freedom first. A rotation about `a` moves the point by v = a × arm, and
-/// v · f = a · (arm × f).
+/// Appends the columns of one joint, the last degree of freedom first. A rotation about `a` moves the point by v = a
+/// × arm, so v · f = a · (arm × f).
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn joint_columns(m: &Model, d: &Fields, j: usize, last: usize, point: Vec3, f: Axes, out: &mut Columns) {
     let kind = m.jnt_type[j];
@@ -143,7 +145,7 @@ fn joint_columns(m: &Model, d: &Fields, j: usize, last: usize, point: Vec3, f: A
         out.push(last, [along(&f, cross(rows::<3>(&d.xaxis)[j], arm))]);
         return;
     }
-    // The body's own axes, all three.
+    // All three axes of the body.
     let w = [f[2] * arm[1] - f[1] * arm[2], f[0] * arm[2] - f[2] * arm[0], f[1] * arm[0] - f[0] * arm[1]];
     let axes = &rows::<9>(&d.xmat)[m.jnt_bodyid[j] as usize];
     let turn = |i: usize| along(&w, column(axes, i));
@@ -154,8 +156,8 @@ fn joint_columns(m: &Model, d: &Fields, j: usize, last: usize, point: Vec3, f: A
     }
 }
 
-/// The rotational part that goes with [`point_difference`]: the difference of angular velocities along the rows of
-/// `frame`, for the columns that are there.
+/// The rotational part for [`point_difference`]: the difference of the angular velocities along the rows of `frame`,
+/// for the columns in `out`.
 pub(crate) fn turn_difference(m: &Model, d: &Fields, bodies: [usize; 2], frame: &Mat3, out: &mut Columns) {
     for (turn, (k, side)) in out.turns_mut().iter_mut().zip(walk::moving_one(m, bodies)) {
         let (w, _) = dof_motion(m, d, k, [0.0; 3]);
@@ -163,8 +165,8 @@ pub(crate) fn turn_difference(m: &Model, d: &Fields, bodies: [usize; 2], frame: 
     }
 }
 
-/// The Jacobian difference of two points, each fixed to a body, J(b1) - J(b2), with that of the angular velocities, world
-/// axes. Degrees of freedom that move both bodies are there, too: they move two points differently.
+/// The Jacobian difference of two points, each fixed to a body, J(b1) - J(b2), and that of the angular velocities, in
+/// world axes. Degrees of freedom that move both bodies are included, because they move the two points differently.
 pub(crate) fn pair_difference(
     m: &Model,
     d: &Fields,
@@ -187,17 +189,17 @@ pub(crate) fn pair_difference(
     }
 }
 
-/// How a point of a body moves while all joints keep their speed.
+/// Motion of a point of a body with zero joint accelerations.
 pub(crate) struct Unforced {
     /// Velocity and acceleration of the point.
     pub(crate) velocity: Vec3,
     pub(crate) acceleration: Vec3,
-    /// Angular velocity of the body, and its rate.
+    /// Angular velocity and angular acceleration of the body.
     pub(crate) spin: Vec3,
     pub(crate) turn: Vec3,
 }
 
-/// J v and J̇ v of a point of body `b`, for translation and rotation; needs `cvel` and `cdof_dot`.
+/// J v and J̇ v of a point of body `b`, for translation and rotation. Requires `cvel` and `cdof_dot`.
 pub(crate) fn unforced(m: &Model, d: &Fields, b: usize, point: Vec3) -> Unforced {
     let mut rate = [0.0; 6];
     for dof in walk::moving(m, b) {
@@ -207,7 +209,7 @@ pub(crate) fn unforced(m: &Model, d: &Fields, b: usize, point: Vec3) -> Unforced
     let arm = sub(point, rows::<3>(&d.subtree_com)[m.body_rootid[b] as usize]);
     let (spin, turn) = (angular(motion), angular(&rate));
     let velocity = add(linear(motion), cross(spin, arm));
-    // What is fixed to the body moves on while the axes turn.
+    // The last term is the acceleration of a point that is fixed to the rotating body.
     let acceleration = add(add(linear(&rate), cross(turn, arm)), cross(spin, velocity));
     Unforced { velocity, acceleration, spin, turn }
 }

@@ -1,7 +1,7 @@
-//! Jacobians of points and bodies as dense matrices, for whoever computes with them (`mj_jac` and its kin).
+//! Jacobians of points and bodies as dense matrices for users (`mj_jac` and related functions).
 //!
-//! They belong to the configuration of the last position stage, their derivatives to the velocities of the last
-//! velocity stage. Rows are world axes, columns degrees of freedom.
+//! Jacobians are those of the configuration of the last position stage; their derivatives use the velocities of the
+//! last velocity stage. Rows correspond to world axes, columns to degrees of freedom.
 
 use super::dof_motion;
 use crate::dynamics::walk::moving;
@@ -9,7 +9,7 @@ use crate::kinds::joint;
 use crate::math::*;
 use crate::model::{Fields, Model};
 
-/// How a point, and the body that it is fixed to, move for a unit velocity of each degree of freedom.
+/// The velocities of a point and of the body that it is fixed to, for a unit velocity of each degree of freedom.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Jacobian {
     /// Velocity of the point: `[3, nv]`, row-major.
@@ -31,7 +31,8 @@ impl Jacobian {
     }
 }
 
-/// The Jacobian of a point of a body, given in world coordinates, m (`mj_jac`). `None` when there is no such body.
+/// The Jacobian of a point of a body, given in world coordinates, m (`mj_jac`). Returns `None` if the body does not
+/// exist.
 pub(crate) fn jac(m: &Model, d: &Fields, point: Vec3, body: usize) -> Option<Jacobian> {
     let mut out = Jacobian::zero(m);
     if body >= m.nbody {
@@ -44,28 +45,28 @@ pub(crate) fn jac(m: &Model, d: &Fields, point: Vec3, body: usize) -> Option<Jac
     Some(out)
 }
 
-/// The Jacobian of the frame of a body (`mj_jacBody`).
+/// The Jacobian of the origin of a body frame (`mj_jacBody`).
 pub(crate) fn jac_body(m: &Model, d: &Fields, body: usize) -> Option<Jacobian> {
     jac(m, d, *rows::<3>(&d.xpos).get(body)?, body)
 }
 
-/// The Jacobian of a body's centre of mass (`mj_jacBodyCom`).
+/// The Jacobian of the centre of mass of a body (`mj_jacBodyCom`).
 pub(crate) fn jac_body_com(m: &Model, d: &Fields, body: usize) -> Option<Jacobian> {
     jac(m, d, *rows::<3>(&d.xipos).get(body)?, body)
 }
 
-/// The Jacobian of the frame of a geom (`mj_jacGeom`).
+/// The Jacobian of the origin of a geom frame (`mj_jacGeom`).
 pub(crate) fn jac_geom(m: &Model, d: &Fields, geom: usize) -> Option<Jacobian> {
     jac(m, d, *rows::<3>(&d.geom_xpos).get(geom)?, *m.geom_bodyid.get(geom)? as usize)
 }
 
-/// The Jacobian of the frame of a site (`mj_jacSite`).
+/// The Jacobian of the origin of a site frame (`mj_jacSite`).
 pub(crate) fn jac_site(m: &Model, d: &Fields, site: usize) -> Option<Jacobian> {
     jac(m, d, *rows::<3>(&d.site_xpos).get(site)?, *m.site_bodyid.get(site)? as usize)
 }
 
-/// `[3, nv]`: how the centre of mass of a body and all its descendants moves (`mj_jacSubtreeCom`). `None` when
-/// there is no such body.
+/// `[3, nv]`: the Jacobian of the centre of mass of a body and all its descendants (`mj_jacSubtreeCom`). Returns
+/// `None` if the body does not exist.
 pub(crate) fn jac_subtree_com(m: &Model, d: &Fields, body: usize) -> Option<Vec<f64>> {
     let mut out = Jacobian::zero(m);
     if body >= m.nbody {
@@ -86,8 +87,8 @@ pub(crate) fn jac_subtree_com(m: &Model, d: &Fields, body: usize) -> Option<Vec<
     Some(out.jacp)
 }
 
-/// The time derivative of the Jacobian of a point that moves with a body (`mj_jacDot`): the acceleration of the
-/// point is J q̈ + J̇ q̇. `None` when there is no such body.
+/// The time derivative of the Jacobian of a point that moves with a body (`mj_jacDot`): the acceleration of the point
+/// is J q̈ + J̇ q̇. Returns `None` if the body does not exist.
 pub(crate) fn jac_dot(m: &Model, d: &Fields, point: Vec3, body: usize) -> Option<Jacobian> {
     let mut out = Jacobian::zero(m);
     if body >= m.nbody {
@@ -101,7 +102,7 @@ pub(crate) fn jac_dot(m: &Model, d: &Fields, point: Vec3, body: usize) -> Option
         let j = m.dof_jntid[k] as usize;
         let turns = matches!(m.jnt_type[j], joint::BALL | joint::FREE);
         let world = m.jnt_type[j] == joint::FREE && k < m.jnt_dofadr[j] as usize + 3;
-        // The axes of a ball are the body's own and turn with it.
+        // The axes of ball joints, and the rotation axes of free joints, are fixed to the body and rotate with it.
         let rate = if turns && !world {
             cross_motion(&cvel[m.jnt_bodyid[j] as usize], &cdof[k])
         } else {
@@ -113,8 +114,8 @@ pub(crate) fn jac_dot(m: &Model, d: &Fields, point: Vec3, body: usize) -> Option
     Some(out)
 }
 
-/// Adds to `qfrc` (nv) the generalized force of a force, N, at a point of a body and a torque, N m, all in world axes
-/// (`mj_applyFT`). `None` when there is no such body or `qfrc` is shorter.
+/// Adds to `qfrc` (nv) the generalized force of a force (N) at a point of a body and a torque (N m), all in world
+/// axes (`mj_applyFT`). Returns `None` if the body does not exist or `qfrc` is too short.
 pub(crate) fn apply_ft(
     m: &Model,
     d: &Fields,

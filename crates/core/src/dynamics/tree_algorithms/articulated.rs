@@ -1,16 +1,17 @@
-//! Articulated bodies (Featherstone 2008, chapter 7): trees of many degrees of freedom without the cost of rows of M.
+//! Articulated-body algorithm (Featherstone 2008, chapter 7) for trees with many degrees of freedom. It avoids the
+//! cost of the rows of M.
 //!
-//! The subtree of a body answers a force on that body as one body would, whose inertia is
+//! A force on a body accelerates the body with its subtree as if it were a single body with the articulated inertia
 //!
 //! > Iᴬ = I + Σ over children (Iᴬ - U Uᵀ / D),   U = Iᴬ s,   D = s·U + inertia of the joint
 //!
-//! with a term for each degree of freedom s of the child. One pass from the leaves to the root finds all U and D. They
-//! are the factorization M = Lᵀ D L, whose rows are L_kj = U_k·s_j / D_k for the ancestors j of k (Rodriguez 1987,
-//! *Kalman filtering, smoothing, and recursive robot arm forward and inverse dynamics*), and they give M⁻¹ f in a pass
-//! up and a pass down the tree.
+//! with one term for each degree of freedom s of the child. One pass from the leaves to the root computes all U and
+//! D. They are the factorization M = Lᵀ D L with L_kj = U_k·s_j / D_k for the ancestors j of k (Rodriguez 1987,
+//! *Kalman filtering, smoothing, and recursive robot arm forward and inverse dynamics*). They give M⁻¹ f in one pass
+//! up and one pass down the tree.
 //!
-//! Everything is expressed about the centre of mass of the tree, as `cdof` and `cinert` are: nothing is transformed
-//! from body to body.
+//! All quantities are expressed about the centre of mass of the tree, like `cdof` and `cinert`, so no transformations
+//! between bodies are needed.
 
 use super::{Assignment, Damped, Factors, NOTHING, Row};
 use crate::dynamics::{Scratch, mass, reflected};
@@ -34,45 +35,46 @@ pub(super) const ROW: Row = Row {
     ..NOTHING
 };
 
-/// Degrees of freedom of a tree up to which its rows of M are short enough to be eliminated one from the other.
+/// Maximum number of degrees of freedom of trees for which elimination in the rows of M is faster.
 const FEW: usize = 6;
 
-/// Six numbers and two zeros: two vectors of a processor.
+/// Six numbers and two zeros, which fill two SIMD vectors of four lanes.
 type Wide = [f64; 8];
 
-/// The trees, and scratch.
+/// The trees of this algorithm, with scratch.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Trees {
     spans: Vec<Span>,
-    /// Whether no tendon's inertia ties bodies of a tree together: such trees are solved by their rows of M.
+    /// Whether no tendon has inertia. The inertia of tendons can couple bodies of a tree; trees are then solved with
+    /// the rows of M.
     untied: bool,
     links: Vec<Link>,
-    /// One for each body, and one for each degree of freedom: first of M, then of M with something added to its
-    /// diagonal.
+    /// One entry for each body, and one for each degree of freedom. Each has two parts: one for M, one for M with an
+    /// addition to its diagonal.
     bodies: Vec<[Body; 2]>,
     joints: Vec<[Joint; 2]>,
 }
 
-/// A tree.
+/// A tree: its degrees of freedom and its bodies.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Span {
     dofs: Range<usize>,
     bodies: Range<usize>,
-    /// Those that cannot move on the body that carries them, the last first: body and carrier.
+    /// Bodies without degrees of freedom, the last first: body and parent.
     fixed: Vec<(usize, usize)>,
 }
 
-/// Where a degree of freedom is in its tree.
+/// The position of a degree of freedom in its tree.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Link {
     /// The body that it moves.
     body: usize,
-    /// The moving body that carries that one, for the first degree of freedom of a body that is not the root.
+    /// The moving body that carries `body`, for the first degree of freedom of a body that is not the root.
     carrier: Option<usize>,
     first: bool,
 }
 
-/// The inertia and the force that children have left to a body, and its acceleration.
+/// Articulated inertia and force of a body with its children, and its acceleration.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Body {
     inertia: [Wide; 6],
@@ -80,7 +82,8 @@ struct Body {
     acceleration: Wide,
 }
 
-/// U and 1/D, what the joint adds to the diagonal of the matrix, and an element of the vector that is solved for.
+/// U and 1/D, the addition of the joint to the diagonal of the matrix, and an element of the vector that is solved
+/// for.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Joint {
     u: Wide,
@@ -89,7 +92,7 @@ struct Joint {
     x: f64,
 }
 
-/// What passes over a tree read.
+/// The inputs of the passes over a tree.
 struct Passes<'a> {
     span: &'a Span,
     links: &'a [Link],
@@ -106,7 +109,7 @@ impl Trees {
     pub(super) fn new(m: &Model, assignment: &Assignment) -> Trees {
         let span = |&tree: &usize| {
             let dofs = m.tree_dofs(tree);
-            // Bodies are numbered depth first: those of a tree follow each other.
+            // Bodies are numbered depth first, so those of a tree are consecutive.
             let root = m.dof_bodyid[dofs.start] as usize;
             let end = (root..m.nbody).find(|&b| m.body_treeid[b] != tree as i32).unwrap_or(m.nbody);
             let still = |&b: &usize| m.body_dofnum[b] == 0;
@@ -130,10 +133,10 @@ impl Trees {
     }
 }
 
-/// The passes go over matrices `A..B` at the same time: the sums of each do not wait for those of the other.
+/// Each pass processes the matrices `A..B` at the same time, because their sums are independent of each other.
 impl Passes<'_> {
-    /// U and D of every degree of freedom. Returns the first one whose D is not positive. With `X`, the way up the tree of
-    /// [`Passes::solve`] is gone as well.
+    /// Computes U and D of every degree of freedom. Returns the first one whose D is not positive. With `X`, it also
+    /// performs the inward pass of [`Passes::solve`].
     #[inline(never)]
     fn factor<const A: usize, const B: usize, const X: bool>(
         &self,
@@ -192,7 +195,7 @@ impl Passes<'_> {
         self.outward_pass::<A, B>(bodies, joints);
     }
 
-    /// The way down, from the root to the leaves.
+    /// The outward pass, from the root to the leaves.
     #[inline(never)]
     fn outward_pass<const A: usize, const B: usize>(
         &self,
@@ -202,7 +205,7 @@ impl Passes<'_> {
         let dofs = self.span.dofs.clone();
         let links = self.links[dofs.clone()].iter().zip(&self.cdof[dofs.clone()]);
         for (joint, (link, s)) in joints[dofs].iter_mut().zip(links) {
-            // The bodies before this one are done.
+            // Bodies before this one have been processed.
             let before = match link.carrier {
                 Some(carrier) => bodies[carrier].map(|body| body.acceleration),
                 None if link.first => [[0.0; 8]; 2],
@@ -217,7 +220,7 @@ impl Passes<'_> {
     }
 }
 
-/// One degree of freedom on the way up: what its joint takes of the force on its body, and what it passes on.
+/// One degree of freedom of the inward pass: subtracts the force that its joint takes up, and passes on the rest.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn inward_pass<const A: usize, const B: usize>(
     bodies: &mut [[Body; 2]],
@@ -240,7 +243,7 @@ fn inward_pass<const A: usize, const B: usize>(
     }
 }
 
-/// A body, and the one that carries it and comes before it.
+/// A body, and the parent body that carries it, which precedes it.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn with_carrier(
     bodies: &mut [[Body; 2]],
@@ -251,7 +254,7 @@ fn with_carrier(
     Some((rest.first()?, above.get_mut(carrier)?))
 }
 
-#[inline(never)] // scenes of small trees do not carry the set-up of the others: so below
+#[inline(never)] // so that scenes with small trees do not execute its setup code; the same applies below
 fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
     let bad = prepare(m, d, w, None);
     w.rows_due = d.plan.has(PlanFlag::MassForRows);
@@ -266,7 +269,7 @@ fn solve_now(m: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -> Optio
     prepare(m, d, w, Some(x))
 }
 
-/// U and 1/D, which solve with M; and with `x`, x ← M⁻¹ x.
+/// Computes U and 1/D for solving with M. With `x`, also x ← M⁻¹ x.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn prepare(m: &Model, d: &mut Fields, w: &mut Scratch, mut x: Option<&mut [f64]>) -> Option<usize> {
     let articulated = &mut w.algorithms.articulated;
@@ -337,7 +340,7 @@ fn solve_both(m: &Model, d: &mut Fields, w: &mut Scratch, (b, x, y): Damped<'_>)
     bad
 }
 
-/// A vector into the joints of matrix `I`.
+/// Copies a vector to the joints, for matrix `I`.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn put<const I: usize>(joints: &mut [[Joint; 2]], dofs: Range<usize>, x: &[f64]) {
     for (joint, x) in joints[dofs.clone()].iter_mut().zip(&x[dofs]) {
@@ -345,7 +348,7 @@ fn put<const I: usize>(joints: &mut [[Joint; 2]], dofs: Range<usize>, x: &[f64])
     }
 }
 
-/// A vector from the joints of matrix `I`.
+/// Copies the vector of matrix `I` from the joints.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn get<const I: usize>(joints: &[[Joint; 2]], dofs: Range<usize>, x: &mut [f64]) {
     for (x, joint) in x[dofs.clone()].iter_mut().zip(&joints[dofs]) {
@@ -353,7 +356,7 @@ fn get<const I: usize>(joints: &[[Joint; 2]], dofs: Range<usize>, x: &mut [f64])
     }
 }
 
-/// The rows of `qLD`, and `qLDiagInv`.
+/// Computes the rows of `qLD`, and `qLDiagInv`.
 #[inline(never)]
 fn rows_of_factor(m: &Model, d: &mut Fields, w: &mut Scratch) {
     let Trees { spans, untied, joints, .. } = &w.algorithms.articulated;
@@ -417,14 +420,14 @@ fn narrow(w: &Wide) -> Spatial {
     [w[0], w[1], w[2], w[3], w[4], w[5]]
 }
 
-/// a · b, lane by lane.
+/// a · b, with partial sums in four lanes.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn dot(a: Wide, b: Wide) -> f64 {
     let s: [f64; 4] = std::array::from_fn(|i| a[i] * b[i] + a[i + 4] * b[i + 4]);
     (s[0] + s[2]) + (s[1] + s[3])
 }
 
-/// An inertia as a symmetric matrix, by columns, whose last rows stay zero.
+/// Writes an inertia as a symmetric matrix by columns; the last two rows remain zero.
 #[inline(never)] // see `eliminate`
 fn set_inertia(to: &mut [Wide; 6], i: &Inertia) {
     let [xx, yy, zz, xy, xz, yz, x, y, z, m] = *i;
@@ -451,11 +454,10 @@ fn add_to(a: &mut [Wide; 6], b: &[Wide; 6]) {
     }
 }
 
-/// U and D of the degree of freedom s of a joint, and I ← I - U Uᵀ / D. Returns whether D is not
-/// positive.
-#[inline(never)] // inlined into a loop, the compiler would not add lane by lane
+/// Computes U and D of the degree of freedom s of a joint, and I ← I - U Uᵀ / D. Returns whether D is not positive.
+#[inline(never)] // inlined into a loop, it would not be vectorized by lanes
 fn eliminate(i: &mut [Wide; 6], s: &Spatial, joint: &mut Joint) -> bool {
-    // In three sums, each of which is soon done: the next degree of freedom waits for U.
+    // Three short independent sums, because the next degree of freedom waits for U.
     let part = |c: usize| add_scaled(scale(i[c], s[c]), i[c + 1], s[c + 1]);
     let u = add(add(part(0), part(2)), part(4));
     let d = joint.diagonal + dot(wide(s), u);

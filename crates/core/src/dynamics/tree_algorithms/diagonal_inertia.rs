@@ -1,6 +1,6 @@
-//! Simple bodies: alone in their tree, with their inertia along their own axes.
+//! Simple bodies: the only body of their tree, with their inertia along their own axes.
 //!
-//! M is diagonal and constant, the bias force has a closed form: weight along translations, ω × I ω for rotations.
+//! M is diagonal and constant. The bias force has a closed form: weight for translations, ω × I ω for rotations.
 
 use super::{Assignment, Forces, NOTHING, Row};
 use crate::dynamics::Scratch;
@@ -19,22 +19,23 @@ pub(super) const ROW: Row = Row {
     ..NOTHING
 };
 
-/// Whether a tree is one of them.
+/// Whether a tree consists of a simple body.
 fn covers(m: &Model, tree: usize) -> bool {
     m.tree_dofs(tree).all(|dof| m.dof_simplenum[dof] > 0)
 }
 
-/// M is constant. One without inertia is factorized nevertheless, which warns of it.
+/// Whether M is constant. A tree without inertia is factorized in every step nevertheless, because this causes a
+/// warning.
 fn has_inertia(m: &Model, tree: usize) -> bool {
     m.tree_dofs(tree).all(|dof| m.dof_M0[dof] >= MINVAL)
 }
 
-/// Its weight acts along its slides.
+/// Whether the bias force depends on poses: the weight acts along the axes of slides.
 fn slides(m: &Model, tree: usize) -> bool {
     m.tree_dofs(tree).any(|dof| m.jnt_type[m.dof_jntid[dof] as usize] == joint::SLIDE)
 }
 
-/// What the bodies have.
+/// Joints and degrees of freedom of the simple bodies.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Trees {
     joints: Vec<Joint>,
@@ -51,7 +52,7 @@ impl Trees {
     }
 }
 
-/// The constant diagonal.
+/// Copies the constant diagonal.
 fn mass(m: &Model, d: &mut Fields, w: &mut Scratch) {
     for i in w.algorithms.diagonal_inertia.dofs.iter().cloned().flatten() {
         d.M[m.M_rowadr[i] as usize] = m.dof_M0[i];
@@ -65,7 +66,7 @@ struct Joint {
     kind: i32,
     body: usize,
     dof: usize,
-    /// Of the body: its mass, and its inertia along its own axes.
+    /// Mass of the body, and its moments of inertia along its own axes.
     mass: f64,
     inertia: Vec3,
 }
@@ -91,13 +92,13 @@ fn bias(_: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
     }
 }
 
-/// How ω × I ω of a body with its inertia along its own axes changes with ω, row by row.
+/// The Jacobian, by rows, of ω × I ω with respect to ω, for a body with its inertia along its own axes.
 pub(crate) fn turning_slope([a, b, c]: Vec3, [x, y, z]: Vec3) -> [Vec3; 3] {
     [[0.0, (c - b) * z, (c - b) * y], [(a - c) * z, 0.0, (a - c) * x], [(b - a) * y, (b - a) * x, 0.0]]
 }
 
-/// One joint of a simple body: weight along translations, ω × I ω for rotations in the body's frame. A
-/// hinge turns about a principal axis and feels nothing.
+/// Computes the bias force for one joint of a simple body: weight for translations, ω × I ω in the frame of the body
+/// for rotations. It is zero for a hinge, which rotates about a principal axis.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn bias_of(d: &mut Fields, s: &Joint, gravity: Vec3) {
     let (mass, [a, b, c]) = (s.mass, s.inertia);

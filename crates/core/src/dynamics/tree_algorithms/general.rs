@@ -1,7 +1,8 @@
-//! The general algorithm, which computes everything of any tree.
+//! The general algorithm, which supports every tree and computes all three parts.
 //!
-//! Bodies are placed one after the other (`kinematics`); M comes from composite bodies, a row for each degree of freedom, and is
-//! factorized by elimination (`mass`); the bias force is found by recursion (`rne`).
+//! Poses are computed body by body (`kinematics`). M is computed by the composite rigid body algorithm, one row for
+//! each degree of freedom, and is factorized by elimination (`mass`). The bias force is computed by recursion
+//! (`rne`).
 
 use super::{Assignment, Damped, Factors, Forces, Places, Row};
 use crate::dynamics::kinematics::{self, Frames};
@@ -35,8 +36,8 @@ pub(super) const ROW: Row = Row {
     }),
 };
 
-/// The frames of all bodies, and degrees of freedom that follow each other: those whose M it computes, and those that it
-/// factorizes.
+/// Parameters of all bodies, and ranges of consecutive degrees of freedom: those whose M this algorithm computes, and
+/// those that it factorizes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Trees {
     frames: Frames,
@@ -54,7 +55,7 @@ impl Trees {
     }
 }
 
-/// The degrees of freedom of some trees, as few ranges.
+/// The degrees of freedom of the given trees, merged into few ranges.
 fn spans(m: &Model, trees: &[usize]) -> Vec<Range<usize>> {
     let mut spans: Vec<Range<usize>> = Vec::new();
     for dofs in trees.iter().map(|&tree| m.tree_dofs(tree)) {
@@ -66,7 +67,7 @@ fn spans(m: &Model, trees: &[usize]) -> Vec<Range<usize>> {
     spans
 }
 
-/// The frames of all bodies.
+/// The parameters of all bodies.
 pub(super) fn frames(w: &mut Scratch) -> &mut Frames {
     &mut w.algorithms.general.frames
 }
@@ -89,7 +90,7 @@ fn bias(m: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
     }
 }
 
-#[inline(never)] // scenes of small trees do not carry the set-up of the others: so below
+#[inline(never)] // so that scenes with small trees do not execute its setup code; the same applies below
 fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
     let mut bad = None;
     for dofs in w.algorithms.general.factors.iter().cloned() {

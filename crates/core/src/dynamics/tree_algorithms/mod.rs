@@ -1,21 +1,22 @@
-//! How trees are computed: the table of tree algorithms.
+//! The table of tree algorithms, which compute the dynamics of kinematic trees.
 //!
-//! Three things are computed of a tree: where its bodies are ([`Places`]), M with the bias force ([`Forces`]), and accelerations
-//! from forces, by a factorization of M ([`Factors`]). The general algorithm, which is the last row, computes all three of
-//! any tree. A specialized one computes some of them, of trees of its kind, in less time. Each tree takes, for each of the three, the first row
-//! of the table that covers it; this follows from the structure of the model when data are made for it, never from a plan.
+//! Three parts are computed for each tree: the poses of its bodies ([`Places`]), M and the bias force ([`Forces`]),
+//! and accelerations from forces by a factorization of M ([`Factors`]). The general algorithm, which is the last row,
+//! computes all three for any tree. A specialized algorithm computes some of them, for trees of its kind, in less
+//! time. For each part, each tree uses the first row of the table that covers it. The assignment depends only on the
+//! structure of the model when data are created, never on a plan.
 //!
-//! # To add an algorithm
+//! # Adding an algorithm
 //!
-//! One file in this folder and one row of the table:
+//! An algorithm consists of one file in this folder and one row of the table:
 //!
-//! * the file has `covers` (which trees are of its kind), `Trees` with `Trees::new` (what it knows of its trees from one step to the
-//!   next), its functions, and the row, `ROW`, which names the algorithm and its functions;
-//! * its `mod` and its name in the table stand below, before those that are longer.
+//! * The file contains `covers` (which trees it supports), `Trees` with `Trees::new` (its state, kept between steps),
+//!   its functions, and the row `ROW`, which contains the name of the algorithm and its functions.
+//! * Its `mod` and its name are added below. In the table it precedes slower algorithms.
 //!
-//! Nothing else knows the names of algorithms: plans, steps and `labspec bench --without NAME` ask the table. Any specialized
-//! algorithm can be disabled ([`TreeAlgorithms`]): `tests/tree_algorithms.rs` does so with each row and holds it against the general one, and
-//! `docs/measured/speed.md` says what each is worth.
+//! No other code contains names of algorithms: plans, steps and `labspec bench --without NAME` use the table. Any
+//! specialized algorithm can be disabled ([`TreeAlgorithms`]). `tests/tree_algorithms.rs` does so for each row and
+//! compares it with the general algorithm. `docs/measured/speed.md` lists the measured speedup of each.
 
 use super::Scratch;
 use crate::kinds::disable;
@@ -24,12 +25,12 @@ use crate::model::reflect::FieldId;
 use crate::model::tree_algorithm::{TreeAlgorithm, TreeAlgorithms};
 use crate::model::{Fields, Model};
 
-/// The table, from its rows: a module each, with `ROW` and `Trees`.
+/// Generates the table from its rows. Each row is a module with `ROW` and `Trees`.
 macro_rules! table {
     ($($algorithm:ident)*) => {
         static TABLE: [Row; [$(stringify!($algorithm)),*].len()] = [$($algorithm::ROW),*];
 
-        /// What each algorithm keeps of its trees, and which algorithms have some.
+        /// State of each algorithm, and which algorithms have trees.
         #[derive(Clone, Debug, Default, PartialEq)]
         pub(crate) struct AlgorithmStates {
             selected: Selected,
@@ -37,7 +38,7 @@ macro_rules! table {
         }
 
         impl AlgorithmStates {
-            /// The trees of a model by the algorithms that compute them.
+            /// Assigns the trees of a model to algorithms and creates their states.
             pub(crate) fn new(m: &Model, algorithms: TreeAlgorithms) -> AlgorithmStates {
                 let (selected, assignments) = sort(m, algorithms);
                 let mut assignments = assignments.iter();
@@ -72,20 +73,20 @@ pub(crate) use diagonal_inertia::turning_slope;
 
 /// An algorithm.
 struct Row {
-    /// As it is called in `labspec bench`.
+    /// Its name in `labspec bench`.
     name: &'static str,
-    /// Whether a tree is of its kind.
+    /// Whether it supports a tree.
     covers: fn(&Model, usize) -> bool,
-    /// Fields of the model of which its trees keep copies, and what takes them again.
+    /// Fields of the model that its state has copies of, and the function that reads them again.
     copies: &'static [FieldId],
     load: fn(&Model, &mut Scratch),
-    /// What it computes.
+    /// The parts that it computes; `None` for the others.
     places: Option<Places>,
     forces: Option<Forces>,
     factors: Option<Factors>,
 }
 
-/// An algorithm that computes nothing: rows say what they do instead.
+/// An algorithm that computes nothing: the base of rows, which set what differs.
 const NOTHING: Row = Row {
     name: "",
     covers: |_, _| false,
@@ -96,7 +97,7 @@ const NOTHING: Row = Row {
     factors: None,
 };
 
-/// Where bodies are.
+/// Computes the poses of bodies.
 struct Places {
     /// `xpos xmat xipos ximat xanchor xaxis`.
     forward_kinematics: fn(&Model, &mut Fields, &mut Scratch),
@@ -104,42 +105,43 @@ struct Places {
     orientations: fn(&mut Fields, &mut Scratch),
 }
 
-/// M and the bias force.
+/// Computes M and the bias force.
 struct Forces {
     /// The rows of M.
     mass: fn(&Model, &mut Fields, &mut Scratch),
-    /// `qfrc_bias`, for an acceleration of gravity.
+    /// Computes `qfrc_bias` for an acceleration of gravity.
     bias: fn(&Model, &mut Fields, &mut Scratch, Vec3),
-    /// Whether the bias force of a tree follows from where its bodies are.
+    /// Whether the bias force of a tree depends on the poses of its bodies.
     looks_at_places: fn(&Model, usize) -> bool,
     /// Whether M of a tree is diagonal and constant.
     constant: fn(&Model, usize) -> bool,
-    /// Whether the bias force of a free body is a torque that follows from its own turning alone (`turning_slope`).
+    /// Whether the bias force of a free body is a torque that depends only on its angular velocity (`turning_slope`).
     turns_alone: bool,
 }
 
-/// Accelerations from forces. Functions that factorize return the first degree of freedom whose D is not positive.
+/// Computes accelerations from forces. Functions that factorize return the first degree of freedom whose D is not
+/// positive.
 struct Factors {
-    /// Whether M is not looked at.
+    /// Whether it does not read M.
     without_mass: bool,
-    /// `qLD` and `qLDiagInv`; may be left to `complete` where only constraints look at them.
+    /// Computes `qLD` and `qLDiagInv`. It may leave this to `complete` if only constraints read them.
     factor: fn(&Model, &mut Fields, &mut Scratch) -> Option<usize>,
-    /// What `factor` has put off.
+    /// Computes what `factor` deferred.
     complete: fn(&Model, &mut Fields, &mut Scratch),
-    /// x ← M⁻¹ x, by what `factor` has left.
+    /// x ← M⁻¹ x, using the result of `factor`.
     solve: fn(&Model, &Fields, &mut Scratch, &mut [f64]),
     /// x ← (M + B)⁻¹ x for a diagonal matrix B (nv), after `factor`.
     solve_with: fn(&Model, &Fields, &mut Scratch, &[f64], &mut [f64]),
-    /// x ← M⁻¹ x at once: nobody looks at `qLD`.
+    /// Factorizes and solves x ← M⁻¹ x at once, if `qLD` is not read.
     solve_now: fn(&Model, &mut Fields, &mut Scratch, &mut [f64]) -> Option<usize>,
-    /// x ← M⁻¹ x and y ← (M + B)⁻¹ y at once, likewise.
+    /// Factorizes and solves x ← M⁻¹ x and y ← (M + B)⁻¹ y at once, if `qLD` is not read.
     solve_both: fn(&Model, &mut Fields, &mut Scratch, Damped<'_>) -> Option<usize>,
 }
 
 /// B, x and y.
 type Damped<'a> = (&'a [f64], &'a mut [f64], &'a mut [f64]);
 
-/// The algorithms that have trees, for each of the three.
+/// For each part, the algorithms that have trees.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Selected {
     places: TreeAlgorithms,
@@ -147,7 +149,7 @@ struct Selected {
     factors: TreeAlgorithms,
 }
 
-/// The trees of one algorithm, for each of the three, in order.
+/// For each part, the trees of one algorithm, in order.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Assignment {
     places: Vec<usize>,
@@ -161,12 +163,12 @@ impl TreeAlgorithm {
         (0..GENERAL as u8).map(TreeAlgorithm)
     }
 
-    /// All of them, the general one last.
+    /// All algorithms, the general one last.
     pub fn all() -> impl Iterator<Item = TreeAlgorithm> {
         (0..TABLE.len() as u8).map(TreeAlgorithm)
     }
 
-    /// What it is called.
+    /// The name of the algorithm.
     pub fn name(self) -> &'static str {
         TABLE.get(usize::from(self.0)).map_or("", |row| row.name)
     }
@@ -178,13 +180,13 @@ impl std::fmt::Debug for TreeAlgorithm {
     }
 }
 
-/// The last row.
+/// Index of the general algorithm, the last row.
 const GENERAL: usize = TABLE.len() - 1;
 
 // `TreeAlgorithms` has a bit for each row.
 const _: () = assert!(TABLE.len() <= u8::BITS as usize);
 
-/// The row that a tree takes for one of the three.
+/// The row that a tree uses for the part that `computes` tests.
 fn row_of(m: &Model, algorithms: TreeAlgorithms, tree: usize, computes: impl Fn(&Row) -> bool) -> usize {
     let takes = |i: &usize| {
         algorithms.has(TreeAlgorithm(*i as u8))
@@ -195,9 +197,10 @@ fn row_of(m: &Model, algorithms: TreeAlgorithms, tree: usize, computes: impl Fn(
     (0..GENERAL).find(takes).unwrap_or(GENERAL)
 }
 
-/// Which algorithms compute the trees of a model.
+/// Assigns the trees of a model to algorithms.
 fn sort(m: &Model, algorithms: TreeAlgorithms) -> (Selected, [Assignment; TABLE.len()]) {
-    // The general algorithm is always asked: bodies may be in no tree, and what it computes of bodies may be read.
+    // The general algorithm always runs for poses and forces: some bodies belong to no tree, and its results for
+    // bodies may be read.
     let always = TreeAlgorithms::GENERAL.with(TreeAlgorithm(GENERAL as u8));
     let mut selected = Selected { places: always, forces: always, factors: TreeAlgorithms::GENERAL };
     let mut assignments = [(); TABLE.len()].map(|()| Assignment::default());
@@ -214,15 +217,15 @@ fn sort(m: &Model, algorithms: TreeAlgorithms) -> (Selected, [Assignment; TABLE.
     (selected, assignments)
 }
 
-// What plans ask.
+// Functions for plans.
 
-/// What computes M and the bias force of a tree. A row without them is never chosen.
+/// The row that computes M and the bias force of a tree. `row_of` never returns a row without this part.
 fn forces(m: &Model, algorithms: TreeAlgorithms, tree: usize) -> (usize, Option<&'static Forces>) {
     let row = row_of(m, algorithms, tree, |row| row.forces.is_some());
     (row, TABLE[row].forces.as_ref())
 }
 
-/// The algorithms that compute a tree: its places, its forces and its factors.
+/// The algorithms of a tree, for its poses, its forces and its factorization.
 pub(crate) fn selected_for(m: &Model, algorithms: TreeAlgorithms, tree: usize) -> [TreeAlgorithm; 3] {
     [
         row_of(m, algorithms, tree, |row| row.places.is_some()),
@@ -232,12 +235,12 @@ pub(crate) fn selected_for(m: &Model, algorithms: TreeAlgorithms, tree: usize) -
     .map(|row| TreeAlgorithm(row as u8))
 }
 
-/// Whether M and the bias force of some tree need composite bodies and recursion.
+/// Whether any tree needs composite bodies and recursion for M and the bias force.
 pub(crate) fn need_bodies(m: &Model, algorithms: TreeAlgorithms) -> bool {
     (0..m.ntree).any(|tree| forces(m, algorithms, tree).0 == GENERAL)
 }
 
-/// Whether the bias force of some tree needs to know where its bodies are.
+/// Whether the bias force of any tree depends on the poses of its bodies.
 pub(crate) fn look_at_places(m: &Model, algorithms: TreeAlgorithms) -> bool {
     (0..m.ntree).any(|tree| forces(m, algorithms, tree).1.is_some_and(|f| (f.looks_at_places)(m, tree)))
 }
@@ -247,13 +250,13 @@ pub(crate) fn are_constant(m: &Model, algorithms: TreeAlgorithms) -> bool {
     (0..m.ntree).all(|tree| forces(m, algorithms, tree).1.is_some_and(|f| (f.constant)(m, tree)))
 }
 
-/// Whether the bias force of a tree is a torque that follows from the turning of its one free body: then composite bodies are not
-/// needed to say how it changes with velocities.
+/// Whether the bias force of a tree is a torque that depends only on the angular velocity of its one free body. Its
+/// derivative with respect to velocity then needs no composite bodies.
 pub(crate) fn turns_alone(m: &Model, algorithms: TreeAlgorithms, tree: usize) -> bool {
     forces(m, algorithms, tree).1.is_some_and(|f| f.turns_alone)
 }
 
-/// Whether all accelerations are found without the general rows of M.
+/// Whether all accelerations are computed without the rows of M of the general algorithm.
 pub(crate) fn solve_alone(m: &Model, algorithms: TreeAlgorithms) -> bool {
     (0..m.ntree).all(|tree| {
         let factors = row_of(m, algorithms, tree, |row| row.factors.is_some());
@@ -262,36 +265,37 @@ pub(crate) fn solve_alone(m: &Model, algorithms: TreeAlgorithms) -> bool {
     })
 }
 
-/// The fields of which algorithms keep copies.
+/// The fields of the model that algorithms have copies of.
 pub(crate) fn copied() -> impl Iterator<Item = FieldId> {
     TABLE.iter().flat_map(|row| row.copies).copied()
 }
 
-/// Takes what the algorithms keep from the model again: when data are made, and when a field of which they keep copies was written.
+/// Reads the parameters of all algorithms from the model: when data are created, and after a field that they have
+/// copies of was written.
 pub(crate) fn load(m: &Model, w: &mut Scratch) {
     TABLE.iter().for_each(|row| (row.load)(m, w));
 }
 
-/// The trees that are long chains in a plane, of a model that is being compiled.
+/// The trees of a model that are long planar chains, determined when the model is compiled.
 pub(crate) fn planar_trees(m: &Model) -> Vec<i32> {
     (0..m.ntree).filter(|&tree| planar_chain::is_planar(m, tree)).map(|tree| tree as i32).collect()
 }
 
-/// Whether all trees that a model from elsewhere calls such chains are chains.
+/// Whether all the given trees, which come from a stored model, are chains.
 pub(crate) fn are_chains(m: &Model, trees: &[i32]) -> bool {
     let chain = |&t: &i32| usize::try_from(t).is_ok_and(|t| t < m.ntree && planar_chain::is_chain(m, t));
     trees.iter().all(chain)
 }
 
-/// Whether some trees put off the rows of M until somebody asks for them.
+/// Whether some trees compute their rows of M only when they are read.
 pub(crate) fn put_rows_off(w: &Scratch) -> bool {
     !w.algorithms.planar_chain.is_empty()
 }
 
-// What steps ask: each calls the functions of all algorithms that have trees.
+// Functions for steps. Each calls the corresponding function of all algorithms that have trees.
 
-/// Calls a function of every algorithm that has trees for one of the three, from the general one to the first of the table: what
-/// that one computes of all bodies, the specialized ones write over.
+/// Calls a function of every algorithm that has trees for a part, from the last row of the table, the general one, to
+/// the first. Specialized algorithms overwrite what the general one computes for all bodies.
 macro_rules! each {
     ($w:ident, $of:ident, |$algorithm:ident, $row:ident, $functions:ident| $call:expr) => {
         for i in (0..TABLE.len()).rev() {
@@ -305,19 +309,20 @@ macro_rules! each {
     };
 }
 
-/// Poses of bodies and joints: `xpos xmat xipos ximat xanchor xaxis`.
+/// Computes the poses of bodies and joints: `xpos xmat xipos ximat xanchor xaxis`.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn forward_kinematics(m: &Model, d: &mut Fields, w: &mut Scratch) {
     each!(w, places, |_algorithm, row, of| (of.forward_kinematics)(m, d, w));
 }
 
-/// Orientations of bodies as quaternions, `xquat`, after [`forward_kinematics`].
+/// Computes the orientations of bodies as quaternions, `xquat`, after [`forward_kinematics`].
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn orientations(d: &mut Fields, w: &mut Scratch) {
     each!(w, places, |_algorithm, row, of| (of.orientations)(d, w));
 }
 
-/// `M`, with or without the rows of the general algorithm, and of those that put theirs off.
+/// Computes `M`. `general` selects whether this includes the rows of the general algorithm, and `rows` the rows of
+/// algorithms that can defer them.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn mass(m: &Model, d: &mut Fields, w: &mut Scratch, general: bool, rows: bool) {
     w.rows_wanted = rows;
@@ -328,14 +333,15 @@ pub(crate) fn mass(m: &Model, d: &mut Fields, w: &mut Scratch, general: bool, ro
     });
 }
 
-/// `qfrc_bias`: gravity, Coriolis and centrifugal force.
+/// Computes `qfrc_bias`: gravity, Coriolis and centrifugal forces.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn bias(m: &Model, d: &mut Fields, w: &mut Scratch) {
     let gravity = if m.opt.disabled(disable::GRAVITY) { [0.0; 3] } else { m.opt.gravity };
     each!(w, forces, |_algorithm, row, of| (of.bias)(m, d, w, gravity));
 }
 
-/// `qLD` and `qLDiagInv`, the factorization of M. Returns the first degree of freedom whose D is not positive: so below.
+/// Computes `qLD` and `qLDiagInv`, the factorization of M. Returns the first degree of freedom whose D is not
+/// positive, like the functions below.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
     let mut bad = None;
@@ -343,7 +349,8 @@ pub(crate) fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize
     bad
 }
 
-/// What [`factor`] has put off of `qLD` and `qLDiagInv`, for constraints that look at them: few steps do.
+/// Computes the part of `qLD` and `qLDiagInv` that [`factor`] deferred, for constraints that read it. Few steps need
+/// it.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn complete(m: &Model, d: &mut Fields, w: &mut Scratch) {
     if w.rows_due {
@@ -352,7 +359,7 @@ pub(crate) fn complete(m: &Model, d: &mut Fields, w: &mut Scratch) {
     }
 }
 
-/// x ← M⁻¹ x by what [`factor`] has left.
+/// x ← M⁻¹ x, using the result of [`factor`].
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn solve(m: &Model, d: &Fields, w: &mut Scratch, x: &mut [f64]) {
     each!(w, factors, |_algorithm, row, of| (of.solve)(m, d, w, x));
@@ -364,7 +371,7 @@ pub(crate) fn solve_with(m: &Model, d: &Fields, w: &mut Scratch, b: &[f64], x: &
     each!(w, factors, |_algorithm, row, of| (of.solve_with)(m, d, w, b, x));
 }
 
-/// x ← M⁻¹ x without what [`factor`] would leave.
+/// Factorizes and solves x ← M⁻¹ x at once, without a call of [`factor`].
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn solve_now(m: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -> Option<usize> {
     let mut bad = None;
@@ -372,7 +379,8 @@ pub(crate) fn solve_now(m: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64
     bad
 }
 
-/// x ← M⁻¹ x and y ← (M + B)⁻¹ y for a diagonal matrix B (nv), likewise: in less time than one after the other.
+/// Factorizes and solves x ← M⁻¹ x and y ← (M + B)⁻¹ y for a diagonal matrix B (nv), without a call of [`factor`].
+/// This is faster than two separate solutions.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn solve_both(
     m: &Model,
@@ -388,7 +396,7 @@ pub(crate) fn solve_both(
     bad
 }
 
-/// The first of two degrees of freedom that there may be.
+/// The smaller of two optional degrees of freedom.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn first(a: Option<usize>, b: Option<usize>) -> Option<usize> {
     match (a, b) {

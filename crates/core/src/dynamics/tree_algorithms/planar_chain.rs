@@ -1,17 +1,20 @@
-//! Long chains in a plane: many hinges, one after the other from the world on, that all turn about one direction.
+//! Long planar chains: many hinges in series, starting at the world, with parallel axes.
 //!
-//! In a plane a velocity has three numbers, a turn and two of a point, and so has a force. The bias force is found by recursion
-//! (Featherstone 2008, chapter 5), accelerations by articulated bodies (chapter 7: see `articulated`), each about the anchor of its own
-//! hinge. An inertia about an anchor, which a body and all that hangs on it answer a force with, is
+//! In a plane a velocity has three components, one angular and two linear, and so has a force. The bias force is
+//! computed by recursion (Featherstone 2008, chapter 5) and accelerations by articulated bodies (chapter 7: see
+//! `articulated`), each about the anchor of the hinge itself. The articulated inertia of a body with its descendants
+//! about an anchor is
 //!
 //! > | J  hᵀ |
 //! > | h  M  |
 //!
-//! with a moment J, a moment of first order h (2) and a mass M (2 x 2). Of an anchor that is r further on, where a turn ω moves it at
-//! ω q, q = (-r_y, r_x), it is h + M q and J + q · (2 h + M q) about the anchor before.
+//! with the moment of inertia J, the first moment h (2) and the mass M (2 x 2). Let r be the vector from the previous
+//! anchor to this one, and q = (-r_y, r_x). A rotation about the previous anchor with angular velocity ω moves this
+//! anchor at ω q. About the previous anchor, the first moment is h + M q, and the moment of inertia is J + q · (2 h +
+//! M q).
 //!
-//! Which trees are such chains is found when a model is compiled, and kept in it. Written to its axes and frames afterwards, a chain may
-//! leave its plane: it is then computed as the general algorithm does.
+//! Which trees are such chains is determined when a model is compiled, and stored in the model. If axes or frames are
+//! written afterwards, a chain may no longer be planar. It is then computed by the general algorithm.
 
 use super::planar_passes::{Joint, Link, forward_kinematics, inward, outward, solve_known};
 use super::{Assignment, Damped, Factors, Forces, NOTHING, Row, chain};
@@ -46,26 +49,27 @@ pub(super) const ROW: Row = Row {
     ..NOTHING
 };
 
-/// Degrees of freedom of a chain up to which its equations are cheaper in closed form.
+/// Maximum number of degrees of freedom of chains for which closed-form equations are faster.
 const FEW: usize = 6;
-/// A direction counts as the normal of the plane when it misses by less than this.
+/// Largest deviation, as a cosine, of an axis from the normal of the plane.
 const FLAT: f64 = 1e-12;
 
-/// The chains.
+/// The chains of this algorithm.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Trees {
-    /// The links as a chain has them, in space.
+    /// Spatial parameters of the links.
     chains: chain::Trees,
     spans: Vec<Span>,
     links: Vec<Link>,
     joints: Vec<[Joint; 2]>,
-    /// Whether all of them are in their planes.
+    /// Whether all chains are currently planar.
     flat: bool,
-    /// Whether no tendon's inertia ties links together: such chains are solved by their rows of M.
+    /// Whether no tendon has inertia. The inertia of tendons can couple links; chains are then solved with the rows
+    /// of M.
     untied: bool,
 }
 
-/// A chain: its degrees of freedom, where its links are among all, and the axes of its plane, world.
+/// A chain: its degrees of freedom, the range of its links in `links`, and the axes of its plane, world frame.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Span {
     dofs: Range<usize>,
@@ -73,12 +77,12 @@ struct Span {
     plane: [Vec3; 2],
 }
 
-/// Whether a tree was a long chain in a plane when the model was compiled.
+/// Whether a tree was a long planar chain when the model was compiled.
 fn covers(m: &Model, tree: usize) -> bool {
     m.planar_trees.binary_search(&(tree as i32)).is_ok()
 }
 
-/// Whether a tree is a long chain of hinges, one after the other from the world on.
+/// Whether a tree is a long chain of hinges in series, starting at the world.
 pub(super) fn is_chain(m: &Model, tree: usize) -> bool {
     let dofs = m.tree_dofs(tree);
     let first = dofs.start;
@@ -90,7 +94,7 @@ pub(super) fn is_chain(m: &Model, tree: usize) -> bool {
     dofs.len() > FEW && dofs.clone().all(link) && on_the_world(first)
 }
 
-/// Whether it moves in a plane, too.
+/// Whether a tree is a long chain of hinges that moves in a plane.
 pub(super) fn is_planar(m: &Model, tree: usize) -> bool {
     if !is_chain(m, tree) {
         return false;
@@ -125,7 +129,7 @@ impl Trees {
         trees
     }
 
-    /// Takes the parameters of the links from the model.
+    /// Reads the parameters of the links from the model.
     fn load(&mut self, m: &Model) {
         if self.links.is_empty() {
             return;
@@ -167,8 +171,8 @@ impl Trees {
     }
 }
 
-/// Where the links are; and the rows of M, where somebody looks at them.
-#[inline(never)] // scenes of other trees do not carry the set-up: so below
+/// Computes the positions of the links, and the rows of M if they are read.
+#[inline(never)] // so that scenes without such chains do not execute its setup code; the same applies below
 fn mass(m: &Model, d: &mut Fields, w: &mut Scratch) {
     let rows = w.rows_wanted;
     let trees = &mut w.algorithms.planar_chain;
@@ -184,7 +188,7 @@ fn mass(m: &Model, d: &mut Fields, w: &mut Scratch) {
     }
 }
 
-/// The rows of M of chains that have left their plane.
+/// Computes the rows of M of chains that are no longer planar.
 fn in_space(m: &Model, d: &mut Fields, w: &mut Scratch) {
     kinematics::bodies(d, super::general::frames(w));
     com::com_pos(m, d);
@@ -194,7 +198,8 @@ fn in_space(m: &Model, d: &mut Fields, w: &mut Scratch) {
     }
 }
 
-/// The rows of M: the momentum of all that hangs on a hinge, when another one before it turns.
+/// Computes the rows of M: the angular momentum about a hinge of all links beyond it, for a unit velocity of a hinge
+/// before it.
 fn rows_of_mass(m: &Model, mass: &mut [f64], span: &Span, links: &[Link]) {
     let (mut moment, mut first, mut total) = (0.0, [0.0; 2], 0.0);
     for (i, link) in links.iter().enumerate().rev() {
@@ -215,7 +220,7 @@ fn rows_of_mass(m: &Model, mass: &mut [f64], span: &Span, links: &[Link]) {
     }
 }
 
-/// The bias force.
+/// Computes the bias force.
 #[inline(never)]
 fn bias(m: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
     if !w.algorithms.planar_chain.flat {
@@ -225,11 +230,11 @@ fn bias(m: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
     let Trees { spans, links, .. } = &mut w.algorithms.planar_chain;
     for span in spans.iter() {
         let links = &mut links[span.links.clone()];
-        // Gravity enters as an upward acceleration of the world.
+        // Gravity is included as an upward acceleration of the world.
         let mut acceleration = span.plane.map(|axis| -dot(axis, gravity));
         let mut turning = 0.0;
         for (link, v) in links.iter_mut().zip(&d.qvel[span.dofs.clone()]) {
-            // The anchor is at r = (q_y, -q_x) from the one before, and turns about it.
+            // The vector from the previous anchor is r = (q_y, -q_x); the anchor rotates about the previous one.
             let centripetal = turning * turning;
             acceleration[0] -= centripetal * link.quarter[1];
             acceleration[1] += centripetal * link.quarter[0];
@@ -247,7 +252,7 @@ fn bias(m: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
     }
 }
 
-/// U and 1/D, which solve with M; and with `x`, x ← M⁻¹ x.
+/// Computes U and 1/D for solving with M. With `x`, also x ← M⁻¹ x.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn prepare(m: &Model, d: &mut Fields, w: &mut Scratch, mut x: Option<&mut [f64]>) -> Option<usize> {
     let trees = &mut w.algorithms.planar_chain;
@@ -324,7 +329,7 @@ fn solve_both(m: &Model, d: &mut Fields, w: &mut Scratch, (b, x, y): Damped<'_>)
     bad
 }
 
-/// The rows of `qLD`, and `qLDiagInv`.
+/// Computes the rows of `qLD`, and `qLDiagInv`.
 #[inline(never)]
 fn rows_of_factor(m: &Model, d: &mut Fields, w: &mut Scratch) {
     let Trees { spans, links, joints, untied, flat, .. } = &w.algorithms.planar_chain;

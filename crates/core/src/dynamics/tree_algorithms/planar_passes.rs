@@ -1,34 +1,37 @@
-//! The passes over a chain in a plane: where its links are, and what its hinges answer forces with (see `planar_chain`).
+//! Passes over a planar chain: positions of the links, and the articulated-body algorithm (see `planar_chain`).
 
 use crate::math::*;
 
 pub(super) type Vec2 = [f64; 2];
 
-/// What moves with one hinge.
+/// A link: the bodies that move with one hinge.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Link {
-    /// The anchor from that of the link before, and the centre of mass from the anchor, at the default configuration.
+    /// Vectors from the previous anchor to the anchor, and from the anchor to the centre of mass, in the default
+    /// configuration.
     pub(super) at: Vec2,
     pub(super) com: Vec2,
-    /// Sense of the hinge about the normal of the plane.
+    /// Sign of the hinge axis relative to the normal of the plane.
     pub(super) sense: f64,
     pub(super) mass: f64,
     /// Moment of inertia about the anchor.
     pub(super) inertia: f64,
     pub(super) armature: f64,
     pub(super) reference: f64,
-    /// Its coordinate in qpos.
+    /// Index of its coordinate in `qpos`.
     pub(super) coordinate: usize,
-    /// The same two as the chain is now, `at` turned by a quarter.
+    /// Current values of `at`, rotated by a further 90°, and of `com`.
     pub(super) quarter: Vec2,
     pub(super) arm: Vec2,
-    /// Where the anchor is.
+    /// Current position of the anchor.
     pub(super) anchor: Vec2,
-    /// Force and torque of the link on the one before, without accelerations of joints.
+    /// Torque about the anchor and force that the motion of the link needs with zero joint accelerations: torque, x,
+    /// y.
     pub(super) force: [f64; 3],
 }
 
-/// U and 1/D, what the joint adds to the diagonal of the matrix, and an element of the vector that is solved for.
+/// U and 1/D, the addition of the joint to the diagonal of the matrix, and an element of the vector that is solved
+/// for.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Joint {
     pub(super) u: [f64; 3],
@@ -37,7 +40,8 @@ pub(super) struct Joint {
     pub(super) x: f64,
 }
 
-/// An inertia about an anchor, as above: J, h, M, and a force: its torque about the anchor first.
+/// Articulated inertia about an anchor (J, h and M of `planar_chain`), and a force, with its torque about the anchor
+/// first.
 #[derive(Clone, Copy, Debug, Default)]
 struct Body {
     moment: f64,
@@ -46,7 +50,7 @@ struct Body {
     force: [f64; 3],
 }
 
-/// Turns the links.
+/// Computes the current positions and orientations of the links.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn forward_kinematics(links: &mut [Link], qpos: &[f64]) {
     let (mut angle, mut cos, mut sin) = (0.0, 1.0, 0.0);
@@ -64,8 +68,8 @@ pub(super) fn forward_kinematics(links: &mut [Link], qpos: &[f64]) {
     }
 }
 
-/// The way up the chain, for the matrices `A..B` at the same time: U and D of every hinge. Returns the first one whose D is not
-/// positive. With `X`, the vector is taken along.
+/// The inward pass, for the matrices `A..B` at the same time: computes U and D of every hinge. Returns the first one
+/// whose D is not positive. With `X`, the pass includes the vector that is solved for.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn inward<const A: usize, const B: usize, const X: bool>(
     links: &[Link],
@@ -88,7 +92,7 @@ pub(super) fn inward<const A: usize, const B: usize, const X: bool>(
             let inv = 1.0 / d.max(MINVAL);
             joint.inv = inv;
             joint.u = [link.sense * moment, link.sense * h[0], link.sense * h[1]];
-            // I - U Uᵀ / D: of J and h there remains what the joint's own inertia is of D.
+            // I - U Uᵀ / D: J and h are multiplied by the fraction of D that is the inertia of the joint.
             let (part, ratio) = (scale(h, inv), joint.diagonal * inv);
             let (xx, xy, yy) = (xx - h[0] * part[0], xy - h[0] * part[1], yy - h[1] * part[1]);
             let (moment, h) = (moment * ratio, scale(h, ratio));
@@ -103,7 +107,8 @@ pub(super) fn inward<const A: usize, const B: usize, const X: bool>(
     bad
 }
 
-/// What a hinge takes of the force of all that hangs on it, and what it passes on to the link before.
+/// Subtracts what a hinge takes up of the force of all links beyond it, and transforms the rest to the previous
+/// anchor.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn pass_on(link: &Link, joint: &mut Joint, force: &mut [f64; 3]) {
     joint.x = (joint.x - link.sense * force[0]) * joint.inv;
@@ -111,7 +116,7 @@ fn pass_on(link: &Link, joint: &mut Joint, force: &mut [f64; 3]) {
     *force = [torque + link.quarter[0] * x + link.quarter[1] * y, x, y];
 }
 
-/// The way back, from the world to the end.
+/// The outward pass, from the world to the end of the chain.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn outward<const A: usize, const B: usize>(links: &[Link], joints: &mut [[Joint; 2]]) {
     let mut all = [[0.0; 3]; 2];
@@ -126,7 +131,7 @@ pub(super) fn outward<const A: usize, const B: usize>(links: &[Link], joints: &m
     }
 }
 
-/// The same two where U and D are known.
+/// Both passes for a vector if U and D are known.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn solve_known(links: &[Link], joints: &mut [[Joint; 2]]) {
     let mut force = [0.0; 3];

@@ -1,8 +1,9 @@
-//! Trees of slides alone, however they branch: carriages, gantries, the fingers of a gripper.
+//! Trees of slides only, branched or not: carriages, gantries, fingers of grippers.
 //!
-//! Nothing turns, so that all that a slide moves is one mass: M_ij = m_i (a_i · a_j) for an ancestor j of i, where m_i is what slide i
-//! moves and a are the axes, and the bias force is weight alone, -m_i (a_i · g). M changes when its masses do, or when something
-//! turns what carries the tree; while it does not, it stays, and so does its factorization.
+//! No body rotates relative to another, so all bodies that a slide moves act as one mass. M_ij = m_i (a_i · a_j) for
+//! an ancestor j of i, where m_i is the mass that slide i moves and a are the axes. The bias force is the weight,
+//! -m_i (a_i · g). M changes only if masses change, or if the body that carries the tree rotates. Otherwise M and its
+//! factorization are reused.
 
 use super::{Assignment, Damped, Factors, Forces, NOTHING, Row};
 use crate::dynamics::{Scratch, mass as rows_of_mass};
@@ -41,19 +42,19 @@ pub(super) const ROW: Row = Row {
     ..NOTHING
 };
 
-/// Whether a tree is one of them: slides, none of which moves a simple body.
+/// Whether a tree consists of slides, none of which moves a simple body.
 fn covers(m: &Model, tree: usize) -> bool {
     m.tree_dofs(tree)
         .all(|dof| m.dof_simplenum[dof] == 0 && m.jnt_type[m.dof_jntid[dof] as usize] == joint::SLIDE)
 }
 
-/// The slides of all such trees, and the trees that are factorized.
+/// The slides of all such trees, and the trees that this algorithm factorizes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Trees {
     slides: Vec<Slide>,
-    /// Whether the rows of M that slides keep are those of their masses.
+    /// Whether the stored rows of M correspond to the current masses.
     is_current: bool,
-    /// The mass of each body, and of what it carries, itself included.
+    /// The mass of each body, and that of each body with its descendants.
     masses: Vec<f64>,
     carried: Vec<f64>,
     factored: Vec<Factored>,
@@ -67,16 +68,16 @@ struct Slide {
     body: usize,
     mass: f64,
     armature: f64,
-    /// Its axis, and its row of M.
+    /// Its axis (world frame) and its row of M.
     axis: Vec3,
     row: Vec<f64>,
 }
 
-/// A tree, and what its factorization was made of.
+/// A tree, and its factorization with the M that it was computed from.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Factored {
     dofs: Range<usize>,
-    /// Where its rows of M are.
+    /// The range of its rows of M.
     rows: Range<usize>,
     of: Vec<f64>,
     ld: Vec<f64>,
@@ -101,7 +102,7 @@ impl Trees {
         trees
     }
 
-    /// Takes masses and armatures from the model.
+    /// Reads masses and armatures from the model.
     fn load(&mut self, m: &Model) {
         if self.slides.is_empty() {
             return;
@@ -120,7 +121,7 @@ impl Trees {
         }
     }
 
-    /// Makes the rows of M again where masses or axes are others.
+    /// Computes the rows of M again if masses or axes have changed.
     fn update(&mut self, m: &Model, axes: &[Vec3]) {
         if self.is_current && self.slides.iter().all(|slide| same_bits(&slide.axis, &axes[slide.joint])) {
             return;
@@ -164,7 +165,7 @@ fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
             continue;
         }
         let failed = rows_of_mass::factor_copy(m, &d.M, &mut d.qLD, &mut d.qLDiagInv, dofs.clone());
-        // One that warns is factorized again at the next step, and warns again.
+        // A failed factorization is not reused, so that the next step warns again.
         tree.of.clear();
         if failed.is_none() {
             tree.of.extend_from_slice(&d.M[rows.clone()]);

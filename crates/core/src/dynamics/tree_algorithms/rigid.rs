@@ -1,11 +1,13 @@
-//! Rigid bodies: trees in which one body moves, on a ball or a free joint, wherever its mass is.
+//! Rigid bodies: trees in which one body moves, with a ball or a free joint. The position of its centre of mass is
+//! arbitrary.
 //!
-//! All that is fixed to the body moves with it as one. About the anchor, in the axes of the body, its inertia I, the moment of its
-//! mass h = m r and its mass m are constant. Where R are the axes of the body, ω is its turning in them and g gravity,
+//! Bodies fixed to the moving body move with it as one rigid body. In the axes of the body, the inertia I about the
+//! anchor, the first moment h = m r and the mass m are constant. Let R be the orientation of the body, ω its angular
+//! velocity in its own axes, and g gravity. For a ball joint
 //!
-//! > turning: M = I, bias = ω × I ω - h × Rᵀg
+//! > M = I, bias = ω × I ω - h × Rᵀg
 //!
-//! and a free body, whose anchor has a velocity v, moves as well:
+//! and for a free joint, whose anchor has the velocity v, additionally
 //!
 //! > kinetic energy ½ m v² + v · R(ω × h) + ½ ω · I ω, bias along v = R(ω × (ω × h)) - m g
 
@@ -31,7 +33,7 @@ pub(super) const ROW: Row = Row {
     ..NOTHING
 };
 
-/// What the inertia of a body follows from.
+/// Fields of the model that determine the inertia of a body.
 const COPIES: [FieldId; 10] = [
     fields_of::body_pos,
     fields_of::body_quat,
@@ -45,34 +47,34 @@ const COPIES: [FieldId; 10] = [
     fields_of::actuator_gear,
 ];
 
-/// Whether a tree is one of them: a ball with its three degrees of freedom, or a free joint with its six.
+/// Whether a tree has a single joint: a ball with its three degrees of freedom, or a free joint with its six.
 fn covers(m: &Model, tree: usize) -> bool {
     let dofs = m.tree_dofs(tree);
     let kind = m.jnt_type[m.dof_jntid[dofs.start] as usize];
     m.dof_simplenum[dofs.start] == 0 && matches!((kind, dofs.len()), (joint::BALL, 3) | (joint::FREE, 6))
 }
 
-/// The bodies.
+/// The bodies of this algorithm.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Trees {
     bodies: Vec<Body>,
 }
 
-/// The body that moves, with what is fixed to it.
+/// The moving body, with the bodies fixed to it.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Body {
     tree: usize,
     body: usize,
     joint: usize,
-    /// Whether its anchor moves.
+    /// Whether the joint is free, so that its anchor moves.
     free: bool,
-    /// Its first degree of freedom, that of its turning, and where its rows of M begin.
+    /// Its first degree of freedom, its first rotational degree of freedom, and the start of its rows of M.
     first: usize,
     turn: usize,
     rows: usize,
-    /// Its inertia about the anchor: xx yy zz xy xz yz, h, m.
+    /// Its inertia about the anchor, in its axes: xx yy zz xy xz yz, h, m.
     inertia: [f64; 10],
-    /// What the joint adds to the diagonal of M, moving and turning.
+    /// Armature of the translational and of the rotational degrees of freedom.
     moving: Vec3,
     turning: Vec3,
 }
@@ -100,7 +102,7 @@ impl Trees {
 }
 
 impl Body {
-    /// Takes its inertia and armature from the model.
+    /// Reads its inertia and armature from the model.
     fn load(&mut self, m: &Model) {
         let first = m.tree_bodyadr[self.tree] as usize;
         let bodies = first..first + m.tree_bodynum[self.tree] as usize;
@@ -109,7 +111,7 @@ impl Body {
         (self.moving, self.turning) = (armature(self.first), armature(self.turn));
     }
 
-    /// That of a body that is fixed to it, or of its own.
+    /// The inertia of body `b`, which is the moving body or fixed to it, about the anchor.
     fn inertia_of(&self, m: &Model, mut b: usize) -> [f64; 10] {
         let (mass, moments) = (m.body_mass[b], rows::<3>(&m.body_inertia)[b]);
         let (mut at, mut axes) = (rows::<3>(&m.body_ipos)[b], quat_to_mat(rows::<4>(&m.body_iquat)[b]));
@@ -122,7 +124,7 @@ impl Body {
         inertia_about(moments, &axes, sub(at, self.anchor(m)), mass)
     }
 
-    /// Where the body turns, in its frame: a free one turns about its origin.
+    /// The anchor in the frame of the body. For a free joint it is the origin.
     fn anchor(&self, m: &Model) -> Vec3 {
         if self.free { [0.0; 3] } else { rows::<3>(&m.jnt_pos)[self.joint] }
     }
@@ -137,7 +139,7 @@ fn mass(_: &Model, d: &mut Fields, w: &mut Scratch) {
             fill(out, [xx + a, xy, yy + b, xz, yz, zz + c]);
             continue;
         }
-        // R(ω × h) for a unit turning about each axis.
+        // R(ω × h) for a unit angular velocity about each axis.
         let axes = &rows::<9>(&d.xmat)[body.body];
         let [x, y, z] = [[0.0, -hz, hy], [hz, 0.0, -hx], [-hy, hx, 0.0]].map(|push| mat_mul_vec(axes, push));
         #[rustfmt::skip]
@@ -152,7 +154,7 @@ fn mass(_: &Model, d: &mut Fields, w: &mut Scratch) {
     }
 }
 
-/// Writes rows that follow each other.
+/// Overwrites the first N numbers of consecutive rows.
 fn fill<const N: usize>(rows: &mut [f64], values: [f64; N]) {
     if let Some(rows) = rows.first_chunk_mut() {
         *rows = values;

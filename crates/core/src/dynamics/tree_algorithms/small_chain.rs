@@ -1,6 +1,7 @@
-//! Trees of at most three degrees of freedom, one after the other from the root: most labs are made of them.
+//! Trees of at most three degrees of freedom in series, starting at the root. Most labs consist of such trees.
 //!
-//! Their rows of M are a packed lower triangle, which is factorized and solved with all sizes known (`triangle`).
+//! Their rows of M form a packed lower triangle, which is factorized and solved with sizes known at compile time
+//! (`triangle`).
 
 use super::{Assignment, Damped, Factors, NOTHING, Row};
 use crate::dynamics::Scratch;
@@ -24,19 +25,19 @@ pub(super) const ROW: Row = Row {
     ..NOTHING
 };
 
-/// Whether a tree is one of them.
+/// Whether a tree is a small chain.
 fn covers(m: &Model, tree: usize) -> bool {
     let dofs = m.tree_dofs(tree);
     size_before(m, dofs.end) == Some(dofs.len())
 }
 
-/// The trees.
+/// The trees of this algorithm.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Trees {
     trees: Vec<Tree>,
 }
 
-/// A tree: its first degree of freedom, how many it has, and where their rows of M begin.
+/// A tree: its first degree of freedom, the number of its degrees of freedom, and the start of its rows of M.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Tree {
     first: usize,
@@ -97,8 +98,8 @@ fn solve_both(_: &Model, d: &mut Fields, w: &mut Scratch, (b, x, y): Damped<'_>)
 }
 
 impl Tree {
-    /// The tree's part of `qLD` and `qLDiagInv`; and with `x`, x ← M⁻¹ x. Returns the first degree of freedom whose D is
-    /// not positive.
+    /// Computes the part of `qLD` and `qLDiagInv` for the tree. With `x`, also x ← M⁻¹ x. Returns the first degree of
+    /// freedom whose D is not positive.
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn factor(
         self,
@@ -110,7 +111,7 @@ impl Tree {
         by_size!(self.size, factor_copy(self, mass, ld, diag_inv, x))
     }
 
-    /// x ← M⁻¹ x by what [`Tree::factor`] has left.
+    /// x ← M⁻¹ x, using the result of [`Tree::factor`].
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn solve(self, d: &Fields, x: &mut [f64]) {
         let (Some(ld), Some(diag_inv)) = (d.qLD.get(self.row..), d.qLDiagInv.get(self.first..)) else {

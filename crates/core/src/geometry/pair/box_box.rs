@@ -1,11 +1,13 @@
 //! Contacts of two boxes.
 //!
-//! Two boxes overlap unless a plane across one of 15 axes has them on different sides: across a face normal of either, or
-//! the common perpendicular of an edge of each (Gottschalk, Lin, Manocha, *OBBTree*, SIGGRAPH 1996). The largest gap along
-//! these axes is how far they are apart or, where it is negative, minus the depth: the length of the shortest translation that
-//! parts them. A face normal: the face of the other box that is turned most towards that face is clipped by its sides, and every
-//! corner of what is left is a contact, as deep as it is below the face. A perpendicular of edges: the contact is half way
-//! between the closest points of these edges.
+//! Two boxes are separate if and only if their projections onto one of 15 axes are disjoint: the face normals of both
+//! boxes, and the common perpendiculars of an edge of each (Gottschalk, Lin, Manocha, *OBBTree*, SIGGRAPH 1996). The
+//! largest gap along these axes determines the contacts. For separate boxes it is positive: their separation along this
+//! axis. For overlapping boxes it is negative: minus the penetration depth, which is the length of the shortest
+//! translation that separates them. If the axis is a face normal, the face of the other box that most directly faces
+//! this face is clipped by the side planes of this face. Every corner of the clipped polygon is a contact, with its
+//! depth below the face. If the axis is a perpendicular of two edges, the contact is the midpoint between the closest
+//! points of these edges.
 
 use super::ContactPoint;
 use super::polygon::FACING;
@@ -16,20 +18,21 @@ use crate::geometry::segments::{Segment, closest_points};
 use crate::math::lanes::{Lane3, lane3, vec3};
 use crate::math::*;
 
-/// Where the second of two boxes is, seen from the first.
+/// Relative placement of the second of two boxes, in the frame of the first.
 #[derive(Clone, Copy)]
 struct Placement {
-    /// Half sizes of both.
+    /// Half sizes of both boxes, m.
     size: [Vec3; 2],
     /// Entry [i][j] is axis i of the first · axis j of the second.
     rotation: [Vec3; 3],
-    /// From the centre of the first to that of the second, along the axes of the first and of the second.
+    /// Vector from the centre of the first box to that of the second, m, in the frame of the first box and in that of
+    /// the second.
     offset: [Vec3; 2],
-    /// Gaps that differ by less are equal, m.
+    /// Gaps that differ by less than this are equal, m.
     rounding: f64,
 }
 
-/// A face of the first box or of the second: of the two across this axis the one that looks at the other box.
+/// A face of the first or of the second box: of the two faces normal to this axis, the one towards the other box.
 #[derive(Clone, Copy, Debug)]
 enum Face {
     First(usize),
@@ -40,20 +43,21 @@ enum Face {
 #[derive(Clone, Copy, Debug)]
 struct EdgeAxis {
     edges: [usize; 2],
-    /// Along the perpendicular, less by its rounding.
+    /// Gap along the perpendicular minus its rounding error, m.
     gap: f64,
-    /// Unit vector from the first box to the second, along the axes of the first.
+    /// Unit vector from the first box to the second, in the frame of the first.
     normal: Vec3,
 }
 
-/// Part of the gap by which that of two edges must be larger than that of a face to which their perpendicular is almost normal: a
-/// face holds with several points, and edges with one. Boxes at rest on each other are tilted by a little, so that without this
-/// some would stand on one point. (Measured on MuJoCo 3.14.0, `golden/motions.py`: of 27,267 pairs that touch in stacks and heaps
-/// three have other contacts there with 0.05, and some 3 in 100 with 0.04 or 0.06.)
+/// If the perpendicular of two edges is almost parallel to a face normal, the face is preferred, unless the gap of
+/// the edges is larger by more than this fraction of the gap of the face. A face contact has several points, an edge
+/// contact has one. Boxes resting on each other are slightly tilted; without this preference some would be supported
+/// at a single point. (Measured on MuJoCo 3.14.0, `golden/motions.py`: of 27,267 touching pairs in stacks and heaps,
+/// three have different contacts with 0.05, and about 3 in 100 with 0.04 or 0.06.)
 const FACE_PREFERRED: f64 = 0.05;
 
-/// Appends the contacts of two boxes whose surfaces are within `margin`. Normals point from the first to the second, `pos` is
-/// halfway between the surfaces.
+/// Appends the contacts of two boxes whose surfaces are within `margin`. Normals point from the first box to the
+/// second; `pos` is halfway between the surfaces.
 pub(super) fn box_box(first: &Shape, second: &Shape, margin: f64, out: &mut Vec<ContactPoint>) {
     let placement = Placement::new(first, second);
     let limit = margin + placement.rounding;
@@ -93,7 +97,7 @@ impl Placement {
         }
     }
 
-    /// Where the first box is, seen from the second.
+    /// The placement of the first box in the frame of the second.
     fn swapped(&self) -> Placement {
         let ([a, b], [p, q]) = (self.size, self.offset);
         Placement {
@@ -104,7 +108,7 @@ impl Placement {
         }
     }
 
-    /// The largest gap along a face normal; of equal ones the first.
+    /// The largest gap along a face normal, and its face; the first one of equal gaps.
     fn largest_face_gap(&self) -> (f64, Face) {
         let [along_first, along_second] = self.face_gaps();
         let (mut best, mut face) = (f64::NEG_INFINITY, Face::First(0));
@@ -121,7 +125,7 @@ impl Placement {
         (best, face)
     }
 
-    /// The largest gap along a common perpendicular of edges, where that is larger than a gap.
+    /// The axis with the largest gap along a common perpendicular of edges, if this gap is larger than `gap`.
     fn larger_edge_gap(&self, mut gap: f64) -> Option<EdgeAxis> {
         let [x, y, z] = [0, 1, 2].map(|i| self.edge_gaps(i));
         let largest = vec3(x.fast_max(y).fast_max(z));
@@ -145,7 +149,7 @@ impl Placement {
         })
     }
 
-    /// Whether the boxes meet in a face, with this gap, although that of two edges is larger.
+    /// Whether the boxes get face contacts with this gap although the gap of two edges is larger.
     fn prefers_face(&self, gap: f64, face: Face, axis: &EdgeAxis) -> bool {
         let cosine = match face {
             Face::First(a) => axis.normal[a],
@@ -154,7 +158,8 @@ impl Placement {
         cosine.abs() > FACING && axis.gap < gap + FACE_PREFERRED * gap.abs()
     }
 
-    /// Along axis i of the first box |offset_i| - a_i - Σ_j |R_ij| b_j, and so for the second.
+    /// Gaps along the face normals: |offset_i| - a_i - Σ_j |R_ij| b_j for axis i of the first box, and the analogous
+    /// gaps for the second.
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn face_gaps(&self) -> [Vec3; 2] {
         let ([a, b], [p, q]) = (self.size, self.offset);
@@ -165,8 +170,9 @@ impl Placement {
         [along_first, along_second].map(vec3)
     }
 
-    /// The gaps along n = e_i × b_j / |e_i × b_j| for edge direction i of the first box and all three of the second, less by their
-    /// rounding: that of the products, which the division by a small |e_i × b_j| magnifies. Of parallel edges -∞.
+    /// The gaps along n = e_i × b_j / |e_i × b_j| for edge direction i of the first box and all three of the second,
+    /// minus their rounding errors: those of the products, magnified by the division by a small |e_i × b_j|. For
+    /// parallel edges the gap is -∞.
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn edge_gaps(&self, i: usize) -> Lane3 {
         let ([a, [b0, b1, b2]], [p, _]) = (self.size, self.offset);
@@ -182,7 +188,7 @@ impl Placement {
         (between - first - second - self.rounding) / sine
     }
 
-    /// The contact of two edges: half way between their closest points.
+    /// The contact of two edges: the midpoint between their closest points.
     fn edge_contact(
         &self,
         first: &Shape,
@@ -190,7 +196,7 @@ impl Placement {
     ) -> ContactPoint {
         let ([a, b], [p, _]) = (self.size, self.offset);
         let columns = transposed(&self.rotation);
-        // The edge of each box that is farthest towards the other.
+        // The edge of each box that is farthest in the direction of the other box.
         let mut of_first = Segment { centre: [0.0; 3], half: [0.0; 3] };
         of_first.half[i] = a[i];
         for m in others(i) {
@@ -217,8 +223,9 @@ fn transposed(m: &[Vec3; 3]) -> [Vec3; 3] {
     std::array::from_fn(|j| m.map(|row| row[j]))
 }
 
-/// The contacts of face `a` of the box `reference` with the face of the other box that is turned most towards it. `placement` is
-/// seen from the reference box; `outward` is 1 when that is the first of the pair, -1 when it is the second.
+/// Appends the contacts of face `a` of the box `reference` with the face of the other box that most directly faces
+/// it. `placement` is relative to the reference box. `outward` is 1 if the reference box is the first of the pair,
+/// and -1 if it is the second.
 fn face_contacts(
     reference: &Shape,
     placement: &Placement,
@@ -244,8 +251,8 @@ fn face_contacts(
 }
 
 impl Placement {
-    /// The face of the second box that is turned most towards the upper or lower face `a` of the first, clipped by the sides of
-    /// that face: coordinates along the face, and the height above it.
+    /// The face of the second box that most directly faces the upper or lower face `a` of the first, clipped by the
+    /// side planes of that face. Each corner consists of two coordinates along the face and the height above it.
     fn clipped_face(&self, a: usize, up: f64) -> List<Vec3, 8> {
         let ([size, other], [offset, _]) = (self.size, self.offset);
         let [x, y] = others(a);

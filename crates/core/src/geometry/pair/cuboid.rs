@@ -1,16 +1,18 @@
 //! Contacts of a sphere and of a capsule with a box.
 //!
-//! A capsule touches a box like balls of its radius on its axis, which is a segment c + t h, |t| ≤ 1, in the frame of the box.
+//! The contacts of a capsule with a box are those of one or two balls of its radius, centred on its axis. The axis is
+//! the segment c + t h, |t| ≤ 1, in the frame of the box.
 //!
-//! *Outside the box* the squared distance Σ eᵢ², with eᵢ = pᵢ - clamp(pᵢ, ±sᵢ) of the point p = c + t h and the half sizes s, is
-//! a convex function of t. Half its derivative, Σ hᵢ eᵢ, never decreases and is linear between the planes of the faces, so that its
-//! zero is found without iteration. There the first ball sits. Where it is zero along an interval, as the axis is parallel to a
-//! face or an edge, balls sit at both ends of that. Else the second one sits where the capsule, followed over the box from the first,
-//! leaves it.
+//! *Axis outside the box*: for the point p = c + t h and the half sizes s, the squared distance from the box is Σ
+//! eᵢ², with eᵢ = pᵢ - clamp(pᵢ, ±sᵢ). It is a convex function of t. Half its derivative, Σ hᵢ eᵢ, is non-decreasing
+//! and linear between the planes of the faces, so its zero is found without iteration. The first ball is at this
+//! zero. If the derivative is zero on an interval, because the axis is parallel to a face or an edge, there is a ball
+//! at each end of the interval. Otherwise the second ball is at the point where the capsule, followed across the box
+//! from the first ball, leaves it.
 //!
-//! *In the box* the least translation that parts segment and box has the direction of a face normal or of the common
-//! perpendicular of the segment and an edge (the separating axes of the two): contacts at the ends of the part of the segment that is
-//! below the face, or between the closest points of segment and edge.
+//! *Axis intersecting the box*: the shortest translation that separates segment and box is along a face normal or
+//! along the common perpendicular of the segment and an edge (the separating axes of the two). The contacts are at
+//! the ends of the part of the segment below the face, or between the closest points of segment and edge.
 
 use super::ContactPoint;
 use crate::geometry::Shape;
@@ -45,7 +47,7 @@ pub(super) fn capsule_box(capsule: &Shape, cuboid: &Shape, margin: f64, out: &mu
     }
 }
 
-/// A contact that is given in the frame of the box.
+/// Transforms a contact from the frame of the box to the world frame.
 fn to_world(cuboid: &Shape, contact: ContactPoint) -> ContactPoint {
     ContactPoint {
         pos: cuboid.world(contact.pos),
@@ -54,7 +56,7 @@ fn to_world(cuboid: &Shape, contact: ContactPoint) -> ContactPoint {
     }
 }
 
-/// Contact of the box and a ball, whose centre is given in the frame of the box.
+/// Contact of the box and a ball whose centre is given in the frame of the box.
 fn ball(centre: Vec3, radius: f64, cuboid: &Shape, margin: f64) -> Option<ContactPoint> {
     let size = cuboid.size;
     let nearest: Vec3 = std::array::from_fn(|i| clip(centre[i], [-size[i], size[i]]));
@@ -66,15 +68,15 @@ fn ball(centre: Vec3, radius: f64, cuboid: &Shape, margin: f64) -> Option<Contac
         way_out(centre, size)
     };
     let dist = gap - radius;
-    // A NaN fails the comparison.
+    // This comparison is false for NaN.
     (dist <= margin).then(|| {
         let pos = add_scaled(centre, normal, radius + 0.5 * dist);
         to_world(cuboid, ContactPoint { dist, pos, normal, tangent: [0.0; 3] })
     })
 }
 
-/// Of a point in the box: the inward normal of the nearest face, and minus the depth below it. Of equally near faces the one across
-/// the lowest axis, and its negative side.
+/// For a point in the box: the inward normal of the nearest face, and minus the depth below it. Of equally near
+/// faces, the one normal to the axis with the lowest index is taken, and of its two sides the negative one.
 fn way_out(p: Vec3, size: Vec3) -> (Vec3, f64) {
     let mut best = ([0.0; 3], f64::NEG_INFINITY);
     for i in 0..3 {
@@ -89,32 +91,34 @@ fn way_out(p: Vec3, size: Vec3) -> (Vec3, f64) {
     best
 }
 
-/// The axis of a capsule in the frame of a box with these half sizes.
+/// The axis of a capsule in the frame of a box with half sizes `size`.
 struct Axis {
     segment: Segment,
     size: Vec3,
 }
 
 impl Axis {
-    /// From the nearest point of the box to a point of the axis.
+    /// Vector from the nearest point of the box to the point `t` of the axis.
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn beyond(&self, t: f64) -> Vec3 {
         let p = self.segment.at(t);
         std::array::from_fn(|i| p[i] - clamp(p[i], -self.size[i], self.size[i]))
     }
 
-    /// Rounding of a length.
+    /// Rounding error of a length.
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn rounding(&self) -> f64 {
         let sum = |v: Vec3| v[0].abs() + v[1].abs() + v[2].abs();
         ROUNDING * (sum(self.segment.centre) + sum(self.segment.half) + sum(self.size))
     }
 
-    /// The interval of the axis that is nearest to the box, a point in general; first the end that is nearer.
+    /// The interval of the axis that is nearest to the box; in general a single point. The end that is nearer to the
+    /// box comes first.
     fn nearest(&self) -> [f64; 2] {
         let Segment { centre, half } = self.segment;
         let slack = self.rounding() * norm(half);
-        // A place and half the derivative there: the last one where the distance falls, the first one where it rises.
+        // A parameter t and half the derivative there: the largest t where the distance decreases, and the smallest t
+        // where it increases.
         let (mut falls, mut rises) = ([f64::NEG_INFINITY, 0.0], [f64::INFINITY, 0.0]);
         let mut level = [f64::INFINITY, f64::NEG_INFINITY];
         let mut look = |t: f64| {
@@ -152,16 +156,17 @@ impl Axis {
         [t, t]
     }
 
-    /// Where the capsule leaves the box, followed from the point of the axis that is nearest to a face, an edge or a corner. From an
-    /// end of the axis that is over a face along the axis; from an edge or a corner in the sense in which the box lies along most of
-    /// the direction. It is over the box up to the end of the axis, for the width of the box along the axes on which it comes
-    /// in over an edge, and up to the end of the face on the others.
+    /// The parameter at which the capsule leaves the box, when followed from the point of the axis that is nearest to
+    /// a face, an edge or a corner. From an end of the axis over a face, the capsule is followed along its axis. From
+    /// an edge or a corner, it is followed in the direction whose components into the box are larger. The capsule
+    /// stays over the box for the shortest of these lengths: up to the end of the axis; the width of the box, along
+    /// each axis on which the capsule enters over an edge; up to the end of the face, along the other axes.
     fn far_end(&self, t: f64) -> Option<f64> {
         let (p, half, size) = (self.segment.at(t), self.segment.half, self.size);
         let slack = self.rounding();
         let side: Vec3 =
             std::array::from_fn(|i| if p[i].abs() >= size[i] - slack { 1f64.copysign(p[i]) } else { 0.0 });
-        // Squared length that leads inwards, forwards and backwards along the axis.
+        // Squared length of the components that point into the box, forwards and backwards along the axis.
         let (mut forwards, mut backwards) = (0.0, 0.0);
         for i in 0..3 {
             let inwards = -side[i] * half[i];
@@ -187,7 +192,7 @@ impl Axis {
         (length > 0.0).then_some(t + sense * length)
     }
 
-    /// Contacts of a capsule whose axis goes into the box, in the frame of the box.
+    /// Contacts of a capsule whose axis intersects the box, in the frame of the box.
     fn pierced(&self, radius: f64) -> [Option<ContactPoint>; 2] {
         let Segment { centre, half } = self.segment;
         let [x, y, z] = self.size;
@@ -206,7 +211,8 @@ impl Axis {
             let across = cross(along, half);
             let length = norm(across);
             let reach = x * across[0].abs() + y * across[1].abs() + z * across[2].abs();
-            // The rounding of the products, which the division by a small length magnifies.
+            // The subtracted term is the rounding error of the products, which the division by a small length
+            // magnifies.
             let gap = (dot(across, centre).abs() - reach - slack * norm(half)) / length;
             if gap > best {
                 (best, edge) = (gap, Some((i, scale(across, -1f64.copysign(dot(across, centre)) / length))));
@@ -218,7 +224,8 @@ impl Axis {
         }
     }
 
-    /// The contacts at the ends of the part of the axis that is below face `i`, or above it.
+    /// The contacts at the ends of the part of the axis inside the side planes of face `i`. The face is the upper or
+    /// lower one, whichever is nearer to the centre of the capsule.
     fn face_contacts(&self, i: usize, radius: f64) -> [Option<ContactPoint>; 2] {
         let Segment { centre, half } = self.segment;
         let side = 1f64.copysign(centre[i]);
@@ -237,12 +244,13 @@ impl Axis {
         if from < to {
             [from, to].map(|t| Some(contact(t)))
         } else {
-            // A box without thickness.
+            // The box has no thickness.
             [Some(contact(clamp(0.5 * (from + to), -1.0, 1.0))), None]
         }
     }
 
-    /// The contact with the edge along axis `i` that is farthest against the normal, which points from the capsule to the box.
+    /// The contact with the edge along axis `i` that is farthest in the direction opposite to the normal. The normal
+    /// points from the capsule to the box.
     fn edge_contact(&self, i: usize, normal: Vec3, radius: f64) -> ContactPoint {
         let mut edge = Segment { centre: [0.0; 3], half: [0.0; 3] };
         for k in 0..3 {

@@ -1,5 +1,5 @@
-//! A height field against a convex shape: every triangle of the grid under the shape is the top of a prism that
-//! reaches down to the base.
+//! A height field against a convex shape. Each triangle of the grid below the shape is the top of a prism that
+//! extends down to the base.
 
 use std::ops::{ControlFlow, RangeInclusive};
 
@@ -8,14 +8,14 @@ use crate::geometry::convex::{Convex, ConvexScratch, Nearest, nearest};
 use crate::geometry::{Field, Shape};
 use crate::math::*;
 
-/// Work of a prism that is passed over, and of a sample of the grid that is looked at.
+/// Work units of a prism that is visited, and of a sample of the grid that is read.
 const PASSED: u64 = 30;
 const SAMPLED: u64 = 4;
 
-/// Contacts with the prisms under a shape, in the order of the grid.
+/// Contacts with the prisms below a shape, in the order of the grid.
 ///
-/// With a margin the ground is higher by it and the shape thicker by half of it, and distances are those of the two so
-/// changed (measured on MuJoCo 3.14.0).
+/// With a margin, the surface of the height field is raised by the margin, and the shape is thickened by half of the
+/// margin. Distances are those between the modified shapes (measured on MuJoCo 3.14.0).
 #[cfg_attr(not(feature = "small"), inline(never))]
 pub(super) fn field(
     ground: &Shape,
@@ -50,8 +50,8 @@ pub(super) fn field(
     });
 }
 
-/// The signed distance of a height field and a shape up to `most`: that of the nearest, or deepest, prism. Points and
-/// normal are those of the world.
+/// The signed distance of a height field and a shape up to `most`: that of the nearest or deepest prism. Points and
+/// normal are in the world frame.
 pub(crate) fn field_distance(
     ground: &Shape,
     b: &Shape,
@@ -84,13 +84,13 @@ pub(crate) fn field_distance(
     })
 }
 
-/// A shape in the frame of a height field.
+/// Transforms a shape to the frame of a height field.
 fn seen_from<'a>(ground: &Shape, b: &Shape<'a>) -> Shape<'a> {
     let columns = [0, 1, 2].map(|i| mat_t_mul_vec(&ground.mat, b.axis(i)));
     Shape { pos: ground.local(b.pos), mat: std::array::from_fn(|i| columns[i % 3][i / 3]), ..*b }
 }
 
-/// Lower and upper bound along each axis.
+/// Lower and upper bound of the body along each axis, m.
 fn bounds(body: &mut Convex) -> [[f64; 2]; 3] {
     let round = body.radius();
     [0, 1, 2].map(|i| {
@@ -102,14 +102,14 @@ fn bounds(body: &mut Convex) -> [[f64; 2]; 3] {
     })
 }
 
-/// Whether something within these bounds may be as near to the field as that.
+/// Whether a body within these bounds can be within a distance `reach` of the field.
 fn is_near(field: &Field, [[x0, x1], [y0, y1], [z0, z1]]: &[[f64; 2]; 3], reach: f64) -> bool {
     let [sx, sy, top, base] = field.size;
     let beyond = |low: f64, high: f64, lower: f64, upper: f64| low - reach > upper || high + reach < -lower;
     !(beyond(*x0, *x1, sx, sx) || beyond(*y0, *y1, sy, sy) || beyond(*z0, *z1, base, top))
 }
 
-/// How far a prism is at least from something within these bounds.
+/// A lower bound of the distance between a prism and a body within these bounds.
 fn gap(corners: &[Vec3; 6], bounds: &[[f64; 2]; 3]) -> f64 {
     norm(std::array::from_fn(|i| {
         let reach = |least: f64, of: fn(f64, f64) -> f64| corners.iter().map(|p| p[i]).fold(least, of);
@@ -119,9 +119,9 @@ fn gap(corners: &[Vec3; 6], bounds: &[[f64; 2]; 3]) -> f64 {
     }))
 }
 
-/// Calls `visit` with the corners, the bottom first, of every prism that is under something within these bounds, `around` it
-/// included, and whose top, higher by `raise`, is not below it. Samples and prisms count as work, and the work that is
-/// left ends the visit.
+/// Calls `visit` with the corners, the bottom first, of each prism below the bounds, which are extended by `around`
+/// in x and y. Prisms whose top, raised by `raise`, is more than `around` below the bounds are skipped. Samples and
+/// prisms count as work; the visit ends when the work limit is exceeded.
 fn each_prism(
     field: &Field,
     [x, y, [z0, _]]: &[[f64; 2]; 3],
@@ -133,13 +133,13 @@ fn each_prism(
     let cells = |[low, high]: &[f64; 2], half: f64, n: usize| -> RangeInclusive<usize> {
         let last = n as f64 - 1.0;
         let place = |at: f64| (at + half) / (2.0 * half) * last;
-        // Casts saturate.
+        // Casts saturate, so any float becomes a valid index.
         let (low, high) = (place(low - around).floor().max(0.0), place(high + around).ceil().max(0.0));
         low as usize..=(high as usize).min(n.saturating_sub(1))
     };
     let (cols, rows) = (cells(x, sx, field.ncol), cells(y, sy, field.nrow));
     for r in *rows.start()..*rows.end() {
-        // The last three samples of a zigzag between two rows make a triangle.
+        // The last three samples of a zigzag between two rows form a triangle.
         let mut corners = [[0.0; 3]; 3];
         let mut seen = 0;
         for c in cols.clone() {

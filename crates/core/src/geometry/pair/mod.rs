@@ -1,7 +1,7 @@
-//! Contacts of two shapes: closed forms where there are some, the general convex algorithm elsewhere.
+//! Contacts of two shapes: closed forms for some pairs of types, the general convex algorithm for the others.
 //!
-//! Every function appends its contacts to a list: at most [`MOST`], only those within `margin`, in an order that is
-//! MuJoCo's. The first shape has the smaller type; the normal points from it to the second.
+//! Each function appends its contacts to a list: at most [`MOST`], only those within `margin`, in MuJoCo's order. The
+//! first shape has the smaller type; the normal points from the first shape to the second.
 
 mod box_box;
 mod cuboid;
@@ -20,39 +20,39 @@ use super::convex::{ConvexScratch, Effort, Nearest};
 use crate::kinds::geom;
 use crate::math::*;
 
-/// Most contacts of a pair.
+/// Maximum number of contacts of a pair.
 pub(crate) const MOST: usize = 50;
 
-/// A place where two shapes touch.
+/// A contact point of two shapes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct ContactPoint {
-    /// Distance of the surfaces, negative when they overlap, m.
+    /// Distance of the surfaces, m; negative if they overlap.
     pub(crate) dist: f64,
-    /// Midpoint between the surfaces, m, world.
+    /// Midpoint between the surfaces, m, world frame.
     pub(crate) pos: Vec3,
-    /// Unit normal from the first to the second, world.
+    /// Unit normal from the first to the second shape, world frame.
     pub(crate) normal: Vec3,
-    /// The first tangent's direction; zero when any will do.
+    /// Direction of the first tangent, world frame; zero if it is arbitrary.
     pub(crate) tangent: Vec3,
 }
 
 impl ContactPoint {
-    /// Half way between the nearest or deepest points.
+    /// The midpoint between the nearest or deepest points.
     fn between(n: &Nearest) -> ContactPoint {
         let [on_a, on_b] = n.witness;
         ContactPoint { dist: n.dist, pos: scale(add(on_a, on_b), 0.5), normal: n.normal, tangent: [0.0; 3] }
     }
 }
 
-/// What the general algorithm needs besides the shapes.
+/// Settings of the general algorithm.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PairSettings {
     pub(crate) effort: Effort,
-    /// Whether flat contacts get several points.
+    /// Whether flat contacts get several points (`multiccd`).
     pub(crate) several: bool,
 }
 
-/// How a pair of types is tested.
+/// The method that computes the contacts of two types.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Method {
     /// A closed form.
@@ -63,18 +63,18 @@ pub(crate) enum Method {
     Field,
 }
 
-/// Which closed form it is follows from the types.
+/// Two closed forms count as equal: the types determine the function.
 impl PartialEq for Method {
     fn eq(&self, other: &Method) -> bool {
         std::mem::discriminant(self) == std::mem::discriminant(other)
     }
 }
 
-/// Whether this build has the general algorithm. Without it a model that needs it is refused when it is loaded
-/// (`setup/needs`).
+/// Whether this build contains the general algorithm. Without it, models that need it are refused when they are
+/// loaded (`setup/needs`).
 pub(crate) const CONVEX: bool = cfg!(feature = "convex");
 
-/// The method of two types, the smaller first; `None` when such geoms pass through each other.
+/// The method for two types, the smaller type first. Returns `None` if such geoms do not collide.
 pub(crate) fn method(kind1: i32, kind2: i32) -> Option<Method> {
     use geom::*;
     Some(match (kind1, kind2) {
@@ -97,7 +97,8 @@ pub(crate) fn method(kind1: i32, kind2: i32) -> Option<Method> {
     })
 }
 
-/// Whether the contacts of two types, or their distance, are searched for by the general algorithm, in either order.
+/// Whether the general algorithm computes the contacts of two types (in any order), or their distance if `distance`
+/// is set.
 pub(crate) fn is_searched(kind1: i32, kind2: i32, distance: bool) -> bool {
     let first = kind1.min(kind2);
     match method(first, kind1.max(kind2)) {

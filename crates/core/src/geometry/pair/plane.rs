@@ -1,4 +1,5 @@
-//! A plane (the half space below it) against everything else. The normal is the plane's.
+//! A plane, which is the surface of a half space, against the other types. The contact normal is the normal of the
+//! plane.
 
 use super::ContactPoint;
 use super::polygon::{Corners, widest};
@@ -6,13 +7,13 @@ use crate::geometry::Shape;
 use crate::geometry::support::{Body, climb, search};
 use crate::math::*;
 
-/// A contact at a point of the other shape, moved half the way to the plane.
+/// A contact at a point of the other shape, moved by half its distance towards the plane.
 fn touch(normal: Vec3, dist: f64, point: Vec3) -> ContactPoint {
     ContactPoint { dist, pos: add_scaled(point, normal, -0.5 * dist), normal, tangent: [0.0; 3] }
 }
 
-/// A ball on a plane, which is given by a point and its normal: the height of the centre minus the radius, half way below the
-/// lowest point.
+/// The contact of a ball and a plane through the point `at`. Its distance is the height of the centre minus the
+/// radius. Its position is halfway between the lowest point of the ball and the plane.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn ball_on_plane(
     at: Vec3,
@@ -33,7 +34,7 @@ pub(crate) fn ball_on_plane(
     })
 }
 
-/// A ball of another shape.
+/// The contact of a plane and a ball that is part of another shape.
 fn ball(plane: &Shape, centre: Vec3, radius: f64, margin: f64) -> Option<ContactPoint> {
     ball_on_plane(plane.pos, plane.axis(2), centre, radius, margin)
 }
@@ -42,7 +43,7 @@ pub(super) fn sphere(plane: &Shape, sphere: &Shape, margin: f64, out: &mut Vec<C
     out.extend(ball(plane, sphere.pos, sphere.size[0], margin));
 }
 
-/// Both ends, with the first tangent along the axis.
+/// The contacts of the balls at both ends of a capsule, with the first tangent along its axis.
 pub(super) fn capsule(plane: &Shape, capsule: &Shape, margin: f64, out: &mut Vec<ContactPoint>) {
     let axis = capsule.axis(2);
     let half = scale(axis, capsule.size[1]);
@@ -51,25 +52,28 @@ pub(super) fn capsule(plane: &Shape, capsule: &Shape, margin: f64, out: &mut Vec
     }
 }
 
-/// A cylinder lies on the line through the lowest point of its rim: both ends of that. It stands on the circle of its lower end:
-/// three points of it as far from each other as can be, the lowest among them.
+/// Contacts at the lowest points of both rims of a cylinder, and at two more points of the lower rim. A cylinder that
+/// lies on its side is supported by the two lowest points. A cylinder that stands upright is supported by three
+/// points of the lower rim: the lowest one and two at 120° from it.
 ///
-/// Heights are sums of scalars, so that a cylinder that a scene puts exactly on a plane has a distance of exactly zero.
+/// Heights are sums of scalars, so that a cylinder placed exactly on a plane has a distance of exactly zero.
 pub(super) fn cylinder(plane: &Shape, cylinder: &Shape, margin: f64, out: &mut Vec<ContactPoint>) {
     let [radius, half, _] = cylinder.size;
     let (normal, axis) = (plane.axis(2), cylinder.axis(2));
     let height = dot(sub(cylinder.pos, plane.pos), normal);
-    // The axis downwards, and the direction across it that leads down most: -normal without its part along the axis.
+    // The axis in the downward direction, and the steepest downward direction across it: -normal without its
+    // component along the axis.
     let slope = dot(normal, axis);
     let downwards = scale(axis, if slope > 0.0 { -1.0 } else { 1.0 });
     let end = scale(downwards, half);
     let (mut down, mut steepness) = unit_vector(add_scaled(scale(normal, -1.0), axis, slope));
     if steepness < MINVAL {
-        // Upright all directions are level.
+        // The axis is vertical: all directions across it are horizontal.
         (down, steepness) = (cylinder.axis(0), 0.0);
     }
     let down = scale(down, radius);
-    // What the lower end, and the lowest point of a rim, add to the height of the centre.
+    // Height of the centre of the lower end relative to the centre of the cylinder, and height of the lowest point of
+    // a rim relative to its centre.
     let (to_end, to_rim) = (-half * slope.abs(), -radius * steepness);
     let mut add_contact = |offset: Vec3, dist: f64| {
         if dist <= margin {
@@ -89,12 +93,13 @@ pub(super) fn cylinder(plane: &Shape, cylinder: &Shape, margin: f64, out: &mut V
     }
 }
 
-/// The lower corner of each of the four diagonals, in the order x, y, z of their signs, of which x changes fastest.
+/// The contacts of a box: the lower end of each of its four space diagonals. They are ordered by the signs of x, y
+/// and z, where the sign of x changes fastest.
 pub(super) fn cuboid(plane: &Shape, cuboid: &Shape, margin: f64, out: &mut Vec<ContactPoint>) {
     let normal = plane.axis(2);
     let height = dot(sub(cuboid.pos, plane.pos), normal);
     let [x, y, z] = [0, 1, 2].map(|i| scale(cuboid.axis(i), cuboid.size[i]));
-    // Four corners with a z of either sign, by how they stand to the centre of that face.
+    // The four corners of a face normal to z, relative to the centre of this face.
     let sides = [scale(add(x, y), -1.0), sub(x, y), sub(y, x), add(x, y)];
     let corners = sides.map(|side| sub(side, z)).into_iter().chain(sides.map(|side| add(side, z)));
     let low = corners.filter_map(|corner| {
@@ -105,7 +110,7 @@ pub(super) fn cuboid(plane: &Shape, cuboid: &Shape, margin: f64, out: &mut Vec<C
     out.extend(low.take(4));
 }
 
-/// The lowest point of an ellipsoid.
+/// The contact at the lowest point of an ellipsoid.
 pub(super) fn ellipsoid(plane: &Shape, ellipsoid: &Shape, margin: f64, out: &mut Vec<ContactPoint>) {
     let normal = plane.axis(2);
     let lowest = Body::new(ellipsoid).support(scale(normal, -1.0));
@@ -115,8 +120,9 @@ pub(super) fn ellipsoid(plane: &Shape, ellipsoid: &Shape, margin: f64, out: &mut
     }
 }
 
-/// The corners of the side that looks most at the plane, of those at the lowest corner: from that corner on, of more
-/// than four those that span the largest area; of these the ones within the margin and below the centre.
+/// The contacts of a mesh. Of the hull faces at the lowest corner, the one that most directly faces the plane is
+/// chosen. Its corners are listed starting with the lowest; of more than four, those that span the largest area are
+/// selected. Corners within the margin and not above the centre become contacts.
 pub(super) fn mesh(plane: &Shape, other: &Shape, margin: f64, out: &mut Vec<ContactPoint>) {
     let normal = plane.axis(2);
     let mesh = &other.mesh();

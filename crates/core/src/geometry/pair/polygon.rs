@@ -1,10 +1,11 @@
-//! Boxes, meshes and cylinders that meet in faces or along edges: contacts at the corners of what they share.
+//! Boxes, meshes and cylinders in contact along faces or edges: contacts at the corners of the shared area.
 //!
-//! The direction in which two shapes overlap least says what each of them meets the other with: a face, an edge, or a
-//! corner with all that ends there. Of two faces that look at each other, the second is clipped by the sides of the first
-//! (Sutherland, Hodgman, *Reentrant polygon clipping*, Communications of the ACM 17, 1974); an edge that lies on a face is
-//! clipped by the sides of that face. What is left and below the face that clips are contacts, each as deep as it is
-//! there. Which face clips, the angles and the number of contacts are those of MuJoCo 3.14.0 (measured).
+//! The direction of least overlap determines the feature of each shape in contact: a face, an edge, or a corner with
+//! its adjacent faces and edges. Of two faces that face each other, the second is clipped by the side planes of the
+//! first (Sutherland, Hodgman, *Reentrant polygon clipping*, Communications of the ACM 17, 1974). An edge that lies
+//! on a face is clipped by the side planes of that face. Corners of the clipped polygon below the clipping face are
+//! contacts, each with its own depth. The choice of the clipping face, the angles and the number of contacts are
+//! those of MuJoCo 3.14.0 (measured).
 
 use super::{ContactPoint, PairSettings};
 use crate::geometry::clip::{ROUNDING, clip};
@@ -14,57 +15,59 @@ use crate::geometry::{HullFaces, Shape};
 use crate::kinds::geom;
 use crate::math::*;
 
-/// Cosine of the angle of two faces up to which they look at each other (measured on MuJoCo 3.14.0).
+/// Cosine of the largest angle between the normals of two faces that face each other, one normal reversed (measured
+/// on MuJoCo 3.14.0).
 pub(super) const FACING: f64 = 0.996;
-/// Sine of the angle of an edge and a face up to which it lies on it.
+/// Sine of the largest angle between an edge and a face on which it lies.
 const ALONG: f64 = 0.089_352_67;
-/// Angle between a direction and a face's normal, or across an edge, up to which the face or edge is what it meets:
-/// directions between round bodies are known to about the root of the tolerance.
+/// Largest angle, rad, between the contact direction and the normal of a face, or the plane normal to an edge, for
+/// which the contact is with that face or edge. Directions between round bodies are accurate to about the square root
+/// of the tolerance.
 const MEETS: f64 = 2e-3;
-/// Most contacts of a polygon.
+/// Maximum number of contacts of a polygon.
 const MOST: usize = 4;
-/// Most corners of a face; of a mesh with larger ones the rest is left out.
+/// Maximum number of corners of a face. Further corners of a mesh face are ignored.
 const CORNERS: usize = 150;
-/// Corners of the polygon that stands for the end of a cylinder.
+/// Number of corners of the polygon that approximates the end of a cylinder.
 const RIM: usize = 16;
-/// Faces and edges at a corner that are looked at.
+/// Maximum number of faces and of edges considered at a corner.
 const AROUND: usize = 32;
 
 pub(super) type Corners = List<Vec3, CORNERS>;
 
-/// A face of a shape: which one, and its outward normal, world.
+/// A face of a shape: its index and its outward unit normal, world frame.
 #[derive(Clone, Copy, Debug, Default)]
 struct Face {
     index: usize,
     normal: Vec3,
 }
 
-/// The two ends of an edge, world.
+/// The two ends of an edge, world frame.
 type Edge = [Vec3; 2];
 
-/// What a shape meets the other with.
+/// The part of a shape in contact with the other shape.
 struct Feature {
-    /// 3 a face, 2 an edge, 1 a corner.
+    /// Kind of the feature: 3 for a face, 2 for an edge, 1 for a corner.
     dim: usize,
-    /// The face, those at the edge, or those at the corner.
+    /// The face itself, the faces adjacent to the edge, or the faces adjacent to the corner.
     faces: List<Face, AROUND>,
-    /// The edge, or those at the corner.
+    /// The edge itself, or the edges at the corner.
     edges: List<Edge, AROUND>,
 }
 
-/// A polygon or an edge that lies on a face.
+/// A face, and a polygon or an edge that lies on it.
 struct Patch {
-    /// The face, clockwise as seen from outside, and its normal.
+    /// The corners of the face, clockwise as seen from outside, and its normal.
     face: Corners,
     normal: Vec3,
     lying: Corners,
-    /// From the first shape to the second.
+    /// Contact normal, from the first shape to the second.
     direction: Vec3,
     /// Whether the face belongs to the first shape.
     on_first: bool,
 }
 
-/// Contacts of two shapes without margin.
+/// Appends the contacts of two shapes, without margin.
 pub(super) fn contacts(
     a: &Shape,
     b: &Shape,
@@ -83,7 +86,7 @@ pub(super) fn contacts(
     }
 }
 
-/// What two shapes that overlap along a direction share, when it is more than a point.
+/// The area shared by two shapes that overlap along a direction; `None` if it is a single point.
 fn patch(a: &Shape, b: &Shape, direction: Vec3) -> Option<Patch> {
     let (of_a, of_b) = (Feature::facing(a, direction), Feature::facing(b, scale(direction, -1.0)));
     if let Some((fa, fb)) = facing(a, b, direction, &of_a, &of_b) {
@@ -116,14 +119,14 @@ fn patch(a: &Shape, b: &Shape, direction: Vec3) -> Option<Patch> {
     })
 }
 
-/// The two faces that look at each other. Of several those across which the shapes are least deep in each other; of equally deep ones
-/// those nearest to the direction.
+/// The two faces that face each other. Of several pairs, the one with the smallest penetration depth along its normal
+/// is chosen; of equal depths, the one nearest to the direction.
 fn facing(a: &Shape, b: &Shape, direction: Vec3, of_a: &Feature, of_b: &Feature) -> Option<(Face, Face)> {
     let pairs = of_a.faces.all().iter().flat_map(|fa| of_b.faces.all().iter().map(move |fb| (fa, fb)));
     let mut pairs = pairs.filter(|(fa, fb)| dot(fa.normal, fb.normal) < -FACING);
     let (&fa, &fb) = pairs.next()?;
     let (mut of_a, mut of_b) = (Convex::new(a), Convex::new(b));
-    // Contacts push along the second face's normal.
+    // The contact normal is opposite to the normal of the second face.
     let mut rank = |fa: Face, fb: Face| {
         let (ahead, back) = (scale(fb.normal, -1.0), fb.normal);
         let depth = dot(ahead, sub(of_a.support(ahead), of_b.support(back)));
@@ -138,7 +141,8 @@ fn facing(a: &Shape, b: &Shape, direction: Vec3, of_a: &Feature, of_b: &Feature)
     Some(best.0)
 }
 
-/// The edge of one feature that lies flattest on a face of another. The end of a cylinder takes faces only.
+/// The edge of one feature that is most nearly parallel to a face of the other, and this face. The ends of cylinders
+/// have contacts with faces only.
 fn lying_on(feature: &Feature, on: &Shape, other: &Feature) -> Option<(Corners, Face)> {
     if on.kind == geom::CYLINDER || feature.dim == 3 {
         return None;
@@ -180,7 +184,8 @@ impl Feature {
         at_corner.narrowed(direction)
     }
 
-    /// The face, or else the edge, of a corner that a direction meets.
+    /// Reduces a corner to the adjacent face, or else the adjacent edge, that is normal to the direction, if there is
+    /// one.
     fn narrowed(self, direction: Vec3) -> Feature {
         let along = |f: &&Face| dot(f.normal, direction);
         let steepest = self.faces.all().iter().max_by(|f, g| along(f).total_cmp(&along(g)));
@@ -195,7 +200,7 @@ impl Feature {
         let Some(&edge) = flattest.filter(|e| slope(e) < MEETS) else { return self };
         let (mut faces, mut edges) = (List::new(), List::new());
         edges.push(edge);
-        // The faces at an edge are those that it lies in.
+        // The faces adjacent to an edge are those with a normal perpendicular to it.
         for &f in self.faces.all().iter().filter(|f| dot(f.normal, unit(&edge)).abs() < ROUNDING.sqrt()) {
             faces.push(f);
         }
@@ -203,7 +208,8 @@ impl Feature {
     }
 }
 
-/// The end of a cylinder, or its line, that looks along a direction; returns the dimension.
+/// Finds the end of a cylinder, or the line on its side, that faces a direction. Returns the kind of the feature
+/// (`dim`).
 fn cylinder(s: &Shape, direction: Vec3, out: &mut Feature) -> usize {
     let axis = s.axis(2);
     let slope = dot(axis, direction);
@@ -222,7 +228,7 @@ fn cylinder(s: &Shape, direction: Vec3, out: &mut Feature) -> usize {
     1
 }
 
-/// The faces and edges of a box that meet in a corner.
+/// Collects the faces and edges of a box that meet at a corner.
 fn box_corner(s: &Shape, corner: Vec3, out: &mut Feature) {
     let local = s.local(corner);
     for axis in 0..3 {
@@ -233,7 +239,7 @@ fn box_corner(s: &Shape, corner: Vec3, out: &mut Feature) {
     }
 }
 
-/// The sides and edges of a mesh that meet in a vertex.
+/// Collects the hull faces and edges of a mesh that meet at a vertex.
 fn mesh_corner(s: &Shape, hull_faces: &HullFaces, vertex: usize, corner: Vec3, out: &mut Feature) {
     for (index, at) in hull_faces.around(vertex) {
         let list = hull_faces.vertices(index);
@@ -274,7 +280,8 @@ fn corners(s: &Shape, face: usize) -> Corners {
 }
 
 impl Patch {
-    /// A contact at every corner that is below the face; of more than four, those that span the largest area.
+    /// Appends a contact at every corner below the face; of more than four corners, at those that span the largest
+    /// area.
     fn contacts(mut self, out: &mut Vec<ContactPoint>) {
         let face = self.face.all();
         let Some(&origin) = face.first().filter(|_| face.len() > 2) else { return };
@@ -294,7 +301,8 @@ impl Patch {
         }
         let touch = |p: Vec3| {
             let dist = depth(p);
-            // The corner is on the second shape, or on the first.
+            // The corner is on the second shape if the face belongs to the first shape, and on the first shape
+            // otherwise.
             let half = if self.on_first { -0.5 * dist } else { 0.5 * dist };
             ContactPoint {
                 dist,
@@ -310,12 +318,12 @@ impl Patch {
     }
 }
 
-/// The four corners of a convex polygon that span the largest area: for each diagonal the farthest corner on either side,
-/// which moves on as the diagonal turns.
+/// The four corners of a convex polygon that span the largest area. For each diagonal, the farthest corner on either
+/// side is found; it advances as the diagonal turns.
 pub(super) fn widest(polygon: &[Vec3]) -> [Vec3; MOST] {
     let n = polygon.len();
     let at = |k: usize| polygon[k % n];
-    // Twice the area, by the diagonals.
+    // Twice the area, as the cross product of the diagonals.
     let area = |[i, j, k, l]: [usize; MOST]| norm(cross(sub(at(k), at(i)), sub(at(l), at(j))));
     let mut best = [0, 1, 2, 3];
     let mut largest = area(best);
@@ -334,7 +342,7 @@ pub(super) fn widest(polygon: &[Vec3]) -> [Vec3; MOST] {
                     break;
                 }
             }
-            // Of equally large ones the first.
+            // Of equally large areas the first is kept.
             if here > largest * (1.0 + ROUNDING) {
                 (best, largest) = ([i, j, k, l], here);
             }

@@ -1,15 +1,15 @@
-//! Spheres, capsules and cylinders: what is nearest to what is a point of an axis, a side, an end or a rim. Spheres and capsules are
-//! two balls at the closest points of their centres or axes.
+//! Spheres, capsules and cylinders. The closest feature is a point of an axis, a side, an end or a rim. Spheres and
+//! capsules are treated as two balls at the closest points of their centres or axes.
 
 use super::ContactPoint;
 use crate::geometry::Shape;
 use crate::geometry::segments::{Segment, closest_points};
 use crate::math::*;
 
-/// Centres nearer than this part of both radii are one point.
+/// Centres closer than this fraction of the sum of both radii coincide.
 const COINCIDENT: f64 = MINVAL;
-/// Two balls: the distance of their centres minus both radii. Coincident centres have no direction: the normal is taken across
-/// two axes, or along x when these are parallel.
+/// The contact of two balls: the distance of their centres minus both radii. If the centres coincide, the normal is
+/// perpendicular to two axes, or along x if these are parallel.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn two_balls(
     [a, b]: [Vec3; 2],
@@ -31,7 +31,8 @@ pub(crate) fn two_balls(
     Some(ContactPoint { dist, pos: add_scaled(a, normal, ra + 0.5 * dist), normal, tangent: [0.0; 3] })
 }
 
-/// Balls of two shapes, which have the direction of their z axes.
+/// The contact of two balls that are part of two shapes. If the centres coincide, the z axes of the shapes determine
+/// the normal.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn balls(
     a: &Shape,
@@ -61,9 +62,10 @@ pub(super) fn sphere_capsule(sphere: &Shape, capsule: &Shape, margin: f64, out: 
     out.extend(balls(sphere, sphere.pos, sphere.size[0], capsule, nearest, capsule.size[0], margin));
 }
 
-/// In the half plane that holds the axis of the cylinder and the centre of the sphere the cylinder is a rectangle: beyond its side
-/// and its end the corner is nearest, the rim; else the one of the two beyond which the centre is more or, inside, below which it
-/// is less.
+/// In the half plane that contains the axis of the cylinder and the centre of the sphere, the cylinder is a
+/// rectangle. If the centre is beyond both its side and its end, the nearest point is the corner, which is on the
+/// rim. Otherwise the nearest feature is the side or the end, whichever has the larger signed distance from the
+/// centre.
 pub(super) fn sphere_cylinder(sphere: &Shape, cylinder: &Shape, margin: f64, out: &mut Vec<ContactPoint>) {
     let ([radius, half, _], r) = (cylinder.size, sphere.size[0]);
     let axis = cylinder.axis(2);
@@ -71,7 +73,7 @@ pub(super) fn sphere_cylinder(sphere: &Shape, cylinder: &Shape, margin: f64, out
     let along = dot(axis, from_centre);
     let (mut outwards, across) = unit_vector(add_scaled(from_centre, axis, -along));
     if across <= COINCIDENT * (r + radius) {
-        // On the axis any direction across it is as good.
+        // The centre is on the axis: any direction across the axis is equally good.
         let (direction, length) = normalize(cross(axis, sphere.axis(2)));
         outwards = if length < COINCIDENT { scale(cylinder.axis(0), -1.0) } else { direction };
     }
@@ -95,8 +97,9 @@ pub(super) fn sphere_cylinder(sphere: &Shape, cylinder: &Shape, margin: f64, out
     }
 }
 
-/// Two balls at the closest points of both axes. Of parallel axes many points are as close: up to two pairs, each an end of one
-/// axis and the point of the other that is closest to it, first the ends of the first.
+/// The contact of two balls at the closest points of both axes. For parallel axes the closest points are not unique.
+/// There are then up to two contacts, each at an end of one axis and the closest point of the other. Ends of the
+/// first axis come first.
 pub(super) fn capsule_capsule(a: &Shape, b: &Shape, margin: f64, out: &mut Vec<ContactPoint>) {
     let (on_a, on_b) = (axis(a), axis(b));
     let contact = |[x, y]: [f64; 2]| balls(a, on_a.at(x), a.size[0], b, on_b.at(y), b.size[0], margin);

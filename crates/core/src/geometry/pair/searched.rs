@@ -1,4 +1,4 @@
-//! Two convex shapes by the general algorithm, and further contacts where they lie flat on each other.
+//! Contacts of two convex shapes from the general algorithm, and additional contacts if they lie flat on each other.
 
 use super::ContactPoint;
 use super::PairSettings;
@@ -8,12 +8,12 @@ use crate::geometry::convex::{Convex, ConvexScratch, nearest};
 use crate::kinds::geom;
 use crate::math::*;
 
-/// Contacts are new when they are farther from the others than this, in bounding radii.
+/// Minimum distance of a new contact from the others, as a fraction of the smaller bounding radius.
 const DISTINCT: f64 = 1e-3;
-/// Angle by which shapes are rocked to find the other points they rest on, rad.
+/// Angle by which the shapes are rotated to find further contact points, rad.
 const ROCK: f64 = 1e-3;
 
-/// The nearest or deepest place, and further ones where the shapes lie flat on each other.
+/// Appends the nearest or deepest contact, and further ones if the shapes lie flat on each other.
 #[cfg_attr(not(feature = "small"), inline(never))]
 pub(super) fn convex(
     a: &Shape,
@@ -36,7 +36,7 @@ pub(super) fn convex(
     }
 }
 
-/// The deepest point of two shapes.
+/// The contact at the nearest or deepest point of two shapes within `margin`.
 fn deepest(
     a: &Shape,
     b: &Shape,
@@ -50,8 +50,8 @@ fn deepest(
         .map(|n| ContactPoint::between(&n))
 }
 
-/// Rocks both shapes against each other about the first contact, to and fro about each tangent, and keeps the
-/// contacts that come up elsewhere. Their distance is that of the first.
+/// Rotates both shapes in opposite directions about the first contact, by a small angle in both senses about each
+/// tangent. Appends the contacts that this finds at other positions, with the distance of the first contact.
 fn rock(
     a: &Shape,
     b: &Shape,
@@ -77,7 +77,7 @@ fn rock(
     }
 }
 
-/// A shape rotated about a point.
+/// Rotates a shape about a point.
 fn turned<'a>(s: &Shape<'a>, about: Vec3, turn: &Mat3) -> Shape<'a> {
     let arm = sub(about, s.pos);
     let shift = sub(mat_mul_vec(turn, arm), arm);

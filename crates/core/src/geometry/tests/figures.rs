@@ -1,19 +1,20 @@
-//! Figures of many pairs for `docs/measured/contacts.md`, written when `LABSPEC_GEOMETRY` names a folder of recordings.
+//! Statistics of many pairs for `docs/measured/contacts.md`, written if `LABSPEC_GEOMETRY` names a folder of
+//! recordings.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// The same number of a length, a position or a direction, m.
+/// Largest difference of two equal numbers: a length or position in m, or a component of a direction.
 const SAME: f64 = 1e-9;
 
-/// What many pairs of one kind came to.
+/// Statistics of the pairs of two types.
 #[derive(Default)]
 struct Row {
     cases: usize,
     touching: usize,
     number: usize,
     same: usize,
-    /// Largest difference of the deepest distance where both found contacts, m.
+    /// Largest difference of the deepest distance, if both found contacts, m.
     depth: f64,
     distances: usize,
     near: usize,
@@ -21,12 +22,13 @@ struct Row {
     distance: f64,
 }
 
-/// A table of pairs of types.
+/// Statistics by pair of types.
 #[derive(Default)]
 pub(super) struct Figures(BTreeMap<String, Row>);
 
 impl Figures {
-    /// Contacts of ten numbers each: distance, position, normal, first tangent. Both lists in the same order.
+    /// Adds a case with contacts of ten numbers each: distance, position, normal, first tangent. Both lists are in
+    /// the same order.
     pub(super) fn contacts(&mut self, pair: &str, theirs: &[f64], ours: &[f64]) {
         let r = self.0.entry(pair.into()).or_default();
         r.cases += 1;
@@ -40,7 +42,7 @@ impl Figures {
         }
     }
 
-    /// Signed distances.
+    /// Adds a case with signed distances.
     pub(super) fn distance(&mut self, pair: &str, theirs: f64, ours: f64) {
         let r = self.0.entry(pair.into()).or_default();
         r.distances += 1;
@@ -48,7 +50,7 @@ impl Figures {
         r.distance = r.distance.max((theirs - ours).abs());
     }
 
-    /// The rows as Markdown.
+    /// The contact statistics as a Markdown table.
     pub(super) fn contact_table(&self) -> String {
         let mut text = String::from(
             "| pair | cases | that touch | same number of contacts | all within 1e-9 | deepest, largest difference, m |\n\
@@ -61,7 +63,7 @@ impl Figures {
         text
     }
 
-    /// The rows as Markdown.
+    /// The distance statistics as a Markdown table.
     pub(super) fn distance_table(&self) -> String {
         let mut text =
             String::from("| pair | cases | within 1e-9 | largest difference, m |\n|---|---:|---:|---:|\n");

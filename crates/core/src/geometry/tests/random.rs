@@ -1,4 +1,4 @@
-//! Random numbers that are the same on every machine.
+//! Random numbers that are identical on every machine.
 
 use crate::math::Vec3;
 
@@ -14,17 +14,17 @@ impl Random {
         x ^ (x >> 31)
     }
 
-    /// From 0 to n - 1.
+    /// A random integer from 0 to n - 1.
     pub(crate) fn below(&mut self, n: usize) -> usize {
         (self.bits() % n as u64) as usize
     }
 
-    /// Uniform between two numbers.
+    /// A uniform random number between `low` and `high`.
     pub(crate) fn within(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * (self.bits() >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// Three of them.
+    /// Three uniform random numbers.
     pub(crate) fn vector(&mut self, low: f64, high: f64) -> Vec3 {
         std::array::from_fn(|_| self.within(low, high))
     }

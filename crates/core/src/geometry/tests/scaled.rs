@@ -1,13 +1,14 @@
-//! Geometry has no scale of its own: every recorded case, and some more, with all lengths multiplied by a power of two, from
-//! 6e-5 to 16384. Such a factor leaves no rounding, so the answer is the scaled one to the bit: a length that is compared with
-//! anything but lengths, or a threshold that is a length, shows.
+//! The geometry code is independent of scale. The tests multiply all lengths of every recorded case, and of some
+//! additional ones, by powers of two from 6e-5 to 16384. Such a factor causes no rounding, so the result must be the
+//! scaled result, bit for bit. A length that is compared with a quantity that is not a length, or a threshold that is
+//! an absolute length, makes a test fail.
 
 use super::*;
 
 /// Powers of two: 2⁻¹⁴ is 6.1e-5, 2¹⁴ is 16384.
 const POWERS: [i32; 6] = [-14, -10, -4, 5, 11, 14];
 
-/// Shapes beside those that were recorded: where thresholds of the wrong dimension have been.
+/// Additional shapes, for which thresholds once had the wrong dimension.
 const MORE: &str = "\
 distance capsule - 2.5 0.2 0 0 0 2.4 0.7071067811865476 0 0.7071067811865475 0 box - 0.1 0.1 0.1 0 0 0 1 0 0 0 1
 distance capsule - 3 1 0 0.3 0.1 3.05 0.8 0.1 0.6 0 box - 0.2 0.1 0.1 0 0 0 1 0 0 0 1
@@ -21,7 +22,7 @@ fn assets_scaled(text: &str, by: f64) -> Assets {
     for list in assets.vert.values_mut() {
         *list = list.iter().map(|&v| scale(v, by)).collect();
     }
-    // Sides are found again, in vertices of that size.
+    // The hull faces are recomputed from the scaled vertices.
     let names: Vec<String> = assets.vert.keys().cloned().collect();
     for name in names {
         let mesh = assets.mesh(&name);
@@ -45,7 +46,7 @@ fn settings_scaled(by: f64) -> PairSettings {
     settings
 }
 
-/// Contacts and distance of a line's two shapes: lengths divided by the scale, then directions.
+/// Contacts and distance of the two shapes in a line, with lengths divided by the scale.
 fn answer(assets: &Assets, line: &str, by: f64) -> (Vec<ContactPoint>, Vec<f64>) {
     let given = line.split('|').next().unwrap();
     let mut words = given.split_whitespace();
@@ -122,7 +123,7 @@ fn rays_scale_with_the_scene_and_with_their_direction() {
     assert!(hits > 300, "{hits}");
 }
 
-/// A capsule of any size over a box, in closed form: it touches with both ends.
+/// A capsule of any size lying on a box has two contacts, one at each end, with known depth.
 #[test]
 fn large_and_small_capsules_lie_on_boxes() {
     for power in [-14, -7, 0, 1, 2, 4, 7, 14] {
@@ -151,7 +152,7 @@ fn large_and_small_capsules_lie_on_boxes() {
     }
 }
 
-/// Two capsules that cross have one contact, where they cross, however short they are.
+/// Two crossing capsules have one contact, at the crossing, however short they are.
 #[test]
 fn short_capsules_cross() {
     for half in [1e-6, 1e-4, 1.0, 1e4] {

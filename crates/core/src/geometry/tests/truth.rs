@@ -1,12 +1,13 @@
-//! Signed distances of convex bodies against references that owe nothing to the algorithms, and to MuJoCo.
+//! Signed distances of convex bodies compared with references that are independent of the algorithms and of MuJoCo.
 //!
-//! Apart, a distance proves itself: the witnesses are points of both bodies that far apart, and a plane across the
-//! direction between them has one body on either side, as far apart. Overlapping, the support function h(n) of the
-//! difference a - b bounds the depth from above for every direction n, and the depth is the least of all: for bodies with
-//! corners the least over the normals of all faces of both and over all pairs of edges (separating axes), for round bodies
-//! the least over directions that cover the sphere, each of the best walked downhill.
+//! For separate bodies the result proves itself. The witness points belong to the two bodies and have the reported
+//! distance. The projections of the bodies onto the line between the witness points are separated by the same
+//! distance. For overlapping bodies the support function h(n) of the difference a - b bounds the depth from above for
+//! every direction n, and the depth is its minimum. The reference for polyhedra is the minimum over the normals of
+//! all faces of both bodies and over all pairs of edges (separating axes). The reference for round bodies is the
+//! minimum over directions that cover the sphere, with the best ones refined by descent.
 //!
-//! `LABSPEC_CASES` says how many random configurations there are for each pair (100,000 for `docs/measured/contacts.md`).
+//! `LABSPEC_CASES` sets the number of random configurations of each pair (100,000 for `docs/measured/contacts.md`).
 
 use super::Random;
 use crate::geometry::convex::{Convex, ConvexScratch, Nearest, nearest};
@@ -25,7 +26,7 @@ impl Random {
         }
     }
 
-    /// Turns at random, or aligned with the world, or nearly.
+    /// A random rotation, in some cases the identity, a rotation by a multiple of 90°, or a very small rotation.
     fn turn(&mut self) -> Mat3 {
         let quarter = |k: usize| quat_axis_angle([1.0, 0.0, 0.0], k as f64 * std::f64::consts::FRAC_PI_2);
         let q = match self.below(8) {
@@ -38,7 +39,7 @@ impl Random {
     }
 }
 
-/// A convex mesh: vertices, triangles, and the graph of its hull.
+/// A convex mesh: vertices, triangles, graph of the hull and faces of the hull.
 struct Solid {
     vert: Vec<Vec3>,
     face: Vec<[i32; 3]>,
@@ -71,12 +72,12 @@ pub(super) fn farthest(s: &Shape, dir: Vec3) -> Vec3 {
     })
 }
 
-/// How far a - b reaches along a direction.
+/// The extent of a - b along a direction.
 fn reach(a: &Shape, b: &Shape, n: Vec3) -> f64 {
     dot(n, farthest(a, n)) - dot(n, farthest(b, scale(n, -1.0)))
 }
 
-/// Directions of faces and of edges of what has corners, world.
+/// Face normals and edge directions of a polyhedron, world frame.
 fn faces_and_edges(s: &Shape) -> (Vec<Vec3>, Vec<Vec3>) {
     if s.kind == geom::BOX {
         let axes = [0, 1, 2].map(|i| s.axis(i)).to_vec();
@@ -92,7 +93,7 @@ fn faces_and_edges(s: &Shape) -> (Vec<Vec3>, Vec<Vec3>) {
     (normals, edges)
 }
 
-/// The depth of two bodies with corners: the least reach over all separating axes.
+/// The penetration depth of two polyhedra: the smallest extent over all separating axes.
 fn depth_by_axes(a: &Shape, b: &Shape) -> f64 {
     let ((faces_a, edges_a), (faces_b, edges_b)) = (faces_and_edges(a), faces_and_edges(b));
     let mut least = f64::INFINITY;
@@ -113,7 +114,8 @@ fn depth_by_axes(a: &Shape, b: &Shape) -> f64 {
     least
 }
 
-/// The depth by directions that cover the sphere; from the best of them downhill by steps that halve.
+/// The penetration depth by sampling directions that cover the sphere. The best ones are refined by descent with
+/// decreasing steps.
 fn depth_by_sampling(a: &Shape, b: &Shape, hint: Vec3) -> f64 {
     const N: usize = 400;
     let golden = std::f64::consts::PI * (3.0 - 5f64.sqrt());
@@ -179,16 +181,16 @@ impl Solid {
     }
 }
 
-/// What the cases of a pair came to: numbers, and the largest errors.
+/// Results of the cases of a pair: numbers of cases, and largest errors.
 #[derive(Default)]
 struct Tally {
     apart: usize,
     deep: usize,
-    /// Of distances, and of depths above and below the reference, m.
+    /// Largest error of distances, and of depths above and below the reference, m.
     distance: f64,
     above: f64,
     below: f64,
-    /// How far a witness lies outside of its body, m.
+    /// Largest distance of a witness point outside its body, m.
     outside: f64,
     worst: String,
 }
@@ -204,17 +206,18 @@ fn shape<'a>(kind: i32, r: &mut Random, solids: &'a [Solid]) -> Shape<'a> {
     s
 }
 
-/// How far a point is outside of a shape: beyond the planes across some directions.
+/// The distance of a point outside a shape: the largest distance beyond the support planes of the given directions;
+/// zero if it is inside all of them.
 fn outside(s: &Shape, p: Vec3, directions: &[Vec3]) -> f64 {
     let beyond = |n: &Vec3| dot(*n, sub(p, farthest(s, *n)));
     directions.iter().map(beyond).fold(0.0, f64::max)
 }
 
-/// How wrong a signed distance is, m.
+/// Error of a signed distance, m.
 enum Error {
-    /// Of bodies that are apart.
+    /// Error of the distance of separate bodies.
     Distance(f64),
-    /// Of bodies that overlap: how much deeper than the reference.
+    /// Error of the depth of overlapping bodies: positive if it is larger than the reference.
     Penetration(f64),
 }
 
@@ -230,7 +233,7 @@ fn error(a: &Shape, b: &Shape, n: &Nearest, tolerance: f64) -> Error {
     Error::Penetration(-n.dist - depth)
 }
 
-/// Whether the reference has the same signed distance for two shapes.
+/// Whether the signed distance of two shapes agrees with the reference.
 pub(super) fn is_true(a: &Shape, b: &Shape) -> bool {
     let effort = super::patient().effort;
     let found = nearest(&mut Convex::new(a), &mut Convex::new(b), 1e3, effort, &mut ConvexScratch::default());
@@ -251,7 +254,8 @@ fn check_pair(kind1: i32, kind2: i32, cases: usize) -> Tally {
         let far = if r.below(50) == 0 { 0.0 } else { r.within(0.0, 1.2) };
         b.pos = scale(r.direction(), far);
         if r.below(4) == 0 {
-            // Just touching, just apart, or just not: along the line between the centres as far as they reach.
+            // Touching, just separate, or just overlapping: the bodies are separated along a random direction by the
+            // extent along it.
             let n = r.direction();
             let gap = if r.below(2) == 0 { 0.0 } else { 10f64.powf(r.within(-9.0, -3.0)) };
             b.pos = scale(n, reach(&a, &b, n) + if r.below(2) == 0 { gap } else { -gap });
@@ -310,7 +314,7 @@ const PAIRS: [(i32, i32); 15] = [
     (geom::MESH, geom::MESH),
 ];
 
-/// How many random configurations.
+/// The number of random configurations.
 fn cases(usual: usize) -> usize {
     std::env::var("LABSPEC_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(usual)
 }
@@ -340,7 +344,7 @@ fn signed_distances_are_true() {
     println!("| pair | apart | distance | overlapping | deeper | less deep | outside |\n{table}\n{wrong}");
     assert!(wrong.is_empty());
 }
-/// The prisms of a height field have corners, too.
+/// The depth of height field prisms agrees with the separating axes, because prisms are polyhedra too.
 #[test]
 fn prisms_of_the_ground_are_true() {
     let solids = solids();
@@ -372,7 +376,7 @@ fn prisms_of_the_ground_are_true() {
         let edge = |i: usize, j: usize| normalize(sub(corners[i], corners[j])).0;
         let axes_of_first =
             [edge(0, 1), edge(1, 2), edge(2, 0), edge(3, 4), edge(4, 5), edge(5, 3), [0.0, 0.0, 1.0]];
-        // Every side of the prism holds two of its own edges.
+        // The normal of every side of the prism is perpendicular to two of its edges.
         let (mut axes, others) = faces_and_edges(&b);
         for e in axes_of_first {
             let across = axes_of_first.iter().chain(&others).map(|f| normalize(cross(e, *f)));
@@ -385,8 +389,8 @@ fn prisms_of_the_ground_are_true() {
     assert!(deep > 500, "{deep}");
 }
 
-/// Contacts of faces: four at most, all of them below both surfaces, none deeper than what parts the bodies along its
-/// normal, and the deepest as deep as the bodies are.
+/// Contacts of faces: there are at most four, all below both surfaces. None is deeper than the translation along its
+/// normal that separates the bodies. If the bodies overlap, there is at least one.
 #[test]
 fn contacts_of_faces_are_below_both_surfaces() {
     let solids = solids();
@@ -397,7 +401,7 @@ fn contacts_of_faces_are_below_both_surfaces() {
             [(geom::BOX, geom::MESH), (geom::MESH, geom::MESH), (geom::CYLINDER, geom::BOX)][case % 3];
         let (a, mut b) = (shape(kinds.0, &mut r, &solids), shape(kinds.1, &mut r, &solids));
         if r.below(2) == 0 {
-            // Almost flat on each other.
+            // The bodies lie almost flat on each other.
             let tilt = quat_to_mat(quat_axis_angle(r.direction(), r.within(0.0, 0.05)));
             b.mat = mat_mul(&tilt, &a.mat);
         }
@@ -422,7 +426,8 @@ fn contacts_of_faces_are_below_both_surfaces() {
         assert!(work.touches.len() <= 4 && (depth < 1e-9 || !work.touches.is_empty()), "{}", say());
         for t in &work.touches {
             assert!(t.dist < 0.0 && (norm(t.normal) - 1.0).abs() < 1e-12, "{}", say());
-            // The depth is measured along one face's normal, and the contact has the other's: 5 degrees apart at most.
+            // The depth is measured along the normal of one face, and the contact normal is that of the other: they
+            // differ by at most 5 degrees.
             assert!(-0.99 * t.dist <= reach(&a, &b, t.normal) + 1e-9, "{}", say());
             let (beyond_a, beyond_b) = (
                 dot(t.normal, sub(t.pos, farthest(&a, t.normal))),
@@ -439,7 +444,7 @@ fn contacts_of_faces_are_below_both_surfaces() {
     assert!(several > 500 && one > 100, "{several} {one}");
 }
 
-/// The distance of a height field is that of its nearest prism, or of its deepest.
+/// The distance of a height field is that of its nearest or deepest prism.
 #[test]
 fn distances_of_height_fields_are_those_of_their_prisms() {
     let solids = solids();
@@ -464,7 +469,7 @@ fn distances_of_height_fields_are_those_of_their_prisms() {
                 for top in [[p, s, t], [p, q, t]] {
                     let low = top.map(|[x, y, _]| [x, y, -0.3]);
                     let corners = [low[0], low[1], low[2], top[0], top[1], top[2]].map(|p| ground.world(p));
-                    // In the world a prism is any body with corners.
+                    // In the world frame a prism is a mesh without faces.
                     let vert = corners.to_vec();
                     let mut prism = Shape::new(geom::MESH, [1.0; 3], [0.0; 3], EYE);
                     prism.mesh = Some(Mesh { vert: &vert, ..Default::default() });

@@ -1,4 +1,4 @@
-//! Articulated bodies against the factorization of M.
+//! Articulated bodies compared with the factorization of M.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -10,7 +10,8 @@ use crate::step::forward::forward;
 use crate::step::workspace::Workspace;
 use proptest::prelude::*;
 
-/// A tree as text: of each body its parent, its joints (-1 for none, three hinges at most), its place and turn.
+/// A tree as MJCF. Each body is given by its parent, its joints (-1 for none, at most three hinges), and three
+/// numbers for its position and orientation.
 fn text(bodies: &[(usize, i32, [f64; 3])]) -> String {
     fn body(i: usize, bodies: &[(usize, i32, [f64; 3])], free: bool) -> String {
         let (_, joints, [x, y, z]) = bodies[i];
@@ -61,7 +62,7 @@ proptest! {
             prop_assert!((ours - rows).abs() < 1e-10 * (1.0 + rows.abs()), "{ours} {rows}");
         }
 
-        // Backwards: the force of the acceleration is the force.
+        // Reverse check: multiplying the computed acceleration by the matrix gives the force.
         let f: Vec<f64> = (0..m.nv).map(|k| q[(3 * k) % q.len()]).collect();
         let b: Vec<f64> = (0..m.nv).map(|k| q[(5 * k) % q.len()].abs()).collect();
         let (mut x, mut back) = (f.clone(), vec![0.0; m.nv]);

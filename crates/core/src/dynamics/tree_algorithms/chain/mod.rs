@@ -1,16 +1,16 @@
 //! Equations of motion of short chains, by projection onto their degrees of freedom (Kane and Levinson 1985,
 //! *Dynamics*, ch. 6).
 //!
-//! A tree of a few slides and hinges needs no composite inertias and no recursion for forces: with the
-//! velocity u_k of a link's centre of mass and its angular velocity w_k for a unit velocity of each degree of
-//! freedom k,
+//! A tree of a few slides and hinges needs no composite inertias and no recursion for forces. For each link and each
+//! degree of freedom k, let u_k be the velocity of the centre of mass and w_k the angular velocity for a unit
+//! velocity of k. Then
 //!
 //! > M_ik = Σ m u_i·u_k + w_i·(I w_k),   bias_k = Σ u_k·m (a - g) + w_k·(I α + ω × I ω)
 //!
-//! over the links that k moves, where a and α are the accelerations that the velocities alone cause. A link is
-//! what moves with one joint: bodies without joints are part of the link that carries them. Its frame has its
-//! origin at the joint's anchor; turning is expressed in it, where I is constant. A chain that moves in a plane
-//! takes the same equations in two dimensions.
+//! summed over the links that k moves, where a and α are the accelerations for zero joint accelerations. A link
+//! consists of the bodies that move with one joint: bodies without joints belong to the link that carries them. The
+//! frame of a link has its origin at the anchor of its joint. Rotational terms are expressed in this frame, where I
+//! is constant. For a chain that moves in a plane, the same equations are used in two dimensions.
 
 mod planar;
 mod spatial;
@@ -26,7 +26,7 @@ use crate::math::*;
 use crate::model::reflect::{FieldId, model as fields_of};
 use crate::model::{Fields, Model};
 
-/// A tree with more degrees of freedom is cheaper by composite bodies and recursion.
+/// Maximum number of degrees of freedom. For larger trees, composite bodies and recursion are faster.
 const MAX_DOFS: usize = 6;
 
 pub(super) const ROW: Row = Row {
@@ -44,7 +44,7 @@ pub(super) const ROW: Row = Row {
     ..NOTHING
 };
 
-/// What the model says about a link.
+/// Fields of the model that determine the parameters of links.
 pub(super) const COPIES: [FieldId; 12] = [
     fields_of::body_pos,
     fields_of::body_quat,
@@ -60,42 +60,42 @@ pub(super) const COPIES: [FieldId; 12] = [
     fields_of::actuator_gear,
 ];
 
-/// The links of all short chains, chain by chain, each from its root on.
+/// The links of all short chains, chain by chain, each starting at its root.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Trees {
     links: Vec<Link>,
     /// Number of links of each chain.
     lengths: Vec<usize>,
-    /// Bodies that are part of a link, or that carry one and cannot move, parents first.
+    /// Bodies that belong to a link, or that carry one and cannot move. Parents come first.
     parts: Vec<LinkBody>,
 }
 
-/// What moves with one joint.
+/// The bodies that move with one joint.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Link {
     joint: usize,
     dof: usize,
-    /// Its coordinate in qpos.
+    /// Index of its coordinate in `qpos`.
     coordinate: usize,
-    /// Where its row of M begins.
+    /// Start of its row of M.
     row: usize,
     slides: bool,
-    /// Parameters: see `load`.
+    /// Parameters from the model: see `load`.
     fixed: Fixed,
-    /// Whether the chain moves in a plane, and then the parameters in it.
+    /// Whether the chain moves in a plane. If so, the next field holds the parameters in the plane.
     planar: bool,
     flat: planar::Fixed,
     swing: planar::Swing,
-    /// Where it is, in space.
+    /// Its current pose, for spatial chains.
     pose: Pose,
-    /// w_k and u_k of each degree of freedom that moves it, from the root on.
+    /// w_k and u_k of each degree of freedom that moves it, starting at the root.
     columns: [(Vec3, Vec3); MAX_DOFS],
 }
 
-/// What the model says about a link.
+/// Parameters of a link from the model.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Fixed {
-    /// The link's frame in its parent's, at the default configuration.
+    /// Pose of its frame in that of its parent, in the default configuration.
     pub(super) at: Vec3,
     pub(super) turn: Mat3,
     /// Whether `turn` is the identity.
@@ -118,7 +118,7 @@ impl Fixed {
     }
 }
 
-/// Frame, axis of the joint and centre of mass, world.
+/// Frame, joint axis and centre of mass of a link, world frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Pose {
     anchor: Vec3,
@@ -135,19 +135,19 @@ struct Motion {
     acceleration: Vec3,
 }
 
-/// A body, and its frame in that of its link or of the world.
+/// A body, and its pose in the frame of its link or of the world.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct LinkBody {
     body: usize,
     link: Option<usize>,
-    /// The part that it is attached to, `None` for the world.
+    /// The index in `parts` of its parent, `None` for the world.
     parent: Option<usize>,
     at: Vec3,
     turn: Mat3,
 }
 
-/// Whether a tree is a short chain: at most [`MAX_DOFS`] slides and hinges, one after the other from the world on, that are
-/// more than one simple body.
+/// Whether a tree is a short chain: at most [`MAX_DOFS`] slides and hinges in series, starting at the world, that are
+/// not a simple body.
 fn covers(m: &Model, tree: usize) -> bool {
     let dofs = m.tree_dofs(tree);
     let first = dofs.start;
@@ -161,7 +161,7 @@ fn covers(m: &Model, tree: usize) -> bool {
 }
 
 impl Trees {
-    /// The links of the short chains of a model.
+    /// Finds the links of the short chains of a model.
     pub(super) fn new(m: &Model, assignment: &Assignment) -> Trees {
         let mut chains = Trees::default();
         let mut part_of: Vec<Option<usize>> = vec![None; m.nbody];
@@ -201,12 +201,12 @@ impl Trees {
         chains
     }
 
-    /// What the model says about each link, and its coordinate in qpos.
+    /// The parameters of each link, and the index of its coordinate in `qpos`.
     pub(super) fn parameters(&self) -> impl Iterator<Item = (&Fixed, usize)> {
         self.links.iter().map(|link| (&link.fixed, link.coordinate))
     }
 
-    /// Takes the parameters of the links from the model.
+    /// Reads the parameters of the links from the model.
     pub(super) fn load(&mut self, m: &Model) {
         let (pos, quat) = (rows::<3>(&m.body_pos), rows::<4>(&m.body_quat));
         let (anchor, axis) = (rows::<3>(&m.jnt_pos), rows::<3>(&m.jnt_axis));
@@ -228,7 +228,7 @@ impl Trees {
                 f.reference = m.qpos0[link.coordinate];
                 f.armature = mass::armature(m, link.dof);
                 (f.mass, f.com, f.inertia) = (0.0, [0.0; 3], [0.0; 6]);
-                // What follows is given in the link's own frame.
+                // The following joints and bodies are given in the frame of this link.
                 (at, turn) = (scale(anchor[j], -1.0), EYE);
                 next += 1;
             }
@@ -261,14 +261,14 @@ impl Trees {
     }
 }
 
-/// The number of links of a chain: a constant, but for 0, which is any number.
+/// The number of links of a chain: the constant N, or the actual length if N is 0.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn length<const N: usize>(chain: &[Link]) -> usize {
     if N == 0 { chain.len().min(MAX_DOFS) } else { N }
 }
 
-/// Calls a function of a chain with its length as a constant, so that its loops are unrolled; in a small module there is one
-/// body for all lengths.
+/// Calls a function for each chain with its length as a constant, so that loops are unrolled. With the feature
+/// `small`, one instance serves all lengths.
 macro_rules! by_length {
     ($chains:expr, $function:ident($($argument:expr),*)) => {{
         let mut rest = $chains.links.as_mut_slice();
@@ -296,13 +296,13 @@ macro_rules! by_length {
     }};
 }
 
-/// The rows of M that belong to short chains.
+/// Computes the rows of M of short chains.
 fn mass(_: &Model, d: &mut Fields, w: &mut Scratch) {
     by_length!(w.algorithms.chain, mass_matrix(&d.qpos, &mut d.M));
 }
 
-/// The bias force of short chains.
-#[inline(never)] // scenes without any do not carry its set-up
+/// Computes the bias force of short chains.
+#[inline(never)] // so that scenes without such chains do not execute its setup code
 fn bias(_: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
     by_length!(w.algorithms.chain, bias(&d.qvel, &mut d.qfrc_bias, gravity));
 }

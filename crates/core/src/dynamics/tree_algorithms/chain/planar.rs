@@ -1,7 +1,7 @@
-//! Short chains in a plane: all hinges turn about one direction, all slides are perpendicular to it.
+//! Short chains in a plane: all hinge axes are parallel, and all slides are perpendicular to them.
 //!
-//! Turning is one number, and nothing turns faster or slower without a torque: with zero joint accelerations
-//! the angular accelerations vanish, and of the gyroscopic torque nothing points out of the plane.
+//! Angular velocities are scalars. With zero joint accelerations, all angular accelerations are zero, and the
+//! gyroscopic torque has no component along the normal of the plane.
 
 use super::{Link, MAX_DOFS, length};
 use crate::math::broken_invariant;
@@ -9,23 +9,23 @@ use crate::math::{EYE, Mat3, Vec3, column, cross, dot, mat_mul, mat_mul_vec, nor
 
 type Vec2 = [f64; 2];
 
-/// What the model says about a link, along the axes of the plane at the default configuration.
+/// Parameters of a link from the model, in the axes of the plane, in the default configuration.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Fixed {
-    /// The anchor from that of the link before.
+    /// Vector from the anchor of the previous link to its anchor.
     at: Vec2,
     /// Direction of a slide.
     axis: Vec2,
-    /// Sense of a hinge about the normal of the plane, 0 for a slide.
+    /// Sign of a hinge axis relative to the normal of the plane; 0 for a slide.
     sense: f64,
     com: Vec2,
-    /// Moment of inertia about the normal, through the centre of mass.
+    /// Moment of inertia about an axis through the centre of mass along the normal.
     inertia: f64,
-    /// The axes of the plane, world.
+    /// The axes of the plane, world frame.
     plane: [Vec3; 2],
 }
 
-/// Where a link is, and how it is turned.
+/// Current position and orientation of a link.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Swing {
     anchor: Vec2,
@@ -35,13 +35,13 @@ pub(super) struct Swing {
     sin: f64,
 }
 
-/// A direction counts as in the plane, or along its normal, when it misses by less than this.
+/// Largest deviation, as a cosine, of a direction that counts as in the plane or along its normal.
 const FLAT: f64 = 1e-12;
 
-/// Finds out whether a chain is planar, and its parameters.
+/// Determines whether a chain is planar, and its parameters.
 pub(super) fn load(chain: &mut [Link]) {
     let mut all = [(EYE, [0.0; 3]); MAX_DOFS];
-    // Longer ones are those of `planar_chain`, which has parameters of its own.
+    // Longer chains are those of `planar_chain`, which has separate parameters.
     let Some(axes) = all.get_mut(..chain.len()) else { return };
     let mut above = EYE;
     for (link, (turn, axis)) in chain.iter().zip(axes.iter_mut()) {
@@ -51,7 +51,7 @@ pub(super) fn load(chain: &mut [Link]) {
     }
     let axes = &*axes;
     let hinge = chain.iter().zip(axes).find(|(link, _)| !link.slides);
-    // Slides alone move in any plane that holds them: two of them do.
+    // Two slides define the plane. A single slide moves in any plane that contains it.
     let normal = match (hinge, axes) {
         (Some((_, &(_, axis))), _) => axis,
         (None, [(_, a), (_, b), ..]) => normalize(cross(*a, *b)).0,
@@ -89,13 +89,13 @@ pub(super) fn load(chain: &mut [Link]) {
     }
 }
 
-/// The axes of the plane with a normal.
+/// The axes of the plane with a given normal.
 pub(crate) fn plane_of(normal: Vec3) -> [Vec3; 2] {
     let first = normalize(cross(normal, least(normal))).0;
     [first, cross(normal, first)]
 }
 
-/// The axis that is farthest from v.
+/// The coordinate axis that forms the largest angle with v.
 fn least(v: Vec3) -> Vec3 {
     let [x, y, z] = v.map(f64::abs);
     if x <= y && x <= z {
@@ -107,21 +107,21 @@ fn least(v: Vec3) -> Vec3 {
     }
 }
 
-/// v turned by a quarter.
+/// v rotated by 90°.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn quarter(v: Vec2) -> Vec2 {
     [-v[1], v[0]]
 }
 
 impl Swing {
-    /// v turned as the link is.
+    /// v rotated like the link.
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn turned(&self, v: Vec2) -> Vec2 {
         [self.cos * v[0] - self.sin * v[1], self.sin * v[0] + self.cos * v[1]]
     }
 }
 
-/// The rows of M of a chain.
+/// Computes the rows of M of a chain.
 pub(super) fn mass_matrix<const N: usize>(chain: &mut [Link], qpos: &[f64], mass: &mut [f64]) {
     let n = length::<N>(chain);
     let Some(chain) = chain.get_mut(..n) else {
@@ -169,7 +169,7 @@ pub(super) fn mass_matrix<const N: usize>(chain: &mut [Link], qpos: &[f64], mass
     }
 }
 
-/// Velocity of a point of a link below, for a unit velocity of the joint.
+/// Velocity of a point that the joint moves, for a unit velocity of the joint.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn shift(sense: f64, joint: &Swing, point: Vec2) -> Vec2 {
     if sense == 0.0 {
@@ -179,7 +179,7 @@ fn shift(sense: f64, joint: &Swing, point: Vec2) -> Vec2 {
     [sense * arm[0], sense * arm[1]]
 }
 
-/// The bias force of a chain.
+/// Computes the bias force of a chain.
 pub(super) fn bias<const N: usize>(chain: &mut [Link], qvel: &[f64], qfrc_bias: &mut [f64], gravity: Vec3) {
     let n = length::<N>(chain);
     let Some(chain) = chain.get_mut(..n) else {
@@ -189,7 +189,7 @@ pub(super) fn bias<const N: usize>(chain: &mut [Link], qvel: &[f64], qfrc_bias: 
     let (Some(v), Some(out)) = (qvel.get(first..first + n), qfrc_bias.get_mut(first..first + n)) else {
         return broken_invariant("every link of a chain has a degree of freedom");
     };
-    // Gravity enters as an upward acceleration of the world.
+    // Gravity is included as an upward acceleration of the world.
     let up = scale(gravity, -1.0);
     let mut acceleration = [dot(plane[0], up), dot(plane[1], up)];
     let mut turning = 0.0;

@@ -4,7 +4,7 @@ use super::{Link, MAX_DOFS, Motion, Pose, length};
 use crate::math::lanes::matrix_turned;
 use crate::math::*;
 
-/// The rows of M of a chain.
+/// Computes the rows of M of a chain.
 pub(super) fn mass_matrix<const N: usize>(chain: &mut [Link], qpos: &[f64], mass: &mut [f64]) {
     let n = length::<N>(chain);
     let Some(chain) = chain.get_mut(..n) else {
@@ -46,7 +46,7 @@ pub(super) fn mass_matrix<const N: usize>(chain: &mut [Link], qpos: &[f64], mass
 }
 
 impl Link {
-    /// The pose for a coordinate of the joint.
+    /// Computes the pose for the coordinate q of the joint.
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn forward_kinematics(&mut self, parent: Option<&Pose>, q: f64) {
         let (f, pose) = (&self.fixed, &mut self.pose);
@@ -69,7 +69,7 @@ impl Link {
     }
 }
 
-/// The bias force of a chain.
+/// Computes the bias force of a chain.
 pub(super) fn bias<const N: usize>(chain: &mut [Link], qvel: &[f64], qfrc_bias: &mut [f64], gravity: Vec3) {
     let n = length::<N>(chain);
     let Some(chain) = chain.get_mut(..n) else {
@@ -80,7 +80,7 @@ pub(super) fn bias<const N: usize>(chain: &mut [Link], qvel: &[f64], qfrc_bias: 
         return broken_invariant("every link of a chain has a degree of freedom");
     };
     let mut forces = [0.0; MAX_DOFS];
-    // Gravity enters as an upward acceleration of the world.
+    // Gravity is included as an upward acceleration of the world.
     let mut motion = Motion { acceleration: scale(gravity, -1.0), ..Motion::default() };
     for i in 0..n {
         let Link { fixed, pose, columns, slides, .. } = &chain[i];

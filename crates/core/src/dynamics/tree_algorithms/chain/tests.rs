@@ -1,4 +1,4 @@
-//! Short chains against composite bodies and recursion, which know nothing of chains.
+//! Short chains compared with composite bodies and recursion, which do not use chains.
 
 use proptest::prelude::*;
 
@@ -7,8 +7,8 @@ use crate::mjcf::compile;
 use crate::step::forward::forward;
 use crate::step::workspace::Workspace;
 
-/// A link: slide or hinge, axis, anchor, pose of its body, whether a body is welded to it, whether the joint
-/// is a second one of the same body.
+/// A link: whether it is a slide, axis, anchor, position and orientation of its body, whether a body is welded to it,
+/// whether the joint is an additional one of the previous body.
 type LinkText = (bool, [f64; 3], [f64; 3], [f64; 3], [f64; 3], bool, bool);
 
 fn link(planar: bool) -> impl Strategy<Value = LinkText> {

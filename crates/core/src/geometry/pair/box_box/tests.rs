@@ -13,7 +13,7 @@ impl Random {
         Shape::new(geom::BOX, size, [0.0; 3], quat_to_mat(self.pose()))
     }
 
-    /// Two boxes, near one another; in a quarter of the cases degenerate.
+    /// Two boxes close to each other. A quarter of the cases are degenerate.
     fn boxes(&mut self) -> (Shape<'static>, Shape<'static>) {
         let (mut first, mut second) = (self.box_at_origin(), self.box_at_origin());
         second.pos = self.vector(-0.8, 0.8);
@@ -21,7 +21,7 @@ impl Random {
             return (first, second);
         }
         match self.below(5) {
-            // Aligned, the one on the other: touching, or almost.
+            // Aligned boxes, one on top of the other, touching or nearly touching.
             0 => {
                 second.mat = first.mat;
                 let k = self.below(3);
@@ -33,13 +33,13 @@ impl Random {
                 first.size[self.below(3)] = [0.0, 1e-9][self.below(2)];
                 second.size[self.below(3)] = [0.0, 1e-9, 0.3][self.below(3)];
             }
-            // An axis in common, or almost.
+            // Boxes with a common axis, or nearly so.
             3 => {
                 let tilt = [0.0, 0.0, 1e-12, 1e-6, 1e-3][self.below(5)];
                 let [a, b] = [self.within(-1.0, 1.0), self.within(-1.0, 1.0)];
                 second.mat = mat_mul(&first.mat, &quat_to_mat(quat_normalize([a, b, tilt, -tilt])));
             }
-            // The same box, shifted along itself.
+            // Two equal boxes, one shifted in its own frame.
             _ => {
                 second = first;
                 second.pos = mat_mul_vec(&first.mat, self.vector(-0.5, 0.5).map(|x| (4.0 * x).round() / 4.0));
@@ -53,14 +53,14 @@ fn extent(first: &Shape, second: &Shape) -> f64 {
     norm(first.size) + norm(second.size) + norm(sub(second.pos, first.pos))
 }
 
-/// The gap of the faces, and the axis of two edges where theirs is larger.
+/// The largest face gap, and the edge axis if its gap is larger.
 fn axes(first: &Shape, second: &Shape) -> (f64, Option<EdgeAxis>) {
     let placement = Placement::new(first, second);
     let (gap, _) = placement.largest_face_gap();
     (gap, placement.larger_edge_gap(gap))
 }
 
-/// The gap along the axis of the contacts, and whether it is that of two edges.
+/// The gap along the contact normal, and whether it is a gap of two edges.
 fn contact_gap(first: &Shape, second: &Shape) -> (f64, bool) {
     let placement = Placement::new(first, second);
     let (gap, face) = placement.largest_face_gap();
@@ -77,7 +77,7 @@ fn holds(shape: &Shape, point: Vec3, tolerance: f64) -> bool {
     shape.local(point).iter().zip(shape.size).all(|(x, s)| x.abs() <= s + tolerance)
 }
 
-/// Whether the faces of `second` reach into `first`, grown by `grown`, or one box is within the other: by
+/// Whether a face of `second` intersects `first`, enlarged by `grown`, or one box contains the other. Computed by
 /// clipping polygons in space.
 fn overlap_by_clipping(first: &Shape, second: &Shape, grown: f64) -> bool {
     if holds(first, second.pos, grown) || holds(second, first.pos, 0.0) {
@@ -142,10 +142,10 @@ fn gaps_agree_with_clipping_and_contacts_lie_on_both_boxes() {
             if of_edges {
                 assert!((touch.dist - gap).abs() < tolerance, "{}", at());
                 if touch.dist > 0.0 {
-                    continue; // The nearest points may be ends of edges, not opposite one another.
+                    continue; // The nearest points may be ends of edges, which are not opposite each other along the normal.
                 }
             }
-            // The two surface points, opposite one another along the normal.
+            // The two surface points lie opposite each other along the normal.
             assert!(holds(&first, sub(touch.pos, half), tolerance), "{}", at());
             assert!(holds(&second, add(touch.pos, half), tolerance), "{}", at());
         }
@@ -154,10 +154,10 @@ fn gaps_agree_with_clipping_and_contacts_lie_on_both_boxes() {
     assert!((20_000..80_000).contains(&overlapping) && touching > overlapping);
 }
 
-/// Depth of the origin in the convex hull of the differences of all corners, by every plane through three
-/// of them that has all others on one side; nothing when the hull is flat.
+/// Depth of the origin in the convex hull of the differences of all corners. Examines every plane through three of
+/// them that has all others on one side. Returns `None` for a flat hull.
 fn depth_by_hull(first: &Shape, second: &Shape) -> Option<f64> {
-    // In a mixed order, which soon finds points on both sides.
+    // A mixed order, so that points on both sides are found early.
     let points: [Vec3; 64] = std::array::from_fn(|m| {
         let m = m * 37 % 64;
         sub(corner(second, m / 8), corner(first, m % 8))
@@ -201,7 +201,7 @@ fn depth_is_that_of_the_hull_of_differences() {
     for case in 0..2_000 {
         let (first, second) = random.boxes();
         if first.size.iter().chain(&second.size).any(|&s| s > 0.0 && s < 1e-6) {
-            continue; // Facets too thin to have a plane in floating point.
+            continue; // Facets too thin for their plane to be computed in floating point.
         }
         let Some(depth) = depth_by_hull(&first, &second) else { continue };
         let (face_gap, axis) = axes(&first, &second);
@@ -211,7 +211,8 @@ fn depth_is_that_of_the_hull_of_differences() {
         let at = || format!("case {case}: depth {depth:e}, gap {gap:e}, {first:?} {second:?}");
         assert!(residual <= tolerance, "{}", at());
         if depth < -tolerance {
-            // Apart, the gap along an axis that belongs to no facet may be larger than along all that do.
+            // For separate boxes, the gap along an axis that belongs to no facet may be larger than all gaps along
+            // facet normals.
             assert!(gap > 0.0, "{}", at());
         } else {
             assert!(residual >= -tolerance, "{}", at());

@@ -4,7 +4,7 @@ use crate::geometry::tests::Random;
 use crate::kinds::geom;
 
 impl Random {
-    /// A multiple of 1/4.
+    /// A random multiple of 1/4 between `from` / 4 and `to` / 4.
     fn step(&mut self, from: i32, to: i32) -> f64 {
         f64::from(from + (self.bits() % (to - from + 1) as u64) as i32) / 4.0
     }
@@ -13,7 +13,8 @@ impl Random {
         quat_to_mat(quat_normalize(std::array::from_fn(|_| self.within(-1.0, 1.0))))
     }
 
-    /// A rotation with its axis 2 along an axis of the world.
+    /// A random rotation that maps the coordinate axes to coordinate axes, with its axis 2 along an axis of the
+    /// world.
     fn aligned(&mut self) -> Mat3 {
         let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let (a, b) = [(x, y), (y, z), (z, x), (y, x), (z, y), (x, z)][(self.bits() % 6) as usize];
@@ -21,7 +22,7 @@ impl Random {
         std::array::from_fn(|k| [a, b, c][k % 3][k / 3])
     }
 
-    /// A capsule and a box; a quarter of them aligned, on a grid, touching, or without some length.
+    /// A capsule and a box. A quarter of them are aligned, on a grid, touching, or have a length of zero.
     fn capsule_and_box(&mut self) -> (Shape<'static>, Shape<'static>) {
         let unit = 10f64.powf(self.within(-2.0, 2.0));
         let (size, pos) = (self.vector(0.05, 1.0), self.vector(-2.0, 2.0));
@@ -36,7 +37,7 @@ impl Random {
                 cuboid.size = std::array::from_fn(|_| self.step(0, 4));
             }
             3 => {
-                // An end of the axis on the surface.
+                // One end of the axis is on the surface.
                 let on = self.bits() as usize % 3;
                 let end: Vec3 = std::array::from_fn(|i| {
                     if i == on { cuboid.size[i] } else { self.within(-1.5, 1.5) * cuboid.size[i] }
@@ -49,7 +50,7 @@ impl Random {
             shape.size = scale(shape.size, unit);
             shape.pos = scale(shape.pos, unit);
         }
-        // The box anywhere, for half of them: the capsule with it.
+        // In half of the cases both shapes are rotated together.
         if self.bits().is_multiple_of(2) {
             let turn = self.rotation();
             capsule.mat = mat_mul(&turn, &capsule.mat);
@@ -60,7 +61,7 @@ impl Random {
     }
 }
 
-/// The least distance from the box over the axis: dense sampling, then a golden section around the best.
+/// The smallest distance of the axis from the box: dense sampling, then golden-section search around the best sample.
 fn least_distance(capsule: &Shape, cuboid: &Shape) -> f64 {
     let distance = |t: f64| {
         let p = cuboid.local(add_scaled(capsule.pos, capsule.axis(2), t * capsule.size[1]));
@@ -104,7 +105,7 @@ fn the_first_ball_is_nearest() {
     assert!(outside > 50_000 && pierced > 5_000, "{outside} {pierced}");
 }
 
-/// The general algorithm for convex shapes is the reference: it shares nothing with this one.
+/// The reference is the general algorithm for convex shapes, which shares no code with this one.
 #[test]
 fn a_pierced_box_is_parted_by_the_least_translation() {
     let (mut random, mut scratch) = (Random(3), ConvexScratch::default());
