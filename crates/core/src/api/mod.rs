@@ -1,4 +1,4 @@
-//! The engine as embedders hold it: models and data that belong together, objects by name, errors instead of panics.
+//! The interface for embedders: models with their data, objects by name, errors instead of panics.
 
 pub(crate) mod addresses;
 mod assumed;
