@@ -1,4 +1,4 @@
-//! The passes of a forward pass: the rows of the pipeline that run in each of its parts, of which a plan keeps some, a bit each.
+//! The parts of a forward pass: the rows of the pipeline that run in each part. A plan selects rows with one bit each.
 
 use super::clocked::{self, CLOCKED, Run};
 use super::pipeline::{PassPart, STAGES};
@@ -7,7 +7,7 @@ use crate::model::stage::Stage;
 use crate::model::{Fields, Model};
 use crate::step::workspace::Scratch;
 
-/// What runs in a part of a forward pass, in order; a plan keeps some of it, a bit each.
+/// The functions of a part of a forward pass, in order. A plan selects functions with one bit each.
 pub(crate) struct Sequence {
     run: [Run; 32],
     stage: [Option<Stage>; 32],
@@ -33,24 +33,24 @@ impl Sequence {
         all
     }
 
-    /// The bits of what belongs to some stages.
+    /// The bits of all functions whose stage satisfies a condition.
     fn bits(&self, of: impl Fn(Stage) -> bool) -> u32 {
         self.stage.iter().enumerate().filter(|(_, s)| s.is_some_and(&of)).map(|(i, _)| 1 << i).sum()
     }
 
-    /// The bits of the stages before one.
+    /// The bits of the functions before a stage.
     pub(crate) fn before(&self, stage: Stage) -> u32 {
         let n = self.stage.iter().position(|s| *s == Some(stage));
         let n = n.unwrap_or_else(|| broken_invariant("a stage runs in this part of a pass"));
         (1 << n) - 1
     }
 
-    /// The bits of one stage.
+    /// The bits of the functions of a stage.
     pub(crate) fn stage_bits(&self, stage: Stage) -> u32 {
         self.bits(|s| s == stage)
     }
 
-    /// Runs what the bits say.
+    /// Runs the functions that the bits select.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn run(&self, m: &Model, d: &mut Fields, s: &mut Scratch, mut bits: u32) {
         if bits & CLOCKED != 0 {
@@ -68,12 +68,12 @@ pub(crate) static POSITIONS: Sequence = Sequence::new(PassPart::Positions);
 pub(crate) static VELOCITIES: Sequence = Sequence::new(PassPart::Velocities);
 pub(crate) static INPUTS: Sequence = Sequence::new(PassPart::Inputs);
 
-/// The same passes by the clock.
+/// The same passes, with time measurement.
 pub(crate) fn by_the_clock(passes: [[u32; 3]; 2]) -> [[u32; 3]; 2] {
     passes.map(|pass| pass.map(|bits| bits | CLOCKED))
 }
 
-/// What a forward pass runs of each part, for the stages that are kept.
+/// The functions that run in each part of a forward pass, for the stages that are kept.
 pub(crate) fn passes(keeps: impl Fn(Stage) -> bool) -> [u32; 3] {
     [POSITIONS.bits(&keeps), VELOCITIES.bits(&keeps), INPUTS.bits(&keeps)]
 }
