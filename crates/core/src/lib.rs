@@ -16,10 +16,8 @@
 //! ```
 //!
 //! [`Model`] contains the data that do not change during a simulation, [`Data`] those that do. Functions have MuJoCo's names. No
-//! call
-//! panics: an inconsistent argument causes an [`Error`], whose message names the next step. A [`Plan`] leaves out the stages that
-//! a scene and its
-//! readers do not need, without changing a number.
+//! call panics: an inconsistent argument causes an [`Error`], whose message names the next step. A [`Plan`] leaves out the stages
+//! that a scene and its readers do not need, without changing a number.
 //!
 //! With `default-features = false`, models cannot be read from MJCF, but only from the bytes of [`Model::to_bytes`].
 #![forbid(unsafe_code)]

@@ -1,14 +1,11 @@
 //! The assumptions of a plan about values of the model that programs may write, and when a new plan is made.
 //!
 //! A plan for the current values leaves out more stages than a plan for any values. When one of the assumed values changes, a new
-//! plan is made,
-//! which takes as long as some hundred small steps. A value that changes repeatedly may therefore have any value in the new plan,
-//! until it has stayed
-//! constant for some time.
+//! plan is made, which takes as long as some hundred small steps. A value that changes repeatedly may therefore have any value in
+//! the new plan, until it has stayed constant for some time.
 //!
 //! Only calls that compute everything make a narrower plan. After a call that computes a part, such as `mj_kinematics`, the
-//! fields that the
-//! narrower plan leaves out would still contain the results of the last full pass.
+//! fields that the narrower plan leaves out would still contain the results of the last full pass.
 
 use super::contents::Contents;
 use super::planning::Plan;
@@ -176,8 +173,7 @@ mod tests {
     }
 
     /// A plan allows any value for a field that changes repeatedly, until it has stayed constant for some time. After a call that
-    /// computes
-    /// a part, the plan stays until the next full pass.
+    /// computes a part, the plan stays until the next full pass.
     #[test]
     fn restless_values_may_be_any() {
         let (mut m, mut d) = start(&[model::dof_damping]);

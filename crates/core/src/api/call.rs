@@ -1,8 +1,7 @@
 //! MuJoCo's functions for embedders. Each call checks its arguments once, and no call panics.
 //!
 //! A call is an error, and changes nothing, if the data belong to another model, if an id or a length does not fit, or if it
-//! needs results that
-//! the plan left out.
+//! needs results that the plan left out.
 
 mod saved_data;
 mod spatial_queries;
@@ -53,8 +52,7 @@ passes! {
     /// Advances the simulation by one step (`mj_step`).
     ///
     /// A bad number in the state resets the data before the step. A bad number in the acceleration resets the data, and the same
-    /// step then starts
-    /// from the reset state. `warning` records the kind of bad number and when it occurred.
+    /// step then starts from the reset state. `warning` records the kind of bad number and when it occurred.
     ///
     /// ```
     /// # fn main() -> Result<(), labspec_core::Error> {
@@ -97,8 +95,7 @@ passes! {
     /// ```
     step1 engine [] |m, d, s| step::step1(m, d, s);
     /// The second part of a step (`mj_step2`): forces, accelerations, the next state. Runge–Kutta methods need forces at other
-    /// states; if
-    /// the options name one, this function makes a semi-implicit Euler step.
+    /// states; if the options name one, this function makes a semi-implicit Euler step.
     step2 engine [] |m, d, s| step::step2(m, d, s);
     /// Computes all results for the current state, without advancing time (`mj_forward`).
     forward engine_for_pass [] |m, d, s| step::forward::forward(m, d, s);
@@ -157,8 +154,7 @@ pub fn set_keyframe<S: Scope>(m: &mut Model, d: &Data<S>, key: KeyId) -> Result<
 }
 
 /// Computes constants that depend on masses, inertias and poses (`mj_setConst`), in the default configuration. Sets `qpos` to
-/// that
-/// configuration; velocities and time do not change.
+/// that configuration; velocities and time do not change.
 pub fn set_const<S: Scope>(m: &mut Model, d: &mut Data<S>) -> Result<(), Error> {
     d.engine(m)?;
     let before = deciding::constants(m).map(<[i32]>::to_vec);
@@ -181,8 +177,7 @@ pub fn set_plan(m: &Model, d: &mut Data<super::data::Planned>, plan: Plan) -> Re
 }
 
 /// Computes `qfrc_inverse` from `qpos`, `qvel` and `qacc` (`mj_inverse`): the force that actuators or external forces must apply
-/// to
-/// cause this acceleration. With the flag `invdiscrete`, `qacc` is (v⁺ - v)/h of a step instead.
+/// to cause this acceleration. With the flag `invdiscrete`, `qacc` is (v⁺ - v)/h of a step instead.
 ///
 /// All fields of position and velocity, the constraint forces and the sensors are computed, whatever the plan contains.
 ///
@@ -357,8 +352,7 @@ pub fn object_velocity<S: Scope>(
 
 /// Angular and linear acceleration of an object (`mj_objectAcceleration`), rad/s² and m/s². As measured by an accelerometer: at
 /// rest, the linear part points up and has the magnitude of gravity. Axes as for [`object_velocity`]. Call
-/// [`rne_post_constraint`] before.
-/// Zero for objects that cannot move.
+/// [`rne_post_constraint`] before. Zero for objects that cannot move.
 pub fn object_acceleration<S: Scope>(
     m: &Model,
     d: &Data<S>,
@@ -389,8 +383,7 @@ pub fn differentiate_pos(m: &Model, h: f64, from: &[f64], to: &[f64]) -> Result<
 }
 
 /// `kp` and `kv` of an actuator, with respect to its own length. `None` if they depend on more than its parameters, or if there
-/// is no
-/// such actuator.
+/// is no such actuator.
 pub fn servo_gains(m: &Model, actuator: usize) -> Option<[f64; 2]> {
     actuation::servo_gains(m, actuator)
 }

@@ -1,8 +1,8 @@
 //! The version of the contents of a model: each field has a stamp that identifies its last write.
 //!
 //! Clones of a model share the stamps of the fields that are equal in them. A plan stores the stamps of the contents that it was
-//! made for. The
-//! fields that differ from these contents are therefore known for every clone, and for any order in which clones are written.
+//! made for. The fields that differ from these contents are therefore known for every clone, and for any order in which clones
+//! are written.
 
 use crate::dynamics::tree_algorithms;
 use crate::model::reflect::{self, FieldId, FieldSet, NFIELD, Object};

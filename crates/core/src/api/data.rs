@@ -250,8 +250,7 @@ impl<S: Scope> Data<S> {
     }
 
     /// Replaces the plan if forces or controls are applied that the access set does not announce, or if an equality constraint is
-    /// switched
-    /// on. With the old plan they would have no effect.
+    /// switched on. With the old plan they would have no effect.
     #[cold]
     fn replan_for_inputs(&mut self, m: &Model) -> Result<(), Error> {
         self.belongs_to(m)?;
@@ -316,10 +315,8 @@ impl<S: Scope> Data<S> {
 
 impl<S: Scope> Data<S> {
     /// Updates the plan when the parameters of the model differ from those at the last use of the data, when the model is a clone
-    /// with other
-    /// values, or when the plan is wider than necessary. The plan stays if the parameters differ from those that it was made for
-    /// only in
-    /// fields that may have any value. Otherwise a new plan is made.
+    /// with other values, or when the plan is wider than necessary. The plan stays if the parameters differ from those that it
+    /// was made for only in fields that may have any value. Otherwise a new plan is made.
     #[cold]
     pub(super) fn catch_up(&mut self, m: &Model, whole: bool) -> Result<(), Error> {
         self.belongs_to(m)?;

@@ -80,8 +80,7 @@ impl Model {
     }
 
     /// Compiles a model from its text. `files` provides the files that the text includes or names: a folder, a map in memory, or
-    /// any other
-    /// implementation.
+    /// any other implementation.
     ///
     /// # Errors
     ///
@@ -111,8 +110,7 @@ impl Model {
     /// # Errors
     ///
     /// [`Error::NotAModel`] if the bytes were written by another version of the engine, truncated or changed. [`Error::NoConvex`]
-    /// if the model
-    /// needs the general algorithm for convex shapes and the build does not contain it.
+    /// if the model needs the general algorithm for convex shapes and the build does not contain it.
     pub fn from_bytes(bytes: &[u8]) -> Result<Model, Error> {
         let inner = crate::step::store::read(bytes).ok_or(Error::NotAModel)?;
         if !CONVEX && let Some([geom1, geom2]) = setup::search(&inner) {

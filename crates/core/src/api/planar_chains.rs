@@ -9,8 +9,7 @@ use crate::step::analysis::AccessSet;
 use std::fmt::Write;
 
 /// A chain of many links in a plane that is rotated in space, with hinge axes of both signs, bodies that are welded to a link,
-/// and
-/// armature at some joints.
+/// and armature at some joints.
 fn chain(links: usize, option: &str, more: &str) -> Model {
     let (mut open, mut close) = (String::new(), String::new());
     for i in 0..links {

@@ -53,8 +53,7 @@ impl Plan {
     /// The stages that a model needs for an access set.
     ///
     /// The plan assumes the current values of the model, even those that programs may write. Planned data get a new plan when
-    /// such a value
-    /// changes.
+    /// such a value changes.
     pub fn new(m: &Model, access: &AccessSet) -> Plan {
         Plan::by_algorithms(m, access, TreeAlgorithms::ALL)
     }
@@ -108,15 +107,13 @@ impl Plan {
     }
 
     /// The number of pairs of geoms of the model that can touch, and the number of those that cannot, by reason. A pair counts as
-    /// able to
-    /// touch if programs may write the fields that prevent it.
+    /// able to touch if programs may write the fields that prevent it.
     pub fn pairs(&self, m: &Model) -> Vec<(PairFilterReason, usize)> {
         collision::pair_statistics(m, analysis::changes(&self.inner))
     }
 
     /// How the pairs that can touch are tested: two types of geoms, the number of such pairs, and whether the general algorithm
-    /// for
-    /// convex shapes finds their contacts. Covers the first 4096 pairs.
+    /// for convex shapes finds their contacts. Covers the first 4096 pairs.
     pub fn tests(&self, m: &Model) -> Vec<([i32; 2], usize, bool)> {
         collision::pair_methods(m, analysis::changes(&self.inner))
     }

@@ -21,8 +21,7 @@ pub struct Examined {
 }
 
 /// Compiles a model and returns its errors and its warnings. A warning reports what the author may not have intended. `path` is
-/// the path
-/// of the text itself in `files`, if it has one: files that the text names are searched for in that folder.
+/// the path of the text itself in `files`, if it has one: files that the text names are searched for in that folder.
 pub fn check_xml(xml: &str, files: &dyn Files, path: Option<&str>) -> Examined {
     let mjcf::Examined { model, findings } = mjcf::check_xml(xml, files, path);
     Examined { model: model.map(Model::new), findings }

@@ -1,6 +1,5 @@
 //! Contacts, ray hits and distances of a scaled scene, for every pair of geom types, at scales from 6e-5 to 16384. Scales are
-//! powers of two, so
-//! that the scaled result equals the result of the original scene bit for bit.
+//! powers of two, so that the scaled result equals the result of the original scene bit for bit.
 
 use crate::math::{Vec3, scale};
 use crate::mjcf::compile;

@@ -1,6 +1,5 @@
 //! No integer causes a panic or an endless loop. A stored model with any integers is refused or can be stepped. With any integers
-//! that a caller
-//! writes to the data, every stage ends. The cases are generated from the table of fields.
+//! that a caller writes to the data, every stage ends. The cases are generated from the table of fields.
 
 use crate::dynamics;
 use crate::mjcf::compile;
@@ -175,8 +174,7 @@ fn a_written_circle_of_sleeping_trees_wakes() {
 }
 
 /// With an unlimited number of sweeps, the removal of slip ends when no slip remains. This includes a contact that is so stiff
-/// that its
-/// forces are large and a change of friction is lost in their rounding.
+/// that its forces are large and a change of friction is lost in their rounding.
 #[test]
 fn the_removal_of_slip_ends() {
     for (cone, tolerance) in [("pyramidal", 1e-6), ("elliptic", 1e-6), ("elliptic", -1.0)] {

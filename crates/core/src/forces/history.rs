@@ -79,8 +79,7 @@ pub(crate) fn init(buf: &mut [f64], n: usize, slot: f64, time: impl Fn(usize) ->
     }
 }
 
-/// Allocates a sample and returns its values for writing. It replaces the sample of the same time, or else
-/// the oldest sample.
+/// Allocates a sample and returns its values for writing. It replaces the sample of the same time, or else the oldest sample.
 pub(crate) fn insert(buf: &mut [f64], n: usize, dim: usize, time: f64) -> &mut [f64] {
     let Some(ring) = Ring::from_buffer(buf, n, dim) else { return &mut [] };
     let i = ring.first_from(time);
@@ -106,8 +105,8 @@ pub(crate) fn insert(buf: &mut [f64], n: usize, dim: usize, time: f64) -> &mut [
 }
 
 /// The value at a time. Depending on `interp`, it is that of the last sample, a linear interpolation between two samples, or a
-/// cubic one with the
-/// slopes of the samples (Catmull and Rom 1974). Before the first and after the last sample, it is the value of that sample.
+/// cubic one with the slopes of the samples (Catmull and Rom 1974). Before the first and after the last sample, it is the value
+/// of that sample.
 pub(crate) fn read(buf: &[f64], n: usize, dim: usize, time: f64, interp: i32, out: &mut [f64]) {
     let Some(ring) = Ring::from_buffer(buf, n, dim) else { return };
     let i = ring.first_from(time);

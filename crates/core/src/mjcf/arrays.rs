@@ -1,8 +1,8 @@
 //! Fills arrays of a model with one or more values per object.
 //!
 //! A model has hundreds of arrays. To keep the code small, the loop is compiled once per type of object, and each array adds only
-//! the function that
-//! reads its values. Arrays are filled in place: a new list would have to be moved there, and the old one freed.
+//! the function that reads its values. Arrays are filled in place: a new list would have to be moved there, and the old one
+//! freed.
 
 use super::gather::put;
 use super::spec::List;

@@ -195,9 +195,8 @@ pub(crate) struct Classes {
 impl Classes {
     /// Reads all `default` sections.
     ///
-    /// A further section at the top level continues the class `main`. Classes that are defined before keep what
-    /// they copied from it, as in MuJoCo. An attached model has its own main class, under the
-    /// renamed name of its section.
+    /// A further section at the top level continues the class `main`. Classes that are defined before keep what they copied from
+    /// it, as in MuJoCo. An attached model has its own main class, under the renamed name of its section.
     pub(crate) fn read(tree: &Tree, report: &mut Report) -> Classes {
         let mut classes = Classes {
             list: vec![Class::default()],
@@ -262,8 +261,7 @@ impl Classes {
     }
 
     /// All classes: the index of the parent, which precedes its children, and the elements of the class itself. The first class
-    /// has no parent;
-    /// its index is used instead.
+    /// has no parent; its index is used instead.
     pub(crate) fn elements(&self) -> impl Iterator<Item = (usize, &[usize])> {
         self.list.iter().map(|c| (c.parent, c.nodes.as_slice()))
     }

@@ -108,8 +108,7 @@ pub(crate) fn check_sizes(bodies: &[BodySpec], layout: &Layout, report: &mut Rep
 }
 
 /// Checks the limits for geoms and degrees of freedom. Collision detection tests pairs of geoms, and every degree of freedom is
-/// coupled with all
-/// its ancestors, so that a very large model would take much memory and hours without a message.
+/// coupled with all its ancestors, so that a very large model would take much memory and hours without a message.
 fn within_limits(bodies: &[BodySpec], layout: &Layout, report: &mut Report) {
     let geoms: usize = bodies.iter().map(|b| b.geoms.len()).sum();
     let mut depth: Vec<usize> = Vec::with_capacity(layout.dofs.len());
@@ -186,8 +185,8 @@ fn is_unturned([w, x, y, z]: Quat) -> bool {
     (w.abs() - 1.0).abs() < SAME_FRAME && is_origin([x, y, z])
 }
 
-/// For each body, whether its mass matrix is diagonal in every configuration. Then its rows of the
-/// sparsity pattern contain the diagonal only.
+/// For each body, whether its mass matrix is diagonal in every configuration. Then its rows of the sparsity pattern contain the
+/// diagonal only.
 pub(crate) fn find_simple_bodies(bodies: &[BodySpec], inertias: &[Inertia]) -> Vec<i32> {
     let mut leaf = vec![true; bodies.len()];
     for body in bodies.iter().skip(1) {
@@ -226,8 +225,8 @@ pub(crate) struct Pattern {
     pub(crate) colind: Vec<i32>,
 }
 
-/// Row i contains the degrees of freedom on the path from the root to i, ascending, i last; for a simple body, only
-/// i itself. `None`, with an error in the report, if the pattern is too large.
+/// Row i contains the degrees of freedom on the path from the root to i, ascending, i last; for a simple body, only i itself.
+/// `None`, with an error in the report, if the pattern is too large.
 pub(crate) fn pattern(layout: &Layout, simple: &[i32], report: &mut Report) -> Option<Pattern> {
     let mut p = Pattern::default();
     for (i, dof) in layout.dofs.iter().enumerate() {
@@ -252,9 +251,8 @@ pub(crate) fn pattern(layout: &Layout, simple: &[i32], report: &mut Report) -> O
 }
 
 /// The sparsity pattern of derivatives with respect to velocities: both triangles of the matrix that couples every degree of
-/// freedom with
-/// its ancestors, also for simple bodies. A row contains the ancestors, then its own degree of freedom, then all descendants,
-/// ascending.
+/// freedom with its ancestors, also for simple bodies. A row contains the ancestors, then its own degree of freedom, then all
+/// descendants, ascending.
 #[derive(Debug, Default)]
 pub(crate) struct WholePattern {
     pub(crate) pattern: Pattern,

@@ -1,12 +1,11 @@
 //! The MJCF compiler: XML text to a [`Model`], with MuJoCo 3.14.0's names, defaults and conventions.
 //!
 //! The text of a model passes through `text` (limits, XML, a tree that is checked with the one `schema`), `expand` (copies),
-//! `classes` and
-//! `names`. Its elements are then converted to specifications (`spec`), from which `layout` and `fill` compute the
+//! `classes` and `names`. Its elements are then converted to specifications (`spec`), from which `layout` and `fill` compute the
 //! arrays. [`passes`] defines the order. The code for a kind of element (reading, checks, filling) is in the folder of that name.
 //!
-//! A pass reports errors and continues, so that one run shows all of them. A pass that would only
-//! repeat an earlier finding in other words does not run until that finding is corrected.
+//! A pass reports errors and continues, so that one run shows all of them. A pass that would only repeat an earlier finding in
+//! other words does not run until that finding is corrected.
 //!
 //! The meaning of elements and attributes is that of MuJoCo's XML reference. A [`Finding`] contains the position in the
 //! file.
@@ -79,8 +78,7 @@ pub(crate) fn compile(xml: &str) -> Result<Model, Vec<Finding>> {
 }
 
 /// Compiles a model from its text and the files that it names. `files` provides these files. `path` is the path of the text
-/// itself
-/// in `files`, if it has one: files that the text names are searched for in that folder.
+/// itself in `files`, if it has one: files that the text names are searched for in that folder.
 ///
 /// # Errors
 ///
@@ -124,8 +122,7 @@ pub(crate) fn check_patched(
 }
 
 /// The text of a model with its patches applied and its includes expanded, so that another program can read it. `None` if the
-/// text is not
-/// XML, or a patch cannot be applied.
+/// text is not XML, or a patch cannot be applied.
 pub(crate) fn to_xml(xml: &str, files: &dyn Files, path: Option<&str>, patches: &[Patch]) -> Option<String> {
     text::load::Loader::new(files, patches).written(xml, path, &mut Report::new())
 }

@@ -160,8 +160,7 @@ struct Dangling<'t> {
 }
 
 /// Reports a default that refers to a missing object, at each element to which it applies. If there is no such element, it is not
-/// an error. This is
-/// the behaviour of MuJoCo, which resolves the name for each element.
+/// an error. This is the behaviour of MuJoCo, which resolves the name for each element.
 fn check_dangling(
     tree: &Tree,
     names: &NameTable,

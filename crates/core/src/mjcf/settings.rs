@@ -338,8 +338,7 @@ pub(crate) fn min_keys(tree: &Tree) -> usize {
 }
 
 /// The number of user values of each object of a kind: the value of `size`, or, if that is absent or -1, the length of the
-/// longest list.
-/// `lists` contains one list per object.
+/// longest list. `lists` contains one list per object.
 pub(crate) fn user_width(
     tree: &Tree,
     size: &str,
@@ -379,8 +378,7 @@ pub(crate) fn user_width(
 }
 
 /// Checks the attributes of `size` for memory. They have no effect here, but must be valid in MuJoCo: a number of bytes with K,
-/// M, G, T, P or
-/// E; other numbers at least -1.
+/// M, G, T, P or E; other numbers at least -1.
 pub(crate) fn memory(tree: &Tree, report: &mut Report) {
     let p = section(tree, "size");
     if p.has("memory") {

@@ -1,6 +1,5 @@
 //! Which objects sleep: those of sleeping trees, and objects that act on or measure only sleeping trees. Every stage uses these
-//! functions. The
-//! stage that puts trees to sleep is `step/sleep`.
+//! functions. The stage that puts trees to sleep is `step/sleep`.
 
 use super::stage::Stage;
 use crate::kinds::{enable, eqtype, trntype};

@@ -74,8 +74,7 @@ impl<T: Plain + Copy + Default, const N: usize> Plain for [T; N] {
     }
 }
 
-/// The FNV-1a hash of a list of bytes (Fowler, Noll and Vo, 64 bits). It detects accidental changes, not
-/// intentional ones.
+/// The FNV-1a hash of a list of bytes (Fowler, Noll and Vo, 64 bits). It detects accidental changes, not intentional ones.
 pub(crate) fn fingerprint(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, |h, &b| (h ^ u64::from(b)).wrapping_mul(0x0000_0100_0000_01b3))
 }

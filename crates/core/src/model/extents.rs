@@ -5,8 +5,7 @@ use crate::kinds::geom;
 use crate::math::{Vec3, rows};
 
 /// Half the extents of a geom along its own axes, m. Computed from its current size, which programs may have written; for meshes
-/// and height
-/// fields, from the bounding box.
+/// and height fields, from the bounding box.
 pub(crate) fn half_extents(m: &Model, g: usize) -> Vec3 {
     let size = rows::<3>(&m.geom_size).get(g).copied().unwrap_or([0.0; 3]);
     match m.geom_type.get(g).copied() {

@@ -1,10 +1,9 @@
 //! The one table of fields: every field of `Model`, its options and statistics, and `Fields`.
 //!
-//! Each row is declared once: name, Rust type, shape, kind, the stage that computes it, unit and one line
-//! of documentation. The structs (`model/mod.rs`, `data_fields.rs`), the reflection that the language
-//! binds to (`reflect/`) and the reference pages are generated from it. A field that is not in the table does not exist. The file
-//! is longer than
-//! others because it is one table with a line for each field.
+//! Each row is declared once: name, Rust type, shape, kind, the stage that computes it, unit and one line of documentation. The
+//! structs (`model/mod.rs`, `data_fields.rs`), the reflection that the language binds to (`reflect/`) and the reference pages are
+//! generated from it. A field that is not in the table does not exist. The file is longer than others because it is one table
+//! with a line for each field.
 //!
 //! Names and layouts are MuJoCo's: arrays are flat and row-major, quaternions are `w x y z`, angles are
 //! radians, everything is SI. Spatial vectors list the angular part first.

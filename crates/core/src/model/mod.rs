@@ -62,8 +62,7 @@ macro_rules! define_model {
             /// large ids.
             pub exclude_bodies: Vec<[i32; 2]>,
             /// The geoms without contact bits when the model was compiled, in ascending order. The tree of bounding volumes of
-            /// their
-            /// body is built without them and does not change later.
+            /// their body is built without them and does not change later.
             pub visual_geoms: Vec<i32>,
             /// The trees that were long planar chains of hinges when the model was compiled, in ascending order.
             pub planar_trees: Vec<i32>,

@@ -16,8 +16,7 @@ pub struct Decision {
 }
 
 /// The flags of a plan. Each has a value for the case that nothing is known about the model, in which a stage makes no assumption
-/// and
-/// checks at every step.
+/// and checks at every step.
 macro_rules! plan_flags {
     ($($(#[doc = $doc:literal])+ $flag:ident = $unknown:literal,)+) => {
         /// Facts about a model that are constant, so that stages need not check them at every step.

@@ -1,10 +1,9 @@
 //! The range of lengths that an actuator can reach, found by simulation (`mj_setLengthRange`).
 //!
 //! The force of a muscle is specified for its operating range, which depends on the mechanism around it. As in MuJoCo's
-//! documentation, "Modeling: Length range", the actuator is pulled to either end by a force that would accelerate the
-//! mechanism by a given amount. Gravity, springs, dampers, contacts and friction are off, limits and equality constraints are on,
-//! and the motion
-//! is damped. The extreme lengths during the last part of the simulation are the range.
+//! documentation, "Modeling: Length range", the actuator is pulled to either end by a force that would accelerate the mechanism
+//! by a given amount. Gravity, springs, dampers, contacts and friction are off, limits and equality constraints are on, and the
+//! motion is damped. The extreme lengths during the last part of the simulation are the range.
 
 use crate::dynamics::mass;
 use crate::dynamics::reflected::target;

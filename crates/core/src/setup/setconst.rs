@@ -13,9 +13,9 @@ use crate::step::workspace::{Scratch, Workspace};
 
 /// Recomputes the constants that depend on masses, inertias and poses (`mj_setConst`).
 ///
-/// Uses `d` as workspace, with a visible effect: on return, `qpos` is the configuration `qpos_spring`
-/// (normally `qpos0`), the position fields are those of that configuration, and `qvel`, `time`, `act` and `ctrl` are unchanged. A
-/// call during a simulation therefore moves bodies back to their initial positions and keeps their velocities.
+/// Uses `d` as workspace, with a visible effect: on return, `qpos` is the configuration `qpos_spring` (normally `qpos0`), the
+/// position fields are those of that configuration, and `qvel`, `time`, `act` and `ctrl` are unchanged. A call during a
+/// simulation therefore moves bodies back to their initial positions and keeps their velocities.
 pub(crate) fn set_const(m: &mut Model, d: &mut Fields, s: &mut Scratch) {
     let plan = std::mem::replace(&mut d.plan, PlanTable::full());
     let solves = (m.nbody + m.njnt + m.ntendon) * (6 * m.nC / m.ntree.max(1) + 100);
@@ -132,8 +132,8 @@ fn same_rotation(a: Quat, b: Quat) -> bool {
 
 /// `body_invweight0` and `dof_invweight0`: the mean acceleration that a unit force causes.
 ///
-/// For a body, the mean diagonal of J M⁻¹ Jᵀ at its centre of mass, for translation and for rotation. For a
-/// degree of freedom, the diagonal of M⁻¹, averaged over each group of degrees of freedom of a joint.
+/// For a body, the mean diagonal of J M⁻¹ Jᵀ at its centre of mass, for translation and for rotation. For a degree of freedom,
+/// the diagonal of M⁻¹, averaged over each group of degrees of freedom of a joint.
 fn inverse_weights(m: &mut Model, d: &Fields) {
     let cdof = rows::<6>(&d.cdof);
     let (xipos, com) = (rows::<3>(&d.xipos), rows::<3>(&d.subtree_com));

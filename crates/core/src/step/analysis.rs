@@ -96,8 +96,7 @@ pub(super) struct ModelAnalysis<'a> {
     pub(super) idle: bool,
     pub(super) sensors: bool,
     /// Sensors are evaluated although nobody reads them: those with buffers, which are part of the state, and those of energies,
-    /// whose results are
-    /// also in `energy`.
+    /// whose results are also in `energy`.
     pub(super) every_sensor: bool,
     pub(super) energy: bool,
     /// Trees may sleep.
@@ -261,8 +260,7 @@ impl<'a> ModelAnalysis<'a> {
     }
 
     /// Whether the inertias of bodies are used: by trees with the general algorithm, by derivatives of the bias force, or by
-    /// forces between
-    /// bodies.
+    /// forces between bodies.
     pub(super) fn needs_body_inertias(&self, plan: &PlanTable) -> bool {
         let m = self.m;
         let explicit = m.opt.integrator == integrator::EULER || integrator::many_stages(m.opt.integrator);
@@ -273,8 +271,7 @@ impl<'a> ModelAnalysis<'a> {
             || [data::cinert, data::crb].into_iter().any(|f| self.reads_field(f))
     }
 
-    /// Whether only constraints use M: the tree algorithms and the integrator do not need its general
-    /// rows.
+    /// Whether only constraints use M: the tree algorithms and the integrator do not need its general rows.
     pub(super) fn mass_for_rows(&self, plan: &PlanTable) -> bool {
         let m = self.m;
         let fields = [data::M, data::qLD, data::qLDiagInv, data::crb];
@@ -341,8 +338,7 @@ impl<'a> ModelAnalysis<'a> {
     }
 
     /// Whether the derivatives of forces with respect to velocities are constants of the model, except for those of actuator
-    /// forces. This
-    /// requires linear dampers and servos, along joints and fixed tendons.
+    /// forces. This requires linear dampers and servos, along joints and fixed tendons.
     pub(super) fn slopes_stay(&self) -> bool {
         let growth = [JOINT_FORCES[1], TENDON_FORCES[3], ACTUATOR_DAMPING[1]];
         let numbers = [model::wrap_prm, TENDON_FORCES[2].0];

@@ -46,8 +46,7 @@ pub(crate) fn mechanical_energy(m: &Model, d: &mut Fields, s: &mut Scratch) -> O
 /// The potential energy of all actuators, or `None` if one of them has none.
 ///
 /// A force clip(u) with u = a - k x has the potential Φ(u)/k, where Φ' = clip: a parabola that continues as its tangents beyond
-/// the limits.
-/// If k = 0, the force c is constant and its potential is -c x.
+/// the limits. If k = 0, the force c is constant and its potential is -c x.
 fn servos(m: &Model, d: &mut Fields) -> Option<f64> {
     if m.nactuator == 0 || m.opt.disabled(disable::ACTUATION) {
         return Some(0.0);

@@ -20,8 +20,7 @@ pub(super) fn damp(m: &Model, d: &Fields, s: &mut Scratch) {
 }
 
 /// Computes both accelerations from `qfrc_smooth`, when no constraint is active: a, and a' in the scratch. Returns the first
-/// degree of
-/// freedom without inertia.
+/// degree of freedom without inertia.
 pub(super) fn accelerate(
     m: &Model,
     d: &mut Fields,

@@ -83,15 +83,13 @@ pub(super) const OTHERS: [FieldId; 12] = [
 ];
 
 /// The results of `mj_setConst` on which plans depend: the actuators whose damping and armature act on joints and tendons, and
-/// the frames
-/// of geoms.
+/// the frames of geoms.
 pub(crate) fn constants(m: &Model) -> [&[i32]; 4] {
     [&m.jnt_actuatorid, &m.tendon_actuatorid, &m.geom_sameframe, &m.body_sameframe]
 }
 
 /// The fields of the model whose values determine which stages a plan keeps. If programs write one of them, a plan is made for
-/// its current
-/// value, or for any value: see `api/assumed`. The values of all other fields are not used.
+/// its current value, or for any value: see `api/assumed`. The values of all other fields are not used.
 pub(crate) fn deciding() -> FieldSet {
     let mut set = FieldSet::EMPTY;
     let numbers = [

@@ -1,7 +1,7 @@
 //! The discrete integrator: one linear problem whose solution is the velocity at the end of the step.
 //!
-//! With the stiffness K and the damping D of springs, dampers, actuators and the fluid at the start of the step,
-//! the forces at its end are f - h K v - (h D + h² K) a, so that
+//! With the stiffness K and the damping D of springs, dampers, actuators and the fluid at the start of the step, the forces at
+//! its end are f - h K v - (h D + h² K) a, so that
 //!
 //! > (M + h D + h² K) a = f - h K v
 //!
@@ -22,8 +22,7 @@ pub(crate) fn acceleration(m: &Model, d: &mut Fields, s: &mut Scratch) {
     d.qacc_smooth = out;
 }
 
-/// For free rigid bodies that are not coupled with others, adds the derivative of the gyroscopic force to
-/// `qacc`.
+/// For free rigid bodies that are not coupled with others, adds the derivative of the gyroscopic force to `qacc`.
 pub(crate) fn turn_free_bodies(m: &Model, d: &mut Fields, s: &mut Scratch) {
     let Scratch { metric: w, derivative: slopes, constraint: rows, .. } = s;
     for tree in 0..m.ntree {

@@ -5,8 +5,7 @@ use crate::forces::derivative::{self, sparse};
 use crate::model::Model;
 
 /// The matrix of the fast implicit integrator, and its factorization. The factorization of a tree is reused while its matrix is
-/// unchanged: for
-/// slides with dampers and servos, it is the same in every step.
+/// unchanged: for slides with dampers and servos, it is the same in every step.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Factored {
     of: Vec<f64>,

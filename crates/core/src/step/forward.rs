@@ -14,8 +14,7 @@ pub(crate) fn forward(m: &Model, d: &mut Fields, s: &mut Scratch) {
 }
 
 /// Like [`forward`], without the stages that only sensors need, for intermediate states within a step. `energy` is then that of
-/// the last
-/// evaluation, as in MuJoCo.
+/// the last evaluation, as in MuJoCo.
 pub(crate) fn forward_unseen(m: &Model, d: &mut Fields, s: &mut Scratch) {
     s.unseen = true;
     forward(m, d, s);

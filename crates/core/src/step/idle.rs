@@ -1,8 +1,7 @@
 //! Detects unused elements of a scene: actuators whose controls are zero, and equality constraints that are inactive.
 //!
 //! Both depend on inputs of the data. If no program writes these inputs, a plan assumes their values after a reset. Data with
-//! other values
-//! get a new plan (`api/data`).
+//! other values get a new plan (`api/data`).
 
 use crate::forces::tendon;
 use crate::kinds::{biastype, dyntype, trntype};
@@ -96,8 +95,7 @@ mod tests {
     }
 
     /// Gravity compensation that counts as an actuator force does not act in a model without actuators (measured on MuJoCo
-    /// 3.14.0),
-    /// whatever the plan contains.
+    /// 3.14.0), whatever the plan contains.
     #[test]
     fn without_actuators_nothing_compensates_gravity_for_them() {
         let m = Model::from_xml(

@@ -1,8 +1,8 @@
 //! The metric of the discrete integrator: M + h D + h² K. With it, a step is one linear problem.
 //!
 //! A force along several degrees of freedom (that of a tendon) is a rank-one term s r rᵀ. The problem with terms is solved by
-//! conjugate gradients,
-//! preconditioned with the rest of the metric (Golub and Van Loan 2013, *Matrix Computations*, section 11.5).
+//! conjugate gradients, preconditioned with the rest of the metric (Golub and Van Loan 2013, *Matrix Computations*, section
+//! 11.5).
 
 use crate::constraint;
 use crate::dynamics::mass;
@@ -110,8 +110,8 @@ impl Metric {
         mass::factor(m, &mut self.ld, &mut self.diag_inv, 0..m.nv);
     }
 
-    /// Exchanges the acceleration with the terms (stored in `other`) for that without them, and the
-    /// factorization with the diagonals of the terms for that of the matrix alone.
+    /// Exchanges the acceleration with the terms (stored in `other`) for that without them, and the factorization with the
+    /// diagonals of the terms for that of the matrix alone.
     pub(super) fn solve_alone(&mut self, m: &Model, smooth: &mut Vec<f64>) {
         self.ld.copy_from_slice(&self.matrix);
         mass::factor(m, &mut self.ld, &mut self.diag_inv, 0..m.nv);
@@ -245,8 +245,8 @@ impl Metric {
         }
     }
 
-    /// The metric of a free rigid body that is not coupled with others, with the derivative of its gyroscopic
-    /// force: the first degree of freedom, and the block.
+    /// The metric of a free rigid body that is not coupled with others, with the derivative of its gyroscopic force: the first
+    /// degree of freedom, and the block.
     pub(super) fn free_block(
         &self,
         m: &Model,

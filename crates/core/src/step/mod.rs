@@ -54,8 +54,7 @@ pub(crate) fn step1(m: &Model, d: &mut Fields, s: &mut Scratch) {
 }
 
 /// The second part of a step (`mj_step2`): forces, accelerations, the next state. Runge–Kutta methods need forces at other
-/// states; if
-/// the options name one, this function makes a semi-implicit Euler step.
+/// states; if the options name one, this function makes a semi-implicit Euler step.
 pub(crate) fn step2(m: &Model, d: &mut Fields, s: &mut Scratch) {
     forward::from_inputs(m, d, s);
     check_acceleration(m, d, s);

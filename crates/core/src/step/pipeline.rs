@@ -1,10 +1,9 @@
 //! The stages of a step as a table: the results that each stage needs, the reasons to run it or not, and its functions.
 //!
-//! A row describes a stage completely. The forward pass runs the rows in this order. The plan is computed from them,
-//! from the last to the first, because a stage runs if a later one needs it. `labspec plan` prints them. The field table lists
-//! the fields
-//! that a stage computes under its [`Stage`]. All stages have the same signature: they read the model, and
-//! write the fields and the scratch, of which each uses the part of its module.
+//! A row describes a stage completely. The forward pass runs the rows in this order. The plan is computed from them, from the
+//! last to the first, because a stage runs if a later one needs it. `labspec plan` prints them. The field table lists the fields
+//! that a stage computes under its [`Stage`]. All stages have the same signature: they read the model, and write the fields and
+//! the scratch, of which each uses the part of its module.
 
 use super::analysis::ModelAnalysis;
 use super::clocked::Run;

@@ -1,8 +1,8 @@
 //! Makes plans: which stages a scene needs, with the reason for each. A plan is made once and used in every step.
 //!
-//! It depends on the structure of the model, on the fields that are read, and on those that are written: a
-//! parameter that a program writes is treated as if it had any value. A plan never changes a number: the
-//! results of the stages that it leaves out are not used by stages that run, and are not read.
+//! It depends on the structure of the model, on the fields that are read, and on those that are written: a parameter that a
+//! program writes is treated as if it had any value. A plan never changes a number: the results of the stages that it leaves out
+//! are not used by stages that run, and are not read.
 
 use super::analysis::{AccessSet, FLAGS, ModelAnalysis};
 use super::pipeline::STAGES;
@@ -35,8 +35,7 @@ impl PlanTable {
     /// The stages that a scene needs.
     ///
     /// The stages are decided from the last to the first. A stage runs if there is a reason to run it for its own sake, or if a
-    /// later
-    /// stage that runs uses its results.
+    /// later stage that runs uses its results.
     pub(crate) fn new(m: &Model, access: &AccessSet, algorithms: TreeAlgorithms) -> PlanTable {
         PlanTable::with(m, access, algorithms, None)
     }

@@ -70,8 +70,7 @@ pub(crate) fn clock(d: &mut Fields, s: &mut Scratch, clock: fn() -> u64) {
     d.plan.passes = by_the_clock(d.plan.passes);
 }
 
-/// Resets state, inputs, results and warnings to the default configuration (`mj_resetData`). Edits of the model
-/// stay.
+/// Resets state, inputs, results and warnings to the default configuration (`mj_resetData`). Edits of the model stay.
 pub(crate) fn reset_data(m: &Model, d: &mut Fields, s: &mut Scratch) {
     reflect::allocate_data(m, d);
     (d.ncon, d.nefc, d.nisland, d.solver_niter) = (0, 0, 0, 0);
@@ -120,8 +119,7 @@ pub(crate) fn reset_data_keyframe(m: &Model, d: &mut Fields, s: &mut Scratch, ke
 }
 
 /// Stores the time, the state and the inputs in keyframe `key` (`mj_setKeyframe`). If the model has no such keyframe, changes
-/// nothing
-/// and returns `false`.
+/// nothing and returns `false`.
 pub(crate) fn set_keyframe(m: &mut Model, d: &Fields, key: usize) -> bool {
     let Some(time) = m.key_time.get_mut(key) else { return false };
     *time = d.time;

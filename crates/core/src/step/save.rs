@@ -1,10 +1,9 @@
 //! A complete simulation as bytes: state, inputs and all results, including contacts and warnings.
 //!
-//! The format: a header (a magic word, the version, hashes of the table of fields and of the model), the fields in the order
-//! of the table, contacts, warnings, and a hash of everything before it. Numbers are little-endian. Lengths
-//! are not written, because the model and the counts of the data determine them. A file may come from any source: integers that
-//! the
-//! engine uses as indexes are checked before their use.
+//! The format: a header (a magic word, the version, hashes of the table of fields and of the model), the fields in the order of
+//! the table, contacts, warnings, and a hash of everything before it. Numbers are little-endian. Lengths are not written, because
+//! the model and the counts of the data determine them. A file may come from any source: integers that the engine uses as indexes
+//! are checked before their use.
 
 use crate::constraint::kind;
 use crate::kinds::cone;
@@ -281,8 +280,7 @@ fn owners(m: &Model, d: &Fields, kind: i32) -> usize {
 }
 
 /// Restores the Jacobian of the constraints, which is not a field. It is computed again if the saved data are in the middle of a
-/// step, and is
-/// empty if the state has changed since it was computed. `again` is a second copy of the data.
+/// step, and is empty if the state has changed since it was computed. `again` is a second copy of the data.
 fn restore_rows(m: &Model, d: &mut Workspace, mut again: Workspace) {
     let Workspace { fields, scratch } = &mut again;
     reset::clear_left_out(m, fields, scratch);

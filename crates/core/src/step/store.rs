@@ -1,10 +1,8 @@
 //! A compiled model as bytes. With them, a frontend can ship models without the MJCF parser.
 //!
 //! The format: a header (a magic word, the version, a hash of the table of fields), sizes, then every field in the order of the
-//! table,
-//! names, texts, exclusions and hull faces, and a hash of everything before it. Numbers are
-//! little-endian. A file may come from any source: its hash is checked, and all integers that the engine uses as indexes are
-//! validated.
+//! table, names, texts, exclusions and hull faces, and a hash of everything before it. Numbers are little-endian. A file may come
+//! from any source: its hash is checked, and all integers that the engine uses as indexes are validated.
 
 use crate::dynamics::tree_algorithms;
 use crate::geometry::HullFaces;

@@ -1,7 +1,7 @@
 //! Validates that the engine can safely use the integers of a model as indexes. Required for models that were not compiled here.
 //!
-//! Ids refer to existing objects, lists are within their arrays, parents precede their children, and objects of
-//! each type have what the type requires. Parameters are not checked, because no value of them causes a panic.
+//! Ids refer to existing objects, lists are within their arrays, parents precede their children, and objects of each type have
+//! what the type requires. Parameters are not checked, because no value of them causes a panic.
 
 use crate::dynamics::walk;
 use crate::geometry::Hull;

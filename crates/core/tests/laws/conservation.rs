@@ -46,17 +46,16 @@ fn all_momentum(m: &Model, d: &Data) -> Vec<f64> {
     momentum(m, d).to_vec()
 }
 
-/// The factor by which an error must decrease when the step is halved. The Runge–Kutta method has order four:
-/// a factor of 16, or 12 to allow for the next order. For rotations in space, it combines the slopes as if rotations commuted,
-/// which is correct to second order only: a factor of 4, or 3 with tolerance.
+/// The factor by which an error must decrease when the step is halved. The Runge–Kutta method has order four: a factor of 16, or
+/// 12 to allow for the next order. For rotations in space, it combines the slopes as if rotations commuted, which is correct to
+/// second order only: a factor of 4, or 3 with tolerance.
 fn gain(m: &Model) -> f64 {
     let scalar = m.jnt_type.iter().all(|&t| t == joint::HINGE || t == joint::SLIDE);
     if scalar { 12.0 } else { 3.0 }
 }
 
 /// Checks that the error of a run decreases according to the order of the method, or is at the level of rounding. For fast
-/// motions, for which the
-/// step is too long, shorter steps are tried.
+/// motions, for which the step is too long, shorter steps are tried.
 fn shrinks(m: &Model, error: impl Fn(f64, usize) -> f64) -> Result<(), String> {
     let rounding = 1e-10;
     let mut h: f64 = 2e-3;

@@ -1,5 +1,5 @@
-//! Optimality conditions of the constraint problem, for every solver: forces are inside their cones and bounds,
-//! they are the derivatives of the costs at the acceleration, and the equations of motion are satisfied.
+//! Optimality conditions of the constraint problem, for every solver: forces are inside their cones and bounds, they are the
+//! derivatives of the costs at the acceleration, and the equations of motion are satisfied.
 
 use labspec_core::xml::compile;
 use labspec_core::{self as core, Contact, Data, Model, solver};
@@ -151,9 +151,8 @@ proptest! {
     }
 
     /// f is the minimum of the dual problem if and only if f is in the set of valid forces of its rows, and no valid change of f
-    /// along the negative
-    /// gradient g = J a - aref + R f decreases the cost: g = 0 inside the set, outward at a bound, and for a cone in the dual
-    /// cone and perpendicular to f.
+    /// along the negative gradient g = J a - aref + R f decreases the cost: g = 0 inside the set, outward at a bound, and for a
+    /// cone in the dual cone and perpendicular to f.
     #[test]
     fn dual_forces_are_optimal(scene in scene()) {
         let mut m = scene.model();

@@ -1,6 +1,5 @@
 //! Physics does not depend on the choice of the world axes: a world that is rotated and translated as a whole, together with its
-//! gravity,
-//! has the same motion.
+//! gravity, has the same motion.
 
 use crate::definitions::*;
 use crate::scenes::scene;

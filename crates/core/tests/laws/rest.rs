@@ -16,8 +16,7 @@ struct Rest {
 }
 
 /// Parameters of any contact, or of one that comes to rest. A contact with a time constant of a few steps and low damping
-/// continues to
-/// bounce, in MuJoCo as here, because each step applies the force of its start.
+/// continues to bounce, in MuJoCo as here, because each step applies the force of its start.
 fn rest(settles: bool) -> impl Strategy<Value = Rest> {
     let (steps, damping, end) = if settles { (4.0, 0.8, 0.8) } else { (0.5, 0.3, 0.3) };
     let solimp = (0.3..1.0, end..0.98, 2e-4..5e-3, 0.2..0.8, 1.0..4.0);
@@ -47,8 +46,7 @@ impl Rest {
     }
 
     /// The depth at which the contact force balances the weight: K d r = g (1 - d) / d, with K = 1 / (dw tc ζ)². For a pyramid
-    /// with four
-    /// edges, each with R = 2 µ² (1 + µ²) (1 - d) / (d m), the depth is µ² (1 + µ²) / 2 times as large.
+    /// with four edges, each with R = 2 µ² (1 + µ²) (1 - d) / (d m), the depth is µ² (1 + µ²) / 2 times as large.
     fn depth(&self) -> f64 {
         let time = self.time.max(2.0 * self.timestep);
         let k = 1.0 / (self.solimp[1] * time * self.damping).powi(2);

@@ -49,8 +49,7 @@ pub fn inside_site<S: Scope>(m: &Model, d: &Data<S>, site: usize, point: Vec3) -
 }
 
 /// Half the extents of a geom along its own axes, m: from its size, or, for meshes and height fields, from its bounding box.
-/// Zeros if there is
-/// no such geom.
+/// Zeros if there is no such geom.
 pub fn geom_half_extents(m: &Model, geom: usize) -> Vec3 {
     extents::half_extents(m, geom)
 }
@@ -61,8 +60,7 @@ pub fn geom_thickness(m: &Model, geom: usize) -> f64 {
 }
 
 /// The half thickness of the thinner of two geoms, m. Only spheres, capsules, cylinders, ellipsoids and boxes are considered (a
-/// mesh may be
-/// thinner than its bounding box). Infinite if neither geom is of such a type.
+/// mesh may be thinner than its bounding box). Infinite if neither geom is of such a type.
 pub fn half_thickness_of_pair(m: &Model, pair: [usize; 2]) -> f64 {
     extents::half_thickness_of_pair(m, pair)
 }
@@ -82,8 +80,7 @@ pub fn may_touch(m: &Model, geom1: usize, geom2: usize) -> Result<bool, Error> {
 }
 
 /// The number of pairs of geoms that can touch and whose bounding volumes are within reach of each other at the current poses.
-/// Each other
-/// pair costs one comparison.
+/// Each other pair costs one comparison.
 pub fn pairs_in_reach<S: Scope>(m: &Model, d: &Data<S>) -> Result<usize, Error> {
     d.belongs_to(m)?;
     Ok(crate::collision::in_reach(m, &d.fields, &d.scratch.collision))

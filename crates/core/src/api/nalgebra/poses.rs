@@ -11,8 +11,7 @@ use crate::model::reflect::data;
 use nalgebra::{Isometry3, Matrix3, Quaternion, Rotation3, Translation3, UnitQuaternion, Vector3, Vector6};
 
 /// The tolerance of the squared norm of a quaternion or axis from 1. Rounding errors are about 1e-15. Data that are not yet
-/// computed contain
-/// zeros.
+/// computed contain zeros.
 const UNIT: f64 = 1e-6;
 
 fn not_computed() -> Error {

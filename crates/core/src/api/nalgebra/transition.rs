@@ -2,8 +2,7 @@
 //!
 //! A step maps the state x and the controls u to the next state. Near a state, small differences satisfy δx⁺ = A δx + B δu, and
 //! differences of sensors satisfy δs = C δx + D δu. Differences of positions are in the tangent space: a quaternion counts as
-//! three
-//! numbers, the rotation vector in the axes of the body.
+//! three numbers, the rotation vector in the axes of the body.
 
 use crate::api::call;
 use crate::api::data::{Data, Scope};
@@ -18,8 +17,7 @@ use nalgebra::DMatrix;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FiniteDifferences {
     /// The perturbation of a coordinate, in its own unit. The error of rounding is about 1e-16 / `eps`; the error of curvature is
-    /// about `eps`
-    /// (or its square if the differences are centered).
+    /// about `eps` (or its square if the differences are centered).
     pub eps: f64,
     /// Whether a coordinate is perturbed in both directions. This doubles the number of steps.
     pub centered: bool,
@@ -60,16 +58,13 @@ enum Coordinate {
 ///
 /// The data do not change: the steps are made with copies, each from the same state and the same warm start. Any integrator is
 /// supported, including Runge–Kutta methods. If a control is at a limit of its range, it is perturbed into the range. If it is
-/// beyond the
-/// range, its column is zero, because the engine clamps the control. The sensors are those that the step computes, which belong
-/// to the
-/// state before the step.
+/// beyond the range, its column is zero, because the engine clamps the control. The sensors are those that the step computes,
+/// which belong to the state before the step.
 ///
 /// MuJoCo 3.14.0 returns D with the opposite sign if the differences are centered. Here D has the sign of the derivative.
 ///
 /// With constraints, the solver's `tolerance` limits how accurately a step is a function of its state. Set `opt.tolerance` to 0,
-/// or far
-/// below `eps`, for derivatives as accurate as those without constraints.
+/// or far below `eps`, for derivatives as accurate as those without constraints.
 ///
 /// ```
 /// # fn main() -> Result<(), labspec_core::Error> {

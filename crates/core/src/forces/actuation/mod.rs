@@ -112,8 +112,7 @@ fn by_their_laws(m: &Model, d: &mut Fields) {
 }
 
 /// Like [`actuation`], for models whose actuators are all motors of slides and hinges with one control and one degree of freedom,
-/// as in most
-/// labs. Does nothing and returns `false` if force limits apply or a control is a bad number.
+/// as in most labs. Does nothing and returns `false` if force limits apply or a control is a bad number.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn motors(m: &Model, d: &mut Fields) -> bool {
     let off = disable::ACTUATION | disable::CLAMPCTRL;
@@ -137,8 +136,7 @@ fn motors(m: &Model, d: &mut Fields) -> bool {
 }
 
 /// Computes the forces of motors and servos of slides, hinges and tendons with one control each, before limits. Does nothing and
-/// returns
-/// `false` if a control is a bad number.
+/// returns `false` if a control is a bad number.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn servos(m: &Model, d: &mut Fields) -> bool {
     if m.opt.disabled(disable::CLAMPCTRL) || d.ctrl.iter().any(|&u| bad(u)) {
@@ -254,10 +252,8 @@ pub(crate) fn idle(m: &Model, d: &Fields, i: usize) -> bool {
 }
 
 /// The force of actuator `i` at its current length and zero velocity, before limits, and the negative derivative of the force
-/// with respect to
-/// the length. `None` unless the force depends on the length of a slide, hinge or tendon only, apart from damping. Uses the
-/// controls in
-/// `acting`.
+/// with respect to the length. `None` unless the force depends on the length of a slide, hinge or tendon only, apart from
+/// damping. Uses the controls in `acting`.
 pub(crate) fn along_length(m: &Model, d: &Fields, i: usize) -> Option<[f64; 2]> {
     let target = object_index(m.actuator_trnid[2 * i]);
     let simple = match m.actuator_trntype[i] {

@@ -160,8 +160,7 @@ pub(super) fn rates(m: &Model, d: &mut Fields, i: usize, ctrl: &mut [f64]) {
 }
 
 /// Activation `at` of a motor at the end of the step. The current and the bristle deflection are integrated exactly, for constant
-/// voltage and
-/// speed.
+/// voltage and speed.
 pub(super) fn next(m: &Model, d: &Fields, i: usize, at: usize, rate: f64) -> f64 {
     let motor = Motor::new(m, d, i);
     let (act, h, slot) = (d.act[at], m.opt.timestep, Some(at - motor.first));
@@ -230,8 +229,8 @@ pub(crate) fn slopes(m: &Model, d: &Fields, i: usize, ctrl: &[f64]) -> [f64; 2] 
 }
 
 /// `kp` and `kv` of a motor at its reference temperature: those of its controller, which compensates the back EMF, or 0 and K²/R
-/// without a controller. `None` if the current or the temperature is a state: the force then follows the
-/// position with a delay, or decreases over time.
+/// without a controller. `None` if the current or the temperature is a state: the force then follows the position with a delay,
+/// or decreases over time.
 pub(crate) fn gains(m: &Model, i: usize) -> Option<[f64; 2]> {
     let [electric, _, thermal, ..] = *prm(&m.actuator_dynprm, i);
     let [resistance, k, _, _, kp, _, kd, ..] = *prm(&m.actuator_gainprm, i);

@@ -2,15 +2,13 @@
 //!
 //! The curves are those of MuJoCo's documentation, "Modeling: Muscles", after Zajac (*Muscle and tendon: properties, models,
 //! scaling, and application to biomechanics and motor control*, 1989): parabolas that are joined with equal slopes. With the
-//! length L in
-//! units of the optimal length L₀ and the velocity V in units of L₀ · vmax per second,
+//! length L in units of the optimal length L₀ and the velocity V in units of L₀ · vmax per second,
 //!
 //! > force = -F₀ (FL(L) FV(V) activation + FP(L))
 //!
 //! where FL rises from 0 at lmin to 1 at L = 1 and falls to 0 at lmax, FV rises from 0 at V = -1 through 1 at V = 0 to fvmax, and
-//! FP
-//! grows from 0 at L = 1 and is linear from halfway to lmax. Activation follows Millard et al. (*Flexing computational muscle*,
-//! 2013).
+//! FP grows from 0 at L = 1 and is linear from halfway to lmax. Activation follows Millard et al. (*Flexing computational
+//! muscle*, 2013).
 //!
 //! Parameters in order: operating range in optimal lengths (2), peak force, its scale, lmin, lmax, vmax, fpmax, fvmax.
 
@@ -72,8 +70,7 @@ fn smooth_step(x: f64) -> Curve {
 }
 
 /// FV: a parabola from (-1, 0), where its slope is zero, to (0, 1), where its slope is 2. A second parabola from there to the
-/// height fvmax,
-/// which it reaches with zero slope at V = fvmax - 1.
+/// height fvmax, which it reaches with zero slope at V = fvmax - 1.
 fn active_by_velocity(p: &[f64; 10], velocity: f64) -> Curve {
     let excess = p[8] - 1.0;
     if velocity <= 0.0 {
@@ -121,10 +118,8 @@ pub(crate) fn bias_by_length(p: &[f64; 10], s: &State) -> f64 {
 }
 
 /// The rate of an activation for a control: (u - a) / τ. With c = ½ + 3a/2, the time constant τ is the first parameter times c
-/// during
-/// activation, and the second parameter divided by c during deactivation. The third parameter is the width of the control error
-/// over which τ
-/// changes smoothly from one to the other.
+/// during activation, and the second parameter divided by c during deactivation. The third parameter is the width of the control
+/// error over which τ changes smoothly from one to the other.
 pub(super) fn rate(p: &[f64; 10], control: f64, act: f64) -> f64 {
     let [activate, deactivate, width, ..] = *p;
     let c = 0.5 + 1.5 * act.clamp(0.0, 1.0);

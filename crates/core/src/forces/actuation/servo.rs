@@ -48,8 +48,8 @@ fn next_to_length(m: &Model, d: &Fields, i: usize, setpoint: f64) -> f64 {
     }
 }
 
-/// The states of a PID controller: its setpoint, if it has a slew rate limit, and the integral of the
-/// error. If programs have written parameters that do not match the number of states, there are none.
+/// The states of a PID controller: its setpoint, if it has a slew rate limit, and the integral of the error. If programs have
+/// written parameters that do not match the number of states, there are none.
 struct Pid {
     slew: Option<usize>,
     integral: Option<usize>,

@@ -1,11 +1,10 @@
 //! The derivative of the bias force (gravity, Coriolis and centrifugal force) with respect to velocities.
 //!
 //! For a unit velocity of degree of freedom j, every body that it moves gains the velocity s_j and the acceleration p_j + s_j ×
-//! v, where s_j is
-//! the motion axis, v the body's velocity, p_j = ṡ_j - s_j × v_j, and v_j the velocity after joint j. Its
-//! force changes by I (p_j + s_j × v) + v ×* I s_j + s_j ×* I v. This is linear in p_j and s_j. Therefore the inertias, and the
-//! matrices B that multiply s_j, can be summed over subtrees, like composite bodies (Featherstone 2008, chapter 6; Echeandia
-//! and Wensing 2021, *Numerical methods to compute the Coriolis matrix*).
+//! v, where s_j is the motion axis, v the body's velocity, p_j = ṡ_j - s_j × v_j, and v_j the velocity after joint j. Its force
+//! changes by I (p_j + s_j × v) + v ×* I s_j + s_j ×* I v. This is linear in p_j and s_j. Therefore the inertias, and the
+//! matrices B that multiply s_j, can be summed over subtrees, like composite bodies (Featherstone 2008, chapter 6; Echeandia and
+//! Wensing 2021, *Numerical methods to compute the Coriolis matrix*).
 
 use crate::model::index::element_range;
 use std::ops::Range;

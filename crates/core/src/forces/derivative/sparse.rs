@@ -2,10 +2,9 @@
 //! products, factorization.
 //!
 //! A row contains the ancestors of its degree of freedom, itself, and its descendants, ascending (`D_rowadr`, `D_diag`,
-//! `D_colind`). The
-//! ancestors of an ancestor are a prefix of a row's ancestors, and descendants are consecutive, so that every entry is
-//! found without a search. Elimination from the last row to the first creates no new entries (Featherstone 2008,
-//! section 6.5, for the symmetric case).
+//! `D_colind`). The ancestors of an ancestor are a prefix of a row's ancestors, and descendants are consecutive, so that every
+//! entry is found without a search. Elimination from the last row to the first creates no new entries (Featherstone 2008, section
+//! 6.5, for the symmetric case).
 
 use crate::math::MINVAL;
 use crate::model::Model;

@@ -60,8 +60,8 @@ struct Shadow {
 }
 
 impl Ellipsoid {
-    /// `fluid` is the geom's row of `geom_fluid`: a flag; coefficients of blunt, slender and angular drag, Kutta
-    /// and Magnus lift; added mass and added inertia for unit density of the fluid.
+    /// `fluid` is the geom's row of `geom_fluid`: a flag; coefficients of blunt, slender and angular drag, Kutta and Magnus lift;
+    /// added mass and added inertia for unit density of the fluid.
     pub(super) fn new(m: &Model, g: usize, fluid: [f64; 12]) -> Ellipsoid {
         let [share, blunt, slender, angular, kutta, magnus, m0, m1, m2, i0, i1, i2] = fluid;
         let (density, viscosity) = (share * m.opt.density, share * m.opt.viscosity);

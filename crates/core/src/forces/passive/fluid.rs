@@ -48,8 +48,7 @@ pub(crate) fn shapes(m: &Model, d: &Fields, mut f: impl FnMut(&Frame, &Shape)) {
     }
 }
 
-/// A frame that moves with a body, and its motion relative to the fluid: angular and linear velocity along the
-/// axes of the frame.
+/// A frame that moves with a body, and its motion relative to the fluid: angular and linear velocity along the axes of the frame.
 pub(crate) struct Frame {
     pub(crate) body: usize,
     pub(crate) pos: Vec3,

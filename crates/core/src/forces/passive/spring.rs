@@ -1,9 +1,8 @@
 //! Springs and dampers of joints and tendons.
 //!
-//! The force of a spring with stiffness k and coefficients p is f = -x (k + p₁ x + p₂ x²) at displacement x. For a
-//! translation or rotation in space, x is the distance or the angle, and the force has the opposite direction. The force of a
-//! damper
-//! is f = -v (b + p₁ |v| + p₂ v²).
+//! The force of a spring with stiffness k and coefficients p is f = -x (k + p₁ x + p₂ x²) at displacement x. For a translation or
+//! rotation in space, x is the distance or the angle, and the force has the opposite direction. The force of a damper is f = -v
+//! (b + p₁ |v| + p₂ v²).
 
 use crate::dynamics::reflected::{self, On};
 use crate::forces::tendon;

@@ -1,8 +1,7 @@
 //! Tendons: lengths and Jacobians of paths over joints, sites, pulleys and wrapping geoms.
 //!
-//! A fixed tendon is a linear combination of joint coordinates. A spatial tendon is the shortest path through
-//! its sites and around its geoms. A pulley divides it into branches, each scaled by a divisor. The model is documented in
-//! MuJoCo's
+//! A fixed tendon is a linear combination of joint coordinates. A spatial tendon is the shortest path through its sites and
+//! around its geoms. A pulley divides it into branches, each scaled by a divisor. The model is documented in MuJoCo's
 //! documentation, "Computation: Tendon".
 
 mod pattern;

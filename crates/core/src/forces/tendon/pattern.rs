@@ -10,8 +10,7 @@ use labspec_finding::order;
 /// Computes `ten_J_rownnz`, `ten_J_rowadr`, `ten_J_colind`, `nJten`, `tendon_treenum` and `tendon_treeid`.
 ///
 /// The Jacobian of a tendon can be non-zero only for degrees of freedom that move objects on its path. `None` if there would be
-/// more
-/// than `most` entries.
+/// more than `most` entries.
 pub(crate) fn set_pattern(m: &mut Model, most: usize) -> Option<()> {
     m.ten_J_colind.clear();
     for t in 0..m.ntendon {

@@ -157,8 +157,8 @@ fn round(m: &Model, d: &Fields, geom: usize) -> Round {
     }
 }
 
-/// The length of a straight piece between points on two bodies. Adds its derivative u·(J₂ - J₁) / divisor,
-/// with the direction u, to the Jacobian of the tendon.
+/// The length of a straight piece between points on two bodies. Adds its derivative u·(J₂ - J₁) / divisor, with the direction u,
+/// to the Jacobian of the tendon.
 fn straight(
     m: &Model,
     d: &Fields,
@@ -193,8 +193,8 @@ fn straight(
 
 /// J̇ v: the acceleration of a tendon's length due to the velocities alone, m/s².
 ///
-/// A leg with length l, direction u and velocity w of its end relative to its start has the length acceleration
-/// u·a + (w·w - (u·w)²)/l, with the relative acceleration a. The compiler refuses wrapping for such tendons.
+/// A leg with length l, direction u and velocity w of its end relative to its start has the length acceleration u·a + (w·w -
+/// (u·w)²)/l, with the relative acceleration a. The compiler refuses wrapping for such tendons.
 pub(crate) fn acceleration(m: &Model, d: &Fields, t: usize) -> f64 {
     let site_xpos = rows::<3>(&d.site_xpos);
     let mut sum = 0.0;

@@ -1,11 +1,9 @@
 //! The shortest path from one point to another around a sphere or an infinite cylinder.
 //!
 //! The path lies in a plane. For a sphere, it is the plane through its centre and both points. For a cylinder, it is the plane
-//! perpendicular to
-//! its axis, and the heights follow from unrolling the cylinder. In the plane, the path consists of two tangents of a circle and
-//! the arc between them. A side point selects the direction around the circle. A side point inside the circle selects a path that
-//! touches
-//! the circle from the inside (MuJoCo's documentation, "Computation: Tendon").
+//! perpendicular to its axis, and the heights follow from unrolling the cylinder. In the plane, the path consists of two tangents
+//! of a circle and the arc between them. A side point selects the direction around the circle. A side point inside the circle
+//! selects a path that touches the circle from the inside (MuJoCo's documentation, "Computation: Tendon").
 
 use crate::math::*;
 
@@ -41,8 +39,7 @@ type WrapSegment = ([Vec2; 2], f64);
 /// The path around a shape, or `None` if the straight line is unobstructed.
 ///
 /// Projected along the third axis of [`frame`], the path is a taut string around a circle. Unrolled, it is a straight line: its
-/// height along that
-/// axis changes with constant slope.
+/// height along that axis changes with constant slope.
 pub(super) fn around(ends: [Vec3; 2], shape: &Round, side: Option<Vec3>) -> Option<Arc> {
     let radius = shape.radius;
     let ends = ends.map(|x| sub(x, shape.pos));
@@ -72,8 +69,7 @@ pub(super) fn around(ends: [Vec3; 2], shape: &Round, side: Option<Vec3>) -> Opti
 }
 
 /// Axes, world. For a cylinder, its own axes. For a sphere, the first two span the plane through its centre and both ends, and
-/// the first
-/// points to the first end.
+/// the first points to the first end.
 fn frame([a, b]: [Vec3; 2], shape: &Round) -> [Vec3; 3] {
     if shape.cylinder {
         return [0, 1, 2].map(|k| [shape.mat[k], shape.mat[3 + k], shape.mat[6 + k]]);
@@ -87,10 +83,8 @@ fn frame([a, b]: [Vec3; 2], shape: &Round) -> [Vec3; 3] {
 }
 
 /// A direction perpendicular to a line through the centre of a sphere, for ends on that line, for which any plane through the
-/// line is valid. The choice
-/// is that of MuJoCo (measured): the normal of the plane is perpendicular to the line and, in the axes of the sphere, to (1,
-/// 1, 1) with the component
-/// of the line's largest component set to zero.
+/// line is valid. The choice is that of MuJoCo (measured): the normal of the plane is perpendicular to the line and, in the axes
+/// of the sphere, to (1, 1, 1) with the component of the line's largest component set to zero.
 fn across(line: Vec3, mat: &Mat3) -> Vec3 {
     let components = mat_t_mul_vec(mat, line).map(f64::abs);
     let largest = (1..3).fold(0, |most, i| if components[i] > components[most] { i } else { most });
@@ -102,9 +96,8 @@ fn across(line: Vec3, mat: &Mat3) -> Vec3 {
 /// A taut string around the outside of a circle. `side` is a point on the circle, or `None` for the shorter direction.
 ///
 /// The tangents from a point at the distance L touch the circle at the angles ±φ from its direction, cos φ = r/L. A
-/// counter-clockwise string
-/// leaves the tangent of the first point at +φ₀ and reaches that of the second point at -φ₁. A clockwise string
-/// is the mirror image. Between the tangent points, it lies on the circle.
+/// counter-clockwise string leaves the tangent of the first point at +φ₀ and reaches that of the second point at -φ₁. A clockwise
+/// string is the mirror image. Between the tangent points, it lies on the circle.
 fn outside(q: [Vec2; 2], radius: f64, side: Option<Vec2>) -> Option<WrapSegment> {
     let lengths = q.map(norm2);
     let span = sub(q[1], q[0]);
@@ -151,17 +144,15 @@ fn nearest_of_segment([a, b]: [Vec2; 2]) -> Vec2 {
     add_scaled(a, span, (-dot(span, a) / dot(span, span)).clamp(0.0, 1.0))
 }
 
-/// A string inside a ring that touches it at one point: the shortest of all paths over a point of the
-/// circle. It meets the circle like light is reflected by a mirror (Hero's principle). With θ the angle from the direction of the
-/// first end, Δ the
-/// angle between both ends, and d the distances to the point,
+/// A string inside a ring that touches it at one point: the shortest of all paths over a point of the circle. It meets the circle
+/// like light is reflected by a mirror (Hero's principle). With θ the angle from the direction of the first end, Δ the angle
+/// between both ends, and d the distances to the point,
 ///
 /// > d/dθ (d₀ + d₁) ∝ g(θ) = L₀ sin θ / d₀ - L₁ sin(Δ - θ) / d₁
 ///
 /// where the terms are the sines of the two angles with the radius. Since g(0) ≤ 0 ≤ g(Δ), Newton's method with bisection
-/// converges to the last
-/// bit. (MuJoCo stops when its own equation is satisfied to 1e-6, and uses the direction halfway between both ends
-/// if Newton's method leaves the interval: docs/measured/parity.md.)
+/// converges to the last bit. (MuJoCo stops when its own equation is satisfied to 1e-6, and uses the direction halfway between
+/// both ends if Newton's method leaves the interval: docs/measured/parity.md.)
 fn inside(q: [Vec2; 2], radius: f64) -> Option<WrapSegment> {
     /// Newton's method needs about six iterations, bisection alone fifty.
     const ITERATIONS: usize = 100;
@@ -261,8 +252,7 @@ mod tests {
             let touch = [point(&x[25..]), point(&x[28..])];
             let apart = distance(arc.from, touch[0]).max(distance(arc.to, touch[1]));
             // The path has the same length at another position: the ends are opposite each other, or on one line with the side
-            // site on the far
-            // side. Both directions have the same length, and rounding selects one of them.
+            // site on the far side. Both directions have the same length, and rounding selects one of them.
             let by_side = x[20] == 1.0 && around(ends, &shape, None).is_some();
             if !by_side && (length - total).abs() < 1e-12 && apart > 1e-3 {
                 counts[3] += 1;
@@ -316,8 +306,7 @@ mod tests {
     }
 
     /// A reference solution without tangents: searches the point where a straight piece meets the circle among all points that
-    /// are
-    /// visible from its end.
+    /// are visible from its end.
     fn reference(q: [f64; 2], angles: [f64; 2], r: f64, inside: bool) -> f64 {
         // The law of cosines, in a form that is accurate for short sides.
         let side = |l: f64, r: f64, a: f64| ((l - r).powi(2) + 4.0 * l * r * (0.5 * a).sin().powi(2)).sqrt();

@@ -39,8 +39,8 @@ pub(crate) fn at_default(m: &mut Model, d: &Fields) {
     }
 }
 
-/// Converts damping ratios ζ, which are stored as positive numbers in the place of -kv: kv = 2 ζ √(kp m), with
-/// the inertia m = Σ M_ii/moment_i² that the servo moves in the default configuration.
+/// Converts damping ratios ζ, which are stored as positive numbers in the place of -kv: kv = 2 ζ √(kp m), with the inertia m = Σ
+/// M_ii/moment_i² that the servo moves in the default configuration.
 pub(crate) fn critical_damping(m: &mut Model, d: &Fields) {
     for i in 0..m.nactuator {
         let kp = -m.actuator_biasprm[10 * i + 1];

@@ -7,8 +7,7 @@ use crate::kinds::exclude;
 use crate::model::{Fields, Model};
 
 /// The moment of an adhesion actuator: the mean separation direction over the contacts of body `b`, with the sign of an
-/// attractive force. The
-/// length is zero.
+/// attractive force. The length is zero.
 pub(super) fn adhesion(m: &Model, d: &Fields, b: usize, w: &mut Scratch, out: &mut Rows) -> f64 {
     let Scratch { moment: dense, columns, .. } = w;
     dense.fill(0.0);

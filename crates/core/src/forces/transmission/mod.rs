@@ -130,8 +130,7 @@ fn quaternion(d: &Fields, q: usize) -> Quat {
 }
 
 /// The length is the coordinate of a slide or hinge, the rotation along an axis for a ball joint, and zero for a free joint, on
-/// which only a force
-/// acts. A gear in the parent's frame is rotated to the child's frame, in which velocities are expressed.
+/// which only a force acts. A gear in the parent's frame is rotated to the child's frame, in which velocities are expressed.
 fn at_joint(m: &Model, d: &Fields, j: usize, in_parent: bool, gear: &[f64; 6], out: &mut Rows) -> f64 {
     let (q, k) = (m.jnt_qposadr[j] as usize, m.jnt_dofadr[j] as usize);
     let [a, b, c, e, f, g] = *gear;

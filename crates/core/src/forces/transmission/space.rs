@@ -13,8 +13,7 @@ fn site_body(m: &Model, s: usize) -> usize {
 /// The rotation vector from a reference site to a site, in the frame of the reference site.
 ///
 /// MuJoCo 3.14.0 composes the orientation of a site in the order site, body. This is the orientation of the site in the world
-/// only
-/// if one of the two is the identity. Its length is then inconsistent with the velocity that its moment gives
+/// only if one of the two is the identity. Its length is then inconsistent with the velocity that its moment gives
 /// (`docs/measured/parity.md`).
 fn relative_rotation(m: &Model, d: &Fields, sites: [usize; 2]) -> Vec3 {
     let [s, reference] =

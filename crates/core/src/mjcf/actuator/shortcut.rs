@@ -1,7 +1,7 @@
 //! Shortcuts: the parameters that each element of `actuator` writes to the general actuator.
 //!
-//! They are documented in MuJoCo's XML reference, "actuator". An element starts with the values of its class, so
-//! that a parameter without an attribute keeps the value that a servo, a muscle or a motor of the class has set.
+//! They are documented in MuJoCo's XML reference, "actuator". An element starts with the values of its class, so that a parameter
+//! without an attribute keeps the value that a servo, a muscle or a motor of the class has set.
 
 use super::overlay::Overlay;
 use super::shortcut_motor;

@@ -1,6 +1,5 @@
 //! Reads PNG images (ISO/IEC 15948) for height fields: the first colour channel of each pixel, in 8 bits. This file reads chunks,
-//! filters and
-//! interlacing; `miniz_oxide` decompresses the data.
+//! filters and interlacing; `miniz_oxide` decompresses the data.
 
 use miniz_oxide::inflate::TINFLStatus;
 use miniz_oxide::inflate::core::inflate_flags::{
@@ -124,8 +123,7 @@ pub(super) fn header(bytes: &mut &[u8]) -> Result<Header, &'static str> {
 }
 
 /// The first colour channel of each pixel, row by row from the top. `bytes` starts after the header. The caller has checked that
-/// the size in the
-/// header is within the limits.
+/// the size in the header is within the limits.
 pub(super) fn first_colors(of: &Header, mut bytes: &[u8]) -> Result<Vec<u8>, &'static str> {
     let (mut palette, mut packed): (&[u8], Vec<u8>) = (&[], Vec::new());
     // The compressed data are in consecutive chunks. Later chunks are not needed.
@@ -182,8 +180,7 @@ fn unpacked(packed: &[u8], size: usize) -> Result<Vec<u8>, &'static str> {
 }
 
 /// Reverses the filter of a row. Each byte is stored as its difference from a prediction, which depends on the byte `step` before
-/// it, the byte
-/// above, and the byte above that one.
+/// it, the byte above, and the byte above that one.
 fn unfilter(filter: u8, row: &mut [u8], above: &[u8], step: usize) -> Result<(), &'static str> {
     for i in 0..row.len() {
         let before = |row: &[u8]| i.checked_sub(step).and_then(|i| row.get(i)).copied().unwrap_or(0);

@@ -102,8 +102,7 @@ fn mended(mut bytes: Vec<u8>) -> Vec<u8> {
 }
 
 /// Damaged files that the crate can read give the same image here. A file that only this reader accepts (without its end) gives
-/// an image of
-/// the size that its header states.
+/// an image of the size that its header states.
 #[test]
 fn damaged_pictures_are_read_as_by_the_package() {
     let compare = |bytes: &[u8], what: &str| match (ours(bytes), theirs(bytes)) {

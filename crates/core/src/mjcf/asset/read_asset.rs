@@ -21,8 +21,7 @@ use crate::mjcf::text::load;
 use crate::mjcf::text::tree::{Node, Tree, name};
 
 /// Limit in bytes for all files, vertices and triangles of meshes, and samples of height fields together. Without it, a small
-/// text could request
-/// any amount.
+/// text could request any amount.
 const MOST: usize = 256 << 20;
 /// The bytes that a vertex, a triangle or a sample counts for.
 const EACH: usize = 32;
@@ -131,8 +130,8 @@ impl Assets {
         self.materials.get(self.id("mesh", mesh)?)?.as_deref()
     }
 
-    /// Checks that the bodies that skin files name as bones exist after `fusestatic`. Bodies that the
-    /// text itself refers to are never fused.
+    /// Checks that the bodies that skin files name as bones exist after `fusestatic`. Bodies that the text itself refers to are
+    /// never fused.
     pub(crate) fn check_bones(&self, bodies: &[BodySpec], names: &NameTable, report: &mut Report) {
         let used: BTreeSet<&str> = filled(bodies.iter().map(|b| b.name.as_str()));
         for bone in self.skins.iter().filter_map(|a| a.value.as_ref()).flat_map(|s| &s.bones) {

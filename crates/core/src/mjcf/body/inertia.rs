@@ -35,8 +35,7 @@ fn body_inertia(body: &BodySpec, compiler: &Compiler) -> Inertia {
         InertiaFromGeom::Auto => of_geoms(&body.geoms, compiler),
     };
     // Without mass, the inertial frame has no meaning. MuJoCo stores the pose of the body there, as written in the text. The
-    // result is
-    // visible in `xipos`, so this code does the same.
+    // result is visible in `xipos`, so this code does the same.
     let massless = Inertia { pos: body.written.pos, quat: body.written.quat, ..NONE };
     from_geoms.or_else(|| body.inertial.clone()).unwrap_or(massless)
 }
@@ -70,20 +69,18 @@ pub(crate) fn combined(parts: &[Inertia]) -> Inertia {
     Inertia { pos, quat, mass, moments }
 }
 
-/// Principal moments, largest first, and the orientation of the principal axes, of a symmetric matrix given as
-/// `xx yy zz xy xz yz`. Jacobi's method: the rotations are accumulated in a quaternion.
+/// Principal moments, largest first, and the orientation of the principal axes, of a symmetric matrix given as `xx yy zz xy xz
+/// yz`. Jacobi's method: the rotations are accumulated in a quaternion.
 ///
-/// Each rotation takes the smaller of the two possible angles, and axes are sorted by quarter turns,
-/// so that of all equivalent orientations the result is the one that MuJoCo stores.
+/// Each rotation takes the smaller of the two possible angles, and axes are sorted by quarter turns, so that of all equivalent
+/// orientations the result is the one that MuJoCo stores.
 pub(crate) fn principal(m: [f64; 6]) -> (Vec3, Quat) {
     principal_to(0.0, m)
 }
 
 /// Like [`principal`], but rotates only while an element off the diagonal is larger than `error`. If moments and product of two
-/// axes differ by
-/// less than `2 error`, these axes do not rotate, so that rounding errors do not select them. Moments that differ by less than
-/// `error` keep
-/// their order.
+/// axes differ by less than `2 error`, these axes do not rotate, so that rounding errors do not select them. Moments that differ
+/// by less than `error` keep their order.
 pub(crate) fn principal_to(error: f64, m: [f64; 6]) -> (Vec3, Quat) {
     const MAX_ROTATIONS: usize = 100;
     const EQUAL: f64 = 2.0;

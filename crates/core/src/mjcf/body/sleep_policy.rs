@@ -28,8 +28,7 @@ pub(crate) fn check_policies(bodies: &[BodySpec], layout: &Layout, report: &mut 
 }
 
 /// Fills `tree_sleep_policy`. An explicit `sleep` takes precedence. Otherwise a tree may sleep unless actuators move it, or a
-/// tendon connects it
-/// to more than one other tree, or to one other tree with a spring or a damper.
+/// tendon connects it to more than one other tree, or to one other tree with a spring or a damper.
 pub(crate) fn policies(m: &mut Model, bodies: &[BodySpec]) {
     let mut policies = vec![policy::AUTO_ALLOWED; m.ntree];
     let mut keep_awake = |tree: i32| {

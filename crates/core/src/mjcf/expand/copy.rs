@@ -36,8 +36,8 @@ impl Rename<'_> {
     }
 }
 
-/// Copies an element and all its descendants, in the order of the text. The first has no parent, the others have
-/// the index of their parent in the copy. Also returns the index of each element in the original.
+/// Copies an element and all its descendants, in the order of the text. The first has no parent, the others have the index of
+/// their parent in the copy. Also returns the index of each element in the original.
 ///
 /// References are renamed if `copied` contains the referenced object, or if `copied` is `None`.
 pub(super) fn copy(

@@ -26,8 +26,7 @@ pub(super) struct Followers {
     /// The names that are copied with this section, before they are renamed.
     pub(super) names: Names,
     /// The elements that refer to copied objects, and the subset that also refers to objects that are not copied, so that no copy
-    /// can
-    /// be complete.
+    /// can be complete.
     pub(super) bound: Vec<usize>,
     pub(super) incomplete: Vec<usize>,
 }

@@ -1,8 +1,8 @@
 //! Expands `replicate` and `attach`, copies of parts of a model, before any other pass reads the tree.
 //!
-//! A copy is placed in a `frame` that replaces the requesting element. Elements that refer to the copied objects,
-//! such as sensors and tendons, are copied too and appended to their section, as in MuJoCo
-//! 3.14.0 (XML reference, `replicate` and `attach`; rules for names and order measured on the library).
+//! A copy is placed in a `frame` that replaces the requesting element. Elements that refer to the copied objects, such as sensors
+//! and tendons, are copied too and appended to their section, as in MuJoCo 3.14.0 (XML reference, `replicate` and `attach`; rules
+//! for names and order measured on the library).
 //!
 //! Requests are expanded in the order of the text, inner ones first, so that copies can contain copies.
 

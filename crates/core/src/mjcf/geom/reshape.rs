@@ -1,7 +1,6 @@
 //! Changes of the whole model that `compiler` requests, made after masses are known. `fusestatic` merges bodies without joints
-//! into their
-//! parents, `discardvisual` removes geoms that cannot collide, and `alignfree` aligns free bodies with the frame of their
-//! inertia. Also sets the total mass.
+//! into their parents, `discardvisual` removes geoms that cannot collide, and `alignfree` aligns free bodies with the frame of
+//! their inertia. Also sets the total mass.
 //!
 //! Which elements remain, and in which order, follows MuJoCo 3.14.0 (XML reference, `compiler`; measured on the library).
 
@@ -78,11 +77,10 @@ fn move_members(body: &mut BodySpec, pose: Pose) {
 }
 
 /// Merges bodies without joints into their parents, unless an element refers to them. Their members are appended to those of
-/// their
-/// parents, and their children replace them.
+/// their parents, and their children replace them.
 ///
-/// MuJoCo resolves every reference again for each body, with the original indexes of the bodies. If an index
-/// is beyond the end of the shortened list, no named body is removed before the referenced one is reached.
+/// MuJoCo resolves every reference again for each body, with the original indexes of the bodies. If an index is beyond the end of
+/// the shortened list, no named body is removed before the referenced one is reached.
 fn fuse_static(bodies: &mut Vec<BodySpec>, inertias: &mut Vec<Inertia>, tree: &Tree) {
     let named = references(tree);
     let sensed = sites_of_force_sensors(tree);

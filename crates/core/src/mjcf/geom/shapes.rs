@@ -1,8 +1,7 @@
 //! Geom types: the sizes they need, their volume, surface, inertia and bounds. A new type needs a row here and a
 //! keyword in the schema.
 //!
-//! Inertias are principal moments for unit mass, about the centre. The formulas are those of any table of moments
-//! of inertia.
+//! Inertias are principal moments for unit mass, about the centre. The formulas are those of any table of moments of inertia.
 
 use std::f64::consts::PI;
 
@@ -210,8 +209,8 @@ fn ellipsoid_shell(inner: Vec3) -> Vec3 {
     std::array::from_fn(|i| moment(turned(inner, i), turned(outer, i)))
 }
 
-/// `geom_fluid` of a geom with the ellipsoid model of fluid forces: a flag, five coefficients, the added mass and
-/// the added moments of inertia, for a fluid density of one (Lamb 1932, *Hydrodynamics*, art. 114).
+/// `geom_fluid` of a geom with the ellipsoid model of fluid forces: a flag, five coefficients, the added mass and the added
+/// moments of inertia, for a fluid density of one (Lamb 1932, *Hydrodynamics*, art. 114).
 pub(crate) fn fluid(half: Vec3, coefficients: [f64; 5]) -> [f64; 12] {
     let [a, b, c] = half;
     let kappa = [added_mass([a, b, c]), added_mass([b, c, a]), added_mass([c, a, b])];

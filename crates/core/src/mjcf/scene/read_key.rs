@@ -40,8 +40,7 @@ enum Rest {
     /// Missing numbers are zero, as in MuJoCo.
     Zero,
     /// A short list is an error. MuJoCo fills the rest of a configuration with angles in degrees and with poses outside their
-    /// frames,
-    /// which authors do not intend.
+    /// frames, which authors do not intend.
     Needed,
 }
 

@@ -1,9 +1,8 @@
 //! The schema of MJCF: every element in every position, with every attribute, as in MuJoCo 3.14.0.
 //!
 //! One table determines which elements and attributes are read, which are accepted and ignored, and which are refused by name.
-//! The checks of
-//! `tree.rs`, the suggestions for misspelt names and the compatibility page are generated from it. Names are those of
-//! MuJoCo's XML reference; a test compares them with the list that the library prints.
+//! The checks of `tree.rs`, the suggestions for misspelt names and the compatibility page are generated from it. Names are those
+//! of MuJoCo's XML reference; a test compares them with the list that the library prints.
 
 mod actuators;
 mod body;
@@ -255,8 +254,8 @@ pub struct SchemaRow {
     pub status: Status,
 }
 
-/// The whole schema as rows, in the order of the table, elements before their attributes. An element that
-/// may contain itself (`body`, `default`, `frame`) is listed once.
+/// The whole schema as rows, in the order of the table, elements before their attributes. An element that may contain itself
+/// (`body`, `default`, `frame`) is listed once.
 pub fn schema_rows() -> Vec<SchemaRow> {
     let mut rows = Vec::new();
     let mut stack = vec![(String::new(), &ROOT, false)];

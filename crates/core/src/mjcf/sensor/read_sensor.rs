@@ -160,8 +160,7 @@ impl Context<'_> {
     }
 
     /// The only attribute of a list that is present: its index in the list, and the id of the object that it names. Two present
-    /// attributes
-    /// are an error.
+    /// attributes are an error.
     fn one_of(&mut self, attributes: &[(&'static str, &'static str)]) -> Option<Option<(usize, i32)>> {
         let mut given = attributes.iter().enumerate().filter(|(_, (a, _))| self.node.attribute(a).is_some());
         let Some((at, &(attribute, kind))) = given.next() else { return Some(None) };

@@ -148,8 +148,7 @@ fn pictures_and_text_stl_are_told_by_name() {
 }
 
 /// Skins that MuJoCo 3.14.0 refuses, with the messages. One case is accepted by MuJoCo and refused here: a triangle with a vertex
-/// that does not
-/// exist, for which a renderer would read beyond the end of the list.
+/// that does not exist, for which a renderer would read beyond the end of the list.
 #[test]
 fn skins_that_do_not_fit() {
     let bone = "<bone body='ball' bindpos='0 0 0' bindquat='1 0 0 0' vertid='0 1 2' vertweight='1 1 1'/>";

@@ -80,8 +80,7 @@ fn axes_of_nearly_symmetric_meshes_are_those_of_mujoco() {
 }
 
 /// Exclusions apply only to the bodies that they name, for any number of bodies. MuJoCo's signature of two bodies, 65,536 times
-/// the
-/// first id plus the second, is ambiguous with more than 65,535 bodies.
+/// the first id plus the second, is ambiguous with more than 65,535 bodies.
 #[test]
 fn exclusions_of_many_bodies_keep_only_theirs_apart() {
     // The ids of the two excluded bodies are 1 and 65,540 = 65,536 + 4, so that (1, 65,540) and (2, 4) have the same signature.

@@ -1,10 +1,8 @@
 //! Diagnostics of a model: a stable code, a position in the XML, the reason and the next step. A [`Report`] collects them, so
-//! that an author
-//! with three mistakes sees three.
+//! that an author with three mistakes sees three.
 //!
 //! A model may consist of several files. The passes use one address space for all texts, which follow each other in it. A span is
-//! a range of
-//! bytes in this space; [`Report::finish`] converts it to a file and a position.
+//! a range of bytes in this space; [`Report::finish`] converts it to a file and a position.
 
 use crate::mjcf::rules::{self, Rule};
 use labspec_finding::order::sort_by_key;
@@ -131,8 +129,7 @@ pub(crate) struct Report {
     /// The numbers that the arrays of the model have requested so far.
     numbers: usize,
     /// Whether something was left out because it is not supported. Names that it would define are then missing, and a second
-    /// message about
-    /// them would only repeat the first.
+    /// message about them would only repeat the first.
     pub(crate) incomplete: bool,
 }
 
@@ -185,8 +182,7 @@ impl Report {
     }
 
     /// Counts numbers that the arrays of a model need, in addition to those in its text. Returns `false` if the total exceeds the
-    /// limit, and
-    /// reports this at the element that requested the last numbers.
+    /// limit, and reports this at the element that requested the last numbers.
     pub(crate) fn take(&mut self, numbers: usize, span: Range<usize>, what: &str) -> bool {
         self.numbers = self.numbers.saturating_add(numbers);
         if self.numbers <= MAX_NUMBERS {

@@ -1,8 +1,7 @@
 //! Files that a model refers to: included text, other models, meshes, height fields.
 //!
 //! A model may read files under one root only, because lessons may come from untrusted authors. The compiler only requests paths
-//! that [`clean`]
-//! has normalized. The implementation of [`Files`] determines the root and provides the bytes.
+//! that [`clean`] has normalized. The implementation of [`Files`] determines the root and provides the bytes.
 
 use std::collections::BTreeMap;
 use std::io::Read;
@@ -77,8 +76,8 @@ impl Folder {
         Folder::at(root, root)
     }
 
-    /// The files below `root`, for a model in the folder `place`. If `place` is not below `root`, only
-    /// the files below `place` can be read.
+    /// The files below `root`, for a model in the folder `place`. If `place` is not below `root`, only the files below `place`
+    /// can be read.
     ///
     /// # Errors
     ///

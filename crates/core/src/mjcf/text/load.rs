@@ -1,7 +1,7 @@
 //! Loads a model and its files. Included text replaces its `include`; models to attach are read separately.
 //!
-//! As in MuJoCo, paths are relative to the folder of the model, the root element of an included file is dropped
-//! with its attributes, and no file is included twice.
+//! As in MuJoCo, paths are relative to the folder of the model, the root element of an included file is dropped with its
+//! attributes, and no file is included twice.
 
 use crate::mjcf::gather::filled;
 use crate::mjcf::gather::listed;
@@ -52,8 +52,7 @@ impl<'f> Loader<'f> {
     }
 
     /// The text of a model with its patches applied and its includes expanded. `None` if the text is not XML, or a patch cannot
-    /// be
-    /// applied.
+    /// be applied.
     pub(crate) fn written(&mut self, text: &str, file: Option<&str>, report: &mut Report) -> Option<String> {
         let base = report.source(None, text.into());
         let mut list = Vec::new();

@@ -51,10 +51,9 @@ struct Changes {
     inserted: Vec<usize>,
 }
 
-/// Checks the limits of a text whose spans start at `base`. Returns the text with blanks in place of meaningless text
-/// between elements, and with missing blanks between attributes inserted, as MuJoCo 3.14.0 reads such texts (measured:
-/// `golden/cases.py`).
-/// `None`, with an error in the report, at the first limit that is exceeded.
+/// Checks the limits of a text whose spans start at `base`. Returns the text with blanks in place of meaningless text between
+/// elements, and with missing blanks between attributes inserted, as MuJoCo 3.14.0 reads such texts (measured:
+/// `golden/cases.py`). `None`, with an error in the report, at the first limit that is exceeded.
 pub(crate) fn prepare<'t>(
     text: &'t str,
     base: usize,

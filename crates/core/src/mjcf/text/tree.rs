@@ -313,8 +313,7 @@ fn counts_empty(element: &str, attribute: &str) -> bool {
 }
 
 /// Pairs of attributes that exclude each other. MuJoCo's schema checks the element itself, not its class. (Exclusive attributes
-/// that
-/// name the target of a sensor, a mesh or an equality are checked where these are read.)
+/// that name the target of a sensor, a mesh or an equality are checked where these are read.)
 const EXCLUSIVE: [(&str, [&str; 2]); 4] = [
     ("camera", ["fovy", "sensorsize"]),
     ("light", ["directional", "type"]),

@@ -90,8 +90,7 @@ fn escaped(value: &str) -> String {
 }
 
 /// Appends the elements of a text to a list and returns the index of the root. The spans of the elements start at `base` and
-/// count bytes of the
-/// text as written. `None`, with an error in the report, if the text is not XML.
+/// count bytes of the text as written. `None`, with an error in the report, if the text is not XML.
 pub(crate) fn parse(
     prepared: &Prepared,
     base: usize,

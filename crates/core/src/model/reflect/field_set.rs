@@ -25,8 +25,7 @@ impl FieldSet {
     }
 
     /// Adds elements of a field: `count` elements from `first` on, or all that follow. For `sensordata`, only these elements are
-    /// added. Any
-    /// other field is added as a whole.
+    /// added. Any other field is added as a whole.
     pub fn insert_elements(&mut self, f: FieldId, first: usize, count: Option<usize>) {
         self.0[f.0 as usize / 64] |= 1 << (f.0 % 64);
         if f == data::sensordata {

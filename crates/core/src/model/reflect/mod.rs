@@ -349,8 +349,7 @@ pub fn size(m: &Model, name: &str) -> Option<usize> {
 }
 
 /// Number of elements of a field, computed from the sizes of the model; 0 if a size is not known. Does not allocate, because a
-/// reset in the
-/// step loop calls it for every array.
+/// reset in the step loop calls it for every array.
 pub(crate) fn length(m: &Model, field: FieldId) -> usize {
     dimensions(field).iter().map(|dim| dim.size_in(m).unwrap_or(0)).fold(1, usize::saturating_mul)
 }

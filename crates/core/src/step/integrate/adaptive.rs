@@ -1,12 +1,10 @@
 //! Divides a step into parts, and uses a high order, so that the result is accurate to rounding where forces are smooth. The
-//! method is slow
-//! and accurate, for reference solutions.
+//! method is slow and accurate, for reference solutions.
 //!
-//! The midpoint rule with 2, 4, 6, … steps over the same time has an error in even powers of the step length. The table of
-//! Aitken and Neville eliminates these powers one by one, and the difference of the last two entries estimates the error
-//! (Bulirsch and Stoer
-//! 1966; Hairer, Nørsett and Wanner 1993, *Solving Ordinary Differential Equations I*, section II.9). If 16 steps do not agree
-//! with 14, as at the start of a contact, half the time is tried.
+//! The midpoint rule with 2, 4, 6, … steps over the same time has an error in even powers of the step length. The table of Aitken
+//! and Neville eliminates these powers one by one, and the difference of the last two entries estimates the error (Bulirsch and
+//! Stoer 1966; Hairer, Nørsett and Wanner 1993, *Solving Ordinary Differential Equations I*, section II.9). If 16 steps do not
+//! agree with 14, as at the start of a contact, half the time is tried.
 
 use super::flow;
 use crate::math::combine;

@@ -22,8 +22,7 @@ pub(super) const FOURTH: Method = Method {
 const R: f64 = 4.582_575_694_955_84;
 
 /// A method of eighth order with eleven stages (Cooper and Verner 1972, *Some explicit Runge-Kutta methods of high order*), whose
-/// stages
-/// are at the nodes of Lobatto quadrature.
+/// stages are at the nodes of Lobatto quadrature.
 pub(super) const EIGHTH: Method = Method {
     rows: &[
         &[1.0 / 2.0],

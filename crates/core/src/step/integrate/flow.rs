@@ -2,10 +2,9 @@
 //!
 //! Rotations in space cannot be added. Therefore a configuration is expressed as the one at the start of the step, moved by u:
 //! q = q₀ exp(u), where u consists of a displacement of each slide and hinge, and a rotation vector of each ball joint, in its
-//! own frame. Then
-//! u̇ = dexp⁻¹(u) v, v̇ = a(q, v, t). A method of order p for such equations has order p for rotating bodies too
-//! (Munthe-Kaas 1999, *High order Runge-Kutta methods on manifolds*; Iserles, Munthe-Kaas, Nørsett and Zanna 2000,
-//! *Lie-group methods*).
+//! own frame. Then u̇ = dexp⁻¹(u) v, v̇ = a(q, v, t). A method of order p for such equations has order p for rotating bodies too
+//! (Munthe-Kaas 1999, *High order Runge-Kutta methods on manifolds*; Iserles, Munthe-Kaas, Nørsett and Zanna 2000, *Lie-group
+//! methods*).
 //!
 //! The state is one list: u and v, each of length nv, and the activations.
 

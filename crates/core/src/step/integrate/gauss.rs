@@ -1,11 +1,9 @@
 //! Collocation at the three Gauss points. The method has order six and is symmetric in time.
 //!
-//! The state is a polynomial whose slope satisfies the equations at three times within the step (Hairer, Lubich and Wanner
-//! 2006, *Geometric Numerical Integration*, sections II.1 and V.2). The stages are found by fixed-point iteration. With reversed
-//! time, the
-//! method returns to the previous state. It conserves functions that are quadratic in the velocities: for a free rotating body,
-//! the measured relative
-//! error of the energy is 1e-14 (chapter XI of the book explains why).
+//! The state is a polynomial whose slope satisfies the equations at three times within the step (Hairer, Lubich and Wanner 2006,
+//! *Geometric Numerical Integration*, sections II.1 and V.2). The stages are found by fixed-point iteration. With reversed time,
+//! the method returns to the previous state. It conserves functions that are quadratic in the velocities: for a free rotating
+//! body, the measured relative error of the energy is 1e-14 (chapter XI of the book explains why).
 
 use super::explicit::along;
 use super::flow;

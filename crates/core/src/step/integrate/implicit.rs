@@ -23,8 +23,7 @@ pub(super) fn implicit(m: &Model, d: &mut Fields, s: &mut Scratch) {
 }
 
 /// The integrator `implicitfast`: D without the derivative of the bias force. The lower triangle is used for both, so that the
-/// matrix is
-/// symmetric. Free rigid bodies are solved with the whole matrix D, six by six.
+/// matrix is symmetric. Free rigid bodies are solved with the whole matrix D, six by six.
 pub(super) fn implicitfast(m: &Model, d: &mut Fields, s: &mut Scratch) {
     let (w, factored) = (&mut s.derivative, &mut s.factored);
     let h = m.opt.timestep;

@@ -102,8 +102,7 @@ fn advance_along(m: &Model, d: &mut Fields, s: &mut Scratch) {
 }
 
 /// Computes velocities and positions if trees may sleep. Trees that fall asleep stop, and the fields that depend on their
-/// velocities are
-/// computed again. The positions of sleeping trees do not change.
+/// velocities are computed again. The positions of sleeping trees do not change.
 #[cfg_attr(not(feature = "small"), inline(never))]
 fn advance_awake(
     m: &Model,

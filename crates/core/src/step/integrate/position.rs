@@ -1,7 +1,7 @@
 //! Coordinates and velocities: advancing coordinates with velocities, and the velocities between two configurations.
 //!
-//! Positions are on a manifold (unit quaternions), so they advance along velocities; coordinates are never
-//! added (Hairer, Lubich and Wanner 2006, *Geometric Numerical Integration*, ch. IV).
+//! Positions are on a manifold (unit quaternions), so they advance along velocities; coordinates are never added (Hairer, Lubich
+//! and Wanner 2006, *Geometric Numerical Integration*, ch. IV).
 
 use crate::kinds::joint;
 use crate::math::*;
@@ -49,8 +49,8 @@ fn turn<'q, 'v>(qpos: &'q mut [f64], v: &'v [f64], h: f64) -> (&'q mut [f64], &'
     }
 }
 
-/// v ← the velocity that leads from `from` to `to` in a time `h` (`mj_differentiatePos`). Rotations take the
-/// shorter direction. Inverse to [`integrate_pos`] for unit quaternions and rotations of less than half a revolution.
+/// v ← the velocity that leads from `from` to `to` in a time `h` (`mj_differentiatePos`). Rotations take the shorter direction.
+/// Inverse to [`integrate_pos`] for unit quaternions and rotations of less than half a revolution.
 pub(crate) fn differentiate_pos(m: &Model, v: &mut [f64], h: f64, from: &[f64], to: &[f64]) {
     for j in 0..m.njnt {
         let (mut q, mut k) = (m.jnt_qposadr[j] as usize, m.jnt_dofadr[j] as usize);

@@ -11,8 +11,7 @@ use crate::mjcf::gather::listed;
 use labspec_finding::order;
 
 /// The accuracy of the principal axes, and the relative difference above which moments count as different, as a fraction of the
-/// largest
-/// element of the inertia. Measured on MuJoCo 3.14.0 with rotated boxes whose sides differ slightly.
+/// largest element of the inertia. Measured on MuJoCo 3.14.0 with rotated boxes whose sides differ slightly.
 const AXES: f64 = 1e-7;
 
 /// The parameters of a mesh asset, besides its data.

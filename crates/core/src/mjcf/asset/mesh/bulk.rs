@@ -1,14 +1,12 @@
 //! Volume, centre of mass and inertia of the solid that a surface of triangles encloses, or of the surface itself.
 //!
 //! By the divergence theorem, an integral over the interior is a sum over the tetrahedra between the triangles and a common apex,
-//! each
-//! with the sign of its volume. For a simplex of the volume or area V with the n corners vᵢ, n = 4 or 3, and their sum s:
+//! each with the sign of its volume. For a simplex of the volume or area V with the n corners vᵢ, n = 4 or 3, and their sum s:
 //!
 //! > ∫ x = V s / n,  ∫ x xᵀ = V / (n (n + 1)) (Σ vᵢ vᵢᵀ + s sᵀ)
 //!
 //! (Hammer, Marlowe and Stroud, *Numerical integration over simplexes and cones*, 1956). An apex at the origin contributes
-//! nothing to the
-//! sums of corners.
+//! nothing to the sums of corners.
 
 use super::triangle;
 use crate::math::{Vec3, add, add_scaled, cross, dot, sub};

@@ -1,10 +1,8 @@
 //! Triangle meshes from text, files or a rule. The vertices are relative to the centre of mass, along the principal axes. A mesh
-//! has a
-//! volume, an inertia and a convex hull.
+//! has a volume, an inertia and a convex hull.
 //!
 //! [`Raw`] contains the data as given; [`build::mesh`] computes a [`Mesh`] from it, in the order that MuJoCo's documentation
-//! describes
-//! ("XML reference, asset/mesh"; details measured on the library).
+//! describes ("XML reference, asset/mesh"; details measured on the library).
 
 pub(crate) mod build;
 pub(crate) mod builtin;
@@ -87,8 +85,7 @@ impl Mesh {
     }
 
     /// A primitive shape that replaces the mesh: its centre, in the frame in which the data were given, and its sizes. The shape
-    /// is fitted
-    /// to the inertia, or to the bounding box. `None` for a type without volume.
+    /// is fitted to the inertia, or to the bounding box. `None` for a type without volume.
     pub(crate) fn fit(&self, kind: i32, bounding: bool) -> Option<(Vec3, Vec3)> {
         let size = if bounding { self.around(kind)? } else { self.equivalent(kind)? };
         let centre = if bounding { add(self.pos, rotate(self.middle(), self.quat)) } else { self.pos };
@@ -173,8 +170,7 @@ impl Problem {
 const MSH: &str = "model/vnd.mujoco.msh";
 
 /// Reads a mesh from the bytes of a file. The extension of the file name determines the format. The `content_type` of MuJoCo's
-/// format takes
-/// precedence, other content types have no effect, as in MuJoCo 3.14.0 (measured).
+/// format takes precedence, other content types have no effect, as in MuJoCo 3.14.0 (measured).
 pub(crate) fn decode(path: &str, content_type: &str, bytes: &[u8]) -> Result<Raw, Problem> {
     let ending = path.rsplit_once('.').map_or("", |(_, ending)| ending).to_ascii_lowercase();
     let ending = if content_type == MSH { "msh" } else { ending.as_str() };

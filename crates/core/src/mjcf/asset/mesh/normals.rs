@@ -2,8 +2,7 @@
 //! large angle to that mean are excluded.
 //!
 //! Sums are in single precision, as in MuJoCo. If all triangles at a vertex are excluded, the sum consists of rounding errors,
-//! and its
-//! direction is the normal.
+//! and its direction is the normal.
 
 use crate::math::{MINVAL, Vec3, cross, dot, normalize, scale, sub};
 use crate::mjcf::gather::listed;

@@ -1,9 +1,8 @@
 //! Convex hulls by quickhull (Barber, Dobkin, Huhdanpaa 1996, *The quickhull algorithm for convex hulls*, ACM TOMS 22).
 //!
 //! Heights are computed in integers. Along each axis, points are rounded to a grid of 2^40 steps, which is finer than single
-//! precision. A height over a plane then fits into 127 bits. Every decision is therefore exact: coplanar points are
-//! coplanar, and the algorithm is correct for every point cloud, however degenerate. (Stretching an axis does not change a hull,
-//! so each axis
+//! precision. A height over a plane then fits into 127 bits. Every decision is therefore exact: coplanar points are coplanar, and
+//! the algorithm is correct for every point cloud, however degenerate. (Stretching an axis does not change a hull, so each axis
 //! has its own grid.)
 
 use crate::mjcf::gather::listed;

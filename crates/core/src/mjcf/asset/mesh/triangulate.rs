@@ -1,6 +1,5 @@
 //! Divides polygons into triangles: a quadrilateral along its shorter diagonal, larger polygons by ear clipping (Meisters 1975,
-//! *Polygons
-//! have ears*). The order of the ears is that of MuJoCo 3.14.0, measured on the library.
+//! *Polygons have ears*). The order of the ears is that of MuJoCo 3.14.0, measured on the library.
 
 use crate::math::{Vec3, cross, dot, sub};
 use crate::mjcf::gather::listed;
