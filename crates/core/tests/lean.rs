@@ -10,7 +10,7 @@
 //! algorithm, the lean build must compute the same bits. It must refuse the others with the error that names the geoms, whatever
 //! flags, contact bits or sleep currently prevent their contacts.
 
-// A test that fails says why.
+// A panic is the report of a failed test.
 #![allow(clippy::panic, clippy::unwrap_used)]
 
 use labspec_core::{self as core, Data, Error, Model, disable};

@@ -3,7 +3,7 @@
 //!
 //!     cargo test -p labspec-core --features nalgebra --test linear
 
-// A test that fails says why.
+// A panic is the report of a failed test.
 #![allow(clippy::panic, clippy::unwrap_used)]
 #![allow(clippy::too_many_lines, reason = "a test is one sequence of steps")]
 

@@ -57,7 +57,7 @@ impl Assumed {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)] // a test that fails says why
+#[allow(clippy::unwrap_used)] // a panic is the report of a failed test
 mod tests {
     use super::SETTLED;
     use crate::api::{call, data::Data, data::Planned, model::Model, planning::Plan};

@@ -125,7 +125,7 @@ fn constants() -> impl Iterator<Item = FieldId> {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)] // a test that fails says why
+#[allow(clippy::unwrap_used)] // a panic is the report of a failed test
 mod tests {
     use crate::api::{call, data::Data, model::Model, planning::Plan};
     use crate::model::reflect::{FieldId, FieldSet, ViewMut, data, model, option};

@@ -389,7 +389,7 @@ impl<S: Scope> Data<S> {
 macro_rules! edits {
     ($($name:ident: $ty:ty, [$($dim:tt),*], $kind:ident, $stage:ident, $unit:literal, $doc:literal;)*) => {
         /// The writable fields of data, by MuJoCo's names. State and inputs can be changed, results can be read.
-        #[allow(non_snake_case, missing_debug_implementations)] // MuJoCo's names; references into data, which print themselves
+        #[allow(non_snake_case, missing_debug_implementations)] // MuJoCo's names; `Data` implements `Debug`
         pub struct Edit<'a> {
             $(#[doc = $doc] pub $name: access!(type 'a $kind $ty),)*
         }

@@ -205,7 +205,7 @@ pub(super) use access;
 macro_rules! edits {
     ($($name:ident: $ty:ty, [$($dim:tt),*], $kind:ident, $stage:ident, $unit:literal, $doc:literal;)*) => {
         /// The writable fields of a model, by MuJoCo's names. Parameters can be changed, structure can only be read.
-        #[allow(non_snake_case, missing_debug_implementations)] // MuJoCo's names; references into a model, which prints itself
+        #[allow(non_snake_case, missing_debug_implementations)] // MuJoCo's names; `Model` implements `Debug`
         pub struct ModelEdit<'a> {
             /// Options of the simulation.
             pub opt: OptionsEdit<'a>,
@@ -227,7 +227,7 @@ macro_rules! edits {
 macro_rules! edits_of {
     ($edit:ident, $of:ty, $doc_of:literal; $($name:ident: $ty:ty, [$($dim:tt),*], $kind:ident, $stage:ident, $unit:literal, $doc:literal;)*) => {
         #[doc = $doc_of]
-        #[allow(missing_debug_implementations)] // references into a model, which prints itself
+        #[allow(missing_debug_implementations)] // `Model` implements `Debug`
         pub struct $edit<'a> {
             $(#[doc = $doc] pub $name: access!(type 'a $kind $ty),)*
         }

@@ -92,7 +92,7 @@ objects! {
         ximat -> Rows3 = |s| mat(&s.data.ximat, s.id);
         /// Centre of mass of the body and all its descendants, m, world.
         subtree_com -> [f64; 3] = |s| row(&s.data.subtree_com, s.id);
-        /// Force and torque applied to it from outside, N and N m, world.
+        /// External force and torque that are applied to the body, N and N m, world.
         xfrc_applied -> [f64; 6] = |s| row(&s.data.xfrc_applied, s.id);
     }
     /// A joint of a simulation.

@@ -91,7 +91,7 @@ pub(crate) fn of_object(m: &Model, d: &Fields, kind: i32, id: usize) -> Option<i
 }
 
 /// The state of a tendon. It is asleep if all trees on its path are.
-#[inline(never)] // few scenes let trees sleep: so below
+#[inline(never)] // few scenes use sleep; the same applies to `actuator_state`
 fn tendon_state(m: &Model, d: &Fields, t: usize) -> i32 {
     let is_awake = |tree: i32| usize::try_from(tree).is_ok_and(|tree| d.tree_awake[tree] != 0);
     let [first, second] = [m.tendon_treeid[2 * t], m.tendon_treeid[2 * t + 1]];

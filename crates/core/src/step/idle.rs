@@ -59,7 +59,7 @@ pub(super) fn actuators_are_idle(m: &Model, linear: impl Fn(usize) -> bool) -> b
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)] // a test that fails says why
+#[allow(clippy::unwrap_used)] // a panic is the report of a failed test
 mod tests {
     use crate::api::{call, data::Data, data::Planned, model::Model, planning::Plan};
     use crate::model::reflect::{FieldSet, data, model};

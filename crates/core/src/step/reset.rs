@@ -17,7 +17,7 @@ use crate::step::workspace::{Scratch, Workspace};
 use crate::{collision, constraint, sensor};
 
 impl Workspace {
-    /// Data for a model, at the default configuration. Nothing is computed yet: call `forward`.
+    /// Data for a model, in the default configuration. Nothing is computed yet: call `forward`.
     ///
     /// The plan allows any field to be read or written at any time. See `Data::planned` for less work.
     pub(crate) fn new(m: &Model) -> Workspace {
@@ -31,7 +31,7 @@ impl Workspace {
         w
     }
 
-    /// Data with the full pipeline and no collision pairs.
+    /// Data with all stages except sleep, and without collision pairs.
     pub(crate) fn unplanned(m: &Model) -> Workspace {
         let mut w = Workspace::default();
         let Workspace { fields: d, scratch: s } = &mut w;

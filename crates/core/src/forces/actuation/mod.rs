@@ -156,7 +156,7 @@ fn servos(m: &Model, d: &mut Fields) -> bool {
 }
 
 /// Computes the force of an actuator with a separate law.
-#[inline(never)] // few are: what most are stays small
+#[inline(never)] // rare: keeps the common path small
 fn of_its_own(m: &Model, d: &mut Fields, i: usize, ctrl: &[f64]) {
     let o = m.actuator_outadr[i] as usize;
     match m.actuator_gaintype[i] {
@@ -205,7 +205,7 @@ fn gain(m: &Model, d: &Fields, i: usize) -> f64 {
     }
 }
 
-#[inline(never)] // see `of_its_own`
+#[inline(never)] // rare; see `of_its_own`
 fn changing_gain(m: &Model, d: &Fields, i: usize) -> f64 {
     let (p, o) = (prm(&m.actuator_gainprm, i), m.actuator_outadr[i] as usize);
     match m.actuator_gaintype[i] {
@@ -223,7 +223,7 @@ fn bias(m: &Model, d: &Fields, i: usize) -> f64 {
     }
 }
 
-#[inline(never)] // see `of_its_own`
+#[inline(never)] // rare; see `of_its_own`
 fn some_bias(m: &Model, d: &Fields, i: usize) -> f64 {
     let (p, o) = (prm(&m.actuator_biasprm, i), m.actuator_outadr[i] as usize);
     match m.actuator_biastype[i] {
@@ -305,7 +305,7 @@ fn gravity_compensation(m: &Model, d: &mut Fields) {
     }
 }
 
-#[inline(never)] // few scenes have any
+#[inline(never)] // rare
 fn add_gravity_compensation(m: &Model, d: &mut Fields) {
     for j in (0..m.njnt).filter(|&j| m.jnt_actgravcomp[j]) {
         let first = m.jnt_dofadr[j] as usize;

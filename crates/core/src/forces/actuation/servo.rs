@@ -40,7 +40,7 @@ pub(super) fn wrapped(m: &Model, d: &Fields, i: usize, setpoint: f64) -> f64 {
     if servo { next_to_length(m, d, i, setpoint) } else { setpoint }
 }
 
-#[inline(never)] // see `of_its_own`
+#[inline(never)] // rare: keeps the common path small
 fn next_to_length(m: &Model, d: &Fields, i: usize, setpoint: f64) -> f64 {
     match turn(m, i) {
         Some(turn) => nearest(setpoint, d.actuator_length[m.actuator_outadr[i] as usize], turn),

@@ -101,7 +101,7 @@ impl Iterator for Legs<'_> {
 /// The length of a spatial tendon, m. Writes its Jacobian and its points to the data.
 ///
 /// `points` is the number of points of all previous paths, and is updated.
-#[inline(never)] // fixed tendons do not carry its arrays
+#[inline(never)] // fixed tendons do not move the arrays
 pub(super) fn spatial(m: &Model, d: &mut Fields, t: usize, points: &mut usize) -> f64 {
     // Removed temporarily, so that the rest of the data can be read while they are written.
     let mut out = Paths {

@@ -82,9 +82,9 @@ fn frame([a, b]: [Vec3; 2], shape: &Round) -> [Vec3; 3] {
     [x, y, cross(x, y)]
 }
 
-/// A direction perpendicular to a line through the centre of a sphere, for ends on that line, for which any plane through the
-/// line is valid. The choice is that of MuJoCo (measured): the normal of the plane is perpendicular to the line and, in the axes
-/// of the sphere, to (1, 1, 1) with the component of the line's largest component set to zero.
+/// The second axis of the plane for two ends on a line through the centre of a sphere. Any plane through the line is valid. The
+/// choice is that of MuJoCo (measured): the normal of the plane is perpendicular to the line and to a vector. In the axes of the
+/// sphere, this vector is (1, 1, 1) with a zero in the place of the line's largest component.
 fn across(line: Vec3, mat: &Mat3) -> Vec3 {
     let components = mat_t_mul_vec(mat, line).map(f64::abs);
     let largest = (1..3).fold(0, |most, i| if components[i] > components[most] { i } else { most });

@@ -124,7 +124,7 @@ fn inherit(inheritrange: f64, range: [f64; 2], attribute: &str, e: &mut Overlay)
     }
 }
 
-/// Reports negative controls. The controls are always clamped to their range.
+/// Sets controls that are always clamped to their range, and reports a range with negative numbers.
 fn one_way(a: &mut ActuatorSpec, e: &mut Overlay, why: &str) {
     a.ctrl.flag = choice::TRUE;
     if a.ctrl.range.iter().any(|&x| x < 0.0) {

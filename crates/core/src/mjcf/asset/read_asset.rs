@@ -148,7 +148,7 @@ impl Assets {
         }
     }
 
-    /// Computes the hulls of the meshes that can collide.
+    /// Computes the hulls of the meshes that can collide, and of those of sites.
     pub(crate) fn hulls(&mut self, bodies: &[BodySpec], pairs: &[PairSpec], report: &mut Report) {
         let geoms: Vec<_> = listed(bodies.iter().flat_map(|b| &b.geoms));
         let touching = geoms.iter().filter(|g| g.contype != 0 || g.conaffinity != 0);

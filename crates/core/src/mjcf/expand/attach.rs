@@ -280,7 +280,7 @@ fn luggage(nodes: &[Node]) -> Vec<(&'static str, usize)> {
             name @ ("asset" | "custom" | "deformable") => {
                 let travels = |c: &usize| match nodes.get(*c).map_or("", |n| n.element.name) {
                     "model" => false,
-                    "tuple" => false, // a tuple follows its objects
+                    "tuple" => false, // a tuple is copied with its objects
                     _ => true,
                 };
                 list.extend(section.children.iter().copied().filter(travels).map(|c| (name, c)));

@@ -233,7 +233,7 @@ pub(crate) fn fluid(half: Vec3, coefficients: [f64; 5]) -> [f64; 12] {
 /// Lamb's α for the first half axis: abc ∫ dλ / sqrt((a² + λ)³ (b² + λ) (c² + λ)), λ from 0 to infinity.
 ///
 /// Substitution λ = s x³ / (1 - x)², then Gauss–Kronrod quadrature with 15 points on x from 0 to 1 (Piessens et al. 1983,
-/// *QUADPACK*). Points and weights have eight decimals, because MuJoCo's results have the precision of such values.
+/// *QUADPACK*). Points and weights have eight decimals, which reproduces MuJoCo's results.
 fn added_mass([a, b, c]: Vec3) -> f64 {
     const POINTS: [f64; 8] =
         [0.5, 0.60389248, 0.70292258, 0.79304362, 0.87076559, 0.93243221, 0.97455396, 0.99572769];

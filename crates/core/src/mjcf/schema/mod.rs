@@ -211,7 +211,7 @@ const LOOK: Status = Status::Ignored("appearance");
 const MOOT: Status = Status::Ignored("acts only with elements that are themselves refused");
 const USER: Status = Status::Ignored("data for programs; the engine does not read it");
 
-/// The five ways to give an orientation.
+/// The five forms of an orientation.
 const ORIENTATION: &[Attr] = attributes! {
     reals(4) => quat axisangle;
     reals(3) => euler zaxis;

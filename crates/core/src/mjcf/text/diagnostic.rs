@@ -251,7 +251,7 @@ fn add(list: &mut Vec<Finding>, finding: Finding) -> Reported<'_> {
     }
     let at = list.len();
     list.push(finding);
-    Reported(&mut list[at]) // just pushed
+    Reported(&mut list[at]) // in bounds: the element was just pushed
 }
 
 /// A name for a message: quoted, and truncated if it is very long.

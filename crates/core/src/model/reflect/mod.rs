@@ -149,7 +149,7 @@ macro_rules! reflect {
         }
         impl $struct {
             fn cell(&self, id: $ids) -> &dyn Cell { match id { $($ids::$name => &self.$name),* } }
-            #[inline(never)] // a table of places; with what is done to the cell it would be code for each
+            #[inline(never)] // compiles to a table of addresses; inlined, the code of each operation would be repeated for each field
             fn cell_mut(&mut self, id: $ids) -> &mut dyn Cell { match id { $($ids::$name => &mut self.$name),* } }
         }
     };

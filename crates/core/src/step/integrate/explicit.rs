@@ -118,7 +118,7 @@ mod tests {
             for k in 1..=order {
                 assert!((moment(k) - 1.0 / f64::from(k)).abs() < 1e-14, "{order}: {k}");
             }
-            // Tall trees: bᵀ Aᵏ⁻¹ 1 = 1/k!
+            // The order conditions of tall rooted trees: bᵀ Aᵏ⁻¹ 1 = 1/k!
             let mut chain = vec![1.0; nodes.len()];
             let mut factorial = 1.0;
             for k in 1..=order {

@@ -20,7 +20,7 @@ pub(crate) fn integrate_pos(m: &Model, qpos: &mut [f64], v: &[f64], h: f64) {
 }
 
 /// Like [`integrate_pos`], for models with quaternions. Coordinates and velocities are processed joint by joint.
-#[inline(never)] // scenes of slides and hinges alone do not carry its set-up
+#[inline(never)] // scenes with slides and hinges only do not execute its prologue
 fn along_joints(m: &Model, mut qpos: &mut [f64], mut v: &[f64], h: f64) {
     for &kind in &m.jnt_type {
         (qpos, v) = match (kind, qpos, v) {

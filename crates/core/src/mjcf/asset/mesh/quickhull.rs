@@ -182,7 +182,7 @@ impl Growing {
                 if height > 0 {
                     face.above.push(p);
                     if height > *highest {
-                        *highest = height; // the highest is the last
+                        *highest = height; // the new point is last, as required
                     } else if let [.., second, last] = face.above.as_mut_slice() {
                         std::mem::swap(second, last);
                     }
