@@ -20,8 +20,8 @@ pub fn ray<S: Scope>(
     Ok(query::ray(m, &d.fields, from, along, filter))
 }
 
-/// The distance of two geoms, m, with the segment from the first to the second (`mj_geomDistance`). `most` is the largest
-/// distance, m.
+/// The distance of two geoms, m, with the segment from the first to the second (`mj_geomDistance`). The distance is searched up
+/// to `most`, m.
 ///
 /// Pairs of shapes with closed forms use them and return the distance at their deepest contact. A pair of planes or height fields
 /// has no distance.
