@@ -1,28 +1,28 @@
-//! What the integers of a model mean: kinds of joints, geoms, actuators, and bits of options, with MuJoCo's numbers; and
-//! those of keywords in MJCF.
+//! The values of the integers of a model: kinds of joints, geoms and actuators, and bits of options, with MuJoCo's numbers; and
+//! the values of MJCF keywords.
 
 /// Values of `opt.integrator`.
 pub mod integrator {
-    /// Semi-implicit Euler, implicit in joint damping.
+    /// Semi-implicit Euler method, implicit in joint damping.
     pub const EULER: i32 = 0;
-    /// Runge-Kutta of fourth order.
+    /// Runge–Kutta method of fourth order.
     pub const RK4: i32 = 1;
     /// Implicit in velocity.
     pub const IMPLICIT: i32 = 2;
     /// Implicit in velocity, without the derivatives of Coriolis forces.
     pub const IMPLICITFAST: i32 = 3;
-    /// One constraint problem in the metric of the next step.
+    /// Solves one constraint problem with the metric of the end of the step.
     pub const DISCRETE: i32 = 4;
 
-    // Those that follow are not MuJoCo's: its page and its files know none of them.
+    // The following integrators are extensions. MuJoCo does not have them.
 
-    /// Runge-Kutta of fourth order, of fourth order also where bodies turn in space.
+    /// Runge–Kutta method of fourth order that has this order for rotations in space too.
     pub const RKMK4: i32 = 104;
-    /// The same of eighth order.
+    /// Like [`RKMK4`], of eighth order.
     pub const RKMK8: i32 = 108;
-    /// Collocation at the points of Gauss, of sixth order: symmetric in time, for motion that keeps its energy.
+    /// Collocation at the Gauss points, of sixth order. Symmetric in time, for motions that conserve energy.
     pub const GAUSS: i32 = 106;
-    /// Extrapolation with as many steps within a step as rounding asks for: for references.
+    /// Extrapolation, with as many substeps as an error at the level of rounding requires. For reference solutions.
     pub const ADAPTIVE: i32 = 100;
 
     /// Whether a step computes the forces more than once.
@@ -33,9 +33,9 @@ pub mod integrator {
 
 /// Values of `opt.solver`.
 pub mod solver {
-    /// Projected Gauss–Seidel, on the dual problem.
+    /// Projected Gauss–Seidel method, on the dual problem.
     pub const PGS: i32 = 0;
-    /// Conjugate gradients.
+    /// Conjugate gradient method.
     pub const CG: i32 = 1;
     /// Newton's method.
     pub const NEWTON: i32 = 2;
@@ -45,7 +45,7 @@ pub mod solver {
 pub(crate) mod cone {
     /// A pyramid: two rows for each direction of friction.
     pub(crate) const PYRAMIDAL: i32 = 0;
-    /// An elliptic cone: a row for the normal, and one for each direction of friction.
+    /// An elliptic cone: one row for the normal, and one for each direction of friction.
     pub(crate) const ELLIPTIC: i32 = 1;
 }
 
@@ -53,12 +53,12 @@ pub(crate) mod cone {
 pub(crate) mod jacobian {
     pub(crate) const DENSE: i32 = 0;
     pub(crate) const SPARSE: i32 = 1;
-    /// Dense for few degrees of freedom.
+    /// Dense if there are few degrees of freedom.
     pub(crate) const AUTO: i32 = 2;
 }
 
 /// Bits of `opt.disableflags` (mjtDisableBit).
-#[allow(missing_docs)] // each is named after the part that it switches off
+#[allow(missing_docs)] // each is named after the part that it disables
 pub mod disable {
     pub const CONSTRAINT: i32 = 1;
     pub const EQUALITY: i32 = 1 << 1;
@@ -83,7 +83,7 @@ pub mod disable {
 }
 
 /// Bits of `opt.enableflags` (mjtEnableBit).
-#[allow(missing_docs)] // each is named after the part that it switches on
+#[allow(missing_docs)] // each is named after the part that it enables
 pub mod enable {
     pub const OVERRIDE: i32 = 1;
     pub const ENERGY: i32 = 1 << 1;
@@ -134,7 +134,7 @@ pub mod geom {
     pub const MESH: i32 = 7;
 }
 
-/// Values of `wrap_type`: what a tendon's path is made of.
+/// Values of `wrap_type`: the kind of an object on a tendon's path.
 #[allow(missing_docs)] // the kinds of path objects
 pub mod wraptype {
     pub const JOINT: i32 = 1;
@@ -228,15 +228,15 @@ pub(crate) mod lighttype {
 
 /// How a delayed sensor or actuator interpolates its past values, the second number of `sensor_history` and `actuator_history`.
 pub(crate) mod interpolation {
-    /// That of the last sample (zero-order hold).
+    /// The value of the last sample (zero-order hold).
     pub(crate) const HOLD: i32 = 0;
-    /// Along a line between two samples.
+    /// Linear interpolation between two samples.
     pub(crate) const LINEAR: i32 = 1;
-    /// Along a cubic through neighbouring slopes.
+    /// Cubic interpolation with the slopes of the samples.
     pub(crate) const CUBIC: i32 = 2;
 }
 
-/// Values of `body_simple`: whether the mass matrix of a body is diagonal whatever its configuration.
+/// Values of `body_simple`: whether the mass matrix of a body is diagonal in every configuration.
 pub(crate) mod simple {
     pub(crate) const NO: i32 = 0;
     pub(crate) const DIAGONAL: i32 = 1;
@@ -244,21 +244,21 @@ pub(crate) mod simple {
     pub(crate) const SLIDING: i32 = 2;
 }
 
-/// Values of a contact's `exclude`: why it has no rows.
+/// Values of a contact's `exclude`: the reason why it has no rows.
 pub(crate) mod exclude {
     /// It has rows.
     pub(crate) const NO: u8 = 0;
     /// It is in the gap.
     pub(crate) const IN_GAP: u8 = 1;
-    /// No degree of freedom opens or closes it.
+    /// No degree of freedom affects its distance.
     pub(crate) const NO_DOFS: u8 = 3;
 }
 
-/// Keywords of MJCF that leave a choice open (`limited`, `align`, `inertiafromgeom`).
+/// Values of MJCF keywords with an automatic choice (`limited`, `align`, `inertiafromgeom`).
 pub(crate) mod choice {
     pub(crate) const FALSE: i32 = 0;
     pub(crate) const TRUE: i32 = 1;
-    /// As other attributes decide.
+    /// Other attributes determine the choice.
     pub(crate) const AUTO: i32 = 2;
 }
 

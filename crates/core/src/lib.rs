@@ -1,4 +1,4 @@
-//! A rigid-body engine with MuJoCo 3.14.0's semantics. It knows nothing of labs or expressions.
+//! A rigid-body engine with the semantics of MuJoCo 3.14.0. It does not depend on labs or expressions.
 //!
 //! ```
 //! # fn main() -> Result<(), labspec_core::Error> {
@@ -15,13 +15,13 @@
 //! # }
 //! ```
 //!
-//! [`Model`] is what does not change while a simulation runs, [`Data`] what does; functions have MuJoCo's names. No call
-//! panics: what does not fit together is an [`Error`] that says the next step. A [`Plan`] leaves out what a scene and its
-//! readers do not need, without changing a number.
+//! [`Model`] contains the data that do not change during a simulation, [`Data`] those that do. Functions have MuJoCo's names. No
+//! call panics: an inconsistent argument causes an [`Error`], whose message names the next step. A [`Plan`] leaves out the stages
+//! that a scene and its readers do not need, without changing a number.
 //!
-//! With `default-features = false` models are not read from MJCF, but from what [`Model::to_bytes`] stored.
+//! With `default-features = false`, models cannot be read from MJCF, but only from the bytes of [`Model::to_bytes`].
 #![forbid(unsafe_code)]
-// What only the reader of MJCF asks for.
+// Some items are used by the MJCF reader only.
 #![cfg_attr(not(feature = "mjcf"), allow(dead_code, unused_imports))]
 #![recursion_limit = "256"]
 

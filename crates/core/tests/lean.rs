@@ -1,21 +1,22 @@
-//! A build without the general algorithm for convex shapes (feature `convex`), held against a full one.
+//! A build without the general algorithm for convex shapes (feature `convex`), compared with a full build.
 //!
-//! Such a build reads no MJCF either: models come as bytes. So this test has two halves, which are run one after the other:
+//! Such a build does not read MJCF: models are loaded from bytes. Therefore this test has two parts, which are run one after the
+//! other:
 //!
 //!     cargo test -p labspec-core --test lean
 //!     cargo test -p labspec-core --test lean --no-default-features
 //!
-//! The full build compiles the models and leaves them in `target/tmp` with what it makes of them. The lean one must step those that
-//! need no search to the same bits, and refuse the others by the names of the error and of the geoms, whatever flags, bits or sleep
-//! keep these apart for now.
+//! The full build compiles the models and stores them in `target/tmp` with its results. For models that do not need the
+//! algorithm, the lean build must compute the same bits. It must refuse the others with the error that names the geoms, whatever
+//! flags, contact bits or sleep currently prevent their contacts.
 
-// A test that fails says why.
+// A panic is the report of a failed test.
 #![allow(clippy::panic, clippy::unwrap_used)]
 
 use labspec_core::{self as core, Data, Error, Model, disable};
 use std::path::PathBuf;
 
-/// A scene with rows of every kind, with these options: contacts with one, three, four and six directions, equalities, limits and
+/// A scene with rows of every kind, with these options: contacts with one, three, four and six dimensions, equalities, limits and
 /// dry friction.
 macro_rules! every_row {
     ($options:literal) => {
@@ -36,7 +37,8 @@ macro_rules! every_row {
     };
 }
 
-/// Models that both builds step: name and text. Geoms that would have to be searched for stay on the plane, or are kept apart for good.
+/// Models that both builds simulate: name and text. Geoms that would need the algorithm touch only the plane, or are permanently
+/// excluded.
 const SHARED: [(&str, &str); 12] = [
     ("pyramids by Newton's method", every_row!("<option solver='Newton'/>")),
     ("cones by Newton's method", every_row!("<option solver='Newton' cone='elliptic' impratio='3'/>")),
@@ -90,7 +92,7 @@ const SHARED: [(&str, &str); 12] = [
     ),
 ];
 
-/// Models that the lean build refuses: name, text, and the geoms that it names.
+/// Models that the lean build refuses: name, text, and the geoms in the error.
 const REFUSED: [(&str, &str, [usize; 2]); 9] = [
     (
         "cylinder and box",
@@ -152,13 +154,13 @@ const REFUSED: [(&str, &str, [usize; 2]); 9] = [
     ),
 ];
 
-/// Where the full build leaves what the lean one reads.
+/// The path at which the full build stores results for the lean build.
 fn left(name: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("lean").join(name.replace(' ', "_"))
 }
 
-/// What becomes of a model in 300 steps: the numbers of each, as bits, and how many contacts there were. Half way the parent
-/// filter goes, and all bits are set.
+/// The results of 300 steps of a model: the numbers of each step as bits, and the number of contacts. After half of the steps,
+/// the parent filter is disabled and all contact bits are set.
 fn history(m: &mut Model) -> (Vec<u64>, usize) {
     let (mut d, mut out, mut contacts) = (Data::new(m), Vec::new(), 0);
     for step in 0..300 {
@@ -176,7 +178,7 @@ fn history(m: &mut Model) -> (Vec<u64>, usize) {
     (out, contacts)
 }
 
-/// The distances of all pairs of geoms where they begin: their numbers as bits, or the refusal.
+/// The distances of all pairs of geoms in the initial configuration: the numbers as bits, or the error.
 fn distances(m: &Model) -> Vec<Result<[u64; 7], Error>> {
     let mut d = Data::new(m);
     core::forward(m, &mut d).unwrap();
@@ -234,7 +236,7 @@ mod lean {
         }
     }
 
-    /// A distance is the one that the full build finds, or an error.
+    /// A distance equals that of the full build, or is an error.
     #[test]
     fn no_distance_is_left_out_without_a_word() {
         let (mut same, mut refused) = (0, 0);
@@ -252,7 +254,7 @@ mod lean {
                     }
                     Err(Error::NoConvex { geom1, geom2 }) => {
                         let kinds = [geom1, geom2].map(|g| m.geom_type[g]);
-                        // Two boxes, or one of an ellipsoid, a cylinder or a mesh with something round or flat.
+                        // Two boxes, or a pair of an ellipsoid, a cylinder or a mesh with a round or flat shape.
                         assert!(kinds.iter().any(|k| matches!(k, 4..=7)), "{name}: {kinds:?}");
                         refused += 1;
                     }

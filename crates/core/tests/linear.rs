@@ -1,9 +1,9 @@
-//! The feature `nalgebra`: poses, velocities, Jacobians, M and the linearization of a step, held against what MuJoCo 3.14.0
-//! computes (`tests/golden/linear.py`), against closed forms, against the functions on plain arrays, and against laws.
+//! The feature `nalgebra`: poses, velocities, Jacobians, M and the linearization of a step, compared with the results of MuJoCo
+//! 3.14.0 (`tests/golden/linear.py`), with closed forms, with the functions on plain arrays, and with laws.
 //!
 //!     cargo test -p labspec-core --features nalgebra --test linear
 
-// A test that fails says why.
+// A panic is the report of a failed test.
 #![allow(clippy::panic, clippy::unwrap_used)]
 #![allow(clippy::too_many_lines, reason = "a test is one sequence of steps")]
 
@@ -30,7 +30,7 @@ fn near(ours: &DMatrix<f64>, theirs: &DMatrix<f64>, tolerance: f64, what: &str) 
     assert!(apart <= tolerance, "{what} differs by {apart:e}:\n{ours}{theirs}");
 }
 
-/// A free body, a ball joint on a hinge, and a slide: every kind of joint, turned and moving.
+/// A free body, a ball joint on a hinge, and a slide: every kind of joint, rotated and moving.
 const TREE: &str = "<mujoco><worldbody>
   <body name='free' pos='1 2 3'><freejoint/><geom name='box' type='box' size='.1 .2 .3' pos='.1 0 .2' euler='10 20 30'/>
    <site name='corner' pos='.1 .2 .3' euler='40 0 10'/>
@@ -40,7 +40,7 @@ const TREE: &str = "<mujoco><worldbody>
     <body name='drawer' pos='.2 .1 0'><joint type='slide' axis='0 1 1'/><geom size='.05'/></body></body></body>
  </worldbody></mujoco>";
 
-/// The tree in a state without zeros.
+/// The tree, in a state without zeros.
 fn tree() -> (Model, Data) {
     let model = Model::from_xml(TREE).unwrap();
     let mut data = Data::new(&model);
@@ -107,9 +107,9 @@ fn what_mujoco_computes() {
                     check(matrix, &key, 1e-6);
                     continue;
                 }
-                // A sensor that shows 5e4 is rounded to 7e-12: divided by `eps`, 7e-6.
-                // The library's D has the opposite sign where differences are centered: a motor without a gear that pushes with
-                // its control has D = 1, forward, and -1, centered.
+                // A sensor value of 5e4 has a rounding error of 7e-12: divided by `eps`, 7e-6. MuJoCo's D has the opposite sign
+                // if the differences are centered: for a motor without a gear, whose force is its control, D = 1 with forward
+                // differences, and -1 with centered ones.
                 let sign = if key == "d_centered" { -1.0 } else { 1.0 };
                 let theirs = recorded(&key, shape.0, shape.1) * sign;
                 for (row, value) in data.sensordata.iter().enumerate() {
@@ -127,7 +127,7 @@ fn what_mujoco_computes() {
     }
 }
 
-/// A mass of 2 kg on a spring and a damper, pushed by a motor and by a filtered actuator; the damper acts at the end of the step.
+/// A mass of 2 kg on a spring and a damper, with a motor and a filtered actuator. The damper is implicit.
 const SPRING: &str = "<mujoco><option timestep='0.01' gravity='0 0 0'/><worldbody>
   <body><joint name='x' type='slide' stiffness='30' damping='4'/><geom size='.1' mass='2'/></body></worldbody>
   <actuator><motor joint='x' gear='3'/>
@@ -160,7 +160,7 @@ fn a_mass_on_a_spring_with_a_damper() {
     near(&ours.b, &b, 1e-9, "B");
     near(&ours.c, &DMatrix::from_row_slice(2, 3, &[1.0, 0.0, 0.0, 0.0, 0.0, 0.0]), 1e-9, "C");
     near(&ours.d, &DMatrix::from_row_slice(2, 2, &[0.0, 0.0, 1.0, 0.0]), 1e-9, "D");
-    // The map is linear: the next state is that of the matrices.
+    // The map is linear: the matrices give the next state.
     let state = |d: &Data| DVector::from_vec(vec![d.qpos[0], d.qvel[0], d.act[0]]);
     let expected = &ours.a * state(&data) + &ours.b * data.field_vector("ctrl").unwrap();
     core::step(&model, &mut data).unwrap();
@@ -183,7 +183,7 @@ fn a_pendulum() {
     near(&transition_fd(&model, &data, &FiniteDifferences::default()).unwrap().a, &euler, 1e-9, "Euler");
     let forward = FiniteDifferences { centered: false, ..FiniteDifferences::default() };
     near(&transition_fd(&model, &data, &forward).unwrap().a, &euler, 1e-6, "Euler, forward");
-    // At the bottom and at rest, Runge and Kutta's step is the exponential to the fourth power of h.
+    // At the bottom and at rest, a Runge–Kutta step is the matrix exponential up to the fourth power of h.
     model.set_integrator(Integrator::RK4);
     let rest = Data::new(&model);
     let flow = DMatrix::from_row_slice(2, 2, &[0.0, h, -h * 2.0 * 9.81 * 0.5 / 0.53, 0.0]);
@@ -195,7 +195,7 @@ fn a_pendulum() {
     near(&transition_fd(&model, &rest, &FiniteDifferences::default()).unwrap().a, &sum, 1e-9, "RK4");
 }
 
-/// A ball that spins in weightlessness: in its own axes, a difference of orientations turns back by the angle of the step.
+/// A ball that rotates without gravity: in its own axes, a difference of orientations rotates back by the angle of the step.
 #[test]
 fn a_spinning_ball_turns_its_tangent_space() {
     let model = Model::from_xml(
@@ -281,7 +281,7 @@ fn jacobians_give_the_velocities_of_points() {
         check(&algebra::jac_body(&model, &data, &body).unwrap(), velocity, "a body");
         let plain = core::object_velocity(&model, &data, core::Obj::XBody, body.index(), false).unwrap();
         assert_eq!(velocity.to_vector6().as_slice(), plain);
-        // The same in the axes of the body.
+        // The same velocity in the axes of the body.
         let local = algebra::body_velocity(&model, &data, &body, true).unwrap();
         let pose = data.body_pose(&body).unwrap();
         assert!((pose.rotation * local.linear - velocity.linear).norm() < 1e-12);
@@ -299,7 +299,7 @@ fn jacobians_give_the_velocities_of_points() {
     check(&algebra::jac_geom(&model, &data, "box").unwrap(), geom, "a geom");
     let site = algebra::site_velocity(&model, &data, "corner", false).unwrap();
     check(&algebra::jac_site(&model, &data, "corner").unwrap(), site, "a site");
-    // Σ m J of the bodies is the mass of all times the Jacobian of their centre.
+    // Σ m J of the bodies is the total mass times the Jacobian of the centre of mass.
     let bodies = model.bodies().skip(1);
     let sum: DMatrix<f64> = bodies
         .map(|b| algebra::jac_body_com(&model, &data, &b).unwrap().translation * model.body_mass[b.index()])
@@ -309,7 +309,7 @@ fn jacobians_give_the_velocities_of_points() {
     near(&(whole * mass), &sum, 1e-10, "subtree");
 }
 
-/// J̇ is the difference of two Jacobians, a short time apart.
+/// J̇ is the finite difference of two Jacobians that are separated by a short time.
 #[test]
 fn the_derivative_of_a_jacobian() {
     let (model, data) = tree();
@@ -434,7 +434,7 @@ fn a_tree_that_sleeps_is_not_linearized() {
     assert!(error.to_string().contains("awake"), "{error}");
 }
 
-/// The example runs, and the guide shows it as it is, with what it prints.
+/// The example runs, and the guide contains its code and its output.
 #[test]
 fn the_example_of_the_guide() {
     upright::main().unwrap();

@@ -1,10 +1,10 @@
-//! Where objects are in the arrays of the data, so that data can be asked for them without the model.
+//! The addresses of objects in the arrays of the data, so that data can be read by object without the model.
 
 use crate::kinds::joint;
 use crate::model::Model;
 use crate::model::index::{element_range, object_index};
 
-/// Where objects are in the arrays of the data: first place and number.
+/// The addresses of objects in the arrays of the data: first index and number of elements.
 #[derive(Debug, Default)]
 pub(super) struct Addresses {
     pub(super) qpos: Vec<[usize; 2]>,

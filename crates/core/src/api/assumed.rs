@@ -1,53 +1,54 @@
-//! Which values of the model a plan takes as they are now, though programs may write them, and when it is made again.
+//! The assumptions of a plan about values of the model that programs may write, and when a new plan is made.
 //!
-//! A plan for the values at hand leaves out more than one for any value. When one of them changes, the plan is made again, which takes
-//! as long as some hundred small steps: what changes again and again is held for any value, until it has stayed for a while.
+//! A plan for the current values leaves out more stages than a plan for any values. When one of the assumed values changes, a new
+//! plan is made, which takes as long as some hundred small steps. A value that changes repeatedly may therefore have any value in
+//! the new plan, until it has stayed constant for some time.
 //!
-//! Only calls that compute everything make a plan narrower. After one that computes a part, such as `mj_kinematics`, what the
-//! narrower plan leaves out would still be what the last pass found.
+//! Only calls that compute everything make a narrower plan. After a call that computes a part, such as `mj_kinematics`, the
+//! fields that the narrower plan leaves out would still contain the results of the last full pass.
 
 use super::contents::Contents;
 use super::planning::Plan;
 use crate::model::reflect::FieldSet;
 use crate::step::deciding::never_asked;
 
-/// For how many passes values must have stayed before a plan takes them as they are.
+/// The number of passes for which values must stay constant before a plan assumes them.
 pub(super) const SETTLED: u64 = 256;
 
-/// What a plan takes for granted.
+/// The assumptions of a plan.
 #[derive(Clone, Debug)]
 pub(super) struct Assumed {
-    /// The contents that the plan was made for; `None` where it holds for any.
+    /// The contents that the plan was made for, or `None` if it is valid for any contents.
     pub(super) made_for: Option<Contents>,
-    /// The fields of which it holds for any value.
+    /// The fields for which the plan is valid with any value.
     pub(super) any: FieldSet,
-    /// Whether these are more than there need be.
+    /// Whether these fields are more than necessary.
     pub(super) wide: bool,
-    /// The work from which on the values at hand count as settled.
+    /// The value of the work counter from which the current values count as settled.
     pub(super) settled: u64,
-    /// A narrower plan is due at the next pass.
+    /// Whether a narrower plan is to be made at the next pass.
     pub(super) due: bool,
 }
 
 impl Assumed {
-    /// What a plan that was just made takes for granted. One that was made for any value stays so.
+    /// The assumptions of a new plan. A plan that was made for any value is not narrowed later.
     pub(super) fn from_plan(plan: &mut Plan) -> Assumed {
         let wide = plan.any != never_asked(&plan.access) && plan.made_for.is_some();
         let settled = if wide { u64::MAX } else { 0 };
         Assumed { made_for: plan.made_for.take(), any: plan.any, wide, settled, due: false }
     }
 
-    /// The fields of which the plan holds for any value.
+    /// The fields for which the plan is valid with any value.
     pub(super) fn any(&self) -> FieldSet {
         self.any
     }
 
-    /// The version that data are held against: 0 for a plan that is wider than it need be, which is looked at in every call.
+    /// The version with which data are compared: 0 for a plan that is wider than necessary, which is checked in every call.
     pub(super) fn version_of(&self, contents: &Contents) -> u64 {
         if self.wide { 0 } else { contents.version }
     }
 
-    /// Notes that constants were computed for which the plan has been looked at.
+    /// Records that constants were computed for which the plan has already been checked.
     pub(super) fn adopt_constants(&mut self, contents: &Contents) {
         if let Some(planned) = &mut self.made_for {
             planned.adopt_constants(contents);
@@ -56,7 +57,7 @@ impl Assumed {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)] // a test that fails says why
+#[allow(clippy::unwrap_used)] // a panic is the report of a failed test
 mod tests {
     use super::SETTLED;
     use crate::api::{call, data::Data, data::Planned, model::Model, planning::Plan};
@@ -87,7 +88,7 @@ mod tests {
         assert!(call::view_mut(m, d, field).unwrap().set(i, value));
     }
 
-    /// The plan is that of the values at hand, before a change and after it, whatever may be written.
+    /// A plan is that of the current values, before a change and after it, whatever may be written.
     #[test]
     fn what_is_written_is_taken_as_it_is() {
         let fields = [
@@ -123,7 +124,7 @@ mod tests {
         assert!(any.keeps(Stage::Passive) && any.keeps(Stage::Solve) && !fixed(&m).keeps(Stage::Solve));
     }
 
-    /// A joint has the damper of an actuator from `mj_setConst` on, not from the write of `actuator_damping` before it.
+    /// A joint gets the damper of an actuator when `mj_setConst` is called, not when `actuator_damping` is written.
     #[test]
     fn constants_that_give_joints_dampers_change_the_plan() {
         let xml = "<mujoco><worldbody><body><joint name='j' axis='0 1 0'/><geom size='.05' pos='.2 0 0'/></body></worldbody>\
@@ -147,7 +148,8 @@ mod tests {
         }
     }
 
-    /// A geom in the frame of its body is moved by `geom_pos` from `mj_setConst` on: until then it touches what it has touched.
+    /// A write to `geom_pos` moves a geom that is in the frame of its body when `mj_setConst` is called. Until then its contacts
+    /// do not change.
     #[test]
     fn a_geom_that_is_moved_touches_until_constants_are_computed() {
         let xml = "<mujoco><worldbody><geom name='still' size='.05'/>\
@@ -170,8 +172,8 @@ mod tests {
         assert_eq!(touched, [1, 0]);
     }
 
-    /// What changes again and again is held for any value, until it has stayed for a while; and after a call that computes a part, until
-    /// the next pass.
+    /// A plan allows any value for a field that changes repeatedly, until it has stayed constant for some time. After a call that
+    /// computes a part, the plan stays until the next full pass.
     #[test]
     fn restless_values_may_be_any() {
         let (mut m, mut d) = start(&[model::dof_damping]);

@@ -1,7 +1,7 @@
-//! MuJoCo's functions, for everybody: what belongs together is looked at once per call, and nothing panics.
+//! MuJoCo's functions for embedders. Each call checks its arguments once, and no call panics.
 //!
-//! A call with data of another model, with an id or a length that does not fit, or with results that the plan left out is an
-//! error, and changes nothing.
+//! A call is an error, and changes nothing, if the data belong to another model, if an id or a length does not fit, or if it
+//! needs results that the plan left out.
 
 mod saved_data;
 mod spatial_queries;
@@ -36,7 +36,7 @@ fn exists(kind: &'static str, id: usize, count: usize) -> Result<(), Error> {
     if id < count { Ok(()) } else { Err(Error::NoId { kind, id, count }) }
 }
 
-/// Functions that take the model and all of the data: those that compute everything, and those that compute a part.
+/// Functions that take the model and all of the data. Some compute everything, others a part.
 macro_rules! passes {
     ($($(#[$doc:meta])* $name:ident $engine:ident [$($needs:ident)*] |$m:ident, $d:ident, $s:tt| $call:expr;)*) => { $(
         $(#[$doc])*
@@ -51,8 +51,8 @@ macro_rules! passes {
 passes! {
     /// Advances the simulation by one step (`mj_step`).
     ///
-    /// A bad number in the state resets the data first; one in the acceleration resets it and the same step then starts from
-    /// there (`warning` says which and when).
+    /// A bad number in the state resets the data before the step. A bad number in the acceleration resets the data, and the same
+    /// step then starts from the reset state. `warning` records the kind of bad number and when it occurred.
     ///
     /// ```
     /// # fn main() -> Result<(), labspec_core::Error> {
@@ -69,10 +69,10 @@ passes! {
     /// # }
     /// ```
     step engine_for_pass [] |m, d, s| step::step(m, d, s);
-    /// The first part of a step (`mj_step1`): all that does not depend on inputs. Controls and applied forces may be set
-    /// between the two.
+    /// The first part of a step (`mj_step1`): everything that does not depend on inputs. Controls and applied forces may be set
+    /// between the two parts.
     ///
-    /// A controller of one's own looks at the state after the first part and sets controls before the second:
+    /// A user's controller reads the state after the first part and sets controls before the second:
     ///
     /// ```
     /// # fn main() -> Result<(), labspec_core::Error> {
@@ -94,23 +94,24 @@ passes! {
     /// # }
     /// ```
     step1 engine [] |m, d, s| step::step1(m, d, s);
-    /// The second part of a step (`mj_step2`): forces, accelerations, the next state. Where the options name Runge–Kutta,
-    /// which needs forces at other states, this is a step of Euler.
+    /// The second part of a step (`mj_step2`): forces, accelerations, the next state. Runge–Kutta methods need forces at other
+    /// states; if the options name one, this function makes a semi-implicit Euler step.
     step2 engine [] |m, d, s| step::step2(m, d, s);
-    /// Computes everything that follows from the state, without advancing time (`mj_forward`).
+    /// Computes all results for the current state, without advancing time (`mj_forward`).
     forward engine_for_pass [] |m, d, s| step::forward::forward(m, d, s);
-    /// Back to the default configuration (`mj_resetData`): state, inputs, results and warnings. The model keeps what was
-    /// written to it.
+    /// Resets state, inputs, results and warnings to the default configuration (`mj_resetData`). Edits of the model stay.
     reset_data engine_for_pass [] |m, d, s| reset::reset_data(m, d, s);
     /// Poses of bodies, joints, geoms and sites (`mj_kinematics`).
     kinematics engine [] |m, d, s| dynamics::kinematics(m, d, &mut s.dynamics);
-    /// Everything that follows from positions: poses, M, contacts, the sensors of the first stage (`mj_fwdPosition`).
+    /// Computes all results that depend on positions: poses, M, contacts, the sensors of the first stage (`mj_fwdPosition`).
     fwd_position engine [] |m, d, s| step::forward::position(m, d, s);
-    /// Everything that follows from velocities, where positions have been looked at (`mj_fwdVelocity`).
+    /// Computes all results that depend on velocities (`mj_fwdVelocity`). The results that depend on positions must be computed
+    /// already.
     fwd_velocity engine [] |m, d, s| step::forward::velocity(m, d, s);
-    /// The contacts of geoms where they are now (`mj_collision`).
+    /// Computes the contacts of the geoms at their current poses (`mj_collision`).
     collision engine [] |m, d, s| step::forward::contacts(m, d, s);
-    /// `energy[0]`: gravity and springs, J (`mj_energyPos`). Zero where every centre of mass is at the origin.
+    /// `energy[0]`: the potential energy of gravity and springs, J (`mj_energyPos`). That of gravity is zero if every centre of
+    /// mass is at the origin.
     energy_pos engine [xipos] |m, d, _| energy::potential(m, d);
     /// `energy[1]` = ½ vᵀ M v, J (`mj_energyVel`).
     energy_vel engine [M] |m, d, _| energy::kinetic(m, d);
@@ -120,7 +121,7 @@ passes! {
     rne_post_constraint engine [cvel cinert] |m, d, _| body_force::rne_post_constraint(m, d);
 }
 
-/// Back to a keyframe (`mj_resetDataKeyframe`).
+/// Resets the data to a keyframe (`mj_resetDataKeyframe`).
 ///
 /// ```
 /// # fn main() -> Result<(), labspec_core::Error> {
@@ -139,7 +140,7 @@ pub fn reset_data_keyframe<S: Scope>(m: &Model, d: &mut Data<S>, key: KeyId) -> 
     exists("keyframe", key.index(), m.nkey)?;
     let (fields, scratch) = d.engine_for_pass(m)?;
     reset::reset_data_keyframe(m, fields, scratch, key.index());
-    // A keyframe has controls.
+    // A keyframe contains controls.
     d.touched = !S::FULL;
     Ok(())
 }
@@ -152,15 +153,16 @@ pub fn set_keyframe<S: Scope>(m: &mut Model, d: &Data<S>, key: KeyId) -> Result<
     Ok(())
 }
 
-/// Computes constants that follow from masses, inertias and poses (`mj_setConst`), at the default configuration; `qpos` is put
-/// there, velocities and time stay.
+/// Computes constants that depend on masses, inertias and poses (`mj_setConst`), in the default configuration. Sets `qpos` to
+/// that configuration; velocities and time do not change.
 pub fn set_const<S: Scope>(m: &mut Model, d: &mut Data<S>) -> Result<(), Error> {
     d.engine(m)?;
     let before = deciding::constants(m).map(<[i32]>::to_vec);
     setconst::set_const(m.engine(), &mut d.fields, &mut d.scratch);
     m.touch_constants();
     d.mark_synced(m);
-    // A plan that was made while M was constant does not look at it again; others are made for constants that may be others now.
+    // If M was constant when the plan was made, the plan does not compute it again. Other plans assumed the constants that have
+    // now changed.
     let plan = &d.fields.plan;
     let constant = plan.has(PlanFlag::General) || tree_algorithms::are_constant(m.engine(), plan.algorithms);
     if !constant || d.assumes_values() && deciding::constants(m) != before.each_ref().map(Vec::as_slice) {
@@ -169,15 +171,15 @@ pub fn set_const<S: Scope>(m: &mut Model, d: &mut Data<S>) -> Result<(), Error> 
     Ok(())
 }
 
-/// Replaces the plan, which decides what the next forward pass computes.
+/// Replaces the plan, which determines what the next forward pass computes.
 pub fn set_plan(m: &Model, d: &mut Data<super::data::Planned>, plan: Plan) -> Result<(), Error> {
     d.replan(m, plan)
 }
 
-/// `qfrc_inverse` from `qpos`, `qvel` and `qacc` (`mj_inverse`): what must be applied, by actuators or from outside, to cause
-/// this acceleration. With the flag `invdiscrete`, `qacc` is (v⁺ - v)/h of a step instead.
+/// Computes `qfrc_inverse` from `qpos`, `qvel` and `qacc` (`mj_inverse`): the force that actuators or external forces must apply
+/// to cause this acceleration. With the flag `invdiscrete`, `qacc` is (v⁺ - v)/h of a step instead.
 ///
-/// All fields of position and velocity, the forces of constraints and sensors are computed, whatever the plan says.
+/// All fields of position and velocity, the constraint forces and the sensors are computed, whatever the plan contains.
 ///
 /// ```
 /// # fn main() -> Result<(), labspec_core::Error> {
@@ -197,10 +199,10 @@ pub fn inverse<S: Scope>(m: &Model, d: &mut Data<S>) -> Result<(), Error> {
     Ok(step::inverse::inverse(m, d, s)?)
 }
 
-/// The generalized force (nv) that causes the acceleration `qacc` (nv), or none when it is not given: gravity, Coriolis and
-/// centrifugal force then (`mj_rne`). The inertia of joints (armature) does not count.
+/// The generalized force (nv) that causes the acceleration `qacc` (nv). Without `qacc`, the sum of gravity, Coriolis and
+/// centrifugal forces (`mj_rne`). The armature of joints is not included.
 ///
-/// It needs the position and velocity stages.
+/// The position and velocity stages must be computed before.
 pub fn rne<S: Scope>(m: &Model, d: &mut Data<S>, qacc: Option<&[f64]>) -> Result<Vec<f64>, Error> {
     d.has(&[data::cdof, data::cdof_dot, data::cinert, data::cvel])?;
     if let Some(a) = qacc {
@@ -212,8 +214,8 @@ pub fn rne<S: Scope>(m: &Model, d: &mut Data<S>, qacc: Option<&[f64]>) -> Result
     Ok(out)
 }
 
-/// Force and torque of a contact in the contact's frame: normal, two tangents, then three torques (`mj_contactForce`), N and
-/// N m. Zero when the contact has no constraint.
+/// Force and torque of a contact in the contact frame, N and N m: normal, two tangents, then three torques (`mj_contactForce`).
+/// Zero if the contact has no constraint rows.
 ///
 /// ```
 /// # fn main() -> Result<(), labspec_core::Error> {
@@ -270,7 +272,7 @@ pub fn solve_m<S: Scope>(m: &Model, d: &Data<S>, x: &mut [f64]) -> Result<(), Er
     Ok(())
 }
 
-/// x ← D^-½ L⁻ᵀ x (`mj_solveM2`): half of the solution, so that xᵀ M⁻¹ x is the square of its norm.
+/// x ← D^-½ L⁻ᵀ x (`mj_solveM2`). The squared norm of the result is xᵀ M⁻¹ x.
 pub fn solve_m2<S: Scope>(m: &Model, d: &Data<S>, x: &mut [f64]) -> Result<(), Error> {
     d.belongs_to(m)?;
     d.has(&[data::qLD, data::qLDiagInv])?;
@@ -279,10 +281,10 @@ pub fn solve_m2<S: Scope>(m: &Model, d: &Data<S>, x: &mut [f64]) -> Result<(), E
     Ok(())
 }
 
-/// The fields of the data that a point's Jacobian follows from.
+/// The fields of the data from which the Jacobian of a point is computed.
 pub const JACOBIAN_READS: [FieldId; 4] = [data::xanchor, data::xaxis, data::xmat, data::xpos];
 
-/// Jacobians by what they are of.
+/// Functions that return a Jacobian, one for each kind of object.
 macro_rules! jacobians {
     ($($(#[$doc:meta])* $name:ident($($arg:ident: $ty:ty),*) $id:ident $noun:literal $count:ident [$($needs:ident)*] -> $ret:ty = $call:path;)*) => { $(
         $(#[$doc])*
@@ -306,14 +308,14 @@ jacobians! {
     jac_geom() geom "geom" ngeom [geom_xpos] -> Jacobian = jacobian::jac_geom;
     /// The Jacobian of the frame of a site (`mj_jacSite`).
     jac_site() site "site" nsite [site_xpos] -> Jacobian = jacobian::jac_site;
-    /// `[3, nv]`: how the centre of mass of a body and all its descendants moves (`mj_jacSubtreeCom`).
+    /// `[3, nv]`: the Jacobian of the centre of mass of a body and all its descendants (`mj_jacSubtreeCom`).
     jac_subtree_com() body "body" nbody [xipos] -> Vec<f64> = jacobian::jac_subtree_com;
     /// The time derivative of the Jacobian of a point that moves with a body (`mj_jacDot`): the acceleration of the point is
     /// J q̈ + J̇ q̇.
     jac_dot(point: Vec3) body "body" nbody [cvel cdof cdof_dot] -> Jacobian = jacobian::jac_dot;
 }
 
-/// Adds to `qfrc` (nv) the generalized force of a force, N, at a point of a body and a torque, N m, all in world axes
+/// Adds to `qfrc` (nv) the generalized force of a force, N, at a point of a body, and of a torque, N m, all in world axes
 /// (`mj_applyFT`).
 pub fn apply_ft<S: Scope>(
     m: &Model,
@@ -334,8 +336,8 @@ pub fn apply_ft<S: Scope>(
     })
 }
 
-/// Angular and linear velocity of an object (`mj_objectVelocity`), rad/s and m/s: in the axes of the world, or of the object
-/// when `local`. Zero for what does not exist.
+/// Angular and linear velocity of an object (`mj_objectVelocity`), rad/s and m/s, in world axes, or in the axes of the object if
+/// `local` is set. Zero if there is no such object.
 pub fn object_velocity<S: Scope>(
     m: &Model,
     d: &Data<S>,
@@ -348,9 +350,9 @@ pub fn object_velocity<S: Scope>(
     Ok(object::object_velocity(m, &d.fields, kind, id, local))
 }
 
-/// Angular and linear acceleration of an object (`mj_objectAcceleration`), rad/s² and m/s², as an accelerometer feels it: at
-/// rest it points up with the strength of gravity. Axes as for [`object_velocity`]; needs [`rne_post_constraint`]. Zero for
-/// what cannot move.
+/// Angular and linear acceleration of an object (`mj_objectAcceleration`), rad/s² and m/s². As measured by an accelerometer: at
+/// rest, the linear part points up and has the magnitude of gravity. Axes as for [`object_velocity`]. Call
+/// [`rne_post_constraint`] before. Zero for objects that cannot move.
 pub fn object_acceleration<S: Scope>(
     m: &Model,
     d: &Data<S>,
@@ -371,7 +373,7 @@ pub fn integrate_pos(m: &Model, qpos: &mut [f64], v: &[f64], h: f64) -> Result<(
     Ok(())
 }
 
-/// The velocity that leads from `from` to `to` in a time `h` (`mj_differentiatePos`); rotations by the shorter way.
+/// The velocity that leads from `from` to `to` in a time `h` (`mj_differentiatePos`). Rotations take the shorter direction.
 pub fn differentiate_pos(m: &Model, h: f64, from: &[f64], to: &[f64]) -> Result<Vec<f64>, Error> {
     wanted("a position", m.nq, from.len())?;
     wanted("a position", m.nq, to.len())?;
@@ -380,14 +382,14 @@ pub fn differentiate_pos(m: &Model, h: f64, from: &[f64], to: &[f64]) -> Result<
     Ok(v)
 }
 
-/// `kp` and `kv` of an actuator, along its own length; `None` when these do not follow from its parameters alone, or when
-/// there is no such actuator.
+/// `kp` and `kv` of an actuator, with respect to its own length. `None` if they depend on more than its parameters, or if there
+/// is no such actuator.
 pub fn servo_gains(m: &Model, actuator: usize) -> Option<[f64; 2]> {
     actuation::servo_gains(m, actuator)
 }
 
-/// The energy at `qpos` and `qvel`, for the controls at hand. `None` where some actuator has no potential: it may feed the
-/// scene. Computes poses, lengths and velocities of bodies, and nothing else.
+/// The energy at `qpos` and `qvel`, for the current controls. `None` if an actuator has no potential, because it may add energy.
+/// Computes poses, lengths and velocities of bodies only.
 ///
 /// # Errors
 ///
@@ -418,19 +420,19 @@ pub fn view<'a, S: Scope>(m: &'a Model, d: &'a Data<S>, field: FieldId) -> Resul
     }
 }
 
-/// Element `i` of any field, `None` past its end: computed or not, for hosts that know what they demanded.
+/// Element `i` of any field, computed or not, for hosts that know which fields they requested. `None` if `i` is past its end.
 #[doc(hidden)]
 #[inline]
 pub fn element<S: Scope>(m: &Model, d: &Data<S>, field: FieldId, i: usize) -> Option<f64> {
     reflect::element(m, &d.fields, field, i)
 }
 
-/// How many numbers a field has now.
+/// The current number of elements of a field.
 pub fn length<S: Scope>(m: &Model, d: &Data<S>, field: FieldId) -> usize {
     m.field(field).map_or_else(|| reflect::view_data(&d.fields, field).len(), |view| view.len())
 }
 
-/// The numbers of any field, to write. What the engine indexes by or computes cannot be written.
+/// The numbers of any field, for writing. Fields that the engine computes or uses as indexes cannot be written.
 pub fn view_mut<'a, S: Scope>(
     m: &'a mut Model,
     d: &'a mut Data<S>,
@@ -446,7 +448,7 @@ pub fn view_mut<'a, S: Scope>(
     Ok(reflect::view_model_mut(m.engine(), field))
 }
 
-/// Saved simulations: state, inputs and everything computed, contacts and warnings included.
+/// Saved simulations: state, inputs and all results, including contacts and warnings.
 ///
 /// ```
 /// # fn main() -> Result<(), labspec_core::Error> {
@@ -468,7 +470,7 @@ pub mod save {
     pub use super::saved_data::*;
 }
 
-/// States as lists of numbers (`mj_getState` and its like): a signature says of which parts.
+/// States as lists of numbers (`mj_getState` and related functions). A signature selects the parts of the state.
 ///
 /// ```
 /// # fn main() -> Result<(), labspec_core::Error> {

@@ -1,7 +1,8 @@
-//! Which contents a model has: a stamp for each field, of the write that it was given last.
+//! The version of the contents of a model: each field has a stamp that identifies its last write.
 //!
-//! Clones of a model share the stamps of what is the same in them. A plan keeps those of the contents that it was made for, so that
-//! what differs from them is known whichever clone a step is taken with, and in whatever order clones were written.
+//! Clones of a model share the stamps of the fields that are equal in them. A plan stores the stamps of the contents that it was
+//! made for. The fields that differ from these contents are therefore known for every clone, and for any order in which clones
+//! are written.
 
 use crate::dynamics::tree_algorithms;
 use crate::model::reflect::{self, FieldId, FieldSet, NFIELD, Object};
@@ -9,40 +10,40 @@ use crate::model::stage::Stage;
 use std::sync::LazyLock;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// The fields of which the tree algorithms keep copies.
+/// The fields that the tree algorithms copy.
 static COPIED: LazyLock<FieldSet> = LazyLock::new(|| {
     let mut set = FieldSet::EMPTY;
     tree_algorithms::copied().for_each(|field| set.insert(field));
     set
 });
 
-/// Where identities and stamps come from: no two writes have the same.
+/// The source of identities and stamps. No two writes have the same stamp.
 static NEXT: AtomicU64 = AtomicU64::new(1);
 
 fn next() -> u64 {
     NEXT.fetch_add(1, Ordering::Relaxed)
 }
 
-/// The contents of a model.
+/// The identity of a model and the stamps of its fields.
 #[derive(Clone, Debug)]
 pub(super) struct Contents {
-    /// Which model it is, whatever its parameters.
+    /// The identity of the model, independent of the values of its parameters.
     pub(super) model: u64,
-    /// The last write: contents with the same version are the same.
+    /// The stamp of the last write. Contents with the same version are equal.
     pub(super) version: u64,
-    /// The last write of a field of which the tree algorithms keep copies.
+    /// The stamp of the last write to a field that the tree algorithms copy.
     pub(super) copied: u64,
-    /// The last write of each field.
+    /// The stamp of the last write to each field.
     stamps: Box<[u64; NFIELD]>,
 }
 
 impl Contents {
-    /// Those of a model that has just been compiled.
+    /// The contents of a newly compiled model.
     pub(super) fn new() -> Contents {
         Contents { model: next(), version: next(), copied: next(), stamps: Box::new([0; NFIELD]) }
     }
 
-    /// Notes that a field is written.
+    /// Records a write to one field.
     pub(super) fn touch(&mut self, field: FieldId) {
         self.version = next();
         if COPIED.contains(field) {
@@ -53,14 +54,14 @@ impl Contents {
         }
     }
 
-    /// Notes that any field may be written.
+    /// Records that any field may have been written.
     pub(super) fn touch_all(&mut self) {
         self.version = next();
         self.copied = self.version;
         self.stamps.fill(self.version);
     }
 
-    /// Notes that what `mj_setConst` computes is written.
+    /// Records a write to the fields that `mj_setConst` computes.
     pub(super) fn touch_constants(&mut self) {
         self.version = next();
         self.copied = self.version;
@@ -71,7 +72,7 @@ impl Contents {
         }
     }
 
-    /// The fields that differ from those of other contents of the same model.
+    /// The fields whose stamps differ from those of other contents of the same model.
     pub(super) fn changed(&self, other: &Contents) -> FieldSet {
         let mut changed = FieldSet::EMPTY;
         if self.version == other.version {
@@ -88,7 +89,7 @@ impl Contents {
         changed
     }
 
-    /// Takes the stamps of some fields of other contents over.
+    /// Copies the stamps of some fields from other contents.
     pub(super) fn adopt(&mut self, other: &Contents, fields: &FieldSet) {
         for field in fields.iter() {
             if let (Some(stamp), Some(new)) =
@@ -99,7 +100,7 @@ impl Contents {
         }
     }
 
-    /// Takes the constants of other contents over: those that a plan has been looked at for.
+    /// Copies the stamps of the fields that `mj_setConst` computes. The plan has already been checked for their values.
     pub(super) fn adopt_constants(&mut self, other: &Contents) {
         for field in constants() {
             if let (Some(stamp), Some(new)) =
@@ -111,7 +112,7 @@ impl Contents {
         self.version = next();
     }
 
-    /// Becomes the same as other contents; allocates nothing.
+    /// Becomes equal to other contents, without allocation.
     pub(super) fn follow(&mut self, other: &Contents) {
         (self.model, self.version, self.copied) = (other.model, other.version, other.copied);
         self.stamps.copy_from_slice(&*other.stamps);
@@ -124,7 +125,7 @@ fn constants() -> impl Iterator<Item = FieldId> {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)] // a test that fails says why
+#[allow(clippy::unwrap_used)] // a panic is the report of a failed test
 mod tests {
     use crate::api::{call, data::Data, model::Model, planning::Plan};
     use crate::model::reflect::{FieldId, FieldSet, ViewMut, data, model, option};
@@ -138,7 +139,7 @@ mod tests {
         <body pos='-1 0 .04'><joint type='slide' axis='0 0 1'/><geom size='.05'/></body></worldbody>\
         <actuator><motor joint='push' gear='2'/></actuator></mujoco>";
 
-    /// What is written of the clones, and with what.
+    /// The fields that are written in the clones, and the values.
     const WRITES: [(FieldId, f64); 13] = [
         (model::geom_contype, 0.0),
         (model::geom_conaffinity, 2.0),
@@ -177,7 +178,7 @@ mod tests {
         access
     }
 
-    /// Steps with one clone after the other, which are written by hand and by edits, end as full steps.
+    /// Steps that alternate between clones, which are written directly and through edits, give the same result as full steps.
     fn moved(
         events: &[(usize, usize, usize)],
         made_with: usize,
@@ -219,7 +220,7 @@ mod tests {
         }
     }
 
-    /// The floor of one clone holds; that of the other, for which the plan was made, does not.
+    /// A planned run uses the floor of the model that it steps with, not that of the clone for which the plan was made.
     #[test]
     fn a_body_does_not_fall_through_the_floor_of_another_clone() {
         let with = scene();
@@ -234,7 +235,7 @@ mod tests {
         }
     }
 
-    /// What sleeps with one clone wakes with another, in which nothing may sleep.
+    /// Trees that fell asleep with one clone wake up with another clone that does not allow sleep.
     #[test]
     fn sleepers_wake_where_nothing_may_sleep() {
         let text = SCENE.replacen("<mujoco>", "<mujoco><option><flag sleep='enable'/></option>", 1);
@@ -259,7 +260,7 @@ mod tests {
         assert!(slept && full.tree_asleep.iter().all(|&at| at < 0), "{:?}", full.tree_asleep);
     }
 
-    /// Forces of a state that is set act, announced or not.
+    /// Forces that are part of a copied state act, whether the access set announces them or not.
     #[test]
     fn forces_of_a_state_that_is_set_act() {
         let m = scene();
@@ -275,7 +276,8 @@ mod tests {
         assert_eq!(d.fields().qpos, from.qpos);
     }
 
-    /// A write in every step that was announced to the plan makes one other plan, after which any value is right.
+    /// A write in every step to a field that the access set announces causes one new plan. That plan is valid for any value of
+    /// the field.
     #[test]
     fn writes_in_every_step_do_not_plan() {
         let mut m = scene();

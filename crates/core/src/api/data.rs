@@ -1,4 +1,4 @@
-//! `Data` as everybody but the engine sees it: of one model, read by name, written where that means something.
+//! `Data` as embedders see it: the data belong to one model, fields can be read by name, and state and inputs can be written.
 
 use super::addresses::Addresses;
 use super::assumed::{Assumed, SETTLED};
@@ -19,17 +19,17 @@ use std::marker::PhantomData;
 use std::ops::Deref;
 use std::sync::Arc;
 
-/// Data of which everything is computed, and can be read.
+/// Marks data of which all fields are computed and can be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Full;
 
-/// Data of which a plan computes what was asked for: see [`Data::planned`].
+/// Marks data of which only the requested fields are computed. See [`Data::planned`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Planned;
 
-/// What of data is computed.
+/// Which fields of data are computed: all, or those of a plan.
 pub trait Scope: Copy + std::fmt::Debug + PartialEq + sealed::Sealed {
-    /// Whether everything is.
+    /// Whether all fields are computed.
     const FULL: bool;
 }
 impl Scope for Full {
@@ -47,7 +47,7 @@ mod sealed {
 /// State, inputs and results of a simulation of one model. All fields of MuJoCo's `mjData` can be read by their names, as
 /// `data.qpos` or `data.xpos`; state and inputs are written through [`Data::edit`].
 ///
-/// Data belong to the model that they were made for (and to its clones): a call with another one is an error.
+/// Data belong to the model that they were made for, and to its clones. A call with another model is an error.
 ///
 /// ```
 /// # fn main() -> Result<(), labspec_core::Error> {
@@ -71,21 +71,22 @@ pub struct Data<S: Scope = Full> {
     pub(super) scratch: Scratch,
     pub(super) names: Arc<Names>,
     pub(super) addresses: Arc<Addresses>,
-    /// The model, and the version of its contents when the data were used last; 0 where the plan has not been held against any.
+    /// The identity of the model, and the version of its contents at the last use of the data; 0 if the plan has not been
+    /// compared with any contents.
     model: u64,
     pub(super) version: u64,
-    /// The last write of the copies that the tree algorithms keep.
+    /// The stamp of the last write to the fields that the tree algorithms copy, at the time of the copy.
     copied: u64,
-    /// What the plan takes for granted.
+    /// What the plan assumes.
     pub(super) assumed: Assumed,
     pub(super) access: AccessSet,
-    /// Whether inputs may have been written that were not announced to the plan.
+    /// Whether inputs may have been written that the access set does not announce.
     pub(super) touched: bool,
     scope: PhantomData<S>,
 }
 
 impl<S: Scope> std::fmt::Debug for Data<S> {
-    /// Its time and state: all of it would be thousands of numbers.
+    /// Prints the time and the state only: all of the data are thousands of numbers.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let Fields { time, qpos, qvel, .. } = &self.fields;
         f.debug_struct("Data")
@@ -112,21 +113,21 @@ impl Deref for Data<Full> {
 }
 
 impl Data<Full> {
-    /// Data for a model, at the default configuration. Nothing is computed yet: call [`forward`](crate::forward).
+    /// Data for a model, in the default configuration. Nothing is computed yet: call [`forward`](crate::forward).
     pub fn new(m: &Model) -> Data<Full> {
         Data::with_plan(m, Plan::new(m, &AccessSet::ANY))
     }
 }
 
 impl Data<Full> {
-    /// Data for which every stage runs in every step, needed or not: the reference that plans are held against.
+    /// Data for which every stage runs in every step, needed or not. Tests compare plans with such data.
     pub fn unplanned(m: &Model) -> Data<Full> {
         Data::with_plan(m, Plan::full())
     }
 }
 
 impl Data<Planned> {
-    /// Data that compute only what a plan keeps. What was not asked for cannot be read.
+    /// Data that compute only the stages that a plan keeps. Other fields cannot be read.
     pub fn planned(m: &Model, plan: Plan) -> Data<Planned> {
         Data::with_plan(m, plan)
     }
@@ -156,21 +157,21 @@ impl<S: Scope> Data<S> {
         self.fields.time
     }
 
-    /// All fields, computed or not: for hosts that know what they demanded.
+    /// All fields, computed or not, for hosts that know which fields they requested.
     #[doc(hidden)]
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub fn fields(&self) -> &Fields {
         &self.fields
     }
 
-    /// What can be written: state, inputs, and the acceleration that [`inverse`](crate::inverse) starts from. Everything else
-    /// can be read here.
+    /// The writable fields: state, inputs, and the acceleration from which [`inverse`](crate::inverse) starts. All other fields
+    /// can be read.
     pub fn edit(&mut self) -> Edit<'_> {
         self.touched = !S::FULL;
         Edit::from_fields(&mut self.fields)
     }
 
-    /// The numbers of a field of the data by its name.
+    /// The numbers of a field of the data, by its name.
     pub fn get(&self, name: &str) -> Result<View<'_>, Error> {
         let field = reflect::field(Object::Data, name).ok_or_else(|| Error::NoField(name.into()))?;
         self.read(field)
@@ -191,7 +192,7 @@ impl<S: Scope> Data<S> {
         }
     }
 
-    /// The numbers of a field of the data, to write.
+    /// The numbers of a field of the data, for writing.
     pub fn write(&mut self, field: FieldId) -> Result<ViewMut<'_>, Error> {
         let info = field.info();
         if info.object != Object::Data {
@@ -204,18 +205,18 @@ impl<S: Scope> Data<S> {
         Ok(reflect::view_data_mut(&mut self.fields, field))
     }
 
-    /// What is read and written of these data.
+    /// The fields that are read and written in these data.
     pub fn access(&self) -> &AccessSet {
         &self.access
     }
 
-    /// The plan that decides what is computed.
+    /// The plan that determines which stages run.
     pub fn plan(&self) -> Plan {
         let (inner, made_for) = (self.fields.plan.clone(), self.assumed.made_for.clone());
         Plan { inner, access: self.access, made_for, any: self.assumed.any() }
     }
 
-    /// That the data belong to a model, whose parameters are known.
+    /// The fields and the scratch, after a check that the data belong to the model and that the plan is valid for its parameters.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn engine(&mut self, m: &Model) -> Result<(&mut Fields, &mut Scratch), Error> {
         if self.version != m.contents.version {
@@ -224,7 +225,7 @@ impl<S: Scope> Data<S> {
         self.engine_in_step(m)
     }
 
-    /// The same for a call that computes everything.
+    /// Like [`Data::engine`], for a call that computes all fields.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn engine_for_pass(&mut self, m: &Model) -> Result<(&mut Fields, &mut Scratch), Error> {
         if self.version != m.contents.version {
@@ -241,15 +242,15 @@ impl<S: Scope> Data<S> {
         Ok((&mut self.fields, &mut self.scratch))
     }
 
-    /// The same, for what may write inputs: see [`Data::edit`].
+    /// Like [`Data::engine`], for a call that may write inputs. See [`Data::edit`].
     pub(super) fn engine_to_write(&mut self, m: &Model) -> Result<(&mut Fields, &mut Scratch), Error> {
         self.engine(m)?;
         self.touched = !S::FULL;
         Ok((&mut self.fields, &mut self.scratch))
     }
 
-    /// Forces or controls are applied that were not announced to the plan, or an equality constraint is switched on: the plan is
-    /// made again, or they would not act.
+    /// Replaces the plan if forces or controls are applied that the access set does not announce, or if an equality constraint is
+    /// switched on. With the old plan they would have no effect.
     #[cold]
     fn replan_for_inputs(&mut self, m: &Model) -> Result<(), Error> {
         self.belongs_to(m)?;
@@ -286,7 +287,7 @@ impl<S: Scope> Data<S> {
         if self.model == m.contents.model { Ok(()) } else { Err(Error::ForeignData) }
     }
 
-    /// Notes that the plan has been looked at for constants that were computed with these data.
+    /// Records that the plan has been checked for the constants that were computed with these data.
     pub(super) fn mark_synced(&mut self, m: &Model) {
         self.version = self.assumed.version_of(&m.contents);
         self.assumed.adopt_constants(&m.contents);
@@ -301,7 +302,7 @@ impl<S: Scope> Data<S> {
         Ok(())
     }
 
-    /// That fields of the data are computed.
+    /// Checks that fields of the data are computed.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn has(&self, fields: &[FieldId]) -> Result<(), Error> {
         if S::FULL { Ok(()) } else { self.lacks(fields) }
@@ -313,9 +314,9 @@ impl<S: Scope> Data<S> {
 }
 
 impl<S: Scope> Data<S> {
-    /// The parameters of the model are others than those that the data were used with last, or those of a clone, or the plan is
-    /// wider than it need be. Where they differ from what the plan was made for in nothing but what may be any, it stays; else it
-    /// is made again.
+    /// Updates the plan when the parameters of the model differ from those at the last use of the data, when the model is a clone
+    /// with other values, or when the plan is wider than necessary. The plan stays if the parameters differ from those that it
+    /// was made for only in fields that may have any value. Otherwise a new plan is made.
     #[cold]
     pub(super) fn catch_up(&mut self, m: &Model, whole: bool) -> Result<(), Error> {
         self.belongs_to(m)?;
@@ -357,24 +358,24 @@ impl<S: Scope> Data<S> {
         Ok(())
     }
 
-    /// Whether the plan holds for the values that the model had when it was made.
+    /// Whether the plan is valid only for the values that the model had when the plan was made.
     pub(super) fn assumes_values(&self) -> bool {
         self.assumed.made_for.is_some()
     }
 
-    /// Makes the plan anew, for the model as it is.
+    /// Makes a new plan for the current values of the model.
     pub(super) fn plan_again(&mut self, m: &Model) {
         let mut any = self.assumed.any;
         any.extend(&never_asked(&self.access));
         self.plan_for(m, any);
     }
 
-    /// The same for any value of some fields.
+    /// Makes a new plan that is valid for any value of some fields.
     fn plan_for(&mut self, m: &Model, any: FieldSet) {
         let PlanTable { algorithms, more, .. } = self.fields.plan;
         let plan = Plan::made(m, &self.access, any, |access| PlanTable::with(m, access, algorithms, more));
         reset::set_plan(m, &mut self.fields, &mut self.scratch, plan.inner);
-        // What the data hold may be more than the plan takes for granted.
+        // The data may contain values that the plan does not assume.
         self.touched = !S::FULL;
         self.assumed.any = any;
         self.assumed.wide = any != never_asked(&self.access);
@@ -387,8 +388,8 @@ impl<S: Scope> Data<S> {
 
 macro_rules! edits {
     ($($name:ident: $ty:ty, [$($dim:tt),*], $kind:ident, $stage:ident, $unit:literal, $doc:literal;)*) => {
-        /// The fields of data to write, by MuJoCo's names: state and inputs can be changed, results can be read.
-        #[allow(non_snake_case, missing_debug_implementations)] // MuJoCo's names; references into data, which print themselves
+        /// The writable fields of data, by MuJoCo's names. State and inputs can be changed, results can be read.
+        #[allow(non_snake_case, missing_debug_implementations)] // MuJoCo's names; `Data` implements `Debug`
         pub struct Edit<'a> {
             $(#[doc = $doc] pub $name: access!(type 'a $kind $ty),)*
         }
@@ -402,7 +403,7 @@ macro_rules! edits {
 data_fields!(edits);
 
 impl<S: Scope> Data<S> {
-    /// The acceleration, for [`inverse`](crate::inverse) to find the force of, m/s² or rad/s².
+    /// Sets the acceleration, m/s² or rad/s², whose forces [`inverse`](crate::inverse) computes.
     pub fn set_qacc(&mut self, qacc: &[f64]) -> Result<(), Error> {
         let to = &mut self.fields.qacc;
         if to.len() != qacc.len() {

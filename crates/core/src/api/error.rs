@@ -1,4 +1,4 @@
-//! What can go wrong with a call, and why.
+//! Errors of calls, and their reasons.
 
 #[cfg(feature = "mjcf")]
 use crate::mjcf::{Finding, MjcfFileError};
@@ -10,82 +10,82 @@ use crate::step::inverse::InverseError;
 use crate::step::save::RestoreError;
 use std::fmt;
 
-/// Why a call did nothing. Whatever it was given is as before.
+/// The reason why a call failed. The arguments of the call are unchanged.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum Error {
-    /// The text of a model has mistakes: all that were found, in the order of the text.
+    /// The text of a model has errors: all that were found, in the order of the text.
     #[cfg(feature = "mjcf")]
     Model(Vec<Finding>),
-    /// A file cannot be read, or the model in it has mistakes.
+    /// A file cannot be read, or its model has errors.
     #[cfg(feature = "mjcf")]
     File(MjcfFileError),
     /// The data belong to another model.
     ForeignData,
     /// There is no object of this kind and name.
     NoName {
-        /// The kind that was looked for.
+        /// The kind of object that was searched for.
         kind: Obj,
         /// The name.
         name: String,
-        /// The nearest name that there is.
+        /// The most similar existing name.
         nearest: Option<String>,
     },
     /// There is no object of this kind with this id.
     NoId {
-        /// What the id counts: a kind of object, "keyframe", "contact".
+        /// The kind of object that the id refers to: a kind of MJCF object, "keyframe", "contact".
         kind: &'static str,
         /// The id.
         id: usize,
-        /// How many there are.
+        /// The number of such objects.
         count: usize,
     },
     /// There is no field of this name.
     NoField(String),
-    /// The plan was made without reading this field: what it holds is not of now.
+    /// The plan does not compute this field, so that its values are not current.
     LeftOut {
         /// The field.
         field: FieldId,
         /// The stage that would compute it.
         stage: Stage,
     },
-    /// The field cannot be written: the engine indexes by it, or computes it itself.
+    /// The field cannot be written: the engine computes it, or uses it as an index.
     NotWritable(FieldId),
-    /// A list has another length than it must have.
+    /// A list has the wrong length.
     Length {
-        /// What the list is.
+        /// A description of the list.
         what: &'static str,
-        /// How many numbers it must have.
+        /// The required number of elements.
         wanted: usize,
-        /// How many it has.
+        /// The actual number of elements.
         found: usize,
     },
-    /// A number that has no meaning here.
+    /// A number that is not valid for its parameter.
     Value {
-        /// What it was given for.
+        /// The parameter.
         what: &'static str,
-        /// What it must be.
+        /// The condition that the number must satisfy.
         must: &'static str,
     },
-    /// Inverse dynamics has no answer.
+    /// Inverse dynamics failed.
     Inverse(InverseError),
     /// A state cannot be read or written.
     State(StateError),
     /// Saved data cannot be restored.
     Restore(RestoreError),
-    /// The build has no general algorithm for convex shapes (feature `convex`), and these need it.
+    /// The build does not contain the general algorithm for convex shapes (feature `convex`), and a pair of geoms needs it.
     NoConvex {
-        /// A geom.
+        /// The first geom.
         geom1: usize,
-        /// And another that it may touch, or whose distance is asked for.
+        /// The second geom, which may touch the first or whose distance is requested.
         geom2: usize,
     },
-    /// The bytes are no compiled model of this version, or they were changed.
+    /// The bytes are not a compiled model of this version, or they were changed.
     NotAModel,
 }
 
 impl Error {
-    /// What is wrong with the text of a model, as data: empty for any other error.
+    /// The findings in the text of a model. Empty for any other error.
     #[cfg(feature = "mjcf")]
     pub fn diagnostics(&self) -> &[Finding] {
         match self {
@@ -172,7 +172,7 @@ impl From<RestoreError> for Error {
     }
 }
 
-/// What a person reads, for hosts whose errors are texts.
+/// The message for people, for hosts whose errors are strings.
 impl From<Error> for String {
     fn from(e: Error) -> String {
         e.to_string()

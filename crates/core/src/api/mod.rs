@@ -1,4 +1,4 @@
-//! The engine as embedders hold it: models and data that belong together, objects by name, errors instead of panics.
+//! The interface for embedders: models with their data, objects by name, errors instead of panics.
 
 pub(crate) mod addresses;
 mod assumed;
@@ -10,14 +10,14 @@ pub(crate) mod model;
 #[cfg(feature = "nalgebra")]
 pub mod nalgebra;
 #[cfg(test)]
-#[allow(clippy::unwrap_used)] // a test that fails says why
+#[allow(clippy::unwrap_used)] // a panic is the report of a failed test
 mod planar_chains;
 pub(crate) mod planning;
 #[cfg(test)]
-#[allow(clippy::unwrap_used)] // a test that fails says why
+#[allow(clippy::unwrap_used)] // a panic is the report of a failed test
 mod scaled_scenes;
 #[cfg(test)]
-#[allow(clippy::unwrap_used, clippy::panic)] // a test that fails says why
+#[allow(clippy::unwrap_used, clippy::panic)] // a panic is the report of a failed test
 mod survival;
 pub(crate) mod view;
 

@@ -1,4 +1,4 @@
-//! `Model` as everybody but the engine sees it: its fields can be read, its parameters edited, its structure not.
+//! `Model` as embedders see it: all fields can be read, parameters can be edited, structure cannot.
 
 use super::addresses::Addresses;
 use super::contents::Contents;
@@ -33,12 +33,12 @@ pub struct Model {
     inner: inner::Model,
     pub(super) names: Arc<Names>,
     pub(super) addresses: Arc<Addresses>,
-    /// Which model it is, whatever its parameters, and which contents it has now.
+    /// The identity of the model, independent of its parameters, and the version of its contents.
     pub(super) contents: Contents,
 }
 
 impl std::fmt::Debug for Model {
-    /// Its name and sizes: all of it would be thousands of numbers.
+    /// Prints the name and the sizes only: the whole model is thousands of numbers.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let m = &self.inner;
         let sizes = format!("nq {} nv {} nu {} nbody {} ngeom {}", m.nq, m.nv, m.nu, m.nbody, m.ngeom);
@@ -68,38 +68,39 @@ impl Model {
         Model { inner, names, addresses, contents: Contents::new() }
     }
 
-    /// Compiles a model from its text. It can name no files: [`Model::from_xml_with`] and [`Model::from_file`] let it.
+    /// Compiles a model from its text. The text cannot refer to files; use [`Model::from_xml_with`] or [`Model::from_file`] for
+    /// that.
     ///
     /// # Errors
     ///
-    /// All mistakes that were found: [`Error::diagnostics`].
+    /// All errors that were found: [`Error::diagnostics`].
     #[cfg(feature = "mjcf")]
     pub fn from_xml(xml: &str) -> Result<Model, Error> {
         crate::mjcf::compile(xml).map(Model::new).map_err(Error::Model)
     }
 
-    /// Compiles a model from its text, and what it includes or names from `files`: a folder, a map in memory, or whatever
-    /// answers for a path.
+    /// Compiles a model from its text. `files` provides the files that the text includes or names: a folder, a map in memory, or
+    /// any other implementation.
     ///
     /// # Errors
     ///
-    /// All mistakes that were found: [`Error::diagnostics`].
+    /// All errors that were found: [`Error::diagnostics`].
     #[cfg(feature = "mjcf")]
     pub fn from_xml_with(xml: &str, files: &dyn crate::mjcf::Files) -> Result<Model, Error> {
         crate::mjcf::compile_with(xml, files, None).map(Model::new).map_err(Error::Model)
     }
 
-    /// Compiles a model from a file, with what it names in the folder of that file and below.
+    /// Compiles a model from a file. The model can refer to files in the same folder and in its subfolders.
     ///
     /// # Errors
     ///
-    /// The file cannot be read, is too large, is not UTF-8, or the model has mistakes.
+    /// The file cannot be read, is too large, is not UTF-8, or the model has errors.
     #[cfg(feature = "mjcf")]
     pub fn from_file(path: impl AsRef<std::path::Path>) -> Result<Model, Error> {
         crate::mjcf::compile_file(path.as_ref()).map(Model::new).map_err(Error::File)
     }
 
-    /// The model as bytes, for [`Model::from_bytes`]: frontends ship models, not parsers.
+    /// The model as bytes, for [`Model::from_bytes`]. A frontend can ship a compiled model without the MJCF parser.
     pub fn to_bytes(&self) -> Vec<u8> {
         crate::step::store::write(&self.inner)
     }
@@ -108,8 +109,8 @@ impl Model {
     ///
     /// # Errors
     ///
-    /// They were written by another version of the engine, cut off or changed: [`Error::NotAModel`]. The build has no general
-    /// algorithm for convex shapes, and the model needs it: [`Error::NoConvex`].
+    /// [`Error::NotAModel`] if the bytes were written by another version of the engine, truncated or changed. [`Error::NoConvex`]
+    /// if the model needs the general algorithm for convex shapes and the build does not contain it.
     pub fn from_bytes(bytes: &[u8]) -> Result<Model, Error> {
         let inner = crate::step::store::read(bytes).ok_or(Error::NotAModel)?;
         if !CONVEX && let Some([geom1, geom2]) = setup::search(&inner) {
@@ -118,18 +119,19 @@ impl Model {
         Ok(Model::new(inner))
     }
 
-    /// Which model this is: its clones answer the same, whatever is edited in them, and no other model of this program does.
+    /// The identity of the model. Clones have the same identity, whatever is edited in them. No other model of this program has
+    /// it.
     pub fn identity(&self) -> u64 {
         self.contents.model
     }
 
-    /// What can be written of the model. Data that were planned for other parameters are planned again at their next use.
+    /// The writable fields of the model. Data that were planned for other parameters get a new plan at their next use.
     pub fn edit(&mut self) -> ModelEdit<'_> {
         self.contents.touch_all();
         ModelEdit::from_model(&mut self.inner)
     }
 
-    /// The numbers of a field of the model; `None` for a field of the data.
+    /// The numbers of a field of the model, or `None` for a field of the data.
     pub fn field(&self, field: FieldId) -> Option<reflect::View<'_>> {
         (field.info().object != Object::Data).then(|| reflect::view_model(&self.inner, field))
     }
@@ -138,30 +140,30 @@ impl Model {
         &mut self.inner
     }
 
-    /// Notes that fields of the model have been written.
+    /// Records a write to a field of the model.
     pub(super) fn touch(&mut self, field: FieldId) {
         self.contents.touch(field);
     }
 
-    /// Notes that what `mj_setConst` computes has been written.
+    /// Records a write to the fields that `mj_setConst` computes.
     pub(super) fn touch_constants(&mut self) {
         self.contents.touch_constants();
     }
 }
 
-/// How a type of the field table is shown and edited.
+/// The reference types with which a type of the field table is read and edited.
 pub trait Cell {
-    /// To read.
+    /// The type of a read-only reference.
     type Read<'a>
     where
         Self: 'a;
-    /// To write: lists keep their length.
+    /// The type of a writable reference. Lists keep their length.
     type Edit<'a>
     where
         Self: 'a;
-    /// What may be read.
+    /// A read-only reference.
     fn read(&mut self) -> Self::Read<'_>;
-    /// What may be written.
+    /// A writable reference.
     fn edit(&mut self) -> Self::Edit<'_>;
 }
 
@@ -189,7 +191,7 @@ macro_rules! cells {
 }
 cells!(f64, i32, bool, usize);
 
-/// The type of a field in an edit, and the field itself: what the engine indexes by or computes is shown, not given.
+/// The type and the value of a field in an edit. Fields that the engine computes or uses as indexes are read-only.
 macro_rules! access {
     (type $a:lifetime Structure $ty:ty) => { <$ty as Cell>::Read<$a> };
     (type $a:lifetime Derived $ty:ty) => { <$ty as Cell>::Read<$a> };
@@ -202,8 +204,8 @@ pub(super) use access;
 
 macro_rules! edits {
     ($($name:ident: $ty:ty, [$($dim:tt),*], $kind:ident, $stage:ident, $unit:literal, $doc:literal;)*) => {
-        /// The fields of a model to write, by MuJoCo's names: parameters can be changed, structure can be read.
-        #[allow(non_snake_case, missing_debug_implementations)] // MuJoCo's names; references into a model, which prints itself
+        /// The writable fields of a model, by MuJoCo's names. Parameters can be changed, structure can only be read.
+        #[allow(non_snake_case, missing_debug_implementations)] // MuJoCo's names; `Model` implements `Debug`
         pub struct ModelEdit<'a> {
             /// Options of the simulation.
             pub opt: OptionsEdit<'a>,
@@ -225,7 +227,7 @@ macro_rules! edits {
 macro_rules! edits_of {
     ($edit:ident, $of:ty, $doc_of:literal; $($name:ident: $ty:ty, [$($dim:tt),*], $kind:ident, $stage:ident, $unit:literal, $doc:literal;)*) => {
         #[doc = $doc_of]
-        #[allow(missing_debug_implementations)] // references into a model, which prints itself
+        #[allow(missing_debug_implementations)] // `Model` implements `Debug`
         pub struct $edit<'a> {
             $(#[doc = $doc] pub $name: access!(type 'a $kind $ty),)*
         }
@@ -242,7 +244,7 @@ model_fields!(edits);
 option_fields!(option_edits);
 statistic_fields!(statistic_edits);
 
-/// Names that are options' numbers in MJCF, with MuJoCo's numbers.
+/// Enumerations for options that MJCF writes as keywords and MuJoCo stores as numbers.
 macro_rules! words {
     ($(#[$doc:meta])* $type:ident, $field:ident, $get:ident, $set:ident { $($(#[$vdoc:meta])* $name:ident = $number:literal,)* }) => {
         $(#[$doc])*
@@ -271,43 +273,43 @@ macro_rules! words {
     };
 }
 words! {
-    /// How a state is advanced (mjtIntegrator).
+    /// The integrator (mjtIntegrator).
     Integrator, integrator, integrator, set_integrator {
-        /// Semi-implicit, with implicit damping of joints.
+        /// Semi-implicit Euler method, with implicit damping of joints.
         Euler = 0,
-        /// Runge and Kutta's of fourth order.
+        /// Runge–Kutta method of fourth order.
         RK4 = 1,
         /// Implicit in velocity.
         Implicit = 2,
         /// Implicit in velocity, without the derivatives of Coriolis and centrifugal forces.
         ImplicitFast = 3,
-        /// All forces at the end of the step.
+        /// Evaluates all forces at the end of the step.
         Discrete = 4,
-        /// Runge and Kutta's, of fourth order for rotations too (not MuJoCo's).
+        /// Runge–Kutta method that is of fourth order for rotations too (not MuJoCo's).
         Rkmk4 = 104,
-        /// The same of eighth order (not MuJoCo's).
+        /// Runge–Kutta method of eighth order for translations and rotations (not MuJoCo's).
         Rkmk8 = 108,
-        /// Collocation of sixth order, symmetric in time (not MuJoCo's).
+        /// Collocation method of sixth order, symmetric in time (not MuJoCo's).
         Gauss = 106,
-        /// As exact as rounding allows where forces are smooth, in up to 4096 parts of a step (not MuJoCo's).
+        /// Accurate to rounding where forces are smooth. Divides a step into up to 4096 parts (not MuJoCo's).
         Adaptive = 100,
     }
 }
 words! {
-    /// How contacts resist sliding (mjtCone).
+    /// The type of friction cone (mjtCone).
     Cone, cone, cone, set_cone {
-        /// By the edges of a pyramid.
+        /// A pyramid; its edges are the constraint directions.
         Pyramidal = 0,
-        /// In a cone.
+        /// An elliptic cone.
         Elliptic = 1,
     }
 }
 words! {
-    /// How constraint forces are found (mjtSolver).
+    /// The solver for constraint forces (mjtSolver).
     Solver, solver, solver, set_solver {
-        /// Projected Gauss–Seidel, in the dual problem.
+        /// Projected Gauss–Seidel method, applied to the dual problem.
         PGS = 0,
-        /// Conjugate gradients.
+        /// Conjugate gradient method.
         CG = 1,
         /// Newton's method.
         Newton = 2,
@@ -319,7 +321,7 @@ impl Model {
     ///
     /// # Errors
     ///
-    /// It is not above zero, or no number.
+    /// The timestep is not positive, or not finite.
     pub fn set_timestep(&mut self, seconds: f64) -> Result<(), Error> {
         if !(seconds > 0.0 && seconds.is_finite()) {
             return Err(Error::Value { what: "the timestep", must: "above zero" });
@@ -328,24 +330,24 @@ impl Model {
         Ok(())
     }
 
-    /// Whether a part of the simulation is switched off: one of [`crate::disable`].
+    /// Whether a part of the simulation is disabled: one of [`crate::disable`].
     pub fn is_disabled(&self, bit: i32) -> bool {
         self.opt.disabled(bit)
     }
 
-    /// Switches a part of the simulation off or on: one of [`disable`].
+    /// Disables or enables a part of the simulation: one of [`disable`].
     pub fn set_disabled(&mut self, bit: i32, off: bool) {
         let supported = bit & (2 * disable::MULTICCD - 1);
         let flags = self.edit().opt.disableflags;
         *flags = if off { *flags | supported } else { *flags & !supported };
     }
 
-    /// Whether an optional part is on: one of [`enable`].
+    /// Whether an optional part is enabled: one of [`enable`].
     pub fn is_enabled(&self, bit: i32) -> bool {
         self.opt.enabled(bit)
     }
 
-    /// Switches an optional part on or off: one of [`enable`].
+    /// Enables or disables an optional part: one of [`enable`].
     pub fn set_enabled(&mut self, bit: i32, on: bool) {
         let supported = bit & (2 * enable::IPC - 1);
         let flags = self.edit().opt.enableflags;
@@ -353,7 +355,7 @@ impl Model {
     }
 }
 
-/// An id that a name led to.
+/// Typed ids of objects, and their lookup by name.
 macro_rules! ids {
     ($($(#[$doc:meta])* $id:ident $kind:ident $get:ident $of:ident $count:ident;)*) => {
         $(
@@ -362,7 +364,7 @@ macro_rules! ids {
             pub struct $id(pub(super) usize);
 
             impl $id {
-                /// The number that MuJoCo's arrays are indexed by.
+                /// The index of the object in MuJoCo's arrays.
                 pub fn index(self) -> usize {
                     self.0
                 }
@@ -384,7 +386,7 @@ macro_rules! ids {
     };
 }
 ids! {
-    /// A body; the world is the first.
+    /// A body. The world is the first.
     BodyId Body body bodies nbody;
     /// A joint.
     JointId Joint joint joints njnt;
@@ -403,7 +405,7 @@ ids! {
 }
 
 impl SensorId {
-    /// The places of its values in `sensordata`.
+    /// The indexes of the sensor's values in `sensordata`.
     pub fn values(self, m: &Model) -> Range<usize> {
         sensor::places(m, self.0)
     }

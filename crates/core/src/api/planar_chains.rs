@@ -1,4 +1,5 @@
-//! Long chains in a plane move as the general algorithm moves them, in every integrator, with ties, and when they are written to.
+//! The algorithm for long planar chains agrees with the general algorithm: in every integrator, with equality constraints, and
+//! after edits.
 
 use crate::api::{call, data::Data, data::Planned, model::Model, planning::Plan};
 use crate::model::reflect::{self, FieldSet, Object, data};
@@ -7,8 +8,8 @@ use crate::model::tree_algorithm::TreeAlgorithms;
 use crate::step::analysis::AccessSet;
 use std::fmt::Write;
 
-/// A chain of many links in a plane that is turned in space, with hinges either way round, bodies that are welded to a link, and inertia
-/// of some joints.
+/// A chain of many links in a plane that is rotated in space, with hinge axes of both signs, bodies that are welded to a link,
+/// and armature at some joints.
 fn chain(links: usize, option: &str, more: &str) -> Model {
     let (mut open, mut close) = (String::new(), String::new());
     for i in 0..links {
@@ -38,7 +39,7 @@ fn everything(m: &Model, algorithms: TreeAlgorithms) -> Data<Planned> {
     Data::planned(m, Plan::by_algorithms(m, &AccessSet::ANY, algorithms))
 }
 
-/// Data whose forces are computed by one way or the other, after some steps.
+/// Data whose forces are computed by the given tree algorithms, after some steps.
 fn moved(m: &Model, algorithms: TreeAlgorithms, change: &dyn Fn(&mut Model)) -> (Model, Data<Planned>) {
     let (mut m, mut d) = (m.clone(), everything(m, algorithms));
     for (i, v) in d.edit().qvel.iter_mut().enumerate() {
@@ -88,7 +89,7 @@ fn long_chains_move_as_by_the_general_way() {
     assert!(chain(12, "", "").planar_trees == [0] && chain(6, "", "").planar_trees.is_empty());
 }
 
-/// Written to, a chain follows, in its plane and out of it.
+/// After an edit of its parameters, a chain still agrees, whether it stays in its plane or leaves it.
 #[test]
 fn a_chain_may_leave_its_plane() {
     for (option, more) in [("", ""), ("", TIE), ("integrator='implicitfast'", "")] {
@@ -99,7 +100,7 @@ fn a_chain_may_leave_its_plane() {
     }
 }
 
-/// Nothing of bodies in space is computed, and planned numbers are those of a full run.
+/// The plan contains no spatial stages for a planar chain, and a planned run gives the numbers of a full run.
 #[test]
 fn no_spatial_bodies_are_needed() {
     let mut access = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };

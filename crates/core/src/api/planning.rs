@@ -1,4 +1,4 @@
-//! Plans as everybody but the engine sees them: what a demand leads to.
+//! `Plan` as embedders see it: the stages that an access set requires.
 
 use super::contents::Contents;
 use super::model::{Model, SensorId};
@@ -12,7 +12,7 @@ use crate::sensor;
 use crate::step::analysis::{self, AccessSet};
 use crate::step::deciding;
 
-/// Which stages run, and why.
+/// Which stages run, and the reason for each.
 ///
 /// ```
 /// # fn main() -> Result<(), labspec_core::Error> {
@@ -36,46 +36,46 @@ use crate::step::deciding;
 pub struct Plan {
     pub(super) inner: Inner,
     pub(super) access: AccessSet,
-    /// The contents that it was made for; `None` where it holds for any.
+    /// The contents that the plan was made for, or `None` if it is valid for any contents.
     pub(super) made_for: Option<Contents>,
-    /// The fields of which it holds for any value.
+    /// The fields for which the plan is valid with any value.
     pub(super) any: FieldSet,
 }
 
 impl PartialEq for Plan {
-    /// Whether two plans decide the same for the same demand, whatever model they were made for.
+    /// Whether two plans make the same decisions for the same access set. The models that they were made for are not compared.
     fn eq(&self, other: &Plan) -> bool {
         self.inner == other.inner && self.access == other.access
     }
 }
 
 impl Plan {
-    /// The stages that a scene needs, for what is read and written.
+    /// The stages that a model needs for an access set.
     ///
-    /// What decides it is taken as the model has it now, also where programs may write it: data that were planned are planned
-    /// again when such a value changes.
+    /// The plan assumes the current values of the model, even those that programs may write. Planned data get a new plan when
+    /// such a value changes.
     pub fn new(m: &Model, access: &AccessSet) -> Plan {
         Plan::by_algorithms(m, access, TreeAlgorithms::ALL)
     }
 
-    /// The same with trees computed by some algorithms alone: to measure the gain of each, or to compare it with the general one.
+    /// Like [`Plan::new`], with some tree algorithms only: to measure the gain of each, or to compare it with the general one.
     pub fn by_algorithms(m: &Model, access: &AccessSet, algorithms: TreeAlgorithms) -> Plan {
         Plan::made(m, access, deciding::never_asked(access), |d| Inner::new(m, d, algorithms))
     }
 
-    /// The same with a stage more, and what it uses, wanted or not: to measure what it would cost. No number changes.
+    /// Like [`Plan::new`], with an additional stage and the stages that it uses, to measure their cost. No number changes.
     pub fn with(m: &Model, access: &AccessSet, more: Stage) -> Plan {
         Plan::made(m, access, deciding::never_asked(access), |d| {
             Inner::with(m, d, TreeAlgorithms::ALL, Some(more))
         })
     }
 
-    /// The stages that a scene may come to need, whatever programs write.
+    /// The stages that a model may need for any values that programs write.
     pub fn for_any_value(m: &Model, access: &AccessSet) -> Plan {
         Plan::made(m, access, access.writes, |d| Inner::new(m, d, TreeAlgorithms::ALL))
     }
 
-    /// A plan that holds for any values of some fields and for those at hand of all others.
+    /// A plan that is valid for any value of the fields `any`, and for the current values of all other fields.
     pub(super) fn made(
         m: &Model,
         access: &AccessSet,
@@ -86,17 +86,17 @@ impl Plan {
         Plan { inner, access: *access, made_for: Some(m.contents.clone()), any }
     }
 
-    /// Every stage, needed or not: the reference that plans are held against.
+    /// A plan with every stage, needed or not. Tests compare plans with it.
     pub fn full() -> Plan {
         Plan { inner: Inner::full(), access: AccessSet::ANY, made_for: None, any: FieldSet::ALL }
     }
 
-    /// Every stage but the one that lets trees sleep.
+    /// A plan with every stage except the one that puts trees to sleep.
     pub fn awake() -> Plan {
         Plan { inner: Inner::awake(), access: AccessSet::ANY, made_for: None, any: FieldSet::ALL }
     }
 
-    /// What it was made for.
+    /// The access set that the plan was made for.
     pub fn access(&self) -> &AccessSet {
         &self.access
     }
@@ -106,30 +106,31 @@ impl Plan {
         self.inner.keeps(stage)
     }
 
-    /// How many pairs of geoms of the model can ever touch, and how many cannot for which reason. Pairs of which programs may
-    /// write what keeps them apart can touch.
+    /// The number of pairs of geoms of the model that can touch, and the number of those that cannot, by reason. A pair counts as
+    /// able to touch if programs may write the fields that prevent it.
     pub fn pairs(&self, m: &Model) -> Vec<(PairFilterReason, usize)> {
         collision::pair_statistics(m, analysis::changes(&self.inner))
     }
 
-    /// How the pairs that can touch are tested: two types of geoms, how many such pairs there are, and whether their contacts
-    /// are searched for by the general algorithm of convex shapes. Of more than 4096 pairs, those at the start.
+    /// How the pairs that can touch are tested: two types of geoms, the number of such pairs, and whether the general algorithm
+    /// for convex shapes finds their contacts. Covers the first 4096 pairs.
     pub fn tests(&self, m: &Model) -> Vec<([i32; 2], usize, bool)> {
         collision::pair_methods(m, analysis::changes(&self.inner))
     }
 
-    /// The algorithms that compute each tree of the model: for where its bodies are, for its inertia and forces, for its accelerations.
+    /// The algorithms for each tree of the model: for the poses of its bodies, for its inertia and forces, and for its
+    /// accelerations.
     pub fn tree_algorithms(&self, m: &Model) -> Vec<[TreeAlgorithm; 3]> {
         (0..m.ntree).map(|tree| tree_algorithms::selected_for(m, self.inner.algorithms, tree)).collect()
     }
 
-    /// Whether the values of a sensor are computed. A sensor that nobody reads is left out by itself.
+    /// Whether the values of a sensor are computed. Each sensor that is not read is left out.
     pub fn evaluates(&self, m: &Model, sensor: SensorId) -> bool {
         let read = || sensor::is_read(m, sensor.index(), self.inner.sensed);
         self.keeps(Stage::Sensors) && (self.inner.every_sensor || read())
     }
 
-    /// Every stage with the reason to keep it or leave it out, in the order of the pipeline.
+    /// Every stage with the reason to run it or to leave it out, in the order of the pipeline.
     pub fn decisions(&self) -> &[Decision] {
         self.inner.decisions()
     }

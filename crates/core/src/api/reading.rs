@@ -1,4 +1,4 @@
-//! Models from MJCF, with all that is found in their texts.
+//! Compilation of MJCF texts to models, with the findings in these texts.
 
 use super::error::Error;
 use super::model::Model;
@@ -11,23 +11,24 @@ pub use crate::mjcf::{
     SchemaRow, Severity, Status, Word, rules, schema_rows,
 };
 
-/// What came of a model's text.
+/// The result of reading the text of a model.
 #[derive(Clone, Debug)]
 pub struct Examined {
     /// The model; `None` when there are errors.
     pub model: Option<Model>,
-    /// Errors and warnings in the order of the texts.
+    /// Errors and warnings, in the order of the texts.
     pub findings: Vec<Finding>,
 }
 
-/// Compiles a model, and tells what it may not be meant to be, besides what is wrong. `path` is where `files` has the text
-/// itself, if it has it: what it names is looked for in that folder.
+/// Compiles a model and returns its errors and its warnings. A warning reports what the author may not have intended. `path` is
+/// the path of the text itself in `files`, if it has one: files that the text names are searched for in that folder.
 pub fn check_xml(xml: &str, files: &dyn Files, path: Option<&str>) -> Examined {
     let mjcf::Examined { model, findings } = mjcf::check_xml(xml, files, path);
     Examined { model: model.map(Model::new), findings }
 }
 
-/// The same with changes of the text, made before it is compiled; with what is wrong with each of them.
+/// Like [`check_xml`], with patches that are applied to the text before it is compiled. For each patch, also returns why it was
+/// refused, or `None`.
 pub fn check_patched(
     xml: &str,
     files: &dyn Files,
@@ -38,23 +39,23 @@ pub fn check_patched(
     (Examined { model: model.map(Model::new), findings }, refusals)
 }
 
-/// The text of a model with changes, and with what it includes in its place: what another program can read. Meshes and other files
-/// that it names are still named. `None` when it is not XML, or a change cannot be made.
+/// The text of a model with its patches applied and its includes expanded, so that another program can read it. Meshes and other
+/// files stay references. `None` if the text is not XML or a patch cannot be applied.
 pub fn to_xml(xml: &str, files: &dyn Files, path: Option<&str>, patches: &[Patch]) -> Option<String> {
     mjcf::to_xml(xml, files, path, patches)
 }
 
-/// Compiles a model from its text; the mistakes as they were found.
+/// Compiles a model from its text. Errors are the findings, in the order in which they were found.
 pub fn compile(xml: &str) -> Result<Model, Vec<Finding>> {
     mjcf::compile(xml).map(Model::new)
 }
 
-/// Compiles a model from its text and the files that it names: see [`check_xml`].
+/// Compiles a model from its text and the files that it names. See [`check_xml`].
 pub fn compile_with(xml: &str, files: &dyn Files, path: Option<&str>) -> Result<Model, Vec<Finding>> {
     mjcf::compile_with(xml, files, path).map(Model::new)
 }
 
-/// Compiles a model from a file: see [`Model::from_file`].
+/// Compiles a model from a file. See [`Model::from_file`].
 pub fn compile_file(path: &Path) -> Result<Model, Error> {
     Model::from_file(path)
 }

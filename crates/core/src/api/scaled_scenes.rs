@@ -1,5 +1,5 @@
-//! A whole scene scaled: what touches in it, what rays meet and how far geoms are apart, for every pair of types of geoms, from
-//! 6e-5 to 16384 of its size. Scales are powers of two, so that the scaled answer is that of the scene to the bit.
+//! Contacts, ray hits and distances of a scaled scene, for every pair of geom types, at scales from 6e-5 to 16384. Scales are
+//! powers of two, so that the scaled result equals the result of the original scene bit for bit.
 
 use crate::math::{Vec3, scale};
 use crate::mjcf::compile;
@@ -21,7 +21,7 @@ const KINDS: [&str; 6] = [
     "type='mesh' mesh='m'",
 ];
 
-/// Two of each kind, turned, so near to each other that every pair of kinds touches somewhere.
+/// Two geoms of each type, rotated, so close that every pair of types touches somewhere.
 fn scene(turn: f64) -> Model {
     let geom = |(i, kind): (usize, &&str)| {
         let k = i as f64;
@@ -39,7 +39,7 @@ fn scene(turn: f64) -> Model {
     compile(&SCENE.replace("GEOMS", &geoms)).unwrap()
 }
 
-/// The model and its data with every length of its geometry multiplied.
+/// The model and its data with every length of the geometry multiplied by `by`.
 fn scaled(m: &Model, d: &Fields, by: f64) -> (Model, Workspace) {
     let mut large = m.clone();
     let lists = [&mut large.geom_size, &mut large.geom_rbound, &mut large.geom_margin, &mut large.geom_gap];
@@ -107,6 +107,6 @@ fn whole_scenes_scale() {
         }
     }
     assert!(hits > 500, "{hits}");
-    // Nearly each of the six with each other; each with the plane and with the height field.
+    // Nearly all pairs of the six types, and each type with the plane and with the height field.
     assert!(kinds.len() >= 28, "{kinds:?}");
 }

@@ -1,5 +1,5 @@
-//! Any number is survived: whatever integers a stored model holds it is refused or can be stepped, and whatever a caller
-//! writes to the integers of the data every stage ends. The cases come from the table of fields.
+//! No integer causes a panic or an endless loop. A stored model with any integers is refused or can be stepped. With any integers
+//! that a caller writes to the data, every stage ends. The cases are generated from the table of fields.
 
 use crate::dynamics;
 use crate::mjcf::compile;
@@ -11,7 +11,7 @@ use crate::step::{step, step1, step2, validate::validate};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 
-/// A scene with an object of every kind that another can name by a number.
+/// A scene with an object of every kind that another object can refer to by a number.
 const EVERYTHING: &str = "<mujoco><option><flag sleep='enable'/></option>
     <asset><mesh name='m' vertex='0 0 0 1 0 0 0 1 0 0 0 1'/><hfield name='h' nrow='2' ncol='2' size='1 1 1 1'/>
     <material name='paint' rgba='1 0 0 1'/></asset>
@@ -39,14 +39,14 @@ const EVERYTHING: &str = "<mujoco><option><flag sleep='enable'/></option>
     <keyframe><key/></keyframe></mujoco>";
 
 const VALUES: [i32; 10] = [i32::MIN, -12, -2, -1, 0, 1, 2, 7, 1000, i32::MAX];
-/// What a case may cost: beyond it stages are left out, as for a run whose budget is spent.
+/// The work limit of a case. Beyond it stages are left out, as in a run whose budget is spent.
 const BUDGET: u64 = 3_000_000;
 
 fn everything() -> Model {
     compile(EVERYTHING).unwrap()
 }
 
-/// Runs a test in a thread of its own, and fails where it does not end.
+/// Runs a test on a separate thread, and fails if it does not end.
 fn ends(test: fn()) {
     let (sender, done) = channel();
     let thread = std::thread::spawn(move || {
@@ -64,7 +64,7 @@ fn integers(object: Object, among: fn(FieldId) -> bool) -> impl Iterator<Item = 
     reflect::fields().filter(is).filter(move |&f| among(f))
 }
 
-/// Everything that a caller may ask for.
+/// Calls every function that a caller can call.
 fn use_all(m: &Model, Workspace { fields: d, scratch: s }: &mut Workspace) {
     d.meter.set_left(BUDGET);
     forward::contacts(m, d, s);
@@ -128,7 +128,7 @@ fn what_is_written_to_the_integers_of_the_data_is_survived() {
             written.push(field.info().name);
             for i in 0..n {
                 for value in VALUES {
-                    // One number, and all of them.
+                    // Writes one element, then all of them.
                     let mut d = start.clone();
                     reflect::view_data_mut(&mut d.fields, field).set(i, f64::from(value));
                     use_all(&m, &mut d);
@@ -137,7 +137,7 @@ fn what_is_written_to_the_integers_of_the_data_is_survived() {
                     }
                     use_all(&m, &mut d);
                 }
-                // Every tree after another: circles that nobody made.
+                // Makes each tree follow another in the sleep cycle: cycles that the engine did not create.
                 for next in 0..n {
                     let mut d = start.clone();
                     reflect::view_data_mut(&mut d.fields, field).set(i, next as f64);
@@ -149,7 +149,7 @@ fn what_is_written_to_the_integers_of_the_data_is_survived() {
     });
 }
 
-/// The case that did not end: a number written beside a tree that sleeps, while what is awake touches it.
+/// A regression test for an endless loop: an integer is written for a sleeping tree while an awake tree touches it.
 #[test]
 fn a_written_circle_of_sleeping_trees_wakes() {
     ends(|| {
@@ -173,8 +173,8 @@ fn a_written_circle_of_sleeping_trees_wakes() {
     });
 }
 
-/// Sweeps without end are asked for, and end where there is no more slip to remove: also where a contact with hardly any softness
-/// has forces so large that a change of friction is lost in their rounding.
+/// With an unlimited number of sweeps, the removal of slip ends when no slip remains. This includes a contact that is so stiff
+/// that its forces are large and a change of friction is lost in their rounding.
 #[test]
 fn the_removal_of_slip_ends() {
     for (cone, tolerance) in [("pyramidal", 1e-6), ("elliptic", 1e-6), ("elliptic", -1.0)] {

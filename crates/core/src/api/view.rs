@@ -1,4 +1,4 @@
-//! Objects by name: where they are, how they move, what they hold.
+//! Objects by name: their positions, velocities and values.
 
 use super::data::{Data, Full};
 use super::error::Error;
@@ -6,13 +6,13 @@ use super::model::{ActuatorId, BodyId, GeomId, JointId, Model, SensorId, SiteId,
 use crate::math::rows;
 use crate::model::{Names, Obj};
 
-/// A name, or an id that a name led to.
+/// The name of an object, or its typed id.
 pub trait Which<I> {
-    /// The object that is meant.
+    /// The index of the object. An unknown name is an error.
     fn find_in(&self, names: &Names) -> Result<usize, Error>;
 }
 
-/// Rows of a rotation matrix, or three rows of three numbers otherwise.
+/// A matrix of three rows and three columns, such as a rotation matrix.
 pub type Rows3 = [[f64; 3]; 3];
 
 fn three_rows(m: &[f64; 9]) -> Rows3 {
@@ -43,12 +43,12 @@ macro_rules! objects {
         }
 
         impl<'a> $view<'a> {
-            /// Its id.
+            /// The id of the object.
             pub fn id(&self) -> $id {
                 $id(self.id)
             }
 
-            /// Its name, empty when it has none.
+            /// The name of the object, empty if it has none.
             pub fn name(&self) -> &'a str {
                 self.data.names.of_kind(Obj::$kind).get(self.id).map_or("", |n| n.as_str())
             }
@@ -68,7 +68,7 @@ macro_rules! objects {
     )* };
 }
 
-/// A row of an array of the data; zeros where there is none.
+/// Row `id` of an array of the data, or zeros if there is no such row.
 fn row<const N: usize>(list: &[f64], id: usize) -> [f64; N] {
     rows::<N>(list).get(id).copied().unwrap_or([0.0; N])
 }
@@ -90,9 +90,9 @@ objects! {
         xipos -> [f64; 3] = |s| row(&s.data.xipos, s.id);
         /// Orientation of its principal axes of inertia, world.
         ximat -> Rows3 = |s| mat(&s.data.ximat, s.id);
-        /// Centre of mass of it and all that it carries, m, world.
+        /// Centre of mass of the body and all its descendants, m, world.
         subtree_com -> [f64; 3] = |s| row(&s.data.subtree_com, s.id);
-        /// Force and torque applied to it from outside, N and N m, world.
+        /// External force and torque that are applied to the body, N and N m, world.
         xfrc_applied -> [f64; 6] = |s| row(&s.data.xfrc_applied, s.id);
     }
     /// A joint of a simulation.
@@ -120,7 +120,7 @@ objects! {
     Tendon TendonId Tendon tendon tendons "tendon" {
         /// Its length, m.
         length -> f64 = |s| s.data.ten_length.get(s.id).copied().unwrap_or(0.0);
-        /// How fast it lengthens, m/s.
+        /// The rate of change of the length, m/s.
         velocity -> f64 = |s| s.data.ten_velocity.get(s.id).copied().unwrap_or(0.0);
     }
     /// An actuator of a simulation.
@@ -129,12 +129,12 @@ objects! {
         force -> f64 = |s| s.data.actuator_force.get(s.output()).copied().unwrap_or(0.0);
         /// The length of its first output, m or rad.
         length -> f64 = |s| s.data.actuator_length.get(s.output()).copied().unwrap_or(0.0);
-        /// How fast that changes, m/s or rad/s.
+        /// The rate of change of that length, m/s or rad/s.
         velocity -> f64 = |s| s.data.actuator_velocity.get(s.output()).copied().unwrap_or(0.0);
     }
     /// A sensor of a simulation.
     Sensor SensorId Sensor sensor sensors "sensor" {
-        /// What it shows.
+        /// The values of the sensor, in its own unit.
         values -> &'a [f64] = |s| {
             let [first, n] = s.data.addresses.sensor.get(s.id).copied().unwrap_or_default();
             s.data.sensordata.get(first..first + n).unwrap_or_default()
@@ -147,7 +147,7 @@ impl Actuator<'_> {
         self.data.addresses.output.get(self.id).copied().unwrap_or(usize::MAX)
     }
 
-    /// Its controls.
+    /// The controls of the actuator.
     pub fn ctrl(&self) -> &[f64] {
         let [first, n] = self.data.addresses.ctrl.get(self.id).copied().unwrap_or_default();
         self.data.ctrl.get(first..first + n).unwrap_or_default()
@@ -155,13 +155,13 @@ impl Actuator<'_> {
 }
 
 impl<'a> Joint<'a> {
-    /// Its coordinates: a free joint has x y z qw qx qy qz, a ball a quaternion, slides and hinges one number.
+    /// The coordinates of the joint. A free joint has x y z qw qx qy qz, a ball joint a quaternion, a slide or hinge one number.
     pub fn qpos(&self) -> &'a [f64] {
         let [first, n] = self.data.addresses.qpos.get(self.id).copied().unwrap_or_default();
         self.data.qpos.get(first..first + n).unwrap_or_default()
     }
 
-    /// Its velocities: a free joint has three of translation and three of rotation.
+    /// The velocities of the joint. A free joint has three of translation and three of rotation.
     pub fn qvel(&self) -> &'a [f64] {
         let [first, n] = self.data.addresses.qvel.get(self.id).copied().unwrap_or_default();
         self.data.qvel.get(first..first + n).unwrap_or_default()
@@ -198,13 +198,13 @@ impl<S: super::data::Scope> Data<S> {
         set(self.fields.qvel.get_mut(first..first + n), qvel, "the velocity of this joint")
     }
 
-    /// Sets the controls of an actuator: most have one.
+    /// Sets the controls of an actuator. Most actuators have one.
     pub fn set_ctrl(&mut self, which: &(impl Which<ActuatorId> + ?Sized), ctrl: &[f64]) -> Result<(), Error> {
         let [first, n] = self.addresses.ctrl.get(which.find_in(&self.names)?).copied().unwrap_or_default();
         set(self.fields.ctrl.get_mut(first..first + n), ctrl, "the control of this actuator")
     }
 
-    /// Applies a force and a torque at the centre of mass of a body, N and N m, world, until they are set again.
+    /// Applies a force and a torque at the centre of mass of a body, N and N m, world. They act until they are set again.
     pub fn set_xfrc(&mut self, which: &(impl Which<BodyId> + ?Sized), force: [f64; 6]) -> Result<(), Error> {
         let first = 6 * which.find_in(&self.names)?;
         let fields = self.edit();
@@ -213,7 +213,7 @@ impl<S: super::data::Scope> Data<S> {
 }
 
 impl Model {
-    /// The name of an object of a kind, `None` when there is no such object.
+    /// The name of an object of a kind, or `None` if there is no such object.
     pub fn name_of(&self, kind: Obj, id: usize) -> Option<&str> {
         self.names.of_kind(kind).get(id).map(String::as_str)
     }

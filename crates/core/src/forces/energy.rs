@@ -1,4 +1,4 @@
-//! Potential and kinetic energy, when the energy flag asks for them.
+//! Potential and kinetic energy, if the energy flag is set.
 
 use crate::dynamics::mass;
 use crate::forces::passive::spring;
@@ -6,7 +6,7 @@ use crate::kinds::disable;
 use crate::math::*;
 use crate::model::{Fields, Model};
 
-/// `energy[0]`: gravity and springs, J. Zero where every centre of mass is at the origin.
+/// `energy[0]`: the potential energy of gravity and springs, J. That of gravity is zero if every centre of mass is at the origin.
 pub(crate) fn potential(m: &Model, d: &mut Fields) {
     let mut e = 0.0;
     if !m.opt.disabled(disable::GRAVITY) {

@@ -1,18 +1,18 @@
 //! Buffers of past values, for delays (MuJoCo's documentation, chapter "Computation", section on delays).
 //!
-//! A buffer is a ring of samples in the order of their times: a slot for the owner, the place of the newest
-//! sample, n times, n times `dim` values. It is a part of the state, so that programs may write anything into it:
-//! the place is taken modulo n, whatever it holds.
+//! A buffer is a ring of samples in the order of their times. It contains a slot for the owner, the index of the newest
+//! sample, n times, and n times `dim` values. It is a part of the state, so that programs may write anything into it.
+//! Therefore the index is always taken modulo n.
 
 use crate::kinds::interpolation;
 use crate::math::MINVAL;
 
-/// Number of numbers of a buffer of `n` samples.
+/// The length of a buffer of `n` samples.
 pub(crate) const fn size(n: usize, dim: usize) -> usize {
     if n == 0 { 0 } else { 2 + n.saturating_mul(1 + dim) }
 }
 
-/// A buffer, taken apart.
+/// The parts of a buffer.
 struct Ring<'a> {
     times: &'a [f64],
     values: &'a [f64],
@@ -22,7 +22,7 @@ struct Ring<'a> {
 }
 
 impl<'a> Ring<'a> {
-    /// `None` for a buffer that is too short for its samples.
+    /// The parts, or `None` if the buffer is too short for its samples.
     fn from_buffer(buf: &'a [f64], n: usize, dim: usize) -> Option<Ring<'a>> {
         let (head, rest) = buf.split_at_checked(2)?;
         let (times, values) = rest.split_at_checked(n)?;
@@ -30,7 +30,7 @@ impl<'a> Ring<'a> {
         fits.then(|| Ring { times, values, newest: newest(head, n), n, dim })
     }
 
-    /// The place of sample `i`, counted from the oldest.
+    /// The index of sample `i`, counted from the oldest.
     fn place(&self, i: usize) -> usize {
         (self.newest + 1 + i) % self.n
     }
@@ -44,7 +44,7 @@ impl<'a> Ring<'a> {
         &self.values[at..at + self.dim]
     }
 
-    /// The first sample that is not older than `time`; n when all are.
+    /// The first sample that is not older than `time`, or n if all are older.
     fn first_from(&self, time: f64) -> usize {
         let (mut low, mut high) = (0, self.n);
         while low < high {
@@ -54,7 +54,7 @@ impl<'a> Ring<'a> {
         low
     }
 
-    /// Slope of component `k` at sample `i`, from its neighbours; flat at the ends.
+    /// Slope of component `k` at sample `i`, computed from its neighbours; zero at the ends.
     fn slope(&self, i: usize, k: usize) -> f64 {
         if i == 0 || i + 1 == self.n {
             return 0.0;
@@ -63,12 +63,12 @@ impl<'a> Ring<'a> {
     }
 }
 
-/// The place of the newest sample.
+/// The index of the newest sample.
 fn newest(head: &[f64], n: usize) -> usize {
     head.get(1).map_or(0, |&x| x as usize) % n.max(1)
 }
 
-/// Fills a buffer with zeros at the times of its samples, oldest first; `slot` is the owner's.
+/// Fills a buffer with zero samples at the given times, oldest first. `slot` is the value of the owner's slot.
 pub(crate) fn init(buf: &mut [f64], n: usize, slot: f64, time: impl Fn(usize) -> f64) {
     buf.fill(0.0);
     if let [first, newest, rest @ ..] = buf {
@@ -79,8 +79,7 @@ pub(crate) fn init(buf: &mut [f64], n: usize, slot: f64, time: impl Fn(usize) ->
     }
 }
 
-/// Makes room for a sample and returns its values, to be filled. It takes the place of one of the same time, else of
-/// the oldest.
+/// Allocates a sample and returns its values for writing. It replaces the sample of the same time, or else the oldest sample.
 pub(crate) fn insert(buf: &mut [f64], n: usize, dim: usize, time: f64) -> &mut [f64] {
     let Some(ring) = Ring::from_buffer(buf, n, dim) else { return &mut [] };
     let i = ring.first_from(time);
@@ -95,7 +94,7 @@ pub(crate) fn insert(buf: &mut [f64], n: usize, dim: usize, time: f64) -> &mut [
     buf[1] = newest as f64;
     let (times, values) = buf[2..].split_at_mut(n);
     if !same && newest == place(n - 1) && i + 1 < n {
-        // Into the middle: what is older moves over the oldest.
+        // Insertion in the middle: the older samples are shifted over the oldest.
         for older in 0..i {
             times[place(older)] = times[place(older + 1)];
             values.copy_within(place(older + 1) * dim..(place(older + 1) + 1) * dim, place(older) * dim);
@@ -105,12 +104,13 @@ pub(crate) fn insert(buf: &mut [f64], n: usize, dim: usize, time: f64) -> &mut [
     &mut values[place(i) * dim..(place(i) + 1) * dim]
 }
 
-/// The value at a time: that of the last sample, between two samples along a line, or along a cubic through neighbouring
-/// slopes (Catmull and Rom 1974), as `interp` says. Before the first and after the last sample it is theirs.
+/// The value at a time. Depending on `interp`, it is that of the last sample, a linear interpolation between two samples, or a
+/// cubic one with the slopes of the samples (Catmull and Rom 1974). Before the first and after the last sample, it is the value
+/// of that sample.
 pub(crate) fn read(buf: &[f64], n: usize, dim: usize, time: f64, interp: i32, out: &mut [f64]) {
     let Some(ring) = Ring::from_buffer(buf, n, dim) else { return };
     let i = ring.first_from(time);
-    // A delay of whole steps finds its sample in spite of rounding.
+    // With a delay of whole steps, the sample is found in spite of rounding errors.
     let exact = i < n && ring.time(i) - time < MINVAL;
     if exact || i == 0 || i == n || interp == interpolation::HOLD {
         let last = if exact || i == 0 { i } else { i - 1 };
@@ -144,7 +144,7 @@ mod tests {
         buf
     }
 
-    /// Where MuJoCo 3.14.0 puts samples, and what is left: place of the newest, times.
+    /// The ring after insertions, as in MuJoCo 3.14.0: index of the newest sample, times.
     #[test]
     fn samples_stay_in_the_order_of_their_times() {
         let cases: [(&[f64], [f64; 6]); 7] = [
@@ -169,7 +169,7 @@ mod tests {
         }
     }
 
-    /// Time, then what MuJoCo 3.14.0 reads by hold, line and cubic.
+    /// A time, and the values of MuJoCo 3.14.0 for hold, linear and cubic interpolation.
     #[test]
     fn values_between_samples() {
         let buf = [0.0, 4.0, 0.0, 1.0, 2.0, 4.0, 5.0, 1.0, 3.0, 2.0, 7.0, 5.0];

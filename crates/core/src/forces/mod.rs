@@ -1,7 +1,8 @@
-//! Forces that do not come of constraints: of springs, dampers, media and actuators, with what carries them.
+//! Smooth forces, which are not constraint forces: those of springs, dampers, fluids and actuators, and the transmissions of
+//! these forces.
 //!
-//! `tendon` and `transmission` say over which lever a force acts, `passive` and `actuation` how large it is, `derivative`
-//! how it changes with the velocity, `energy` what is stored in it. `history` keeps what delays look back to.
+//! `tendon` and `transmission` compute moment arms, `passive` and `actuation` the magnitudes of forces, `derivative`
+//! their derivatives with respect to velocity, and `energy` the stored energy. `history` stores past values for delays.
 
 pub(crate) mod actuation;
 pub(crate) mod derivative;
@@ -14,12 +15,12 @@ pub(crate) mod transmission;
 use crate::dynamics::jacobian::Columns;
 use crate::model::Model;
 
-/// What these stages use and nobody else looks at, kept so that they do not allocate.
+/// The memory of these stages, reused so that they do not allocate.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Scratch {
-    /// Sums of the forces of actuators on each tendon.
+    /// The sum of the actuator forces on each tendon.
     tendon_force: Vec<f64>,
-    /// A row of the moments of actuators.
+    /// A row of the actuator moments.
     moment: Vec<f64>,
     /// Columns of one contact's Jacobian.
     columns: Columns,

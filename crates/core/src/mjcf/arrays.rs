@@ -1,12 +1,13 @@
-//! Arrays of a model, from one value or more of each object.
+//! Fills arrays of a model with one or more values per object.
 //!
-//! There are hundreds of them: in the module the loop is there once for each type of object, and for each array what it takes
-//! of an object. They are filled where they are: a list that is made anew has to be moved there, and what was there freed.
+//! A model has hundreds of arrays. To keep the code small, the loop is compiled once per type of object, and each array adds only
+//! the function that reads its values. Arrays are filled in place: a new list would have to be moved there, and the old one
+//! freed.
 
 use super::gather::put;
 use super::spec::List;
 
-/// Values of each object, one after the other.
+/// Fills an array with the values of all objects, one object after the other.
 pub(super) fn flat<T, V, const N: usize>(
     array: &mut Vec<V>,
     list: impl IntoIterator<Item = T>,
@@ -25,7 +26,7 @@ fn refill<T, V, const N: usize>(
     list.for_each(|x| of(x).into_iter().for_each(|x| put(array, x)));
 }
 
-/// The user values of each object, `width` of them.
+/// Fills an array with `width` user values per object. Missing values are zero.
 pub(super) fn padded<'l>(array: &mut Vec<f64>, lists: impl Iterator<Item = &'l List>, width: usize) {
     array.clear();
     lists.for_each(|l| (0..width).for_each(|k| put(array, l.numbers.get(k).copied().unwrap_or(0.0))));

@@ -1,7 +1,8 @@
-//! Default classes: what `<default class="…">` says about an element, and an element's own attributes over it.
+//! Default classes: the attributes that `<default class="…">` sets for an element, and the element's own attributes, which
+//! override them.
 //!
-//! One rule for all: a class starts as its parent, and every attribute overlays what stands below it. A list
-//! overlays number by number from the front, so `friction="0.5"` keeps the class's other two coefficients.
+//! One rule applies to all: a class starts as a copy of its parent, and every attribute overrides the inherited value. A list
+//! overrides number by number from the front, so that `friction="0.5"` keeps the other two coefficients of the class.
 
 use crate::kinds::choice;
 use crate::mjcf::gather::listed;
@@ -17,32 +18,32 @@ use crate::mjcf::text::tree::{Attribute, Node, Tree};
 use crate::mjcf::text::values::Value;
 use crate::mjcf::word_map::WordMap;
 
-/// A class copies its parent, so their number is bounded.
+/// Limit for the number of classes. Each copies its parent.
 const MAX_CLASSES: usize = 2000;
 
-/// The attributes that hold for an element: its own over those of its class.
+/// The effective attributes of an element: its own, and those of its class where it has none.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Props {
     values: WordMap<(Value, Range<usize>)>,
-    /// The elements that these are the attributes of.
+    /// The elements whose attributes these are.
     #[cfg(test)]
     elements: Vec<&'static super::schema::Element>,
 }
 
 impl Props {
-    /// The attributes of an element alone, for elements without defaults.
+    /// The attributes of the element itself, for elements without defaults.
     pub(crate) fn written_props(node: &Node) -> Props {
         let mut props = Props::default();
         props.overlay(node);
         props
     }
 
-    /// Puts the attributes of an element over these. Names stay with their element.
+    /// Overrides these attributes by those of an element. Names are not copied.
     pub(crate) fn overlay(&mut self, node: &Node) {
         self.overlay_within(node, &CompletionBudget::default());
     }
 
-    /// The same, as long as there is room for lists that are partly the element's own.
+    /// Like [`Props::overlay`], with a budget for lists that combine numbers of the element and of its class.
     fn overlay_within(&mut self, node: &Node, budget: &CompletionBudget) {
         #[cfg(test)]
         self.elements.push(node.element);
@@ -69,17 +70,17 @@ impl Props {
         self.values.get(name).map(|(value, _)| value)
     }
 
-    /// Whether the attribute is there, right or wrong.
+    /// Whether the attribute is present, valid or not.
     pub(crate) fn has(&self, name: &str) -> bool {
         self.get(name).is_some()
     }
 
-    /// Bytes of the attribute's value, in the element or in a class.
+    /// The span of the attribute's value, in the element or in a class.
     pub(crate) fn span(&self, name: &str) -> Option<Range<usize>> {
         self.values.get(name).map(|(_, span)| span.clone())
     }
 
-    /// Numbers of a list: as many as are given.
+    /// The given numbers of a list.
     pub(crate) fn list(&self, name: &str) -> Option<&[f64]> {
         match self.get(name) {
             Some(Value::Reals(list)) => Some(list.as_slice()),
@@ -92,7 +93,7 @@ impl Props {
         self.list(name)?.first().copied()
     }
 
-    /// `N` numbers; those that are not given are taken from `default`.
+    /// `N` numbers. Missing ones are taken from `default`.
     pub(crate) fn reals<const N: usize>(&self, name: &str, default: [f64; N]) -> [f64; N] {
         let mut all = default;
         for (x, &given) in all.iter_mut().zip(self.list(name).unwrap_or(&[])) {
@@ -106,7 +107,7 @@ impl Props {
         self.ints(name)?.first().copied()
     }
 
-    /// The numbers of a list, shared with all that has the same.
+    /// The numbers of a list, shared with all elements that have the same list.
     pub(crate) fn shared(&self, name: &str) -> Rc<Vec<f64>> {
         match self.get(name) {
             Some(Value::Reals(list)) => list.clone(),
@@ -122,7 +123,7 @@ impl Props {
         }
     }
 
-    /// MuJoCo's number of a keyword.
+    /// The number of a keyword in MuJoCo.
     pub(crate) fn word(&self, name: &str) -> Option<i32> {
         match self.get(name) {
             Some(Value::Word(n)) => Some(*n),
@@ -130,12 +131,12 @@ impl Props {
         }
     }
 
-    /// Whether a keyword of `false` and `true` is the latter; `default` when it is absent.
+    /// Whether a keyword among `false` and `true` is `true`. `default` if it is absent.
     pub(crate) fn flag(&self, name: &str, default: bool) -> bool {
         self.word(name).map_or(default, |word| word == choice::TRUE)
     }
 
-    /// A text, `None` when it is absent or empty.
+    /// A text, or `None` if it is absent or empty.
     pub(crate) fn text(&self, name: &str) -> Option<&str> {
         match self.get(name) {
             Some(Value::Text(text)) if !text.is_empty() => Some(text),
@@ -144,21 +145,21 @@ impl Props {
     }
 }
 
-/// More numbers are not taken from defaults to complete lists: a small text could ask for any amount.
+/// Limit for the numbers that complete lists from defaults. Without it, a small text could request any amount.
 const MAX_COMPLETED: usize = 10_000_000;
 
-/// What completing lists takes.
+/// The numbers that were used to complete lists.
 #[derive(Debug, Default)]
 struct CompletionBudget {
     spent: Cell<usize>,
-    /// The first list that there was no room for.
+    /// The first list that exceeded the limit.
     exceeded: Cell<Option<usize>>,
 }
 
 impl CompletionBudget {
-    /// `over` laid over `below` from the front.
+    /// The list `below`, with its first numbers replaced by `over`.
     fn overlaid(&self, below: &[f64], over: &Rc<Vec<f64>>, a: &Attribute) -> Rc<Vec<f64>> {
-        // Short lists are kept in no place of their own.
+        // Short lists do not count.
         let spent = self.spent.get() + if below.len() > SHORT { below.len() } else { 0 };
         if spent > MAX_COMPLETED {
             self.exceeded.set(self.exceeded.get().or(Some(a.span.start)));
@@ -169,14 +170,14 @@ impl CompletionBudget {
     }
 }
 
-/// Lists of parameters are no longer than this.
+/// Lists of parameters are not longer than this.
 const SHORT: usize = 20;
 
-/// A class: what it says about each kind of element, its parents included.
+/// A class: its attributes for each kind of element, including those inherited from its parents.
 #[derive(Debug, Default)]
 struct Class {
     parent: usize,
-    /// Shared with the classes that say nothing else.
+    /// Shared with the classes that add no attributes.
     entries: WordMap<Rc<Props>>,
     /// The elements of the class itself, in the order of the text.
     nodes: Vec<usize>,
@@ -194,9 +195,8 @@ pub(crate) struct Classes {
 impl Classes {
     /// Reads all `default` sections.
     ///
-    /// A later section at the top level continues the class `main`; classes that were made before keep what
-    /// they copied from it, as in MuJoCo. A model that is attached has a main class of its own, under the name that
-    /// its section has by now.
+    /// A further section at the top level continues the class `main`. Classes that are defined before keep what they copied from
+    /// it, as in MuJoCo. An attached model has its own main class, under the renamed name of its section.
     pub(crate) fn read(tree: &Tree, report: &mut Report) -> Classes {
         let mut classes = Classes {
             list: vec![Class::default()],
@@ -244,12 +244,12 @@ impl Classes {
         classes
     }
 
-    /// The index of a class, `None` when there is no class of this name.
+    /// The index of a class, or `None` if there is no class of this name.
     pub(crate) fn find(&self, name: &str) -> Option<usize> {
         self.names.get(name).copied()
     }
 
-    /// All names.
+    /// The names of all classes.
     pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
         self.names.keys().map(String::as_str)
     }
@@ -260,13 +260,13 @@ impl Classes {
         written_class.or(childclass).unwrap_or(self.main)
     }
 
-    /// All classes with their parents, which stand before them, and the elements of each itself. The first is its
-    /// own parent and has none.
+    /// All classes: the index of the parent, which precedes its children, and the elements of the class itself. The first class
+    /// has no parent; its index is used instead.
     pub(crate) fn elements(&self) -> impl Iterator<Item = (usize, &[usize])> {
         self.list.iter().map(|c| (c.parent, c.nodes.as_slice()))
     }
 
-    /// Reports the first list that was too much to complete from its defaults.
+    /// Reports the first list that exceeded the budget for completion by defaults.
     pub(crate) fn check_room(&self, report: &mut Report) {
         if let Some(at) = self.budget.exceeded.get() {
             let message = format!("lists completed by defaults have more than {MAX_COMPLETED} numbers");
@@ -277,12 +277,12 @@ impl Classes {
         }
     }
 
-    /// The attributes that hold for an element: its own over those of its class.
+    /// The effective attributes of an element: its own, and those of its class where it has none.
     pub(crate) fn props(&self, node: &Node, childclass: Option<usize>) -> Props {
         self.props_of(node.element.name, node, childclass)
     }
 
-    /// The same for an element whose defaults stand under another name: all tendons share `tendon`.
+    /// Like [`Classes::props`], for an element whose defaults have another name: all tendons share `tendon`.
     pub(crate) fn props_of(&self, entry: &str, node: &Node, childclass: Option<usize>) -> Props {
         let entry = self.list.get(self.class_of(node, childclass)).and_then(|c| c.entries.get(entry));
         let mut props = entry.map_or_else(Props::default, |p| Props::clone(p));

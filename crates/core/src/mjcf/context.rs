@@ -1,4 +1,4 @@
-//! What reading an element needs to know.
+//! The inputs for reading an element.
 
 use super::classes::{Classes, Props};
 use super::expand::AttachedModel;
@@ -9,20 +9,20 @@ use crate::mjcf::body::orientation;
 use crate::mjcf::text::diagnostic::Report;
 use crate::mjcf::text::tree::{Node, Tree};
 
-/// What reading an element needs to know.
+/// The inputs for reading an element.
 pub(crate) struct Context<'a> {
     pub(crate) tree: &'a Tree,
     pub(crate) classes: &'a Classes,
-    /// The models that make up the whole.
+    /// The models that form the whole.
     pub(crate) parts: &'a [AttachedModel],
     pub(crate) assets: &'a Assets,
-    /// What the model of the current element says: see [`Context::enter`].
+    /// The compiler settings of the model that contains the current element: see [`Context::enter`].
     pub(crate) compiler: &'a Compiler,
     pub(crate) report: &'a mut Report,
 }
 
 impl Context<'_> {
-    /// Turns to an element: its angles mean what its own model says.
+    /// Selects the compiler settings of the model that contains an element. They determine the unit of its angles.
     pub(crate) fn enter(&mut self, node: &Node) {
         if let Some(part) = self.parts.get(node.model) {
             self.compiler = &part.compiler;

@@ -1,4 +1,4 @@
-//! Specifications to the arrays of [`Model`].
+//! Writes specifications to the arrays of [`Model`].
 
 use super::arrays::{flat, padded};
 use super::gather::listed;
@@ -27,7 +27,7 @@ pub(crate) struct Sizes {
     pub(crate) nu: usize,
 }
 
-/// Numbers of user values of each object.
+/// The number of user values per object of each kind.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Users {
     pub(crate) body: usize,
@@ -38,11 +38,11 @@ pub(crate) struct Users {
     pub(crate) site: usize,
     pub(crate) camera: usize,
     pub(crate) actuator: usize,
-    /// Values of the whole model.
+    /// The number of user values of the model itself.
     pub(crate) data: usize,
 }
 
-/// Everything that goes into a model.
+/// The inputs from which a model is filled.
 pub(crate) struct Parts<'a> {
     pub(crate) bodies: &'a [BodySpec],
     pub(crate) inertias: &'a [Inertia],
@@ -63,14 +63,14 @@ pub(crate) struct Parts<'a> {
     pub(crate) keys: &'a [KeySpec],
 }
 
-/// Joints, geoms and sites in id order, each with its body.
+/// Joints, geoms and sites in the order of their ids, each with its body.
 struct Members<'a> {
     joints: Vec<(usize, &'a JointSpec)>,
     geoms: Vec<(usize, &'a GeomSpec)>,
     sites: Vec<(usize, &'a SiteSpec)>,
 }
 
-/// Fills the model. Options, statistics and what `mj_setConst` computes are not touched.
+/// Fills the model, except options, statistics and the fields that `mj_setConst` computes.
 pub(crate) fn fill_arrays(m: &mut Model, parts: Parts) {
     let list = parts.bodies;
     let members = Members {
@@ -80,7 +80,7 @@ pub(crate) fn fill_arrays(m: &mut Model, parts: Parts) {
     };
     set_sizes(m, &parts, &members);
     reflect::allocate_model(m);
-    // Found by `mj_setConst`.
+    // Computed by `mj_setConst`.
     m.jnt_actuatorid.fill(-1);
     m.tendon_actuatorid.fill(-1);
     m.names = names(std::mem::take(&mut m.names.model), &parts, &members);
@@ -112,7 +112,7 @@ pub(crate) fn fill_arrays(m: &mut Model, parts: Parts) {
     fill_scene::custom(m, scene);
 }
 
-/// The sizes of all arrays.
+/// Sets the sizes of all arrays.
 fn set_sizes(m: &mut Model, parts: &Parts, members: &Members) {
     let Parts { bodies: list, layout, sensors, counts, users, .. } = parts;
     m.nq = layout.nq;
@@ -143,7 +143,7 @@ fn set_sizes(m: &mut Model, parts: &Parts, members: &Members) {
     fill_asset::count(m, parts.assets);
 }
 
-/// The names of all objects but those of assets and custom data, which are filled with them.
+/// The names of all objects except assets and custom data, whose names are set together with their fields.
 fn names(model: String, parts: &Parts, members: &Members) -> Names {
     let Parts { bodies: list, .. } = parts;
     let names = |of: &mut dyn Iterator<Item = &String>| of.cloned().collect::<Vec<String>>();
@@ -166,12 +166,12 @@ fn names(model: String, parts: &Parts, members: &Members) -> Names {
     }
 }
 
-/// The members of all bodies in id order, each with its body.
+/// The members of all bodies in the order of their ids, each with its body.
 fn members<T>(list: &[BodySpec], of: impl Fn(&BodySpec) -> &Vec<T>) -> Vec<(usize, &T)> {
     listed(list.iter().enumerate().flat_map(|(i, b)| of(b).iter().map(move |x| (i, x))))
 }
 
-/// First address and count of the members of each body: -1 where there are none.
+/// The address and the count of the members of each body. The address is -1 if there are none.
 fn addresses(list: &[BodySpec], count: impl Fn(&BodySpec) -> usize) -> (Vec<i32>, Vec<i32>) {
     let mut next = 0;
     let mut address = |b| {
@@ -263,7 +263,7 @@ fn dofs(m: &mut Model, joints: &[(usize, &JointSpec)], dofs: &[Dof], simple: &[i
     let damping = |d: &Dof| of_joint(d).map_or([0.0; 3], |j| j.damping);
     flat(&mut m.dof_damping, dofs, |d| [damping(d)[0]]);
     flat(&mut m.dof_dampingpoly, dofs, |d| [damping(d)[1], damping(d)[2]]);
-    // Counted from the end: a simple degree of freedom continues the run that follows it.
+    // Counted from the end: a simple degree of freedom continues the sequence that follows it.
     let mut run = 0;
     flat(&mut m.dof_simplenum, dofs.iter().rev(), |d| {
         run = if simple.get(d.body).is_some_and(|&s| s != 0) { run + 1 } else { 0 };
@@ -272,7 +272,7 @@ fn dofs(m: &mut Model, joints: &[(usize, &JointSpec)], dofs: &[Dof], simple: &[i
     m.dof_simplenum.reverse();
 }
 
-/// What a body can touch is what its geoms can touch, as far away as the farthest-reaching of them.
+/// The contact bits of a body are the union of those of its geoms, and its margin is the largest margin of a geom.
 fn bodies_from_geoms(m: &mut Model) {
     m.visual_geoms.clear();
     for (g, &b) in m.geom_bodyid.iter().enumerate() {
@@ -313,7 +313,7 @@ fn fill_sensors(m: &mut Model, sensors: &[SensorSpec]) {
     padded(&mut m.sensor_user, sensors.iter().map(|s| &s.user), m.nuser_sensor);
 }
 
-/// Keyframes: what is not given is taken from the reference configuration; quaternions are normalized.
+/// Fills the keyframes. Missing values are those of the reference configuration; quaternions are normalized.
 fn fill_keys(m: &mut Model, bodies: &[BodySpec], keys: &[KeySpec]) {
     let mocap: Vec<&BodySpec> = listed(bodies.iter().filter(|b| b.mocap));
     let (mut mpos0, mut mquat0) = (Vec::new(), Vec::new());
@@ -331,7 +331,7 @@ fn fill_keys(m: &mut Model, bodies: &[BodySpec], keys: &[KeySpec]) {
     m.key_mquat = of(|k| &k.mquat, &mquat0);
 
     for q in rows_mut::<4>(&mut m.key_mquat) {
-        // A zero quaternion stays as it is: it is normalized where the mocap body is placed.
+        // A zero quaternion is not changed here. It is normalized when the mocap body is placed.
         if q.iter().any(|x| x.abs() > MINVAL) {
             *q = quat_normalize(*q);
         }
@@ -352,8 +352,8 @@ fn fill_keys(m: &mut Model, bodies: &[BodySpec], keys: &[KeySpec]) {
     }
 }
 
-/// Stiffness and damping of joints that are given by a time constant t and a damping ratio r: with the joint's
-/// inertia I at the default configuration, k = I/(t² r²) and b = 2 I/t.
+/// Stiffness and damping of joints that are given by a time constant t and a damping ratio r. With the inertia I of the joint
+/// in the default configuration, k = I/(t² r²) and b = 2 I/t.
 pub(crate) fn spring_dampers(m: &mut Model, bodies: &[BodySpec]) {
     let joints = bodies.iter().flat_map(|b| &b.joints);
     for (j, [time, ratio]) in joints.enumerate().filter_map(|(j, spec)| Some((j, spec.springdamper?))) {

@@ -1,19 +1,19 @@
-//! Lists, maps and sets from what an iterator gives: one by one, as that is the least code.
+//! Collects the items of an iterator in lists, maps and sets. Items are added one by one, which produces the smallest code.
 
-/// Appends an item; in the module once, however many lists are made.
+/// Appends an item. Not inlined, so that the module contains this code once for each type.
 #[inline(never)]
 pub(super) fn put<T>(list: &mut Vec<T>, item: T) {
     list.push(item);
 }
 
-/// The items, put in one by one: `collect` makes room for what will come, and has the code that finds the first item twice.
+/// Collects items in a list, one by one. `collect` reserves memory in advance, and contains the code for the first item twice.
 pub(super) fn listed<T>(items: impl IntoIterator<Item = T>) -> Vec<T> {
     let mut out = Vec::new();
     items.into_iter().for_each(|item| put(&mut out, item));
     out
 }
 
-/// A map or set of items, put in one by one: `collect` sorts first, and a sort is a lot of code for each type.
+/// Collects items in a map or set, one by one. `collect` sorts first, and a sort is much code for each type.
 pub(super) fn filled<C: Default + Extend<T>, T>(items: impl IntoIterator<Item = T>) -> C {
     let mut all = C::default();
     all.extend(items);

@@ -1,4 +1,4 @@
-//! Ids of objects by their elements, and what a reference must know of the object that it names.
+//! Ids of objects by element, and the properties of objects that references need.
 
 use super::names::{NameTable, WORLD};
 use super::spec::{BodySpec, SensorObjects};
@@ -8,7 +8,7 @@ use crate::mjcf::text::tree::{Node, Tree};
 use crate::model::Obj;
 use std::collections::BTreeMap;
 
-/// Ids of elements by their place in the tree.
+/// Ids of elements, by the index of the element in the tree.
 pub(crate) struct Ids {
     by_node: Vec<Option<i32>>,
     /// Type of each joint, and whether it has limits.
@@ -20,13 +20,13 @@ pub(crate) struct Ids {
     cameras: BTreeMap<String, usize>,
     /// Number of pixels of each camera.
     pixels: Vec<usize>,
-    /// Those whose resolution has a zero, and those where it has a negative number.
+    /// The cameras with a zero in their resolution, and those with a negative number.
     blind: Vec<i32>,
     negative: Vec<i32>,
 }
 
 impl Ids {
-    /// Numbers joints, geoms and sites body by body, tendons and actuators in the order of the text.
+    /// Numbers joints, geoms and sites body by body, and tendons and actuators in the order of the text.
     pub(crate) fn number(tree: &Tree, bodies: &[BodySpec]) -> Ids {
         let mut ids = Ids {
             by_node: vec![None; tree.nodes.len()],
@@ -96,12 +96,12 @@ impl Ids {
         self.joints.get(usize::try_from(id).ok()?).copied()
     }
 
-    /// Number of outputs of an actuator: one, or a torque about each axis.
+    /// Number of outputs of an actuator: one, or three torques, one about each axis.
     pub(crate) fn outputs(&self, id: i32) -> i32 {
         usize::try_from(id).ok().and_then(|id| self.outputs.get(id)).copied().unwrap_or(1)
     }
 
-    /// Number of pixels of a camera; one ray for anything else.
+    /// Number of rays of a sensor: the number of pixels of a camera, or one for other objects.
     pub(crate) fn pixels(&self, objects: &SensorObjects) -> usize {
         match usize::try_from(objects.objid) {
             Ok(id) if objects.objtype == Obj::Camera as i32 => self.pixels.get(id).copied().unwrap_or(1),
@@ -109,7 +109,7 @@ impl Ids {
         }
     }
 
-    /// Whether a camera has no pixels to see with.
+    /// Whether a camera has no pixels.
     pub(crate) fn is_blind(&self, camera: i32) -> bool {
         self.blind.contains(&camera)
     }
@@ -125,7 +125,7 @@ impl Ids {
     }
 }
 
-/// The kind of objects of a type (mjtObj) in the table of names.
+/// The kind of objects of a type (mjtObj), as used in the table of names.
 pub(crate) fn keyword(objtype: i32) -> &'static str {
     match objtype {
         t if t == Obj::Geom as i32 => "geom",
@@ -135,7 +135,7 @@ pub(crate) fn keyword(objtype: i32) -> &'static str {
     }
 }
 
-/// Finds the objects that attributes name.
+/// Resolves references to objects.
 #[derive(Clone, Copy)]
 pub(crate) struct References<'a> {
     pub(crate) names: &'a NameTable<'a>,
@@ -148,7 +148,7 @@ impl References<'_> {
         self.ids.find(kind, node.text(attribute)?, self.names)
     }
 
-    /// The same for an attribute that must be there.
+    /// Like [`References::optional`], for an attribute that is required.
     pub(crate) fn required(
         &self,
         kind: &str,

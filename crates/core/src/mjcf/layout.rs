@@ -1,5 +1,5 @@
-//! Ids and addresses: which body moves with which, kinematic trees, the chain of each degree of freedom, and
-//! the pattern of the mass matrix.
+//! Ids and addresses: which bodies are welded together, kinematic trees, the ancestors of each degree of freedom, and
+//! the sparsity pattern of the mass matrix.
 
 use super::spec::{BodySpec, Inertia};
 use crate::kinds::{joint, simple};
@@ -9,10 +9,10 @@ use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
 use crate::mjcf::text::diagnostic::Report;
 
-/// More entries than this in the mass matrix are refused: a long chain with very many branches.
+/// Limit for the entries of the mass matrix. A long chain with many branches exceeds it.
 const MAX_MATRIX: usize = 20_000_000;
 
-/// Structure of the tree, by body and by degree of freedom.
+/// The structure of the trees, by body and by degree of freedom.
 #[derive(Debug, Default)]
 pub(crate) struct Layout {
     pub(crate) root: Vec<usize>,
@@ -23,7 +23,7 @@ pub(crate) struct Layout {
     pub(crate) nmocap: usize,
     /// Body, joint, parent and tree of each degree of freedom.
     pub(crate) dofs: Vec<Dof>,
-    /// First degree of freedom of the body, and how many.
+    /// The first degree of freedom of each body, and their number.
     pub(crate) body_dofs: Vec<(usize, usize)>,
     pub(crate) ntree: usize,
     pub(crate) nq: usize,
@@ -38,10 +38,10 @@ pub(crate) struct Dof {
     pub(crate) tree: usize,
 }
 
-/// Numbers everything. Bodies stand parents first.
+/// Assigns all ids and addresses. The parent of a body precedes it.
 pub(crate) fn number(bodies: &[BodySpec]) -> Layout {
     let mut l = Layout::default();
-    // The last degree of freedom on the way from the root to each body, the body's own included.
+    // The last degree of freedom on the path from the root to each body, including those of the body.
     let mut last: Vec<Option<usize>> = Vec::with_capacity(bodies.len());
     let mut joints = 0;
     for (i, body) in bodies.iter().enumerate() {
@@ -77,7 +77,7 @@ pub(crate) fn number(bodies: &[BodySpec]) -> Layout {
     l
 }
 
-/// Reports joints and mocap bodies where they cannot be.
+/// Reports models beyond the limits, and invalid joints and mocap bodies.
 pub(crate) fn check_sizes(bodies: &[BodySpec], layout: &Layout, report: &mut Report) {
     within_limits(bodies, layout, report);
     for (i, body) in bodies.iter().enumerate().skip(1) {
@@ -107,8 +107,8 @@ pub(crate) fn check_sizes(bodies: &[BodySpec], layout: &Layout, report: &mut Rep
     }
 }
 
-/// Collision tests pairs of geoms, and every degree of freedom moves all of those above it: a model far beyond a lesson's
-/// would take memory and hours without a word.
+/// Checks the limits for geoms and degrees of freedom. Collision detection tests pairs of geoms, and every degree of freedom is
+/// coupled with all its ancestors, so that a very large model would take much memory and hours without a message.
 fn within_limits(bodies: &[BodySpec], layout: &Layout, report: &mut Report) {
     let geoms: usize = bodies.iter().map(|b| b.geoms.len()).sum();
     let mut depth: Vec<usize> = Vec::with_capacity(layout.dofs.len());
@@ -171,7 +171,7 @@ fn check_joints(body: &BodySpec, report: &mut Report) {
     }
 }
 
-/// Frames closer than this, number by number, count as the same (measured on the library).
+/// Frames whose numbers all differ by less than this count as equal (measured on the library).
 const SAME_FRAME: f64 = 1e-6;
 /// A component of a unit axis smaller than this counts as zero (measured on the library).
 const SAME_AXIS: f64 = 1e-14;
@@ -180,13 +180,13 @@ fn is_origin(pos: Vec3) -> bool {
     pos.iter().all(|x| x.abs() < SAME_FRAME)
 }
 
-/// Whether q turns nothing; q and -q are the same rotation.
+/// Whether q is the identity rotation; q and -q are the same rotation.
 fn is_unturned([w, x, y, z]: Quat) -> bool {
     (w.abs() - 1.0).abs() < SAME_FRAME && is_origin([x, y, z])
 }
 
-/// Whether the mass matrix of a body is diagonal whatever its configuration. Then its rows of the
-/// pattern hold the diagonal alone.
+/// For each body, whether its mass matrix is diagonal in every configuration. Then its rows of the sparsity pattern contain the
+/// diagonal only.
 pub(crate) fn find_simple_bodies(bodies: &[BodySpec], inertias: &[Inertia]) -> Vec<i32> {
     let mut leaf = vec![true; bodies.len()];
     for body in bodies.iter().skip(1) {
@@ -194,7 +194,7 @@ pub(crate) fn find_simple_bodies(bodies: &[BodySpec], inertias: &[Inertia]) -> V
             *l = false;
         }
     }
-    // The world, or a body fixed to it directly.
+    // The world, or a body that is fixed directly to it.
     let base = |i: usize| i == 0 || bodies.get(i).is_some_and(|b| b.parent == 0 && b.joints.is_empty());
     let kind = |(i, (body, inertia)): (usize, (&BodySpec, &Inertia))| {
         if i == 0 {
@@ -217,7 +217,7 @@ pub(crate) fn find_simple_bodies(bodies: &[BodySpec], inertias: &[Inertia]) -> V
     listed(bodies.iter().zip(inertias).enumerate().map(kind))
 }
 
-/// The pattern of the lower triangle of the mass matrix, row by row.
+/// The sparsity pattern of the lower triangle of the mass matrix, row by row.
 #[derive(Debug, Default)]
 pub(crate) struct Pattern {
     pub(crate) rownnz: Vec<i32>,
@@ -225,8 +225,8 @@ pub(crate) struct Pattern {
     pub(crate) colind: Vec<i32>,
 }
 
-/// Row i holds the degrees of freedom on the way from the root to i, ascending, i last; only i itself for a
-/// simple body. `None` after reporting that it is too large.
+/// Row i contains the degrees of freedom on the path from the root to i, ascending, i last; for a simple body, only i itself.
+/// `None`, with an error in the report, if the pattern is too large.
 pub(crate) fn pattern(layout: &Layout, simple: &[i32], report: &mut Report) -> Option<Pattern> {
     let mut p = Pattern::default();
     for (i, dof) in layout.dofs.iter().enumerate() {
@@ -250,17 +250,17 @@ pub(crate) fn pattern(layout: &Layout, simple: &[i32], report: &mut Report) -> O
     Some(p)
 }
 
-/// Both triangles of the matrix that couples every degree of freedom with its ancestors, simple bodies or not:
-/// the pattern of derivatives with respect to velocities. A row holds the ancestors, then its own degree of freedom,
-/// then all that descend from it, ascending.
+/// The sparsity pattern of derivatives with respect to velocities: both triangles of the matrix that couples every degree of
+/// freedom with its ancestors, also for simple bodies. A row contains the ancestors, then its own degree of freedom, then all
+/// descendants, ascending.
 #[derive(Debug, Default)]
 pub(crate) struct WholePattern {
     pub(crate) pattern: Pattern,
-    /// Place of the diagonal in each row.
+    /// Index of the diagonal in each row.
     pub(crate) diag: Vec<i32>,
 }
 
-/// `None` after reporting that it is too large.
+/// The pattern for a model. `None`, with an error in the report, if it is too large.
 pub(crate) fn whole_pattern(layout: &Layout, report: &mut Report) -> Option<WholePattern> {
     let dofs = &layout.dofs;
     let up = |i: usize| std::iter::successors(dofs.get(i).and_then(|d| d.parent), |&j| dofs.get(j)?.parent);
@@ -278,7 +278,7 @@ pub(crate) fn whole_pattern(layout: &Layout, report: &mut Report) -> Option<Whol
         if let Some(row) = p.colind.get_mut(start..) {
             row.reverse();
         }
-        // Degrees of freedom are numbered depth first: what descends from one follows it.
+        // Degrees of freedom are numbered depth first, so that the descendants of one follow it directly.
         p.colind.extend((i..=i + below[i]).map(|k| k as i32));
         p.rownnz.push((p.colind.len() - start) as i32);
         if p.colind.len() > MAX_MATRIX {

@@ -1,14 +1,14 @@
 //! The MJCF compiler: XML text to a [`Model`], with MuJoCo 3.14.0's names, defaults and conventions.
 //!
-//! A model's text goes through `text` (limits, XML, a tree checked against the one `schema`), `expand` (copies), `classes` and
-//! `names`, then element by element into specifications in our own terms (`spec`), from which `layout` and `fill` make the
-//! arrays: [`passes`] is the order. What belongs to a kind of element (reading, checks, filling) is in the folder of its name.
+//! The text of a model passes through `text` (limits, XML, a tree that is checked with the one `schema`), `expand` (copies),
+//! `classes` and `names`. Its elements are then converted to specifications (`spec`), from which `layout` and `fill` compute the
+//! arrays. [`passes`] defines the order. The code for a kind of element (reading, checks, filling) is in the folder of that name.
 //!
-//! A pass reports what it finds and goes on, so that one run shows all mistakes; passes that would only
-//! repeat an earlier finding in other words wait until that is corrected.
+//! A pass reports errors and continues, so that one run shows all of them. A pass that would only repeat an earlier finding in
+//! other words does not run until that finding is corrected.
 //!
-//! The meaning of elements and attributes follows MuJoCo's XML reference; the file's own places are in
-//! [`Finding`].
+//! The meaning of elements and attributes is that of MuJoCo's XML reference. A [`Finding`] contains the position in the
+//! file.
 
 mod actuator;
 mod arrays;
@@ -51,38 +51,38 @@ pub use text::diagnostic::MjcfFileError;
 pub use text::files::{FileProblem, Files, Folder, MAX_FILE, NoFiles};
 pub use text::patch::{Patch, Refusal};
 
-/// Largest text that is read, bytes.
+/// Size limit of a text, bytes.
 pub const MAX_TEXT: usize = 16 << 20;
-/// Deepest nesting of elements.
+/// Limit for the nesting depth of elements.
 pub const MAX_DEPTH: usize = 1000;
-/// Largest number of elements.
+/// Limit for the number of elements.
 pub const MAX_ELEMENTS: usize = 200_000;
-/// Largest number of degrees of freedom.
+/// Limit for the number of degrees of freedom.
 pub const MAX_DOFS: usize = 12_000;
-/// Largest number of entries of the mass matrix: a chain of 1500 degrees of freedom, or many trees.
+/// Limit for the number of entries of the mass matrix: enough for a chain of 1500 degrees of freedom, or for many trees.
 pub const MAX_MASS: usize = 1_200_000;
-/// Largest number of geoms.
+/// Limit for the number of geoms.
 pub const MAX_GEOMS: usize = 5000;
-/// Largest number of attributes of an element.
+/// Limit for the number of attributes of an element.
 pub const MAX_ATTRIBUTES: usize = 200;
-/// Largest number of attributes of all elements.
+/// Limit for the number of attributes of all elements.
 pub const MAX_ALL_ATTRIBUTES: usize = 1_000_000;
 
-/// Compiles a model from its text. It can name no files: [`compile_with`] and [`compile_file`] let it.
+/// Compiles a model from its text. The text cannot refer to files; use [`compile_with`] or [`compile_file`] for that.
 ///
 /// # Errors
 ///
-/// All mistakes that were found, in the order of the text.
+/// All errors that were found, in the order of the text.
 pub(crate) fn compile(xml: &str) -> Result<Model, Vec<Finding>> {
     compile_with(xml, &NoFiles, None)
 }
 
-/// Compiles a model from its text and the files that it names, which come from `files`. `path` is where `files` has
-/// the text itself, if it has it: what it names is looked for in that folder.
+/// Compiles a model from its text and the files that it names. `files` provides these files. `path` is the path of the text
+/// itself in `files`, if it has one: files that the text names are searched for in that folder.
 ///
 /// # Errors
 ///
-/// All mistakes that were found, in the order of the texts. [`check_xml`] returns warnings as well.
+/// All errors that were found, in the order of the texts. [`check_xml`] returns warnings as well.
 pub(crate) fn compile_with(xml: &str, files: &dyn Files, path: Option<&str>) -> Result<Model, Vec<Finding>> {
     let mut report = Report::new();
     let model = built(xml, files, path, (&[], &mut Vec::new()), &mut report).map(|(_, model)| model);
@@ -91,21 +91,22 @@ pub(crate) fn compile_with(xml: &str, files: &dyn Files, path: Option<&str>) -> 
     model.ok_or(findings)
 }
 
-/// What came of a model's text.
+/// The result of reading the text of a model.
 #[derive(Clone, Debug)]
 pub(crate) struct Examined {
     /// The model; `None` when there are errors.
     pub model: Option<Model>,
-    /// Errors and warnings in the order of the texts.
+    /// Errors and warnings, in the order of the texts.
     pub findings: Vec<Finding>,
 }
 
-/// Compiles a model as [`compile_with`] does, and tells what it may not be meant to be, besides what is wrong.
+/// Like [`compile_with`], but also returns warnings, which report what the author may not have intended.
 pub(crate) fn check_xml(xml: &str, files: &dyn Files, path: Option<&str>) -> Examined {
     check_patched(xml, files, path, &[]).0
 }
 
-/// The same with changes of the text, made before it is compiled; with what is wrong with each of them.
+/// Like [`check_xml`], with patches that are applied to the text before it is compiled. For each patch, also returns why it was
+/// refused, or `None`.
 pub(crate) fn check_patched(
     xml: &str,
     files: &dyn Files,
@@ -120,13 +121,13 @@ pub(crate) fn check_patched(
     (Examined { model: built.map(|(_, model)| model), findings: report.finish() }, refusals)
 }
 
-/// The text of a model with changes, and with what it includes in its place: what another program can read. `None` when it is not
-/// XML, or a change cannot be made.
+/// The text of a model with its patches applied and its includes expanded, so that another program can read it. `None` if the
+/// text is not XML, or a patch cannot be applied.
 pub(crate) fn to_xml(xml: &str, files: &dyn Files, path: Option<&str>, patches: &[Patch]) -> Option<String> {
     text::load::Loader::new(files, patches).written(xml, path, &mut Report::new())
 }
 
-/// A model that can be simulated, and its tree.
+/// Builds a model that can be simulated, and its tree.
 fn built(
     xml: &str,
     files: &dyn Files,
@@ -139,7 +140,7 @@ fn built(
     report.is_clean().then_some((tree, model))
 }
 
-/// Compiles a model that may hold what is not simulated yet.
+/// Compiles a model that may contain elements that cannot be simulated yet.
 #[cfg(test)]
 pub(crate) fn compile_only(xml: &str, files: &dyn Files) -> Result<Model, Vec<Finding>> {
     let mut report = Report::new();
@@ -149,16 +150,16 @@ pub(crate) fn compile_only(xml: &str, files: &dyn Files) -> Result<Model, Vec<Fi
     }
 }
 
-/// Compiles a model from a file, with what it names in the folder of that file and below.
+/// Compiles a model from a file. The model can refer to files in the same folder and in its subfolders.
 ///
 /// # Errors
 ///
-/// The file cannot be read, is too large, is not UTF-8, or the model has mistakes.
+/// The file cannot be read, is too large, is not UTF-8, or the model has errors.
 pub(crate) fn compile_file(path: &Path) -> Result<Model, MjcfFileError> {
     let owned = || path.to_path_buf();
     let io = |error| MjcfFileError::Io { path: owned(), error };
     let mut bytes = Vec::new();
-    // One byte more than the limit tells a file that is too large, whatever its metadata say.
+    // Reads one byte more than the limit, to detect a file that is too large whatever its metadata state.
     std::fs::File::open(path).map_err(io)?.take(MAX_TEXT as u64 + 1).read_to_end(&mut bytes).map_err(io)?;
     if bytes.len() > MAX_TEXT {
         return Err(MjcfFileError::TooLarge { path: owned() });

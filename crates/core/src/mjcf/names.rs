@@ -1,4 +1,4 @@
-//! Names: unique among objects of one kind, and every reference leads to an object.
+//! Names: they are unique among objects of one kind, and every reference must lead to an object.
 
 use std::collections::BTreeMap;
 
@@ -10,18 +10,18 @@ use crate::mjcf::text::tree::{Attribute, Node, Tree};
 use crate::mjcf::text::values::Value;
 use crate::mjcf::word_map::WordMap;
 
-/// Named elements by kind and name.
+/// Named elements, by kind and name.
 #[derive(Debug, Default)]
 pub(crate) struct NameTable<'t> {
     nodes: WordMap<BTreeMap<&'t str, usize>>,
 }
 
-/// The world body's name, and its place in the table: it is no element.
+/// The name of the world body, and its index in the table. It is not an element.
 pub(crate) const WORLD: &str = "world";
 const WORLD_NODE: usize = 0;
 
 impl<'t> NameTable<'t> {
-    /// Collects all names and reports those that are taken twice.
+    /// Collects all names and reports duplicates.
     pub(crate) fn read(tree: &'t Tree, report: &mut Report) -> NameTable<'t> {
         let mut table = NameTable::default();
         table.nodes.or_default("body").insert(WORLD, WORLD_NODE);
@@ -65,7 +65,7 @@ impl<'t> NameTable<'t> {
     /// Reports a name that no object of the kind has.
     pub(crate) fn unknown(&self, kind: &str, name: &str, span: std::ops::Range<usize>, report: &mut Report) {
         if report.incomplete {
-            return; // it may be the name of something that was left out
+            return; // the object may have been left out
         }
         let error = report.error(
             rules::UNKNOWN_NAME,
@@ -98,7 +98,7 @@ pub(crate) fn after_files(tree: &mut Tree) {
     }
 }
 
-/// The name of a file without its folders and its ending.
+/// The name of a file without its folders and its extension.
 fn stem(path: &str) -> &str {
     let name = path.rsplit(['/', '\\']).next().unwrap_or(path);
     name.rsplit_once('.').map_or(name, |(stem, _)| stem)
@@ -145,22 +145,22 @@ pub(crate) fn check_references(tree: &Tree, names: &NameTable, classes: &Classes
     check_dangling(tree, names, classes, dangling, report);
 }
 
-/// Whether an element stands in a default class.
+/// Whether an element is inside a default class.
 fn is_entry(tree: &Tree, node: &Node) -> bool {
     node.parent.and_then(|p| tree.nodes.get(p)).is_some_and(|p| p.element.name == "default")
 }
 
-/// A default that names an object that does not exist.
+/// A default that refers to an object that does not exist.
 struct Dangling<'t> {
-    /// The kind of element that it is about.
+    /// The kind of element to which the default applies.
     entry: &'static str,
     attribute: &'t Attribute,
     kind: &'static str,
     name: &'t str,
 }
 
-/// A default that names what does not exist is an error for the elements that take it, and nothing otherwise: as in
-/// MuJoCo, which looks for the name where an element needs it.
+/// Reports a default that refers to a missing object, at each element to which it applies. If there is no such element, it is not
+/// an error. This is the behaviour of MuJoCo, which resolves the name for each element.
 fn check_dangling(
     tree: &Tree,
     names: &NameTable,
@@ -204,7 +204,7 @@ fn check_dangling(
     }
 }
 
-/// A nested class needs a name of its own; the outer one is `main`.
+/// Checks that a nested class has a unique name. The outermost class is named `main`.
 fn check_class<'t>(
     tree: &'t Tree,
     node: &'t Node,

@@ -1,4 +1,4 @@
-//! The order of the passes.
+//! The passes of the compiler, in order.
 
 use super::actuator::{fill_actuator, read_actuator};
 use super::asset::read_asset::Assets;
@@ -25,12 +25,12 @@ use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
 use crate::model::Model;
 
-/// The text of a model, checked: what specifications are read from.
+/// The checked text of a model, from which the specifications are read.
 struct Source<'a> {
     tree: &'a tree::Tree,
     classes: &'a Classes,
     names: &'a NameTable<'a>,
-    /// The models that make up the whole, the main one first.
+    /// The models that form the whole. The main model is the first.
     parts: &'a [AttachedModel],
 }
 
@@ -49,7 +49,7 @@ struct Specs {
     users: fill::Users,
 }
 
-/// All passes. `None` when something is wrong; then the report says what.
+/// Runs all passes. `None`, with errors in the report, if the model is invalid.
 pub(super) fn build(
     xml: &str,
     files: &dyn Files,
@@ -77,7 +77,7 @@ pub(super) fn build(
         return None;
     }
 
-    // What follows depends on everything being read.
+    // The following passes require that every object has been read.
     let mut m = Model::default();
     m.names.model = settings::model_name(&tree);
     m.opt = options;
@@ -87,7 +87,7 @@ pub(super) fn build(
     Some((tree, m))
 }
 
-/// Reads every object, each kind with what it refers to before it. `None` without a model.
+/// Reads every object, each kind after the kinds that it refers to. `None` if there is no model.
 fn read_specs(source: &Source, assets: &mut Assets, report: &mut Report) -> Option<Specs> {
     let &Source { tree, classes, names, parts } = source;
     let compiler = &parts.first()?.compiler;
@@ -95,7 +95,7 @@ fn read_specs(source: &Source, assets: &mut Assets, report: &mut Report) -> Opti
         read_body::bodies(&mut Context { tree, classes, parts, assets, compiler, report: &mut *report });
     layout::check_sizes(&bodies, &layout::number(&bodies), report);
     let mut inertias = Vec::new();
-    // A refused geom would also be a missing mass.
+    // A refused geom would cause a second error, a missing mass.
     if report.is_clean() {
         inertias = inertia::bodies(&bodies, parts, report);
         reshape::apply(&mut bodies, &mut inertias, tree, parts);
@@ -132,7 +132,8 @@ fn read_specs(source: &Source, assets: &mut Assets, report: &mut Report) -> Opti
     })
 }
 
-/// Materials, textures and custom data. `discardvisual` removes materials and textures; what still refers to one is reported.
+/// Reads materials, textures and custom data. `discardvisual` removes materials and textures; remaining references to them are
+/// reported.
 fn read_scene_fields(
     cx: &mut Context,
     refs: ids::References,
@@ -164,7 +165,7 @@ fn read_scene_fields(
     scene
 }
 
-/// Numbers of user values of each kind of object.
+/// The number of user values for each kind of object.
 fn user_widths(
     tree: &tree::Tree,
     bodies: &[BodySpec],
@@ -188,7 +189,7 @@ fn user_widths(
     fill::Users { body, joint, tendon, sensor, geom, site, camera, actuator, data }
 }
 
-/// Fills the arrays of a model. `None` after a mistake was reported.
+/// Fills the arrays of a model. `None`, with an error in the report, if it is invalid.
 fn fill_model(
     m: &mut Model,
     tree: &tree::Tree,
@@ -239,7 +240,8 @@ fn fill_model(
     fill_actuator::pattern(m, actuators, report)
 }
 
-/// What a model computes from its arrays: masses that are set, constants, and what is found by moving it. `None` without a model.
+/// Computes the fields that depend on the arrays: sleep policies, the total mass, constants, springs and length ranges. `None` if
+/// there is no model.
 fn compute_constants(m: &mut Model, source: &Source, specs: &Specs, report: &mut Report) -> Option<()> {
     sleep_policy::policies(m, &specs.bodies);
     reshape::total_mass(m, &source.parts.first()?.compiler);

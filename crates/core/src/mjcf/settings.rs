@@ -1,4 +1,4 @@
-//! `compiler`, `option`, `statistic` and `size`: what holds for the whole model.
+//! `compiler`, `option`, `statistic` and `size`: settings of the whole model.
 
 use super::classes::Props;
 use super::spec::List;
@@ -11,7 +11,7 @@ use crate::mjcf::text::values::Value;
 use crate::model::{Options, Statistic};
 use crate::setup::lengthrange::{Mode, Search};
 
-/// All sections of one name, later ones over earlier ones.
+/// The attributes of all sections of one name. Later sections override earlier ones.
 fn section(tree: &Tree, name: &str) -> Props {
     let mut props = Props::default();
     for (_, node) in tree.sections(name) {
@@ -20,7 +20,7 @@ fn section(tree: &Tree, name: &str) -> Props {
     props
 }
 
-/// A number that must satisfy a condition; reports it otherwise.
+/// A number that must satisfy a condition. Reports an error otherwise.
 pub(crate) fn checked(
     props: &Props,
     name: &str,
@@ -37,37 +37,37 @@ pub(crate) fn checked(
     Some(x)
 }
 
-/// Whether a geom's mass counts, by `inertiafromgeom`.
+/// The attribute `inertiafromgeom`: whether the inertia of bodies is computed from their geoms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum InertiaFromGeom {
     Never,
     Always,
-    /// Only where no `inertial` is given.
+    /// Only if no `inertial` is given.
     Auto,
 }
 
-/// What `compiler` says.
+/// The settings of `compiler`.
 #[derive(Clone, Debug)]
 pub(crate) struct Compiler {
     pub(crate) degrees: bool,
     pub(crate) autolimits: bool,
-    /// Axes of `euler`: number of the axis, and whether it is fixed (upper case) or turns with the frame.
+    /// Axes of `euler`: index of the axis, and whether it is fixed (upper case) or rotates with the frame.
     pub(crate) eulerseq: [(usize, bool); 3],
     pub(crate) inertiafromgeom: InertiaFromGeom,
     pub(crate) inertiagrouprange: [i32; 2],
     pub(crate) boundmass: f64,
     pub(crate) boundinertia: f64,
     pub(crate) balanceinertia: bool,
-    /// kg; nothing is asked for when it is not positive.
+    /// Total mass, kg. Without effect if it is not positive.
     pub(crate) settotalmass: f64,
     pub(crate) fusestatic: bool,
     pub(crate) discardvisual: bool,
     pub(crate) alignfree: bool,
-    /// Primitive shapes that stand for a mesh are as large as its bounding box, not as its inertia.
+    /// Whether primitive shapes that replace a mesh are fitted to its bounding box, not to its inertia.
     pub(crate) fitaabb: bool,
-    /// The folder of meshes and height fields, as it is written; empty when there is none.
+    /// The folder of meshes and height fields as written; empty if there is none.
     pub(crate) meshdir: String,
-    /// Paths of files lose their folders.
+    /// Whether folders are removed from the paths of files.
     pub(crate) strippath: bool,
 }
 
@@ -101,7 +101,7 @@ impl Compiler {
         }
     }
 
-    /// An angle of the file in radians.
+    /// Converts an angle of the file to radians.
     pub(crate) fn angle(&self, x: f64) -> f64 {
         if self.degrees { x * std::f64::consts::PI / 180.0 } else { x }
     }
@@ -132,7 +132,7 @@ fn eulerseq(p: &Props, report: &mut Report) -> [(usize, bool); 3] {
     }
 }
 
-/// `option`, with MuJoCo's defaults for what is not given.
+/// Reads `option`. Missing values are MuJoCo's defaults.
 pub(crate) fn options(tree: &Tree, report: &mut Report) -> Options {
     let p = section(tree, "option");
     let d = Options::default();
@@ -178,7 +178,7 @@ pub(crate) fn options(tree: &Tree, report: &mut Report) -> Options {
     }
 }
 
-/// A tolerance. Below zero the search never stops early, as at zero.
+/// A tolerance. A negative one has the effect of zero: the solver does not stop early.
 fn tolerance(p: &Props, name: &str, default: f64, report: &mut Report) -> f64 {
     let x = p.real(name).unwrap_or(default);
     if x < 0.0 {
@@ -187,7 +187,7 @@ fn tolerance(p: &Props, name: &str, default: f64, report: &mut Report) -> f64 {
     x
 }
 
-/// A number of iterations or points. Below zero there are none.
+/// A number of iterations or points. A negative one has the effect of zero.
 fn count(p: &Props, name: &str, default: i32, report: &mut Report) -> i32 {
     let n = p.int(name).unwrap_or(default);
     if n < 0 {
@@ -218,7 +218,7 @@ fn disabled_groups(p: &Props, report: &mut Report) -> i32 {
     bits
 }
 
-/// How ranges of lengths are searched, `compiler/lengthrange`.
+/// The parameters of the search for length ranges, `compiler/lengthrange`.
 pub(crate) fn length_range(tree: &Tree) -> Search {
     let mut p = Props::default();
     for (i, _) in tree.sections("compiler") {
@@ -232,7 +232,7 @@ pub(crate) fn length_range(tree: &Tree) -> Search {
         mode: match p.word("mode") {
             Some(0) => Mode::Nothing,
             Some(3) => Mode::All,
-            // There are no actuators of programs.
+            // Actuators with user callbacks do not exist here.
             _ => Mode::Muscles,
         },
         useexisting: p.flag("useexisting", d.useexisting),
@@ -247,7 +247,7 @@ pub(crate) fn length_range(tree: &Tree) -> Search {
     }
 }
 
-/// What is on unless a flag disables it, and what is off unless a flag enables it.
+/// Parts of the simulation that are on unless a flag disables them, and parts that are off unless a flag enables them.
 const DISABLE: [(&str, i32); 20] = [
     ("constraint", disable::CONSTRAINT),
     ("equality", disable::EQUALITY),
@@ -280,7 +280,7 @@ const ENABLE: [(&str, i32); 7] = [
     ("ipc", enable::IPC),
 ];
 
-/// `option/flag` as bits: disabled, enabled.
+/// The flags of `option/flag` as bits: disabled, enabled.
 fn flags(tree: &Tree) -> (i32, i32) {
     let mut p = Props::default();
     for (i, _) in tree.sections("option") {
@@ -294,7 +294,7 @@ fn flags(tree: &Tree) -> (i32, i32) {
     (bits(&DISABLE, 0), bits(&ENABLE, 1))
 }
 
-/// What `statistic` says, over what is computed.
+/// The values of `statistic`, which override the computed ones.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct StatisticOverride {
     meaninertia: Option<f64>,
@@ -319,7 +319,7 @@ impl StatisticOverride {
         }
     }
 
-    /// Replaces what was computed by what is given.
+    /// Replaces computed values by given ones.
     pub(crate) fn apply(&self, stat: &mut Statistic) {
         let set = |to: &mut f64, from: Option<f64>| *to = from.unwrap_or(*to);
         set(&mut stat.meaninertia, self.meaninertia);
@@ -333,12 +333,12 @@ impl StatisticOverride {
 /// The smallest number of keyframes, `size nkey`.
 pub(crate) fn min_keys(tree: &Tree) -> usize {
     let p = section(tree, "size");
-    // As in MuJoCo, a negative number is as good as none.
+    // As in MuJoCo, a negative number has the effect of zero.
     usize::try_from(p.int("nkey").unwrap_or(0)).unwrap_or(0)
 }
 
-/// How many user values each object of a kind has: as many as `size` says, else, and for -1, as the longest list.
-/// `lists` has one for each object.
+/// The number of user values of each object of a kind: the value of `size`, or, if that is absent or -1, the length of the
+/// longest list. `lists` contains one list per object.
 pub(crate) fn user_width(
     tree: &Tree,
     size: &str,
@@ -368,7 +368,7 @@ pub(crate) fn user_width(
         }
     }
     let width = given.unwrap_or(longest);
-    // Without `size`, the longest list says how long all are.
+    // Without `size`, the longest list determines the length, so the error is reported at this list.
     let span = if given.is_some() { span } else { longest_at };
     if report.take(width.saturating_mul(count), span, "the user values of all objects of a kind") {
         width
@@ -377,8 +377,8 @@ pub(crate) fn user_width(
     }
 }
 
-/// What `size` says about memory has no effect here, but must be what MuJoCo reads: a number of bytes with K, M, G, T, P or
-/// E; numbers from -1.
+/// Checks the attributes of `size` for memory. They have no effect here, but must be valid in MuJoCo: a number of bytes with K,
+/// M, G, T, P or E; other numbers at least -1.
 pub(crate) fn memory(tree: &Tree, report: &mut Report) {
     let p = section(tree, "size");
     if p.has("memory") {
@@ -399,7 +399,7 @@ pub(crate) fn memory(tree: &Tree, report: &mut Report) {
     }
 }
 
-/// The number of values that `size nuserdata` reserves.
+/// The number of user values of the model, `size nuserdata`.
 pub(crate) fn userdata(tree: &Tree, report: &mut Report) -> usize {
     let p = section(tree, "size");
     let n = p.int("nuserdata").unwrap_or(0);

@@ -1,5 +1,5 @@
-//! What the XML says, in our own terms: bodies with their joints, geoms and sites, in tree order, defaults
-//! applied, angles in radians, every object with its place in the text.
+//! The specification of a model, read from the XML: bodies with their joints, geoms and sites, in tree order, with defaults
+//! applied, angles in radians, and the span of every object.
 
 use std::ops::Range;
 use std::rc::Rc;
@@ -8,31 +8,31 @@ use super::classes::Props;
 use crate::math::{Quat, Vec3};
 use crate::mjcf::body::frame::Pose;
 
-/// A body and what it holds. The first body of a model is the world.
+/// A body and its members. The first body of a model is the world.
 #[derive(Debug)]
 pub(crate) struct BodySpec {
-    /// The element; the root for the world.
+    /// The index of the element; for the world, that of the root.
     pub(crate) node: usize,
-    /// The model that it was written in.
+    /// The model that contains the body.
     pub(crate) part: usize,
     pub(crate) span: Range<usize>,
     pub(crate) name: String,
-    /// Index of the parent body, always smaller than the body's own. The world is its own parent.
+    /// Index of the parent body, always smaller than that of the body. The world is its own parent.
     pub(crate) parent: usize,
     pub(crate) pos: Vec3,
     pub(crate) quat: Quat,
-    /// The pose as it is written: seen from the innermost frame.
+    /// The pose as written, relative to the innermost frame.
     pub(crate) written: Pose,
     pub(crate) mocap: bool,
-    /// Whether the simple form of its mass matrix may be used.
+    /// Whether the body may be treated as simple, with a diagonal mass matrix.
     pub(crate) simple: bool,
-    /// Upward force, in weights of the body.
+    /// Upward force, as a multiple of the body's weight.
     pub(crate) gravcomp: f64,
-    /// Whether its tree may sleep: 0 auto, 1 never, 2 allowed, 3 asleep at the start.
+    /// Sleep policy of the tree: 0 auto, 1 never, 2 allowed, 3 asleep at the start.
     pub(crate) sleep: i32,
     pub(crate) user: List,
     pub(crate) inertial: Option<Inertia>,
-    /// Where the inertia is written.
+    /// The span of the inertia.
     pub(crate) inertial_span: Option<Range<usize>>,
     pub(crate) joints: Vec<JointSpec>,
     pub(crate) geoms: Vec<GeomSpec>,
@@ -41,7 +41,7 @@ pub(crate) struct BodySpec {
     pub(crate) lights: Vec<LightSpec>,
 }
 
-/// Mass, centre of mass and principal moments.
+/// Mass, centre of mass and principal moments of inertia.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Inertia {
     /// Centre of mass in the body's frame, m.
@@ -63,16 +63,16 @@ pub(crate) struct JointSpec {
     pub(crate) kind: i32,
     pub(crate) pos: Vec3,
     pub(crate) axis: Vec3,
-    /// Of a free joint: whether its body takes the frame of its inertia; 0 no, 1 yes, 2 as `compiler` says.
+    /// For a free joint, whether the body frame is aligned with the inertial frame: 0 no, 1 yes, 2 according to `compiler`.
     pub(crate) align: i32,
     pub(crate) limited: bool,
     pub(crate) range: [f64; 2],
     pub(crate) margin: f64,
-    /// Linear coefficient, and its growth with displacement.
+    /// Linear coefficient, and the coefficients of the polynomial in the displacement.
     pub(crate) stiffness: [f64; 3],
-    /// Linear coefficient, and its growth with speed.
+    /// Linear coefficient, and the coefficients of the polynomial in the speed.
     pub(crate) damping: [f64; 3],
-    /// Time constant and damping ratio, from which stiffness and damping follow.
+    /// Time constant and damping ratio, from which stiffness and damping are computed.
     pub(crate) springdamper: Option<[f64; 2]>,
     pub(crate) frictionloss: f64,
     pub(crate) solref_friction: [f64; 2],
@@ -80,12 +80,12 @@ pub(crate) struct JointSpec {
     /// Whether the force of actuators is limited, and its range.
     pub(crate) actfrclimited: bool,
     pub(crate) actfrcrange: [f64; 2],
-    /// Gravity compensation is a force of actuators.
+    /// Whether gravity compensation counts as an actuator force.
     pub(crate) actgravcomp: bool,
     pub(crate) group: i32,
     pub(crate) user: List,
     pub(crate) armature: f64,
-    /// Coordinate of the configuration as written.
+    /// Coordinate in the configuration of the text.
     pub(crate) reference: f64,
     /// Coordinate at which the spring is relaxed.
     pub(crate) springref: f64,
@@ -111,7 +111,7 @@ pub(crate) struct GeomSpec {
     pub(crate) rbound: f64,
     /// Centre and half lengths of the bounding box, m.
     pub(crate) aabb: [f64; 6],
-    /// Mesh or height field, -1 if none.
+    /// Id of the mesh or height field, -1 if none.
     pub(crate) data: i32,
     /// `geom_fluid`.
     pub(crate) fluid: [f64; 12],
@@ -141,7 +141,7 @@ pub(crate) struct SiteSpec {
     pub(crate) name: String,
     /// One of [`crate::geom`].
     pub(crate) kind: i32,
-    /// Mesh, -1 if none.
+    /// Id of the mesh, -1 if none.
     pub(crate) data: i32,
     pub(crate) size: Vec3,
     pub(crate) pos: Vec3,
@@ -158,7 +158,7 @@ pub(crate) struct SiteSpec {
 pub(crate) struct CameraSpec {
     pub(crate) name: String,
     pub(crate) mode: i32,
-    /// Name of the body that it looks at.
+    /// Name of the targeted body.
     pub(crate) target: Option<String>,
     pub(crate) pos: Vec3,
     pub(crate) quat: Quat,
@@ -177,10 +177,10 @@ pub(crate) struct CameraSpec {
 pub(crate) struct LightSpec {
     pub(crate) name: String,
     pub(crate) mode: i32,
-    /// Name of the body that it points at.
+    /// Name of the targeted body.
     pub(crate) target: Option<String>,
     pub(crate) texture: Option<String>,
-    /// Bytes of that name.
+    /// Span of the name of the texture.
     pub(crate) span: Range<usize>,
     pub(crate) kind: i32,
     pub(crate) castshadow: bool,
@@ -220,7 +220,7 @@ pub(crate) struct TupleSpec {
     pub(crate) elements: Vec<(i32, i32, f64)>,
 }
 
-/// A sensor, its objects resolved.
+/// A sensor, with its objects resolved to ids.
 #[derive(Debug)]
 pub(crate) struct SensorSpec {
     pub(crate) name: String,
@@ -240,7 +240,7 @@ pub(crate) struct SensorSpec {
     pub(crate) user: List,
 }
 
-/// What a sensor is attached to: kinds (mjtObj, 0 for none) and ids (-1 for none).
+/// The objects that a sensor is attached to: kinds (mjtObj, 0 for none) and ids (-1 for none).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SensorObjects {
     pub(crate) objtype: i32,
@@ -255,7 +255,7 @@ impl SensorObjects {
         SensorObjects { objtype, objid, reftype: 0, refid: -1 }
     }
 
-    /// The same with a second object.
+    /// Adds a reference object.
     pub(crate) fn with_reference(self, reftype: i32, refid: i32) -> SensorObjects {
         SensorObjects { reftype, refid, ..self }
     }
@@ -267,10 +267,10 @@ impl Default for SensorObjects {
     }
 }
 
-/// When a sensor reads, and when its values show.
+/// The times at which a sensor is evaluated, and the delay of its values.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct SensorTiming {
-    /// Number of values that are kept.
+    /// Number of stored samples.
     pub(crate) nsample: i32,
     /// 0 hold, 1 linear, 2 cubic.
     pub(crate) interp: i32,
@@ -281,13 +281,13 @@ pub(crate) struct SensorTiming {
 }
 
 impl SensorSpec {
-    /// Number of values of the buffer of past values.
+    /// Length of the buffer of past values.
     pub(crate) fn history(&self) -> usize {
         crate::forces::history::size(self.timing.nsample.max(0) as usize, self.dim as usize)
     }
 }
 
-/// A list of numbers as long as its author likes, with its place.
+/// A list of numbers of any length, with its span.
 #[derive(Debug, Default)]
 pub(crate) struct List {
     pub(crate) numbers: Rc<Vec<f64>>,
@@ -295,7 +295,7 @@ pub(crate) struct List {
 }
 
 impl List {
-    /// The numbers of an attribute; none when it is absent.
+    /// The numbers of an attribute; empty if it is absent.
     pub(crate) fn read(p: &Props, name: &str) -> List {
         List { numbers: p.shared(name), span: p.span(name).unwrap_or(0..0) }
     }
@@ -313,13 +313,13 @@ pub(crate) struct TendonSpec {
     pub(crate) actfrclimited: bool,
     pub(crate) actfrcrange: [f64; 2],
     pub(crate) margin: f64,
-    /// Linear coefficient, and its growth with displacement.
+    /// Linear coefficient, and the coefficients of the polynomial in the displacement.
     pub(crate) stiffness: [f64; 3],
-    /// Linear coefficient, and its growth with speed.
+    /// Linear coefficient, and the coefficients of the polynomial in the speed.
     pub(crate) damping: [f64; 3],
     pub(crate) armature: f64,
     pub(crate) frictionloss: f64,
-    /// Lengths between which the spring is relaxed; -1 -1: the length at `qpos_spring`.
+    /// Range of lengths in which the spring is relaxed; -1 -1: the length at `qpos_spring`.
     pub(crate) springlength: [f64; 2],
     pub(crate) solref_limit: [f64; 2],
     pub(crate) solimp_limit: [f64; 5],
@@ -358,18 +358,18 @@ pub(crate) struct EqualitySpec {
     pub(crate) data: [f64; 11],
 }
 
-/// A pair of geoms that is tested for contact whatever their types say.
+/// A pair of geoms that is tested for contact, independent of their contact bits.
 #[derive(Debug)]
 pub(crate) struct PairSpec {
     pub(crate) name: String,
     pub(crate) geoms: [i32; 2],
     pub(crate) bodies: [i32; 2],
-    /// Both bodies in one number.
+    /// Signature: both bodies in one number.
     pub(crate) signature: i32,
     pub(crate) condim: i32,
     pub(crate) friction: [f64; 5],
     pub(crate) solref: [f64; 2],
-    /// 0 0: as `solref`.
+    /// 0 0: the same as `solref`.
     pub(crate) solreffriction: [f64; 2],
     pub(crate) solimp: [f64; 5],
     pub(crate) margin: f64,
@@ -377,7 +377,7 @@ pub(crate) struct PairSpec {
     pub(crate) adhesion: f64,
 }
 
-/// Two bodies that do not touch.
+/// Two bodies that cannot have contacts.
 #[derive(Debug)]
 pub(crate) struct ExcludeSpec {
     pub(crate) name: String,
@@ -386,14 +386,14 @@ pub(crate) struct ExcludeSpec {
     pub(crate) signature: i32,
 }
 
-/// A range with a flag, a [`choice`](crate::kinds::choice): limited, free, or limited when the range is given.
+/// A range with a flag, a [`choice`](crate::kinds::choice): limited, unlimited, or limited if the range is given.
 #[derive(Clone, Debug)]
 pub(crate) struct RangeSpec {
     pub(crate) flag: i32,
     pub(crate) range: [f64; 2],
 }
 
-/// What an actuator acts on.
+/// The target of an actuator.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TransmissionSpec {
     /// One of [`crate::trntype`].
@@ -402,52 +402,52 @@ pub(crate) struct TransmissionSpec {
     pub(crate) id: [i32; 2],
 }
 
-/// An actuator, or what a class says about actuators. Elements of any name fill in the same fields, one over the
-/// other: a `motor` in a class with a `position` keeps the numbers of the servo that a motor does not use.
+/// An actuator, or the defaults of a class for actuators. Elements of all names write the same fields, one after the
+/// other: a `motor` in a class with a `position` keeps the parameters of the servo that a motor does not use.
 #[derive(Clone, Debug)]
 pub(crate) struct ActuatorSpec {
     pub(crate) span: Range<usize>,
-    /// The name of the element, and its own name if it has one.
+    /// The tag of the element, and its name if it has one.
     pub(crate) described: String,
     pub(crate) name: String,
-    /// One of [`crate::gaintype`], [`crate::biastype`], [`crate::dyntype`], with parameters.
+    /// One of [`crate::gaintype`], [`crate::biastype`], [`crate::dyntype`], each with its parameters.
     pub(crate) gaintype: i32,
     pub(crate) gainprm: [f64; 10],
     pub(crate) biastype: i32,
     pub(crate) biasprm: [f64; 10],
     pub(crate) dyntype: i32,
     pub(crate) dynprm: [f64; 10],
-    /// Number of activations; negative: as many as the dynamics need.
+    /// Number of activations; a negative number means as many as the dynamics require.
     pub(crate) actdim: i32,
     pub(crate) actearly: bool,
-    /// Meaning of the controls; 0 for what the gain type takes by itself.
+    /// Meaning of the controls; 0 for the default of the gain type.
     pub(crate) ctrlspec: i32,
     pub(crate) ctrl: RangeSpec,
-    /// Ranges of a velocity setpoint and of a feedforward.
+    /// Ranges of the velocity setpoint and of the feedforward.
     pub(crate) velrange: [f64; 2],
     pub(crate) ffrange: [f64; 2],
     pub(crate) force: RangeSpec,
     pub(crate) act: RangeSpec,
-    /// The range of controls or activations is that of the target, scaled by this about its middle.
+    /// If positive, the range of controls or activations is the range of the target, scaled about its centre by this factor.
     pub(crate) inheritrange: f64,
     pub(crate) gear: [f64; 6],
     pub(crate) cranklength: f64,
     pub(crate) lengthrange: [f64; 2],
-    /// Linear coefficient, and its growth with speed.
+    /// Linear coefficient, and the coefficients of the polynomial in the speed.
     pub(crate) damping: [f64; 3],
     pub(crate) armature: f64,
     pub(crate) group: i32,
-    /// Samples kept, how values between them are found, and the age of the control that acts, s.
+    /// Number of stored samples, interpolation between them, and the delay of the control, s.
     pub(crate) nsample: i32,
     pub(crate) interp: i32,
     pub(crate) delay: f64,
     pub(crate) user: Rc<Vec<f64>>,
     pub(crate) user_span: Range<usize>,
-    /// `None` in a class, and where it is wrong.
+    /// `None` in a class, and if it is invalid.
     pub(crate) transmission: Option<TransmissionSpec>,
 }
 
-/// A keyframe as written; what is not given is taken from the reference configuration.
+/// A keyframe as written. Missing values are those of the reference configuration.
 #[derive(Debug)]
 pub(crate) struct KeySpec {
     pub(crate) name: String,
@@ -460,6 +460,6 @@ pub(crate) struct KeySpec {
     pub(crate) mquat: Option<Vec<f64>>,
 }
 
-/// The relative time constant and damping ratio of a soft constraint, and its impedance: MuJoCo's defaults.
+/// MuJoCo's defaults: time constant and damping ratio of a soft constraint, and its impedance.
 pub(crate) const SOLREF: [f64; 2] = [0.02, 1.0];
 pub(crate) const SOLIMP: [f64; 5] = [0.9, 0.95, 0.001, 0.5, 2.0];

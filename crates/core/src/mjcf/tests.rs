@@ -8,7 +8,7 @@ mod measured;
 mod mistakes;
 mod supported;
 
-/// A model with this in its world.
+/// A model with this content in its world.
 pub(crate) fn world(inside: &str) -> String {
     format!("<mujoco><worldbody>{inside}</worldbody></mujoco>")
 }

@@ -1,4 +1,4 @@
-//! What compiles but cannot be simulated: it is refused.
+//! Refuses models that compile but cannot be simulated.
 
 use crate::kinds::{disable, enable, eqtype, integrator};
 use crate::mjcf::rules;
@@ -8,14 +8,14 @@ use crate::model::asleep::policy;
 use crate::model::{Model, Obj};
 use crate::step::workspace::Workspace;
 
-/// Reports what the model asks for and does not get.
+/// Reports requested features that are not supported.
 pub(crate) fn report_unsimulated(tree: &Tree, m: &Model, report: &mut Report) {
     if m.opt.enabled(enable::SLEEP) {
         asleep(tree, m, report);
     }
 }
 
-/// Reports what cannot sleep as it should.
+/// Reports features that are not supported together with sleep.
 fn asleep(tree: &Tree, m: &Model, report: &mut Report) {
     let flag = || tree.nodes.iter().filter(|n| n.element.name == "flag").find_map(|n| n.attribute("sleep"));
     let span = || flag().map_or(0..0, |a| a.span.clone());

@@ -1,6 +1,6 @@
-//! What belongs to words of the schema: these are few, so that a list does for a map.
+//! A map from keywords of the schema. The keywords are few, so that a list is sufficient.
 
-/// A value for some words.
+/// Maps some keywords to values.
 #[derive(Clone, Debug)]
 pub(super) struct WordMap<V>(Vec<(&'static str, V)>);
 
@@ -11,12 +11,12 @@ impl<V> Default for WordMap<V> {
 }
 
 impl<V> WordMap<V> {
-    /// The value of a word.
+    /// The value of a keyword.
     pub(super) fn get(&self, word: &str) -> Option<&V> {
         self.0.iter().find(|(w, _)| *w == word).map(|(_, value)| value)
     }
 
-    /// Gives a word a value, whether it has one or not.
+    /// Sets the value of a keyword, and replaces an existing one.
     pub(super) fn insert(&mut self, word: &'static str, value: V) {
         match self.0.iter_mut().find(|(w, _)| *w == word) {
             Some((_, old)) => *old = value,
@@ -24,7 +24,7 @@ impl<V> WordMap<V> {
         }
     }
 
-    /// The value of a word that has one from now on.
+    /// The value of a keyword. If there is none, the default is inserted.
     pub(super) fn or_default(&mut self, word: &'static str) -> &mut V
     where
         V: Default,
@@ -36,7 +36,7 @@ impl<V> WordMap<V> {
         &mut self.0[place].1
     }
 
-    /// Takes words and their values away.
+    /// Removes keywords and their values.
     pub(super) fn remove(&mut self, words: &[&str]) {
         self.0.retain(|(w, _)| !words.contains(w));
     }

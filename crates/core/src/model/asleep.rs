@@ -1,5 +1,5 @@
-//! Which objects sleep: those of sleeping trees, and what acts on or measures nothing else. Every stage asks; the stage
-//! that lets trees sleep is `step/sleep`.
+//! Which objects sleep: those of sleeping trees, and objects that act on or measure only sleeping trees. Every stage uses these
+//! functions. The stage that puts trees to sleep is `step/sleep`.
 
 use super::stage::Stage;
 use crate::kinds::{enable, eqtype, trntype};
@@ -10,7 +10,7 @@ use crate::model::{Fields, Model, Obj};
 pub(crate) mod policy {
     pub(crate) const AUTO_NEVER: i32 = 1;
     pub(crate) const AUTO_ALLOWED: i32 = 2;
-    /// The first of the three that an author can choose: never, allowed, asleep at the start.
+    /// The first of the three policies that an author can select: never, allowed, asleep at the start.
     pub(crate) const NEVER: i32 = 3;
     pub(crate) const INIT: i32 = 5;
 }
@@ -22,19 +22,19 @@ pub(crate) mod awake {
     pub(crate) const YES: i32 = 1;
 }
 
-/// Whether trees may sleep now.
+/// Whether trees may sleep.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn on(m: &Model, d: &Fields) -> bool {
     d.plan.keeps(Stage::Sleep) && m.opt.enabled(enable::SLEEP)
 }
 
-/// Whether some tree sleeps.
+/// Whether at least one tree sleeps.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn some(m: &Model, d: &Fields) -> bool {
     d.ntree_awake < m.ntree
 }
 
-/// Whether what actuator `i` acts on sleeps.
+/// Whether the target of actuator `i` sleeps.
 pub(crate) fn actuator(m: &Model, d: &Fields, i: usize) -> bool {
     some(m, d) && actuator_state(m, d, i) == awake::NO
 }
@@ -54,14 +54,14 @@ pub(crate) fn tendon(m: &Model, d: &Fields, t: usize) -> bool {
     some(m, d) && tendon_state(m, d, t) == awake::NO
 }
 
-/// Whether neither of two geoms is on a body that is awake: nothing new can come of them.
+/// Whether neither geom is on an awake body. Such a pair needs no collision test.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn pair(m: &Model, d: &Fields, geom1: usize, geom2: usize) -> bool {
     let is_awake = |geom: usize| d.body_awake[m.geom_bodyid[geom] as usize] == awake::YES;
     some(m, d) && !is_awake(geom1) && !is_awake(geom2)
 }
 
-/// Whether neither side of equality `e` is awake: it does not act.
+/// Whether neither side of equality `e` is awake. Such a constraint does not act.
 pub(crate) fn equality(m: &Model, d: &Fields, e: usize) -> bool {
     let kind = match m.eq_type[e] {
         eqtype::JOINT => Obj::Joint as i32,
@@ -75,7 +75,7 @@ pub(crate) fn equality(m: &Model, d: &Fields, e: usize) -> bool {
     some(m, d) && !is_awake(m.eq_obj1id[e]) && !is_awake(m.eq_obj2id[e])
 }
 
-/// The state of an object, `None` where there is none.
+/// The state of an object, or `None` if there is no such object.
 pub(crate) fn of_object(m: &Model, d: &Fields, kind: i32, id: usize) -> Option<i32> {
     let body = |list: &[i32]| list.get(id).map(|&b| d.body_awake[b as usize]);
     match kind {
@@ -90,8 +90,8 @@ pub(crate) fn of_object(m: &Model, d: &Fields, kind: i32, id: usize) -> Option<i
     }
 }
 
-/// The state of a tendon: asleep when all trees on its path are.
-#[inline(never)] // few scenes let trees sleep: so below
+/// The state of a tendon. It is asleep if all trees on its path are.
+#[inline(never)] // few scenes use sleep; the same applies to `actuator_state`
 fn tendon_state(m: &Model, d: &Fields, t: usize) -> i32 {
     let is_awake = |tree: i32| usize::try_from(tree).is_ok_and(|tree| d.tree_awake[tree] != 0);
     let [first, second] = [m.tendon_treeid[2 * t], m.tendon_treeid[2 * t + 1]];
@@ -103,7 +103,7 @@ fn tendon_state(m: &Model, d: &Fields, t: usize) -> i32 {
     }
 }
 
-/// The state of what an actuator acts on.
+/// The state of the target of an actuator.
 #[inline(never)]
 fn actuator_state(m: &Model, d: &Fields, i: usize) -> i32 {
     let [id, reference] = [m.actuator_trnid[2 * i], m.actuator_trnid[2 * i + 1]];

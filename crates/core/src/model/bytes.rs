@@ -1,9 +1,9 @@
-//! Numbers as bytes, least significant first.
+//! Numbers as little-endian bytes.
 
 /// A number or a flag with a fixed number of bytes.
 pub(crate) trait Plain: Sized {
     fn put(&self, out: &mut Vec<u8>);
-    /// From the front of `bytes`; `None` when they end, or mean nothing.
+    /// Reads a value from the front of `bytes`. `None` if there are too few bytes, or if they are not a valid value.
     fn take(bytes: &mut &[u8]) -> Option<Self>;
 }
 
@@ -74,8 +74,7 @@ impl<T: Plain + Copy + Default, const N: usize> Plain for [T; N] {
     }
 }
 
-/// A number that tells one list of bytes from another (Fowler, Noll and Vo's FNV-1a, 64 bits). It finds accidents, not
-/// intent.
+/// The FNV-1a hash of a list of bytes (Fowler, Noll and Vo, 64 bits). It detects accidental changes, not intentional ones.
 pub(crate) fn fingerprint(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, |h, &b| (h ^ u64::from(b)).wrapping_mul(0x0000_0100_0000_01b3))
 }

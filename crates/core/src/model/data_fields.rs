@@ -1,4 +1,4 @@
-//! `Fields`: the state, the inputs and everything computed from them, as stages read and write it. The struct comes from the
+//! `Fields`: the state, the inputs and all results, as stages read and write them. The struct is generated from the
 //! field table.
 
 use super::define;
@@ -9,18 +9,18 @@ use super::plan::PlanTable;
 macro_rules! define_data {
     ($($rows:tt)*) => { define! {
         #[derive(Default)]
-        /// State, inputs and results of a simulation, field by field as MuJoCo's `mjData`: what [`crate::Data`] shows.
+        /// State, inputs and results of a simulation, field by field as MuJoCo's `mjData`. [`crate::Data`] gives access to them.
         #[allow(non_snake_case)] // MuJoCo's names: M, qLD
         Fields {
             /// Detected contacts of the last position stage.
             pub contact: Vec<Contact>,
             /// Warnings since the last reset, by [`Warning`].
             pub warning: [WarningStat; Warning::COUNT],
-            /// Which stages run; see `set_plan`.
+            /// The stages that run; see `set_plan`.
             pub(crate) plan: PlanTable,
-            /// What was done.
+            /// The work that was done.
             pub(crate) meter: Meter,
-            /// Controls as they act: delayed and clamped.
+            /// Controls as applied: delayed and clamped.
             pub(crate) acting: Vec<f64>,
         }
         $($rows)*
@@ -37,17 +37,17 @@ pub struct Contact {
     pub pos: [f64; 3],
     /// Rows: the normal from geom 1 to geom 2 and two tangents, world.
     pub frame: [f64; 9],
-    /// Distance at which the contact starts to push, m.
+    /// Distance at which the contact force starts, m.
     pub includemargin: f64,
     /// Friction: two sliding, spinning, two rolling.
     pub friction: [f64; 5],
     /// Time constant and damping ratio, or -stiffness and -damping.
     pub solref: [f64; 2],
-    /// The same for friction; zero when friction uses `solref`.
+    /// The same parameters for friction; zero if friction uses `solref`.
     pub solreffriction: [f64; 2],
     /// Impedance.
     pub solimp: [f64; 5],
-    /// Force with which the contact pulls, N.
+    /// Adhesion force of the contact, N.
     pub adhesion: f64,
     /// Regularized friction coefficient of the cone.
     pub mu: f64,
@@ -57,15 +57,15 @@ pub struct Contact {
     pub geom1: usize,
     /// The other geom.
     pub geom2: usize,
-    /// Why it has no rows: 0 it has, 1 it is in the gap, 3 no degree of freedom opens or closes it.
+    /// The reason why the contact has no rows: 0 it has rows, 1 it is in the gap, 3 no degree of freedom affects its distance.
     pub exclude: u8,
-    /// First row in the constraint arrays, `None` when not included.
+    /// First row in the constraint arrays, or `None` if it has no rows.
     pub efc_address: Option<usize>,
 }
 
 /// Warnings of the simulation, in MuJoCo's order (mjtWarning).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)] // `name` is what MuJoCo calls each
+#[allow(missing_docs)] // `name` is the name in MuJoCo
 pub enum Warning {
     Inertia,
     ContactFull,
@@ -104,19 +104,19 @@ impl Warning {
     }
 }
 
-/// How often a warning was raised.
+/// The occurrences of a warning.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WarningStat {
     /// Number of times since the last reset.
     pub number: usize,
-    /// The index that caused it last: a coordinate or a degree of freedom.
+    /// The index of its last cause: a coordinate or a degree of freedom.
     pub lastinfo: usize,
     /// Time of the first occurrence, s, before any automatic reset.
     pub first_time: f64,
 }
 
 impl Fields {
-    /// Counts a warning; `info` says where.
+    /// Records a warning. `info` is the index of its cause.
     pub(crate) fn warn(&mut self, warning: Warning, info: usize) {
         let stat = &mut self.warning[warning as usize];
         if stat.number == 0 {

@@ -1,11 +1,11 @@
-//! How large geoms are.
+//! Extents of geoms.
 
 use super::Model;
 use crate::kinds::geom;
 use crate::math::{Vec3, rows};
 
-/// Half the extents of a geom along its own axes, m: from its size, which programs may have written, and for meshes and height fields
-/// from the box around it.
+/// Half the extents of a geom along its own axes, m. Computed from its current size, which programs may have written; for meshes
+/// and height fields, from the bounding box.
 pub(crate) fn half_extents(m: &Model, g: usize) -> Vec3 {
     let size = rows::<3>(&m.geom_size).get(g).copied().unwrap_or([0.0; 3]);
     match m.geom_type.get(g).copied() {
@@ -17,7 +17,7 @@ pub(crate) fn half_extents(m: &Model, g: usize) -> Vec3 {
     }
 }
 
-/// The smallest extent of a geom, m; infinite for planes, for height fields, and where there is no such geom.
+/// The smallest extent of a geom, m. Infinite for planes, for height fields, and if there is no such geom.
 pub(crate) fn thickness(m: &Model, g: usize) -> f64 {
     match m.geom_type.get(g).copied() {
         Some(geom::PLANE | geom::HFIELD) | None => f64::INFINITY,
@@ -25,7 +25,8 @@ pub(crate) fn thickness(m: &Model, g: usize) -> f64 {
     }
 }
 
-/// The half thickness of the thinner of two geoms, m, of those with a size of their own: a mesh may be thinner than the box around it.
+/// The half thickness of the thinner of two geoms, m. Only primitive shapes are considered: a mesh may be thinner than its
+/// bounding box.
 pub(crate) fn half_thickness_of_pair(m: &Model, pair: [usize; 2]) -> f64 {
     let sized =
         |g: &usize| m.geom_type.get(*g).is_some_and(|&kind| (geom::SPHERE..=geom::BOX).contains(&kind));

@@ -1,14 +1,14 @@
 //! The one table of fields: every field of `Model`, its options and statistics, and `Fields`.
 //!
-//! Each row is declared once: name, Rust type, shape, kind, the stage that computes it, unit and one line
-//! of documentation. From it come the structs (`model.rs`, `data.rs`), the reflection that the language
-//! binds to (`reflect/`) and the reference pages. A field that is not here does not exist. The file is longer than others, as it is
-//! one table: a line for each field.
+//! Each row is declared once: name, Rust type, shape, kind, the stage that computes it, unit and one line of documentation. The
+//! structs (`model/mod.rs`, `data_fields.rs`), the reflection that the language binds to (`reflect/`) and the reference pages are
+//! generated from it. A field that is not in the table does not exist. The file is longer than others because it is one table
+//! with a line for each field.
 //!
 //! Names and layouts are MuJoCo's: arrays are flat and row-major, quaternions are `w x y z`, angles are
 //! radians, everything is SI. Spatial vectors list the angular part first.
 //!
-//! The tables are macros that hand all rows to another macro, so that each use reads the same rows.
+//! The tables are macros that pass all rows to another macro, so that each use reads the same rows.
 
 /// Sizes and constant arrays of [`crate::Model`].
 macro_rules! model_fields {
@@ -149,7 +149,7 @@ macro_rules! model_fields {
         tree_dofnum: Vec<i32>, [ntree], Structure, SetConst, "", "number of degrees of freedom of the tree";
         tree_sleep_policy: Vec<i32>, [ntree], Constant, Compile, "", "whether the tree may sleep (mjtSleepPolicy)";
 
-        // Pattern of the mass matrix: lower triangle by rows, ancestors first, the diagonal last; then all of it.
+        // Sparsity pattern of the mass matrix: lower triangle by rows, ancestors first, the diagonal last; then both triangles.
         M_rownnz: Vec<i32>, [nv], Structure, Compile, "", "number of non-zeros of each row of the mass matrix";
         M_rowadr: Vec<i32>, [nv], Structure, Compile, "", "address of each row of the mass matrix";
         M_colind: Vec<i32>, [nC], Structure, Compile, "", "column of each non-zero of the mass matrix";
@@ -241,7 +241,7 @@ macro_rules! model_fields {
         light_diffuse: Vec<f64>, [nlight, 3], Constant, Compile, "", "diffuse colour";
         light_specular: Vec<f64>, [nlight, 3], Constant, Compile, "", "specular colour";
 
-        // Meshes, in the frame of their principal axes. Vertices have the precision of 32-bit floats.
+        // Meshes, in the frame of their principal axes. Vertices have single precision.
         mesh_vertadr: Vec<i32>, [nmesh], Structure, Compile, "", "first vertex";
         mesh_vertnum: Vec<i32>, [nmesh], Structure, Compile, "", "number of vertices";
         mesh_faceadr: Vec<i32>, [nmesh], Structure, Compile, "", "first triangle";
@@ -262,7 +262,7 @@ macro_rules! model_fields {
         mesh_pos: Vec<f64>, [nmesh, 3], Constant, Compile, "m", "translation applied to the asset";
         mesh_quat: Vec<f64>, [nmesh, 4], Constant, Compile, "", "rotation applied to the asset";
 
-        // Skins: surfaces that bodies carry, for those who draw them. Numbers have the precision of 32-bit floats.
+        // Skins: surfaces that follow bodies, for renderers. Numbers have single precision.
         skin_matid: Vec<i32>, [nskin], Constant, Compile, "", "material, -1 if none";
         skin_group: Vec<i32>, [nskin], Constant, Compile, "", "group, for visibility";
         skin_rgba: Vec<f64>, [nskin, 4], Constant, Compile, "", "colour and opacity when there is no material";
@@ -580,7 +580,7 @@ macro_rules! data_fields {
         qfrc_constraint: Vec<f64>, [nv], Derived, Solve, "N or N m", "force of constraints";
         qacc: Vec<f64>, [nv], Derived, Solve, "m/s^2 or rad/s^2", "acceleration";
 
-        // Constraints: as many rows as there are now (`nefc`).
+        // Constraints: `nefc` rows, the current number of active rows.
         efc_type: Vec<i32>, [nefc], Derived, Constraint, "", "type of the constraint (mjtConstraint)";
         efc_id: Vec<i32>, [nefc], Derived, Constraint, "", "the equality, degree of freedom, joint, tendon or contact of the row";
         efc_pos: Vec<f64>, [nefc], Derived, Constraint, "m or rad", "violation (negative when violated)";
@@ -604,7 +604,7 @@ macro_rules! data_fields {
         cfrc_ext: Vec<f64>, [nbody, 6], Derived, RnePost, "N m, N", "torque and force from outside, about the tree's centre of mass";
         qfrc_inverse: Vec<f64>, [nv], Derived, Inverse, "N or N m", "force that causes qacc (inverse dynamics)";
 
-        // Read-outs.
+        // Results for users.
         sensordata: Vec<f64>, [nsensordata], Derived, Sensors, "", "sensor values";
         energy: [f64; 2], [2], Derived, Energy, "J", "potential, kinetic; computed when the energy flag is on";
     } };

@@ -1,18 +1,17 @@
-//! What computing costs: a count of work that is the same on every machine, and a limit beyond which the engine does no
-//! more.
+//! Counts the work of computation, identically on every machine, and limits it.
 //!
-//! A unit is about one simple operation, a nanosecond of a fast machine. Stages add what follows from numbers they know
-//! anyway: sizes of the model, pairs, rows, iterations. Beyond the limit long loops end early and stages are left out: what
-//! the data hold then is of no use, and whoever set the limit has to say so.
+//! A unit is about one simple operation, a nanosecond on a fast machine. Stages add an estimate from numbers that they
+//! have anyway: sizes of the model, pairs, rows, iterations. Beyond the limit, long loops end early and stages are left out. The
+//! data are then not valid, and the code that set the limit must report this.
 
 use crate::model::Model;
 
-/// The work done, and where it ends.
+/// The work that was done, and its limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Meter {
     pub(crate) cost: u64,
     pub(crate) limit: u64,
-    /// Half of what a forward pass costs without pairs and constraints.
+    /// Half the work of a forward pass without collision pairs and constraints.
     pub(crate) half: u64,
 }
 
@@ -23,11 +22,11 @@ impl Default for Meter {
 }
 
 impl Meter {
-    /// Nothing done yet, and no limit.
+    /// A meter at zero, without a limit.
     pub(crate) fn new(m: &Model) -> Meter {
         let linear = 30 * m.nbody + 10 * (m.ngeom + m.nsite + m.neq) + 40 * (m.nv + m.ntendon);
         let more = 60 * m.nactuator + 30 * m.nwrap + 20 * (m.nsensor + m.ncam);
-        // A factorization goes through the pairs of entries of each row.
+        // A factorization processes the pairs of entries of each row.
         let rows: u64 = m.M_rownnz.iter().map(|&n| u64::from(n.unsigned_abs()).pow(2)).sum();
         Meter { half: ((200 + linear + more) as u64 + rows) / 2, ..Meter::default() }
     }
@@ -37,23 +36,23 @@ impl Meter {
         self.cost = self.cost.saturating_add(units);
     }
 
-    /// Whether there is nothing left.
+    /// Whether the limit is exceeded.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn over(&self) -> bool {
         self.cost > self.limit
     }
 
-    /// What a forward pass costs without pairs and constraints.
+    /// The work of a forward pass without collision pairs and constraints.
     pub(crate) fn pass(&self) -> u64 {
         2 * self.half
     }
 
-    /// So much more, and no more.
+    /// Limits the further work to this many units.
     pub(crate) fn set_left(&mut self, units: u64) {
         self.limit = self.cost.saturating_add(units);
     }
 
-    /// What is left.
+    /// The remaining work.
     pub(crate) fn left(&self) -> u64 {
         self.limit.saturating_sub(self.cost)
     }

@@ -1,4 +1,4 @@
-//! `Model`: what does not change while a simulation runs. The structs come from the field table.
+//! `Model`: the data that do not change during a simulation. The structs are generated from the field table.
 
 pub(crate) mod asleep;
 pub(crate) mod bytes;
@@ -58,14 +58,15 @@ macro_rules! define_model {
             pub names: Names,
             /// Custom texts, in the order of `names.text`.
             pub texts: Vec<String>,
-            /// The bodies of each exclusion, the smaller first, in ascending order: signatures of many bodies meet.
+            /// The bodies of each exclusion, the smaller first, in ascending order. Needed because signatures are ambiguous for
+            /// large ids.
             pub exclude_bodies: Vec<[i32; 2]>,
-            /// The geoms without contact bits when the model was compiled, in ascending order: the tree of bounding volumes of their
-            /// body is made without them, and stays.
+            /// The geoms without contact bits when the model was compiled, in ascending order. The tree of bounding volumes of
+            /// their body is built without them and does not change later.
             pub visual_geoms: Vec<i32>,
-            /// The trees that were long chains of hinges in a plane when the model was compiled, in ascending order.
+            /// The trees that were long planar chains of hinges when the model was compiled, in ascending order.
             pub planar_trees: Vec<i32>,
-            /// Flat sides of the hull of each mesh, their normals more precise than its vertices.
+            /// Flat faces of the hull of each mesh. Their normals are more accurate than the vertices.
             pub mesh_sides: Vec<crate::geometry::HullFaces>,
         }
         $($rows)*
@@ -78,7 +79,7 @@ macro_rules! define_options {
         $($rows)*
     }
     impl Options {
-        /// Every number zero.
+        /// Options with every number zero.
         fn zero() -> Options {
             zero! { Options $($rows)* }
         }
@@ -120,19 +121,19 @@ impl Default for Options {
             ccd_iterations: 35,
             sdf_initpoints: 40,
             sdf_iterations: 10,
-            // The rest is zero: no wind, a vacuum, no flags.
+            // The other options are zero: no wind, a vacuum, no flags.
             ..Options::zero()
         }
     }
 }
 
 impl Options {
-    /// Whether a part of the simulation is switched off; `bit` is one of [`crate::disable`].
+    /// Whether a part of the simulation is disabled; `bit` is one of [`crate::disable`].
     pub fn disabled(&self, bit: i32) -> bool {
         self.disableflags & bit != 0
     }
 
-    /// Whether an optional part is switched on; `bit` is one of [`crate::enable`].
+    /// Whether an optional part is enabled; `bit` is one of [`crate::enable`].
     pub fn enabled(&self, bit: i32) -> bool {
         self.enableflags & bit != 0
     }
@@ -155,9 +156,9 @@ macro_rules! objects {
         #[allow(missing_docs)] // the object kinds
         pub enum Obj {
             Body = 1,
-            /// The frame of a body, where `Body` means its inertial frame.
+            /// A body's own frame, whereas `Body` is its inertial frame.
             XBody = 2,
-            /// A degree of freedom: it has no name.
+            /// A degree of freedom. It has no name.
             Dof = 4,
             $($kind = $number,)*
         }
@@ -172,12 +173,12 @@ macro_rules! objects {
         }
 
         impl Names {
-            /// The lists, one for each kind.
+            /// The lists of names, one for each kind.
             pub(crate) fn lists(&self) -> impl Iterator<Item = &Vec<String>> {
                 [&self.body, $(&self.$list),*].into_iter()
             }
 
-            /// The same to write.
+            /// Like [`Names::lists`], for writing.
             pub(crate) fn lists_mut(&mut self) -> impl Iterator<Item = &mut Vec<String>> {
                 [&mut self.body, $(&mut self.$list),*].into_iter()
             }
@@ -217,7 +218,7 @@ objects! {
 }
 
 impl Names {
-    /// The id of a named object (`mj_name2id`), `None` when there is no such name.
+    /// The id of a named object (`mj_name2id`), or `None` if there is no such name.
     pub fn id(&self, kind: Obj, name: &str) -> Option<usize> {
         if name.is_empty() {
             return None;

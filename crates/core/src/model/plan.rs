@@ -1,4 +1,4 @@
-//! Plans as data: which stages of a step run, and what of them. How one is made: `step/planner`.
+//! Plans as data: which stages of a step run, and which parts of them. `step/planner` makes them.
 
 use super::sensed::Values;
 use super::stage::Stage;
@@ -11,105 +11,106 @@ pub struct Decision {
     pub stage: Stage,
     /// Whether it runs.
     pub keep: bool,
-    /// Why, for a person to read.
+    /// The reason, for people.
     pub reason: String,
 }
 
-/// The flags of a plan, each with its value when nothing is known of the model: the one for which a stage assumes nothing and
-/// looks.
+/// The flags of a plan. Each has a value for the case that nothing is known about the model, in which a stage makes no assumption
+/// and checks at every step.
 macro_rules! plan_flags {
     ($($(#[doc = $doc:literal])+ $flag:ident = $unknown:literal,)+) => {
-        /// What is known of a model once and for all, where stages would otherwise look again at every step.
+        /// Facts about a model that are constant, so that stages need not check them at every step.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub(crate) enum PlanFlag {
             $($(#[doc = $doc])+ $flag,)+
         }
 
         impl PlanFlag {
-            /// A bit for each flag that holds when nothing is known.
+            /// One bit for each flag that is set when nothing is known.
             const UNKNOWN: u32 = $((($unknown as u32) << PlanFlag::$flag as u32))|+;
         }
     };
 }
 plan_flags! {
-    /// M of some tree depends on the configuration; otherwise it is diagonal and constant.
+    /// M of some tree depends on the configuration. Otherwise M is diagonal and constant.
     General = true,
-    /// Composite inertias are computed: some tree is computed by the general algorithm, or they are read.
+    /// Composite inertias are computed, because some tree uses the general algorithm, or because they are read.
     Composite = true,
     /// Inertias of bodies about the centre of mass of their tree are computed.
     BodyInertias = true,
-    /// Forces of bodies are computed by recursion: some tree is computed by the general algorithm.
+    /// Forces of bodies are computed by recursion, because some tree uses the general algorithm.
     Recursion = true,
-    /// M and the rows of its factorization are computed only in steps in which constraints act: nothing else looks at them.
+    /// M and the rows of its factorization are computed only in steps with active constraints, because only these read them.
     MassForRows = false,
-    /// There can be equality constraints.
+    /// Equality constraints may be active.
     Equalities = true,
-    /// There can be dry friction.
+    /// Dry friction may be active.
     FrictionLoss = true,
-    /// Joints or tendons can be limited.
+    /// Joints or tendons may be limited.
     Limits = true,
-    /// Contacts pull.
+    /// Contacts may be adhesive.
     Adhesion = true,
-    /// Surfaces move by themselves.
+    /// Surfaces of geoms may have a velocity.
     Surfaces = true,
-    /// Whether joints have dampers is known once and for all.
+    /// Whether joints have dampers is constant.
     DampersStay = false,
-    /// Then: they do.
+    /// If [`PlanFlag::DampersStay`] is set: joints have dampers.
     JointDampers = true,
-    /// Springs are looked at.
+    /// Springs are checked at every step.
     Springs = true,
-    /// Dampers are looked at.
+    /// Dampers are checked at every step.
     Dampers = true,
     /// Some dampers of joints belong to actuators.
     ActuatorDampers = true,
-    /// All actuators are motors of slides and hinges: each makes a force in proportion to its control.
+    /// All actuators are motors of slides and hinges: each force is proportional to the control.
     Motors = false,
-    /// All actuators are motors or servos of slides, hinges and tendons: their forces follow from a control, a length and a
+    /// All actuators are motors or servos of slides, hinges and tendons: each force depends on a control, a length and a
     /// velocity.
     Servos = false,
-    /// How forces change with velocities follows from the model alone, but for how much each actuator's force does.
+    /// The derivatives of forces with respect to velocities depend on the model alone, except for those of actuator forces.
     SlopesStay = false,
-    /// Forces of actuators are limited, one by one or by joint.
+    /// Forces of actuators may be limited, individually or per joint.
     ForceLimits = true,
-    /// The solver says more than forces: `efc_b` and `efc_state`.
+    /// The solver also writes `efc_b` and `efc_state`.
     SolverDetails = true,
-    /// Bodies feel a medium or gravity compensation.
+    /// Fluid forces or gravity compensation may act on bodies.
     BodyForces = true,
-    /// Forces applied to bodies are looked at.
+    /// Forces that are applied to bodies are checked at every step.
     AppliedForces = true,
-    /// Nothing but gravity and motion makes forces where no constraint acts: no springs, no actuators, none applied.
+    /// Without active constraints, only gravity and the bias force act: there are no springs, no actuators, and no applied
+    /// forces.
     Unforced = false,
-    /// The same, M is diagonal, nothing can touch and no tree sleeps.
+    /// Like [`PlanFlag::Unforced`], and M is diagonal, contacts are impossible, and no tree sleeps.
     Ballistic = false,
-    /// Which pairs of geoms may touch can change while it runs.
+    /// The set of pairs of geoms that may touch can change during a run.
     PairsChange = true,
-    /// The parameters of contacts may change.
+    /// The parameters of contacts can change during a run.
     ContactParamsChange = true,
-    /// Where bodies, joints and geoms are in the model may change.
+    /// The poses of bodies, joints and geoms in the model can change during a run.
     PlacesChange = true,
 }
 
-/// Which stages run.
+/// Which stages run, and which flags are set.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PlanTable {
     pub(crate) decisions: Vec<Decision>,
-    /// A bit for each stage that runs, and for each flag that holds.
+    /// One bit for each stage that runs, and one bit for each flag that is set.
     kept_stages: u32,
     flags: u32,
-    /// How trees may be computed.
+    /// The allowed tree algorithms.
     pub(crate) algorithms: TreeAlgorithms,
-    /// What is read of sensors.
+    /// The sensor values that are read.
     pub(crate) sensed: Values,
-    /// Every sensor is evaluated, read or not.
+    /// Whether every sensor is evaluated, read or not.
     pub(crate) every_sensor: bool,
-    /// A stage that runs because it was asked for, wanted or not.
+    /// A stage that runs because it was requested explicitly.
     pub(crate) more: Option<Stage>,
-    /// What a forward pass runs of each of its parts; then the same without what sensors show.
+    /// The stages that run in each part of a forward pass; then the same without the stages that only sensors need.
     pub(crate) passes: [[u32; 3]; 2],
 }
 
 impl Default for PlanTable {
-    /// No stage, and nothing is known.
+    /// A plan without stages, in which nothing is known about the model.
     fn default() -> PlanTable {
         PlanTable {
             decisions: Vec::new(),
@@ -131,13 +132,13 @@ impl PlanTable {
         self.kept_stages & (1 << stage as u32) != 0
     }
 
-    /// Whether a flag holds.
+    /// Whether a flag is set.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn has(&self, flag: PlanFlag) -> bool {
         self.flags & (1 << flag as u32) != 0
     }
 
-    /// Every stage with the reason to keep it or leave it out, in the order of the pipeline.
+    /// Every stage with the reason to run it or to leave it out, in the order of the pipeline.
     pub(crate) fn decisions(&self) -> &[Decision] {
         &self.decisions
     }

@@ -1,8 +1,8 @@
-//! Which numbers of `sensordata` are meant.
+//! A set of elements of `sensordata`.
 
 use std::ops::Range;
 
-/// Numbers of `sensordata`, by their places; the last bit stands for all that have no bit of their own.
+/// A set of elements of `sensordata`, by index. The last bit represents all elements that have no bit of their own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Values(pub(crate) [u64; 4]);
 
@@ -23,12 +23,12 @@ impl Values {
         Values::bits(places).for_each(|i| self.0[i / 64] |= 1 << (i % 64));
     }
 
-    /// Whether some of these places are among them.
+    /// Whether the set contains at least one of these elements.
     pub(crate) fn some(&self, places: Range<usize>) -> bool {
         Values::bits(places).any(|i| self.has(i))
     }
 
-    /// Whether all of them are.
+    /// Whether the set contains all of these elements.
     pub(crate) fn every(&self, places: Range<usize>) -> bool {
         Values::bits(places).all(|i| self.has(i))
     }

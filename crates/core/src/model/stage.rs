@@ -1,4 +1,4 @@
-//! The stages of a step, by which fields say what computes them and plans what runs.
+//! The stages of a step. The field table names the stage that computes each field; plans list the stages that run.
 
 /// The stage that computes a field, in the order in which `mj_forward` runs them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

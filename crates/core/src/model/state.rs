@@ -1,6 +1,6 @@
 //! The state as one list of numbers (MuJoCo's documentation, "Programming: Simulation", section on state).
 //!
-//! What a list holds is chosen by a signature, a sum of the bits below; its parts come in the order of the bits.
+//! A signature, a sum of the bits below, selects the parts of the state. The parts are in the order of their bits.
 
 use crate::model::reflect::{self, Cell, FieldId, View, ViewMut, data};
 use crate::model::{Fields, Model};
@@ -35,32 +35,32 @@ elements! {
     12 USERDATA userdata "Values of the user.";
 }
 
-/// State of plugins, of which there are none: no numbers.
+/// State of plugins. Plugins are not supported, so it is empty.
 pub(crate) const PLUGIN: i32 = 1 << 13;
 /// Number of bits.
 pub(crate) const COUNT: usize = 14;
-/// What evolves.
+/// The physics state: all parts that evolve in time, except the time.
 pub const PHYSICS: i32 = QPOS | QVEL | ACT | HISTORY;
-/// What evolves, and when.
+/// The physics state with the time.
 pub const FULLPHYSICS: i32 = TIME | PHYSICS | PLUGIN;
-/// What is set from outside.
+/// The inputs that the user sets.
 pub const USER: i32 = CTRL | QFRC_APPLIED | XFRC_APPLIED | EQ_ACTIVE | MOCAP_POS | MOCAP_QUAT | USERDATA;
-/// All that the next step depends on: from it, a step has the same bits.
+/// The full input of the next step: from equal states, a step gives equal bits.
 pub const INTEGRATION: i32 = FULLPHYSICS | USER | WARMSTART;
 
-/// Why a state cannot be read or written. Nothing has changed then.
+/// The reason why a state cannot be read or written. The data are then unchanged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StateError {
-    /// A signature that has other bits than those of this module.
+    /// The signature contains bits that are not defined in this module.
     Signature(i32),
-    /// A list that has not as many numbers as its signature asks for.
+    /// The length of the list does not match the signature.
     Length {
-        /// Numbers that the signature asks for.
+        /// The length that the signature requires.
         wanted: usize,
-        /// Numbers of the list.
+        /// The length of the list.
         found: usize,
     },
-    /// A part that is asked for and not in the list that it is to be taken from.
+    /// A requested part is not in the source list.
     Missing(i32),
 }
 
@@ -86,7 +86,7 @@ impl fmt::Display for StateError {
 
 impl std::error::Error for StateError {}
 
-/// Number of numbers of a state (`mj_stateSize`).
+/// The length of a state vector (`mj_stateSize`).
 pub(crate) fn size(m: &Model, sig: i32) -> Result<usize, StateError> {
     Ok(bits(sig)?.map(|bit| length(m, bit)).sum())
 }
@@ -104,7 +104,7 @@ pub(crate) fn get(m: &Model, d: &Fields, out: &mut [f64], sig: i32) -> Result<()
     Ok(())
 }
 
-/// Sets a state (`mj_setState`). What follows from it is computed by `forward` or the next step.
+/// Sets a state (`mj_setState`). `forward` or the next step computes the results that depend on it.
 pub(crate) fn set(m: &Model, d: &mut Fields, state: &[f64], sig: i32) -> Result<(), StateError> {
     fits(m, sig, state.len())?;
     let mut rest = state;
@@ -112,7 +112,7 @@ pub(crate) fn set(m: &Model, d: &mut Fields, state: &[f64], sig: i32) -> Result<
         let (values, after) = rest.split_at_checked(length(m, bit)).unwrap_or((rest, &[]));
         match part_mut(d, bit) {
             ViewMut::F64(part) => part.iter_mut().zip(values).for_each(|(p, x)| *p = *x),
-            // Whatever is not zero is true.
+            // Any number except zero is true.
             ViewMut::Bool(part) => part.iter_mut().zip(values).for_each(|(p, x)| *p = *x != 0.0),
             ViewMut::I32(_) | ViewMut::Fixed => {}
         }
@@ -121,7 +121,7 @@ pub(crate) fn set(m: &Model, d: &mut Fields, state: &[f64], sig: i32) -> Result<
     Ok(())
 }
 
-/// Takes the parts `to` of the state `from`, which has the parts `sig` (`mj_extractState`).
+/// Copies the parts `to` from the state vector `from`, which has the parts `sig` (`mj_extractState`).
 pub(crate) fn extract(m: &Model, from: &[f64], sig: i32, out: &mut [f64], to: i32) -> Result<(), StateError> {
     fits(m, sig, from.len())?;
     fits(m, to, out.len())?;
@@ -139,7 +139,7 @@ pub(crate) fn extract(m: &Model, from: &[f64], sig: i32, out: &mut [f64], to: i3
     Ok(())
 }
 
-/// Copies parts of the state of one simulation into another of the same model (`mj_copyState`).
+/// Copies parts of a state between data of the same model (`mj_copyState`).
 pub(crate) fn copy(m: &Model, from: &Fields, to: &mut Fields, sig: i32) -> Result<(), StateError> {
     for bit in bits(sig)? {
         match (part(from, bit), part_mut(to, bit)) {

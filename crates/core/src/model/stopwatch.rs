@@ -1,16 +1,16 @@
-//! Where the time of a step goes: a stopwatch for the stages. The engine has no clock of its own (a browser gives none to a
-//! module): whoever measures brings one.
+//! Measures the time of each stage. The engine has no clock (in a browser, a module has no access to one), so the caller provides
+//! one.
 
 use super::stage::Stage;
 
-/// What something took.
+/// The cost of the runs of a stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StageTime {
-    /// How often it ran: a stage with parts in a pass of positions and of velocities runs twice in a pass.
+    /// Number of runs. A stage that has a part in the position pass and one in the velocity pass runs twice per forward pass.
     pub runs: u64,
-    /// Time on the caller's clock, with what looking at it takes.
+    /// Time on the caller's clock, including the time of reading the clock.
     pub time: u64,
-    /// The work that it counted, in units of about a nanosecond: the same on every machine.
+    /// Counted work, in units of about a nanosecond. It is the same on every machine.
     pub work: u64,
 }
 
@@ -20,23 +20,23 @@ impl StageTime {
     }
 }
 
-/// What the stages took.
+/// The cost of each stage.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct StageTimes {
     stages: Vec<(Stage, StageTime)>,
-    /// Of a call of nothing, once for each part of a pass: that much of every run is the looking.
+    /// The cost of an empty call, measured once per part of a pass. Every measured run includes this cost of reading the clock.
     pub nothing: StageTime,
-    /// Between the parts of passes: integrators, the look for numbers that are none, and what the caller does between steps.
+    /// The time between the parts of passes: integrators, the check for bad numbers, and the caller's work between steps.
     pub between: StageTime,
 }
 
 impl StageTimes {
-    /// What a stage took.
+    /// The cost of a stage.
     pub fn stage_time(&self, stage: Stage) -> StageTime {
         self.stages.iter().find(|(s, _)| *s == stage).map_or(StageTime::default(), |(_, lap)| *lap)
     }
 
-    /// Adds one run of a stage, or of nothing.
+    /// Adds one run of a stage, or of an empty call.
     pub(crate) fn add(&mut self, stage: Option<Stage>, time: u64, work: u64) {
         let Some(stage) = stage else { return self.nothing.add(time, work) };
         match self.stages.iter_mut().find(|(s, _)| *s == stage) {
@@ -46,17 +46,17 @@ impl StageTimes {
     }
 }
 
-/// A clock, and what the stages took by it.
+/// A clock, and the measured costs.
 #[derive(Clone, Debug)]
 pub(crate) struct Stopwatch {
     pub(crate) clock: fn() -> u64,
     pub(crate) laps: StageTimes,
-    /// When the last part of a pass ended.
+    /// The time at which the last part of a pass ended.
     pub(crate) ended: Option<u64>,
 }
 
 impl PartialEq for Stopwatch {
-    /// Two clocks cannot be compared; what they have measured can.
+    /// Compares the measurements. The clocks cannot be compared.
     fn eq(&self, other: &Stopwatch) -> bool {
         (&self.laps, self.ended) == (&other.laps, other.ended)
     }
@@ -67,14 +67,14 @@ impl Stopwatch {
         Stopwatch { clock, laps: StageTimes::default(), ended: None }
     }
 
-    /// A part of a pass begins.
+    /// Records the start of a part of a pass.
     pub(crate) fn begin(&mut self) {
         if let Some(ended) = self.ended.take() {
             self.laps.between.add((self.clock)().saturating_sub(ended), 0);
         }
     }
 
-    /// It ends.
+    /// Records its end.
     pub(crate) fn end(&mut self) {
         self.ended = Some((self.clock)());
     }

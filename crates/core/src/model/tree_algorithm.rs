@@ -1,10 +1,10 @@
-//! Which specialized tree algorithms are allowed: all, but where one is measured or compared with the general one.
+//! The specialized tree algorithms that are allowed: all, unless one is measured or compared with the general one.
 
-/// An algorithm that computes a tree: a row of the table in `dynamics/tree_algorithms`, which says what each is.
+/// An algorithm for a tree: the index of a row of the table in `dynamics/tree_algorithms`, which describes each.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub struct TreeAlgorithm(pub(crate) u8);
 
-/// The algorithms that are allowed.
+/// The set of algorithms that are allowed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TreeAlgorithms(u8);
 
@@ -15,9 +15,9 @@ impl Default for TreeAlgorithms {
 }
 
 impl TreeAlgorithms {
-    /// Each tree by the first that covers it.
+    /// All algorithms: each tree uses the first one that covers it.
     pub const ALL: TreeAlgorithms = TreeAlgorithms(u8::MAX);
-    /// Every tree by the general one.
+    /// The general algorithm only.
     pub const GENERAL: TreeAlgorithms = TreeAlgorithms(0);
 
     /// Whether an algorithm is allowed.
@@ -26,12 +26,12 @@ impl TreeAlgorithms {
         self.0 & (1 << algorithm.0) != 0
     }
 
-    /// The same and one more.
+    /// The set with an additional algorithm.
     pub(crate) fn with(self, algorithm: TreeAlgorithm) -> TreeAlgorithms {
         TreeAlgorithms(self.0 | 1 << algorithm.0)
     }
 
-    /// The same but for one.
+    /// The set without one algorithm.
     pub fn without(self, algorithm: TreeAlgorithm) -> TreeAlgorithms {
         TreeAlgorithms(self.0 & !(1 << algorithm.0))
     }

@@ -1,9 +1,9 @@
-//! The range of lengths that an actuator can reach, found by pulling (`mj_setLengthRange`).
+//! The range of lengths that an actuator can reach, found by simulation (`mj_setLengthRange`).
 //!
-//! A muscle's forces are given in its operating range, which the mechanism around it decides. As in MuJoCo's
-//! documentation, "Modeling: Length range", the actuator is driven to either end by a force that would accelerate the
-//! mechanism by a given amount, without gravity, springs, dampers, contacts and friction, and while motion is damped;
-//! what remains are limits and equality constraints. The extreme lengths of the last part of the time are the range.
+//! The force of a muscle is specified for its operating range, which depends on the mechanism around it. As in MuJoCo's
+//! documentation, "Modeling: Length range", the actuator is pulled to either end by a force that would accelerate the mechanism
+//! by a given amount. Gravity, springs, dampers, contacts and friction are off, limits and equality constraints are on, and the
+//! motion is damped. The extreme lengths during the last part of the simulation are the range.
 
 use crate::dynamics::mass;
 use crate::dynamics::reflected::target;
@@ -14,7 +14,7 @@ use crate::model::{Fields, Model};
 use crate::step::workspace::Scratch;
 use crate::step::{self, reset};
 
-/// Which actuators are looked at.
+/// The actuators whose range is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Mode {
     Nothing,
@@ -22,24 +22,24 @@ pub(crate) enum Mode {
     All,
 }
 
-/// How the range is searched.
+/// The parameters of the search.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Search {
     pub(crate) mode: Mode,
-    /// A range that is given stays.
+    /// Whether an existing range is kept.
     pub(crate) useexisting: bool,
-    /// Limits of the joint or tendon are taken for the range.
+    /// Whether the limits of the joint or tendon are used as the range.
     pub(crate) uselimit: bool,
-    /// Acceleration, and the largest force, 0 for any.
+    /// Acceleration, and the largest force (0 for no limit).
     pub(crate) accel: f64,
     pub(crate) maxforce: f64,
-    /// Time in which motion is damped by a factor e, s.
+    /// Time constant of the damping of the motion, s.
     pub(crate) timeconst: f64,
-    /// Step, whole time, and its last part in which the length must have settled, s.
+    /// Timestep, total time, and the length of its last part, in which the length must have settled, s.
     pub(crate) timestep: f64,
     pub(crate) inttotal: f64,
     pub(crate) interval: f64,
-    /// How far it may change then, in parts of the range.
+    /// The largest variation of the length in the last part, as a fraction of the range.
     pub(crate) tolrange: f64,
 }
 
@@ -60,12 +60,12 @@ impl Default for Search {
     }
 }
 
-/// Why no range was found.
+/// The reason why no range was found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Failure {
-    /// The length does not grow from one end to the other.
+    /// The length at the upper end does not exceed the length at the lower end.
     NoRange([f64; 2]),
-    /// It still changes at one end, between these lengths.
+    /// The length at one end has not settled; it varies between these lengths.
     NotSettled([f64; 2]),
 }
 
@@ -79,7 +79,7 @@ impl Search {
         if self.timestep > 0.0 { self.timestep } else { m.opt.timestep }
     }
 
-    /// Whether the range of actuator `i` is to be found by pulling.
+    /// Whether the range of actuator `i` must be found by simulation.
     pub(crate) fn wants(&self, m: &Model, i: usize) -> bool {
         let muscle = m.actuator_gaintype[i] == gaintype::MUSCLE || m.actuator_biastype[i] == biastype::MUSCLE;
         let [lower, upper] = rows::<2>(&m.actuator_lengthrange)[m.actuator_outadr[i] as usize];
@@ -91,10 +91,10 @@ impl Search {
         asked && !(self.useexisting && lower < upper)
     }
 
-    /// The limits of what actuator `i` acts on.
+    /// The limits of the target of actuator `i`.
     ///
-    /// MuJoCo 3.14.0 takes those of the object at place `i` of all ids of all actuators, of which there are two each:
-    /// for odd `i` that is mostly none. Its ranges are ours.
+    /// MuJoCo 3.14.0 indexes the list of all target ids, with two ids per actuator, by `i`. For odd `i`, that id is usually
+    /// absent. Here the ids of actuator `i` are used.
     pub(crate) fn limits(&self, m: &Model, i: usize) -> Option<[f64; 2]> {
         let id = usize::try_from(*m.actuator_trnid.get(i)?).ok()?;
         let (limited, ranges) = match m.actuator_trntype[i] {
@@ -109,7 +109,7 @@ impl Search {
     }
 }
 
-/// Finds `actuator_lengthrange` of actuator `i`, with `d` and `s` to work on.
+/// Computes `actuator_lengthrange` of actuator `i`, with `d` and `s` as workspace.
 pub(crate) fn length_range(
     m: &mut Model,
     d: &mut Fields,
@@ -124,7 +124,7 @@ pub(crate) fn length_range(
     }
     let options = m.opt.clone();
     m.opt.timestep = search.step(m);
-    // Whatever the model itself switches off, limits act here.
+    // Limits are active here, whatever the model itself disables.
     m.opt.disableflags = disable::FRICTIONLOSS
         | disable::CONTACT
         | disable::SPRING
@@ -145,12 +145,12 @@ pub(crate) fn length_range(
     Ok(())
 }
 
-/// Smallest and largest length of output `o` in the last part of the time, after pulling in one direction.
+/// Smallest and largest length of output `o` in the last part of the simulation, pulled in one direction.
 fn pull(m: &Model, d: &mut Fields, s: &mut Scratch, o: usize, sign: f64, search: &Search) -> [f64; 2] {
     let damping = libm::exp(-m.opt.timestep / search.timeconst.max(0.01));
     let mut lengths: Option<[f64; 2]> = None;
     let mut acceleration = vec![0.0; m.nv];
-    // A state that is no number any more does not advance time.
+    // The number of steps is limited too, because a bad state resets the time.
     let mut steps = search.steps(m) + 2.0;
     reset::reset_data(m, d, s);
     while d.time < search.inttotal && steps > 0.0 {
@@ -170,7 +170,7 @@ fn pull(m: &Model, d: &mut Fields, s: &mut Scratch, o: usize, sign: f64, search:
     lengths.unwrap_or([0.0; 2])
 }
 
-/// A force along the moment of output `o` that would accelerate the mechanism by |M⁻¹ f| = `accel`.
+/// Applies a force along the moment of output `o` that would accelerate the mechanism by |M⁻¹ f| = `accel`.
 fn force(m: &Model, d: &mut Fields, o: usize, sign: f64, search: &Search, acceleration: &mut [f64]) {
     acceleration.fill(0.0);
     d.qfrc_applied.fill(0.0);
@@ -189,7 +189,7 @@ fn force(m: &Model, d: &mut Fields, o: usize, sign: f64, search: &Search, accele
     d.qfrc_applied.iter_mut().for_each(|f| *f *= factor);
 }
 
-/// Whether the length of an actuator can change at all.
+/// Whether the length of an actuator can change.
 pub(crate) fn has_length(m: &Model, i: usize) -> bool {
     match (m.actuator_trntype[i], target(m, i)) {
         (trntype::BODY, _) | (trntype::SITE, (_, None)) => false,
@@ -202,7 +202,7 @@ pub(crate) fn has_length(m: &Model, i: usize) -> bool {
 mod tests {
     use crate::mjcf::compile;
 
-    /// An arm; compiler settings, options, attributes of the joint, actuators.
+    /// The length ranges of an arm, with these compiler settings, options, attributes of the joint and actuators.
     fn arm(lengthrange: &str, option: &str, joint: &str, actuators: &str) -> Result<Vec<f64>, String> {
         let model = format!(
             "<mujoco><compiler><lengthrange {lengthrange}/></compiler><option {option}/><worldbody><body>
@@ -212,7 +212,7 @@ mod tests {
         compile(&model).map(|m| m.actuator_lengthrange).map_err(|e| e[0].message.clone())
     }
 
-    /// What MuJoCo 3.14.0 finds.
+    /// Compares with the ranges that MuJoCo 3.14.0 finds.
     #[test]
     fn ranges_are_those_of_mujoco() {
         let limit = "range='-60 60'";
@@ -243,7 +243,7 @@ mod tests {
         }
     }
 
-    /// Where MuJoCo finds none, neither do we; and a search without end is not begun.
+    /// If MuJoCo finds no range, this code finds none. A search without end is not started.
     #[test]
     fn what_has_no_range_says_so() {
         let limit = "range='-60 60'";

@@ -1,4 +1,4 @@
-//! What a model computes of itself at its default configuration (`mj_setConst`, `mj_setLengthRange`).
+//! Constants that a model computes from itself in its default configuration (`mj_setConst`, `mj_setLengthRange`).
 
 pub(crate) mod lengthrange;
 mod needs;

@@ -1,9 +1,9 @@
-//! What a model needs of the build that shall run it.
+//! The features of the build that a model requires.
 
 use crate::model::Model;
 use crate::{collision, sensor};
 
-/// Two geoms whose contacts or distance the general algorithm for convex shapes would have to find.
+/// Two geoms whose contacts or distance require the general algorithm for convex shapes.
 pub(crate) fn search(m: &Model) -> Option<[usize; 2]> {
     collision::searched_pair(m).or_else(|| sensor::searched_pair(m))
 }
@@ -28,7 +28,7 @@ mod tests {
         assert_eq!(searched("", "type='capsule'"), None);
         assert_eq!(searched("", "type='box'"), None);
         assert_eq!(searched("", "type='cylinder'"), Some([1, 2]));
-        // The bits of a contact may change while a lab runs.
+        // The contact bits may change during a run.
         assert_eq!(searched("", "type='ellipsoid' contype='0' conaffinity='0'"), Some([1, 2]));
         assert_eq!(searched("<contact><exclude body1='a' body2='b'/></contact>", "type='cylinder'"), None);
         assert_eq!(searched(distance, "type='sphere'"), None);

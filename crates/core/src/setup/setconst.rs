@@ -1,4 +1,4 @@
-//! `mj_setConst`: constants of the model that follow from others, at the default configuration.
+//! `mj_setConst`: constants of the model that are computed from other parameters, in the default configuration.
 
 use crate::constraint::ends;
 use crate::dynamics::kinematics::sameframe;
@@ -11,11 +11,11 @@ use crate::model::{Fields, Model};
 use crate::step::reset;
 use crate::step::workspace::{Scratch, Workspace};
 
-/// Recomputes what follows from masses, inertias and poses (`mj_setConst`).
+/// Recomputes the constants that depend on masses, inertias and poses (`mj_setConst`).
 ///
-/// Uses `d` as scratch, with a visible effect: on return `qpos` is the configuration `qpos_spring`
-/// (normally `qpos0`), with positions computed there, while `qvel`, `time`, `act` and `ctrl` are untouched. A
-/// call in mid-flight therefore puts bodies back where they started and keeps their speed.
+/// Uses `d` as workspace, with a visible effect: on return, `qpos` is the configuration `qpos_spring` (normally `qpos0`), the
+/// position fields are those of that configuration, and `qvel`, `time`, `act` and `ctrl` are unchanged. A call during a
+/// simulation therefore moves bodies back to their initial positions and keeps their velocities.
 pub(crate) fn set_const(m: &mut Model, d: &mut Fields, s: &mut Scratch) {
     let plan = std::mem::replace(&mut d.plan, PlanTable::full());
     let solves = (m.nbody + m.njnt + m.ntendon) * (6 * m.nC / m.ntree.max(1) + 100);
@@ -52,7 +52,7 @@ pub(crate) fn set_const(m: &mut Model, d: &mut Fields, s: &mut Scratch) {
     reset::set_plan(m, d, s, plan);
 }
 
-/// The same for a model that has no data yet.
+/// Like [`set_const`], for a model that has no data yet.
 pub(crate) fn set_const0(m: &mut Model) {
     let Workspace { fields: mut d, scratch: mut s } = Workspace::unplanned(m);
     set_const(m, &mut d, &mut s);
@@ -73,7 +73,7 @@ fn subtree_mass(m: &mut Model) {
     }
 }
 
-/// Where the bodies and degrees of freedom of each tree are.
+/// Sets the addresses of the bodies and degrees of freedom of each tree.
 fn trees(m: &mut Model) {
     m.tree_bodynum.fill(0);
     m.tree_dofnum.fill(0);
@@ -89,7 +89,7 @@ fn trees(m: &mut Model) {
     }
 }
 
-/// Which inertial frames, geoms and sites coincide with their body's frames: their poses are then copied.
+/// Sets which inertial frames, geoms and sites coincide with the frame of their body. Their poses are then copied.
 fn same_frames(m: &mut Model) {
     let (ipos, iquat) = (rows::<3>(&m.body_ipos), rows::<4>(&m.body_iquat));
     for b in 0..m.nbody {
@@ -118,7 +118,7 @@ fn same_frames(m: &mut Model) {
     }
 }
 
-/// Frames that differ by less than this, number by number, are one (measured on MuJoCo 3.14.0).
+/// Frames whose numbers all differ by less than this count as equal (measured on MuJoCo 3.14.0).
 const SAME: f64 = 1e-6;
 
 fn same<const N: usize>(a: [f64; N], b: [f64; N]) -> bool {
@@ -130,16 +130,16 @@ fn same_rotation(a: Quat, b: Quat) -> bool {
     same(a, b) || same(a, scale(b, -1.0))
 }
 
-/// `body_invweight0` and `dof_invweight0`: how much a unit force accelerates what it acts on, on average.
+/// `body_invweight0` and `dof_invweight0`: the mean acceleration that a unit force causes.
 ///
-/// For a body the mean diagonal of J M⁻¹ Jᵀ at its centre of mass, for translation and for rotation; for a
-/// degree of freedom that of M⁻¹, averaged over each group of a joint.
+/// For a body, the mean diagonal of J M⁻¹ Jᵀ at its centre of mass, for translation and for rotation. For a degree of freedom,
+/// the diagonal of M⁻¹, averaged over each group of degrees of freedom of a joint.
 fn inverse_weights(m: &mut Model, d: &Fields) {
     let cdof = rows::<6>(&d.cdof);
     let (xipos, com) = (rows::<3>(&d.xipos), rows::<3>(&d.subtree_com));
     let mut x = vec![0.0; m.nv];
     let mut row = vec![0.0; m.nv];
-    // Trees do not couple: each solve stays within one.
+    // Trees are not coupled: each solve is restricted to one tree.
     let tree = |m: &Model, dof: usize| {
         let t = m.dof_treeid[dof] as usize;
         let first = m.tree_dofadr[t] as usize;
@@ -192,7 +192,7 @@ fn inverse_weights(m: &mut Model, d: &Fields) {
     }
 }
 
-/// `stat`: means over bodies, and a box around everything that has a place.
+/// `stat`: means over bodies, and a box around all objects with a position.
 fn statistics(m: &mut Model, d: &Fields) {
     let bodies = (m.nbody - 1) as f64;
     m.stat.meanmass = if m.nbody > 1 { m.body_mass.iter().skip(1).sum::<f64>() / bodies } else { 1.0 };
@@ -200,7 +200,7 @@ fn statistics(m: &mut Model, d: &Fields) {
     let sizes = body_sizes(m, d);
     m.stat.meansize = if m.nbody > 1 { sizes.iter().skip(1).sum::<f64>() / bodies } else { 0.2 };
     for (k, length) in m.dof_length.iter_mut().enumerate() {
-        // The first three of a free joint and a slide have the unit of a length already.
+        // The first three degrees of freedom of a free joint, and that of a slide, already have the unit of a length.
         let j = m.dof_jntid[k] as usize;
         let moves = match m.jnt_type[j] {
             joint::FREE => k < m.jnt_dofadr[j] as usize + 3,
@@ -236,7 +236,8 @@ fn statistics(m: &mut Model, d: &Fields) {
     m.stat.extent = if side > 0.0 { side.max(2.0 * m.stat.meansize) } else { 2.0 };
 }
 
-/// How far a geom reaches from its centre, m; a plane, which has no end, counts for a tenth of what is drawn.
+/// The largest distance from the centre of a geom to its surface, m. A plane, which is infinite, counts as a tenth of its
+/// rendered size.
 fn reach(m: &Model, g: usize) -> f64 {
     let [x, y, _] = rows::<3>(&m.geom_size)[g];
     match m.geom_type[g] {
@@ -246,10 +247,10 @@ fn reach(m: &Model, g: usize) -> f64 {
     }
 }
 
-/// How far the geoms of each body and the joints to its parent and its children reach from its centre of mass, m.
+/// For each body, the largest distance from its centre of mass to its geoms and to the joints to its parent and children, m.
 fn body_sizes(m: &Model, d: &Fields) -> Vec<f64> {
     let xipos = rows::<3>(&d.xipos);
-    // A body with nothing in it counts as a point.
+    // A body without geoms and joints counts as a point.
     let mut size = vec![1e-5f64; m.nbody];
     for j in 0..m.njnt {
         let b = m.jnt_bodyid[j] as usize;
@@ -270,7 +271,7 @@ fn body_sizes(m: &Model, d: &Fields) -> Vec<f64> {
 mod tests {
     use crate::mjcf::compile;
 
-    /// Scenes, and what MuJoCo 3.14.0 gives for extent, height of the centre, meansize and meanmass.
+    /// Scenes, with the values of MuJoCo 3.14.0 for extent, height of the centre, meansize and meanmass.
     #[test]
     fn statistics_are_those_of_mujoco() {
         let ball = "<body pos='0 0 1'><freejoint/><geom size='.1'/></body>";

@@ -1,8 +1,8 @@
-//! What programs read and write of a model and its data: what plans are made for.
+//! The fields of a model and its data that programs read and write. Plans are made for such a set.
 
 use crate::model::reflect::FieldSet;
 
-/// What programs read and write.
+/// The fields that programs read and write.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct AccessSet {
     /// Fields that are read between steps.
@@ -12,8 +12,8 @@ pub struct AccessSet {
 }
 
 impl AccessSet {
-    /// Anything may be read or written: what an embedding program gets that says nothing.
+    /// Any field may be read or written. This is the default for embedding programs.
     pub const ANY: AccessSet = AccessSet { reads: FieldSet::ALL, writes: FieldSet::ALL };
-    /// Anything may be read, only state and controls are written.
+    /// Any field may be read. Only state and controls are written.
     pub const OBSERVE: AccessSet = AccessSet { reads: FieldSet::ALL, writes: FieldSet::EMPTY };
 }

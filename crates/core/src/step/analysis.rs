@@ -1,4 +1,4 @@
-//! What is known of a scene before it runs, from the model and from what programs read and write.
+//! Analyses a scene before it runs: facts that follow from the model and from the fields that programs read and write.
 
 pub use super::access::AccessSet;
 
@@ -17,10 +17,10 @@ use crate::model::{Model, PlanTable};
 use crate::step::{damping, idle};
 use crate::{collision, sensor};
 
-/// When a flag holds.
+/// The condition for a flag.
 type Test = fn(&ModelAnalysis) -> bool;
 
-/// The flags that follow from the analysis, each with when it holds. Four others follow from the stages that a plan keeps:
+/// The flags that follow from the analysis, each with its condition. Four others depend on the stages that a plan keeps:
 /// [`PlanFlag::Unforced`], [`PlanFlag::Ballistic`], [`PlanFlag::BodyInertias`] and [`PlanFlag::MassForRows`].
 pub(super) const FLAGS: [(PlanFlag, Test); 23] = [
     (PlanFlag::General, |s| s.general),
@@ -52,7 +52,7 @@ pub(super) const FLAGS: [(PlanFlag, Test); 23] = [
     (PlanFlag::PlacesChange, |s| s.changes().places),
 ];
 
-/// What may change of what pairs of geoms are chosen by, as far as a plan says it.
+/// Which inputs of the selection of geom pairs may change, according to a plan.
 pub(crate) fn changes(plan: &PlanTable) -> collision::Changes {
     collision::Changes {
         bits: plan.has(PlanFlag::PairsChange),
@@ -61,24 +61,24 @@ pub(crate) fn changes(plan: &PlanTable) -> collision::Changes {
     }
 }
 
-/// What is known of a scene before it runs.
+/// Facts about a scene that are known before it runs.
 pub(super) struct ModelAnalysis<'a> {
     pub(super) m: &'a Model,
     pub(super) access: &'a AccessSet,
-    /// How trees may be computed.
+    /// The allowed tree algorithms.
     pub(super) algorithms: TreeAlgorithms,
     /// M of some tree depends on the configuration.
     pub(super) general: bool,
     /// M and the bias force of some tree are computed by the general algorithm.
     pub(super) large: bool,
-    /// Which pairs of geoms may touch can change while it runs.
+    /// The set of pairs of geoms that may touch can change during a run.
     pub(super) pairs_change: bool,
     /// Number of pairs of geoms that may touch.
     pub(super) pairs: usize,
-    /// Number of joints and tendons with limits, or all when limits are switched while it runs.
+    /// Number of joints and tendons with limits, or of all if limits may be switched during a run.
     pub(super) limited: usize,
     pub(super) limited_tendons: usize,
-    /// Number of degrees of freedom and tendons with dry friction, likewise.
+    /// Number of degrees of freedom and tendons with dry friction, or of all if friction may be changed during a run.
     pub(super) friction: usize,
     pub(super) equalities: usize,
     /// Springs and dampers of joints, springs of tendons, dampers of tendons.
@@ -86,17 +86,17 @@ pub(super) struct ModelAnalysis<'a> {
     pub(super) tendon_springs: bool,
     pub(super) tendon_dampers: bool,
     pub(super) gravcomp: bool,
-    /// Contacts pull.
+    /// Contacts may be adhesive.
     pub(super) adhesion: bool,
-    /// The medium resists.
+    /// Fluid forces may act.
     pub(super) fluid: bool,
     pub(super) tendon_armature: bool,
     pub(super) actuated: bool,
-    /// There are actuators, and none makes a force.
+    /// There are actuators, and the force of all of them is zero.
     pub(super) idle: bool,
     pub(super) sensors: bool,
-    /// Sensors are evaluated that nobody reads: those with buffers, which are part of the state, and those of energies, which show
-    /// in `energy`, too.
+    /// Sensors are evaluated although nobody reads them: those with buffers, which are part of the state, and those of energies,
+    /// whose results are also in `energy`.
     pub(super) every_sensor: bool,
     pub(super) energy: bool,
     /// Trees may sleep.
@@ -136,7 +136,7 @@ impl<'a> ModelAnalysis<'a> {
         analysis.find_constraints();
         analysis.find_forces();
         analysis.find_actuation();
-        // A tendon's inertia adds to that of simple bodies, too.
+        // The armature of a tendon also adds to M of simple bodies.
         analysis.general |= analysis.tendon_armature;
         analysis.sensors = m.nsensor > 0
             && (analysis.reads(Stage::Sensors).is_some()
@@ -144,12 +144,12 @@ impl<'a> ModelAnalysis<'a> {
         analysis
     }
 
-    /// Whether a part of a step is on, or programs may switch it on.
+    /// Whether an optional part of a step is enabled, or programs may enable it.
     fn may_enable(&self, bit: i32) -> bool {
         self.m.opt.enabled(bit) || self.writes(&[option::enableflags])
     }
 
-    /// What can touch, is limited, has dry friction or is tied together.
+    /// Counts the pairs that can touch, the limits, dry friction and equality constraints.
     fn find_constraints(&mut self) {
         let m = self.m;
         self.pairs_change = self.writes(&[
@@ -159,7 +159,7 @@ impl<'a> ModelAnalysis<'a> {
             model::body_conaffinity,
             option::disableflags,
         ]);
-        // What a flag switches off counts only if the flag may be cleared.
+        // A part that a flag disables counts only if programs may clear the flag.
         let may_act = |bit: i32| {
             self.writes(&[option::disableflags])
                 || !(m.opt.disabled(disable::CONSTRAINT) || m.opt.disabled(bit))
@@ -184,7 +184,7 @@ impl<'a> ModelAnalysis<'a> {
         }
     }
 
-    /// How many of these are limited; all where programs may change that.
+    /// The number of active limits, or of all if programs may change them.
     fn limits(&self, field: FieldId, limited: &[bool]) -> usize {
         match self.writes(&[field]) {
             true => limited.len(),
@@ -192,12 +192,12 @@ impl<'a> ModelAnalysis<'a> {
         }
     }
 
-    /// Whether an input may differ from what it is after a reset.
+    /// Whether an input may differ from its value after a reset.
     fn may_differ(&self, input: FieldId) -> bool {
         self.sleeps || self.writes(&[input])
     }
 
-    /// What makes forces and inertia but for actuators.
+    /// Finds the passive forces and the armature.
     fn find_forces(&mut self) {
         let m = self.m;
         self.fluid = m.opt.density > 0.0
@@ -214,7 +214,7 @@ impl<'a> ModelAnalysis<'a> {
         self.tendon_armature = self.some(&[TENDON_ARMATURE]) || on_tendons && self.some(&[ACTUATOR_ARMATURE]);
     }
 
-    /// Whether actuators make forces, or would if one of them were driven.
+    /// Finds whether actuators make forces, or would make them if they had a control.
     fn find_actuation(&mut self) {
         let m = self.m;
         let on = !m.opt.disabled(disable::ACTUATION) || self.writes(&[option::disableflags]);
@@ -225,7 +225,7 @@ impl<'a> ModelAnalysis<'a> {
         self.actuated = any && !self.idle;
     }
 
-    /// What may change of what pairs of geoms are chosen by.
+    /// Which inputs of the selection of geom pairs may change.
     fn changes(&self) -> collision::Changes {
         collision::Changes {
             bits: self.pairs_change,
@@ -234,12 +234,12 @@ impl<'a> ModelAnalysis<'a> {
         }
     }
 
-    /// Whether one of these numbers is or may become other than zero.
+    /// Whether at least one of these numbers is not zero, or may become so.
     pub(super) fn some(&self, of: &[Numbers]) -> bool {
         of.iter().any(|numbers| self.others_than_zero(numbers) > 0)
     }
 
-    /// How many of these numbers are or may become other than zero.
+    /// The number of these numbers that are not zero, or may become so.
     pub(super) fn others_than_zero(&self, (field, numbers): &Numbers) -> usize {
         let numbers = numbers(self.m);
         if self.writes(&[*field]) {
@@ -248,7 +248,7 @@ impl<'a> ModelAnalysis<'a> {
         numbers.iter().filter(|&&x| x != 0.0).count()
     }
 
-    /// Whether joints have dampers, unless programs may change that.
+    /// Whether joints have dampers, or `None` if programs may change that.
     pub(super) fn damped(&self) -> Option<bool> {
         let joint_forces = [JOINT_FORCES[0].0, JOINT_FORCES[1].0];
         let actuators = ACTUATOR_DAMPING.map(|f| f.0);
@@ -259,8 +259,8 @@ impl<'a> ModelAnalysis<'a> {
         (!changes).then(|| damping::has_dampers(self.m))
     }
 
-    /// Whether something looks at the inertias of bodies: trees of the general algorithm, derivatives of the bias force, forces between
-    /// bodies.
+    /// Whether the inertias of bodies are used: by trees with the general algorithm, by derivatives of the bias force, or by
+    /// forces between bodies.
     pub(super) fn needs_body_inertias(&self, plan: &PlanTable) -> bool {
         let m = self.m;
         let explicit = m.opt.integrator == integrator::EULER || integrator::many_stages(m.opt.integrator);
@@ -271,8 +271,7 @@ impl<'a> ModelAnalysis<'a> {
             || [data::cinert, data::crb].into_iter().any(|f| self.reads_field(f))
     }
 
-    /// Whether only constraints look at M: trees have algorithms that do without its general
-    /// rows, and so does the integrator.
+    /// Whether only constraints use M: the tree algorithms and the integrator do not need its general rows.
     pub(super) fn mass_for_rows(&self, plan: &PlanTable) -> bool {
         let m = self.m;
         let fields = [data::M, data::qLD, data::qLDiagInv, data::crb];
@@ -302,7 +301,7 @@ impl<'a> ModelAnalysis<'a> {
             || !(0..m.nactuator).all(|i| self.is_motor(i) && dynamics(i))
     }
 
-    /// Whether an actuator acts on a slide or a hinge, with a force in proportion to its input.
+    /// Whether an actuator acts on a slide or a hinge, with a force that is proportional to its input.
     pub(super) fn is_motor(&self, i: usize) -> bool {
         self.is_servo(i)
             && self.m.actuator_trntype[i] != trntype::TENDON
@@ -324,7 +323,7 @@ impl<'a> ModelAnalysis<'a> {
             && matches!(m.actuator_biastype[i], biastype::NONE | biastype::AFFINE)
     }
 
-    /// Whether all actuators are of a kind, each with one control and none of them ever switched off.
+    /// Whether all actuators are of a kind, have one control each, and can never be disabled.
     pub(super) fn actuators_are(&self, of_kind: fn(&ModelAnalysis<'a>, usize) -> bool) -> bool {
         let m = self.m;
         let plain = |i: usize| {
@@ -338,8 +337,8 @@ impl<'a> ModelAnalysis<'a> {
         !self.sleeps && !switched && m.nhistory == 0 && m.nout == m.nactuator && (0..m.nactuator).all(plain)
     }
 
-    /// Whether forces change with velocities by numbers of the model that stay, but for each actuator's own: linear dampers and
-    /// servos, along joints and fixed tendons.
+    /// Whether the derivatives of forces with respect to velocities are constants of the model, except for those of actuator
+    /// forces. This requires linear dampers and servos, along joints and fixed tendons.
     pub(super) fn slopes_stay(&self) -> bool {
         let growth = [JOINT_FORCES[1], TENDON_FORCES[3], ACTUATOR_DAMPING[1]];
         let numbers = [model::wrap_prm, TENDON_FORCES[2].0];
@@ -358,7 +357,7 @@ impl<'a> ModelAnalysis<'a> {
         sensor::needs_of(self.m, stage, read)
     }
 
-    /// Whether the medium acts on some geoms one by one.
+    /// Whether fluid forces act on individual geoms.
     pub(super) fn ellipsoids(&self) -> bool {
         self.some(&[ELLIPSOIDS])
     }
@@ -373,22 +372,22 @@ impl<'a> ModelAnalysis<'a> {
         self.writes(&[data::xfrc_applied])
     }
 
-    /// Forces on bodies as such.
+    /// Whether gravity compensation or fluid forces act on bodies.
     pub(super) fn body_forces(&self) -> bool {
         self.gravcomp || self.fluid
     }
 
-    /// Constraints between frames of bodies.
+    /// Whether there are constraints between frames of bodies.
     pub(super) fn welds_bodies(&self) -> bool {
         self.equalities > 0 && self.m.eq_type.contains(&eqtype::WELD)
     }
 
-    /// Constraints between points or frames of bodies.
+    /// Whether there are constraints between points or frames of bodies.
     pub(super) fn ties_bodies(&self) -> bool {
         self.equalities > 0 && self.m.eq_type.iter().any(|&t| t == eqtype::CONNECT || t == eqtype::WELD)
     }
 
-    /// Constraints of the lengths of tendons.
+    /// Whether there are constraints on the lengths of tendons.
     pub(super) fn tendon_constraints(&self) -> bool {
         let m = self.m;
         self.limited_tendons > 0
@@ -396,17 +395,18 @@ impl<'a> ModelAnalysis<'a> {
             || self.some(&[(model::tendon_frictionloss, |m| &m.tendon_frictionloss)])
     }
 
-    /// Forces along tendons.
+    /// Whether there are forces along tendons.
     pub(super) fn tendon_forces(&self) -> bool {
         self.tendon_springs || self.tendon_dampers
     }
 
-    /// Whether the options name an integrator, or may come to name it.
+    /// Whether the options select an integrator, or programs may select it.
     pub(super) fn may_integrate_by(&self, kind: i32) -> bool {
         self.m.opt.integrator == kind || self.writes(&[option::integrator])
     }
 
-    /// Whether an integrator asks how the bias force changes with velocities: that is found from composite bodies.
+    /// Whether an integrator needs the derivative of the bias force with respect to velocities, which is computed from composite
+    /// bodies.
     pub(super) fn bias_slopes(&self) -> bool {
         let bodies = |&t: &usize| {
             derivative::is_free_rigid(self.m, t) && !tree_algorithms::turns_alone(self.m, self.algorithms, t)
@@ -417,7 +417,7 @@ impl<'a> ModelAnalysis<'a> {
             || of_free.into_iter().any(|kind| self.may_integrate_by(kind)) && free()
     }
 
-    /// The first field of a stage that is read, as a reason.
+    /// A reason that names the first field of a stage that is read.
     pub(super) fn reads(&self, stage: Stage) -> Option<String> {
         if self.access.reads == FieldSet::ALL {
             return Some("its results may be read".into());

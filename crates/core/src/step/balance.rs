@@ -1,4 +1,4 @@
-//! What a scene holds: the energy of motion, of gravity, and of what is elastic, servos included.
+//! The mechanical energy of a scene: kinetic energy, and potential energy of gravity, springs and servos.
 
 use super::forward;
 use super::workspace::Scratch;
@@ -15,21 +15,21 @@ use crate::model::{Fields, Model};
 pub struct Energy {
     /// ½ vᵀ M v.
     pub kinetic: f64,
-    /// Of gravity.
+    /// Potential energy of gravity.
     pub gravity: f64,
-    /// Of springs, and of actuators whose force follows from their length.
+    /// Potential energy of springs, and of actuators whose force depends on their length only.
     pub elastic: f64,
 }
 
 impl Energy {
-    /// What gravity and elastic things hold, J.
+    /// The potential energy of gravity and elastic elements, J.
     pub fn potential(&self) -> f64 {
         self.gravity + self.elastic
     }
 }
 
-/// The energy at `qpos` and `qvel`, for the controls at hand. `None` where some actuator has no potential: it may feed the
-/// scene. Computes poses, lengths and velocities of bodies, and nothing else.
+/// The energy at `qpos` and `qvel`, for the current controls. `None` if an actuator has no potential, because it may add energy.
+/// Computes poses, lengths and velocities of bodies only.
 pub(crate) fn mechanical_energy(m: &Model, d: &mut Fields, s: &mut Scratch) -> Option<Energy> {
     forward::placed(m, d, s);
     transmission::transmissions(m, d, &mut s.forces);
@@ -61,10 +61,10 @@ fn kinetic(m: &Model, d: &mut Fields, s: &mut Scratch) -> f64 {
     0.5 * (of_bodies + of_armature)
 }
 
-/// The potential of all actuators; `None` where one of them has none.
+/// The potential energy of all actuators, or `None` if one of them has none.
 ///
-/// A force clip(u) with u = a - k x has the potential Φ(u)/k, where Φ' = clip: a parabola with its tangents beyond the limits.
-/// With k = 0 the force c is constant: -c x.
+/// A force clip(u) with u = a - k x has the potential Φ(u)/k, where Φ' = clip: a parabola that continues as its tangents beyond
+/// the limits. If k = 0, the force c is constant and its potential is -c x.
 fn servos(m: &Model, d: &mut Fields) -> Option<f64> {
     if m.nactuator == 0 || m.opt.disabled(disable::ACTUATION) {
         return Some(0.0);

@@ -1,4 +1,4 @@
-//! Stages of the pipeline that use several modules, or do less where the plan says so.
+//! Stages of the pipeline that use several modules, or whose work depends on the plan.
 
 use super::{damping, discrete, sleep};
 use crate::dynamics::{camera, jacobian, subtree, tree_algorithms};
@@ -24,13 +24,13 @@ pub(super) fn tendons(m: &Model, d: &mut Fields) {
     }
 }
 
-/// `M`, but for what is put off to steps in which constraints act.
+/// Computes `M`, except the parts that are postponed to steps with active constraints.
 pub(super) fn mass_matrix(m: &Model, d: &mut Fields, s: &mut Scratch) {
     let rows = !d.plan.has(PlanFlag::MassForRows);
     fill_mass_matrix(m, d, s, d.plan.has(PlanFlag::Composite) && rows, rows);
 }
 
-/// `M`, with or without the rows of the general tree algorithm, and of those that put theirs off.
+/// Computes `M`, with or without the rows of the general tree algorithm, and those of the algorithms that postpone them.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn fill_mass_matrix(m: &Model, d: &mut Fields, s: &mut Scratch, general: bool, rows: bool) {
     tree_algorithms::mass(m, d, &mut s.dynamics, general, rows);
@@ -50,7 +50,7 @@ fn factor_now(m: &Model, d: &mut Fields, s: &mut Scratch) {
     check_inertia(d, bad);
 }
 
-/// Warns of a degree of freedom without inertia.
+/// Warns about a degree of freedom without inertia.
 fn check_inertia(d: &mut Fields, bad: Option<usize>) {
     if let Some(dof) = bad {
         d.warn(Warning::Inertia, dof);
@@ -88,7 +88,7 @@ pub(super) fn bias(m: &Model, d: &mut Fields, s: &mut Scratch) {
     }
 }
 
-/// `qfrc_smooth` and `qacc_smooth` = M⁻¹ `qfrc_smooth`; `qacc` where no constraint can act.
+/// `qfrc_smooth` and `qacc_smooth` = M⁻¹ `qfrc_smooth`. Also `qacc`, if no constraint can be active.
 pub(super) fn acceleration(m: &Model, d: &mut Fields, s: &mut Scratch) {
     if d.plan.has(PlanFlag::Ballistic) && m.opt.integrator != integrator::DISCRETE {
         ballistic(d);
@@ -139,7 +139,8 @@ fn accelerate(m: &Model, d: &mut Fields, s: &mut Scratch) {
     }
 }
 
-/// The same where nothing makes forces but gravity and motion, M is diagonal, and nothing can touch: what flies.
+/// Like [`accelerate`], for bodies in free flight: only gravity and the bias force act, M is diagonal, and contacts are
+/// impossible.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn ballistic(d: &mut Fields) {
     combine(&mut d.qfrc_smooth, [&*d.qfrc_bias], |_, [bias]| 0.0 - bias);
@@ -147,7 +148,7 @@ fn ballistic(d: &mut Fields) {
     copy(&d.qacc_smooth, &mut d.qacc);
 }
 
-/// Adds Jᵀ f for the force and torque applied at each body's centre of mass.
+/// Adds Jᵀ f for the force and the torque that are applied at the centre of mass of each body.
 fn applied_forces(m: &Model, d: &mut Fields) {
     let mut out = std::mem::take(&mut d.qfrc_smooth);
     for b in 1..m.nbody {
@@ -169,7 +170,7 @@ pub(super) fn solve(m: &Model, d: &mut Fields, s: &mut Scratch) {
     turn_free_bodies(m, d, s);
 }
 
-/// What the discrete integrator adds to `qacc` of free bodies.
+/// Adds the gyroscopic correction of the discrete integrator to `qacc` of free bodies.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn turn_free_bodies(m: &Model, d: &mut Fields, s: &mut Scratch) {
     if m.opt.integrator == integrator::DISCRETE {
@@ -177,26 +178,26 @@ fn turn_free_bodies(m: &Model, d: &mut Fields, s: &mut Scratch) {
     }
 }
 
-/// Momenta of subtrees, where a sensor asks for them: they stay as they are otherwise.
+/// Momenta of subtrees, if a sensor needs them. Otherwise the fields do not change.
 pub(super) fn subtree_velocities(m: &Model, d: &mut Fields) {
     if measured(m, Stage::SubtreeVel) {
         subtree::subtree_vel(m, d);
     }
 }
 
-/// Accelerations of bodies and the forces between them, likewise.
+/// Accelerations of bodies and the forces between them, if a sensor needs them.
 pub(super) fn body_forces(m: &Model, d: &mut Fields) {
     if measured(m, Stage::RnePost) {
         body_force::rne_post_constraint(m, d);
     }
 }
 
-/// Whether sensors are on, and one needs a stage.
+/// Whether sensors are enabled, and one of them needs a stage.
 fn measured(m: &Model, stage: Stage) -> bool {
     !m.opt.disabled(disable::SENSOR) && sensor::needs(m, stage)
 }
 
-/// `energy[0]`, or zeros when the flag is off and no sensor has just computed it.
+/// Computes `energy[0]`. Sets zeros if the flag is off and no sensor has computed the energy in this pass.
 pub(super) fn potential_energy(m: &Model, d: &mut Fields, s: &mut Scratch) {
     if m.opt.enabled(enable::ENERGY) {
         energy::potential(m, d);

@@ -1,16 +1,18 @@
-//! The rows of the pipeline by the clock: the same calls in the same order, with a look at the clock between them.
+//! Runs the rows of the pipeline with time measurement: the same calls in the same order, with a reading of the clock between
+//! them.
 
 use crate::model::stage::Stage;
 use crate::model::{Fields, Model};
 use crate::step::workspace::Scratch;
 
-/// What a stage is: it reads the model, and writes the fields and the scratch.
+/// The function of a stage: it reads the model, and writes the fields and the scratch.
 pub(super) type Run = fn(&Model, &mut Fields, &mut Scratch);
 
-/// The bit of a pass that is walked by the clock.
+/// The bit of a pass that is run with time measurement.
 pub(super) const CLOCKED: u32 = 1 << 31;
 
-/// Runs what the bits say, one by one, and notes what each took; before them a call of nothing, which shows what looking costs.
+/// Runs the stages of the given bits one by one, and records the time of each. An empty call before them measures the cost of the
+/// clock.
 #[cold]
 #[inline(never)]
 pub(super) fn walk(
@@ -32,7 +34,7 @@ pub(super) fn walk(
     }
 }
 
-/// Runs one of them, or nothing, between two looks at the clock.
+/// Runs one stage, or an empty call, between two readings of the clock.
 #[inline(never)]
 fn lap(run: Run, stage: Option<Stage>, m: &Model, d: &mut Fields, s: &mut Scratch) {
     let clock = s.watch.as_ref().map(|watch| watch.clock);
@@ -44,5 +46,5 @@ fn lap(run: Run, stage: Option<Stage>, m: &Model, d: &mut Fields, s: &mut Scratc
     }
 }
 
-/// Runs nothing.
+/// Does nothing.
 pub(super) fn nothing(_: &Model, _: &mut Fields, _: &mut Scratch) {}

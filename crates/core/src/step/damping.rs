@@ -19,8 +19,8 @@ pub(super) fn damp(m: &Model, d: &Fields, s: &mut Scratch) {
     tree_algorithms::solve_with(m, d, &mut s.dynamics, b, a);
 }
 
-/// Both accelerations from `qfrc_smooth`, where no constraint acts: a, and a' in the scratch. Returns the first degree of
-/// freedom without inertia.
+/// Computes both accelerations from `qfrc_smooth`, when no constraint is active: a, and a' in the scratch. Returns the first
+/// degree of freedom without inertia.
 pub(super) fn accelerate(
     m: &Model,
     d: &mut Fields,
@@ -28,7 +28,7 @@ pub(super) fn accelerate(
     acceleration: &mut [f64],
 ) -> Option<usize> {
     let Damping { qacc: a, b, done } = &mut s.damping;
-    // With the force of constraints, which is 0: -0 becomes 0, as everywhere.
+    // Adds the constraint force, which is 0: -0 becomes 0, as in the other code paths.
     combine(a, [&*acceleration], |_, [force]| force + 0.0);
     damping(m, d, b);
     *done = true;
@@ -44,7 +44,7 @@ fn damping(m: &Model, d: &Fields, out: &mut [f64]) {
     });
 }
 
-/// Whether some degree of freedom has a damper, and dampers are on.
+/// Whether some degree of freedom has a damper, and dampers are enabled.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn damps(m: &Model, d: &Fields) -> bool {
     d.plan.keeps(Stage::Passive)
@@ -56,7 +56,7 @@ pub(super) fn damps(m: &Model, d: &Fields) -> bool {
 /// Whether some degree of freedom has a damper.
 pub(super) fn has_dampers(m: &Model) -> bool {
     let some = |numbers: &[f64]| numbers.iter().any(|&x| x != 0.0);
-    // Joints may have an actuator's inertia without its damping.
+    // A joint may have the armature of an actuator without its damping.
     let actuators = || some(&m.actuator_damping) || some(&m.actuator_dampingpoly);
     some(&m.dof_damping)
         || some(&m.dof_dampingpoly)

@@ -1,4 +1,4 @@
-//! The fields of the model whose values decide what a plan keeps.
+//! The fields of the model whose values determine which stages a plan keeps.
 
 use super::access::AccessSet;
 use crate::collision;
@@ -7,7 +7,7 @@ use crate::model::Model;
 use crate::model::reflect::{FieldId, FieldSet, model, option};
 use crate::step::idle;
 
-/// What the parameters of a contact are mixed from.
+/// The fields from which the parameters of a contact are computed.
 pub(super) const CONTACT_PARAMS: [FieldId; 18] = [
     model::geom_rbound,
     model::geom_condim,
@@ -30,21 +30,21 @@ pub(super) const CONTACT_PARAMS: [FieldId; 18] = [
 ];
 /// A field, and its numbers.
 pub(super) type Numbers = (FieldId, fn(&Model) -> &[f64]);
-/// What makes passive forces of joints.
+/// The parameters of passive joint forces.
 pub(super) const JOINT_FORCES: [Numbers; 4] = [
     (model::dof_damping, |m| &m.dof_damping),
     (model::dof_dampingpoly, |m| &m.dof_dampingpoly),
     (model::jnt_stiffness, |m| &m.jnt_stiffness),
     (model::jnt_stiffnesspoly, |m| &m.jnt_stiffnesspoly),
 ];
-/// What makes passive forces of tendons, springs first.
+/// The parameters of passive tendon forces, springs first.
 pub(super) const TENDON_FORCES: [Numbers; 4] = [
     (model::tendon_stiffness, |m| &m.tendon_stiffness),
     (model::tendon_stiffnesspoly, |m| &m.tendon_stiffnesspoly),
     (model::tendon_damping, |m| &m.tendon_damping),
     (model::tendon_dampingpoly, |m| &m.tendon_dampingpoly),
 ];
-/// Damping of actuators, which joints and tendons have.
+/// Damping of actuators, which acts on joints and tendons.
 pub(super) const ACTUATOR_DAMPING: [Numbers; 2] = [
     (model::actuator_damping, |m| &m.actuator_damping),
     (model::actuator_dampingpoly, |m| &m.actuator_dampingpoly),
@@ -56,9 +56,9 @@ pub(super) const FRICTION_LOSS: [Numbers; 2] = [
 ];
 pub(super) const ACTUATOR_ARMATURE: Numbers = (model::actuator_armature, |m| &m.actuator_armature);
 pub(super) const TENDON_ARMATURE: Numbers = (model::tendon_armature, |m| &m.tendon_armature);
-/// Geoms on which the medium acts one by one.
+/// The fluid coefficients of individual geoms.
 pub(super) const ELLIPSOIDS: Numbers = (model::geom_fluid, |m| &m.geom_fluid);
-/// Contacts that pull, and surfaces that move by themselves.
+/// Adhesion of contacts, and velocities of surfaces.
 pub(super) const ADHESION: [Numbers; 2] =
     [(model::geom_adhesion, |m| &m.geom_adhesion), (model::pair_adhesion, |m| &m.pair_adhesion)];
 pub(super) const SURFACES: Numbers = (model::geom_surfacevel, |m| &m.geom_surfacevel);
@@ -66,7 +66,7 @@ pub(super) const GRAVCOMP: Numbers = (model::body_gravcomp, |m| &m.body_gravcomp
 pub(super) const OVERRIDES: [FieldId; 5] =
     [option::o_margin, option::o_solref, option::o_solimp, option::o_friction, option::enableflags];
 
-/// Limits, gains and bits of contact: what else is looked at.
+/// Other fields: limits, options and contact bits.
 pub(super) const OTHERS: [FieldId; 12] = [
     model::geom_contype,
     model::geom_conaffinity,
@@ -82,14 +82,14 @@ pub(super) const OTHERS: [FieldId; 12] = [
     option::disableactuator,
 ];
 
-/// What plans look at of what `mj_setConst` computes: the actuators whose dampers and inertia joints and tendons have, and the frames in
-/// which geoms are.
+/// The results of `mj_setConst` on which plans depend: the actuators whose damping and armature act on joints and tendons, and
+/// the frames of geoms.
 pub(crate) fn constants(m: &Model) -> [&[i32]; 4] {
     [&m.jnt_actuatorid, &m.tendon_actuatorid, &m.geom_sameframe, &m.body_sameframe]
 }
 
-/// The fields of the model whose values decide what a plan keeps. Where one of them is written, a plan is made for the value that
-/// it has, or for any: see `api/assumed`. Of all others the values are not looked at.
+/// The fields of the model whose values determine which stages a plan keeps. If programs write one of them, a plan is made for
+/// its current value, or for any value: see `api/assumed`. The values of all other fields are not used.
 pub(crate) fn deciding() -> FieldSet {
     let mut set = FieldSet::EMPTY;
     let numbers = [
@@ -109,7 +109,7 @@ pub(crate) fn deciding() -> FieldSet {
     set
 }
 
-/// What is written, and decides nothing: of these fields a plan never asks the value.
+/// The written fields that determine nothing. A plan never uses their values.
 pub(crate) fn never_asked(access: &AccessSet) -> FieldSet {
     access.writes.difference(&deciding())
 }

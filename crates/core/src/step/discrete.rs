@@ -1,12 +1,12 @@
 //! The discrete integrator: one linear problem whose solution is the velocity at the end of the step.
 //!
-//! With the stiffness K and the damping D of springs, dampers, actuators and the medium at the start of the step,
-//! forces at its end are f - h K v - (h D + h² K) a, so that
+//! With the stiffness K and the damping D of springs, dampers, actuators and the fluid at the start of the step, the forces at
+//! its end are f - h K v - (h D + h² K) a, so that
 //!
 //! > (M + h D + h² K) a = f - h K v
 //!
-//! and a is exactly (v⁺ - v)/h. Coefficients that would not stabilize are left out. The matrix in front is the
-//! metric: dynamics with it is what dynamics with M is elsewhere.
+//! and a is exactly (v⁺ - v)/h. Coefficients that would destabilize the step are left out. The matrix on the left is called the
+//! metric. It replaces M in the dynamics of this integrator.
 
 use super::metric::Metric;
 use super::workspace::Scratch;
@@ -22,8 +22,7 @@ pub(crate) fn acceleration(m: &Model, d: &mut Fields, s: &mut Scratch) {
     d.qacc_smooth = out;
 }
 
-/// Rigid bodies that move freely, coupled with nothing, take the derivative of their gyroscopic force, too, in
-/// `qacc`.
+/// For free rigid bodies that are not coupled with others, adds the derivative of the gyroscopic force to `qacc`.
 pub(crate) fn turn_free_bodies(m: &Model, d: &mut Fields, s: &mut Scratch) {
     let Scratch { metric: w, derivative: slopes, constraint: rows, .. } = s;
     for tree in 0..m.ntree {
@@ -39,7 +38,7 @@ pub(crate) fn turn_free_bodies(m: &Model, d: &mut Fields, s: &mut Scratch) {
     }
 }
 
-/// Adds to `qfrc_inverse` what the metric adds to M times `qacc`, and h K v.
+/// Adds to `qfrc_inverse` the product of `qacc` with the metric minus M, and h K v.
 pub(crate) fn add_to_inverse(m: &Model, d: &mut Fields, s: &mut Scratch) {
     let Scratch { metric: w, derivative: slopes, constraint: rows, .. } = s;
     w.build(m, d, slopes);
@@ -54,19 +53,19 @@ pub(crate) fn add_to_inverse(m: &Model, d: &mut Fields, s: &mut Scratch) {
         }
     }
     for i in 0..m.nv {
-        // The product has M in it, too.
+        // The product contains that with M.
         d.qfrc_inverse[i] = w.product[i] + d.qfrc_smooth[i] - w.force[i];
     }
 }
 
-/// Sets the rows of constraints for the end of the step, for inverse dynamics: the metric is not there yet.
+/// Sets the constraint rows for the end of the step, for inverse dynamics, in which the metric is not yet available.
 pub(crate) fn prepare_inverse(m: &Model, d: &mut Fields, s: &mut Scratch) {
     let Scratch { metric: w, derivative: slopes, constraint: rows, .. } = s;
     w.build(m, d, slopes);
     constraint::at_end_of_step(m, d, rows, &w.diagonal);
 }
 
-/// `qacc` and forces of constraints, in the metric that [`acceleration`] has made. Its terms are rows of their own there.
+/// `qacc` and constraint forces, with the metric that [`acceleration`] has built. The terms of the metric are additional rows.
 pub(crate) fn constraints(m: &Model, d: &mut Fields, s: &mut Scratch) {
     let Scratch { metric: w, constraint: rows, dynamics: trees, .. } = s;
     if d.nefc > 0 {
@@ -95,7 +94,7 @@ pub(crate) fn constraints(m: &Model, d: &mut Fields, s: &mut Scratch) {
     }
 }
 
-/// Puts the metric in the place of the mass matrix, or back: constraints are solved in it.
+/// Exchanges the mass matrix and the metric, so that constraints are solved with the metric.
 fn exchange_metric(d: &mut Fields, w: &mut Metric) {
     std::mem::swap(&mut d.M, &mut w.matrix);
     std::mem::swap(&mut d.qLD, &mut w.ld);

@@ -1,22 +1,22 @@
-//! A matrix with the pattern of M and its factorization, kept from one step to the next.
+//! A matrix with the sparsity pattern of M and its factorization, reused between steps.
 
 use crate::dynamics::mass;
 use crate::forces::derivative::{self, sparse};
 use crate::model::Model;
 
-/// The matrix of the fast implicit integrator, and its factorization, which stays as long as the matrix does, tree by tree: that of
-/// slides with dampers and servos is the same in every step.
+/// The matrix of the fast implicit integrator, and its factorization. The factorization of a tree is reused while its matrix is
+/// unchanged: for slides with dampers and servos, it is the same in every step.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Factored {
     of: Vec<f64>,
-    /// Whether the rows of a tree have been factorized.
+    /// Whether the factorization of a tree is that of the current matrix.
     is_current: Vec<bool>,
     pub(crate) ld: Vec<f64>,
     pub(crate) diag_inv: Vec<f64>,
 }
 
 impl Factored {
-    /// Factorizes M - h D, where `whole` is D, of the trees that are not free bodies. Returns the first degree of freedom whose
+    /// Factorizes M - h D, where `whole` is D, for the trees that are not free bodies. Returns the first degree of freedom whose
     /// pivot is not positive.
     pub(crate) fn make(&mut self, m: &Model, mass: &[f64], whole: &[f64], h: f64) -> Option<usize> {
         if self.is_current.len() != m.ntree || self.ld.len() != m.nC {
@@ -35,7 +35,7 @@ impl Factored {
                 continue;
             }
             let failed = mass::factor_copy(m, &self.of, &mut self.ld, &mut self.diag_inv, dofs);
-            // One that warns is factorized again at the next step, and warns again.
+            // A tree with a warning is factorized again at the next step, so that the warning is repeated.
             self.is_current[tree] = failed.is_none();
             bad = bad.or(failed);
         }
@@ -43,7 +43,7 @@ impl Factored {
     }
 }
 
-/// out ← a - h b; whether some bit of it is another one.
+/// out ← a - h b. Returns whether any bit of the result changed.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn difference(out: &mut [f64], a: &[f64], b: &[f64], h: f64) -> bool {
     let (n, mut changed) = (out.len(), false);

@@ -1,7 +1,7 @@
-//! What a scene has and does not use: actuators whose controls are zero, equality constraints that are off.
+//! Detects unused elements of a scene: actuators whose controls are zero, and equality constraints that are inactive.
 //!
-//! Both follow from inputs of the data. A plan takes them as they are after a reset, where nobody writes them; data that hold something
-//! else are planned again (`api/data`).
+//! Both depend on inputs of the data. If no program writes these inputs, a plan assumes their values after a reset. Data with
+//! other values get a new plan (`api/data`).
 
 use crate::forces::tendon;
 use crate::kinds::{biastype, dyntype, trntype};
@@ -9,7 +9,7 @@ use crate::math::rows;
 use crate::model::Model;
 use crate::model::reflect::{FieldId, model};
 
-/// What the force of an actuator without a control follows from.
+/// The fields that determine the force of an actuator whose control is zero.
 pub(super) const ACTUATORS: [FieldId; 12] = [
     model::actuator_gainprm,
     model::actuator_gear,
@@ -24,10 +24,10 @@ pub(super) const ACTUATORS: [FieldId; 12] = [
     model::tendon_actfrcrange,
     model::wrap_prm,
 ];
-/// Whether equality constraints act after a reset.
+/// The field that determines whether equality constraints are active after a reset.
 pub(super) const EQUALITIES: [FieldId; 1] = [model::eq_active0];
 
-/// Whether a force or a control of nothing is within these ranges, where they are limited.
+/// Whether zero is within each of these ranges that is active.
 fn holds_zero(limited: &[bool], ranges: &[f64]) -> bool {
     limited
         .iter()
@@ -35,13 +35,14 @@ fn holds_zero(limited: &[bool], ranges: &[f64]) -> bool {
         .all(|(limited, range)| !limited || range[0] <= 0.0 && range[1] >= 0.0)
 }
 
-/// Whether no actuator makes a force: their controls are zero and stay so, and with them their forces, whatever the state. `linear`
-/// says of an actuator whether its force is linear in its control, its length and its velocity.
+/// Whether the forces of all actuators are zero in every state, given that their controls are zero and stay so. `linear`
+/// returns whether the force of an actuator is linear in its control, its length and its velocity.
 pub(super) fn actuators_are_idle(m: &Model, linear: impl Fn(usize) -> bool) -> bool {
     let makes_none = |i: usize| {
         let fixed = |t: i32| usize::try_from(t).is_ok_and(|t| t < m.ntendon && tendon::is_fixed(m, t));
         let numbers = [m.actuator_gainprm[10 * i], m.actuator_gear[6 * i]];
-        // The moment of a joint is its gear, that of a fixed tendon its coefficients: numbers, whatever the state.
+        // The moment of a joint is its gear, and that of a fixed tendon consists of its coefficients. Both are independent of the
+        // state.
         linear(i)
             && m.actuator_biastype[i] == biastype::NONE
             && m.actuator_dyntype[i] == dyntype::NONE
@@ -58,14 +59,14 @@ pub(super) fn actuators_are_idle(m: &Model, linear: impl Fn(usize) -> bool) -> b
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)] // a test that fails says why
+#[allow(clippy::unwrap_used)] // a panic is the report of a failed test
 mod tests {
     use crate::api::{call, data::Data, data::Planned, model::Model, planning::Plan};
     use crate::model::reflect::{FieldSet, data, model};
     use crate::model::stage::Stage;
     use crate::step::analysis::AccessSet;
 
-    /// A pendulum, with some actuators and constraints.
+    /// Two pendulums, with these actuators and constraints.
     fn pendulum(more: &str) -> Model {
         Model::from_xml(&format!(
             "<mujoco><worldbody><body name='a'><joint name='j' axis='0 1 0'/><geom size='.1' pos='1 0 0'/></body>
@@ -81,7 +82,7 @@ mod tests {
         access
     }
 
-    /// Steps of planned data end as those of full ones.
+    /// Checks that steps with planned data give the results of full steps.
     fn agree(m: &Model, planned: &mut Data<Planned>, full: &mut Data) {
         for _ in 0..30 {
             call::step(m, planned).unwrap();
@@ -93,8 +94,8 @@ mod tests {
         assert_eq!(bits(&planned.fields().qfrc_actuator), bits(&full.qfrc_actuator));
     }
 
-    /// Gravity compensation that acts as a force of actuators does not act in a model without actuators (measured on MuJoCo 3.14.0),
-    /// whatever the plan keeps.
+    /// Gravity compensation that counts as an actuator force does not act in a model without actuators (measured on MuJoCo
+    /// 3.14.0), whatever the plan contains.
     #[test]
     fn without_actuators_nothing_compensates_gravity_for_them() {
         let m = Model::from_xml(
@@ -132,7 +133,7 @@ mod tests {
             assert!(Plan::new(&m, &written).keeps(Stage::Actuation));
             let (mut planned, mut full) = (Data::planned(&m, plan), Data::unplanned(&m));
             agree(&m, &mut planned, &mut full);
-            // A control that nobody announced acts.
+            // A control that the access set does not announce acts.
             planned.edit().ctrl[0] = 0.7;
             full.edit().ctrl[0] = 0.7;
             agree(&m, &mut planned, &mut full);
@@ -168,7 +169,7 @@ mod tests {
             full.edit().eq_active[i] = on;
             agree(&m, &mut planned, &mut full);
         }
-        // Off after a reset, and on until then.
+        // Inactive after a reset, and active until then.
         m.edit().eq_active0.fill(false);
         agree(&m, &mut planned, &mut full);
         let mut data = Data::planned(&m, Plan::new(&m, &reading()));

@@ -13,10 +13,10 @@ use crate::step::workspace::Scratch;
 use crate::step::{calls, forward};
 use crate::step::{damping, discrete};
 
-/// What inverse dynamics cannot answer.
+/// The reason why inverse dynamics is impossible.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InverseError {
-    /// The acceleration is that of a whole step (`invdiscrete`) of a method with several stages: it cannot be undone.
+    /// The acceleration belongs to a whole step (`invdiscrete`) of a method with several stages, which cannot be inverted.
     RungeKutta,
 }
 
@@ -30,11 +30,11 @@ impl std::fmt::Display for InverseError {
 
 impl std::error::Error for InverseError {}
 
-/// `qfrc_inverse` from `qpos`, `qvel` and `qacc` (`mj_inverse`): what must be applied, by actuators or from outside,
+/// Computes `qfrc_inverse` from `qpos`, `qvel` and `qacc` (`mj_inverse`): the force that actuators or external forces must apply
 /// to cause this acceleration. With the flag `invdiscrete`, `qacc` is (v⁺ - v)/h of a step instead.
 ///
-/// All fields of position and velocity, the forces of constraints and sensors are computed, whatever the plan
-/// says.
+/// All fields of position and velocity, the constraint forces and the sensors are computed, whatever the plan
+/// contains.
 pub(crate) fn inverse(m: &Model, d: &mut Fields, s: &mut Scratch) -> Result<(), InverseError> {
     if m.opt.enabled(enable::INVDISCRETE) && integrator::many_stages(m.opt.integrator) {
         return Err(InverseError::RungeKutta);
@@ -46,7 +46,7 @@ pub(crate) fn inverse(m: &Model, d: &mut Fields, s: &mut Scratch) -> Result<(), 
     Ok(())
 }
 
-/// The same once position and velocity are known.
+/// Like [`inverse`], after the position and velocity stages.
 fn from_velocity(m: &Model, d: &mut Fields, s: &mut Scratch) {
     let mut given = std::mem::take(&mut s.rk.slope);
     given.copy_from_slice(&d.qacc);
@@ -72,7 +72,8 @@ fn from_velocity(m: &Model, d: &mut Fields, s: &mut Scratch) {
     s.rk.slope = given;
 }
 
-/// `qacc` of a step to that of the equations of motion: what the integrator adds to M acts on it.
+/// Converts `qacc` of a step to the acceleration of the equations of motion, by including the terms that the integrator adds to
+/// M.
 fn continuous(m: &Model, d: &mut Fields, s: &mut Scratch) {
     let (h, force, w) = (m.opt.timestep, &mut s.damping.qacc, &mut s.derivative);
     match m.opt.integrator {
@@ -106,7 +107,7 @@ fn continuous(m: &Model, d: &mut Fields, s: &mut Scratch) {
                 }
             }
         }
-        // The discrete integrator's acceleration is that of the step in all equations.
+        // The acceleration of the discrete integrator is that of the step in all equations.
         _ => return,
     }
     mass::solve(m, &d.qLD, &d.qLDiagInv, force, 0..m.nv);

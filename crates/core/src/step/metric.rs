@@ -1,7 +1,8 @@
-//! The metric of the discrete integrator: M + h D + h² K, in which a step is one linear problem.
+//! The metric of the discrete integrator: M + h D + h² K. With it, a step is one linear problem.
 //!
-//! What acts along several degrees of freedom (a tendon) stays a rank-one term s r rᵀ, for which conjugate gradients take the
-//! rest as the preconditioner (Golub and Van Loan 2013, *Matrix Computations*, section 11.5).
+//! A force along several degrees of freedom (that of a tendon) is a rank-one term s r rᵀ. The problem with terms is solved by
+//! conjugate gradients, preconditioned with the rest of the metric (Golub and Van Loan 2013, *Matrix Computations*, section
+//! 11.5).
 
 use crate::constraint;
 use crate::dynamics::mass;
@@ -15,26 +16,26 @@ use crate::kinds::{disable, joint, solver};
 use crate::math::{Spatial, dot_slice, norm};
 use crate::model::{Fields, Model};
 
-/// The metric and what follows from it.
+/// The metric and its factorization.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Metric {
-    /// The metric without its terms, and the factorization of that and of the diagonals of the terms.
+    /// The metric without its terms, and the factorization of that matrix plus the diagonals of the terms.
     pub(super) matrix: Vec<f64>,
     pub(super) ld: Vec<f64>,
     pub(super) diag_inv: Vec<f64>,
     /// f - h K v.
     pub(super) force: Vec<f64>,
-    /// What acts along several degrees of freedom.
+    /// The terms: forces along several degrees of freedom.
     pub(super) terms: Vec<Term>,
-    /// Which trees some term of the metric couples.
+    /// The trees that some term of the metric couples.
     coupled: Vec<bool>,
     residual: Vec<f64>,
     step: Vec<f64>,
     pub(super) search: Vec<f64>,
     pub(super) product: Vec<f64>,
-    /// The diagonal of the metric, terms included.
+    /// The diagonal of the metric, including the terms.
     pub(super) diagonal: Vec<f64>,
-    /// `qacc_smooth` while constraints are solved with the terms apart, and the Jacobian of one of them.
+    /// `qacc_smooth` while the terms are constraint rows, and the Jacobian of one of them.
     pub(super) other: Vec<f64>,
     pub(super) columns: Vec<i32>,
     pub(super) values: Vec<f64>,
@@ -47,7 +48,7 @@ pub(super) enum Row {
     Output(usize),
 }
 
-/// s r rᵀ for the Jacobian r of a row's length.
+/// The term s r rᵀ, for the Jacobian r of the length of a row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Term {
     pub(super) row: Row,
@@ -55,7 +56,7 @@ pub(super) struct Term {
 }
 
 impl Row {
-    /// Degrees of freedom, ascending, and values.
+    /// The degrees of freedom, ascending, and the values.
     pub(super) fn jacobian<'a>(self, m: &'a Model, d: &'a Fields) -> (&'a [i32], &'a [f64]) {
         match self {
             Row::Tendon(t) => {
@@ -91,7 +92,7 @@ impl Metric {
             derivative::medium(m, d, slopes, Medium::Drag);
             derivative::sparse::subtract_lower(m, &slopes.whole, m.opt.timestep, &mut self.matrix);
         }
-        // The dual solver takes the inverse of M's pattern alone.
+        // The dual solver uses the inverse with the sparsity pattern of M only.
         if m.opt.solver != solver::PGS {
             self.tendons(m, d);
             self.actuators(m, d);
@@ -109,8 +110,8 @@ impl Metric {
         mass::factor(m, &mut self.ld, &mut self.diag_inv, 0..m.nv);
     }
 
-    /// Puts the acceleration without the terms in the place of that with them, which goes to `other`, and the
-    /// factorization of the matrix alone in the place of that with the diagonals of the terms.
+    /// Exchanges the acceleration with the terms (stored in `other`) for that without them, and the factorization with the
+    /// diagonals of the terms for that of the matrix alone.
     pub(super) fn solve_alone(&mut self, m: &Model, smooth: &mut Vec<f64>) {
         self.ld.copy_from_slice(&self.matrix);
         mass::factor(m, &mut self.ld, &mut self.diag_inv, 0..m.nv);
@@ -130,7 +131,7 @@ impl Metric {
         }
     }
 
-    /// Joint springs resist along every degree of freedom as they do radially.
+    /// The stiffness of a joint spring in all directions is that in the radial direction.
     fn joint_springs(&mut self, m: &Model, d: &Fields) {
         for j in 0..m.njnt {
             let law = Law::new(&m.jnt_stiffness, &m.jnt_stiffnesspoly, j);
@@ -189,7 +190,7 @@ impl Metric {
         }
     }
 
-    /// Adds a spring and a damper along a row whose length grows with `velocity`.
+    /// Adds a spring and a damper along a row whose length changes with `velocity`.
     fn add(&mut self, m: &Model, d: &Fields, row: Row, stiffness: f64, damping: f64, velocity: f64) {
         let (h, k, b) = (m.opt.timestep, stiffness.max(0.0), damping.max(0.0));
         let scale = h * h * k + h * b;
@@ -207,7 +208,7 @@ impl Metric {
         }
     }
 
-    /// x ← metric⁻¹ force, by conjugate gradients from zero to the solver's tolerance where there are terms.
+    /// x ← metric⁻¹ force. With terms, by conjugate gradients from zero, to the tolerance of the solver.
     pub(super) fn solve(&mut self, m: &Model, d: &Fields, x: &mut [f64]) {
         if self.terms.is_empty() {
             x.copy_from_slice(&self.force);
@@ -219,7 +220,7 @@ impl Metric {
         self.search.fill(0.0);
         let goal = m.opt.tolerance * norm_of(&self.force);
         let mut before = 1.0;
-        // In exact arithmetic it ends after as many steps as there are terms, and one.
+        // In exact arithmetic, the number of iterations is the number of terms plus one.
         for _ in 0..2 * self.terms.len() + 20 {
             if norm_of(&self.residual) <= goal {
                 break;
@@ -244,8 +245,8 @@ impl Metric {
         }
     }
 
-    /// The metric of a rigid body that moves freely, coupled with nothing, and the derivative of its gyroscopic
-    /// force: the first degree of freedom, and the block.
+    /// The metric of a free rigid body that is not coupled with others, with the derivative of its gyroscopic force: the first
+    /// degree of freedom, and the block.
     pub(super) fn free_block(
         &self,
         m: &Model,

@@ -1,6 +1,6 @@
-//! A step: the stages in their order, which of them a scene needs, and what follows from the accelerations.
+//! A step: the stages in their order, the plan of the stages that a scene needs, and the integration of the accelerations.
 //!
-//! [`forward`] is the order of the stages; an integrator takes what they leave to the next state; bad numbers are looked for
+//! [`forward`] runs the stages in their order. An integrator computes the next state from their results. Bad numbers are detected
 //! before and between.
 
 mod access;
@@ -36,8 +36,8 @@ use wide::f64x4;
 
 /// Advances the simulation by one step (`mj_step`).
 ///
-/// A bad number in the state resets the data first; one in the acceleration resets it and the same step
-/// then starts from there (`warning` says which and when).
+/// A bad number in the state resets the data before the step. A bad number in the acceleration resets the data, and the same step
+/// then starts from the reset state. `warning` records the kind of bad number and when it occurred.
 pub(crate) fn step(m: &Model, d: &mut Fields, s: &mut Scratch) {
     check_state(m, d, s);
     forward::from_state(m, d, s);
@@ -46,22 +46,22 @@ pub(crate) fn step(m: &Model, d: &mut Fields, s: &mut Scratch) {
     integrate::integrate(m, d, s);
 }
 
-/// The first part of a step (`mj_step1`): all that does not depend on inputs. Controls and applied forces may be
-/// set between the two.
+/// The first part of a step (`mj_step1`): everything that does not depend on inputs. Controls and applied forces may be
+/// set between the two parts.
 pub(crate) fn step1(m: &Model, d: &mut Fields, s: &mut Scratch) {
     check_state(m, d, s);
     forward::from_state(m, d, s);
 }
 
-/// The second part of a step (`mj_step2`): forces, accelerations, the next state. Where the options name
-/// Runge–Kutta, which needs forces at other states, this is a step of Euler.
+/// The second part of a step (`mj_step2`): forces, accelerations, the next state. Runge–Kutta methods need forces at other
+/// states; if the options name one, this function makes a semi-implicit Euler step.
 pub(crate) fn step2(m: &Model, d: &mut Fields, s: &mut Scratch) {
     forward::from_inputs(m, d, s);
     check_acceleration(m, d, s);
     integrate::integrate_once(m, d, s);
 }
 
-/// Whether no number is [`bad`]: four at a time, where the last four may overlap those before.
+/// Whether no number is [`bad`]. Tests four at a time; the last four may overlap the previous ones.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn all_good(v: &[f64]) -> bool {
     let good = |x: &[f64; 4]| f64x4::new(*x).abs().simd_le(f64x4::splat(LARGEST));
@@ -73,7 +73,8 @@ fn all_good(v: &[f64]) -> bool {
     }
 }
 
-/// Warns of the first bad number, and resets unless that is switched off. The warning survives the reset.
+/// Warns about the first bad number, and resets the data unless automatic resets are disabled. The warning is kept after the
+/// reset.
 #[cold]
 #[inline(never)]
 fn reset_after(
@@ -86,7 +87,7 @@ fn reset_after(
     let Some(info) = of(d).iter().position(|&x| bad(x)) else { return false };
     d.warn(warning, info);
     if m.opt.disabled(disable::AUTORESET) {
-        // The library counts what it does not reset twice.
+        // MuJoCo counts a warning twice if it does not reset.
         d.warn(warning, info);
         return false;
     }

@@ -1,9 +1,9 @@
-//! The stages of a step as a table: what each needs, why it would run, why not, and what runs.
+//! The stages of a step as a table: the results that each stage needs, the reasons to run it or not, and its functions.
 //!
-//! A row is all that there is to know of a stage: the forward pass runs the rows in this order, the plan is decided from them
-//! (from the last to the first, as a stage runs for what a later one needs), and `labspec plan` prints them. What a stage
-//! computes stands in the field table, row by row under its [`Stage`]. Every stage has one signature: it reads the model, and
-//! writes the fields and the scratch, of which it takes that of its module.
+//! A row describes a stage completely. The forward pass runs the rows in this order. The plan is computed from them, from the
+//! last to the first, because a stage runs if a later one needs it. `labspec plan` prints them. The field table lists the fields
+//! that a stage computes under its [`Stage`]. All stages have the same signature: they read the model, and write the fields and
+//! the scratch, of which each uses the part of its module.
 
 use super::analysis::ModelAnalysis;
 use super::clocked::Run;
@@ -17,29 +17,29 @@ use crate::model::stage::Stage;
 use crate::sensor::When;
 use crate::{collision, constraint, sensor};
 
-/// When in a forward pass something runs.
+/// The part of a forward pass in which a function runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum PassPart {
-    /// What depends on `qpos` alone.
+    /// Computations that depend on `qpos` alone.
     Positions,
-    /// What depends on `qvel` as well.
+    /// Computations that depend on `qvel` as well.
     Velocities,
-    /// What depends on inputs as well.
+    /// Computations that depend on inputs as well.
     Inputs,
 }
 
-/// Stages whose results are used (any, where the list is empty), and in which scenes.
+/// Stages whose results a stage uses (all stages if the list is empty), and a condition on the scene.
 type Need = (&'static [Stage], fn(&ModelAnalysis, Stage) -> bool);
 
 /// A stage.
 pub(super) struct Row {
     pub(super) stage: Stage,
-    /// In words, before "stage".
+    /// The name for people, before "stage".
     pub(super) name: &'static str,
     pub(super) needs: &'static [Need],
-    /// Why it runs for its own sake.
+    /// The reason to run the stage even if no later stage needs it.
     pub(super) wanted: fn(&ModelAnalysis) -> Option<String>,
-    /// Why it does not run when nothing wants it.
+    /// The reason why the stage does not run if nothing needs it.
     pub(super) left_out: fn(&ModelAnalysis) -> &'static str,
     pub(super) run: &'static [(PassPart, Run)],
 }
@@ -53,14 +53,14 @@ impl Row {
     }
 }
 
-/// In every scene where the stage runs.
+/// The condition for every scene in which the stage runs.
 const ALWAYS: fn(&ModelAnalysis, Stage) -> bool = |_, _| true;
 
 fn because(yes: bool, why: &str) -> Option<String> {
     yes.then(|| why.to_string())
 }
 
-/// The stages in their order.
+/// The stages, in their order.
 pub(super) const STAGES: [Row; 26] = [
     Row {
         stage: Stage::Sleep,
@@ -150,7 +150,7 @@ pub(super) const STAGES: [Row; 26] = [
             (&[Stage::ComPos], |s, _| s.large || s.reads_field(data::crb)),
             (&[Stage::Tendon], |s, _| s.tendon_armature),
         ],
-        // Constant where all bodies are simple: only the composite inertias would be computed.
+        // Constant if all bodies are simple: only the composite inertias would be computed.
         wanted: |s| match s.general {
             true => Some(MOVING_MASS.into()),
             false => because(s.reads_field(data::crb), "data.crb is read"),
@@ -291,7 +291,7 @@ pub(super) const STAGES: [Row; 26] = [
         name: "acceleration",
         needs: &[
             (&[Stage::ComVel], |s, _| s.bias_slopes()),
-            // The discrete integrator takes springs at the end of the step, where velocities lead.
+            // The discrete integrator evaluates springs at the end of the step, so it needs velocities.
             (&[Stage::Tendon, Stage::TendonVel], |s, _| {
                 s.tendon_forces() && s.may_integrate_by(integrator::DISCRETE)
             }),
@@ -313,7 +313,7 @@ pub(super) const STAGES: [Row; 26] = [
         stage: Stage::SubtreeVel,
         name: "subtree-momentum",
         needs: &[(&[Stage::ComVel], ALWAYS)],
-        // Its fields show something only where a sensor asks for it.
+        // The fields are computed only if a sensor needs them.
         wanted: |s| s.reads(Stage::SubtreeVel).filter(|_| sensor::needs(s.m, Stage::SubtreeVel)),
         left_out: |_| "no sensor measures the momentum of a subtree",
         run: &[(PassPart::Velocities, |m, d, _| calls::subtree_velocities(m, d))],
@@ -323,7 +323,7 @@ pub(super) const STAGES: [Row; 26] = [
         name: "body-force",
         needs: &[
             (&[Stage::ComVel], ALWAYS),
-            // Spatial tendons pull at bodies.
+            // Spatial tendons exert forces on bodies.
             (&[Stage::Tendon, Stage::TendonVel, Stage::Actuation], |s, _| {
                 s.m.wrap_type.contains(&wraptype::SITE)
             }),

@@ -1,8 +1,8 @@
-//! The plan: which stages a scene needs, with the reason for each, decided once and followed by every step.
+//! Makes plans: which stages a scene needs, with the reason for each. A plan is made once and used in every step.
 //!
-//! It follows from the structure of the model, from what will be read, and from what will be written: a
-//! parameter that some program writes is treated as if it had any value. A plan never changes a number: the
-//! stages it leaves out compute nothing that what is kept, or read, depends on.
+//! It depends on the structure of the model, on the fields that are read, and on those that are written: a parameter that a
+//! program writes is treated as if it had any value. A plan never changes a number: the results of the stages that it leaves out
+//! are not used by stages that run, and are not read.
 
 use super::analysis::{AccessSet, FLAGS, ModelAnalysis};
 use super::pipeline::STAGES;
@@ -12,11 +12,11 @@ use crate::model::plan::{Decision, PlanFlag, PlanTable};
 use crate::model::stage::Stage;
 use crate::model::tree_algorithm::TreeAlgorithms;
 
-/// What shows in sensors alone: the stages of Runge and Kutta's method leave it out.
+/// Stages that only sensors need. The stages of a Runge–Kutta method leave them out.
 const SENSOR_STAGES: [Stage; 3] = [Stage::SubtreeVel, Stage::RnePost, Stage::Sensors];
 
 impl PlanTable {
-    /// Every stage runs, needed or not: the reference that plans are held against.
+    /// A plan in which every stage runs, needed or not. Tests compare plans with it.
     pub(crate) fn full() -> PlanTable {
         let mut plan = PlanTable::default();
         for row in &STAGES {
@@ -25,22 +25,22 @@ impl PlanTable {
         plan.arranged()
     }
 
-    /// Every stage but the one that lets trees sleep: what computes constants wants all of them awake.
+    /// A plan with every stage except the one that puts trees to sleep. Constants are computed with all trees awake.
     pub(crate) fn awake() -> PlanTable {
         let mut plan = PlanTable::full();
         plan.keep(Stage::Sleep, false);
         plan.arranged()
     }
 
-    /// The stages that this scene needs.
+    /// The stages that a scene needs.
     ///
-    /// From the last stage to the first: a stage runs when it is wanted for its own sake, or when a later
-    /// stage that runs uses its results.
+    /// The stages are decided from the last to the first. A stage runs if there is a reason to run it for its own sake, or if a
+    /// later stage that runs uses its results.
     pub(crate) fn new(m: &Model, access: &AccessSet, algorithms: TreeAlgorithms) -> PlanTable {
         PlanTable::with(m, access, algorithms, None)
     }
 
-    /// The same with a stage more, and what it uses, wanted or not: to see what it would cost.
+    /// Like [`PlanTable::new`], with an additional stage and the stages that it uses, to measure their cost.
     pub(crate) fn with(
         m: &Model,
         access: &AccessSet,
@@ -77,7 +77,7 @@ impl PlanTable {
         plan.arranged()
     }
 
-    /// Every stage runs; no list of reasons.
+    /// A plan in which every stage runs, without the list of reasons.
     pub(crate) fn everything() -> PlanTable {
         let mut plan = PlanTable::default();
         STAGES.iter().for_each(|row| plan.keep(row.stage, true));
@@ -89,7 +89,7 @@ impl PlanTable {
         self.decisions.push(Decision { stage, keep, reason });
     }
 
-    /// With what a forward pass runs.
+    /// Sets the functions that each part of a forward pass runs.
     fn arranged(mut self) -> PlanTable {
         self.passes = [
             passes(|stage| self.keeps(stage)),

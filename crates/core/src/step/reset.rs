@@ -1,4 +1,4 @@
-//! Data at the start: made, reset, and given a plan.
+//! The initial state of data: creation, reset, and replacement of the plan.
 
 use super::sequence::by_the_clock;
 use super::{forward, sleep};
@@ -17,21 +17,21 @@ use crate::step::workspace::{Scratch, Workspace};
 use crate::{collision, constraint, sensor};
 
 impl Workspace {
-    /// Data for a model, at the default configuration. Nothing is computed yet: call `forward`.
+    /// Data for a model, in the default configuration. Nothing is computed yet: call `forward`.
     ///
-    /// The plan allows any field to be read or written at any time: see `Data::planned` for less work.
+    /// The plan allows any field to be read or written at any time. See `Data::planned` for less work.
     pub(crate) fn new(m: &Model) -> Workspace {
         Workspace::planned(m, PlanTable::new(m, &AccessSet::ANY, TreeAlgorithms::ALL))
     }
 
-    /// Data that computes only what a plan keeps.
+    /// Data that compute only the stages that a plan keeps.
     pub(crate) fn planned(m: &Model, plan: PlanTable) -> Workspace {
         let mut w = Workspace::unplanned(m);
         set_plan(m, &mut w.fields, &mut w.scratch, plan);
         w
     }
 
-    /// Data with the full pipeline and no collision pairs.
+    /// Data with all stages except sleep, and without collision pairs.
     pub(crate) fn unplanned(m: &Model) -> Workspace {
         let mut w = Workspace::default();
         let Workspace { fields: d, scratch: s } = &mut w;
@@ -42,7 +42,7 @@ impl Workspace {
     }
 }
 
-/// Replaces the plan, which decides what the next forward pass computes.
+/// Replaces the plan, which determines what the next forward pass computes.
 pub(crate) fn set_plan(m: &Model, d: &mut Fields, s: &mut Scratch, plan: PlanTable) {
     s.collision.pairs = if plan.keeps(Stage::Collision) {
         collision::pairs(m, analysis::changes(&plan))
@@ -64,14 +64,13 @@ pub(crate) fn set_plan(m: &Model, d: &mut Fields, s: &mut Scratch, plan: PlanTab
     clear_left_out(m, d, s);
 }
 
-/// Measures the stages from here on by a clock, from nothing.
+/// Starts measuring the times of the stages from zero, with a clock of the caller.
 pub(crate) fn clock(d: &mut Fields, s: &mut Scratch, clock: fn() -> u64) {
     s.watch = Some(Box::new(Stopwatch::new(clock)));
     d.plan.passes = by_the_clock(d.plan.passes);
 }
 
-/// Back to the default configuration (`mj_resetData`): state, inputs, results and warnings. The model keeps
-/// what was written to it.
+/// Resets state, inputs, results and warnings to the default configuration (`mj_resetData`). Edits of the model stay.
 pub(crate) fn reset_data(m: &Model, d: &mut Fields, s: &mut Scratch) {
     reflect::allocate_data(m, d);
     (d.ncon, d.nefc, d.nisland, d.solver_niter) = (0, 0, 0, 0);
@@ -94,7 +93,7 @@ pub(crate) fn reset_data(m: &Model, d: &mut Fields, s: &mut Scratch) {
     lay_down(m, d, s);
 }
 
-/// Trees that start asleep are laid down; all others are awake.
+/// Puts the trees to sleep that start asleep, and wakes all others.
 fn lay_down(m: &Model, d: &mut Fields, s: &mut Scratch) {
     if sleep::wake_all(m, d) {
         forward::forward(m, d, s);
@@ -103,7 +102,7 @@ fn lay_down(m: &Model, d: &mut Fields, s: &mut Scratch) {
     sleep::begin(d, &mut s.sleep);
 }
 
-/// Back to keyframe `key` (`mj_resetDataKeyframe`); one that does not exist resets to the default.
+/// Resets the data to keyframe `key` (`mj_resetDataKeyframe`). If there is no such keyframe, resets to the default configuration.
 pub(crate) fn reset_data_keyframe(m: &Model, d: &mut Fields, s: &mut Scratch, key: usize) {
     reset_data(m, d, s);
     if key >= m.nkey {
@@ -119,8 +118,8 @@ pub(crate) fn reset_data_keyframe(m: &Model, d: &mut Fields, s: &mut Scratch, ke
     row(&m.key_ctrl, m.nu, &mut d.ctrl);
 }
 
-/// Stores the time, the state and the inputs in keyframe `key` (`mj_setKeyframe`). `false`, and nothing changes, when the
-/// model has no such keyframe.
+/// Stores the time, the state and the inputs in keyframe `key` (`mj_setKeyframe`). If the model has no such keyframe, changes
+/// nothing and returns `false`.
 pub(crate) fn set_keyframe(m: &mut Model, d: &Fields, key: usize) -> bool {
     let Some(time) = m.key_time.get_mut(key) else { return false };
     *time = d.time;
@@ -134,7 +133,7 @@ pub(crate) fn set_keyframe(m: &mut Model, d: &Fields, key: usize) -> bool {
     true
 }
 
-/// Gives the fields of stages that the plan leaves out the values that those stages would find.
+/// Sets the fields of stages that the plan leaves out to the values that these stages would compute.
 pub(crate) fn clear_left_out(m: &Model, d: &mut Fields, s: &mut Scratch) {
     if !d.plan.has(PlanFlag::General) {
         mass::constant(m, d);

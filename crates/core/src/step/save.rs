@@ -1,9 +1,9 @@
-//! All of a simulation as bytes: state, inputs and everything computed, contacts and warnings included.
+//! A complete simulation as bytes: state, inputs and all results, including contacts and warnings.
 //!
-//! A file is a header (a word, the version, fingerprints of the table of fields and of the model), the fields in the order
-//! of the table, contacts, warnings, and a fingerprint of all before it. Numbers are least significant byte first. Lengths
-//! are not written: the model and the counts of the data decide them. A file may come from anywhere: what the
-//! engine would index by is looked at before it is believed.
+//! The format: a header (a magic word, the version, hashes of the table of fields and of the model), the fields in the order of
+//! the table, contacts, warnings, and a hash of everything before it. Numbers are little-endian. Lengths are not written, because
+//! the model and the counts of the data determine them. A file may come from any source: integers that the engine uses as indexes
+//! are checked before their use.
 
 use crate::constraint::kind;
 use crate::kinds::cone;
@@ -16,21 +16,21 @@ use std::fmt;
 use std::ops::Range;
 
 const MAGIC: [u8; 8] = *b"labdata\n";
-/// Of the layout that this module writes.
+/// The version of the layout that this module writes.
 const VERSION: u32 = 1;
 
-/// Why saved data are not restored. The data are as before then.
+/// The reason why saved data cannot be restored. The data are then unchanged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RestoreError {
-    /// The bytes do not begin as saved data do.
+    /// The bytes do not start with the header of saved data.
     NotData,
-    /// They were saved by another version of the engine: its layout, if that is what differs.
+    /// The data were saved by another version of the engine. Contains the version of its layout.
     Version(u32),
-    /// They belong to a model of other sizes, types, addresses or names.
+    /// The data belong to a model with other sizes, types, addresses or names.
     OtherModel,
-    /// They are cut off, too long, or some of them were changed.
+    /// The bytes are truncated, too long, or changed.
     Damaged,
-    /// A field holds what no simulation puts there.
+    /// A field contains a value that no simulation produces.
     Wrong(&'static str),
 }
 
@@ -57,7 +57,7 @@ impl fmt::Display for RestoreError {
 
 impl std::error::Error for RestoreError {}
 
-/// All of a simulation as bytes, for [`restore`].
+/// Saves the complete simulation as bytes, for [`restore`].
 pub(crate) fn save(m: &Model, d: &Fields) -> Vec<u8> {
     let mut out = header(m);
     reflect::write_data(d, &mut out);
@@ -72,8 +72,8 @@ pub(crate) fn save(m: &Model, d: &Fields) -> Vec<u8> {
     out
 }
 
-/// Brings a simulation of the same model back to where it was saved, every bit of it; its plan stays. Parameters of the
-/// model are not part of it: a run goes on with those that the model has now.
+/// Restores a saved simulation of the same model, bit for bit. The plan of the data stays. The parameters of the
+/// model are not saved: the run continues with their current values.
 pub(crate) fn restore(m: &Model, d: &mut Fields, s: &mut Scratch, bytes: &[u8]) -> Result<(), RestoreError> {
     let (body, end) = bytes.split_last_chunk::<8>().ok_or(RestoreError::NotData)?;
     let rest = check_header(m, body)?;
@@ -92,7 +92,7 @@ pub(crate) fn restore(m: &Model, d: &mut Fields, s: &mut Scratch, bytes: &[u8]) 
     Ok(())
 }
 
-/// The data that were saved, with the plan and the meter of others; `None` when these are not all the bytes of some.
+/// The saved data, with the plan and the meter of other data. `None` if the bytes are not exactly those of saved data.
 fn saved(m: &Model, like: &Fields, mut bytes: &[u8]) -> Option<Workspace> {
     let mut d = Workspace::planned(m, like.plan.clone());
     d.fields.meter = like.meter;
@@ -107,7 +107,7 @@ fn header(m: &Model) -> Vec<u8> {
     out
 }
 
-/// What follows the header.
+/// Checks the header and returns the bytes after it.
 fn check_header<'a>(m: &Model, body: &'a [u8]) -> Result<&'a [u8], RestoreError> {
     let mut rest = body;
     if <[u8; 8]>::take(&mut rest) != Some(MAGIC) {
@@ -123,7 +123,7 @@ fn check_header<'a>(m: &Model, body: &'a [u8]) -> Result<&'a [u8], RestoreError>
     Ok(rest)
 }
 
-/// A number for the structure and the names of a model.
+/// A hash of the structure and the names of a model.
 fn model(m: &Model) -> u64 {
     let mut out = Vec::new();
     reflect::write_structure(m, &mut out);
@@ -169,7 +169,7 @@ fn write_contact(c: &Contact, out: &mut Vec<u8>) {
 
 fn read_contact(bytes: &mut &[u8]) -> Option<Contact> {
     let [dist, includemargin, adhesion, mu] = Plain::take(bytes)?;
-    // Fields are read in the order in which they stand here.
+    // The fields are read in the order of this expression.
     Some(Contact {
         dist,
         includemargin,
@@ -203,7 +203,7 @@ fn read(m: &Model, d: &mut Fields, bytes: &mut &[u8]) -> Option<()> {
     Some(())
 }
 
-/// The first field that holds what the engine could not index by.
+/// The first field with a value that the engine cannot use as an index.
 fn wrong(m: &Model, d: &Fields) -> Option<&'static str> {
     for f in reflect::fields().filter(|f| f.info().object == Object::Data) {
         let info = f.info();
@@ -243,21 +243,21 @@ fn wrong(m: &Model, d: &Fields) -> Option<&'static str> {
     (d.contact.len() != d.ncon || !d.contact.iter().all(good)).then_some("contact")
 }
 
-/// What the numbers of an integer field can be.
+/// The valid range of an integer field.
 fn limits(m: &Model, d: &Fields, name: &str) -> Option<Range<i64>> {
     let to = |n: usize| 0..i64::try_from(n).unwrap_or(i64::MAX);
     Some(match name {
         "ncon" | "nefc" | "solver_niter" | "efc_id" => 0..i64::MAX,
         "ne" | "nf" | "nl" | "nisland" => to(d.nefc + 1),
         "ten_wrapadr" | "ten_wrapnum" => to(d.wrap_obj.len() + 1),
-        // What a tendon's path lies on may be no geom: -1, -2.
+        // An element of a tendon's path without a geom has the value -1 or -2.
         "wrap_obj" => -2..to(m.ngeom).end,
         "moment_rownnz" => to(m.nv + 1),
         "moment_rowadr" => to(m.nJmom + 1),
         "moment_colind" => to(m.nv.max(1)),
         "efc_type" => 0..8,
         "efc_state" => 0..5,
-        // Steps at rest are counted from -11 on; then it is a tree.
+        // The count of slow steps starts at -11. The value of a sleeping tree is the index of a tree.
         "tree_asleep" => -11..to(m.ntree).end,
         "tree_awake" => 0..2,
         "body_awake" => -1..2,
@@ -279,8 +279,8 @@ fn owners(m: &Model, d: &Fields, kind: i32) -> usize {
     }
 }
 
-/// The Jacobian of the constraints is no field: it is computed again, for a step that is in its middle, and is empty where
-/// the state has moved on since. `again` are the same data once more.
+/// Restores the Jacobian of the constraints, which is not a field. It is computed again if the saved data are in the middle of a
+/// step, and is empty if the state has changed since it was computed. `again` is a second copy of the data.
 fn restore_rows(m: &Model, d: &mut Workspace, mut again: Workspace) {
     let Workspace { fields, scratch } = &mut again;
     reset::clear_left_out(m, fields, scratch);

@@ -1,4 +1,4 @@
-//! The passes of a forward pass: the rows of the pipeline that run in each of its parts, of which a plan keeps some, a bit each.
+//! The parts of a forward pass: the rows of the pipeline that run in each part. A plan selects rows with one bit each.
 
 use super::clocked::{self, CLOCKED, Run};
 use super::pipeline::{PassPart, STAGES};
@@ -6,7 +6,7 @@ use crate::model::stage::Stage;
 use crate::model::{Fields, Model};
 use crate::step::workspace::Scratch;
 
-/// What runs in a part of a forward pass, in order; a plan keeps some of it, a bit each.
+/// The functions of a part of a forward pass, in order. A plan selects functions with one bit each.
 pub(crate) struct Sequence {
     run: [Run; 32],
     stage: [Option<Stage>; 32],
@@ -32,12 +32,12 @@ impl Sequence {
         all
     }
 
-    /// The bits of what belongs to some stages.
+    /// The bits of all functions whose stage satisfies a condition.
     fn bits(&self, of: impl Fn(Stage) -> bool) -> u32 {
         self.stage.iter().enumerate().filter(|(_, s)| s.is_some_and(&of)).map(|(i, _)| 1 << i).sum()
     }
 
-    /// The bits of some stages.
+    /// The bits of the functions of some stages.
     const fn stage_bits(&self, stages: &[Stage]) -> u32 {
         let (mut bits, mut n) = (0, 0);
         while n < 32 {
@@ -55,14 +55,14 @@ impl Sequence {
         bits
     }
 
-    /// The bits of the stages before one of this part.
+    /// The bits of the functions before a stage of this part.
     const fn before(&self, stage: Stage) -> u32 {
         let bits = self.stage_bits(&[stage]);
         assert!(bits.is_power_of_two(), "the stage runs once in this part");
         bits - 1
     }
 
-    /// Runs what the bits say.
+    /// Runs the functions that the bits select.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn run(&self, m: &Model, d: &mut Fields, s: &mut Scratch, mut bits: u32) {
         if bits & CLOCKED != 0 {
@@ -81,8 +81,8 @@ pub(crate) static POSITIONS: Sequence = OF_POSITIONS;
 pub(crate) static VELOCITIES: Sequence = Sequence::new(PassPart::Velocities);
 pub(crate) static INPUTS: Sequence = Sequence::new(PassPart::Inputs);
 
-/// In the part of positions: what finds contacts; what the mass matrix follows from and lengths, and what of that tendons and
-/// transmissions alone need.
+/// In the part of positions: collision; the stages that the mass matrix and lengths depend on; those of them that only tendons and
+/// transmissions need.
 pub(crate) const COLLISION: u32 = OF_POSITIONS.stage_bits(&[Stage::Collision]);
 pub(crate) const BEFORE_MASS: u32 =
     OF_POSITIONS.before(Stage::MassMatrix) & !OF_POSITIONS.stage_bits(&[Stage::CameraPoses]);
@@ -94,7 +94,7 @@ pub(crate) fn by_the_clock(passes: [[u32; 3]; 2]) -> [[u32; 3]; 2] {
     passes.map(|pass| pass.map(|bits| bits | CLOCKED))
 }
 
-/// What a forward pass runs of each part, for the stages that are kept.
+/// The functions that run in each part of a forward pass, for the stages that are kept.
 pub(crate) fn passes(keeps: impl Fn(Stage) -> bool) -> [u32; 3] {
     [POSITIONS.bits(&keeps), VELOCITIES.bits(&keeps), INPUTS.bits(&keeps)]
 }

@@ -1,15 +1,15 @@
-//! What integrators keep within a step.
+//! Memory of the integrators within a step.
 
 use crate::model::Model;
 
-/// What a step keeps between its stages.
+/// The memory of the Runge–Kutta method between its stages.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct RungeKutta {
     /// The state at the start of the step.
     pub(super) qpos: Vec<f64>,
     pub(super) qvel: Vec<f64>,
     pub(super) act: Vec<f64>,
-    /// Weighted sums of the stages' slopes, and the velocity of one stage.
+    /// Weighted sums of the slopes of the stages, and the velocity of one stage.
     pub(super) dpos: Vec<f64>,
     pub(super) dvel: Vec<f64>,
     pub(super) dact: Vec<f64>,
@@ -31,25 +31,26 @@ impl RungeKutta {
     }
 }
 
-/// What the methods in coordinates around the start of a step keep: made by the first step that needs it.
+/// The memory of the methods in coordinates around the start of a step. Allocated by the first step that needs it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Flow {
-    /// When the whole step began, and `energy` there: stages have others, which nobody asks for.
+    /// The time at the start of the whole step, and `energy` there. The energies at the stages are not used.
     pub(super) began: f64,
     pub(super) energy: [f64; 2],
-    /// The configuration and the time that the coordinates start from: of the step, or of the part of it at hand.
+    /// The configuration and the time at the origin of the coordinates, which is the start of the step or of the current part of
+    /// it.
     pub(super) qpos: Vec<f64>,
     pub(super) time: f64,
-    /// Where that starts, with its slope, and where it ends: coordinates, velocities, activations.
+    /// The state at the origin, its slope, and the state at the end: coordinates, velocities, activations.
     pub(super) start: Vec<f64>,
     pub(super) first: Vec<f64>,
     pub(super) end: Vec<f64>,
-    /// Slopes of the stages, or a table of extrapolation: lists like `start`, one after the other.
+    /// The slopes of the stages, or an extrapolation table: lists like `start`, one after the other.
     pub(super) rows: Vec<f64>,
 }
 
 impl Flow {
-    /// Scratch for the state, and for so many slopes.
+    /// Allocates memory for the state, and for this number of slopes.
     pub(super) fn make_room(&mut self, m: &Model, slopes: usize) {
         let n = 2 * m.nv + m.na;
         self.qpos.resize(m.nq, 0.0);
@@ -62,13 +63,13 @@ impl Flow {
     }
 }
 
-/// The acceleration a step advances along, where it is not `qacc`.
+/// The acceleration of a step, if it is not `qacc`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Damping {
     pub(super) qacc: Vec<f64>,
     /// h B.
     pub(super) b: Vec<f64>,
-    /// Whether `qacc` is a' for the forces of this step.
+    /// Whether `qacc` contains a' for the forces of this step.
     pub(super) done: bool,
 }
 

@@ -1,9 +1,8 @@
-//! A compiled model as bytes: frontends ship models, not parsers.
+//! A compiled model as bytes. With them, a frontend can ship models without the MJCF parser.
 //!
-//! A header (a word, the version, a fingerprint of the table of fields), sizes, then every field in the order of the table,
-//! names, texts, exclusions and the sides of hulls, and a fingerprint of all before it. Numbers are least significant byte
-//! first. A file may come from anywhere: it is compared with its fingerprint, and what the engine would index by must
-//! lie where it can.
+//! The format: a header (a magic word, the version, a hash of the table of fields), sizes, then every field in the order of the
+//! table, names, texts, exclusions and hull faces, and a hash of everything before it. Numbers are little-endian. A file may come
+//! from any source: its hash is checked, and all integers that the engine uses as indexes are validated.
 
 use crate::dynamics::tree_algorithms;
 use crate::geometry::HullFaces;
@@ -13,7 +12,7 @@ use crate::model::{Model, Names};
 use crate::step::validate::validate;
 
 const MAGIC: [u8; 8] = *b"labmodl\n";
-/// Of the layout that this module writes.
+/// The version of the layout that this module writes.
 const VERSION: u32 = 3;
 
 fn put_text(text: &str, out: &mut Vec<u8>) {
@@ -35,19 +34,19 @@ fn put_list<T>(list: &[T], out: &mut Vec<u8>, mut put: impl FnMut(&T, &mut Vec<u
 
 fn take_list<T>(bytes: &mut &[u8], mut take: impl FnMut(&mut &[u8]) -> Option<T>) -> Option<Vec<T>> {
     let n = usize::take(bytes)?;
-    // Every element takes a byte or more: no room is made for what is not there.
+    // Every element has at least one byte. The check prevents an allocation that is larger than the input.
     if n > bytes.len() {
         return None;
     }
     (0..n).map(|_| take(bytes)).collect()
 }
 
-/// A model as bytes.
+/// Writes a model to bytes.
 pub(crate) fn write(m: &Model) -> Vec<u8> {
     let mut out = MAGIC.to_vec();
     VERSION.put(&mut out);
     reflect::table(false).put(&mut out);
-    // Sizes first: they say how long the rest is.
+    // Sizes come first, because they determine the lengths of the other fields.
     for field in reflect::fields().filter(|f| f.info().object != Object::Data) {
         if field.info().elem == Elem::Size {
             reflect::write_model(m, field, &mut out);
@@ -75,7 +74,7 @@ pub(crate) fn write(m: &Model) -> Vec<u8> {
     out
 }
 
-/// The model that [`write`] wrote; `None` for anything else.
+/// Reads the bytes of [`write`]. `None` for any other bytes.
 pub(crate) fn read(bytes: &[u8]) -> Option<Model> {
     let (body, end) = bytes.split_last_chunk::<8>()?;
     if fingerprint(body) != u64::from_le_bytes(*end) {
@@ -133,7 +132,7 @@ mod tests {
         <actuator><motor joint='j'/><position tendon='l'/></actuator><sensor><jointpos joint='j'/><touch site='s'/></sensor>
         </mujoco>";
 
-    /// The engine can index by every model that was compiled.
+    /// Every compiled model is valid.
     #[test]
     fn compiled_models_are_sound() {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/golden/models");
@@ -149,7 +148,8 @@ mod tests {
         assert_eq!(wrong, [""; 0]);
     }
 
-    /// Any integer of the structure may be anything: the model is refused or good, and nothing is indexed by it before.
+    /// With any integer in any structure field, the model is refused or valid, and no integer is used as an index before the
+    /// validation.
     #[test]
     fn whatever_the_integers_are_is_looked_at_first() {
         let m = compile(EVERYTHING).unwrap();
@@ -166,7 +166,7 @@ mod tests {
             }
         }
         assert!(refused > 1000, "{refused}");
-        // Lists that begin nowhere are empty.
+        // Empty lists may have the address -1.
         for (adr, num) in [
             ("mesh_faceadr", "mesh_facenum"),
             ("M_rowadr", "M_rownnz"),

@@ -1,10 +1,10 @@
-//! Bad numbers: what MuJoCo 3.14.0 counts, resets and goes on from, measured step by step.
+//! Bad numbers: which warnings MuJoCo 3.14.0 counts, when it resets, and from which state it continues, measured step by step.
 
 use super::*;
 use crate::mjcf::compile;
 use crate::step::workspace::Workspace;
 
-/// A slide and a hinge with a motor each, after three steps.
+/// A model with a slide and a hinge, each with a motor, after three steps.
 fn started(flag: &str) -> (Model, Workspace) {
     let text = format!(
         "<mujoco><option>{flag}</option><worldbody><body><joint type='slide'/><joint/><geom size='.1'/></body></worldbody>\
@@ -18,7 +18,7 @@ fn started(flag: &str) -> (Model, Workspace) {
     (m, w)
 }
 
-/// Number and index of each warning that was raised.
+/// The number and the index of each warning that was raised.
 fn raised(d: &Fields) -> Vec<(Warning, usize, usize)> {
     let all = Warning::ALL.into_iter().zip(&d.warning);
     all.filter(|(_, s)| s.number > 0).map(|(w, s)| (w, s.number, s.lastinfo)).collect()

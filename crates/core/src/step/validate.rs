@@ -1,7 +1,7 @@
-//! Whether the engine can index by what a model says: asked of models that were not compiled here.
+//! Validates that the engine can safely use the integers of a model as indexes. Required for models that were not compiled here.
 //!
-//! Ids lie among the objects they name, lists within the arrays they are part of, parents before their children, and objects of
-//! each type have what that type needs. What parameters say is no question: any number is survived.
+//! Ids refer to existing objects, lists are within their arrays, parents precede their children, and objects of each type have
+//! what the type requires. Parameters are not checked, because no value of them causes a panic.
 
 use crate::dynamics::walk;
 use crate::geometry::Hull;
@@ -11,7 +11,7 @@ use crate::model::reflect::{self, FieldId, Object, View, model};
 use crate::model::{Model, Obj};
 use crate::sensor;
 
-/// A field, the size that its numbers are below, and the lowest of them.
+/// A field, the size that is the upper limit of its numbers, and their smallest valid value.
 const IDS: [(FieldId, FieldId, i32); 32] = [
     (model::body_parentid, model::nbody, 0),
     (model::body_rootid, model::nbody, 0),
@@ -47,7 +47,7 @@ const IDS: [(FieldId, FieldId, i32); 32] = [
     (model::sensor_historyadr, model::nhistory, -1),
 ];
 
-/// Where lists begin, how long they are, and the size of what they are part of.
+/// The addresses of lists, their lengths, and the size of the array that contains them.
 const SPANS: [(FieldId, FieldId, FieldId); 17] = [
     (model::body_jntadr, model::body_jntnum, model::njnt),
     (model::body_dofadr, model::body_dofnum, model::nv),
@@ -68,7 +68,7 @@ const SPANS: [(FieldId, FieldId, FieldId); 17] = [
     (model::tuple_adr, model::tuple_size, model::ntupledata),
 ];
 
-/// Sizes of arrays of the data that no array of the model is as long as.
+/// Limit for the sizes of arrays of the data that have no array of the same length in the model.
 const MOST: usize = 1 << 24;
 
 fn list(m: &Model, field: FieldId) -> &[i32] {
@@ -89,7 +89,7 @@ fn within(id: i32, count: usize) -> bool {
     usize::try_from(id).is_ok_and(|id| id < count)
 }
 
-/// How many objects of a kind there are; `None` for a kind that nothing refers to.
+/// The number of objects of a kind, or `None` for a kind that is never referenced.
 fn count(m: &Model, kind: i32) -> Option<usize> {
     let kinds = [
         (Obj::Body, m.nbody),
@@ -107,7 +107,7 @@ fn count(m: &Model, kind: i32) -> Option<usize> {
     kinds.into_iter().find(|(k, _)| *k as i32 == kind).map(|(_, n)| n)
 }
 
-/// What of the model the engine could not index by; `None` when the model is valid.
+/// The part of the model that is invalid, or `None` if the model is valid.
 pub(crate) fn validate(m: &Model) -> Option<&'static str> {
     let sizes = [
         m.nuserdata,
@@ -148,7 +148,7 @@ pub(crate) fn validate(m: &Model) -> Option<&'static str> {
         ("lists", spans),
     ];
     let failed = checks.into_iter().find(|(_, good)| !good).map(|(name, _)| name);
-    // What follows indexes by what has been found good.
+    // The following checks use indexes that the previous checks have validated.
     failed.or_else(|| {
         let names =
             m.names.lists().flatten().all(|name| name.len() < 1 << 20) && m.names.body.len() == m.nbody;
@@ -164,10 +164,10 @@ pub(crate) fn validate(m: &Model) -> Option<&'static str> {
     })
 }
 
-/// Whether a part of a model is good.
+/// Whether a part of a model is valid.
 type Check = fn(&Model) -> bool;
 
-/// Parents stand before their children, joints follow each other, rows of M end with the diagonal.
+/// Checks that parents precede their children, joints are consecutive, and rows of M end with the diagonal.
 fn trees(m: &Model) -> bool {
     let before = |list: &[i32], from: usize| list.iter().enumerate().skip(from).all(|(i, &p)| p < i as i32);
     let (mut q, mut v) = (0, 0);
@@ -177,7 +177,7 @@ fn trees(m: &Model) -> bool {
             (q, v) = (q + joint::nq(kind), v + joint::nv(kind));
             good
         });
-    // Each follows the one before it in its body, the first of a body the last of those that carry it.
+    // Each degree of freedom follows the previous one of its body. The first of a body follows the last one of its ancestors.
     let paths = (0..m.nv).all(|k| match m.dof_bodyid[k] as usize {
         b if k as i32 > m.body_dofadr[b] => m.dof_parentid[k] == k as i32 - 1,
         b => m.dof_parentid[k] == last_before(m, b),
@@ -202,11 +202,11 @@ fn trees(m: &Model) -> bool {
         && in_order
         && next as usize == m.nv
         && simple
-        // What is called simple has nothing but its diagonal.
+        // The row of a simple degree of freedom contains only the diagonal.
         && (0..m.nv).all(|k| m.dof_simplenum[k] == 0 || m.M_rownnz[k] == 1)
 }
 
-/// A degree of freedom is one of its joint, and its rows of M and D end with it and hold it.
+/// Checks that a degree of freedom belongs to its joint, that its row of M ends with it, and that its row of D contains it.
 fn has_rows_of_path(m: &Model, k: usize) -> bool {
     let j = m.dof_jntid[k] as usize;
     let first = m.jnt_dofadr[j] as usize;
@@ -218,11 +218,11 @@ fn has_rows_of_path(m: &Model, k: usize) -> bool {
         && columns.is_sorted_by(|a, b| a < b)
         && whole.is_sorted_by(|a, b| a < b)
         && usize::try_from(m.D_diag[k]).ok().and_then(|at| whole.get(at)) == Some(&(k as i32))
-        // The path to the root is the row, but where M is diagonal.
+        // The row contains the path to the root, except if M is diagonal.
         && (m.dof_simplenum[k] > 0 || walk::upward(m, k as i32).eq(columns.iter().rev().map(|&c| c as usize)))
 }
 
-/// The joints of a body are its own, and its degrees of freedom theirs.
+/// Checks that a body owns its joints, and that its degrees of freedom are those of its joints.
 fn has_joints_in_order(m: &Model, b: usize) -> bool {
     let joints = element_range(m.body_jntadr[b], m.body_jntnum[b]);
     let dofs: usize = joints.clone().map(|j| joint::nv(m.jnt_type[j])).sum();
@@ -231,15 +231,15 @@ fn has_joints_in_order(m: &Model, b: usize) -> bool {
         && (dofs == 0 || m.body_dofadr[b] == m.jnt_dofadr[joints.start])
         && m.body_rootid[b] <= b as i32
         && m.body_weldid[b] <= b as i32
-        // What has joints is welded to nothing; what has none has no first degree of freedom.
+        // A body with joints is not welded to another one. A body without joints has no degree of freedom.
         && (if dofs == 0 { m.body_dofadr[b] == -1 } else { m.body_weldid[b] == b as i32 })
 }
 
-/// The last degree of freedom of the bodies above a body, -1 where there is none.
+/// The last degree of freedom of the ancestors of a body, or -1 if there is none.
 fn last_before(m: &Model, b: usize) -> i32 {
     let mut up = b;
     while up > 0 {
-        // Parents stand before their children.
+        // Parents precede their children.
         up = object_index(m.body_parentid[up]).min(up - 1);
         if m.body_dofnum[up] > 0 {
             return m.body_dofadr[up] + m.body_dofnum[up] - 1;
@@ -248,7 +248,7 @@ fn last_before(m: &Model, b: usize) -> i32 {
     -1
 }
 
-/// Meshes and height fields have their corners.
+/// Checks that meshes and height fields have their vertices and samples.
 fn shapes(m: &Model) -> bool {
     let geoms = m.geom_type.iter().zip(&m.geom_dataid).all(|(&kind, &id)| match kind {
         geom::MESH => within(id, m.nmesh),
@@ -274,7 +274,7 @@ fn shapes(m: &Model) -> bool {
     geoms && fields && meshes
 }
 
-/// Equalities and tendons hold what there is.
+/// Checks the objects of equality constraints and tendons.
 fn ties(m: &Model) -> bool {
     let equality = |e: usize| {
         let [first, second] = [m.eq_obj1id[e], m.eq_obj2id[e]];
@@ -291,7 +291,7 @@ fn ties(m: &Model) -> bool {
         let joints = m.eq_type[e] != eqtype::JOINT || scalar(first) && (second < 0 || scalar(second));
         within(first, n) && (within(second, n) || alone && second == -1) && joints
     };
-    // A branch leads from site to site, over one geom or none.
+    // A branch runs from site to site, with at most one geom between two sites.
     let branch = |kinds: &[i32]| {
         let is_site = |kind: &i32| *kind == wraptype::SITE;
         kinds.len() > 1
@@ -324,7 +324,7 @@ fn ties(m: &Model) -> bool {
     (0..m.neq).all(equality) && (0..m.ntendon).all(tendon) && (0..m.nwrap).all(wrap) && rows
 }
 
-/// An actuator acts on something of its kind, with as many inputs, outputs and states as that has.
+/// Checks the target of an actuator, and its numbers of inputs, outputs and states.
 fn actuator(m: &Model, i: usize) -> bool {
     let [first, second] = [m.actuator_trnid[2 * i], m.actuator_trnid[2 * i + 1]];
     let (outputs, controls) = (m.actuator_outnum[i], m.actuator_ctrlnum[i]);
@@ -356,7 +356,7 @@ fn actuator(m: &Model, i: usize) -> bool {
         && buffer(m, m.actuator_history[2 * i], m.actuator_historyadr[i], controls)
 }
 
-/// A sensor senses something of its kind, and has room for what it shows.
+/// Checks the object of a sensor, and the number of its values.
 fn measures(m: &Model, s: usize) -> bool {
     let object = |kind: i32, id: i32| match count(m, kind) {
         Some(n) => within(id, n) || id == -1,
@@ -369,7 +369,7 @@ fn measures(m: &Model, s: usize) -> bool {
         && buffer(m, m.sensor_history[2 * s], m.sensor_historyadr[s], dim)
 }
 
-/// A buffer of past values has room for them.
+/// Checks the length of a buffer of past values.
 fn buffer(m: &Model, samples: i32, adr: i32, dim: i32) -> bool {
     let Ok(n) = usize::try_from(samples) else { return false };
     let (Ok(at), Ok(dim)) = (usize::try_from(adr), usize::try_from(dim)) else { return n == 0 };

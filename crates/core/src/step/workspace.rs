@@ -1,4 +1,4 @@
-//! `Data`: the fields of a simulation, and the scratch of the stages.
+//! `Workspace`: the fields of a simulation, and the scratch of the stages.
 
 use super::factored::Factored;
 use super::metric::Metric;
@@ -13,13 +13,13 @@ use crate::{collision, constraint, dynamics, sensor};
 /// State, inputs and results of a simulation of one model.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Workspace {
-    /// The state, the inputs and what stages compute from them.
+    /// The state, the inputs and the results of the stages.
     pub(crate) fields: Fields,
-    /// What stages work on, kept so that steps do not allocate.
+    /// The memory of the stages, reused so that steps do not allocate.
     pub(crate) scratch: Scratch,
 }
 
-/// Scratch of the stages, by modules.
+/// The scratch of the stages, by module.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Scratch {
     pub(crate) dynamics: dynamics::Scratch,
@@ -37,14 +37,14 @@ pub(crate) struct Scratch {
     pub(crate) metric: Metric,
     pub(crate) rk: RungeKutta,
     pub(crate) flow: Flow,
-    /// Whether the state at hand is one that nobody sees, between two steps.
+    /// Whether the current state is an intermediate state within a step, which users do not see.
     pub(crate) unseen: bool,
-    /// What measures the stages, where somebody asked for it.
+    /// The measurement of stage times, if it was requested.
     pub(crate) watch: Option<Box<Stopwatch>>,
 }
 
 impl Scratch {
-    /// What depends on the sizes of the model.
+    /// Allocates the parts that depend on the sizes of the model.
     pub(super) fn resize(&mut self, m: &Model, algorithms: TreeAlgorithms) {
         self.dynamics = dynamics::Scratch::new(m, algorithms);
         self.forces = forces::Scratch::new(m);

@@ -1,4 +1,4 @@
-//! What a motion keeps: energy, momentum, and the way back.
+//! Conservation laws: energy, momentum, and reversibility.
 
 use crate::definitions::*;
 use crate::scenes::scene;
@@ -6,7 +6,7 @@ use labspec_core::xml::compile;
 use labspec_core::{self as core, Data, Model, integrator, joint};
 use proptest::prelude::*;
 
-/// A run of `steps` of length `h` by Runge and Kutta's method from a scattered state.
+/// A run of `steps` steps of length `h` with the Runge–Kutta method from a random state.
 fn run(m: &Model, start: &[f64], h: f64, steps: usize) -> (Model, Data, Data) {
     let mut m = m.clone();
     (*m.edit().opt.timestep, *m.edit().opt.integrator) = (h, integrator::RK4);
@@ -19,13 +19,13 @@ fn run(m: &Model, start: &[f64], h: f64, steps: usize) -> (Model, Data, Data) {
     (m, before, d)
 }
 
-/// Largest change of an invariant over a short run.
+/// The largest change of an invariant over a short run.
 fn drift(m: &Model, start: &[f64], h: f64, steps: usize, invariants: fn(&Model, &Data) -> Vec<f64>) -> f64 {
     let (m, before, after) = run(m, start, h, steps);
     largest_difference(&invariants(&m, &before), &invariants(&m, &after))
 }
 
-/// How far from its start a motion ends that is turned round half-way.
+/// The distance from the initial state after a motion whose velocity is reversed halfway.
 fn way_back(m: &Model, start: &[f64], h: f64, steps: usize) -> f64 {
     let (m, before, mut d) = run(m, start, h, steps);
     d.edit().qvel.iter_mut().for_each(|v| *v = -*v);
@@ -46,16 +46,16 @@ fn all_momentum(m: &Model, d: &Data) -> Vec<f64> {
     momentum(m, d).to_vec()
 }
 
-/// How much smaller an error must become when the step is halved. Runge and Kutta's method is of fourth order:
-/// 16 times, 12 leaves room for the next order. Rotations in space combine the slopes as if they commuted,
-/// which is right to second order only: 4 times, 3 with room.
+/// The factor by which an error must decrease when the step is halved. The Runge–Kutta method has order four: a factor of 16, or
+/// 12 to allow for the next order. For rotations in space, it combines the slopes as if rotations commuted, which is correct to
+/// second order only: a factor of 4, or 3 with tolerance.
 fn gain(m: &Model) -> f64 {
     let scalar = m.jnt_type.iter().all(|&t| t == joint::HINGE || t == joint::SLIDE);
     if scalar { 12.0 } else { 3.0 }
 }
 
-/// The error of a run shrinks as the method's order says, or is rounding already. Fast motions, for which the
-/// step is long, are left to shorter steps.
+/// Checks that the error of a run decreases according to the order of the method, or is at the level of rounding. For fast
+/// motions, for which the step is too long, shorter steps are tried.
 fn shrinks(m: &Model, error: impl Fn(f64, usize) -> f64) -> Result<(), String> {
     let rounding = 1e-10;
     let mut h: f64 = 2e-3;

@@ -1,5 +1,5 @@
-//! What the solution of the constraint problem is, whichever method finds it: forces stay inside their cones and bounds,
-//! they follow from the acceleration as the costs say, and the equations of motion hold.
+//! Optimality conditions of the constraint problem, for every solver: forces are inside their cones and bounds, they are the
+//! derivatives of the costs at the acceleration, and the equations of motion are satisfied.
 
 use labspec_core::xml::compile;
 use labspec_core::{self as core, Contact, Data, Model, solver};
@@ -11,7 +11,7 @@ const EQUALITY: i32 = 0;
 const FRICTION: [i32; 2] = [1, 2];
 const ELLIPTIC: i32 = 7;
 
-/// A ball that is pressed into the floor and into its neighbour.
+/// A ball that penetrates the floor and its neighbour.
 #[derive(Clone, Copy, Debug)]
 struct Ball {
     depth: f64,
@@ -49,7 +49,7 @@ fn scene() -> impl Strategy<Value = Scene> {
 }
 
 impl Scene {
-    /// Balls in a row, the first one tied to an arm with dry friction and limits.
+    /// Balls in a row. The first is connected to an arm with dry friction and limits.
     fn model(&self) -> Model {
         let mut balls = String::new();
         for (i, b) in self.balls.iter().enumerate() {
@@ -90,7 +90,7 @@ fn largest(v: &[f64]) -> f64 {
     v.iter().fold(1.0, |s: f64, x| s.max(x.abs()))
 }
 
-/// How far the friction of a contact is outside its cone, relative to its normal force.
+/// The distance of the friction force of a contact outside its cone, relative to its normal force.
 fn outside(m: &Model, d: &Data, c: &Contact) -> f64 {
     let [normal, tangents @ ..] = core::contact_force(m, d, c).unwrap();
     let shares = tangents.iter().zip(c.friction).take(c.dim - 1).map(|(f, mu)| (f / mu).abs());
@@ -109,7 +109,7 @@ proptest! {
         for c in d.contact.iter().filter(|c| c.efc_address.is_some()) {
             prop_assert!(outside(&m, &d, c) < 1e-9, "{c:?} {:?}", core::contact_force(&m, &d, c).unwrap());
         }
-        // Forces from accelerations: x = J a - aref.
+        // Forces computed from accelerations: x = J a - aref.
         let jac = core::full_j(&m, &d).unwrap();
         let scale = largest(&d.efc_force);
         for row in 0..d.nefc {
@@ -150,8 +150,9 @@ proptest! {
         }
     }
 
-    /// The dual problem has the minimum f if and only if f is in the set of its rows, and its gradient g = J a - aref + R f lets no
-    /// force of the set go lower: g = 0 inside, outward at a bound, and for a cone in the dual one and across f.
+    /// f is the minimum of the dual problem if and only if f is in the set of valid forces of its rows, and no valid change of f
+    /// along the negative gradient g = J a - aref + R f decreases the cost: g = 0 inside the set, outward at a bound, and for a
+    /// cone in the dual cone and perpendicular to f.
     #[test]
     fn dual_forces_are_optimal(scene in scene()) {
         let mut m = scene.model();
@@ -193,7 +194,7 @@ proptest! {
         }
     }
 
-    /// Without slip: what sticks has no acceleration along the floor that its reference does not ask for, and forces stay
+    /// After the removal of slip, sticking contacts have only the tangential acceleration of their reference, and forces are
     /// inside their cones.
     #[test]
     fn removal_of_slip_keeps_the_cones(scene in scene()) {
@@ -212,7 +213,8 @@ proptest! {
             if !scene.elliptic || c.dim == 1 || d.efc_force[first] == 0.0 {
                 continue;
             }
-            // In the coordinates in which the limit of friction is a ball: no slip inside; at its edge slip against the force.
+            // In coordinates in which the friction limit is a ball: no slip inside the ball; at its boundary, slip opposite to
+            // the force.
             let rows = || (1..c.dim).map(|j| (d.efc_force[first + j] / c.friction[j - 1], slip(first + j) * c.friction[j - 1]));
             let length = |parts: &mut dyn Iterator<Item = f64>| parts.map(|x| x * x).sum::<f64>().sqrt();
             let (force, pull) = (length(&mut rows().map(|(y, _)| y)), length(&mut rows().map(|(_, g)| g)));

@@ -1,5 +1,5 @@
-//! Laws of contacts: what one body gets the other loses, a contact returns no more energy than it took, and nothing
-//! depends on the order in which bodies stand in the file.
+//! Laws of contacts: forces are equal and opposite, a contact returns no more energy than it receives, and no result
+//! depends on the order of the bodies in the file.
 
 use labspec_core::math::{Vec3, cross};
 use labspec_core::xml::compile;
@@ -29,7 +29,7 @@ fn solid() -> impl Strategy<Value = Solid> {
         .prop_map(|(kind, size, turn, mass, condim, speed)| Solid { kind, size, turn, mass, condim, speed })
 }
 
-/// The scene's text: solids a step apart on a row, close enough to overlap, in this order; nothing else.
+/// The text of a scene: overlapping solids in a row, in this order, and nothing else.
 fn row(solids: &[Solid], order: &[usize], cone: &str, head: &str) -> String {
     let mut bodies = String::new();
     for &i in order {
@@ -51,7 +51,7 @@ fn row(solids: &[Solid], order: &[usize], cone: &str, head: &str) -> String {
     )
 }
 
-/// Data with the speeds of the solids, whatever their order.
+/// Data with the velocities of the solids, for any order.
 fn moving(m: &Model, solids: &[Solid], order: &[usize]) -> Data {
     let mut d = Data::new(m);
     for (place, &i) in order.iter().enumerate() {
@@ -61,7 +61,7 @@ fn moving(m: &Model, solids: &[Solid], order: &[usize]) -> Data {
     d
 }
 
-/// Force and torque about the origin that constraints exert on a free body, world axes.
+/// The constraint force and torque about the origin on a free body, world axes.
 fn wrench(m: &Model, d: &Data, body: usize) -> (Vec3, Vec3) {
     let at = m.body_dofadr[body] as usize;
     let f = &d.qfrc_constraint[at..at + 6];
@@ -77,7 +77,7 @@ fn largest(v: &[f64]) -> f64 {
     v.iter().fold(1.0, |s: f64, x| s.max(x.abs()))
 }
 
-/// A ball that is thrown at a wall without gravity.
+/// A ball that is thrown at a wall, without gravity.
 #[derive(Clone, Copy, Debug)]
 struct Throw {
     time: f64,
@@ -109,7 +109,7 @@ fn throw() -> impl Strategy<Value = Throw> {
 }
 
 impl Throw {
-    /// Kinetic energy after the contact over that before, with steps of this length.
+    /// The kinetic energy after the contact, divided by that before, with this timestep.
     fn returned(&self, timestep: f64) -> f64 {
         let [a, b, c, d, e] = self.solimp;
         let cone = if self.elliptic { "elliptic" } else { "pyramidal" };
@@ -141,7 +141,7 @@ impl Throw {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 60, ..ProptestConfig::default() })]
 
-    /// Nothing is outside: momentum and angular momentum do not change by contacts, whatever their shapes and friction.
+    /// The system is closed: contacts of any shapes and friction do not change linear and angular momentum.
     #[test]
     fn forces_are_equal_and_opposite(solids in prop::collection::vec(solid(), 2..6), elliptic: bool) {
         let order: Vec<usize> = (0..solids.len()).collect();
@@ -163,7 +163,7 @@ proptest! {
         }
     }
 
-    /// Bodies in another order: the same accelerations.
+    /// Bodies in another order have the same accelerations.
     #[test]
     fn order_of_bodies_does_not_matter(solids in prop::collection::vec(solid(), 2..6), elliptic: bool, by in 1usize..5) {
         let n = solids.len();
@@ -176,7 +176,8 @@ proptest! {
             (m, d)
         });
         prop_assume!(m.ngeom == n + 1);
-        // Pairs of equal types are tested in the order of the file: several deepest points are then not the same ones.
+        // Pairs of equal types are tested in the order of the file. If there are several deepest points, another one may be
+        // selected.
         prop_assume!(a.ncon == b.ncon && same_places(&a, &b));
         let scale = largest(&a.qacc);
         for (place, &i) in second.iter().enumerate() {
@@ -187,7 +188,7 @@ proptest! {
         }
     }
 
-    /// In the limit of short steps a contact returns no more energy than it took: what it returns beyond falls with the
+    /// In the limit of short steps, a contact returns no more energy than it receives. The excess decreases with the
     /// length of the step.
     #[test]
     fn contacts_create_no_energy(throw in throw()) {
@@ -196,7 +197,7 @@ proptest! {
     }
 }
 
-/// Whether two lists of contacts are at the same places, in any order.
+/// Whether two lists of contacts have the same positions, in any order.
 fn same_places(a: &Data, b: &Data) -> bool {
     let near = |p: &Vec3, q: &Vec3| (0..3).all(|k| (p[k] - q[k]).abs() < 1e-9);
     a.contact.iter().all(|c| b.contact.iter().any(|e| near(&c.pos, &e.pos)))

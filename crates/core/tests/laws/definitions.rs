@@ -1,4 +1,4 @@
-//! Quantities built a second time from their definitions, with dense matrices, and random states.
+//! Quantities computed independently from their definitions, with dense matrices, and random states.
 
 use labspec_core::{self as core, Data, Model, joint};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
@@ -13,7 +13,7 @@ pub(crate) fn matrix(a: &[f64], i: usize) -> Matrix3<f64> {
     Matrix3::from_row_slice(&a[9 * i..9 * i + 9])
 }
 
-/// Jacobian of a body's centre of mass and of its orientation, 3 × nv each, joint by joint from the definition.
+/// The Jacobians of a body's centre of mass and of its orientation, 3 × nv each, computed joint by joint from the definition.
 pub(crate) fn jacobian(m: &Model, d: &Data, body: usize) -> (DMatrix<f64>, DMatrix<f64>) {
     let (mut move_, mut turn) = (DMatrix::zeros(3, m.nv), DMatrix::zeros(3, m.nv));
     let point = vector(&d.xipos, body);
@@ -29,7 +29,7 @@ pub(crate) fn jacobian(m: &Model, d: &Data, body: usize) -> (DMatrix<f64>, DMatr
                 joint::HINGE => rotation(dof, vector(&d.xaxis, j)),
                 joint::SLIDE => move_.set_column(dof, &vector(&d.xaxis, j)),
                 kind => {
-                    // Rotations of ball and free joints are about the body's own axes.
+                    // The rotations of ball and free joints are about the body's own axes.
                     let first = if kind == joint::FREE { dof + 3 } else { dof };
                     (0..3).for_each(|k| rotation(first + k, matrix(&d.xmat, b).column(k).into()));
                     if kind == joint::FREE {
@@ -49,7 +49,7 @@ pub(crate) fn inertia(m: &Model, d: &Data, body: usize) -> Matrix3<f64> {
     axes * Matrix3::from_diagonal(&vector(&m.body_inertia, body)) * axes.transpose()
 }
 
-/// Σ m Jᵀ J + Jᵀ I J over all bodies, and the armature.
+/// Σ m Jᵀ J + Jᵀ I J over all bodies, plus the armature.
 pub(crate) fn mass_matrix(m: &Model, d: &Data) -> DMatrix<f64> {
     let mut all = DMatrix::from_diagonal(&DVector::from_column_slice(&m.dof_armature));
     for b in 1..m.nbody {
@@ -59,7 +59,7 @@ pub(crate) fn mass_matrix(m: &Model, d: &Data) -> DMatrix<f64> {
     all
 }
 
-/// Momentum of everything: linear, and angular about the origin.
+/// The total momentum: linear, and angular about the origin.
 pub(crate) fn momentum(m: &Model, d: &Data) -> [f64; 6] {
     let v = DVector::from_column_slice(&d.qvel);
     let (mut linear, mut angular) = (Vector3::zeros(), Vector3::zeros());
@@ -73,7 +73,7 @@ pub(crate) fn momentum(m: &Model, d: &Data) -> [f64; 6] {
     [linear.x, linear.y, linear.z, angular.x, angular.y, angular.z]
 }
 
-/// Moves to a random place with a random velocity.
+/// Sets a random configuration with random velocities.
 pub(crate) fn scatter(m: &Model, d: &mut Data, numbers: &[f64]) {
     let take = |from: usize| (0..m.nv).map(|i| numbers[(from + i) % numbers.len()]).collect::<Vec<_>>();
     core::integrate_pos(m, d.edit().qpos, &take(0), 0.5).unwrap();
@@ -88,5 +88,5 @@ pub(crate) fn full_m(m: &Model, d: &Data) -> DMatrix<f64> {
     DMatrix::from_row_slice(m.nv, m.nv, &core::full_m(m, d).unwrap())
 }
 
-/// Rounding: sums of some hundred products, of which the largest cancel at most in the third digit.
+/// Rounding errors: sums of some hundred products, of which the largest cancel at most in the third digit.
 pub(crate) const ROUNDING: f64 = 1e-12;

@@ -1,4 +1,4 @@
-//! The mass matrix, forces and accelerations at one instant.
+//! The mass matrix, forces and accelerations of one state.
 
 use crate::definitions::*;
 use crate::scenes::scene;
@@ -25,12 +25,12 @@ proptest! {
         prop_assert!(m.nv == 0 || ours.cholesky().is_some());
     }
 
-    /// M a + bias = force, with the forces put together from their definitions; gravity's part of the bias, too.
+    /// M a + bias = force, with the forces computed from their definitions; and the gravity part of the bias force.
     #[test]
     fn forces_and_accelerations_balance(scene in scene(), numbers in numbers()) {
         let mut m = compile(&scene.xml()).unwrap();
         if m.opt.integrator == integrator::DISCRETE {
-            // Its acceleration is that of a whole step.
+            // Its acceleration belongs to a whole step.
             *m.edit().opt.integrator = integrator::EULER;
         }
         let mut d = Data::new(&m);
@@ -51,8 +51,8 @@ proptest! {
         }
         let mass = full_m(&m, &d);
         let residual = &mass * vec(&d.qacc) + vec(&d.qfrc_bias) - &force;
-        // The sum of a constraint's edges can be no more exact than they are: on a body that can only turn, a
-        // contact has no weight to lean on, and edges of 1e17 N keep each other in balance.
+        // The sum of the edge forces of a contact cannot be more accurate than these forces. On a body that can only rotate, a
+        // contact may carry no weight, and edge forces of 1e17 N balance each other.
         let edges = vec(&d.efc_force).amax();
         let scale = (mass.amax() * vec(&d.qacc).amax()).max(force.amax()).max(edges).max(1.0);
         prop_assert!(residual.amax() <= 1e-10 * scale, "{residual}");
@@ -90,7 +90,8 @@ proptest! {
         }
     }
 
-    /// Without friction a reversed motion has the same accelerations: forces of motion are quadratic in velocity.
+    /// Without friction, a motion with reversed velocity has the same accelerations, because the bias force is quadratic in
+    /// velocity.
     #[test]
     fn forces_of_motion_are_quadratic(scene in scene(), numbers in numbers()) {
         let m = compile(&scene.conservative()).unwrap();
@@ -109,8 +110,8 @@ proptest! {
         prop_assert!(close(&(&twice - &rest), &(4.0 * (&there - &rest))), "{twice}{there}{rest}");
     }
 
-    /// The bias force is what it takes to go on without accelerating: Σ Jᵀ m (J̇ v - g) + Jᵀ (I J̇ v + ω × I ω), with J̇ v
-    /// from the velocities a moment before and after.
+    /// The bias force is the force for zero acceleration: Σ Jᵀ m (J̇ v - g) + Jᵀ (I J̇ v + ω × I ω). J̇ v is computed
+    /// as the finite difference of velocities shortly before and after.
     #[test]
     fn the_bias_force_is_that_of_its_definition(scene in scene(), numbers in numbers()) {
         let m = compile(&scene.conservative()).unwrap();
@@ -137,7 +138,7 @@ proptest! {
             expected += m.body_mass[b] * move_.tr_mul(&acceleration) + turn.tr_mul(&(i * change + spin.cross(&(i * spin))));
         }
         let ours = DVector::from_column_slice(&d.qfrc_bias);
-        // A difference over 1e-5 s of numbers that are known to 1e-16.
+        // A finite difference over 1e-5 s of numbers that are accurate to 1e-16.
         prop_assert!((&ours - &expected).amax() <= 1e-8 * expected.amax().max(1.0), "{ours}{expected}");
     }
 }

@@ -1,4 +1,4 @@
-//! One suite that every integrator passes: closed forms of one step, the observed order of convergence, what a motion keeps.
+//! One test suite for all integrators: closed forms of one step, the observed order of convergence, conserved quantities.
 
 use crate::definitions::*;
 use crate::scenes::scene;
@@ -6,14 +6,15 @@ use labspec_core::xml::compile;
 use labspec_core::{self as core, Data, Model, integrator, joint};
 use proptest::prelude::*;
 
-/// An integrator, the order of its error, and its order where bodies turn in space: Runge and Kutta's method combines
-/// slopes of rotations as if they commuted.
+/// An integrator, its order, and its order for rotations in space. The Runge–Kutta method combines slopes of rotations as if they
+/// commuted.
 #[derive(Clone, Copy)]
 struct Method {
     id: i32,
     order: f64,
     order_in_space: f64,
-    /// A step at which the order shows: neither too long for it nor so short that only rounding is left.
+    /// A timestep at which the order can be observed: small enough for the method, and large enough that rounding does not
+    /// dominate.
     step: f64,
 }
 
@@ -28,7 +29,7 @@ const METHODS: [Method; 8] = [
     Method { id: integrator::GAUSS, order: 6.0, order_in_space: 6.0, step: 0.04 },
 ];
 
-/// The state after `steps` of length `h` from a state that `begin` sets.
+/// The state after `steps` steps of length `h`, from an initial state that `begin` sets.
 fn end(m: &Model, method: &Method, h: f64, steps: usize, begin: impl Fn(&mut Data)) -> Data {
     let mut m = m.clone();
     (*m.edit().opt.timestep, *m.edit().opt.integrator) = (h, method.id);
@@ -43,26 +44,26 @@ fn apart(a: &Data, b: &Data) -> f64 {
     differences.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
-/// The order that three runs show, each with half the step of the one before: the ratio of their differences, base 2.
-/// `None` when only rounding is left.
+/// The observed order of three runs, each with half the timestep of the previous one: the logarithm of the ratio of their
+/// differences, base 2. `None` if the differences are at the level of rounding.
 fn observed_order(m: &Model, method: &Method, h: f64, time: f64, begin: impl Fn(&mut Data)) -> Option<f64> {
     let run = |k: usize| end(m, method, h / k as f64, k * (time / h).round() as usize, &begin);
     let [coarse, middle, fine] = [run(1), run(2), run(4)];
     let (first, second) = (apart(&coarse, &middle), apart(&middle, &fine));
-    // Numbers that are large are rounded to more, and methods of high order come there at once.
+    // Large numbers have larger rounding errors, which methods of high order reach quickly.
     let size = fine.qpos.iter().chain(fine.qvel.iter()).fold(1.0f64, |a, x| a.max(x.abs()));
     let rounding = if method.order > 4.0 { 1e-11 * size } else { 1e-12 };
     (second > rounding).then(|| (first / second).log2())
 }
 
-/// A cart with a two-link arm: springs, dampers, oblique axes, nothing that turns in space.
+/// A cart with a two-link arm: springs, dampers, oblique axes, no rotations in space.
 const ARM: &str = "<mujoco><worldbody><body pos='0 0 1'>
     <joint type='slide' axis='1 0.2 0' stiffness='20' damping='0.5'/><geom size='0.1' mass='2'/>
     <body pos='0 0 -0.1'><joint axis='0 1 0.3' damping='0.05'/><geom pos='0.02 0 -0.3' size='0.05' mass='1'/>
     <body pos='0 0 -0.4'><joint axis='0.5 1 0' stiffness='1' springref='20'/><geom pos='0 0.05 -0.2' size='0.05' mass='0.5'/>
     </body></body></body></worldbody></mujoco>";
 
-/// A body that tumbles freely with a pendulum on a ball joint.
+/// A body in free rotation with a pendulum on a ball joint.
 const TUMBLER: &str = "<mujoco><worldbody><body pos='0 0 1'>
     <freejoint/><geom pos='0.1 0 0' size='0.1' mass='1'/><geom pos='-0.2 0.1 0' size='0.05' mass='0.5'/><geom pos='0 0.1 0.1' size='0.05' mass='0.3'/>
     <body pos='0.2 0 0'><joint type='ball' damping='0.02' stiffness='0.5'/><geom pos='0.1 0.1 -0.2' size='0.05' mass='0.4'/>
@@ -76,8 +77,8 @@ fn orders_of_convergence() {
         let push =
             |d: &mut Data| d.edit().qvel.iter_mut().enumerate().for_each(|(i, v)| *v = 0.8 - 0.3 * i as f64);
         let time = if method.order > 4.0 { 0.32 } else { 0.16 };
-        // Where the steps of a high order are short enough for it, only rounding is left; with longer ones the next orders,
-        // which are smaller by powers of the step, still count.
+        // At small timesteps, a method of high order reaches the level of rounding. At larger ones, the terms of the next orders,
+        // which are smaller by powers of the timestep, still contribute.
         let above = if method.order > 4.0 { 0.7 } else { 0.15 };
         for (m, expected) in [(&arm, method.order), (&tumbler, method.order_in_space)] {
             let order = observed_order(m, method, method.step, time, push).unwrap();
@@ -90,7 +91,7 @@ fn orders_of_convergence() {
     }
 }
 
-/// The adaptive method needs no short steps: one of the whole time is as exact as 8,000 of eighth order.
+/// The adaptive method does not need small timesteps: one step over the whole time is as accurate as 8,000 steps of order eight.
 #[test]
 fn the_adaptive_method_is_right_whatever_the_step() {
     let reference = Method { id: integrator::RKMK8, order: 8.0, order_in_space: 8.0, step: 0.0 };
@@ -107,7 +108,7 @@ fn the_adaptive_method_is_right_whatever_the_step() {
     }
 }
 
-/// A body whose middle axis it does not like to turn about, and what free rotation keeps: energy and momentum.
+/// A body that rotates about its unstable middle axis, and the conserved quantities of free rotation: energy and momentum.
 #[test]
 fn free_rotation_keeps_its_energy_and_momentum() {
     let m = compile(
@@ -146,7 +147,7 @@ fn free_rotation_keeps_its_energy_and_momentum() {
     assert!(on_the_group[1] * 10.0 < classic[1], "{on_the_group:?} {classic:?}");
 }
 
-/// A mass on a spring with a damper, somewhere in its motion.
+/// A mass on a spring with a damper, in any state.
 #[derive(Clone, Copy, Debug)]
 struct Oscillator {
     mass: f64,
@@ -164,7 +165,7 @@ fn an_oscillator() -> impl Strategy<Value = Oscillator> {
 }
 
 impl Oscillator {
-    /// x and v after one step: the definition of each method.
+    /// x and v after one step, computed from the definition of each method.
     fn step(&self, id: i32) -> (f64, f64) {
         let Oscillator { mass: m, stiffness: k, damping: b, timestep: h, x, v } = *self;
         let v1 = match id {
@@ -184,7 +185,7 @@ impl Oscillator {
         (x + h * v1, v1)
     }
 
-    /// The true end of a step, from the exponential of the equations' matrix as a sum; `None` where the step is long.
+    /// The exact state after a step, from the series of the matrix exponential. `None` if the step is long.
     fn truth(&self) -> Option<(f64, f64)> {
         let Oscillator { mass: m, stiffness: k, damping: b, timestep: h, x, v } = *self;
         let (mut sum, mut term) = ((x, v), (x, v));
@@ -206,7 +207,7 @@ impl Oscillator {
         .unwrap();
         let d = end(&m, method, timestep, 1, |d| (d.edit().qpos[0], d.edit().qvel[0]) = (x, v));
         if method.order > 4.0 {
-            // Its error of a step of length h is about hᵖ⁺¹/(p+1)!, in the units of the motion.
+            // The error of a step of length h is about hᵖ⁺¹/(p+1)!, in the units of the motion.
             let Some((x1, v1)) = self.truth() else { return Ok(()) };
             let length = timestep * (stiffness / mass).sqrt().max(damping / mass);
             let small = ROUNDING + length.powf(method.order + 1.0) / 1e3;
@@ -234,7 +235,7 @@ proptest! {
         }
     }
 
-    /// Gravity alone: the parabola, or the sum of rectangles that a first-order method makes of it.
+    /// Gravity alone: the parabola, or the sum of rectangles that a first-order method computes instead.
     #[test]
     fn free_fall(h in 1e-4..0.02f64, steps in 1usize..50, v in -2.0..2.0f64) {
         let m = compile("<mujoco><worldbody><body><freejoint/><geom size='0.1'/></body></worldbody></mujoco>").unwrap();
@@ -248,7 +249,7 @@ proptest! {
         }
     }
 
-    /// Spin about a principal axis goes on, and what is at rest without forces stays there to the bit.
+    /// Rotation about a principal axis continues, and a scene at rest without forces stays at rest, bit for bit.
     #[test]
     fn what_keeps_moving_and_what_rests(scene in scene(), numbers in numbers(), spin in -20.0..20.0f64) {
         let top = compile(
@@ -267,8 +268,8 @@ proptest! {
         }
     }
 
-    /// On any tree, with springs and dampers, no method converges more slowly than its order, and quaternions keep their
-    /// length.
+    /// For any tree, with springs and dampers, no method converges more slowly than its order, and quaternions keep their
+    /// norm.
     #[test]
     fn no_tree_converges_more_slowly(scene in scene(), numbers in numbers()) {
         let m = compile(&scene.smooth()).unwrap();
@@ -276,7 +277,7 @@ proptest! {
         for method in &METHODS {
             let expected = if scalar { method.order } else { method.order_in_space };
             let mut seen = Vec::new();
-            // Fast motions, for which the step is long, are left to shorter ones.
+            // For fast motions, for which the step is too long, shorter steps are tried.
             let right = (0..5).any(|k| {
                 let h = 1e-3 * 0.5f64.powi(k);
                 let order = observed_order(&m, method, h, 0.016, |d| scatter(&m, d, &numbers));

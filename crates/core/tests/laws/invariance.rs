@@ -1,5 +1,5 @@
-//! Physics does not know where the world's axes are: a world that is turned and moved as a whole, its gravity with it,
-//! moves as before.
+//! Physics does not depend on the choice of the world axes: a world that is rotated and translated as a whole, together with its
+//! gravity, has the same motion.
 
 use crate::definitions::*;
 use crate::scenes::scene;
@@ -24,7 +24,7 @@ fn motion() -> impl Strategy<Value = Motion> {
 }
 
 impl Motion {
-    /// Moves a pose: position, then orientation.
+    /// Moves a pose, given as position and orientation.
     fn pose(&self, pos: &mut [f64], quat: &mut [f64]) {
         let p = add(rotate([pos[0], pos[1], pos[2]], self.turn), self.shift);
         pos.copy_from_slice(&p);
@@ -36,7 +36,7 @@ impl Motion {
         v.copy_from_slice(&turned);
     }
 
-    /// Coordinates: those of free joints are of the world.
+    /// Moves coordinates: those of free joints are relative to the world.
     fn coordinates(&self, m: &Model, qpos: &mut [f64]) {
         for j in free_joints(m) {
             let at = m.jnt_qposadr[j] as usize;
@@ -45,7 +45,7 @@ impl Motion {
         }
     }
 
-    /// Velocities or accelerations: those of free joints' translations are of the world.
+    /// Rotates velocities or accelerations: the translational ones of free joints are relative to the world.
     fn velocities(&self, m: &Model, qvel: &mut [f64]) {
         for j in free_joints(m) {
             let at = m.jnt_dofadr[j] as usize;

@@ -1,4 +1,4 @@
-//! Inverse dynamics undoes forward dynamics, and is linear in accelerations.
+//! Inverse dynamics inverts forward dynamics, and is linear in accelerations.
 
 use crate::definitions::*;
 use crate::scenes::scene;
@@ -10,12 +10,13 @@ use proptest::prelude::*;
 proptest! {
     #![proptest_config(ProptestConfig { cases: 200, ..ProptestConfig::default() })]
 
-    /// inverse(forward(f)) = f for applied forces and those of actuators, with springs, dampers and the medium there, constraints off.
+    /// inverse(forward(f)) = f for applied forces and actuator forces, with springs, dampers and fluid forces, and with
+    /// constraints disabled.
     #[test]
     fn inverse_dynamics_finds_the_forces(scene in scene(), numbers in numbers()) {
         let mut m = compile(&scene.xml()).unwrap();
         m.set_disabled(disable::CONSTRAINT, true);
-        // The discrete integrator solves for what tendons couple by iterations, down to this.
+        // The discrete integrator solves couplings by tendons iteratively, to this tolerance.
         *m.edit().opt.tolerance = 1e-15;
         let mut d = Data::new(&m);
         scatter(&m, &mut d, &numbers);
@@ -31,7 +32,7 @@ proptest! {
         prop_assert!((&found - &force).amax() <= 1e-11 * scale, "{found}{force}");
     }
 
-    /// rne(a) - rne(0) = M a, without the inertia of joints: it is linear in a.
+    /// rne(a) - rne(0) = M a, without the armature of joints: it is linear in a.
     #[test]
     fn newton_and_euler_are_linear_in_the_acceleration(scene in scene(), numbers in numbers(), s in -3.0..3.0f64) {
         let mut m = compile(&scene.conservative()).unwrap();

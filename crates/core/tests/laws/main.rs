@@ -1,5 +1,5 @@
-//! Laws of mechanics, on random trees: what must hold whatever the algorithm. Where a quantity is needed twice it
-//! is built here a second time from its definition, with dense matrices.
+//! Laws of mechanics on random trees, which hold for every algorithm. Quantities for comparison are computed independently from
+//! their definitions, with dense matrices.
 
 #![allow(clippy::unwrap_used)]
 

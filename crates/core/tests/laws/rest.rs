@@ -1,4 +1,4 @@
-//! A sphere at rest on the floor, against the closed form of its depth.
+//! A sphere at rest on the floor, compared with the closed form of its penetration depth.
 
 use labspec_core::xml::compile;
 use labspec_core::{self as core, Data, Model};
@@ -15,8 +15,8 @@ struct Rest {
     friction: Option<f64>,
 }
 
-/// Any contact, or one that comes to rest: a contact that answers within a few steps and damps little goes on
-/// bouncing, in MuJoCo as here, because each step applies the force of its beginning.
+/// Parameters of any contact, or of one that comes to rest. A contact with a time constant of a few steps and low damping
+/// continues to bounce, in MuJoCo as here, because each step applies the force of its start.
 fn rest(settles: bool) -> impl Strategy<Value = Rest> {
     let (steps, damping, end) = if settles { (4.0, 0.8, 0.8) } else { (0.5, 0.3, 0.3) };
     let solimp = (0.3..1.0, end..0.98, 2e-4..5e-3, 0.2..0.8, 1.0..4.0);
@@ -33,7 +33,7 @@ fn rest(settles: bool) -> impl Strategy<Value = Rest> {
 }
 
 impl Rest {
-    /// Impedance at a depth.
+    /// The impedance at a penetration depth.
     fn impedance(&self, depth: f64) -> f64 {
         let [d0, dw, width, mid, power] = self.solimp;
         let x = (depth / width).min(1.0);
@@ -45,8 +45,8 @@ impl Rest {
         d0 + y * (dw - d0)
     }
 
-    /// The depth at which the contact carries the weight: K d r = g (1 - d) / d, with K = 1 / (dw tc ζ)². Four
-    /// edges of a pyramid, each with R = 2 µ² (1 + µ²) (1 - d) / (d m), carry µ² (1 + µ²) / 2 times as deep.
+    /// The depth at which the contact force balances the weight: K d r = g (1 - d) / d, with K = 1 / (dw tc ζ)². For a pyramid
+    /// with four edges, each with R = 2 µ² (1 + µ²) (1 - d) / (d m), the depth is µ² (1 + µ²) / 2 times as large.
     fn depth(&self) -> f64 {
         let time = self.time.max(2.0 * self.timestep);
         let k = 1.0 / (self.solimp[1] * time * self.damping).powi(2);
@@ -85,7 +85,7 @@ proptest! {
     #[test]
     fn a_sphere_rests_as_deep_as_the_closed_form_says(rest in rest(true)) {
         let mut m = rest.model();
-        // At the default tolerance the solver stops early and the sphere creeps up and down by 1e-9 m/s.
+        // With the default tolerance, the solver stops early and the sphere moves up and down with 1e-9 m/s.
         (*m.edit().opt.tolerance, *m.edit().opt.ls_tolerance) = (0.0, 1e-10);
         let mut d = Data::new(&m);
         for _ in 0..20_000 {
@@ -93,12 +93,12 @@ proptest! {
         }
         let depth = 2.0 - d.qpos[2];
         let expected = rest.depth();
-        // The last motion has died out; a depth of 1e-5 m is known to 1e-16 of the height of 2 m.
+        // The motion has decayed. A depth of 1e-5 m is accurate to 1e-16 of the height of 2 m.
         prop_assert!((depth - expected).abs() <= 1e-10 * expected + 1e-14, "{depth} {expected}");
         prop_assert!(d.qvel.iter().all(|v| v.abs() < 1e-12), "{:?}", d.qvel);
     }
 
-    /// At that depth forces balance, whether or not steps of this length would find it.
+    /// At that depth the forces are balanced, whether or not a simulation with this timestep converges to it.
     #[test]
     fn the_closed_form_is_in_balance(rest in rest(false)) {
         let mut m = rest.model();
@@ -107,7 +107,7 @@ proptest! {
         d.edit().qpos[2] = 2.0 - rest.depth();
         core::forward(&m, &mut d).unwrap();
         prop_assert_eq!(d.ncon, 1);
-        // The depth is known to 1e-16 of the radius; the reference acceleration is its product with K d.
+        // The depth is accurate to 1e-16 of the radius. The reference acceleration is its product with K d.
         let stiffness = d.efc_KBIP[0] * d.efc_KBIP[2];
         prop_assert!(d.qacc[2].abs() <= 1e-9 + 1e-14 * stiffness, "{:?} {stiffness}", d.qacc);
     }

@@ -1,14 +1,15 @@
-//! A capsule that lies on the end of a cylinder: all points of its line are equally deep, and contacts hold it at several.
+//! A capsule that lies on the end of a cylinder. All points of its axis have the same depth, and it has several contacts.
 
 use crate::departures::at;
 use labspec_core::xml::compile;
 use std::collections::BTreeMap;
 
-/// As many contacts as the library gives, or more; each as deep as the line is.
+/// There are at least as many contacts as in MuJoCo, and each has the depth of the capsule's axis.
 ///
-/// The reference is how a case was made: the depth of the capsule's line below the end. Where the line almost grazes the rim,
-/// rocking the capsule about its own axis finds a place on the line that rounding chooses, on both sides: it may be one that is
-/// known, so that one case in a hundred may have one contact fewer. (Of 1,500 cases, `capsule_on_cylinder.py 1500`: 4 have.)
+/// The reference depth is known from the construction of a case: the depth of the capsule's axis below the end. If the axis
+/// almost touches the rim, the search for further contacts, which rotates the capsule slightly about its own axis, finds a point
+/// on the axis that rounding selects, in both engines. It may coincide with a known point, so that one case in a hundred may have
+/// one contact fewer. (Of 1,500 cases, `capsule_on_cylinder.py 1500`: 4 have.)
 #[test]
 fn capsules_on_ends_of_cylinders() {
     let text = include_str!("../../../../tests/golden/capsule_on_cylinder.txt");
@@ -32,7 +33,7 @@ fn capsules_on_ends_of_cylinders() {
             fewer += 1;
         }
         for c in &d.contact {
-            // The capsule reaches 0.25 m to either side: that far a tilt lowers it.
+            // The capsule extends 0.25 m to either side, so that a tilt lowers its ends.
             assert!((c.dist + depth).abs() <= 0.5 * tilt + 1e-9, "{} m deep, not {depth}: {xml}", -c.dist);
         }
     }

@@ -1,4 +1,4 @@
-//! Where ours departs from MuJoCo 3.14.0 on purpose; `docs/measured/parity.md` has the cases and figures.
+//! Intentional differences from MuJoCo 3.14.0. `docs/measured/parity.md` contains the cases and figures.
 
 use labspec_core::xml::compile;
 use labspec_core::{self as core, Data, Model};
@@ -11,7 +11,7 @@ pub(crate) fn at(m: &Model, qpos: &[f64], qvel: &[f64]) -> Data {
     d
 }
 
-/// Velocity, and the slope of the length by central differences, of actuator 0.
+/// The velocity of actuator 0, and the time derivative of its length by central differences.
 fn speeds(m: &Model, qpos: &[f64], qvel: &[f64]) -> [f64; 2] {
     let h = 1e-6;
     let length = |by: f64| {
@@ -22,8 +22,8 @@ fn speeds(m: &Model, qpos: &[f64], qvel: &[f64]) -> [f64; 2] {
     [at(m, qpos, qvel).actuator_velocity[0], (length(h) - length(-h)) / (2.0 * h)]
 }
 
-/// The length of a rotation between sites changes at the velocity of the actuator: where the sites look the same way, for every
-/// motion, and while they turn about one axis, at every angle.
+/// The time derivative of the length of a rotation between sites is the velocity of the actuator: for any motion if the sites
+/// have the same orientation, and at any angle if they rotate about one axis.
 #[test]
 fn lengths_of_rotations_change_at_their_velocity() {
     let axis = |turned: &str, gear: &str| {
@@ -42,14 +42,15 @@ fn lengths_of_rotations_change_at_their_velocity() {
             assert!(velocity.abs() > 0.05);
         }
     }
-    // Both bodies turn freely; the sites, each with its own orientation, look the same way.
+    // Both bodies rotate freely. The sites, which have different orientations in their bodies, have the same orientation in the
+    // world.
     let m = compile(
         "<mujoco><worldbody><body><joint type='ball'/><geom size='.1'/><site name='r' euler='20 30 40'/></body>
          <body><joint type='ball'/><geom size='.1'/><site name='s' quat='1 0 0 0'/></body></worldbody>
          <actuator><motor site='s' refsite='r' gear='0 0 0 .3 .5 .7'/></actuator></mujoco>",
     )
     .unwrap();
-    // The second body turns as far as the reference site does: its orientation after one forward pass.
+    // The second body has the orientation of the reference site, which is computed by a forward pass.
     let q = [0.8, 0.4, -0.4, 0.2];
     let d = at(&m, &[q, [1.0, 0.0, 0.0, 0.0]].concat(), &[0.0; 6]);
     let mat = &d.site_xmat[..9];
@@ -60,7 +61,8 @@ fn lengths_of_rotations_change_at_their_velocity() {
     assert!((velocity - slope).abs() < 1e-8 && velocity.abs() > 0.05, "{velocity}, {slope}");
 }
 
-/// A site stands where the picture shows it: shifted by the principal point, which the library's sensor leaves out.
+/// The projection of a site is its position in the image, which is shifted by the principal point. MuJoCo's sensor ignores the
+/// principal point.
 #[test]
 fn projections_use_the_principal_point() {
     let pixel = |optics: &str| {
@@ -72,7 +74,7 @@ fn projections_use_the_principal_point() {
         .unwrap();
         at(&m, &[0.0], &[0.0]).sensordata.clone()
     };
-    // Recorded of the library for all four: 399.999993896484 80.
+    // MuJoCo's value for all four, recorded: 399.999993896484 80.
     let cases = [
         ("focal='0.01 0.01'", [400.0, 80.0]),
         ("focal='0.01 0.01' principal='0.001 0.0005'", [320.0, 40.0]),
@@ -103,10 +105,11 @@ const FUSED: &str = "<mujoco><compiler fusestatic='true'/><worldbody><body name=
     <framepos objtype='body' objname='c' reftype='site' refname='s5'/><camprojection site='s1' camera='c5'/></sensor>
     <custom><tuple name='t'><element objtype='site' objname='s4'/><element objtype='geom' objname='g5'/></tuple></custom></mujoco>";
 
-/// What refers to an object by its name refers to that object after bodies were fused; in the library, to what has its old number.
+/// After bodies are fused, references by name still refer to the same object. In MuJoCo, they refer to the object with the
+/// previous index.
 #[test]
 fn numbers_after_fused_bodies() {
-    // A camera's projection needs a picture.
+    // The projection of a camera requires an image resolution.
     let m = compile(&FUSED.replace("camera name='c5'", "camera name='c5' resolution='64 48'")).unwrap();
     let name = |kind: core::Obj, id: i32| m.name_of(kind, id as usize).unwrap_or_default().to_string();
     let names = |kind: core::Obj, ids: &[i32]| ids.iter().map(|&id| name(kind, id)).collect::<Vec<_>>();
@@ -157,7 +160,7 @@ fn turned(q: [f64; 4], [x, y, z]: [f64; 3]) -> [f64; 3] {
     ]
 }
 
-/// The orientation that a body of one mesh gets.
+/// The orientation of the principal axes of a body with one mesh.
 fn axes(vertices: &[[f64; 3]]) -> [f64; 4] {
     let text: Vec<String> = vertices.iter().flatten().map(|x| format!("{x:?}")).collect();
     let m = compile(&format!(
@@ -168,8 +171,8 @@ fn axes(vertices: &[[f64; 3]]) -> [f64; 4] {
     [m.body_iquat[4], m.body_iquat[5], m.body_iquat[6], m.body_iquat[7]]
 }
 
-/// Of a mesh with equal moments some axes are as good as others. Vertices that move by the rounding of single precision do not
-/// choose among them: however the mesh is turned, its axes stay where they are within 1e-5 rad.
+/// For a mesh with equal moments, the principal axes are not unique. Perturbations of the vertices by single-precision rounding
+/// do not select other axes: for any rotation of the mesh, its axes stay the same within 1e-5 rad.
 #[test]
 fn axes_of_symmetric_meshes_are_stable() {
     let prism = |half: f64| -> Vec<[f64; 3]> {
@@ -199,8 +202,8 @@ fn axes_of_symmetric_meshes_are_stable() {
     }
 }
 
-/// Two bodies of 2,000 ellipsoids each, and thirteen sensors of their distance: what the bounding spheres rule out is looked at
-/// with one comparison. Every look is counted as work.
+/// Two bodies of 2,000 ellipsoids each, and thirteen sensors of their distance. A pair that the bounding spheres exclude costs
+/// one comparison. Every comparison is counted as work.
 #[test]
 fn distances_of_large_bodies_are_counted() {
     let side = |z: f64| -> String {
@@ -224,7 +227,7 @@ fn distances_of_large_bodies_are_counted() {
     assert!(core::cost(&d) > 13 * 2000 * 2000, "{}", core::cost(&d));
 }
 
-/// The cells of a height field that a shape is above are work, whether they touch it or not.
+/// The cells of a height field below a shape are counted as work, whether the shape touches them or not.
 #[test]
 fn cells_of_height_fields_are_counted() {
     let work = |samples: usize| {

@@ -1,4 +1,5 @@
-//! What MuJoCo 3.14.0 computes for small models (`tests/golden/library_cases.py`), and where ours is right and it is not.
+//! Results of MuJoCo 3.14.0 for small models (`tests/golden/library_cases.py`), and the cases in which this engine differs
+//! because MuJoCo is wrong.
 
 #![allow(clippy::unwrap_used)]
 
@@ -62,7 +63,7 @@ fn ours(m: &Model, d: &Data, field: &str) -> Vec<f64> {
     }
 }
 
-/// Every field of the cases whose name begins so, within 1e-12 of max(1, its largest number).
+/// Compares every field of the cases whose name starts with a prefix, with a tolerance of 1e-12 of max(1, its largest number).
 fn as_recorded(prefix: &str) {
     let mut seen = 0;
     for case in cases().iter().filter(|c| c.name.starts_with(prefix)) {
@@ -76,14 +77,14 @@ fn as_recorded(prefix: &str) {
                 && ours.iter().zip(theirs).all(|(x, y)| (x - y).abs() <= 1e-12 * scale);
             assert!(near, "{}: {field} is {ours:?}, recorded {theirs:?}", case.name);
         }
-        // A step holds what the forward pass holds.
+        // A step accepts everything that the forward pass accepts.
         core::step(&m, &mut d).unwrap();
         seen += 1;
     }
     assert!(seen > 0, "no case begins with {prefix}");
 }
 
-/// An actuator's inertia on a tendon leaves simple bodies simple: M takes the diagonal of a Jᵀ J.
+/// Armature of an actuator on a tendon does not change the flag `simple` of bodies: M contains the diagonal of a Jᵀ J.
 #[test]
 fn inertia_of_actuators_on_tendons() {
     as_recorded("rotor_");
@@ -91,7 +92,7 @@ fn inertia_of_actuators_on_tendons() {
     as_recorded("both_");
 }
 
-/// Explicit pairs of geoms that do not move: contacts without rows.
+/// Explicit pairs of geoms that cannot move: contacts without rows.
 #[test]
 fn pairs_that_nothing_moves() {
     as_recorded("pair_of_world");
@@ -99,7 +100,7 @@ fn pairs_that_nothing_moves() {
     as_recorded("pair_of_mocap");
 }
 
-/// Explicit pairs of geoms of one body: rows of zeros with dense matrices, none with sparse ones.
+/// Explicit pairs of geoms of one body: rows of zeros with dense Jacobians, no rows with sparse ones.
 #[test]
 fn pairs_of_one_body() {
     as_recorded("pair_of_one");

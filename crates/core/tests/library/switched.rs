@@ -1,16 +1,16 @@
-//! Contact bits that are switched while a model runs: what MuJoCo does with them, `tests/golden/switched.py`.
+//! Contact bits that are changed during a run: the behaviour of MuJoCo, recorded by `tests/golden/switched.py`.
 
 use labspec_core::reflect::{FieldSet, Object, field};
 use labspec_core::xml::compile;
 use labspec_core::{self as core, AccessSet, Data, Model, Plan, Planned};
 
-/// The height of the box at the end, with some plan.
+/// The final height of the box, with a given plan.
 fn height(m: &Model, mut d: Data<Planned>, writes: &[(&str, usize, f64)]) -> f64 {
     let mut m = m.clone();
     for step in 0..1000 {
         for &(name, index, value) in writes.iter().filter(|_| step == 50) {
             let written = field(Object::Model, name).unwrap();
-            // What the engine computes cannot be written: there it decides nothing.
+            // Fields that the engine computes cannot be written, and have no effect in MuJoCo.
             if let Ok(mut view) = core::view_mut(&mut m, &mut d, written) {
                 assert!(view.set(index, value), "{name}");
             }
@@ -46,7 +46,7 @@ fn bits_that_are_switched_do_what_they_do_in_the_library() {
         ];
         let ours = plans.map(|plan| height(&m, Data::planned(&m, plan), &writes));
         assert!(ours.iter().all(|x| x.to_bits() == ours[0].to_bits()), "{name}: {ours:?}");
-        // Far below, a thousandth of a metre is far less than what a step falls.
+        // For a box that falls, a tolerance of 1e-3 m is far less than the distance of one step.
         if (ours[0] - theirs).abs() > 1e-3 {
             wrong.push(format!("{name}: {} m, theirs {theirs}", ours[0]));
         }

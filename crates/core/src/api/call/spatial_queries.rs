@@ -1,4 +1,4 @@
-//! Questions about where geoms are: rays, distances, volumes, and which pairs can touch.
+//! Geometric queries: rays, distances, volumes, and the pairs of geoms that can touch.
 
 use super::{Data, Error, Model, Scope, exists};
 use crate::geometry::Distance;
@@ -7,7 +7,7 @@ use crate::model::extents;
 use crate::model::reflect::data;
 use crate::query::{self, RayFilter, RayHit};
 
-/// The nearest geom on the ray `from` + x `along`, x ≥ 0 (`mj_ray`). A direction of no length hits nothing.
+/// The nearest geom on the ray `from` + x `along`, x ≥ 0 (`mj_ray`). A ray whose direction has zero length hits nothing.
 pub fn ray<S: Scope>(
     m: &Model,
     d: &Data<S>,
@@ -20,9 +20,11 @@ pub fn ray<S: Scope>(
     Ok(query::ray(m, &d.fields, from, along, filter))
 }
 
-/// The distance of two geoms up to `most`, m, with the segment from the first to the second (`mj_geomDistance`).
+/// The distance of two geoms, m, with the segment from the first to the second (`mj_geomDistance`). The distance is searched up
+/// to `most`, m.
 ///
-/// Shapes with closed forms use those, at their deepest contact; two planes or height fields have no distance.
+/// Pairs of shapes with closed forms use them and return the distance at their deepest contact. A pair of planes or height fields
+/// has no distance.
 pub fn geom_distance<S: Scope>(
     m: &Model,
     d: &mut Data<S>,
@@ -46,39 +48,39 @@ pub fn inside_site<S: Scope>(m: &Model, d: &Data<S>, site: usize, point: Vec3) -
     Ok(query::inside_site(m, &d.fields, site, point))
 }
 
-/// Half the extents of a geom along its own axes, m: by its size, for meshes and height fields by the box around it. Zeros where there is
-/// no such geom.
+/// Half the extents of a geom along its own axes, m: from its size, or, for meshes and height fields, from its bounding box.
+/// Zeros if there is no such geom.
 pub fn geom_half_extents(m: &Model, geom: usize) -> Vec3 {
     extents::half_extents(m, geom)
 }
 
-/// The smallest extent of a geom, m; infinite for planes, for height fields, and where there is no such geom.
+/// The smallest extent of a geom, m. Infinite for planes, for height fields, and if there is no such geom.
 pub fn geom_thickness(m: &Model, geom: usize) -> f64 {
     extents::thickness(m, geom)
 }
 
-/// The half thickness of the thinner of two geoms, m. Only spheres, capsules, cylinders, ellipsoids and boxes count (a mesh may be thinner
-/// than the box around it); infinite where there are none.
+/// The half thickness of the thinner of two geoms, m. Only spheres, capsules, cylinders, ellipsoids and boxes are considered (a
+/// mesh may be thinner than its bounding box). Infinite if neither geom is of such a type.
 pub fn half_thickness_of_pair(m: &Model, pair: [usize; 2]) -> f64 {
     extents::half_thickness_of_pair(m, pair)
 }
 
-/// Whether the contact bits of two geoms admit a contact. They may be written while a lab runs.
+/// Whether the contact bits of two geoms permit a contact. Programs may write these bits during a run.
 pub fn can_collide(m: &Model, geom1: usize, geom2: usize) -> Result<bool, Error> {
     exists("geom", geom1, m.ngeom)?;
     exists("geom", geom2, m.ngeom)?;
     Ok(crate::collision::can_collide(m, geom1, geom2))
 }
 
-/// Whether two geoms can make contacts: their bits, their bodies and the pairs and exclusions of the model admit it.
+/// Whether two geoms can make contacts: their contact bits, their bodies, and the pairs and exclusions of the model permit it.
 pub fn may_touch(m: &Model, geom1: usize, geom2: usize) -> Result<bool, Error> {
     exists("geom", geom1, m.ngeom)?;
     exists("geom", geom2, m.ngeom)?;
     Ok(crate::collision::may_touch(m, geom1, geom2))
 }
 
-/// How many of the pairs of geoms that can touch have bounds within reach of each other where the geoms are now: the others cost
-/// one comparison each.
+/// The number of pairs of geoms that can touch and whose bounding volumes are within reach of each other at the current poses.
+/// Each other pair costs one comparison.
 pub fn pairs_in_reach<S: Scope>(m: &Model, d: &Data<S>) -> Result<usize, Error> {
     d.belongs_to(m)?;
     Ok(crate::collision::in_reach(m, &d.fields, &d.scratch.collision))

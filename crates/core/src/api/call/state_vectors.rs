@@ -7,7 +7,7 @@ pub use crate::model::state::{
     QPOS, QVEL, StateError, TIME, USER, USERDATA, WARMSTART, XFRC_APPLIED,
 };
 
-/// Number of numbers of a state (`mj_stateSize`).
+/// The length of a state vector (`mj_stateSize`).
 pub fn size(m: &Model, sig: i32) -> Result<usize, Error> {
     Ok(state::size(m, sig)?)
 }
@@ -18,17 +18,17 @@ pub fn get<S: Scope>(m: &Model, d: &Data<S>, out: &mut [f64], sig: i32) -> Resul
     Ok(state::get(m, &d.fields, out, sig)?)
 }
 
-/// Sets a state (`mj_setState`). What follows from it is computed by `forward` or the next step.
+/// Sets a state (`mj_setState`). `forward` or the next step computes the results that depend on it.
 pub fn set<S: Scope>(m: &Model, d: &mut Data<S>, values: &[f64], sig: i32) -> Result<(), Error> {
     Ok(state::set(m, d.engine_to_write(m)?.0, values, sig)?)
 }
 
-/// Takes the parts `to` of the state `from`, which has the parts `sig` (`mj_extractState`).
+/// Copies the parts `to` from the state vector `from`, which has the parts `sig` (`mj_extractState`).
 pub fn extract(m: &Model, from: &[f64], sig: i32, out: &mut [f64], to: i32) -> Result<(), Error> {
     Ok(state::extract(m, from, sig, out, to)?)
 }
 
-/// Copies parts of a state (`mj_copyState`).
+/// Copies parts of a state from other data (`mj_copyState`).
 pub fn copy<S: Scope, T: Scope>(m: &Model, from: &Data<S>, to: &mut Data<T>, sig: i32) -> Result<(), Error> {
     from.belongs_to(m)?;
     Ok(state::copy(m, &from.fields, to.engine_to_write(m)?.0, sig)?)

@@ -1,48 +1,48 @@
-//! What was spent on data: work, which is counted and limited, and time, where the caller brings a clock.
+//! The cost of data: work, which is counted and limited, and time, which is measured with a clock of the caller.
 
 use super::{Data, Scope};
 use crate::model::stopwatch::StageTimes;
 use crate::step::reset;
 
-/// The work that was done with these data since they were made: about nanoseconds of a fast machine.
+/// The work that was done with these data since they were created. One unit is about a nanosecond on a fast machine.
 pub fn cost<S: Scope>(d: &Data<S>) -> u64 {
     d.fields.meter.cost
 }
 
-/// What a forward pass costs without pairs and constraints, in the same unit.
+/// The work of a forward pass without collision pairs and constraints, in the same unit.
 pub fn cost_of_pass<S: Scope>(d: &Data<S>) -> u64 {
     d.fields.meter.pass()
 }
 
-/// Measures the stages from here on, from nothing, by a clock that the caller brings: it counts up in any unit. Each run of a
-/// stage then costs two looks at the clock more; numbers stay the same.
+/// Starts measuring the times of the stages from zero, with a clock of the caller that counts up in any unit. Each run of a
+/// stage then reads the clock twice. No number of the simulation changes.
 pub fn clock<S: Scope>(d: &mut Data<S>, clock: fn() -> u64) {
     reset::clock(&mut d.fields, &mut d.scratch, clock);
 }
 
-/// What the stages took since [`clock`], or since this was asked last; nothing without a clock.
+/// The time of each stage since [`clock`] or since the last call of this function. Zero without a clock.
 pub fn laps<S: Scope>(d: &mut Data<S>) -> StageTimes {
     let Some(watch) = &mut d.scratch.watch else { return StageTimes::default() };
     watch.ended = None;
     std::mem::take(&mut watch.laps)
 }
 
-/// Lets the engine do so much more work and no more. Beyond that its results are of no use: see [`exhausted`].
+/// Limits the further work of the engine. Results after the limit is exceeded are not valid: see [`exhausted`].
 pub fn limit<S: Scope>(d: &mut Data<S>, units: u64) {
     d.fields.meter.set_left(units);
 }
 
-/// What is left of the limit.
+/// The remaining work of the limit.
 pub fn work_left<S: Scope>(d: &Data<S>) -> u64 {
     d.fields.meter.left()
 }
 
-/// Whether the limit is passed, and results with it are of no use.
+/// Whether the limit is exceeded, so that the results are not valid.
 pub fn exhausted<S: Scope>(d: &Data<S>) -> bool {
     d.fields.meter.over()
 }
 
-/// Counts work that was done on the data by others.
+/// Counts work that other code did on the data.
 pub fn charge<S: Scope>(d: &mut Data<S>, units: u64) {
     d.fields.meter.add(units);
 }

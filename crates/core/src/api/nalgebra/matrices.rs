@@ -7,7 +7,7 @@ use crate::api::model::{BodyId, GeomId, Model, SiteId};
 use crate::api::view::Which;
 use nalgebra::{DMatrix, DVector, Point3};
 
-/// How a point, and the object that it is fixed to, move for a unit velocity of each degree of freedom.
+/// The velocity of a point, and of the object that it is fixed to, for a unit velocity of each degree of freedom.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointJacobian {
     /// 3 × nv: velocity of the point, m/s, world axes.
@@ -29,7 +29,8 @@ macro_rules! jacobians {
         ///
         /// # Errors
         ///
-        /// The data belong to another model, there is no such object, or the plan left out what the Jacobian follows from.
+        /// The data belong to another model, there is no such object, or the plan left out the fields from which the Jacobian is
+        /// computed.
         pub fn $name<S: Scope>(
             m: &Model,
             d: &Data<S>,
@@ -58,7 +59,7 @@ jacobians! {
     jac_dot(point: Point3<f64>) BodyId;
 }
 
-/// 3 × nv: how the centre of mass of a body and all its descendants moves, m/s, world axes (`mj_jacSubtreeCom`).
+/// 3 × nv: the Jacobian of the centre of mass of a body and all its descendants, m/s, world axes (`mj_jacSubtreeCom`).
 ///
 /// # Errors
 ///
@@ -73,7 +74,7 @@ pub fn jac_subtree_com<S: Scope>(
     Ok(DMatrix::from_row_slice(3, m.nv, &rows))
 }
 
-/// nefc × nv: the Jacobian of the constraints that are active now (`efc_J`).
+/// nefc × nv: the Jacobian of the active constraints (`efc_J`).
 ///
 /// # Errors
 ///
@@ -84,7 +85,8 @@ pub fn full_j<S: Scope>(m: &Model, d: &Data<S>) -> Result<DMatrix<f64>, Error> {
     Ok(DMatrix::from_row_slice(count, m.nv, &rows))
 }
 
-/// nv × nv: the mass matrix M, symmetric and positive definite, kg, kg m or kg m² (`mj_fullM`). The armature of joints counts.
+/// nv × nv: the mass matrix M, symmetric and positive definite, kg, kg m or kg m² (`mj_fullM`). It contains the armature of
+/// joints.
 ///
 /// # Errors
 ///
@@ -93,7 +95,7 @@ pub fn full_m<S: Scope>(m: &Model, d: &Data<S>) -> Result<DMatrix<f64>, Error> {
     Ok(DMatrix::from_row_slice(m.nv, m.nv, &call::full_m(m, d)?))
 }
 
-/// The solution x of M x = b, by the factorization that the step uses (`mj_solveM`): accelerations for forces.
+/// The solution x of M x = b, with the factorization that the step uses (`mj_solveM`). For forces b, x contains accelerations.
 ///
 /// # Errors
 ///

@@ -1,17 +1,18 @@
 //! Poses, velocities, Jacobians, M and the linearization of a step in the types of the crate `nalgebra` (feature `nalgebra`).
 //!
-//! Functions have the names of those that return plain arrays, and take objects by name or typed id. Conventions:
+//! The functions have the names of those that return plain arrays, and accept objects by name or typed id. Conventions:
 //!
-//! * Positions are in metres, in world axes. A rotation takes vectors from the axes of the object to those of the world.
+//! * Positions are in metres, in world axes. A rotation maps vectors from the axes of the object to those of the world.
 //! * Columns of Jacobians and of M are degrees of freedom, in the order of `qvel`; rows of Jacobians are the world axes x, y, z.
-//! * Derived fields belong to the last call that computed them: after [`step`](crate::step), to the state before that step.
-//!   [`forward`](crate::forward) computes them for the state at hand.
+//! * Derived fields belong to the last call that computed them. After [`step`](crate::step), they belong to the state before that
+//!   step.
+//!     [`forward`](crate::forward) computes them for the current state.
 //! * A result that the plan of the data left out is [`Error::LeftOut`](crate::Error::LeftOut), which names the stage.
 //!
-//! The engine does not compute with nalgebra: numbers have the same bits with and without the feature.
+//! The engine does not compute with nalgebra. All numbers have the same bits with and without the feature.
 //!
 //! [`Data::field_vector`](crate::Data::field_vector) and [`Data::field_matrix`](crate::Data::field_matrix) are views into the
-//! data: they copy nothing.
+//! data, without copies.
 //!
 //! ```
 //! # fn main() -> Result<(), labspec_core::Error> {

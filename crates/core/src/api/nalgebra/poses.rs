@@ -1,4 +1,4 @@
-//! Where bodies, geoms and sites are, and how fast they move.
+//! Poses and velocities of bodies, geoms and sites.
 
 use crate::api::data::{Data, Scope};
 use crate::api::error::Error;
@@ -10,8 +10,8 @@ use crate::model::Obj;
 use crate::model::reflect::data;
 use nalgebra::{Isometry3, Matrix3, Quaternion, Rotation3, Translation3, UnitQuaternion, Vector3, Vector6};
 
-/// How far the squared length of a rotation's numbers may be from 1. Rounding makes it about 1e-15; data of which nothing is
-/// computed yet hold zeros.
+/// The tolerance of the squared norm of a quaternion or axis from 1. Rounding errors are about 1e-15. Data that are not yet
+/// computed contain zeros.
 const UNIT: f64 = 1e-6;
 
 fn not_computed() -> Error {
@@ -38,7 +38,7 @@ fn by_matrix(positions: &[f64], matrices: &[f64], id: usize) -> Result<Isometry3
 }
 
 impl<S: Scope> Data<S> {
-    /// The pose of a body's frame, m, world: `xpos` and `xquat`. It takes points of the body to points of the world.
+    /// The pose of a body's frame, m, world: `xpos` and `xquat`. It maps points from the body frame to the world.
     ///
     /// # Errors
     ///
@@ -83,7 +83,7 @@ impl<S: Scope> Data<S> {
     }
 }
 
-/// How fast an object moves: the velocity of its origin, and its angular velocity.
+/// The velocity of an object: the linear velocity of its origin, and its angular velocity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Velocity {
     /// Angular velocity, rad/s.
@@ -93,7 +93,7 @@ pub struct Velocity {
 }
 
 impl Velocity {
-    /// Both in one vector, angular first, as in `cvel` and `mj_objectVelocity`.
+    /// Both velocities in one vector, angular first, as in `cvel` and `mj_objectVelocity`.
     pub fn to_vector6(&self) -> Vector6<f64> {
         let (w, v) = (self.angular, self.linear);
         Vector6::new(w.x, w.y, w.z, v.x, v.y, v.z)
@@ -104,11 +104,12 @@ macro_rules! velocities {
     ($($(#[$doc:meta])* $name:ident $id:ident $kind:ident [$($needs:ident)*];)*) => { $(
         $(#[$doc])*
         ///
-        /// In world axes, or in those of the object when `local`.
+        /// The result is in world axes, or in the axes of the object if `local` is set.
         ///
         /// # Errors
         ///
-        /// The data belong to another model, there is no such object, or the plan left out what it follows from.
+        /// The data belong to another model, there is no such object, or the plan left out the fields from which the velocity is
+        /// computed.
         pub fn $name<S: Scope>(
             m: &Model,
             d: &Data<S>,

@@ -1,8 +1,8 @@
 //! The linearization of one step by finite differences (`mjd_transitionFD`).
 //!
-//! A step maps the state x and the controls u to the next state. Near a state, small differences follow δx⁺ = A δx + B δu, and
-//! those of sensors δs = C δx + D δu. Differences of positions are in the tangent space, so that a quaternion counts as three
-//! numbers: the rotation vector in the axes of the body.
+//! A step maps the state x and the controls u to the next state. Near a state, small differences satisfy δx⁺ = A δx + B δu, and
+//! differences of sensors satisfy δs = C δx + D δu. Differences of positions are in the tangent space: a quaternion counts as
+//! three numbers, the rotation vector in the axes of the body.
 
 use crate::api::call;
 use crate::api::data::{Data, Scope};
@@ -13,15 +13,15 @@ use crate::model::Warning;
 use crate::model::reflect::{View, data};
 use nalgebra::DMatrix;
 
-/// How differences are taken.
+/// The parameters of the finite differences.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FiniteDifferences {
-    /// How far a coordinate is moved, in its own unit. Rounding costs about 1e-16 / `eps`, curvature about `eps` (squared where
-    /// differences are centered).
+    /// The perturbation of a coordinate, in its own unit. The error of rounding is about 1e-16 / `eps`; the error of curvature is
+    /// about `eps` (or its square if the differences are centered).
     pub eps: f64,
-    /// Whether a coordinate is moved both ways: twice as many steps.
+    /// Whether a coordinate is perturbed in both directions. This doubles the number of steps.
     pub centered: bool,
-    /// Whether C and D are computed; without it they have no rows.
+    /// Whether C and D are computed. Otherwise they have no rows.
     pub sensors: bool,
 }
 
@@ -45,7 +45,7 @@ pub struct Transition {
     pub d: DMatrix<f64>,
 }
 
-/// What is moved to see what follows from it.
+/// A coordinate that is perturbed.
 #[derive(Clone, Copy)]
 enum Coordinate {
     Position(usize),
@@ -56,14 +56,15 @@ enum Coordinate {
 
 /// The derivatives of one step at the state and the inputs of the data, by finite differences (`mjd_transitionFD`).
 ///
-/// The data stay as they are: steps are made with copies, each from the same state and the same warm start. Any integrator will
-/// do, Runge–Kutta too. A control at the end of its range is moved into the range; beyond it, its column is zero, as the engine
-/// clamps it. Sensors are those that the step computes, which belong to the state before it.
+/// The data do not change: the steps are made with copies, each from the same state and the same warm start. Any integrator is
+/// supported, including Runge–Kutta methods. If a control is at a limit of its range, it is perturbed into the range. If it is
+/// beyond the range, its column is zero, because the engine clamps the control. The sensors are those that the step computes,
+/// which belong to the state before the step.
 ///
-/// MuJoCo 3.14.0 returns D with the opposite sign where differences are centered; here it has the sign of the derivative.
+/// MuJoCo 3.14.0 returns D with the opposite sign if the differences are centered. Here D has the sign of the derivative.
 ///
-/// With constraints, `tolerance` bounds how well a step is a function of its state: set `opt.tolerance` to 0, or far below
-/// `eps`, for derivatives that are as exact as without.
+/// With constraints, the solver's `tolerance` limits how accurately a step is a function of its state. Set `opt.tolerance` to 0,
+/// or far below `eps`, for derivatives as accurate as those without constraints.
 ///
 /// ```
 /// # fn main() -> Result<(), labspec_core::Error> {
@@ -82,8 +83,8 @@ enum Coordinate {
 ///
 /// # Errors
 ///
-/// The data belong to another model, `eps` is not above zero or exceeds the range of a control, the plan left `sensordata` out
-/// where `sensors` is set, a tree sleeps, the work limit of the data ends, or a step does not lead to finite numbers.
+/// The data belong to another model, `eps` is not positive or exceeds the range of a control, the plan left `sensordata` out
+/// although `sensors` is set, a tree sleeps, the work limit of the data is exceeded, or a step gives values that are not finite.
 pub fn transition_fd<S: Scope>(
     m: &Model,
     d: &Data<S>,
@@ -104,7 +105,7 @@ pub fn transition_fd<S: Scope>(
     Ok(Transition { a, b, c, d })
 }
 
-/// The derivatives of the next state, and those of the sensors, with respect to some coordinates: a column each.
+/// The derivatives of the next state and of the sensors with respect to some coordinates, one column per coordinate.
 fn columns<S: Scope>(
     m: &Model,
     d: &Data<S>,
@@ -148,17 +149,18 @@ fn columns<S: Scope>(
     Ok((DMatrix::from_vec(2 * m.nv + m.na, count, states), DMatrix::from_vec(height, count, sensors)))
 }
 
-/// Whether a control can be moved forth and back without passing an end of its range. At an end it is moved into the range.
+/// Whether a control can be perturbed up and down without crossing a limit of its range. A control at a limit is perturbed into
+/// the range.
 fn inside_range<S: Scope>(m: &Model, d: &Data<S>, control: usize, eps: f64) -> [bool; 2] {
     let limited = m.actuator_ctrllimited.get(control) == Some(&true) && !m.is_disabled(disable::CLAMPCTRL);
     let range = m.actuator_ctrlrange.as_chunks::<2>().0.get(control).filter(|_| limited);
     let Some((&[low, high], &u)) = range.zip(d.fields().ctrl.get(control)) else { return [true; 2] };
-    // Below the range, in it, above it.
+    // Below the range, inside it, or above it.
     let part = |x: f64| (x >= low, x > high);
     [eps, -eps].map(|by| part(u + by) == part(u))
 }
 
-/// A copy of the data with one coordinate moved, a step later.
+/// A copy of the data, one step later, that starts with one coordinate perturbed.
 fn next<S: Scope>(m: &Model, d: &Data<S>, moved: Option<(Coordinate, f64)>) -> Result<Data<S>, Error> {
     let mut next = d.clone();
     if let Some((coordinate, by)) = moved {

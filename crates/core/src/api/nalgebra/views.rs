@@ -1,4 +1,4 @@
-//! Fields of the data as vectors and matrices that share their memory.
+//! Fields of the data as vectors and matrices that share their memory with the data.
 
 use crate::api::data::{Data, Scope};
 use crate::api::error::Error;
@@ -8,7 +8,7 @@ use nalgebra::{Const, DMatrixView, DVectorView, Dyn, U1};
 /// A field as a matrix with one row per object. The engine stores rows one after the other.
 pub type RowsView<'a> = DMatrixView<'a, f64, Dyn, U1>;
 
-/// How many numbers each row of a field has: a list of numbers has one.
+/// The number of elements in each row of a field. A list of numbers has one.
 fn width(field: FieldId) -> Option<usize> {
     field
         .info()
@@ -21,7 +21,7 @@ fn width(field: FieldId) -> Option<usize> {
 impl<S: Scope> Data<S> {
     /// The numbers of a field of the data as a vector, without a copy: `qpos`, `qvel`, `qacc`, `sensordata`, …
     ///
-    /// Units are those of the field. To write a vector, use `data.edit().qvel.copy_from_slice(v.as_slice())`.
+    /// The units are those of the field. To write a vector, use `data.edit().qvel.copy_from_slice(v.as_slice())`.
     ///
     /// # Errors
     ///

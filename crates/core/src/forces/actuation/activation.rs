@@ -1,13 +1,13 @@
 //! The values of activations at the end of a step.
 //!
-//! Filters may be integrated exactly: for a constant input, a(h) = a + ȧ τ (1 - exp(-h/τ)).
+//! Filters can be integrated exactly: for a constant input, a(h) = a + ȧ τ (1 - exp(-h/τ)).
 
 use super::{exact, motor};
 use crate::kinds::dyntype;
 use crate::math::*;
 use crate::model::{Fields, Model};
 
-/// The value of activation `at` that acts in this step: that of the end of the step where `actearly` says so.
+/// The value of activation `at` that is used in this step. With `actearly`, it is that of the end of the step.
 pub(super) fn acting(m: &Model, d: &Fields, i: usize, at: usize) -> f64 {
     if m.actuator_actearly[i] { next(m, d, i, at, d.act_dot[at]) } else { d.act[at] }
 }
@@ -24,7 +24,7 @@ pub(super) fn next(m: &Model, d: &Fields, i: usize, at: usize, rate: f64) -> f64
     within(m, d, i, at, value)
 }
 
-/// A value of activation `at` of actuator `i`, within its limits.
+/// A value of activation `at` of actuator `i`, clamped to its limits.
 pub(super) fn within(m: &Model, d: &Fields, i: usize, at: usize, value: f64) -> f64 {
     match m.actuator_dyntype[i] {
         dyntype::DCMOTOR => motor::within(m, d, i, at, value),

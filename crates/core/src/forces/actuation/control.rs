@@ -1,4 +1,4 @@
-//! Controls as they act: delayed, clamped, and zero where one of them is no number.
+//! Controls as applied: delayed, clamped, and all zero if one of them is a bad number.
 
 use crate::forces::history;
 use crate::kinds::{disable, gaintype};
@@ -12,14 +12,14 @@ fn controls(m: &Model, i: usize) -> Range<usize> {
     first..first + m.actuator_ctrlnum[i] as usize
 }
 
-/// Where the history of actuator `i` is and how many samples it has; `None` when it keeps none.
+/// The address of the history of actuator `i`, and its number of samples, or `None` if it has no history.
 fn buffer(m: &Model, i: usize) -> Option<(Range<usize>, usize)> {
     let n = usize::try_from(m.actuator_history[2 * i]).ok().filter(|&n| n > 0)?;
     let at = usize::try_from(m.actuator_historyadr[i]).ok()?;
     Some((at..at + history::size(n, m.actuator_ctrlnum[i] as usize), n))
 }
 
-/// Fills `ctrl` with the controls that act now.
+/// Fills `ctrl` with the controls that are applied at the current time.
 pub(super) fn effective(m: &Model, d: &mut Fields, ctrl: &mut [f64]) {
     ctrl.copy_from_slice(&d.ctrl);
     if m.nhistory > 0 {
@@ -45,7 +45,7 @@ pub(super) fn effective(m: &Model, d: &mut Fields, ctrl: &mut [f64]) {
     }
 }
 
-/// Keeps the controls of this time, for actuators with a history.
+/// Stores the current controls, for actuators with a history.
 pub(crate) fn record(m: &Model, d: &mut Fields) {
     for i in 0..m.nactuator {
         let Some((range, n)) = buffer(m, i) else { continue };
@@ -57,7 +57,7 @@ pub(crate) fn record(m: &Model, d: &mut Fields) {
     }
 }
 
-/// Neutral controls, now and in the past: zero, and the identity for quaternions.
+/// Sets neutral controls, at the current and all past times: zero, and the identity for quaternions.
 pub(crate) fn reset(m: &Model, d: &mut Fields) {
     let h = m.opt.timestep;
     for i in 0..m.nactuator {

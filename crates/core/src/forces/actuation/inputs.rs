@@ -1,4 +1,4 @@
-//! What the controls of controllers say: a position, a velocity, a feedforward, a voltage.
+//! The inputs of controllers: a position, a velocity, a feedforward, a voltage.
 
 use crate::model::Model;
 
@@ -7,21 +7,21 @@ const POS: i32 = 1;
 const VEL: i32 = 2;
 const FF: i32 = 4;
 const VOLTAGE: i32 = 8;
-/// No inputs at all.
+/// No inputs.
 const NONE: i32 = 16;
-/// Whether inputs of this kind go to a controller of motion, not only to the winding.
+/// Whether some input is one of a motion controller, not only a voltage of the winding.
 pub(super) fn controls_motion(spec: i32) -> bool {
     spec & NONE == 0 && spec & (POS | VEL | FF) != 0
 }
 
-/// What the controls of a servo say.
+/// The inputs of a servo.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Inputs {
     pub(super) pos: Option<f64>,
     pub(super) vel: f64,
     pub(super) ff: f64,
     pub(super) voltage: f64,
-    /// Whether there is any but a voltage.
+    /// Whether there is an input other than a voltage.
     pub(super) controller: bool,
 }
 
@@ -46,7 +46,7 @@ impl Inputs {
     }
 }
 
-/// The rate of an integral x that does not grow beyond ±limit; 0 is no limit.
+/// The rate of an integral x that is limited to ±limit. A limit of 0 means no limit.
 pub(super) fn unwound(rate: f64, x: f64, limit: f64) -> f64 {
     if limit > 0.0 && x >= limit {
         rate.min(0.0)

@@ -1,11 +1,11 @@
-//! Limits of forces: of all actuators of a tendon, of each actuator, of all actuators of a joint.
+//! Force limits: for all actuators of a tendon together, for each actuator, and for all actuators of a joint together.
 
 use crate::forces::Scratch;
 use crate::kinds::{gaintype, joint, trntype};
 use crate::math::*;
 use crate::model::{Fields, Model};
 
-/// Scales the forces on a tendon whose sum is out of its range.
+/// Scales the actuator forces on a tendon if their sum is outside its range.
 pub(super) fn tendons(m: &Model, d: &mut Fields, w: &mut Scratch) {
     if !m.tendon_actfrclimited.contains(&true) {
         return;
@@ -30,7 +30,7 @@ pub(super) fn tendons(m: &Model, d: &mut Fields, w: &mut Scratch) {
     }
 }
 
-/// Clamps the force of each actuator; of an orientation servo, the length of its torque.
+/// Clamps the force of each actuator. For an orientation servo, clamps the magnitude of its torque.
 pub(super) fn forces(m: &Model, d: &mut Fields) {
     for i in (0..m.nactuator).filter(|&i| m.actuator_forcelimited[i]) {
         let range = rows::<2>(&m.actuator_forcerange)[i];
@@ -47,7 +47,7 @@ pub(super) fn forces(m: &Model, d: &mut Fields) {
     }
 }
 
-/// Clamps the force of all actuators on each slide and hinge.
+/// Clamps the total actuator force on each slide and hinge.
 pub(super) fn joints(m: &Model, d: &mut Fields) {
     for j in (0..m.njnt).filter(|&j| m.jnt_actfrclimited[j]) {
         if matches!(m.jnt_type[j], joint::SLIDE | joint::HINGE) {

@@ -1,11 +1,11 @@
 //! Actuation: forces from controls, activations, lengths and velocities.
 //!
-//! MuJoCo's documentation, "Computation: Actuation model". An actuator makes the force
+//! See MuJoCo's documentation, "Computation: Actuation model". The force of an actuator is
 //!
 //! > gain(length, velocity) · input + bias(length, velocity)
 //!
-//! of its control or, where it has dynamics, of its last activation. Servos with several inputs, orientations and
-//! motors have laws of their own.
+//! where the input is its control or, if it has dynamics, its last activation. Servos with several inputs, orientation servos and
+//! motors have separate laws.
 
 mod activation;
 mod control;
@@ -27,18 +27,18 @@ pub(crate) use control::{record, reset};
 pub(crate) use motor::slots;
 pub(crate) use rates::{advance, arrive};
 
-/// Whether the forces of actuator `i` are switched off by its group.
+/// Whether the group of actuator `i` is disabled.
 pub(crate) fn switched_off(m: &Model, i: usize) -> bool {
     let group = m.actuator_group[i];
     (0..=30).contains(&group) && m.opt.disableactuator & (1 << group) != 0
 }
 
-/// Whether actuator `i` makes a force.
+/// Whether actuator `i` exerts a force.
 fn acts(m: &Model, d: &Fields, i: usize) -> bool {
     !switched_off(m, i) && !asleep::actuator(m, d, i)
 }
 
-/// Ten parameters of actuator `i`.
+/// The ten parameters of actuator `i`.
 pub(crate) fn prm(of: &[f64], i: usize) -> &[f64; 10] {
     &rows::<10>(of)[i]
 }
@@ -48,13 +48,13 @@ fn states(m: &Model, i: usize) -> std::ops::Range<usize> {
     element_range(m.actuator_actadr[i], m.actuator_actnum[i])
 }
 
-/// A filter with time constant τ after a time h.
+/// The value of a filter with time constant τ after a time h.
 fn exact(act: f64, rate: f64, tau: f64, h: f64) -> f64 {
     let tau = tau.max(MINVAL);
     act + rate * tau * (1.0 - libm::exp(-h / tau))
 }
 
-/// `actuator_force`, `act_dot`, `qfrc_actuator`.
+/// Computes `actuator_force`, `act_dot`, `qfrc_actuator`.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn actuation(m: &Model, d: &mut Fields, w: &mut Scratch) {
     if !(d.plan.has(PlanFlag::Motors) && motors(m, d)) {
@@ -62,7 +62,7 @@ pub(crate) fn actuation(m: &Model, d: &mut Fields, w: &mut Scratch) {
     }
 }
 
-/// The same for actuators of any kind.
+/// Like [`actuation`], for actuators of any kind.
 #[inline(never)]
 fn any(m: &Model, d: &mut Fields, w: &mut Scratch) {
     if m.nactuator == 0 || m.opt.disabled(disable::ACTUATION) {
@@ -85,7 +85,7 @@ fn any(m: &Model, d: &mut Fields, w: &mut Scratch) {
     limit::joints(m, d);
 }
 
-/// The force of each actuator by its own law, before limits.
+/// Computes the force of each actuator with its law, before limits.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn by_their_laws(m: &Model, d: &mut Fields) {
     d.actuator_force.fill(0.0);
@@ -111,8 +111,8 @@ fn by_their_laws(m: &Model, d: &mut Fields) {
     d.acting = ctrl;
 }
 
-/// The same for motors of slides and hinges alone, each with one control and one degree of freedom: what most labs have.
-/// False, and nothing is done, where there is more to it: limits of forces, a control that is no number.
+/// Like [`actuation`], for models whose actuators are all motors of slides and hinges with one control and one degree of freedom,
+/// as in most labs. Does nothing and returns `false` if force limits apply or a control is a bad number.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn motors(m: &Model, d: &mut Fields) -> bool {
     let off = disable::ACTUATION | disable::CLAMPCTRL;
@@ -135,8 +135,8 @@ fn motors(m: &Model, d: &mut Fields) -> bool {
     true
 }
 
-/// The forces of motors and servos of slides, hinges and tendons, each with one control, before limits. False, and nothing is
-/// done, where a control is no number.
+/// Computes the forces of motors and servos of slides, hinges and tendons with one control each, before limits. Does nothing and
+/// returns `false` if a control is a bad number.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn servos(m: &Model, d: &mut Fields) -> bool {
     if m.opt.disabled(disable::CLAMPCTRL) || d.ctrl.iter().any(|&u| bad(u)) {
@@ -155,8 +155,8 @@ fn servos(m: &Model, d: &mut Fields) -> bool {
     true
 }
 
-/// The force of an actuator with a law of its own.
-#[inline(never)] // few are: what most are stays small
+/// Computes the force of an actuator with a separate law.
+#[inline(never)] // rare: keeps the common path small
 fn of_its_own(m: &Model, d: &mut Fields, i: usize, ctrl: &[f64]) {
     let o = m.actuator_outadr[i] as usize;
     match m.actuator_gaintype[i] {
@@ -169,7 +169,7 @@ fn of_its_own(m: &Model, d: &mut Fields, i: usize, ctrl: &[f64]) {
     }
 }
 
-/// What the gain of actuator `i` multiplies: its control, or its last activation.
+/// The input that the gain of actuator `i` multiplies: its control, or its last activation.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn input(m: &Model, d: &Fields, i: usize, ctrl: &[f64]) -> f64 {
     match states(m, i).last() {
@@ -179,7 +179,7 @@ pub(crate) fn input(m: &Model, d: &Fields, i: usize, ctrl: &[f64]) -> f64 {
     }
 }
 
-/// The law of an actuator: its force.
+/// The force of an actuator.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn law(gain: f64, input: f64, bias: f64) -> f64 {
     gain * input + bias
@@ -191,7 +191,7 @@ fn affine(p: &[f64; 10], length: f64, velocity: f64) -> f64 {
     p[0] + p[1] * length + p[2] * velocity
 }
 
-/// A control, within its range where it has one.
+/// A control, clamped to its range if it has one.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn within(control: f64, limited: bool, range: &[f64; 2]) -> f64 {
     if limited { clip(control, *range) } else { control }
@@ -205,7 +205,7 @@ fn gain(m: &Model, d: &Fields, i: usize) -> f64 {
     }
 }
 
-#[inline(never)] // see `of_its_own`
+#[inline(never)] // rare; see `of_its_own`
 fn changing_gain(m: &Model, d: &Fields, i: usize) -> f64 {
     let (p, o) = (prm(&m.actuator_gainprm, i), m.actuator_outadr[i] as usize);
     match m.actuator_gaintype[i] {
@@ -223,7 +223,7 @@ fn bias(m: &Model, d: &Fields, i: usize) -> f64 {
     }
 }
 
-#[inline(never)] // see `of_its_own`
+#[inline(never)] // rare; see `of_its_own`
 fn some_bias(m: &Model, d: &Fields, i: usize) -> f64 {
     let (p, o) = (prm(&m.actuator_biasprm, i), m.actuator_outadr[i] as usize);
     match m.actuator_biastype[i] {
@@ -234,14 +234,14 @@ fn some_bias(m: &Model, d: &Fields, i: usize) -> f64 {
     }
 }
 
-/// Fills `acting` with the controls that act now.
+/// Fills `acting` with the controls that are applied at the current time.
 pub(crate) fn controls(m: &Model, d: &mut Fields) {
     let mut ctrl = std::mem::take(&mut d.acting);
     control::effective(m, d, &mut ctrl);
     d.acting = ctrl;
 }
 
-/// Whether actuator `i` makes no force whatever moves: its control is 0 and it has nothing else.
+/// Whether the force of actuator `i` is zero in every state, because its control is 0 and it has no bias and no activation.
 pub(crate) fn idle(m: &Model, d: &Fields, i: usize) -> bool {
     let plain = matches!(m.actuator_gaintype[i], gaintype::FIXED | gaintype::AFFINE | gaintype::MUSCLE);
     let input = d.acting.get(m.actuator_ctrladr[i] as usize);
@@ -251,9 +251,9 @@ pub(crate) fn idle(m: &Model, d: &Fields, i: usize) -> bool {
         && (m.actuator_ctrlnum[i] == 0 || input == Some(&0.0))
 }
 
-/// The force of actuator `i` at its length and at rest, before limits, and how fast it falls with the length, where it
-/// follows from the length of a slide, hinge or tendon alone and does not push with the velocity. Controls are those of
-/// `acting`.
+/// The force of actuator `i` at its current length and zero velocity, before limits, and the negative derivative of the force
+/// with respect to the length. `None` unless the force depends on the length of a slide, hinge or tendon only, apart from
+/// damping. Uses the controls in `acting`.
 pub(crate) fn along_length(m: &Model, d: &Fields, i: usize) -> Option<[f64; 2]> {
     let target = object_index(m.actuator_trnid[2 * i]);
     let simple = match m.actuator_trntype[i] {
@@ -284,11 +284,11 @@ pub(crate) fn along_length(m: &Model, d: &Fields, i: usize) -> Option<[f64; 2]> 
     Some([force, -length])
 }
 
-/// `kp` and `kv` of actuator `i`, along its own length; `None` when these do not follow from its parameters alone, or when
+/// `kp` and `kv` of actuator `i`, with respect to its own length. `None` if they depend on more than its parameters, or if
 /// there is no such actuator.
 pub(crate) fn servo_gains(m: &Model, i: usize) -> Option<[f64; 2]> {
     match *m.actuator_biastype.get(i)? {
-        // Servos and controllers of type pid: constant, -kp, -kv.
+        // Servos and controllers of type pid have the parameters constant, -kp, -kv.
         biastype::AFFINE => {
             rows::<10>(&m.actuator_biasprm).get(i).map(|&[_, length, velocity, ..]| [-length, -velocity])
         }
@@ -297,7 +297,7 @@ pub(crate) fn servo_gains(m: &Model, i: usize) -> Option<[f64; 2]> {
     }
 }
 
-/// Gravity compensation that acts as a force of actuators.
+/// Adds the gravity compensation that counts as an actuator force.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn gravity_compensation(m: &Model, d: &mut Fields) {
     if m.ngravcomp > 0 && !m.opt.disabled(disable::GRAVITY) {
@@ -305,7 +305,7 @@ fn gravity_compensation(m: &Model, d: &mut Fields) {
     }
 }
 
-#[inline(never)] // few scenes have any
+#[inline(never)] // rare
 fn add_gravity_compensation(m: &Model, d: &mut Fields) {
     for j in (0..m.njnt).filter(|&j| m.jnt_actgravcomp[j]) {
         let first = m.jnt_dofadr[j] as usize;
@@ -315,7 +315,7 @@ fn add_gravity_compensation(m: &Model, d: &mut Fields) {
     }
 }
 
-/// Whether the activation of actuator `i` is a setpoint that is integrated.
+/// Whether the activation of actuator `i` is an integrated setpoint.
 fn integrates(m: &Model, i: usize) -> bool {
     m.actuator_dyntype[i] == dyntype::INTEGRATOR
 }

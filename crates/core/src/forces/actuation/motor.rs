@@ -1,8 +1,8 @@
 //! DC motors: voltage, current, temperature, friction.
 //!
-//! MuJoCo's note "DC Motor Model". With motor constant K, resistance R and speed ω the winding carries the current
-//! i = (V - K ω)/R, or follows it with the electrical time constant, and makes the torque K i. Friction of the
-//! bearing is LuGre's (Canudas de Wit et al. 1995): bristles bend by z, ż = ω - σ₀ |ω| z/g(ω).
+//! See MuJoCo's note "DC Motor Model". With motor constant K, resistance R and speed ω, the current of the winding is
+//! i = (V - K ω)/R, or approaches that value with the electrical time constant, and the torque is K i. Friction of the
+//! bearing follows the LuGre model (Canudas de Wit et al. 1995) with the bristle deflection z, ż = ω - σ₀ |ω| z/g(ω).
 
 use super::inputs::{self, Inputs, unwound};
 use super::{exact, prm, states};
@@ -10,7 +10,7 @@ use crate::kinds::dyntype;
 use crate::math::*;
 use crate::model::{Fields, Model};
 
-/// Places of a motor's states among its activations; `None` for those that it does not have.
+/// Indexes of a motor's states among its activations; `None` for states that it does not have.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Slots {
     slew: Option<usize>,
@@ -43,20 +43,20 @@ pub(crate) fn slots(dynprm: &[f64; 10], gainprm: &[f64; 10]) -> Slots {
     }
 }
 
-/// A motor's parameters and states.
+/// The parameters and states of a motor.
 struct Motor<'a> {
     dyn_: &'a [f64; 10],
     gain: &'a [f64; 10],
     bias: &'a [f64; 10],
     slots: Slots,
-    /// Its first activation.
+    /// The index of its first activation.
     first: usize,
     length: f64,
     velocity: f64,
 }
 
 impl<'a> Motor<'a> {
-    /// A value of a state, within its limits.
+    /// A value of a state, clamped to its limits.
     fn within(&self, slot: Option<usize>, value: f64) -> f64 {
         let limit = self.dyn_[8];
         if slot == self.slots.integral && limit > 0.0 { clamp(value, -limit, limit) } else { value }
@@ -65,7 +65,7 @@ impl<'a> Motor<'a> {
     fn new(m: &'a Model, d: &Fields, i: usize) -> Motor<'a> {
         let (dyn_, gain) = (prm(&m.actuator_dynprm, i), prm(&m.actuator_gainprm, i));
         let (states, o) = (states(m, i), m.actuator_outadr[i] as usize);
-        // Programs may write other parameters than the states were made for: then there are none.
+        // If programs have written parameters that do not match the number of states, there are none.
         let slots = Some(slots(dyn_, gain))
             .filter(|s| m.actuator_dyntype[i] == dyntype::DCMOTOR && s.count() == states.len());
         Motor {
@@ -88,7 +88,7 @@ impl<'a> Motor<'a> {
         self.gain[1]
     }
 
-    /// R at the temperature of the winding: the state is how much warmer it is than its surroundings.
+    /// R at the temperature of the winding. The state is the difference to the ambient temperature.
     fn resistance(&self, d: &Fields) -> f64 {
         let [cold, _, growth, reference, ..] = *self.gain;
         let ambient = self.dyn_[4];
@@ -96,7 +96,8 @@ impl<'a> Motor<'a> {
         warm.map_or(cold, |t| cold * (1.0 + growth * (t + ambient - reference)))
     }
 
-    /// The voltage that a controller applies for a torque, as if the winding were cold, and what is added to it.
+    /// The voltage that a controller applies to obtain a torque, computed with the resistance of the cold winding, plus the
+    /// voltage input.
     fn voltage(&self, d: &Fields, inputs: &Inputs) -> f64 {
         if !inputs.controller {
             return inputs.voltage;
@@ -109,20 +110,20 @@ impl<'a> Motor<'a> {
         inputs.voltage + if limit > 0.0 { clamp(voltage, -limit, limit) } else { voltage }
     }
 
-    /// g(ω): dry friction, larger at low speed.
+    /// g(ω): dry friction, which is larger at low speed.
     fn dry_friction(&self) -> f64 {
         let [_, _, _, coulomb, stiction, speed, ..] = *self.bias;
         let ratio = self.velocity / speed.max(MINVAL);
         coulomb + (stiction - coulomb) * libm::exp(-ratio * ratio)
     }
 
-    /// -σ₀ |ω|/g(ω): how fast a bent bristle slips.
+    /// -σ₀ |ω|/g(ω): the decay rate of the bristle deflection.
     fn slipping(&self) -> f64 {
         -self.dyn_[5] * self.velocity.abs() / self.dry_friction().max(MINVAL)
     }
 }
 
-/// `act_dot` of a motor; the first control becomes the limited one where the motor limits how fast it moves.
+/// Computes `act_dot` of a motor. If the motor has a slew rate limit, its first control is replaced by the limited one.
 pub(super) fn rates(m: &Model, d: &mut Fields, i: usize, ctrl: &mut [f64]) {
     let motor = Motor::new(m, d, i);
     let (slots, first, h) = (motor.slots, motor.first, m.opt.timestep);
@@ -158,8 +159,8 @@ pub(super) fn rates(m: &Model, d: &mut Fields, i: usize, ctrl: &mut [f64]) {
     }
 }
 
-/// Activation `at` of a motor at the end of the step: the current and the bristle exactly, for a constant voltage and
-/// speed.
+/// Activation `at` of a motor at the end of the step. The current and the bristle deflection are integrated exactly, for constant
+/// voltage and speed.
 pub(super) fn next(m: &Model, d: &Fields, i: usize, at: usize, rate: f64) -> f64 {
     let motor = Motor::new(m, d, i);
     let (act, h, slot) = (d.act[at], m.opt.timestep, Some(at - motor.first));
@@ -175,13 +176,13 @@ pub(super) fn next(m: &Model, d: &Fields, i: usize, at: usize, rate: f64) -> f64
     }
 }
 
-/// A value of activation `at` of a motor, within its limits: the integral of the error has one.
+/// A value of activation `at` of a motor, clamped to its limits. Only the integral of the error has a limit.
 pub(super) fn within(m: &Model, d: &Fields, i: usize, at: usize, value: f64) -> f64 {
     let motor = Motor::new(m, d, i);
     motor.within(Some(at - motor.first), value)
 }
 
-/// The torque of the winding but for the voltage that motion induces where there is no state of the current.
+/// The torque of the winding. Without a state for the current, the back EMF is not included.
 pub(super) fn electric(m: &Model, d: &Fields, i: usize, ctrl: &[f64]) -> f64 {
     let motor = Motor::new(m, d, i);
     match motor.slots.current {
@@ -197,7 +198,7 @@ pub(super) fn electric(m: &Model, d: &Fields, i: usize, ctrl: &[f64]) -> f64 {
     }
 }
 
-/// -K²ω/R, from the voltage that motion induces; with a state of the current it is part of its equation.
+/// The torque -K²ω/R of the back EMF. Zero with a state for the current, whose equation contains the back EMF.
 pub(super) fn back_emf(m: &Model, d: &Fields, i: usize) -> f64 {
     let motor = Motor::new(m, d, i);
     if motor.slots.current.is_some() {
@@ -207,9 +208,9 @@ pub(super) fn back_emf(m: &Model, d: &Fields, i: usize) -> f64 {
     -(k / motor.resistance(d).max(MINVAL)) * k * motor.velocity
 }
 
-/// The derivatives of a motor's torque with respect to velocity and length: those of its winding, which follows a
-/// change of the voltage with the electrical time constant where it has one, and the viscous friction of its
-/// bristles. Limits of the voltage, cogging and the bending of bristles do not count, as in MuJoCo.
+/// The derivatives of a motor's torque with respect to velocity and length. They consist of those of the winding, which follows a
+/// change of the voltage with the electrical time constant if it has one, and of the viscous friction of the
+/// bristles. Voltage limits, cogging and the deflection of bristles are not included, as in MuJoCo.
 pub(crate) fn slopes(m: &Model, d: &Fields, i: usize, ctrl: &[f64]) -> [f64; 2] {
     let motor = Motor::new(m, d, i);
     let (k, resistance) = (motor.constant(), motor.resistance(d).max(MINVAL));
@@ -227,9 +228,9 @@ pub(crate) fn slopes(m: &Model, d: &Fields, i: usize, ctrl: &[f64]) -> [f64; 2] 
     [velocity - viscous, length]
 }
 
-/// `kp` and `kv` of a motor at its reference temperature: those of its controller, which makes up for the voltage that
-/// motion induces, or K²/R without one. `None` where the current or the temperature is a state: the force then follows the
-/// position late, or ever more weakly.
+/// `kp` and `kv` of a motor at its reference temperature: those of its controller, which compensates the back EMF, or 0 and K²/R
+/// without a controller. `None` if the current or the temperature is a state: the force then follows the position with a delay,
+/// or decreases over time.
 pub(crate) fn gains(m: &Model, i: usize) -> Option<[f64; 2]> {
     let [electric, _, thermal, ..] = *prm(&m.actuator_dynprm, i);
     let [resistance, k, _, _, kp, _, kd, ..] = *prm(&m.actuator_gainprm, i);
@@ -238,7 +239,7 @@ pub(crate) fn gains(m: &Model, i: usize) -> Option<[f64; 2]> {
     at_once.then(|| if controller { [kp, kd] } else { [0.0, k * k / resistance.max(MINVAL)] })
 }
 
-/// Cogging and friction, which limits of the current do not touch.
+/// Cogging and friction torque, to which limits of the current do not apply.
 pub(super) fn mechanical(m: &Model, d: &Fields, i: usize) -> f64 {
     let motor = Motor::new(m, d, i);
     let [amplitude, teeth, phase, ..] = *motor.bias;

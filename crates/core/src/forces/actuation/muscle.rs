@@ -1,26 +1,27 @@
 //! Muscles: active force over length and velocity, passive force over length, activation dynamics.
 //!
 //! The curves are those of MuJoCo's documentation, "Modeling: Muscles", after Zajac (*Muscle and tendon: properties, models,
-//! scaling, and application to biomechanics and motor control*, 1989): parabolas that meet with equal slopes. With the length L in
-//! optimal lengths L₀ and the velocity V in L₀ · vmax per second,
+//! scaling, and application to biomechanics and motor control*, 1989): parabolas that are joined with equal slopes. With the
+//! length L in units of the optimal length L₀ and the velocity V in units of L₀ · vmax per second,
 //!
 //! > force = -F₀ (FL(L) FV(V) activation + FP(L))
 //!
-//! where FL rises from 0 at lmin to 1 at L = 1 and falls to 0 at lmax, FV rises from 0 at V = -1 through 1 at rest to fvmax, and FP
-//! grows from 0 at L = 1, by a line from half way to lmax. Activation follows Millard et al. (*Flexing computational muscle*, 2013).
+//! where FL rises from 0 at lmin to 1 at L = 1 and falls to 0 at lmax, FV rises from 0 at V = -1 through 1 at V = 0 to fvmax, and
+//! FP grows from 0 at L = 1 and is linear from halfway to lmax. Activation follows Millard et al. (*Flexing computational
+//! muscle*, 2013).
 //!
-//! Parameters, by place: operating range in optimal lengths (2), peak force, its scale, lmin, lmax, vmax, fpmax, fvmax.
+//! Parameters in order: operating range in optimal lengths (2), peak force, its scale, lmin, lmax, vmax, fpmax, fvmax.
 
 use crate::math::*;
 use crate::model::{Fields, Model};
 
-/// A muscle in normalized units.
+/// The state of a muscle in normalized units.
 pub(crate) struct State {
     /// F₀: peak isometric force, N.
     peak: f64,
-    /// L: length in optimal lengths.
+    /// L: length in units of the optimal length.
     length: f64,
-    /// V: velocity in largest shortening velocities.
+    /// V: velocity in units of the largest shortening velocity.
     velocity: f64,
     /// L₀: the optimal length, m.
     optimal: f64,
@@ -29,7 +30,7 @@ pub(crate) struct State {
 }
 
 impl State {
-    /// The muscle with output `o` and parameters `p`: its operating range is reached over `actuator_lengthrange`.
+    /// The state of the muscle with output `o` and parameters `p`. `actuator_lengthrange` corresponds to its operating range.
     pub(crate) fn new(m: &Model, d: &Fields, o: usize, p: &[f64; 10]) -> State {
         let [from, to, force, scale, _, _, vmax, ..] = *p;
         let [shortest, longest] = rows::<2>(&m.actuator_lengthrange)[o];
@@ -45,14 +46,14 @@ impl State {
     }
 }
 
-/// A curve at one point.
+/// The value and the slope of a curve at one point.
 #[derive(Clone, Copy)]
 struct Curve {
     value: f64,
     slope: f64,
 }
 
-/// FL: [`smooth_step`] from lmin to 1, and its mirror image from lmax back to 1.
+/// FL: [`smooth_step`] from lmin to 1, and mirrored from lmax to 1.
 fn active_by_length(p: &[f64; 10], length: f64) -> Curve {
     let end = if length <= 1.0 { p[4] } else { p[5] };
     let width = 1.0 - end;
@@ -61,15 +62,15 @@ fn active_by_length(p: &[f64; 10], length: f64) -> Curve {
     Curve { value, slope: slope / width }
 }
 
-/// From 0 at x = 0 to 1 at x = 1, level at both, by two halves of parabolas that meet at (½, ½).
+/// A curve from 0 at x = 0 to 1 at x = 1, with zero slope at both ends: two half parabolas that are joined at (½, ½).
 fn smooth_step(x: f64) -> Curve {
     let x = x.clamp(0.0, 1.0);
     let rest = 1.0 - x;
     Curve { value: if x <= 0.5 { 2.0 * x * x } else { 1.0 - 2.0 * rest * rest }, slope: 4.0 * x.min(rest) }
 }
 
-/// FV: a parabola from (-1, 0), where it is level, to (0, 1), where its slope is 2; another one from there to the height fvmax,
-/// which it reaches level at V = fvmax - 1.
+/// FV: a parabola from (-1, 0), where its slope is zero, to (0, 1), where its slope is 2. A second parabola from there to the
+/// height fvmax, which it reaches with zero slope at V = fvmax - 1.
 fn active_by_velocity(p: &[f64; 10], velocity: f64) -> Curve {
     let excess = p[8] - 1.0;
     if velocity <= 0.0 {
@@ -82,7 +83,7 @@ fn active_by_velocity(p: &[f64; 10], velocity: f64) -> Curve {
     }
 }
 
-/// FP: with x = 2 (L - 1) / (lmax - 1) the parabola fpmax x²/2 up to x = 1, its tangent from there.
+/// FP: with x = 2 (L - 1) / (lmax - 1), the parabola fpmax x²/2 up to x = 1, and its tangent beyond.
 fn passive_by_length(p: &[f64; 10], length: f64) -> Curve {
     let (lmax, fpmax) = (p[5], p[7]);
     let width = (0.5 * (lmax - 1.0)).max(MINVAL);
@@ -116,9 +117,9 @@ pub(crate) fn bias_by_length(p: &[f64; 10], s: &State) -> f64 {
     -s.peak * passive_by_length(p, s.length).slope / s.optimal
 }
 
-/// The rate of an activation under a control: (u - a) / τ. With c = ½ + 3a/2 the time constant is c times the first parameter where
-/// the muscle activates, and the second one over c where it deactivates. Over the width in the third parameter one becomes the
-/// other.
+/// The rate of an activation for a control: (u - a) / τ. With c = ½ + 3a/2, the time constant τ is the first parameter times c
+/// during activation, and the second parameter divided by c during deactivation. The third parameter is the width of the control
+/// error over which τ changes smoothly from one to the other.
 pub(super) fn rate(p: &[f64; 10], control: f64, act: f64) -> f64 {
     let [activate, deactivate, width, ..] = *p;
     let c = 0.5 + 1.5 * act.clamp(0.0, 1.0);
@@ -128,7 +129,7 @@ pub(super) fn rate(p: &[f64; 10], control: f64, act: f64) -> f64 {
     error / (deactivate + (activate - deactivate) * activates).max(MINVAL)
 }
 
-/// From 0 to 1 between 0 and 1, with two derivatives that are zero at both ends: 6x⁵ - 15x⁴ + 10x³.
+/// A curve from 0 to 1 for x between 0 and 1, whose first two derivatives are zero at both ends: 6x⁵ - 15x⁴ + 10x³.
 fn quintic(x: f64) -> f64 {
     let x = x.clamp(0.0, 1.0);
     x * x * x * (10.0 + x * (6.0 * x - 15.0))
@@ -140,7 +141,8 @@ mod tests {
 
     const DEFAULT: [f64; 10] = [0.75, 1.05, -1.0, 200.0, 0.5, 1.6, 1.5, 1.3, 1.2, 0.0];
 
-    /// Every curve and its slope are continuous, and the slope is the derivative: a break in either would show in a difference.
+    /// Every curve and its slope are continuous, and the slope is the derivative. A discontinuity would be visible in a finite
+    /// difference.
     #[test]
     fn curves_are_smooth() {
         let curves: [fn(&[f64; 10], f64) -> Curve; 3] =

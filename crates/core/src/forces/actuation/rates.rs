@@ -1,4 +1,4 @@
-//! How fast activations change: first-order dynamics of MuJoCo's documentation, "Computation: Activation dynamics".
+//! Time derivatives of activations: the first-order dynamics of MuJoCo's documentation, "Computation: Activation dynamics".
 
 use super::activation::{next, within};
 use super::{integrates, motor, muscle, prm, servo, states, switched_off};
@@ -6,7 +6,7 @@ use crate::kinds::{disable, dyntype, gaintype};
 use crate::math::*;
 use crate::model::{Fields, Model};
 
-/// `act_dot` of actuator `i`. A motor that limits how fast its setpoint moves writes the limited one to `ctrl`.
+/// Computes `act_dot` of actuator `i`. A motor with a slew rate limit writes its limited setpoint to `ctrl`.
 pub(super) fn rates(m: &Model, d: &mut Fields, i: usize, ctrl: &mut [f64]) {
     let states = states(m, i);
     let Some(last) = states.clone().last() else { return };
@@ -28,7 +28,7 @@ pub(super) fn rates(m: &Model, d: &mut Fields, i: usize, ctrl: &mut [f64]) {
     }
 }
 
-/// Advances `act` by a step along `act_dot`.
+/// Advances `act` by a step with `act_dot`.
 #[cfg_attr(not(feature = "small"), inline(never))]
 pub(crate) fn advance(m: &Model, d: &mut Fields) {
     if m.opt.disabled(disable::ACTUATION) {
@@ -45,7 +45,7 @@ pub(crate) fn advance(m: &Model, d: &mut Fields) {
     }
 }
 
-/// Sets `act` to what it is at the end of a step, within its limits.
+/// Sets `act` to its values at the end of a step, within its limits.
 pub(crate) fn arrive(m: &Model, d: &mut Fields, values: &[f64]) {
     if m.opt.disabled(disable::ACTUATION) {
         return;
@@ -60,7 +60,7 @@ pub(crate) fn arrive(m: &Model, d: &mut Fields, values: &[f64]) {
     }
 }
 
-/// Keeps an integrated setpoint that is an angle within a turn.
+/// Wraps an integrated setpoint that is an angle to one turn.
 fn anchor(m: &Model, d: &mut Fields, i: usize) {
     let states = states(m, i);
     if m.actuator_gaintype[i] == gaintype::SO3 {

@@ -1,4 +1,4 @@
-//! Servos: setpoints that are angles, PID controllers, orientations.
+//! Servos: position servos for angles, PID controllers, orientation servos.
 
 use super::inputs::{Inputs, unwound};
 use super::{activation, prm, states};
@@ -8,10 +8,10 @@ use crate::math::*;
 use crate::model::{Fields, Model};
 use std::f64::consts::PI;
 
-/// The chart of an orientation that is a quaternion.
+/// The value of `actuator_ctrlspec` for controls that are a quaternion.
 const QUAT: i32 = 2;
 
-/// The length of a turn of actuator `i`, when its length is an angle that any number of turns leaves as it is.
+/// The change of the length of actuator `i` in one full turn, if its length is a periodic angle.
 fn turn(m: &Model, i: usize) -> Option<f64> {
     let gear = rows::<6>(&m.actuator_gear)[m.actuator_outadr[i] as usize];
     let [along, about] = [[gear[0], gear[1], gear[2]], [gear[3], gear[4], gear[5]]];
@@ -23,15 +23,16 @@ fn turn(m: &Model, i: usize) -> Option<f64> {
     Some(2.0 * PI * norm(axis)).filter(|&t| t > 0.0)
 }
 
-/// The number nearest to `to` that differs from `u` by whole turns.
+/// The number that is nearest to `to` and differs from `u` by whole turns.
 fn nearest(u: f64, to: f64, turn: f64) -> f64 {
     u - turn * ((u - to) / turn).round()
 }
 
-/// A setpoint of a position servo, next to the length where that is an angle; what is no such setpoint is unchanged.
+/// The setpoint of a position servo. If the length is an angle, whole turns are added to bring the setpoint close to it. Other
+/// values are unchanged.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn wrapped(m: &Model, d: &Fields, i: usize, setpoint: f64) -> f64 {
-    // What rules most actuators out comes first.
+    // The checks that exclude most actuators come first.
     let servo = m.actuator_biastype[i] == biastype::AFFINE
         && m.actuator_gaintype[i] == gaintype::FIXED
         && m.actuator_gainprm[10 * i] == -m.actuator_biasprm[10 * i + 1]
@@ -39,7 +40,7 @@ pub(super) fn wrapped(m: &Model, d: &Fields, i: usize, setpoint: f64) -> f64 {
     if servo { next_to_length(m, d, i, setpoint) } else { setpoint }
 }
 
-#[inline(never)] // see `of_its_own`
+#[inline(never)] // rare: keeps the common path small
 fn next_to_length(m: &Model, d: &Fields, i: usize, setpoint: f64) -> f64 {
     match turn(m, i) {
         Some(turn) => nearest(setpoint, d.actuator_length[m.actuator_outadr[i] as usize], turn),
@@ -47,8 +48,8 @@ fn next_to_length(m: &Model, d: &Fields, i: usize, setpoint: f64) -> f64 {
     }
 }
 
-/// The states of a PID controller: its setpoint, when that is limited in how fast it moves, or the integral of the
-/// error. Programs may write other parameters than the states were made for: then there are none.
+/// The states of a PID controller: its setpoint, if it has a slew rate limit, and the integral of the error. If programs have
+/// written parameters that do not match the number of states, there are none.
 struct Pid {
     slew: Option<usize>,
     integral: Option<usize>,
@@ -67,7 +68,7 @@ impl Pid {
         Pid { slew, integral: states.next() }
     }
 
-    /// The position that the controller follows now.
+    /// The position setpoint at the current time.
     fn setpoint(&self, m: &Model, d: &Fields, i: usize, pos: f64) -> f64 {
         let turn = turn(m, i);
         let mut pos = pos;
@@ -80,7 +81,7 @@ impl Pid {
     }
 }
 
-/// `act_dot` of a PID controller.
+/// Computes `act_dot` of a PID controller.
 pub(super) fn rates(m: &Model, d: &mut Fields, i: usize, ctrl: &[f64]) {
     let pid = Pid::new(m, i);
     let pos = Inputs::new(m, i, ctrl).pos.unwrap_or(0.0);
@@ -108,7 +109,7 @@ pub(super) fn pid(m: &Model, d: &Fields, i: usize, ctrl: &[f64]) -> f64 {
     b[0] - b[1] * error - b[2] * slip + m.actuator_gainprm[10 * i] * sum + inputs.ff
 }
 
-/// The torque kp log(q⁻¹ q*) + constant - kv ω that turns the orientation q towards q*.
+/// The torque kp log(q⁻¹ q*) + constant - kv ω, which rotates the orientation q towards q*.
 pub(super) fn orientation(m: &Model, d: &Fields, i: usize, ctrl: &[f64]) -> Vec3 {
     let o = m.actuator_outadr[i] as usize;
     let at = |list: &[f64], first: usize| [list[first], list[first + 1], list[first + 2]];

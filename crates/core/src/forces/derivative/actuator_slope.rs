@@ -1,4 +1,4 @@
-//! How the force of an actuator changes with its velocity.
+//! The derivative of actuator forces with respect to their velocity.
 
 use crate::forces::actuation::{self, motor, muscle, prm};
 use crate::kinds::{biastype, disable, gaintype};
@@ -7,7 +7,8 @@ use crate::model::{Fields, Model};
 
 use super::sparse;
 
-/// `out` ← how the force of each actuator changes with its velocity; whether some number is another one than before.
+/// `out` ← the derivative of the force of each actuator with respect to its velocity. Returns whether any of these numbers
+/// changed.
 pub(super) fn find(m: &Model, d: &Fields, out: &mut [f64]) -> bool {
     let on = !m.opt.disabled(disable::ACTUATION);
     let mut others = false;
@@ -19,7 +20,7 @@ pub(super) fn find(m: &Model, d: &Fields, out: &mut [f64]) -> bool {
     others
 }
 
-/// Adds the derivative of `qfrc_actuator` with respect to `qvel`, for these slopes of the actuators.
+/// Adds the derivative of `qfrc_actuator` with respect to `qvel`, for these derivatives of the actuators.
 pub(super) fn add_velocity(m: &Model, d: &Fields, slopes: &[f64], out: &mut [f64]) {
     for (i, &slope) in slopes.iter().enumerate().filter(|(_, slope)| **slope != 0.0) {
         for (dofs, moment) in moments(m, d, i) {
@@ -41,7 +42,7 @@ pub(crate) fn moments<'a>(
     })
 }
 
-/// Whether the force of an actuator follows its law: its group is on, and no range holds the force.
+/// Whether the force of an actuator follows its law: its group is enabled, and its force is not at a limit.
 pub(crate) fn acts(m: &Model, d: &Fields, i: usize) -> bool {
     if actuation::switched_off(m, i) {
         return false;
@@ -53,7 +54,7 @@ pub(crate) fn acts(m: &Model, d: &Fields, i: usize) -> bool {
     let first = m.actuator_outadr[i] as usize;
     let force = &d.actuator_force[first..first + m.actuator_outnum[i] as usize];
     match force {
-        // The range holds the magnitude of a torque.
+        // The range limits the magnitude of a torque.
         &[x, y, z] => norm([x, y, z]) < upper,
         _ => force.iter().all(|&f| f > lower && f < upper),
     }
@@ -66,7 +67,7 @@ pub(crate) struct Slopes {
     pub(crate) length: f64,
 }
 
-/// How the force of an actuator follows its state within a step.
+/// The derivatives of the force of an actuator with respect to its length and velocity.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn slopes(m: &Model, d: &Fields, i: usize) -> Slopes {
     let mut out = match m.actuator_biastype[i] {
@@ -76,14 +77,14 @@ pub(crate) fn slopes(m: &Model, d: &Fields, i: usize) -> Slopes {
         }
         _ => Slopes { velocity: 0.0, length: 0.0 },
     };
-    // The commonest, whose force is in proportion to its input.
+    // The most common actuators have a force that is proportional to their input. The others need more terms.
     if m.actuator_gaintype[i] != gaintype::FIXED || m.actuator_biastype[i] == biastype::MUSCLE {
         add_other(m, d, i, &mut out);
     }
     out
 }
 
-/// What other gains than fixed ones and muscles add.
+/// Adds the terms of other gains than fixed ones, and of muscles.
 #[inline(never)]
 fn add_other(m: &Model, d: &Fields, i: usize, out: &mut Slopes) {
     let (gain, bias) = (prm(&m.actuator_gainprm, i), prm(&m.actuator_biasprm, i));

@@ -1,10 +1,10 @@
-//! The derivative of gravity, Coriolis and centrifugal force with respect to velocities.
+//! The derivative of the bias force (gravity, Coriolis and centrifugal force) with respect to velocities.
 //!
-//! Every body moved by degree of freedom j gains the velocity s_j and the acceleration p_j + s_j × v, where s_j is
-//! the motion axis, v the body's velocity, p_j = ṡ_j - s_j × v_j, and v_j the velocity once joint j has moved. Its
-//! force changes by I (p_j + s_j × v) + v ×* I s_j + s_j ×* I v: linear in p_j and s_j, so that the inertias and the
-//! matrices B that act on s_j add up over subtrees, as composite bodies do (Featherstone 2008, chapter 6; Echeandia
-//! and Wensing 2021, *Numerical methods to compute the Coriolis matrix*).
+//! For a unit velocity of degree of freedom j, every body that it moves gains the velocity s_j and the acceleration p_j + s_j ×
+//! v, where s_j is the motion axis, v the body's velocity, p_j = ṡ_j - s_j × v_j, and v_j the velocity after joint j. Its force
+//! changes by I (p_j + s_j × v) + v ×* I s_j + s_j ×* I v. This is linear in p_j and s_j. Therefore the inertias, and the
+//! matrices B that multiply s_j, can be summed over subtrees, like composite bodies (Featherstone 2008, chapter 6; Echeandia and
+//! Wensing 2021, *Numerical methods to compute the Coriolis matrix*).
 
 use crate::model::index::element_range;
 use std::ops::Range;
@@ -17,7 +17,7 @@ use crate::model::{Fields, Model};
 /// The columns of a spatial matrix.
 type Columns = [Spatial; 6];
 
-/// What is summed over subtrees, and p_j of every degree of freedom.
+/// The sums over subtrees, and p_j of every degree of freedom.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Work {
     inertia: Vec<Inertia>,
@@ -48,10 +48,10 @@ pub(super) fn subtract(
     for i in dofs {
         let body = m.dof_bodyid[i] as usize;
         let (inertia, matrix) = (&w.inertia[body], &w.matrix[body]);
-        // What the force of body i's subtree along s_i gains: from p_j, and from s_j.
+        // The change of the force of the subtree of i along s_i: from p_j, and from s_j.
         let from_slope = inertia_mul(inertia, &cdof[i]);
         let from_axis: Spatial = std::array::from_fn(|c| dot(matrix[c], cdof[i]));
-        // What it gains from i.
+        // The change of the force of the subtree for a unit velocity of i.
         let mut force = inertia_mul(inertia, &w.slope[i]);
         for c in 0..6 {
             force = add_scaled(force, matrix[c], cdof[i][c]);
@@ -106,7 +106,7 @@ fn slopes(m: &Model, d: &Fields, w: &mut Work, bodies: Range<usize>) {
         let mut v = cvel[m.body_parentid[b] as usize];
         for j in element_range(m.body_jntadr[b], m.body_jntnum[b]) {
             let k = m.jnt_dofadr[j] as usize;
-            // Degrees of freedom that move as one: the translations and the rotations of a free joint, a ball.
+            // Groups of degrees of freedom that move together: the translations and the rotations of a free joint, a ball joint.
             let groups = match m.jnt_type[j] {
                 joint::FREE => [k..k + 3, k + 3..k + 6],
                 joint::BALL => [k..k, k..k + 3],

@@ -1,7 +1,7 @@
-//! Derivatives of smooth forces with respect to velocities, for integrators that are implicit in them.
+//! Derivatives of smooth forces with respect to velocities, for integrators that are implicit in velocity.
 //!
-//! ∂(`qfrc_actuator` + `qfrc_passive` - `qfrc_bias`)/∂`qvel`, kept where a degree of freedom meets its ancestors and
-//! descendants. What couples others (a tendon over two branches) is left out there, as in MuJoCo.
+//! ∂(`qfrc_actuator` + `qfrc_passive` - `qfrc_bias`)/∂`qvel` is stored for pairs of a degree of freedom and its ancestors and
+//! descendants. Couplings of other pairs (a tendon over two branches) are left out, as in MuJoCo.
 
 pub(crate) mod actuator_slope;
 mod bias;
@@ -18,31 +18,31 @@ use crate::math::*;
 use crate::model::plan::PlanFlag;
 use crate::model::{Fields, Model};
 
-/// What is computed anew in every step; its arrays are made when they are first needed.
+/// Results that are recomputed in every step. The arrays are allocated at their first use.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Work {
-    /// The derivative, then the matrix M - h D and its factorization.
+    /// The derivative D, then the matrix M - h D and its factorization.
     pub(crate) whole: Vec<f64>,
-    /// That of actuators, dampers and the medium alone.
+    /// The derivative of the forces of actuators, dampers and the fluid.
     forces: Vec<f64>,
-    /// Whether `forces` is that of the model as it is, and of these slopes of actuators.
+    /// Whether `forces` is valid for the current model and for the actuator derivatives in `actuators`.
     is_current: bool,
     actuators: Vec<f64>,
     /// The motion of a frame for a unit velocity of each degree of freedom that moves it.
     columns: Vec<Spatial>,
-    /// How fast the force of the damper of each degree of freedom falls with its velocity.
+    /// The negative derivative of the damper force of each degree of freedom with respect to its velocity.
     slopes: Vec<f64>,
     bias: bias::Work,
 }
 
-/// What of the medium's forces is differentiated.
+/// Which part of the fluid forces is differentiated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Medium {
     /// Everything.
     Whole,
-    /// The symmetric part for bodies that are not free rigid ones.
+    /// The symmetric part, for bodies that are not free rigid bodies.
     Symmetric,
-    /// The symmetric part of drag and viscosity: they dissipate.
+    /// The symmetric part of drag and viscosity, which are dissipative.
     Drag,
 }
 
@@ -56,15 +56,16 @@ impl Work {
         self.bias.resize(m);
     }
 
-    /// The parameters of the model, or the plan, may be others.
+    /// Marks the stored derivative as invalid, because the parameters of the model or the plan may have changed.
     pub(crate) fn forget(&mut self) {
         self.is_current = false;
     }
 }
 
-/// `w.whole` ← the derivative of forces of actuators, dampers and the medium.
+/// `w.whole` ← the derivative of the forces of actuators, dampers and the fluid.
 ///
-/// Where all else is known once and for all, only the slopes of actuators may change: as long as they are the same, it stays.
+/// If everything else is constant, only the derivatives of actuator forces may change. While these are the same, the stored
+/// result is reused.
 pub(crate) fn forces(m: &Model, d: &Fields, w: &mut Work, medium: Medium) {
     if !(w.is_current && d.plan.has(PlanFlag::SlopesStay) && !actuator_slope::find(m, d, &mut w.actuators)) {
         make_forces(m, d, w, medium);
@@ -102,7 +103,8 @@ pub(crate) fn subtract_tree_bias(m: &Model, d: &Fields, w: &mut Work, tree: usiz
     bias::subtract(m, d, &mut w.bias, bodies, tree_dofs(m, tree), &mut w.whole);
 }
 
-/// The same for a body with its inertia along its own axes, which the formula of Euler says at once.
+/// Like [`subtract_tree_bias`], for a body with its inertia along its own axes, for which Euler's equations give the derivative
+/// directly.
 fn subtract_turning(m: &Model, d: &Fields, whole: &mut [f64], tree: usize) {
     let first = m.tree_dofs(tree).start + 3;
     let body = m.dof_bodyid[first] as usize;
@@ -117,7 +119,7 @@ fn subtract_turning(m: &Model, d: &Fields, whole: &mut [f64], tree: usize) {
     }
 }
 
-/// The rows of one tree in `w.whole` ← minus the derivative of its bias force.
+/// The rows of one tree in `w.whole` ← the negative derivative of its bias force.
 pub(crate) fn tree_bias(m: &Model, d: &Fields, w: &mut Work, tree: usize) {
     w.resize(m);
     for i in tree_dofs(m, tree) {
@@ -127,14 +129,14 @@ pub(crate) fn tree_bias(m: &Model, d: &Fields, w: &mut Work, tree: usize) {
     subtract_tree_bias(m, d, w, tree);
 }
 
-/// `w.whole` ← the derivative of the medium's forces.
+/// `w.whole` ← the derivative of the fluid forces.
 pub(crate) fn medium(m: &Model, d: &Fields, w: &mut Work, medium: Medium) {
     w.resize(m);
     w.whole.fill(0.0);
     add_fluid(m, d, &mut w.columns, &mut w.whole, medium);
 }
 
-/// M - h D for a free joint, given its first degree of freedom, with a matrix in the place of M.
+/// M - h D for a free joint, given its first degree of freedom. `mass` may be another matrix than M.
 pub(crate) fn free_block(m: &Model, mass: &[f64], w: &Work, h: f64, first: usize) -> [Spatial; 6] {
     let mut out = mass::free_block(m, mass, first);
     let rows = w.whole.get(m.D_rowadr[first] as usize..).and_then(|rows| rows.first_chunk::<36>());
@@ -152,13 +154,13 @@ pub(crate) fn tree_dofs(m: &Model, tree: usize) -> Range<usize> {
     first..first + m.tree_dofnum[tree] as usize
 }
 
-/// Whether a tree is a rigid body that moves freely.
+/// Whether a tree is a free rigid body.
 pub(crate) fn is_free_rigid(m: &Model, tree: usize) -> bool {
     let dofs = tree_dofs(m, tree);
     dofs.len() == 6 && m.jnt_type[m.dof_jntid[dofs.start] as usize] == joint::FREE
 }
 
-/// Dampers of joints and tendons.
+/// Adds the derivatives of the dampers of joints and tendons.
 fn dampers(m: &Model, d: &Fields, w: &mut Work) {
     let Work { forces: out, slopes, .. } = w;
     let actuators = d.plan.has(PlanFlag::ActuatorDampers);
@@ -176,7 +178,7 @@ fn dampers(m: &Model, d: &Fields, w: &mut Work) {
     }
 }
 
-/// Adds Jᵀ B J for the derivative B of the forces on every body or geom in the medium.
+/// Adds Jᵀ B J for the derivative B of the fluid forces on every body or geom.
 fn add_fluid(m: &Model, d: &Fields, columns: &mut [Spatial], out: &mut [f64], medium: Medium) {
     fluid::shapes(m, d, |frame, shape| {
         let last = walk::last_dof(m, frame.body);

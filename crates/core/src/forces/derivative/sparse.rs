@@ -1,15 +1,15 @@
-//! Matrices that couple every degree of freedom with its ancestors and descendants, both triangles stored: sums,
+//! Matrices that couple every degree of freedom with its ancestors and descendants, with both triangles stored: sums,
 //! products, factorization.
 //!
-//! A row holds its ancestors, itself, and its descendants, ascending (`D_rowadr`, `D_diag`, `D_colind`). The
-//! ancestors of an ancestor are a prefix of a row's ancestors, and descendants are consecutive: every entry is
-//! found without a search. Elimination from the last row to the first creates no new entries (Featherstone 2008,
-//! section 6.5, for the symmetric case).
+//! A row contains the ancestors of its degree of freedom, itself, and its descendants, ascending (`D_rowadr`, `D_diag`,
+//! `D_colind`). The ancestors of an ancestor are a prefix of a row's ancestors, and descendants are consecutive, so that every
+//! entry is found without a search. Elimination from the last row to the first creates no new entries (Featherstone 2008, section
+//! 6.5, for the symmetric case).
 
 use crate::math::MINVAL;
 use crate::model::Model;
 
-/// Where row `i` begins, and the place of its diagonal.
+/// The index of the first entry of row `i`, and that of its diagonal.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn place(m: &Model, i: usize) -> (usize, usize) {
     let start = m.D_rowadr[i] as usize;
@@ -23,19 +23,19 @@ pub(crate) fn ancestors(m: &Model, i: usize) -> &[i32] {
     &m.D_colind[start..diag]
 }
 
-/// The place of element (i, j), where j is the a-th ancestor of i, and that of (j, i).
+/// The index of element (i, j), where j is the a-th ancestor of i, and that of (j, i).
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn pair(m: &Model, i: usize, j: usize, a: usize) -> (usize, usize) {
     (m.D_rowadr[i] as usize + a, place(m, j).1 + (i - j))
 }
 
-/// The place of element (i, i).
+/// The index of element (i, i).
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn diagonal(m: &Model, i: usize) -> usize {
     place(m, i).1
 }
 
-/// out ← M - h out, where `mass` holds the lower triangle of M in its own pattern.
+/// out ← M - h out, where `mass` is the lower triangle of M in its own pattern.
 pub(crate) fn mass_minus(m: &Model, mass: &[f64], h: f64, out: &mut [f64]) {
     for x in out.iter_mut() {
         *x *= -h;
@@ -44,7 +44,7 @@ pub(crate) fn mass_minus(m: &Model, mass: &[f64], h: f64, out: &mut [f64]) {
         let first = m.M_rowadr[i] as usize;
         let n = m.M_rownnz[i] as usize - 1;
         out[diagonal(m, i)] += mass[first + n];
-        // The row of a simple body holds its diagonal alone; all others hold all ancestors.
+        // The row of a simple body contains only its diagonal; all others contain all ancestors.
         for a in 0..n {
             let (lower, upper) = pair(m, i, m.M_colind[first + a] as usize, a);
             out[lower] += mass[first + a];
@@ -53,7 +53,7 @@ pub(crate) fn mass_minus(m: &Model, mass: &[f64], h: f64, out: &mut [f64]) {
     }
 }
 
-/// Where the last `n` entries of row `i` up to its diagonal are: as many as its row of M has.
+/// The indexes of the last `n` entries of row `i` up to its diagonal, where n is the length of its row of M.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn lower(m: &Model, i: usize, n: usize) -> std::ops::Range<usize> {
     let end = diagonal(m, i) + 1;
@@ -70,7 +70,7 @@ pub(crate) fn subtract_lower(m: &Model, whole: &[f64], h: f64, out: &mut [f64]) 
     }
 }
 
-/// Adds s x xᵀ for a vector with few non-zeros, where there is an entry: `dofs` ascend.
+/// Adds s x xᵀ for a sparse vector to the entries of the pattern. `dofs` must be ascending.
 pub(crate) fn add_outer(m: &Model, dofs: &[i32], values: &[f64], s: f64, out: &mut [f64]) {
     for (k, (&i, x)) in dofs.iter().zip(values).enumerate() {
         let i = i as usize;
@@ -102,7 +102,7 @@ pub(crate) fn mul(m: &Model, a: &[f64], x: &[f64], out: &mut [f64]) {
 }
 
 /// Factorizes in place, A = U L with unit upper U. Returns the first degree of freedom with a vanishing pivot, which
-/// is replaced by the smallest number that may be divided by.
+/// is replaced by the smallest valid divisor.
 pub(crate) fn factor(m: &Model, lu: &mut [f64]) -> Option<usize> {
     let mut bad = None;
     for k in (0..m.nv).rev() {

@@ -1,10 +1,10 @@
-//! Contacts that pull: a constant force along the normal of everything that is near enough.
+//! Adhesive contacts: a constant attractive force along the normal of every detected contact.
 
 use crate::dynamics::jacobian;
 use crate::math::*;
 use crate::model::{Fields, Model};
 
-/// `qfrc_adhesion`.
+/// Computes `qfrc_adhesion`.
 pub(super) fn adhesion(m: &Model, d: &mut Fields) {
     let mut out = std::mem::take(&mut d.qfrc_adhesion);
     out.fill(0.0);

@@ -1,4 +1,4 @@
-//! Forces of the medium on an ellipsoid: added mass, Magnus and Kutta lift, drag; and how they change with the
+//! Fluid forces on an ellipsoid: added mass, Magnus and Kutta lift, drag; and their derivatives with respect to the
 //! velocity.
 //!
 //! The model is that of MuJoCo's documentation, "Computation: Fluid forces, ellipsoid model", with references
@@ -10,37 +10,37 @@ use crate::kinds::geom;
 use crate::math::*;
 use crate::model::Model;
 
-/// What a length or an area is divided by at least: the forces are those of any size, however small.
+/// A lower bound for divisors. It is far below any physical value, so that it does not change the forces of small bodies.
 const SMALLEST: f64 = 1e-200;
 
-/// An ellipsoid in a medium.
+/// An ellipsoid in a fluid.
 ///
-/// All vectors are along its axes. With p = ρ m∘v and l = ρ i∘w, the momentum of the medium that moves along,
+/// All vectors are along its axes. With the momenta p = ρ m∘v and l = ρ i∘w of the added mass,
 ///
 /// > torque = p × v + l × w - (π D³ η + ρ |c∘w|) w
 /// > force  = p × w + M w × v + K A/|v| (n × v) × v - (3π D η + ρ |v| (blunt A + slender (A_max - A))) v
 ///
-/// where D is the mean diameter, A the area of the shadow along v, and n normal to the surface there.
+/// where D is the mean diameter, A the projected area along v, and n the normal of the surface there.
 pub(crate) struct Ellipsoid {
     density: f64,
-    /// Added mass and inertia times density.
+    /// Added mass and added inertia, multiplied by the density.
     mass: Vec3,
     inertia: Vec3,
-    /// Squares of the products of two half lengths: the shadows' areas over π, squared.
+    /// Squares of the products of two half lengths: the squared projected areas divided by π².
     faces: Vec3,
     magnus: f64,
     kutta: f64,
     blunt: f64,
     slender: f64,
-    /// The largest shadow.
+    /// The largest projected area.
     greatest: f64,
-    /// Viscous resistance against turning and moving.
+    /// Viscous resistance to rotation and to translation.
     viscous: [f64; 2],
-    /// Resistance against turning about each axis.
+    /// Resistance to rotation about each axis.
     turning: Vec3,
 }
 
-/// Half lengths of the ellipsoid that stands for a geom, m.
+/// Half lengths of the ellipsoid that represents a geom, m.
 fn semi_axes(m: &Model, g: usize) -> Vec3 {
     let [x, y, z] = rows::<3>(&m.geom_size)[g];
     match m.geom_type[g] {
@@ -51,7 +51,7 @@ fn semi_axes(m: &Model, g: usize) -> Vec3 {
     }
 }
 
-/// The shadow of an ellipsoid along its motion: its area is π √(den/num).
+/// The projection of an ellipsoid along its motion. Its area is π √(den/num).
 struct Shadow {
     num: f64,
     den: f64,
@@ -60,8 +60,8 @@ struct Shadow {
 }
 
 impl Ellipsoid {
-    /// `fluid` is the geom's row of `geom_fluid`: a switch; coefficients of blunt, slender and angular drag, Kutta
-    /// and Magnus lift; added mass and added inertia per density of the medium.
+    /// `fluid` is the geom's row of `geom_fluid`: a flag; coefficients of blunt, slender and angular drag, Kutta and Magnus lift;
+    /// added mass and added inertia for unit density of the fluid.
     pub(super) fn new(m: &Model, g: usize, fluid: [f64; 12]) -> Ellipsoid {
         let [share, blunt, slender, angular, kutta, magnus, m0, m1, m2, i0, i1, i2] = fluid;
         let (density, viscosity) = (share * m.opt.density, share * m.opt.viscosity);
@@ -96,7 +96,7 @@ impl Ellipsoid {
         Shadow { num, den, area: PI * (den / num.max(SMALLEST)).sqrt(), speed: norm(v) }
     }
 
-    /// Torque and force for a motion through the medium.
+    /// Torque and force for a motion relative to the fluid.
     pub(super) fn force(&self, motion: Spatial) -> Spatial {
         let (w, v) = (angular(&motion), linear(&motion));
         let (p, l) = (each(self.mass, v), each(self.inertia, w));
@@ -116,12 +116,12 @@ impl Ellipsoid {
         spatial(torque, force)
     }
 
-    /// The area that resists: blunt where the shadow is, slender along the rest.
+    /// The effective area of drag: the projected area with the blunt coefficient, and the rest with the slender coefficient.
     fn front(&self, shadow: f64) -> f64 {
         self.blunt * shadow + self.slender * (self.greatest - shadow)
     }
 
-    /// The derivative of drag alone: of the torque with respect to w, of the force with respect to v.
+    /// The derivative of drag alone: of the torque with respect to w, and of the force with respect to v.
     pub(crate) fn drag(&self, motion: Spatial) -> [Mat3; 2] {
         let (w, v) = (angular(&motion), linear(&motion));
         let resisted = norm(each(self.turning, w));
@@ -131,7 +131,7 @@ impl Ellipsoid {
 
         let s = self.shadow(v);
         let front = self.front(s.area);
-        // How the shadow grows: π (num ∇den - den ∇num) / (2 √(num³ den)), with what cancels left out.
+        // The gradient of the projected area, π (num ∇den - den ∇num) / (2 √(num³ den)), without the terms that cancel.
         let f = self.faces;
         let growth = [0, 1, 2].map(|k| {
             let rest: f64 = (0..3).map(|j| f[j] * square(v[j]) * (f[k] - f[j])).sum();
@@ -145,7 +145,7 @@ impl Ellipsoid {
         [torque, force]
     }
 
-    /// The derivative of torque and force with respect to the motion, row by row.
+    /// The derivative of torque and force with respect to the motion, by rows.
     pub(crate) fn derivative(&self, motion: Spatial) -> [Spatial; 6] {
         let (w, v) = (angular(&motion), linear(&motion));
         let (p, l) = (each(self.mass, v), each(self.inertia, w));
@@ -162,7 +162,7 @@ impl Ellipsoid {
         })
     }
 
-    /// The derivative of Kutta's lift g G, where G = (n × v) × v and g = K π √num / (|v| √den).
+    /// The derivative of the Kutta lift g G, where G = (n × v) × v and g = K π √num / (|v| √den).
     fn kutta_slope(&self, v: Vec3) -> Mat3 {
         let s = self.shadow(v);
         let (square_speed, normal) = (s.speed * s.speed, each(self.faces, v));
@@ -182,12 +182,12 @@ fn square(x: f64) -> f64 {
     x * x
 }
 
-/// Products of components.
+/// The element-wise product.
 fn each(a: Vec3, b: Vec3) -> Vec3 {
     [a[0] * b[0], a[1] * b[1], a[2] * b[2]]
 }
 
-/// The matrix of a ×.
+/// The matrix of the cross product a ×.
 fn crossing([x, y, z]: Vec3) -> Mat3 {
     [0.0, -z, y, z, 0.0, -x, -y, x, 0.0]
 }
@@ -212,7 +212,7 @@ fn add_diagonal(a: &mut Mat3, x: f64) {
 mod tests {
     use super::*;
 
-    /// Every recorded case: `golden/record.py` says what a line holds.
+    /// The recorded cases. `golden/record.py` describes the format of a line.
     fn cases() -> Vec<(Ellipsoid, Spatial, Spatial)> {
         let case = |line: &str| {
             let x: Vec<f64> = line.split(' ').map(|w| w.parse().unwrap()).collect();
@@ -236,7 +236,7 @@ mod tests {
         }
     }
 
-    /// Against central differences, where the force is smooth: |v| v has none at rest.
+    /// Compares with central differences, except at rest, where |v| v is not smooth.
     #[test]
     fn derivatives_are_those_of_the_forces() {
         for (ellipsoid, motion, _) in cases().into_iter().filter(|c| c.1 != [0.0; 6]) {

@@ -1,6 +1,6 @@
-//! Forces of the medium on bodies: drag and viscosity, with the medium moving at `opt.wind`.
+//! Fluid forces on bodies: drag and viscosity. The fluid moves with the velocity `opt.wind`.
 //!
-//! A body is a box with the same inertia, unless one of its geoms asks for the ellipsoid model (MuJoCo's
+//! A body is treated as a box with the same inertia, unless one of its geoms has the ellipsoid model (MuJoCo's
 //! documentation, "Computation: Fluid forces").
 
 use crate::model::index::element_range;
@@ -12,23 +12,23 @@ use crate::kinds::disable;
 use crate::math::*;
 use crate::model::{Fields, Model};
 
-/// Numbers of a geom in `geom_fluid`.
+/// The number of values per geom in `geom_fluid`.
 const FLUID: usize = 12;
 
-/// Whether there is a medium whose forces act.
+/// Whether there is a fluid and its forces are enabled.
 pub(crate) fn acts(m: &Model) -> bool {
     let on = !m.opt.disabled(disable::SPRING) || !m.opt.disabled(disable::DAMPER);
     on && (m.opt.density > 0.0 || m.opt.viscosity > 0.0)
 }
 
-/// `qfrc_fluid` (zero before).
+/// Computes `qfrc_fluid`, which must be zero before.
 pub(super) fn fluid(m: &Model, d: &mut Fields) {
     let mut out = std::mem::take(&mut d.qfrc_fluid);
     shapes(m, d, |frame, shape| frame.apply(m, d, shape.force(frame.motion), &mut out));
     d.qfrc_fluid = out;
 }
 
-/// Calls `f` for everything that the medium resists.
+/// Calls `f` for every box and ellipsoid on which fluid forces act.
 pub(crate) fn shapes(m: &Model, d: &Fields, mut f: impl FnMut(&Frame, &Shape)) {
     for b in 1..m.nbody {
         if m.body_mass[b] < MINVAL {
@@ -48,8 +48,7 @@ pub(crate) fn shapes(m: &Model, d: &Fields, mut f: impl FnMut(&Frame, &Shape)) {
     }
 }
 
-/// A frame that moves with a body, and its motion through the medium: angular and linear velocity along the
-/// frame's axes.
+/// A frame that moves with a body, and its motion relative to the fluid: angular and linear velocity along the axes of the frame.
 pub(crate) struct Frame {
     pub(crate) body: usize,
     pub(crate) pos: Vec3,
@@ -67,7 +66,7 @@ impl Frame {
         Frame { body, pos, mat, motion: spatial(turning, moving) }
     }
 
-    /// Adds the generalized force of a torque and force along the frame's axes.
+    /// Adds the generalized force of a torque and a force along the axes of the frame.
     fn apply(&self, m: &Model, d: &Fields, force: Spatial, out: &mut [f64]) {
         let (torque, force) =
             (mat_mul_vec(&self.mat, angular(&force)), mat_mul_vec(&self.mat, linear(&force)));
@@ -75,14 +74,14 @@ impl Frame {
     }
 }
 
-/// What the medium resists.
+/// The shape for which fluid forces are computed.
 pub(crate) enum Shape {
     Box(InertiaBox),
     Ellipsoid(Ellipsoid),
 }
 
 impl Shape {
-    /// Torque and force for a motion through the medium, all along the frame's axes.
+    /// Torque and force for a motion relative to the fluid, all along the axes of the frame.
     fn force(&self, motion: Spatial) -> Spatial {
         match self {
             Shape::Box(b) => b.force(motion),
@@ -93,10 +92,10 @@ impl Shape {
 
 /// The box with the inertia of a body.
 ///
-/// Viscosity acts as on a sphere of diameter D, the box's mean edge: torque π D³ η ω, force 3π D η v. Each pair
-/// of faces has a drag of ½ ρ A |v| v, and a torque against turning of ρ e (e₁⁴ + e₂⁴) |ω| ω / 64.
+/// Viscosity acts as on a sphere with the diameter D, the mean edge of the box: torque π D³ η ω, force 3π D η v. Each pair
+/// of faces has a drag force of ½ ρ A |v| v, and a drag torque of ρ e (e₁⁴ + e₂⁴) |ω| ω / 64.
 pub(crate) struct InertiaBox {
-    /// Coefficients of linear and quadratic resistance, three rotations and three translations.
+    /// Coefficients of linear and quadratic resistance, for three rotations and three translations.
     linear: Spatial,
     quadratic: Spatial,
 }

@@ -1,11 +1,11 @@
-//! Gravity compensation: a force against gravity at the centre of mass of a body.
+//! Gravity compensation: a force opposite to gravity at the centre of mass of a body.
 
 use crate::dynamics::jacobian;
 use crate::kinds::disable;
 use crate::math::*;
 use crate::model::{Fields, Model};
 
-/// `qfrc_gravcomp` (zero before): -g m c for a body of mass m with compensation c. Whether there is any.
+/// Computes `qfrc_gravcomp`, which must be zero before: -g m c for a body of mass m with compensation c. Returns whether it acts.
 pub(super) fn gravcomp(m: &Model, d: &mut Fields) -> bool {
     let gravity = m.opt.gravity;
     if m.ngravcomp == 0 || m.opt.disabled(disable::GRAVITY) || norm(gravity) == 0.0 {

@@ -1,4 +1,4 @@
-//! Passive forces: springs and dampers, gravity compensation, the medium.
+//! Passive forces: springs and dampers, gravity compensation, fluid forces.
 
 pub(crate) mod adhesion;
 mod ellipsoid;
@@ -11,8 +11,8 @@ use crate::math::combine;
 use crate::model::plan::PlanFlag;
 use crate::model::{Fields, Model};
 
-/// `qfrc_spring`, `qfrc_damper`, `qfrc_gravcomp`, `qfrc_fluid`, `qfrc_passive`. With springs and dampers both
-/// switched off there are no passive forces at all.
+/// Computes `qfrc_spring`, `qfrc_damper`, `qfrc_gravcomp`, `qfrc_fluid`, `qfrc_passive`. If springs and dampers are both
+/// disabled, there are no passive forces.
 pub(crate) fn passive(m: &Model, d: &mut Fields) {
     let (springs, dampers) = (!m.opt.disabled(disable::SPRING), !m.opt.disabled(disable::DAMPER));
     if d.plan.has(PlanFlag::Springs) {
@@ -39,7 +39,7 @@ pub(crate) fn passive(m: &Model, d: &mut Fields) {
         d.qfrc_adhesion.fill(0.0);
         if springs || dampers {
             adhesion::adhesion(m, d);
-            // Without a pull the force stays as it is, -0 too: so it is in a plan without this stage.
+            // Without adhesion, the force does not change, even if it is -0, as in a plan without this stage.
             for (f, pull) in d.qfrc_passive.iter_mut().zip(&d.qfrc_adhesion).filter(|(_, pull)| **pull != 0.0)
             {
                 *f += pull;
@@ -48,7 +48,7 @@ pub(crate) fn passive(m: &Model, d: &mut Fields) {
     }
 }
 
-/// Forces on bodies as such.
+/// Adds the forces on bodies: gravity compensation and fluid forces.
 fn body_forces(m: &Model, d: &mut Fields, on: bool) {
     d.qfrc_gravcomp.fill(0.0);
     d.qfrc_fluid.fill(0.0);
@@ -60,7 +60,7 @@ fn body_forces(m: &Model, d: &mut Fields, on: bool) {
     }
     if on && gravcomp::gravcomp(m, d) {
         for j in 0..m.njnt {
-            // Otherwise it is a force of actuators.
+            // Otherwise it counts as an actuator force.
             if !m.jnt_actgravcomp[j] {
                 let first = m.jnt_dofadr[j] as usize;
                 for k in first..first + joint::nv(m.jnt_type[j]) {

@@ -1,8 +1,8 @@
 //! Springs and dampers of joints and tendons.
 //!
-//! A spring with stiffness k and coefficients p pulls with f = -x (k + p₁ x + p₂ x²) at displacement x; for a
-//! translation or rotation in space x is the distance or the angle, and the force points back. A damper
-//! resists with f = -v (b + p₁ |v| + p₂ v²).
+//! The force of a spring with stiffness k and coefficients p is f = -x (k + p₁ x + p₂ x²) at displacement x. For a translation or
+//! rotation in space, x is the distance or the angle, and the force has the opposite direction. The force of a damper is f = -v
+//! (b + p₁ |v| + p₂ v²).
 
 use crate::dynamics::reflected::{self, On};
 use crate::forces::tendon;
@@ -19,31 +19,31 @@ pub(crate) struct Law {
 }
 
 impl Law {
-    /// The law of one joint, degree of freedom or tendon.
+    /// The coefficients of one joint, degree of freedom or tendon.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn new(linear: &[f64], growth: &[f64], i: usize) -> Law {
         Law { linear: linear[i], growth: rows::<2>(growth)[i] }
     }
 
-    /// With more coefficients of the same kind.
+    /// The sum with further coefficients of the same kind.
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn plus(self, [linear, first, second]: [f64; 3]) -> Law {
         Law { linear: self.linear + linear, growth: [self.growth[0] + first, self.growth[1] + second] }
     }
 
-    /// The derivative of the force of a damper, with its sign turned, at speed x: b + 2 p₁ x + 3 p₂ x².
+    /// The negative derivative of the force of a damper at speed x: b + 2 p₁ x + 3 p₂ x².
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn slope(self, x: f64) -> f64 {
         self.linear + x * (2.0 * self.growth[0] + x * 3.0 * self.growth[1])
     }
 
-    /// Nothing there.
+    /// Whether all coefficients are zero.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn is_zero(self) -> bool {
         self.linear == 0.0 && self.growth == [0.0; 2]
     }
 
-    /// Force for a unit displacement or velocity, at x.
+    /// The force divided by the displacement or velocity, at x.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn at(self, x: f64) -> f64 {
         self.linear + x * (self.growth[0] + x * self.growth[1])
@@ -55,7 +55,7 @@ impl Law {
     }
 }
 
-/// The springs of joints, by `qfrc_spring`.
+/// Computes the forces of joint springs, `qfrc_spring`.
 pub(super) fn joint_springs(m: &Model, d: &mut Fields) {
     let laws = m.jnt_stiffness.iter().zip(rows::<2>(&m.jnt_stiffnesspoly));
     for (j, (&linear, &growth)) in laws.enumerate() {
@@ -81,7 +81,7 @@ pub(super) fn joint_springs(m: &Model, d: &mut Fields) {
     }
 }
 
-/// How far the spring of a free or ball joint is stretched: translation (free only) and rotation vector.
+/// The displacement of the spring of a free or ball joint: translation (free joint only) and rotation vector.
 pub(crate) fn displacements(m: &Model, d: &Fields, j: usize) -> (Option<Vec3>, Vec3) {
     let q = m.jnt_qposadr[j] as usize;
     if m.jnt_type[j] == joint::FREE {
@@ -99,7 +99,8 @@ fn ball_displacement(q: &[f64], reference: &[f64]) -> Vec3 {
     quat_to_vel(quat_mul(quat_conj(r), q))
 }
 
-/// How fast the force of the damper of degree of freedom `i`, that of actuators included, falls with its velocity.
+/// The negative derivative of the damper force of degree of freedom `i` with respect to its velocity, including dampers of
+/// actuators.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn joint_damping(m: &Model, d: &Fields, i: usize) -> f64 {
     with_actuators(m, i, Law::new(&m.dof_damping, &m.dof_dampingpoly, i)).slope(d.qvel[i].abs())
@@ -115,8 +116,8 @@ fn with_actuators(m: &Model, i: usize, spring: Law) -> Law {
     spring.plus(reflected::damping(m, On::Joint(joint)))
 }
 
-/// Fills `out` (nv) with a number for the damper and the velocity of each degree of freedom. Dampers of actuators count
-/// unless there are none: `actuators`.
+/// Fills `out` (nv) with a function of the damper and the velocity of each degree of freedom. Dampers of actuators are included
+/// if `actuators` is set.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn of_dampers(
     m: &Model,
@@ -135,21 +136,21 @@ pub(crate) fn of_dampers(
     }
 }
 
-/// The damper of tendon `t`, that of actuators included.
+/// The damper of tendon `t`, including those of actuators.
 pub(crate) fn tendon_damper(m: &Model, t: usize) -> Law {
     Law::new(&m.tendon_damping, &m.tendon_dampingpoly, t).plus(reflected::damping(m, On::Tendon(t)))
 }
 
-/// What the dampers of joints do: `qfrc_damper`.
+/// Computes the forces of joint dampers, `qfrc_damper`.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn damp_joints(m: &Model, d: &mut Fields) {
     of_dampers(m, d.plan.has(PlanFlag::ActuatorDampers), &d.qvel, &mut d.qfrc_damper, |law, v| {
-        // Without a damper the force is 0, not -0: a plan that leaves this stage out finds the same.
+        // Without a damper, the force is 0 and not -0, as in a plan that leaves this stage out.
         if law.is_zero() { 0.0 } else { -law.at(v.abs()) * v }
     });
 }
 
-/// The springs and dampers of tendons, added to `qfrc_spring` and `qfrc_damper`. A spring is relaxed between
+/// Adds the forces of the springs and dampers of tendons to `qfrc_spring` and `qfrc_damper`. A spring is relaxed between
 /// the two lengths of `tendon_lengthspring`.
 pub(super) fn tendons(m: &Model, d: &mut Fields, springs: bool, dampers: bool) {
     for t in 0..m.ntendon {

@@ -1,8 +1,8 @@
 //! Tendons: lengths and Jacobians of paths over joints, sites, pulleys and wrapping geoms.
 //!
-//! A fixed tendon is a linear combination of joint coordinates. A spatial tendon is the shortest path through
-//! its sites, around its geoms; a pulley divides it into branches, each scaled by a divisor. MuJoCo's
-//! documentation, "Computation: Tendon", has the model.
+//! A fixed tendon is a linear combination of joint coordinates. A spatial tendon is the shortest path through its sites and
+//! around its geoms. A pulley divides it into branches, each scaled by a divisor. The model is documented in MuJoCo's
+//! documentation, "Computation: Tendon".
 
 mod pattern;
 pub(crate) mod spatial_tendon;
@@ -18,7 +18,7 @@ use crate::model::{Fields, Model, asleep};
 pub(crate) use pattern::set_pattern;
 pub(crate) use tendon_constants::{at_default, at_rest};
 
-/// Whether tendon `t` combines joint coordinates; otherwise it is a path in space.
+/// Whether tendon `t` is a combination of joint coordinates. Otherwise it is a spatial path.
 pub(crate) fn is_fixed(m: &Model, t: usize) -> bool {
     m.wrap_type[m.tendon_adr[t] as usize] == wraptype::JOINT
 }
@@ -29,7 +29,8 @@ pub(crate) fn row(m: &Model, t: usize) -> std::ops::Range<usize> {
     start..start + m.ten_J_rownnz[t] as usize
 }
 
-/// `ten_length`, `ten_J` and the points of the paths. A tendon that sleeps has no length and stays where it is.
+/// Computes `ten_length`, `ten_J` and the points of the paths. The length of a sleeping tendon is zero, and its points do not
+/// change.
 pub(crate) fn tendons(m: &Model, d: &mut Fields) {
     d.ten_J.fill(0.0);
     let mut points = 0;
@@ -55,7 +56,7 @@ fn fixed(m: &Model, d: &mut Fields, t: usize) -> f64 {
     for (&joint, coefficient) in m.wrap_objid[path.clone()].iter().zip(&m.wrap_prm[path]) {
         let joint = joint as usize;
         length += coefficient * d.qpos[m.jnt_qposadr[joint] as usize];
-        // As a rule joints come in their order.
+        // Joints are usually in the order of their degrees of freedom.
         let dof = m.jnt_dofadr[joint];
         let found = if columns.get(next) == Some(&dof) { Ok(next) } else { columns.binary_search(&dof) };
         if let Ok(at) = found {
@@ -66,7 +67,7 @@ fn fixed(m: &Model, d: &mut Fields, t: usize) -> f64 {
     length
 }
 
-/// Adds a Jᵀ J to M for tendons with armature a, where M has an entry: trees stay independent.
+/// Adds a Jᵀ J to the existing entries of M for tendons with armature a. Trees stay uncoupled.
 pub(crate) fn armature(m: &Model, d: &mut Fields) {
     for t in 0..m.ntendon {
         let a = tendon_inertia(m, t);
@@ -78,14 +79,14 @@ pub(crate) fn armature(m: &Model, d: &mut Fields) {
     }
 }
 
-/// `ten_velocity` = J v.
+/// Computes `ten_velocity` = J v.
 pub(crate) fn velocities(m: &Model, d: &mut Fields) {
     for t in 0..m.ntendon {
         d.ten_velocity[t] = along(m, d, t, &d.qvel);
     }
 }
 
-/// The rate at which tendon `t` lengthens when joints move with v (nv).
+/// The rate of change of the length of tendon `t` for joint velocities v (nv).
 pub(crate) fn along(m: &Model, d: &Fields, t: usize, v: &[f64]) -> f64 {
     let row = row(m, t);
     m.ten_J_colind[row.clone()].iter().zip(&d.ten_J[row]).map(|(&k, x)| x * v[k as usize]).sum()
@@ -110,7 +111,7 @@ pub(crate) fn add_force(m: &Model, t: usize, jacobian: &[f64], force: f64, out: 
     }
 }
 
-/// How far a tendon is beyond the lengths at which its spring is relaxed, m: negative when it is shorter.
+/// The difference of a tendon's length to the range in which its spring is relaxed, m. Negative if the tendon is shorter.
 pub(crate) fn spring_displacement(m: &Model, d: &Fields, t: usize) -> f64 {
     let length = d.ten_length[t];
     let [lower, upper] = rows::<2>(&m.tendon_lengthspring)[t];

@@ -1,4 +1,5 @@
-//! What follows from the structure of tendons: where their Jacobians can be non-zero, and which trees they tie.
+//! Constants of tendons that depend on the structure only: the sparsity pattern of their Jacobians, and the trees that they
+//! connect.
 
 use super::is_fixed;
 use crate::dynamics::walk;
@@ -6,10 +7,10 @@ use crate::kinds::wraptype;
 use crate::model::Model;
 use labspec_finding::order;
 
-/// `ten_J_rownnz`, `ten_J_rowadr`, `ten_J_colind`, `nJten`, `tendon_treenum` and `tendon_treeid`.
+/// Computes `ten_J_rownnz`, `ten_J_rowadr`, `ten_J_colind`, `nJten`, `tendon_treenum` and `tendon_treeid`.
 ///
-/// A tendon's Jacobian is non-zero at most where something on its path moves. `None` when that would be more
-/// than `most` entries.
+/// The Jacobian of a tendon can be non-zero only for degrees of freedom that move objects on its path. `None` if there would be
+/// more than `most` entries.
 pub(crate) fn set_pattern(m: &mut Model, most: usize) -> Option<()> {
     m.ten_J_colind.clear();
     for t in 0..m.ntendon {
@@ -31,7 +32,7 @@ pub(crate) fn set_pattern(m: &mut Model, most: usize) -> Option<()> {
     Some(())
 }
 
-/// The bodies on the path of tendon `t`, in its order: those of its joints, sites and geoms.
+/// The bodies on the path of tendon `t`, in order: those of its joints, sites and geoms.
 fn bodies(m: &Model, t: usize) -> impl Iterator<Item = usize> + '_ {
     let first = m.tendon_adr[t] as usize;
     let body = |w: usize| {
@@ -46,7 +47,7 @@ fn bodies(m: &Model, t: usize) -> impl Iterator<Item = usize> + '_ {
     (first..first + m.tendon_num[t] as usize).filter_map(body)
 }
 
-/// The trees that tendon `t` ties together, in the order in which its path meets them.
+/// The trees that tendon `t` connects, in the order of its path.
 fn trees(m: &Model, t: usize) -> Vec<i32> {
     let mut met = Vec::new();
     for tree in bodies(m, t).map(|b| m.body_treeid[b]) {
@@ -57,7 +58,7 @@ fn trees(m: &Model, t: usize) -> Vec<i32> {
     met
 }
 
-/// The degrees of freedom that move something on the path of tendon `t`, ascending.
+/// The degrees of freedom that move objects on the path of tendon `t`, ascending.
 fn moving(m: &Model, t: usize) -> Vec<i32> {
     let mut dofs: Vec<i32> = Vec::new();
     if is_fixed(m, t) {

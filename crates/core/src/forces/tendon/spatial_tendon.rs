@@ -1,4 +1,4 @@
-//! Spatial paths: their legs, their length, the derivative of it and the points they pass.
+//! Paths of spatial tendons: their legs, lengths, Jacobians and points.
 
 use super::wrap::{self, Round};
 use crate::dynamics::{jacobian, walk};
@@ -9,9 +9,9 @@ use crate::model::{Fields, Model};
 /// Jacobians and points of all paths.
 struct Paths {
     jacobian: Vec<f64>,
-    /// What each point lies on: a geom, [`ON_SITE`] or [`ON_PULLEY`].
+    /// The object of each point: a geom, [`ON_SITE`] or [`ON_PULLEY`].
     on: Vec<i32>,
-    /// Their places, world.
+    /// The positions of the points, world.
     points: Vec<f64>,
     /// Number of points so far.
     count: usize,
@@ -22,7 +22,7 @@ const ON_PULLEY: i32 = -2;
 
 impl Paths {
     fn push(&mut self, on: i32, point: Vec3) {
-        // The compiler leaves room for two points for each object of a path, and no path has more.
+        // The compiler allocates two points per object of a path, and no path has more.
         if let (Some(o), Some(p)) =
             (self.on.get_mut(self.count), rows_mut::<3>(&mut self.points).get_mut(self.count))
         {
@@ -32,17 +32,17 @@ impl Paths {
     }
 }
 
-/// A piece of a path: from a site to the next one.
+/// A leg of a path: the part from a site to the next site.
 struct Leg {
     from: usize,
     to: usize,
-    /// The geom between them, with the site that chooses a side.
+    /// The geom between them, with the site that selects a side.
     over: Option<(usize, Option<usize>)>,
-    /// What divides its length.
+    /// The divisor of its length.
     divisor: f64,
-    /// A pulley stands before it.
+    /// Whether a pulley precedes it.
     after_pulley: bool,
-    /// Its end is the end of a branch.
+    /// Whether it is the last leg of a branch.
     ends: bool,
 }
 
@@ -60,7 +60,7 @@ impl<'a> Legs<'a> {
         Legs { m, at, end: at + m.tendon_num[t] as usize, divisor: 1.0 }
     }
 
-    /// The kind of an object; the end of the path ends a branch as a pulley does.
+    /// The kind of an object. The end of the path counts as a pulley, because both end a branch.
     fn kind(&self, at: usize) -> i32 {
         if at < self.end { self.m.wrap_type[at] } else { wraptype::PULLEY }
     }
@@ -86,7 +86,7 @@ impl Iterator for Legs<'_> {
         let from = self.at;
         let geom = from + 1;
         let over = matches!(self.kind(geom), wraptype::SPHERE | wraptype::CYLINDER).then(|| {
-            // A parameter that a program can write to: any number that is no site means none.
+            // A program may write this parameter. Any number that is not the id of a site means that there is no side site.
             let side = m.wrap_prm[geom];
             (self.object(geom), (side >= 0.0 && side < m.nsite as f64).then_some(side as usize))
         });
@@ -98,12 +98,12 @@ impl Iterator for Legs<'_> {
     }
 }
 
-/// The length of a spatial tendon, m; adds its Jacobian and points to `out`.
+/// The length of a spatial tendon, m. Writes its Jacobian and its points to the data.
 ///
-/// `points`: how many points all paths have so far.
-#[inline(never)] // fixed tendons do not carry its arrays
+/// `points` is the number of points of all previous paths, and is updated.
+#[inline(never)] // fixed tendons do not move the arrays
 pub(super) fn spatial(m: &Model, d: &mut Fields, t: usize, points: &mut usize) -> f64 {
-    // Taken out, so that the rest of the data can be read while they are written.
+    // Removed temporarily, so that the rest of the data can be read while they are written.
     let mut out = Paths {
         jacobian: std::mem::take(&mut d.ten_J),
         on: std::mem::take(&mut d.wrap_obj),
@@ -147,7 +147,7 @@ fn path(m: &Model, d: &Fields, t: usize, out: &mut Paths) -> f64 {
     length
 }
 
-/// The shape that a tendon goes around.
+/// The shape that a tendon wraps around.
 fn round(m: &Model, d: &Fields, geom: usize) -> Round {
     Round {
         pos: rows::<3>(&d.geom_xpos)[geom],
@@ -157,8 +157,8 @@ fn round(m: &Model, d: &Fields, geom: usize) -> Round {
     }
 }
 
-/// The length of a straight piece between points on two bodies; adds its derivative u·(J₂ - J₁) / divisor,
-/// with the direction u, to the tendon's Jacobian.
+/// The length of a straight piece between points on two bodies. Adds its derivative u·(J₂ - J₁) / divisor, with the direction u,
+/// to the Jacobian of the tendon.
 fn straight(
     m: &Model,
     d: &Fields,
@@ -175,7 +175,7 @@ fn straight(
     let row = super::row(m, t);
     let columns = &m.ten_J_colind[row.clone()];
     let values = &mut out.jacobian[row];
-    // Degrees of freedom in descending order, as `point_difference` visits them; those that move both ends do
+    // Degrees of freedom in descending order, in which `point_difference` visits them. Those that move both ends do
     // not change the distance.
     let mut at = columns.len();
     for (k, side) in walk::moving_one(m, bodies) {
@@ -191,10 +191,10 @@ fn straight(
     length
 }
 
-/// J̇ v: the acceleration of a tendon's length that the velocities alone cause, m/s².
+/// J̇ v: the acceleration of a tendon's length due to the velocities alone, m/s².
 ///
-/// A leg of length l, direction u and velocity w of its end relative to its start has length acceleration
-/// u·a + (w·w - (u·w)²)/l, with the relative acceleration a. The compiler refuses wrapping here.
+/// A leg with length l, direction u and velocity w of its end relative to its start has the length acceleration u·a + (w·w -
+/// (u·w)²)/l, with the relative acceleration a. The compiler refuses wrapping for such tendons.
 pub(crate) fn acceleration(m: &Model, d: &Fields, t: usize) -> f64 {
     let site_xpos = rows::<3>(&d.site_xpos);
     let mut sum = 0.0;
@@ -215,14 +215,14 @@ pub(crate) fn acceleration(m: &Model, d: &Fields, t: usize) -> f64 {
     sum
 }
 
-/// Calls `apply` with the body, point and force at each end of the straight pieces of a path along which a force acts
-/// that would lengthen it; an arc around a geom has both ends on one body.
+/// Calls `apply` with the body, point and force at each end of the straight pieces of a path, for a tendon force that
+/// acts in the direction of lengthening. Both ends of an arc around a geom are on the same body.
 pub(crate) fn pull(m: &Model, d: &Fields, t: usize, force: f64, apply: &mut impl FnMut(usize, Vec3, Vec3)) {
     let first = d.ten_wrapadr[t] as usize;
     let points = first..first + d.ten_wrapnum[t] as usize;
     let pulleys = m.tendon_adr[t] as usize..(m.tendon_adr[t] + m.tendon_num[t]) as usize;
     let mut divisors = pulleys.filter(|&w| m.wrap_type[w] == wraptype::PULLEY).map(|w| m.wrap_prm[w]);
-    // Sites come in the order of the path.
+    // The sites, in the order of the path.
     let sites = m.tendon_adr[t] as usize..(m.tendon_adr[t] + m.tendon_num[t]) as usize;
     let mut sites = sites.filter(|&w| m.wrap_type[w] == wraptype::SITE).map(|w| m.wrap_objid[w] as usize);
     let (mut divisor, mut last) = (1.0, None);

@@ -1,11 +1,11 @@
-//! What `mj_setConst` computes of tendons.
+//! The constants of tendons that `mj_setConst` computes.
 
 use super::row;
 use crate::dynamics::mass;
 use crate::math::*;
 use crate::model::{Fields, Model};
 
-/// `tendon_length0` and `tendon_invweight0` = J M⁻¹ Jᵀ, with `d` at the default configuration.
+/// Computes `tendon_length0` and `tendon_invweight0` = J M⁻¹ Jᵀ, with `d` in the default configuration.
 pub(crate) fn at_default(m: &mut Model, d: &Fields) {
     m.tendon_length0.copy_from_slice(&d.ten_length);
     let mut x = vec![0.0; m.nv];
@@ -21,7 +21,7 @@ pub(crate) fn at_default(m: &mut Model, d: &Fields) {
     }
 }
 
-/// `tendon_lengthspring` where it was left open (-1 -1), with `d` where joint springs are relaxed.
+/// Sets `tendon_lengthspring` of tendons with the value -1 -1, with `d` in the configuration in which joint springs are relaxed.
 pub(crate) fn at_rest(m: &mut Model, d: &Fields) {
     for (spring, &length) in rows_mut::<2>(&mut m.tendon_lengthspring).iter_mut().zip(&d.ten_length) {
         if *spring == [-1.0; 2] {

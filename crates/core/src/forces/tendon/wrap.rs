@@ -1,45 +1,45 @@
 //! The shortest path from one point to another around a sphere or an infinite cylinder.
 //!
-//! It lies in a plane: for a sphere the one through its centre and both points, for a cylinder the one across
-//! its axis, with heights that follow from unrolling it. In the plane the path is two tangents of a circle and
-//! the arc between them. A side point says which way round; inside the circle, it asks for a path that touches
-//! the circle from within (MuJoCo's documentation, "Computation: Tendon").
+//! The path lies in a plane. For a sphere, it is the plane through its centre and both points. For a cylinder, it is the plane
+//! perpendicular to its axis, and the heights follow from unrolling the cylinder. In the plane, the path consists of two tangents
+//! of a circle and the arc between them. A side point selects the direction around the circle. A side point inside the circle
+//! selects a path that touches the circle from the inside (MuJoCo's documentation, "Computation: Tendon").
 
 use crate::math::*;
 
-/// What a path goes around.
+/// The shape that a path wraps around.
 #[derive(Debug)]
 pub(super) struct Round {
     /// Centre, world, m.
     pub(super) pos: Vec3,
-    /// Axes, world; a cylinder's axis is the third.
+    /// Orientation, world. The third axis is that of a cylinder.
     pub(super) mat: Mat3,
     /// m
     pub(super) radius: f64,
-    /// A cylinder, otherwise a sphere.
+    /// Whether the shape is a cylinder; otherwise it is a sphere.
     pub(super) cylinder: bool,
 }
 
-/// The part of a path that lies on the surface.
+/// The part of a path on the surface of the shape.
 #[derive(Debug)]
 pub(super) struct Arc {
-    /// Where it begins, world, m.
+    /// Start, world, m.
     pub(super) from: Vec3,
-    /// Where it ends.
+    /// End, world, m.
     pub(super) to: Vec3,
-    /// m
+    /// Length, m.
     pub(super) length: f64,
 }
 
 type Vec2 = [f64; 2];
 
-/// The two points on the circle and the length between them.
+/// The two tangent points on the circle, and the length of the arc between them.
 type WrapSegment = ([Vec2; 2], f64);
 
-/// The path around a shape, `None` when the straight line is free.
+/// The path around a shape, or `None` if the straight line is unobstructed.
 ///
-/// Seen along the third axis of [`frame`] it is a string around a circle. Unrolled, it is a straight line: it climbs along that
-/// axis with the same slope everywhere.
+/// Projected along the third axis of [`frame`], the path is a taut string around a circle. Unrolled, it is a straight line: its
+/// height along that axis changes with constant slope.
 pub(super) fn around(ends: [Vec3; 2], shape: &Round, side: Option<Vec3>) -> Option<Arc> {
     let radius = shape.radius;
     let ends = ends.map(|x| sub(x, shape.pos));
@@ -49,7 +49,7 @@ pub(super) fn around(ends: [Vec3; 2], shape: &Round, side: Option<Vec3>) -> Opti
 
     let [first, last] = ends.map(flat);
     let ([from, to], arc) = match side {
-        // The documented condition for a path inside.
+        // The documented condition for a path on the inside.
         Some(s) if norm(s) < radius => inside([first, last], radius)?,
         _ => outside([first, last], radius, side.map(|s| scale(unit(flat(s)), radius)))?,
     };
@@ -68,8 +68,8 @@ pub(super) fn around(ends: [Vec3; 2], shape: &Round, side: Option<Vec3>) -> Opti
     })
 }
 
-/// Axes, world: of a cylinder its own; of a sphere the first two span the plane through its centre and both ends, the first
-/// towards the first end.
+/// Axes, world. For a cylinder, its own axes. For a sphere, the first two span the plane through its centre and both ends, and
+/// the first points to the first end.
 fn frame([a, b]: [Vec3; 2], shape: &Round) -> [Vec3; 3] {
     if shape.cylinder {
         return [0, 1, 2].map(|k| [shape.mat[k], shape.mat[3 + k], shape.mat[6 + k]]);
@@ -82,8 +82,9 @@ fn frame([a, b]: [Vec3; 2], shape: &Round) -> [Vec3; 3] {
     [x, y, cross(x, y)]
 }
 
-/// A direction across a line through the centre of a sphere: any plane through the line is as good. This one is MuJoCo's, as
-/// measured: its normal is across the line and, in the axes of the sphere, (1, 1, 1) without the line's largest component.
+/// The second axis of the plane for two ends on a line through the centre of a sphere. Any plane through the line is valid. The
+/// choice is that of MuJoCo (measured): the normal of the plane is perpendicular to the line and to a vector. In the axes of the
+/// sphere, this vector is (1, 1, 1) with a zero in the place of the line's largest component.
 fn across(line: Vec3, mat: &Mat3) -> Vec3 {
     let components = mat_t_mul_vec(mat, line).map(f64::abs);
     let largest = (1..3).fold(0, |most, i| if components[i] > components[most] { i } else { most });
@@ -92,11 +93,11 @@ fn across(line: Vec3, mat: &Mat3) -> Vec3 {
     normalize(cross(cross(line, mat_mul_vec(mat, other)), line)).0
 }
 
-/// A taut string around a circle from outside; `side` is a point on it, `None` for the shorter way.
+/// A taut string around the outside of a circle. `side` is a point on the circle, or `None` for the shorter direction.
 ///
-/// From a point at the distance L the tangents touch the circle where its direction is turned by ±φ, cos φ = r/L. A string
-/// that goes round counter-clockwise leaves the first point's tangent at +φ₀ and meets the second one's at -φ₁; clockwise it
-/// is the mirror image. Between them it lies on the circle.
+/// The tangents from a point at the distance L touch the circle at the angles ±φ from its direction, cos φ = r/L. A
+/// counter-clockwise string leaves the tangent of the first point at +φ₀ and reaches that of the second point at -φ₁. A clockwise
+/// string is the mirror image. Between the tangent points, it lies on the circle.
 fn outside(q: [Vec2; 2], radius: f64, side: Option<Vec2>) -> Option<WrapSegment> {
     let lengths = q.map(norm2);
     let span = sub(q[1], q[0]);
@@ -109,28 +110,28 @@ fn outside(q: [Vec2; 2], radius: f64, side: Option<Vec2>) -> Option<WrapSegment>
         return None;
     }
     let directions = [0, 1].map(|i| scale(q[i], 1.0 / lengths[i]));
-    // r (cos φ, sin φ), the second from (L - r)(L + r), which keeps its digits near the circle.
+    // r (cos φ, sin φ). The sine is computed from (L - r)(L + r), which is accurate near the circle.
     let turns = lengths.map(|l| {
         let (cos, sin) = (radius / l, ((l - radius) * (l + radius)).sqrt() / l);
         [radius * cos, radius * sin]
     });
-    // Counter-clockwise for +1.
+    // The string is counter-clockwise for +1 and clockwise for -1.
     let winding = |sign: f64| {
         let from = turned(directions[0], [turns[0][0], sign * turns[0][1]]);
         let to = turned(directions[1], [turns[1][0], -sign * turns[1][1]]);
         let angle = sign * libm::atan2(cross2(from, to), dot(from, to));
-        // A string turns on as it began.
+        // A string does not reverse its direction.
         ([from, to], if angle < 0.0 { angle + 2.0 * std::f64::consts::PI } else { angle })
     };
     let windings = [winding(1.0), winding(-1.0)];
     let first = match side {
-        // MuJoCo's rule: the one whose touching points have their middle nearer to the side.
+        // MuJoCo's rule: the direction for which the midpoint of the tangent points is closer to the side point.
         Some(s) if blocked => {
             let towards = |touch: [Vec2; 2]| dot(unit(add(touch[0], touch[1])), s);
             towards(windings[0].0) > towards(windings[1].0)
         }
-        // The shorter one; the one that is there at all, where the straight line is free and on the wrong side.
-        // Of two that are equal, counter-clockwise, as in MuJoCo.
+        // The shorter direction. If the straight line is unobstructed but on the wrong side, the only possible direction.
+        // If both have the same length, counter-clockwise, as in MuJoCo.
         _ => windings[0].1 <= windings[1].1,
     };
     let (touch, angle) = if first { windings[0] } else { windings[1] };
@@ -143,17 +144,17 @@ fn nearest_of_segment([a, b]: [Vec2; 2]) -> Vec2 {
     add_scaled(a, span, (-dot(span, a) / dot(span, span)).clamp(0.0, 1.0))
 }
 
-/// A string that is held inside of a ring and touches it in one point: the shortest of all paths over a point of the
-/// circle, which meets it like light a mirror (Hero's principle). With θ the angle from the first end's direction, Δ the
-/// angle between both, and d the distances to the point,
+/// A string inside a ring that touches it at one point: the shortest of all paths over a point of the circle. It meets the circle
+/// like light is reflected by a mirror (Hero's principle). With θ the angle from the direction of the first end, Δ the angle
+/// between both ends, and d the distances to the point,
 ///
 /// > d/dθ (d₀ + d₁) ∝ g(θ) = L₀ sin θ / d₀ - L₁ sin(Δ - θ) / d₁
 ///
-/// are the sines of the two angles with the radius. g(0) ≤ 0 ≤ g(Δ): Newton's method, kept between both, ends at the last
-/// bit. (The real library stops where its own equation holds to 1e-6, and takes the direction half way between both ends
-/// where Newton's method leaves the interval: docs/measured/parity.md.)
+/// where the terms are the sines of the two angles with the radius. Since g(0) ≤ 0 ≤ g(Δ), Newton's method with bisection
+/// converges to the last bit. (MuJoCo stops when its own equation is satisfied to 1e-6, and uses the direction halfway between
+/// both ends if Newton's method leaves the interval: docs/measured/parity.md.)
 fn inside(q: [Vec2; 2], radius: f64) -> Option<WrapSegment> {
-    /// Newton's method needs about six; halving alone fifty.
+    /// Newton's method needs about six iterations, bisection alone fifty.
     const ITERATIONS: usize = 100;
 
     let lengths = q.map(norm2);
@@ -165,11 +166,11 @@ fn inside(q: [Vec2; 2], radius: f64) -> Option<WrapSegment> {
     }
     let turn = libm::atan2(cross2(q[0], q[1]), dot(q[0], q[1]));
     let between = turn.abs();
-    // Sine of the angle with the radius, as a function of the angle seen from the centre, and its derivative.
+    // The sine of the angle with the radius, as a function of the central angle, and its derivative.
     let sine = |length: f64, angle: f64| {
         let (sin, cos) = libm::sincos(angle);
         let half = libm::sin(0.5 * angle);
-        // d² = (L - r)² + 4 L r sin²(θ/2) keeps its digits where the end is near the circle.
+        // d² = (L - r)² + 4 L r sin²(θ/2) is accurate if the end is near the circle.
         let square = (length - radius) * (length - radius) + 4.0 * length * radius * half * half;
         let distance = square.sqrt();
         let value = length * sin / distance;
@@ -197,12 +198,12 @@ fn inside(q: [Vec2; 2], radius: f64) -> Option<WrapSegment> {
     Some(([point, point], 0.0))
 }
 
-/// A vector turned, and scaled, by another one taken as a complex number.
+/// The product of two vectors as complex numbers: a rotation with scaling.
 fn turned(a: Vec2, by: Vec2) -> Vec2 {
     [a[0] * by[0] - a[1] * by[1], a[1] * by[0] + a[0] * by[1]]
 }
 
-/// Positive when b lies counter-clockwise of a.
+/// Positive if b is counter-clockwise from a.
 fn cross2(a: Vec2, b: Vec2) -> f64 {
     a[0] * b[1] - a[1] * b[0]
 }
@@ -211,7 +212,7 @@ fn norm2(a: Vec2) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// a / |a|; the x axis for a vector without direction.
+/// a / |a|, or the x axis for a vector without direction.
 fn unit(a: Vec2) -> Vec2 {
     let n = norm2(a);
     if n < MINVAL { [1.0, 0.0] } else { scale(a, 1.0 / n) }
@@ -229,7 +230,7 @@ mod tests {
         norm(sub(a, b))
     }
 
-    /// Every recorded case: `golden/record.py` says what a line holds.
+    /// Compares with every recorded case. `golden/record.py` describes the format of a line.
     #[test]
     fn paths_are_those_of_mujoco() {
         let mut counts = [0; 5];
@@ -250,20 +251,20 @@ mod tests {
             let length = distance(ends[0], arc.from) + arc.length + distance(arc.to, ends[1]);
             let touch = [point(&x[25..]), point(&x[28..])];
             let apart = distance(arc.from, touch[0]).max(distance(arc.to, touch[1]));
-            // As long, and elsewhere: the ends are opposite each other, or behind one another with the side site on the far
-            // side. Both ways round are as long, and the last bit chooses.
+            // The path has the same length at another position: the ends are opposite each other, or on one line with the side
+            // site on the far side. Both directions have the same length, and rounding selects one of them.
             let by_side = x[20] == 1.0 && around(ends, &shape, None).is_some();
             if !by_side && (length - total).abs() < 1e-12 && apart > 1e-3 {
                 counts[3] += 1;
                 continue;
             }
-            // The straight line is free and the side site is on its far side: the library may go round by the longer way.
+            // The straight line is unobstructed and the side site is on its far side. MuJoCo may then take the longer direction.
             if x[20] == 1.0 && length < total - 1e-6 && arc.length > std::f64::consts::PI * shape.radius {
                 counts[4] += 1;
                 continue;
             }
             if arc.length == 0.0 {
-                // The library stops where its equation holds to 1e-6; the shortest path is at least as short as its.
+                // MuJoCo stops when its equation is satisfied to 1e-6. The shortest path is at most as long as its path.
                 assert!(
                     (length - total).abs() < 1e-13 && apart < 2e-7,
                     "{} {apart:e} in {line}",
@@ -280,7 +281,7 @@ mod tests {
                 counts[1] += 1;
             }
         }
-        // Free, around, touched from inside: all are there.
+        // All cases occur: unobstructed, around, and touching from the inside.
         assert!(counts[..3].iter().all(|&n| n > 30) && counts[3] < 20 && counts[4] < 20, "{counts:?}");
     }
 
@@ -289,13 +290,13 @@ mod tests {
     fn a_string_around_a_cylinder_has_the_closed_form() {
         let shape = Round { pos: [0.0; 3], mat: EYE, radius: 1.0, cylinder: true };
         let arc = around([[-2.0, 0.0, 0.0], [2.0, 0.0, 0.0]], &shape, Some([0.0, 3.0, 0.0])).unwrap();
-        // Both tangents leave at 60 degrees: a third of a half circle is between them.
+        // Both tangents touch at 60 degrees from the ends, so that the arc is a third of a half circle.
         assert!((arc.length - std::f64::consts::FRAC_PI_3).abs() < 1e-15);
         assert!(distance(arc.from, [-0.5, 0.75f64.sqrt(), 0.0]) < 1e-15);
         assert!(distance(arc.to, [0.5, 0.75f64.sqrt(), 0.0]) < 1e-15);
     }
 
-    /// The least value of a convex function between two places, by thirds.
+    /// The minimum of a convex function on an interval, by ternary search.
     fn least(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
         for _ in 0..120 {
             let (a, b) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
@@ -304,10 +305,10 @@ mod tests {
         f(0.5 * (low + high))
     }
 
-    /// A reference that knows no tangents: the point where a straight piece meets the circle is searched among all that can
-    /// be seen from its end.
+    /// A reference solution without tangents: searches the point where a straight piece meets the circle among all points that
+    /// are visible from its end.
     fn reference(q: [f64; 2], angles: [f64; 2], r: f64, inside: bool) -> f64 {
-        // The law of cosines, in a form that keeps the digits of short sides.
+        // The law of cosines, in a form that is accurate for short sides.
         let side = |l: f64, r: f64, a: f64| ((l - r).powi(2) + 4.0 * l * r * (0.5 * a).sin().powi(2)).sqrt();
         let to = |l: f64, a: f64| side(l, r, a);
         let turn = (angles[1] - angles[0]).rem_euclid(2.0 * std::f64::consts::PI);
@@ -335,7 +336,7 @@ mod tests {
         let mut touched = [0; 2];
         for n in 0..100_000 {
             let r = 0.1 + random();
-            // From nearly on the circle to far away; angles at random, and nearly the same or opposite ones.
+            // Distances from almost on the circle to far away; random angles, and angles that are almost equal or opposite.
             let mut length = || r * (1.0 + 10.0f64.powf(2.0 - 10.0 * random()));
             let q = [length(), length()];
             let first = 6.3 * random();

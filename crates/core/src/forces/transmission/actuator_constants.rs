@@ -1,11 +1,11 @@
-//! What `mj_setConst` computes of actuators.
+//! The constants of actuators that `mj_setConst` computes.
 
 use super::row;
 use crate::dynamics::mass;
 use crate::kinds::{biastype, gaintype, trntype};
 use crate::model::{Fields, Model};
 
-/// `jnt_actuatorid` and `tendon_actuatorid`: the actuator whose own inertia and damping a joint or tendon has, -1 for
+/// Computes `jnt_actuatorid` and `tendon_actuatorid`: the actuator whose armature and damping act on a joint or tendon, -1 for
 /// none and -2 for several.
 pub(crate) fn reflected(m: &mut Model) {
     m.jnt_actuatorid.fill(-1);
@@ -25,7 +25,7 @@ pub(crate) fn reflected(m: &mut Model) {
     }
 }
 
-/// `actuator_length0` and `actuator_acc0` = |M⁻¹ moment|, with `d` at the default configuration.
+/// Computes `actuator_length0` and `actuator_acc0` = |M⁻¹ moment|, with `d` in the default configuration.
 pub(crate) fn at_default(m: &mut Model, d: &Fields) {
     m.actuator_length0.copy_from_slice(&d.actuator_length);
     let mut x = vec![0.0; m.nv];
@@ -39,8 +39,8 @@ pub(crate) fn at_default(m: &mut Model, d: &Fields) {
     }
 }
 
-/// Damping that is given by its ratio ζ to the critical one, a positive number in its place: kv = 2 ζ √(kp m), with
-/// the inertia m = Σ M_ii/moment_i² that the servo moves at the default configuration.
+/// Converts damping ratios ζ, which are stored as positive numbers in the place of -kv: kv = 2 ζ √(kp m), with the inertia m = Σ
+/// M_ii/moment_i² that the servo moves in the default configuration.
 pub(crate) fn critical_damping(m: &mut Model, d: &Fields) {
     for i in 0..m.nactuator {
         let kp = -m.actuator_biasprm[10 * i + 1];

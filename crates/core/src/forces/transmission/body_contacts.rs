@@ -1,4 +1,4 @@
-//! Adhesion: a force between a body and all that it touches.
+//! Adhesion: a force between a body and all bodies that it has contacts with.
 
 use super::Rows;
 use crate::dynamics::jacobian;
@@ -6,15 +6,15 @@ use crate::forces::Scratch;
 use crate::kinds::exclude;
 use crate::model::{Fields, Model};
 
-/// The mean over the contacts of body `b` of the direction in which they separate, as a force that pulls; it has no
-/// length.
+/// The moment of an adhesion actuator: the mean separation direction over the contacts of body `b`, with the sign of an
+/// attractive force. The length is zero.
 pub(super) fn adhesion(m: &Model, d: &Fields, b: usize, w: &mut Scratch, out: &mut Rows) -> f64 {
     let Scratch { moment: dense, columns, .. } = w;
     dense.fill(0.0);
     let mut count = 0;
     for contact in &d.contact {
         let bodies = [contact.geom1, contact.geom2].map(|g| m.geom_bodyid[g] as usize);
-        // Those that are detected in the gap count, those that move nothing do not.
+        // Contacts in the gap are included. Contacts that no degree of freedom affects are not.
         if !bodies.contains(&b) || contact.exclude > exclude::IN_GAP {
             continue;
         }

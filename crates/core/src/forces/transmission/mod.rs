@@ -1,7 +1,8 @@
-//! Transmissions: lengths of actuators, and their moments, the derivatives of the lengths with respect to motion.
+//! Transmissions: lengths of actuators, and their moments, which are the derivatives of the lengths with respect to the degrees
+//! of freedom.
 //!
-//! MuJoCo's documentation, "Computation: Actuation model", lists the transmissions; `gear` scales each. Moments are
-//! stored by rows, one for each output, without zeros.
+//! MuJoCo's documentation, "Computation: Actuation model", lists the transmissions. `gear` scales each length. Moments are
+//! stored as sparse rows, one for each output.
 
 mod actuator_constants;
 mod body_contacts;
@@ -16,16 +17,17 @@ use crate::model::{Fields, Model, asleep};
 
 pub(crate) use actuator_constants::{at_default, critical_damping, reflected};
 
-/// The actuators of the outputs are consecutive, so that rows are written one after the other.
+/// The moment rows during their computation. The outputs of actuators are consecutive, so that rows are written one after the
+/// other.
 struct Rows {
     colind: Vec<i32>,
     values: Vec<f64>,
-    /// Where the next entry goes.
+    /// The index of the next entry.
     at: usize,
 }
 
 impl Rows {
-    /// Appends an entry of the row that is being written; zeros are left out.
+    /// Appends an entry to the current row, unless it is zero.
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn push(&mut self, dof: usize, value: f64) {
         if value != 0.0
@@ -36,20 +38,20 @@ impl Rows {
         }
     }
 
-    /// Turns a row around that was written from the last degree of freedom to the first.
+    /// Reverses a row that was written from the last degree of freedom to the first.
     fn reverse_from(&mut self, start: usize) {
         self.colind[start..self.at].reverse();
         self.values[start..self.at].reverse();
     }
 }
 
-/// Entries of the moment of output `o`.
+/// The entries of the moment of output `o`.
 pub(crate) fn row(d: &Fields, o: usize) -> std::ops::Range<usize> {
     let start = d.moment_rowadr[o] as usize;
     start..start + d.moment_rownnz[o] as usize
 }
 
-/// Number of entries that the moments of all actuators can have at most (`nJmom`).
+/// The largest possible number of entries of the moments of all actuators (`nJmom`).
 pub(crate) fn entries(m: &Model) -> usize {
     let site_body = |s: usize| m.site_bodyid[s] as usize;
     let of = |i: usize| match (m.actuator_trntype[i], target(m, i)) {
@@ -67,9 +69,9 @@ pub(crate) fn entries(m: &Model) -> usize {
     (0..m.nactuator).map(of).sum()
 }
 
-/// `actuator_length`, `actuator_moment` and its pattern. An actuator that sleeps keeps its lengths and has no moments.
+/// Computes `actuator_length`, `actuator_moment` and its pattern. A sleeping actuator keeps its lengths and has no moments.
 pub(crate) fn transmissions(m: &Model, d: &mut Fields, w: &mut Scratch) {
-    // Taken out, so that the rest of the data can be read while they are written.
+    // Removed temporarily, so that the rest of the data can be read while they are written.
     let mut out = Rows {
         colind: std::mem::take(&mut d.moment_colind),
         values: std::mem::take(&mut d.actuator_moment),
@@ -95,7 +97,7 @@ pub(crate) fn transmissions(m: &Model, d: &mut Fields, w: &mut Scratch) {
     (d.moment_colind, d.actuator_moment) = (out.colind, out.values);
 }
 
-/// Output `o` of actuator `i` that does not act on a joint, or on its orientation.
+/// Computes output `o` of actuator `i` for transmissions other than to joints.
 #[inline(never)] // most actuators are motors of joints
 fn elsewhere(m: &Model, d: &mut Fields, [i, o]: [usize; 2], w: &mut Scratch, out: &mut Rows) -> f64 {
     let gear = rows::<6>(&m.actuator_gear)[o];
@@ -117,18 +119,18 @@ fn elsewhere(m: &Model, d: &mut Fields, [i, o]: [usize; 2], w: &mut Scratch, out
     }
 }
 
-/// Rotation vector of the quaternion at `q` in qpos.
+/// Rotation vector of the quaternion at index `q` of qpos.
 fn joint_rotation(d: &Fields, q: usize) -> Vec3 {
     quat_to_vel(quaternion(d, q))
 }
 
-/// The quaternion at `q` in qpos, normalized.
+/// The quaternion at index `q` of qpos, normalized.
 fn quaternion(d: &Fields, q: usize) -> Quat {
     quat_normalize([d.qpos[q], d.qpos[q + 1], d.qpos[q + 2], d.qpos[q + 3]])
 }
 
-/// A joint's coordinate; along an axis for a ball joint, and a force without a length for a free joint. A gear in
-/// the parent's frame is turned into the child's, where velocities are.
+/// The length is the coordinate of a slide or hinge, the rotation along an axis for a ball joint, and zero for a free joint, on
+/// which only a force acts. A gear in the parent's frame is rotated to the child's frame, in which velocities are expressed.
 fn at_joint(m: &Model, d: &Fields, j: usize, in_parent: bool, gear: &[f64; 6], out: &mut Rows) -> f64 {
     let (q, k) = (m.jnt_qposadr[j] as usize, m.jnt_dofadr[j] as usize);
     let [a, b, c, e, f, g] = *gear;
@@ -153,7 +155,7 @@ fn at_joint(m: &Model, d: &Fields, j: usize, in_parent: bool, gear: &[f64; 6], o
 }
 
 impl Rows {
-    /// Appends an entry, zero or not: those of joints and tendons keep their places.
+    /// Appends an entry, zero or not. Rows of joints and tendons have a fixed pattern.
     fn push_any(&mut self, dof: usize, value: f64) {
         if let (Some(k), Some(x)) = (self.colind.get_mut(self.at), self.values.get_mut(self.at)) {
             (*k, *x) = (dof as i32, value);
@@ -162,7 +164,7 @@ impl Rows {
     }
 }
 
-/// The length of tendon `t`.
+/// The length of tendon `t`, scaled by the gear.
 fn along_tendon(m: &Model, d: &Fields, t: usize, gear: f64, out: &mut Rows) -> f64 {
     let row = tendon::row(m, t);
     for (&k, x) in m.ten_J_colind[row.clone()].iter().zip(&d.ten_J[row]) {
@@ -171,7 +173,7 @@ fn along_tendon(m: &Model, d: &Fields, t: usize, gear: f64, out: &mut Rows) -> f
     d.ten_length[t] * gear
 }
 
-/// `actuator_velocity` = moment v; zero where actuators are switched off.
+/// Computes `actuator_velocity` = moment v. Zero if actuators are disabled.
 pub(crate) fn velocities(m: &Model, d: &mut Fields) {
     if m.opt.disabled(disable::ACTUATION) {
         d.actuator_velocity.fill(0.0);
@@ -185,7 +187,7 @@ pub(crate) fn velocities(m: &Model, d: &mut Fields) {
     }
 }
 
-/// `qfrc_actuator` = momentᵀ force.
+/// Computes `qfrc_actuator` = momentᵀ force.
 pub(crate) fn apply_forces(m: &Model, d: &mut Fields) {
     d.qfrc_actuator.fill(0.0);
     for o in 0..m.nout {

@@ -12,8 +12,8 @@ fn site_body(m: &Model, s: usize) -> usize {
 
 /// The rotation vector from a reference site to a site, in the frame of the reference site.
 ///
-/// MuJoCo 3.14.0 composes the orientation of a site in the order site, body, which is that of the site in the world only
-/// where one of both does not turn: its length is not that of the motion whose speed its moment gives
+/// MuJoCo 3.14.0 composes the orientation of a site in the order site, body. This is the orientation of the site in the world
+/// only if one of the two is the identity. Its length is then inconsistent with the velocity that its moment gives
 /// (`docs/measured/parity.md`).
 fn relative_rotation(m: &Model, d: &Fields, sites: [usize; 2]) -> Vec3 {
     let [s, reference] =
@@ -21,12 +21,12 @@ fn relative_rotation(m: &Model, d: &Fields, sites: [usize; 2]) -> Vec3 {
     quat_to_vel(quat_mul(quat_conj(reference), s))
 }
 
-/// First and last three numbers of a gear.
+/// The first and the last three numbers of a gear.
 fn parts([a, b, c, d, e, f]: [f64; 6]) -> (Vec3, Vec3) {
     ([a, b, c], [d, e, f])
 }
 
-/// A force and torque along the axes of site `s`: there is no length that they would change.
+/// A force and torque along the axes of site `s`. The length is zero.
 pub(super) fn site(m: &Model, d: &Fields, s: usize, gear: [f64; 6], out: &mut Rows) -> f64 {
     let mat = &rows::<9>(&d.site_xmat)[s];
     let (force, torque) = parts(gear);
@@ -41,8 +41,8 @@ pub(super) fn site(m: &Model, d: &Fields, s: usize, gear: [f64; 6], out: &mut Ro
     0.0
 }
 
-/// Position and rotation of a site in the frame of a reference site, along a gear. Motion of both together changes
-/// nothing.
+/// Position and rotation of a site in the frame of a reference site, along a gear. A common motion of both sites does not change
+/// the length.
 pub(super) fn between(
     m: &Model,
     d: &Fields,
@@ -76,7 +76,7 @@ pub(super) fn between(
     length
 }
 
-/// Component `axis` of the rotation vector from a reference site to a site; its moment is a torque about an axis of
+/// Component `axis` of the rotation vector from a reference site to a site. Its moment is a torque about an axis of
 /// the site.
 pub(super) fn orientation(
     m: &Model,
@@ -99,12 +99,12 @@ pub(super) fn orientation(
     relative_rotation(m, d, [s, reference])[axis]
 }
 
-/// A rod of length r from a crank to a slider, which moves along the z axis a of its site: with the vector v from the
-/// slider's site to the crank, the slider is at
+/// A rod of length r between a crank and a slider, which moves along the z axis a of its site. With the vector v from the
+/// slider's site to the crank, the position of the slider is
 ///
 /// > l = a·v - √((a·v)² + r² - v·v)
 ///
-/// and as near as it can be, a·v, where the rod is too short.
+/// or a·v, the nearest possible position, if the rod is too short.
 pub(super) fn crank(
     m: &Model,
     d: &Fields,
@@ -134,7 +134,7 @@ pub(super) fn crank(
                 let (turn, shift) = dof_motion(m, d, k, points[1]);
                 dot(by_axis, cross(turn, axis)) - dot(by_v, shift)
             }
-            // What moves both does not move the slider in its site.
+            // A degree of freedom that moves both does not move the slider relative to its site.
             Side::Both => continue,
         };
         out.push(k, change * gear);

@@ -1,4 +1,4 @@
-//! Actuators as a whole: parts that must fit together, ranges that follow from others, numbers of activations.
+//! Checks of whole actuators: parts that must be consistent, ranges that are computed from others, numbers of activations.
 
 use super::shortcut::inputs;
 use crate::forces::actuation::slots;
@@ -11,7 +11,7 @@ use crate::mjcf::spec::{ActuatorSpec, BodySpec, JointSpec, RangeSpec, TendonSpec
 use crate::mjcf::text::diagnostic::Reported;
 use crate::mjcf::text::tree::Node;
 
-/// Completes an actuator and reports what does not fit.
+/// Completes an actuator and reports inconsistent parts.
 pub(crate) fn finish(
     a: &mut ActuatorSpec,
     cx: &mut Context,
@@ -61,7 +61,7 @@ pub(crate) fn controls(a: &ActuatorSpec) -> Vec<RangeSpec> {
     }
 }
 
-/// Number of force outputs.
+/// The number of force outputs.
 pub(crate) fn outputs(a: &ActuatorSpec) -> usize {
     if a.transmission.is_some_and(|t| t.kind == trntype::SO3) { 3 } else { 1 }
 }
@@ -72,7 +72,7 @@ struct Check<'c, 'a> {
 }
 
 impl Check<'_, '_> {
-    /// An error at one of these attributes, or at the element when they stand in its class.
+    /// Reports an error at one of these attributes, or at the element if its class has the attribute.
     fn error(&mut self, attribute: &str, message: &str) -> Reported<'_> {
         let span = self.node.attribute(attribute).map_or(self.node.span.clone(), |a| a.span.clone());
         let message = format!("{} {message}", self.node.describe());
@@ -87,7 +87,7 @@ impl Check<'_, '_> {
         limit.flag = i32::from(limited);
     }
 
-    /// The range of a position setpoint from that of its target.
+    /// Sets the range of a position setpoint from the range of its target.
     fn inherit(&mut self, a: &mut ActuatorSpec, bodies: &[BodySpec], tendons: &[TendonSpec]) {
         let servo = match a.gaintype {
             gaintype::FIXED => a.biastype == biastype::AFFINE && a.gainprm[0] == -a.biasprm[1],
@@ -95,7 +95,7 @@ impl Check<'_, '_> {
             _ => false,
         };
         let input_range = if a.dyntype == dyntype::INTEGRATOR { &a.act } else { &a.ctrl };
-        // A range that is given, too, is reported where it is read.
+        // If a range is given as well, an error is reported where the range is read.
         let Some(target) = a.transmission.filter(|_| servo && input_range.range == [0.0; 2]) else { return };
         let at = usize::try_from(target.id[0]).unwrap_or(usize::MAX);
         let joints = || bodies.iter().flat_map(|b| &b.joints).nth(at);
@@ -127,7 +127,7 @@ impl Check<'_, '_> {
         to.range = range;
     }
 
-    /// Gain, bias and dynamics that belong together.
+    /// Checks that gain, bias and dynamics are consistent.
     fn family(&mut self, a: &ActuatorSpec) {
         let so3 = [a.gaintype == gaintype::SO3, a.biastype == biastype::SO3];
         if so3[0] != so3[1] {
@@ -231,7 +231,7 @@ impl Check<'_, '_> {
         }
     }
 
-    /// range₀ < range₁, lmin < 1 < lmax, and positive scale, vmax, fpmax, fvmax.
+    /// Checks range₀ < range₁, lmin < 1 < lmax, and positive scale, vmax, fpmax, fvmax.
     fn muscle(&mut self, prm: &[f64; 10]) {
         let [lower, upper, _, scale, lmin, lmax, vmax, fpmax, fvmax, _] = *prm;
         if lower >= upper {
@@ -247,7 +247,7 @@ impl Check<'_, '_> {
         }
     }
 
-    /// Delay, reflected inertia and damping.
+    /// Checks delay, armature and damping.
     fn numbers(&mut self, a: &ActuatorSpec) {
         if a.nsample < 0 {
             let message =
@@ -274,7 +274,7 @@ impl Check<'_, '_> {
         }
     }
 
-    /// How many activations the dynamics have.
+    /// Sets the number of activations.
     fn activations(&mut self, a: &mut ActuatorSpec) {
         let states = slots(&a.dynprm, &a.gainprm).count() as i32;
         let pid = i32::from(a.gainprm[0] > 0.0) + i32::from(a.dynprm[1] > 0.0);

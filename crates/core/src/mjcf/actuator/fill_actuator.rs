@@ -1,4 +1,4 @@
-//! Actuators to the arrays of [`Model`].
+//! Writes actuators to the arrays of [`Model`].
 
 use super::check_actuator::{controls, outputs};
 use crate::forces::{history, transmission};
@@ -12,10 +12,10 @@ use crate::model::Model;
 use crate::setup::lengthrange::{self, Failure, Search};
 use crate::step::workspace::Workspace;
 
-/// Steps times degrees of freedom for all ranges of lengths: more would take minutes.
+/// Limit for the product of steps and degrees of freedom in the search for all length ranges. A larger search would take minutes.
 const MAX_SEARCH: f64 = 2e7;
 
-/// Sizes of actuators, for keyframes.
+/// The sizes of actuators that keyframes depend on.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Counts {
     pub(crate) nu: usize,
@@ -24,7 +24,7 @@ pub(crate) struct Counts {
     pub(crate) nhistory: usize,
 }
 
-/// Sizes.
+/// Counts the sizes of all actuators.
 pub(crate) fn count(list: &[ActuatorSpec], report: &mut Report) -> Counts {
     let mut n = Counts::default();
     for a in list {
@@ -49,7 +49,7 @@ fn samples(a: &ActuatorSpec) -> usize {
     usize::try_from(a.nsample).unwrap_or(0)
 }
 
-/// Where the numbers of each actuator begin: -1 for none, unless there is always one.
+/// The address of the values of each actuator: -1 if there are none, unless `always` is set.
 fn addresses(array: &mut Vec<i32>, list: &[ActuatorSpec], size: fn(&ActuatorSpec) -> usize, always: bool) {
     let mut next = 0;
     flat(array, list, |a| {
@@ -59,7 +59,7 @@ fn addresses(array: &mut Vec<i32>, list: &[ActuatorSpec], size: fn(&ActuatorSpec
     });
 }
 
-/// All fields of actuators.
+/// Fills all fields of actuators.
 pub(crate) fn actuators(m: &mut Model, list: &[ActuatorSpec]) {
     flat(&mut m.actuator_trntype, list, |a| [a.transmission.map_or(0, |t| t.kind)]);
     flat(&mut m.actuator_trnid, list, |a| a.transmission.map_or([-1; 2], |t| t.id));
@@ -104,19 +104,19 @@ pub(crate) fn user(a: &ActuatorSpec) -> List {
     List { numbers: a.user.clone(), span: a.user_span.clone() }
 }
 
-/// Memory for the moments; `None` after reporting that it is too much.
+/// Computes the number of entries of the moment matrix. `None`, with an error in the report, if it is too large.
 pub(crate) fn pattern(m: &mut Model, list: &[ActuatorSpec], report: &mut Report) -> Option<()> {
     m.nJmom = transmission::entries(m);
     let span = list.first().map_or(0..0, |a| a.span.clone());
     report.take(2 * m.nJmom, span, "the moments of all actuators").then_some(())
 }
 
-/// The ranges of lengths that actuators can reach, where they are needed and not given.
+/// Computes the length ranges of actuators that need one and have none.
 pub(crate) fn length_ranges(m: &mut Model, list: &[ActuatorSpec], search: &Search, report: &mut Report) {
     let wanted: Vec<usize> = listed((0..m.nactuator).filter(|&i| search.wants(m, i)));
     let pulled = wanted.iter().filter(|&&i| search.limits(m, i).is_none()).count();
     let Some(first) = wanted.first().and_then(|&i| list.get(i)) else { return };
-    // Where limits act, the cost of a step grows with the cube of the number of degrees of freedom.
+    // With active limits, the cost of a step grows with the cube of the number of degrees of freedom.
     let nv = m.nv.max(1) as f64;
     if pulled as f64 * search.steps(m) * nv * (1.0 + (nv / 64.0).powi(2)) > MAX_SEARCH {
         let message = format!("the length ranges of {pulled} actuators take too many steps to find");

@@ -1,4 +1,4 @@
-//! Actuators: shortcuts, reading, checks, filling.
+//! Actuators: shortcuts, reading, checks, and writing to the model.
 
 pub(crate) mod check_actuator;
 pub(crate) mod fill_actuator;

@@ -1,11 +1,11 @@
-//! An element of `actuator` that is laid over what its class says.
+//! An element of `actuator`, which overrides the defaults of its class.
 
 use crate::mjcf::classes::Props;
 use crate::mjcf::rules;
 use crate::mjcf::text::diagnostic::{Report, Reported};
 use crate::mjcf::text::tree::Node;
 
-/// An element that is laid over an actuator.
+/// An element that overrides the fields of an actuator.
 pub(crate) struct Overlay<'a> {
     pub(crate) node: &'a Node,
     /// Its own attributes.
@@ -14,13 +14,13 @@ pub(crate) struct Overlay<'a> {
 }
 
 impl Overlay<'_> {
-    /// An error at an attribute, or at the element where it is absent.
+    /// Reports an error at an attribute, or at the element if the attribute is absent.
     pub(crate) fn error(&mut self, attribute: &str, message: impl Into<String>) -> Reported<'_> {
         let span = self.p.span(attribute).unwrap_or(self.node.span.clone());
         self.report.error(rules::ACTUATOR, span, message)
     }
 
-    /// A number that may not be negative, `None` when it is not given.
+    /// A number that must not be negative, or `None` if it is absent.
     pub(crate) fn zero_or_more(&mut self, attribute: &str) -> Option<f64> {
         let x = self.p.real(attribute)?;
         if x < 0.0 {

@@ -1,4 +1,4 @@
-//! Actuators: what their classes and elements say, and what they act on.
+//! Reads actuators: the attributes of their classes and elements, and their targets.
 
 use crate::mjcf::gather::listed;
 use std::rc::Rc;
@@ -48,7 +48,7 @@ pub(crate) fn actuators(
     list
 }
 
-/// An actuator of which nothing is reported.
+/// An actuator with the values before any element is read.
 fn unset() -> ActuatorSpec {
     let first = |x: f64| std::array::from_fn(|i| if i == 0 { x } else { 0.0 });
     let auto = RangeSpec { flag: 2, range: [0.0; 2] };
@@ -86,7 +86,7 @@ fn unset() -> ActuatorSpec {
     }
 }
 
-/// Lays an element over an actuator: the attributes that all share, then what its name stands for.
+/// Overrides the fields of an actuator: first the attributes that all elements share, then those of its shortcut.
 fn overlay(a: &mut ActuatorSpec, node: &Node, report: &mut Report) {
     let Some(set) = shortcut::find(node.element.name) else { return };
     let p = Props::written_props(node);
@@ -124,7 +124,7 @@ fn overlay(a: &mut ActuatorSpec, node: &Node, report: &mut Report) {
     set(a, &mut super::overlay::Overlay { node, p, report });
 }
 
-/// The attributes that name what an actuator acts on, with the kind of object and the transmission.
+/// The attributes that name the target of an actuator, with the kind of object and the transmission.
 const TARGETS: [(&str, &str, i32); 6] = [
     ("joint", "joint", trntype::JOINT),
     ("jointinparent", "joint", trntype::JOINTINPARENT),
@@ -134,7 +134,7 @@ const TARGETS: [(&str, &str, i32); 6] = [
     ("body", "body", trntype::BODY),
 ];
 
-/// What an actuator acts on; `None` where that is not known, after it was reported.
+/// The target of an actuator. `None`, with an error in the report, if it is unknown.
 fn transmission(
     a: &ActuatorSpec,
     refs: References,
@@ -187,7 +187,7 @@ fn transmission(
     Some(TransmissionSpec { kind, id: [id, second] })
 }
 
-/// Reports attributes that belong to another transmission than the actuator's.
+/// Reports attributes that are valid only for another transmission.
 fn check_belongs(node: &Node, attribute: &str, object: &str, kind: i32, report: &mut Report) {
     let owner = node.describe();
     for (name, of, needs) in [
@@ -209,7 +209,7 @@ fn check_belongs(node: &Node, attribute: &str, object: &str, kind: i32, report: 
     }
 }
 
-/// Reports what an actuator of orientations cannot act on.
+/// Reports targets that are invalid for an actuator of orientations.
 fn check_orientation(
     attribute: &str,
     id: i32,

@@ -1,7 +1,7 @@
-//! Shortcuts: what each element of `actuator` writes into the one general actuator.
+//! Shortcuts: the parameters that each element of `actuator` writes to the general actuator.
 //!
-//! MuJoCo's XML reference, "actuator", gives the numbers of each. An element starts from what its class says, so
-//! that an attribute which is not given keeps the number that a servo, a muscle or a motor of the class has there.
+//! They are documented in MuJoCo's XML reference, "actuator". An element starts with the values of its class, so that a parameter
+//! without an attribute keeps the value that a servo, a muscle or a motor of the class has set.
 
 use super::overlay::Overlay;
 use super::shortcut_motor;
@@ -10,7 +10,7 @@ use crate::mjcf::spec::ActuatorSpec;
 use crate::mjcf::text::diagnostic::shorten_name;
 use std::f64::consts::PI;
 
-/// Writes an element's own attributes into an actuator.
+/// A function that writes the attributes of an element to an actuator.
 type Set = fn(&mut ActuatorSpec, &mut Overlay);
 
 /// All elements, by name.
@@ -76,12 +76,12 @@ const SHORTCUTS: [(&str, Set); 12] = [
     }),
 ];
 
-/// What the element of this name writes; `None` for elements that are no actuators.
+/// The function for an element of this name, or `None` if it is not an actuator.
 pub(crate) fn find(name: &str) -> Option<Set> {
     SHORTCUTS.iter().find(|(n, _)| *n == name).map(|(_, set)| *set)
 }
 
-/// kp (u - length) - kv velocity: gain, bias and damping of servos.
+/// Gain, bias and damping of servos: kp (u - length) - kv velocity.
 fn servo(a: &mut ActuatorSpec, e: &mut Overlay) {
     (a.gaintype, a.biastype) = (gaintype::FIXED, biastype::AFFINE);
     let kp = e.p.real("kp").unwrap_or(a.gainprm[0]);
@@ -91,7 +91,8 @@ fn servo(a: &mut ActuatorSpec, e: &mut Overlay) {
     a.inheritrange = e.p.real("inheritrange").unwrap_or(a.inheritrange);
 }
 
-/// `kv`, or `dampratio`: a positive number in its place until `mj_setConst` knows the inertia.
+/// Reads `kv` or `dampratio`. A damping ratio is stored as a positive number in the place of -kv, until `mj_setConst` computes kv
+/// from the inertia.
 fn damping(a: &mut ActuatorSpec, e: &mut Overlay) {
     let (kv, ratio) = (e.zero_or_more("kv"), e.zero_or_more("dampratio"));
     if kv.is_some() && ratio.is_some() {
@@ -113,7 +114,7 @@ fn damping(a: &mut ActuatorSpec, e: &mut Overlay) {
     }
 }
 
-/// A range that is given and taken from the target, too.
+/// Reports a range that is both given and inherited from the target.
 fn inherit(inheritrange: f64, range: [f64; 2], attribute: &str, e: &mut Overlay) {
     if inheritrange > 0.0 && range != [0.0; 2] {
         let owner = e.node.describe();
@@ -123,7 +124,7 @@ fn inherit(inheritrange: f64, range: [f64; 2], attribute: &str, e: &mut Overlay)
     }
 }
 
-/// Controls from zero on, always clamped.
+/// Sets controls that are always clamped to their range, and reports a range with negative numbers.
 fn one_way(a: &mut ActuatorSpec, e: &mut Overlay, why: &str) {
     a.ctrl.flag = choice::TRUE;
     if a.ctrl.range.iter().any(|&x| x < 0.0) {
@@ -138,7 +139,7 @@ fn one_way(a: &mut ActuatorSpec, e: &mut Overlay, why: &str) {
     }
 }
 
-/// kp (position - length) + ki ∫ + kv (velocity - its own) + feedforward.
+/// kp (position - length) + ki ∫ + kv (velocity - actual velocity) + feedforward.
 fn pid(a: &mut ActuatorSpec, e: &mut Overlay) {
     input(&mut a.ctrlspec, Inputs::Servo, e);
     let stateful = a.dyntype == dyntype::PID;
@@ -162,7 +163,7 @@ fn pid(a: &mut ActuatorSpec, e: &mut Overlay) {
     inherit(a.inheritrange, a.ctrl.range, "ctrlrange", e);
 }
 
-/// The parameters of muscles and their defaults, by the place in `gainprm`.
+/// The parameters of muscles and their defaults, in the order of `gainprm`.
 const MUSCLE: [(&str, f64); 7] = [
     ("force", -1.0),
     ("scale", 200.0),
@@ -173,9 +174,9 @@ const MUSCLE: [(&str, f64); 7] = [
     ("fvmax", 1.2),
 ];
 
-/// Numbers of muscles are positive: what is negative is as if it were not given.
+/// Reads the parameters of muscles. They are positive: a negative number counts as not given.
 fn muscle(a: &mut ActuatorSpec, e: &mut Overlay) {
-    // What a class without a muscle has there stands for nothing.
+    // The values of an actuator without muscle parameters count as not given.
     let or = |x: f64, nothing: f64, default: f64| if x == nothing { default } else { x };
     a.dynprm[0] = or(a.dynprm[0], 1.0, 0.01);
     a.dynprm[1] = or(a.dynprm[1], 0.0, 0.04);
@@ -194,17 +195,17 @@ fn muscle(a: &mut ActuatorSpec, e: &mut Overlay) {
     (a.gaintype, a.biastype, a.dyntype) = (gaintype::MUSCLE, biastype::MUSCLE, dyntype::MUSCLE);
 }
 
-/// What an `input` attribute may say.
+/// The valid values of an `input` attribute.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Inputs {
-    /// The chart of an orientation.
+    /// A parametrization of an orientation.
     Chart,
-    /// A list of what a controller takes.
+    /// A list of inputs of a controller.
     Servo,
     Any,
 }
 
-/// Numbers of inputs as `actuator_ctrlspec` has them: charts, and bits of a list.
+/// The values of `actuator_ctrlspec`: orientation parametrizations, and bits for a list of inputs.
 pub(crate) mod inputs {
     pub(in crate::mjcf) const EXPMAP: i32 = 1;
     pub(in crate::mjcf) const QUAT: i32 = 2;
@@ -218,7 +219,7 @@ const CHARTS: [(&str, i32); 2] = [("expmap", inputs::EXPMAP), ("quat", inputs::Q
 const LIST: [(&str, i32); 4] =
     [("pos", inputs::POS), ("vel", inputs::VEL), ("ff", inputs::FF), ("voltage", inputs::VOLTAGE)];
 
-/// The `input` attribute: a chart, `none`, or a list in the order of [`LIST`].
+/// Reads the `input` attribute: an orientation parametrization, `none`, or a list in the order of [`LIST`].
 fn input(spec: &mut i32, allowed: Inputs, e: &mut Overlay) {
     let Some(text) = e.p.text("input").map(str::to_string) else { return };
     let chart = CHARTS.iter().find(|(name, _)| *name == text).map(|(_, n)| *n);
@@ -228,7 +229,7 @@ fn input(spec: &mut i32, allowed: Inputs, e: &mut Overlay) {
         }
         text.split_ascii_whitespace().try_fold(0, |bits, word| {
             let (_, bit) = LIST.iter().find(|(name, _)| *name == word)?;
-            // Each once, in order.
+            // Each input at most once, in order.
             (*bit > bits).then_some(bits | bit)
         })
     };

@@ -1,4 +1,4 @@
-//! The `dcmotor` shortcut: from what a data sheet gives to the parameters of the motor's equations.
+//! The `dcmotor` shortcut: converts the values of a data sheet to the parameters of the motor's equations.
 //!
 //! MuJoCo's XML reference, "actuator/dcmotor". With the motor constant K (torque per current, and voltage per
 //! speed), the resistance R and the inductance L, the electrical time constant is L/R. A nominal voltage V with stall
@@ -11,13 +11,13 @@ use crate::mjcf::spec::ActuatorSpec;
 
 /// Writes the parameters of a motor into an actuator.
 pub(crate) fn dcmotor(a: &mut ActuatorSpec, e: &mut Overlay) {
-    // What a class without a motor has there stands for nothing.
+    // The values of an actuator without motor parameters count as not given.
     if a.gaintype != gaintype::DCMOTOR {
         (a.gainprm, a.biasprm, a.dynprm) = ([0.0; 10], [0.0; 10], [0.0; 10]);
     }
     let [voltage, stall, speed] = e.p.reals("nominal", [0.0; 3]);
     let from_speed = if speed > 0.0 { voltage / speed } else { 0.0 };
-    // Torque and voltage constants are the same number in SI units: the geometric mean of what is given.
+    // Torque constant and voltage constant are the same number in SI units. If both are given, their geometric mean is used.
     let [torque, back] = e.p.reals("motorconst", [a.gainprm[1], 0.0]);
     let from_constants = mean(torque, back);
     let k = mean(from_constants, from_speed);
@@ -63,7 +63,7 @@ pub(crate) fn dcmotor(a: &mut ActuatorSpec, e: &mut Overlay) {
     a.actdim = slots(&a.dynprm, &a.gainprm).count() as i32;
 }
 
-/// The largest force, or what follows from the largest current, and how fast the current may change.
+/// Sets the largest force, directly or from the largest current, and the largest rate of change of the current.
 fn saturation(a: &mut ActuatorSpec, e: &mut Overlay, k: f64) {
     let [force, current, slope] = e.p.reals("saturation", [0.0, 0.0, a.dynprm[1]]);
     if force < 0.0 && current > 0.0 {
@@ -80,7 +80,7 @@ fn saturation(a: &mut ActuatorSpec, e: &mut Overlay, k: f64) {
     a.dynprm[1] = slope.max(0.0);
 }
 
-/// Thermal resistance and capacity, or one of them with their product, a time constant; then how the resistance of
+/// Reads thermal resistance and capacity, or one of them with their product, a time constant. Also reads how the resistance of
 /// the wire grows with temperature.
 fn thermal(a: &mut ActuatorSpec, e: &mut Overlay) {
     let [resistance, capacity, time, growth, reference, ambient] =
@@ -100,7 +100,7 @@ fn thermal(a: &mut ActuatorSpec, e: &mut Overlay) {
     a.gainprm[2..4].copy_from_slice(&[growth, reference]);
 }
 
-/// The geometric mean of two numbers, or the one that is given.
+/// The geometric mean of two numbers, or the positive one of them.
 fn mean(a: f64, b: f64) -> f64 {
     match (a > 0.0, b > 0.0) {
         (true, true) => (a * b).sqrt(),

@@ -1,4 +1,4 @@
-//! Meshes, height fields and skins to the arrays of the model.
+//! Writes meshes, height fields and skins to the arrays of the model.
 
 use super::mesh::{Hull, Mesh};
 use super::read_asset::Assets;
@@ -10,12 +10,12 @@ use crate::mjcf::gather::listed;
 use crate::mjcf::scene::fill_scene::{Places, single as single_each};
 use crate::model::Model;
 
-/// Numbers that MuJoCo keeps as 32-bit floats have no more precision here.
+/// Rounds numbers to single precision, for fields that MuJoCo stores as 32-bit floats.
 fn single(list: &[Vec3]) -> impl Iterator<Item = f64> + '_ {
     list.as_flattened().iter().map(|&x| f64::from(x as f32))
 }
 
-/// First places of things that follow each other, from their numbers.
+/// The addresses of consecutive groups, from their lengths.
 fn places(counts: impl Iterator<Item = usize>) -> Vec<i32> {
     listed(counts.scan(0, |next, n| {
         *next += n;
@@ -23,7 +23,7 @@ fn places(counts: impl Iterator<Item = usize>) -> Vec<i32> {
     }))
 }
 
-/// The sizes that these objects add to the model.
+/// Sets the sizes of the model for these objects.
 pub(crate) fn count(m: &mut Model, assets: &Assets) {
     let meshes = || assets.meshes.iter().filter_map(|a| a.value.as_ref());
     (m.nmesh, m.nhfield) = (assets.meshes.len(), assets.hfields.len());
@@ -57,7 +57,7 @@ pub(crate) fn meshes(m: &mut Model, assets: &Assets) {
     (m.mesh_texcoordadr, m.mesh_texcoordnum) = numbers(&counts(|x| x.shape.texcoord.len()));
     let graphs = counts(graph_len);
     m.mesh_graphadr = places(graphs.iter().copied());
-    // What there is none of is nowhere.
+    // The address of an empty list is -1.
     for (at, n) in m.mesh_texcoordadr.iter_mut().zip(&m.mesh_texcoordnum) {
         *at = if *n == 0 { -1 } else { *at };
     }
@@ -69,14 +69,14 @@ pub(crate) fn meshes(m: &mut Model, assets: &Assets) {
     m.mesh_texcoord = listed(list.iter().flat_map(|x| x.shape.texcoord.as_flattened()).copied());
     m.mesh_face = listed(list.iter().flat_map(|x| x.shape.face.as_flattened()).copied());
     m.mesh_facenormal = listed(list.iter().flat_map(|x| x.shape.facenormal.as_flattened()).copied());
-    // A mesh without texture coordinates has room for them.
+    // A mesh without texture coordinates has zeros.
     m.mesh_facetexcoord = listed(list.iter().flat_map(|x| {
         let texture_corners = x.shape.facetexcoord.as_flattened().iter().copied();
         texture_corners.chain(std::iter::repeat(0)).take(3 * x.shape.face.len())
     }));
     m.mesh_graph = listed(list.iter().filter_map(|x| x.hull.as_ref()).flat_map(|h| h.graph()));
     m.mesh_sides = listed(list.iter().map(|x| {
-        // Seen before the vertices lose their precision.
+        // The faces are computed from the vertices before these are rounded to single precision.
         let graph = x.hull.as_ref().map_or(Vec::new(), Hull::graph);
         geometry::Hull::from_graph(&graph)
             .map_or_else(HullFaces::default, |hull| HullFaces::from_hull(&x.shape.vert, &hull))
@@ -97,7 +97,7 @@ pub(crate) fn hfields(m: &mut Model, assets: &Assets) {
     m.names.hfield = listed(assets.hfields.iter().map(|a| a.name.clone()));
 }
 
-/// Bodies and materials are there: their names come first.
+/// Writes the skins. The names of bodies and materials must be written before.
 pub(crate) fn skins(m: &mut Model, assets: &Assets) {
     let list: Vec<&Skin> = listed(assets.skins.iter().filter_map(|a| a.value.as_ref()));
     let bones: Vec<&Bone> = listed(list.iter().flat_map(|s| &s.bones));

@@ -1,4 +1,4 @@
-//! Height fields: samples of a ground on a grid, from text or a file, brought to 0 to 1.
+//! Height fields: elevations on a grid, from text or a file, normalized to the range from 0 to 1.
 
 use super::mesh::{Bytes, Problem};
 #[cfg(feature = "pictures")]
@@ -6,7 +6,7 @@ use super::png;
 use crate::mjcf::gather::listed;
 use crate::mjcf::text::diagnostic::shorten_name;
 
-/// Most samples of a field.
+/// Limit for the samples of a height field.
 const MAX_SAMPLES: usize = 4_000_000;
 
 /// A height field.
@@ -16,11 +16,11 @@ pub(crate) struct HField {
     pub(crate) size: [f64; 4],
     pub(crate) nrow: usize,
     pub(crate) ncol: usize,
-    /// Elevations from 0 to 1, row by row from the smallest y.
+    /// Elevations from 0 to 1, row by row, starting at the smallest y.
     pub(crate) data: Vec<f64>,
 }
 
-/// Numbers of rows and columns, and elevations of any range.
+/// The numbers of rows and columns, and elevations before normalization.
 pub(crate) struct Samples {
     nrow: usize,
     ncol: usize,
@@ -28,7 +28,7 @@ pub(crate) struct Samples {
 }
 
 impl HField {
-    /// A field whose lowest sample is 0 and whose highest is 1.
+    /// A height field whose lowest sample is 0 and whose highest is 1.
     pub(crate) fn new(samples: Samples, size: &[f64]) -> Result<HField, Problem> {
         let Ok(size) = <[f64; 4]>::try_from(size) else {
             return Err(Problem::new(
@@ -58,33 +58,33 @@ impl HField {
         let lowest = data.iter().fold(f64::INFINITY, |s, &x| s.min(x));
         let range = data.iter().fold(f64::NEG_INFINITY, |s, &x| s.max(x)) - lowest;
         for x in &mut data {
-            // Kept in single precision, as in MuJoCo.
+            // In single precision, as in MuJoCo.
             let above = (*x - lowest) as f32;
             *x = f64::from(if range > crate::math::MINVAL { above / range as f32 } else { above });
         }
         Ok(HField { size, nrow, ncol, data })
     }
 
-    /// The size of a geom: half lengths of a box of about the same bulk.
+    /// The size of a geom: half lengths of a box of about the same volume.
     pub(crate) fn geom_size(&self) -> [f64; 3] {
         let [x, y, top, base] = self.size;
         [x, y, 0.25 * top + 0.5 * base]
     }
 
-    /// Centre and half lengths of the box around it.
+    /// Centre and half lengths of the bounding box.
     pub(crate) fn aabb(&self) -> [f64; 6] {
         let [x, y, top, base] = self.size;
         [0.0, 0.0, (top - base) / 2.0, x, y, (top + base) / 2.0]
     }
 
-    /// Radius of the sphere around its frame.
+    /// Radius of the bounding sphere about the frame of the height field.
     pub(crate) fn rbound(&self) -> f64 {
         let [x, y, top, base] = self.size;
         crate::math::norm([x, y, top.max(base)])
     }
 }
 
-/// Numbers of rows and columns that make a field.
+/// Checks the numbers of rows and columns.
 fn grid(nrow: i32, ncol: i32, attribute: &'static str) -> Result<(usize, usize), Problem> {
     match (usize::try_from(nrow), usize::try_from(ncol)) {
         (Ok(r), Ok(c)) if r > 0 && c > 0 && r.saturating_mul(c) <= MAX_SAMPLES => Ok((r, c)),
@@ -97,7 +97,7 @@ fn grid(nrow: i32, ncol: i32, attribute: &'static str) -> Result<(usize, usize),
     }
 }
 
-/// A field whose elevations stand in its attribute, from the largest y down; none are a plain.
+/// A height field whose elevations are in its attribute, starting at the largest y. Without elevations, it is flat.
 pub(crate) fn written(nrow: i32, ncol: i32, elevation: &[f64]) -> Result<Samples, Problem> {
     let (nrow, ncol) = grid(nrow, ncol, "nrow")?;
     if elevation.is_empty() {
@@ -116,12 +116,13 @@ pub(crate) fn written(nrow: i32, ncol: i32, elevation: &[f64]) -> Result<Samples
     Ok(Samples { nrow, ncol, data })
 }
 
-/// The kinds of file.
+/// The content types of the file formats.
 const PNG: &str = "image/png";
 const MUJOCO_HFIELD: &str = "image/vnd.mujoco.hfield";
 
-/// Reads a file: a PNG picture or MuJoCo's own format. The name's ending tells which, or `content_type`, by the rules that
-/// were measured on MuJoCo 3.14.0: another kind is refused, what does not look like the name of a kind means its own.
+/// Reads a file: a PNG image or MuJoCo's format. The extension of the name or `content_type` determines the format, by the rules
+/// measured on MuJoCo 3.14.0: a content type with a `/` that is not one of the two is refused, and any other text selects
+/// MuJoCo's format.
 pub(crate) fn decode(path: &str, content_type: &str, bytes: &[u8]) -> Result<Samples, Problem> {
     let kind = match content_type {
         "" if path.to_ascii_lowercase().ends_with(".png") => PNG,
@@ -141,7 +142,7 @@ pub(crate) fn decode(path: &str, content_type: &str, bytes: &[u8]) -> Result<Sam
     }
 }
 
-/// A PNG picture: the elevation is what is red, in 8 bits, and the last row of the picture has the smallest y.
+/// A PNG image: the elevation is the red channel in 8 bits, and the last row of the image has the smallest y.
 #[cfg(feature = "pictures")]
 fn picture(bytes: &[u8]) -> Result<Samples, Problem> {
     let bad = |what: &str| {
@@ -159,7 +160,7 @@ fn picture(bytes: &[u8]) -> Result<Samples, Problem> {
     Ok(Samples { nrow, ncol, data })
 }
 
-/// A build that reads no pictures says so.
+/// Returns an error, in builds without support for images.
 #[cfg(not(feature = "pictures"))]
 fn picture(_: &[u8]) -> Result<Samples, Problem> {
     Err(Problem::file(
@@ -168,7 +169,7 @@ fn picture(_: &[u8]) -> Result<Samples, Problem> {
     ))
 }
 
-/// MuJoCo's own file: numbers of rows and columns, then the elevations in single precision, from the smallest y.
+/// MuJoCo's format: the numbers of rows and columns, then the elevations in single precision, starting at the smallest y.
 fn decode_samples(bytes: &[u8]) -> Result<Samples, Problem> {
     if bytes.starts_with(b"\x89PNG") {
         return Err(Problem::file(

@@ -1,4 +1,4 @@
-//! Meshes, height fields and skins: reading, hulls, inertias, filling.
+//! Meshes, height fields and skins: reading, convex hulls, inertias, and writing to the model.
 
 pub(crate) mod fill_asset;
 pub(crate) mod hfield;

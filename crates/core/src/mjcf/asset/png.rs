@@ -1,5 +1,5 @@
-//! PNG pictures (ISO/IEC 15948), as far as heights need them: the first colour of each pixel, in 8 bits. Chunks, filters and
-//! interlacing are read here; what is compressed, by `miniz_oxide`.
+//! Reads PNG images (ISO/IEC 15948) for height fields: the first colour channel of each pixel, in 8 bits. This file reads chunks,
+//! filters and interlacing; `miniz_oxide` decompresses the data.
 
 use miniz_oxide::inflate::TINFLStatus;
 use miniz_oxide::inflate::core::inflate_flags::{
@@ -8,23 +8,23 @@ use miniz_oxide::inflate::core::inflate_flags::{
 use miniz_oxide::inflate::core::{DecompressorOxide, decompress};
 
 const SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
-/// The colour type of pictures whose samples are places in a palette.
+/// The colour type of images whose samples are indexes into a palette.
 const INDEXED: u8 = 3;
 
-/// What a picture is, from its first chunk.
+/// The contents of the first chunk of an image.
 #[derive(Clone, Copy)]
 pub(super) struct Header {
     pub(super) width: u32,
     pub(super) height: u32,
-    /// Bits of each sample.
+    /// Bits per sample.
     depth: u8,
     color: u8,
-    /// Samples of each pixel.
+    /// Samples per pixel.
     samples: u8,
     interlaced: bool,
 }
 
-/// Pixels that follow each other in the file: the first of them, and how far one is from the next, both in x and y.
+/// A pass, a set of pixels that are stored together: the first pixel, and the distance between neighbours, both in x and y.
 type Pass = ([u32; 2], [u32; 2]);
 const WHOLE: &[Pass] = &[([0, 0], [1, 1])];
 /// The seven passes of Adam7.
@@ -47,19 +47,20 @@ impl Header {
         if self.interlaced { INTERLACED } else { WHOLE }
     }
 
-    /// Pixels of each row of a pass, and its rows; none where the picture is too small for it.
+    /// The number of pixels per row of a pass, and the number of rows. Zeros if the image is too small for the pass.
     fn size(&self, ([x, y], [dx, dy]): Pass) -> [usize; 2] {
         let [nx, ny] =
             [self.width.saturating_sub(x).div_ceil(dx), self.height.saturating_sub(y).div_ceil(dy)];
         [nx as usize, if nx == 0 { 0 } else { ny as usize }]
     }
 
-    /// Bytes of so many pixels of a row.
+    /// The number of bytes for this many pixels of a row.
     fn row(&self, pixels: usize) -> usize {
         (pixels * self.bits()).div_ceil(8)
     }
 
-    /// The first sample of pixel `x` of a row, in 8 bits: of 16 the upper ones, of fewer the same part of the whole.
+    /// The first sample of pixel `x` of a row, scaled to 8 bits: the upper byte of 16 bits; fewer bits are scaled to the full
+    /// range.
     fn first(&self, row: &[u8], x: usize, palette: &[u8]) -> u8 {
         let at = x * self.bits();
         let byte = row.get(at / 8).copied().unwrap_or(0);
@@ -67,17 +68,17 @@ impl Header {
         let sample =
             if self.depth < 8 { byte >> (8 - usize::from(self.depth) - at % 8) & most } else { byte };
         match self.color {
-            // A palette may be short: what is not there is black.
+            // A palette may be incomplete; missing colours are black.
             INDEXED => palette.get(3 * usize::from(sample)).copied().unwrap_or(0),
             _ => sample * (255 / most),
         }
     }
 }
 
-/// A part of the file: four letters that say which, and its bytes.
+/// A chunk of the file: four letters for its type, and its bytes.
 type Chunk<'b> = ([u8; 4], &'b [u8]);
 
-/// The next chunk, taken off the front. What cannot be left out must be whole.
+/// Removes the next chunk from the front of the bytes. Critical chunks must have a correct checksum.
 fn chunk<'b>(bytes: &mut &'b [u8]) -> Result<Chunk<'b>, &'static str> {
     let cut = "it is truncated";
     let (length, rest) = bytes.split_first_chunk().ok_or(cut)?;
@@ -92,7 +93,7 @@ fn chunk<'b>(bytes: &mut &'b [u8]) -> Result<Chunk<'b>, &'static str> {
     Ok((*kind, data))
 }
 
-/// Whether a chunk cannot be left out: its first letter is large.
+/// Whether a chunk is critical: its first letter is upper case.
 fn is_critical(kind: &[u8; 4]) -> bool {
     kind[0].is_ascii_uppercase()
 }
@@ -103,7 +104,7 @@ fn crc(bytes: &[u8]) -> u32 {
     !bytes.iter().fold(!0, |c, &byte| (0..8).fold(c ^ u32::from(byte), |c, _| bit(c)))
 }
 
-/// Reads the header; `bytes` are then what follows.
+/// Reads the header. Afterwards `bytes` starts after the header.
 pub(super) fn header(bytes: &mut &[u8]) -> Result<Header, &'static str> {
     *bytes = bytes.strip_prefix(SIGNATURE).ok_or("it has no PNG signature")?;
     let (kind, data) = chunk(bytes)?;
@@ -121,11 +122,11 @@ pub(super) fn header(bytes: &mut &[u8]) -> Result<Header, &'static str> {
     Ok(Header { width, height, depth, color, samples, interlaced: interlaced == 1 })
 }
 
-/// The first colour of each pixel, row by row from the top. `bytes` follow the header, whose size the caller has found to be
-/// bearable.
+/// The first colour channel of each pixel, row by row from the top. `bytes` starts after the header. The caller has checked that
+/// the size in the header is within the limits.
 pub(super) fn first_colors(of: &Header, mut bytes: &[u8]) -> Result<Vec<u8>, &'static str> {
     let (mut palette, mut packed): (&[u8], Vec<u8>) = (&[], Vec::new());
-    // What is compressed is in one piece, and nothing after it matters.
+    // The compressed data are in consecutive chunks. Later chunks are not needed.
     while packed.is_empty() || bytes.get(4..8) == Some(b"IDAT") {
         match chunk(&mut bytes)? {
             (kind, data) if kind == *b"IDAT" => packed.extend(data),
@@ -164,22 +165,22 @@ pub(super) fn first_colors(of: &Header, mut bytes: &[u8]) -> Result<Vec<u8>, &'s
     Ok(colors)
 }
 
-/// What was compressed, which is so long.
+/// Decompresses `size` bytes.
 fn unpacked(packed: &[u8], size: usize) -> Result<Vec<u8>, &'static str> {
     let mut all = vec![0; size];
     let flags = TINFL_FLAG_PARSE_ZLIB_HEADER | TINFL_FLAG_USING_NON_WRAPPING_OUTPUT_BUF;
     let (status, _, n) = decompress(&mut Box::<DecompressorOxide>::default(), packed, &mut all, 0, flags);
     match status {
         TINFLStatus::Adler32Mismatch => Err("it is damaged: a checksum is wrong"),
-        // All of the picture is there: what follows, or should, is nobody's loss.
+        // All pixels are present. Surplus or missing data after them are ignored.
         _ if n == size => Ok(all),
         TINFLStatus::Done | TINFLStatus::FailedCannotMakeProgress => Err("it is truncated"),
         _ => Err("it is damaged: its compressed data cannot be read"),
     }
 }
 
-/// Undoes the filter of a row: a byte was written as its difference from what was foretold by the one `step` before it, that
-/// above, and that before the one above.
+/// Reverses the filter of a row. Each byte is stored as its difference from a prediction, which depends on the byte `step` before
+/// it, the byte above, and the byte above that one.
 fn unfilter(filter: u8, row: &mut [u8], above: &[u8], step: usize) -> Result<(), &'static str> {
     for i in 0..row.len() {
         let before = |row: &[u8]| i.checked_sub(step).and_then(|i| row.get(i)).copied().unwrap_or(0);
@@ -197,7 +198,7 @@ fn unfilter(filter: u8, row: &mut [u8], above: &[u8], step: usize) -> Result<(),
     Ok(())
 }
 
-/// Paeth: the one of the three that is nearest to a + b - c.
+/// Paeth predictor: the value among the three that is closest to a + b - c.
 fn nearest(a: u8, b: u8, c: u8) -> u8 {
     let [x, y, z] = [a, b, c].map(i16::from);
     let [far_a, far_b, far_c] = [y - z, x - z, x + y - 2 * z].map(i16::abs);

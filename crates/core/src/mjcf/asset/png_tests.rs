@@ -1,8 +1,8 @@
-//! Pictures of every kind, whole and damaged, against the package `png`.
+//! Compares the reader with the crate `png`, for images of every kind, intact and damaged.
 
 use super::*;
 
-/// How wide and high, and what is red.
+/// Width, height and the red channel.
 type Read = Option<(u32, u32, Vec<u8>)>;
 
 fn ours(mut bytes: &[u8]) -> Read {
@@ -24,19 +24,19 @@ fn theirs(bytes: &[u8]) -> Read {
     Some((width, height, pixels.chunks_exact(frame.color_type.samples()).map(|p| p[0]).collect()))
 }
 
-/// A chunk as it stands in a file.
+/// A chunk with its length and checksum.
 fn written(kind: &[u8; 4], data: &[u8]) -> Vec<u8> {
     let body = [kind, data].concat();
     [&(data.len() as u32).to_be_bytes(), &body[..], &crc(&body).to_be_bytes()].concat()
 }
 
-/// Numbers without a pattern.
+/// Pseudorandom numbers.
 fn noise(seed: &mut u32) -> u8 {
     *seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
     (*seed >> 24) as u8
 }
 
-/// A picture of noise, each row with a filter of its own.
+/// An image of noise. Each row has a random filter.
 fn picture([width, height]: [u32; 2], color: u8, depth: u8, interlaced: bool) -> Vec<u8> {
     let samples = [1, 0, 3, 1, 2, 0, 4][usize::from(color)];
     let of = Header { width, height, depth, color, samples, interlaced };
@@ -50,7 +50,7 @@ fn picture([width, height]: [u32; 2], color: u8, depth: u8, interlaced: bool) ->
         }
     }
     let head = [&width.to_be_bytes()[..], &height.to_be_bytes(), &[depth, color, 0, 0, u8::from(interlaced)]];
-    // A palette of its own length: what is beyond is black.
+    // The palette may be shorter than the range of samples. Samples beyond it are black.
     let palette: Vec<u8> = (0..3 * (1 << depth.min(7))).map(|_| noise(&mut seed)).collect();
     let packed = miniz_oxide::deflate::compress_to_vec_zlib(&rows, 6);
     let (first, second) = packed.split_at(packed.len() / 2);
@@ -88,7 +88,7 @@ fn every_kind_is_read_as_by_the_package() {
     });
 }
 
-/// The same file with right check sums, as long as its chunks are whole.
+/// The same file with correct checksums, as far as its chunks are complete.
 fn mended(mut bytes: Vec<u8>) -> Vec<u8> {
     let mut at = SIGNATURE.len();
     while let Some(length) = bytes.get(at..).and_then(|b| b.first_chunk()) {
@@ -101,8 +101,8 @@ fn mended(mut bytes: Vec<u8>) -> Vec<u8> {
     bytes
 }
 
-/// What the package reads of a damaged file, we read alike. What we read beyond that (a picture without its end) is of the size
-/// that it says.
+/// Damaged files that the crate can read give the same image here. A file that only this reader accepts (without its end) gives
+/// an image of the size that its header states.
 #[test]
 fn damaged_pictures_are_read_as_by_the_package() {
     let compare = |bytes: &[u8], what: &str| match (ours(bytes), theirs(bytes)) {

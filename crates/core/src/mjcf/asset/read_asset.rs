@@ -20,15 +20,15 @@ use crate::mjcf::text::files::{Files, MAX_FILE};
 use crate::mjcf::text::load;
 use crate::mjcf::text::tree::{Node, Tree, name};
 
-/// Bytes of all files, vertices and triangles of all meshes, samples of all height fields: a small text could ask for
-/// any amount.
+/// Limit in bytes for all files, vertices and triangles of meshes, and samples of height fields together. Without it, a small
+/// text could request any amount.
 const MOST: usize = 256 << 20;
-/// What a vertex, a triangle or a sample takes of that.
+/// The bytes that a vertex, a triangle or a sample counts for.
 const EACH: usize = 32;
-/// The smallest limit of corners of a hull: a tetrahedron.
+/// The smallest limit for the corners of a hull: those of a tetrahedron.
 const FEWEST_CORNERS: i32 = 4;
 
-/// Something with a name. What could not be made is `None`: that was reported.
+/// An asset with a name. The value is `None` if it could not be built; the error is already reported.
 #[derive(Debug)]
 pub(crate) struct Asset<T> {
     pub(crate) name: String,
@@ -42,17 +42,17 @@ pub(crate) struct Assets {
     pub(crate) meshes: Vec<Asset<Mesh>>,
     pub(crate) hfields: Vec<Asset<HField>>,
     pub(crate) skins: Vec<Asset<Skin>>,
-    /// Materials that meshes bring along, by mesh.
+    /// The default materials of meshes, by mesh.
     materials: Vec<Option<String>>,
     /// Ids by kind and name.
     ids: BTreeMap<(&'static str, String), usize>,
 }
 
-/// What reading needs to know.
+/// The inputs for reading assets.
 struct Reader<'a> {
     parts: &'a [AttachedModel],
     files: &'a dyn Files,
-    /// What is left of [`MOST`].
+    /// The remaining part of [`MOST`].
     left: usize,
     report: &'a mut Report,
 }
@@ -113,25 +113,25 @@ impl Assets {
         self.ids.get(&(kind, name.to_string())).copied()
     }
 
-    /// A mesh and its id, where it could be made.
+    /// A mesh and its id, if it could be built.
     pub(crate) fn mesh(&self, name: &str) -> Option<(i32, &Mesh)> {
         let id = self.id("mesh", name)?;
         Some((id as i32, self.meshes.get(id)?.value.as_ref()?))
     }
 
-    /// A height field and its id, where it could be made.
+    /// A height field and its id, if it could be built.
     pub(crate) fn hfield(&self, name: &str) -> Option<(i32, &HField)> {
         let id = self.id("hfield", name)?;
         Some((id as i32, self.hfields.get(id)?.value.as_ref()?))
     }
 
-    /// The material that a mesh brings along.
+    /// The default material of a mesh.
     pub(crate) fn material(&self, mesh: &str) -> Option<&str> {
         self.materials.get(self.id("mesh", mesh)?)?.as_deref()
     }
 
-    /// Checks that the bodies that files name as bones are there, once `fusestatic` has had its way: what stands in the
-    /// text itself keeps its body.
+    /// Checks that the bodies that skin files name as bones exist after `fusestatic`. Bodies that the text itself refers to are
+    /// never fused.
     pub(crate) fn check_bones(&self, bodies: &[BodySpec], names: &NameTable, report: &mut Report) {
         let used: BTreeSet<&str> = filled(bodies.iter().map(|b| b.name.as_str()));
         for bone in self.skins.iter().filter_map(|a| a.value.as_ref()).flat_map(|s| &s.bones) {
@@ -148,7 +148,7 @@ impl Assets {
         }
     }
 
-    /// Makes the hulls of the meshes that can touch something.
+    /// Computes the hulls of the meshes that can collide, and of those of sites.
     pub(crate) fn hulls(&mut self, bodies: &[BodySpec], pairs: &[PairSpec], report: &mut Report) {
         let geoms: Vec<_> = listed(bodies.iter().flat_map(|b| &b.geoms));
         let touching = geoms.iter().filter(|g| g.contype != 0 || g.conaffinity != 0);
@@ -171,7 +171,7 @@ impl Assets {
     }
 }
 
-/// Reports what is wrong with an asset.
+/// Reports a problem with an asset.
 fn say(problem: Problem, code: &'static Rule, owner: &str, span: Range<usize>, report: &mut Report) {
     let mut d = report.error(code, span, format!("{owner} {}", problem.message));
     if !problem.why.is_empty() {
@@ -234,7 +234,7 @@ impl Reader<'_> {
         self.wrong(problem, rules::MESH, node, p)
     }
 
-    /// The data of a mesh, and whether it is a surface without inside. `None` when its file cannot be read.
+    /// The data of a mesh, and whether it is an open surface. `None` if its file cannot be read.
     fn raw(&mut self, node: &Node, p: &Props) -> Option<Result<(Raw, bool), Problem>> {
         let sources: Vec<&str> = listed(["builtin", "file", "vertex"].into_iter().filter(|a| p.has(a)));
         if let [_, second, ..] = sources[..] {
@@ -265,7 +265,7 @@ impl Reader<'_> {
         }))
     }
 
-    /// Takes bytes from what is left.
+    /// Subtracts bytes from the remaining limit.
     fn take(&mut self, bytes: usize) -> Result<(), Problem> {
         match self.left.checked_sub(bytes) {
             Some(left) => {
@@ -281,7 +281,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Reads the file of an asset; its path and its bytes.
+    /// Reads the file of an asset and returns its path and its bytes.
     fn file(&mut self, node: &Node, p: &Props) -> Option<(String, Vec<u8>)> {
         let AttachedModel { compiler, folder } = self.parts.get(node.model)?;
         let mut written = p.text("file")?.to_string();
@@ -388,7 +388,7 @@ impl Reader<'_> {
         }
     }
 
-    /// A bone has all of its attributes.
+    /// Reads a bone. All its attributes are required.
     fn bone(&mut self, node: &Node) -> Option<Bone> {
         let p = Props::written_props(node);
         let missing =
@@ -418,7 +418,7 @@ fn norm4(q: [f64; 4]) -> f64 {
     norm([norm([q[0], q[1], q[2]]), q[3], 0.0])
 }
 
-/// A mesh whose data stand in its attributes.
+/// A mesh whose data are in its attributes.
 fn written(p: &Props) -> Result<Raw, Problem> {
     let raw = Raw {
         vert: chunks(p, "vertex")?,
@@ -435,7 +435,7 @@ fn written(p: &Props) -> Result<Raw, Problem> {
     Ok(raw)
 }
 
-/// A pair for each vertex, or none at all.
+/// Checks that there is a pair for each vertex, or none at all.
 fn texcoords(pairs: &[[f64; 2]], vertices: usize) -> Result<(), Problem> {
     if pairs.is_empty() || pairs.len() == vertices {
         return Ok(());
@@ -448,7 +448,7 @@ fn texcoords(pairs: &[[f64; 2]], vertices: usize) -> Result<(), Problem> {
     ))
 }
 
-/// Groups of numbers, in single precision as in files.
+/// Groups of `N` numbers, rounded to single precision as in files.
 fn chunks<const N: usize>(p: &Props, name: &'static str) -> Result<Vec<[f64; N]>, Problem> {
     let list = p.list(name).unwrap_or(&[]);
     match list.as_chunks() {

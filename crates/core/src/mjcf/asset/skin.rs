@@ -1,5 +1,5 @@
-//! Skins: triangles whose vertices follow bodies ("bones"), each with weights. Physics does not know them; a frontend
-//! that draws them finds their data in the model (XML reference, `deformable/skin`; details measured on the library).
+//! Skins: triangles whose vertices follow bodies ("bones") with weights. The simulation does not use them; a frontend
+//! that renders them reads their data from the model (XML reference, `deformable/skin`; details measured on the library).
 
 use crate::mjcf::gather::listed;
 use std::ops::Range;
@@ -7,42 +7,42 @@ use std::ops::Range;
 use super::mesh::{Bytes, MAX_FACES, MAX_VERTICES, Problem};
 use crate::math::MINVAL;
 
-/// A skin as it was written.
+/// The data of a skin as given in the text or a file.
 #[derive(Debug, Default)]
 pub(crate) struct Skin {
-    /// m.
+    /// Vertices, m.
     pub(crate) vert: Vec<[f64; 3]>,
-    /// A pair for each vertex, or none at all.
+    /// A pair for each vertex, or none.
     pub(crate) texcoord: Vec<[f64; 2]>,
-    /// Vertices of each triangle.
+    /// The vertices of each triangle.
     pub(crate) face: Vec<[i32; 3]>,
     pub(crate) bones: Vec<Bone>,
     pub(crate) material: Option<String>,
     pub(crate) rgba: [f64; 4],
-    /// How far vertices are moved along their normals, m.
+    /// The distance by which vertices are moved along their normals, m.
     pub(crate) inflate: f64,
     pub(crate) group: i32,
 }
 
-/// What a body carries of a skin.
+/// The vertices of a skin that one body carries.
 #[derive(Debug)]
 pub(crate) struct Bone {
     pub(crate) body: String,
-    /// Pose of the body in which the vertices are given: m, and a unit quaternion (zero stays zero).
+    /// The pose of the body in which the vertices are given: m, and a unit quaternion (zero stays zero).
     pub(crate) bindpos: [f64; 3],
     pub(crate) bindquat: [f64; 4],
     pub(crate) vertid: Vec<i32>,
-    /// The body's share of each of these vertices; the shares of a vertex add up to 1 once the skin is complete.
+    /// The weight of the body for each of these vertices. After completion, the weights of each vertex sum to 1.
     pub(crate) vertweight: Vec<f64>,
-    /// Where the file that holds it is named, when it stands in one.
+    /// The span that names the file, if the bone is read from a file.
     pub(crate) file: Option<Range<usize>>,
 }
 
-/// Bytes of a body's name in a file.
+/// The number of bytes of a body name in a file.
 const NAME: usize = 40;
 
 impl Skin {
-    /// Checks that the parts fit together, and makes the weights of each vertex add up to 1.
+    /// Checks that the parts are consistent, and normalizes the weights of each vertex to the sum 1.
     pub(crate) fn complete(mut self) -> Result<Skin, Problem> {
         if self.vert.is_empty() || self.face.is_empty() || self.bones.is_empty() {
             let missing = [
@@ -126,8 +126,9 @@ impl Skin {
     }
 }
 
-/// Reads MuJoCo's binary skins (XML reference, SKN): numbers of vertices, texture coordinates, triangles and bones, then
-/// these, in single precision and 32-bit integers. A bone is the name of its body, its pose, and its vertices with their weights.
+/// Reads MuJoCo's binary skin format (XML reference, SKN): the counts of vertices, texture coordinates, triangles and bones, then
+/// these, in single precision and 32-bit integers. A bone consists of the name of its body, its pose, and its vertices with their
+/// weights.
 pub(crate) fn decode(path: &str, bytes: &[u8], span: &Range<usize>) -> Result<Skin, Problem> {
     let ending = path.rsplit_once('.').map_or("", |(_, ending)| ending);
     if !ending.eq_ignore_ascii_case("skn") {
@@ -145,7 +146,7 @@ pub(crate) fn decode(path: &str, bytes: &[u8], span: &Range<usize>) -> Result<Sk
             format!("has an SKN file of {v} vertices, {t} texture coordinates, {f} triangles and {b} bones");
         return Err(Problem::file(message, "the file is damaged: export it again"));
     }
-    // What is there bounds what is made room for.
+    // Checks the length before allocation, so that the size of the file bounds the memory.
     if numbers.0.len() < 4 * (3 * nvert + 2 * ntexcoord + 3 * nface) {
         return Err(damaged());
     }
@@ -180,7 +181,7 @@ fn damaged() -> Problem {
     )
 }
 
-/// A bone at the front of the numbers.
+/// Reads the next bone.
 fn read_bone(numbers: &mut Bytes, span: &Range<usize>) -> Result<Bone, Problem> {
     let (name, rest) = numbers.0.split_at_checked(NAME).ok_or_else(damaged)?;
     *numbers = Bytes(rest);

@@ -1,4 +1,4 @@
-//! Inertia of bodies: explicit, or put together from their geoms by the parallel axis theorem.
+//! Inertia of bodies: explicit, or computed from their geoms by the parallel axis theorem.
 
 use crate::math::{
     IDENTITY, MINVAL, Quat, Vec3, add, add_scaled, inertia_about, quat_axis_angle, quat_mul, quat_normalize,
@@ -13,7 +13,7 @@ use crate::mjcf::text::diagnostic::Report;
 
 const NONE: Inertia = Inertia { pos: [0.0; 3], quat: IDENTITY, mass: 0.0, moments: [0.0; 3] };
 
-/// The inertia of every body. The world has none.
+/// The inertia of every body. That of the world is zero.
 pub(crate) fn bodies(list: &[BodySpec], parts: &[AttachedModel], report: &mut Report) -> Vec<Inertia> {
     let mut all = vec![NONE];
     for body in list.iter().skip(1) {
@@ -34,13 +34,13 @@ fn body_inertia(body: &BodySpec, compiler: &Compiler) -> Inertia {
         InertiaFromGeom::Auto if body.inertial.is_some() => None,
         InertiaFromGeom::Auto => of_geoms(&body.geoms, compiler),
     };
-    // Without mass the inertial frame means nothing. MuJoCo stores the body's pose there, as it
-    // is written; `xipos` shows it, so it is kept.
+    // Without mass, the inertial frame has no meaning. MuJoCo stores the pose of the body there, as written in the text. The
+    // result is visible in `xipos`, so this code does the same.
     let massless = Inertia { pos: body.written.pos, quat: body.written.quat, ..NONE };
     from_geoms.or_else(|| body.inertial.clone()).unwrap_or(massless)
 }
 
-/// The inertia of the geoms that have mass, `None` if there are none.
+/// The combined inertia of the geoms that have mass, or `None` if there are none.
 fn of_geoms(geoms: &[GeomSpec], compiler: &Compiler) -> Option<Inertia> {
     let [lowest, highest] = compiler.inertiagrouprange;
     let massive: Vec<Inertia> =
@@ -52,13 +52,13 @@ fn of_geoms(geoms: &[GeomSpec], compiler: &Compiler) -> Option<Inertia> {
         );
     match massive.as_slice() {
         [] => None,
-        // One geom keeps its own frame, which need not be sorted.
+        // A single geom keeps its own frame. Its moments need not be sorted.
         [one] => Some(one.clone()),
         many => Some(combined(many)),
     }
 }
 
-/// The inertia of parts that are fixed to each other: moments about the common centre of mass add up.
+/// The inertia of parts that are fixed to each other: the sum of their moments about the common centre of mass.
 pub(crate) fn combined(parts: &[Inertia]) -> Inertia {
     let mass: f64 = parts.iter().map(|p| p.mass).sum();
     let moment = parts.iter().fold([0.0; 3], |sum, p| add_scaled(sum, p.pos, p.mass));
@@ -69,22 +69,22 @@ pub(crate) fn combined(parts: &[Inertia]) -> Inertia {
     Inertia { pos, quat, mass, moments }
 }
 
-/// Principal moments, largest first, and the orientation of their axes, of a symmetric matrix given as
-/// `xx yy zz xy xz yz`: Jacobi's rotations, accumulated as a quaternion.
+/// Principal moments, largest first, and the orientation of the principal axes, of a symmetric matrix given as `xx yy zz xy xz
+/// yz`. Jacobi's method: the rotations are accumulated in a quaternion.
 ///
-/// Each rotation takes the smaller of the two possible angles, and axes are put in order by quarter turns,
-/// so that the orientation is the one MuJoCo stores and not one of its equivalents.
+/// Each rotation takes the smaller of the two possible angles, and axes are sorted by quarter turns, so that of all equivalent
+/// orientations the result is the one that MuJoCo stores.
 pub(crate) fn principal(m: [f64; 6]) -> (Vec3, Quat) {
     principal_to(0.0, m)
 }
 
-/// The same, as long as an element off the diagonal is larger than `error`. Axes whose moments and product differ by less than
-/// `2 error` are equally good: they stay, so that rounding does not choose among them. Moments that differ by less than `error` keep
-/// their order.
+/// Like [`principal`], but rotates only while an element off the diagonal is larger than `error`. If moments and product of two
+/// axes differ by less than `2 error`, these axes do not rotate, so that rounding errors do not select them. Moments that differ
+/// by less than `error` keep their order.
 pub(crate) fn principal_to(error: f64, m: [f64; 6]) -> (Vec3, Quat) {
     const MAX_ROTATIONS: usize = 100;
     const EQUAL: f64 = 2.0;
-    // The two axes of each off-diagonal element, and the unit vector from the first to the second turned.
+    // The two axes of each off-diagonal element, and the axis of the rotation from the first to the second.
     const PLANES: [(usize, usize, Vec3); 3] =
         [(0, 1, [0.0, 0.0, 1.0]), (0, 2, [0.0, -1.0, 0.0]), (1, 2, [1.0, 0.0, 0.0])];
 
@@ -109,7 +109,7 @@ pub(crate) fn principal_to(error: f64, m: [f64; 6]) -> (Vec3, Quat) {
         }
         let (r, c, axis) = PLANES[at];
         let difference = diagonal[c] - diagonal[r];
-        // Halfway between two frames rounding does not choose either.
+        // For equal moments, the angle is exactly an eighth of a turn, so that rounding errors do not select its sign.
         let difference = if difference.abs() <= error { 0.0 } else { difference };
         let tau = difference / (2.0 * off[at]);
         let root = libm::sqrt(1.0 + tau * tau);
@@ -117,7 +117,7 @@ pub(crate) fn principal_to(error: f64, m: [f64; 6]) -> (Vec3, Quat) {
         let turn = quat_axis_angle(axis, -libm::atan(tangent));
         let next = quat_normalize(quat_mul(quat, turn));
         if next == quat {
-            break; // the angle is below the resolution of the numbers
+            break; // the angle is below the resolution of the quaternion
         }
         quat = next;
     }
@@ -148,10 +148,10 @@ fn in_frame(m: [f64; 6], quat: Quat) -> [f64; 6] {
     [form(0, 0), form(1, 1), form(2, 2), form(0, 1), form(0, 2), form(1, 2)]
 }
 
-/// No moment may exceed the sum of the other two: no distribution of mass has such an inertia.
+/// Checks that no moment exceeds the sum of the other two. No mass distribution has such an inertia.
 fn check_triangle(body: &BodySpec, inertia: &mut Inertia, compiler: &Compiler, report: &mut Report) {
     let [a, b, c] = inertia.moments;
-    // Rounding of a flat body's computed moments is not a mistake of its author.
+    // Rounding errors in the computed moments of a flat body are not an error of the author.
     let slack = 1e-13 * (a + b + c);
     if a + b >= c - slack && a + c >= b - slack && b + c >= a - slack {
         return;
@@ -170,7 +170,7 @@ fn check_triangle(body: &BodySpec, inertia: &mut Inertia, compiler: &Compiler, r
         .help("correct `diaginertia`, or write `<compiler balanceinertia=\"true\"/>` to replace them by their mean");
 }
 
-/// A moving body must resist: its mass and inertia, or those of a body welded to it.
+/// Checks that each moving body has mass and inertia: its own, or those of a body that is welded to it.
 pub(crate) fn check_moving(list: &[BodySpec], weld: &[usize], inertias: &[Inertia], report: &mut Report) {
     let solid = |i: &Inertia| i.mass >= MINVAL && i.moments.iter().all(|&x| x >= MINVAL);
     let mut carries = vec![false; list.len()];
@@ -196,7 +196,7 @@ pub(crate) fn check_moving(list: &[BodySpec], weld: &[usize], inertias: &[Inerti
     }
 }
 
-/// A body in a message.
+/// A description of a body for messages.
 pub(crate) fn describe_body(body: &BodySpec) -> String {
     if body.name.is_empty() {
         "a body".to_string()

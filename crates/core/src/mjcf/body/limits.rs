@@ -1,4 +1,4 @@
-//! Ranges with a flag: `range` and `limited`, and their like for forces.
+//! Ranges with a flag, such as `range` and `limited`, for coordinates and forces.
 
 use crate::kinds::choice;
 use crate::mjcf::classes::Props;
@@ -6,15 +6,15 @@ use crate::mjcf::context::Context;
 use crate::mjcf::rules::{self, Rule};
 use crate::mjcf::text::tree::Node;
 
-/// Names of a range's attributes.
+/// The names of the attributes of a range.
 pub(crate) struct Limit {
     pub(crate) range: &'static str,
     pub(crate) flag: &'static str,
-    /// The code of what is wrong with it.
+    /// The rule for errors in the range.
     pub(crate) code: &'static Rule,
 }
 
-/// Whether a range holds, and the range. The flag decides; where it is `auto`, a range that is given holds.
+/// Whether a range is active, and the range. The flag decides; if it is `auto`, a given range is active.
 pub(crate) fn read(cx: &mut Context, p: &Props, node: &Node, limit: &Limit) -> (bool, [f64; 2]) {
     let range = p.reals(limit.range, [0.0; 2]);
     let span = p.span(limit.range).unwrap_or(node.span.clone());
@@ -23,7 +23,7 @@ pub(crate) fn read(cx: &mut Context, p: &Props, node: &Node, limit: &Limit) -> (
     (decide(cx, flag, given, range, span, &node.describe(), limit), range)
 }
 
-/// Whether a range holds; a range that holds and does not grow is reported.
+/// Whether a range is active. Reports an active range whose upper limit does not exceed its lower limit.
 pub(crate) fn decide(
     cx: &mut Context,
     flag: i32,

@@ -1,4 +1,4 @@
-//! Bodies and joints: reading, inertias, orientations, whether their trees may sleep.
+//! Bodies and joints: reading, inertias, orientations, and the sleep policy of their trees.
 
 pub(crate) mod frame;
 pub(crate) mod inertia;

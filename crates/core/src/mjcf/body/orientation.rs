@@ -1,4 +1,4 @@
-//! The five ways to give an orientation, as unit quaternions (XML reference, "Frame orientations").
+//! The five forms of an orientation, converted to unit quaternions (XML reference, "Frame orientations").
 
 use crate::math::{
     IDENTITY, Mat3, Quat, Vec3, add_scaled, cross, dot, norm, normalize, quat_axis_angle, quat_mul,
@@ -12,10 +12,10 @@ use crate::mjcf::settings::Compiler;
 use crate::mjcf::text::diagnostic::Report;
 use crate::mjcf::text::tree::{Node, Tree};
 
-/// Vectors shorter than this have no direction.
+/// The length below which a vector has no direction.
 const SHORTEST: f64 = 1e-14;
 
-/// The orientation of an element: the identity when none is given.
+/// The orientation of an element, or the identity if none is given.
 pub(crate) fn read(p: &Props, compiler: &Compiler, node: &Node, report: &mut Report) -> Quat {
     let form = ALTERNATIVES.into_iter().find(|name| p.has(name)).unwrap_or("quat");
     let Some(given) = p.list(form) else { return IDENTITY };
@@ -27,7 +27,7 @@ pub(crate) fn read(p: &Props, compiler: &Compiler, node: &Node, report: &mut Rep
         }
         ("xyaxes", &[a, b, c, d, e, f]) => xyaxes([a, b, c], [d, e, f]),
         ("zaxis", &[x, y, z]) => direction([x, y, z], "the z axis").map(z_to),
-        _ => return IDENTITY, // of another length, reported before
+        _ => return IDENTITY, // of another length, already reported
     };
     result.map(quat_normalize).unwrap_or_else(|what| {
         let span = p.span(form).unwrap_or(node.span.clone());
@@ -38,12 +38,12 @@ pub(crate) fn read(p: &Props, compiler: &Compiler, node: &Node, report: &mut Rep
     })
 }
 
-/// Reports elements that give their orientation more than once.
+/// Reports elements that specify their orientation more than once.
 pub(crate) fn check_forms(tree: &Tree, report: &mut Report) {
     for node in &tree.nodes {
         let forms = node.attributes.iter().filter(|a| is_form(a.attr.name));
         let names: Vec<_> = listed(forms.map(|a| (a.attr.name, a.span.clone())));
-        // `composite` and `flexcomp` never reach here: what is refused is left out of the tree.
+        // `composite` and `flexcomp` do not occur here, because refused elements are not in the tree.
         let [(first, _), (second, span), ..] = names.as_slice() else { continue };
         let message = format!("{} has both `{first}` and `{second}`", node.describe());
         report.error(rules::CONFLICT, span.clone(), message).help(
@@ -55,7 +55,7 @@ pub(crate) fn check_forms(tree: &Tree, report: &mut Report) {
     }
 }
 
-/// A vector of length one, or why it has no direction.
+/// The unit vector of a direction, or the reason why there is none.
 fn direction(v: Vec3, what: &str) -> Result<Vec3, String> {
     let largest = v.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
     // Scaled first, so that the length of a very large vector does not overflow.
@@ -74,7 +74,7 @@ fn quaternion(q: Quat) -> Result<Quat, String> {
     Ok(if largest > 1e100 { q.map(|x| x / largest) } else { q })
 }
 
-/// Rotations about three axes in turn.
+/// The product of rotations about three axes in sequence.
 pub(crate) fn euler(angles: Vec3, compiler: &Compiler) -> Quat {
     let mut q = IDENTITY;
     for (angle, (axis, fixed)) in angles.into_iter().zip(compiler.eulerseq) {
@@ -88,7 +88,7 @@ pub(crate) fn euler(angles: Vec3, compiler: &Compiler) -> Quat {
     q
 }
 
-/// The frame whose x axis is `x`, and whose y axis is the part of `y` at right angles to it.
+/// The frame whose x axis is `x`, and whose y axis is the component of `y` perpendicular to it.
 fn xyaxes(x: Vec3, y: Vec3) -> Result<Quat, String> {
     let x = direction(x, "the x axis")?;
     let y = direction(y, "the y axis")?;
@@ -97,17 +97,17 @@ fn xyaxes(x: Vec3, y: Vec3) -> Result<Quat, String> {
     Ok(from_matrix(&[x[0], y[0], z[0], x[1], y[1], z[1], x[2], y[2], z[2]]))
 }
 
-/// The smallest rotation that takes the z axis to the unit vector `v`.
+/// The smallest rotation that maps the z axis to the unit vector `v`.
 pub(crate) fn z_to(v: Vec3) -> Quat {
     let z = [0.0, 0.0, 1.0];
     let axis = cross(z, v);
     let sine = norm(axis);
-    // v is parallel to z: turn by 0 or π about x.
+    // v is parallel to z: the rotation is by 0 or π about x.
     let (axis, sine) = if sine < SHORTEST { ([1.0, 0.0, 0.0], 0.0) } else { (normalize(axis).0, sine) };
     quat_axis_angle(axis, libm::atan2(sine, v[2]))
 }
 
-/// The quaternion of a rotation matrix, from its largest component (Shepperd 1978).
+/// The quaternion of a rotation matrix, computed from its largest component (Shepperd 1978).
 pub(crate) fn from_matrix(m: &Mat3) -> Quat {
     let [xx, xy, xz, yx, yy, yz, zx, zy, zz] = *m;
     let quat = if xx + yy + zz > 0.0 {

@@ -1,4 +1,4 @@
-//! Bodies, depth first in the order of the text, with their inertias, sites, cameras and lights.
+//! Reads bodies, depth first in the order of the text, with their inertias, sites, cameras and lights.
 
 use super::frame::Pose;
 use super::inertia::principal;
@@ -15,7 +15,7 @@ use crate::mjcf::settings::checked;
 use crate::mjcf::spec::{BodySpec, Inertia, List};
 use crate::mjcf::text::tree::{Node, name};
 
-/// Where an element stands: in a body, and perhaps in frames.
+/// The position of an element in the tree: its body, and the accumulated pose of the frames around it.
 #[derive(Clone, Copy)]
 struct ElementSite {
     body: usize,
@@ -23,10 +23,10 @@ struct ElementSite {
     childclass: Option<usize>,
 }
 
-/// All bodies, the world first. A body's parent stands before it.
+/// All bodies, the world first. The parent of a body precedes it.
 pub(crate) fn bodies(cx: &mut Context) -> Vec<BodySpec> {
     let mut list = vec![empty(0, 0..0, WORLD.into(), 0)];
-    // Elements are in document order, so are the bodies; `worldbody` may stand several times.
+    // Elements and bodies are in document order. There may be several `worldbody` elements.
     let tree = cx.tree;
     let mut inside: Vec<Option<ElementSite>> = vec![None; tree.nodes.len()];
     for (i, node) in tree.nodes.iter().enumerate() {
@@ -63,7 +63,7 @@ pub(crate) fn bodies(cx: &mut Context) -> Vec<BodySpec> {
     list
 }
 
-/// The class of what stands in a body or frame and has none.
+/// The class of elements in a body or frame that have no class attribute.
 fn class_inside(cx: &Context, node: &Node, place: ElementSite) -> Option<usize> {
     node.text("childclass").and_then(|name| cx.classes.find(name)).or(place.childclass)
 }
@@ -111,11 +111,11 @@ fn body(cx: &mut Context, i: usize, node: &Node, place: ElementSite) -> BodySpec
     }
 }
 
-/// Something that stands in a body.
+/// Reads a member of a body.
 fn member(cx: &mut Context, i: usize, node: &Node, place: ElementSite, body: &mut BodySpec) {
     let (frame, class) = (place.frame, place.childclass);
     if place.body == 0 && matches!(node.element.name, "inertial" | "joint" | "freejoint") {
-        // Directly in `worldbody` the schema refuses them; here a frame stands between.
+        // Directly in `worldbody`, the schema refuses these elements. Here they are inside a frame.
         let message = format!("`{}` is not allowed in the world", node.element.name);
         cx.report
             .error(rules::MISPLACED_ELEMENT, node.span.clone(), message)
@@ -135,7 +135,7 @@ fn member(cx: &mut Context, i: usize, node: &Node, place: ElementSite, body: &mu
         }
         "joint" | "freejoint" => {
             let mut joint = read_joint::joint(cx, i, node, class);
-            // A free joint has no place of its own, a ball joint no axis.
+            // A free joint has no position, and a ball joint has no axis.
             if joint.kind != joint::FREE {
                 joint.pos = frame.point(joint.pos);
             }
@@ -170,7 +170,7 @@ fn member(cx: &mut Context, i: usize, node: &Node, place: ElementSite, body: &mu
     }
 }
 
-/// An explicit inertia.
+/// Reads an explicit inertia.
 fn inertial(cx: &mut Context, node: &Node) -> Option<Inertia> {
     let p = Props::written_props(node);
     let mut complete = true;

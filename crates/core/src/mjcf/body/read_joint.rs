@@ -9,12 +9,12 @@ use crate::mjcf::rules;
 use crate::mjcf::spec::{JointSpec, List, SOLIMP, SOLREF};
 use crate::mjcf::text::tree::{Node, name};
 
-/// An axis shorter than this has no direction.
+/// The length below which an axis has no direction.
 const SHORTEST_AXIS: f64 = 1e-6;
 
 /// A `joint` or `freejoint` element.
 pub(crate) fn joint(cx: &mut Context, i: usize, node: &Node, childclass: Option<usize>) -> JointSpec {
-    // A free joint written as its own element takes no defaults: they are meant for the other types.
+    // The element `freejoint` takes no defaults, because these are meant for the other joint types.
     let free = node.element.name == "freejoint";
     let p = if free { Props::written_props(node) } else { cx.classes.props(node, childclass) };
     let kind = if free { joint::FREE } else { p.word("type").unwrap_or(joint::HINGE) };
@@ -72,7 +72,7 @@ fn axis(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> [f64; 3] {
     normalize(given).0
 }
 
-/// Whether the joint is limited, and its range with angles in radians.
+/// Whether the joint is limited, and its range, with angles in radians.
 fn limits(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> (bool, [f64; 2]) {
     if kind == joint::FREE {
         return (false, p.reals("range", [0.0; 2]));
@@ -92,7 +92,7 @@ fn limits(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> (bool, [f64; 2
     (true, [angle(lower), angle(upper)])
 }
 
-/// Whether the force of actuators is limited, and its range: for slides and hinges.
+/// Whether the force of actuators is limited, and its range. Only for slides and hinges.
 fn force_limits(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> (bool, [f64; 2]) {
     if matches!(kind, joint::FREE | joint::BALL) {
         return (false, p.reals("actuatorfrcrange", [0.0; 2]));
@@ -100,7 +100,7 @@ fn force_limits(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> (bool, [
     limits::read(cx, p, node, &limits::JOINT_FORCE)
 }
 
-/// Time constant and damping ratio that stiffness and damping are computed from, `None` when not given.
+/// The time constant and the damping ratio from which stiffness and damping are computed, or `None` if they are not given.
 fn springdamper(cx: &mut Context, p: &Props, node: &Node) -> Option<[f64; 2]> {
     let given = p.reals("springdamper", [0.0; 2]);
     if given == [0.0; 2] {

@@ -1,4 +1,4 @@
-//! Which trees may sleep.
+//! The sleep policy of each tree.
 
 use super::inertia::describe_body;
 use crate::kinds::trntype;
@@ -9,7 +9,7 @@ use crate::mjcf::text::diagnostic::Report;
 use crate::model::Model;
 use crate::model::asleep::policy;
 
-/// Reports a choice where there is no tree to sleep.
+/// Reports a `sleep` attribute at a body that is not the first moving body of a tree.
 pub(crate) fn check_policies(bodies: &[BodySpec], layout: &Layout, report: &mut Report) {
     for body in bodies.iter().skip(1).filter(|b| b.sleep != 0) {
         let carried = layout.body_tree.get(body.parent).is_some_and(|&t| t >= 0);
@@ -27,8 +27,8 @@ pub(crate) fn check_policies(bodies: &[BodySpec], layout: &Layout, report: &mut 
     }
 }
 
-/// `tree_sleep_policy`: by its author's choice; else a tree may sleep unless actuators move it, or a tendon ties it
-/// to more than one other, or to one by a spring or a damper.
+/// Fills `tree_sleep_policy`. An explicit `sleep` takes precedence. Otherwise a tree may sleep unless actuators move it, or a
+/// tendon connects it to more than one other tree, or to one other tree with a spring or a damper.
 pub(crate) fn policies(m: &mut Model, bodies: &[BodySpec]) {
     let mut policies = vec![policy::AUTO_ALLOWED; m.ntree];
     let mut keep_awake = |tree: i32| {
@@ -67,7 +67,7 @@ pub(crate) fn policies(m: &mut Model, bodies: &[BodySpec]) {
     m.tree_sleep_policy = policies;
 }
 
-/// The trees that move something on the path of a tendon.
+/// The trees with degrees of freedom on which the length of a tendon depends.
 fn trees_of_tendon(m: &Model, t: usize) -> impl Iterator<Item = i32> {
     let start = m.ten_J_rowadr[t] as usize;
     m.ten_J_colind[start..start + m.ten_J_rownnz[t] as usize].iter().map(|&k| m.dof_treeid[k as usize])

@@ -1,4 +1,4 @@
-//! Equality constraints, contact pairs and exclusions to the arrays of [`Model`].
+//! Writes equality constraints, contact pairs and exclusions to the arrays of [`Model`].
 
 use crate::mjcf::arrays::flat;
 use crate::mjcf::spec::{EqualitySpec, ExcludeSpec, PairSpec};

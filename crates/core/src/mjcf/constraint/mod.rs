@@ -1,4 +1,4 @@
-//! Contact pairs and equalities: reading and filling.
+//! Contact pairs and equalities: reading, and writing to the model.
 
 pub(crate) mod fill_constraint;
 pub(crate) mod read_contact;

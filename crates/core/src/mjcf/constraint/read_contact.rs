@@ -1,4 +1,4 @@
-//! Explicit contact pairs, and bodies that do not touch.
+//! Explicit contact pairs, and pairs of bodies that are excluded from contacts.
 
 use crate::mjcf::context::Context;
 use crate::mjcf::gather::listed;
@@ -39,7 +39,8 @@ pub(crate) fn contacts(
     (pairs, excludes)
 }
 
-/// Two bodies in one number, the smaller first: MuJoCo's. Beyond 65,535 bodies two pairs can have the same.
+/// MuJoCo's signature of a pair of bodies in one integer, the smaller id first. With more than 65,535 bodies, two pairs can have
+/// the same signature.
 fn signature(body1: i32, body2: i32) -> i32 {
     body1.wrapping_shl(16).wrapping_add(body2)
 }

@@ -1,4 +1,4 @@
-//! Equality constraints: what they tie, and their data as far as the text gives it.
+//! Equality constraints: the objects that they connect, and the data that the text contains.
 
 use crate::kinds::{eqtype, joint};
 use crate::mjcf::classes::Props;
@@ -43,7 +43,7 @@ fn equality(cx: &mut Context, refs: References, node: &Node) -> Option<EqualityS
     Some(EqualitySpec {
         name: name(node),
         kind,
-        // Joints and tendons are known by the constraint's own type.
+        // For joints and tendons, the type of the constraint determines the type of its objects.
         objtype: if matches!(objtype, Obj::Body | Obj::Site) { objtype as i32 } else { 0 },
         obj1,
         obj2,
@@ -54,7 +54,7 @@ fn equality(cx: &mut Context, refs: References, node: &Node) -> Option<EqualityS
     })
 }
 
-/// `connect` and `weld`: two sites, or a body with an anchor and another body, the world where none is named.
+/// `connect` and `weld`: two sites, or a body with an anchor and a second body. The default of the second body is the world.
 fn bodies_or_sites(refs: References, p: &Props, node: &Node, report: &mut Report) -> Option<Tied> {
     let given = |attribute: &str| node.attribute(attribute).is_some();
     let connect = node.element.name == "connect";
@@ -74,7 +74,7 @@ fn bodies_or_sites(refs: References, p: &Props, node: &Node, report: &mut Report
         let site1 = refs.required("site", node, "site1", report);
         let site2 = refs.required("site", node, "site2", report);
         if !connect {
-            // Unused between sites; the library leaves the start value of a polynomial there.
+            // Unused between sites. MuJoCo leaves the initial value of a polynomial there.
             (data[1], data[10]) = (1.0, scale);
         }
         return Some((Obj::Site, site1?, site2?, data));
@@ -91,14 +91,14 @@ fn bodies_or_sites(refs: References, p: &Props, node: &Node, report: &mut Report
             .why("it is the point, in the frame of `body1`, where both bodies are held together");
     }
     data[..3].copy_from_slice(&p.reals("anchor", [0.0; 3]));
-    // Without a quaternion the relative pose is that of the default configuration.
+    // Without a quaternion, the relative pose is computed from the default configuration.
     let relpose = p.reals("relpose", [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
     data[3..10].copy_from_slice(&relpose);
     data[10] = scale;
     Some((Obj::Body, body1?, body2?, data))
 }
 
-/// `joint` and `tendon`: a polynomial of the second, or a constant.
+/// `joint` and `tendon`: a polynomial of the second object, or a constant.
 fn coupled(refs: References, p: &Props, node: &Node, objtype: Obj, report: &mut Report) -> Option<Tied> {
     let (kind, first, second) = match objtype {
         Obj::Joint => ("joint", "joint1", "joint2"),

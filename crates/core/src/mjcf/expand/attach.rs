@@ -1,4 +1,4 @@
-//! `attach`: a part of another model, or a body or frame of this one, copied under a prefix.
+//! `attach`: a copy, with a prefix, of a part of another model, or of a body or frame of the same model.
 
 use super::copy::{self, Rename};
 use super::references::Names;
@@ -12,7 +12,7 @@ use crate::mjcf::text::tree::{Attribute, Node};
 use crate::mjcf::text::values::Value;
 
 impl Expander {
-    /// Copies a part of another model, or of this one, under a prefix.
+    /// Copies a part of another model, or of this one, with a prefix for its names.
     pub(super) fn attach(&mut self, at: usize, report: &mut Report) -> Option<()> {
         let node = self.nodes.get(at)?.clone();
         let Some(prefix) = node.attribute("prefix").and(Some(node.text("prefix").unwrap_or(""))) else {
@@ -35,7 +35,7 @@ impl Expander {
         };
         match node.text("model") {
             Some(model) => {
-                // Taken out, so that it can be read while this model grows.
+                // Removed temporarily, so that it can be read while this model is modified.
                 let Some((name, mut child)) = self.models.remove_entry(model) else {
                     let span = node.attribute("model").map_or(node.span.clone(), |a| a.span.clone());
                     report_unknown("model", model, self.models.keys().map(String::as_str), span, report);
@@ -96,7 +96,7 @@ impl Expander {
         self.follow(&mut followers, rename)
     }
 
-    /// Whether an element stands inside of another.
+    /// Whether an element is inside another.
     fn holds(&self, outer: usize, inner: usize) -> bool {
         let mut up = Some(inner);
         while let Some(at) = up {
@@ -154,7 +154,7 @@ impl Expander {
         Some(())
     }
 
-    /// Copies elements of another model into one of this.
+    /// Copies elements of another model into an element of this one.
     fn copy_roots(
         &mut self,
         nodes: &[Node],
@@ -170,7 +170,7 @@ impl Expander {
         Some(inside)
     }
 
-    /// Copies what another model brings along whatever is attached of it.
+    /// Copies the elements of another model that are copied for every attached part.
     fn copy_luggage(&mut self, nodes: &[Node], rename: Rename, request: &Node) -> Option<()> {
         for (section, at) in luggage(nodes) {
             let (mut copy, _) = copy::copy(nodes, at, rename, None);
@@ -186,7 +186,7 @@ impl Expander {
     }
 }
 
-/// The elements of another model that are attached; `None` after an unknown name was reported.
+/// The elements of another model that are attached. `None`, with an error in the report, if a name is unknown.
 fn roots_to_attach(
     child: &Child,
     request: &Node,
@@ -206,7 +206,7 @@ fn roots_to_attach(
     Some(vec![root])
 }
 
-/// The body that the world of another model becomes.
+/// The body that replaces the world of another model.
 fn world_body(request: &Node, rename: Rename, model: usize) -> Option<Node> {
     let name = Attribute {
         attr: BODY.attribute("name")?,
@@ -223,7 +223,7 @@ fn world_body(request: &Node, rename: Rename, model: usize) -> Option<Node> {
     })
 }
 
-/// The class of what stands at a place without a class of its own; `None` for the main class. A copy keeps it.
+/// The class of elements at this position that have no class attribute, or `None` for the main class. A copy keeps this class.
 fn class_around(nodes: &[Node], at: usize) -> Option<&str> {
     let mut up = nodes.get(at)?.parent;
     while let Some(node) = up.and_then(|at| nodes.get(at)) {
@@ -235,13 +235,13 @@ fn class_around(nodes: &[Node], at: usize) -> Option<&str> {
     None
 }
 
-/// The class of what a copy holds.
+/// The attribute with the class of the contents of a copy.
 fn childclass(request: &Node, class: String) -> Option<Attribute> {
     let attr = FRAME.attribute("childclass")?;
     Some(Attribute { attr, value: Value::Text(class), span: request.span.clone() })
 }
 
-/// Reports a name that is not there.
+/// Reports an unknown name.
 fn report_unknown<'n>(
     kind: &str,
     name: &str,
@@ -259,7 +259,7 @@ fn report_unknown<'n>(
     }
 }
 
-/// An element of another model that has no class is of that model's main class.
+/// An element of another model without a class gets the main class of that model.
 fn add_main_class(copy: &mut [Node], rename: Rename, request: &Node) {
     let Some(node) = copy.first_mut() else { return };
     let without =
@@ -270,7 +270,7 @@ fn add_main_class(copy: &mut [Node], rename: Rename, request: &Node) {
     }
 }
 
-/// What another model brings along whatever is attached of it: all classes and assets, numbers and texts.
+/// The elements that are copied for every attached part of another model: all classes and assets, numbers and texts.
 fn luggage(nodes: &[Node]) -> Vec<(&'static str, usize)> {
     let mut list: Vec<_> = Vec::new();
     for &at in nodes.first().map_or(&[][..], |root| &root.children) {
@@ -280,7 +280,7 @@ fn luggage(nodes: &[Node]) -> Vec<(&'static str, usize)> {
             name @ ("asset" | "custom" | "deformable") => {
                 let travels = |c: &usize| match nodes.get(*c).map_or("", |n| n.element.name) {
                     "model" => false,
-                    "tuple" => false, // a tuple follows its objects
+                    "tuple" => false, // a tuple is copied with its objects
                     _ => true,
                 };
                 list.extend(section.children.iter().copied().filter(travels).map(|c| (name, c)));

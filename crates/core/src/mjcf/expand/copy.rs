@@ -1,45 +1,45 @@
-//! Copies of elements under other names.
+//! Copies of elements with renamed objects.
 
 use super::references::{Names, is_asset, kind_of};
 use crate::mjcf::schema::Kind;
 use crate::mjcf::text::tree::Node;
 use crate::mjcf::text::values::Value;
 
-/// How the names in a copy differ.
+/// The change of names in a copy.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rename<'a> {
     pub(super) prefix: &'a str,
     pub(super) suffix: &'a str,
-    /// The copy comes from another model: its assets and classes come along under new names, and its numbers keep
-    /// the meaning that they have there. This is added to [`Node::model`].
+    /// `Some` if the copy comes from another model. Its assets and classes are then copied and renamed, and its numbers keep
+    /// their meaning in that model. The value is added to [`Node::model`].
     pub(super) other_model: Option<usize>,
 }
 
 impl Rename<'_> {
-    /// A name of the copy.
+    /// The name of an object in the copy.
     pub(super) fn name(&self, name: &str) -> String {
         format!("{}{name}{}", self.prefix, self.suffix)
     }
 
-    /// The class of what has no class in another model: its own `main`.
+    /// The main class of another model, for its elements without a class.
     pub(super) fn main_class(&self) -> String {
         match (self.prefix, self.other_model) {
-            // Without a prefix it would be the main class of the model that attaches.
+            // Without a prefix, the name would be that of the main class of the attaching model.
             ("", Some(model)) => format!("main of attached model {model}"),
             _ => self.name("main"),
         }
     }
 
-    /// A class of the copy.
+    /// The name of a class in the copy.
     pub(super) fn class(&self, class: &str) -> String {
         if class == "main" { self.main_class() } else { self.name(class) }
     }
 }
 
-/// The copy of an element and all that it holds, in the order of the text: the first has no parent, the others
-/// their parent's place in the copy. With it, the place of each in the original.
+/// Copies an element and all its descendants, in the order of the text. The first has no parent, the others have the index of
+/// their parent in the copy. Also returns the index of each element in the original.
 ///
-/// References are renamed when they lead to what is copied, `Some` of these names; all when it is `None`.
+/// References are renamed if `copied` contains the referenced object, or if `copied` is `None`.
 pub(super) fn copy(
     nodes: &[Node],
     root: usize,
@@ -70,7 +70,7 @@ pub(super) fn copy(
     (copy, from)
 }
 
-/// The new text of an attribute that is a name; `None` when it stays.
+/// The new text of an attribute that is a name, or `None` if it does not change.
 fn new_name(node: &Node, i: usize, rename: Rename, copied: Option<&Names>) -> Option<String> {
     let a = node.attributes.get(i)?;
     let Value::Text(text) = &a.value else { return None };
@@ -89,7 +89,7 @@ fn new_name(node: &Node, i: usize, rename: Rename, copied: Option<&Names>) -> Op
     }
 }
 
-/// The names of an element and all that it holds.
+/// The names of an element and all its descendants.
 pub(super) fn names(nodes: &[Node], root: usize) -> Names {
     let mut names = Names::new();
     let mut stack = vec![root];
@@ -100,7 +100,7 @@ pub(super) fn names(nodes: &[Node], root: usize) -> Names {
     names
 }
 
-/// Kind and name of an element that has a name.
+/// The kind and name of an element, if it has a name.
 pub(super) fn own_name(node: &Node) -> Option<(&'static str, String)> {
     node.attributes.iter().find_map(|a| match (a.attr.kind, &a.value) {
         (Kind::Name(kind), Value::Text(name)) if !name.is_empty() => Some((kind, name.clone())),

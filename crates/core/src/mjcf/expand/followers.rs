@@ -1,4 +1,4 @@
-//! What goes with copies of a part: sensors, tendons and all else that refers to it.
+//! The elements that are copied together with a part of the tree: sensors, tendons and other elements that refer to it.
 
 use crate::mjcf::gather::{filled, listed};
 use std::collections::{BTreeMap, BTreeSet};
@@ -7,37 +7,37 @@ use super::copy::own_name;
 use super::references::{self, Names, SECTIONS};
 use crate::mjcf::text::tree::Node;
 
-/// The elements of [`SECTIONS`], by what they refer to.
+/// The elements of [`SECTIONS`], indexed by the objects that they refer to.
 #[derive(Debug, Default)]
 pub(super) struct Uses {
-    /// Section (an index of [`SECTIONS`]) and element of what refers to an object.
+    /// For each object, the section (an index of [`SECTIONS`]) and the element of each reference to it.
     of: BTreeMap<(&'static str, String), Vec<(usize, usize)>>,
-    /// Elements that refer to nothing.
+    /// Elements without references.
     free: Vec<(usize, usize)>,
     gone: BTreeSet<usize>,
 }
 
-/// What goes with copies, of one section.
+/// The elements of one section that are copied together with a part.
 #[derive(Debug)]
 pub(super) struct Followers {
     pub(super) section: &'static str,
-    /// In the order in which they are copied.
+    /// The elements, in the order in which they are copied.
     pub(super) elements: Vec<usize>,
-    /// Names that are copied with this section, as the elements know them.
+    /// The names that are copied with this section, before they are renamed.
     pub(super) names: Names,
-    /// Those that refer to what is copied, and those of them that refer to something else too, so that no copy can
-    /// be complete.
+    /// The elements that refer to copied objects, and the subset that also refers to objects that are not copied, so that no copy
+    /// can be complete.
     pub(super) bound: Vec<usize>,
     pub(super) incomplete: Vec<usize>,
 }
 
-/// Numbers and texts belong to a model as a whole.
+/// Whether an element can be copied with a part. Custom numbers and texts belong to the model as a whole.
 pub(super) fn can_follow(section: &str, node: &Node) -> bool {
     section != "custom" || node.element.name == "tuple"
 }
 
 impl Uses {
-    /// Takes an element into account.
+    /// Adds an element to the index.
     pub(super) fn add(&mut self, section: &str, nodes: &[Node], at: usize) {
         let Some(section) = SECTIONS.iter().position(|s| *s == section) else { return };
         if !nodes.get(at).is_some_and(|node| can_follow(SECTIONS[section], node)) {
@@ -52,7 +52,7 @@ impl Uses {
         }
     }
 
-    /// Forgets elements, for good.
+    /// Removes elements permanently.
     pub(super) fn remove(&mut self, elements: impl IntoIterator<Item = usize>) {
         self.gone.extend(elements);
     }
@@ -62,7 +62,7 @@ impl Uses {
         self.gone.contains(&at)
     }
 
-    /// All elements of a tree.
+    /// The index of all elements of a tree.
     pub(super) fn survey(nodes: &[Node]) -> Uses {
         let mut uses = Uses::default();
         for &section in nodes.first().map_or(&[][..], |root| &root.children) {
@@ -74,8 +74,8 @@ impl Uses {
         uses
     }
 
-    /// The elements that go with copies of a part that has these names: those that refer to it, directly or through
-    /// what goes with it, and those that refer to nothing.
+    /// The elements that are copied together with a part that has these names: those that refer to it, directly or through
+    /// other copied elements, and those without references.
     pub(super) fn followers(&self, nodes: &[Node], subtree: &Names, other_model: bool) -> Vec<Followers> {
         let mut bound: BTreeSet<(usize, usize)> = BTreeSet::new();
         let mut followed = subtree.clone();

@@ -1,10 +1,10 @@
-//! `replicate` and `attach`: copies of parts of a model, made before anything else reads the tree.
+//! Expands `replicate` and `attach`, copies of parts of a model, before any other pass reads the tree.
 //!
-//! A copy stands in a `frame` at the place of the element that asked for it. What refers to the copied objects,
-//! such as sensors and tendons, is copied too and stands behind all that its section held before, as in MuJoCo
-//! 3.14.0 (XML reference, `replicate` and `attach`; rules of names and order measured on the library).
+//! A copy is placed in a `frame` that replaces the requesting element. Elements that refer to the copied objects, such as sensors
+//! and tendons, are copied too and appended to their section, as in MuJoCo 3.14.0 (XML reference, `replicate` and `attach`; rules
+//! for names and order measured on the library).
 //!
-//! Requests are carried out in the order of the text, inner ones first, so that copies hold copies.
+//! Requests are expanded in the order of the text, inner ones first, so that copies can contain copies.
 
 mod attach;
 mod copy;
@@ -29,27 +29,27 @@ use copy::Rename;
 use followers::{Followers, Uses};
 use references::Names;
 
-/// Bytes that copies may take; a small text could ask for any amount.
+/// Limit for the bytes of all copies. Without it, a small text could request any amount.
 const MAX_COPIED: usize = 200 << 20;
 
-/// A model that is part of the whole: the main model, or one that is attached.
+/// A model that is part of the whole: the main model, or an attached one.
 #[derive(Clone, Debug)]
 pub(crate) struct AttachedModel {
-    /// What its angles, ranges and inertias mean.
+    /// The compiler settings that determine the meaning of its angles, ranges and inertias.
     pub(crate) compiler: Compiler,
-    /// The folder that its files are looked for in.
+    /// The folder of its files.
     pub(crate) folder: String,
 }
 
-/// A model without `replicate` and `attach`.
+/// A model after the expansion of `replicate` and `attach`.
 #[derive(Debug)]
 pub(crate) struct Expanded {
     pub(crate) tree: Tree,
-    /// By [`Node::model`].
+    /// The models, indexed by [`Node::model`].
     pub(crate) parts: Vec<AttachedModel>,
 }
 
-/// Carries out everything that a model asks for.
+/// Expands all requests of a model.
 pub(crate) fn model(written: Written, report: &mut Report) -> Expanded {
     let compiler = Compiler::read(&written.tree, report);
     let child = |(name, written)| (name, Child::new(model(written, report)));
@@ -74,7 +74,7 @@ pub(crate) fn model(written: Written, report: &mut Report) -> Expanded {
             _ => e.attach(at, report),
         };
         if done.is_none() {
-            // What failed holds nothing, and its names are missing.
+            // A request that failed has no contents, and names that it would define are missing.
             report.incomplete = true;
             e.settle(at, Vec::new(), Vec::new());
         }
@@ -90,13 +90,13 @@ pub(crate) fn model(written: Written, report: &mut Report) -> Expanded {
     e.finish()
 }
 
-/// A model that may be attached.
+/// A model that can be attached.
 #[derive(Debug)]
 struct Child {
     model: Expanded,
     uses: Uses,
     names: BTreeMap<(&'static str, String), usize>,
-    /// Where its parts begin among those of the whole, once it is attached.
+    /// The index of its first part among the parts of the whole, after it is attached.
     offset: Option<usize>,
 }
 
@@ -110,12 +110,12 @@ impl Child {
 }
 
 struct Expander {
-    /// All elements, also patterns of copies: only what the root leads to counts.
+    /// All elements, including patterns of copies. Only elements that are reachable from the root belong to the result.
     nodes: Vec<Node>,
     uses: Uses,
-    /// What the copies take.
+    /// The bytes of all copies.
     bytes: usize,
-    /// How many elements stand in the text: those from there on are copies.
+    /// The number of elements in the text. Later elements are copies.
     written: usize,
     /// The last section of each name.
     sections: WordMap<usize>,
@@ -126,7 +126,7 @@ struct Expander {
 }
 
 impl Expander {
-    /// Finds the sections and names, and what is asked for, in order.
+    /// Indexes the sections and names, and returns the requests in order.
     fn survey(&mut self) -> Vec<usize> {
         let mut requests = Vec::new();
         for &section in self.nodes.first().map_or(&[][..], |root| &root.children) {
@@ -134,7 +134,7 @@ impl Expander {
                 self.sections.insert(node.element.name, section);
             }
         }
-        // Inner requests first: an element is left after all that it holds.
+        // Inner requests come first: an element is finished after all its descendants.
         let mut stack: Vec<(usize, bool)> = vec![(0, false)];
         while let Some((at, left)) = stack.pop() {
             let Some(node) = self.nodes.get(at) else { continue };
@@ -155,7 +155,7 @@ impl Expander {
         self.nodes.len() > MAX_ELEMENTS || self.bytes > MAX_COPIED
     }
 
-    /// Takes a copy into the list; returns its place. `None` when there is no more room.
+    /// Appends a copy to the list and returns its index. `None` if a limit is exceeded.
     fn adopt(&mut self, copy: Vec<Node>, parent: usize) -> Option<usize> {
         let base = self.nodes.len();
         for mut node in copy {
@@ -168,7 +168,7 @@ impl Expander {
         if self.is_too_large() { None } else { Some(base) }
     }
 
-    /// Makes a request the frame of what it asked for.
+    /// Replaces a request by a frame with these attributes and children.
     fn settle(&mut self, request: usize, attributes: Vec<Attribute>, children: Vec<usize>) -> Option<()> {
         let node = self.nodes.get_mut(request)?;
         node.element = &FRAME;
@@ -177,7 +177,7 @@ impl Expander {
         Some(())
     }
 
-    /// Adds an element to the end of a section.
+    /// Appends an element to a section.
     fn append(&mut self, section: &'static str, copy: Vec<Node>) -> Option<usize> {
         let at = match self.sections.get(section) {
             Some(&at) => at,
@@ -204,7 +204,7 @@ impl Expander {
         Some(copy)
     }
 
-    /// Makes `count` copies in frames that follow each other; the original is only their pattern.
+    /// Makes `count` copies in consecutive frames. The original is only their pattern.
     fn replicate(&mut self, at: usize, report: &mut Report) -> Option<()> {
         let node = self.nodes.get(at)?.clone();
         let count = count(&node, report)?;
@@ -223,7 +223,7 @@ impl Expander {
         }
 
         let (mut frames, mut pos) = (Vec::new(), [0.0; 3]);
-        // Copies of nothing are nothing, however many.
+        // An element without children has no copies.
         let count = if node.children.is_empty() { 0 } else { count };
         for i in 0..count {
             let suffix = format!("{separator}{i:0digits$}");
@@ -246,12 +246,12 @@ impl Expander {
             self.follow(&mut followers, rename)?;
         }
         self.settle(at, listed(node.attribute("childclass").cloned()), frames)?;
-        // What referred to the pattern goes with it.
+        // Elements that refer to the pattern are removed together with it.
         self.uses.remove(followers.into_iter().flat_map(|f| f.bound));
         Some(())
     }
 
-    /// Reports what cannot be replicated.
+    /// Reports elements that cannot be replicated.
     fn complain(&self, followers: &[Followers], report: &mut Report) {
         for node in followers.iter().flat_map(|f| &f.incomplete).filter_map(|&at| self.nodes.get(at)) {
             report
@@ -265,7 +265,7 @@ impl Expander {
         }
     }
 
-    /// One copy of each follower.
+    /// Makes one copy of each follower.
     fn follow(&mut self, followers: &mut [Followers], rename: Rename) -> Option<()> {
         let mut copied = Names::new();
         for f in followers {
@@ -274,7 +274,7 @@ impl Expander {
                 let at = *f.elements.get(i)?;
                 let (copy, _) = copy::copy(&self.nodes, at, rename, Some(&copied));
                 let new = self.append(f.section, copy)?;
-                // A copy that refers to nothing is copied by the next step again.
+                // A copy without references is itself copied by the next iteration.
                 if references::list_references(&self.nodes, new).is_empty() {
                     f.elements.push(new);
                 }
@@ -283,7 +283,7 @@ impl Expander {
         Some(())
     }
 
-    /// The whole in the order of the text.
+    /// Returns the expanded model, with its elements in the order of the text.
     fn finish(mut self) -> Expanded {
         for section in self.nodes.first().map_or(Vec::new(), |root| root.children.clone()) {
             if let Some(section) = self.nodes.get_mut(section) {
@@ -294,7 +294,7 @@ impl Expander {
     }
 }
 
-/// How many copies are asked for.
+/// The number of copies.
 fn count(node: &Node, report: &mut Report) -> Option<i32> {
     let Some(attribute) = node.attribute("count") else {
         report
@@ -311,18 +311,18 @@ fn count(node: &Node, report: &mut Report) -> Option<i32> {
     Some(count)
 }
 
-/// The kind and name of what `attach` can find.
+/// The kind and name of an element that `attach` can refer to.
 fn target(node: &Node) -> Option<(&'static str, String)> {
     let kind = ["body", "frame"].into_iter().find(|kind| *kind == node.element.name)?;
     Some((kind, node.text("name")?.to_string()))
 }
 
-/// An attribute of a frame, at the place of what asked for it.
+/// An attribute of a frame, with the span of the request.
 fn written(request: &Node, name: &str, value: Value) -> Option<Attribute> {
     Some(Attribute { attr: FRAME.attribute(name)?, value, span: request.span.clone() })
 }
 
-/// About how many bytes an element takes.
+/// The approximate size of an element, bytes.
 fn weight(node: &Node) -> usize {
     let value = |a: &Attribute| match &a.value {
         Value::Text(text) => text.len(),
@@ -332,7 +332,7 @@ fn weight(node: &Node) -> usize {
     128 + node.attributes.iter().map(|a| 80 + value(a)).sum::<usize>()
 }
 
-/// All that the root leads to, in the order of the text.
+/// All elements that are reachable from the root, in the order of the text.
 fn in_order(nodes: &[Node]) -> Vec<Node> {
     let rename = Rename { prefix: "", suffix: "", other_model: None };
     copy::copy(nodes, 0, rename, None).0

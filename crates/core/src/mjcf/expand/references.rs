@@ -1,4 +1,4 @@
-//! Which objects an element refers to, and whether it is copied with them.
+//! The objects that an element refers to, and whether the element is copied with them.
 
 use crate::mjcf::gather::{filled, listed};
 use std::collections::BTreeSet;
@@ -12,17 +12,17 @@ use crate::model::Obj;
 /// Objects by kind and name.
 pub(crate) type Names = BTreeSet<(&'static str, String)>;
 
-/// Sections whose elements refer to objects, those that are referred to first.
+/// Sections whose elements refer to objects, in the order of dependency: a section may refer to sections before it.
 pub(super) const SECTIONS: [&str; 6] = ["contact", "tendon", "equality", "actuator", "sensor", "custom"];
 
-/// Kinds of objects that are shared by all copies within one model.
+/// Whether objects of a kind are shared by all copies within one model.
 pub(super) fn is_asset(kind: &str) -> bool {
     matches!(kind, "texture" | "material" | "mesh" | "hfield" | "skin" | "model")
 }
 
-/// The kind of object that an attribute names, `None` for all other attributes.
+/// The kind of object that an attribute names, or `None` if the attribute is not a reference.
 pub(crate) fn kind_of(node: &Node, attribute: &Attribute) -> Option<&'static str> {
-    // An object whose kind stands in another attribute.
+    // The kind of the object is the value of another attribute.
     let chosen = match attribute.attr.name {
         "objname" => node.attribute("objtype"),
         "refname" => node.attribute("reftype"),
@@ -40,7 +40,7 @@ pub(crate) fn kind_of(node: &Node, attribute: &Attribute) -> Option<&'static str
     }
 }
 
-/// Kinds that can be chosen by a word.
+/// Object kinds that a keyword can select.
 const KINDS: [(Obj, &str); 6] = [
     (Obj::Body, "body"),
     (Obj::XBody, "body"),
@@ -54,7 +54,7 @@ fn keyword(n: i32) -> Option<&'static str> {
     KINDS.iter().find(|(obj, _)| *obj as i32 == n).map(|&(_, kind)| kind)
 }
 
-/// The objects that an element and its children refer to, assets left out.
+/// The objects that an element and its children refer to, except assets.
 pub(super) fn list_references(nodes: &[Node], at: usize) -> Vec<(&'static str, String)> {
     let Some(node) = nodes.get(at) else { return Vec::new() };
     let children = node.children.iter().filter_map(|&c| nodes.get(c));
@@ -70,9 +70,9 @@ pub(super) fn list_references(nodes: &[Node], at: usize) -> Vec<(&'static str, S
     filled(std::iter::once(node).chain(children).flat_map(named))
 }
 
-/// Whether an element that refers to these objects is copied when `copied` are: MuJoCo asks of some elements that
-/// one of their objects is copied, of others that all are. What refers to nothing is always copied. In a copy of
-/// another model the rest can only be the world.
+/// Whether an element that refers to these objects is copied when `copied` are copied. For some sections MuJoCo requires that
+/// one of the objects is copied, for others that all are. An element without references is always copied. In a copy of
+/// another model, the only object that may stay is the world.
 pub(super) fn follows(
     section: &str,
     refs: &[(&'static str, String)],

@@ -1,4 +1,4 @@
-//! Geoms: shapes, what meshes are fitted to, reading.
+//! Geoms: shapes, meshes and the shapes that replace them, reading.
 
 pub(crate) mod read_form;
 pub(crate) mod read_geom;

@@ -1,4 +1,4 @@
-//! The form of a geom: a primitive shape, a mesh, a primitive shape in place of a mesh, a height field.
+//! The form of a geom: a primitive shape, a mesh, a primitive shape that replaces a mesh, or a height field.
 
 use super::shapes::{self, Shape};
 use crate::kinds::geom;
@@ -9,13 +9,14 @@ use crate::mjcf::context::Context;
 use crate::mjcf::rules;
 use crate::mjcf::text::tree::Node;
 
-/// What the form of a geom decides.
+/// The properties that depend on the form of a geom.
 #[derive(Debug)]
 pub(crate) struct Form {
     pub(crate) size: Vec3,
-    /// Mesh or height field, -1 if none.
+    /// Id of the mesh or height field, -1 if none.
     pub(crate) data: i32,
-    /// Where its frame lies in the frame that the author places: that of a mesh is its principal axes.
+    /// Pose of the geom's frame relative to the frame that the author specifies. The frame of a mesh is aligned with its
+    /// principal axes.
     pub(crate) mesh_pose: Pose,
     /// Centre and half lengths of the bounding box.
     pub(crate) aabb: [f64; 6],
@@ -33,7 +34,7 @@ impl Form {
         let (amount, moments) =
             if shell { (shape.surface, shape.shell) } else { (shape.volume, shape.inertia) };
         let [x, y, z] = (shape.half)(size);
-        // What is solid lies around its centre; a plane is what lies below it.
+        // A solid is centred in its frame; a plane fills the space below it.
         let middle = if shape.kind == geom::PLANE { -z } else { 0.0 };
         Form {
             size,
@@ -47,7 +48,7 @@ impl Form {
     }
 }
 
-/// The form of a geom that has a mesh or a height field; `None` when there is none, or it was reported.
+/// The form of a geom with a mesh or a height field. `None` if there is none, or if an error was reported.
 pub(crate) fn of_asset(cx: &mut Context, p: &Props, node: &Node, shape: &Shape) -> Option<Form> {
     let shell = p.flag("shellinertia", false);
     if shape.kind == geom::HFIELD {
@@ -80,7 +81,7 @@ pub(crate) fn of_asset(cx: &mut Context, p: &Props, node: &Node, shape: &Shape) 
     }
 }
 
-/// Reports what does not go with a mesh or a height field. Whether a geom or site has a form at all.
+/// Reports attributes that are inconsistent with a mesh or a height field. Returns whether the geom or site has a form.
 pub(crate) fn check_form(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> bool {
     let needs = match kind {
         geom::MESH => Some("mesh"),

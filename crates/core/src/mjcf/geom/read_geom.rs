@@ -13,7 +13,7 @@ use crate::mjcf::settings::checked;
 use crate::mjcf::spec::{GeomSpec, List, SOLIMP, SOLREF};
 use crate::mjcf::text::tree::{Node, name};
 
-/// A `geom` element; `None` when its type was refused.
+/// Reads a `geom` element. `None` if its type was refused.
 pub(crate) fn geom(cx: &mut Context, i: usize, node: &Node, childclass: Option<usize>) -> Option<GeomSpec> {
     let p = cx.classes.props(node, childclass);
     if p.has("type") && p.word("type").is_none() {
@@ -27,7 +27,7 @@ pub(crate) fn geom(cx: &mut Context, i: usize, node: &Node, childclass: Option<u
         if let Some((length, half)) = shape.length.and_then(|i| Some((size.get_mut(i)?, span.half))) {
             *length = half;
         }
-        // Two radii that are not given are the first.
+        // A missing second radius equals the first.
         if shape.length == Some(2) {
             size[1] = size[0];
         }
@@ -69,7 +69,7 @@ pub(crate) fn geom(cx: &mut Context, i: usize, node: &Node, childclass: Option<u
     })
 }
 
-/// The form of a geom, and its pose: a mesh has its own frame. `None` when it was refused.
+/// The form of a geom, and its pose, because a mesh has its own frame. `None` if it was refused.
 fn form_at(
     cx: &mut Context,
     p: &Props,
@@ -91,14 +91,14 @@ fn form_at(
     Some((form, pose))
 }
 
-/// What lies between two points: its middle, the turn of its z axis, and half its length.
+/// A segment between two points: its centre, an orientation with its z axis along the segment, and half its length.
 pub(crate) struct Span {
     pub(crate) pos: Vec3,
     pub(crate) quat: Quat,
     pub(crate) half: f64,
 }
 
-/// `fromto`, for a shape that has a length.
+/// Reads `fromto`, for a shape that has a length.
 pub(crate) fn fromto(
     cx: &mut Context,
     p: &Props,
@@ -127,7 +127,7 @@ pub(crate) fn fromto(
     None
 }
 
-/// Coefficients of fluid forces, for a geom that feels the medium as an ellipsoid.
+/// Coefficients of fluid forces, for a geom with the ellipsoid model.
 fn fluid(p: &Props, shape: &Shape, size: Vec3) -> [f64; 12] {
     if p.word("fluidshape") != Some(geom::ELLIPSOID) || shape.only_static {
         return [0.0; 12];
@@ -135,10 +135,10 @@ fn fluid(p: &Props, shape: &Shape, size: Vec3) -> [f64; 12] {
     shapes::fluid((shape.half)(size), p.reals("fluidcoef", [0.5, 0.25, 1.5, 1.0, 1.0]))
 }
 
-/// The sizes, as many as the shape needs.
+/// Checks the sizes that the shape requires.
 fn check_size(cx: &mut Context, p: &Props, node: &Node, shape: &Shape, size: Vec3) {
     if p.has("size") && p.list("size").is_none() {
-        return; // reported before
+        return; // already reported
     }
     let spans = p.has("fromto");
     let given = if spans && p.has("size") { 3 } else { p.list("size").map_or(0, <[f64]>::len) };
@@ -158,12 +158,12 @@ fn check_size(cx: &mut Context, p: &Props, node: &Node, shape: &Shape, size: Vec
     }
 }
 
-/// Whether a mesh or height field gives the form of a geom.
+/// Whether a mesh or height field determines the form of a geom.
 fn form_is_of_asset(p: &Props, shape: &Shape) -> bool {
     matches!(shape.kind, geom::MESH | geom::HFIELD) || p.text("mesh").or(p.text("hfield")).is_some()
 }
 
-/// That a shape in place of a mesh has sizes.
+/// Checks that the sizes of a shape that replaces a mesh are positive.
 fn check_fit(cx: &mut Context, p: &Props, node: &Node, shape: &Shape, size: Vec3) {
     if let Some((rule, _)) = shape.sizes.iter().zip(size).find(|&(_, x)| x <= 0.0) {
         let message =
@@ -192,7 +192,7 @@ fn mass(cx: &mut Context, p: &Props, node: &Node, shape: &Shape, form: &Form) ->
     (mass, moments)
 }
 
-/// The dimension of its contacts.
+/// The dimension of the contacts of the geom.
 fn condim(cx: &mut Context, p: &Props, node: &Node) -> i32 {
     let condim = p.int("condim").unwrap_or(3);
     let span = p.span("condim").unwrap_or(node.span.clone());

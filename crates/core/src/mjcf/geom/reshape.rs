@@ -1,8 +1,8 @@
-//! Whole-model changes that `compiler` asks for, after masses are known: bodies without joints become part of their
-//! parents (`fusestatic`), geoms that cannot collide go (`discardvisual`), free bodies take the frame of their
-//! inertia (`alignfree`); and the total mass.
+//! Changes of the whole model that `compiler` requests, made after masses are known. `fusestatic` merges bodies without joints
+//! into their parents, `discardvisual` removes geoms that cannot collide, and `alignfree` aligns free bodies with the frame of
+//! their inertia. Also sets the total mass.
 //!
-//! What is kept and in which order follows MuJoCo 3.14.0 (XML reference, `compiler`; measured on the library).
+//! Which elements remain, and in which order, follows MuJoCo 3.14.0 (XML reference, `compiler`; measured on the library).
 
 use crate::mjcf::gather::{filled, listed};
 use std::collections::BTreeSet;
@@ -19,7 +19,7 @@ use crate::mjcf::text::tree::{Node, Tree};
 use crate::mjcf::text::values::Value;
 use crate::model::Model;
 
-/// Carries out what the model asks for.
+/// Applies the changes that the model requests.
 pub(crate) fn apply(
     bodies: &mut Vec<BodySpec>,
     inertias: &mut Vec<Inertia>,
@@ -40,8 +40,8 @@ pub(crate) fn apply(
     }
 }
 
-/// The frame of a free body without children moves into its centre of mass, along its principal axes: then its mass
-/// matrix is diagonal.
+/// Moves the frame of each free body without children to its centre of mass, along its principal axes. Its mass
+/// matrix is then diagonal.
 fn align_free(bodies: &mut [BodySpec], inertias: &mut [Inertia], parts: &[AttachedModel]) {
     let mut carries = vec![false; bodies.len()];
     for body in bodies.iter().skip(1) {
@@ -65,7 +65,7 @@ fn align_free(bodies: &mut [BodySpec], inertias: &mut [Inertia], parts: &[Attach
     }
 }
 
-/// Gives what stands in a body another frame; `pose` is the old frame seen from the new one.
+/// Moves the members of a body to another frame. `pose` is the old frame relative to the new one.
 fn move_members(body: &mut BodySpec, pose: Pose) {
     body.geoms.iter_mut().for_each(|g| pose.place(&mut g.pos, &mut g.quat));
     body.sites.iter_mut().for_each(|s| pose.place(&mut s.pos, &mut s.quat));
@@ -76,18 +76,18 @@ fn move_members(body: &mut BodySpec, pose: Pose) {
     }
 }
 
-/// Bodies without joints go, unless something refers to them: what they hold goes to the end of what their parents
-/// hold, and their children take their place.
+/// Merges bodies without joints into their parents, unless an element refers to them. Their members are appended to those of
+/// their parents, and their children replace them.
 ///
-/// MuJoCo looks every reference up again for each body, by the numbers that bodies had at first: when one of them is
-/// beyond the end of the shorter list, no body with a name goes until the one that is meant is reached.
+/// MuJoCo resolves every reference again for each body, with the original indexes of the bodies. If an index is beyond the end of
+/// the shortened list, no named body is removed before the referenced one is reached.
 fn fuse_static(bodies: &mut Vec<BodySpec>, inertias: &mut Vec<Inertia>, tree: &Tree) {
     let named = references(tree);
     let sensed = sites_of_force_sensors(tree);
     let meant = |body: &BodySpec| !body.name.is_empty() && named.contains(&("body", body.name.clone()));
     let last_meant = bodies.iter().rposition(meant).unwrap_or(0);
     let mut left = bodies.len();
-    // Where a body went: the body that took it, and its pose seen from there.
+    // For each merged body, the body that it was merged into, and its pose relative to that body.
     let mut fused: Vec<Option<(usize, Pose)>> = vec![None; bodies.len()];
     for i in 1..bodies.len() {
         let (before, rest) = bodies.split_at_mut(i);
@@ -123,7 +123,7 @@ fn fuse_static(bodies: &mut Vec<BodySpec>, inertias: &mut Vec<Inertia>, tree: &T
         }
     }
 
-    // Parents stand before their children: the new number of each is known when a child asks.
+    // Parents precede their children, so that the new index of a parent is known when it is needed.
     let mut number = vec![0; bodies.len()];
     let mut next = 0;
     for (n, gone) in number.iter_mut().zip(&fused) {
@@ -139,7 +139,7 @@ fn fuse_static(bodies: &mut Vec<BodySpec>, inertias: &mut Vec<Inertia>, tree: &T
     }
 }
 
-/// All objects that an element refers to.
+/// All objects that elements refer to.
 fn references(tree: &Tree) -> Names {
     let of = |node: &Node| {
         let names = node.attributes.iter().filter_map(|a| match (kind_of(node, a), &a.value) {
@@ -151,14 +151,15 @@ fn references(tree: &Tree) -> Names {
     filled(tree.nodes.iter().flat_map(of))
 }
 
-/// The sites at which forces between bodies are measured: without the body there would be nothing between.
+/// The sites at which forces between bodies are measured. Their bodies must not be merged, because the force acts between body
+/// and parent.
 fn sites_of_force_sensors(tree: &Tree) -> BTreeSet<&str> {
     let sensors = tree.sections("sensor").flat_map(|(section, _)| tree.children(section));
     let of_force = sensors.filter(|(_, n)| matches!(n.element.name, "force" | "torque"));
     filled(of_force.filter_map(|(_, n)| n.text("site")))
 }
 
-/// Scales masses and inertias so that the masses sum to what `settotalmass` says, if it says something.
+/// Scales masses and inertias so that the total mass is `settotalmass`, if that is positive.
 pub(crate) fn total_mass(m: &mut Model, compiler: &Compiler) {
     if compiler.settotalmass <= 0.0 {
         return;

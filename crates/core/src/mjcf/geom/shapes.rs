@@ -1,49 +1,48 @@
-//! Geom types: the sizes they need, their volume, surface, inertia and bounds. A new type is a row here, and a
+//! Geom types: the sizes they need, their volume, surface, inertia and bounds. A new type needs a row here and a
 //! keyword in the schema.
 //!
-//! Inertias are principal moments for a unit mass, about the centre, from the integrals of any table of moments
-//! of inertia.
+//! Inertias are principal moments for unit mass, about the centre. The formulas are those of any table of moments of inertia.
 
 use std::f64::consts::PI;
 
 use crate::kinds::geom;
 use crate::math::{MINVAL, Vec3, norm};
 
-/// A size number of a shape.
+/// An element of the `size` of a shape.
 #[derive(Debug)]
 pub(crate) struct Size {
-    /// What it is, in a message.
+    /// Its description in messages.
     pub(crate) name: &'static str,
-    /// Whether zero is allowed.
+    /// Whether zero is valid.
     pub(crate) zero: bool,
 }
 
-/// What the compiler knows about a geom type.
+/// The properties of a geom type.
 #[derive(Debug)]
 pub(crate) struct Shape {
     /// MuJoCo's number (mjtGeom).
     pub(crate) kind: i32,
     /// Its keyword.
     pub(crate) name: &'static str,
-    /// The numbers of `size` that it needs.
+    /// The elements of `size` that it requires.
     pub(crate) sizes: &'static [Size],
-    /// How to write `size`.
+    /// An example for `size`.
     pub(crate) example: &'static str,
-    /// Whether it may stand only in bodies that cannot move.
+    /// Whether it is allowed only in bodies that cannot move.
     pub(crate) only_static: bool,
-    /// The place in `size` of half the length that `fromto` gives.
+    /// The index in `size` of the half length that `fromto` specifies.
     pub(crate) length: Option<usize>,
-    /// Volume, m^3; zero for what has no inside.
+    /// Volume, m^3; zero for a shape without volume.
     pub(crate) volume: fn(Vec3) -> f64,
-    /// Area of the surface, m^2.
+    /// Surface area, m^2.
     pub(crate) surface: fn(Vec3) -> f64,
     /// Moments of the solid, m^2.
     pub(crate) inertia: fn(Vec3) -> Vec3,
-    /// Moments of the surface alone, m^2.
+    /// Moments of the shell, m^2.
     pub(crate) shell: fn(Vec3) -> Vec3,
     /// Half lengths of the bounding box, m.
     pub(crate) half: fn(Vec3) -> Vec3,
-    /// Radius of the bounding sphere, m; zero when there is none.
+    /// Radius of the bounding sphere, m; zero if there is none.
     pub(crate) rbound: fn(Vec3) -> f64,
 }
 
@@ -65,7 +64,7 @@ const CUBOID: Shape = Shape {
     surface: |[a, b, c]| 8.0 * (a * b + b * c + c * a),
     inertia: |[a, b, c]| [(b * b + c * c) / 3.0, (a * a + c * c) / 3.0, (a * a + b * b) / 3.0],
     shell: |[a, b, c]| {
-        // Two faces across each axis, their mass by their area.
+        // Two faces perpendicular to each axis, with masses proportional to their areas.
         let (x, y, z) = (b * c, a * c, a * b);
         let (aa, bb, cc, all) = (a * a, b * b, c * c, x + y + z);
         [
@@ -97,7 +96,7 @@ const SHAPES: &[Shape] = &[
         half: |_| [1e10, 1e10, 5e9],
         rbound: |_| 0.0,
     },
-    // Its sizes are those of a box of about the same bulk; its bounds are those of the field.
+    // Its sizes are those of a box of about the same volume. Its bounds are computed from the height field.
     Shape { kind: geom::HFIELD, name: "height field", sizes: &[], length: None, ..CUBOID },
     Shape {
         kind: geom::SPHERE,
@@ -125,7 +124,7 @@ const SHAPES: &[Shape] = &[
         inertia: |[r, h, _]| {
             let (length, ends) = (2.0 * h, 4.0 * r / (4.0 * r + 6.0 * h));
             let middle = 1.0 - ends;
-            // The centres of the half balls are 3/8 r beyond the ends of the cylinder.
+            // The centres of mass of the hemispheres are 3/8 r beyond the ends of the cylinder.
             let ball = 2.0 * r * r / 5.0;
             let across = middle * (3.0 * r * r + length * length) / 12.0
                 + ends * (ball + length * (3.0 * r + 2.0 * length) / 8.0);
@@ -183,23 +182,23 @@ const SHAPES: &[Shape] = &[
         rbound: |[r, h, _]| libm::sqrt(r * r + h * h),
     },
     CUBOID,
-    // What else there is to know of a mesh is known of each.
+    // The other properties are those of the individual mesh.
     Shape { kind: geom::MESH, name: "mesh", sizes: &[], length: None, ..CUBOID },
 ];
 
-/// The shape of a geom type; `None` when the schema refuses the type.
+/// The shape of a geom type, or `None` if the schema refuses the type.
 pub(crate) fn for_kind(kind: i32) -> Option<&'static Shape> {
     SHAPES.iter().find(|s| s.kind == kind)
 }
 
-/// Thomsen's formula: right to about one percent, and what MuJoCo uses.
+/// Thomsen's formula. Its relative error is about one percent. MuJoCo uses it too.
 fn ellipsoid_surface([a, b, c]: Vec3) -> f64 {
     const P: f64 = 1.6075;
     let [a, b, c] = [a, b, c].map(|x| libm::pow(x, P));
     4.0 * PI * libm::pow((a * b + a * c + b * c) / 3.0, 1.0 / P)
 }
 
-/// The skin between the ellipsoid and one that is a micrometre larger.
+/// The moments of the layer between the ellipsoid and one that is larger by a micrometre.
 fn ellipsoid_shell(inner: Vec3) -> Vec3 {
     let outer = inner.map(|x| x + 1e-6);
     let volume = |[a, b, c]: Vec3| 4.0 * PI * a * b * c / 3.0;
@@ -210,8 +209,8 @@ fn ellipsoid_shell(inner: Vec3) -> Vec3 {
     std::array::from_fn(|i| moment(turned(inner, i), turned(outer, i)))
 }
 
-/// `geom_fluid` of a geom that feels the medium as an ellipsoid: a switch, five coefficients, the mass and
-/// the moments of the fluid that moves with it, for a density of one (Lamb 1932, *Hydrodynamics*, art. 114).
+/// `geom_fluid` of a geom with the ellipsoid model of fluid forces: a flag, five coefficients, the added mass and the added
+/// moments of inertia, for a fluid density of one (Lamb 1932, *Hydrodynamics*, art. 114).
 pub(crate) fn fluid(half: Vec3, coefficients: [f64; 5]) -> [f64; 12] {
     let [a, b, c] = half;
     let kappa = [added_mass([a, b, c]), added_mass([b, c, a]), added_mass([c, a, b])];
@@ -233,8 +232,8 @@ pub(crate) fn fluid(half: Vec3, coefficients: [f64; 5]) -> [f64; 12] {
 
 /// Lamb's α for the first half axis: abc ∫ dλ / sqrt((a² + λ)³ (b² + λ) (c² + λ)), λ from 0 to infinity.
 ///
-/// With λ = s x³ / (1 - x)², by the 15 points of Gauss and Kronrod on x from 0 to 1 (Piessens et al. 1983,
-/// *QUADPACK*). Points and weights have eight decimals, as the engine whose numbers these are has them.
+/// Substitution λ = s x³ / (1 - x)², then Gauss–Kronrod quadrature with 15 points on x from 0 to 1 (Piessens et al. 1983,
+/// *QUADPACK*). Points and weights have eight decimals, which reproduces MuJoCo's results.
 fn added_mass([a, b, c]: Vec3) -> f64 {
     const POINTS: [f64; 8] =
         [0.5, 0.60389248, 0.70292258, 0.79304362, 0.87076559, 0.93243221, 0.97455396, 0.99572769];
@@ -265,7 +264,7 @@ mod tests {
         }
     }
 
-    /// Mass and moments for a density of 1000 as MuJoCo 3.14.0 gives them: solid, then shell.
+    /// Mass and moments for a density of 1000, computed by MuJoCo 3.14.0: solid, then shell.
     #[test]
     fn inertias_are_those_of_mujoco() {
         let cases: [(i32, Vec3, [f64; 4], [f64; 4]); 5] = [
@@ -304,7 +303,7 @@ mod tests {
             let shape = for_kind(kind).unwrap();
             for (amount, moments, expected, tolerance) in [
                 (shape.volume, shape.inertia, solid, 1e-15),
-                // The skin of an ellipsoid is a small difference of large numbers.
+                // The layer of an ellipsoid is a small difference of large numbers.
                 (shape.surface, shape.shell, shell, 2e-11),
             ] {
                 let mass = 1000.0 * amount(size);
@@ -347,7 +346,7 @@ mod tests {
     fn shells_are_the_limit_of_solids() {
         for shape in SHAPES.iter().filter(|s| !s.only_static && s.kind != geom::ELLIPSOID) {
             let (size, e) = ([0.13, 0.21, 0.34], 1e-5);
-            // A capsule grows only in its radius.
+            // Only the radius of a capsule grows.
             let grown = match shape.kind {
                 geom::CAPSULE => [size[0] + e, size[1], 0.0],
                 _ => size.map(|x| x + e),

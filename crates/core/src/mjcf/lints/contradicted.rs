@@ -1,4 +1,4 @@
-//! Ranges: switched off where they are written, left by a keyframe, or missing where a servo needs one.
+//! Contradictory ranges: disabled where they are written, violated by a keyframe, or missing for a servo.
 
 use super::{digits, format_name, own_name, place};
 use crate::kinds::joint;
@@ -9,14 +9,14 @@ use crate::mjcf::text::tree::{Attribute, Node, Tree};
 use crate::mjcf::text::values::Value;
 use crate::model::{Model, Obj};
 
-/// Ranges and the flags that switch them off.
+/// Ranges and the flags that disable them.
 const PAIRS: [(&str, &str); 4] = [
     ("range", "limited"),
     ("ctrlrange", "ctrllimited"),
     ("forcerange", "forcelimited"),
     ("actrange", "actlimited"),
 ];
-/// A keyframe may lie beyond a limit by this part of its range: limits are soft.
+/// A keyframe may exceed a limit by this fraction of the range without a report, because limits are soft.
 const SOFT: f64 = 0.01;
 const SERVOS: [&str; 2] = ["position", "intvelocity"];
 
@@ -30,7 +30,7 @@ fn attribute<'n>(node: &'n Node, name: &str) -> Option<&'n Attribute> {
     node.attributes.iter().find(|a| a.attr.name == name)
 }
 
-/// A range beside a flag that says `false`.
+/// Reports a range in an element whose flag is `false`.
 fn switched_off(tree: &Tree, report: &mut Report) {
     for node in &tree.nodes {
         for (range, flag) in PAIRS {
@@ -48,12 +48,12 @@ fn switched_off(tree: &Tree, report: &mut Report) {
     }
 }
 
-/// Keyframes that begin beyond a limit.
+/// Reports keyframes that start beyond a limit.
 fn keys(tree: &Tree, m: &Model, report: &mut Report) {
     let nodes: Vec<&Node> =
         listed(tree.sections("keyframe").flat_map(|(i, _)| tree.children(i).map(|(_, n)| n)));
     for (k, node) in nodes.iter().enumerate().take(m.nkey) {
-        // What is not written is the model's own start.
+        // Coordinates that are not written are those of the default configuration.
         let Some(qpos) = attribute(node, "qpos") else { continue };
         for j in 0..m.njnt {
             let one = m.jnt_type.get(j).is_some_and(|t| matches!(*t, joint::HINGE | joint::SLIDE));
@@ -84,7 +84,7 @@ fn keys(tree: &Tree, m: &Model, report: &mut Report) {
     }
 }
 
-/// Position servos that follow any target with any force.
+/// Reports position servos that have neither a range of targets nor a range of forces.
 fn servos(tree: &Tree, m: &Model, report: &mut Report) {
     let nodes: Vec<&Node> =
         listed(tree.sections("actuator").flat_map(|(i, _)| tree.children(i).map(|(_, n)| n)));

@@ -1,5 +1,5 @@
-//! Constructs that are valid and rarely intended: names that nothing uses, times that are too short for the timestep,
-//! ranges that are left at once. MuJoCo accepts all of them without a message.
+//! Constructs that are valid and rarely intended: unused names, time constants that are too short for the timestep,
+//! ranges that the motion leaves at once. MuJoCo accepts all of them without a message.
 //!
 //! The lints run on a model without errors. Each states the consequence in numbers of this model.
 
@@ -14,7 +14,7 @@ use super::text::tree::{Node, Tree};
 use crate::model::Model;
 use std::ops::Range;
 
-/// Reports what is doubtful in a model.
+/// Reports doubtful constructs of a model.
 pub(super) fn check_model(tree: &Tree, m: &Model, report: &mut Report) {
     unused_names::check_names(tree, report);
     contradicted::check_ranges(tree, m, report);
@@ -23,14 +23,14 @@ pub(super) fn check_model(tree: &Tree, m: &Model, report: &mut Report) {
     overlapping::check_overlaps(tree, m, report);
 }
 
-/// The element of this name among those that `kinds` names; of one without a name, the root.
+/// The span of the element with this name, of one of these kinds. If the name is empty or not found, the span of the root.
 fn place(tree: &Tree, kinds: &[&str], name: &str) -> Range<usize> {
     let named = |n: &&Node| kinds.contains(&n.element.name) && own_name(n) == Some(name);
     let found = tree.nodes.iter().find(named).filter(|_| !name.is_empty());
     found.or(tree.nodes.first()).map_or(0..0, |n| n.span.clone())
 }
 
-/// The name that an element has.
+/// The name of an element, if it has one.
 fn own_name(node: &Node) -> Option<&str> {
     let given = node.attributes.iter().find(|a| a.attr.name == "name")?;
     match &given.value {
@@ -39,7 +39,7 @@ fn own_name(node: &Node) -> Option<&str> {
     }
 }
 
-/// A thing in a message: its kind, and its name or number.
+/// An object in a message: its kind, and its name or number.
 fn format_name(kind: &str, name: &str, number: usize) -> String {
     match name {
         "" => format!("{kind} {number}"),
@@ -47,7 +47,7 @@ fn format_name(kind: &str, name: &str, number: usize) -> String {
     }
 }
 
-/// Three digits.
+/// Formats a number with three significant digits.
 fn digits(x: f64) -> String {
     match x.abs() {
         size if size != 0.0 && !(1e-3..1e5).contains(&size) => format!("{x:.2e}"),

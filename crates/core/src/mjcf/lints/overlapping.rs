@@ -1,4 +1,4 @@
-//! Geoms that are deep inside of each other where the model begins.
+//! Geoms that penetrate each other deeply at the start.
 
 use super::{digits, format_name, place};
 use crate::mjcf::rules;
@@ -9,11 +9,11 @@ use crate::model::{Fields, Model, Obj};
 use crate::step::forward::position;
 use crate::step::workspace::Workspace;
 
-/// A contact deeper than this part of the smaller geom's half thickness is no contact.
+/// A penetration deeper than this fraction of the smaller geom's half thickness is reported.
 const DEEP: f64 = 0.3;
-/// Larger models are not looked at.
+/// Models with more geoms or degrees of freedom are not checked.
 const MOST: usize = 500;
-/// Nor is one looked at to the end that takes more work than this, in the units of the engine: about 50 ms.
+/// The check of a model stops after this work, in units of the engine: about 50 ms.
 const WORK: u64 = 50_000_000;
 
 pub(super) fn check_overlaps(tree: &Tree, m: &Model, report: &mut Report) {
@@ -36,12 +36,12 @@ pub(super) fn check_overlaps(tree: &Tree, m: &Model, report: &mut Report) {
         .help("move them until they only touch, or exclude the pair from contact");
 }
 
-/// Everything at its place; nothing where that is too much.
+/// The data after the position stages, or `None` if the model is too large.
 fn placed(m: &Model) -> Option<Fields> {
     if m.ngeom > MOST || m.nv > MOST || m.nv == 0 {
         return None;
     }
-    // Nothing is solved: where things are is enough.
+    // The solver does not run: the poses and contacts are sufficient.
     let Workspace { fields: mut d, scratch: mut s } = Workspace::new(m);
     d.meter.limit = WORK;
     position(m, &mut d, &mut s);
@@ -54,14 +54,14 @@ mod tests {
     use super::*;
     use crate::mjcf::compile;
 
-    /// Geoms in one place, in so many bodies that turn about hinges beside each other.
+    /// Many geoms at the same position, distributed over bodies with hinges.
     fn heap(geoms: usize, bodies: usize, geom: &str) -> Model {
         let inside = geom.repeat(geoms / bodies);
         let body = format!("<body><joint/>{inside}</body>");
         compile(&format!("<mujoco><worldbody>{}</worldbody></mujoco>", body.repeat(bodies))).unwrap()
     }
 
-    /// However many there are in one place: what is looked at ends where it should, counted in the work of the engine.
+    /// The work of the check is bounded, for any number of geoms at the same position.
     #[test]
     fn geoms_in_one_place_take_bounded_work() {
         for geom in [
@@ -76,12 +76,12 @@ mod tests {
                 let Workspace { fields: mut d, scratch: mut s } = Workspace::new(&m);
                 d.meter.limit = WORK;
                 position(&m, &mut d, &mut s);
-                // One test of a pair more than the limit, and what follows from the contacts that were found by then.
+                // The excess over the limit is at most one test of a pair, and the stages that use the contacts found so far.
                 assert!(d.meter.cost < 2 * WORK, "{geoms} of {geom} in {bodies}: {}", d.meter.cost);
                 assert_eq!(placed(&m).is_some(), !d.meter.over());
             }
             assert!(placed(&heap(20, 10, geom)).is_some(), "{geom}");
-            // The largest model that there is is not looked at; one with ten thousand geoms is none.
+            // A model with more geoms than the limit is not checked, and a model with ten thousand geoms is an error.
             assert!(placed(&heap(5000, 10, geom)).is_none(), "{geom}");
         }
         let many = "<geom size='.1'/>".repeat(10_000);

@@ -1,4 +1,4 @@
-//! Springs, servos and contacts whose time constants the timestep does not follow.
+//! Springs, servos and contacts whose time constants are too short for the timestep.
 //!
 //! A spring of stiffness k, an implicit damper d and an explicit damper c on a mass m are integrated by the semi-implicit Euler
 //! method as two linear equations for the position and the speed; they stay bounded as long as h² k + 2 h c < 4 m + 2 h d (both
@@ -13,9 +13,9 @@ use crate::mjcf::text::tree::Tree;
 use crate::mjcf::text::values::Value;
 use crate::model::{Model, Obj};
 
-/// Where the method of Runge and Kutta ends to be stable, on the imaginary and on the real axis.
+/// The stability limit of the Runge–Kutta method, on the imaginary and on the real axis.
 const RUNGE_KUTTA: f64 = 2.78;
-/// Attributes with the time constants of constraints, and those of what touches.
+/// Attributes that contain a time constant of a constraint or a contact.
 const TIMES: [&str; 5] = ["solref", "solreflimit", "solreffix", "solreffriction", "solreflimitspring"];
 
 pub(super) fn check_time_constants(tree: &Tree, m: &Model, report: &mut Report) {
@@ -23,7 +23,7 @@ pub(super) fn check_time_constants(tree: &Tree, m: &Model, report: &mut Report) 
     constraints(tree, m, report);
 }
 
-/// What acts on a joint: stiffness, dampers that the integrator takes implicitly, dampers that it does not.
+/// The elements that act on a joint: stiffness, dampers that are integrated implicitly, dampers that are integrated explicitly.
 #[derive(Clone, Copy, Default)]
 struct Acting {
     spring: f64,
@@ -61,7 +61,7 @@ fn acting(m: &Model, j: usize) -> Option<Acting> {
     Some(all)
 }
 
-/// Joints with a spring, a damper or a servo that the timestep makes grow.
+/// Reports joints with a spring, a damper or a servo that is unstable at this timestep.
 fn joints(tree: &Tree, m: &Model, report: &mut Report) {
     let h = m.opt.timestep;
     let supported = [integrator::EULER, integrator::RK4, integrator::IMPLICIT, integrator::IMPLICITFAST];
@@ -109,7 +109,7 @@ fn joints(tree: &Tree, m: &Model, report: &mut Report) {
     }
 }
 
-/// Constraints that are asked to be harder than two timesteps.
+/// Reports constraints whose requested time constant is below two timesteps.
 fn constraints(tree: &Tree, m: &Model, report: &mut Report) {
     let least = 2.0 * m.opt.timestep;
     if m.opt.disabled(disable::REFSAFE) || m.opt.integrator == integrator::DISCRETE {

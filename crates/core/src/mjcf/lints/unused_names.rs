@@ -1,4 +1,4 @@
-//! Default classes and assets that nothing names.
+//! Default classes and assets that are never referenced.
 
 use crate::mjcf::rules;
 use crate::mjcf::schema::Kind;
@@ -9,11 +9,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 const CLASS: &str = "default class";
-/// Assets that are there to be named.
+/// Assets that have an effect only if they are referenced.
 const ASSETS: [&str; 4] = ["mesh", "material", "texture", "hfield"];
 
 pub(super) fn check_names(tree: &Tree, report: &mut Report) {
-    // A file of classes and assets alone is there for others to include.
+    // A file that contains only classes and assets is meant for inclusion.
     if !tree.nodes.iter().any(|n| n.element.name == "geom" && n.parent.is_some_and(|p| holds_bodies(tree, p)))
     {
         return;
@@ -30,7 +30,7 @@ pub(super) fn check_names(tree: &Tree, report: &mut Report) {
         }
     }
     let mut unused: BTreeMap<&str, Vec<(&str, Range<usize>)>> = BTreeMap::new();
-    // A class in another one is used through it.
+    // A nested class is used if one of the classes inside it is used.
     for (i, node) in tree.nodes.iter().enumerate().filter(|(_, n)| n.element.name == "default") {
         let nested = node.parent.and_then(|p| tree.nodes.get(p)).is_some_and(|p| p.element.name == "default");
         let class = node.attributes.iter().find(|a| matches!(a.attr.kind, Kind::Class));
@@ -49,7 +49,7 @@ pub(super) fn check_names(tree: &Tree, report: &mut Report) {
             }
         }
     }
-    // One note of each kind, at the first.
+    // One note for each kind, at the first unused name.
     for (kind, all) in unused {
         let Some((first, span)) = all.first() else { continue };
         let more = match all.len() {
@@ -66,7 +66,7 @@ pub(super) fn check_names(tree: &Tree, report: &mut Report) {
     }
 }
 
-/// Names of the classes within a class.
+/// The names of the classes within a class.
 fn below(tree: &Tree, of: usize) -> Vec<&str> {
     let (mut names, mut open) = (Vec::new(), vec![of]);
     while let Some(at) = open.pop() {
@@ -85,7 +85,7 @@ fn holds_bodies(tree: &Tree, at: usize) -> bool {
     tree.nodes.get(at).is_some_and(|n| n.element.name != "default")
 }
 
-/// A sky is seen without being named.
+/// A sky texture is visible without a reference.
 fn is_sky(node: &Node) -> bool {
     node.element.name == "texture"
         && node.attributes.iter().any(|a| a.attr.name == "type" && matches!(&a.value, Value::Word(2)))

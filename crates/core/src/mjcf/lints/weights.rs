@@ -1,4 +1,4 @@
-//! Masses and inertias that are far apart, or next to nothing.
+//! Masses with an extreme ratio, and very small inertias.
 
 use super::{digits, format_name, place};
 use crate::kinds::joint;
@@ -7,9 +7,9 @@ use crate::mjcf::text::diagnostic::Report;
 use crate::mjcf::text::tree::Tree;
 use crate::model::{Model, Obj};
 
-/// Neighbours whose masses differ by more are reported.
+/// The largest ratio of the masses of neighbours that is not reported.
 const APART: f64 = 1e4;
-/// A smaller inertia is reported, kg m².
+/// The smallest inertia that is not reported, kg m².
 const TINY: f64 = 1e-9;
 
 pub(super) fn check_masses(tree: &Tree, m: &Model, report: &mut Report) {

@@ -1,4 +1,4 @@
-//! Geoms, sites, cameras, lights, materials and custom data to the arrays of the model.
+//! Writes geoms, sites, cameras, lights, materials and custom data to the arrays of the model.
 
 use crate::mjcf::arrays::{flat, padded};
 use crate::mjcf::gather::{filled, listed};
@@ -6,39 +6,39 @@ use crate::mjcf::spec::{CameraSpec, GeomSpec, LightSpec, MaterialSpec, NumericSp
 use crate::model::Model;
 use std::collections::BTreeMap;
 
-/// What the functions of this file fill in.
+/// The inputs of the functions of this file.
 pub(crate) struct SceneFields {
     pub(crate) materials: Vec<MaterialSpec>,
     pub(crate) textures: Vec<String>,
     pub(crate) numerics: Vec<NumericSpec>,
-    /// Name and text.
+    /// Pairs of a name and a text.
     pub(crate) texts: Vec<(String, String)>,
     pub(crate) tuples: Vec<TupleSpec>,
 }
 
-/// Numbers that MuJoCo keeps as 32-bit floats have no more precision here.
+/// Rounds numbers to single precision, for fields that MuJoCo stores as 32-bit floats.
 pub(crate) fn single<const N: usize>(x: [f64; N]) -> [f64; N] {
     x.map(|x| f64::from(x as f32))
 }
 
-/// The places of names in a list.
+/// The indexes of names in a list.
 pub(crate) struct Places<'n>(BTreeMap<&'n str, usize>);
 
 impl<'n> Places<'n> {
-    /// Of two objects with one name, the first counts.
+    /// Builds the map. If two objects have the same name, the first one is used.
     pub(crate) fn from_names(
         names: impl DoubleEndedIterator<Item = &'n String> + ExactSizeIterator,
     ) -> Places<'n> {
         Places(filled(names.enumerate().rev().map(|(i, name)| (name.as_str(), i))))
     }
 
-    /// The place of a name, -1 when it is not there.
+    /// The index of a name, or -1 if it is absent.
     pub(crate) fn find(&self, name: Option<&String>) -> i32 {
         name.and_then(|name| self.0.get(name.as_str())).map_or(-1, |&i| i as i32)
     }
 }
 
-/// The sizes that these objects add to the model.
+/// Sets the sizes of the model for these objects.
 pub(crate) fn count(m: &mut Model, scene: &SceneFields) {
     (m.nmat, m.ntex) = (scene.materials.len(), scene.textures.len());
     (m.nnumeric, m.ntuple, m.ntext) = (scene.numerics.len(), scene.tuples.len(), scene.texts.len());

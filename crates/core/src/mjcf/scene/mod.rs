@@ -1,4 +1,4 @@
-//! What has no mass: sites, cameras, lights, materials, custom data, keyframes.
+//! Elements without mass: sites, cameras, lights, materials, custom data, keyframes.
 
 pub(crate) mod fill_scene;
 pub(crate) mod read_key;

@@ -1,4 +1,4 @@
-//! Keyframes: states to start from.
+//! Keyframes: named initial states.
 
 use crate::mjcf::classes::Props;
 use crate::mjcf::fill::Sizes;
@@ -34,13 +34,13 @@ pub(crate) fn keys(tree: &Tree, sizes: &Sizes, min: usize, report: &mut Report) 
     list
 }
 
-/// What a list that is too short means.
+/// How a list that is too short is treated.
 #[derive(Clone, Copy, PartialEq)]
 enum Rest {
-    /// The rest is zero, as in MuJoCo.
+    /// Missing numbers are zero, as in MuJoCo.
     Zero,
-    /// A mistake. MuJoCo fills the rest of a configuration with angles in degrees and with poses outside their frames,
-    /// which nobody means.
+    /// A short list is an error. MuJoCo fills the rest of a configuration with angles in degrees and with poses outside their
+    /// frames, which authors do not intend.
     Needed,
 }
 

@@ -1,4 +1,4 @@
-//! What marks a place or is there to be seen: sites, cameras, lights, materials; and custom data.
+//! Sites, cameras, lights, materials, and custom data.
 
 use crate::kinds::{camlight, geom, lighttype, projection};
 use crate::math::normalize;
@@ -14,10 +14,10 @@ use crate::mjcf::spec::{CameraSpec, LightSpec, List, MaterialSpec, NumericSpec, 
 use crate::mjcf::text::tree::{Node, Tree, name};
 use crate::model::Obj;
 
-/// Most numbers of a custom list, as in MuJoCo.
+/// The largest number of elements of a custom list, as in MuJoCo.
 const MAX_NUMBERS: i32 = 500;
 
-/// A site: a marked frame, with a volume for sensors that look inside.
+/// A site: a marked frame, with a volume for sensors that test whether a point is inside.
 pub(crate) fn site(cx: &mut Context, i: usize, node: &Node, childclass: Option<usize>) -> SiteSpec {
     let p = cx.classes.props(node, childclass);
     let kind = p.word("type").unwrap_or(geom::SPHERE);
@@ -36,7 +36,7 @@ pub(crate) fn site(cx: &mut Context, i: usize, node: &Node, childclass: Option<u
     }
     let mut data = -1;
     if (kind == geom::MESH || p.text("mesh").is_some()) && check_mesh(cx, &p, node, kind) {
-        // The mesh lies about the site as it lies about its own centre of mass.
+        // The mesh is positioned relative to the site as it is positioned relative to its own centre of mass.
         let mesh = p.text("mesh").and_then(|name| cx.assets.mesh(name));
         (data, size) = mesh.map_or((-1, size), |(id, mesh)| (id, mesh.reach()));
     }
@@ -60,7 +60,7 @@ pub(crate) fn site(cx: &mut Context, i: usize, node: &Node, childclass: Option<u
     }
 }
 
-/// Whether a site that names a mesh is one.
+/// Checks that a site that names a mesh has the type mesh.
 fn check_mesh(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> bool {
     if kind == geom::MESH {
         return read_form::check_form(cx, p, node, kind);
@@ -72,7 +72,7 @@ fn check_mesh(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> bool {
     false
 }
 
-/// A camera. Its lens is given by the field of view, or by a sensor's size and a focal length, in metres or in
+/// A camera. Its lens is given by the field of view, or by the size of the sensor and a focal length, in metres or in
 /// pixels.
 pub(crate) fn camera(cx: &mut Context, node: &Node, childclass: Option<usize>) -> CameraSpec {
     let p = cx.classes.props(node, childclass);
@@ -94,7 +94,7 @@ pub(crate) fn camera(cx: &mut Context, node: &Node, childclass: Option<usize>) -
     let [fx, fy] = metres("focal", "focalpixel", [0.01; 2]);
     let [px, py] = metres("principal", "principalpixel", [0.0; 2]);
     let fovy = match sensorsize[1] > 0.0 {
-        // In single precision, as the lengths are kept.
+        // In single precision, because MuJoCo stores the lengths in single precision.
         true => {
             let half = libm::atan2f(sensorsize[1] as f32 / 2.0, fy as f32);
             2.0 * f64::from(half) * 180.0 / std::f64::consts::PI
@@ -134,7 +134,7 @@ fn check_lens(cx: &mut Context, p: &Props, node: &Node, sensorsize: [f64; 2], re
             .why("the size of one pixel is the size of the sensor divided by the number of pixels")
             .help("write the width and height of the image in pixels, such as `resolution=\"640 480\"`, or remove `sensorsize`");
     }
-    // MuJoCo looks for a focal length or a principal point that is not its default.
+    // MuJoCo requires a sensor only if a focal length or a principal point differs from its default.
     let lens = ["focal", "focalpixel", "principal", "principalpixel"];
     let given = lens.iter().find(|name| p.list(name).is_some_and(|list| list.iter().any(|&x| x != 0.0)));
     if let Some(name) = given
@@ -148,7 +148,7 @@ fn check_lens(cx: &mut Context, p: &Props, node: &Node, sensorsize: [f64; 2], re
     }
 }
 
-/// The images that a camera makes, as bits.
+/// The images that a camera renders, as bits.
 fn output(cx: &mut Context, p: &Props, node: &Node) -> i32 {
     const IMAGES: [&str; 5] = ["rgb", "depth", "distance", "normal", "segmentation"];
     let Some(text) = p.text("output") else { return 1 };
@@ -208,7 +208,7 @@ pub(crate) fn light(cx: &mut Context, node: &Node, childclass: Option<usize>) ->
     }
 }
 
-/// Roles of a material's textures, and that of its colour.
+/// The number of texture roles of a material, and the role of its colour.
 const ROLES: usize = 10;
 const RGB: usize = 1;
 
@@ -252,7 +252,7 @@ pub(crate) fn textures(tree: &Tree) -> Vec<String> {
     listed(nodes.filter(|(_, node)| node.element.name == "texture").map(|(_, node)| name(node)))
 }
 
-/// All custom lists of numbers; what is not given is zero.
+/// All custom lists of numbers. Missing numbers are zero.
 pub(crate) fn numerics(cx: &mut Context) -> Vec<NumericSpec> {
     let tree = cx.tree;
     let mut all = Vec::new();
@@ -325,7 +325,7 @@ pub(crate) fn tuples(cx: &mut Context, refs: References) -> Vec<TupleSpec> {
     all
 }
 
-/// Kind and id of the object that an element of a tuple names.
+/// The kind and the id of the object that an element of a tuple names.
 fn element_of(cx: &mut Context, ids: &Ids, names: &NameTable, p: &Props, node: &Node) -> Option<(i32, i32)> {
     const KINDS: [(&str, Obj); 10] = [
         ("body", Obj::Body),

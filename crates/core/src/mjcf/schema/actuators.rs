@@ -1,4 +1,4 @@
-//! `actuator`, and its elements as they stand in `default`.
+//! `actuator`, and the entries of its elements in `default`.
 
 use super::AUTO;
 use super::Attr;
@@ -32,7 +32,7 @@ const JOINTLIKE: &[Attr] = attributes! {
     REAL => cranklength armature;
     upto(3) => damping;
 };
-/// Those that programs would compute are refused: a model alone does not say what they do.
+/// Types that user callbacks would compute are refused: a model alone does not define their behaviour.
 const DYN: &[super::Word] = &[
     word("none", dyntype::NONE),
     word("integrator", dyntype::INTEGRATOR),
@@ -89,7 +89,7 @@ const MOTOR_DC: &[Attr] = attributes! {
 };
 const TIMECONST: &[Attr] = attributes! { REAL => timeconst; };
 
-/// What an actuator has beyond its entry in `default`: its name and what it acts on.
+/// Attributes of an actuator that its entry in `default` does not have: its name and its targets.
 const NAMED: &[Attr] = attributes! { Kind::Name("actuator") => name; Kind::Class => class; };
 const TRANSMISSION: &[Attr] = attributes! {
     Kind::Ref("joint") => joint jointinparent;
@@ -104,12 +104,12 @@ const JOINT: &[Attr] = attributes! { Kind::Ref("joint") => joint; };
 
 macro_rules! actuators {
     ($($id:ident $name:literal [$($group:ident),*] [$($place:expr),*];)*) => {
-        /// The actuators themselves.
+        /// The elements of `actuator`.
         mod place {
             use super::*;
             $(pub(super) static $id: Element = Element::new($name, &[NAMED, COMMON, $($group,)* $($place),*]);)*
         }
-        /// Their entries in `default`.
+        /// The entries in `default`.
         mod defaults {
             use super::*;
             $(pub(super) static $id: Element = Element::new($name, &[COMMON, $($group),*]).once();)*

@@ -1,4 +1,4 @@
-//! `worldbody` and what bodies hold: joints, inertias, geoms, sites, cameras, lights.
+//! `worldbody` and the elements of bodies: joints, inertias, geoms, sites, cameras, lights.
 
 use super::{
     AUTO, Attr, Element, FLAG, INT, Kind, LIST, ORIENTATION, REAL, TEXT, Word, attributes, extension,

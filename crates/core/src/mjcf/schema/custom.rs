@@ -1,4 +1,4 @@
-//! `custom`: numbers, texts and tuples of users.
+//! `custom`: user data as numbers, texts and tuples.
 
 use super::{Element, INT, Kind, LIST, REAL, TEXT, USER, attributes};
 

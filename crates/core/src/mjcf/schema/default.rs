@@ -1,4 +1,4 @@
-//! `default`: what classes say about each kind of element.
+//! `default`: the defaults of a class for each kind of element.
 
 use super::Attr;
 use super::Element;
@@ -11,7 +11,7 @@ use super::pairs;
 use super::tendon;
 use super::visual;
 
-/// An entry of `default`: what its class says about one kind of element.
+/// An entry of `default`: the defaults of its class for one kind of element.
 const fn entry(name: &'static str, attributes: &'static [&'static [Attr]]) -> Element {
     Element::new(name, attributes).once()
 }

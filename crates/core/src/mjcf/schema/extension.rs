@@ -1,4 +1,4 @@
-//! `include`, `extension` and what plugins are given.
+//! `include`, `extension` and the configuration of plugins.
 
 use super::{Element, TEXT, attributes};
 

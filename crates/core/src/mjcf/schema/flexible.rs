@@ -1,4 +1,4 @@
-//! Deformable bodies, which are refused for now.
+//! Deformable bodies, which are not supported yet.
 
 use super::AUTO;
 use super::Attr;

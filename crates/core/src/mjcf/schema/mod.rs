@@ -1,8 +1,8 @@
-//! The schema of MJCF: every element in every place, with every attribute, as MuJoCo 3.14.0 knows them.
+//! The schema of MJCF: every element in every position, with every attribute, as in MuJoCo 3.14.0.
 //!
-//! One table decides what is read, what is accepted and ignored, and what is refused by name. The checks of
-//! `tree.rs`, the suggestions for misspelt names and the compatibility page all come from it. Names follow
-//! MuJoCo's XML reference; a test holds them against the list that the library prints.
+//! One table determines which elements and attributes are read, which are accepted and ignored, and which are refused by name.
+//! The checks of `tree.rs`, the suggestions for misspelt names and the compatibility page are generated from it. Names are those
+//! of MuJoCo's XML reference; a test compares them with the list that the library prints.
 
 mod actuators;
 mod body;
@@ -21,11 +21,11 @@ mod visual;
 /// What the compiler does with an element or an attribute.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
-    /// Read, with MuJoCo's meaning.
+    /// Read, with the same meaning as in MuJoCo.
     Supported,
-    /// Accepted without effect on any computed number; the text says what it is for.
+    /// Accepted without effect on any computed number. The text states its purpose.
     Ignored(&'static str),
-    /// Accepted only with this value, MuJoCo's default.
+    /// Accepted with this value only, which is MuJoCo's default.
     Only(&'static str),
     /// Refused as not supported yet.
     Unsupported,
@@ -36,9 +36,9 @@ pub enum Status {
 pub struct Word {
     /// The keyword.
     pub text: &'static str,
-    /// MuJoCo's number for it.
+    /// The number of the keyword in MuJoCo.
     pub value: i32,
-    /// `false`: a keyword of MuJoCo that is refused as not supported yet.
+    /// `false` if MuJoCo has the keyword and labspec refuses it as not supported yet.
     pub supported: bool,
 }
 
@@ -51,7 +51,7 @@ pub enum Kind {
     Ints(usize, usize),
     /// One of these keywords.
     Words(&'static [Word]),
-    /// The object's own name, unique among objects of this kind.
+    /// The name of the object itself, unique among objects of this kind.
     Name(&'static str),
     /// The name of another object, of this kind.
     Ref(&'static str),
@@ -62,7 +62,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// Whether it takes numbers, and at least one.
+    /// Whether the value consists of numbers, at least one.
     pub(crate) fn counts(self) -> bool {
         matches!(self, Kind::Reals(1.., _) | Kind::Ints(1.., _))
     }
@@ -103,18 +103,18 @@ pub struct Attr {
     pub status: Status,
 }
 
-/// An element in one place of the tree.
+/// An element in one position of the tree.
 #[derive(Debug)]
 pub struct Element {
     /// Its name.
     pub name: &'static str,
     /// What the compiler does with it.
     pub status: Status,
-    /// Whether it may stand only once in its parent.
+    /// Whether it may occur only once in its parent.
     pub once: bool,
-    /// Its attributes, in groups that elements share.
+    /// Its attributes, in groups that are shared between elements.
     pub attributes: &'static [&'static [Attr]],
-    /// The elements that it may hold.
+    /// The elements that it may contain.
     pub children: &'static [&'static Element],
 }
 
@@ -155,7 +155,7 @@ impl Element {
     }
 }
 
-/// Attributes, a line for each type: `KIND => names [status];`.
+/// Attributes, one line for each type: `KIND => names [status];`.
 macro_rules! attributes {
     (@ [$($rows:tt)*]) => { &[$($rows)*] };
     (@ [$($rows:tt)*] $kind:expr => $($name:ident)+; $($rest:tt)*) => {
@@ -189,13 +189,13 @@ const AUTO: Kind =
 const fn reals(n: usize) -> Kind {
     Kind::Reals(n, n)
 }
-/// One to `n` numbers: the missing ones keep their defaults.
+/// One to `n` numbers. Missing ones have their defaults.
 const fn upto(n: usize) -> Kind {
     Kind::Reals(1, n)
 }
-/// As many numbers as the model needs.
+/// As many numbers as the model requires.
 const LIST: Kind = Kind::Reals(0, usize::MAX);
-/// As many integers as the author likes.
+/// Any number of integers.
 const INTS: Kind = Kind::Ints(0, usize::MAX);
 
 const fn word(text: &'static str, value: i32) -> Word {
@@ -205,13 +205,13 @@ const fn not_yet(text: &'static str, value: i32) -> Word {
     Word { text, value, supported: false }
 }
 
-/// What shows only in pictures.
+/// Attributes and elements that affect rendering only.
 const LOOK: Status = Status::Ignored("appearance");
-/// What acts only together with something that is refused where it stands.
+/// Attributes that have an effect only together with elements that are refused.
 const MOOT: Status = Status::Ignored("acts only with elements that are themselves refused");
 const USER: Status = Status::Ignored("data for programs; the engine does not read it");
 
-/// The five ways to give an orientation.
+/// The five forms of an orientation.
 const ORIENTATION: &[Attr] = attributes! {
     reals(4) => quat axisangle;
     reals(3) => euler zaxis;
@@ -254,13 +254,13 @@ pub struct SchemaRow {
     pub status: Status,
 }
 
-/// The whole schema as rows, elements before their attributes, in the order of the table. An element that
-/// may hold itself (`body`, `default`, `frame`) is listed once.
+/// The whole schema as rows, in the order of the table, elements before their attributes. An element that may contain itself
+/// (`body`, `default`, `frame`) is listed once.
 pub fn schema_rows() -> Vec<SchemaRow> {
     let mut rows = Vec::new();
     let mut stack = vec![(String::new(), &ROOT, false)];
     while let Some((parent, element, refused)) = stack.pop() {
-        // What stands in something refused is refused with it.
+        // The children of a refused element are refused.
         let element_status = if refused { Status::Unsupported } else { element.status };
         let path =
             if parent.is_empty() { element.name.to_string() } else { format!("{parent}/{}", element.name) };
@@ -279,8 +279,8 @@ pub fn schema_rows() -> Vec<SchemaRow> {
     rows
 }
 
-/// Where else an element of this name may stand: the names of its possible parents. Places that are refused
-/// are named only when there is no other, and a body also stands for what holds the same as it.
+/// The names of all possible parents of an element. Refused parents are returned only if there is no other. `body` represents
+/// the elements that have the same children.
 pub(crate) fn parents_of(name: &str) -> Vec<&'static str> {
     let mut parents: [Vec<&'static str>; 2] = Default::default();
     let mut seen: Vec<&'static Element> = vec![&ROOT];
@@ -306,7 +306,7 @@ pub(crate) fn parents_of(name: &str) -> Vec<&'static str> {
     if open.is_empty() { closed } else { open }
 }
 
-/// The forms of an orientation that override a quaternion, and each other.
+/// The attributes that give an orientation and override a quaternion. They exclude each other.
 pub(crate) const ALTERNATIVES: [&str; 4] = ["euler", "axisangle", "xyaxes", "zaxis"];
 
 /// Whether an attribute gives an orientation.

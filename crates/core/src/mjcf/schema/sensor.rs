@@ -1,4 +1,4 @@
-//! `sensor`: an element for every kind in the table of sensors.
+//! `sensor`: one element for each kind in the table of sensors.
 
 use super::{Attr, Element, INT, Kind, LIST, REAL, TEXT, attributes, extension, upto, word};
 use crate::kinds::interpolation;
@@ -60,7 +60,7 @@ const PLUGIN: &[Attr] = attributes! {
     TEXT => plugin instance objtype objname reftype refname;
 };
 
-/// The attributes of a kind of sensor: those that say what it senses, and those that nearly all have.
+/// The attribute groups of a kind of sensor: those that select the measured object, and those that almost all kinds have.
 const fn groups(kind: &sensor::Kind) -> &'static [&'static [Attr]] {
     match kind.senses {
         Senses::Nothing => &[COMMON, VALUES, TIMING],

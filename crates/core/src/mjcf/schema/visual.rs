@@ -1,4 +1,4 @@
-//! `visual` and `asset`: what the scene looks like, and meshes.
+//! `visual` and `asset`: the appearance of the scene, and meshes.
 
 use super::Element;
 use super::FLAG;
@@ -104,7 +104,7 @@ pub(super) static LAYER: Element = Element::new(
     &[attributes! { Kind::Words(TEXTURE_ROLES) => role; Kind::Ref("texture") => texture; }],
 );
 
-/// What a texture of a material is for, by `mjtTextureRole`.
+/// The roles of the textures of a material, as in `mjtTextureRole`.
 const TEXTURE_ROLES: &[super::Word] = &[
     word("rgb", 1),
     word("occlusion", 2),

@@ -1,3 +1,3 @@
-//! Sensors: reading.
+//! Reading of sensors.
 
 pub(crate) mod read_sensor;

@@ -1,6 +1,6 @@
-//! Sensors: what they measure, resolved to ids, with the parameters of their values.
+//! Reads sensors: the objects that they measure, resolved to ids, and the parameters of their values.
 //!
-//! Kinds of sensors and what each can be attached to stand in [`crate::sensor`]'s table.
+//! The kinds of sensors, and the objects that each kind can be attached to, are defined in the table of [`crate::sensor`].
 
 use crate::kinds::{interpolation, joint};
 use crate::mjcf::classes::Props;
@@ -14,13 +14,13 @@ use crate::mjcf::text::tree::{Node, Tree, name};
 use crate::model::Obj;
 use crate::sensor::{CONTACT_DATA, Datatype, KINDS, Kind, RAY_DATA, Senses, When, data_size};
 
-/// Largest number of values of all sensors, with those that are kept for delays.
+/// Limit for the number of values of all sensors, including samples that are stored for delays.
 const MAX_VALUES: usize = 1 << 22;
 
-/// What reading a sensor needs to know.
+/// The inputs for reading a sensor.
 struct Context<'a> {
     node: &'a Node,
-    /// Its own attributes; sensors have no defaults.
+    /// The attributes of the sensor. Sensors have no defaults.
     p: Props,
     refs: References<'a>,
     tendons: &'a [TendonSpec],
@@ -71,7 +71,7 @@ impl Context<'_> {
         let objects = self.objects(kind)?;
         let (intprm, dim) = self.parameters(kind, &objects)?;
         let (datatype, when) = self.meaning(kind, dim);
-        // The cutoff of a normal is that of the distance.
+        // The values of a sensor of a pair are clamped by the distance, so that a cutoff of a normal is valid.
         let unit = matches!(datatype, Datatype::Axis | Datatype::Quaternion);
         if cutoff > 0.0 && unit && kind.senses != Senses::Pair {
             let what = if datatype == Datatype::Axis { "an axis" } else { "a quaternion" };
@@ -94,7 +94,7 @@ impl Context<'_> {
         })
     }
 
-    /// An error at an attribute, or at the element when it is not there.
+    /// Reports an error at an attribute, or at the element if the attribute is absent.
     fn error_at(
         &mut self,
         attribute: &str,
@@ -110,7 +110,7 @@ impl Context<'_> {
         checked(&self.p, attribute, &owner, |x| x >= 0.0, "zero or more", self.report).unwrap_or(0.0)
     }
 
-    /// Delay, period and the samples that are kept for them.
+    /// The delay, the period and the number of stored samples.
     fn timing(&mut self) -> SensorTiming {
         let owner = self.node.describe();
         let [period, phase] = self.p.reals("interval", [0.0; 2]);
@@ -154,13 +154,13 @@ impl Context<'_> {
         None
     }
 
-    /// The id of the object that an attribute names. That there is none is reported where references are checked.
+    /// The id of the object that an attribute names. The check of references reports unknown names.
     fn id(&self, attribute: &str, kind: &str) -> Option<i32> {
         self.refs.optional(kind, self.node, attribute)
     }
 
-    /// The only one of several attributes that is there: its place in the list, and the id that it names. An error
-    /// when there are two.
+    /// The only attribute of a list that is present: its index in the list, and the id of the object that it names. Two present
+    /// attributes are an error.
     fn one_of(&mut self, attributes: &[(&'static str, &'static str)]) -> Option<Option<(usize, i32)>> {
         let mut given = attributes.iter().enumerate().filter(|(_, (a, _))| self.node.attribute(a).is_some());
         let Some((at, &(attribute, kind))) = given.next() else { return Some(None) };
@@ -177,7 +177,7 @@ impl Context<'_> {
         Some(Some((at, self.id(attribute, kind)?)))
     }
 
-    /// What the sensor is attached to.
+    /// The objects that the sensor is attached to.
     fn objects(&mut self, kind: &Kind) -> Option<SensorObjects> {
         let attached = |obj: Obj, id: i32| SensorObjects::for_object(obj as i32, id);
         match kind.senses {
@@ -238,7 +238,7 @@ impl Context<'_> {
         }
     }
 
-    /// The id of an object that must be given.
+    /// The id of an object that is required.
     fn required(&mut self, attribute: &str, kind: &str) -> Option<i32> {
         if self.node.text(attribute).is_none() {
             return self.missing(&[attribute]);
@@ -246,7 +246,7 @@ impl Context<'_> {
         self.id(attribute, kind)
     }
 
-    /// An object that is named by its kind and its name.
+    /// An object that is given by its kind and its name.
     fn frame(&mut self, objtype: &str, objname: &str) -> Option<SensorObjects> {
         for attribute in [objtype, objname] {
             if self.node.attribute(attribute).is_none() {
@@ -268,7 +268,7 @@ impl Context<'_> {
         }
     }
 
-    /// Two geoms, or bodies that stand for all their geoms.
+    /// Two sides, each a geom, or a body that represents all its geoms.
     fn pair(&mut self) -> Option<SensorObjects> {
         let side = |(at, id): (usize, i32)| (if at == 0 { Obj::Geom } else { Obj::Body } as i32, id);
         let first = self.one_of(&[("geom1", "geom"), ("body1", "body")])?.map(side);
@@ -285,7 +285,7 @@ impl Context<'_> {
         Some(SensorObjects::for_object(first.0, first.1).with_reference(second.0, second.1))
     }
 
-    /// The geoms, bodies, subtrees or the site that a contact must involve, all optional.
+    /// The optional objects that a contact must involve: geoms, bodies, subtrees or a site.
     fn contact_filter(&mut self) -> Option<SensorObjects> {
         const KINDS: [Obj; 4] = [Obj::Geom, Obj::Body, Obj::XBody, Obj::Site];
         let side = |found: Option<(usize, i32)>| {
@@ -325,7 +325,7 @@ impl Context<'_> {
             .help(format!("give the {what} a `range`, or remove the sensor"));
     }
 
-    /// Integer parameters, and the number of values.
+    /// The integer parameters, and the number of values.
     fn parameters(&mut self, kind: &Kind, objects: &SensorObjects) -> Option<([i32; 3], i32)> {
         match kind.senses {
             Senses::Ray => {
@@ -370,7 +370,7 @@ impl Context<'_> {
         }
     }
 
-    /// A number of values that is a product, within the limit.
+    /// The product of two counts as the number of values, if it is within the limit.
     fn dim(&mut self, n: usize, size: usize) -> Option<i32> {
         let dim = n.saturating_mul(size);
         if dim > MAX_VALUES {
@@ -381,7 +381,7 @@ impl Context<'_> {
         Some(dim as i32)
     }
 
-    /// The mask of the fields that `data` lists; the first field alone when it does not.
+    /// The mask of the fields that the attribute `data` lists. Without the attribute, the first field.
     fn data_fields(&mut self, fields: &[(&'static str, usize)]) -> Option<i32> {
         let (mut mask, mut last) = (0, None);
         let text = self.node.text("data").unwrap_or("").to_string();
@@ -406,7 +406,8 @@ impl Context<'_> {
         Some(if mask == 0 { 1 } else { mask })
     }
 
-    /// What the values are and when they are known: a user says so, other kinds of sensors have it in their table.
+    /// The type of the values and the stage that computes them. A user sensor has attributes for these; other kinds have them in
+    /// the table.
     fn meaning(&mut self, kind: &Kind, dim: i32) -> (Datatype, i32) {
         if kind.senses != Senses::User {
             return (kind.datatype, kind.when as i32);

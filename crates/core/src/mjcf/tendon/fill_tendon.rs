@@ -1,4 +1,4 @@
-//! Tendons to the arrays of [`Model`].
+//! Writes tendons to the arrays of [`Model`].
 
 use crate::forces::tendon;
 use crate::kinds::wraptype;
@@ -9,18 +9,18 @@ use crate::mjcf::spec::{BodySpec, TendonSpec};
 use crate::mjcf::text::diagnostic::Report;
 use crate::model::Model;
 
-/// More entries than this in the Jacobians of all tendons are refused.
+/// Limit for the entries of the Jacobians of all tendons.
 const MAX_JACOBIAN: usize = 10_000_000;
 
-/// Sizes.
+/// Sets the sizes of the model for tendons.
 pub(crate) fn count(m: &mut Model, list: &[TendonSpec]) {
     m.ntendon = list.len();
     m.nwrap = list.iter().map(|t| t.path.len()).sum();
 }
 
-/// A spatial tendon with inertia of its own couples the degrees of freedom of the bodies that it touches: they do not have
-/// a diagonal mass matrix. The inertia that an actuator adds to a tendon leaves them as they are, as in MuJoCo: of a simple
-/// body, M takes the diagonal of that term alone.
+/// Clears the flag `simple` of bodies whose mass matrix is not diagonal because of a tendon. A spatial tendon with armature
+/// couples the degrees of freedom of the bodies that it is attached to. The armature that an actuator adds to a tendon does not
+/// clear the flag, as in MuJoCo: for a simple body, M contains only the diagonal of that term.
 pub(crate) fn demote_simple(simple: &mut [i32], bodies: &[BodySpec], list: &[TendonSpec]) {
     let site_body: Vec<usize> =
         listed(bodies.iter().enumerate().flat_map(|(i, b)| b.sites.iter().map(move |_| i)));
@@ -33,7 +33,7 @@ pub(crate) fn demote_simple(simple: &mut [i32], bodies: &[BodySpec], list: &[Ten
     }
 }
 
-/// All fields of tendons and of the objects on their paths.
+/// Fills all fields of tendons and of the objects on their paths.
 pub(crate) fn tendons(m: &mut Model, list: &[TendonSpec]) {
     let mut next = 0;
     flat(&mut m.tendon_adr, list, |t| {
@@ -70,7 +70,7 @@ pub(crate) fn tendons(m: &mut Model, list: &[TendonSpec]) {
     flat(&mut m.wrap_prm, wraps(), |w| [w.prm]);
 }
 
-/// The pattern of the Jacobians; `None` after reporting that it is too large.
+/// Computes the sparsity pattern of the Jacobians. `None`, with an error in the report, if it is too large.
 pub(crate) fn pattern(m: &mut Model, list: &[TendonSpec], report: &mut Report) -> Option<()> {
     let span = list.first().map_or(0..0, |t| t.span.clone());
     if tendon::set_pattern(m, MAX_JACOBIAN).is_some() {

@@ -1,4 +1,4 @@
-//! Tendons: attributes and paths.
+//! Reads tendons: attributes and paths.
 
 use crate::kinds::{geom, trntype, wraptype};
 use crate::mjcf::body::limits;
@@ -83,7 +83,7 @@ fn wraps_geoms(path: &[WrapSpec]) -> bool {
     path.iter().any(|w| matches!(w.kind, wraptype::SPHERE | wraptype::CYLINDER))
 }
 
-/// Refuses the inertia that actuators add to tendons that wrap around geoms.
+/// Refuses armature of actuators that act on tendons that wrap around geoms.
 pub(crate) fn check_rotors(tendons: &[TendonSpec], actuators: &[ActuatorSpec], report: &mut Report) {
     for a in actuators.iter().filter(|a| a.armature != 0.0 && a.gear[0] != 0.0) {
         let Some(t) = a.transmission.filter(|t| t.kind == trntype::TENDON) else { continue };
@@ -100,7 +100,8 @@ pub(crate) fn check_rotors(tendons: &[TendonSpec], actuators: &[ActuatorSpec], r
     }
 }
 
-/// One length, or a band without force; -1 leaves it to the configuration in which joint springs are relaxed.
+/// The rest length of a tendon's spring, or a range without force. -1 means the length in the configuration in which joint
+/// springs are relaxed.
 fn springlength(cx: &mut Context, p: &Props, node: &Node) -> [f64; 2] {
     let [lower, upper] = match *p.list("springlength").unwrap_or(&[-1.0]) {
         [both] => [both; 2],
@@ -121,7 +122,7 @@ fn springlength(cx: &mut Context, p: &Props, node: &Node) -> [f64; 2] {
     [lower, upper]
 }
 
-/// The objects of a path, with the place of each.
+/// The objects of a path, in order.
 fn path(cx: &mut Context, refs: References, i: usize, node: &Node) -> Vec<WrapSpec> {
     let tree = cx.tree;
     let nodes: Vec<&Node> = listed(tree.children(i).map(|(_, n)| n));
@@ -138,7 +139,7 @@ fn path(cx: &mut Context, refs: References, i: usize, node: &Node) -> Vec<WrapSp
     }
     let list: Vec<Option<WrapSpec>> = listed(nodes.iter().map(|n| wrap(refs, n, cx.report)));
     let list: Option<Vec<WrapSpec>> = list.into_iter().collect();
-    // An object that could not be read is reported: the rules of the path would only repeat it.
+    // If an object could not be read, an error is reported already. The rules of the path would only repeat it.
     let list = list.unwrap_or_default();
     if node.element.name == "spatial" {
         check_path(&nodes, &list, cx.report);
@@ -146,7 +147,7 @@ fn path(cx: &mut Context, refs: References, i: usize, node: &Node) -> Vec<WrapSp
     list
 }
 
-/// One object, `None` after it was reported.
+/// One object of a path. `None`, with an error in the report, if it is invalid.
 fn wrap(refs: References, node: &Node, report: &mut Report) -> Option<WrapSpec> {
     let p = Props::written_props(node);
     let number = |name: &str, report: &mut Report| {
@@ -160,7 +161,7 @@ fn wrap(refs: References, node: &Node, report: &mut Report) -> Option<WrapSpec> 
         "joint" => {
             let id = refs.required("joint", node, "joint", report)?;
             let prm = number("coef", report)?;
-            // Of a free or ball joint it takes the first coordinate, as MuJoCo does.
+            // The first coordinate is used for a free or ball joint, as in MuJoCo.
             Some(WrapSpec { kind: wraptype::JOINT, id, prm })
         }
         "site" => Some(WrapSpec {
@@ -202,7 +203,7 @@ fn wrap(refs: References, node: &Node, report: &mut Report) -> Option<WrapSpec> 
     }
 }
 
-/// Every branch, from pulley to pulley, runs from site to site, with at most one geom between two sites.
+/// Checks a path: every branch between two pulleys runs from site to site, with at most one geom between two sites.
 fn check_path(nodes: &[&Node], path: &[WrapSpec], report: &mut Report) {
     let kind = |i: usize| path.get(i).map_or(wraptype::PULLEY, |w| w.kind);
     for (i, (node, wrap)) in nodes.iter().zip(path).enumerate() {

@@ -1,4 +1,4 @@
-//! Meshes and height fields from files: damaged, hostile, large.
+//! Meshes and height fields from files: damaged, malicious, large.
 
 use std::collections::BTreeMap;
 
@@ -53,7 +53,7 @@ fn hfield() -> Vec<u8> {
 
 const OBJ: &[u8] = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1.5\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 
-/// A skin of one triangle that two bodies carry.
+/// A skin with one triangle, whose vertices follow two bodies.
 fn skn() -> Vec<u8> {
     let mut bytes: Vec<u8> = [3_i32, 3, 1, 2].iter().flat_map(|n| n.to_le_bytes()).collect();
     bytes.extend(to_bytes(&[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0]));
@@ -91,7 +91,7 @@ fn three_formats_are_one_mesh() {
     }
 }
 
-/// A file that is cut off anywhere, or has any byte changed, is refused or is a mesh that can be simulated.
+/// A file that is truncated anywhere, or has any byte changed, is refused or gives a mesh that can be simulated.
 #[test]
 fn damaged_files_do_no_harm() {
     let go = |model: Result<Model, String>| {
@@ -147,8 +147,8 @@ fn pictures_and_text_stl_are_told_by_name() {
     assert!(mesh("a.ply", b"ply").unwrap_err().contains("does not end in"));
 }
 
-/// Skins that MuJoCo 3.14.0 refuses, and what is said; and a triangle with a vertex that is not there, which it takes and
-/// which whoever draws it would read beyond the end of the list.
+/// Skins that MuJoCo 3.14.0 refuses, with the messages. One case is accepted by MuJoCo and refused here: a triangle with a vertex
+/// that does not exist, for which a renderer would read beyond the end of the list.
 #[test]
 fn skins_that_do_not_fit() {
     let bone = "<bone body='ball' bindpos='0 0 0' bindquat='1 0 0 0' vertid='0 1 2' vertweight='1 1 1'/>";

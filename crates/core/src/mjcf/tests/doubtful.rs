@@ -1,4 +1,4 @@
-//! What is reported about models that load: each against what the engine does.
+//! Findings about models that load, compared with the behaviour of the engine.
 
 use crate::mjcf::{NoFiles, Severity, check_xml};
 use crate::step::workspace::Workspace;
@@ -7,7 +7,7 @@ fn codes(xml: &str) -> Vec<(&'static str, Severity)> {
     check_xml(xml, &NoFiles, None).findings.iter().map(|f| (f.code, f.severity)).collect()
 }
 
-/// Whether the motion of a joint has grown beyond what it began with, a thousand times.
+/// Whether the speed of a joint grows to a thousand times its initial value.
 fn grows(xml: &str) -> bool {
     let model = check_xml(xml, &NoFiles, None).model.unwrap();
     let Workspace { fields: mut data, scratch: mut s } = Workspace::new(&model);
@@ -21,7 +21,7 @@ fn grows(xml: &str) -> bool {
     false
 }
 
-/// A spring, a damper or a servo is reported exactly where the integrator makes it grow.
+/// A spring, a damper or a servo is reported if and only if it is unstable under the integrator.
 #[test]
 fn what_is_too_fast_grows_and_the_rest_does_not() {
     let h: f64 = 0.002;
@@ -38,7 +38,7 @@ fn what_is_too_fast_grows_and_the_rest_does_not() {
             let most = if integrator == "RK4" { 2.83_f64.powi(2) } else { 4.0 };
             let k = share * most * 2.0 / (h * h);
             let c = share * 2.0 / h * if integrator == "RK4" { 2.785 } else { 2.0 };
-            // With an implicit damper the spring may be harder.
+            // With an implicit damper, the stable stiffness is higher.
             let d = 300.0;
             let damped = share * (4.0 * 2.0 + 2.0 * h * d) / (h * h);
             let kp = |kp: f64, kv: f64| format!("<position joint='j' kp='{kp}' kv='{kv}' ctrlrange='-1 1'/>");
@@ -54,7 +54,7 @@ fn what_is_too_fast_grows_and_the_rest_does_not() {
                 let reported = codes(&xml).iter().any(|(code, _)| *code == "mjcf-too-fast");
                 let grows = grows(&xml);
                 seen[usize::from(reported)] += 1;
-                // The bound of RK4 is a little below the true one.
+                // The bound of RK4 is slightly below the true stability limit.
                 assert!(
                     reported == grows || (integrator == "RK4" && reported && share < 1.0),
                     "{reported} {grows} {share}: {xml}"
@@ -65,7 +65,7 @@ fn what_is_too_fast_grows_and_the_rest_does_not() {
     assert!(seen[0] > 10 && seen[1] > 10, "{seen:?}");
 }
 
-/// A `solref` that is too short gives the bits of the one that it is said to get.
+/// A contact whose `solref` is too short gives the same bits as one with the value that the finding states.
 #[test]
 fn what_is_softened_is_what_it_is_said_to_get() {
     let run = |solref: &str| {
@@ -79,7 +79,7 @@ fn what_is_softened_is_what_it_is_said_to_get() {
         (0..200).for_each(|_| crate::step::step(&model, &mut data, &mut s));
         (reported, data.qpos.clone())
     };
-    // The floor has the default: the two are mixed half and half, so both ends count.
+    // The floor has the default. The two `solref` are averaged, so that both limits apply to the mean.
     let (short, least, soft) = (run("0.001"), run("0.004"), run("0.008"));
     assert!(short.0 && !least.0 && !soft.0);
     assert!(least.1 != soft.1);

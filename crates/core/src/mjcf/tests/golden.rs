@@ -1,13 +1,14 @@
-//! Every field of the compiled model against what MuJoCo 3.14.0 compiles: `golden/record.py` recorded it.
+//! Compares every field of the compiled model with that of MuJoCo 3.14.0, recorded by `golden/record.py`.
 
 use crate::mjcf;
 use crate::model::reflect::{self, Object, View};
 use crate::model::{Fields, Model, Obj};
 
-/// Fields that nothing fills yet.
+/// Fields that are not filled yet.
 const NOT_YET: &[&str] = &["nD", "D_rownnz", "D_rowadr", "D_diag", "D_colind"];
 
-/// Checks every recorded field and name of a model; quaternions and what depends on them to rounding.
+/// Checks every recorded field and name of a model. Quaternions, and fields that depend on them, are compared to rounding
+/// accuracy.
 fn check_golden(name: &str, xml: &str, recorded: &str) {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/mjcf/golden");
     let files = mjcf::Folder::new(&folder).unwrap();
@@ -30,7 +31,7 @@ fn check_golden(name: &str, xml: &str, recorded: &str) {
         let path = words.next().unwrap_or("");
         let want: Vec<f64> = words.map(|w| w.parse().unwrap()).collect();
         let (object, field) = path.split_once('.').unwrap();
-        // Statistics that the model does not give are computed by `mj_setConst` and tested there.
+        // Statistics that the model does not specify are computed by `mj_setConst` and tested there.
         if object == "stat" && !xml.contains(&format!("{field}=")) {
             continue;
         }
@@ -43,11 +44,12 @@ fn check_golden(name: &str, xml: &str, recorded: &str) {
         let got = view(&m, &d, id);
         let scale = want.iter().fold(0.0_f64, |s, x| s.max(x.abs()));
         let tolerance = match field {
-            // MuJoCo keeps colours in single precision.
+            // MuJoCo stores colours in single precision.
             name if name.ends_with("_rgba") => 1e-7,
-            // Bound in single precision there, in double precision and then rounded here: a unit of the last place.
+            // Computed in single precision there, and in double precision and then rounded here: they differ by a unit in the
+            // last place.
             "skin_bonebindquat" | "skin_bonevertweight" => 1.2e-7,
-            // The library finds the point where a tendon touches a ring from inside to 1e-6 of its own equation.
+            // The library finds the tangent point of a tendon inside a ring only to 1e-6 of its own equation.
             "tendon_invweight0" if xml.contains("sidesite") => 1e-7 * scale,
             _ => 1e-11 * scale,
         };
@@ -130,7 +132,7 @@ fn schema_names() {
     let mut theirs = BTreeMap::new();
     for line in include_str!("../golden/schema.txt").lines() {
         let mut words = line.split(' ');
-        // Their world and bodies are one entry; ours are two.
+        // Their schema has one entry for the world and for bodies; ours has two.
         let path = words.next().unwrap_or("").replace("(world)body", "worldbody");
         let mut names: Vec<&str> = words.filter(|w| !w.is_empty()).collect();
         let in_body = path.strip_prefix("mujoco/worldbody/").is_some_and(|rest| {

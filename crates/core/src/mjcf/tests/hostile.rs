@@ -1,4 +1,4 @@
-//! Texts made to break the compiler: it must answer with diagnostics, quickly, and never panic.
+//! Malicious texts: the compiler must answer with diagnostics, quickly, and never panic.
 
 use super::world;
 use crate::mjcf::{MAX_DEPTH, compile, rules};
@@ -51,7 +51,7 @@ fn extreme_numbers_do_not_pass_as_models() {
     }
 }
 
-/// Suggestions cost more than the mistakes they are about: they must not be made for every one of them.
+/// Computing a suggestion costs more than finding the mistake. The compiler must not compute one for every mistake.
 #[test]
 fn many_mistakes_cost_no_more_than_a_hundred() {
     let name = "n".repeat(34);
@@ -91,7 +91,7 @@ fn files_that_cannot_be_read_say_why() {
     assert!(text.contains("chain.txt:1:1: error[mjcf-xml]"), "{text}");
 }
 
-/// A good model with a piece cut out, doubled or replaced at every place: no panic.
+/// A valid model that is truncated, or from which a piece is removed, duplicated or replaced, at every position, causes no panic.
 #[test]
 fn mutations_never_panic() {
     let good = include_str!("../golden/sensors_and_keys.xml");
@@ -119,7 +119,7 @@ fn at_most_a_hundred_findings_in_the_order_of_the_text() {
 
 #[test]
 fn tendons_and_user_values_cannot_ask_for_memory() {
-    // Each tendon moves with every joint of a long chain.
+    // Each tendon depends on every joint of a long chain.
     let chain = "<body><joint type='slide'/><geom size='1'/>".repeat(900);
     let world =
         format!("<worldbody><site name='a'/>{chain}<site name='b'/>{}</worldbody>", "</body>".repeat(900));
@@ -131,7 +131,7 @@ fn tendons_and_user_values_cannot_ask_for_memory() {
     assert_eq!(first_code(users), Some(rules::LIMIT.code));
 }
 
-/// Parameters of a path that a program may write: no number of them leads outside the model.
+/// With any parameters of a path that a program may write, no access is outside the arrays of the model.
 #[test]
 fn written_paths_stay_inside_the_model() {
     let xml = "<mujoco><worldbody><site name='a'/><geom name='g' size='0.1' pos='0.5 0 0'/><body pos='1 0 0'>
@@ -149,7 +149,7 @@ fn written_paths_stay_inside_the_model() {
     }
 }
 
-/// A range of lengths is found by simulating: not for long.
+/// Length ranges are found by simulation, whose work is limited.
 #[test]
 fn ranges_of_lengths_cannot_ask_for_time() {
     let bodies =
@@ -159,7 +159,7 @@ fn ranges_of_lengths_cannot_ask_for_time() {
     assert_eq!(first_code(&xml), Some(rules::LIMIT.code));
 }
 
-/// What a short text asks for is counted over the whole model, and the element where it becomes too much is named.
+/// The numbers that a text requests are counted over the whole model. The error is at the element that exceeds the limit.
 #[test]
 fn numbers_have_one_budget() {
     let lists: String = (0..1000).map(|i| format!("<numeric name='n{i}' size='1000000'/>")).collect();
@@ -170,14 +170,14 @@ fn numbers_have_one_budget() {
     };
     assert_eq!(first_code(&each("nuser_site", 20_000)), Some(rules::LIMIT.code));
     assert_eq!(first_code(&each("nuserdata", 2_000_000_000)), Some(rules::LIMIT.code));
-    // Each is within the budget, all together are not.
+    // Each list is within the limit, their sum is not.
     let both = "<mujoco><size nuserdata='15000000' nuser_site='7500'/><worldbody>".to_string()
         + &sites
         + "</worldbody></mujoco>";
     assert_eq!(first_code(&both), Some(rules::LIMIT.code));
     let d = compile(&both).unwrap_err().remove(0);
     assert!(d.message.contains("nuserdata") || d.message.contains("user values"), "{d}");
-    // A default gives its list to every element: once, as long as they say nothing else.
+    // A default gives its list to every element. The list is stored once, unless elements override it.
     let list = "1 ".repeat(100_000);
     let shared =
         format!("<mujoco><default><site user='{list}'/></default><worldbody>{sites}</worldbody></mujoco>");
@@ -191,7 +191,7 @@ fn numbers_have_one_budget() {
     assert!(compile(&inherited).is_ok());
 }
 
-/// Names are found by looking them up, not by looking through all.
+/// Names are found by lookup, not by a search through all names.
 #[test]
 fn many_names_are_found_quickly() {
     let materials: String = (0..40_000).map(|i| format!("<material name='m{i}'/>")).collect();

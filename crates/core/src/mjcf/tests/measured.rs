@@ -1,10 +1,10 @@
-//! Small texts against what MuJoCo 3.14.0 says of them: `golden/cases.py` recorded it.
+//! Small texts, compared with the answers of MuJoCo 3.14.0, recorded by `golden/cases.py`.
 
 use crate::mjcf::{NoFiles, Severity, check_xml, compile, rules};
 use crate::step::forward::forward;
 use crate::step::workspace::Workspace;
 
-/// Recorded lines: what MuJoCo says, and the text.
+/// The recorded lines: the answer of MuJoCo, and the text.
 fn cases(recorded: &'static str) -> impl Iterator<Item = (&'static str, String)> {
     recorded.lines().map(|line| {
         let (answer, text) = line.split_once('|').unwrap();
@@ -12,7 +12,7 @@ fn cases(recorded: &'static str) -> impl Iterator<Item = (&'static str, String)>
     })
 }
 
-/// Text between elements never decides whether a model loads: it does where it does in MuJoCo, with a warning.
+/// A model with text between elements loads if and only if it loads in MuJoCo. The text itself causes a warning, never an error.
 #[test]
 fn text_between_elements_loads_where_mujoco_loads_it() {
     let (mut wrong, mut warned) = (Vec::new(), 0);
@@ -32,7 +32,7 @@ fn text_between_elements_loads_where_mujoco_loads_it() {
     assert!(warned > 150, "{warned}");
 }
 
-/// Sizes and references at the edge of what they may be.
+/// Sizes and references at the limits of their valid range.
 #[test]
 fn sizes_are_refused_where_mujoco_refuses_them() {
     let mut wrong = Vec::new();
@@ -45,7 +45,7 @@ fn sizes_are_refused_where_mujoco_refuses_them() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// Shapes with a negative margin touch, and push, where they do in MuJoCo.
+/// Shapes with a negative margin have the same contacts and constraint rows as in MuJoCo.
 #[test]
 fn negative_margins_are_those_of_mujoco() {
     let mut wrong = Vec::new();
@@ -64,7 +64,7 @@ fn negative_margins_are_those_of_mujoco() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// Axes of meshes with two moments that are equal, or nearly, are those that MuJoCo takes.
+/// The principal axes of meshes with equal or nearly equal moments are those of MuJoCo.
 #[test]
 fn axes_of_nearly_symmetric_meshes_are_those_of_mujoco() {
     let mut wrong = Vec::new();
@@ -79,11 +79,11 @@ fn axes_of_nearly_symmetric_meshes_are_those_of_mujoco() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// Exclusions keep apart the bodies that they name and no others, however many bodies there are: MuJoCo's signature of
-/// two bodies, 65,536 times the first plus the second, meets others beyond 65,535.
+/// Exclusions apply only to the bodies that they name, for any number of bodies. MuJoCo's signature of two bodies, 65,536 times
+/// the first id plus the second, is ambiguous with more than 65,535 bodies.
 #[test]
 fn exclusions_of_many_bodies_keep_only_theirs_apart() {
-    // Bodies 1 and 2 are excluded where they are; 65,540 = 65,536 + 4, so that (1, 65,540) and (2, 4) have one number.
+    // The ids of the two excluded bodies are 1 and 65,540 = 65,536 + 4, so that (1, 65,540) and (2, 4) have the same signature.
     let filler = "<body/>".repeat(65_535);
     let ball = |name: &str| format!("<body name='{name}'><joint type='slide'/><geom size='1'/></body>");
     let text = format!(
@@ -98,6 +98,6 @@ fn exclusions_of_many_bodies_keep_only_theirs_apart() {
     assert_eq!(m.exclude_signature, [(2 << 16) + 4]);
     let Workspace { fields: mut d, scratch: mut s } = Workspace::new(&m);
     forward(&m, &mut d, &mut s);
-    // Four balls in one place: all six pairs but the one that is excluded.
+    // Four balls at the same position: all six pairs except the excluded one.
     assert_eq!(d.ncon, 5);
 }

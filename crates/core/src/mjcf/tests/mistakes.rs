@@ -1,9 +1,9 @@
-//! Wrong models and what an author reads about them.
+//! Invalid models and the diagnostics that an author reads.
 
 use super::world;
 use crate::mjcf::{FileProblem, Files, NoFiles, check_xml, compile_with};
 
-/// Each finding with the line it is about, the place underlined.
+/// Each finding with its line of the text, and its span underlined.
 fn explained(xml: &str) -> String {
     let list = check_xml(xml, &NoFiles, None).findings;
     if list.is_empty() {
@@ -36,35 +36,35 @@ fn before(sections: &str) -> String {
     format!("<mujoco>{sections}<worldbody/></mujoco>")
 }
 
-/// A mesh with these attributes, and a body of it.
+/// A mesh with these attributes, and a geom with this mesh.
 fn mesh(attributes: &str) -> String {
     format!(
         "<mujoco><asset>\n<mesh name=\"m\" {attributes}/></asset><worldbody>\n<geom type=\"mesh\" mesh=\"m\"/></worldbody></mujoco>"
     )
 }
 
-/// A moving body, then what follows the world.
+/// A model with a moving body, and these sections after the world.
 fn after(sections: &str) -> String {
     format!(
         "<mujoco><worldbody><body name=\"b\"><freejoint name=\"j\"/><geom size=\"0.1\"/></body></worldbody>\n{sections}</mujoco>"
     )
 }
 
-/// Two sites and two geoms, then what follows the world.
+/// A model with two sites and two geoms, and these sections after the world.
 fn tied(sections: &str) -> String {
     format!(
         "<mujoco><worldbody><site name=\"s\"/><geom name=\"floor\" type=\"plane\" size=\"1 1 1\"/><body name=\"b\"><freejoint name=\"j\"/><geom name=\"g\" size=\"0.1\"/><site name=\"t\" pos=\"1 0 0\"/></body></worldbody>\n{sections}</mujoco>"
     )
 }
 
-/// A hinge, a free body and two sites, with an actuator.
+/// A model with a hinge, a ball joint, two sites and this actuator.
 fn driven(actuator: &str) -> String {
     format!(
         "<mujoco><worldbody><site name=\"t\"/><body name=\"b\"><joint name=\"h\"/><geom size=\"0.1\"/><site name=\"s\"/></body><body><joint name=\"f\" type=\"ball\"/><geom size=\"0.1\"/></body></worldbody>\n<actuator>{actuator}</actuator></mujoco>"
     )
 }
 
-/// A model that names itself, by whatever name.
+/// A model that refers to itself, for every path.
 struct Itself(&'static str);
 
 impl Files for Itself {
@@ -94,7 +94,7 @@ mistakes! {
     xml_doctype: "<!DOCTYPE mujoco [<!ENTITY a \"b\">]>\n<mujoco/>";
     xml_empty: "";
     xml_not_a_model: "<robot name=\"urdf\"/>";
-    // Names of the language
+    // Elements and attributes
     element_misspelt: world("\n<boddy/>");
     element_misplaced: "<mujoco>\n<worldbody/>\n<geom size=\"1\"/>\n</mujoco>";
     element_not_supported: after("<deformable><flex name=\"cloth\"/></deformable>");
@@ -146,7 +146,7 @@ mistakes! {
     iterations_negative: before("<option iterations=\"-1\"/>");
     statistic_negative: before("<statistic extent=\"-1\"/>");
     eulerseq: before("<compiler eulerseq=\"xyw\"/>");
-    // Names of objects
+    // Names
     name_twice: world("\n<geom name=\"a\" size=\"1\"/>\n<geom name=\"a\" size=\"1\"/>");
     name_world: world("<body name=\"world\"/>");
     material_unknown: "<mujoco><asset><material name=\"wood\"/></asset>\n<worldbody><geom size=\"1\" material=\"wod\"/></worldbody></mujoco>";
@@ -269,7 +269,7 @@ mistakes! {
     pair_one_geom: tied("<contact>\n<pair geom1=\"g\"/></contact>");
     pair_condim: tied("<contact>\n<pair geom1=\"g\" geom2=\"floor\" condim=\"2\"/></contact>");
     exclude_one_body: tied("<contact>\n<exclude body1=\"b\"/></contact>");
-    // Models made to break something
+    // Malicious models
     hostile_nesting: world(&format!("\n{}", "<body>".repeat(1001)));
     hostile_many_keys: "<mujoco><size nkey=\"2147483647\"/><worldbody><body><freejoint/><geom size=\"1\"/></body></worldbody></mujoco>";
     hostile_many_copies: world("<replicate count=\"2147483647\"><geom size=\"1\"/></replicate>");
@@ -278,6 +278,6 @@ mistakes! {
     hostile_attached_to_itself: world("<body name=\"a\"><attach body=\"a\" prefix=\"b\"/></body>");
     hostile_names_of_nothing: tied("<contact><pair geom1=\"gg\" geom2=\"nothing\"/></contact>\n<sensor><jointpos joint=\"k\"/></sensor>\n<actuator><motor tendon=\"rope\"/></actuator>");
     global_coordinates: before("<compiler coordinate=\"global\"/>");
-    // Several at once, in the order of the text
+    // Several findings at once, in the order of the text
     many: "<mujoco>\n  <option timestep=\"0.002s\" gravitiy=\"0 0 -1\"/>\n  <worldbody>\n    <body name=\"a\">\n      <joint type=\"hing\"/>\n      <geom size=\"-1\"/>\n    </body>\n    <body name=\"a\"/>\n  </worldbody>\n</mujoco>";
 }

@@ -1,10 +1,10 @@
-//! What the schema calls supported is read: every attribute of every element is looked up by some pass.
+//! Every attribute that the schema declares as supported is looked up by a pass.
 
 use crate::mjcf::schema::{Element, ROOT, Status};
 use crate::mjcf::text::seen;
 use crate::mjcf::{Folder, check_xml};
 
-/// A model with what no model of the folders below has.
+/// A model with the attributes that no model of the folders below has.
 const OTHERS: &str = r#"<mujoco>
   <default>
     <mesh scale="1 1 1"/>

@@ -1,8 +1,8 @@
-//! What is wrong with a model, and where: diagnostics with a stable code, a place in the XML, the reason and
-//! the next step. A [`Report`] collects them, so that an author with three mistakes sees three.
+//! Diagnostics of a model: a stable code, a position in the XML, the reason and the next step. A [`Report`] collects them, so
+//! that an author with three mistakes sees three.
 //!
-//! A model may be written in several files. The passes know one text, in which the files follow each other: a
-//! span is a range of bytes there, and only [`Report::finish`] tells which file it belongs to.
+//! A model may consist of several files. The passes use one address space for all texts, which follow each other in it. A span is
+//! a range of bytes in this space; [`Report::finish`] converts it to a file and a position.
 
 use crate::mjcf::rules::{self, Rule};
 use labspec_finding::order::sort_by_key;
@@ -14,29 +14,29 @@ use std::rc::Rc;
 
 pub(crate) use labspec_finding::nearest;
 
-/// More findings than this are not listed: the first mistakes explain the rest.
+/// Limit for the number of listed findings. The first mistakes usually explain the rest.
 const MAX_DIAGNOSTICS: usize = 100;
-/// Numbers that a model may ask for: 200 MB, which are copied once or twice on their way.
+/// Limit for the numbers that a model may request: 200 MB, which are copied once or twice during compilation.
 const MAX_NUMBERS: usize = 25_000_000;
 
-/// A finding that has just been added, to which its reason and the next step are added.
+/// A finding that was just added. The reason and the next step can be added to it.
 pub(crate) struct Reported<'r>(&'r mut Finding);
 
 impl Reported<'_> {
-    /// Adds the reason why it matters.
+    /// Adds the reason why the finding matters.
     pub(crate) fn why(self, why: impl Into<String>) -> Self {
         self.0.why = Some(why.into());
         self
     }
 
-    /// Adds what to write instead.
+    /// Adds a suggestion what to write instead.
     pub(crate) fn help(self, help: impl Into<String>) -> Self {
         self.0.help = Some(help.into());
         self
     }
 }
 
-/// Why a model file could not be compiled.
+/// The reason why a model file could not be compiled.
 #[derive(Debug)]
 pub enum MjcfFileError {
     /// The file could not be read.
@@ -58,11 +58,11 @@ pub enum MjcfFileError {
         /// The first byte that is not UTF-8.
         offset: usize,
     },
-    /// The model has mistakes.
+    /// The model has errors.
     Model {
         /// The file.
         path: PathBuf,
-        /// What is wrong.
+        /// The findings.
         diagnostics: Vec<Finding>,
     },
 }
@@ -111,25 +111,25 @@ impl std::error::Error for MjcfFileError {
     }
 }
 
-/// A text that a model is written in.
+/// A text of a model: the main model or another file.
 struct Source {
     /// `None` for the model itself.
     file: Option<String>,
     text: Rc<str>,
-    /// Where it begins among all texts.
+    /// The first byte of the text in the address space of all texts.
     base: usize,
 }
 
-/// Collects findings about the texts of one model.
+/// Collects the findings in the texts of one model.
 pub(crate) struct Report {
     sources: Vec<Source>,
     /// Errors.
     list: Vec<Finding>,
     warnings: Vec<Finding>,
-    /// Numbers that the model has room for, by now.
+    /// The numbers that the arrays of the model have requested so far.
     numbers: usize,
-    /// Something was left out because it is not supported: names that it would define are missing, and
-    /// saying so again would only repeat the first message.
+    /// Whether something was left out because it is not supported. Names that it would define are then missing, and a second
+    /// message about them would only repeat the first.
     pub(crate) incomplete: bool,
 }
 
@@ -138,15 +138,15 @@ impl Report {
         Report { sources: Vec::new(), list: Vec::new(), warnings: Vec::new(), numbers: 0, incomplete: false }
     }
 
-    /// Takes a text; returns where its spans begin. The first is the model itself.
+    /// Adds a text and returns the first byte of its spans. The first text is the model itself.
     pub(crate) fn source(&mut self, file: Option<&str>, text: Rc<str>) -> usize {
-        // A byte between two texts: the end of one is not the start of the next.
+        // One byte separates two texts, so that the end of one differs from the start of the next.
         let base = self.bytes() + self.sources.len();
         self.sources.push(Source { file: file.map(str::to_string), text, base });
         base
     }
 
-    /// Length of all texts together.
+    /// The length of all texts together.
     pub(crate) fn bytes(&self) -> usize {
         self.sources.iter().map(|s| s.text.len()).sum()
     }
@@ -161,7 +161,7 @@ impl Report {
         add(&mut self.list, Finding::error(rule, span, message))
     }
 
-    /// Adds a warning at a range of bytes: the model loads all the same.
+    /// Adds a warning at a range of bytes. The model still loads.
     pub(crate) fn warning(
         &mut self,
         rule: &'static Rule,
@@ -171,7 +171,7 @@ impl Report {
         add(&mut self.warnings, Finding::warning(rule, span, message))
     }
 
-    /// Adds a note at a range of bytes: it is worth knowing.
+    /// Adds a note at a range of bytes.
     pub(crate) fn note(
         &mut self,
         rule: &'static Rule,
@@ -181,8 +181,8 @@ impl Report {
         add(&mut self.warnings, Finding::plain(rule, span, message).severity(Severity::Note))
     }
 
-    /// Counts numbers that the arrays of a model take, beyond those that stand in its text. `false` when all together are
-    /// too many: that is reported at the element that asks for them.
+    /// Counts numbers that the arrays of a model need, in addition to those in its text. Returns `false` if the total exceeds the
+    /// limit, and reports this at the element that requested the last numbers.
     pub(crate) fn take(&mut self, numbers: usize, span: Range<usize>, what: &str) -> bool {
         self.numbers = self.numbers.saturating_add(numbers);
         if self.numbers <= MAX_NUMBERS {
@@ -198,18 +198,18 @@ impl Report {
         false
     }
 
-    /// Whether nothing is wrong so far, warnings aside.
+    /// Whether there are no errors so far. Warnings do not count.
     pub(crate) fn is_clean(&self) -> bool {
         self.list.is_empty()
     }
 
-    /// Whether more findings would not be listed: looking for them, and for suggestions, can stop.
+    /// Whether the list of errors is full. The search for further findings and for suggestions can then stop.
     pub(crate) fn is_full(&self) -> bool {
         self.list.len() > MAX_DIAGNOSTICS
     }
 
-    /// The findings in the order of the texts, each with its file, line and column. What copies of one element
-    /// have in common is reported once.
+    /// The findings in the order of the texts, each with its file, line and column. A finding that copies of one element share is
+    /// reported once.
     pub(crate) fn finish(mut self) -> Vec<Finding> {
         self.list.truncate(MAX_DIAGNOSTICS);
         self.warnings.truncate(MAX_DIAGNOSTICS);
@@ -217,7 +217,8 @@ impl Report {
         sort_by_key(&mut self.list, |d| (d.span.start, d.span.end));
         self.list.dedup_by(|a, b| (a.code, &a.span, &a.message) == (b.code, &b.span, &b.message));
         let mut lines: Vec<Option<Lines>> = vec![None; self.sources.len()];
-        // The last place: a long line is counted once, however many findings it has.
+        // The position of the last finding. With it, the characters of a long line are counted once, however many findings it
+        // has.
         let mut last = (usize::MAX, 0, Position { line: 0, column: 1 });
         for d in &mut self.list {
             let i = self.sources.partition_point(|s| s.base <= d.span.start).saturating_sub(1);
@@ -226,7 +227,7 @@ impl Report {
                 continue;
             };
             d.path = file.as_deref().unwrap_or("").into();
-            // A span that was computed on decoded text may end inside a character.
+            // A span that was computed on decoded text may end inside a UTF-8 character.
             let start = floor(text, d.span.start - base);
             d.span = start..floor(text, d.span.end.saturating_sub(*base)).max(start);
             let lines = lines.get_or_insert_with(|| Lines::new(text));
@@ -243,17 +244,17 @@ impl Report {
     }
 }
 
-/// Adds a finding to a list; one beyond the limit stands for all that follow.
+/// Adds a finding to a list. At the limit, it replaces the last finding of the list.
 fn add(list: &mut Vec<Finding>, finding: Finding) -> Reported<'_> {
     if list.len() > MAX_DIAGNOSTICS {
         list.pop();
     }
     let at = list.len();
     list.push(finding);
-    Reported(&mut list[at]) // just pushed
+    Reported(&mut list[at]) // in bounds: the element was just pushed
 }
 
-/// A name as it is shown in a message: quoted, and cut when an author wrote a very long one.
+/// A name for a message: quoted, and truncated if it is very long.
 pub(crate) fn shorten_name(name: &str) -> String {
     const LONGEST: usize = 60;
     if name.chars().count() <= LONGEST {

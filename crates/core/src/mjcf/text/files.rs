@@ -1,35 +1,34 @@
-//! Files that a model names: included text, other models, meshes, height fields.
+//! Files that a model refers to: included text, other models, meshes, height fields.
 //!
-//! A model may read what lies under one root, and nothing else: lessons come from strangers. The compiler only ever
-//! asks for a path that [`clean`] has brought to one form; where the bytes come from, and where the root is, is decided
-//! by whoever implements [`Files`].
+//! A model may read files under one root only, because lessons may come from untrusted authors. The compiler only requests paths
+//! that [`clean`] has normalized. The implementation of [`Files`] determines the root and provides the bytes.
 
 use std::collections::BTreeMap;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-/// Largest file that a model may name, bytes.
+/// Size limit of a file that a model refers to, bytes.
 pub const MAX_FILE: usize = 64 << 20;
 
-/// Where the files of a model come from.
+/// A source of the files of a model.
 pub trait Files {
-    /// The bytes of a file. `path` is relative to the folder of the model, its parts joined by `/`. It may begin with
-    /// `..`, which stands nowhere else: whether a file outside of the model's folder may be read is decided here.
+    /// The bytes of a file. `path` is relative to the folder of the model, its parts are joined by `/`. It may start with
+    /// `..` components and contains no others. The implementation decides whether a file outside the model's folder may be read.
     ///
     /// # Errors
     ///
-    /// Why there are no bytes; more than `limit` of them are refused.
+    /// The reason why the file cannot be read. A file of more than `limit` bytes is refused.
     fn read(&self, path: &str, limit: usize) -> Result<Vec<u8>, FileProblem>;
 }
 
-/// Why a file could not be read.
+/// The reason why a file could not be read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FileProblem {
-    /// The model was given as text alone.
+    /// The model was given as text, without files.
     NoFolder,
     /// There is no such file.
     Missing,
-    /// It lies outside of the root, or a link leads out of it.
+    /// The file is outside the root, or a link leads out of the root.
     Outside,
     /// It has more bytes than the limit allows.
     TooLarge,
@@ -37,7 +36,7 @@ pub enum FileProblem {
     Unreadable(String),
 }
 
-/// No files at all: a model that is given as text.
+/// A source without files, for a model that is given as text.
 #[derive(Clone, Copy, Debug)]
 pub struct NoFiles;
 
@@ -58,31 +57,31 @@ impl Files for BTreeMap<String, Vec<u8>> {
     }
 }
 
-/// The files of a folder and the folders in it. Links are followed as long as they stay inside.
+/// The files of a folder and its subfolders. Links are followed if their target is inside the root.
 #[derive(Clone, Debug)]
 pub struct Folder {
-    /// Without links: what a file's real path must begin with.
+    /// The root, with links resolved. The resolved path of each file must start with it.
     root: PathBuf,
-    /// Where paths are seen from: a folder below the root.
+    /// The folder to which paths are relative. It is the root or below it.
     place: PathBuf,
 }
 
 impl Folder {
-    /// The files below `root`, for a model that lies in `root` itself.
+    /// The files below `root`, for a model in `root` itself.
     ///
     /// # Errors
     ///
-    /// There is no such folder, or it cannot be reached.
+    /// The folder does not exist, or cannot be accessed.
     pub fn new(root: &Path) -> std::io::Result<Folder> {
         Folder::at(root, root)
     }
 
-    /// The files below `root`, for a model that lies in the folder `place`. When `place` is not below `root`, only
-    /// the files below `place` are.
+    /// The files below `root`, for a model in the folder `place`. If `place` is not below `root`, only the files below `place`
+    /// can be read.
     ///
     /// # Errors
     ///
-    /// There is no such folder, or it cannot be reached.
+    /// The folder does not exist, or cannot be accessed.
     pub fn at(root: &Path, place: &Path) -> std::io::Result<Folder> {
         let real =
             |path: &Path| if path.as_os_str().is_empty() { Path::new(".") } else { path }.canonicalize();
@@ -91,7 +90,7 @@ impl Folder {
         Ok(Folder { root, place })
     }
 
-    /// Whether a path leaves the root, as far as its letters tell: what lies beyond is not even looked for.
+    /// Whether the components of a path lead out of the root. Files outside the root are not accessed at all.
     fn leads_out(&self, path: &str) -> bool {
         let up = path.split('/').take_while(|part| *part == "..").count();
         let deep = self.place.strip_prefix(&self.root).map_or(0, |below| below.components().count());
@@ -112,22 +111,22 @@ impl Files for Folder {
         if !real.starts_with(&self.root) {
             return Err(FileProblem::Outside);
         }
-        // A pipe or a device could keep the reader waiting for ever.
+        // A pipe or a device could block the reader indefinitely.
         if !real.metadata().map_err(problem)?.is_file() {
             return Err(FileProblem::Unreadable("it is not a file".into()));
         }
         let mut bytes = Vec::new();
-        // One byte more than the limit tells a file that is too large, whatever its metadata say.
+        // Reads one byte more than the limit, to detect a file that is too large whatever its metadata state.
         let file = std::fs::File::open(real).map_err(problem)?;
         file.take(limit as u64 + 1).read_to_end(&mut bytes).map_err(problem)?;
         if bytes.len() > limit { Err(FileProblem::TooLarge) } else { Ok(bytes) }
     }
 }
 
-/// One form of a path that an author wrote, seen from `folder`: relative to the folder of the model, parts joined by
-/// `/`, `..` only in front. `None` when it is empty or absolute.
+/// The normalized form of a path in the text of a file in `folder`: relative to the folder of the model, parts joined by
+/// `/`, `..` at the start only. `None` if the path is empty or absolute.
 pub(crate) fn clean(folder: &str, written: &str) -> Option<String> {
-    // Drives and streams (`C:`, `file:x`) are absolute in other words.
+    // Paths with a drive or a stream (`C:`, `file:x`) are treated as absolute.
     if written.is_empty() || written.starts_with(['/', '\\']) || written.contains([':', '\0']) {
         return None;
     }
@@ -144,7 +143,7 @@ pub(crate) fn clean(folder: &str, written: &str) -> Option<String> {
     if parts.last().is_none_or(|last| *last == "..") { None } else { Some(parts.join("/")) }
 }
 
-/// The folder of a clean path.
+/// The folder of a normalized path.
 pub(crate) fn folder_of(path: &str) -> &str {
     path.rsplit_once('/').map_or("", |(folder, _)| folder)
 }
@@ -188,12 +187,12 @@ mod tests {
         let files = Folder::at(&root, &root.join("models")).unwrap();
         assert_eq!(files.read("../stls/x.stl", 9), Ok(b"x".to_vec()));
         assert_eq!(files.read("deep/../../stls/x.stl", 9), Ok(b"x".to_vec()));
-        // What lies above the root is not distinguished from what is missing.
+        // The error for a file above the root does not reveal whether the file exists.
         for path in ["../../secret", "../../nothing", "deep/../../../secret"] {
             let read = files.read(path, 9);
             assert!(matches!(read, Err(FileProblem::Outside)), "{path}: {read:?}");
         }
-        // A root that does not hold the model opens nothing but the model's own folder.
+        // If the root does not contain the model, only the model's own folder can be read.
         let apart = Folder::at(&root.join("stls"), &root.join("models")).unwrap();
         assert_eq!(apart.read("../stls/x.stl", 9), Err(FileProblem::Outside));
     }

@@ -1,8 +1,7 @@
-//! A model and the files that it is written in: included text takes the place of its `include`, models to attach
-//! are read beside it.
+//! Loads a model and its files. Included text replaces its `include`; models to attach are read separately.
 //!
-//! As in MuJoCo, paths are seen from the folder of the model, the root element of an included file is dropped
-//! with its attributes, and no file is included twice.
+//! As in MuJoCo, paths are relative to the folder of the model, the root element of an included file is dropped with its
+//! attributes, and no file is included twice.
 
 use crate::mjcf::gather::filled;
 use crate::mjcf::gather::listed;
@@ -19,29 +18,29 @@ use super::xml::{self, Element};
 use crate::mjcf::rules;
 use crate::mjcf::{MAX_TEXT, names};
 
-/// More files than this are not read.
+/// Limit for the number of files.
 const MAX_FILES: usize = 500;
-/// Models that attach models that attach models: how far this may go.
+/// Limit for the depth of models that attach models.
 const MAX_NESTED: usize = 10;
 
-/// A model whose `replicate` and `attach` still stand as they are written.
+/// A model before `replicate` and `attach` are expanded.
 #[derive(Debug)]
 pub(crate) struct Written {
     pub(crate) tree: Tree,
-    /// The folder that its files are looked for in; empty for the folder of the main model.
+    /// The folder of its files; empty for the folder of the main model.
     pub(crate) folder: String,
     /// The models that it may attach, by name.
     pub(crate) models: BTreeMap<String, Written>,
 }
 
-/// Reads models and counts what they take.
+/// Reads models and counts the resources that they use.
 pub(crate) struct Loader<'f> {
     files: &'f dyn Files,
     counts: scan::Counts,
     files_read: usize,
-    /// The files of the models that are being read, each attached by the one before.
+    /// The files of the models that are currently being read. Each is attached by the one before.
     open: Vec<String>,
-    /// Changes of the main model, and what is wrong with each of them.
+    /// Patches of the main model, and for each of them the reason why it was refused, or `None`.
     patches: &'f [Patch],
     refusals: Vec<Option<Refusal>>,
 }
@@ -52,8 +51,8 @@ impl<'f> Loader<'f> {
         Loader { files, counts, files_read: 0, open, patches, refusals }
     }
 
-    /// The text of a model with its changes, and with what it includes in its place. `None` when it is not XML, or a change cannot be
-    /// made.
+    /// The text of a model with its patches applied and its includes expanded. `None` if the text is not XML, or a patch cannot
+    /// be applied.
     pub(crate) fn written(&mut self, text: &str, file: Option<&str>, report: &mut Report) -> Option<String> {
         let base = report.source(None, text.into());
         let mut list = Vec::new();
@@ -65,12 +64,12 @@ impl<'f> Loader<'f> {
         report.is_clean().then(|| xml::print(&list, root))
     }
 
-    /// What is wrong with each of the changes, in their order.
+    /// For each patch, in their order, the reason why it was refused, or `None`.
     pub(crate) fn refusals(self) -> Vec<Option<Refusal>> {
         self.refusals
     }
 
-    /// Reads a model. `file` is its path, where it has one. `None` when it is not XML or not a model at all.
+    /// Reads a model. `file` is its path, if it has one. `None` if the text is not XML or not a model.
     pub(crate) fn model(
         &mut self,
         text: Rc<str>,
@@ -107,7 +106,7 @@ impl<'f> Loader<'f> {
         xml::parse(&text, base, list, report)
     }
 
-    /// Puts what files hold below the elements that include them. Those files may include others.
+    /// Inserts the contents of files below the elements that include them. These files may include others.
     fn include(
         &mut self,
         list: &mut Vec<Element>,
@@ -128,7 +127,7 @@ impl<'f> Loader<'f> {
         }
     }
 
-    /// The elements that take the place of an `include`.
+    /// The elements that replace an `include`.
     fn included(
         &mut self,
         at: usize,
@@ -175,7 +174,7 @@ impl<'f> Loader<'f> {
         children
     }
 
-    /// The models that the assets of a model name.
+    /// The models that the assets of a model refer to.
     fn models(&mut self, tree: &Tree, folder: &str, report: &mut Report) -> BTreeMap<String, Written> {
         let mut models = BTreeMap::new();
         let assets = tree.sections("asset").flat_map(|(section, _)| tree.children(section));
@@ -212,7 +211,7 @@ impl<'f> Loader<'f> {
         models
     }
 
-    /// The clean path and the text of a file.
+    /// The normalized path and the text of a file.
     fn text(
         &mut self,
         written: &str,
@@ -242,7 +241,7 @@ impl<'f> Loader<'f> {
     }
 }
 
-/// Reads a file that stands at `span`; its clean path and its bytes.
+/// Reads a file that is named at `span`, and returns its normalized path and its bytes.
 pub(crate) fn read(
     files: &dyn Files,
     written: &str,

@@ -1,4 +1,4 @@
-//! From bytes to a tree of elements: files, limits, XML, values of attributes, and the messages about them.
+//! Conversion of bytes to a tree of elements: files, limits, XML, values of attributes, and the diagnostics.
 
 pub(crate) mod diagnostic;
 pub(crate) mod files;

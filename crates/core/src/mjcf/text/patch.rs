@@ -1,7 +1,7 @@
-//! Changes of a model's text before it is compiled: attributes of elements, named by kind and name.
+//! Patches of a model's text before it is compiled: new values for attributes of elements, which are addressed by kind and name.
 //!
-//! They are made on the plain elements, when all included text is in its place. What a change leads to (masses, inertias, sizes) is
-//! compiled as if the author had written it so.
+//! Patches are applied to the plain elements, after includes are expanded. Masses, inertias and sizes are then
+//! compiled as if the author had written the new values.
 
 use super::diagnostic::nearest;
 use super::xml::{Attribute, Element};
@@ -9,7 +9,7 @@ use crate::mjcf::gather::listed;
 use crate::mjcf::schema::{self, INCLUDE, Kind, ROOT};
 use labspec_finding::order;
 
-/// Elements that stand at most once and may be left out of a text; the second one stands in the first.
+/// Elements that occur at most once and may be absent. The first name is the parent of the second.
 const SETTINGS: [(&str, &str); 5] = [
     ("mujoco", "option"),
     ("mujoco", "compiler"),
@@ -18,35 +18,35 @@ const SETTINGS: [(&str, &str); 5] = [
     ("option", "flag"),
 ];
 
-/// A change: the attribute of an element, and the text that it shall have.
+/// A patch: an attribute of an element, and its new text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Patch {
-    /// The element's kind, its name where it has one, and the attribute: `geom ball friction`, `option timestep`.
+    /// The kind of the element, its name if it has one, and the attribute: `geom ball friction`, `option timestep`.
     pub path: String,
-    /// What stands in the attribute then.
+    /// The new text of the attribute.
     pub value: String,
 }
 
-/// Why a change cannot be made.
+/// The reason why a patch is refused.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Refusal {
-    /// What is wrong, in a sentence.
+    /// The problem, as a sentence.
     pub message: String,
-    /// What to write instead.
+    /// A suggestion what to write instead.
     pub help: String,
 }
 
-/// An element with its place in the schema.
+/// An element with its entry in the schema.
 #[derive(Clone, Copy)]
 struct Seen {
     at: usize,
     parent: usize,
     schema: &'static schema::Element,
-    /// It stands among the defaults, which are found by no path.
+    /// Whether it is inside `default`. Paths do not refer to defaults.
     default: bool,
 }
 
-/// Makes one change.
+/// Applies one patch.
 pub(super) fn apply(list: &mut Vec<Element>, root: usize, patch: &Patch) -> Result<(), Refusal> {
     let refuse = |message: String, help: &str| Err(Refusal { message, help: help.to_string() });
     let words: Vec<&str> = listed(patch.path.split_whitespace());
@@ -65,7 +65,7 @@ pub(super) fn apply(list: &mut Vec<Element>, root: usize, patch: &Patch) -> Resu
     };
     let seen = seen(list, root);
     let found = find_element(list, &seen, kind, name)?;
-    // The mass of a body is written in what it consists of.
+    // The mass of a body is an attribute of its inertial or its geom.
     let found = match (kind, attribute) {
         ("body", "mass") => mass_of(list, found, &seen, name.unwrap_or(""))?,
         _ => found,
@@ -86,7 +86,8 @@ pub(super) fn apply(list: &mut Vec<Element>, root: usize, patch: &Patch) -> Resu
     }
 }
 
-/// The element of a kind that a name means, or the only one; made where it may be and is missing.
+/// The element of a kind with a name, or the only element of that kind. A missing settings element is created where it is
+/// allowed.
 fn find_element(
     list: &mut Vec<Element>,
     seen: &[Seen],
@@ -124,7 +125,7 @@ fn find_element(
     }
 }
 
-/// Every element below the root that the schema knows; included ones count where they are included.
+/// All elements below the root that the schema contains. Included elements belong to the parent of the `include`.
 fn seen(list: &[Element], root: usize) -> Vec<Seen> {
     let (mut all, mut open) =
         (Vec::new(), vec![Seen { at: root, parent: root, schema: &ROOT, default: false }]);
@@ -146,7 +147,7 @@ fn seen(list: &[Element], root: usize) -> Vec<Seen> {
     all
 }
 
-/// A setting that the text leaves out, written now.
+/// Creates a settings element that the text does not contain.
 fn missing(list: &mut Vec<Element>, kind: &str, seen: &[Seen]) -> Option<Seen> {
     let (parent, name) = SETTINGS.iter().find(|(_, name)| *name == kind)?;
     let holder = seen.iter().find(|s| s.schema.name == *parent).copied();
@@ -163,7 +164,7 @@ fn missing(list: &mut Vec<Element>, kind: &str, seen: &[Seen]) -> Option<Seen> {
     Some(Seen { at, parent: holder.at, schema: holder.schema.child(name)?, default: false })
 }
 
-/// Where the mass of a body is written: in its `inertial`, or in its only geom.
+/// The element that contains the mass of a body: its `inertial`, or its only geom.
 fn mass_of(list: &[Element], body: Seen, seen: &[Seen], name: &str) -> Result<Seen, Refusal> {
     let parts = |kind: &str| -> Vec<Seen> {
         listed(seen.iter().copied().filter(|s| s.parent == body.at && s.schema.name == kind))
@@ -208,7 +209,7 @@ fn no_kind<'k>(kind: &str, kinds: impl Iterator<Item = &'k str>) -> Refusal {
     }
 }
 
-/// The near name, or the names that there are.
+/// A suggestion with the most similar name, or the list of existing names.
 fn near<'n>(word: &str, names: impl Iterator<Item = &'n str>, none: &str) -> String {
     let names: Vec<&str> = listed(names.take(200));
     match nearest(word, names.iter().copied()) {
@@ -248,7 +249,7 @@ mod tests {
             [1.0, 0.005, 0.0001]
         );
         assert_eq!(patched("flag gravity", "disable").unwrap().opt.disableflags.count_ones(), 1);
-        // An angle of the text is in its own unit, as every angle there.
+        // An angle in a patch has the unit of the text, like all angles of the text.
         let degrees = patched("joint hinge range", "-90 90").unwrap();
         assert!((degrees.jnt_range[3] - std::f64::consts::FRAC_PI_2).abs() < 1e-15);
     }

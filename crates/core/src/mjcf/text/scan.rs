@@ -1,8 +1,8 @@
-//! What happens to a text before it reaches the XML parser: limits hold (size, nesting, elements, attributes), and text
-//! between elements is passed over with a warning, as is a blank that is missing between two attributes.
+//! A scan of the text before the XML parser. It checks the limits (size, nesting, elements, attributes). It skips text
+//! between elements with a warning, and inserts a missing blank between two attributes.
 //!
-//! The scan understands just enough of XML to count tags. A text that is not well-formed passes it and is
-//! explained by the parser.
+//! The scan parses only as much of XML as it needs to count tags. It accepts a text that is not well-formed; the parser reports
+//! the error.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -11,7 +11,7 @@ use super::diagnostic::Report;
 use crate::mjcf::rules;
 use crate::mjcf::{MAX_ALL_ATTRIBUTES, MAX_ATTRIBUTES, MAX_DEPTH, MAX_ELEMENTS, MAX_TEXT};
 
-/// What all texts of a model hold so far.
+/// Counts over all texts of a model so far.
 #[derive(Debug, Default)]
 pub(crate) struct Counts {
     elements: usize,
@@ -22,17 +22,17 @@ pub(crate) struct Counts {
 #[derive(Debug)]
 pub(crate) struct Prepared<'t> {
     pub(crate) text: Cow<'t, str>,
-    /// Bytes of the text as it is written in front of which a blank was put.
+    /// The byte offsets, in the text as written, before which a blank was inserted.
     inserted: Vec<usize>,
 }
 
 impl Prepared<'_> {
-    /// Where a byte stands in the text as it is written.
+    /// Converts a byte offset in the prepared text to one in the text as written.
     pub(crate) fn written(&self, byte: usize) -> usize {
         if self.inserted.is_empty() {
             return byte;
         }
-        // The nth blank stands n bytes behind the place that it was put at.
+        // The nth blank is n bytes behind its offset in the text as written.
         let (mut low, mut high) = (0, self.inserted.len());
         while low < high {
             let n = (low + high) / 2;
@@ -42,18 +42,18 @@ impl Prepared<'_> {
     }
 }
 
-/// What is changed in a text before it is parsed.
+/// The changes of a text before it is parsed.
 #[derive(Debug, Default)]
 struct Changes {
-    /// Text that becomes blank.
+    /// Ranges that are replaced by blanks.
     blanks: Vec<Range<usize>>,
-    /// Where a blank is missing.
+    /// The offsets at which a blank is missing.
     inserted: Vec<usize>,
 }
 
-/// Checks the limits of a text whose spans begin at `base`; returns the text with blanks in the place of what stands
-/// between elements and means nothing, and between attributes, as MuJoCo 3.14.0 reads them (measured: `golden/cases.py`).
-/// `None` after reporting the first limit that is exceeded.
+/// Checks the limits of a text whose spans start at `base`. Returns the text with blanks in place of meaningless text between
+/// elements, and with missing blanks between attributes inserted, as MuJoCo 3.14.0 reads such texts (measured:
+/// `golden/cases.py`). `None`, with an error in the report, at the first limit that is exceeded.
 pub(crate) fn prepare<'t>(
     text: &'t str,
     base: usize,
@@ -79,7 +79,7 @@ pub(crate) fn prepare<'t>(
     Some(Prepared { text, inserted })
 }
 
-/// The text with blanks in these places, which begin and end with characters; lines stay lines.
+/// The text with these ranges replaced by blanks. The ranges are on character boundaries, and line breaks stay.
 fn blanked(text: &str, places: &[Range<usize>]) -> String {
     let (mut out, mut at) = (String::with_capacity(text.len()), 0);
     for place in places {
@@ -92,10 +92,10 @@ fn blanked(text: &str, places: &[Range<usize>]) -> String {
     out
 }
 
-/// Passes over the text of a range, with a warning when it is not blank.
+/// Skips the text of a range, with a warning if it is not blank.
 fn pass_over(text: &str, range: Range<usize>, base: usize, changes: &mut Changes, report: &mut Report) {
     let Some(between) = text.get(range.clone()) else { return };
-    // A byte order mark may begin a text.
+    // A text may start with a byte order mark.
     let between = between.strip_prefix('\u{feff}').filter(|_| range.start == 0).unwrap_or(between);
     let start = range.end - between.trim_start().len();
     let first = between.trim().lines().next().unwrap_or("").trim_end();
@@ -113,7 +113,7 @@ fn pass_over(text: &str, range: Range<usize>, base: usize, changes: &mut Changes
         .help("begin a tag with `<`, write a remark as a comment, <!-- … -->, or remove the text");
 }
 
-/// Whether the limits hold. What must change is added to `changes`.
+/// Whether the limits are observed. Necessary changes are appended to `changes`.
 fn within_limits(
     text: &str,
     base: usize,
@@ -130,7 +130,7 @@ fn within_limits(
     let bytes = text.as_bytes();
     let (mut at, mut depth, mut ended) = (0, 0usize, false);
     while let Some(open) = find(bytes, at, b"<") {
-        // Right behind the root element no text may stand, in MuJoCo either: the parser says so.
+        // Text directly after the root element is an error in MuJoCo too. The parser reports it.
         if !ended {
             pass_over(text, at..open, base, changes, report);
         }
@@ -171,7 +171,7 @@ fn within_limits(
     true
 }
 
-/// A declaration of a document type or an entity, which begins with two characters.
+/// Reports a declaration of a document type or an entity, which starts with two characters.
 fn refuse_declaration(at: usize, report: &mut Report) {
     report
         .error(rules::XML, at..at + 2, "the model declares a document type or an entity")
@@ -179,7 +179,7 @@ fn refuse_declaration(at: usize, report: &mut Report) {
         .help("remove the `<!…>` declaration");
 }
 
-/// Whether the limits hold with the element that a tag at `open` begins, `depth` deep.
+/// Whether the limits are observed, including the element that starts with the tag at `open`, `depth` levels deep.
 fn tag_within_limits(
     tag: &Tag,
     open: usize,
@@ -221,13 +221,13 @@ struct Tag {
     end: usize,
     attributes: usize,
     closed: bool,
-    /// Where a namespace is declared.
+    /// The offset at which a namespace is declared.
     namespace: Option<usize>,
-    /// Where an attribute begins right behind the quotes of another.
+    /// The offsets at which an attribute starts directly after the quotes of another.
     joined: Vec<usize>,
 }
 
-/// A start tag from its name on: to the `>` outside of quotes.
+/// A start tag from its name to the `>` outside of quotes.
 fn tag(bytes: &[u8], start: usize) -> Tag {
     let (mut quote, mut attributes, mut last, mut namespace) = (None, 0, b'<', None);
     let mut joined = Vec::new();
@@ -257,7 +257,7 @@ fn tag(bytes: &[u8], start: usize) -> Tag {
     Tag { end: bytes.len(), attributes, closed: true, namespace, joined }
 }
 
-/// Whether a name, an equals sign and a quote stand here.
+/// Whether the bytes start with a name, an equals sign and a quote.
 fn begins_attribute(bytes: &[u8]) -> bool {
     let name = bytes.iter().take_while(|b| b.is_ascii_alphanumeric() || **b == b'_').count();
     let mut rest = bytes.iter().skip(name).filter(|b| !b.is_ascii_whitespace());
@@ -303,7 +303,7 @@ mod tests {
             ("é<a>\n x=\"1\"\n é/></a>", "  <a>\n      \n     </a>"),
             ("<a><![CDATA[<b/>]]>&no;</a>", "<a>                    </a>"),
             ("<a> \n </a>", "<a> \n </a>"),
-            // No text may stand behind the root.
+            // Text after the root is an error, so it is not replaced.
             ("<a/>>", "<a/>>"),
             ("<a></a>x<!-- y -->z", "<a></a>x<!-- y --> "),
             ("<a b='>'>x</a", "<a b='>'> </a"),

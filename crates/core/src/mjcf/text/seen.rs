@@ -1,4 +1,5 @@
-//! Which attributes of which elements the compiler looks up: for the test that what the schema calls supported is read.
+//! Records which attributes of which elements the compiler looks up. A test requires that every attribute with the status
+//! supported is read.
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -9,12 +10,12 @@ thread_local! {
     static SEEN: RefCell<BTreeSet<(usize, String)>> = const { RefCell::new(BTreeSet::new()) };
 }
 
-/// The address of an element of the schema, which there is one of for each place.
+/// The address of an element of the schema. Each position in the schema has its own element.
 fn key(element: &'static Element) -> usize {
     std::ptr::from_ref(element).addr()
 }
 
-/// Remembers that an attribute is looked up.
+/// Records that an attribute is looked up.
 pub(crate) fn note(element: &'static Element, attribute: &str) {
     SEEN.with_borrow_mut(|seen| {
         if !seen.contains(&(key(element), attribute.to_string())) {
@@ -23,7 +24,7 @@ pub(crate) fn note(element: &'static Element, attribute: &str) {
     });
 }
 
-/// Whether an attribute was looked up by this thread.
+/// Whether an attribute was looked up on this thread.
 pub(crate) fn was(element: &'static Element, attribute: &str) -> bool {
     SEEN.with_borrow(|seen| seen.contains(&(key(element), attribute.to_string())))
 }

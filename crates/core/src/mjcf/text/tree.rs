@@ -1,6 +1,6 @@
-//! Plain elements to a checked tree: every element and attribute known to the schema, every value of its type.
+//! Converts plain elements to a checked tree: the schema contains every element and attribute, and every value has its type.
 //!
-//! Unknown names are reported with the nearest known one; what is refused is left out, with all it holds.
+//! Unknown names are reported with the most similar known one. Refused elements are left out, with all their children.
 
 use crate::mjcf::gather::listed;
 use std::ops::Range;
@@ -25,7 +25,7 @@ pub(crate) struct Attribute {
 #[derive(Clone, Debug)]
 pub(crate) struct Node {
     pub(crate) element: &'static Element,
-    /// The model that it was written in: 0 for the main model, others are attached.
+    /// The model that contains the element: 0 for the main model, others are attached.
     pub(crate) model: usize,
     pub(crate) parent: Option<usize>,
     /// Bytes of the name in the start tag.
@@ -66,7 +66,7 @@ impl Node {
         }
     }
 
-    /// The numbers of an attribute that has exactly `N`.
+    /// The numbers of an attribute with exactly `N` numbers.
     pub(crate) fn reals<const N: usize>(&self, name: &str) -> Option<[f64; N]> {
         match &self.attribute(name)?.value {
             Value::Reals(list) => list.as_slice().try_into().ok(),
@@ -74,7 +74,7 @@ impl Node {
         }
     }
 
-    /// The element in a message: its name in the XML, and its own name if it has one.
+    /// A description of the element for messages: its tag, and its name if it has one.
     pub(crate) fn describe(&self) -> String {
         match self.text("name") {
             Some(name) => format!("{} {}", self.element.name, shorten_name(name)),
@@ -96,13 +96,13 @@ impl Tree {
         list.iter().filter_map(|&i| self.nodes.get(i).map(|n| (i, n)))
     }
 
-    /// The elements of all sections of this name (`worldbody` may stand several times).
+    /// All sections of this name. A section such as `worldbody` may occur several times.
     pub(crate) fn sections<'t>(&'t self, name: &'t str) -> impl Iterator<Item = (usize, &'t Node)> {
         self.children(0).filter(move |(_, n)| n.element.name == name)
     }
 }
 
-/// Checks the elements of a model; `None` when it is not a model at all.
+/// Checks the elements of a model. `None` if the text is not a model.
 pub(crate) fn check_tree(list: &[Xml], root: usize, report: &mut Report) -> Option<Tree> {
     let name = list.get(root).map_or("", |r| r.name.as_str());
     if name != ROOT.name {
@@ -146,7 +146,7 @@ pub(crate) fn check_tree(list: &[Xml], root: usize, report: &mut Report) -> Opti
     Some(tree)
 }
 
-/// The children of an element, those of included files in the place of their `include`.
+/// The children of an element. Those of included files replace their `include`.
 fn content<'x>(list: &'x [Xml], xml: &'x Xml, report: &mut Report) -> Vec<(usize, &'x Xml)> {
     let mut content = Vec::new();
     let mut stack: Vec<usize> = listed(xml.children.iter().rev().copied());
@@ -162,7 +162,7 @@ fn content<'x>(list: &'x [Xml], xml: &'x Xml, report: &mut Report) -> Vec<(usize
     content
 }
 
-/// The child elements that the schema knows and accepts.
+/// The child elements that the schema contains and accepts.
 fn children(
     list: &[Xml],
     xml: &Xml,
@@ -230,11 +230,11 @@ fn unknown_element(name: &str, span: Range<usize>, element: &'static Element, re
     }
 }
 
-/// The attributes that the schema knows, with their values read.
+/// The attributes that the schema contains, with their parsed values.
 fn attributes(xml: &Xml, element: &'static Element, report: &mut Report) -> Vec<Attribute> {
     let mut list = Vec::new();
-    // Attributes that are refused, and whether a keyword already is: a capsule's `fromto` needs no finding of
-    // its own when the capsule has one.
+    // The refused attributes, and whether a keyword is refused already. The `fromto` of a refused capsule needs no separate
+    // finding.
     let (mut refused, mut refused_word) = (Vec::new(), false);
     for a in &xml.attributes {
         let Some(attr) = element.attribute(&a.name).filter(|_| !a.namespace) else {
@@ -257,7 +257,7 @@ fn attributes(xml: &Xml, element: &'static Element, report: &mut Report) -> Vec<
             }
             (_, Err(p)) => {
                 refused_word |= p.code == rules::NOT_SUPPORTED;
-                // Inside the value only when the text was not changed by character references.
+                // The position inside the value is known only if the value contains no character references.
                 let at = match p.at {
                     Some(at) if a.exact => span.start + at.start..span.start + at.end,
                     _ => span.clone(),
@@ -293,7 +293,7 @@ fn attributes(xml: &Xml, element: &'static Element, report: &mut Report) -> Vec<
     list
 }
 
-/// The few numbers that MuJoCo cannot read from an empty text.
+/// The attributes with an integer that MuJoCo cannot read from an empty text.
 fn needs_number(element: &str, attribute: &str) -> bool {
     matches!(
         (element, attribute),
@@ -304,7 +304,7 @@ fn needs_number(element: &str, attribute: &str) -> bool {
     )
 }
 
-/// What is there beside others of which only one may be, though it be empty.
+/// Attributes that count as present for the check of exclusive attributes, although they are empty.
 fn counts_empty(element: &str, attribute: &str) -> bool {
     attribute == "quat"
         || (element == "inertial" && crate::mjcf::schema::is_form(attribute))
@@ -312,8 +312,8 @@ fn counts_empty(element: &str, attribute: &str) -> bool {
         || EXCLUSIVE.iter().any(|(of, pair)| *of == element && pair.contains(&attribute))
 }
 
-/// Attributes of an element of which one can be given, not both: MuJoCo's schema looks at the element alone, not at its
-/// class. (Those that name what a sensor, a mesh or an equality is about are held where they are read.)
+/// Pairs of attributes that exclude each other. MuJoCo's schema checks the element itself, not its class. (Exclusive attributes
+/// that name the target of a sensor, a mesh or an equality are checked where these are read.)
 const EXCLUSIVE: [(&str, [&str; 2]); 4] = [
     ("camera", ["fovy", "sensorsize"]),
     ("light", ["directional", "type"]),
@@ -334,7 +334,7 @@ fn exclusive(list: &[Attribute], element: &Element, report: &mut Report) {
     }
 }
 
-/// Whether a value is the default; of a list, whether the numbers that are given are.
+/// Whether a value equals the default. For a list, the given numbers are compared.
 fn same_as(attr: &Attr, value: &Value, default: &str) -> bool {
     let equal = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(x, y)| x == y);
     match (value, values::parse(attr.kind, default)) {
@@ -354,7 +354,7 @@ fn unknown_attribute(name: &str, span: Range<usize>, element: &'static Element, 
     }
 }
 
-/// The name of an element, empty when it has none.
+/// The name of an element, empty if it has none.
 pub(crate) fn name(node: &Node) -> String {
     node.text("name").unwrap_or("").to_string()
 }

@@ -1,5 +1,4 @@
-//! Text of an attribute to a checked value: numbers that are finite and as many as the schema says, keywords
-//! that exist.
+//! Converts the text of an attribute to a checked value: finite numbers, as many as the schema requires, and keywords that exist.
 
 use std::ops::Range;
 use std::rc::Rc;
@@ -9,7 +8,7 @@ use crate::mjcf::gather::listed;
 use crate::mjcf::rules::{self, Rule};
 use crate::mjcf::schema::{Kind, Word};
 
-/// The value of an attribute. Lists are shared by all copies of an element and all that takes a default.
+/// The value of an attribute. Lists are shared between all copies of an element and all elements that take a default.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Value {
     /// Real numbers, all finite.
@@ -20,20 +19,20 @@ pub(crate) enum Value {
     Word(i32),
     /// A name or free text.
     Text(String),
-    /// Wrong, and already reported: there, but not to be read.
+    /// Invalid, and already reported: the attribute is present, but its value must not be used.
     Bad,
 }
 
-/// Longest name, bytes: what refers to an object holds its name, and defaults give it to many.
+/// The longest name, bytes. Each reference to an object stores its name, and defaults copy it to many elements.
 const LONGEST_NAME: usize = 1000;
 
-/// What is wrong with a value.
+/// The reason why a value is invalid.
 #[derive(Debug)]
 pub(crate) struct Problem {
     pub(crate) code: &'static Rule,
-    /// Bytes of the value's text; all of it when `None`.
+    /// The invalid bytes of the value's text, or `None` for all of it.
     pub(crate) at: Option<Range<usize>>,
-    /// Continues a sentence that begins with the attribute's name: "`size` of geom …".
+    /// The end of a sentence that starts with the attribute: "`size` of geom …".
     pub(crate) message: String,
     pub(crate) help: Option<String>,
 }
@@ -90,7 +89,7 @@ fn list_keywords(words: &[Word]) -> String {
     listed(words.iter().filter(|w| w.supported).map(|w| w.text)).join(", ")
 }
 
-/// The words of a text, each with its bytes, read by `read`.
+/// The words of a text, each converted by `read`. Errors contain the bytes of the word.
 fn numbers<T>(text: &str, read: impl Fn(&str) -> Result<T, Problem>) -> Result<Vec<T>, Problem> {
     let mut list = Vec::new();
     let mut rest = text;

@@ -1,7 +1,7 @@
-//! XML to plain elements: names, attributes and places, whatever they mean.
+//! Converts XML to plain elements: names, attributes and positions, without their meaning.
 //!
-//! Elements stand in one list and hold their children by index, so that depth costs no stack and texts of several
-//! files can be put together.
+//! All elements are in one list and refer to their children by index. Depth therefore uses no stack, and texts of several
+//! files can be combined.
 
 use crate::mjcf::gather::listed;
 use std::ops::Range;
@@ -12,21 +12,21 @@ use super::diagnostic::{Report, shorten_name};
 use super::scan::Prepared;
 use crate::mjcf::rules;
 
-/// An attribute as it is written.
+/// An attribute as written in the text.
 #[derive(Debug)]
 pub(crate) struct Attribute {
     pub(crate) name: String,
-    /// Character references resolved.
+    /// The value with its character references resolved.
     pub(crate) value: String,
     pub(crate) name_span: Range<usize>,
     /// Bytes of the value, without quotes.
     pub(crate) value_span: Range<usize>,
-    /// Whether the value stands in the text as it is: its parts have places of their own.
+    /// Whether the value is a verbatim part of the text, so that each part of it has a position.
     pub(crate) exact: bool,
     pub(crate) namespace: bool,
 }
 
-/// An element as it is written.
+/// An element as written in the text.
 #[derive(Debug)]
 pub(crate) struct Element {
     pub(crate) name: String,
@@ -44,7 +44,7 @@ impl Element {
     }
 }
 
-/// Elements as text again: what stands in an `include` stands in its place.
+/// Prints elements as text. The contents of an `include` replace it.
 pub(crate) fn print(list: &[Element], root: usize) -> String {
     enum Piece {
         Start(usize),
@@ -74,7 +74,7 @@ pub(crate) fn print(list: &[Element], root: usize) -> String {
     text
 }
 
-/// A value as it stands between quotes.
+/// A value, escaped for use between quotes.
 fn escaped(value: &str) -> String {
     let mut text = String::with_capacity(value.len());
     for c in value.chars() {
@@ -89,8 +89,8 @@ fn escaped(value: &str) -> String {
     text
 }
 
-/// Adds the elements of a text, whose spans as it is written begin at `base`, to a list; returns the place of the root. `None` after
-/// reporting that the text is not XML.
+/// Appends the elements of a text to a list and returns the index of the root. The spans of the elements start at `base` and
+/// count bytes of the text as written. `None`, with an error in the report, if the text is not XML.
 pub(crate) fn parse(
     prepared: &Prepared,
     base: usize,
@@ -142,7 +142,7 @@ fn element(prepared: &Prepared, base: usize, xml: &Node) -> Element {
     }
 }
 
-/// A syntax error of the XML in plain words.
+/// Reports a syntax error of the XML in plain words.
 fn explain(prepared: &Prepared, base: usize, error: &Error, report: &mut Report) {
     let text = &*prepared.text;
     let at = match error {
@@ -186,7 +186,7 @@ fn explain(prepared: &Prepared, base: usize, error: &Error, report: &mut Report)
         }
         other => {
             let words = other.to_string();
-            // The place is given by the diagnostic itself.
+            // The diagnostic has its own position.
             let words = words.rsplit_once(" at ").map_or(words.as_str(), |(before, _)| before);
             (format!("not well-formed XML: {words}"), "compare this tag with a working one".into())
         }
@@ -195,7 +195,7 @@ fn explain(prepared: &Prepared, base: usize, error: &Error, report: &mut Report)
     report.error(rules::XML, base + at..base + end, message).help(help);
 }
 
-/// The byte of a line and column that count from 1, the column in characters.
+/// The byte offset of a line and a column. Both count from 1, the column in characters.
 fn offset(text: &str, row: u32, col: u32) -> usize {
     let line_start = match row {
         0 | 1 => 0,

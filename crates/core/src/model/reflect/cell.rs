@@ -1,4 +1,4 @@
-//! The values of fields: their types, and what is done to each of them: looked at, written, allocated, saved.
+//! The values of fields: their types, and the operations on every field: reading, writing, allocation, saving.
 
 use crate::model::bytes::Plain;
 
@@ -64,13 +64,13 @@ pub enum ViewMut<'a> {
     I32(&'a mut [i32]),
     /// Booleans.
     Bool(&'a mut [bool]),
-    /// A size or count: not writable.
+    /// A size or count, which is not writable.
     Fixed,
 }
 
 impl ViewMut<'_> {
-    /// Stores `value` at `i` as a typed array of JavaScript would (integers truncate); `false` when there is
-    /// no such element.
+    /// Stores `value` at index `i`, converted as by a typed array of JavaScript (integers are truncated). Returns `false` if
+    /// there is no such element.
     pub fn set(&mut self, i: usize, value: f64) -> bool {
         match self {
             ViewMut::F64(v) => v.get_mut(i).map(|x| *x = value).is_some(),
@@ -89,20 +89,22 @@ fn to_int32(x: f64) -> i32 {
     x.trunc().rem_euclid(4_294_967_296.0) as u32 as i32
 }
 
-/// The element type of a Rust type that can stand in the field table.
+/// The element type of a Rust type that may occur in the field table.
 pub(super) trait Typed {
     const ELEM: Elem;
 }
 
-/// A value of such a type: what is done to every field is done through this, once for each type and not for each field.
+/// A value of such a type. Operations on fields use this trait, so that their code is compiled once per type and not once per
+/// field.
 pub(crate) trait Cell {
     fn view(&self) -> View<'_>;
     fn view_mut(&mut self) -> ViewMut<'_>;
-    /// Gives an array `n` zero elements, and numbers of fixed shape the value zero. Sizes stay as they are.
+    /// Resizes an array to `n` zeros, and sets numbers of fixed shape to zero. Sizes do not change.
     fn allocate(&mut self, n: usize);
     /// Appends the elements as bytes.
     fn write(&self, out: &mut Vec<u8>);
-    /// Takes `n` elements, or as many as the shape fixes, from the front of `bytes`; `false` when there are not as many.
+    /// Reads `n` elements, or as many as a fixed shape has, from the front of `bytes`. Returns `false` if there are too few
+    /// bytes.
     fn read(&mut self, n: usize, bytes: &mut &[u8]) -> bool;
 }
 
@@ -135,7 +137,7 @@ macro_rules! cells {
             }
             fn write(&self, out: &mut Vec<u8>) { self.iter().for_each(|x| x.put(out)); }
             fn read(&mut self, n: usize, bytes: &mut &[u8]) -> bool {
-                // Every element takes a byte or more: no room is made for what is not there.
+                // Every element has at least one byte. The check prevents an allocation that is larger than the input.
                 if n > bytes.len() {
                     return false;
                 }

@@ -1,10 +1,9 @@
-//! Sets of fields, a bit each.
+//! Sets of fields, one bit per field.
 
 use super::{FieldId, FieldInfo, NFIELD, data, fields};
 use crate::model::sensed::Values;
 
-/// A set of fields. Of `sensordata` it holds which of its numbers are meant, as each comes from a sensor that costs something by
-/// itself.
+/// A set of fields. For `sensordata`, it also contains the set of its elements, because each sensor has its own cost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FieldSet([u64; NFIELD.div_ceil(64)], Values);
 
@@ -25,8 +24,8 @@ impl FieldSet {
         self.insert_elements(f, 0, None);
     }
 
-    /// Adds elements of a field: `count` from `first` on, or all that follow. Of `sensordata` these alone are meant then; any
-    /// other field is added as a whole.
+    /// Adds elements of a field: `count` elements from `first` on, or all that follow. For `sensordata`, only these elements are
+    /// added. Any other field is added as a whole.
     pub fn insert_elements(&mut self, f: FieldId, first: usize, count: Option<usize>) {
         self.0[f.0 as usize / 64] |= 1 << (f.0 % 64);
         if f == data::sensordata {
@@ -39,12 +38,12 @@ impl FieldSet {
         self.contains(f) && (f != data::sensordata || self.1.some(element..element + 1))
     }
 
-    /// The numbers of `sensordata` in the set.
+    /// The elements of `sensordata` in the set.
     pub(crate) fn sensed(&self) -> Values {
         self.1
     }
 
-    /// Whether the set holds all numbers of a field that has so many.
+    /// Whether the set contains all elements of a field with this number of elements.
     pub(crate) fn contains_whole(&self, f: FieldId, numbers: usize) -> bool {
         self.contains(f) && (f != data::sensordata || self.1.every(0..numbers))
     }

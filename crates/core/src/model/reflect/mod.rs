@@ -1,6 +1,6 @@
-//! Reflection over the field table: what a field is, and its numbers as flat slices.
+//! Reflection over the field table: the properties of a field, and its numbers as flat slices.
 //!
-//! The language, the lints, the reports and the reference pages know the engine only through this module.
+//! The language, the lints, the reports and the reference pages access the engine only through this module.
 
 mod cell;
 mod field_set;
@@ -30,41 +30,41 @@ pub enum Object {
     Data,
 }
 
-/// What a field is, and so what writing to it means.
+/// The kind of a field, which determines the effect of writing it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Kind {
     /// Size, type or address, fixed when the model compiles. Cannot be written.
     Structure,
-    /// Evolves in time; may be written, then `mj_forward` brings derived fields up to date.
+    /// Evolves in time. May be written; then `mj_forward` updates the derived fields.
     State,
-    /// Set from outside: controls, applied forces, mocap poses.
+    /// Set by the user: controls, applied forces, mocap poses.
     Input,
     /// A parameter of the model that takes effect at the next step.
     Constant,
-    /// A parameter that others are computed from: writing it needs `mj_setConst`.
+    /// A parameter from which others are computed. After a write, `mj_setConst` must be called.
     Inertial,
-    /// Computed by a stage: writing it has no effect.
+    /// Computed by a stage. Writing it has no effect.
     Derived,
 }
 
 /// One row of the field table.
 #[derive(Debug)]
 pub struct FieldInfo {
-    /// Where it lives.
+    /// The struct that contains it.
     pub object: Object,
-    /// MuJoCo's name.
+    /// The name in MuJoCo.
     pub name: &'static str,
     /// Element type.
     pub elem: Elem,
     /// Dimensions, outermost first: names of sizes or literal numbers; empty for a single number.
     pub shape: &'static [&'static str],
-    /// What it is.
+    /// The kind of the field.
     pub kind: Kind,
-    /// What computes it.
+    /// The stage that computes it.
     pub stage: Stage,
 }
 
-/// What a field is, for people: a table of its own, which a program that shows none of it does not carry.
+/// The texts of a field for people. They are a separate table, which is not linked into a program that does not use them.
 #[derive(Debug)]
 struct Words {
     unit: &'static str,
@@ -76,12 +76,12 @@ struct Words {
 pub struct FieldId(pub(crate) u16);
 
 impl FieldId {
-    /// The field with this number in the order of the table.
+    /// The field with this index in the table.
     pub fn new(index: usize) -> Option<FieldId> {
         (index < NFIELD).then_some(FieldId(index as u16))
     }
 
-    /// Its number in the order of the table.
+    /// The index of the field in the table.
     pub fn index(self) -> usize {
         self.0 as usize
     }
@@ -91,7 +91,8 @@ impl FieldId {
         FIELDS[self.0 as usize]
     }
 
-    /// The size of the model that counts its rows; `None` for a single number and for what changes with the state.
+    /// The size of the model that gives the number of its rows. `None` for a single number, and if the number of rows changes
+    /// with the state.
     pub fn rows(self) -> Option<FieldId> {
         match dimensions(self).first()? {
             Dimension::Size(id) => Some(FieldId(*id as u16)),
@@ -99,7 +100,7 @@ impl FieldId {
         }
     }
 
-    /// Its unit, empty when dimensionless.
+    /// The unit of the field, empty if it is dimensionless.
     pub fn unit(self) -> &'static str {
         WORDS[self.0 as usize].unit
     }
@@ -139,7 +140,7 @@ macro_rules! reflect {
         const $words: &[&Words] = &[$(&Words { unit: $unit, doc: $doc }),*];
         const $count: usize = $infos.len();
         const $readers: &[Reader] = &[$(|m, d, i| $of(m, d).$name.view().get(i)),*];
-        #[allow(non_camel_case_types)] // variants carry the fields' own names
+        #[allow(non_camel_case_types)] // variants have the names of the fields
         #[derive(Clone, Copy)]
         #[repr(u16)]
         enum $ids { $($name),* }
@@ -148,7 +149,7 @@ macro_rules! reflect {
         }
         impl $struct {
             fn cell(&self, id: $ids) -> &dyn Cell { match id { $($ids::$name => &self.$name),* } }
-            #[inline(never)] // a table of places; with what is done to the cell it would be code for each
+            #[inline(never)] // compiles to a table of addresses; inlined, the code of each operation would be repeated for each field
             fn cell_mut(&mut self, id: $ids) -> &mut dyn Cell { match id { $($ids::$name => &mut self.$name),* } }
         }
     };
@@ -168,7 +169,7 @@ const DATA_AT: usize = STAT_AT + STAT_COUNT;
 /// Number of fields.
 pub const NFIELD: usize = DATA_AT + DATA_COUNT;
 
-/// The fields by their names, as constants: a name that is misspelt does not compile.
+/// The fields as constants with the names of the fields. A misspelt name does not compile.
 macro_rules! ids {
     ($module:ident, $doc:literal, $ids:ident, $at:expr; $($name:ident: $ty:ty, [$($dim:tt),*], $kind:ident, $stage:ident, $unit:literal, $fdoc:literal;)*) => {
         #[doc = $doc]
@@ -188,7 +189,7 @@ option_fields!(option_ids);
 statistic_fields!(statistic_ids);
 data_fields!(data_ids);
 
-/// The rows of the four parts of the table as one.
+/// Concatenates the rows of the four parts of the table.
 macro_rules! whole_table {
     ($model:ident, $option:ident, $stat:ident, $data:ident) => {{
         let mut all = [$model[0]; NFIELD];
@@ -226,14 +227,14 @@ pub fn field(object: Object, name: &str) -> Option<FieldId> {
     named.copied().find(|f| f.info().object == object)
 }
 
-/// All fields in the order of their names: a lab's texts ask for them a hundred times.
+/// All fields in the order of their names. The texts of a lab look up fields a hundred times.
 static BY_NAME: LazyLock<Vec<FieldId>> = LazyLock::new(|| {
     let mut all: Vec<FieldId> = fields().collect();
     sort_by(&mut all, |f, g| (f.info().name, f).cmp(&(g.info().name, g)));
     all
 });
 
-/// Reads a field of the model, its options or its statistics; nothing for a field of the data.
+/// The numbers of a field of the model, its options or its statistics. Empty for a field of the data.
 pub(crate) fn view_model(m: &Model, field: FieldId) -> View<'_> {
     let i = field.0 as usize;
     if i < OPTION_AT {
@@ -247,7 +248,7 @@ pub(crate) fn view_model(m: &Model, field: FieldId) -> View<'_> {
     }
 }
 
-/// Reads a field of the data; nothing for one of the model.
+/// The numbers of a field of the data. Empty for a field of the model.
 pub(crate) fn view_data(d: &Fields, field: FieldId) -> View<'_> {
     match (field.0 as usize).checked_sub(DATA_AT) {
         Some(i) => d.cell(DataId::ALL[i]).view(),
@@ -255,7 +256,7 @@ pub(crate) fn view_data(d: &Fields, field: FieldId) -> View<'_> {
     }
 }
 
-/// The same to write.
+/// Like [`view_model`], for writing.
 pub(crate) fn view_model_mut(m: &mut Model, field: FieldId) -> ViewMut<'_> {
     let i = field.0 as usize;
     if i < OPTION_AT {
@@ -269,7 +270,7 @@ pub(crate) fn view_model_mut(m: &mut Model, field: FieldId) -> ViewMut<'_> {
     }
 }
 
-/// The same to write.
+/// Like [`view_data`], for writing.
 pub(crate) fn view_data_mut(d: &mut Fields, field: FieldId) -> ViewMut<'_> {
     match (field.0 as usize).checked_sub(DATA_AT) {
         Some(i) => d.cell_mut(DataId::ALL[i]).view_mut(),
@@ -277,18 +278,19 @@ pub(crate) fn view_data_mut(d: &mut Fields, field: FieldId) -> ViewMut<'_> {
     }
 }
 
-/// Reads a field of the model or the data.
+/// The numbers of a field of the model or the data.
 pub(crate) fn view<'a>(m: &'a Model, d: &'a Fields, field: FieldId) -> View<'a> {
     if (field.0 as usize) < DATA_AT { view_model(m, field) } else { view_data(d, field) }
 }
 
-/// Element `i` of a field, `None` past the end: the same as [`view`] gives, in one step.
+/// Element `i` of a field, or `None` past the end. The same value as from [`view`], in one step.
 #[inline]
 pub(crate) fn element(m: &Model, d: &Fields, field: FieldId, i: usize) -> Option<f64> {
     READERS.get(field.0 as usize)?(m, d, i)
 }
 
-/// Whether anybody but the engine may write a field. Not what it indexes by: structure, and computed integers.
+/// Whether programs may write a field. Structure and computed integers cannot be written, because the engine uses them as
+/// indexes.
 pub fn is_writable(field: FieldId) -> bool {
     let info = field.info();
     info.kind != Kind::Structure && (info.kind != Kind::Derived || info.elem == Elem::F64)
@@ -299,19 +301,19 @@ pub fn shape(m: &Model, field: FieldId) -> Vec<Option<usize>> {
     dimensions(field).iter().map(|dim| dim.size_in(m)).collect()
 }
 
-/// A dimension of a field.
+/// One dimension of a field.
 #[derive(Clone, Copy)]
 enum Dimension {
     /// The same for every model.
     Fixed(usize),
     /// A size of the model.
     Size(ModelId),
-    /// It changes with the state.
+    /// Changes with the state.
     Open,
 }
 
 impl Dimension {
-    /// Its length for this model, unless it changes with the state.
+    /// The length for this model, or `None` if it changes with the state.
     fn size_in(self, m: &Model) -> Option<usize> {
         match self {
             Dimension::Fixed(n) => Some(n),
@@ -324,7 +326,7 @@ impl Dimension {
     }
 }
 
-/// The dimensions of a field, whose names are looked up once for all: a reset asks for every array.
+/// The dimensions of a field. Names are resolved once for all fields, because a reset reads the dimensions of every array.
 fn dimensions(field: FieldId) -> &'static [Dimension] {
     static ALL: LazyLock<Vec<Vec<Dimension>>> = LazyLock::new(|| {
         let named = |dim: &str| match dim.parse() {
@@ -336,23 +338,23 @@ fn dimensions(field: FieldId) -> &'static [Dimension] {
     ALL.get(field.index()).map_or(&[], Vec::as_slice)
 }
 
-/// The field of the model that may hold the size of this name.
+/// The field of the model with this name, which may be a size.
 fn size_id(name: &str) -> Option<ModelId> {
     ModelId::ALL.get(field(Object::Model, name)?.index()).copied()
 }
 
-/// The size of this name (`nq`, `nbody`, …), `None` when the model has no such size.
+/// The size of this name (`nq`, `nbody`, …), or `None` if the model has no such size.
 pub fn size(m: &Model, name: &str) -> Option<usize> {
     Dimension::Size(size_id(name)?).size_in(m)
 }
 
-/// Number of elements of a field that the sizes of the model decide; 0 while a size is not known. Allocates
-/// nothing: a reset in the step loop asks for every array.
+/// Number of elements of a field, computed from the sizes of the model; 0 if a size is not known. Does not allocate, because a
+/// reset in the step loop calls it for every array.
 pub(crate) fn length(m: &Model, field: FieldId) -> usize {
     dimensions(field).iter().map(|dim| dim.size_in(m).unwrap_or(0)).fold(1, usize::saturating_mul)
 }
 
-/// A number for the names, types and shapes of the fields of the data, or of all others: two programs with the same number
+/// A hash of the names, types and shapes of the fields of the data, or of all other fields. Programs with the same hash
 /// have the same table.
 pub(crate) fn table(data: bool) -> u64 {
     let mut text = String::new();
@@ -369,14 +371,14 @@ pub(crate) fn table(data: bool) -> u64 {
     fingerprint(text.as_bytes())
 }
 
-/// Appends all numbers of the data that are fields, in the order of the table.
+/// Appends all fields of the data, in the order of the table.
 pub(crate) fn write_data(d: &Fields, out: &mut Vec<u8>) {
     for id in DataId::ALL {
         d.cell(id).write(out);
     }
 }
 
-/// Reads what [`write_data`] wrote; `false` when it is too short.
+/// Reads the bytes of [`write_data`]. Returns `false` if there are too few.
 pub(crate) fn read_data(m: &Model, d: &mut Fields, bytes: &mut &[u8]) -> bool {
     (0..DATA_COUNT).all(|i| {
         let dims = DATA[i].shape.iter();
@@ -387,7 +389,7 @@ pub(crate) fn read_data(m: &Model, d: &mut Fields, bytes: &mut &[u8]) -> bool {
     })
 }
 
-/// The count of this name in the data (`nefc`).
+/// The count of this name in the data (such as `nefc`).
 pub(crate) fn count(d: &Fields, name: &str) -> Option<usize> {
     let i = DATA.iter().position(|f| f.name == name && f.elem == Elem::Size)?;
     match d.cell(DataId::ALL[i]).view() {
@@ -396,7 +398,7 @@ pub(crate) fn count(d: &Fields, name: &str) -> Option<usize> {
     }
 }
 
-/// Appends the numbers of a field of the model, its options or statistics.
+/// Appends the numbers of a field of the model, its options or its statistics.
 pub(crate) fn write_model(m: &Model, field: FieldId, out: &mut Vec<u8>) {
     let i = field.0 as usize;
     if i < OPTION_AT {
@@ -408,7 +410,7 @@ pub(crate) fn write_model(m: &Model, field: FieldId, out: &mut Vec<u8>) {
     }
 }
 
-/// Reads what [`write_model`] wrote, once the sizes are known; `false` when it is too short.
+/// Reads the bytes of [`write_model`]. The sizes must be known. Returns `false` if there are too few bytes.
 pub(crate) fn read_model(m: &mut Model, field: FieldId, bytes: &mut &[u8]) -> bool {
     let (i, n) = (field.0 as usize, length(m, field));
     if i < OPTION_AT {
@@ -427,7 +429,7 @@ pub(crate) fn write_structure(m: &Model, out: &mut Vec<u8>) {
     }
 }
 
-/// Gives every array of the model the length that its shape says, filled with zeros.
+/// Resizes every array of the model to the length of its shape, and fills it with zeros.
 pub(crate) fn allocate_model(m: &mut Model) {
     for i in 0..MODEL_COUNT {
         let n = length(m, FieldId(i as u16));
@@ -435,8 +437,8 @@ pub(crate) fn allocate_model(m: &mut Model) {
     }
 }
 
-/// Gives every array of the data the length that its shape says, filled with zeros; time and the like become
-/// zero, too. Allocates only the first time.
+/// Resizes every array of the data to the length of its shape, and fills it with zeros. Sets the time and other single numbers to
+/// zero. Allocates only at the first call.
 pub(crate) fn allocate_data(m: &Model, d: &mut Fields) {
     for i in 0..DATA_COUNT {
         let n = length(m, FieldId((DATA_AT + i) as u16));

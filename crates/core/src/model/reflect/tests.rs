@@ -1,4 +1,4 @@
-//! One element of a field is that of its view.
+//! Access to one element of a field gives the same value as the view of the field.
 
 use super::*;
 use crate::step::workspace::Workspace;

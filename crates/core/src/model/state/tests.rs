@@ -1,4 +1,4 @@
-//! States against what MuJoCo 3.14.0 has in them: `golden/record.py` recorded it.
+//! Compares states with those of MuJoCo 3.14.0, recorded by `golden/record.py`.
 
 use super::*;
 use crate::mjcf::compile;
@@ -13,7 +13,7 @@ fn model() -> Model {
     compile(MODEL).unwrap()
 }
 
-/// Name and numbers of each recorded line.
+/// The name and the numbers of each recorded line.
 fn recorded() -> Vec<(&'static str, Vec<f64>)> {
     let line = |line: &'static str| {
         let mut words = line.split(' ');

@@ -1,10 +1,10 @@
-//! Steps within a step, as many and of as high an order as rounding asks for where forces are smooth: slow, and close. For
-//! references.
+//! Divides a step into parts, and uses a high order, so that the result is accurate to rounding where forces are smooth. The
+//! method is slow and accurate, for reference solutions.
 //!
-//! The midpoint rule with 2, 4, 6, … steps over the same time has an error in even powers of their length, which the table of
-//! Aitken and Neville takes away one after the other; the last two entries say how far the result may be off (Bulirsch and Stoer
-//! 1966; Hairer, Nørsett and Wanner 1993, *Solving Ordinary Differential Equations I*, section II.9). Where 16 steps do not agree
-//! with 14, as at the moment of a contact, half the time is tried.
+//! The midpoint rule with 2, 4, 6, … steps over the same time has an error in even powers of the step length. The table of Aitken
+//! and Neville eliminates these powers one by one, and the difference of the last two entries estimates the error (Bulirsch and
+//! Stoer 1966; Hairer, Nørsett and Wanner 1993, *Solving Ordinary Differential Equations I*, section II.9). If 16 steps do not
+//! agree with 14, as at the start of a contact, half the time is tried.
 
 use super::flow;
 use crate::math::combine;
@@ -14,19 +14,20 @@ use crate::step::workspace::Scratch;
 
 /// Lines of the table: 2, 4, … steps.
 const LINES: usize = 8;
-/// The error that is allowed in a part, beside 1 plus the size of each number.
+/// The largest error of a part, relative to 1 plus the magnitude of each number.
 const TOLERANCE: f64 = 1e-13;
-/// The smallest part of a step, 1/2^this: what is not smooth there is taken as it is.
+/// The smallest part of a step is 1/2^14 of it. A smaller part is not tried, and the result is accepted although it is not
+/// smooth.
 const HALVINGS: u32 = 14;
-/// Parts of a step at most: then the rest is taken in one.
+/// Limit for the parts of a step. Beyond it, the rest of the step is one part.
 const PARTS: usize = 4096;
 
 /// A step.
 pub(super) fn adaptive(m: &Model, d: &mut Fields, s: &mut Scratch) {
     let h = m.opt.timestep;
-    // The table, and three states of the midpoint rule.
+    // Memory for the table, and for three states of the midpoint rule.
     let mut w = flow::enter(m, d, s, LINES + 3);
-    // Times are counted in units of the smallest part: no rounding.
+    // Times are counted in units of the smallest part, so that there are no rounding errors.
     let whole = 1u32 << HALVINGS;
     let (mut done, mut part, mut parts) = (0, whole, 0);
     loop {
@@ -43,7 +44,7 @@ pub(super) fn adaptive(m: &Model, d: &mut Fields, s: &mut Scratch) {
             break;
         }
         flow::go_on(m, d, s, &mut w, length);
-        // Twice as long, where that ends at a multiple of itself.
+        // Doubles the length of the part, if the current time is a multiple of the doubled length.
         if good && done % (2 * part) == 0 {
             part *= 2;
         }
@@ -54,7 +55,7 @@ pub(super) fn adaptive(m: &Model, d: &mut Fields, s: &mut Scratch) {
     flow::finish(m, d, s, w);
 }
 
-/// A part of the step, to `w.end`; whether it is as exact as asked.
+/// Computes a part of the step, to `w.end`. Returns whether it has the required accuracy.
 fn extrapolate(m: &Model, d: &mut Fields, s: &mut Scratch, w: &mut Flow, h: f64) -> bool {
     let n = w.start.len();
     if n == 0 {
@@ -66,7 +67,7 @@ fn extrapolate(m: &Model, d: &mut Fields, s: &mut Scratch, w: &mut Flow, h: f64)
     for line in 0..LINES {
         midpoint(m, d, s, w, h, 2 * (line + 1), states);
         end.copy_from_slice(&states[..n]);
-        // The line of the table: entry k takes the place of entry k of the line above.
+        // The line of the table: entry k replaces entry k of the line above.
         let mut error = 0.0f64;
         for (i, new) in end.iter_mut().enumerate() {
             let mut x = *new;
@@ -84,7 +85,7 @@ fn extrapolate(m: &Model, d: &mut Fields, s: &mut Scratch, w: &mut Flow, h: f64)
             *new = x;
         }
         good = line > 0 && error <= TOLERANCE;
-        // At rounding it comes no closer.
+        // At the level of rounding errors, more lines do not improve the result.
         let stuck = line > 2 && error >= before;
         if good || stuck || error.is_nan() || error == f64::INFINITY || d.meter.over() {
             good |= stuck && error < 30.0 * TOLERANCE;
@@ -96,13 +97,13 @@ fn extrapolate(m: &Model, d: &mut Fields, s: &mut Scratch, w: &mut Flow, h: f64)
     good
 }
 
-/// The larger of an error and a number's size; infinite where that is no number.
+/// The maximum of an error and the magnitude of a number; infinite if the number is not finite.
 fn larger(error: f64, x: f64) -> f64 {
     if x.is_finite() { error.max(x.abs()) } else { f64::INFINITY }
 }
 
-/// Gragg's method: a step of Euler's, then steps of twice the length from the state before the last, smoothed at the end. The
-/// first of three states becomes the result.
+/// Gragg's method: an Euler step, then steps of twice the length from the second-last state, with smoothing at the end. The
+/// first of the three states becomes the result.
 fn midpoint(m: &Model, d: &mut Fields, s: &mut Scratch, w: &Flow, h: f64, steps: usize, states: &mut [f64]) {
     let n = w.first.len();
     let (older, rest) = states.split_at_mut(n);

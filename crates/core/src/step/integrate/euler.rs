@@ -1,11 +1,11 @@
-//! Semi-implicit Euler.
+//! The semi-implicit Euler method.
 
 use super::{Slopes, advance, advance_along};
 use crate::model::{Fields, Model};
 use crate::step::damping::{damp, damps};
 use crate::step::workspace::Scratch;
 
-/// v += h a, then q advances with the new v. Joint damping is implicit, so that it is stable however stiff:
+/// v += h a, then q advances with the new v. Joint damping is implicit, so that the step is stable for any damping coefficient:
 /// (M + h B) a' = M a, where B is the derivative of the damping force.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn euler(m: &Model, d: &mut Fields, s: &mut Scratch) {

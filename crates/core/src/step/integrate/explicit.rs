@@ -1,12 +1,12 @@
-//! Explicit methods of Runge and Kutta's kind, in the coordinates of a step.
+//! Explicit Runge–Kutta methods, in the coordinates of a step.
 
 use super::flow;
 use crate::math::combine;
 use crate::model::{Fields, Model};
 use crate::step::workspace::Scratch;
 
-/// A method: stage s starts from the state at the start of the step plus h times the slopes of the stages before it, with the
-/// weights of its row; the step ends with `weights`. The first stage is the start itself and has no row.
+/// A method. Stage s starts from the state at the start of the step plus h times the slopes of the previous stages, with the
+/// weights of its row. The result uses `weights`. The first stage is the state at the start itself and has no row.
 pub(super) struct Method {
     rows: &'static [&'static [f64]],
     weights: &'static [f64],
@@ -21,8 +21,8 @@ pub(super) const FOURTH: Method = Method {
 /// √21
 const R: f64 = 4.582_575_694_955_84;
 
-/// Eleven stages of eighth order (Cooper and Verner 1972, *Some explicit Runge-Kutta methods of high order*), whose stages lie
-/// at the points of Lobatto's quadrature.
+/// A method of eighth order with eleven stages (Cooper and Verner 1972, *Some explicit Runge-Kutta methods of high order*), whose
+/// stages are at the nodes of Lobatto quadrature.
 pub(super) const EIGHTH: Method = Method {
     rows: &[
         &[1.0 / 2.0],
@@ -76,7 +76,7 @@ pub(super) const EIGHTH: Method = Method {
     weights: &[1.0 / 20.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 49.0 / 180.0, 16.0 / 45.0, 49.0 / 180.0, 1.0 / 20.0],
 };
 
-/// A step.
+/// Makes a step.
 pub(super) fn explicit(m: &Model, d: &mut Fields, s: &mut Scratch, method: &Method) {
     let h = m.opt.timestep;
     let mut w = flow::enter(m, d, s, method.weights.len());
@@ -107,7 +107,7 @@ pub(super) fn along(start: &[f64], h: f64, weights: &[f64], slopes: &[f64], out:
 mod tests {
     use super::*;
 
-    /// The conditions of quadrature, Σ b cᵏ⁻¹ = 1/k, as far as the order, and no further: the weights and the rows' sums.
+    /// The quadrature conditions Σ b cᵏ⁻¹ = 1/k hold up to the order of the method. c are the row sums, b the weights.
     #[test]
     fn conditions_of_order() {
         for (method, order) in [(&FOURTH, 4), (&EIGHTH, 8)] {
@@ -118,7 +118,7 @@ mod tests {
             for k in 1..=order {
                 assert!((moment(k) - 1.0 / f64::from(k)).abs() < 1e-14, "{order}: {k}");
             }
-            // Tall trees: bᵀ Aᵏ⁻¹ 1 = 1/k!
+            // The order conditions of tall rooted trees: bᵀ Aᵏ⁻¹ 1 = 1/k!
             let mut chain = vec![1.0; nodes.len()];
             let mut factorial = 1.0;
             for k in 1..=order {

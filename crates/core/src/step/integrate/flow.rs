@@ -1,10 +1,10 @@
-//! A step as an initial value problem in numbers that may be added.
+//! A step as an initial value problem in a vector space.
 //!
-//! Turns in space may not be added. So a configuration is written as the one at the start of the step, moved along u:
-//! q = q₀ exp(u), with u a shift of each slide and hinge, and a rotation vector of each ball, in its own frame. Then
-//! u̇ = dexp⁻¹(u) v, v̇ = a(q, v, t), and a method of order p for such equations is of order p for bodies that turn
-//! (Munthe-Kaas 1999, *High order Runge-Kutta methods on manifolds*; Iserles, Munthe-Kaas, Nørsett and Zanna 2000,
-//! *Lie-group methods*).
+//! Rotations in space cannot be added. Therefore a configuration is expressed as the one at the start of the step, moved by u:
+//! q = q₀ exp(u), where u consists of a displacement of each slide and hinge, and a rotation vector of each ball joint, in its
+//! own frame. Then u̇ = dexp⁻¹(u) v, v̇ = a(q, v, t). A method of order p for such equations has order p for rotating bodies too
+//! (Munthe-Kaas 1999, *High order Runge-Kutta methods on manifolds*; Iserles, Munthe-Kaas, Nørsett and Zanna 2000, *Lie-group
+//! methods*).
 //!
 //! The state is one list: u and v, each of length nv, and the activations.
 
@@ -17,7 +17,7 @@ use crate::step::forward;
 use crate::step::stages::Flow;
 use crate::step::workspace::Scratch;
 
-/// Enters a step with a method of so many stages; `finish` ends it. The forces at the start are known.
+/// Starts a step of a method with this number of stages. The forces of the current state must be known. `finish` ends the step.
 pub(super) fn enter(m: &Model, d: &mut Fields, s: &mut Scratch, stages: usize) -> Flow {
     let mut w = std::mem::take(&mut s.flow);
     w.make_room(m, stages);
@@ -26,7 +26,7 @@ pub(super) fn enter(m: &Model, d: &mut Fields, s: &mut Scratch, stages: usize) -
     w
 }
 
-/// Starts coordinates at the state of the data, whose forces are known.
+/// Starts the coordinates at the current state of the data, whose forces must be known.
 fn begin(m: &Model, d: &Fields, w: &mut Flow) {
     w.qpos.copy_from_slice(&d.qpos);
     w.time = d.time;
@@ -38,7 +38,7 @@ fn begin(m: &Model, d: &Fields, w: &mut Flow) {
     known_slope(m, d, &w.start, &mut w.first);
 }
 
-/// Puts the data into the state that the list says, at a time after the start.
+/// Sets the state of the data from a list, at a time after the start.
 fn place(m: &Model, d: &mut Fields, w: &Flow, after: f64, state: &[f64]) {
     let (u, rest) = state.split_at(m.nv);
     let (v, act) = rest.split_at(m.nv);
@@ -49,7 +49,7 @@ fn place(m: &Model, d: &mut Fields, w: &Flow, after: f64, state: &[f64]) {
     d.time = w.time + after;
 }
 
-/// The slope of the state that the data hold, whose forces are known.
+/// The slope at the current state of the data, whose forces must be known.
 fn known_slope(m: &Model, d: &Fields, state: &[f64], out: &mut [f64]) {
     let (du, rest) = out.split_at_mut(m.nv);
     let (dv, da) = rest.split_at_mut(m.nv);
@@ -67,7 +67,7 @@ fn known_slope(m: &Model, d: &Fields, state: &[f64], out: &mut [f64]) {
     da.copy_from_slice(&d.act_dot);
 }
 
-/// The slope of a state.
+/// Computes the forces for a state, and its slope.
 pub(super) fn slope(
     m: &Model,
     d: &mut Fields,
@@ -82,7 +82,7 @@ pub(super) fn slope(
     known_slope(m, d, state, out);
 }
 
-/// How fast the rotation vector u changes where a body that has turned by it turns with w, in its own frame:
+/// The time derivative of the rotation vector u of a body whose angular velocity is w, both in the body's own frame:
 /// dexp⁻¹(u) w = w + u×w/2 + (1 - (θ/2) cot(θ/2))/θ² u×(u×w) with θ = |u|.
 fn turn_rate(u: Vec3, w: Vec3) -> Vec3 {
     let square = dot(u, u);
@@ -90,7 +90,7 @@ fn turn_rate(u: Vec3, w: Vec3) -> Vec3 {
         return w;
     }
     let factor = if square < 1e-4 {
-        // The next term is 1e-14 of the first.
+        // The next term of the series is 1e-14 of the first.
         1.0 / 12.0 + square * (1.0 / 720.0 + square / 30240.0)
     } else {
         let half = 0.5 * square.sqrt();
@@ -100,7 +100,7 @@ fn turn_rate(u: Vec3, w: Vec3) -> Vec3 {
     std::array::from_fn(|i| w[i] + 0.5 * once[i] + factor * twice[i])
 }
 
-/// Goes on from the end of a part of the step: it becomes the start of the next, with its forces.
+/// Continues from the end of a part of the step, which becomes the start of the next part. Computes its forces.
 pub(super) fn go_on(m: &Model, d: &mut Fields, s: &mut Scratch, w: &mut Flow, part: f64) {
     let end = std::mem::take(&mut w.end);
     place(m, d, w, part, &end);
@@ -110,7 +110,7 @@ pub(super) fn go_on(m: &Model, d: &mut Fields, s: &mut Scratch, w: &mut Flow, pa
     begin(m, d, w);
 }
 
-/// Ends the step: `w.end` is the state at its end.
+/// Ends the step. `w.end` must contain the state at its end.
 pub(super) fn finish(m: &Model, d: &mut Fields, s: &mut Scratch, mut w: Flow) {
     let h = m.opt.timestep;
     let (u, rest) = w.end.split_at_mut(m.nv);
@@ -137,7 +137,8 @@ pub(super) fn finish(m: &Model, d: &mut Fields, s: &mut Scratch, mut w: Flow) {
 mod tests {
     use super::*;
 
-    /// The rotation vector of q₀⁻¹ q for q = exp(u) turned on for a short time with w changes as the formula says.
+    /// Compares the formula with the finite difference of the rotation vector of q₀⁻¹ q, for q = exp(u) followed by a short
+    /// rotation with w.
     #[test]
     fn the_rate_of_a_rotation_vector() {
         for size in [0.0, 1e-9, 1e-3, 0.00999, 0.0101, 0.5, 2.0, 3.0] {

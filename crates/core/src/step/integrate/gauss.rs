@@ -1,9 +1,9 @@
-//! Collocation at the three points of Gauss: of sixth order, and symmetric in time.
+//! Collocation at the three Gauss points. The method has order six and is symmetric in time.
 //!
-//! The state is a polynomial whose slope is that of the equations at three times within the step (Hairer, Lubich and Wanner
-//! 2006, *Geometric Numerical Integration*, sections II.1 and V.2). The stages are found by iteration. Played backwards the
-//! method returns where it came from, and what is quadratic in velocities alone it keeps: the energy of a body that turns freely to
-//! 1e-14 of itself, as measured (chapter XI there says why).
+//! The state is a polynomial whose slope satisfies the equations at three times within the step (Hairer, Lubich and Wanner 2006,
+//! *Geometric Numerical Integration*, sections II.1 and V.2). The stages are found by fixed-point iteration. With reversed time,
+//! the method returns to the previous state. It conserves functions that are quadratic in the velocities: for a free rotating
+//! body, the measured relative error of the energy is 1e-14 (chapter XI of the book explains why).
 
 use super::explicit::along;
 use super::flow;
@@ -21,15 +21,15 @@ const ROWS: [[f64; 3]; 3] = [
 ];
 const WEIGHTS: [f64; 3] = [5.0 / 18.0, 4.0 / 9.0, 5.0 / 18.0];
 
-/// Rounds of the iteration at most, and parts that a step is cut into where it does not settle.
+/// Limits for the rounds of the iteration, and for the number of parts of a step if the iteration does not converge.
 const ROUNDS: usize = 60;
 const PARTS: usize = 64;
 
-/// A step: whole if the iteration settles, else in as many equal parts as it takes, up to a limit. Beyond that a part is taken as
-/// the iteration left it.
+/// Makes a step. If the iteration does not converge, the step is divided into equal parts, up to a limit. Beyond the limit, the
+/// result of the iteration is used although it has not converged.
 pub(super) fn gauss(m: &Model, d: &mut Fields, s: &mut Scratch) {
     let h = m.opt.timestep;
-    // Three stages, and the next guess of one.
+    // Memory for three stages, and for the next iterate of one.
     let mut w = flow::enter(m, d, s, 4);
     let mut parts = 1;
     while !settles(m, d, s, &mut w, h / parts as f64) && parts < PARTS {
@@ -42,7 +42,7 @@ pub(super) fn gauss(m: &Model, d: &mut Fields, s: &mut Scratch) {
     flow::finish(m, d, s, w);
 }
 
-/// A part of the step, to `w.end`; whether its stages settled.
+/// Computes a part of the step, to `w.end`. Returns whether its stages converged.
 fn settles(m: &Model, d: &mut Fields, s: &mut Scratch, w: &mut Flow, h: f64) -> bool {
     let n = w.start.len();
     let (mut rows, mut end) = (std::mem::take(&mut w.rows), std::mem::take(&mut w.end));
@@ -55,7 +55,7 @@ fn settles(m: &Model, d: &mut Fields, s: &mut Scratch, w: &mut Flow, h: f64) -> 
         for i in 0..3 {
             along(&w.start, h, &ROWS[i], stages, &mut end);
             flow::slope(m, d, s, w, h * NODES[i], &end, new);
-            // Only what it changes of the state counts.
+            // The change is measured relative to 1 plus the magnitude of the slope.
             for (old, &new) in stages[i * n..][..n].iter_mut().zip(&*new) {
                 let size = 1.0 + old.abs().max(new.abs());
                 change = if new.is_finite() { change.max((new - *old).abs() / size) } else { f64::INFINITY };
@@ -65,9 +65,9 @@ fn settles(m: &Model, d: &mut Fields, s: &mut Scratch, w: &mut Flow, h: f64) -> 
                 break;
             }
         }
-        // Rounding is reached where it does not come closer any more.
+        // The iteration has converged to rounding if the change no longer decreases.
         settled = change < 4.0 * f64::EPSILON || (change < 1e-12 && change >= last);
-        // Where it does not come closer it never will.
+        // A change that does not decrease means that the iteration does not converge.
         if settled || !change.is_finite() || d.meter.over() || (round > 2 && change >= last) {
             break;
         }
@@ -82,7 +82,7 @@ fn settles(m: &Model, d: &mut Fields, s: &mut Scratch, w: &mut Flow, h: f64) -> 
 mod tests {
     use super::*;
 
-    /// Collocation: Σ a cᵏ⁻¹ = cᵏ/k for each row, and the weights likewise up to order 6.
+    /// Collocation conditions: Σ a cᵏ⁻¹ = cᵏ/k for each row, and the same for the weights up to order 6.
     #[test]
     fn conditions_of_order() {
         let sum = |row: &[f64; 3], k: i32| row.iter().zip(NODES).map(|(a, c)| a * c.powi(k - 1)).sum::<f64>();

@@ -8,7 +8,7 @@ use crate::math::{Spatial, solve_six};
 use crate::model::{Fields, Model, Warning};
 use crate::step::workspace::Scratch;
 
-/// All of D.
+/// The integrator `implicit`: uses the whole matrix D.
 pub(super) fn implicit(m: &Model, d: &mut Fields, s: &mut Scratch) {
     let w = &mut s.derivative;
     derivative::forces(m, d, w, Medium::Whole);
@@ -22,8 +22,8 @@ pub(super) fn implicit(m: &Model, d: &mut Fields, s: &mut Scratch) {
     advance_along(m, d, s);
 }
 
-/// D without the bias force, its lower triangle for both: a symmetric matrix. Rigid bodies that move freely are
-/// solved with all of D, six by six.
+/// The integrator `implicitfast`: D without the derivative of the bias force. The lower triangle is used for both, so that the
+/// matrix is symmetric. Free rigid bodies are solved with the whole matrix D, six by six.
 pub(super) fn implicitfast(m: &Model, d: &mut Fields, s: &mut Scratch) {
     let (w, factored) = (&mut s.derivative, &mut s.factored);
     let h = m.opt.timestep;
@@ -47,7 +47,7 @@ pub(super) fn implicitfast(m: &Model, d: &mut Fields, s: &mut Scratch) {
             acceleration[first..first + 6].copy_from_slice(&f);
             continue;
         }
-        // Without D: what is solved by itself does not spoil the rest.
+        // If the solution of this tree fails, it is solved without D, so that the other trees are not affected.
         let (ld, diag_inv) = (&mut factored.ld, &mut factored.diag_inv);
         if let Some(dof) = mass::factor_copy(m, &d.M, ld, diag_inv, dofs.clone()) {
             d.warn(Warning::Inertia, dof);
@@ -57,7 +57,7 @@ pub(super) fn implicitfast(m: &Model, d: &mut Fields, s: &mut Scratch) {
     advance_along(m, d, s);
 }
 
-/// All forces.
+/// The sum of all forces.
 fn force(d: &Fields, out: &mut [f64]) {
     for (o, (f, c)) in out.iter_mut().zip(d.qfrc_smooth.iter().zip(&d.qfrc_constraint)) {
         *o = f + c;

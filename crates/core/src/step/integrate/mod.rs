@@ -1,4 +1,4 @@
-//! Integrators: from accelerations to the next state.
+//! Integrators: they compute the next state from the accelerations.
 
 mod adaptive;
 mod euler;
@@ -20,7 +20,7 @@ use crate::{constraint, sensor};
 
 pub(crate) use position::{differentiate_pos, integrate_pos};
 
-/// The next state, by the integrator that the options name.
+/// Computes the next state with the integrator of the options.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn integrate(m: &Model, d: &mut Fields, s: &mut Scratch) {
     match m.opt.integrator {
@@ -41,30 +41,31 @@ fn by_another(m: &Model, d: &mut Fields, s: &mut Scratch) {
     }
 }
 
-/// The same from one evaluation of forces: methods that need more, as Runge–Kutta, become Euler.
+/// Like [`integrate`], with a single evaluation of the forces. Methods that need more evaluations, such as Runge–Kutta, become
+/// Euler.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn integrate_once(m: &Model, d: &mut Fields, s: &mut Scratch) {
     match m.opt.integrator {
         integrator::IMPLICIT => implicit::implicit(m, d, s),
         integrator::IMPLICITFAST => implicit::implicitfast(m, d, s),
-        // Its acceleration is already that of the end of the step.
+        // The acceleration already belongs to the end of the step.
         integrator::DISCRETE => advance(m, d, s, Slopes::default()),
         _ => euler::euler(m, d, s),
     }
 }
 
-/// What an integrator advances along, where that is not what the data hold.
+/// Replacements for the rates that an integrator uses. `None` means the field of the data.
 #[derive(Default)]
 struct Slopes<'a> {
     activation: Option<&'a mut Vec<f64>>,
-    /// Activations at the end of the step, where they are known.
+    /// Activations at the end of the step, if they are known.
     reached: Option<&'a [f64]>,
     acceleration: Option<&'a [f64]>,
     velocity: Option<&'a [f64]>,
 }
 
-/// What every integrator ends with, in MuJoCo's order: histories, activations, sleep, velocities, positions along the
-/// new velocities, time, and the acceleration from which the next solver starts.
+/// The last part of every integrator, in MuJoCo's order: histories, activations, sleep, velocities, positions with the
+/// new velocities, time, and the acceleration that warm-starts the next solver.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn advance(m: &Model, d: &mut Fields, s: &mut Scratch, slopes: Slopes) {
     let h = m.opt.timestep;
@@ -92,7 +93,7 @@ fn advance(m: &Model, d: &mut Fields, s: &mut Scratch, slopes: Slopes) {
     copy(&d.qacc, &mut d.qacc_warmstart);
 }
 
-/// The same along the acceleration that an implicit method has left in the scratch.
+/// Like [`advance`], with the acceleration that an implicit method has stored in the scratch.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn advance_along(m: &Model, d: &mut Fields, s: &mut Scratch) {
     let acceleration = std::mem::take(&mut s.damping.qacc);
@@ -100,8 +101,8 @@ fn advance_along(m: &Model, d: &mut Fields, s: &mut Scratch) {
     s.damping.qacc = acceleration;
 }
 
-/// Velocities and positions where trees may sleep: those that fall asleep stop, and what depends on their velocities is
-/// computed again; those that sleep stay where they are.
+/// Computes velocities and positions if trees may sleep. Trees that fall asleep stop, and the fields that depend on their
+/// velocities are computed again. The positions of sleeping trees do not change.
 #[cfg_attr(not(feature = "small"), inline(never))]
 fn advance_awake(
     m: &Model,
@@ -114,14 +115,14 @@ fn advance_awake(
     a.copy_from_slice(acceleration.unwrap_or(&d.qacc));
     if sleep::fall_asleep(m, d, &s.constraint.islands) {
         if m.opt.integrator == integrator::DISCRETE {
-            // Its rows have been moved to the end of the step.
+            // The constraint rows of the discrete integrator belong to the end of the step, so they are made again.
             constraint::make(m, d, &mut s.constraint);
         }
         forward::from_velocities(m, d, s);
         sleep::update(m, d);
     }
     if m.opt.integrator == integrator::DISCRETE {
-        // Its acceleration is that of the data, which may have been computed again.
+        // The acceleration is that of the data, which may have been computed again.
         a.copy_from_slice(&d.qacc);
     }
     start.copy_from_slice(&d.qpos);
@@ -133,7 +134,7 @@ fn advance_awake(
     (s.sleep.acceleration, s.sleep.start) = (a, start);
 }
 
-/// Keeps the controls and values of this time for delayed actuators and sensors.
+/// Stores the current controls and sensor values for delayed actuators and sensors.
 #[cfg_attr(not(feature = "small"), inline(never))]
 fn record(m: &Model, d: &mut Fields, s: &mut Scratch) {
     actuation::record(m, d);

@@ -1,7 +1,7 @@
-//! Coordinates and velocities: steps along velocities, and the velocities between two configurations.
+//! Coordinates and velocities: advancing coordinates with velocities, and the velocities between two configurations.
 //!
-//! Positions live on a manifold (unit quaternions), so they advance along velocities, never by adding
-//! coordinates (Hairer, Lubich and Wanner 2006, *Geometric Numerical Integration*, ch. IV).
+//! Positions are on a manifold (unit quaternions), so they advance along velocities; coordinates are never added (Hairer, Lubich
+//! and Wanner 2006, *Geometric Numerical Integration*, ch. IV).
 
 use crate::kinds::joint;
 use crate::math::*;
@@ -11,7 +11,7 @@ use crate::model::Model;
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn integrate_pos(m: &Model, qpos: &mut [f64], v: &[f64], h: f64) {
     if m.nq == m.nv {
-        // Slides and hinges only: coordinates and velocities are in the same places.
+        // Slides and hinges only: coordinates and velocities have the same indexes.
         let n = qpos.len().min(v.len());
         combine(&mut qpos[..n], [v], |q, [v]| q + h * v);
     } else {
@@ -19,8 +19,8 @@ pub(crate) fn integrate_pos(m: &Model, qpos: &mut [f64], v: &[f64], h: f64) {
     }
 }
 
-/// The same where joints have quaternions: coordinates and velocities follow each other joint by joint.
-#[inline(never)] // scenes of slides and hinges alone do not carry its set-up
+/// Like [`integrate_pos`], for models with quaternions. Coordinates and velocities are processed joint by joint.
+#[inline(never)] // scenes with slides and hinges only do not execute its prologue
 fn along_joints(m: &Model, mut qpos: &mut [f64], mut v: &[f64], h: f64) {
     for &kind in &m.jnt_type {
         (qpos, v) = match (kind, qpos, v) {
@@ -37,7 +37,7 @@ fn along_joints(m: &Model, mut qpos: &mut [f64], mut v: &[f64], h: f64) {
     }
 }
 
-/// Turns the quaternion that coordinates begin with; returns what follows.
+/// Rotates the quaternion at the start of the coordinates. Returns the coordinates and velocities after it.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn turn<'q, 'v>(qpos: &'q mut [f64], v: &'v [f64], h: f64) -> (&'q mut [f64], &'v [f64]) {
     match (qpos.split_first_chunk_mut(), v.split_first_chunk()) {
@@ -49,8 +49,8 @@ fn turn<'q, 'v>(qpos: &'q mut [f64], v: &'v [f64], h: f64) -> (&'q mut [f64], &'
     }
 }
 
-/// v ← the velocity that leads from `from` to `to` in a time `h` (`mj_differentiatePos`); rotations by the
-/// shorter way. Inverse to [`integrate_pos`] for unit quaternions and turns below half a revolution.
+/// v ← the velocity that leads from `from` to `to` in a time `h` (`mj_differentiatePos`). Rotations take the shorter direction.
+/// Inverse to [`integrate_pos`] for unit quaternions and rotations of less than half a revolution.
 pub(crate) fn differentiate_pos(m: &Model, v: &mut [f64], h: f64, from: &[f64], to: &[f64]) {
     for j in 0..m.njnt {
         let (mut q, mut k) = (m.jnt_qposadr[j] as usize, m.jnt_dofadr[j] as usize);

@@ -1,4 +1,4 @@
-//! The classic Runge–Kutta method of fourth order (Kutta 1901). Stage velocities are averaged and applied in
+//! The classical Runge–Kutta method of fourth order (Kutta 1901). The velocities of the stages are averaged and applied in
 //! one step on the manifold.
 
 use super::{Slopes, advance, integrate_pos};
@@ -6,7 +6,7 @@ use crate::model::{Fields, Model};
 use crate::step::forward;
 use crate::step::workspace::Scratch;
 
-/// Stage s starts from the first state plus A[s] h times the slope of stage s - 1; B weighs the slopes.
+/// Stage s starts from the initial state plus A[s] h times the slope of stage s - 1. B contains the weights of the slopes.
 const A: [f64; 3] = [0.5, 0.5, 1.0];
 const B: [f64; 4] = [1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0];
 
@@ -32,7 +32,7 @@ pub(super) fn rk4(m: &Model, d: &mut Fields, s: &mut Scratch) {
         add_scaled(&mut w.dvel, B[stage + 1], &d.qacc);
         add_scaled(&mut w.dact, B[stage + 1], &d.act_dot);
     }
-    // From the first state on, with the sums.
+    // Advances from the initial state with the weighted sums.
     d.time = start;
     d.qpos.copy_from_slice(&w.qpos);
     d.qvel.copy_from_slice(&w.qvel);

@@ -1,4 +1,4 @@
-//! Saved data come back whole or not at all.
+//! Saved data are restored completely or not at all.
 
 use super::*;
 use crate::constraint::contact_force;
@@ -28,7 +28,7 @@ fn scenes() -> Vec<Model> {
     pile.into_iter().chain([delays]).map(|text| compile(&text).unwrap()).collect()
 }
 
-/// In the middle of its way.
+/// Data in the middle of a motion.
 fn moving(m: &Model, plan: PlanTable) -> Workspace {
     let mut w = Workspace::planned(m, plan);
     let Workspace { fields: d, scratch: s } = &mut w;
@@ -105,7 +105,7 @@ fn other_bytes_are_told_apart_and_change_nothing() {
     assert_eq!(fails(&scenes()[5], &bytes), RestoreError::OtherModel);
 }
 
-/// Every integer of the data is looked at before it is believed.
+/// Every integer of the data is checked before its use.
 #[test]
 fn every_integer_field_has_its_limits() {
     let m = &scenes()[0];
@@ -117,7 +117,7 @@ fn every_integer_field_has_its_limits() {
     }
 }
 
-/// Bytes made to harm, with the right fingerprint at their end, are refused or do none.
+/// Malicious bytes with a correct hash at their end are refused or cause no panic.
 #[test]
 fn hostile_bytes_never_panic() {
     let mut seed = 7u64;

@@ -1,10 +1,10 @@
 //! Sleeping: trees at rest are not simulated until something disturbs them.
 //!
-//! MuJoCo's documentation, "Computation: Sleeping islands"; details measured on MuJoCo 3.14.0. An island of trees whose
-//! degrees of freedom are slower than `opt.sleep_tolerance` for [`PATIENCE`] steps falls asleep: its velocity becomes zero,
-//! it does not move, its smooth forces and accelerations stay what they were, and no constraint acts on it. It wakes as a
-//! whole when its state or the forces applied to it change, or when a contact, an equality or a tendon at its limit ties it
-//! to a tree that is awake.
+//! See MuJoCo's documentation, "Computation: Sleeping islands"; details measured on MuJoCo 3.14.0. An island of trees whose
+//! degrees of freedom are slower than `opt.sleep_tolerance` for [`PATIENCE`] steps falls asleep. Its velocity becomes zero, its
+//! positions do not change, its smooth forces and accelerations keep their values, and no constraint acts on it. It wakes as a
+//! whole when its state or the forces applied to it change, or when a contact, an equality or a tendon at its limit connects it
+//! to an awake tree.
 
 mod rest;
 mod wake;
@@ -19,25 +19,25 @@ use crate::model::{Fields, Model};
 pub(crate) use rest::{fall_asleep, keep, keep_still, put_back};
 pub(crate) use wake::{wake, wake_by_equalities, wake_by_tendons, wake_touched};
 
-/// Steps that a tree has to be slow for.
+/// The number of steps for which a tree must be slow.
 const PATIENCE: i32 = 10;
-/// `tree_asleep` of a tree that was not slow in the last step. It counts up to -1; where it sleeps it is the next tree of
-/// those that fell asleep together, which form a circle.
+/// `tree_asleep` of a tree that was not slow in the last step. The value counts up to -1. The value of a sleeping tree is the
+/// index of the next tree of those that fell asleep together, which form a cycle.
 const AWAKE: i32 = -(1 + PATIENCE);
 
-/// What the stage keeps from one step to the next, and scratch.
+/// The memory of the stage between steps, and its scratch.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Scratch {
-    /// Coordinates of the last position stage.
+    /// Coordinates at the last position stage.
     seen: Vec<f64>,
-    /// What of a sleeping tree stays as it was.
+    /// Smooth forces and accelerations, saved to restore those of sleeping trees.
     qfrc_smooth: Vec<f64>,
     qacc_smooth: Vec<f64>,
     act_dot: Vec<f64>,
-    /// Where a step starts from, and its acceleration.
+    /// The positions at the start of a step, and its acceleration.
     pub(in crate::step) start: Vec<f64>,
     pub(in crate::step) acceleration: Vec<f64>,
-    /// Whether there has been no forward pass since the reset.
+    /// Whether there was no forward pass since the reset.
     fresh: bool,
 }
 
@@ -56,17 +56,17 @@ impl Scratch {
     }
 }
 
-/// Whether there has been no forward pass since the reset: another plan may let trees start asleep, or not.
+/// Whether there was no forward pass since the reset. Another plan may then change whether trees start asleep.
 pub(crate) fn is_fresh(w: &Scratch) -> bool {
     w.fresh
 }
 
-/// After a forward pass.
+/// Records that a forward pass was made.
 pub(crate) fn passed(w: &mut Scratch) {
     w.fresh = false;
 }
 
-/// Coordinates of a tree.
+/// The coordinates of a tree.
 fn coordinates(m: &Model, tree: usize) -> Range<usize> {
     let dofs = m.tree_dofs(tree);
     let joint = |k: usize| m.dof_jntid[k] as usize;
@@ -74,7 +74,7 @@ fn coordinates(m: &Model, tree: usize) -> Range<usize> {
     m.jnt_qposadr[first] as usize..m.jnt_qposadr[last] as usize + joint::nq(m.jnt_type[last])
 }
 
-/// `tree_awake`, `body_awake` and the counts, from `tree_asleep`.
+/// Computes `tree_awake`, `body_awake` and the counts from `tree_asleep`.
 pub(crate) fn update(m: &Model, d: &mut Fields) {
     for (awake, asleep) in d.tree_awake.iter_mut().zip(&d.tree_asleep) {
         *awake = i32::from(*asleep < 0);
@@ -84,7 +84,7 @@ pub(crate) fn update(m: &Model, d: &mut Fields) {
         d.body_awake[b] = match usize::try_from(m.body_treeid[b]) {
             Ok(tree) if d.tree_awake[tree] == 0 => awake::NO,
             Ok(_) => awake::YES,
-            // What is placed from outside may move at any time.
+            // Mocap bodies may be moved by the user at any time.
             Err(_) if m.body_mocapid[m.body_rootid[b] as usize] >= 0 => awake::YES,
             Err(_) => awake::STATIC,
         };
@@ -97,18 +97,19 @@ pub(crate) fn update(m: &Model, d: &mut Fields) {
     d.ntree_awake = d.tree_awake.iter().filter(|&&a| a != 0).count();
 }
 
-/// All trees are awake. `true` where some start asleep: what they show then is what a forward pass makes of the start, after
-/// which [`start`] lays them down.
+/// Wakes all trees. Returns `true` if some start asleep: the caller must then make a forward pass for the initial state, after
+/// which [`start`] puts them to sleep.
 pub(crate) fn wake_all(m: &Model, d: &mut Fields) -> bool {
     d.tree_asleep.fill(AWAKE);
     update(m, d);
     asleep::on(m, d) && m.tree_sleep_policy.contains(&policy::INIT)
 }
 
-/// Lays down the trees that start asleep, without forces, accelerations and contacts; the others are at rest, too.
+/// Puts the trees to sleep that start asleep, without forces, accelerations and contacts. The accelerations of the other trees
+/// are zero too.
 pub(crate) fn start(m: &Model, d: &mut Fields, c: &mut constraint::Scratch) {
     for (asleep, &policy) in d.tree_asleep.iter_mut().zip(&m.tree_sleep_policy) {
-        // Those are ready; whether they may sleep together with what they touch, their island decides.
+        // These trees are ready to sleep. Their island determines whether they may sleep together with the trees that they touch.
         *asleep = if policy == policy::INIT { -1 } else { AWAKE };
     }
     fall_asleep(m, d, &c.islands);
@@ -119,7 +120,7 @@ pub(crate) fn start(m: &Model, d: &mut Fields, c: &mut constraint::Scratch) {
     update(m, d);
 }
 
-/// Begins anew, from the state at hand.
+/// Starts again from the current state.
 pub(crate) fn begin(d: &Fields, w: &mut Scratch) {
     w.seen.copy_from_slice(&d.qpos);
     w.fresh = true;

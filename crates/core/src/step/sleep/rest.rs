@@ -1,4 +1,4 @@
-//! Falling asleep, and what of a sleeping tree stays as it is.
+//! Falling asleep, and keeping the state and the results of sleeping trees.
 
 use super::{AWAKE, Scratch, coordinates};
 use crate::constraint::Islands;
@@ -7,14 +7,15 @@ use crate::model::asleep::{self, on, policy, some};
 use crate::model::index::element_range;
 use crate::model::{Fields, Model};
 
-/// Whether a tree may sleep at all.
+/// Whether the policy of a tree allows sleep.
 fn may_sleep(m: &Model, tree: usize) -> bool {
     !matches!(m.tree_sleep_policy[tree], policy::AUTO_NEVER | policy::NEVER)
 }
 
-/// Whether a tree may sleep, is not pushed from outside and moves slower than `tolerance`; for 0, not at all.
+/// Whether a tree may sleep, no force is applied to it, and it is slower than `tolerance`. For a tolerance of 0, its velocity
+/// must be zero.
 pub(super) fn is_still(m: &Model, d: &Fields, tree: usize, tolerance: f64) -> bool {
-    // A negative zero counts: somebody wrote it.
+    // A negative zero counts as an applied force, because it was written explicitly.
     let zero = |list: &[f64]| list.iter().all(|x| x.to_bits() == 0);
     let first = 6 * m.tree_bodyadr[tree] as usize;
     let pushed = &d.xfrc_applied[first..first + 6 * m.tree_bodynum[tree] as usize];
@@ -26,7 +27,7 @@ pub(super) fn is_still(m: &Model, d: &Fields, tree: usize, tolerance: f64) -> bo
         && if tolerance == 0.0 { zero(&d.qvel[dofs]) } else { dofs.into_iter().all(slow) }
 }
 
-/// What stands still of a step: sleeping trees stay where they are in `start`, and have no velocity.
+/// Resets sleeping trees after a step: their positions are those in `start`, and their velocities are zero.
 pub(crate) fn keep_still(m: &Model, d: &mut Fields, start: &[f64]) {
     for tree in (0..m.ntree).filter(|&t| d.tree_awake[t] == 0) {
         d.qvel[m.tree_dofs(tree)].fill(0.0);
@@ -35,11 +36,11 @@ pub(crate) fn keep_still(m: &Model, d: &mut Fields, start: &[f64]) {
     }
 }
 
-/// Counts the steps for which trees have been slow, and stops those that fall asleep: islands of which all trees have been
-/// slow for long enough. `true` when there are any: what depends on their velocities has to be computed again.
+/// Counts the steps in which trees were slow, and stops those that fall asleep: islands in which all trees have been
+/// slow for long enough. Returns `true` if there are any; fields that depend on their velocities must then be computed again.
 pub(crate) fn fall_asleep(m: &Model, d: &mut Fields, islands: &Islands) -> bool {
     if d.nefc > 0 && m.opt.disabled(disable::ISLAND) {
-        // Nobody knows which trees hold each other.
+        // Without islands, it is not known which trees are connected by constraints.
         return false;
     }
     for tree in 0..m.ntree {
@@ -60,7 +61,7 @@ pub(crate) fn fall_asleep(m: &Model, d: &mut Fields, islands: &Islands) -> bool 
     slept
 }
 
-/// Stops the trees of an island, each with the next in a circle; `true` when there are any.
+/// Stops the trees of an island and links each to the next, cyclically. Returns `true` if there are any.
 fn lay_down(m: &Model, d: &mut Fields, trees: impl Iterator<Item = usize> + Clone) -> bool {
     let next = trees.clone().cycle().skip(1);
     let mut some = false;
@@ -72,7 +73,7 @@ fn lay_down(m: &Model, d: &mut Fields, trees: impl Iterator<Item = usize> + Clon
     some
 }
 
-/// Keeps the results of sleeping trees, before others are computed.
+/// Saves the results of sleeping trees before the stages overwrite them.
 pub(crate) fn keep(m: &Model, d: &Fields, w: &mut Scratch) {
     if some(m, d) && on(m, d) {
         w.qfrc_smooth.copy_from_slice(&d.qfrc_smooth);
@@ -81,7 +82,7 @@ pub(crate) fn keep(m: &Model, d: &Fields, w: &mut Scratch) {
     }
 }
 
-/// Gives sleeping trees their own results back, before constraints are solved.
+/// Restores the saved results of sleeping trees before constraints are solved.
 pub(crate) fn put_back(m: &Model, d: &mut Fields, w: &Scratch) {
     if !some(m, d) || !on(m, d) {
         return;

@@ -1,11 +1,11 @@
-//! What wakes a tree.
+//! Waking sleeping trees.
 
 use super::{AWAKE, Scratch, coordinates, rest, update};
 use crate::kinds::eqtype;
 use crate::model::asleep::{on, some};
 use crate::model::{Fields, Model};
 
-/// Wakes what was disturbed from outside since the last position stage: moved, pushed, or given a velocity.
+/// Wakes the trees that the user changed since the last position stage: their positions, applied forces or velocities.
 pub(crate) fn wake(m: &Model, d: &mut Fields, w: &mut Scratch) {
     if some(m, d) {
         let allowed = on(m, d);
@@ -23,13 +23,13 @@ pub(crate) fn wake(m: &Model, d: &mut Fields, w: &mut Scratch) {
     }
 }
 
-/// Wakes what a tendon at its limit ties to a tree that is awake.
+/// Wakes trees that a tendon at its limit connects to an awake tree.
 pub(crate) fn wake_by_tendons(m: &Model, d: &mut Fields) {
     if !some(m, d) {
         return;
     }
     for t in (0..m.ntendon).filter(|&t| m.tendon_treenum[t] == 2) {
-        // A stored model may count two trees and name fewer: that tendon ties nothing.
+        // A stored model may count two trees and name fewer. Such a tendon connects nothing.
         let [Ok(a), Ok(b)] = [m.tendon_treeid[2 * t], m.tendon_treeid[2 * t + 1]].map(usize::try_from) else {
             continue;
         };
@@ -43,7 +43,7 @@ pub(crate) fn wake_by_tendons(m: &Model, d: &mut Fields) {
     update(m, d);
 }
 
-/// Wakes what touches a body that is awake; `true` when there is any, which may touch others in turn.
+/// Wakes trees that touch an awake body. Returns `true` if there are any, because these may touch others.
 pub(crate) fn wake_touched(m: &Model, d: &mut Fields) -> bool {
     if !some(m, d) {
         return false;
@@ -53,7 +53,7 @@ pub(crate) fn wake_touched(m: &Model, d: &mut Fields) -> bool {
         let bodies = [d.contact[c].geom1, d.contact[c].geom2].map(|g| m.geom_bodyid[g] as usize);
         match bodies.map(|body| usize::try_from(m.body_treeid[body]).ok()) {
             [Some(a), Some(b)] => wake_one(d, [a, b]),
-            // A body that is placed from outside.
+            // A mocap body.
             [Some(tree), None] | [None, Some(tree)] if d.tree_awake[tree] == 0 => wake_island(d, tree, AWAKE),
             _ => {}
         }
@@ -62,7 +62,7 @@ pub(crate) fn wake_touched(m: &Model, d: &mut Fields) -> bool {
     d.ntree_awake > before
 }
 
-/// Wakes what an equality ties to a tree that is awake, or to one that fell asleep at another time.
+/// Wakes trees that an equality connects to an awake tree, or to a tree of another sleep cycle.
 pub(crate) fn wake_by_equalities(m: &Model, d: &mut Fields) {
     if !some(m, d) {
         return;
@@ -79,7 +79,7 @@ pub(crate) fn wake_by_equalities(m: &Model, d: &mut Fields) {
     update(m, d);
 }
 
-/// Wakes the one of two trees that sleeps while the other does not. It has been slow for as long as the other.
+/// If exactly one of two trees sleeps, wakes it, and copies the count of slow steps from the other.
 fn wake_one(d: &mut Fields, [a, b]: [usize; 2]) {
     match (d.tree_awake[a] != 0, d.tree_awake[b] != 0) {
         (true, false) => wake_island(d, b, d.tree_asleep[a]),
@@ -88,7 +88,7 @@ fn wake_one(d: &mut Fields, [a, b]: [usize; 2]) {
     }
 }
 
-/// The two trees that an equality ties, `None` when one side cannot move.
+/// The two trees that an equality connects, or `None` if one side cannot move.
 fn tied_trees(m: &Model, e: usize) -> Option<[usize; 2]> {
     let body = |list: &[i32], id: i32| Some(*list.get(usize::try_from(id).ok()?)? as usize);
     let sides = [m.eq_obj1id[e], m.eq_obj2id[e]].map(|id| match m.eq_type[e] {
@@ -103,16 +103,17 @@ fn tied_trees(m: &Model, e: usize) -> Option<[usize; 2]> {
     Some([a?, b?])
 }
 
-/// Whether the coordinates of a tree are not those of the last position stage.
+/// Whether the coordinates of a tree differ from those of the last position stage.
 fn was_moved(m: &Model, d: &Fields, w: &Scratch, tree: usize) -> bool {
     let of_tree = coordinates(m, tree);
     d.qpos[of_tree.clone()] != w.seen[of_tree]
 }
 
-/// Wakes a tree and those that fell asleep with it. One that is awake counts on from `value` if that is less.
+/// Wakes a tree and those that fell asleep with it. A tree that is already awake continues to count from `value` if that is
+/// smaller.
 ///
-/// A written `tree_asleep` may hold any number, so the walk relies on none: every tree that it visits is awake
-/// afterwards, and it ends at the first that is.
+/// A written `tree_asleep` may contain any number, so that the walk makes no assumptions: every tree that it visits is awake
+/// afterwards, and it ends at the first tree that is already awake.
 fn wake_island(d: &mut Fields, tree: usize, value: i32) {
     let value = if value < 0 { value } else { AWAKE };
     let mut at = tree;

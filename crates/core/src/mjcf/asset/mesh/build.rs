@@ -1,4 +1,4 @@
-//! From what was written to a mesh in its own frame: reference frame and scale, centre of mass, principal axes.
+//! Converts mesh data to a mesh in its own frame: reference frame and scale, centre of mass, principal axes.
 
 use super::bulk;
 use super::bulk::Body;
@@ -10,15 +10,15 @@ use crate::mjcf::body::inertia::principal_to;
 use crate::mjcf::gather::listed;
 use labspec_finding::order;
 
-/// How well the axes of a mesh are found, and how far apart moments are that are not equal: as a part of the largest element
-/// of its inertia. MuJoCo 3.14.0 was measured: boxes that are turned, and whose sides differ, by little.
+/// The accuracy of the principal axes, and the relative difference above which moments count as different, as a fraction of the
+/// largest element of the inertia. Measured on MuJoCo 3.14.0 with rotated boxes whose sides differ slightly.
 const AXES: f64 = 1e-7;
 
-/// What an asset says besides its data.
+/// The parameters of a mesh asset, besides its data.
 #[derive(Clone, Debug)]
 pub(crate) struct Options {
     pub(crate) scale: Vec3,
-    /// The frame that the mesh is seen from.
+    /// The reference frame, in which the mesh is expressed.
     pub(crate) refpos: Vec3,
     pub(crate) refquat: Quat,
     pub(crate) smooth: bool,
@@ -27,13 +27,13 @@ pub(crate) struct Options {
 }
 
 impl Options {
-    /// Whether the scale turns the mesh into its mirror image.
+    /// Whether the scale mirrors the mesh.
     fn mirrors(&self) -> bool {
         self.scale.iter().product::<f64>() < 0.0
     }
 }
 
-/// Makes a mesh. Its hull is made where the mesh is made of it; others ask for it by [`hull`].
+/// Builds a mesh. Computes its convex hull only if the mesh itself depends on it; other code calls [`hull`].
 pub(crate) fn mesh(mut raw: Raw, options: Options) -> Result<Mesh, Problem> {
     check_faces(&raw, options.body)?;
     let written = raw.vert.clone();
@@ -96,7 +96,7 @@ pub(crate) fn hull(mesh: &Mesh) -> Result<Hull, Problem> {
     Ok(hull)
 }
 
-/// The convex hull of vertices as they were written.
+/// The convex hull of the vertices before scaling.
 fn unscaled_hull(written: &[Vec3], options: &Options) -> Result<Hull, Problem> {
     Hull::from_points(written, options.maxhullvert).map_err(|flat| {
         let (what, help) = match flat {
@@ -112,7 +112,7 @@ fn unscaled_hull(written: &[Vec3], options: &Options) -> Result<Hull, Problem> {
     })
 }
 
-/// That there is something to make a mesh of.
+/// Checks that the data suffice for a mesh.
 fn check_faces(raw: &Raw, body: Body) -> Result<(), Problem> {
     let count = raw.vert.len();
     if count < 4 {
@@ -147,7 +147,7 @@ fn check_faces(raw: &Raw, body: Body) -> Result<(), Problem> {
     if body == Body::Exact { check_sense(raw) } else { Ok(()) }
 }
 
-/// That neighbouring triangles run the same way round: each passes their common edge in its own direction.
+/// Checks that neighbouring triangles have the same orientation: the two traverse their common edge in opposite directions.
 fn check_sense(raw: &Raw) -> Result<(), Problem> {
     let corner = |v: i32| raw.vert.get(v as usize).copied().unwrap_or_default();
     let solid = |f: &&[i32; 3]| triangle(f.map(corner)).0 > libm::sqrt(MINVAL);
@@ -168,7 +168,7 @@ fn check_sense(raw: &Raw) -> Result<(), Problem> {
     }
 }
 
-/// Puts vertices and normals into the reference frame and scales them.
+/// Transforms vertices and normals to the reference frame and scales them.
 fn place(raw: &mut Raw, options: &Options) {
     let Options { scale, refpos, refquat, .. } = options;
     let turn = quat_to_mat(quat_normalize(*refquat));
@@ -179,7 +179,8 @@ fn place(raw: &mut Raw, options: &Options) {
         }
         *v = std::array::from_fn(|i| v[i] * scale[i]);
     }
-    // A normal turns as the area of what it stands on does: stretched along an axis, it tilts away from it.
+    // A normal transforms like the area element that it belongs to: it is scaled along each axis by the product of the other two
+    // scales.
     let [x, y, z] = *scale;
     let area = [y * z, x * z, x * y].map(|a| if options.mirrors() { -a } else { a });
     for n in &mut raw.normal {
@@ -188,7 +189,7 @@ fn place(raw: &mut Raw, options: &Options) {
     }
 }
 
-/// The mass of the body that a mesh stands for.
+/// The mass properties of the body that a mesh represents.
 fn mass(vert: &[Vec3], face: &[[i32; 3]], solid: &[[i32; 3]], body: Body) -> Result<Mass, Problem> {
     let triangles = |faces| bulk::triangles(vert, faces);
     let (area, middle) = bulk::surface(triangles(face));

@@ -1,24 +1,24 @@
-//! Volume, centre of mass and inertia of what a surface of triangles encloses, or of the surface itself.
+//! Volume, centre of mass and inertia of the solid that a surface of triangles encloses, or of the surface itself.
 //!
-//! By the divergence theorem an integral over the inside is a sum over the cones between the triangles and a common apex, each
-//! with the sign of its volume. A simplex of the volume or area V with the n corners vᵢ, n = 4 or 3, and their sum s has
+//! By the divergence theorem, an integral over the interior is a sum over the tetrahedra between the triangles and a common apex,
+//! each with the sign of its volume. For a simplex of the volume or area V with the n corners vᵢ, n = 4 or 3, and their sum s:
 //!
 //! > ∫ x = V s / n,  ∫ x xᵀ = V / (n (n + 1)) (Σ vᵢ vᵢᵀ + s sᵀ)
 //!
-//! (Hammer, Marlowe and Stroud, *Numerical integration over simplexes and cones*, 1956). An apex at the origin adds nothing to the
-//! sums of corners.
+//! (Hammer, Marlowe and Stroud, *Numerical integration over simplexes and cones*, 1956). An apex at the origin contributes
+//! nothing to the sums of corners.
 
 use super::triangle;
 use crate::math::{Vec3, add, add_scaled, cross, dot, sub};
 
-/// What is taken for the body of a mesh.
+/// The body that a mesh represents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Body {
     /// The convex hull.
     Convex,
-    /// What the triangles enclose, with their sense.
+    /// The solid that the triangles enclose; their orientation determines the sign.
     Exact,
-    /// The same with every tetrahedron counted as positive: too much where the mesh is not convex.
+    /// The same solid with every tetrahedron counted as positive. The result is too large if the mesh is not convex.
     Legacy,
     /// The surface.
     Shell,
@@ -27,7 +27,7 @@ pub(crate) enum Body {
 /// Mass properties for a density of one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Mass {
-    /// m^3; of a shell m^2.
+    /// Volume, m^3, or area of a shell, m^2.
     pub(super) amount: f64,
     pub(super) centre: Vec3,
     /// About the centre: xx yy zz xy xz yz.
@@ -42,7 +42,7 @@ pub(super) fn triangles<'m>(vert: &'m [Vec3], face: &'m [[i32; 3]]) -> impl Iter
 }
 
 impl Body {
-    /// V of the simplex of a triangle, with the apex at the origin where it is a tetrahedron.
+    /// V of the simplex of a triangle. A tetrahedron has its apex at the origin.
     fn measure(self, t: Triangle) -> f64 {
         let [a, b, c] = t;
         let volume = dot(a, cross(b, c)) / 6.0;
@@ -53,7 +53,7 @@ impl Body {
         }
     }
 
-    /// n: the corners of a simplex.
+    /// n: the number of corners of a simplex.
     fn corners(self) -> f64 {
         if self == Body::Shell { 3.0 } else { 4.0 }
     }
@@ -64,7 +64,7 @@ pub(super) fn surface(triangles: impl Iterator<Item = Triangle>) -> (f64, Vec3) 
     bulk(triangles, Body::Shell, [0.0; 3])
 }
 
-/// Amount and centre of mass, by simplexes from `apex`.
+/// Volume or area, and centre of mass, from simplexes with the apex `apex`.
 pub(super) fn bulk(triangles: impl Iterator<Item = Triangle>, body: Body, apex: Vec3) -> (f64, Vec3) {
     let (mut total, mut first) = (0.0, [0.0; 3]);
     for t in triangles {
@@ -76,7 +76,7 @@ pub(super) fn bulk(triangles: impl Iterator<Item = Triangle>, body: Body, apex: 
     (total, add_scaled(apex, first, 1.0 / total))
 }
 
-/// Amount and inertia about `centre`, by simplexes from there.
+/// Volume or area, and inertia about `centre`, from simplexes with this apex.
 pub(super) fn about(triangles: impl Iterator<Item = Triangle>, body: Body, centre: Vec3) -> Mass {
     let corners = body.corners();
     let (mut amount, mut second) = (0.0, [[0.0; 3]; 3]);

@@ -1,8 +1,8 @@
-//! Triangle meshes: from text, files or a rule to vertices about the centre of mass along the principal axes, with
-//! volume, inertia and convex hull.
+//! Triangle meshes from text, files or a rule. The vertices are relative to the centre of mass, along the principal axes. A mesh
+//! has a volume, an inertia and a convex hull.
 //!
-//! [`Raw`] is what was written; [`build::mesh`] makes a [`Mesh`] of it, in the order that MuJoCo's documentation gives
-//! ("XML reference, asset/mesh"; details measured on the library).
+//! [`Raw`] contains the data as given; [`build::mesh`] computes a [`Mesh`] from it, in the order that MuJoCo's documentation
+//! describes ("XML reference, asset/mesh"; details measured on the library).
 
 pub(crate) mod build;
 pub(crate) mod builtin;
@@ -20,61 +20,61 @@ use crate::math::{Quat, Vec3, add, dot, norm, rotate, scale, sub};
 pub(crate) use bulk::Body;
 pub(crate) use quickhull::{Flat, Hull};
 
-/// Most vertices of a mesh: more than any body needs to touch another.
+/// Limit for the vertices of a mesh: more than any collision shape needs.
 pub(crate) const MAX_VERTICES: usize = 1_000_000;
-/// Most triangles of a mesh.
+/// Limit for the triangles of a mesh.
 pub(crate) const MAX_FACES: usize = 2_000_000;
 
-/// A mesh as it was written.
+/// The data of a mesh as given in the text or a file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Raw {
-    /// m, before scaling. Numbers of single precision, as files have them.
+    /// Vertices, m, before scaling. Rounded to single precision, as in files.
     pub(crate) vert: Vec<Vec3>,
     pub(crate) normal: Vec<Vec3>,
     pub(crate) texcoord: Vec<[f64; 2]>,
-    /// Vertices of each triangle. None: the convex hull of the vertices.
+    /// The vertices of each triangle. If empty, the faces are those of the convex hull of the vertices.
     pub(crate) face: Vec<[i32; 3]>,
-    /// Normals of each triangle's corners. None: those of the vertices.
+    /// The normals of each triangle's corners. If empty, those of the vertices.
     pub(crate) facenormal: Vec<[i32; 3]>,
-    /// Texture coordinates of each triangle's corners. None: those of the vertices.
+    /// The texture coordinates of each triangle's corners. If empty, those of the vertices.
     pub(crate) facetexcoord: Vec<[i32; 3]>,
 }
 
 /// A mesh ready for geoms.
 #[derive(Clone, Debug)]
 pub(crate) struct Mesh {
-    /// What is drawn and hit by rays: vertices in the frame of the mesh, m.
+    /// The shape for rendering and for rays: vertices in the frame of the mesh, m.
     pub(crate) shape: Raw,
-    /// The vertices as they were written: a hull is computed from them.
+    /// The vertices before scaling. The hull is computed from them.
     pub(crate) written: Vec<Vec3>,
     pub(crate) hull: Option<Hull>,
     pub(crate) options: build::Options,
-    /// Centre of mass in the frame that the mesh was written in, m.
+    /// Centre of mass in the frame in which the data were given, m.
     pub(crate) pos: Vec3,
-    /// Orientation of the principal axes there.
+    /// Orientation of the principal axes in that frame.
     pub(crate) quat: Quat,
-    /// Volume, m^3; of a shell its area, m^2.
+    /// Volume, m^3, or area of a shell, m^2.
     pub(crate) amount: f64,
-    /// Half lengths of the box of the same volume's mass and moments, m.
+    /// Half lengths of the box with the same mass and moments of inertia, m.
     pub(crate) half: Vec3,
-    /// Corners of the box along the axes that holds the vertices, m.
+    /// Corners of the axis-aligned box that contains the vertices, m.
     pub(crate) lower: Vec3,
     pub(crate) upper: Vec3,
 }
 
 impl Mesh {
-    /// Centre and half lengths of the box that holds the vertices, m.
+    /// Centre and half lengths of the box that contains the vertices, m.
     pub(crate) fn aabb(&self) -> [f64; 6] {
         let ([a, b, c], [x, y, z]) = (self.middle(), scale(sub(self.upper, self.lower), 0.5));
         [a, b, c, x, y, z]
     }
 
-    /// Half lengths of the box about the centre of mass that holds the vertices, m.
+    /// Half lengths of the box about the centre of mass that contains the vertices, m.
     pub(crate) fn reach(&self) -> Vec3 {
         [0, 1, 2].map(|i| self.lower[i].abs().max(self.upper[i].abs()))
     }
 
-    /// Moments of the mesh for a unit mass, m^2: those of a box.
+    /// Principal moments of the mesh for unit mass, m^2, computed from the equivalent box.
     pub(crate) fn moments(&self) -> Vec3 {
         let [x, y, z] = self.half.map(|h| h * h / 3.0);
         [y + z, x + z, x + y]
@@ -84,15 +84,15 @@ impl Mesh {
         scale(add(self.upper, self.lower), 0.5)
     }
 
-    /// Centre in the frame that the mesh was written in, and sizes, of a primitive shape that stands for the mesh:
-    /// as large as its inertia, or as its bounding box. `None` for a shape without inside.
+    /// A primitive shape that replaces the mesh: its centre, in the frame in which the data were given, and its sizes. The shape
+    /// is fitted to the inertia, or to the bounding box. `None` for a type without volume.
     pub(crate) fn fit(&self, kind: i32, bounding: bool) -> Option<(Vec3, Vec3)> {
         let size = if bounding { self.around(kind)? } else { self.equivalent(kind)? };
         let centre = if bounding { add(self.pos, rotate(self.middle(), self.quat)) } else { self.pos };
         Some((centre, size))
     }
 
-    /// Sizes from those of the box of the same inertia.
+    /// Sizes of the shape, from those of the box with the same inertia.
     fn equivalent(&self, kind: i32) -> Option<Vec3> {
         let [x, y, z] = self.half;
         let radius = (x + y) / 2.0;
@@ -105,8 +105,8 @@ impl Mesh {
         })
     }
 
-    /// Sizes of the shape about the middle of the bounding box that holds every vertex; those of an ellipsoid are
-    /// the box's.
+    /// Sizes of the shape, centred at the centre of the bounding box, that contains every vertex. Those of an ellipsoid are
+    /// the sizes of the box.
     fn around(&self, kind: i32) -> Option<Vec3> {
         let middle = self.middle();
         let largest = |of: &dyn Fn(Vec3) -> f64| {
@@ -118,7 +118,7 @@ impl Mesh {
             geom::CYLINDER => [largest(&across), largest(&|d| d[2].abs()), 0.0],
             geom::CAPSULE => {
                 let radius = largest(&across);
-                // Beyond its half length the cap rises by its height at the vertex's distance from the axis.
+                // Beyond the half length, the height of the cap at the vertex's distance from the axis is available.
                 let cap = |d: Vec3| radius * libm::sin(libm::acos(across(d) / radius));
                 [radius, largest(&|d| d[2].abs() - cap(d)), 0.0]
             }
@@ -128,7 +128,7 @@ impl Mesh {
     }
 }
 
-/// Area, centre and unit normal of a triangle; a flat one has no area.
+/// Area, centre and unit normal of a triangle. The area of a degenerate triangle is zero.
 pub(crate) fn triangle([a, b, c]: [Vec3; 3]) -> (f64, Vec3, Vec3) {
     let centre = [0, 1, 2].map(|i| (a[i] + b[i] + c[i]) / 3.0);
     let normal = crate::math::cross(sub(b, a), sub(c, a));
@@ -139,12 +139,12 @@ pub(crate) fn triangle([a, b, c]: [Vec3; 3]) -> (f64, Vec3, Vec3) {
     (0.5 * length, centre, normal.map(|x| x / length))
 }
 
-/// What is wrong with a mesh or height field, and what to do about it.
+/// An error in a mesh or height field, and what to do about it.
 #[derive(Debug)]
 pub(crate) struct Problem {
-    /// The attribute that it is about.
+    /// The attribute that contains the error.
     pub(crate) attribute: &'static str,
-    /// Continues a sentence that begins with the asset.
+    /// The end of a sentence that starts with the asset.
     pub(crate) message: String,
     pub(crate) why: &'static str,
     pub(crate) help: &'static str,
@@ -160,17 +160,17 @@ impl Problem {
         Problem { attribute, message: message.into(), why, help }
     }
 
-    /// A file that is not what its name says.
+    /// A problem with the contents of a file.
     pub(crate) fn file(message: impl Into<String>, help: &'static str) -> Problem {
         Problem::new("file", message, "", help)
     }
 }
 
-/// The kind of MuJoCo's own files.
+/// The content type of MuJoCo's mesh files.
 const MSH: &str = "model/vnd.mujoco.msh";
 
-/// Reads a mesh from the bytes of a file; the ending of its name says what it is. A `content_type` only decides whether
-/// it is MuJoCo's own format where the ending says nothing better, as in MuJoCo 3.14.0 (measured).
+/// Reads a mesh from the bytes of a file. The extension of the file name determines the format. The `content_type` of MuJoCo's
+/// format takes precedence, other content types have no effect, as in MuJoCo 3.14.0 (measured).
 pub(crate) fn decode(path: &str, content_type: &str, bytes: &[u8]) -> Result<Raw, Problem> {
     let ending = path.rsplit_once('.').map_or("", |(_, ending)| ending).to_ascii_lowercase();
     let ending = if content_type == MSH { "msh" } else { ending.as_str() };
@@ -185,7 +185,7 @@ pub(crate) fn decode(path: &str, content_type: &str, bytes: &[u8]) -> Result<Raw
     }
 }
 
-/// Numbers of a little-endian file, front to back.
+/// Reads the numbers of a little-endian file in sequence.
 pub(crate) struct Bytes<'b>(pub(crate) &'b [u8]);
 
 impl Bytes<'_> {

@@ -1,6 +1,6 @@
-//! MuJoCo's own binary meshes (XML reference, asset/mesh: MSH): numbers of vertices, normals, texture coordinates and
-//! triangles, then these, in single precision and 32-bit integers. Normals and texture coordinates are those of the
-//! vertices.
+//! MuJoCo's binary mesh format (XML reference, asset/mesh: MSH): the counts of vertices, normals, texture coordinates and
+//! triangles, followed by these arrays, in single precision and 32-bit integers. There is one normal and one texture coordinate
+//! per vertex.
 
 use crate::mjcf::asset::mesh::{Bytes, MAX_FACES, MAX_VERTICES, Problem, Raw};
 use crate::mjcf::gather::listed;

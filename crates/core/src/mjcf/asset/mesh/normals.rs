@@ -1,20 +1,20 @@
-//! Normals of vertices: the mean of the triangles around, by area. Unless a mesh is to look smooth, triangles at a
-//! large angle from that mean do not count.
+//! Vertex normals: the mean of the normals of the adjacent triangles, weighted by area. Unless the mesh is smooth, triangles at a
+//! large angle to that mean are excluded.
 //!
-//! Sums are in single precision, as MuJoCo's are: where all triangles around a vertex are taken away again, what is
-//! left is rounding, and it becomes a normal.
+//! Sums are in single precision, as in MuJoCo. If all triangles at a vertex are excluded, the sum consists of rounding errors,
+//! and its direction is the normal.
 
 use crate::math::{MINVAL, Vec3, cross, dot, normalize, scale, sub};
 use crate::mjcf::gather::listed;
 
-/// Cosine of the largest angle of a triangle that counts.
+/// The cosine of the largest angle between an included triangle and the mean.
 const SHARP: f64 = 0.8;
 
 type Single = [f32; 3];
 
 pub(super) fn of_vertices(vert: &[Vec3], face: &[[i32; 3]], smooth: bool) -> Vec<Vec3> {
     let corner = |v: i32| vert.get(v as usize).copied().unwrap_or_default();
-    // Direction and twice the area of each triangle.
+    // The normal of each triangle, and twice its area.
     let side = |[a, b, c]: [Vec3; 3]| normalize(cross(sub(b, a), sub(c, a)));
     let sides: Vec<(Vec3, f64)> = listed(face.iter().map(|f| side(f.map(corner))));
     let corners = || face.iter().zip(&sides).flat_map(|(f, &side)| f.map(|v| (v as usize, side)));
@@ -43,7 +43,7 @@ fn add(sums: &mut [Single], v: usize, part: Vec3) {
     }
 }
 
-/// The direction of a normal; up where there is none.
+/// The direction of a normal, or +z if its length is zero.
 pub(super) fn unit(normal: Vec3) -> Vec3 {
     let (unit, length) = normalize(normal);
     if length < MINVAL { [0.0, 0.0, 1.0] } else { unit }

@@ -1,23 +1,23 @@
 //! Wavefront OBJ (Wavefront Technologies 1992, *Advanced Visualizer*, appendix B1): the lines `v`, `vt`, `vn`, `f`.
 //!
-//! As in MuJoCo, only the triangles of the first object or group with faces count, materials and everything else are
-//! passed over, and the second texture coordinate runs downwards.
+//! As in MuJoCo, only the triangles of the first object or group with faces are used, materials and other lines are ignored, and
+//! the second texture coordinate is flipped.
 
 use super::triangulate;
 use crate::math::Vec3;
 use crate::mjcf::asset::mesh::{MAX_FACES, MAX_VERTICES, Problem, Raw};
 
-/// Corners of a polygon.
+/// The largest number of corners of a polygon.
 const MAX_CORNERS: usize = 1000;
 
 pub(super) fn read(bytes: &[u8]) -> Result<Raw, Problem> {
     let mut raw = Raw::default();
-    // The polygons of the group in hand.
+    // The polygons of the current group.
     let mut polygons: Vec<Vec<Corner>> = Vec::new();
     let mut closed = false;
     let text = String::from_utf8_lossy(bytes);
     for (number, line) in text.split(['\n', '\r']).enumerate() {
-        // Lines that end in two characters count twice: they are numbered again where one is wrong.
+        // A line break of two characters counts as two lines here. The line number is computed again for an error message.
         let wrong = |what: String| wrong(&text, number, what);
         let mut words = line.split_ascii_whitespace();
         match words.next() {
@@ -53,12 +53,12 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw, Problem> {
     Ok(raw)
 }
 
-/// Cuts polygons into the triangles of a mesh.
+/// Divides polygons into the triangles of a mesh.
 fn add_triangles(raw: &mut Raw, polygons: &[Vec<Corner>]) -> Result<(), Problem> {
     for corners in polygons {
         let mut places: Vec<Vec3> = Vec::with_capacity(corners.len());
         for c in corners {
-            // A vertex may be named before its line: whether it is there is known only now.
+            // A face may refer to a vertex that is defined after it, so the check is done at the end of the file.
             let Some(&place) = raw.vert.get(c[0] as usize) else {
                 return Err(Problem::file(
                     format!(
@@ -85,10 +85,10 @@ fn add_triangles(raw: &mut Raw, polygons: &[Vec<Corner>]) -> Result<(), Problem>
     Ok(())
 }
 
-/// Vertex, texture coordinate and normal of a corner; -1 where there is none.
+/// Vertex, texture coordinate and normal of a corner; -1 if absent.
 type Corner = [i32; 3];
 
-/// `v`, `v/t`, `v//n` or `v/t/n`; a negative number counts back from what was read last.
+/// Parses `v`, `v/t`, `v//n` or `v/t/n`. A negative number counts back from the last element read so far.
 fn corner(word: &str, sizes: [usize; 3]) -> Result<Corner, String> {
     let mut corner = [-1; 3];
     for (i, part) in word.split('/').enumerate() {
@@ -104,7 +104,7 @@ fn corner(word: &str, sizes: [usize; 3]) -> Result<Corner, String> {
             _ => return Err(format!("the number {index} in a face, but only {count} vertices before it")),
         };
     }
-    // Normals and texture coordinates only show.
+    // Invalid normals and texture coordinates are ignored, because they affect rendering only.
     for i in 1..3 {
         if corner[i] as usize >= sizes[i] {
             corner[i] = -1;

@@ -1,9 +1,9 @@
 //! Convex hulls by quickhull (Barber, Dobkin, Huhdanpaa 1996, *The quickhull algorithm for convex hulls*, ACM TOMS 22).
 //!
-//! Heights are computed in integers: along each axis the points stand on a grid of 2^40 steps, as fine as single
-//! precision is, and a height over a plane then fits into 127 bits. So every decision is exact, coplanar points are
-//! coplanar, and no cloud, however degenerate, can lead the algorithm astray. (A hull does not change when an axis is
-//! stretched, so each axis has a grid of its own.)
+//! Heights are computed in integers. Along each axis, points are rounded to a grid of 2^40 steps, which is finer than single
+//! precision. A height over a plane then fits into 127 bits. Every decision is therefore exact: coplanar points are coplanar, and
+//! the algorithm is correct for every point cloud, however degenerate. (Stretching an axis does not change a hull, so each axis
+//! has its own grid.)
 
 use crate::mjcf::gather::listed;
 use labspec_finding::order;
@@ -11,45 +11,46 @@ use std::collections::{BTreeMap, BinaryHeap};
 
 use crate::math::Vec3;
 
-/// Bits of a grid coordinate: three products of three differences stay below 2^127.
+/// Bits of a grid coordinate. Sums of three products of three differences stay below 2^127.
 const BITS: i32 = 40;
-/// Tests of a point against a plane: points on a sphere, the worst that is drawn, take 40 for each.
+/// Limit for the number of tests of a point against a plane. Points on a sphere, the worst realistic case, take 40 tests each.
 const MOST_TESTS: usize = 400_000_000;
-/// No face.
+/// Marks the absence of a face.
 const NONE: u32 = u32::MAX;
 
 /// The convex hull of some points.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Hull {
-    /// The points at its corners, ascending.
+    /// The indexes of the points at the corners, ascending.
     pub(crate) vertex: Vec<u32>,
-    /// Points at the corners of each triangle, counterclockwise from outside. Flat sides of more corners are fans.
+    /// The indexes of the points at the corners of each triangle, counterclockwise from outside. Flat faces with more corners are
+    /// triangle fans.
     pub(crate) face: Vec<[i32; 3]>,
 }
 
-/// Why there is no hull.
+/// The reason why a hull cannot be computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Flat {
-    /// All points are one.
+    /// All points coincide.
     Point,
     /// All points lie on a line.
     Line,
     /// All points lie in a plane.
     Plane,
-    /// It takes too long.
+    /// The computation exceeds the limit of tests.
     Endless,
 }
 
 impl Hull {
-    /// The hull of finite points, or of so many of them at most: those that stick out farthest.
+    /// The hull of finite points. If `most` is given, it has at most this many corners: those farthest outside are added first.
     pub(crate) fn from_points(points: &[Vec3], most: Option<usize>) -> Result<Hull, Flat> {
         let mut growing = Growing::new(points)?;
         growing.grow(most.unwrap_or(usize::MAX))?;
         Ok(growing.finish())
     }
 
-    /// `mesh_graph`: numbers of vertices and triangles; where the neighbours of each vertex begin; the vertices;
-    /// neighbours, each list with an end of -1; the triangles.
+    /// `mesh_graph`: the counts of vertices and triangles; the address of the neighbours of each vertex; the vertices;
+    /// the neighbours, each list terminated by -1; the triangles.
     pub(crate) fn graph(&self) -> Vec<i32> {
         let place = |v: i32| self.vertex.partition_point(|&x| (x as i32) < v) as i32;
         let mut edges: Vec<(i32, i32)> =
@@ -75,41 +76,41 @@ impl Hull {
 
 type Point = [i64; 3];
 
-/// A plane through a point of the grid; what is above it is outside.
+/// A plane through a grid point. Points above it are outside.
 #[derive(Clone, Copy, Debug)]
 struct Plane {
     at: Point,
     normal: [i128; 3],
-    /// Length of the normal in the world.
+    /// The length of the normal, in world units.
     length: f64,
 }
 
 #[derive(Debug)]
 struct Face {
     corner: [u32; 3],
-    /// The faces beyond the edges from each corner to the next.
+    /// The adjacent faces at the edges from each corner to the next.
     beyond: [u32; 3],
     plane: Plane,
-    /// Points above it, of those that are above no earlier face; the highest is the last.
+    /// The points above this face that are above no earlier face. The highest is the last.
     above: Vec<u32>,
     alive: bool,
 }
 
 struct Growing {
     points: Vec<Point>,
-    /// Steps of the grid in a unit of the world.
+    /// Grid steps per unit of the world.
     steps: Vec3,
     faces: Vec<Face>,
     corners: usize,
-    /// Faces with points above, by the height of the highest.
+    /// Faces with points above them, ordered by the height of the highest point.
     open: BinaryHeap<(u64, std::cmp::Reverse<u32>)>,
     tests: usize,
-    /// For each point, the new face that begins there.
+    /// For each point, the new face that starts there.
     begins: Vec<u32>,
 }
 
 impl Growing {
-    /// A tetrahedron of points that are far apart.
+    /// Starts with a tetrahedron of points that are far apart.
     fn new(points: &[Vec3]) -> Result<Growing, Flat> {
         let (points, steps) = on_grid(points);
         let indices = || 0..points.len() as u32;
@@ -138,10 +139,10 @@ impl Growing {
         let Some(d) = indices().map(off_plane).max().filter(|x| x.0 > 0).map(|x| x.1.0) else {
             return Err(Flat::Plane);
         };
-        // The base looks away from the fourth corner.
+        // The outer side of the base is opposite to the fourth corner.
         let (b, c) = if base.height(at(d)) > 0 { (c, b) } else { (b, c) };
         g.points = points;
-        // Each face with the faces beyond its edges.
+        // Each face with its adjacent faces.
         let sides =
             [([a, b, c], [1, 2, 3]), ([b, a, d], [0, 3, 2]), ([c, b, d], [0, 1, 3]), ([a, c, d], [0, 2, 1])];
         for (corner, beyond) in sides {
@@ -170,7 +171,7 @@ impl Growing {
         self.faces.push(Face { corner, beyond, plane, above: Vec::new(), alive: true });
     }
 
-    /// Gives points to the faces from `first` on that they are above; those that are above none are inside.
+    /// Assigns each point to the first face, from index `first` on, that it is above. Points above no face are inside.
     fn hand_out(&mut self, points: Vec<u32>, first: usize) {
         let mut highest: Vec<i128> = vec![0; self.faces.len() - first];
         for p in points {
@@ -181,7 +182,7 @@ impl Growing {
                 if height > 0 {
                     face.above.push(p);
                     if height > *highest {
-                        *highest = height; // the highest is the last
+                        *highest = height; // the new point is last, as required
                     } else if let [.., second, last] = face.above.as_mut_slice() {
                         std::mem::swap(second, last);
                     }
@@ -192,7 +193,7 @@ impl Growing {
         (first..self.faces.len()).for_each(|i| self.open(i));
     }
 
-    /// Puts a face among those with points above.
+    /// Adds a face to the queue if there are points above it.
     fn open(&mut self, i: usize) {
         let Some(face) = self.faces.get(i) else { return };
         if let Some(&highest) = face.above.last() {
@@ -201,7 +202,7 @@ impl Growing {
         }
     }
 
-    /// Forgets the faces that are covered.
+    /// Removes the faces that are covered.
     fn compact(&mut self) {
         let mut place = 0;
         let places: Vec<u32> = listed(self.faces.iter().map(|f| {
@@ -220,7 +221,7 @@ impl Growing {
         (0..self.faces.len()).for_each(|i| self.open(i));
     }
 
-    /// Adds the point that sticks out farthest, until none does or there are as many corners as there may be.
+    /// Adds the point that is farthest outside, until no point is outside or the limit of corners is reached.
     fn grow(&mut self, most: usize) -> Result<(), Flat> {
         while self.corners < most
             && let Some((_, std::cmp::Reverse(start))) = self.open.pop()
@@ -233,7 +234,7 @@ impl Growing {
             }
             self.corners += 1;
             self.cover(start, apex);
-            // A closed surface of triangles has two faces for each corner, less four.
+            // A closed surface of triangles has twice as many faces as corners, minus four.
             if self.faces.len() > 8 * self.corners + 1000 {
                 self.compact();
             }
@@ -241,7 +242,7 @@ impl Growing {
         Ok(())
     }
 
-    /// Replaces the faces that see a point by a cone from their border to it.
+    /// Replaces the faces that are visible from a point by a cone from their border to the point.
     fn cover(&mut self, start: u32, apex: u32) {
         let at = self.point(apex);
         let mut border: Vec<(u32, u32, u32)> = Vec::new();
@@ -278,7 +279,7 @@ impl Growing {
         for (i, &(a, b, outer)) in border.iter().enumerate() {
             let new = (first + i) as u32;
             let follows = self.begins.get(b as usize).copied().unwrap_or(NONE);
-            // The face before is found when that one is linked.
+            // The preceding face is set when that face is linked.
             self.add([a, b, apex], [outer, follows, NONE]);
             if let Some(outer) = self.faces.get_mut(outer as usize)
                 && let Some(k) = (0..3).find(|&k| outer.corner[k] == b && outer.corner[(k + 1) % 3] == a)
@@ -296,9 +297,9 @@ impl Growing {
         self.hand_out(orphans, first);
     }
 
-    /// Triangles in one plane become one side; a corner is where three sides or more meet.
+    /// Merges coplanar triangles into one flat face. A corner is a point where three or more flat faces meet.
     fn finish(self) -> Hull {
-        // Which side each face is of.
+        // The flat face to which each triangle belongs.
         let mut side: Vec<u32> = vec![NONE; self.faces.len()];
         let mut sides = 0;
         for start in 0..self.faces.len() {
@@ -319,9 +320,9 @@ impl Growing {
             }
             sides += 1;
         }
-        // From each corner of a side to the next.
+        // Maps each corner of a flat face to the next.
         let mut borders: BTreeMap<(u32, u32), u32> = BTreeMap::new();
-        // How many sides meet at each point.
+        // The number of flat faces that meet at each point.
         let mut meet = vec![0_u32; self.points.len()];
         for (face, &this_side) in self.faces.iter().zip(&side).filter(|(f, _)| f.alive) {
             for k in 0..3 {
@@ -356,7 +357,7 @@ impl Growing {
 }
 
 impl Plane {
-    /// How far a point is above the plane, in volumes of the grid.
+    /// The height of a point above the plane, multiplied by the length of the normal, in grid units.
     fn height(&self, p: Point) -> i128 {
         (0..3).map(|i| self.normal[i] * i128::from(p[i] - self.at[i])).sum()
     }
@@ -368,11 +369,11 @@ fn normal(a: Point, b: Point, c: Point) -> [i128; 3] {
     [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
 }
 
-/// Points on the grid, and the steps of the grid in a unit.
+/// The points on the grid, and the grid steps per unit.
 fn on_grid(points: &[Vec3]) -> (Vec<Point>, Vec3) {
     let lower: Vec3 = std::array::from_fn(|i| points.iter().fold(f64::INFINITY, |x, p| x.min(p[i])));
     let upper: Vec3 = std::array::from_fn(|i| points.iter().fold(f64::NEG_INFINITY, |x, p| x.max(p[i])));
-    // A power of two: what is exact stays exact.
+    // A power of two, so that scaling is exact.
     let steps = [0, 1, 2].map(|i| libm::ldexp(1.0, BITS - libm::frexp(upper[i] - lower[i]).1));
     let grid = |p: &Vec3| std::array::from_fn(|i| libm::round((p[i] - lower[i]) * steps[i]) as i64);
     (listed(points.iter().map(grid)), steps)
@@ -384,7 +385,7 @@ mod tests {
     use crate::math::{cross, dot, sub};
     use proptest::prelude::*;
 
-    /// What makes a hull: closed, convex, around all points, with as many triangles as Euler says.
+    /// Checks that a hull is closed, convex and contains all points, and has the number of triangles of Euler's formula.
     fn check_hull(points: &[Vec3], hull: &Hull, whole: bool) {
         let (v, f) = (hull.vertex.len(), hull.face.len());
         assert_eq!(f, 2 * v - 4);
@@ -465,7 +466,7 @@ mod tests {
 
     proptest! {
         #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
-        /// Few different numbers make many coincidences.
+        /// A small set of coordinates causes many coincidences.
         #[test]
         fn degenerate_clouds_have_hulls(points in prop::collection::vec(prop::array::uniform3(-3..4_i32), 4..60)) {
             let points: Vec<Vec3> = points.into_iter().map(|p| p.map(|x| f64::from(x) * 0.1)).collect();

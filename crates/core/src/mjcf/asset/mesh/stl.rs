@@ -1,5 +1,5 @@
-//! Binary STL (3D Systems 1988, *StereoLithography interface specification*): 80 bytes of anything, the number of
-//! triangles, then for each a normal, three corners and two spare bytes. The normals are not read.
+//! Binary STL (3D Systems 1988, *StereoLithography interface specification*): 80 arbitrary bytes, the number of
+//! triangles, then for each triangle a normal, three corners and two unused bytes. The normals are not read.
 
 use std::collections::HashMap;
 
@@ -7,10 +7,10 @@ use crate::mjcf::asset::mesh::{Bytes, MAX_FACES, Problem, Raw};
 
 const HEAD: usize = 84;
 const TRIANGLE: usize = 50;
-/// Coordinates beyond this are damage.
+/// The largest valid coordinate. A larger one indicates a damaged file.
 const FARTHEST: f64 = (1u64 << 30) as f64;
 
-/// Corners at the same place become one vertex, in the order in which they come up.
+/// Reads a mesh. Corners at the same position become one vertex, in the order of their first occurrence.
 pub(super) fn read(bytes: &[u8]) -> Result<Raw, Problem> {
     if bytes.is_empty() {
         return Err(Problem::file("has an empty file", "export the mesh again"));
@@ -58,7 +58,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw, Problem> {
                     "export the mesh again: a coordinate is too large or not a number",
                 ));
             }
-            // Zero has two signs.
+            // Maps negative zero to zero, so that both give the same vertex.
             let key = v.map(|x| (x + 0.0).to_bits());
             *corner = *places.entry(key).or_insert_with(|| {
                 raw.vert.push(v);
@@ -70,13 +70,13 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw, Problem> {
     Ok(raw)
 }
 
-/// The number of triangles that the head says.
+/// The number of triangles that the header states.
 fn count(bytes: &[u8]) -> Option<usize> {
     let word = bytes.get(HEAD - 4..HEAD)?;
     usize::try_from(Bytes(word).int()?).ok()
 }
 
-/// Whether the file is as long as its head says.
+/// Whether the length of the file agrees with its header.
 fn fits(bytes: &[u8]) -> bool {
     count(bytes).and_then(|n| n.checked_mul(TRIANGLE)?.checked_add(HEAD)) == Some(bytes.len())
 }

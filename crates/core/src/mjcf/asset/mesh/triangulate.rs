@@ -1,10 +1,10 @@
-//! Polygons to triangles: a quadrilateral along its shorter diagonal, larger ones ear by ear (Meisters 1975, *Polygons
-//! have ears*). Which ear comes first is MuJoCo 3.14.0's choice, measured on the library.
+//! Divides polygons into triangles: a quadrilateral along its shorter diagonal, larger polygons by ear clipping (Meisters 1975,
+//! *Polygons have ears*). The order of the ears is that of MuJoCo 3.14.0, measured on the library.
 
 use crate::math::{Vec3, cross, dot, sub};
 use crate::mjcf::gather::listed;
 
-/// The triangles of a polygon, as places in it. A polygon that crosses itself may be covered only in part.
+/// The triangles of a polygon, as indexes of its corners. A self-intersecting polygon may be covered only in part.
 pub(super) fn triangles(corners: &[Vec3]) -> Vec<[usize; 3]> {
     match corners {
         [_, _, _] => vec![[0, 1, 2]],
@@ -16,7 +16,8 @@ pub(super) fn triangles(corners: &[Vec3]) -> Vec<[usize; 3]> {
     }
 }
 
-/// The polygon seen along the axis that its first bend turns about most.
+/// The projection of the polygon along the axis with the largest component of the first non-zero cross product of two consecutive
+/// sides.
 fn flattened(corners: &[Vec3]) -> Vec<[f64; 2]> {
     let n = corners.len();
     let bend = (0..n)
@@ -44,7 +45,7 @@ fn ears(corners: &[[f64; 2]]) -> Vec<[usize; 3]> {
         let three = [0, 1, 2].map(|k| rest[(at + k) % n]);
         let [a, b, c] = three.map(|i| corners[i]);
         let turn = (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0]);
-        // The sense of the whole polygon is taken from the area that its side spans with the origin: wrong for
+        // The orientation of the polygon is estimated from the area between this side and the origin. The estimate is wrong for
         // some sides, but then another ear is found.
         let sense = a[0] * b[1] - a[1] * b[0];
         let holds = |&i: &usize| !three.contains(&i) && inside([a, b, c], corners[i]);
@@ -63,7 +64,7 @@ fn ears(corners: &[[f64; 2]]) -> Vec<[usize; 3]> {
     found
 }
 
-/// Whether a point is in a triangle: a ray from it crosses the border an odd number of times.
+/// Whether a point is inside a triangle: a ray from it crosses the boundary an odd number of times.
 fn inside(triangle: [[f64; 2]; 3], [x, y]: [f64; 2]) -> bool {
     let mut odd = false;
     for k in 0..3 {
