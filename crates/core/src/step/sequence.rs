@@ -89,7 +89,7 @@ pub(crate) const BEFORE_MASS: u32 =
 pub(crate) const FOR_LENGTHS: u32 =
     OF_POSITIONS.stage_bits(&[Stage::Orientations, Stage::GeomPoses, Stage::SitePoses]);
 
-/// The same passes by the clock.
+/// The same passes, with time measurement.
 pub(crate) fn by_the_clock(passes: [[u32; 3]; 2]) -> [[u32; 3]; 2] {
     passes.map(|pass| pass.map(|bits| bits | CLOCKED))
 }
