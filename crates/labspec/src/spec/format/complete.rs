@@ -173,7 +173,7 @@ fn meant(family: &'static Family, scope: &JsonScope) -> Vec<&'static Object> {
     if some.is_empty() { family.objects.to_vec() } else { some }
 }
 
-/// The keys of objects, each once, that are not excluded by those that stand there.
+/// The keys of these objects without duplicates, except those that a present key excludes.
 fn allowed(objects: &[&'static Object], scope: &JsonScope) -> Vec<&'static Key> {
     let mut all: Vec<&'static Key> = Vec::new();
     for object in objects {
