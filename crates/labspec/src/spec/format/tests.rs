@@ -163,7 +163,7 @@ fn every_smallest_object_is_whole_and_every_key_that_must_stand_does() {
     }
 }
 
-/// An object with the example of a key, and what that key is about.
+/// An object with the example of a key, and with the other keys that this key needs.
 fn with_its_kind(object: &'static Object, key: &Key) -> Value {
     let mut whole = with_key(object, key.name, parse(key.example));
     if (object.name, key.name) == (VERIFY.name, "over") {
