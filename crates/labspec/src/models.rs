@@ -16,8 +16,8 @@ pub trait Models: Send + Sync {
         None
     }
 
-    /// A file that a model names: included text, a mesh, an image. `path` is relative to the models. By default, models may
-    /// include only each other, as `NAME.xml`.
+    /// A file that a model names: included text, a mesh, an image. `path` is relative to the location of the models. By
+    /// default, models may include only each other, as `NAME.xml`.
     ///
     /// # Errors
     /// The reason why there are no bytes; more than `limit` bytes are refused.

@@ -25,7 +25,7 @@ pub struct Probe {
     pub bound: Option<Bound>,
 }
 
-/// What a slider or a select does.
+/// The program of a slider or a select.
 #[derive(Clone, Debug)]
 pub struct ActionProgram {
     /// The `ctx` variable that gets the value.

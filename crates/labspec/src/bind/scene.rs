@@ -39,7 +39,7 @@ pub struct Models {
     files: Vec<SourceFile>,
 }
 
-/// The findings about a model, and the files that this is about.
+/// The findings about a model, and the files to which they refer.
 type Said = (Vec<Finding>, Vec<SourceFile>);
 
 /// A loaded model of the folder.

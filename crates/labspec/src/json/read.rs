@@ -19,7 +19,7 @@ pub enum Scalar {
     Number(Number),
     /// A text.
     Text(Text),
-    /// A truth value and its span.
+    /// A boolean and its span.
     Bool(bool, Range<usize>),
 }
 

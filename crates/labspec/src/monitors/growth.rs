@@ -61,7 +61,7 @@ const LASTS: u32 = 32;
 const REST: u32 = 3;
 const CALM: f64 = 0.25;
 const FASTER: f64 = 1.5;
-/// A rotation per step that no step can resolve, rad, and how many gains must then be observed.
+/// A rotation per step that a step cannot resolve, rad, and the number of gains in such steps that is reported.
 const TURN: f64 = std::f64::consts::PI;
 const LEAPS: u32 = 4;
 /// Motion below the fraction `SLOW` of the smallest reportable gain is not evaluated. In scenes with more than `FEW`

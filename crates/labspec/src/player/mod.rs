@@ -129,7 +129,7 @@ impl Player {
         self.act(|session| session.press(index))
     }
 
-    /// One step.
+    /// Performs one step.
     ///
     /// # Errors
     /// The lab is frozen.

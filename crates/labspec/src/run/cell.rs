@@ -9,7 +9,7 @@ pub enum Cell {
     Number(f64),
     /// A text.
     Text(String),
-    /// A truth value.
+    /// A boolean.
     Bool(bool),
     /// `undefined`, `null`, or an expression that threw.
     Nothing,

@@ -8,7 +8,7 @@ use labspec_expr::{Access, Columnar, Effects, Foreign, Recording, Type};
 /// How the values of a trace or a readout are computed.
 #[derive(Clone, Debug)]
 enum ProbeSamples<'p> {
-    /// After the run, from recorded columns; `true` for a truth value.
+    /// After the run, from recorded columns; `true` for a boolean.
     Columns(Columnar, bool),
     /// At every sample.
     Rows(&'p Bound, Vec<Cell>),
@@ -29,7 +29,7 @@ pub struct Samples<'p> {
 }
 
 impl<'p> Samples<'p> {
-    /// No samples, with memory for `capacity` samples: sampling numbers and truth values does not allocate.
+    /// No samples, with memory for `capacity` samples: sampling numbers and booleans does not allocate.
     pub fn new(programs: &'p Programs, capacity: usize) -> Samples<'p> {
         let mut recording = Recording::new();
         let all = || programs.probes.iter().filter_map(|p| p.bound.as_ref());

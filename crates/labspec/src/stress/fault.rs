@@ -85,7 +85,7 @@ pub struct Evidence {
 /// A fault of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fault {
-    /// What.
+    /// Its kind.
     pub kind: FaultKind,
     /// Simulated time, s.
     pub time: f64,

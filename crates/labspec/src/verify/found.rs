@@ -187,7 +187,7 @@ impl BoundVerify<'_> {
         }
     }
 
-    /// Whether the value of a text is a truth value, as options, words and searches require; otherwise a finding is added.
+    /// Whether the value of a text is a boolean, as options, words and searches require; otherwise a finding is added.
     pub(super) fn is_condition(
         &self,
         found: &MeasuredValue,
@@ -201,8 +201,8 @@ impl BoundVerify<'_> {
         is
     }
 
-    /// A truth value, or a number that is 0 or 1 for all results of the runs, as that of `holds(…)`. A count that happens
-    /// to be 1 is not one.
+    /// A boolean, or a number that is 0 or 1 for all results of the runs, as that of `holds(…)`. A count that happens to be
+    /// 1 is not one.
     fn is_truth(&self, found: &MeasuredValue) -> bool {
         let truth = |x: f64| x == 0.0 || x == 1.0;
         let Value::Number(x) = found.value else { return matches!(found.value, Value::Boolean(_)) };

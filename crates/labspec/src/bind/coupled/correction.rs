@@ -54,7 +54,7 @@ impl Coupled {
         (written || listed.is_some() && self.refresh && writes_inertial(program)).then_some(pairs)
     }
 
-    /// Corrects the coupled parameters that a program omitted. `before` is the model before it ran.
+    /// Corrects the coupled parameters that a program did not update. `before` is the model before it ran.
     ///
     /// # Errors
     /// An error of the engine.
@@ -65,7 +65,7 @@ impl Coupled {
         program: &Program,
         world: &mut World,
     ) -> Result<(), Error> {
-        // If a program itself omits to recompute constants, they are not recomputed: that is a separate fault.
+        // If the program does not recompute constants, neither does the correction: that is a separate fault.
         let forgotten = writes_inertial(program) && !calls_set_const(program);
         let done = correct_fields(pairs, before, world)?;
         if self.refresh && writes_inertial(program) || done == Some(true) && !forgotten {

@@ -12,7 +12,7 @@ pub(crate) struct WatchedDisplay<'a> {
     /// Whether its text itself contains NaN, for a gap.
     pub(crate) says_gap: bool,
     pub(crate) says_infinite: bool,
-    /// Whether it was a number, a text or a truth value in any run.
+    /// Whether it was a number, a text or a boolean in any run.
     pub(crate) ever: bool,
     /// Whether it had a gap that may be intended.
     pub(crate) gap: bool,

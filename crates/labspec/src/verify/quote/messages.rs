@@ -227,7 +227,7 @@ pub(super) fn chaotic(
         .help(fewer(read, values))
 }
 
-/// The longest print on which all values agree, with fewer decimals than the quote; `None` when there is none.
+/// The longest printed form on which all values agree, with fewer decimals than the quote; `None` when there is none.
 fn agreed(read: &Quoted, values: &[f64]) -> Option<String> {
     let Form::Plain(_) = read.form else { return None };
     let fewer = (0..read.decimals).rev().map(|decimals| Quoted { decimals, ..*read });

@@ -51,7 +51,7 @@ impl Quoted {
                 let slack = 1e-9 * low.abs().max(high.abs());
                 low - slack <= x && x <= high + slack
             }
-            // A value half way may be rounded either way, with a tolerance for its own rounding error.
+            // A value halfway may be rounded either way, with a tolerance for its own rounding error.
             _ => (x - self.value).abs() <= self.half_unit * (1.0 + 1e-6) + 1e-12 * self.value.abs(),
         }
     }
@@ -157,7 +157,7 @@ mod tests {
         assert_eq!(plain(3e-7, 1, -7).print(0.0444), "4.4e-2");
         assert_eq!(plain(3e-7, 1, -7).print(9.97e-7), "1.0e-6");
         assert_eq!(plain(30e-7, 0, -7).print(0.0), "0e-7");
-        // 12.2625 is half way between two prints of three decimals.
+        // 12.2625 is halfway between two numbers with three decimals.
         assert!(plain(12.263, 3, 0).is(12.2625) && plain(12.262, 3, 0).is(12.2625));
         let thousands =
             Quoted { form: Form::Plain(Style { group: Some(','), times: false }), ..plain(1500.0, 0, 0) };
@@ -174,7 +174,7 @@ mod tests {
         let q = plain(0.442, 3, 0);
         assert!(!q.differ(0.4419, 0.44249) && q.differ(0.44249, 0.44251) && q.differ(0.442, f64::NAN));
         assert!(!q.differ(0.5001, 0.5002) && q.differ(0.5001, 0.5009));
-        // A value half way between is right for both.
+        // A value halfway between is right for both.
         assert!(!q.differ(0.4425, 0.44249));
     }
 

@@ -87,7 +87,7 @@ fn number(cell: &Cell) -> Option<f64> {
     }
 }
 
-/// The text of a value that is not a finite number: a text, a truth value, no value.
+/// The text of a value that is not a finite number: a text, a boolean, no value.
 pub(in crate::check::snapshot) fn plain(cell: &Cell) -> String {
     match cell {
         Cell::Number(x) => crate::run::rounded(*x, 6),
