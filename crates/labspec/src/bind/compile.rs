@@ -18,7 +18,7 @@ impl Programs {
         Programs::compile_with(lab, model, &Functions::new(), findings)
     }
 
-    /// As [`compile`], with functions of the embedding program.
+    /// As [`Programs::compile`], with functions of the embedding program.
     pub fn compile_with(
         lab: &Lab,
         model: &Model,

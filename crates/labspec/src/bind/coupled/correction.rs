@@ -65,7 +65,8 @@ impl Coupled {
         program: &Program,
         world: &mut World,
     ) -> Result<(), Error> {
-        // If the program does not recompute constants, neither does the correction: that is a separate fault.
+        // If the program does not recompute constants, the correction does so only with `refresh`: the omission is a
+        // separate fault.
         let forgotten = writes_inertial(program) && !calls_set_const(program);
         let done = correct_fields(pairs, before, world)?;
         if self.refresh && writes_inertial(program) || done == Some(true) && !forgotten {
