@@ -64,14 +64,14 @@ impl Checker {
         Checker { models: scene::Models::new(models.into()), level, rules, sources }
     }
 
-    /// The same without runs of labs or without verdicts on claims: faster, but it checks less.
+    /// Sets the level of the check: without runs of labs, or without verdicts on claims, it is faster but checks less.
     pub fn level(mut self, level: CheckLevel) -> Checker {
         self.level = level;
         self
     }
 
-    /// The same with related texts by their paths: lessons whose labs others name, and snapshots. They are resolved from
-    /// the path of the checked lesson. No files are read.
+    /// Sets the related texts by their paths: lessons whose labs others name, and snapshots. They are resolved from the
+    /// path of the checked lesson. No files are read.
     pub fn neighbours<P: AsRef<Path>, T: Into<String>>(
         mut self,
         texts: impl IntoIterator<Item = (P, T)>,
@@ -80,14 +80,14 @@ impl Checker {
         self
     }
 
-    /// The same with functions of the embedding program, which the texts of labs may call.
+    /// Sets the functions of the embedding program that the texts of labs may call.
     pub fn functions(mut self, functions: Functions) -> Checker {
         self.models = self.models.with_functions(functions);
         self
     }
 
-    /// The same with a rule of the embedding program, which checks every lesson. Its findings count like all others. Spans
-    /// are bytes of the lesson, and a fix must result in valid JSON ([`crate::json`] provides the tools).
+    /// Adds a rule of the embedding program, which checks every lesson. Its findings count like all others. Spans are bytes
+    /// of the lesson, and a fix must result in valid JSON ([`crate::json`] provides the tools).
     pub fn rule(mut self, rule: impl Fn(&Lesson) -> Vec<Finding> + Send + Sync + 'static) -> Checker {
         self.rules.0.push(Box::new(rule));
         self

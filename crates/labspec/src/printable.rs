@@ -11,12 +11,12 @@ pub fn printable(text: &str) -> Cow<'_, str> {
     written_out(text, is_hidden, |c, out| out.extend(c.escape_default()))
 }
 
-/// The same for a whole output with line breaks.
+/// Like [`printable`], for a whole output with line breaks.
 pub fn printable_lines(text: &str) -> Cow<'_, str> {
     written_out(text, |c| c != '\n' && is_hidden(c), |c, out| out.extend(c.escape_default()))
 }
 
-/// The same for a line of a lesson, which may contain tabs.
+/// Like [`printable`], for a line of a lesson, which may contain tabs.
 #[cfg(feature = "report")]
 pub(super) fn printable_line(text: &str) -> Cow<'_, str> {
     written_out(text, |c| c != '\t' && is_hidden(c), |c, out| out.extend(c.escape_default()))

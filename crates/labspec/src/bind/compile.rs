@@ -130,7 +130,7 @@ impl Work<'_> {
         let apply = action.apply.as_ref().and_then(|t| self.statements(t, Some(given)));
         if let (Some(text), Some(bound)) = (&action.apply, &apply)
             && !bound.program.effects().uses_value
-            // Beside `set` it never runs, which another rule reports.
+            // If `set` is present, it never runs, which another rule reports.
             && action.set.is_none()
         {
             self.findings.push(

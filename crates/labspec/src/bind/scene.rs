@@ -67,12 +67,12 @@ impl Models {
         Models { folder, hash: Some(hash), ..Models::default() }
     }
 
-    /// The same, for labs that may call functions of the embedding program.
+    /// Sets the functions of the embedding program that labs may call.
     pub fn with_functions(self, functions: Functions) -> Models {
         Models { functions, ..self }
     }
 
-    /// The same, with unsaved texts of an editor in place of files.
+    /// Sets the sources: unsaved texts of an editor replace files.
     pub fn with_sources(self, sources: Sources) -> Models {
         Models { sources, ..self }
     }

@@ -71,7 +71,7 @@ pub(super) fn bind_claim<'r>(
     bind_with_base(lesson, ready, verify, lab, stage).map(|(_, bound)| bound)
 }
 
-/// The same, with the base lab.
+/// Like [`bind_claim`]; also returns the base lab.
 fn bind_with_base<'r>(
     lesson: &'r Lesson,
     ready: &'r [PreparedLab<'r>],

@@ -19,7 +19,7 @@ fn places(node: &Node, all: &mut Vec<Range<usize>>) {
     }
 }
 
-/// The same, from `jsonc-parser`.
+/// The spans of all values and keys from `jsonc-parser`, in order.
 fn their_places(value: &jsonc_parser::ast::Value<'_>, all: &mut Vec<Range<usize>>) {
     use jsonc_parser::ast::{ObjectPropName, Value};
     use jsonc_parser::common::Ranged;

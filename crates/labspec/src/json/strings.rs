@@ -161,7 +161,8 @@ pub(crate) fn fix_in(text: &Text, part: Range<usize>, replacement: &str) -> Fix 
     Fix::safe(text.span_of(part), encode(replacement))
 }
 
-/// The same for code. Its quotes are single ones, as in most lessons, unless the text already uses double ones.
+/// The fix that replaces a part of a code text in JSON. Its quotes are single ones, as in most lessons, unless the text
+/// already uses double ones.
 pub(crate) fn fix_in_code(text: &Text, part: Range<usize>, replacement: &str) -> Fix {
     let doubles = text.value.contains('"');
     let plain =

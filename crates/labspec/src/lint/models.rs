@@ -80,7 +80,7 @@ impl ModelFolder {
         Ok(ModelFolder { folder: Some(folder), root, names: Some(names), given: None })
     }
 
-    /// The same with unsaved models of the folder.
+    /// Adds the names of unsaved models of the folder.
     pub fn with_unsaved(mut self, files: Vec<String>) -> ModelFolder {
         if let Some(names) = &mut self.names {
             names.extend(files.iter().filter_map(|file| file.strip_suffix(".xml")).map(String::from));

@@ -214,7 +214,7 @@ mod tests {
         xml::compile(&text).unwrap()
     }
 
-    /// The same with an actuator of another kind.
+    /// A slide with an actuator of another kind.
     fn driven(option: &str, actuator: &str) -> Model {
         let text = format!(
             "<mujoco><option gravity=\"0 0 0\" {option}/><worldbody><body><joint name=\"j\" type=\"slide\"/>\

@@ -68,7 +68,7 @@ impl Player {
         Player::of_lesson_with(path, text, address, models, Functions::new())
     }
 
-    /// The same with functions of the embedding program, which the texts of the lab may call.
+    /// Like [`Player::of_lesson`], with functions of the embedding program that the texts of the lab may call.
     ///
     /// # Errors
     /// As for [`Player::of_lesson`].

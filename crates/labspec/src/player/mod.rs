@@ -68,7 +68,7 @@ impl Player {
         &self.now.cells
     }
 
-    /// The same as numbers; NaN for other values.
+    /// The current values as numbers; NaN for other values.
     pub fn numbers(&self) -> &[f64] {
         &self.now.numbers
     }
@@ -152,7 +152,8 @@ impl Player {
         self.play(time, |_, _| ())
     }
 
-    /// The same for a page that draws curves: `each` is called with the time and the values after every step.
+    /// Like [`Player::play_to`], for a page that draws curves: `each` is called with the time and the values after every
+    /// step.
     ///
     /// # Errors
     /// As for [`Player::play_to`].

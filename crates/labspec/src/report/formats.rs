@@ -20,7 +20,8 @@ fn place(f: &Finding, files: &[&SourceFile]) -> [usize; 4] {
     place_of(&f.path, &f.span, files).unwrap_or([1; 4])
 }
 
-/// The same for a range of bytes of a file; `None` where the file is not available.
+/// Line and column of the beginning and the end of a range of bytes of a file, from 1; `None` where the file is not
+/// available.
 pub(super) fn place_of(path: &str, span: &Range<usize>, files: &[&SourceFile]) -> Option<[usize; 4]> {
     let file = file_of(files, path)?;
     let span = file.snap(span);

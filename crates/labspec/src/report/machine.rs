@@ -173,7 +173,8 @@ pub fn set_number(object: &mut Value, key: &str, x: f64) {
     }
 }
 
-/// The same for a list, in which entries may be missing: `nonfinite` contains pairs of index and name.
+/// Writes a list of numbers into an object, like [`set_number`]. Entries may be missing; `nonfinite` contains pairs of
+/// index and name.
 pub fn set_numbers(object: &mut Value, key: &str, list: &[Option<f64>]) {
     object[key] = list.into();
     let named = |(i, x): (usize, &Option<f64>)| Some((i, nonfinite((*x)?)?));

@@ -220,7 +220,7 @@ impl<'p> Session<'p> {
         self.step_by(core::step);
     }
 
-    /// The same with a step function of the caller, which may measure the time of the step.
+    /// Like [`Session::step`], with a step function of the caller, which may measure the time of the step.
     #[inline]
     pub fn step_by(&mut self, engine: impl FnOnce(&Model, &mut Data<Planned>) -> Result<(), core::Error>) {
         if self.end.is_some() {

@@ -162,7 +162,7 @@ impl SourceMap {
         whole
     }
 
-    /// The same map for an origin text that is a slice starting at `offset` of a larger one.
+    /// The map with all origin ranges shifted by `offset`: its origin text is a slice of a larger one that starts there.
     pub fn shifted(mut self, offset: usize) -> SourceMap {
         for piece in &mut self.pieces {
             piece.origin = piece.origin.start + offset..piece.origin.end + offset;

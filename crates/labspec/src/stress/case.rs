@@ -157,7 +157,7 @@ impl<'a> StressCase<'a> {
         }
     }
 
-    /// The same with another model that differs in numbers only.
+    /// The case with another model that differs in numbers only.
     pub fn with_model<'b>(&'b self, model: &'b Model) -> StressCase<'b> {
         StressCase { lab: self.lab, model, programs: self.programs, base: self.base.clone(), ..*self }
     }
@@ -202,7 +202,8 @@ impl<'a> StressCase<'a> {
         }
     }
 
-    /// The same for a run whose samples evaluate the displays, and that starts with the presses of `interaction`.
+    /// Like [`StressCase::watcher`], for a run whose samples evaluate the displays, and that starts with the presses of
+    /// `interaction`.
     pub(super) fn table_watcher<'h>(
         &self,
         interaction: &'h Interaction,
@@ -226,7 +227,7 @@ impl<'a> StressCase<'a> {
         self.run_to_model(interaction, change, length, budget).0
     }
 
-    /// The same, with the model at the end of the run.
+    /// Like [`StressCase::run`]; also returns the model at the end of the run.
     pub fn run_to_model(
         &self,
         interaction: &Interaction,

@@ -34,7 +34,7 @@ pub(super) struct RunawayMonitor {
     first: Option<[f64; 2]>,
     /// A speed above the bound: the time, the degree of freedom, its largest speed, and the bound.
     found: Option<(f64, usize, f64, f64)>,
-    /// The same for a runaway before a change from outside.
+    /// The values of `found` for a runaway before a change from outside.
     sure: Option<(f64, usize, f64, f64)>,
 }
 

@@ -169,7 +169,7 @@ impl<'a> BoundVerify<'a> {
         self.idle_in(0, work)
     }
 
-    /// The same with the lab at an index of the list.
+    /// Like [`BoundVerify::idle`], with the lab at an index of the list.
     pub(super) fn idle_in<T>(&self, place: usize, work: impl FnOnce(&mut Session<'a>) -> T) -> Option<T> {
         let scene = &self.scenes.get(place)?.scene;
         let mut idle = self.idle.borrow_mut();

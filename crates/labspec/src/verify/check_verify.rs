@@ -29,8 +29,8 @@ pub fn check_verify(
     }
 }
 
-/// The same with the numerics of the lesson only: tests the claims, not their robustness. `None` where a run cannot be
-/// executed.
+/// Like [`check_verify`], with the numerics of the lesson only: tests the claims, not their robustness. `None` where a run
+/// cannot be executed.
 pub(crate) fn check_nominal(
     bound: &BoundVerify<'_>,
     verify: &Verify,

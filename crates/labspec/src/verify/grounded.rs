@@ -28,7 +28,7 @@ pub(super) fn grounded_value(
     Ok(found)
 }
 
-/// The same for perturbed numerics, for which the claim is not tested with other values again.
+/// Like [`grounded_value`], for perturbed numerics: the claim is not tested with other values again.
 pub(super) fn decided_value(
     bound: &BoundVerify<'_>,
     outcome: &Outcome,

@@ -41,7 +41,7 @@ impl<'a> OutcomeNames<'a> {
         OutcomeNames { layout, model, claims, units: None, met: Cell::default() }
     }
 
-    /// The same with the dimensions of the measures.
+    /// Adds the dimensions of the measures.
     pub(super) fn measuring(self, units: &'a RunUnits) -> OutcomeNames<'a> {
         OutcomeNames { units: Some(units), ..self }
     }

@@ -212,7 +212,7 @@ impl<'a> SetConstBench<'a> {
         self.record_under(s, amended, trial, steps, StepVariant::NOMINAL)
     }
 
-    /// The same under perturbed numerics: half the timestep, or a perturbed start.
+    /// Like [`SetConstBench::record`], under perturbed numerics: half the timestep, or a perturbed start.
     pub(super) fn record_under(
         &mut self,
         s: &Suspect<'_>,

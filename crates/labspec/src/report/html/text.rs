@@ -12,7 +12,7 @@ pub(super) fn text(text: &str) -> String {
     if visible.is_empty() { visible } else { format!("<bdi>{visible}</bdi>") }
 }
 
-/// The same for places without tags: attributes and the title.
+/// Like [`text`], for places without tags: attributes and the title.
 pub(super) fn plain(text: &str) -> String {
     let words: Vec<&str> = cut(text).split_whitespace().collect();
     let mut out = escape(&words.join(" "));

@@ -65,7 +65,7 @@ fn the_word_of_a_family_tells_the_keys_and_so_do_the_keys() {
     assert_eq!(keys, names(&SLIDER, &["label", "min"]));
     let keys = at(r#"{"controls": [{"label": "a", ¦}]}"#);
     assert!(keys.contains(&"run") && keys.contains(&"options") && keys.contains(&"min"));
-    // `apply` has no effect beside `set`.
+    // `apply` has no effect if `set` is present.
     assert!(!at(r#"{"controls": [{"type": "slider", "set": "x", ¦}]}"#).contains(&"apply"));
     assert_eq!(at(r#"{"questions": [{"kind": "numeric", "q": "?", ¦}]}"#), names(&NUMERIC, &["kind", "q"]));
     assert!(!at(r#"{"questions": [{"tol": 1, ¦}]}"#).contains(&"options"));

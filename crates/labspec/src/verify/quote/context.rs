@@ -122,7 +122,7 @@ const CHANGES: [&str; 70] = [
     "hardly",
 ];
 
-/// The same in scripts without spaces: `负0.5秒`, `每秒0.5米`.
+/// Words that change the meaning of a number after them, in scripts without spaces: `负0.5秒`, `每秒0.5米`.
 const WIDE: [&str; 49] = [
     "负",
     "負",

@@ -34,7 +34,7 @@ pub(super) fn visible_text(html: &Text, hidden: &mut Hidden) -> Text {
     Text { value, map: map.then(&html.map) }
 }
 
-/// The same, where `hidden` may contain an element that is still open.
+/// Like [`strip`], where `hidden` may contain an element that is still open.
 fn strip_after(html: &str, hidden: &mut Hidden) -> (String, SourceMap) {
     let (mut text, mut map) = (String::with_capacity(html.len()), SourceMap::default());
     for token in tokens(html) {

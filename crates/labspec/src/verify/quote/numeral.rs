@@ -173,7 +173,7 @@ fn mantissa(text: &str) -> IResult<&str, Mantissa> {
 }
 
 impl Mantissa {
-    /// The same with decimals, which may be in groups of three: 0.000 833.
+    /// Adds decimals, which may be in groups of three: 0.000 833.
     fn with_decimals<'t>(mut self, rest: &'t str, after: &str) -> (&'t str, Mantissa) {
         self.digits = format!("{}.{after}", self.digits);
         self.decimals = after.len();
@@ -247,7 +247,7 @@ enum Scale {
     Fraction(f64),
     /// Its exponent, and whether it is written out.
     Power(i32, bool),
-    /// The same where the digits are the base: `10^3`.
+    /// A power whose base is the digits: `10^3`, with its exponent.
     PowerOfDigits(i32),
 }
 

@@ -45,8 +45,8 @@ pub(super) fn quantities(chars: Chars<'_>) -> Vec<Quantity> {
     read(chars, false)
 }
 
-/// The same, where the ends of a range in words with two units (`between 0.4 s and 0.5 s`) are separate quantities, because
-/// a text states each of them.
+/// Like [`quantities`], but the ends of a range in words with two units (`between 0.4 s and 0.5 s`) are separate
+/// quantities, because a text states each of them.
 pub(super) fn quantities_apart(chars: Chars<'_>) -> Vec<Quantity> {
     read(chars, true)
 }

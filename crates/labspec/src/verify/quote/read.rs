@@ -11,7 +11,7 @@ use super::{fold, html};
 pub(in crate::verify) struct Reading {
     /// The number.
     pub(super) read: Quoted,
-    /// The same as a fraction of one, for `50 %`.
+    /// The number as a fraction of one, for `50 %`.
     pub(super) share: Option<Quoted>,
     /// Other numbers that it may state, each with a reason.
     pub(super) doubts: Vec<(Quoted, &'static str)>,

@@ -82,7 +82,7 @@ impl RenderedText {
         self.found(quote).iter().map(|p| p.at.clone()).collect()
     }
 
-    /// The same with the units in the text.
+    /// The places where a quote appears as a separate number, with the units in the text.
     pub(in crate::verify) fn found(&self, quote: &str) -> &[QuotePlace] {
         self.places.get(quote).map_or(&[], Vec::as_slice)
     }

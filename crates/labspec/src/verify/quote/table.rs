@@ -38,7 +38,7 @@ pub(super) fn rendered(text: &str) -> String {
     plain(&html::strip(text).0)
 }
 
-/// The same for a text without tags.
+/// Like [`rendered`], for a text without tags.
 fn plain(text: &str) -> String {
     fold::fold(text, true).0.replace(['*', '`'], "").trim().to_string()
 }
