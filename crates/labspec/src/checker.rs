@@ -1,4 +1,4 @@
-//! A lesson checked from memory: text in, findings and the ledger out.
+//! Checks a lesson from memory: the input is a text, the output are findings and the ledger.
 
 use crate::bind::{Functions, scene};
 use crate::check::{self, CheckLevel, Checked};
@@ -11,7 +11,7 @@ use crate::spec::Lesson;
 use std::fmt;
 use std::path::Path;
 
-/// Checks lessons, one after the other. Models are compiled once.
+/// Checks lessons one by one. Models are compiled once.
 #[derive(Debug)]
 pub struct Checker {
     models: scene::Models,
@@ -32,46 +32,46 @@ impl fmt::Debug for Rules {
     }
 }
 
-/// What a check came to.
+/// The result of a check.
 #[derive(Debug)]
 pub struct Report {
-    /// The lesson, its labs and its claims, one by one.
+    /// The lesson with the results of its labs and its claims.
     pub checked: Checked,
-    /// Everything that is wrong or doubtful, in order, with line and column; also what is wrong in its models.
+    /// All errors, warnings and notes, in order, with line and column, including those in its models.
     pub findings: Vec<Finding>,
-    /// Every claim with what became of it.
+    /// Every claim with its state.
     pub ledger: Ledger,
 }
 
 impl Report {
-    /// What it all comes to.
+    /// The overall outcome.
     pub fn outcome(&self) -> Outcome {
         self.ledger.outcome()
     }
 
-    /// Every claim with what became of it, in order.
+    /// Every claim with its state, in order.
     pub fn entries(&self) -> &[Entry] {
         self.ledger.entries()
     }
 }
 
 impl Checker {
-    /// A checker of lessons whose labs name these models: a map, a closure ([`Models`](crate::Models)), or a folder
-    /// ([`ModelFolder`]). Only a folder is ever looked for among files.
+    /// A checker for lessons whose labs name these models: a map, a closure ([`Models`](crate::Models)), or a folder
+    /// ([`ModelFolder`]). Only a folder reads files.
     pub fn new(models: impl Into<ModelFolder>) -> Checker {
         let level = CheckLevel::FULL;
         let (rules, sources) = (Rules::default(), Sources::default());
         Checker { models: scene::Models::new(models.into()), level, rules, sources }
     }
 
-    /// The same without runs of labs or without verdicts on claims: quicker, and it says less.
+    /// Sets the level of the check: without runs of labs, or without verdicts on claims, it is faster but checks less.
     pub fn level(mut self, level: CheckLevel) -> Checker {
         self.level = level;
         self
     }
 
-    /// The same with neighbours: lessons whose labs others name, and snapshots, by their paths. A lesson that is checked finds them
-    /// from its own path. Files are never looked for.
+    /// Sets the related texts by their paths: lessons whose labs others name, and snapshots. They are resolved from the
+    /// path of the checked lesson. No files are read.
     pub fn neighbours<P: AsRef<Path>, T: Into<String>>(
         mut self,
         texts: impl IntoIterator<Item = (P, T)>,
@@ -80,20 +80,20 @@ impl Checker {
         self
     }
 
-    /// The same with functions of one's own, which the texts of labs may call.
+    /// Sets the functions of the embedding program that the texts of labs may call.
     pub fn functions(mut self, functions: Functions) -> Checker {
         self.models = self.models.with_functions(functions);
         self
     }
 
-    /// The same with a rule of one's own, which looks at every lesson. Its findings count like all others: places are bytes of
-    /// the lesson, and a fix must leave JSON that is JSON ([`crate::json`] has what it takes).
+    /// Adds a rule of the embedding program, which checks every lesson. Its findings count like all others. Spans are bytes
+    /// of the lesson, and a fix must result in valid JSON ([`crate::json`] provides the tools).
     pub fn rule(mut self, rule: impl Fn(&Lesson) -> Vec<Finding> + Send + Sync + 'static) -> Checker {
         self.rules.0.push(Box::new(rule));
         self
     }
 
-    /// Checks a lesson. `path` is its name in findings, and says by its ending what it is: Markdown, or JSON.
+    /// Checks a lesson. `path` is its name in findings, and its extension determines the format: Markdown or JSON.
     pub fn check(&mut self, path: &str, text: &str) -> Report {
         let (file, folder) = (SourceFile::new(path, text), self.models.folder());
         let mut lesson = load_lesson_at(file, Path::new(path), &self.sources, folder);

@@ -1,4 +1,4 @@
-//! The one error of the library: that of models and programs, and of runs.
+//! The error type of the library: for models, programs and runs.
 
 use crate::finding::{Finding, InFile};
 use crate::run::RunError;

@@ -1,12 +1,12 @@
-//! What a check has to say, and where it stands in a file.
+//! Findings with their location in a file.
 
 use crate::source::SourceFile;
 pub use labspec_finding::{Applicability, ClaimId, Finding, Fix, Place, Severity, sort};
 
-/// A finding gets its file.
+/// Assigns a file to a finding.
 pub trait InFile {
-    /// States the file of the finding and of those places that do not name another one, and widens spans that
-    /// begin or end inside of a character.
+    /// Sets the file of the finding and of those related places that do not name another one, and widens spans that begin
+    /// or end inside a character.
     fn at(self, file: &SourceFile) -> Self;
 }
 

@@ -1,8 +1,8 @@
-//! The formatter: the code in a lesson laid out anew, and bare indexes written by the names of their objects. The JSON
-//! and the Markdown around the code stay as they are, byte for byte.
+//! The formatter: formats the code in a lesson, and replaces bare indexes by the names of their objects. The JSON and the
+//! Markdown around the code are unchanged, byte for byte.
 //!
-//! A text is left alone when it has mistakes or comments, or when the file does not hold it as plain JSON (a repaired
-//! quote): only what is certain to mean the same is changed.
+//! A text is not changed if it has errors or comments, or if the file does not contain it as plain JSON (a repaired quote):
+//! only changes that certainly preserve the meaning are made.
 
 use crate::bind::scene::Models;
 use crate::bind::{ModelNames, Scope};
@@ -12,19 +12,19 @@ use labspec_core::Model;
 use labspec_expr::{Compiled, Compiler, Globals, Program, Type, format_expression, format_statements};
 use std::ops::Range;
 
-/// A lesson with its code laid out.
+/// A lesson with formatted code.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Formatted {
     /// The whole file.
     pub text: String,
-    /// Texts of code that are different now.
+    /// Number of texts of code that changed.
     pub changed: usize,
-    /// Texts of code.
+    /// Number of texts of code.
     pub total: usize,
 }
 
-/// Lays out all code of a lesson. With models, bare indexes become names: `data.qpos[9]` is written
-/// `data.joint('light_free').qpos[2]`, which is the same element of the model at hand.
+/// Formats all code of a lesson. With models, bare indexes become names: `data.qpos[9]` becomes
+/// `data.joint('light_free').qpos[2]`, which is the same element of this model.
 pub fn format(lesson: &Lesson, mut models: Option<&mut Models>) -> Formatted {
     let mut edits: Vec<(Range<usize>, String)> = Vec::new();
     let mut total = 0;
@@ -42,7 +42,7 @@ pub fn format(lesson: &Lesson, mut models: Option<&mut Models>) -> Formatted {
         edits.extend(laid_out(&text.value, form).and_then(|code| edit(lesson, text, &code)));
         total += 1;
     }
-    // From the back, so that places stay where they are. A lab that is named twice is edited once.
+    // From the end to the start, so that offsets remain valid. A lab that is named twice is edited once.
     edits.sort_by_key(|(span, _)| std::cmp::Reverse(span.start));
     edits.dedup_by(|a, b| a.0 == b.0);
     let changed = edits.len();
@@ -53,7 +53,7 @@ pub fn format(lesson: &Lesson, mut models: Option<&mut Models>) -> Formatted {
     Formatted { text, changed, total }
 }
 
-/// Whether two versions of a lesson hold the same labs and claims, and are at fault in the same things.
+/// Whether two versions of a lesson contain the same labs and claims, and have the same findings.
 pub fn says_the_same(before: &Lesson, after: &Lesson) -> bool {
     let texts = |lesson: &Lesson| {
         let labs = lesson.all_labs().into_iter().flat_map(|lab| lab.code()).map(|(form, _)| form);
@@ -82,8 +82,8 @@ fn laid_out(code: &str, form: Form) -> Option<String> {
     }
 }
 
-/// The bytes of the file behind a text and what replaces them; `None` when nothing changes, or when the file holds
-/// the text in another way than as plain JSON.
+/// The bytes of the file that contain a text, and their replacement; `None` when nothing changes, or when the file does not
+/// contain the text as plain JSON.
 fn edit(lesson: &Lesson, text: &Text, code: &str) -> Option<(Range<usize>, String)> {
     let span = text.span();
     let written = format!("\"{}\"", lesson.file.slice(span.clone()));
@@ -95,8 +95,8 @@ fn edit(lesson: &Lesson, text: &Text, code: &str) -> Option<(Range<usize>, Strin
     Some((span, quoted.get(1..quoted.len() - 1)?.to_owned()))
 }
 
-/// A text with names for its bare indexes; `None` when it has none, or mistakes. Both versions read, write and call
-/// the same, element by element.
+/// A text with names for its bare indexes; `None` when it has none, or errors. Both versions read, write and call the same
+/// elements.
 pub fn modernized(code: &str, form: Form, model: &Model, globals: &mut Globals) -> Option<String> {
     let names = ModelNames::new(model, Scope::Lab);
     let mut compile = |code: &str| compile(code, form, &names, globals);

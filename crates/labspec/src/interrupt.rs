@@ -1,5 +1,5 @@
-//! Interrupts: a flag that long work reads, so that finished results can still be printed (Ctrl-C), and one for the work of a single
-//! thread that a newer request replaces.
+//! Interrupts: a flag that long computations read, so that finished results can still be printed (Ctrl-C), and a flag for
+//! the computation of a single thread that a newer request replaces.
 
 use std::cell::RefCell;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -7,15 +7,15 @@ use std::sync::{Arc, OnceLock};
 
 static REQUESTED: OnceLock<Arc<AtomicBool>> = OnceLock::new();
 
-/// Whether some thread has a flag of its own: as long as none has, nobody looks for one.
+/// Whether any thread has its own flag; otherwise none is looked up.
 static OWN: AtomicBool = AtomicBool::new(false);
 
 thread_local! {
     static HERE: RefCell<Option<Arc<AtomicBool>>> = const { RefCell::new(None) };
 }
 
-/// Whether long work on this thread must end: the flag of all threads is set, or that of this thread. It is never true in a program
-/// that calls neither [`flag`] nor [`until`].
+/// Whether long computations on this thread must stop: the flag of all threads or that of this thread is set. It is never
+/// true in a program that calls neither [`flag`] nor [`until`].
 #[inline]
 pub fn requested() -> bool {
     REQUESTED.get().is_some_and(|flag| flag.load(Ordering::Relaxed))
@@ -27,7 +27,7 @@ fn here() -> bool {
     HERE.with(|flag| flag.borrow().as_ref().is_some_and(|flag| flag.load(Ordering::Relaxed)))
 }
 
-/// Does work on this thread, and ends it early when the flag is set. The work asks [`requested`] between steps.
+/// Runs `work` on this thread, and stops it early when the flag is set. The work calls [`requested`] between steps.
 pub fn until<T>(flag: Arc<AtomicBool>, work: impl FnOnce() -> T) -> T {
     OWN.store(true, Ordering::Relaxed);
     let before = HERE.with(|here| here.replace(Some(flag)));
@@ -36,7 +36,7 @@ pub fn until<T>(flag: Arc<AtomicBool>, work: impl FnOnce() -> T) -> T {
     done
 }
 
-/// The flag that ends long work on all threads: the program sets it at Ctrl-C.
+/// The flag that stops long computations on all threads: the program sets it at Ctrl-C.
 pub fn flag() -> Arc<AtomicBool> {
     REQUESTED.get_or_init(Arc::default).clone()
 }

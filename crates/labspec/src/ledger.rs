@@ -1,7 +1,7 @@
-//! The ledger of claims: everything that a course says and that a check could say about it, each with what became of it.
+//! The ledger of claims: everything that a course states and that a check can test, each with its state.
 //!
 //! Summaries, verdicts and exit codes are computed from the ledger and from nothing else. A claim is true only if it was
-//! found true in this run; what could not be checked is not silently true, it stands here with its reason.
+//! found true in this run. A claim that could not be checked is an entry with the reason.
 
 use crate::printable::counted;
 use serde::{Deserialize, Serialize};
@@ -9,28 +9,28 @@ use std::fmt::Write;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// What a claim is about.
+/// The kind of a claim.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Subject {
-    /// A file was read, and nothing in it is wrong.
+    /// A file was read, and has no errors or warnings.
     File,
-    /// A model that was given on its own loads.
+    /// A model that was checked alone can be loaded.
     Model,
-    /// A lab runs: as it stands, and with its controls moved, for as long as a student watches it.
+    /// A lab runs: as loaded, and with its controls moved, for as long as a student watches it.
     Lab,
-    /// A block of another widget: not ours to run.
+    /// A block of another widget, which labspec cannot run.
     Widget,
-    /// A run of a `verify` object can be made, and does not break.
+    /// A run of a `verify` object can be executed, and does not break.
     Run,
     /// The keyed answer of a question is right.
     Answer,
-    /// An option of a question that the evidence does not decide.
+    /// An option of a question that is undecided.
     Option,
-    /// A number quoted in the text is what the simulation gives.
+    /// A number quoted in the text equals that of the simulation.
     Quote,
     /// A trace follows its closed form.
     ClosedForm,
-    /// The traces and readouts of a lab are as stored in the snapshot of its lesson.
+    /// The traces and readouts of a lab equal those in the snapshot of its lesson.
     Snapshot,
 }
 
@@ -49,7 +49,7 @@ impl Subject {
         Subject::Snapshot,
     ];
 
-    /// One of it, in words.
+    /// The singular in words.
     pub fn as_str(self) -> &'static str {
         match self {
             Subject::File => "file",
@@ -69,13 +69,13 @@ impl Subject {
 /// How a claim was found true.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum Evidence {
-    /// Worked out without a simulation: a formula, a structure.
+    /// Without a simulation: by a formula, or by the structure.
     Computed,
-    /// A simulation of this run shows it.
+    /// By a simulation in this run.
     Simulated,
 }
 
-/// What became of a claim.
+/// The state of a claim.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum State {
     /// Checked, and true.
@@ -84,16 +84,16 @@ pub enum State {
     False,
     /// Could not be checked.
     Unchecked,
-    /// It was left out of this check: whoever asked for it wanted so, or it is a widget of which nothing is known.
+    /// Left out of this check: it was not requested, or it is an unknown widget.
     LeftOut,
-    /// It is false or could not be checked, as the baseline says that it was.
+    /// False or unchecked, as recorded in the baseline.
     Known,
-    /// Nobody claims it, so nothing was checked.
+    /// Not claimed, so nothing was checked.
     NotClaimed,
 }
 
 impl State {
-    /// In words, for programs: `true`, `false`, `unchecked`, `left out`, `known`, `not claimed`.
+    /// The state in words, for programs: `true`, `false`, `unchecked`, `left out`, `known`, `not claimed`.
     pub fn as_str(self) -> &'static str {
         match self {
             State::True(_) => "true",
@@ -109,21 +109,21 @@ impl State {
 /// One claim.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
-    /// What it is about.
+    /// Its kind.
     pub subject: Subject,
-    /// Who claims it: a path, `lab #1`, `quiz fall, question 2`.
+    /// The owner: a path, `lab #1`, `quiz fall, question 2`.
     pub owner: String,
-    /// The file, as it is shown to people.
+    /// The file, in the form that is printed.
     pub path: Arc<str>,
     /// Bytes of that file.
     pub span: Range<usize>,
-    /// What became of it.
+    /// Its state.
     pub state: State,
-    /// In one word: `verified`, `refuted`, `ran`, …
+    /// The state in one word: `verified`, `refuted`, `ran`, …
     pub word: &'static str,
-    /// What is claimed, where the owner claims several: a quote, the name of a run, a trace.
+    /// The claim among several of the owner: a quote, the name of a run, a trace.
     pub what: String,
-    /// Why it is not true, or what was covered; empty when there is nothing to add.
+    /// The reason why it is not true, or the coverage; empty when there is nothing to add.
     pub remark: String,
 }
 
@@ -133,45 +133,45 @@ pub struct Ledger {
     entries: Vec<Entry>,
 }
 
-/// How many claims of a subject are in which state.
+/// The number of claims of a subject in each state.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Count {
-    /// Found true by a simulation.
+    /// True, by a simulation.
     pub simulated: usize,
-    /// Found true without one.
+    /// True, without a simulation.
     pub computed: usize,
-    /// Found false.
+    /// False.
     #[serde(rename = "false")]
     pub wrong: usize,
-    /// Could not be checked.
+    /// Not checked.
     pub unchecked: usize,
     /// Left out of this check.
     pub left_out: usize,
-    /// No better than the baseline says.
+    /// In the baseline.
     #[serde(rename = "known")]
     pub baselined: usize,
     /// Not claimed.
     pub not_claimed: usize,
 }
 
-/// What a whole check comes to.
+/// The outcome of a whole check.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
     /// Every claim was checked and is true.
     Clean,
     /// A claim is false, or could not be checked.
     Findings,
-    /// What was checked is true, and some claims were left out.
+    /// Everything that was checked is true, and some claims were left out.
     Partial,
-    /// What is false or could not be checked stands in the baseline; the rest is true.
+    /// All false and unchecked claims are in the baseline; the others are true.
     Known,
     /// There was nothing to check.
     Nothing,
 }
 
 impl Outcome {
-    /// `clean`, `findings`, `partial`, `known` or `nothing`.
+    /// The outcome in a word: `clean`, `findings`, `partial`, `known` or `nothing`.
     pub fn as_str(self) -> &'static str {
         match self {
             Outcome::Clean => "clean",
@@ -199,7 +199,7 @@ impl Ledger {
         &self.entries
     }
 
-    /// The claims about a subject, counted.
+    /// Counts the claims of a subject.
     pub fn count(&self, subject: Subject) -> Count {
         let mut count = Count::default();
         for entry in self.entries.iter().filter(|e| e.subject == subject) {
@@ -216,7 +216,7 @@ impl Ledger {
         count
     }
 
-    /// What it all comes to. A file in which nothing stands that could be checked is no evidence of anything.
+    /// The overall outcome. A file without checkable content is not evidence.
     pub fn outcome(&self) -> Outcome {
         let bad = |e: &Entry| matches!(e.state, State::False | State::Unchecked);
         let good = |e: &Entry| !matches!(e.subject, Subject::File | Subject::Widget | Subject::Option);
@@ -233,13 +233,13 @@ impl Ledger {
         }
     }
 
-    /// How many claims are in a state, files not counted: those are in order or not by what stands in them.
+    /// The number of claims in a state. Files are not counted, because their state follows from their content.
     fn in_state(&self, state: State) -> usize {
         self.entries.iter().filter(|e| e.state == state && e.subject != Subject::File).count()
     }
 
-    /// What it all comes to, in a sentence for people: what is false first, then what could not be checked, then the findings in
-    /// numbers (`findings`, empty where there are none), then what was left out, then what the baseline knows.
+    /// The outcome in a sentence for people: false claims first, then unchecked ones, then the counts of findings
+    /// (`findings`, empty where there are none), then whether claims were left out, then the baseline.
     pub fn conclusion(&self, findings: &str) -> String {
         let claims = |n: usize, one: &str, more: &str| match n {
             1 => format!("1 claim {one}"),
@@ -256,7 +256,7 @@ impl Ledger {
         let any = |state| self.entries.iter().any(|e| e.state == state);
         let is_wrong = any(State::False) || any(State::Unchecked);
         match (is_wrong, findings) {
-            // What is wrong with a file that claims nothing.
+            // The problems of a file without claims.
             (true, "") if parts.is_empty() => parts.push("a file has problems".into()),
             (true, findings) if !findings.is_empty() => parts.push(findings.into()),
             _ => {}
@@ -279,7 +279,7 @@ impl Ledger {
             (true, Outcome::Nothing) => parts.push("nothing to check".into()),
             (true, _) => parts.push("no problems found".into()),
         }
-        // Notes alone are no fault.
+        // Notes alone are not a problem.
         if !is_wrong && !findings.is_empty() {
             parts.push(findings.into());
         }
@@ -290,7 +290,7 @@ impl Ledger {
         self.entries.iter().filter(|e| e.state == State::Known).count()
     }
 
-    /// Everything in numbers: `2 files, 4 labs run, 3 answers verified, 2 without a check, 29 quoted numbers verified`.
+    /// The counts in a sentence: `2 files, 4 labs run, 3 answers verified, 2 without a check, 29 quoted numbers verified`.
     pub fn summary(&self) -> String {
         let mut parts = Vec::new();
         for subject in Subject::ALL {
@@ -305,7 +305,8 @@ impl Ledger {
         parts.join(", ")
     }
 
-    /// Marks widgets as those of the page, where somebody says so: they are not ours to run, and nobody claims that they were.
+    /// Marks widgets that `accepted` names as belonging to the page: labspec does not run them, and they are not claimed to
+    /// run.
     pub fn accept_widgets(&mut self, accepted: impl Fn(&Arc<str>, &str) -> bool) {
         for entry in self.entries.iter_mut().filter(|e| e.subject == Subject::Widget) {
             let name = entry.owner.strip_prefix("widget ").unwrap_or_default();
@@ -316,7 +317,7 @@ impl Ledger {
         }
     }
 
-    /// Marks what was left out of the lessons whose check was broken off: it could not be checked.
+    /// Marks the claims that were left out of interrupted lessons as unchecked.
     pub fn break_off(&mut self, is_broken_off: impl Fn(&Arc<str>) -> bool) {
         for entry in self.entries.iter_mut().filter(|e| e.state == State::LeftOut && is_broken_off(&e.path)) {
             (entry.state, entry.word) = (State::Unchecked, "unchecked");
@@ -324,7 +325,7 @@ impl Ledger {
         }
     }
 
-    /// Marks entries that are false or could not be checked as baselined, where `baselined` says so, and the files of such entries.
+    /// Marks false and unchecked entries as baselined where `baselined` returns true, and the files of such entries.
     pub fn mark_baselined(&mut self, baselined: impl Fn(&Entry) -> bool) {
         for entry in &mut self.entries {
             let bad = matches!(entry.state, State::False | State::Unchecked);
@@ -336,11 +337,11 @@ impl Ledger {
     }
 }
 
-/// The counts of a subject that the summary names, each pair with the words behind the numbers.
+/// The counts of a subject in the summary, in pairs, each with the words after the number.
 fn summary_counts(subject: Subject, c: &Count) -> Vec<[(usize, &'static str); 2]> {
     match subject {
         Subject::File => vec![[(c.simulated + c.computed + c.wrong + c.unchecked, ""), (0, "")]],
-        // Runs are the means of the claims that read them: they are reported where one breaks.
+        // Runs are means of the claims that read them, so only broken and impossible ones are reported.
         Subject::Run => {
             vec![[(c.wrong, "broken"), (c.unchecked, "impossible")], [(c.left_out, "left out"), (0, "")]]
         }
@@ -412,7 +413,7 @@ mod tests {
         assert_eq!(of(&[answer(State::True(Evidence::Simulated)), answer(State::False)]), Outcome::Findings);
     }
 
-    /// Every combination of counts has a sentence that is true of it: it names what there is, and nothing that there is not.
+    /// Every combination of counts has a correct sentence: it names all existing states and no others.
     #[test]
     fn the_conclusion_is_true_of_every_combination() {
         let states = [

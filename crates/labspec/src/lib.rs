@@ -1,19 +1,20 @@
 //! Checks that physics lessons tell the truth.
 //!
-//! A lesson (Markdown with labs and quizzes as JSON in fences) goes in; findings with places come out.
+//! The input is a lesson (Markdown with labs and quizzes as JSON in fences); the output is a list of findings with
+//! locations.
 //!
-//! * [`source`]: files, places, and maps from derived text back to the file
-//! * [`markdown`]: fences, also damaged ones
-//! * [`json`]: JSON with a place for every value
-//! * [`spec`]: labs, quizzes and lessons as typed values; [`lint::load_lesson_at`] is the way in
-//! * [`lint`]: the table of rules and the checks of structure
-//! * [`format`](mod@format): the code of a lesson laid out anew
-//! * [`ledger`]: every claim with what became of it, from which all verdicts and exit codes follow
-//! * [`finding`], [`report`]: what is wrong, and how it is shown to people and programs
+//! * [`source`]: files, positions, and maps from derived text back to the file
+//! * [`markdown`]: fences, including damaged ones
+//! * [`json`]: JSON with a span for every value
+//! * [`spec`]: labs, quizzes and lessons as typed values; [`lint::load_lesson_at`] is the entry point
+//! * [`lint`]: the table of rules and the structural checks
+//! * [`format`](mod@format): formats the code of a lesson
+//! * [`ledger`]: every claim with its state, from which all verdicts and exit codes follow
+//! * [`finding`], [`report`]: findings, and their output for people and programs
 //!
-//! Frontends hold three objects, and the rest through them: a [`Player`] is a lab that is open on a page, a [`Checker`]
-//! checks lessons from memory, an [`Engine`] is a model with the language (it comes from the crate `labspec-bind`, which needs no
-//! lessons). [`Models`] is where models come from.
+//! Frontends use three objects, and everything else through them: a [`Player`] is a lab that is open on a page, a
+//! [`Checker`] checks lessons from memory, an [`Engine`] is a model with the language (from the crate `labspec-bind`, which
+//! does not depend on lessons). [`Models`] defines where models come from.
 
 pub mod bind;
 pub mod check;

@@ -1,33 +1,33 @@
-//! Where the models of labs come from: a folder, a map in memory, or whatever answers for a name.
+//! The sources of models for labs: a folder, a map in memory, or a function.
 
 use labspec_core::xml::{FileProblem, Files};
 use std::collections::BTreeMap;
 
-/// Models by name, as labs name them: without folder and ending.
+/// Models by the names that labs use: without folder and extension.
 ///
-/// There are three kinds of it: maps and lists in memory, closures `Fn(&str) -> Option<String>`, and, for a folder,
-/// [`ModelFolder`](crate::lint::ModelFolder), which takes the place of all of them.
+/// There are three kinds: maps and lists in memory, closures `Fn(&str) -> Option<String>`, and, for a folder,
+/// [`ModelFolder`](crate::lint::ModelFolder), which can replace all of them.
 pub trait Models: Send + Sync {
     /// The MJCF of a model; `None` when there is no model of this name.
     fn text(&self, name: &str) -> Option<String>;
 
-    /// The names of all models, when they are known: then a misspelt one gets a suggestion.
+    /// The names of all models, if they are known: then a misspelt name gets a suggestion.
     fn names(&self) -> Option<Vec<String>> {
         None
     }
 
-    /// A file that a model names: included text, a mesh, a picture. `path` is seen from where the models lie. Without
-    /// an answer of one's own, models may include each other, `NAME.xml`, and nothing else.
+    /// A file that a model names: included text, a mesh, an image. `path` is relative to the location of the models. By
+    /// default, models may include only each other, as `NAME.xml`.
     ///
     /// # Errors
-    /// Why there are no bytes; more than `limit` of them are refused.
+    /// The reason why there are no bytes; more than `limit` bytes are refused.
     fn file(&self, path: &str, limit: usize) -> Result<Vec<u8>, FileProblem> {
         let text = path.strip_suffix(".xml").and_then(|name| self.text(name)).ok_or(FileProblem::Missing)?;
         if text.len() > limit { Err(FileProblem::TooLarge) } else { Ok(text.into_bytes()) }
     }
 }
 
-/// No models: for labs that hold their own, as `xml`.
+/// No models: for labs with an inline model, `xml`.
 #[derive(Clone, Copy, Debug)]
 pub struct NoModels;
 
@@ -69,7 +69,7 @@ impl<F: Fn(&str) -> Option<String> + Send + Sync> Models for F {
     }
 }
 
-/// The files of models, as the compiler of models asks for them.
+/// The files of models, for the model compiler.
 pub(crate) struct FilesOf<'m>(pub(crate) &'m dyn Models);
 
 impl Files for FilesOf<'_> {

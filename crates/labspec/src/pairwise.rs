@@ -1,11 +1,11 @@
-//! A few runs in which every two settings meet: a pairwise covering design.
+//! Pairwise covering designs: a few runs that contain every pair of settings.
 //!
-//! Rows are added greedily. Each begins with the first pair of levels that no row has yet; every other factor then takes the level
-//! that brings the most new pairs (the idea of D. M. Cohen and others 1997, "The AETG system", without its dice: the same factors
-//! give the same rows).
+//! Rows are added greedily. Each begins with the first pair of levels that no row contains yet. Every other factor then
+//! takes the level that adds the most new pairs (the idea of D. M. Cohen and others 1997, "The AETG system", without
+//! randomness: the same factors give the same rows).
 
-/// Rows of levels, one for each factor, so that each pair of levels of two factors stands in some row. `levels` is how many levels
-/// each factor has. Ends after `most` rows; the second number is how many pairs are in none of them then.
+/// Rows of levels, one for each factor, so that some row contains each pair of levels of two factors. `levels` is the
+/// number of levels of each factor. Stops after `most` rows; the second result is the number of pairs that no row contains.
 pub(crate) fn pairwise(levels: &[usize], most: usize) -> (Vec<Vec<usize>>, usize) {
     let mut missing = Missing::new(levels);
     let mut rows = Vec::new();
@@ -28,7 +28,7 @@ pub(crate) fn pairwise(levels: &[usize], most: usize) -> (Vec<Vec<usize>>, usize
     (rows, missing.count)
 }
 
-/// Every combination of levels, the last factor changing first.
+/// Every combination of levels; the last factor changes fastest.
 pub(crate) fn all(levels: &[usize]) -> Vec<Vec<usize>> {
     let mut rows = vec![Vec::new()];
     for &n in levels {
@@ -38,14 +38,14 @@ pub(crate) fn all(levels: &[usize]) -> Vec<Vec<usize>> {
     rows
 }
 
-/// The pairs that no row has yet.
+/// The pairs that no row contains yet.
 struct Missing {
     levels: Vec<usize>,
-    /// Where the levels of a factor begin among those of all.
+    /// The index of the first level of each factor among all levels.
     start: Vec<usize>,
     total: usize,
     open: Vec<bool>,
-    /// Pairs before this one are struck.
+    /// All pairs before this index are covered.
     from: usize,
     count: usize,
 }
@@ -80,7 +80,7 @@ impl Missing {
         all
     }
 
-    /// The place of a pair: the earlier factor first.
+    /// The index of a pair: the earlier factor first.
     fn place(&self, (i, a): (usize, usize), (j, b): (usize, usize)) -> usize {
         let [mut row, mut column] = [self.start[i] + a, self.start[j] + b];
         if i > j {
@@ -89,10 +89,10 @@ impl Missing {
         row * self.total + column
     }
 
-    /// The factor and the level that stand at a place.
+    /// The factor and the level at an index.
     fn level(&self, at: usize) -> (usize, usize) {
         let factor = self.start.partition_point(|s| *s <= at) - 1;
-        // Factors without a level begin where the next one does.
+        // A factor without levels has the same start index as the next one.
         let factor = (0..=factor).rev().find(|f| self.levels[*f] > 0).unwrap_or(factor);
         (factor, at - self.start[factor])
     }
@@ -102,13 +102,13 @@ impl Missing {
         Some([self.level(self.from / self.total), self.level(self.from % self.total)])
     }
 
-    /// The level of a factor that makes the most new pairs with what the row has already; the lowest of several.
+    /// The level of a factor that adds the most new pairs with the levels of the row; the lowest of several.
     fn best(&self, factor: usize, row: &[Option<usize>]) -> usize {
         let gain = |level: usize| {
             let others = row.iter().enumerate().filter_map(|(j, b)| Some((j, (*b)?)));
             others.filter(|other| self.open[self.place((factor, level), *other)]).count()
         };
-        // The last of equals is the first from behind.
+        // `max_by_key` returns the last of equal elements, which is the first in reverse order.
         (0..self.levels[factor]).rev().max_by_key(|level| gain(*level)).unwrap_or(0)
     }
 
@@ -127,7 +127,7 @@ mod tests {
     use super::*;
     use std::collections::BTreeSet;
 
-    /// Pairs of factor and level that stand in one row.
+    /// Pairs of factor and level in one row.
     fn met(rows: &[Vec<usize>]) -> BTreeSet<[(usize, usize); 2]> {
         let of = |row: &Vec<usize>| {
             let row = row.clone();
@@ -155,7 +155,7 @@ mod tests {
             assert_eq!((missing, met(&rows).len()), (0, all / 2), "{levels:?}");
             assert!(rows.iter().all(|row| row.iter().zip(levels).all(|(level, n)| level < n)));
             assert_eq!(rows, pairwise(levels, usize::MAX).0, "the same again");
-            // No fewer rows can do, and the greedy ones are not many more.
+            // Fewer rows are impossible, and the greedy design has not many more.
             let mut sorted = levels.to_vec();
             sorted.sort_unstable();
             let least = sorted[sorted.len() - 1] * sorted[sorted.len() - 2];

@@ -1,36 +1,35 @@
-//! Text from lessons, models and file names, made safe to print.
+//! Makes text from lessons, models and file names safe to print.
 //!
-//! A terminal obeys control characters, turns text around at bidirectional marks and draws nothing for invisible ones:
-//! a title that holds them could write a verdict over the true one. Here each of them becomes text that says what it
-//! is: `\u{1b}`.
+//! A terminal executes control characters, reorders text at bidirectional marks and prints nothing for invisible ones: a
+//! title that contains them could print a verdict over the true one. Each of them is replaced by its escape: `\u{1b}`.
 
 use std::borrow::Cow;
 use std::path::Path;
 
-/// A piece of text for one line of output: what cannot be seen, or acts on the terminal, is written out.
+/// A text for one line of output, with invisible characters and control characters written as escapes.
 pub fn printable(text: &str) -> Cow<'_, str> {
     written_out(text, is_hidden, |c, out| out.extend(c.escape_default()))
 }
 
-/// The same for a whole output whose line breaks are our own.
+/// Like [`printable`], for a whole output with line breaks.
 pub fn printable_lines(text: &str) -> Cow<'_, str> {
     written_out(text, |c| c != '\n' && is_hidden(c), |c, out| out.extend(c.escape_default()))
 }
 
-/// The same for a line of a lesson, which may hold tabs.
+/// Like [`printable`], for a line of a lesson, which may contain tabs.
 #[cfg(feature = "report")]
 pub(super) fn printable_line(text: &str) -> Cow<'_, str> {
     written_out(text, |c| c != '\t' && is_hidden(c), |c, out| out.extend(c.escape_default()))
 }
 
-/// A path as it is shown to people.
+/// A path in the form that is printed.
 pub fn printable_path(path: &Path) -> String {
     printable(&path.display().to_string()).into_owned()
 }
 
-/// JSON with the same meaning whose texts hold no such characters raw: `\u009b`.
+/// Equivalent JSON in which such characters are escaped: `\u009b`.
 pub fn printable_json(json: &str) -> Cow<'_, str> {
-    // Outside of its texts JSON holds line breaks and nothing else of this kind.
+    // Outside of strings, the only such characters in JSON are line breaks.
     written_out(
         json,
         |c| c != '\n' && is_hidden(c),
@@ -58,8 +57,8 @@ fn written_out(text: &str, hidden: impl Fn(char) -> bool, write: impl Fn(char, &
     Cow::Owned(out)
 }
 
-/// Control characters, bidirectional marks, line separators, and what is drawn as nothing. The selectors behind
-/// emoji (U+FE00 to U+FE0F) are left alone.
+/// Control characters, bidirectional marks, line separators, and invisible characters. Variation selectors after emoji
+/// (U+FE00 to U+FE0F) are excluded.
 fn is_hidden(c: char) -> bool {
     c.is_control()
         || matches!(c,

@@ -1,5 +1,4 @@
-//! The reference pages under `docs/reference` and the JSON Schemas under `docs/schema`: written from the tables, never by
-//! hand.
+//! The reference pages under `docs/reference` and the JSON Schemas under `docs/schema`, generated from the tables.
 //!
 //! `cargo run -p labspec-cli -- reference docs/reference` writes both; a test fails when they are stale.
 
@@ -147,7 +146,7 @@ fn compatibility() -> String {
     text
 }
 
-/// The attributes of one element, grouped by what is done with them.
+/// The attributes of one element, grouped by their support.
 fn attributes<'a>(rows: impl Iterator<Item = &'a xml::SchemaRow>) -> String {
     let mut groups: [(&str, Vec<String>); 4] = [
         ("supported", Vec::new()),
@@ -193,12 +192,12 @@ mod tests {
 
     const PENDULUM: &str = include_str!("../../../specs/models/pendulum.xml");
 
-    /// Data of which everything is computed.
+    /// Data for which everything is computed.
     fn everything(model: &Model) -> Data<Planned> {
         Data::planned(model, Plan::new(model, &AccessSet::ANY))
     }
 
-    /// Statements and a last expression; gives its value.
+    /// Runs statements and a last expression; returns its value.
     fn run(model: &Model, code: &str) -> String {
         let (statements, last) = code.rsplit_once("; ").unwrap_or(("", code));
         let names = ModelNames::new(model, Scope::Lab);
@@ -234,7 +233,7 @@ mod tests {
         crate::verify::significant(value.unwrap_or_else(|| panic!("{code}: {:#?}", checked.findings)))
     }
 
-    /// The value of an expression over a run of 0.1 s with the timesteps 1, 2 and 4 ms, which it measures as `h`.
+    /// The value of an expression over runs of 0.1 s with the timesteps 1, 2 and 4 ms, which are measured as `h`.
     fn claimed(code: &str) -> String {
         let lab = serde_json::json!({"xml": PENDULUM, "note": "0", "verify": {
             "runs": {"run": {"sweep": {"option timestep": [0.001, 0.002, 0.004]}, "until": 0.1}},
@@ -262,7 +261,7 @@ mod tests {
             if got != value {
                 wrong.push(format!("{code} gives {got}"));
             }
-            // It shows the function that it stands beside.
+            // The example contains the function that it documents.
             let name = signature.split('(').next().unwrap();
             assert!(code.contains(name), "{signature}: {code}");
         }

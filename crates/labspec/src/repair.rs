@@ -1,9 +1,10 @@
-//! Repairs of a text: which of them are kept. The program (`check --fix`) and the editor ask here.
+//! Applies repairs to a text and decides which of them are kept. The program (`check --fix`) and the editor use this
+//! module.
 //!
-//! A repair is kept if the file has fewer findings of its rule afterwards, no more errors and no more broken blocks, and, when it is
-//! called safe, if every trace of every lab that could be run before is the same afterwards, to the last bit. Guesses are made only
-//! where they are asked for. All repairs of a file that do not touch each other are tried at once; if they do not go together, the
-//! first half and then the second, and so on down to single ones; and again, until nothing changes.
+//! A repair is kept if three conditions hold. The file then has fewer findings of its rule, and no more errors or broken
+//! blocks. If the repair is called safe, every trace of every lab that could run before is unchanged, bit for bit. Unsafe
+//! repairs are made only on request. All repairs of a file that do not touch each other are tried at once. If they fail
+//! together, the first half is tried and then the second, down to single ones. This is repeated until nothing changes.
 
 use crate::bind::scene::Models;
 use crate::check;
@@ -17,21 +18,21 @@ use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
-/// Rounds at most: a repair may make the next one visible.
+/// Maximum number of rounds: a repair may reveal the next one.
 const ROUNDS: usize = 20;
 
-/// Steps of a run that proves a repair.
+/// Number of steps of a run that proves a repair.
 const STEPS: usize = 300;
 
-/// The rules whose finding has made the run that shows what the repair changes.
+/// The rules whose checks run the lab to test the repair.
 const SHOWN_BY_A_RUN: [&rules::Rule; 1] = [rules::MISSING_SETCONST];
 
-/// What the labs of a lesson show: of each run that can be made (by its number) the samples of each trace and readout (by its
-/// number), to the last bit.
+/// The displayed values of the labs of a lesson: for each run that can be made (by its index), the samples of each trace
+/// and readout (by its index), as bits.
 pub type Traces = BTreeSet<(usize, usize, Vec<String>)>;
 
-/// What the labs of a lesson show as they start, with each control moved to its ends, and with each button pressed. A lab with an
-/// error in it shows nothing: a page does not run it, or not as it is written.
+/// The displayed values of the labs of a lesson as loaded, with each control moved to its ends, and with each button
+/// pressed. A lab with an error has no values, because a page does not run it, or not as written.
 pub fn traces(lesson: &Lesson, models: &Models) -> Traces {
     let mut all = Traces::new();
     for lab in lesson.all_labs() {
@@ -77,7 +78,7 @@ fn runs(lab: &Lab) -> Vec<RunOptions> {
     all
 }
 
-/// A sample as text, every bit of it.
+/// A sample as text, with all bits.
 fn written(cell: &Cell) -> String {
     match cell {
         Cell::Number(x) if x.is_nan() => "NaN".into(),
@@ -86,14 +87,14 @@ fn written(cell: &Cell) -> String {
     }
 }
 
-/// A text, and what is found in it.
+/// A text and its findings.
 #[derive(Debug)]
 pub struct CheckedText {
     /// The text.
     pub text: String,
-    /// What is found.
+    /// Its findings.
     pub findings: Vec<Finding>,
-    /// How many blocks cannot be read.
+    /// Number of blocks that cannot be read.
     pub broken: usize,
 }
 
@@ -107,17 +108,17 @@ impl CheckedText {
     }
 }
 
-/// How a text is judged.
+/// The functions that evaluate a text.
 struct RepairJudge<'j> {
-    /// What is wrong with it.
+    /// Checks it.
     look: &'j dyn Fn(&str) -> CheckedText,
-    /// What its labs show.
+    /// Runs its labs.
     shows: &'j dyn Fn(&str) -> Traces,
-    /// Whether safe repairs are tried, which have to be proven.
+    /// Whether safe repairs are tried, which must be proven.
     proves: bool,
 }
 
-/// A text with some repairs made, and what its labs show, once somebody asks.
+/// A text with some repairs, and the displayed values of its labs, computed on first use.
 struct TextState {
     looked: CheckedText,
     displayed: OnceCell<Traces>,
@@ -133,8 +134,8 @@ impl TextState {
     }
 }
 
-/// The repaired text, and how many repairs that took. `look` finds what is wrong with a text, `shows` gives what its labs show. Safe
-/// repairs are made first and proven; then guesses, where they are asked for.
+/// The repaired text, and the number of repairs. `look` checks a text, `shows` returns the displayed values of its labs.
+/// Safe repairs are made first and proven, then unsafe ones on request.
 pub fn repair(
     now: CheckedText,
     guesses: bool,
@@ -145,13 +146,13 @@ pub fn repair(
     let mut made = rounds(&mut now, Applicability::Safe, &RepairJudge { look, shows, proves: true });
     if guesses {
         made += rounds(&mut now, Applicability::Unsafe, &RepairJudge { look, shows, proves: false });
-        // What a guess has made visible.
+        // Safe repairs that an unsafe one revealed.
         made += rounds(&mut now, Applicability::Safe, &RepairJudge { look, shows, proves: true });
     }
     (now.looked.text, made)
 }
 
-/// Makes repairs of a kind until nothing changes; gives how many.
+/// Makes repairs of a kind until nothing changes; returns their number.
 fn rounds(now: &mut TextState, kind: Applicability, judge: &RepairJudge<'_>) -> usize {
     let mut made = 0;
     for _ in 0..ROUNDS {
@@ -173,8 +174,9 @@ fn rounds(now: &mut TextState, kind: Applicability, judge: &RepairJudge<'_>) -> 
 /// A repair, and the code of its rule.
 type Repair = (&'static str, Fix);
 
-/// Keeps the repairs of a part of the list that repair: all of them if they go together, or else what can be kept of each half. Of
-/// n repairs with b bad ones that takes about b log n looks. `now` is the old text with those that are kept.
+/// Keeps the repairs of a part of the list that succeed: all of them if they succeed together, or else those of each half.
+/// With b failing ones among n repairs, this needs about b log n checks. `now` is the old text with the repairs that are
+/// kept.
 fn keep(
     old: &str,
     fixes: &[Repair],
@@ -214,7 +216,7 @@ fn apart(findings: &[Finding], kind: Applicability) -> Vec<Repair> {
     all
 }
 
-/// The old text with what is kept and a part of the repairs, if these repair.
+/// The old text with the selected repairs and a part of the others, if these succeed.
 fn attempt(
     old: &str,
     fixes: &[Repair],
@@ -227,7 +229,7 @@ fn attempt(
     let (mut text, mut at) = (String::with_capacity(old.len()), 0);
     let made = fixes.iter().enumerate().filter(|(i, _)| part.contains(i) || selected.contains(i));
     for (i, (code, fix)) in made {
-        // A repair that does not fit the text is none.
+        // A repair whose span is outside of the text fails.
         old.get(fix.span.clone())?;
         text.push_str(old.get(at..fix.span.start)?);
         text.push_str(&fix.text);
@@ -253,7 +255,7 @@ mod tests {
     use super::*;
     use crate::rules::UNKNOWN_KEY;
 
-    /// Every `x` is wrong and is repaired to `o`; an `o` behind a `!` is worse.
+    /// Every `x` is an error and is repaired to `o`; an `o` after a `!` is worse.
     fn find_wrong(text: &str) -> CheckedText {
         let wrong = text.match_indices('x');
         let mut findings: Vec<Finding> =
@@ -280,13 +282,14 @@ mod tests {
 
     #[test]
     fn a_safe_repair_that_changes_what_is_shown_is_not_made() {
-        // Only the first letter is shown.
+        // Only the first character is displayed.
         let shows = |text: &str| Traces::from([(0, 0, vec![text.chars().take(1).collect()])]);
         assert_eq!(repair(find_wrong("x x"), false, &find_wrong, &shows), ("x o".to_string(), 1));
         assert_eq!(repair(find_wrong("a x"), false, &find_wrong, &shows), ("a o".to_string(), 1));
     }
 
-    /// Of 256 repairs with three bad ones all others are made, in about as many looks as halving takes: one by one would be 256.
+    /// With three failing ones among 256 repairs, all others are made, with the number of checks of a bisection; one by one
+    /// would need 256.
     #[test]
     fn bad_repairs_are_found_by_halves() {
         let mut text = "x ".repeat(256);
@@ -300,9 +303,9 @@ mod tests {
         };
         let (new, made) = repair(find_wrong(&text), false, &counted, &|_| Traces::new());
         assert_eq!((new.matches('o').count(), new.matches("!x").count(), made), (253, 3, 253));
-        // Three ways of eight halvings, and once more to see that nothing is left.
+        // Three paths of eight bisections, and once more to see that nothing is left.
         assert!(looks.get() <= 2 * 3 * 8 + 1 + 2 * 3, "{}", looks.get());
-        // One that does not fit spoils none of the others.
+        // A repair outside of the text does not affect the others.
         let fixes = [("a", Fix::safe(0..1, "o")), ("a", Fix::safe(9..12, "o"))];
         let mut now = TextState::new(find_wrong("x b"));
         let judge = RepairJudge { look: &find_wrong, shows: &|_| Traces::new(), proves: true };

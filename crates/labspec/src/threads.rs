@@ -1,18 +1,19 @@
-//! Threads that check lessons: each has the same stack, on every system, and a panic in one lesson ends the check of that lesson
-//! alone.
+//! Threads for the check of lessons. They have the same stack size on every system, and a panic in one lesson ends only the
+//! check of that lesson.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::thread::Builder;
 
-/// The stack of every thread that checks, in bytes: recursion reaches the same depth on each.
+/// The stack size of these threads, in bytes, so that the maximum recursion depth is the same on every system.
 const STACK: usize = 8 << 20;
 
-/// The builder of a thread with the stack of all threads that check lessons (8 MiB).
+/// A builder for a thread with this stack size (8 MiB).
 pub fn checking() -> Builder {
     Builder::new().stack_size(STACK)
 }
 
-/// Does all the work of a program on a thread with that stack. If the system cannot start a thread, the work runs on this one.
+/// Runs the work of a program on a thread with this stack size. If the system cannot start a thread, the work runs on the
+/// current one.
 pub fn run<T: Send>(work: impl Fn() -> T + Sync) -> T {
     std::thread::scope(|scope| match checking().spawn_scoped(scope, &work) {
         Ok(thread) => thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
@@ -20,12 +21,12 @@ pub fn run<T: Send>(work: impl Fn() -> T + Sync) -> T {
     })
 }
 
-/// Does the work of one lesson, and catches its panic.
+/// Runs the work for one lesson, and catches a panic.
 ///
 /// # Errors
-/// The message of the panic that ended it.
+/// The message of the panic.
 pub fn apart<T>(work: impl FnOnce() -> T) -> Result<T, String> {
-    // What was half done is dropped; caches keep whole entries alone.
+    // Unfinished results are dropped, and caches contain only complete entries.
     catch_unwind(AssertUnwindSafe(work)).map_err(|panic| {
         let text = panic.downcast_ref::<String>().map(String::as_str);
         let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
@@ -48,7 +49,7 @@ mod tests {
 
     #[test]
     fn the_work_has_the_stated_stack() {
-        /// Takes more than the 2 MB that a thread has when nobody says.
+        /// Needs more than 2 MB of stack, the default of a thread.
         fn deep(n: usize) -> usize {
             let space = std::hint::black_box([n as u8; 1 << 10]);
             if n == 0 { 0 } else { deep(n - 1) + usize::from(space[n % 1024] == n as u8) }

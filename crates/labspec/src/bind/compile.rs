@@ -1,4 +1,5 @@
-//! Everything a lab computes, bound to its model: statements and expressions as programs, and what they need.
+//! Compiles the texts of a lab against its model: statements and expressions become programs, with the fields that they
+//! access.
 
 use super::programs::{ActionProgram, Bound, ControlProgram, Probe, Programs, include};
 use crate::finding::{Finding, Fix};
@@ -12,12 +13,12 @@ use labspec_core::{AccessSet, Model};
 use labspec_expr::{Compiled, Compiler, Globals, ProgramId, Type, Value};
 
 impl Programs {
-    /// Compiles a lab's texts against its model. What is wrong goes to `findings`, with places in the lesson.
+    /// Compiles the texts of a lab against its model. Errors are added to `findings`, with spans in the lesson.
     pub fn compile(lab: &Lab, model: &Model, findings: &mut Vec<Finding>) -> Programs {
         Programs::compile_with(lab, model, &Functions::new(), findings)
     }
 
-    /// The same with functions of the embedding program.
+    /// As [`Programs::compile`], with functions of the embedding program.
     pub fn compile_with(
         lab: &Lab,
         model: &Model,
@@ -75,7 +76,7 @@ impl Programs {
     }
 }
 
-/// The work on one lab.
+/// The compilation of one lab.
 struct Work<'a> {
     names: &'a ModelNames<'a>,
     globals: &'a mut Globals,
@@ -95,7 +96,7 @@ impl Work<'_> {
     }
 
     fn compiler(&mut self, value: Option<Type>) -> Compiler<'_> {
-        // Typographic quotes are reported once for a whole text, by a rule of their own.
+        // Another rule reports typographic quotes, once for a whole text.
         Compiler::new(self.names, self.globals).with_value(value).without_quotes()
     }
 
@@ -129,7 +130,7 @@ impl Work<'_> {
         let apply = action.apply.as_ref().and_then(|t| self.statements(t, Some(given)));
         if let (Some(text), Some(bound)) = (&action.apply, &apply)
             && !bound.program.effects().uses_value
-            // Beside `set` it never runs: a finding of its own.
+            // If `set` is present, it never runs, which another rule reports.
             && action.set.is_none()
         {
             self.findings.push(
@@ -141,12 +142,12 @@ impl Work<'_> {
                     .help("write `value` where the chosen value belongs"),
             );
         }
-        // The page evaluates `set` and looks at `apply` only without it.
+        // A page evaluates `apply` only if there is no `set`.
         ActionProgram { param, run: set.or(apply), init: action.init, reset: action.reset }
     }
 }
 
-/// The value that a control gives.
+/// The value of a scalar of the lesson.
 pub fn scalar(value: &Scalar) -> Value {
     match value {
         Scalar::Number(n) => Value::Number(n.value),
@@ -155,7 +156,7 @@ pub fn scalar(value: &Scalar) -> Value {
     }
 }
 
-/// A diagnostic of the language, at its place in the lesson.
+/// A diagnostic of the language with its span in the lesson.
 pub fn to_finding(d: &Finding, text: &Text) -> Finding {
     let fix = d
         .fix

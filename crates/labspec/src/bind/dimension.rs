@@ -1,4 +1,4 @@
-//! What the numbers of a lab measure: every text with the variables that the other texts store.
+//! The dimensions of the numbers of a lab: of every text, including the variables that other texts store.
 
 use super::labels;
 use super::{Bound, ControlProgram, ModelNames, Programs, Scope};
@@ -8,7 +8,7 @@ use labspec_expr::dimension::{Dimension, Measure};
 use labspec_expr::{Compiler, KnownDimensions, TextDimensions};
 use std::collections::BTreeMap;
 
-/// What the texts of a lab measure, in the order of its [`Programs`]. A text with mistakes has nothing.
+/// The dimensions of the texts of a lab, in the order of its [`Programs`]; `None` for a text with errors.
 #[derive(Clone, Debug, Default)]
 pub struct Dimensions {
     /// Traces, then readouts.
@@ -19,15 +19,15 @@ pub struct Dimensions {
     pub others: Vec<Option<TextDimensions>>,
 }
 
-/// Rounds in which variables learn from each other; what has not settled then is unknown.
+/// Maximum number of rounds in which variables are inferred from each other; variables that still change are unknown.
 const ROUNDS: usize = 6;
 
-/// What the texts of a lab measure.
+/// The dimensions of the texts of a lab.
 pub fn dimensions(lab: &Lab, model: &Model, programs: &Programs) -> Dimensions {
     settle(lab, model, programs).2
 }
 
-/// The dimension of an expression that names what a lab's texts name; `None` where it is not certain.
+/// The dimension of an expression with the names of a lab's texts; `None` where it is not certain.
 pub fn dimension_of(lab: &Lab, model: &Model, programs: &Programs, code: &str) -> Option<Dimension> {
     let (work, variables, _) = settle(lab, model, programs);
     let given = KnownDimensions { variables, ..KnownDimensions::default() };
@@ -39,13 +39,13 @@ pub fn dimension_of(lab: &Lab, model: &Model, programs: &Programs, code: &str) -
     }
 }
 
-/// What the variables of a lab hold, for texts that read them.
+/// The dimensions of the variables of a lab, for texts that read them.
 pub(crate) fn given(lab: &Lab, model: &Model, programs: &Programs) -> KnownDimensions {
     let (_, variables, _) = settle(lab, model, programs);
     KnownDimensions { variables, ..KnownDimensions::default() }
 }
 
-/// Measures all texts until the variables that they store have settled.
+/// Infers the dimensions of all texts until those of the variables no longer change.
 fn settle<'l>(
     lab: &'l Lab,
     model: &'l Model,
@@ -73,7 +73,7 @@ fn settle<'l>(
     (work, variables, found)
 }
 
-/// What a slider gives, by its unit.
+/// The dimension of the value of a control, by its unit.
 pub fn given_by(control: &Control) -> Measure {
     let unit = match &control.kind {
         ControlKind::Slider { unit: Some(unit), .. } => labels::unit(unit.as_str()),
@@ -89,7 +89,7 @@ struct Work<'l> {
 }
 
 impl Work<'_> {
-    /// Every text once.
+    /// Infers every text once.
     fn round(&self, variables: &BTreeMap<u32, Measure>) -> Dimensions {
         let (lab, programs) = (self.lab, self.programs);
         let given = KnownDimensions { variables: variables.clone(), ..KnownDimensions::default() };
@@ -133,7 +133,7 @@ impl Work<'_> {
         }
     }
 
-    /// What every variable holds, whoever stores it.
+    /// The dimension of every variable, over all texts that store it.
     fn stored(&self, found: &Dimensions) -> BTreeMap<u32, Measure> {
         let mut all = BTreeMap::new();
         let texts = found.probes.iter().chain(&found.controls).chain(&found.others).flatten();

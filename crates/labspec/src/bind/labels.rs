@@ -1,23 +1,23 @@
-//! Units in the labels of a lab, and when one contradicts what an expression gives.
+//! Units in the labels of a lab, and when a unit contradicts the dimension of an expression.
 
 use labspec_bind::units::parse;
 use labspec_expr::dimension::Dimension;
 
-/// Letters that mean more than a unit when they stand alone: an area, a mass, a temperature, a length.
+/// Texts that may also be symbols or words when they are alone: an area, a mass, a temperature, a length.
 const DOUBTFUL: [&str; 14] = ["A", "C", "K", "L", "V", "T", "g", "h", "l", "1", "ft", "lb", "bar", "rev"];
 
-/// What the unit of a control means.
+/// The dimension of the unit of a control.
 pub(crate) fn unit(text: &str) -> Option<Dimension> {
     let text = text.trim();
     if DOUBTFUL.contains(&text) { None } else { parse(text) }
 }
 
-/// The unit at the end of a label, in brackets: of `speed (mm/s)` and `E [J]`, with what it means. In `ball(s)` there is none.
+/// The unit in brackets at the end of a label, as in `speed (mm/s)` and `E [J]`, with its dimension. `ball(s)` has none.
 pub fn of_label(label: &str) -> Option<(&str, Dimension)> {
     let label = label.trim_end();
     let (open, close) = if label.ends_with(']') { ('[', ']') } else { ('(', ')') };
     let inner = label.strip_suffix(close)?;
-    // Brackets within it belong to it: `(J/(kg K))`.
+    // The unit may contain brackets: `(J/(kg K))`.
     let mut depth = 1;
     let start = inner.char_indices().rev().find(|(_, c)| {
         depth += i32::from(*c == close) - i32::from(*c == open);
@@ -31,7 +31,8 @@ pub fn of_label(label: &str) -> Option<(&str, Dimension)> {
     Some((text, unit(text)?))
 }
 
-/// The unit of the heading of a column: `error (mm)`, `t [ms]`, `x / mm`, `time in ms`, `depth, mm`, `ms`; with what it means.
+/// The unit of the heading of a column, with its dimension: `error (mm)`, `t [ms]`, `x / mm`, `time in ms`, `depth, mm`,
+/// `ms`.
 pub(crate) fn of_heading(head: &str) -> Option<(&str, Dimension)> {
     let head = head.trim();
     let whole = |text: &str| parse(text).filter(|_| !text.is_empty() && text != "1");
@@ -45,7 +46,7 @@ pub(crate) fn of_heading(head: &str) -> Option<(&str, Dimension)> {
             return Some((text.trim(), found));
         }
     }
-    // `x / mm` is a quantity over its unit; `m/s`, and the ratio `M / m`, are none.
+    // `x / mm` is a quantity divided by its unit; `m/s` and the ratio `M / m` are not.
     for (at, _) in head.match_indices('/') {
         let (left, text) = (head.get(..at)?.trim(), head.get(at + 1..)?.trim());
         let ratio =
@@ -58,7 +59,7 @@ pub(crate) fn of_heading(head: &str) -> Option<(&str, Dimension)> {
     whole(head).filter(|_| plain).map(|found| (head, found))
 }
 
-/// What stands in the last brackets of a heading, `10^-3 s` of `t (10^-3 s)`.
+/// The text in the last brackets of a heading: `10^-3 s` in `t (10^-3 s)`.
 fn in_brackets(head: &str) -> Option<&str> {
     let close = head.chars().next_back()?;
     let open = [(')', '('), (']', '['), ('）', '（')].iter().find(|(c, _)| *c == close).map(|(_, o)| *o)?;
@@ -71,22 +72,22 @@ fn in_brackets(head: &str) -> Option<&str> {
     Some(inner.get(start?.0..)?.strip_prefix(open)?.trim())
 }
 
-/// What a heading has in its last brackets, or behind its last ` / ` or ` in `.
+/// The text in the last brackets of a heading, or after its last ` / ` or ` in `.
 pub(crate) fn behind_heading(head: &str) -> Option<&str> {
     let head = head.trim();
     let behind = || [" / ", " in "].iter().find_map(|sign| Some(head.rsplit_once(sign)?.1.trim()));
     in_brackets(head).or_else(behind)
 }
 
-/// Whether numbers of a dimension are for sure not those of a unit. A number of the text that is a factor may have a unit of its own,
-/// so it excuses a different dimension; beside the same dimension it is a number, and a power of ten too many.
+/// Whether numbers of a dimension certainly do not have a unit. A number literal that is a factor may have a dimension, so
+/// it can explain a different dimension. With an equal dimension it is a pure number, and a wrong power of ten is certain.
 pub(crate) fn contradicts(found: &Dimension, unit: &Dimension) -> bool {
     let factor = found.factor.abs();
     if !factor.is_finite() || factor == 0.0 {
         return false;
     }
     if !found.agrees(unit) {
-        // The 1000 of millimetres is a conversion, and no quantity of its own.
+        // The factor 1000 for millimetres is a conversion, not a quantity.
         let converts = unit.factor != 1.0
             && is_power_of_ten(unit.factor)
             && (factor / unit.factor.abs() - 1.0).abs() < 1e-9;
@@ -96,7 +97,8 @@ pub(crate) fn contradicts(found: &Dimension, unit: &Dimension) -> bool {
     if (ratio - 1.0).abs() < 1e-3 {
         return false;
     }
-    // Numbers of base units are those of no other unit. Degrees are of angles: a number without a unit may be something else.
+    // Numbers in base units are not in another unit. Degrees apply only to angles: a number without a unit may be
+    // something else.
     if found.is_exact() {
         return found.has_angle() || !unit.has_angle() || is_power_of_ten(unit.factor);
     }
@@ -106,13 +108,13 @@ pub(crate) fn contradicts(found: &Dimension, unit: &Dimension) -> bool {
     converted && wanted || pure
 }
 
-/// 0.001, 100, 1000, and 1.
+/// Whether a number is a power of ten such as 0.001, 100, 1000 or 1, but not 0.1 or 10.
 fn is_power_of_ten(x: f64) -> bool {
     let power = x.abs().log10();
     (power - power.round()).abs() < 1e-9 && power.round().abs() != 1.0
 }
 
-/// The factor from radians to degrees, or back.
+/// Whether a factor converts radians to degrees, or back.
 fn is_degrees(factor: f64) -> bool {
     let degrees = 1f64.to_degrees();
     (factor / degrees - 1.0).abs() < 1e-3 || (factor * degrees - 1.0).abs() < 1e-3
@@ -181,7 +183,7 @@ mod tests {
             (d("m", 2.0), "m", false),
             (d("m", 2.0), "mm", true),
             (d("m", 1.0), "m/s", true),
-            // 1000 N/m may be the stiffness of a spring, 9.81 an acceleration.
+            // The factor 1000 may be a stiffness in N/m, and 9.81 an acceleration.
             (d("m", 1000.0), "N", false),
             (d("s", 9.81), "m/s", false),
             (d("rad", 1.0), "deg", true),

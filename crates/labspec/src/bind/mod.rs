@@ -1,5 +1,5 @@
-//! Everything that a lab computes, bound to its model: [`Programs`]. What names mean, and the world that programs run in, is the
-//! business of the crate `labspec-bind`, which knows no labs.
+//! The programs of a lab, bound to its model: [`Programs`]. The names and the world in which programs run are defined by
+//! the crate `labspec-bind`, which does not depend on labs.
 
 mod compile;
 pub(crate) mod coupled;

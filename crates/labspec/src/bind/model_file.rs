@@ -1,4 +1,4 @@
-//! Compiles a model file: the model, what is wrong with it, and the files that this is about.
+//! Compiles a model file: the model, its findings, and the files of the findings.
 
 use super::parts::{Hash, ModelFile, Remembering};
 use crate::finding::{Finding, InFile};
@@ -14,21 +14,21 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// What came of a model file: the model, what is wrong with it or doubtful, and the files that this is about.
+/// The result of compiling a model file.
 #[derive(Debug)]
 pub struct Compiled {
     /// `None` when there are errors.
     pub model: Option<Model>,
-    /// What is wrong with it.
+    /// Errors and warnings.
     pub findings: Vec<Finding>,
-    /// Empty when there are no findings.
+    /// The files of the findings; empty when there are no findings.
     pub files: Vec<SourceFile>,
-    /// The other files that it was made of.
+    /// The other files that were read.
     pub parts: Vec<ModelFile>,
 }
 
-/// Compiles the model of a file. What it names (included text, models to attach, meshes) is looked for from the folder of
-/// `path`, and opened when it lies below `root`.
+/// Compiles the model of a file. The files that it names (included text, models to attach, meshes) are resolved from the
+/// folder of `path`, and opened if they are below `root`.
 pub fn compile_file(
     file: &SourceFile,
     path: &Path,
@@ -40,7 +40,7 @@ pub fn compile_file(
     compile_source(file, &files, path.file_name().and_then(|n| n.to_str()), hash, xml::check_xml)
 }
 
-/// Compiles the model of a lab that is played: with what is wrong with it, and nothing of what is only doubtful.
+/// Compiles the model of a lab for playing: with errors, but without warnings.
 pub(crate) fn compile_to_play(lab: &Lab, folder: &ModelFolder) -> Compiled {
     let refused = |rule, at: &Text, message: String, help: String| Compiled {
         model: None,
@@ -81,7 +81,7 @@ pub(crate) fn compile_to_play(lab: &Lab, folder: &ModelFolder) -> Compiled {
     }
 }
 
-/// A model with its errors, without the warnings of [`xml::check_xml`].
+/// Compiles a model with its errors, without the warnings of [`xml::check_xml`].
 fn compile_errors(xml: &str, files: &dyn Files, path: Option<&str>) -> Examined {
     match xml::compile_with(xml, files, path) {
         Ok(model) => Examined { model: Some(model), findings: Vec::new() },
@@ -89,7 +89,7 @@ fn compile_errors(xml: &str, files: &dyn Files, path: Option<&str>) -> Examined 
     }
 }
 
-/// A model file, as an editor holds it or else as it is saved.
+/// A model file: the text in the editor, or else the saved file.
 pub(super) fn read_file(path: &Path, sources: &Sources) -> Result<SourceFile, String> {
     match sources.held(path) {
         Some((_, text)) => Ok(SourceFile::new(path.display().to_string(), text)),
@@ -97,9 +97,9 @@ pub(super) fn read_file(path: &Path, sources: &Sources) -> Result<SourceFile, St
     }
 }
 
-/// The files around a model, each as an editor holds it or else as it is saved.
+/// The files around a model: texts in the editor, or else saved files.
 pub(super) struct FilesAround<'s> {
-    /// `None` where the model lies outside of the root.
+    /// `None` where the model is outside of the root.
     folder: Option<Folder>,
     place: PathBuf,
     root: &'s Path,
@@ -125,7 +125,7 @@ impl Files for FilesAround<'_> {
     }
 }
 
-/// Compiles the text of a model, which `files` has as `name`.
+/// Compiles the text of a model, whose name among `files` is `name`.
 pub(super) fn compile_source(
     file: &SourceFile,
     files: &dyn Files,
@@ -148,8 +148,9 @@ pub(super) fn compile_source(
     Compiled { model: checked.model, findings, files: sources, parts: remembering.parts() }
 }
 
-/// Compiles a model file, for itself: the model, what is to be said of it, and the files that this is about. A file that
-/// cannot be read is a finding, too. `root` is what it may read; by default the nearest folder around it that is marked as one.
+/// Compiles a model file alone: the model, its findings, and the files of the findings. A file that cannot be read is a
+/// finding too. `root` is the folder below which files may be read; the default is the nearest folder above that is marked
+/// as a root.
 pub fn check_model_file(
     path: &Path,
     root: Option<&Path>,
@@ -174,8 +175,8 @@ pub fn check_model_file(
     (model.map(Arc::new), findings, files)
 }
 
-/// The index of a file that a model names in the list, to which it is added the first time. A file that is no text
-/// (a mesh) is shown empty.
+/// The index of a file that a model names, which is added to the list on first use. A file that is not text (a mesh) is
+/// listed with an empty text.
 fn part_of(sources: &mut Vec<SourceFile>, files: &dyn Files, part: &str) -> usize {
     let displayed = match sources.first().and_then(|main| main.path().rsplit_once('/')) {
         Some((folder, _)) => joined(folder, part),
@@ -189,7 +190,7 @@ fn part_of(sources: &mut Vec<SourceFile>, files: &dyn Files, part: &str) -> usiz
     sources.len() - 1
 }
 
-/// A path from a folder, without the steps that only lead back.
+/// A path relative to a folder, with `..` resolved.
 fn joined(folder: &str, path: &str) -> String {
     let (mut folder, mut path) = (folder, path);
     while let Some(rest) = path.strip_prefix("../") {
@@ -203,13 +204,13 @@ fn joined(folder: &str, path: &str) -> String {
     if folder.is_empty() { path.to_string() } else { format!("{folder}/{path}") }
 }
 
-/// How to open more.
+/// The help for widening the root.
 const WIDEN: &str =
     "put an empty file `labspec.toml` into the folder that holds both, or name that folder with --root";
 
-/// A mistake in a model, at a place of the file that holds it.
+/// A finding of a model with a span in the file that contains it.
 pub fn from_mjcf(d: &Finding, span: Range<usize>) -> Finding {
-    // The engine knows no program: how to widen the root is said here.
+    // The engine does not know the options of the program, so this help is added here.
     let outside = d.code == xml::rules::OUTSIDE.code;
     let help = if outside { Some(WIDEN.to_string()) } else { d.help.clone() };
     Finding { span, path: Arc::from(""), position: None, help, ..d.clone() }

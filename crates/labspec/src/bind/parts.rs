@@ -1,4 +1,4 @@
-//! Which files a model is made of, and what was in them: by this a result is known to be about the same model.
+//! The files from which a model was compiled and digests of their contents, which identify the model of a cached result.
 
 use crate::source::SourceFile;
 use labspec_core::xml::{FileProblem, Files};
@@ -7,21 +7,21 @@ use serde::{Deserialize, Serialize};
 use std::cell::RefCell;
 use std::path::Path;
 
-/// Makes a mark of some bytes, which other bytes do not share: a digest. Whoever keeps results brings it.
+/// Computes a digest of some bytes. The owner of a cache provides it.
 pub type Hash = fn(&[&[u8]]) -> String;
 
-/// A file that a model was made of.
+/// A file from which a model was compiled.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct ModelFile {
-    /// Its path from the folder of the model; empty for the model itself.
+    /// Its path relative to the folder of the model; empty for the model itself.
     pub path: String,
-    /// Most bytes that it may have.
+    /// Maximum number of bytes.
     pub limit: usize,
-    /// The mark of its bytes, or of why there are none.
+    /// The digest of its bytes, or of the error.
     pub hash: String,
 }
 
-/// The mark of a model file's text.
+/// The digest of the text of a model file.
 pub(super) fn hash_text(hash: Hash, text: Result<&str, &str>) -> String {
     match text {
         Ok(text) => hash(&[b"text", text.as_bytes()]),
@@ -36,7 +36,7 @@ fn hash_bytes(hash: Hash, bytes: &Result<Vec<u8>, FileProblem>) -> String {
     }
 }
 
-/// The mark of a part as it is now.
+/// The digest of the current content of a file.
 pub(super) fn hash_now(hash: Hash, model: &Path, files: &dyn Files, path: &str, limit: usize) -> String {
     if path.is_empty() {
         let file = SourceFile::read(model);
@@ -45,7 +45,7 @@ pub(super) fn hash_now(hash: Hash, model: &Path, files: &dyn Files, path: &str, 
     hash_bytes(hash, &files.read(path, limit))
 }
 
-/// Files that remember what was read of them, when it is to be marked.
+/// Files that record the digests of what is read, if there is a hash function.
 pub(super) struct Remembering<'f> {
     files: &'f dyn Files,
     hash: Option<Hash>,
@@ -57,7 +57,7 @@ impl<'f> Remembering<'f> {
         Remembering { files, hash, parts: RefCell::default() }
     }
 
-    /// Every file that was asked for, once each.
+    /// Every requested file, once each.
     pub(super) fn parts(self) -> Vec<ModelFile> {
         let mut parts = self.parts.into_inner();
         order::sort_by(&mut parts, Ord::cmp);

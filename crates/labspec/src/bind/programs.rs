@@ -1,4 +1,4 @@
-//! The programs of a lab, and what they touch.
+//! The programs of a lab, and the fields that they access.
 
 use super::coupled::Coupled;
 use crate::source::Text;
@@ -7,12 +7,12 @@ use labspec_core::AccessSet;
 use labspec_core::reflect::{FieldId, FieldSet, Kind, Object};
 use labspec_expr::{Effects, Globals, Program, Value};
 
-/// A text and the program it was compiled to.
+/// A text and its compiled program.
 #[derive(Clone, Debug)]
 pub struct Bound {
-    /// The text, with its place.
+    /// The text, with its source map.
     pub text: Text,
-    /// Its meaning.
+    /// The program.
     pub program: Program,
 }
 
@@ -21,24 +21,24 @@ pub struct Bound {
 pub struct Probe {
     /// Column name: `plot/0/label` or `readout/label`.
     pub name: String,
-    /// `None` when the expression has mistakes, which are reported.
+    /// `None` when the expression has errors, which are reported.
     pub bound: Option<Bound>,
 }
 
-/// What a slider or a select does.
+/// The program of a slider or a select.
 #[derive(Clone, Debug)]
 pub struct ActionProgram {
     /// The `ctx` variable that gets the value.
     pub param: Option<u32>,
     /// The statements.
     pub run: Option<Bound>,
-    /// Apply again after every reset.
+    /// Whether it is applied again after every reset.
     pub init: bool,
-    /// Reset after a change.
+    /// Whether a change resets the lab.
     pub reset: bool,
 }
 
-/// A control, ready to be moved.
+/// The program of a control.
 #[derive(Clone, Debug)]
 pub enum ControlProgram {
     /// A slider or a select, with its start value.
@@ -50,9 +50,9 @@ pub enum ControlProgram {
 /// All programs of a lab.
 #[derive(Clone, Debug)]
 pub struct Programs {
-    /// After load and after every reset.
+    /// Runs after loading and after every reset.
     pub setup: Option<Bound>,
-    /// Before every step.
+    /// Runs before every step.
     pub controller: Option<Bound>,
     /// Label and program of each control, in order.
     pub controls: Vec<(String, ControlProgram)>,
@@ -60,15 +60,15 @@ pub struct Programs {
     pub probes: Vec<Probe>,
     /// The `ctx` variables.
     pub globals: Globals,
-    /// What all of them read and write.
+    /// The fields that all programs read and write.
     pub access: AccessSet,
-    /// Functions of the embedding program, which they may call.
+    /// Functions of the embedding program that they may call.
     pub functions: Functions,
     /// The model that they were compiled for (`Model::identity`).
     pub model: u64,
-    /// What is corrected behind them, where somebody tries that.
+    /// The correction that is applied after the programs, for tests of coupled parameters.
     pub(crate) coupled: Option<Coupled>,
-    /// What a run with them looks for and leaves as it is: whether such a correction would change anything.
+    /// A correction that a run only observes: whether it would change anything.
     pub(crate) observed: Option<Coupled>,
 }
 
@@ -83,7 +83,7 @@ impl Programs {
         self.setup.iter().chain(&self.controller).chain(controls).chain(probes)
     }
 
-    /// What the control with this label touches.
+    /// The effects of the control with this label.
     pub(crate) fn effects_of(&self, label: &str) -> Option<&Effects> {
         match self.control(label)?.1 {
             ControlProgram::Change(_, action) => Some(action.run.as_ref()?.program.effects()),
@@ -91,7 +91,7 @@ impl Programs {
         }
     }
 
-    /// The control with this label, and its place in the list.
+    /// The control with this label, and its index.
     pub fn control(&self, label: &str) -> Option<(usize, &ControlProgram)> {
         self.controls.iter().enumerate().find(|(_, (l, _))| l == label).map(|(i, (_, c))| (i, c))
     }
@@ -111,7 +111,7 @@ pub fn include(effects: &Effects, set: &mut AccessSet) {
         }
     }
     for access in &effects.writes {
-        // What a function recomputes is not set by hand: derived fields do not change a plan.
+        // A derived field that a function recomputes is not written by the program, and does not change a plan.
         if let Some(field) = FieldId::new(access.field.0 as usize).filter(|f| f.info().kind != Kind::Derived)
         {
             set.writes.insert(field);
@@ -119,7 +119,7 @@ pub fn include(effects: &Effects, set: &mut AccessSet) {
     }
 }
 
-/// Whether a program writes a field of this kind, and the first such field.
+/// The first field of one of these kinds that a program writes.
 pub(crate) fn writes_kind(bound: &Bound, object: Object, kinds: &[Kind]) -> Option<FieldId> {
     let mut fields = bound.program.effects().writes.iter().filter_map(|a| FieldId::new(a.field.0 as usize));
     fields.find(|f| f.info().object == object && kinds.contains(&f.info().kind))

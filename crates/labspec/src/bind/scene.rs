@@ -1,4 +1,4 @@
-//! The model of a lab: from the model folder or from the lab itself, with every mistake at its place.
+//! The models of labs: from the model folder or from the lab itself, with a location for every error.
 
 use super::Functions;
 use super::model_file::{FilesAround, compile_source, read_file};
@@ -20,39 +20,38 @@ pub use super::model_file::Compiled;
 pub use super::model_file::compile_file;
 pub use super::model_file::{check_model_file, from_mjcf};
 
-/// Models by name, compiled once, and the files they came from. Threads may share them: whoever asks first compiles, the
-/// others wait.
+/// Models by name, compiled once, and their files. Threads may share them: the first request compiles, the others wait.
 #[derive(Debug, Default)]
 pub struct Models {
     folder: ModelFolder,
     compiled: Mutex<BTreeMap<String, Arc<OnceLock<Loaded>>>>,
-    /// The findings about each model, until somebody takes it.
+    /// The findings about each model, until they are taken.
     reported: Mutex<BTreeMap<String, Said>>,
     /// Functions of the embedding program, which labs may call.
     functions: Functions,
-    /// How the files are marked; `None` when nobody keeps results.
+    /// Computes digests of the files; `None` without a cache of results.
     hash: Option<Hash>,
-    /// Texts that somebody holds in place of the folder's files.
+    /// Unsaved texts that replace files of the folder.
     sources: Sources,
-    /// Marks of parts, looked at once.
+    /// Digests of parts, computed once.
     marks: Mutex<BTreeMap<(String, bool, usize), String>>,
     /// The files of the models whose findings were taken.
     files: Vec<SourceFile>,
 }
 
-/// The findings about a model, and the files that this is about.
+/// The findings about a model, and the files to which they refer.
 type Said = (Vec<Finding>, Vec<SourceFile>);
 
-/// A model of the folder.
+/// A loaded model of the folder.
 #[derive(Debug)]
 struct Loaded {
     model: Option<Arc<Model>>,
-    /// Something was found in its files.
+    /// Whether its files have findings.
     has_diagnostics: bool,
     parts: Vec<ModelFile>,
 }
 
-/// What a mutex holds, whatever became of the others who held it.
+/// Locks a mutex, even if a thread panicked while it held the lock.
 fn open<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -63,17 +62,17 @@ impl Models {
         Models { folder, ..Models::default() }
     }
 
-    /// The models of a folder for somebody who keeps results: every file that is read is marked, see [`Models::parts`].
+    /// The models of a folder for a cache of results: a digest of every file that is read is stored, see [`Models::parts`].
     pub fn with_hash(folder: ModelFolder, hash: Hash) -> Models {
         Models { folder, hash: Some(hash), ..Models::default() }
     }
 
-    /// The same, for labs that may call functions of the embedding program.
+    /// Sets the functions of the embedding program that labs may call.
     pub fn with_functions(self, functions: Functions) -> Models {
         Models { functions, ..self }
     }
 
-    /// The same, with the texts that an editor holds in place of files that it has not saved.
+    /// Sets the sources: unsaved texts of an editor replace files.
     pub fn with_sources(self, sources: Sources) -> Models {
         Models { sources, ..self }
     }
@@ -88,12 +87,12 @@ impl Models {
         &self.folder
     }
 
-    /// The files of the models that had something to say, as far as it was taken.
+    /// The files of the models with findings that were taken.
     pub fn files(&self) -> &[SourceFile] {
         &self.files
     }
 
-    /// Takes what was found in model files since the last call, by the names of the models.
+    /// Takes the findings in model files since the last call, in the order of the names of the models.
     pub fn take_findings(&mut self) -> Vec<Finding> {
         let mut findings = Vec::new();
         for (of_model, files) in std::mem::take(&mut *open(&self.reported)).into_values() {
@@ -103,8 +102,8 @@ impl Models {
         findings
     }
 
-    /// The model of a lab. `None` when there is none or it has mistakes; those in an inline model are added to
-    /// `findings`, those in a model file to the findings of the models, once.
+    /// The model of a lab. `None` when there is none or it has errors. Errors in an inline model are added to `findings`,
+    /// those in a model file to the findings of the models, once.
     pub fn model_of_lab(&self, lab: &Lab, findings: &mut Vec<Finding>) -> Option<Arc<Model>> {
         match lab.scene()? {
             ModelSource::Xml(text) => {
@@ -114,7 +113,7 @@ impl Models {
             }
             ModelSource::Model(name) => {
                 let model = self.load(&name.value);
-                // A model that does not exist is reported by the rules of the lesson's structure.
+                // A missing model is reported by the rules about the structure of the lesson.
                 if model.is_none() && self.folder.has(&name.value) {
                     findings.push(
                         Finding::error(rules::MODEL_BROKEN, name.span(), format!("the model `{}` has errors", name.value))
@@ -127,15 +126,15 @@ impl Models {
         }
     }
 
-    /// The text of the model of a lab with changes, and with what it includes in its place: what another program can read.
+    /// The text of the model of a lab with modifications and with its includes expanded, for another program.
     pub fn written(&self, lab: &Lab, patches: &[Patch]) -> Option<String> {
         self.texts(lab, |text, files, path| xml::to_xml(text, files, path, patches))?
     }
 
-    /// The model of a lab with changes of its text, made before it is compiled.
+    /// The model of a lab with modifications of its text, made before it is compiled.
     ///
     /// # Errors
-    /// Which change cannot be made and why, or that no model comes of them.
+    /// The index of a modification that cannot be made, and why; or that the modified model is invalid.
     pub fn changed(&self, lab: &Lab, patches: &[Patch]) -> Result<Arc<Model>, (Option<usize>, Refusal)> {
         let unreadable =
             || (None, Refusal { message: "the model cannot be read".into(), help: String::new() });
@@ -152,8 +151,8 @@ impl Models {
         })
     }
 
-    /// What comes of the text of a lab's model, of the files that it names, and of its own name among them. `None` when it cannot be
-    /// read.
+    /// Calls `of` with the text of a lab's model, the files that it names, and its own name among them. `None` when it
+    /// cannot be read.
     fn texts<T>(&self, lab: &Lab, of: impl FnOnce(&str, &dyn Files, Option<&str>) -> T) -> Option<T> {
         let name = match lab.scene()? {
             ModelSource::Xml(text) => return Some(of(&text.value, &NoFiles, None)),
@@ -169,12 +168,12 @@ impl Models {
         Some(of(text.text(), &files, file.as_deref()))
     }
 
-    /// The model with this name; `None` when there is none or it has mistakes, which are then findings of the models.
+    /// The model with this name; `None` when there is none or it has errors, which are then findings of the models.
     pub fn load(&self, name: &str) -> Option<Arc<Model>> {
         self.loaded(name, |loaded| loaded.model.clone())?
     }
 
-    /// The names that somebody who writes a lesson asks for ([`crate::spec::format::completions`]).
+    /// The names for completions in a lesson ([`crate::spec::format::completions`]).
     pub fn names(&self, asked: Asked<'_>) -> Vec<String> {
         let sites = |model: &Model| {
             let named = model.names.of_kind(Obj::Site).iter().filter(|name| !name.is_empty());
@@ -189,13 +188,13 @@ impl Models {
         }
     }
 
-    /// What a model that is in the folder was made of, and whether something is said of it. Nothing is known of models
-    /// that are not [`Models::with_hash`].
+    /// The files of a model in the folder, and whether it has findings. The files are known only with
+    /// [`Models::with_hash`].
     pub fn parts(&self, name: &str) -> Option<(Vec<ModelFile>, bool)> {
         self.loaded(name, |loaded| (loaded.parts.clone(), loaded.has_diagnostics))
     }
 
-    /// Every file that was looked at, and the folder.
+    /// The paths of every file that was read, and of the folder.
     pub fn read(&self) -> Vec<PathBuf> {
         let Some(folder) = self.folder.path_of_folder() else { return Vec::new() };
         let mut paths = vec![folder.to_path_buf()];
@@ -224,7 +223,7 @@ impl Models {
         Some(what(cell.get_or_init(compile)))
     }
 
-    /// A model that is no file: nothing else is opened for it, and nothing of it is kept for another time.
+    /// A model that is not a file: no other file is opened for it, and it is not cached.
     fn compile_given(&self, name: &str, models: &dyn models::Models) -> Loaded {
         let text = models.text(name).unwrap_or_default();
         let file = SourceFile::new(format!("models/{name}.xml"), text);
@@ -236,7 +235,7 @@ impl Models {
     }
 
     fn compile(&self, name: &str, path: &Path) -> Loaded {
-        // The folder and the file: enough to find it, and the same on every machine.
+        // The folder and the file identify it, and are the same on every machine.
         let folder = path.parent().and_then(|p| p.file_name()).and_then(|f| f.to_str()).unwrap_or("models");
         let file_name = format!("{folder}/{name}.xml");
         let read = read_file(path, &self.sources);
@@ -261,7 +260,7 @@ impl Models {
         Loaded { model, has_diagnostics, parts: made_of }
     }
 
-    /// Whether a model's files still are what they were.
+    /// Whether the files of a model are unchanged.
     pub fn is_made_of(&self, name: &str, parts: &[ModelFile]) -> bool {
         let (Some(path), Some(hash)) = (self.folder.path(name), self.hash) else { return false };
         let place = path.parent().unwrap_or(Path::new(""));
@@ -270,7 +269,7 @@ impl Models {
         parts.iter().any(|part| part.path.is_empty())
             && parts.iter().all(|part| {
                 let named = if part.path.is_empty() { format!("{name}.xml") } else { part.path.clone() };
-                // The text of a model and the bytes of the same file, attached, have marks of their own.
+                // The text of a model and the bytes of the same file, when it is attached, have different digests.
                 let at = (named, part.path.is_empty(), part.limit);
                 let cached = open(&self.marks).get(&at).cloned();
                 let now = cached.unwrap_or_else(|| {
@@ -300,7 +299,8 @@ mod tests {
         )
     }
 
-    /// A mesh in a sister folder is opened when the root holds both; what lies outside is refused with the way to widen it.
+    /// A mesh in a sibling folder is opened when the root contains both folders. A file outside of it is an error that
+    /// states how to widen the root.
     #[test]
     fn a_model_reads_what_lies_below_the_root() {
         let top = tempfile::tempdir().unwrap();
@@ -323,13 +323,13 @@ mod tests {
         std::fs::write(top.path().join("robot/labspec.toml"), "").unwrap();
         let (some, findings, files) = check_model_file(&path, None);
         assert_eq!(some.unwrap().nmesh, 1);
-        // What is doubtful is reported, and stops nothing.
+        // A warning is reported, and does not stop compilation.
         let [warning] = findings.as_slice() else { panic!("{findings:?}") };
         assert_eq!((warning.code, warning.severity), ("mjcf-text", Severity::Warning));
         assert_eq!(files[0].slice(warning.span.clone()), ">");
     }
 
-    /// The warnings of a lab's model are findings of the model's file, once, and the lab has its model.
+    /// The warnings of a lab's model are reported once in the model's file, and the lab has its model.
     #[test]
     fn warnings_of_a_model_do_not_stop_its_lab() {
         let top = tempfile::tempdir().unwrap();
@@ -346,7 +346,7 @@ mod tests {
         assert_eq!(models.files().len(), 1);
     }
 
-    /// Who writes `trail` is offered the sites of the lab's model, from the folder or from the lab itself.
+    /// Completions for `trail` list the sites of the lab's model, from the folder or from the lab itself.
     #[test]
     fn completions_know_the_sites_of_a_model() {
         let top = tempfile::tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! Findings that an author has looked at and keeps: they are suppressed, counted, and shown on request.
+//! Findings that an author has suppressed: they are removed, counted, and listed on request.
 
 use super::CheckLevel;
 use crate::finding::Finding;
@@ -7,16 +7,16 @@ use crate::rules;
 use crate::spec::{Allowance, Lesson};
 use std::ops::Range;
 
-/// A finding that is suppressed, and why.
+/// A suppressed finding with its reason.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Allowed {
-    /// What would be reported.
+    /// The finding.
     pub finding: Finding,
     /// The author's reason.
     pub why: String,
 }
 
-/// Takes what is allowed out of the findings, and adds what is wrong with the allowances themselves.
+/// Removes suppressed findings, and adds findings about the suppressions themselves.
 pub(super) fn suppress_allowed(
     lesson: &Lesson,
     findings: &mut Vec<Finding>,
@@ -50,10 +50,11 @@ pub(super) fn suppress_allowed(
     suppressed
 }
 
-/// A code of an allowance, and where it stands.
+/// A rule code in a suppression, with its span.
 type AllowedCode = (String, Range<usize>);
 
-/// What is wrong with the allowances: no reason, an unknown rule, nothing to suppress. `used` are the codes that suppress something.
+/// The findings about the suppressions: no reason, an unknown rule, nothing to suppress. `used` contains the codes that
+/// suppress a finding.
 fn check_allowances(
     lesson: &Lesson,
     allowances: &[Allowance],

@@ -1,13 +1,13 @@
-//! What a student may choose of a control.
+//! The values of a control that a student can choose.
 
 use crate::bind::scalar;
 use crate::spec::{Control, ControlKind};
 use labspec_expr::Value;
 
-/// Most options of a select that are tried.
+/// Maximum number of tried options of a select.
 const MOST_OPTIONS: usize = 8;
 
-/// What a student may choose: the ends of a slider, the options of a select.
+/// The values that are tried: the ends of a slider, the options of a select.
 pub(crate) fn choices(control: &Control) -> Vec<Value> {
     match &control.kind {
         ControlKind::Slider { min, max, .. } => [max, min].map(|end| Value::Number(end.value)).to_vec(),

@@ -1,5 +1,5 @@
-//! The identity of a claim, carried by each of its findings: it ties a finding to its entry in the ledger, and a baseline knows a
-//! finding by it.
+//! The identity of a claim, stored in each of its findings. It links a finding to its entry in the ledger, and a baseline
+//! identifies findings by it.
 
 use crate::finding::{ClaimId, Finding};
 use crate::json::read::Number;
@@ -9,21 +9,21 @@ use crate::verify::Judgement;
 use std::fmt::Write;
 use std::ops::Range;
 
-/// The part of its owner's claims that a claim of the ledger is.
+/// The name of a ledger entry among the claims of its owner.
 fn part(subject: Subject, what: &str) -> String {
     match subject {
-        // An undecided option is a part of the answer.
+        // An undecided option is part of the answer.
         Subject::Answer | Subject::Option => Subject::Answer.as_str().to_string(),
         subject => format!("{} {what}", subject.as_str()),
     }
 }
 
-/// Whether a finding is about the claim of this entry.
+/// Whether a finding belongs to the claim of this entry.
 pub fn is_about(claim: &ClaimId, entry: &Entry) -> bool {
     claim.owner == entry.owner && (claim.part.is_empty() || claim.part == part(entry.subject, &entry.what))
 }
 
-/// Gives each finding that was made while a claim was checked the identity of the claim.
+/// Sets the identity of the claim in each finding of its check.
 pub(super) fn identify(
     owner: &str,
     verify: &Verify,
@@ -41,7 +41,7 @@ pub(super) fn identify(
     }
 }
 
-/// The quote, closed form or run that stands at a place, and what came out.
+/// The name and the result of the quote, closed form or run with this span.
 fn result_at(judgement: &Judgement, span: &Range<usize>) -> Option<(String, String)> {
     let at = |is_span: &Range<usize>| is_span == span;
     let quotes = judgement.quotes.iter().filter(|q| at(&q.span));
@@ -53,7 +53,7 @@ fn result_at(judgement: &Judgement, span: &Range<usize>) -> Option<(String, Stri
     quotes.chain(forms).chain(runs).next()
 }
 
-/// What a question claims, and what came out: the key, the conditions, the verdict, and which options hold.
+/// The claim and the result of a question as a text: the key, the conditions, the verdict, and which options hold.
 fn answer_result(verify: &Verify, question: Option<&Question>, judgement: &Judgement) -> String {
     let mut text = String::new();
     match question.map(|q| &q.kind) {

@@ -1,4 +1,4 @@
-//! What a lesson claims: every `verify` object judged, every question without one named.
+//! The claims of a lesson: checks every `verify` object, and lists the questions without one.
 
 use super::partners::{self, Partners};
 use super::resolved_labs::{ResolvedLabs, resolve_labs};
@@ -11,19 +11,19 @@ use crate::verify::{self, Answer, BoundLab, BoundVerify, Judgement, QuoteState, 
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-/// A question, or a lab with a `verify` object, and what became of its claims.
+/// A question, or a lab with a `verify` object, and the results of its claims.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Claim {
-    /// What claims it: `quiz fall, question 2`, `lab #2`.
+    /// The owner of the claims: `quiz fall, question 2`, `lab #2`.
     pub name: String,
     /// Bytes of the lesson.
     pub span: Range<usize>,
-    /// What became of it. A question always has an answer here, if only an unverified one; a lab never.
+    /// The results. A question always has an answer, possibly an unverified one; a lab never has one.
     pub judgement: Judgement,
 }
 
 impl Claim {
-    /// Whether anything about it is not simply true: then its evidence is shown.
+    /// Whether any of its claims is false or unchecked: then its evidence is printed.
     pub fn is_doubtful(&self) -> bool {
         let doubtful = |state: State| matches!(state, State::False | State::Unchecked);
         let judgement = &self.judgement;
@@ -33,18 +33,18 @@ impl Claim {
     }
 }
 
-/// Who claims something.
+/// The owner of claims.
 pub(super) enum Owner<'a> {
     /// A lab with a `verify` object.
     Lab(&'a Lab),
-    /// A question, with or without one.
+    /// A question, with or without a `verify` object.
     Question(&'a Question),
     /// A comment in the text.
     Remark(&'a Remark),
 }
 
 impl<'a> Owner<'a> {
-    /// Its `verify` object with what that uses, the lab that this is about unless it names another, and its question.
+    /// Its `verify` object including shared parts, the lab that it refers to unless it names another, and its question.
     pub(super) fn claim(
         &self,
         lesson: &'a Lesson,
@@ -57,7 +57,7 @@ impl<'a> Owner<'a> {
         Some((lesson.whole(verify), lab, question))
     }
 
-    /// The bytes that it is about, where that is not all of the lesson.
+    /// The bytes that it refers to, unless it refers to the whole lesson.
     pub(super) fn block(&self) -> Option<&'a Range<usize>> {
         match self {
             Owner::Remark(remark) => Some(&remark.over),
@@ -66,7 +66,7 @@ impl<'a> Owner<'a> {
     }
 }
 
-/// Everybody who claims something, by name: labs, then questions, then comments.
+/// All owners of claims by name: labs, then questions, then comments.
 pub(super) fn owners(lesson: &Lesson) -> Vec<(String, Owner<'_>)> {
     let mut all = Vec::new();
     let addressed = lesson.addressed();
@@ -74,7 +74,7 @@ pub(super) fn owners(lesson: &Lesson) -> Vec<(String, Owner<'_>)> {
         all.push((format!("lab {address}"), Owner::Lab(lab)));
     }
     for lab in lesson.all_labs() {
-        // Labs that stand inside `verify` objects have no address.
+        // Labs inside `verify` objects have no address.
         if !addressed.iter().any(|(_, addressed_lab)| std::ptr::eq(*addressed_lab, lab)) {
             let line = lesson.file.position(lab.span.start).line;
             all.push((format!("lab in line {line}"), Owner::Lab(lab)));
@@ -93,7 +93,7 @@ pub(super) fn owners(lesson: &Lesson) -> Vec<(String, Owner<'_>)> {
     all
 }
 
-/// The answer of a question that nobody says how to check. An open question has no keyed answer that could be right or wrong.
+/// The answer of a question without a check. An open question has no keyed answer that could be right or wrong.
 pub(super) fn unclaimed(question: &Question) -> Option<Answer> {
     let reason = match &question.verify {
         _ if matches!(question.kind, QuestionKind::Open { .. }) => return None,
@@ -104,7 +104,7 @@ pub(super) fn unclaimed(question: &Question) -> Option<Answer> {
     Some(Answer::unverified(reason))
 }
 
-/// Looks at the texts of every `verify` object, and runs nothing.
+/// Lints the texts of every `verify` object without executing runs.
 pub(super) fn bind(lesson: &Lesson, ready: &[PreparedLab<'_>], models: &Models, findings: &mut Vec<Finding>) {
     let stage = Stage::new(models);
     for (_, owner) in owners(lesson) {
@@ -118,13 +118,13 @@ pub(super) fn bind(lesson: &Lesson, ready: &[PreparedLab<'_>], models: &Models, 
     }
 }
 
-/// Whether somebody claims something by formulas alone.
+/// Whether a claim consists of formulas alone.
 pub(super) fn have_formulas(lesson: &Lesson) -> bool {
     let claims = owners(lesson).into_iter().filter_map(|(_, owner)| owner.claim(lesson));
     claims.into_iter().any(|(verify, lab, _)| verify.lab.is_none() && lab.is_none() && verify.is_formulas())
 }
 
-/// Judges every `verify` object of a lesson; questions without one are listed with an unverified answer.
+/// Checks every `verify` object of a lesson. Questions without one are listed with an unverified answer.
 pub(super) fn check_claims<'l>(
     lesson: &'l Lesson,
     ready: &mut [PreparedLab<'l>],
@@ -186,7 +186,7 @@ impl ClaimChecker<'_> {
         self.list.push(Claim { name, span: remark.verify.span.clone(), judgement });
     }
 
-    /// The judgement of a claim; its findings carry the identity of the claim.
+    /// Checks a claim, and sets its identity in the findings.
     fn judge_as(
         &self,
         name: &str,
@@ -198,7 +198,7 @@ impl ClaimChecker<'_> {
     ) -> Judgement {
         let mut found = Vec::new();
         let mut judgement = self.judge(verify, lab, question, rendered, &mut found);
-        // What is left of an object with mistakes may say something else than what was meant.
+        // An object with errors is incomplete, so its remaining part may differ from what the author meant.
         let inside = |f: &&Finding| verify.span.start <= f.span.start && f.span.end <= verify.span.end;
         if self.lesson.findings.iter().filter(inside).any(Finding::is_error) {
             judgement.withdraw("its `verify` has errors");
@@ -234,7 +234,7 @@ impl ClaimChecker<'_> {
             Some(bound) => {
                 self.stage.take_left_behind();
                 let mut judgement = verify::check_verify(&bound, verify, question, rendered, findings);
-                // Where no partner was left behind, there is nothing to correct, and every run with corrections is the same.
+                // If no run changed a parameter without its coupled parameters, the corrected runs are the same.
                 if self.stage.take_left_behind() {
                     self.partners.settle(verify, lab, question, rendered, &mut judgement, findings);
                 }

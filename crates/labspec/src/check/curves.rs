@@ -1,4 +1,4 @@
-//! What the labs show in the runs that the claims of a lesson rest on, for a report that draws it.
+//! The curves of labs in the runs of the claims of a lesson, for a report that draws them.
 
 use super::claims;
 use super::resolved_labs::record_curves;
@@ -7,7 +7,7 @@ use crate::spec::Lesson;
 use crate::verify::{Curves, Stage};
 use std::ops::Range;
 
-/// Most runs of one claim that are drawn.
+/// Maximum number of drawn runs of one claim.
 const RUNS: usize = 24;
 
 /// The runs of one `verify` object.
@@ -15,11 +15,11 @@ const RUNS: usize = 24;
 pub struct Drawn {
     /// The bytes of the object.
     pub span: Range<usize>,
-    /// What the traces show in each run; no more runs than a page can show.
+    /// The curves of each run, for at most `RUNS` runs.
     pub runs: Vec<Curves>,
 }
 
-/// Makes the runs of every claim once more and records what the plots of its lab show.
+/// Repeats the runs of every claim and records the traces of its lab.
 pub fn curves(lesson: &Lesson, models: &Models) -> Vec<Drawn> {
     let ready = super::of_claims(lesson, models);
     let stage = Stage::new(models);

@@ -1,4 +1,4 @@
-//! From what was checked to the ledger: one entry per claim.
+//! Writes the ledger: one entry for each claim.
 
 use super::claims::{self, Owner};
 use super::{Checked, Claim, RanLab};
@@ -11,8 +11,8 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// The ledger of a course. `findings` are all that was found, in lessons and in models: a file with an error or a warning in
-/// it is not in order, whatever else is true of it.
+/// The ledger of a course. `findings` contains all findings in lessons and models: a file with an error or a warning is not
+/// in order, even if all its claims are true.
 pub fn ledger(checked: &[Checked], findings: &[Finding]) -> Ledger {
     let mut ledger = Ledger::default();
     let mut faults: BTreeMap<&Arc<str>, usize> = BTreeMap::new();
@@ -24,7 +24,7 @@ pub fn ledger(checked: &[Checked], findings: &[Finding]) -> Ledger {
         ledger.add(file(path, faults.remove(path).unwrap_or(0)));
         lesson(c, &mut ledger);
     }
-    // Model files, and files that could not be read at all.
+    // Model files, and files that could not be read.
     for (path, count) in faults {
         ledger.add(file(path, count));
     }
@@ -49,7 +49,7 @@ fn file(path: &Arc<str>, faults: usize) -> Entry {
     }
 }
 
-/// Everything that stands in one lesson.
+/// Adds the entries of one lesson.
 fn lesson(c: &Checked, ledger: &mut Ledger) {
     let mut all = Vec::new();
     let mut entries = LessonEntries { checked: c, entries: &mut all };
@@ -60,7 +60,7 @@ fn lesson(c: &Checked, ledger: &mut Ledger) {
     entries.add_claims();
     left_out(c, &mut all);
     for mut entry in all {
-        // A page cannot read a block whose JSON is broken, whatever was found by reading on behind the mistakes.
+        // A page cannot read a block with invalid JSON, even if the parser recovered from the errors.
         if matches!(entry.state, State::True(_)) && c.lesson.is_broken(&entry.span) {
             (entry.state, entry.word) = (State::Unchecked, "broken JSON");
             entry.remark = "a page cannot read it".into();
@@ -76,7 +76,7 @@ struct LessonEntries<'c> {
 }
 
 impl LessonEntries<'_> {
-    /// An entry without words of its own.
+    /// An entry without details.
     fn entry(
         &self,
         subject: Subject,
@@ -97,7 +97,7 @@ impl LessonEntries<'_> {
         }
     }
 
-    /// The labs that ran, and those that could not be read.
+    /// Adds the labs that ran, and those that could not be read.
     fn add_labs(&mut self) {
         let lesson = &self.checked.lesson;
         for ran in &self.checked.labs {
@@ -113,7 +113,7 @@ impl LessonEntries<'_> {
         }
     }
 
-    /// The questions that could not be read.
+    /// Adds the questions that could not be read.
     fn add_unread_questions(&mut self) {
         for quiz in &self.checked.lesson.quizzes {
             let id = quiz.id.as_ref().map_or("", |t| t.as_str());
@@ -129,7 +129,7 @@ impl LessonEntries<'_> {
         self.entries.push(Entry { remark: "it cannot be read".into(), ..about });
     }
 
-    /// The widgets that are not ours. Where the claims alone are verified, nothing is reported of what the page shows.
+    /// Adds the widgets of other libraries. If only the claims are verified, they are not reported as unknown.
     fn add_widgets(&mut self) {
         let level = &self.checked.level;
         for widget in &self.checked.lesson.widgets {
@@ -159,7 +159,7 @@ impl LessonEntries<'_> {
         }
     }
 
-    /// The answer of a question, and the options that its evidence does not decide.
+    /// Adds the answer of a question, and its undecided options.
     fn add_answer(&mut self, claim: &Claim) {
         let Some(answer) = &claim.judgement.answer else { return };
         let (state, word) = (answer.verdict.state(), answer.verdict.as_str());
@@ -172,7 +172,7 @@ impl LessonEntries<'_> {
         }
     }
 
-    /// The quotes, the closed forms and the runs of a claim.
+    /// Adds the quotes, the closed forms and the runs of a claim.
     fn add_statements(&mut self, claim: &Claim) {
         let judgement = &claim.judgement;
         for q in &judgement.quotes {
@@ -197,8 +197,8 @@ impl LessonEntries<'_> {
     }
 }
 
-/// What could be run and judged, and was not, because nobody asked for it. Where the claims alone are verified, the labs
-/// have no entries.
+/// Adds the labs and claims that the level of the check leaves out. If only the claims are verified, the labs have no
+/// entries.
 fn left_out(c: &Checked, ledger: &mut Vec<Entry>) {
     let entry = |subject, owner: &str, span: Range<usize>, what: &str| Entry {
         subject,
@@ -258,7 +258,7 @@ fn lab(ran: &RanLab) -> (State, &'static str, String) {
         remark.push_str(part);
     }
     match (tried.broke, missing.is_empty()) {
-        // The runs of a lab that breaks as it should end there.
+        // For a lab that breaks as expected, the runs end there.
         (true, _) if ran.expected && ran.mistakes == 0 => {
             (State::True(Evidence::Simulated), "breaks", remark)
         }
@@ -290,8 +290,8 @@ fn run(r: &RunReport, unmade: Option<&str>) -> (State, &'static str, String) {
     }
 }
 
-/// The lines under a claim that show how it was found: measures with their value at half the timestep, and how each
-/// condition held.
+/// The lines that a report prints as evidence for a claim: measures with their value at half the timestep, and the margin
+/// of each condition.
 pub fn evidence(claim: &Claim) -> Vec<String> {
     let measure = |m: &Measured| match m.halved {
         Some(x) => {

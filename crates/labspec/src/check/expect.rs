@@ -1,10 +1,10 @@
-//! What an author expects of the runs of a lab: that they go well, or, with `"expect": "breaks"`, that one breaks.
+//! The expectation of the author for the runs of a lab: that none breaks, or with `"expect": "breaks"` that one breaks.
 
 use crate::finding::Finding;
 use crate::rules;
 use crate::spec::{Expect, Lab};
 
-/// What a run that breaks is reported as.
+/// Rules of findings about a run that breaks.
 const BROKE: [&str; 8] = [
     rules::SIMULATION_DIVERGES.code,
     rules::ENERGY_GROWS.code,
@@ -15,7 +15,7 @@ const BROKE: [&str; 8] = [
     rules::SOLVER_STOPS_EARLY.code,
     rules::RUNS_AWAY.code,
 ];
-/// What is only said of a scene, or of settings with a fault though nothing breaks: beside what breaks, it is no news.
+/// Rules of findings that predict a break, or report a fault without a break. They are redundant if a run breaks.
 const LIKELY: [&str; 5] = [
     rules::STIFF_FOR_TIMESTEP.code,
     rules::NEAR_ITS_LIMIT.code,
@@ -24,15 +24,15 @@ const LIKELY: [&str; 5] = [
     rules::CREEPS.code,
 ];
 
-/// Holds the findings of the runs of one lab, those from `first` on, against what its author expects. `runs` is how
-/// many were made.
+/// Compares the findings in the runs of one lab, those from index `first` on, with the expectation of its author. `runs` is
+/// the number of runs.
 pub(super) fn settle(lab: &Lab, runs: usize, findings: &mut Vec<Finding>, first: usize) {
     let Some(Expect::Breaks(place)) = &lab.expect else { return };
     let of_lab = findings.split_off(first.min(findings.len()));
     let broke = of_lab.iter().any(|f| BROKE.contains(&f.code));
     let impossible = of_lab.iter().any(|f| f.code == rules::RUN_IMPOSSIBLE.code);
     findings.extend(of_lab.into_iter().filter(|f| !BROKE.contains(&f.code) && !LIKELY.contains(&f.code)));
-    // What was not run shows nothing, and is said elsewhere.
+    // Without runs there is no evidence, and another finding reports that.
     if broke || impossible || runs == 0 {
         return;
     }

@@ -1,4 +1,4 @@
-//! The claims of a lesson before a second judge: what it is asked, and what its recording makes of them.
+//! Compares the claims of a lesson with a reference engine: the requested runs, and the comparison with its recording.
 
 use super::claims;
 use super::resolved_labs::bind_claim;
@@ -11,46 +11,46 @@ use crate::verify::judge::{self, Judged, Left, RecordedRun, Reference, RunTask};
 use crate::verify::{RenderedText, Stage};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A run that a judge is asked to make.
+/// A run that a reference engine has to make.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Request {
-    /// Whose run it is: `quiz fall, question 2`.
+    /// The owner of the claim: `quiz fall, question 2`.
     pub claim: String,
     /// Its name.
     pub run: String,
-    /// The digest of what is asked; of nothing where nobody else can make the run.
+    /// The digest of the request; that of an empty text where another program cannot execute the run.
     pub hash: String,
-    /// What is asked; or why nobody else can make the run.
+    /// The request, or the reason why another program cannot execute the run.
     pub task: Result<RunTask, String>,
 }
 
-/// What a judge has recorded.
+/// The recorded results of a reference engine.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Recording {
     /// `MuJoCo 3.14.0`.
     pub engine: String,
-    /// By the digest of what was asked.
+    /// The runs by the digest of the request.
     pub runs: BTreeMap<String, RecordedRun>,
-    /// Lesson (the name of its file), claim and run of everything in it: so that one of another text is known.
+    /// The lesson (its file name), claim and run of each recorded run: identifies recordings of a changed text.
     pub recorded: BTreeSet<[String; 3]>,
 }
 
-/// What a judge makes of a lesson.
+/// The comparison of a lesson with a reference engine.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CrossCheck {
-    /// What it is asked.
+    /// The requested runs.
     pub requests: Vec<Request>,
-    /// What it makes of every claim, by the name of its owner.
+    /// The result for every claim, by the name of its owner.
     pub claims: Vec<(String, Judged)>,
-    /// Claims that no judge is asked about, of all owners.
+    /// Claims that the reference engine does not check, of all owners.
     pub left: Left,
-    /// Runs that are recorded of another text.
+    /// Number of runs that were recorded for another text.
     pub stale: usize,
-    /// Runs of which nothing is recorded.
+    /// Number of runs without a recording.
     pub missing: usize,
 }
 
-/// Asks and hears: all runs of the lesson, and what the recording makes of its claims where there is one.
+/// Collects the requests for all runs of the lesson, and compares its claims with the recording if there is one.
 pub fn hear(
     lesson: &Lesson,
     models: &Models,
@@ -85,7 +85,7 @@ pub fn hear(
     cross_check
 }
 
-/// What is recorded of a run; or why nothing is.
+/// The recording of a run, or the reason why there is none.
 fn recorded<'r>(
     lesson: &Lesson,
     recording: &'r Recording,

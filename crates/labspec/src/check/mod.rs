@@ -1,4 +1,4 @@
-//! The whole check of a lesson: structure, names, runs of every lab, verdicts of every question.
+//! The complete check of a lesson: structure, names, runs of every lab, verdicts of every question.
 
 mod allowed;
 pub(crate) mod choices;
@@ -50,41 +50,41 @@ pub struct RanLab {
     pub address: LabAddress,
     /// Its title, possibly empty.
     pub title: String,
-    /// Number of runs that were made: as it stands, and with each control moved to its ends.
+    /// Number of runs: as loaded, and with each control at its ends.
     pub runs: usize,
     /// `false` when it could not be run.
     pub ran: bool,
-    /// What its runs covered; `None` when it could not be run.
+    /// The coverage of its runs; `None` when it could not be run.
     pub tried: Option<Tried>,
-    /// Mistakes in its code: what these texts would do was not run.
+    /// Number of errors in its code; texts with errors are not executed.
     pub mistakes: usize,
-    /// The lesson says that it breaks.
+    /// Whether the lesson declares that it breaks.
     pub expected: bool,
 }
 
-/// A lesson with everything that is known about it.
+/// A lesson with all results of its check.
 #[derive(Debug)]
 pub struct Checked {
     /// The lesson.
     pub lesson: Lesson,
-    /// Everything that is wrong, in order.
+    /// All findings, in order.
     pub findings: Vec<Finding>,
     /// The labs.
     pub labs: Vec<RanLab>,
     /// The questions and the labs with claims.
     pub claims: Vec<Claim>,
-    /// Of each lab, whether it shows what is stored; nothing where nothing is.
+    /// For each lab with a snapshot, whether it reproduces the stored values.
     pub snapshots: Vec<SnapshotResult>,
-    /// What would be found, and the author has suppressed with a reason.
+    /// Findings that the author has suppressed with a reason.
     pub allowed: Vec<Allowed>,
-    /// What was asked for.
+    /// The level of the check.
     pub level: CheckLevel,
 }
 
-/// What a check does beyond structure, models and the names in every text.
+/// Which parts of a check are made besides structure, models and the names in every text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CheckLevel {
-    /// Try what programs do that a page lets pass in silence.
+    /// Test program behaviour that a page accepts silently.
     pub programs: bool,
     /// Run every lab.
     pub labs: bool,
@@ -97,42 +97,42 @@ impl CheckLevel {
     pub const FULL: CheckLevel = CheckLevel { programs: true, labs: true, claims: true };
     /// The claims alone.
     pub const CLAIMS: CheckLevel = CheckLevel { labs: false, ..CheckLevel::FULL };
-    /// Nothing is run: labs and claims stand in the ledger as left out.
+    /// Nothing is run: labs and claims are left out in the ledger.
     pub const STATIC: CheckLevel = CheckLevel { programs: false, labs: false, claims: false };
 }
 
-/// What a check found beyond the structure of a lesson, not yet tied to its file.
+/// The results of a check besides the structure of the lesson, without file paths in the findings.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub struct LabOutcome {
-    /// What is wrong.
+    /// The findings.
     #[serde(with = "stored")]
     pub findings: Vec<Finding>,
     /// The labs that ran.
     pub labs: Vec<RanLab>,
-    /// What is claimed, and what became of it.
+    /// The claims with their results.
     pub claims: Vec<Claim>,
     pub(crate) snapshots: Vec<SnapshotResult>,
 }
 
 impl LabOutcome {
-    /// These findings, and nothing else.
+    /// Only these findings.
     pub fn from_findings(findings: Vec<Finding>) -> LabOutcome {
         LabOutcome { findings, ..LabOutcome::default() }
     }
 
-    /// One finding, and nothing else.
+    /// Only one finding.
     pub fn from_finding(finding: Finding) -> LabOutcome {
         LabOutcome { findings: vec![finding], ..LabOutcome::default() }
     }
 }
 
-/// Checks a lesson that has been read. Findings of model files are left in `models`.
+/// Checks a lesson that has been read. Findings in model files are stored in `models`.
 pub fn check_lesson(lesson: Lesson, models: &Models, level: CheckLevel) -> Checked {
     let found = run_checks(&lesson, models, level);
     join(lesson, found, level)
 }
 
-/// Binds, runs and verifies.
+/// Binds, runs and verifies a lesson.
 pub fn run_checks(lesson: &Lesson, models: &Models, level: CheckLevel) -> LabOutcome {
     let mut findings = Vec::new();
     let labs = lesson.all_labs();
@@ -145,7 +145,7 @@ pub fn run_checks(lesson: &Lesson, models: &Models, level: CheckLevel) -> LabOut
     let labs = if level.labs { lab_runs::run_labs(lesson, &ready, &mut findings) } else { Vec::new() };
     deduplicate(lesson, &mut findings);
     let snapshots = snapshot::check_snapshots(lesson, &ready, level, &mut findings);
-    // An editor looks at a block at a time, and cannot know what the others claim.
+    // An editor checks one block at a time, so it does not know the claims of the other blocks.
     if level.claims {
         rules::numbers_unclaimed::check_left_out(lesson, &mut findings);
     }
@@ -159,25 +159,25 @@ pub fn run_checks(lesson: &Lesson, models: &Models, level: CheckLevel) -> LabOut
     LabOutcome { findings, labs, claims, snapshots }
 }
 
-/// All labs that claims of a lesson are about. What is wrong with them has been reported.
+/// All labs that claims of a lesson refer to. Their errors are already reported.
 fn of_claims<'l>(lesson: &'l Lesson, models: &Models) -> Vec<PreparedLab<'l>> {
     let labs = lesson.all_labs().into_iter();
     let prepared = labs.filter_map(|lab| prepare(lab, models, CheckLevel::STATIC, &mut Vec::new()));
     prepared.chain(beside(lesson, models)).collect()
 }
 
-/// The labs of claims that are none of the lesson's own: those of other lessons, and one in which nothing is, for formulas.
+/// The labs of claims that are not labs of the lesson: those of other lessons, and an empty one for formulas.
 fn beside<'l>(lesson: &'l Lesson, models: &Models) -> impl Iterator<Item = PreparedLab<'l>> {
     let labs = lesson.others.iter().filter_map(|other| other.lab.as_ref().ok());
     let others = labs.filter_map(|lab| {
-        // What is wrong with it is reported at its own place.
+        // Its errors are reported in its own lesson.
         let (model, programs, mistakes) = bind(lab, models, &mut Vec::new())?;
         (mistakes == 0).then_some(PreparedLab { lab, model, programs, mistakes })
     });
     others.chain(if claims::have_formulas(lesson) { empty() } else { None })
 }
 
-/// A lab in which nothing is.
+/// An empty lab.
 static NOTHING: LazyLock<Lab> =
     LazyLock::new(|| Lab::of_model(Text { value: String::new(), map: SourceMap::point(0) }));
 
@@ -187,7 +187,7 @@ fn empty() -> Option<PreparedLab<'static>> {
     Some(PreparedLab { lab: &NOTHING, model, programs, mistakes: 0 })
 }
 
-/// A control of which a reset takes everything away changes nothing, and the reset is reported.
+/// Removes `idle-control` findings of controls for which a finding states that a reset undoes their effect.
 fn deduplicate(lesson: &Lesson, findings: &mut Vec<Finding>) {
     let of = |code: &str, f: &Finding| f.code == code;
     let lost = |span: &std::ops::Range<usize>, findings: &[Finding]| {
@@ -202,7 +202,7 @@ fn deduplicate(lesson: &Lesson, findings: &mut Vec<Finding>) {
     });
 }
 
-/// A lesson together with what was found.
+/// Joins a lesson with the results of its check.
 pub fn join(lesson: Lesson, found: LabOutcome, level: CheckLevel) -> Checked {
     let LabOutcome { mut findings, labs, claims, snapshots } = found;
     let mut all = lesson.findings.clone();
@@ -217,7 +217,7 @@ pub fn join(lesson: Lesson, found: LabOutcome, level: CheckLevel) -> Checked {
     Checked { lesson, findings: all, labs, claims, snapshots, allowed, level }
 }
 
-/// Loads the model of a lab and binds its programs, and looks at what they do.
+/// Loads the model of a lab, binds its programs, and checks their behaviour according to `level`.
 fn prepare<'l>(
     lab: &'l Lab,
     models: &Models,
@@ -234,14 +234,14 @@ fn prepare<'l>(
     Some(PreparedLab { lab, model, programs, mistakes })
 }
 
-/// Loads the model of a lab and binds its programs; with the number of errors in its code.
+/// Loads the model of a lab and binds its programs. Returns the number of errors in its code.
 pub fn bind(
     lab: &Lab,
     models: &Models,
     findings: &mut Vec<Finding>,
 ) -> Option<(Arc<Model>, Programs, usize)> {
     let Some(model) = models.model_of_lab(lab, findings) else {
-        // A folder that has no such model is a matter of the lesson's structure, which knows what the folder has.
+        // With a list of the model folder, a missing model is reported by the structure checks, which know the list.
         if let (Some(ModelSource::Model(name)), None) = (lab.scene(), models.folder().names()) {
             findings.extend(rules::no_model_folder::check_folder(name, models.folder()));
             findings.extend(rules::unknown_model::check_unlisted(name, models.folder()));

@@ -1,4 +1,4 @@
-//! A lab whose programs are bound: what the rules of programs and runs look at.
+//! A lab whose programs are bound: the input of rules about programs and runs.
 
 use crate::bind::Programs;
 use crate::spec::Lab;
@@ -11,7 +11,7 @@ pub(crate) struct PreparedLab<'l> {
     pub(crate) lab: &'l Lab,
     pub(crate) model: Arc<Model>,
     pub(crate) programs: Programs,
-    /// Errors in its code.
+    /// Number of errors in its code.
     pub(crate) mistakes: usize,
 }
 

@@ -1,5 +1,5 @@
-//! What a check rested on: models, settings and contacts of every lab and every run, so that it can be made again and that a
-//! change can be distinguished from its cause.
+//! The basis of a check: models, settings and contacts of every lab and every run. With it a check can be reproduced, and a
+//! changed result can be attributed to its cause.
 
 use super::PreparedLab;
 use super::claims::{self, Owner};
@@ -15,16 +15,16 @@ use labspec_core::{self as core, AccessSet, Data, Model, Obj, Plan, solver};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// The settings of a run, as it begins.
+/// The settings of a run at its start.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunSettings {
-    /// The digest of the model, with what the run's controls and setup have changed in it.
+    /// The digest of the model, including changes by the controls and the setup of the run.
     pub model: String,
-    /// By name, as MJCF writes it.
+    /// Its name in MJCF.
     pub integrator: &'static str,
-    /// By name, as MJCF writes it.
+    /// Its name in MJCF.
     pub solver: &'static str,
-    /// By name, as MJCF writes it.
+    /// Its name in MJCF.
     pub cone: &'static str,
     /// `opt.timestep`, s.
     pub timestep: f64,
@@ -32,13 +32,13 @@ pub struct RunSettings {
     pub iterations: i32,
     /// `opt.tolerance`.
     pub tolerance: f64,
-    /// All other options that are not MuJoCo's default, by name.
+    /// All other options that differ from MuJoCo's default, by name.
     pub options: BTreeMap<&'static str, Vec<f64>>,
-    /// Parameters of contacts that are not MuJoCo's default: by geom, then by parameter.
+    /// Parameters of contacts that differ from MuJoCo's default, by geom and parameter.
     pub contacts: BTreeMap<String, BTreeMap<&'static str, Vec<f64>>>,
 }
 
-/// A lab, as it stands.
+/// The basis of a lab.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LabBasis {
     /// Its address: `#1`.
@@ -47,33 +47,34 @@ pub struct LabBasis {
     pub block: String,
     /// The digest of its compiled model; `None` where it cannot run.
     pub model: Option<String>,
-    /// As it stands; `None` where it cannot run.
+    /// Its settings as loaded; `None` where it cannot run.
     pub settings: Option<RunSettings>,
 }
 
 /// A question or a lab with claims.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ClaimBasis {
-    /// What claims it: `quiz fall, question 2`.
+    /// The owner of the claims: `quiz fall, question 2`.
     pub name: String,
     /// The digest of its text in the lesson: the question, or the lab.
     pub block: String,
-    /// The digest of the compiled model of the lab that it is about; `None` where that cannot run.
+    /// The digest of the compiled model of its lab; `None` where that cannot run.
     pub model: Option<String>,
-    /// The runs by name; `None` for one that cannot be made.
+    /// The runs by name; `None` for one that cannot be started.
     pub runs: Vec<(String, Option<RunSettings>)>,
 }
 
-/// What the check of a lesson rested on.
+/// The basis of the check of a lesson.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Basis {
     /// Its labs.
     pub labs: Vec<LabBasis>,
-    /// Everybody who claims something by a `verify` object.
+    /// All owners of a `verify` object.
     pub claims: Vec<ClaimBasis>,
 }
 
-/// Finds what a check of the lesson rests on: models are compiled and runs are set up, and nothing is run. `hash` makes digests.
+/// Determines the basis of a check of the lesson: compiles models and sets up runs, without executing them. `hash` computes
+/// digests.
 pub fn basis(lesson: &Lesson, models: &Models, hash: Hash) -> Basis {
     let ready = super::of_claims(lesson, models);
     let block = |span: &Range<usize>| hash(&[lesson.file.slice(span.clone()).as_bytes()]);
@@ -125,7 +126,7 @@ fn settings(model: &Model, hash: Hash) -> RunSettings {
     }
 }
 
-/// Options that have a key of their own, or change no number.
+/// Options that have a separate key, or affect no number.
 const TOLD: [&str; 7] = ["timestep", "integrator", "solver", "cone", "iterations", "tolerance", "jacobian"];
 
 fn options(model: &Model) -> BTreeMap<&'static str, Vec<f64>> {
@@ -141,7 +142,7 @@ fn options(model: &Model) -> BTreeMap<&'static str, Vec<f64>> {
         .collect()
 }
 
-/// Parameters of a geom's contacts, with MuJoCo's defaults.
+/// Parameters of contacts of a geom, with MuJoCo's defaults.
 const CONTACT: [(&str, FieldId, &[f64]); 6] = [
     ("condim", model::geom_condim, &[3.0]),
     ("friction", model::geom_friction, &[1.0, 0.005, 0.0001]),
@@ -167,7 +168,7 @@ fn contacts(model: &Model) -> BTreeMap<String, BTreeMap<&'static str, Vec<f64>>>
     all
 }
 
-/// The numbers of some fields of a model, with the names of the fields.
+/// The values of some fields of a model, with the names of the fields.
 fn numbers(model: &Model, fields: impl Iterator<Item = FieldId>) -> Vec<(&'static str, Vec<f64>)> {
     let data = Data::planned(model, Plan::new(model, &AccessSet::OBSERVE));
     let of = |f: FieldId| {

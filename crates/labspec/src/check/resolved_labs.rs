@@ -1,4 +1,4 @@
-//! The labs that a `verify` object is about: its own, and that of each of its runs.
+//! Resolves the labs of a `verify` object: its own, and that of each of its runs.
 
 use super::PreparedLab;
 use crate::finding::Finding;
@@ -14,7 +14,7 @@ pub(super) struct ResolvedLabs<'r> {
     pub(super) runs: Vec<Vec<BoundLab<'r>>>,
 }
 
-/// The labs that a `verify` object is about, if they can run. What a run cannot change in them goes to `findings`.
+/// The labs of a `verify` object, if they can run. Errors in the modifications of a run are added to `findings`.
 pub(super) fn resolve_labs<'r>(
     lesson: &'r Lesson,
     ready: &'r [PreparedLab<'r>],
@@ -24,7 +24,7 @@ pub(super) fn resolve_labs<'r>(
     findings: &mut Vec<Finding>,
 ) -> Option<ResolvedLabs<'r>> {
     let base = match &verify.lab {
-        // Formulas need no lab: they have one in which nothing is.
+        // Formulas use an empty lab.
         None if lab.is_none() && verify.is_formulas() => {
             ready.iter().find(|r| r.lab.is_nothing()).map(PreparedLab::scene)
         }
@@ -46,7 +46,7 @@ fn scene_of<'r>(ready: &'r [PreparedLab<'r>], lab: &Lab) -> Option<BoundLab<'r>>
     ready.iter().find(|r| std::ptr::eq(r.lab, lab)).map(PreparedLab::scene)
 }
 
-/// The lab that is named. Why one of another lesson is not there, or cannot run, goes to `findings`.
+/// The named lab. If a lab of another lesson is missing or cannot run, the reason is added to `findings`.
 fn named_scene<'r>(
     lesson: &'r Lesson,
     ready: &'r [PreparedLab<'r>],
@@ -60,7 +60,7 @@ fn named_scene<'r>(
     None
 }
 
-/// A `verify` object bound to its labs. `None` where they have mistakes.
+/// A `verify` object bound to its labs. `None` where they have errors.
 pub(super) fn bind_claim<'r>(
     lesson: &'r Lesson,
     ready: &'r [PreparedLab<'r>],
@@ -71,7 +71,7 @@ pub(super) fn bind_claim<'r>(
     bind_with_base(lesson, ready, verify, lab, stage).map(|(_, bound)| bound)
 }
 
-/// The same, beside the lab that it rests on.
+/// Like [`bind_claim`]; also returns the base lab.
 fn bind_with_base<'r>(
     lesson: &'r Lesson,
     ready: &'r [PreparedLab<'r>],
@@ -84,15 +84,15 @@ fn bind_with_base<'r>(
     Some((base, bound))
 }
 
-/// What a `verify` object rests on.
+/// The models of a `verify` object.
 pub(super) struct StartedRuns {
     /// The model of its lab.
     pub(super) model: Option<Arc<Model>>,
-    /// The model of every run as it begins.
+    /// The model of every run at its start.
     pub(super) runs: Vec<(String, Option<Model>)>,
 }
 
-/// Sets up the runs of a `verify` object, and makes none. `None` where they have mistakes.
+/// Sets up the runs of a `verify` object without executing them. `None` where they have errors.
 pub(super) fn start_runs<'r>(
     lesson: &'r Lesson,
     ready: &'r [PreparedLab<'r>],
@@ -104,7 +104,7 @@ pub(super) fn start_runs<'r>(
     Some(StartedRuns { runs: bound.started_models(), model: base.map(|scene| scene.model) })
 }
 
-/// What the labs show in the runs of a `verify` object, up to so many; nothing where they have mistakes.
+/// The curves of the labs in at most `most` runs of a `verify` object; empty where they have errors.
 pub(super) fn record_curves<'r>(
     lesson: &'r Lesson,
     ready: &'r [PreparedLab<'r>],

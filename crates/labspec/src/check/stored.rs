@@ -1,4 +1,4 @@
-//! Findings as they are stored: a code is a name until the table of rules has it.
+//! Serialization of findings. A code is stored as a name and looked up in the table of rules.
 
 use crate::finding::{ClaimId, Finding, Fix, Place, Severity};
 use crate::rules;
@@ -8,7 +8,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// The name of a rule: not a text of the file that is read.
+/// The name of a rule: a static text, not borrowed from the file.
 type Code = &'static str;
 
 /// The fields of a finding.

@@ -1,4 +1,5 @@
-//! Units against dimensions: what labels say of numbers, controls of what they set, and sums of what cannot be added.
+//! Compares units with dimensions: labels with displayed numbers, controls with the fields that they set, and terms of
+//! sums.
 
 use crate::bind::{Bound, ControlProgram, ModelNames, Programs, Scope, dimensions};
 use crate::finding::{Finding, Severity};
@@ -8,7 +9,7 @@ use crate::spec::Lab;
 use labspec_core::Model;
 use labspec_expr::dimension::Measure;
 
-/// What units contradict.
+/// Reports contradictions between units.
 pub(super) fn check_units(lab: &Lab, model: &Model, programs: &Programs, findings: &mut Vec<Finding>) {
     let found = dimensions(lab, model, programs);
     for ((labels, probe), measured) in labels(lab).zip(&programs.probes).zip(&found.probes) {
@@ -32,7 +33,7 @@ pub(super) fn check_units(lab: &Lab, model: &Model, programs: &Programs, finding
     }
 }
 
-/// The labels of every trace, with that of its plot, then those of the readouts.
+/// The labels of every trace, including that of its plot, then those of the readouts.
 pub fn labels(lab: &Lab) -> impl Iterator<Item = Vec<&Text>> {
     let traces = lab.plots.iter().flat_map(|plot| {
         plot.traces

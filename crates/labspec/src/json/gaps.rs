@@ -1,10 +1,10 @@
-//! What stands between values: spaces, and what authors take for spaces or for comments.
+//! Reads the gaps between values: spaces, and characters that authors write as spaces or comments.
 
 use super::parser::Parser;
 use super::problem::{Mistake, Problem, RepeatedMistake};
 
 impl Parser<'_> {
-    /// Walks to the next character that means something. Comments and invisible characters are reported.
+    /// Advances to the next significant character. Comments and invisible characters are reported.
     pub(super) fn gap(&mut self) {
         while let Some(c) = self.peek() {
             let start = self.at;
@@ -16,7 +16,7 @@ impl Parser<'_> {
                     let end = self.comment_end();
                     self.comment(end);
                 }
-                // Invisible, and a space to some programs: the author cannot see what is wrong.
+                // It is invisible, and a space in some programs: the author cannot see the error.
                 _ if is_invisible(c) => {
                     while self.peek().is_some_and(is_invisible) {
                         self.bump();
@@ -40,7 +40,7 @@ impl Parser<'_> {
         self.say(Problem::replaced(Mistake::Comment, range, ""));
     }
 
-    /// The end of a comment between `/*` and `*/`; that of the line when it is never closed.
+    /// The end of a comment between `/*` and `*/`; the end of the line if it is never closed.
     fn comment_end(&mut self) -> usize {
         if self.comment_open {
             return self.line_end();
@@ -48,7 +48,7 @@ impl Parser<'_> {
         match self.text.get(self.at + 2..).and_then(|rest| rest.find("*/")) {
             Some(i) => self.at + 2 + i + 2,
             None => {
-                // Not looked for again: a hostile text can open thousands.
+                // The search is not repeated: a hostile text can open thousands of comments.
                 self.comment_open = true;
                 self.line_end()
             }
@@ -63,7 +63,7 @@ impl Parser<'_> {
     }
 }
 
-/// A character that cannot be seen and that JSON does not take for a space.
+/// Whether a character is invisible and not a space in JSON.
 fn is_invisible(c: char) -> bool {
     !matches!(c, ' ' | '\t' | '\n' | '\r')
         && (c.is_whitespace()

@@ -1,12 +1,12 @@
-//! Laws of the parser: acceptance is that of `serde_json`, places are those of `jsonc-parser`, and nothing is a panic, a hang, or
-//! silence.
+//! Properties of the parser: it accepts the same texts as `serde_json`, has the same spans as `jsonc-parser`, never panics
+//! or hangs, and reports every error.
 
 use super::tests::{floats, run, to_serde};
 use super::*;
 use proptest::prelude::*;
 use std::ops::Range;
 
-/// Places of all values and keys, in order.
+/// Spans of all values and keys, in order.
 fn places(node: &Node, all: &mut Vec<Range<usize>>) {
     all.push(node.span.clone());
     if let Json::Array(items) = &node.json {
@@ -19,7 +19,7 @@ fn places(node: &Node, all: &mut Vec<Range<usize>>) {
     }
 }
 
-/// The same, as `jsonc-parser` sees them.
+/// The spans of all values and keys from `jsonc-parser`, in order.
 fn their_places(value: &jsonc_parser::ast::Value<'_>, all: &mut Vec<Range<usize>>) {
     use jsonc_parser::ast::{ObjectPropName, Value};
     use jsonc_parser::common::Ranged;
@@ -37,7 +37,7 @@ fn their_places(value: &jsonc_parser::ast::Value<'_>, all: &mut Vec<Range<usize>
     }
 }
 
-/// Fragments that make JSON and nearly-JSON often.
+/// Fragments that often form valid or nearly valid JSON.
 fn nearly_json() -> impl Strategy<Value = String> {
     let piece = prop::sample::select(vec![
         "{",
@@ -98,7 +98,7 @@ fn nearly_json() -> impl Strategy<Value = String> {
     prop::collection::vec(piece, 0..12).prop_map(|pieces| pieces.concat())
 }
 
-/// JSON, with all its spaces.
+/// JSON with all kinds of spaces.
 fn strict_json() -> impl Strategy<Value = String> {
     let text = prop::sample::select(vec![
         r#""""#,
@@ -128,7 +128,7 @@ fn strict_json() -> impl Strategy<Value = String> {
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(4000))]
-    /// What is not broken is what serde_json accepts, with the same values; all else has a finding.
+    /// The parser accepts the same texts as serde_json with the same values; all others have a finding.
     #[test]
     fn acceptance_is_that_of_serde(text in nearly_json()) {
         let ours = run(&text);
@@ -140,7 +140,7 @@ proptest! {
         }
     }
 
-    /// Strict JSON: the values of serde_json, the places of jsonc-parser.
+    /// Strict JSON: the values of serde_json, the spans of jsonc-parser.
     #[test]
     fn strict_json_is_read_exactly(text in strict_json()) {
         let ours = run(&text);

@@ -1,4 +1,4 @@
-//! Values without quotes: numbers, `true`, `false`, `null`, and what authors write for them.
+//! Values without quotes: numbers, `true`, `false`, `null`, and other texts that authors write for them.
 
 use super::node::{Json, Node};
 use super::parser::Parser;
@@ -7,7 +7,7 @@ use crate::source::Text;
 use std::ops::Range;
 
 impl Parser<'_> {
-    /// A number or a word, or a text that lacks its quotes.
+    /// Reads a number or a word, or a text without its quotes.
     pub(super) fn literal(&mut self) -> Node {
         let start = self.at;
         let length = self.rest().find(|c: char| !is_part(c)).unwrap_or(self.rest().len());
@@ -17,7 +17,7 @@ impl Parser<'_> {
             self.at += length;
             return self.node(json, start);
         }
-        // What goes on behind the word on its line belongs to it, unless the word is a value by itself.
+        // The rest of the line after the word belongs to it, unless the word is a value by itself.
         let word = word(token);
         if !ends_value(behind) && word.is_none() {
             return self.bare_text();
@@ -55,7 +55,7 @@ impl Parser<'_> {
         }
     }
 
-    /// A text without quotes: to the comma or bracket that ends it, or to the end of the line.
+    /// Reads a text without quotes: up to the comma or bracket that ends it, or to the end of the line.
     fn bare_text(&mut self) -> Node {
         let range = self.bare_run();
         let start = range.start;
@@ -81,7 +81,7 @@ impl Parser<'_> {
                 '(' | '[' | '{' => depth += 1,
                 ')' | ']' | '}' => depth = depth.saturating_sub(1),
                 '"' | '\'' => {
-                    // Quotes inside of brackets belong to the call: data.body("ball").
+                    // Quotes inside brackets belong to a call: data.body("ball").
                     let line = self.line_end();
                     let inside = self.text.get(self.at + 1..line).unwrap_or("");
                     match inside.find(c).filter(|_| depth > 0) {
@@ -97,13 +97,13 @@ impl Parser<'_> {
         start..start + self.text.get(start..self.at).map_or(0, |t| t.trim_end().len())
     }
 
-    /// How long the name is that begins here: letters, digits, `_`, `$`, `-`.
+    /// The length of the name that begins here: letters, digits, `_`, `$`, `-`.
     pub(super) fn word_length(&self) -> usize {
         let rest = self.rest();
         rest.find(|c: char| !(c.is_alphanumeric() || matches!(c, '_' | '$' | '-'))).unwrap_or(rest.len())
     }
 
-    /// A text that is the file's, byte for byte.
+    /// A text that is copied from the file, byte for byte.
     pub(super) fn verbatim(&self, range: Range<usize>) -> Text {
         let value = self.text.get(range.clone()).unwrap_or("").to_string();
         Text { value, map: crate::source::SourceMap::verbatim(range).then(self.below) }
@@ -114,7 +114,7 @@ fn is_part(c: char) -> bool {
     c.is_alphanumeric() || matches!(c, '_' | '$' | '.' | '-' | '+')
 }
 
-/// Whether a calculation goes on here.
+/// Whether the text continues a calculation.
 fn computes(behind: &str) -> bool {
     let mut chars = behind.chars();
     match chars.next() {
@@ -125,7 +125,7 @@ fn computes(behind: &str) -> bool {
     }
 }
 
-/// Whether a value may end before this.
+/// Whether a value may end before this text.
 fn ends_value(behind: &str) -> bool {
     behind.is_empty()
         || behind.starts_with([',', ';', '}', ']', '\n', '\r', '"', '\'', ':', '#'])
@@ -134,7 +134,7 @@ fn ends_value(behind: &str) -> bool {
         || behind.starts_with(crate::markdown::is_typographic)
 }
 
-/// A literal as JSON writes it.
+/// A literal in valid JSON.
 fn exact(token: &str) -> Option<Json> {
     match token {
         "true" => Some(Json::Bool(true)),
@@ -171,7 +171,7 @@ fn is_number(token: &str) -> bool {
     rest.is_empty()
 }
 
-/// The number that was meant, as JSON writes it.
+/// The intended number in valid JSON.
 pub(crate) fn repaired(token: &str) -> Option<String> {
     let (sign, digits) = match token.strip_prefix('-') {
         Some(rest) => ("-", rest),
@@ -207,7 +207,7 @@ pub(crate) fn repaired(token: &str) -> Option<String> {
     (is_number(&number) && number.parse::<f64>().is_ok_and(f64::is_finite)).then_some(number)
 }
 
-/// A word that stands for a value in another language.
+/// A word that denotes a value in another language.
 enum Word {
     Means(Json, &'static str),
     NotFinite,
@@ -225,7 +225,7 @@ fn word(token: &str) -> Option<Word> {
     })
 }
 
-/// Whether a word is a value by itself, in JSON or elsewhere.
+/// Whether a word denotes a value in JSON or another language.
 pub(super) fn is_word(token: &str) -> bool {
     word(token).is_some()
 }

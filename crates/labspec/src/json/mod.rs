@@ -1,9 +1,9 @@
-//! JSON with a place for every value, read to its end whatever is wrong with it.
+//! JSON with a span for every value, read to its end whatever errors it contains.
 //!
-//! The page reads a block with `JSON.parse`: one wrong character and the whole block is gone. So acceptance is strict
-//! (that of `serde_json`, by a property test), but reading goes on behind every mistake: each is reported at its place,
-//! in the words of a person who does not know what a token is, and what was meant is read as a value, so that the
-//! rest of the block is checked too.
+//! A page reads a block with `JSON.parse`: a single wrong character makes the whole block unreadable. So acceptance is
+//! strict (equal to that of `serde_json`, checked by a property test), but the parser continues after every error. Each
+//! error is reported at its location, in words for people who do not know what a token is. The intended value is read, so
+//! that the rest of the block is checked too.
 
 mod gaps;
 #[cfg(test)]
@@ -28,14 +28,14 @@ pub use read::{Number, Scalar};
 pub use strings::encode;
 pub(crate) use strings::{fix_in, fix_in_code};
 
-/// Deepest nesting of arrays and objects. Labs need about 8.
+/// Maximum nesting depth of arrays and objects. Labs need about 8.
 pub const MAX_DEPTH: usize = 64;
-/// Most values in one JSON text. Labs have a few hundred.
+/// Maximum number of values in one JSON text. Labs have a few hundred.
 pub const MAX_VALUES: usize = 20_000;
-/// Most mistakes that are reported for one JSON text.
+/// Maximum number of reported errors of one JSON text.
 pub const MAX_MISTAKES: usize = 200;
 
-/// What a type of ours writes, as a value.
+/// Serializes a value of one of our types.
 pub fn to_value(of: &impl serde::Serialize) -> serde_json::Value {
     serde_json::to_value(of).unwrap_or_default()
 }

@@ -1,4 +1,4 @@
-//! The tree: values and their places.
+//! The tree: values and their spans.
 
 use crate::source::Text;
 use std::ops::Range;
@@ -8,7 +8,7 @@ use std::ops::Range;
 pub struct Node {
     /// The value.
     pub json: Json,
-    /// Bytes of the file, quotes and brackets included.
+    /// Bytes of the file, including quotes and brackets.
     pub span: Range<usize>,
 }
 
@@ -25,9 +25,9 @@ pub enum Json {
     Text(Text),
     /// An array.
     Array(Vec<Node>),
-    /// An object, in the author's order, duplicates included.
+    /// An object, in the author's order, including duplicates.
     Object(Vec<Member>),
-    /// Something that cannot be read, which is reported; nothing more is to be said about it.
+    /// A value that cannot be read. The error is reported, and no other finding may refer to it.
     Broken,
 }
 
@@ -41,12 +41,12 @@ pub struct Member {
 }
 
 impl Node {
-    /// The value of a key, if this is an object that has it. Of two equal keys the last one counts, as in `JSON.parse`.
+    /// The value of a key, if this is an object that has it. Of two equal keys, the last one is used, as in `JSON.parse`.
     pub fn get(&self, key: &str) -> Option<&Node> {
         self.members().iter().rev().find(|m| m.key.value == key).map(|m| &m.value)
     }
 
-    /// The members of an object; empty for anything else.
+    /// The members of an object; empty for other values.
     pub fn members(&self) -> &[Member] {
         match &self.json {
             Json::Object(members) => members,
@@ -54,12 +54,12 @@ impl Node {
         }
     }
 
-    /// Whether it could not be read, which is reported.
+    /// Whether it could not be read; the error is reported.
     pub fn is_broken(&self) -> bool {
         self.json == Json::Broken
     }
 
-    /// What it is, in an author's words.
+    /// Its type, in an author's words.
     pub fn describe(&self) -> &'static str {
         match &self.json {
             Json::Null => "null",

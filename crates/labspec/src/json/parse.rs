@@ -1,9 +1,9 @@
-//! From JSON text to a tree whose every node knows its place in the author's file: objects and lists, and how
-//! reading goes on when a comma, a colon or a bracket is missing or too many.
+//! Parses JSON text into a tree with a span for every node: objects and lists, and recovery when a comma, a colon or a
+//! bracket is missing or superfluous.
 //!
-//! A recursive descent over the characters. Every mistake is resolved where it is met, by the least change that lets
-//! the rest be read; nothing is read twice, so the time is that of one pass (looking ahead goes to the next quote or
-//! line end, and both are remembered).
+//! A recursive descent parser over the characters. Every error is resolved where it is detected, by the smallest change
+//! that allows parsing to continue. Nothing is read twice, so the time is linear (lookahead goes to the next quote or line
+//! end, and both are cached).
 
 use super::node::{Json, Member, Node};
 use super::parser::{Parser, Stop};
@@ -14,18 +14,18 @@ use labspec_finding::order;
 use std::collections::HashMap;
 use std::ops::Range;
 
-/// What was read.
+/// The result of parsing.
 #[derive(Clone, Debug)]
 pub struct Parsed {
-    /// The tree; `None` when there is nothing to read, or too much.
+    /// The tree; `None` when the text is empty or exceeds a limit.
     pub node: Option<Node>,
-    /// What is wrong: mistakes, duplicate keys.
+    /// The errors, and duplicate keys.
     pub problems: Vec<Problem>,
-    /// Whether a page cannot read it: it is not JSON.
+    /// Whether the text is not valid JSON, so that a page cannot read it.
     pub broken: bool,
 }
 
-/// Parses strict JSON, and on behind every mistake. `below` maps bytes of `text` to bytes of the file.
+/// Parses strict JSON with recovery from every error. `below` maps bytes of `text` to bytes of the file.
 pub fn parse(text: &str, below: &SourceMap) -> Parsed {
     let mut parser = Parser::new(text, below);
     let node = parser.root().unwrap_or(None);
@@ -41,14 +41,14 @@ pub fn parse(text: &str, below: &SourceMap) -> Parsed {
     Parsed { node, problems, broken }
 }
 
-/// Most repairs that are tried, and the longest text.
+/// Maximum number of tested repairs, and maximum length of the text.
 const MAX_TRIES: usize = 50;
 const MAX_TRIED: usize = 128 << 10;
 
-/// Keeps the repairs that repair: each is made by itself and the text is read again; there must be fewer mistakes
-/// then, and none that was not there before.
+/// Keeps the repairs that succeed: each is applied alone and the text is parsed again. There must then be fewer errors, and
+/// no new ones.
 fn try_repairs(text: &str, problems: &mut [Problem]) {
-    // What is reported once counts once: two brackets may be missing at one place.
+    // Errors that are reported once count once: two brackets may be missing at one place.
     fn to_mistakes(list: &[Problem]) -> Vec<Mistake> {
         let mut all: Vec<&Problem> = Vec::new();
         for problem in list {
@@ -70,7 +70,7 @@ fn try_repairs(text: &str, problems: &mut [Problem]) {
             let mut parser = Parser::new(&repaired, &below);
             let _ = parser.root();
             let left = to_mistakes(&parser.finish());
-            // The mistake itself is gone, and not only another one that it hid.
+            // The error itself must be gone, not only one that it caused.
             let gone = count(&left, &problem.mistake) < count(&before, &problem.mistake);
             if gone && left.len() < before.len() && left.iter().all(|m| count(&before, m) > 0) {
                 continue;
@@ -105,7 +105,7 @@ impl Parser<'_> {
         Ok(node)
     }
 
-    /// Whether a key and its colon stand here, where a value should.
+    /// Whether a key and its colon are here in place of a value.
     fn key_ahead(&self) -> bool {
         let Some(first) = self.peek() else { return false };
         let inside = self.rest().get(first.len_utf8()..).unwrap_or("");
@@ -120,7 +120,7 @@ impl Parser<'_> {
         behind.is_some_and(|b| b.trim_start_matches([' ', '\t']).starts_with(':'))
     }
 
-    /// A value, or `None` where none begins: at a comma, a colon, a closing bracket, the end.
+    /// Reads a value; `None` where none begins: at a comma, a colon, a closing bracket, the end.
     pub(super) fn value(&mut self) -> Result<Option<Node>, Stop> {
         self.gap();
         let Some(c) = self.peek() else { return Ok(None) };
@@ -146,7 +146,7 @@ impl Parser<'_> {
         })
     }
 
-    /// A node from `start` to here.
+    /// A node from `start` to the current position.
     pub(super) fn node(&self, json: Json, start: usize) -> Node {
         Node { json, span: self.below.span(start..self.at) }
     }
@@ -160,7 +160,7 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// The members of an object whose bracket stood at `start`.
+    /// Reads the members of an object whose bracket is at `start`.
     fn members(&mut self, start: usize) -> Result<Node, Stop> {
         self.enter('{', start)?;
         let mut members: Vec<Member> = Vec::new();
@@ -217,7 +217,7 @@ impl Parser<'_> {
         }
     }
 
-    /// A key with its value; `None` for something that is neither, which is reported.
+    /// Reads a key with its value; `None` for other text, which is reported.
     fn member(&mut self) -> Result<Option<Member>, Stop> {
         let start = self.at;
         let Some(key) = self.key() else {
@@ -243,7 +243,7 @@ impl Parser<'_> {
         Ok(Some(Member { key, value }))
     }
 
-    /// A key: a text, or a word that lacks its quotes.
+    /// Reads a key: a text, or a word without its quotes.
     fn key(&mut self) -> Option<Text> {
         let c = self.peek()?;
         if self.is_quote(c) {
@@ -261,7 +261,7 @@ impl Parser<'_> {
         Some(self.verbatim(range))
     }
 
-    /// The colon behind a key that ends at `end`. Whether there is one, or something like it.
+    /// Reads the colon after a key that ends at `end`. Returns whether there is a colon or a similar sign.
     fn colon(&mut self, end: usize) -> bool {
         let start = self.at;
         if self.starts(":") {
@@ -287,7 +287,7 @@ impl Parser<'_> {
         }
     }
 
-    /// A list.
+    /// Reads a list.
     fn items(&mut self) -> Result<Node, Stop> {
         let start = self.at;
         self.bump();
@@ -314,7 +314,7 @@ impl Parser<'_> {
                     self.extra_comma(first);
                     continue;
                 }
-                // A key: the list was meant to end before it.
+                // At a key, the list was intended to end before it.
                 Some(_) if !first && self.key_ahead() && self.open.iter().any(|(c, _)| *c == '{') => {
                     let key = self.at;
                     self.at = end;

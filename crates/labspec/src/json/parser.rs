@@ -1,4 +1,4 @@
-//! The state of reading: the text, the place in it, the brackets that are open, and the mistakes that were reported.
+//! The state of the parser: the text, the current position, the open brackets, and the reported errors.
 
 use super::MAX_MISTAKES;
 use super::problem::{self, Mistake, Problem, RepeatedMistake, TextChange};
@@ -6,18 +6,18 @@ use crate::source::SourceMap;
 use labspec_finding::order;
 use std::ops::Range;
 
-/// Reading is over: a limit is reached, which is reported.
+/// Parsing ends because a limit is reached, which is reported.
 pub(super) struct Stop;
 
-/// A text that is being read, the place where reading stands, and what was reported so far.
+/// The text, the current position, and the problems so far.
 pub(super) struct Parser<'a> {
     pub(super) text: &'a str,
     pub(super) below: &'a SourceMap,
     pub(super) at: usize,
-    /// The brackets that are open, with their places.
+    /// The open brackets, with their positions.
     pub(super) open: Vec<(char, usize)>,
     pub(super) values: usize,
-    /// How many of `{ } [ ]` there are in the text, outside of strings; mended as brackets are.
+    /// Numbers of `{ } [ ]` in the text outside of strings, adjusted for repaired brackets.
     pub(super) brackets: [i64; 4],
     pub(super) broken: bool,
     /// Spans are bytes of `text`.
@@ -25,7 +25,7 @@ pub(super) struct Parser<'a> {
     pub(super) changes: [Vec<Vec<TextChange>>; 3],
     /// Problems whose spans are bytes of the file.
     pub(super) placed: Vec<Problem>,
-    /// The end of the text was met inside of brackets, and reported.
+    /// Whether the end of the text inside brackets was reported.
     pub(super) ended: bool,
     pub(super) comment_open: bool,
     next_quote: Option<usize>,
@@ -52,7 +52,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    // Looking and walking.
+    // Lookahead and movement.
 
     pub(super) fn rest(&self) -> &'a str {
         self.text.get(self.at..).unwrap_or("")
@@ -70,12 +70,12 @@ impl<'a> Parser<'a> {
         self.at += self.peek().map_or(0, char::len_utf8);
     }
 
-    /// The end of the line that is being read.
+    /// The end of the current line.
     pub(super) fn line_end(&mut self) -> usize {
         self.line_from(self.at)
     }
 
-    /// The end of the line of `from`. Places asked for do not go back to an earlier line.
+    /// The end of the line that contains `from`. Calls must not go back to an earlier line.
     pub(super) fn line_from(&mut self, from: usize) -> usize {
         if self.next_line <= from {
             let rest = self.text.get(from..).unwrap_or("");
@@ -84,7 +84,7 @@ impl<'a> Parser<'a> {
         self.next_line
     }
 
-    /// The first double quote at or behind `from`. Places asked for only grow.
+    /// The first double quote at or after `from`. Calls must not decrease `from`.
     pub(super) fn quote_from(&mut self, from: usize) -> Option<usize> {
         if self.next_quote.is_some_and(|q| q < from || q == 0) {
             self.next_quote = self.text.get(from..).and_then(|t| t.find('"')).map(|i| from + i);
@@ -92,14 +92,14 @@ impl<'a> Parser<'a> {
         self.next_quote
     }
 
-    /// The end of what was read last, without the spaces behind it.
+    /// The end of the text read so far, without trailing spaces.
     pub(super) fn before(&self) -> usize {
         self.text.get(..self.at).map_or(self.at, |t| t.trim_end().len())
     }
 
-    // Saying.
+    // Problems.
 
-    /// A mistake. Its spans are bytes of the text.
+    /// Reports an error. Its spans are bytes of the text.
     pub(super) fn say(&mut self, problem: Problem) {
         self.broken = true;
         if self.problems.len() < MAX_MISTAKES {
@@ -107,13 +107,13 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Something that belongs nowhere.
+    /// Reports text that has no place in the grammar.
     pub(super) fn say_stray(&mut self, range: Range<usize>) {
         let text = self.text.get(range.clone()).unwrap_or("").to_string();
         self.say(Problem::new(Mistake::Stray(text), range));
     }
 
-    /// A mistake that is reported together with others of its kind: the changes that repair it.
+    /// Records the changes that repair an error which is reported together with others of its kind.
     pub(super) fn change(&mut self, kind: RepeatedMistake, changes: Vec<TextChange>) {
         self.broken = true;
         if let Some(list) = self.changes.get_mut(kind as usize) {
@@ -121,7 +121,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// What was reported, in order; spans are bytes of the text.
+    /// The problems in order; spans are bytes of the text.
     pub(super) fn finish(mut self) -> Vec<Problem> {
         let mut all = std::mem::take(&mut self.problems);
         for kind in [RepeatedMistake::Typographic, RepeatedMistake::Single, RepeatedMistake::Invisible] {
@@ -134,7 +134,7 @@ impl<'a> Parser<'a> {
     }
 }
 
-/// How many of `{ } [ ]` stand outside of strings in double quotes.
+/// Numbers of `{ } [ ]` outside of strings in double quotes.
 fn count(text: &str) -> [i64; 4] {
     let mut n = [0; 4];
     let (mut inside, mut escaped) = (false, false);
@@ -143,7 +143,7 @@ fn count(text: &str) -> [i64; 4] {
             _ if escaped => escaped = false,
             b'\\' if inside => escaped = true,
             b'"' => inside = !inside,
-            // Strings do not cross lines.
+            // Strings do not contain line breaks.
             b'\n' => inside = false,
             b'{' if !inside => n[0] += 1,
             b'}' if !inside => n[1] += 1,

@@ -1,4 +1,4 @@
-//! What can be wrong with JSON, where, and the change that repairs it where that is certain. The words are those of `lint`.
+//! The kinds of errors in JSON, with their spans, and with repairs where these are certain. `lint` contains the messages.
 
 use super::strings::{Trouble, quoted};
 use crate::source::SourceMap;
@@ -7,7 +7,7 @@ use std::ops::Range;
 /// A replacement of some bytes.
 pub(super) type TextChange = (Range<usize>, String);
 
-/// Mistakes that occur many times and are reported once for a whole text.
+/// Errors that occur many times and are reported once for a whole text.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum RepeatedMistake {
     Typographic,
@@ -15,44 +15,44 @@ pub(super) enum RepeatedMistake {
     Invisible,
 }
 
-/// Something that is wrong with a JSON text.
+/// An error in a JSON text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problem {
-    /// What it is.
+    /// Its kind.
     pub mistake: Mistake,
     /// Bytes of the file.
     pub span: Range<usize>,
-    /// Another place that it has to do with: where a text ends, the earlier of two keys, the bracket around.
+    /// A related span: the end of the text, the first of two keys, the enclosing bracket.
     pub related: Option<Range<usize>>,
-    /// The bytes to replace, and by what.
+    /// The bytes to replace, and the replacement.
     pub repair: Option<(Range<usize>, String)>,
 }
 
-/// What can be wrong.
+/// The kinds of errors.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Mistake {
     /// There is no value.
     Nothing,
-    /// More brackets inside each other than are read.
+    /// The nesting of brackets exceeds the limit.
     TooDeep,
-    /// More values than are read.
+    /// The number of values exceeds the limit.
     TooMany,
-    /// A key stands twice in one object; the place is the second one.
+    /// A key appears twice in one object; the span is that of the second one.
     Twice(String),
     /// No comma between two items.
     CommaMissing,
     /// A comma before a closing bracket.
     TrailingComma,
-    /// A comma without a value before it; `first` in its object or list.
+    /// A comma without a value before it.
     ExtraComma {
-        /// Nothing stands before it.
+        /// Whether it is the first item of its object or list.
         first: bool,
     },
     /// `;` for `,`.
     Semicolon,
     /// `0,5`.
     DecimalComma,
-    /// No colon behind a key.
+    /// No colon after a key.
     ColonMissing,
     /// `=` for `:`.
     Equals,
@@ -60,43 +60,43 @@ pub enum Mistake {
     SecondColon,
     /// A key without a value.
     ValueMissing {
-        /// Its colon is there.
+        /// Whether it has a colon.
         colon: bool,
     },
-    /// Something stands where a key should.
+    /// Another value in place of a key.
     KeyMissing,
     /// Keys without a `{` before them.
     OpeningMissing,
-    /// The text ends, and brackets are open.
+    /// The text ends inside brackets.
     Unclosed {
-        /// The innermost of them.
+        /// The innermost open bracket.
         open: char,
-        /// What closes all of them.
+        /// The text that closes all of them.
         closing: String,
     },
-    /// A bracket that closes nothing.
+    /// A closing bracket without an opening one.
     StrayBracket(char),
-    /// Brackets that close nothing, behind the value; the first of them.
+    /// Closing brackets without opening ones, after the value; the first of them.
     StrayBrackets(char),
-    /// A quote that begins no text.
+    /// A quote that does not begin a text.
     StrayQuote,
-    /// A bracket of the other kind.
+    /// A closing bracket of the other kind.
     OtherBracket {
-        /// What was meant.
+        /// The intended bracket.
         mine: char,
-        /// What stands there.
+        /// The bracket in the text.
         found: char,
     },
-    /// A bracket is missing before one that closes what is around.
+    /// A bracket is missing before one that closes the enclosing value.
     BracketMissing {
-        /// What is missing.
+        /// The missing bracket.
         mine: char,
-        /// What stands there.
+        /// The bracket in the text.
         found: char,
     },
-    /// A list that should have ended before a key.
+    /// A list that must end before a key.
     ListGoesOn,
-    /// Text behind the value.
+    /// Text after the value.
     Behind,
     /// A comment.
     Comment,
@@ -104,67 +104,67 @@ pub enum Mistake {
     BareKey(String),
     /// A word of another language.
     Word {
-        /// What stands there.
+        /// The word in the text.
         word: String,
-        /// What JSON says.
+        /// The JSON literal.
         right: &'static str,
     },
     /// `NaN`, `Infinity`.
     NotFinite(String),
-    /// A number beyond the largest.
+    /// A number beyond the largest double.
     TooLarge,
-    /// A number in a form that JSON has not.
+    /// A number in a form that JSON does not have.
     NumberForm {
-        /// What stands there.
+        /// The number in the text.
         token: String,
-        /// The same number as JSON writes it.
+        /// The same number in JSON.
         right: Option<String>,
     },
     /// A text without quotes.
     BareText(String),
-    /// Something that is no value: a calculation, for instance.
+    /// Text that is not a value, such as a calculation.
     NotJson(String),
-    /// Something that belongs nowhere.
+    /// Text that has no place in the grammar.
     Stray(String),
     /// A text without its closing quote.
     StringOpen {
-        /// The text goes to the end of everything.
+        /// Whether it extends to the end of the file.
         last: bool,
     },
-    /// So many line breaks in one text.
+    /// The number of line breaks in one text.
     LineBreaks(usize),
     /// `\q`
     Escape(char),
     /// `\'`
     NeedlessEscape(char),
-    /// `\u` with half of a pair.
+    /// `\u` with half of a surrogate pair.
     HalfPair,
     /// A control character.
     Control(char),
-    /// A backslash that should join two lines.
+    /// A backslash that joins two lines.
     JoinedLines,
-    /// So many double quotes in one text.
+    /// The number of double quotes in one text.
     InnerQuotes(usize),
-    /// So many typographic quotes.
+    /// The number of typographic quotes.
     Typographic(usize),
-    /// So many texts in single quotes or backticks.
+    /// Texts in single quotes or backticks.
     SingleQuotes {
         /// The quote.
         quote: char,
-        /// How many texts.
+        /// The number of texts.
         count: usize,
     },
-    /// Invisible characters at so many places.
+    /// Invisible characters.
     Invisible {
         /// The first of them.
         first: char,
-        /// How many places.
+        /// The number of places.
         count: usize,
     },
 }
 
 impl Mistake {
-    /// Whether two mistakes are the same, for whoever asks if one is gone. What else is open does not matter.
+    /// Whether two errors are equal, to test whether one was repaired. Other open brackets are ignored.
     pub(super) fn is(&self, other: &Mistake) -> bool {
         match (self, other) {
             (Mistake::Unclosed { open: a, .. }, Mistake::Unclosed { open: b, .. }) => a == b,
@@ -178,20 +178,20 @@ impl Problem {
         Problem { mistake, span, related: None, repair: None }
     }
 
-    /// With another place.
+    /// Adds a related span.
     pub(super) fn related(mut self, span: Range<usize>) -> Problem {
         self.related = Some(span);
         self
     }
 
-    /// With the change that repairs it.
+    /// Adds a repair.
     pub(super) fn repair(mut self, span: Range<usize>, text: impl Into<String>) -> Problem {
         self.repair = Some((span, text.into()));
         self
     }
 
-    /// The same at its bytes of the file. A change that would reach over what stands between the lines of the text
-    /// (the `> ` of a quote) is left out.
+    /// Maps its spans to bytes of the file. A repair across text that was removed between the lines (the `> ` of a quote)
+    /// is dropped.
     pub(super) fn below(self, below: &SourceMap) -> Problem {
         let repair = self.repair.filter(|(span, _)| below.is_unbroken(span.clone()));
         Problem {
@@ -202,13 +202,13 @@ impl Problem {
         }
     }
 
-    /// A mistake that is repaired by writing something else in its place.
+    /// An error whose repair replaces its span.
     pub(super) fn replaced(mistake: Mistake, span: Range<usize>, right: impl Into<String>) -> Problem {
         Problem::new(mistake, span.clone()).repair(span, right)
     }
 }
 
-/// What is open at the end of the text.
+/// The error of brackets that are open at the end of the text.
 pub(super) fn unclosed(open: &[(char, usize)], end: usize) -> Problem {
     let Some((innermost, at)) = open.last().copied() else { return Problem::new(Mistake::Nothing, 0..0) };
     let closing: String = open.iter().rev().map(|(c, _)| if *c == '{' { '}' } else { ']' }).collect();
@@ -216,7 +216,7 @@ pub(super) fn unclosed(open: &[(char, usize)], end: usize) -> Problem {
     Problem::new(mistake, at..at + 1).related(end..end).repair(end..end, closing)
 }
 
-/// What stands behind the value.
+/// The error of text after the value.
 pub(super) fn behind(rest: Range<usize>, text: &str) -> Problem {
     let behind = text.get(rest.clone()).unwrap_or("");
     if behind.chars().all(|c| matches!(c, '}' | ']') || c.is_whitespace()) {
@@ -227,7 +227,7 @@ pub(super) fn behind(rest: Range<usize>, text: &str) -> Problem {
     Problem::new(Mistake::Behind, rest.start..line)
 }
 
-/// A number in another form: `right` as JSON writes it.
+/// The error of a number in another form. `right` is the number in JSON.
 pub(super) fn number_form(span: Range<usize>, token: &str, right: Option<String>) -> Problem {
     let mistake = Mistake::NumberForm { token: token.to_string(), right: right.clone() };
     let problem = Problem::new(mistake, span.clone());
@@ -242,14 +242,15 @@ pub(super) fn bare(mistake: fn(String) -> Mistake, span: Range<usize>, word: &st
     Problem::replaced(mistake(word.to_string()), span, quoted(word))
 }
 
-/// A text from the quote at `open` to `end`, where its closing quote is missing.
+/// The error of a text from the quote at `open` to `end` without its closing quote.
 pub(super) fn string_open(open: usize, end: usize, last: bool, fixed: bool) -> Problem {
     let span = if last { open..open + 1 } else { open..end };
     let problem = Problem::new(Mistake::StringOpen { last }, span);
     if fixed { problem.repair(end..end, "\"") } else { problem }
 }
 
-/// What JSON does not allow inside of a text. Line breaks and quotes are reported for the whole text at once: [`inside`].
+/// The error of a character that JSON does not allow inside a text. Line breaks and quotes are reported for the whole text
+/// at once: [`inside`].
 pub(super) fn in_string(span: Range<usize>, trouble: Trouble) -> Problem {
     let slash = span.start..span.start + 1;
     match trouble {
@@ -266,7 +267,7 @@ pub(super) fn in_string(span: Range<usize>, trouble: Trouble) -> Problem {
     }
 }
 
-/// All line breaks, or all double quotes, of one text.
+/// One problem for all line breaks, or all double quotes, of one text.
 pub(super) fn inside(mistake: fn(usize) -> Mistake, changes: &[TextChange], text: &str) -> Option<Problem> {
     let (first, _) = changes.first()?;
     let problem = Problem::new(mistake(changes.len()), first.clone());
@@ -276,7 +277,7 @@ pub(super) fn inside(mistake: fn(usize) -> Mistake, changes: &[TextChange], text
     })
 }
 
-/// One problem for all mistakes of a kind; one for each where one change cannot repair them all.
+/// One problem for all errors of a kind; one for each if a single change cannot repair them all.
 pub(super) fn together(
     kind: RepeatedMistake,
     list: &[Vec<TextChange>],
@@ -305,7 +306,7 @@ pub(super) fn together(
     list.iter().take(super::MAX_MISTAKES).filter_map(each).collect()
 }
 
-/// The place of the first mistake.
+/// The span of the first error.
 fn first(list: &[Vec<TextChange>], text: &str) -> Range<usize> {
     let span = list.first().and_then(|c| c.first()).map_or(0..0, |(span, _)| span.clone());
     let length = text.get(span.start..).and_then(|t| t.chars().next()).map_or(0, char::len_utf8);
@@ -322,7 +323,7 @@ fn crowd(kind: RepeatedMistake, count: usize, span: Range<usize>, text: &str) ->
     Problem::new(mistake, span)
 }
 
-/// The changes of several texts as one text, from the first to the last.
+/// Combines changes into one that covers the range from the first to the last.
 fn rewritten(changes: &[&TextChange], text: &str) -> Option<TextChange> {
     let range = changes.first()?.0.start..changes.last()?.0.end;
     let (mut new, mut at) = (String::new(), range.start);

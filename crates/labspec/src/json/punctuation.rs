@@ -1,11 +1,11 @@
-//! Commas and brackets: what separates and closes values, and how reading goes on where one is missing or too many.
+//! Commas and brackets, and recovery when one is missing or superfluous.
 
 use super::parser::Parser;
 use super::problem::{self, Mistake, Problem};
 use std::ops::Range;
 
 impl Parser<'_> {
-    /// Behind a value: a comma, or the end of what it stands in.
+    /// Reads the separator after a value: a comma, or the end of the enclosing value.
     pub(super) fn separator(&mut self, object: bool) {
         let mut end = self.before();
         self.gap();
@@ -15,7 +15,7 @@ impl Parser<'_> {
                 None | Some('}' | ']') => return,
                 Some(',') => {
                     self.bump();
-                    // Half of a number that is written with a comma.
+                    // The second half of a number with a decimal comma.
                     if object && self.peek().is_some_and(|c| c.is_ascii_digit()) && self.digit_before(start) {
                         while self.peek().is_some_and(|c| c.is_ascii_digit()) {
                             self.bump();
@@ -67,7 +67,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Walks over something that belongs nowhere: to the next comma, bracket, quote or line end.
+    /// Skips text that has no place in the grammar: up to the next comma, bracket, quote or line end.
     pub(super) fn stray(&mut self) -> Range<usize> {
         let start = self.at;
         self.bump();
@@ -89,7 +89,7 @@ impl Parser<'_> {
         self.say(Problem::replaced(Mistake::ExtraComma { first }, start..start + 1, ""));
     }
 
-    /// The text ends inside of brackets: reported once, with all that is missing.
+    /// Reports once that the text ends inside brackets, with all missing ones.
     pub(super) fn unclosed(&mut self) {
         if std::mem::replace(&mut self.ended, true) {
             return;
@@ -98,7 +98,7 @@ impl Parser<'_> {
         self.say(problem::unclosed(&self.open, end));
     }
 
-    /// A `}` that ends the whole value although its members go on behind it.
+    /// Whether a `}` ends the whole value although members follow.
     pub(super) fn closes_too_early(&self) -> bool {
         let [open, close, ..] = self.brackets;
         self.open.len() == 1
@@ -114,7 +114,7 @@ impl Parser<'_> {
         self.say(Problem::replaced(Mistake::StrayBracket(c), start..start + 1, ""));
     }
 
-    /// A bracket that closes the other kind. Whether what is being read ends here.
+    /// Handles a bracket of the other kind. Returns whether the current value ends here.
     pub(super) fn wrong_bracket(&mut self, mine: char, found: char) -> bool {
         let start = self.at;
         let [braces, closed_braces, lists, closed_lists] = self.brackets;
@@ -124,7 +124,7 @@ impl Parser<'_> {
         };
         let outer = self.open.iter().any(|(c, _)| (*c == '[') == (found == ']'));
         match (outer, mine_missing, found_extra) {
-            // The other bracket was meant.
+            // The other bracket was intended.
             (_, true, true) | (false, true, _) => {
                 self.bump();
                 self.mend(found, -1);
@@ -146,7 +146,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Whether the quote that stands where a key should is the last thing of its line, and a key begins the next.
+    /// Whether a quote in place of a key is the last character of its line, and a key begins on the next line.
     pub(super) fn is_lone_quote(&self) -> bool {
         let behind = self.rest().get(1..).unwrap_or("");
         let line = behind.trim_start_matches([' ', '\t']);

@@ -1,7 +1,7 @@
-//! Texts in quotes: where one ends that is damaged, and what is wrong inside.
+//! Texts in quotes: finds the end of a damaged one, and the errors inside.
 //!
-//! A quote ends a text when JSON goes on behind it. One that does not was meant as part of the text, or the quote that
-//! should have ended it is missing; which of the two is decided by what surrounds it.
+//! A quote ends a text if JSON continues after it. Otherwise it is part of the text, or the closing quote is missing; the
+//! surrounding text decides between the two.
 
 use super::parser::Parser;
 use super::problem::{self, Mistake, RepeatedMistake, TextChange};
@@ -10,21 +10,21 @@ use crate::markdown::is_typographic;
 use crate::source::{SourceMap, Text};
 use std::ops::Range;
 
-/// How many bytes behind a quote are looked at.
+/// Number of bytes after a quote that are read.
 const FAR: usize = 4096;
 
-/// Where a text ends.
+/// The end of a text.
 struct End {
-    /// What stands between its quotes.
+    /// The range between its quotes.
     inside: Range<usize>,
-    /// Where reading goes on.
+    /// The position where parsing continues.
     next: usize,
-    /// It has no closing quote.
+    /// Whether it has no closing quote.
     open: bool,
 }
 
 impl Parser<'_> {
-    /// Whether a text begins with this character, in JSON or in what people take for it.
+    /// Whether a text begins with this character, in JSON or in common errors.
     pub(super) fn is_quote(&self, c: char) -> bool {
         matches!(c, '"' | '\'' | '`') || is_typographic(c)
     }
@@ -110,7 +110,7 @@ impl Parser<'_> {
         self.line_ends(from, self.text.len(), key)
     }
 
-    /// Whether a text goes on in the next line: the next quote ends it. Keys never do.
+    /// Whether a text continues on the next line: the next quote ends it. Keys never do.
     fn goes_on(&mut self, quote: char, next: usize, key: bool) -> bool {
         match quote {
             '`' => true,
@@ -119,13 +119,13 @@ impl Parser<'_> {
         }
     }
 
-    /// A text that has no closing quote on its line: where it was meant to end.
+    /// The end of a text without a closing quote on its line.
     fn line_ends(&mut self, from: usize, line: usize, key: bool) -> End {
         let content = self.text.get(from..line).unwrap_or("").trim_end();
         let content = match content.find([':', '=']).filter(|_| key) {
             Some(colon) => content.get(..colon).unwrap_or("").trim_end(),
             None => {
-                // What ends the line of a list or an object does not belong to the text.
+                // A comma or brackets at the end of the line do not belong to the text.
                 let mut rest = content.strip_suffix(',').unwrap_or(content).trim_end();
                 let count = |c: char| rest.matches(c).count();
                 let mut more = [count('}').saturating_sub(count('{')), count(']').saturating_sub(count('['))];
@@ -142,10 +142,10 @@ impl Parser<'_> {
         End { inside: from..end, next: end, open: true }
     }
 
-    /// Whether this is how JSON, or what is meant as JSON, goes on behind a text.
+    /// Whether JSON, or text intended as JSON, continues here after a text.
     fn json_follows(&self, at: usize) -> bool {
         let all = self.text.get(at..).unwrap_or("");
-        // Far enough; a long run of spaces must not be walked again and again.
+        // The range is limited, because a long run of spaces must not be read repeatedly.
         let mut far = FAR.min(all.len());
         while !all.is_char_boundary(far) {
             far += 1;
@@ -161,7 +161,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Whether the double quote before `next`, behind which JSON does not go on, stands inside of a text.
+    /// Whether the double quote before `next`, after which JSON does not continue, is part of a text.
     fn is_inner(&mut self, next: usize) -> bool {
         let behind = self.text.get(next..).unwrap_or("");
         let word = behind.trim_start_matches([' ', '\t']);
@@ -170,7 +170,7 @@ impl Parser<'_> {
         let again = self.quote_from(next);
         let line = self.line_from(next);
         match c {
-            // …said "hi""}: the second one closes.
+            // In …said "hi""} the second quote closes.
             '"' => adjacent && self.json_follows(next + 1),
             '{' | '[' => false,
             '0'..='9' | '-' | '+' | '.' if !adjacent => false,
@@ -179,16 +179,16 @@ impl Parser<'_> {
         }
     }
 
-    /// Where a text ends whose closing quote is missing, when the double quote at `at` begins the next one.
+    /// The end of a text without its closing quote, if the double quote at `at` begins the next text.
     fn lost_quote(&mut self, from: usize, at: usize, key: bool) -> Option<usize> {
         let content = self.text.get(from..at)?.trim_end();
         if key {
-            // {"model: "ball"}
+            // Example: {"model: "ball"}
             let word = content.strip_suffix([':', '='])?.trim_end();
             let is_name = !word.is_empty() && word.chars().all(|c| c.is_alphanumeric() || c == '_');
             return is_name.then_some(from + word.len());
         }
-        // {"model": "ball, "stopAt": 2}
+        // Example: {"model": "ball, "stopAt": 2}
         let before = content.strip_suffix(',')?;
         let name = self.text.get(at + 1..)?;
         let length = name.find(|c: char| !(c.is_alphanumeric() || c == '_'))?;
@@ -197,8 +197,8 @@ impl Parser<'_> {
     }
 }
 
-/// Whether `c` can close a text that `open` has opened: single ones close single ones only, so that an apostrophe
-/// does not end a text.
+/// Whether `c` can close a text that `open` opened. Single quotes close only single ones, so that an apostrophe does not
+/// end a text.
 fn closes(open: char, c: char) -> bool {
     let single = |c| matches!(c, '‘' | '’' | '‚' | '‛');
     match open {
@@ -208,7 +208,7 @@ fn closes(open: char, c: char) -> bool {
     }
 }
 
-/// Whether a value, a key, or the end may begin like this: what stands behind a comma.
+/// Whether a value, a key, or the end may begin like this, after a comma.
 fn value_follows(text: &str) -> bool {
     match text.chars().next() {
         None | Some('"' | '\'' | '`' | '{' | '[' | '}' | ']' | '-' | '+' | '.' | ',' | '#' | '/') => true,
@@ -217,13 +217,13 @@ fn value_follows(text: &str) -> bool {
     }
 }
 
-/// A name without quotes, and a colon.
+/// Whether a text begins with a name without quotes and a colon.
 fn begins_key(text: &str) -> bool {
     let behind = text.trim_start_matches(|c: char| c.is_alphanumeric() || matches!(c, '_' | '$'));
     behind.len() < text.len() && behind.trim_start_matches([' ', '\t']).starts_with([':', '='])
 }
 
-/// `true` and its like, alone.
+/// Whether a text begins with a word such as `true`, followed by a separator.
 fn begins_word(text: &str) -> bool {
     let behind = text.trim_start_matches(|c: char| c.is_alphanumeric());
     let token = text.get(..text.len() - behind.len()).unwrap_or("");

@@ -1,9 +1,9 @@
-//! Single values with their places, and how they are shown.
+//! Single values with their spans, and their format in messages.
 
 use crate::source::Text;
 use std::ops::Range;
 
-/// A number and its place.
+/// A number and its span.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Number {
     /// The number; finite.
@@ -19,7 +19,7 @@ pub enum Scalar {
     Number(Number),
     /// A text.
     Text(Text),
-    /// A truth value and its place.
+    /// A boolean and its span.
     Bool(bool, Range<usize>),
 }
 
@@ -41,7 +41,7 @@ impl Scalar {
         }
     }
 
-    /// Whether two values are the same, wherever they stand.
+    /// Whether two values are equal, ignoring their spans.
     pub fn same(&self, other: &Scalar) -> bool {
         match (self, other) {
             (Scalar::Number(a), Scalar::Number(b)) => a.value == b.value,
@@ -51,7 +51,7 @@ impl Scalar {
         }
     }
 
-    /// As it stands in JSON.
+    /// Its text in JSON.
     pub fn show(&self) -> String {
         match self {
             Scalar::Number(n) => n.value.to_string(),
@@ -61,12 +61,12 @@ impl Scalar {
     }
 }
 
-/// What an author wrote, in backticks; nothing is named as that.
+/// A text of the author in backticks; an empty text in quotes.
 pub(crate) fn named(text: &str) -> String {
     if text.trim().is_empty() { "\"\"".to_string() } else { format!("`{}`", shorten(text)) }
 }
 
-/// A key as it may be shown: a hostile one can be long.
+/// A text shortened for a message: a hostile one can be long.
 pub(crate) fn shorten(text: &str) -> String {
     let mut short: String = text.chars().take(60).collect();
     if short.len() < text.len() {

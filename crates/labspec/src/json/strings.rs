@@ -1,39 +1,39 @@
-//! Decodes the inside of a string and remembers where every byte came from.
+//! Decodes the inside of a string, with a source map of every byte.
 
 use crate::finding::Fix;
 use crate::source::{SourceMap, Text};
 use std::ops::Range;
 
-/// The inside of a string.
+/// The decoded inside of a string.
 pub(super) struct Decoded {
-    /// What it says.
+    /// The text.
     pub(super) value: String,
-    /// From the value to the bytes of the inside.
+    /// Maps the text to the bytes of the inside.
     pub(super) map: SourceMap,
-    /// What JSON does not allow in it, and where.
+    /// The errors in it, and their ranges.
     pub(super) troubles: Vec<(Range<usize>, Trouble)>,
 }
 
-/// Something that JSON does not allow inside of a string.
+/// Text that JSON does not allow inside a string.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Trouble {
-    /// A backslash before a letter that is no escape: LaTeX, as a rule.
+    /// A backslash before a letter that is not an escape; usually LaTeX.
     Escape(char),
     /// An escaped quote that needs no backslash in JSON: `\'`.
     Needless(char),
-    /// `\u` with half of a pair.
+    /// `\u` with half of a surrogate pair.
     Half,
     /// A control character.
     Control(char),
     /// A line break.
     Line,
-    /// A backslash at the end of a line: JavaScript joins the two.
+    /// A backslash at the end of a line: JavaScript joins the two lines.
     Joined,
     /// A double quote.
     Quote,
 }
 
-/// Decodes `raw`, which stands between quotes. What is wrong is kept as what was probably meant.
+/// Decodes `raw`, the text between quotes. Errors are decoded as the probably intended text.
 pub(super) fn decode(raw: &str) -> Decoded {
     let mut d =
         Decoded { value: String::with_capacity(raw.len()), map: SourceMap::default(), troubles: Vec::new() };
@@ -61,7 +61,7 @@ impl Decoded {
         self.map.push_whole(c.len_utf8(), range);
     }
 
-    /// Takes in what begins at `at` and is no ordinary character; returns its length.
+    /// Decodes the special character at `at`; returns its length.
     fn special(&mut self, raw: &str, at: usize, rest: &str) -> usize {
         let mut chars = rest.chars();
         let first = chars.next().unwrap_or(' ');
@@ -81,7 +81,7 @@ impl Decoded {
             return length;
         }
         let Some(c) = chars.next() else {
-            // A backslash at the very end: there is nothing that it could escape.
+            // A backslash at the very end has nothing to escape.
             self.troubles.push((at..at + 1, Trouble::Escape('\\')));
             self.verbatim(raw, at..at + 1);
             return 1;
@@ -104,7 +104,7 @@ impl Decoded {
                 6
             }
             _ => {
-                // The letter behind the backslash is read as what it is.
+                // The letter after the backslash is read as itself.
                 self.troubles.push((at..at + length, Trouble::Escape(c)));
                 self.verbatim(raw, at..at + 1);
                 1
@@ -113,7 +113,7 @@ impl Decoded {
     }
 }
 
-/// The character of the escape that `text` begins with, and its length in bytes.
+/// The character of the escape at the beginning of `text`, and its length in bytes.
 fn escape(text: &str) -> Option<(char, usize)> {
     let simple = |c| Some((c, 2));
     match text.as_bytes().get(1)? {
@@ -130,7 +130,7 @@ fn escape(text: &str) -> Option<(char, usize)> {
             if !(0xd800..0xe000).contains(&high) {
                 return Some((char::from_u32(high)?, 6));
             }
-            // Beyond U+FFFF, JSON writes UTF-16: a high and a low surrogate.
+            // JSON writes characters beyond U+FFFF in UTF-16: a high and a low surrogate.
             let low = text.get(6..12)?.strip_prefix("\\u").and_then(hex)?;
             if high >= 0xdc00 || !(0xdc00..0xe000).contains(&low) {
                 return None;
@@ -145,24 +145,24 @@ fn hex(digits: &str) -> Option<u32> {
     digits.bytes().all(|b| b.is_ascii_hexdigit()).then(|| u32::from_str_radix(digits, 16).ok())?
 }
 
-/// A text as it stands inside of a JSON string: with its escapes, without quotes around it.
+/// A text in the form of the inside of a JSON string: with escapes, without quotes.
 pub fn encode(text: &str) -> String {
     let quoted = serde_json::Value::from(text).to_string();
     quoted.get(1..quoted.len().saturating_sub(1)).unwrap_or("").to_string()
 }
 
-/// A text as JSON writes it, quotes included.
+/// A text as a JSON string, including quotes.
 pub(super) fn quoted(text: &str) -> String {
     format!("\"{}\"", encode(text))
 }
 
-/// The change that puts `replacement` in the place of a part of a text that stands in JSON.
+/// The fix that replaces a part of a text in JSON.
 pub(crate) fn fix_in(text: &Text, part: Range<usize>, replacement: &str) -> Fix {
     Fix::safe(text.span_of(part), encode(replacement))
 }
 
-/// The same for code: quotes of its own are single ones, as nearly all lessons write them, unless this text uses
-/// double ones already.
+/// The fix that replaces a part of a code text in JSON. Its quotes are single ones, as in most lessons, unless the text
+/// already uses double ones.
 pub(crate) fn fix_in_code(text: &Text, part: Range<usize>, replacement: &str) -> Fix {
     let doubles = text.value.contains('"');
     let plain =

@@ -1,4 +1,4 @@
-//! What the parser says of broken JSON.
+//! The errors that the parser reports for invalid JSON.
 
 use super::*;
 use crate::lint::json::to_finding;
@@ -8,7 +8,7 @@ pub(super) fn run(text: &str) -> Parsed {
     parse(text, &SourceMap::verbatim(0..text.len()))
 }
 
-/// Message, and the text under the span, of every finding.
+/// The message of every finding, and the text of its span.
 fn complaints(text: &str) -> Vec<(String, String)> {
     let parsed = run(text);
     assert!(parsed.broken, "{text} was accepted");
@@ -16,7 +16,7 @@ fn complaints(text: &str) -> Vec<(String, String)> {
     parsed.problems.iter().map(message_and_text).collect()
 }
 
-/// The text with all fixes applied, from the back.
+/// The text with all fixes applied, from the end to the start.
 fn fixed(text: &str) -> String {
     let mut fixes: Vec<_> = run(text).problems.into_iter().filter_map(|p| p.repair).collect();
     fixes.sort_by_key(|(span, _)| (span.start, span.end));
@@ -27,12 +27,13 @@ fn fixed(text: &str) -> String {
     text
 }
 
-/// The value that was read, as JSON; what could not be read is missing.
+/// The value that was read, as JSON, without unreadable parts.
 fn value(text: &str) -> serde_json::Value {
     run(text).node.map_or(serde_json::Value::Null, |n| to_serde(&n))
 }
 
-/// One mistake: its message, its place, what was read, and the repaired text (the same when there is no repair).
+/// One error per row: its message, its text, the value that was read, and the repaired text (unchanged when there is no
+/// repair).
 #[test]
 #[expect(clippy::too_many_lines, reason = "a table of mistakes")]
 fn mistakes_are_reported_and_reading_goes_on() {
@@ -299,7 +300,7 @@ fn duplicate_keys_are_found_and_strings_know_their_place() {
     assert_eq!(second.span(), 20..20);
 }
 
-/// Long and hostile texts: the time grows with the length, not with its square.
+/// Long and hostile texts are parsed in linear time.
 #[test]
 fn hostile_texts_are_read_in_one_pass() {
     for piece in [

@@ -1,9 +1,9 @@
-//! The code of a listing, apart from its comments and strings.
+//! Separates the code of a listing from its comments and strings.
 
 use crate::markdown::is_typographic;
 use std::ops::Range;
 
-/// Languages whose comments and strings are known well enough.
+/// Languages whose comments and strings are recognized.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) enum Language {
     Python,
@@ -26,12 +26,12 @@ impl Language {
     }
 }
 
-/// Code with its comments and strings blanked out, and the typographic quotes outside of them.
+/// Code with its comments and strings replaced by spaces, and the typographic quotes outside of them.
 pub(crate) struct CodeScan {
-    /// As long as the code; what is not code is a space.
+    /// The code with spaces in place of comments and strings; its length is unchanged.
     pub(crate) bare: String,
     pub(crate) quotes: Vec<Range<usize>>,
-    /// Start offsets of lines that begin inside of brackets or of a string.
+    /// Start offsets of lines that begin inside brackets or a string.
     continued: Vec<usize>,
 }
 
@@ -56,7 +56,7 @@ impl CodeScan {
                         inside = None;
                         keep = end == "\n";
                     } else if c == '\n' && end.len() == 1 {
-                        // A string that is not closed on its line: broken, but the next line is code again.
+                        // An unterminated string: the error ends with the line.
                         inside = None;
                         keep = true;
                     }
@@ -71,7 +71,7 @@ impl CodeScan {
                         let before = code.get(..at).and_then(|b| b.chars().next_back());
                         let after = rest.chars().nth(1);
                         let letter = |c: Option<char>| c.is_some_and(char::is_alphanumeric);
-                        // Between letters it is an apostrophe, which code has only in text.
+                        // Between letters it is an apostrophe, which appears only in text.
                         if !(matches!(c, '‘' | '’') && letter(before) && letter(after)) {
                             scan.quotes.push(at..at + length);
                         }
@@ -98,7 +98,7 @@ impl CodeScan {
     }
 }
 
-/// The comment or string that begins here: what opens it and what ends it.
+/// The comment or string that begins here: its opening and closing marks.
 fn opens(rest: &str, language: Language) -> Option<(&'static str, &'static str)> {
     let marks: &[(&str, &str)] = match language {
         Language::Python => &[("\"\"\"", "\"\"\""), ("'''", "'''"), ("\"", "\""), ("'", "'"), ("#", "\n")],
@@ -112,19 +112,19 @@ fn opens(rest: &str, language: Language) -> Option<(&'static str, &'static str)>
 
 /// A line of a listing.
 pub(crate) struct CodeLine<'c> {
-    /// Where it begins.
+    /// Start offset of the line.
     pub(crate) start: usize,
-    /// The line as it is.
+    /// The original line.
     pub(crate) text: &'c str,
-    /// The same with comments and strings blanked out.
+    /// The line with comments and strings replaced by spaces.
     pub(crate) bare: &'c str,
     pub(crate) indent: usize,
-    /// The bytes of the listing that are neither indentation nor the space at its end.
+    /// The range without indentation and trailing spaces.
     pub(crate) content: Range<usize>,
 }
 
 impl CodeScan {
-    /// The lines of the code that was scanned.
+    /// The lines of the scanned code.
     pub(crate) fn lines<'c>(&'c self, code: &'c str) -> impl Iterator<Item = CodeLine<'c>> {
         let mut at = 0;
         code.split_inclusive('\n').map(move |text| {
@@ -136,7 +136,7 @@ impl CodeScan {
         })
     }
 
-    /// Whether a line begins a statement: not inside of brackets or of a string, and not without code.
+    /// Whether a line begins a statement: it is not inside brackets or a string, and contains code.
     pub(crate) fn is_statement(&self, line: &CodeLine<'_>) -> bool {
         !line.bare.trim().is_empty() && self.continued.binary_search(&line.start).is_err()
     }

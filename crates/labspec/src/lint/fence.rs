@@ -1,10 +1,10 @@
-//! Fences that are damaged, missing or mislabelled. What counts as damage is decided in `markdown/`.
+//! The findings about damaged, missing and mislabelled fences. `markdown/` detects the damage.
 
 use crate::finding::Finding;
 use crate::markdown::{MAX_BLOCKS, MAX_MARKUP, Problem};
 use crate::rules::{self, fence_line, fence_missing, fence_name, fence_unclosed, fence_unseen};
 
-/// The messages about damaged fences.
+/// The finding about a damaged fence.
 pub(super) fn to_finding(text: &str, problem: &Problem) -> Finding {
     match problem {
         Problem::TooMuchMarkup => {

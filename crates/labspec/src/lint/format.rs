@@ -1,4 +1,4 @@
-//! The messages about objects that are not as the format says. What is wrong is found in `spec/`, where they are read.
+//! The findings about objects that do not match the format. `spec/` detects the problems while it reads the objects.
 
 use crate::finding::Finding;
 use crate::rules;
@@ -6,10 +6,10 @@ use crate::source::MAX_FILE;
 use crate::spec::{Misfit, Mistake};
 use std::ops::Range;
 
-/// The messages about a misfit.
+/// The finding about a misfit.
 pub(super) fn to_finding(misfit: &Misfit) -> Finding {
     let mut finding = finding_at(misfit.span.clone(), &misfit.mistake);
-    // The page does not read a `verify` object: it is nothing to the student, and everything to the check.
+    // A page does not read `verify` objects, so the consequence of an error there concerns only the check.
     let reason = |rule: &rules::Rule| *finding.code == *rule && finding.why.as_deref() == Some(rule.why);
     if misfit.in_verify && [rules::UNKNOWN_KEY, rules::WRONG_TYPE].into_iter().any(reason) {
         finding.why =
@@ -18,7 +18,7 @@ pub(super) fn to_finding(misfit: &Misfit) -> Finding {
     finding
 }
 
-/// What each mistake is said to be, by the page of its rule.
+/// The finding about each mistake, from the page of its rule.
 fn finding_at(span: Range<usize>, mistake: &Mistake) -> Finding {
     let open = || span.start..span.end.min(span.start + 1);
     match mistake {

@@ -1,10 +1,10 @@
-//! The messages about broken JSON, by the page of its rule. What is broken, and which change repairs it, is decided in `json/`.
+//! The findings about invalid JSON, from the pages of the rules. `json/` detects the errors and determines the repairs.
 
 use crate::finding::Finding;
 use crate::json::{Mistake, Problem};
 use crate::rules::{duplicate_key, json_limit, json_syntax, typographic_quote};
 
-/// The messages about broken JSON.
+/// The finding about invalid JSON.
 pub(crate) fn to_finding(problem: &Problem) -> Finding {
     let (span, related) = (problem.span.clone(), problem.related.clone());
     let finding = match &problem.mistake {

@@ -1,4 +1,4 @@
-//! The files of a course that the links of a lesson name.
+//! The files of a course to which the links of a lesson point.
 
 use crate::markdown::Link;
 use crate::source::Sources;
@@ -7,21 +7,21 @@ use percent_encoding::percent_decode_str;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
-/// Most links that are followed.
+/// Maximum number of links that are followed.
 pub(crate) const MOST: usize = 1000;
-/// What a site makes of a lesson, and no file of the course has.
+/// Extensions of pages that a site generates, which are not files of the course.
 const PAGES: [&str; 2] = ["html", "htm"];
 
 /// A link to a file of the course.
 pub(crate) struct LinkedFile<'l> {
     pub(crate) link: &'l Link,
-    /// The file, as the link names it, from the folder of the lesson.
+    /// The path of the file, resolved from the folder of the lesson.
     pub(crate) path: PathBuf,
     pub(crate) extension: String,
     pub(crate) anchor: Option<String>,
 }
 
-/// The files of the course that links of a lesson name; nothing that a site makes itself.
+/// The files of the course to which links of a lesson point, without pages that a site generates.
 pub(crate) fn linked_files<'l>(lesson: &'l Lesson, folder: &Path) -> impl Iterator<Item = LinkedFile<'l>> {
     lesson.scan.links.iter().take(MOST).filter_map(move |link| {
         let (file, anchor) = inside(&link.target)?;
@@ -32,7 +32,7 @@ pub(crate) fn linked_files<'l>(lesson: &'l Lesson, folder: &Path) -> impl Iterat
     })
 }
 
-/// The folder of a lesson, links resolved where it has one.
+/// The folder of a lesson, with symbolic links resolved where possible.
 pub(crate) fn folder_of(path: &Path, sources: &Sources) -> PathBuf {
     let parent = |path: &Path| match path.parent() {
         Some(folder) if folder != Path::new("") => folder.to_path_buf(),
@@ -52,7 +52,8 @@ pub fn links_to(lesson: &Lesson, file: &Path) -> bool {
         .any(|linked| linked.path == file || sources.real(&linked.path).as_deref() == Some(file))
 }
 
-/// The file of the course that a link names, and the anchor there; `None` for the web, for a path of the site, and for nothing.
+/// The file of the course to which a link points, and the anchor in it; `None` for the web, for a path of the site, and for
+/// an empty link.
 fn inside(target: &str) -> Option<(String, Option<String>)> {
     let scheme = target.split(['/', '?', '#']).next().is_some_and(|head| head.contains(':'));
     if scheme || target.starts_with(['/', '#', '\\', '?', '{', '<']) || target.contains("{{") {
@@ -67,7 +68,7 @@ fn inside(target: &str) -> Option<(String, Option<String>)> {
     (!file.is_empty()).then_some((file, anchor))
 }
 
-/// A path from a folder, without steps that lead back; `None` where it leads above everything.
+/// A path relative to a folder, with `..` resolved; `None` where it leaves the root of the path.
 fn joined(folder: &Path, file: &str) -> Option<PathBuf> {
     let mut path = folder.to_path_buf();
     for part in file.split('/') {
@@ -82,7 +83,7 @@ fn joined(folder: &Path, file: &str) -> Option<PathBuf> {
     Some(path)
 }
 
-/// `%20` is a space.
+/// Decodes percent escapes: `%20` is a space.
 pub(crate) fn decoded(text: &str) -> Cow<'_, str> {
     percent_decode_str(text).decode_utf8_lossy()
 }

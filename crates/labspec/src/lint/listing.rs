@@ -1,11 +1,11 @@
-//! Listings that lost what a program needs on their way through a text editor.
+//! Detects listings that a text editor has damaged.
 
 use super::code_scan::{CodeScan, Language};
 use crate::finding::Finding;
 use crate::rules;
 use crate::source::Text;
 
-/// Looks at a listing. An unclosed one may hold text that is no code: it is read up to an empty line or a table.
+/// Checks a listing. An unclosed one may contain text after the code, so it is read up to an empty line or a table.
 pub(crate) fn check_listing(language: &str, body: &Text, closed: bool, findings: &mut Vec<Finding>) {
     let Some(language) = Language::named(language) else { return };
     let mut end = 0;

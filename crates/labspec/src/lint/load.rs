@@ -1,4 +1,4 @@
-//! The way in: a lesson is read, and the rules of structure look at it.
+//! Loads lessons: reads them and applies the structural rules.
 
 use super::ModelFolder;
 use crate::finding::{self, Finding, InFile};
@@ -9,20 +9,20 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-/// Most findings that are kept per file. Whoever has more fixes the first ones first.
+/// Maximum number of findings per file. After fixing the first ones, the others appear.
 pub const MAX_FINDINGS: usize = 1000;
 
-/// Reads a lesson (Markdown) or, when the path ends in `.json`, a lab, a quiz or a list of them, and checks its
-/// structure. Nothing is run; this never fails, findings say what is wrong.
+/// Reads a lesson (Markdown) or, when the path ends in `.json`, a lab, a quiz or a list of them, and checks its structure.
+/// Nothing is run. This function never fails; errors are findings.
 ///
-/// This is a text alone: what it names of other lessons was not given ([`load_lesson_at`] looks for it).
+/// Only the text is given: other lessons that it names are not read ([`load_lesson_at`] reads them).
 pub fn load_lesson(file: SourceFile, models: &ModelFolder) -> Lesson {
     let path = PathBuf::from(&**file.path());
     load_lesson_at(file, &path, &Sources::default(), models)
 }
 
-/// The one loader: a lesson that lies at this path, with its neighbours, as far as `sources` has them: the labs of other lessons that
-/// it names, the files that it links to, its snapshot. Programs, editors and checks from memory differ only in their sources.
+/// The only loader: loads the lesson at this path with its related files from `sources`: the labs of other lessons that it
+/// names, the files to which it links, its snapshot. Programs, editors and checks from memory differ only in their sources.
 pub fn load_lesson_at(file: SourceFile, path: &Path, sources: &Sources, models: &ModelFolder) -> Lesson {
     let mut lesson = read_lesson(file);
     let mut findings = super::check_rules(&lesson, models);
@@ -37,7 +37,7 @@ pub fn load_lesson_at(file: SourceFile, path: &Path, sources: &Sources, models: 
     lesson
 }
 
-/// Another text of a lesson, with the same neighbours.
+/// Loads another text of a lesson with the same related files.
 pub fn reload_lesson(lesson: &Lesson, text: &str, models: &ModelFolder) -> Lesson {
     let file = SourceFile::new(lesson.file.path().clone(), text);
     match &lesson.place {
@@ -46,7 +46,7 @@ pub fn reload_lesson(lesson: &Lesson, text: &str, models: &ModelFolder) -> Lesso
     }
 }
 
-/// Leaves the first findings of a file that has too many.
+/// Keeps the first findings of a file that has too many.
 fn limit(lesson: &mut Lesson) {
     if lesson.findings.len() <= MAX_FINDINGS {
         return;
@@ -61,8 +61,8 @@ fn limit(lesson: &mut Lesson) {
     );
 }
 
-/// Takes the fixes of findings away that lie in a block whose JSON is broken. They were made for JSON: between
-/// quotes that are none they would break more. The fixes of the JSON itself stay.
+/// Removes fixes inside a block with invalid JSON: they assume valid JSON and could damage it further. Fixes of the JSON
+/// itself are kept.
 pub fn withhold_fixes(lesson: &Lesson, findings: &mut [Finding]) {
     let in_broken = |f: &&mut Finding| f.fix.as_ref().is_some_and(|fix| lesson.is_broken(&fix.span));
     for finding in findings.iter_mut().filter(in_broken) {
@@ -72,19 +72,20 @@ pub fn withhold_fixes(lesson: &Lesson, findings: &mut [Finding]) {
     }
 }
 
-/// Reads a lesson or a JSON file whatever its encoding: a file that is not UTF-8 has a finding that says where, and is
-/// checked with what cannot be read replaced.
+/// Reads a lesson or a JSON file in any encoding. A file that is not UTF-8 has a finding with the position, and is checked
+/// with replacement characters.
 ///
 /// # Errors
-/// A sentence for the author: the file cannot be read, is no file, or is too large.
+/// A message for the author: the file cannot be read, is not a regular file, or is too large.
 pub fn load_lesson_file(path: &Path, models: &ModelFolder) -> Result<Lesson, String> {
     let (file, bad) = SourceFile::read_lossy(path)?;
     Ok(load_bytes(file, bad, path, &Sources::Disk, models))
 }
 
-/// Bytes of other lessons that are read through for the labs that one lesson names, at most: each name counts its lesson.
+/// Maximum number of bytes of other lessons that are searched for the labs that one lesson names. Each name counts the
+/// bytes of its lesson.
 const MOST_OF_OTHERS: u64 = 256 << 20;
-/// Bytes of a lesson whose labs another one names, at most.
+/// Maximum number of bytes of a lesson whose labs another one names.
 const MOST_OF_OTHER: u64 = 4 << 20;
 
 /// The labs of other lessons that this one names.
@@ -100,7 +101,7 @@ fn read_others(lesson: &Lesson, path: &Path, sources: &Sources) -> Vec<Other> {
     let mut read = |(span, file, address): (Range<usize>, &String, &LabAddress)| {
         let there = folder.join(file);
         let displayed_path = there.display().to_string();
-        // A lesson of somebody else may name any file of this machine.
+        // Absolute paths are refused, because an untrusted lesson could name any file of this machine.
         let inside = Path::new(file).is_relative();
         let cached = texts.entry(there.clone());
         let found = match inside {
@@ -127,7 +128,7 @@ fn read_others(lesson: &Lesson, path: &Path, sources: &Sources) -> Vec<Other> {
 
 const NOT_FROM_HERE: &str = "a lesson must be named by its path from this one";
 
-/// The text of another lesson, whose labs find the same models.
+/// The text of another lesson, which must use the same model folder.
 fn read_other_file(lesson_path: &Path, other: &Path, sources: &Sources) -> Result<String, String> {
     if !is_lesson(other) {
         return Err("a lab must be in a lesson (.md) or in a JSON file".into());
@@ -143,21 +144,21 @@ fn is_lesson(path: &Path) -> bool {
     path.extension().is_some_and(|e| e == "md" || e == "json")
 }
 
-/// Where the snapshot of a lesson lies: beside it.
+/// The path of the snapshot of a lesson: beside it.
 pub fn snapshot_path(path: &Path) -> PathBuf {
     let mut name = path.as_os_str().to_os_string();
     name.push(SNAPSHOT);
     PathBuf::from(name)
 }
 
-/// What the name of a snapshot has behind that of its lesson.
+/// The suffix of a snapshot after the name of its lesson.
 pub const SNAPSHOT: &str = ".snap";
-/// Its bytes, at most.
+/// Maximum number of bytes of a snapshot.
 const MOST: u64 = 4 << 20;
 
 fn read_snapshot(path: &Path, sources: &Sources) -> Option<Result<SourceFile, String>> {
     let path = snapshot_path(path);
-    // A link that leads nowhere is there, and cannot be read.
+    // A broken link exists, but cannot be read.
     sources.has(&path).then_some(())?;
     let text = sources.text(&path, MOST, "a snapshot");
     Some(text.map(|text| SourceFile::new(path.display().to_string(), text)))
@@ -174,7 +175,7 @@ fn load_bytes(
     if let Some(bad) = bad {
         let finding = rules::not_utf8::not_utf8(bad).at(&lesson.file);
         lesson.findings.push(finding);
-        // Its places are not those of the bytes, or would be gone once it is saved in another encoding.
+        // The offsets differ from those of the bytes, and would change when the file is saved in another encoding.
         lesson.findings.iter_mut().for_each(|f| f.fix = None);
         finding::sort(&mut lesson.findings);
     }

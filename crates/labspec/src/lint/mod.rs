@@ -1,7 +1,8 @@
-//! The checks of a lesson's structure: everything that needs no engine.
+//! The checks of a lesson's structure, which do not need the engine.
 //!
-//! Each rule is declared beside its check in [`crate::rules`]; here a lesson is walked once for all of them. The files beside this one
-//! choose the rule of what was wrong where a lesson was read (fences, JSON, the format), and contain what several rules share.
+//! Each rule is declared beside its check in [`crate::rules`]. This module visits a lesson once for all of them. The files
+//! of this folder map the problems found while reading a lesson (fences, JSON, the format) to rules, and contain code that
+//! several rules share.
 
 mod code_scan;
 mod fence;
@@ -29,10 +30,10 @@ use crate::markdown::BlockKind;
 use crate::rules::{self, CHECKS, Check};
 use crate::spec::{Lesson, ModelSource, Problem};
 
-/// Most names of model elements that are reported one by one.
+/// Maximum number of reported names of model elements.
 const MAX_TAGS: usize = 500;
 
-/// Everything that the rules of structure say of a lesson, in no order.
+/// The findings of all structural rules, unordered.
 fn check_rules(lesson: &Lesson, models: &ModelFolder) -> Vec<Finding> {
     let mut findings: Vec<Finding> =
         lesson.problems.iter().map(|problem| to_finding(lesson.file.text(), problem)).collect();
@@ -42,7 +43,7 @@ fn check_rules(lesson: &Lesson, models: &ModelFolder) -> Vec<Finding> {
     findings
 }
 
-/// The messages about something that was wrong where a text was read.
+/// The finding about a problem found while reading a text.
 pub(crate) fn to_finding(text: &str, problem: &Problem) -> Finding {
     match problem {
         Problem::Fence(problem) => fence::to_finding(text, problem),
@@ -51,7 +52,7 @@ pub(crate) fn to_finding(text: &str, problem: &Problem) -> Finding {
     }
 }
 
-/// The HTML and the listings of its text.
+/// Checks the HTML and the listings of the text.
 fn check_text(lesson: &Lesson, findings: &mut Vec<Finding>) {
     let mut tags = 0;
     for range in &lesson.scan.html {
@@ -71,7 +72,7 @@ fn check_text(lesson: &Lesson, findings: &mut Vec<Finding>) {
     }
 }
 
-/// Its labs, quizzes and claims: a walk with all checks.
+/// Runs all checks on the labs, quizzes and claims.
 fn check_objects(lesson: &Lesson, findings: &mut Vec<Finding>) {
     let labs = lesson.all_labs();
     for check in CHECKS {
@@ -86,7 +87,7 @@ fn check_objects(lesson: &Lesson, findings: &mut Vec<Finding>) {
                 questions.for_each(|(_, question)| check(question, findings));
             }
             Check::Lesson(check) => check(lesson, findings),
-            // Whoever loads the model asks these.
+            // These run when the model is loaded.
             Check::Model(_) => {}
         }
     }
@@ -99,7 +100,7 @@ fn check_objects(lesson: &Lesson, findings: &mut Vec<Finding>) {
     }
 }
 
-/// The models that it names.
+/// Checks the names of models.
 fn check_models(lesson: &Lesson, models: &ModelFolder, findings: &mut Vec<Finding>) {
     let labs = lesson.all_labs().into_iter().filter_map(|lab| match lab.scene() {
         Some(ModelSource::Model(name)) => Some(name),
@@ -112,7 +113,7 @@ fn check_models(lesson: &Lesson, models: &ModelFolder, findings: &mut Vec<Findin
     }
 }
 
-/// Checks what only several lessons together can get wrong: ids that are used twice in a course.
+/// Checks what depends on several lessons: ids that are used twice in a course.
 pub fn check_course(lessons: &[&Lesson]) -> Vec<Finding> {
     rules::across(lessons)
 }

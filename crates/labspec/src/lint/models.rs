@@ -8,13 +8,13 @@ use std::sync::Arc;
 /// The models a lesson may name.
 #[derive(Clone, Default)]
 pub struct ModelFolder {
-    /// `None` when models are only known by name, or not at all.
+    /// `None` when only names of models are known, or nothing.
     folder: Option<PathBuf>,
-    /// What the models may read: nothing outside of it is ever opened.
+    /// The root for files that models read: nothing outside of it is ever opened.
     root: PathBuf,
-    /// Names without extension, sorted; `None` when nothing is known, so that nothing can be missing.
+    /// Names without extension, sorted; `None` when they are unknown, so that no model is reported as missing.
     names: Option<Vec<String>>,
-    /// Models that somebody gives, without a folder.
+    /// Models of the embedding program, without a folder.
     given: Option<Arc<dyn Models>>,
 }
 
@@ -28,7 +28,7 @@ impl fmt::Debug for ModelFolder {
 }
 
 impl<M: Models + 'static> From<M> for ModelFolder {
-    /// Models that somebody gives take the place of a folder.
+    /// Models of the embedding program replace a folder.
     fn from(models: M) -> ModelFolder {
         let mut names = models.names();
         names.iter_mut().for_each(|names| names.sort());
@@ -49,7 +49,7 @@ impl ModelFolder {
         ModelFolder { names: Some(names), ..ModelFolder::default() }
     }
 
-    /// Lists the `.xml` files of a folder, which is the root, too.
+    /// Lists the `.xml` files of a folder, which is also the root.
     ///
     /// # Errors
     /// The folder cannot be read.
@@ -57,8 +57,8 @@ impl ModelFolder {
         ModelFolder::below(folder, folder)
     }
 
-    /// Lists the `.xml` files of a folder below a root. Links that lead out of the root are left out. A root that does
-    /// not hold the folder is no root: then the folder is.
+    /// Lists the `.xml` files of a folder below a root. Links that leave the root are skipped. If the root does not contain
+    /// the folder, the folder is the root.
     ///
     /// # Errors
     /// The folder cannot be read.
@@ -80,7 +80,7 @@ impl ModelFolder {
         Ok(ModelFolder { folder: Some(folder), root, names: Some(names), given: None })
     }
 
-    /// The same with models of the folder that are not saved yet.
+    /// Adds the names of unsaved models of the folder.
     pub fn with_unsaved(mut self, files: Vec<String>) -> ModelFolder {
         if let Some(names) = &mut self.names {
             names.extend(files.iter().filter_map(|file| file.strip_suffix(".xml")).map(String::from));
@@ -90,8 +90,8 @@ impl ModelFolder {
         self
     }
 
-    /// The folder `models` beside a lesson or above it, whichever is nearer; unknown when there is none. The root is
-    /// what the folders around it say: `labspec.toml`, else the repository.
+    /// The nearest folder `models` beside a lesson or above it; unknown when there is none. The root is determined by
+    /// [`root_of`]: `labspec.toml`, else the repository.
     pub fn near(lesson: &Path) -> ModelFolder {
         let open = |folder: PathBuf| ModelFolder::below(&root_of(&folder, &[lesson_folder(lesson)]), &folder);
         ModelFolder::find_near(lesson).and_then(|folder| open(folder).ok()).unwrap_or_default()
@@ -104,12 +104,12 @@ impl ModelFolder {
         folders.find(|f| f.is_dir())
     }
 
-    /// The root: what the models may read lies below it. Empty when no folder is known.
+    /// The root: models may read files below it. Empty when no folder is known.
     pub fn root(&self) -> &Path {
         &self.root
     }
 
-    /// The folder itself; `None` when models are only known by name, or not at all.
+    /// The folder; `None` when only names of models are known, or nothing.
     pub fn path_of_folder(&self) -> Option<&Path> {
         self.folder.as_deref()
     }
@@ -119,7 +119,7 @@ impl ModelFolder {
         self.names.as_deref()
     }
 
-    /// The models that somebody gives in place of a folder.
+    /// The models of the embedding program that replace a folder.
     pub(crate) fn given(&self) -> Option<&dyn Models> {
         self.given.as_deref()
     }
@@ -132,18 +132,19 @@ impl ModelFolder {
     /// The file of a model; `None` when the folder has no such model.
     pub fn path(&self, name: &str) -> Option<PathBuf> {
         let names = self.names.as_ref()?;
-        // Only what was listed is opened: no separators, no `..`, no absolute paths can get here.
+        // Only listed names are opened, so no separators, `..` or absolute paths can get here.
         let found = names.iter().find(|n| *n == name)?;
         Some(self.folder.as_ref()?.join(format!("{found}.xml")))
     }
 }
 
-/// The folder that a file lies in.
+/// The folder of a file.
 pub fn lesson_folder(file: &Path) -> PathBuf {
     located(file).parent().unwrap_or(Path::new("")).to_path_buf()
 }
 
-/// A file, links resolved; one that is not there yet (a new text of an editor, standard input) lies in its folder all the same.
+/// The path of a file with symbolic links resolved. For a file that does not exist yet (a new text of an editor, standard
+/// input), the folder is resolved.
 fn located(file: &Path) -> PathBuf {
     let folder = || match file.parent() {
         Some(folder) if folder != Path::new("") => folder.canonicalize(),
@@ -156,9 +157,9 @@ fn located(file: &Path) -> PathBuf {
 /// The file that marks the root of a course.
 pub(crate) const ROOT_FILE: &str = "labspec.toml";
 
-/// The root for models of a folder: the nearest folder around them that holds `labspec.toml`; else the nearest that is a
-/// repository (`.git`) or into which packages are unpacked (`*.dist-info`); else the widest of the folders that the user
-/// named, where the models lie in it; else the models' own folder.
+/// The root for models of a folder. It is the nearest folder above them that contains `labspec.toml`; else the nearest that
+/// is a repository (`.git`) or contains unpacked packages (`*.dist-info`); else the outermost of the folders that the user
+/// named, if the models are inside it; else the folder of the models.
 pub fn root_of(models: &Path, named: &[PathBuf]) -> PathBuf {
     let real = models.canonicalize().unwrap_or_else(|_| models.to_path_buf());
     let marked = real.ancestors().find(|folder| folder.join(ROOT_FILE).is_file());
@@ -170,13 +171,13 @@ pub fn root_of(models: &Path, named: &[PathBuf]) -> PathBuf {
     around.min_by_key(|f| f.components().count()).unwrap_or(real)
 }
 
-/// Whether packages are unpacked in a folder, as a Python environment has them: models come with their meshes there.
+/// Whether a folder contains unpacked packages, as in a Python environment: models are stored with their meshes there.
 fn holds_packages(folder: &Path) -> bool {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
     entries.take(MOST_ENTRIES).any(|entry| entry.path().extension().is_some_and(|e| e == "dist-info"))
 }
 
-/// More entries of a folder are not looked at.
+/// Maximum number of entries of a folder that are read.
 const MOST_ENTRIES: usize = 100_000;
 
 #[cfg(test)]
@@ -199,7 +200,7 @@ mod tests {
         for name in ["../secret", "/etc/passwd", "link", "ball.xml", ""] {
             assert_eq!(models.path(name), None, "{name}");
         }
-        // Beside a lesson the lesson's folder is the root, and what is linked lies below it.
+        // Beside a lesson, the folder of the lesson is the root, and the linked file is below it.
         let near = ModelFolder::near(&outside.path().join("lesson.md"));
         assert_eq!(near.names().unwrap(), ["ball", "link"]);
     }
@@ -210,14 +211,14 @@ mod tests {
         let top = outer.path().canonicalize().unwrap();
         let models = top.join("course/week/models");
         std::fs::create_dir_all(&models).unwrap();
-        // Nothing is known: the models' own folder, or the folder that was named and holds it.
+        // Without markers: the folder of the models, or the named folder that contains it.
         assert_eq!(root_of(&models, &[]), models);
         assert_eq!(
             root_of(&models, &[top.join("course/week"), top.join("elsewhere")]),
             top.join("course/week")
         );
         assert_eq!(root_of(&models, &[top.join("course"), top.join("course/week")]), top.join("course"));
-        // A package that is unpacked, a repository; the file that says so wins wherever it is.
+        // An unpacked package, then a repository; `labspec.toml` takes precedence wherever it is.
         std::fs::create_dir(top.join("course/robot-1.0.dist-info")).unwrap();
         assert_eq!(root_of(&models, &[]), top.join("course"));
         std::fs::create_dir(top.join("course/week/.git")).unwrap();

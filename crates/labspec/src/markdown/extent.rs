@@ -1,23 +1,23 @@
-//! How far a JSON value reaches, in text that may be damaged: brackets are counted outside of strings, and
-//! strings may be quoted typographically.
+//! Finds the end of a JSON value in possibly damaged text: brackets are counted outside of strings, and strings may have
+//! typographic quotes.
 
-/// What opens or closes a string.
+/// Whether a character opens or closes a string.
 pub(super) fn is_quote(c: char) -> bool {
     c == '"' || is_typographic(c)
 }
 
-/// Quotes that word processors write.
+/// Whether a character is a quote of word processors.
 pub(crate) fn is_typographic(c: char) -> bool {
     matches!(c, '“' | '”' | '„' | '‟' | '‘' | '’' | '‚' | '‛')
 }
 
-/// Single ones close single ones only, so that an apostrophe does not end a text.
+/// Whether a quote is a single one. Single ones close only single ones, so that an apostrophe does not end a text.
 fn is_single(c: char) -> bool {
     matches!(c, '‘' | '’' | '‚' | '‛')
 }
 
-/// Where the string ends whose quote stands at `open`: the bytes of its closing quote, which are empty at a
-/// line break or at the end of the text (JSON strings do not cross lines).
+/// The range of the closing quote of the string whose opening quote is at `open`. It is empty at a line break or at the end
+/// of the text (JSON strings do not contain line breaks).
 pub(super) fn string_end(text: &str, open: usize) -> std::ops::Range<usize> {
     let opening = text.get(open..).and_then(|t| t.chars().next()).unwrap_or('"');
     let mut at = open + opening.len_utf8();
@@ -30,7 +30,7 @@ pub(super) fn string_end(text: &str, open: usize) -> std::ops::Range<usize> {
                 continue;
             }
             '"' if opening == '"' => return at..next,
-            // Inside typographic quotes other quotes may stand; the closing one has JSON behind it.
+            // A string in typographic quotes may contain other quotes; after the closing one, JSON continues.
             _ if opening != '"'
                 && is_quote(c)
                 && is_single(c) == is_single(opening)
@@ -45,9 +45,9 @@ pub(super) fn string_end(text: &str, open: usize) -> std::ops::Range<usize> {
     text.len()..text.len()
 }
 
-/// Whether this is how JSON goes on behind a string.
+/// Whether JSON continues here after a string.
 fn json_follows(rest: &str) -> bool {
-    // What matters stands within a few characters; a long run of spaces must not be walked again and again.
+    // A few characters are sufficient, and a long run of spaces must not be read repeatedly.
     let mut chars = rest.chars().take(200).skip_while(|c| c.is_whitespace());
     match chars.next() {
         None | Some(':' | ']' | '}') => true,
@@ -61,7 +61,7 @@ fn json_follows(rest: &str) -> bool {
     }
 }
 
-/// The end of the object or list that `text` begins with (after spaces); `None` when it has no end.
+/// The end of the object or list at the beginning of `text` (after spaces); `None` when it has no end.
 pub(super) fn json_end(text: &str) -> Option<usize> {
     let mut at = text.len() - text.trim_start().len();
     let mut depth = 0usize;

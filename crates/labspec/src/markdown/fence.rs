@@ -1,4 +1,4 @@
-//! One fence: which kind a misspelt one was meant to have, whether it is closed, and where a damaged one really ends.
+//! A single fence: the intended kind of a misspelt one, whether it is closed, and the real end of a damaged one.
 
 use super::loose::bare_json;
 use super::opener::{Opener, opener};
@@ -6,7 +6,7 @@ use super::{BlockKind, extent};
 use labspec_finding::nearest;
 use std::ops::Range;
 
-/// `lab` or `quiz`, where a fence says so in the way of another Markdown dialect: ```{lab}, ```{.lab}, ```json lab.
+/// `lab` or `quiz`, if a fence is written in another Markdown dialect: ```{lab}, ```{.lab}, ```json lab.
 fn in_other_words(words: &[String]) -> Option<&'static str> {
     let bare =
         |word: &String| word.trim_start_matches(['{', '.']).trim_end_matches([',', '}']).to_ascii_lowercase();
@@ -18,7 +18,7 @@ fn in_other_words(words: &[String]) -> Option<&'static str> {
     }
 }
 
-/// `lab` or `quiz`, where the word is made of ours alone: `lab-simlab`, `simlab`, `labs`, `quizzes`.
+/// `lab` or `quiz`, if the word consists only of our words: `lab-simlab`, `simlab`, `labs`, `quizzes`.
 fn joined_or_plural(language: &str) -> Option<&'static str> {
     let language = language.to_ascii_lowercase();
     let ours = |word: &str| match word {
@@ -32,7 +32,7 @@ fn joined_or_plural(language: &str) -> Option<&'static str> {
     if kinds.contains(&"quiz") { Some("quiz") } else { kinds.first().copied() }
 }
 
-/// The kind that a misspelt fence was meant to have, and how it is written.
+/// The intended kind of a misspelt fence, and its spelling.
 pub(super) fn meant(open: &Opener, kind: &BlockKind, body: &str) -> Option<(&'static str, BlockKind)> {
     let lab = ("lab simlab", BlockKind::Lab("simlab".into()));
     let quiz = ("quiz", BlockKind::Quiz);
@@ -53,7 +53,7 @@ pub(super) fn meant(open: &Opener, kind: &BlockKind, body: &str) -> Option<(&'st
                 None => {}
             }
             match nearest(language, ["lab", "quiz", "simlab"])? {
-                // A language of a similar name is none of our business, unless it holds what we know.
+                // A language with a similar name is not reported, unless the fence contains a lab or a quiz.
                 _ if bare_json(body).next().is_none() => None,
                 "quiz" => Some(quiz),
                 _ => Some(lab),
@@ -71,15 +71,15 @@ pub(super) fn is_closed(text: &str, span: &Range<usize>, open: &Opener) -> bool 
     last.len() >= open.count && last.chars().all(|c| c == open.mark)
 }
 
-/// Where a damaged block ends, in bytes of its body.
+/// The end of a damaged block, in bytes of its body.
 pub(super) struct Cut {
-    /// End of what belongs to the block.
+    /// End of the content of the block.
     pub(super) end: usize,
     /// Where the rest of the lesson begins, if there is any.
     pub(super) resume: Option<usize>,
 }
 
-/// The first line of a body that opens another fence, which the fence around it should not contain.
+/// The first line of a body that opens another fence, which the outer fence should not contain.
 fn inner_opener(body: &str, open: &Opener, any_word: bool) -> Option<usize> {
     let mut at = 0;
     for line in body.split_inclusive('\n') {
@@ -100,13 +100,13 @@ fn inner_opener(body: &str, open: &Opener, any_word: bool) -> Option<usize> {
     None
 }
 
-/// Where a lab or a quiz ends that lost its closing line. `None` when nothing is wrong.
+/// The end of a lab or a quiz without its closing line. `None` when nothing is wrong.
 pub(super) fn cut_json(body: &str, open: &Opener, closed: bool) -> Option<Cut> {
     let inner = inner_opener(body, open, true);
     let object = extent::json_end(body);
     if closed && inner.is_none() {
-        // The fence was closed, perhaps by a line that was meant to open another one: then prose follows the
-        // object on lines of its own.
+        // The fence is closed, possibly by a line that opens another fence. In that case, prose follows the object on
+        // separate lines.
         let end = object?;
         let below = body.get(end..)?;
         let next_line = below.find('\n').map(|i| end + i + 1)?;
@@ -132,7 +132,7 @@ pub(super) fn cut_json(body: &str, open: &Opener, closed: bool) -> Option<Cut> {
     None
 }
 
-/// Where a listing ends that lost its closing line. `None` when nothing is wrong, or nothing follows.
+/// The end of a listing without its closing line. `None` when nothing is wrong, or nothing follows.
 pub(super) fn cut_listing(body: &str, open: &Opener, closed: bool) -> Option<Cut> {
     let mut end = inner_opener(body, open, false);
     if end.is_none() && !closed {

@@ -1,17 +1,17 @@
-//! HTML as tokens with their places: text, entities and tags, read by the tokenizer of the `html5gum` crate (WHATWG HTML, section
-//! 13.2.5) in time linear in the text. Comments and declarations are left out.
+//! HTML as tokens with their spans: text, entities and tags, read by the tokenizer of the `html5gum` crate (WHATWG HTML,
+//! section 13.2.5) in linear time. Comments and declarations are left out.
 
 use html5gum::emitters::{Emitter, ForwardingEmitter};
 use html5gum::{DefaultEmitter, Error, HtmlString, Span, Spanned, State, Token, Tokenizer};
 use std::collections::VecDeque;
 use std::ops::Range;
 
-/// A piece of HTML.
+/// A token of HTML.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum HtmlToken {
-    /// Text as it stands at these bytes.
+    /// Verbatim text with this range.
     Text(Range<usize>),
-    /// Text that stands for other bytes: of `&lt;` a `<`.
+    /// Decoded text, and the range of its source: `<` for `&lt;`.
     Decoded(String, Range<usize>),
     /// A tag.
     Tag(HtmlTag),
@@ -20,20 +20,20 @@ pub(crate) enum HtmlToken {
 /// A start tag or an end tag.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct HtmlTag {
-    /// Its bytes.
+    /// Its range.
     pub(crate) at: Range<usize>,
     /// Its name in lower case.
     pub(crate) name: String,
-    /// It is an end tag.
+    /// Whether it is an end tag.
     pub(crate) closing: bool,
-    /// Its attributes, the first of each name, with entities decoded.
+    /// Its attributes with decoded entities; for equal names, the first.
     pub(crate) attributes: Vec<(String, String)>,
 }
 
-/// The tokens of a text, in order. A tag that the end of the text cuts off is a tag without attributes.
+/// The tokens of a text, in order. A tag that is truncated by the end of the text is a tag without attributes.
 pub(crate) fn tokens(html: &str) -> Vec<HtmlToken> {
     let mut inner = DefaultEmitter::new_with_span();
-    // What stands in a script or a style is no tag.
+    // The content of a script or a style contains no tags.
     inner.naively_switch_states(true);
     let emitter = TextSpans { inner, position: 0, text_start: 0, tag_start: 0, ready: VecDeque::new() };
     let mut all: Vec<HtmlToken> = Vec::new();
@@ -75,7 +75,7 @@ fn text_token(html: &str, text: &Spanned<HtmlString>) -> HtmlToken {
     let at = text.span.start..text.span.end;
     let before = html.as_bytes().get(at.clone()).and_then(|bytes| bytes.strip_suffix(text.value.as_slice()));
     match before {
-        // Of a line end `\r\n`, the second half belongs to what follows.
+        // In a line end `\r\n`, the second character belongs to the following text.
         Some(before) if before.is_empty() || before == b"\n" => {
             HtmlToken::Text(at.start + before.len()..at.end)
         }
@@ -87,7 +87,7 @@ fn tag_token(span: Span, name: &HtmlString, closing: bool, attributes: Vec<(Stri
     HtmlToken::Tag(HtmlTag { at: span.start..span.end, name: string(name), closing, attributes })
 }
 
-/// The tag that the end of a text cuts off.
+/// The tag that is truncated by the end of the text.
 fn cut_tag(html: &str, span: Span) -> HtmlToken {
     let inside = html.get(span.start + 1..).unwrap_or("");
     let name = inside.strip_prefix('/').unwrap_or(inside).split([' ', '\t', '\n', '\r', '/']).next();
@@ -95,11 +95,11 @@ fn cut_tag(html: &str, span: Span) -> HtmlToken {
     tag_token(span, &name, inside.starts_with('/'), Vec::new())
 }
 
-/// Emits what the emitter of the crate does, but each piece of text by itself, with its place.
+/// An emitter like that of the crate, but with separate pieces of text and their spans.
 struct TextSpans {
     inner: DefaultEmitter<usize>,
     position: usize,
-    /// Where the next piece of text begins, and the last tag.
+    /// The start of the next piece of text, and of the last tag.
     text_start: usize,
     tag_start: usize,
     ready: VecDeque<Token<usize>>,
@@ -151,7 +151,7 @@ impl ForwardingEmitter for TextSpans {
 mod tests {
     use super::*;
 
-    /// The tokens of a text, each as it stands there; what is decoded with its meaning, tags in brackets.
+    /// The tokens of a text with their source, decoded text with its value, and tags in brackets.
     fn read(html: &str) -> Vec<String> {
         let slice = |at: &Range<usize>| html[at.clone()].to_string();
         let one = |token: &HtmlToken| match token {

@@ -1,4 +1,4 @@
-//! Labs and quizzes that stand in the text without a fence that Markdown sees.
+//! Labs and quizzes in the text without a fence that Markdown recognizes.
 
 use super::Problem;
 use super::opener::opener;
@@ -6,12 +6,12 @@ use super::{Block, BlockKind, Scan, extent, line_start};
 use crate::source::{SourceMap, Text};
 use std::ops::Range;
 
-/// Most bytes that one loose object may have.
+/// Maximum number of bytes of one such object.
 const MAX_OBJECT: usize = 256 << 10;
-/// Most lines of a file that are tried.
+/// Maximum number of lines of a file that are tried.
 const MAX_TRIES: usize = 50;
 
-/// A JSON object that begins a line and has the keys of a lab or a quiz.
+/// A JSON object at the beginning of a line with the keys of a lab or a quiz.
 pub(super) struct Bare {
     /// Start of its line.
     pub(super) line: usize,
@@ -55,7 +55,7 @@ pub(super) fn bare_json(text: &str) -> impl Iterator<Item = Bare> {
     })
 }
 
-/// The nearest character boundary at or behind an offset.
+/// The nearest character boundary at or after an offset.
 fn ceil(text: &str, mut at: usize) -> usize {
     while at < text.len() && !text.is_char_boundary(at) {
         at += 1;
@@ -63,14 +63,14 @@ fn ceil(text: &str, mut at: usize) -> usize {
     at.min(text.len())
 }
 
-/// Finds what stands outside of all code, and adds it as blocks with their damage.
+/// Finds such objects outside of all code, and adds them as blocks with their problems.
 pub(super) fn find(text: &str, scan: &mut Scan) {
     let mut code = std::mem::take(&mut scan.code);
     code.sort_by_key(|r| r.start);
     let mut from = 0;
     let mut prose = Vec::new();
     for range in &code {
-        // A block begins behind its indentation; the line is what counts.
+        // A block begins after its indentation; the start of the line is needed.
         let start = line_start(text, range.start);
         if start > from {
             prose.push(from..start);
@@ -90,8 +90,8 @@ pub(super) fn find(text: &str, scan: &mut Scan) {
     }
 }
 
-/// The first opening line of a lab or a quiz within a paragraph or within HTML, where Markdown does not see it:
-/// takes its object in and returns where to go on reading.
+/// Processes the first opening line of a lab or a quiz within a paragraph or within HTML, where Markdown does not recognize
+/// it. Adds its object, and returns where to resume.
 pub(super) fn unseen_fence(text: &str, within: Range<usize>, scan: &mut Scan) -> Option<usize> {
     let mut at = within.start;
     for line in text.get(within)?.split_inclusive('\n') {
@@ -110,7 +110,7 @@ pub(super) fn unseen_fence(text: &str, within: Range<usize>, scan: &mut Scan) ->
         let after = text.get(from..ceil(text, from.saturating_add(MAX_OBJECT)))?;
         let Some(end) = extent::json_end(after).map(|end| from + end) else { return Some(at) };
         let object = from + after.len() - after.trim_start().len()..end;
-        // The line that was meant to close it would now open a fence.
+        // The intended closing line would now open a fence.
         let mut resume = text.get(end..)?.find('\n').map_or(text.len(), |i| end + i + 1);
         let next = text.get(resume..)?.split_inclusive('\n').next().unwrap_or("");
         if next.trim() == open.closing() {
@@ -124,7 +124,7 @@ pub(super) fn unseen_fence(text: &str, within: Range<usize>, scan: &mut Scan) ->
     None
 }
 
-/// Opening lines of labs and quizzes within an indented code block: Markdown shows such lines as they are.
+/// Reports opening lines of labs and quizzes within an indented code block, which Markdown displays verbatim.
 pub(super) fn indented_fence(text: &str, within: Range<usize>, scan: &mut Scan) {
     let mut at = within.start;
     let lines = text.get(within).unwrap_or("").split_inclusive('\n');
@@ -132,7 +132,8 @@ pub(super) fn indented_fence(text: &str, within: Range<usize>, scan: &mut Scan) 
         let start = at;
         at += line.len();
         let Some(open) = opener(text, start) else { continue };
-        // A page that explains the format shows a fence like this; what holds a lab was meant to be one.
+        // A page that explains the format may display a fence like this. It is reported only if it contains a lab or a
+        // quiz.
         let below = text.get(at..ceil(text, at.saturating_add(200))).unwrap_or("").trim_start();
         let holds_json =
             below.strip_prefix('{').is_some_and(|t| t.trim_start().starts_with(extent::is_quote));

@@ -1,9 +1,9 @@
-//! Fences of a Markdown lesson, with exact places, from files as authors really send them.
+//! The fences of a Markdown lesson with exact spans, from files as authors really send them.
 //!
-//! CommonMark (through pulldown-cmark) decides what a fence is. Then every block is looked at for damage that
-//! text editors, chat windows and converters do: closing lines that are lost, so that a fence swallows the
-//! rest of the file; JSON or a listing on the opening line; typographic quotes. Damage is reported where it is,
-//! and reading goes on behind it, so that one lost line does not hide ten mistakes.
+//! CommonMark (through pulldown-cmark) decides what a fence is. Then every block is examined for damage by text editors,
+//! chat windows and converters: missing closing lines, so that a fence contains the rest of the file; JSON or a listing on
+//! the opening line; typographic quotes. Damage is reported at its location, and reading continues after it, so that one
+//! missing line does not hide ten errors.
 
 mod extent;
 mod fence;
@@ -20,17 +20,18 @@ use opener::opener;
 use pulldown_cmark::{CodeBlockKind, Event, Parser, Tag, TagEnd};
 use std::ops::Range;
 
-/// Most blocks in a lesson.
+/// Maximum number of blocks in a lesson.
 pub const MAX_BLOCKS: usize = 2000;
-/// Most bytes that are read again after damage. Every damaged fence means one more pass over what follows it.
+/// Maximum number of bytes that are read again after damage. Every damaged fence requires another pass over the text after
+/// it.
 const MAX_REREAD: usize = 64 << 20;
-/// Most characters of markup in a lesson: the Markdown parser keeps some sixty bytes for each.
+/// Maximum number of markup characters in a lesson: the Markdown parser stores about sixty bytes for each.
 pub(crate) const MAX_MARKUP: usize = 4 << 20;
 
-/// What a fence holds.
+/// The content of a fence.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum BlockKind {
-    /// A lab, with the name of its widget; ours is `simlab`.
+    /// A lab, with the name of its widget; that of labspec is `simlab`.
     Lab(String),
     /// A quiz.
     Quiz,
@@ -38,7 +39,7 @@ pub enum BlockKind {
     Code {
         /// First word of the info string, such as `python`.
         language: String,
-        /// The file of the course that is shown, from `file=PATH`.
+        /// The displayed file of the course, from `file=PATH`.
         file: Option<String>,
     },
 }
@@ -46,50 +47,50 @@ pub enum BlockKind {
 /// A fence.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Block {
-    /// What it holds.
+    /// Its content.
     pub kind: BlockKind,
-    /// Bytes of the file, fence lines included.
+    /// Bytes of the file, including fence lines.
     pub span: Range<usize>,
     /// Bytes of the opening line, up to where JSON or a listing begins on it.
     pub info: Range<usize>,
-    /// What stands inside, without the prefixes of quotes and lists.
+    /// The text inside, without the prefixes of quotes and lists.
     pub body: Text,
-    /// Whether its end is known: it is closed, and nothing was cut off.
+    /// Whether its end is known: it is closed, and not truncated.
     pub whole: bool,
 }
 
-/// A link, or a picture.
+/// A link, or an image.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Link {
-    /// Where it leads to, as it is written.
+    /// Its target, as written.
     pub target: String,
     /// Bytes of the file.
     pub span: Range<usize>,
-    /// A picture.
+    /// Whether it is an image.
     pub image: bool,
 }
 
-/// What is wrong with the fences of a lesson. What is said about it, and how it is repaired, is the business of `lint`.
+/// A problem of the fences of a lesson. `lint` contains the messages and the repairs.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Problem {
-    /// More characters of markup than are read.
+    /// The number of markup characters exceeds the limit.
     TooMuchMarkup,
-    /// More fences, or more damaged ones, than are read; from this byte on, nothing was.
+    /// The number of fences, or of damaged ones, exceeds the limit; nothing was read from this byte on.
     TooManyBlocks(usize),
-    /// A fence that was meant to be another kind.
+    /// A fence that was intended to be of another kind.
     Misspelt {
         /// Its opening line.
         open: Opener,
-        /// What was meant.
+        /// The intended kind.
         right: String,
     },
-    /// JSON or code stands on the opening line.
+    /// JSON or code on the opening line.
     TextOnLine {
         /// The opening line.
         open: Opener,
-        /// What stands behind its kind.
+        /// The text after its kind.
         rest: Range<usize>,
-        /// What the fence holds.
+        /// The content of the fence.
         kind: BlockKind,
     },
     /// The closing line is missing.
@@ -98,42 +99,42 @@ pub enum Problem {
         open: Opener,
         /// Where the content ends.
         end: usize,
-        /// Where the lesson goes on.
+        /// Where the lesson continues.
         resume: Option<usize>,
-        /// What the fence holds.
+        /// The content of the fence.
         kind: BlockKind,
     },
     /// A lab or a quiz without any fence.
     Missing {
         /// Its bytes.
         object: Range<usize>,
-        /// What it is.
+        /// Its kind.
         kind: BlockKind,
     },
-    /// A fence that Markdown does not see.
+    /// A fence that Markdown does not recognize.
     Unseen(Opener),
     /// A fence that is indented like code.
     Indented(Opener),
 }
 
-/// The blocks of a lesson in order, and what is wrong with them.
+/// The blocks of a lesson in order, and their problems.
 #[derive(Clone, Debug, Default)]
 pub struct Scan {
     /// The blocks.
     pub blocks: Vec<Block>,
-    /// Damage.
+    /// The problems.
     pub problems: Vec<Problem>,
     /// HTML in the prose.
     pub html: Vec<Range<usize>>,
-    /// Paragraphs: prose, with the markup that stands in it.
+    /// Paragraphs of prose, including their markup.
     pub paragraphs: Vec<Range<usize>>,
-    /// Code that stands in prose.
+    /// Inline code in prose.
     pub inline_code: Vec<Range<usize>>,
-    /// Headings, with their marks.
+    /// Headings, including their marks.
     pub headings: Vec<Range<usize>>,
-    /// Links and pictures, in order.
+    /// Links and images, in order.
     pub links: Vec<Link>,
-    /// Every stretch that is code and therefore not prose.
+    /// Every range that is code and therefore not prose.
     code: Vec<Range<usize>>,
 }
 
@@ -163,7 +164,7 @@ pub fn scan(file: &SourceFile) -> Scan {
     scan
 }
 
-/// One pass from `from`. Returns where to go on reading, if a damaged fence had to be cut off.
+/// One pass from `from`. Returns where to resume if a damaged fence was truncated.
 fn pass(text: &str, from: usize, scan: &mut Scan) -> Option<usize> {
     let mut raw: Option<(Range<usize>, Text)> = None;
     for (event, range) in Parser::new(text.get(from..)?).into_offset_iter() {
@@ -205,7 +206,7 @@ fn pass(text: &str, from: usize, scan: &mut Scan) -> Option<usize> {
                 scan.links.push(Link { target: dest_url.to_string(), span: range, image: true });
             }
             Event::Code(_) => scan.inline_code.push(range),
-            // A comment over several lines comes line by line.
+            // A comment over several lines is reported line by line.
             Event::Html(_) | Event::InlineHtml(_) => match scan.html.last_mut() {
                 Some(last) if last.end == range.start => last.end = range.end,
                 _ => scan.html.push(range),
@@ -216,9 +217,9 @@ fn pass(text: &str, from: usize, scan: &mut Scan) -> Option<usize> {
     None
 }
 
-/// Adds a piece of a block: the bytes of the file, or what the Markdown parser made of them (tabs, line ends).
+/// Appends a piece of a block: the bytes of the file, or their Markdown replacement (tabs, line ends).
 fn append(text: &str, body: &mut Text, part: &str, range: Range<usize>) {
-    // The parser leaves out the `\r` of a line end: `\n` stands for both, so that no place lies between them.
+    // The parser omits the `\r` of a line end. `\n` represents both, so that no position is between them.
     let returned = range.start.checked_sub(1).is_some_and(|at| text.get(at..range.start) == Some("\r"));
     if let Some(rest) = part.strip_prefix('\n').filter(|_| returned) {
         body.value.push('\n');
@@ -236,7 +237,7 @@ fn append(text: &str, body: &mut Text, part: &str, range: Range<usize>) {
     }
 }
 
-/// Takes in a fence. Returns where to go on reading when it had to be cut off.
+/// Adds a fence. Returns where to resume when it was truncated.
 fn block(text: &str, span: Range<usize>, body: Text, scan: &mut Scan) -> Option<usize> {
     let Some(open) = opener(text, span.start) else {
         scan.code.push(span);
@@ -275,7 +276,7 @@ fn block(text: &str, span: Range<usize>, body: Text, scan: &mut Scan) -> Option<
     resume
 }
 
-/// The body with the text that stands on the opening line in front of it, if there is any.
+/// The body, preceded by the text on the opening line, if there is any.
 fn with_first_line(text: &str, open: &Opener, body: Text) -> Text {
     let Some(rest) = open.rest.clone() else { return body };
     let mut whole = Text { value: String::new(), map: SourceMap::default() };
@@ -292,7 +293,7 @@ fn with_first_line(text: &str, open: &Opener, body: Text) -> Text {
     whole
 }
 
-/// The start of the line that a byte stands on.
+/// The start of the line that contains a byte.
 fn line_start(text: &str, at: usize) -> usize {
     text.get(..at).and_then(|before| before.rfind('\n')).map_or(0, |newline| newline + 1)
 }

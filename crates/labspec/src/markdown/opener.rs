@@ -1,4 +1,4 @@
-//! The opening line of a fence: its marks, its words, and what stands on it that belongs below.
+//! The opening line of a fence: its marks, its words, and misplaced text.
 
 use super::{BlockKind, line_start};
 use std::ops::Range;
@@ -8,20 +8,20 @@ use std::ops::Range;
 pub struct Opener {
     /// The fence character.
     pub(super) mark: char,
-    /// How many of them.
+    /// Their number.
     pub(super) count: usize,
-    /// Bytes of the line from the first mark, without its end.
+    /// Bytes of the line from the first mark, without the line end.
     pub(crate) line: Range<usize>,
-    /// Bytes of the marks and the info string, without what does not belong there.
+    /// Bytes of the marks and the info string, without misplaced text.
     pub(crate) head: Range<usize>,
     /// Words of the info string.
     pub(super) words: Vec<String>,
-    /// Bytes of JSON or code that stands on this line and belongs below it.
+    /// Bytes of JSON or code on this line that belongs on the next line.
     pub(crate) rest: Option<Range<usize>>,
 }
 
 impl Opener {
-    /// What the fence holds.
+    /// The content of the fence.
     pub(crate) fn kind(&self) -> BlockKind {
         match self.words.first().map(String::as_str) {
             Some("lab") => BlockKind::Lab(self.words.get(1).cloned().unwrap_or_else(|| "simlab".into())),
@@ -33,7 +33,7 @@ impl Opener {
         }
     }
 
-    /// What the lines below the opening line begin with: the `> ` of a quote, the indentation of a list.
+    /// The prefix of the lines after the opening line: the `> ` of a quote, the indentation of a list.
     pub(crate) fn prefix(&self, text: &str) -> String {
         let line = line_start(text, self.line.start);
         let before = text.get(line..self.line.start).unwrap_or("");
@@ -46,7 +46,7 @@ impl Opener {
     }
 }
 
-/// Reads the opening line that begins at `at` (perhaps indented).
+/// Reads the opening line that begins at `at` (possibly indented).
 pub(super) fn opener(text: &str, at: usize) -> Option<Opener> {
     let line = text.get(at..)?.lines().next()?;
     let start = at + line.len() - line.trim_start().len();
@@ -66,7 +66,7 @@ pub(super) fn opener(text: &str, at: usize) -> Option<Opener> {
     Some(Opener { mark, count, line: start..end, head: start..start + head.len(), words, rest })
 }
 
-/// Where in an info string something begins that is no info: the JSON of a lab or quiz, or a listing.
+/// The index in an info string where other text begins: the JSON of a lab or quiz, or a listing.
 fn belongs_below(info: &str) -> Option<usize> {
     let first = info.split_whitespace().next()?;
     if first == "lab" || first == "quiz" || first.starts_with("lab{") || first.starts_with("quiz{") {
@@ -75,7 +75,7 @@ fn belongs_below(info: &str) -> Option<usize> {
     if first.starts_with("{.") || first.starts_with("{lab") || first.starts_with("{quiz") {
         return None;
     }
-    // Attributes are words, key=value pairs and {…}; anything else is code.
+    // Attributes are words, key=value pairs and {…}; other text is code.
     let mut at = info.len() - info.trim_start().len() + first.len();
     let mut plain = 0;
     let mut candidate = None;
@@ -91,12 +91,12 @@ fn belongs_below(info: &str) -> Option<usize> {
         }
         at = begin + word.len();
     }
-    // One or two plain words after the language are common (`title`, `numbered`); a listing has more. Behind the
-    // name of a file, nothing but a listing is left.
+    // One or two plain words after the language are common (`title`, `numbered`); a listing has more. After a file name,
+    // only a listing can follow.
     candidate.filter(|_| plain >= if info.contains("file=") { 2 } else { 3 })
 }
 
-/// Whether these are the attributes of some Markdown dialects, `{.class #id key=value}`, and no JSON.
+/// Whether a text contains attributes of some Markdown dialects, `{.class #id key=value}`, and not JSON.
 fn is_attributes(text: &str) -> bool {
     let Some(inside) =
         text.strip_prefix('{').and_then(|t| t.split_once('}')).map(|(inside, _)| inside.trim())

@@ -7,12 +7,13 @@ use nom::combinator::{fail, recognize};
 use nom::sequence::preceded;
 use nom::{IResult, Parser};
 
-/// The name of the command that a text begins with: letters, or one other character; none where the text ends at its backslash.
+/// The name of the command at the beginning of a text: letters, or one other character; empty where the text ends after its
+/// backslash.
 pub(crate) fn command(text: &str) -> IResult<&str, &str> {
     preceded(char('\\'), alt((alpha1, recognize(take(1_usize)), tag("")))).parse(text)
 }
 
-/// What stands between braces that close after so many bytes at most.
+/// The text between braces, with at most `longest` bytes.
 pub(crate) fn group(text: &str, longest: usize) -> IResult<&str, &str> {
     let (inside, _) = char('{').parse(text)?;
     let mut depth = 1_usize;

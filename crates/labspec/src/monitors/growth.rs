@@ -1,114 +1,121 @@
-//! Growth: whether a running simulation gains energy that nothing gave it.
+//! Growth: detects that a running simulation gains energy that no force supplied.
 //!
-//! Where inputs stand still, the equations of motion lose energy or keep it. With the kinetic energy ½ vᵀ M v and the potential
-//! V of gravity, springs and servos,
+//! With constant inputs, the equations of motion conserve or dissipate energy. With the kinetic energy ½ vᵀ M v and the
+//! potential V of gravity, springs and servos,
 //!
 //! > d/dt (½ vᵀ M v + V) = -(power of dampers and friction) + (power of constraints) ≤ 0,
 //!
-//! as constraints give back no more than they took or were given by the start. What a run has beyond that was made by its
-//! steps. A step that is short enough makes little, and the energy of a symplectic method oscillates about its start (Hairer,
-//! Lubich, Wanner, "Geometric Numerical Integration", chapter IX): widely just below its limit. What can be there at a moment
-//! is what the start held, with what gravity, springs and servos have given since or hold now. A gain is growth when it lifts
-//! everything by a quarter of the size of the scene, and
+//! because constraints return at most the energy that they absorbed or that the initial state gave them. Any energy beyond
+//! that was created by the integrator. A sufficiently short timestep creates little. The energy of a symplectic method
+//! oscillates about its initial value (Hairer, Lubich, Wanner, "Geometric Numerical Integration", chapter IX), with a large
+//! amplitude just below the stability limit. The available energy at a time is the initial energy, plus the energy that
+//! gravity, springs and servos have released since or store now. A gain is reported as growth when it could lift all bodies
+//! by a quarter of the size of the scene, and in addition
 //!
-//! * in one step is three times what can be there; near the limit of a spring or a servo, 1.5 times the swing that follows (see
-//!   [`stability::swing`]), ten times at most;
-//! * or is once that for 32 steps, or a thousand times what was there besides what springs hold.
+//! * the gain within one step is three times the available energy; near the stability limit of a spring or a servo the
+//!   factor is 1.5 times the energy ratio of its oscillation (see [`stability::swing`]), at most ten;
+//! * or the gain exceeds the available energy for 32 steps, or is a thousand times the available energy without the energy
+//!   of springs.
 //!
-//! To know the energy takes a good part of a step. So it is first asked whether anything is fast enough: with m_k on the diagonal of M,
+//! Computing the energy costs a considerable part of a step. The monitor therefore first tests a bound on the kinetic
+//! energy. With m_k on the diagonal of M,
 //!
 //! > ½ vᵀ M v ≤ ½ (Σ √m_k |v_k|)²,
 //!
-//! as |M_jk| ≤ √(m_j m_k). What was made from nothing comes by as motion, once in each swing at least; while this bound is below half of
-//! the smallest gain that counts, nothing else is computed (half, because m_k are those of an earlier look), nor for three steps after
-//! a look that saw no gain worth mentioning, while the bound is no more than 2.25 times what it was: in them no gain becomes three
-//! times what can be there.
+//! because |M_jk| ≤ √(m_j m_k). Energy that the integrator creates appears as kinetic energy at least once per oscillation.
+//! While this bound is below half of the smallest reportable gain, the monitor computes nothing else. The factor is one
+//! half because m_k are values of an earlier evaluation. The monitor also skips three steps after an evaluation that found
+//! only a small gain, while the bound is at most 2.25 times its value at that evaluation: within these steps no gain
+//! reaches three times the available energy.
 //!
-//! A step in which something turns by more than half a turn does not follow that motion at all: where nothing is elastic, a gain
-//! that is seen a few times there is growth, whether it lasts or not. A pendulum at a step of a second throws itself about like this.
+//! A step in which a body rotates by more than half a turn cannot resolve the motion. If nothing in the scene is elastic, a
+//! gain that is observed a few times in such steps is growth, whether it persists or not. An example is a pendulum with a
+//! timestep of one second.
 //!
-//! A joint whose damping is below zero is a motor without end: what it gives is a gain like any other, and is reported by its
-//! name. (Where the damping becomes positive at larger speeds, as in an oscillator that keeps itself going, the end is there, and
-//! the watch is over.)
+//! A joint with negative damping is an unlimited motor. The energy that it supplies is a gain like any other and is
+//! reported with the name of the joint. If the damping becomes positive at larger speeds, as in a self-sustained
+//! oscillator, the energy is bounded, and the monitor stops.
 //!
-//! A servo or motor without states pulls along its length x with the force clip(a - k x), whose potential is closed. Whatever
-//! else may feed a scene (other actuators, applied forces, wind, moving surfaces, other dampers that push) ends the watch: a
-//! false alarm is worse than none.
+//! A servo or motor without states acts along its length x with the force clip(a - k x), which has a potential in closed
+//! form. The monitor stops if anything else can supply energy (other actuators, applied forces, wind, moving surfaces,
+//! other dampers with negative coefficients), because a false alarm is worse than a missed report.
 
 use super::stability;
 use labspec_core::math::{MINVAL, norm, rows};
 use labspec_core::{Data, Energy, Fields, Model, Plan, Planned, Scope, disable, joint};
 use labspec_core::{exhausted, forward, limit, mass_matrix, mechanical_energy, mul_m, work_left};
 
-/// How many times what can be there a gain of one step has to be, at least and near the limit of a spring, and how many times
-/// the swing of the stiffest spring.
+/// Bounds of the factor by which the gain of one step must exceed the available energy: the usual value, and the largest
+/// value, which applies near the stability limit of a spring. `SWINGS` is the factor on the energy ratio of the stiffest
+/// spring.
 const SUDDEN: [f64; 2] = [3.0, 10.0];
 const SWINGS: f64 = 1.5;
-/// As many times what was there besides what springs hold is no swing of theirs.
+/// A gain of this factor times the available energy, without the energy of springs, cannot be an oscillation of a spring.
 const SURE: f64 = 1e3;
-/// How many times the size of the scene a gain lifts everything.
+/// The smallest reportable gain, as a fraction of the energy that lifts all bodies by the size of the scene.
 const LIFTS: f64 = 0.25;
-/// For how many steps a gain of once what can be there has to last.
+/// Number of steps for which a gain above the available energy must persist.
 const LASTS: u32 = 32;
-/// Steps without a look after one that saw a gain below this part of what can be there, while speeds are at most so many times
-/// as large.
+/// Number of steps that are skipped after an evaluation whose gain is below the fraction `CALM` of the available energy,
+/// while the speeds are at most `FASTER` times as large.
 const REST: u32 = 3;
 const CALM: f64 = 0.25;
 const FASTER: f64 = 1.5;
-/// An angle that no step follows, rad, and how often a gain has to be seen then.
+/// A rotation per step that a step cannot resolve, rad, and the number of gains in such steps that is reported.
 const TURN: f64 = std::f64::consts::PI;
 const LEAPS: u32 = 4;
-/// Motion that is less than this part of the smallest gain is not looked at. In scenes of more degrees of freedom than these
-/// the diagonal of M is taken anew after so many looks only.
+/// Motion below the fraction `SLOW` of the smallest reportable gain is not evaluated. In scenes with more than `FEW`
+/// degrees of freedom, the diagonal of M is recomputed only once per `LOOKS_PER_UPDATE` evaluations.
 const SLOW: f64 = 0.5;
 const FEW: usize = 12;
 const LOOKS_PER_UPDATE: u32 = 64;
-/// A scene at rest may drift by this part of its size in a second.
+/// Speed at which a scene at rest may drift, as a fraction of its size per second.
 const DRIFT: f64 = 0.01;
 
-/// Energy that nothing gave.
+/// A gain of energy that no force supplied.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Growth {
-    /// Since when, s.
+    /// Time at which the gain began, s.
     pub time: f64,
-    /// How much more there is than at the start when that is certain, J.
+    /// Energy gained since the start, at the time when the growth is certain, J.
     pub gain: f64,
-    /// What the start held, with the weight of everything lifted by the size of the scene, J.
+    /// Initial energy plus the energy that lifts all bodies by the size of the scene, J.
     pub held: f64,
-    /// The degree of freedom that moves with the largest part of it.
+    /// The degree of freedom with the largest part of the kinetic energy.
     pub dof: usize,
-    /// Where it comes from.
+    /// The source of the energy.
     pub source: Source,
 }
 
-/// Where energy comes from.
+/// The source of a gain of energy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Source {
-    /// The steps push farther than they miss.
+    /// The integrator: the force of a step overshoots by more than the deviation that it corrects.
     Steps,
-    /// The steps are so long that something turns by this angle in one, rad.
+    /// Long steps: a body rotates by this angle in one step, rad.
     LongSteps(f64),
-    /// A damper below zero, of this degree of freedom: it pushes.
+    /// The negative damping of this degree of freedom.
     Damper(usize),
 }
 
-/// What a run is held against: its start, and data of its own so that looking leaves the run alone.
+/// Monitors the energy of a run. It contains the initial energy, and separate data so that evaluations do not change the
+/// run.
 #[derive(Clone, Debug)]
 pub struct GrowthMonitor {
     copied: Data<Planned>,
     start: Option<StartEnergy>,
-    /// Roots of the diagonal of M, the largest that were seen, and looks until they are seen again.
+    /// Square roots of the diagonal of M, the largest observed values, and the number of evaluations until the next update.
     roots: Vec<f64>,
     looks_until_update: u32,
-    /// How large a sudden gain is, in parts of what can be there.
+    /// Factor by which the gain of one step must exceed the available energy.
     sudden: f64,
-    /// Steps without a look, and Σ √m_k |v_k| at the last one.
+    /// Number of steps to skip, and Σ √m_k |v_k| at the last evaluation.
     rest: u32,
     speed: f64,
-    /// Steps for which a gain has lasted, and the time of the first.
+    /// Number of steps for which a gain has persisted, and the time of the first.
     lasted: u32,
     since: f64,
-    /// How often a gain was seen in a step that nothing follows.
+    /// Number of gains observed in steps whose rotation exceeds `TURN`.
     leaps: u32,
     found: Option<Growth>,
 }
@@ -116,12 +123,12 @@ pub struct GrowthMonitor {
 #[derive(Clone, Copy, Debug)]
 struct StartEnergy {
     energy: Energy,
-    /// What it held, and what lifts everything by the size of the scene, J.
+    /// The initial energy, and the energy that lifts all bodies by the size of the scene, J.
     held: f64,
     lift: f64,
 }
 
-/// A watch over a run that is now at `d`. The only call that allocates.
+/// Starts monitoring a run in state `d`. This is the only function of the monitor that allocates.
 pub fn watch<S: Scope>(m: &Model, d: &Data<S>) -> GrowthMonitor {
     let mut w = GrowthMonitor {
         copied: Data::planned(m, Plan::awake()),
@@ -140,7 +147,7 @@ pub fn watch<S: Scope>(m: &Model, d: &Data<S>) -> GrowthMonitor {
     w
 }
 
-/// From here on what was is forgotten but for what was found: something from outside has changed the state or the model.
+/// Restarts the monitor in state `d` after the state or the model was changed from outside. A reported gain is kept.
 pub fn restart<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>) {
     (w.start, w.lasted, w.leaps, w.rest) = (None, 0, 0, 0);
     if m.nv == 0 || fed(m, d) {
@@ -163,13 +170,13 @@ pub fn restart<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>) {
     }
 }
 
-/// How large a sudden gain is, in parts of what can be there.
+/// Factor by which the gain of one step must exceed the available energy.
 fn sudden(m: &Model) -> f64 {
     let swing = SWINGS * stability::swing(m);
     if swing.is_finite() { swing.clamp(SUDDEN[0], SUDDEN[1]) } else { SUDDEN[1] }
 }
 
-/// Keeps the roots of the diagonal of M where they are larger than before.
+/// Updates the square roots of the diagonal of M where they have increased.
 fn update_inertia_scale(w: &mut GrowthMonitor, m: &Model) {
     w.looks_until_update = w.looks_until_update.saturating_sub(1);
     if w.looks_until_update > 0 {
@@ -188,13 +195,13 @@ fn update_inertia_scale(w: &mut GrowthMonitor, m: &Model) {
     }
 }
 
-/// To be called after each step: nothing of the run is touched, and little is done while nothing is fast.
+/// Call after each step. It does not modify the run, and it costs little while all motion is slow.
 #[inline]
 pub fn observe<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>) -> Option<Growth> {
     let Some(start) = w.start.filter(|_| w.found.is_none()) else { return w.found };
     let qvel = &d.fields().qvel;
     let speed: f64 = w.roots.iter().zip(qvel.iter()).map(|(root, v)| root * v.abs()).sum();
-    // What is no number is looked at.
+    // The comparison is false for NaN, so NaN is evaluated.
     if w.lasted == 0 && 0.5 * speed * speed < SLOW * (start.held + LIFTS * start.lift) {
         return None;
     }
@@ -206,7 +213,7 @@ pub fn observe<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>) -> Optio
     compare(w, m, d, start)
 }
 
-/// Holds what moves against the start.
+/// Compares the energy of the current state with that of the start.
 fn compare<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>, start: StartEnergy) -> Option<Growth> {
     let (copied, now) = (w.copied.fields(), d.fields());
     let same = copied.ctrl == now.ctrl
@@ -227,7 +234,7 @@ fn compare<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>, start: Start
     let there = held + given.max(now.elastic.abs());
     let pusher = pusher(m, d.fields());
     let sudden = if pusher.is_some() { 1.0 } else { w.sudden };
-    // A gain that is no number is not above anything.
+    // A gain of NaN exceeds no bound.
     let above = |times: f64, there: f64| gain > times * there + LIFTS * lift;
     let sure = gain > SURE * (held + given.max(0.0) + lift);
     let (seen, leapt) = (sure || above(1.0, there), sure || above(sudden, there));
@@ -236,7 +243,7 @@ fn compare<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>, start: Start
         w.lasted = 0;
         return None;
     }
-    // What is elastic swings widely just below its limit, and comes back.
+    // Elastic energy oscillates with a large amplitude just below the stability limit, and returns.
     let stiff = before.elastic != 0.0 || now.elastic != 0.0;
     let turn = if stiff { 0.0 } else { turn(m, d.fields()) };
     if w.lasted == 0 && w.leaps == 0 {
@@ -256,7 +263,7 @@ fn compare<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>, start: Start
     w.found
 }
 
-/// The largest angle by which something turns in a step, rad.
+/// The largest rotation in one step, rad.
 fn turn(m: &Model, d: &Fields) -> f64 {
     let of = |j: usize| {
         let first = m.jnt_dofadr[j] as usize;
@@ -271,14 +278,14 @@ fn turn(m: &Model, d: &Fields) -> f64 {
     m.opt.timestep * (0..m.njnt).map(of).fold(0.0, f64::max)
 }
 
-/// The degree of freedom whose damper pushes hardest.
+/// The degree of freedom whose negative damping supplies the most power.
 fn pusher(m: &Model, d: &Fields) -> Option<usize> {
     let power = |k: &usize| -m.dof_damping[*k] * d.qvel[*k] * d.qvel[*k];
     let pushing = (0..m.nv).filter(|&k| m.dof_damping[k] < 0.0 && !m.opt.disabled(disable::DAMPER));
     pushing.max_by(|a, b| power(a).total_cmp(&power(b)))
 }
 
-/// The state of a run.
+/// Copies the state of a run.
 fn take<S: Scope>(copied: &mut Data<Planned>, d: &Data<S>) {
     let (to, from) = (copied.edit(), d.fields());
     to.qpos.copy_from_slice(&from.qpos);
@@ -286,7 +293,7 @@ fn take<S: Scope>(copied: &mut Data<Planned>, d: &Data<S>) {
     *to.time = from.time;
 }
 
-/// A start with what it holds: its motion, what is elastic, and what the constraints that it violates push back with.
+/// The initial energies: kinetic energy, elastic energy, and the energy stored in violated constraints.
 fn start(m: &Model, d: &Data<Planned>, energy: Energy) -> StartEnergy {
     let d = d.fields();
     let places = d.efc_pos.iter().zip(&d.efc_margin).map(|(pos, margin)| pos - margin);
@@ -299,7 +306,7 @@ fn start(m: &Model, d: &Data<Planned>, energy: Energy) -> StartEnergy {
     StartEnergy { energy, held, lift: weight * size }
 }
 
-/// The diagonal of a box around all bodies and the origin, and the radius of the largest geom that moves, m.
+/// The diagonal of a box around all bodies and the origin, plus the radius of the largest moving geom, m.
 fn size(m: &Model, d: &Fields) -> f64 {
     let along = |k: usize| {
         let ends = rows::<3>(&d.xipos).iter().fold([0.0_f64; 2], |[lo, hi], x| [lo.min(x[k]), hi.max(x[k])]);
@@ -321,18 +328,18 @@ fn liveliest(m: &Model, d: &mut Data<Planned>) -> usize {
     (0..qvel.len()).max_by(|&a, &b| part(a).total_cmp(&part(b))).unwrap_or(0)
 }
 
-/// Whether forces are applied from outside.
+/// Whether external forces are applied.
 fn applied<S: Scope>(d: &Data<S>) -> bool {
     let d = d.fields();
     d.qfrc_applied.iter().chain(&d.xfrc_applied).any(|&f| f != 0.0)
 }
 
-/// Whether something but actuators may feed the scene, or limits of joints and tendons cut what actuators do.
+/// Whether something other than actuators can supply energy, or limits of joints and tendons clip actuator forces.
 fn fed<S: Scope>(m: &Model, d: &Data<S>) -> bool {
     let some = |list: &[f64]| list.iter().any(|&x| x != 0.0);
     let pushes = |list: &[f64]| list.iter().any(|&x| x < 0.0);
     let wind = some(&m.opt.wind) && (m.opt.density != 0.0 || m.opt.viscosity != 0.0);
-    // A joint's own damper is known when it pushes, unless it pulls at other speeds.
+    // The damper of a joint is handled above if it supplies energy, unless it dissipates at other speeds.
     let turns =
         m.dof_damping.iter().zip(rows::<2>(&m.dof_dampingpoly)).any(|(&b, poly)| b < 0.0 && some(poly));
     let dampers = [

@@ -1,7 +1,7 @@
 use super::*;
 use labspec_core::{reset_data, step, xml};
 
-/// What is found in a run of so many steps from a start.
+/// The growth found in a run of `steps` steps from the state that `start` sets.
 fn run(text: &str, steps: usize, start: impl Fn(&mut Data)) -> Option<Growth> {
     let m = xml::compile(text).unwrap();
     let mut d = Data::new(&m);
@@ -22,7 +22,7 @@ fn cart(option: &str, joint: &str, actuator: &str) -> String {
     )
 }
 
-/// A double pendulum of 1 kg links that starts level.
+/// A double pendulum with links of 1 kg that starts in horizontal position.
 fn pendulum(option: &str, joint: &str) -> String {
     let link = |inner: &str| {
         format!(
@@ -36,10 +36,10 @@ fn pendulum(option: &str, joint: &str) -> String {
 #[test]
 fn a_spring_just_beyond_its_limit_grows_and_below_it_does_not() {
     for integrator in ["Euler", "implicit", "implicitfast"] {
-        // The longest step that follows k = 1e4 N/m on 1 kg is 2/ω = 0.02 s. With s = hω/2 < 1 energy swings by the factor
-        // (1 + s)/(1 - s): by 39 at 0.019 s, by 667 at 0.01994 s; as much of it is in the spring as in the motion, and it comes
-        // back within some steps. Within 0.1 % of the limit a swing lasts longer than LASTS: that may be reported, and is not
-        // claimed either way.
+        // The longest stable step for k = 1e4 N/m and 1 kg is 2/ω = 0.02 s. With s = hω/2 < 1 the energy oscillates by the
+        // factor (1 + s)/(1 - s): 39 at 0.019 s, 667 at 0.01994 s. The spring stores as much of it as the motion, and the
+        // energy returns within some steps. Within 0.1 % of the limit an oscillation takes longer than LASTS; the monitor
+        // may report it or not.
         for (h, grows) in [(0.0201, true), (0.01994, false), (0.019, false), (0.015, false), (0.002, false)] {
             let text =
                 cart(&format!("integrator=\"{integrator}\" timestep=\"{h}\""), "stiffness=\"1e4\"", "");
@@ -64,11 +64,12 @@ fn a_servo_whose_amplitude_doubles_with_each_step_grows() {
 
 #[test]
 fn what_nature_feeds_does_not_grow() {
-    // Falls, topples, swings and spins up: the motion comes from what gravity or a constant force holds.
+    // Falls, topples, swings and spins up: gravity or a constant force supplies the energy of the motion.
     for integrator in ["Euler", "RK4", "implicit", "implicitfast", "discrete"] {
         let option = format!("integrator=\"{integrator}\"");
         assert_eq!(run(&pendulum(&option, ""), 4800, |_| ()), None, "{integrator}");
-        // With `implicit` the steps themselves throw a free double pendulum that whirls, in the library as here: by 608 J in 8 s.
+        // With `implicit`, the integrator itself accelerates a whirling free double pendulum, in MuJoCo as here: by 608 J
+        // in 8 s.
         let upright = run(&pendulum(&option, ""), 4800, |d| d.edit().qpos[0] = -1.56);
         assert_eq!(upright.is_some(), integrator == "implicit", "{integrator}: {upright:?}");
         let motor = cart(&option, "", "<motor joint=\"j\"/>");
@@ -80,7 +81,7 @@ fn what_nature_feeds_does_not_grow() {
 
 #[test]
 fn what_may_be_fed_is_not_watched() {
-    // A damper that pushes slow things and brakes fast ones, a force from outside, a servo that looks back in time.
+    // Negative damping at small speeds and positive damping at large speeds, an external force, and a servo with a delay.
     let keeps = cart("", "damping=\"-2 0 1\" stiffness=\"10\"", "");
     assert_eq!(run(&keeps, 2400, |d| d.edit().qpos[0] = 1e-3), None);
     assert_eq!(run(&cart("", "", ""), 2400, |d| d.edit().qfrc_applied[0] = 50.0), None);
@@ -126,7 +127,7 @@ fn a_start_that_is_pressed_together_may_fly_apart() {
     let text = "<mujoco><worldbody><geom type=\"plane\" size=\"1 1 1\" solref=\"-1e6 -10\"/><body pos=\"0 0 .05\">\
                 <freejoint/><geom size=\".1\" mass=\"1\" solref=\"-1e6 -10\"/></body></worldbody><option timestep=\"1e-4\"/></mujoco>";
     assert_eq!(run(text, 9600, |_| ()), None);
-    // The same from a height: its steps throw it up.
+    // The same from a height: the integrator throws it up.
     let text = text.replace("0 0 .05", "0 0 .3").replace("-1e6 -10", "-1e8 -1").replace("1e-4", ".002");
     let found = run(&text, 960, |_| ()).unwrap();
     assert!(found.dof == 2 && found.time > 0.2 && found.time < 0.4, "{found:?}");

@@ -1,39 +1,41 @@
-//! Limits: whether a joint is where its range does not let it be.
+//! Limits: detects joints that are far outside their range.
 //!
-//! A limit pushes back like a spring with a time constant T, so a joint that arrives with the speed v goes beyond it by about
-//! v T / e, and one that a load presses on stays a little beyond it: both are softness, and pass for it. Two things do not:
+//! A limit acts like a spring with a time constant T. A joint that arrives with the speed v exceeds it by about v T / e,
+//! and a joint under a load stays a little beyond it. Both are normal for soft limits and are not reported. Two cases are
+//! reported:
 //!
-//! * a joint that is beyond its limit by a large part of its range because one step took it there, before anything could push
-//!   back, or that stays there: what presses is stronger than the limit;
-//! * a joint that is beyond it by more than half its range, for however short a time.
+//! * a joint that is beyond its limit by a large part of its range, either because one step moved it there before any force
+//!   could act, or because it stays there: the load is stronger than the limit;
+//! * a joint that is beyond its limit by more than half of its range, for however short a time.
 
 use labspec_core::math::rows;
 use labspec_core::{Data, Model, Scope, disable, joint};
 
-/// A joint past its limit by this part of its range is not held by it.
+/// A limit does not hold a joint that is beyond it by this fraction of its range.
 const FAR: f64 = 0.5;
-/// Nor past it by this part, when a step that is itself longer took it there, or for so long and so many steps.
+/// A limit does not hold a joint that is beyond it by the fraction `BEYOND` of its range, if one step longer than that
+/// moved it there, or if it stays there for `LASTS` seconds and `STEPS` steps.
 const BEYOND: f64 = 0.2;
 const LASTS: f64 = 0.25;
 const STEPS: u32 = 32;
-/// What is less is nobody's concern: an angle, rad, and a length in parts of the scene.
+/// The smallest excess that is reported: an angle, rad, and a length as a fraction of the extent of the scene.
 const ANGLE: f64 = 0.1;
 const LENGTH: f64 = 0.02;
-/// No slide is judged by more than so many sizes of the scene.
+/// The range of a slide joint counts as at most this many times the extent of the scene.
 const SCENES: f64 = 10.0;
 
-/// A joint past its limit.
+/// A joint beyond its limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Past {
-    /// Since when, s.
+    /// Time at which it exceeded the limit, s.
     pub time: f64,
-    /// The joint.
+    /// Id of the joint.
     pub joint: usize,
-    /// How far beyond its limit, m or rad.
+    /// Distance beyond the limit, m or rad.
     pub beyond: f64,
-    /// How much it may move, m or rad.
+    /// Width of the range of the joint, m or rad.
     pub range: f64,
-    /// How far one step moved it, when that took it past; `None` when something presses it there.
+    /// Displacement of the step that moved the joint beyond its limit, m or rad; `None` when a load presses it there.
     pub step: Option<f64>,
 }
 
@@ -42,27 +44,27 @@ pub struct Past {
 struct Limited {
     joint: usize,
     qpos: usize,
-    /// Its range, and what is not worth a second look.
+    /// Its range, and the wider interval within which nothing is evaluated.
     range: [f64; 2],
     pass: [f64; 2],
-    /// What its size is judged by, m or rad.
+    /// Reference size for the thresholds, m or rad.
     size: f64,
-    /// Where it was before the step.
+    /// Position before the step.
     before: f64,
-    /// It began beyond its limit, and has not come back yet.
+    /// Whether the joint started beyond its limit and has not returned yet.
     outside: bool,
-    /// Steps for which it has been beyond, and the time of the first.
+    /// Number of steps for which it has been beyond the limit, and the time of the first.
     lasted: u32,
     since: f64,
 }
 
-/// The joints that are watched.
+/// The monitored joints.
 #[derive(Clone, Debug)]
 pub struct LimitMonitor {
     joints: Vec<Limited>,
 }
 
-/// The limits of a model, in a run that is now at `d`.
+/// Starts monitoring the joint limits of a model, in a run in state `d`.
 pub fn watch<S: Scope>(m: &Model, d: &Data<S>) -> LimitMonitor {
     let on = !m.opt.disabled(disable::LIMIT) && !m.opt.disabled(disable::CONSTRAINT);
     let limited = |j: usize| {
@@ -98,7 +100,7 @@ pub fn watch<S: Scope>(m: &Model, d: &Data<S>) -> LimitMonitor {
     LimitMonitor { joints: (0..m.njnt).filter_map(limited).collect() }
 }
 
-/// To be called after each step.
+/// Call after each step.
 #[inline]
 pub fn observe<S: Scope>(w: &mut LimitMonitor, d: &Data<S>) -> Option<Past> {
     let qpos = &d.fields().qpos;
@@ -113,7 +115,7 @@ pub fn observe<S: Scope>(w: &mut LimitMonitor, d: &Data<S>) -> Option<Past> {
     })
 }
 
-/// The findings about a joint that is far beyond its limit.
+/// The report about a joint that is far beyond its limit, if it has to be reported.
 #[cold]
 fn far(j: &mut Limited, time: f64, [before, q]: [f64; 2]) -> Option<Past> {
     let step = q - before;
@@ -122,7 +124,7 @@ fn far(j: &mut Limited, time: f64, [before, q]: [f64; 2]) -> Option<Past> {
         j.since = time;
     }
     j.lasted += 1;
-    // A step that leads back is no reason to be there.
+    // A step towards the range did not move the joint beyond the limit.
     let outward = if q > j.range[1] { step } else { -step };
     let jumped = outward > BEYOND * j.size && beyond(before) < BEYOND * j.size && step.is_finite();
     let stays = j.lasted >= STEPS && time - j.since >= LASTS;
@@ -167,10 +169,11 @@ mod tests {
         for speed in [0.0, 10.0, 50.0, 100.0] {
             assert_eq!(run("range=\"-45 45\"", "", speed), None, "{speed} rad/s");
         }
-        // A method whose stages see the limit ends its step with another speed than it moved with.
+        // RK4 evaluates the limit in its stages, so the velocity at the end of a step differs from the velocity of the
+        // motion.
         let rk4 = run("range=\"-45 45\"", "<option integrator=\"RK4\"/>", 1e4).unwrap();
         assert!(rk4.time < 0.003 && rk4.step.unwrap() > 10.0, "{rk4:?}");
-        // Nothing is reported where nothing limits.
+        // Without a limit nothing is reported.
         assert_eq!(run("", "", 1000.0), None);
     }
 
@@ -183,7 +186,7 @@ mod tests {
             );
             run("range=\"10 40\" ref=\"0\" damping=\"1\"", &rest, 0.0)
         };
-        // It starts 10 degrees outside: a servo of 1e5 N m/rad keeps it there.
+        // It starts 10 degrees outside its range, and a servo of 1e5 N m/rad keeps it there.
         assert_eq!(motor(1.0), None);
         let found = motor(1e5).unwrap();
         assert!(found.step.is_none() && found.beyond > 0.13, "{found:?}");

@@ -1,5 +1,5 @@
-//! Advice to authors: what of a model is too stiff for its timestep, and runs that go wrong without a word: each way of that in a
-//! file of its own, and all of them in `watch`.
+//! Advice to authors: parts of a model that are too stiff for its timestep, and runs that fail silently. Each failure has
+//! its own file; `watch` combines them.
 
 pub mod growth;
 pub mod limits;

@@ -1,29 +1,29 @@
-//! What of a model is too stiff, or damped too hard, for its timestep.
+//! Finds parts of a model that are too stiff, or damped too strongly, for its timestep.
 //!
-//! Along one degree of freedom or one tendon of inverse inertia w, with stiffness K, damping B that acts at the start of a
-//! step and damping D that acts at its end, a step of semi-implicit Euler is
+//! Along one degree of freedom or one tendon with inverse inertia w, stiffness K, damping B that is applied at the start of
+//! a step (explicit) and damping D that is applied at its end (implicit), a step of semi-implicit Euler is
 //!
-//! > v⁺ = (v - h w (K x + B v)) / (1 + h w D),  x⁺ = x + h v⁺
+//! > v⁺ = (v - h w (K x + B v)) / (1 + h w D), x⁺ = x + h v⁺
 //!
-//! whose characteristic polynomial has its roots in the unit circle when h² w K + 2 h w B < 4 + 2 h w D (Jury's criterion).
-//! The diagonal of M⁻¹ K is never larger than its largest eigenvalue, so that what is found here does blow up near the
-//! default configuration; what couples several joints may do so without being found. Constraints ask for accelerations:
-//! there w = 1.
+//! The roots of its characteristic polynomial are inside the unit circle when h² w K + 2 h w B < 4 + 2 h w D (Jury's
+//! criterion). The diagonal of M⁻¹ K is never larger than its largest eigenvalue, so a reported part is unstable near the
+//! default configuration. An instability that couples several joints may be missed. The reference of a constraint is an
+//! acceleration, so w = 1 for constraints.
 
 use labspec_core::math::{MINVAL, rows};
 use labspec_core::{Model, Obj, disable, integrator, joint, servo_gains, trntype};
 use labspec_finding::order;
 
-/// A spring, servo or constraint that no step of this length can follow.
+/// A spring, servo or constraint that is unstable at the timestep of the model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Suspect {
-    /// Whose parameters make it: an actuator, joint, tendon, geom, contact pair or equality.
+    /// The type of the object whose parameters cause it: an actuator, joint, tendon, geom, contact pair or equality.
     pub object: Obj,
     /// Its id.
     pub id: usize,
-    /// What of it.
+    /// The part of the object.
     pub part: StiffPart,
-    /// How many times stiffer than the stable limit, above 1.
+    /// Ratio of the stiffness to the stable limit, above 1.
     pub excess: f64,
     /// The largest stable timestep, s.
     pub timestep: f64,
@@ -32,7 +32,7 @@ pub struct Suspect {
 /// The part of an object that is too stiff.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StiffPart {
-    /// A servo: `kp`, or `kv` of an actuator.
+    /// A servo: `kp` or `kv` of an actuator.
     Servo,
     /// A spring or a damper of a joint or a tendon.
     Spring,
@@ -42,7 +42,7 @@ pub enum StiffPart {
     Constraint,
 }
 
-/// Everything that is too stiff for the timestep and the integrator of the model, the worst first.
+/// All parts that are too stiff for the timestep and the integrator of the model, in order of decreasing excess.
 pub fn suspects(m: &Model) -> Vec<Suspect> {
     let mut list = Vec::new();
     if m.opt.integrator != integrator::DISCRETE {
@@ -56,8 +56,9 @@ pub fn suspects(m: &Model) -> Vec<Suspect> {
     list
 }
 
-/// How many times as large the energy of the stiffest spring or servo becomes in each swing of its steps: a symplectic step of
-/// s = hω/2 < 1 keeps another energy, of which ½ m v² + ½ k x² is between 1 - s and 1 + s parts. Infinite beyond the limit.
+/// Ratio of the largest to the smallest energy during an oscillation of the stiffest spring or servo. A symplectic step
+/// with s = hω/2 < 1 conserves a modified energy, and ½ m v² + ½ k x² is between 1 - s and 1 + s times that energy.
+/// Infinite beyond the stability limit.
 pub fn swing(m: &Model) -> f64 {
     let mut list = Vec::new();
     if !matches!(m.opt.integrator, integrator::DISCRETE | integrator::RK4) {
@@ -67,22 +68,22 @@ pub fn swing(m: &Model) -> f64 {
     if s < 1.0 { (1.0 + s) / (1.0 - s) } else { f64::INFINITY }
 }
 
-/// What acts along one coordinate.
+/// The stiffness and damping along one coordinate.
 #[derive(Clone, Copy, Debug, Default)]
 struct Spring {
     stiff: f64,
-    /// Damping at the start and at the end of a step.
+    /// Damping that is applied at the start and at the end of a step.
     explicit: f64,
     implicit: f64,
 }
 
 impl Spring {
-    /// How many times too stiff, and the largest stable timestep, for an inverse inertia.
+    /// Ratio to the stable limit, and the largest stable timestep, for an inverse inertia.
     fn judge(self, m: &Model, inverse: f64) -> (f64, f64) {
         let h = m.opt.timestep;
         let [k, b, d] = [self.stiff, self.explicit, self.implicit].map(|x| (x * inverse).max(0.0));
         if m.opt.integrator == integrator::RK4 {
-            // Where the method's region of stability cuts the imaginary and the real axis: 2.83 and 2.79.
+            // The stability region of RK4 ends at 2.83 on the imaginary axis and at 2.79 on the real axis.
             let excess = (k * h * h / 8.0).max(b * h / 2.785);
             return (excess, (8.0 / k).sqrt().min(2.785 / b));
         }
@@ -93,7 +94,7 @@ impl Spring {
     }
 }
 
-/// Where damping acts at the end of a step: of joints, and of all else.
+/// Whether damping is implicit (applied at the end of a step): of joints, and of everything else.
 fn implicit(m: &Model) -> [bool; 2] {
     match m.opt.integrator {
         integrator::IMPLICIT | integrator::IMPLICITFAST => [true; 2],
@@ -124,7 +125,7 @@ fn springs(m: &Model, list: &mut Vec<Suspect>) {
     }
 }
 
-/// Adds up what acts along one coordinate. The blame is the stiffest one's.
+/// Adds up the stiffness and damping along one coordinate. The stiffest part is reported.
 fn judge(
     m: &Model,
     list: &mut Vec<Suspect>,
@@ -186,7 +187,7 @@ fn constraints(m: &Model, list: &mut Vec<Suspect>) {
     }
 }
 
-/// The spring and the damper of a `solref`, per unit of inertia. Its impedance is made up for.
+/// The spring and the damper of a `solref`, per unit of inertia. MuJoCo scales them so that the impedance cancels.
 fn reference(m: &Model, [time, ratio]: [f64; 2]) -> Spring {
     let [stiff, explicit] = if time > 0.0 {
         let safe = !m.opt.disabled(disable::REFSAFE);
@@ -204,7 +205,7 @@ mod tests {
     use super::*;
     use labspec_core::{Data, step, xml};
 
-    /// A slide of 2 kg with a servo, and what else is said.
+    /// A slide of 2 kg with a servo, and additional attributes.
     fn servo(option: &str, servo: &str, joint: &str) -> Model {
         let text = format!(
             "<mujoco><option gravity=\"0 0 0\" {option}/><worldbody><body><joint name=\"j\" type=\"slide\" {joint}/>\
@@ -213,7 +214,7 @@ mod tests {
         xml::compile(&text).unwrap()
     }
 
-    /// The same with an actuator of another kind.
+    /// A slide with an actuator of another kind.
     fn driven(option: &str, actuator: &str) -> Model {
         let text = format!(
             "<mujoco><option gravity=\"0 0 0\" {option}/><worldbody><body><joint name=\"j\" type=\"slide\"/>\
@@ -222,7 +223,7 @@ mod tests {
         xml::compile(&text).unwrap()
     }
 
-    /// How far the slide gets from 1 mm in some steps.
+    /// The largest displacement of the slide within 3000 steps, from an initial displacement of 1 mm.
     fn farthest(m: &Model) -> f64 {
         let mut d = Data::new(m);
         d.edit().qpos[0] = 1e-3;
@@ -279,7 +280,7 @@ mod tests {
                 assert!(farthest(&below) < 0.1, "{integrator} {actuator}: {}", found.timestep);
             }
         }
-        // A motor that is given a voltage only brakes; one whose current takes time follows a law of another order.
+        // A motor with a voltage input only brakes. With inductance, the equation has a higher order.
         for actuator in [
             "<dcmotor joint=\"j\" motorconst=\".5\" resistance=\"2\"/>",
             "<dcmotor joint=\"j\" motorconst=\".5\" resistance=\"2\" inductance=\".1\" input=\"pos\" controller=\"5e3 0 4\"/>",

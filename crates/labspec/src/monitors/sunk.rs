@@ -1,55 +1,56 @@
-//! Sinking: whether bodies are in each other by a large part of their size, and stay so.
+//! Sinking: detects bodies that penetrate each other by a large part of their size and stay there.
 //!
-//! A contact is soft: it gives way while it stops what arrives, and by a little under a load. A scene looks wrong when one body
-//! stays in another by a large part of its own thickness: the load is more than the contact carries (heavy on light, strong
-//! gravity, friction so large that the rows of a pyramidal cone push next to nothing along the normal), or the solver
-//! stopped before its forces held.
+//! A contact is soft: it yields while it stops an impact, and a little under a load. A scene looks wrong when one body
+//! stays inside another by a large part of its own thickness. Either the load exceeds what the contact carries (a heavy
+//! body on a light one, strong gravity, friction so large that the rows of a pyramidal cone have almost no normal
+//! component), or the solver stopped before its forces were sufficient.
 
 use labspec_core::{Contact, Data, Fields, Model, Scope, geom_thickness};
 
-/// A contact deeper than this part of the thinner geom's thickness, and of the smaller one's length.
+/// Thresholds of the depth: a fraction of the thickness of the thinner geom, and of the length of the smaller one.
 const THICKNESS: f64 = 0.3;
 const LENGTH: f64 = 0.03;
-/// For so long, s, so many steps and so many of the contact's own time constants it has to be as deep, to this part: what
-/// arrives and comes back is no deeper for a moment, as is what the contact pushes out.
+/// A contact must be this deep for `LASTS` seconds, `STEPS` steps and `CONSTANTS` time constants of the contact, with a
+/// depth that changes by at most the fraction `SAME`. An impact is shorter, and a contact that pushes the bodies apart
+/// changes its depth.
 const LASTS: f64 = 0.25;
 const STEPS: u32 = 32;
 const CONSTANTS: f64 = 4.0;
 const SAME: f64 = 0.1;
-/// A body that is wholly below a plane for so many time constants is not on its way out, however deep it is.
+/// A body that is entirely below a plane for this many time constants will not return, even if its depth still changes.
 const BELOW: f64 = 6.0;
 
-/// Two bodies in each other.
+/// Two bodies that penetrate each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sunk {
-    /// Since when, s.
+    /// Time at which the penetration began, s.
     pub time: f64,
     /// The geoms.
     pub geoms: [usize; 2],
-    /// How deep, m.
+    /// Penetration depth, m.
     pub depth: f64,
-    /// The thickness of the thinner one, m.
+    /// Thickness of the thinner geom, m.
     pub thickness: f64,
-    /// The force along the normal, N.
+    /// Normal force, N.
     pub force: f64,
 }
 
-/// What is known of the geoms, and what has lasted for how long.
+/// The sizes of the geoms, and the deepest contact with its duration.
 #[derive(Clone, Debug)]
 pub struct SinkMonitor {
     sizes: Vec<Size>,
-    /// No contact less deep than this is worth a second look.
+    /// Contacts less deep than this are skipped, m.
     least: f64,
     pair: [usize; 2],
-    /// How deep it was when that began.
+    /// Depth at the time `since`.
     depth: f64,
     lasted: u32,
     since: f64,
-    /// Since when it has been wholly below a plane; infinite when it is not.
+    /// Time since which the body has been entirely below a plane; infinite when it is not.
     below: f64,
 }
 
-/// Of a geom, m; both are infinite where it has none.
+/// The size of a geom, m; both values are infinite for a geom without a size.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Size {
     /// Its smallest extent.
@@ -58,14 +59,14 @@ pub(super) struct Size {
     pub(super) length: f64,
 }
 
-/// How large a geom is.
+/// The size of a geom.
 pub(super) fn size(m: &Model, g: usize) -> Size {
     let thickness = geom_thickness(m, g);
     let length = if thickness.is_finite() { 2.0 * m.geom_rbound[g] } else { f64::INFINITY };
     Size { thickness, length }
 }
 
-/// The geoms of a model.
+/// Starts monitoring the geoms of a model.
 pub fn watch(m: &Model) -> SinkMonitor {
     let sizes: Vec<Size> = (0..m.ngeom).map(|g| size(m, g)).collect();
     let least = |s: &Size| (THICKNESS * s.thickness).max(0.0);
@@ -73,12 +74,12 @@ pub fn watch(m: &Model) -> SinkMonitor {
     SinkMonitor { sizes, least, pair: [0; 2], depth: 0.0, lasted: 0, since: 0.0, below: f64::INFINITY }
 }
 
-/// Forgets what was seen: something from outside has changed the state.
+/// Resets the monitor after the state was changed from outside.
 pub fn restart(w: &mut SinkMonitor) {
     (w.lasted, w.below) = (0, f64::INFINITY);
 }
 
-/// To be called after each step.
+/// Call after each step.
 #[inline]
 pub fn observe<S: Scope>(w: &mut SinkMonitor, m: &Model, d: &Data<S>) -> Option<Sunk> {
     let f = d.fields();
@@ -90,7 +91,8 @@ pub fn observe<S: Scope>(w: &mut SinkMonitor, m: &Model, d: &Data<S>) -> Option<
     None
 }
 
-/// The contact that is the deepest for its geoms: it has to be of the same two for long enough.
+/// Evaluates the contact that is deepest relative to its geoms. It is reported when the same two geoms have been in contact
+/// long enough.
 #[cold]
 fn deepest(w: &mut SinkMonitor, m: &Model, f: &Fields) -> Option<Sunk> {
     let sizes = |c: &Contact| Some([*w.sizes.get(c.geom1)?, *w.sizes.get(c.geom2)?]);
@@ -126,14 +128,14 @@ fn deepest(w: &mut SinkMonitor, m: &Model, f: &Fields) -> Option<Sunk> {
     })
 }
 
-/// How long a contact takes to push out, s.
+/// Time constant with which a contact separates the geoms, s.
 fn time_constant(m: &Model, c: &Contact) -> f64 {
     let [time, ratio] = c.solref;
     let constant = if time > 0.0 { time * ratio.max(1.0) } else { (-time).sqrt().recip() };
     constant.max(2.0 * m.opt.timestep)
 }
 
-/// The force of a contact along its normal, N: of a pyramidal cone the sum of its edges.
+/// The normal force of a contact, N: the sum of the edges for a pyramidal cone.
 fn normal_force(f: &Fields, c: &Contact, pyramidal: bool) -> f64 {
     let Some(row) = c.efc_address else { return 0.0 };
     let rows = if pyramidal && c.dim > 1 { 2 * (c.dim - 1) } else { 1 };
@@ -187,7 +189,7 @@ mod tests {
                 assert!(found.geoms == [0, 1] && weight > 0.2, "{found:?}");
             }
         }
-        // The rows of a pyramid with so much friction have nothing left along the normal.
+        // With so much friction, the rows of a pyramidal cone have no normal component left.
         let found = run("", "mass=\"1\" friction=\"1e9 .005 .0001\"", "", 1000).unwrap();
         assert!(found.force < 0.1, "{found:?}");
     }
@@ -198,7 +200,7 @@ mod tests {
             format!("<body pos=\"1 0 2\"><freejoint/><geom size=\".1\" mass=\"1\" {contact}/></body>")
         };
         assert_eq!(run("gravity=\"0 0 -50\"", "mass=\"1\"", &ball(""), 1000), None);
-        // Half in the floor, and pushed out within half a second.
+        // Half inside the floor, and pushed out within half a second.
         assert_eq!(run("", "mass=\"1\"", &ball("solref=\".1 1\""), 2000), None);
     }
 }

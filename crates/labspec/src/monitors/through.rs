@@ -1,53 +1,56 @@
-//! Passing through: whether a body went through another one because its steps were too long for it.
+//! Tunnelling: detects a body that passed through another one because its steps were too long.
 //!
-//! A contact is found where two bodies overlap at the start of a step. What moves by more than the thickness of a wall in one
-//! step may be before it in one and behind it in the next, or so far in it that the contact pushes it out at the wrong side.
-//! Proof is a middle of a geom that passes a middle plane of a wall, inside the wall's outline, in a step that moved it by
-//! no small part of the wall's thickness: for solid bodies no way leads there.
+//! A contact is found where two bodies overlap at the start of a step. A body that moves by more than the thickness of a
+//! wall in one step may be in front of it in one step and behind it in the next, or so deep inside it that the contact
+//! pushes it out on the wrong side. The monitor reports a geom whose centre crosses a middle plane of a wall, inside the
+//! outline of the wall, in a step whose displacement is a considerable part of the wall's thickness. Solid bodies cannot
+//! move there.
 //!
-//! The poses of the last two steps are looked at only while something is fast for the thinnest wall and near one.
+//! The poses of the last two steps are compared only while a geom is fast relative to the thinnest wall and near a wall.
 
 use super::sunk::{Size, size};
 use labspec_core::math::rows;
 use labspec_core::reflect::Stage;
 use labspec_core::{Data, Fields, Model, Scope, may_touch};
 
-/// A motion in a step by this part of the thickness is fast: a few such steps, and the contact pushes the wrong way.
+/// A displacement per step above this fraction of the thickness is fast: after a few such steps the contact pushes in the
+/// wrong direction.
 const FAST: f64 = 0.1;
-/// Steps from one look at the speeds to the next while nothing is fast and near.
+/// Number of steps between two measurements of the speeds while no geom is both fast and near a wall.
 const EVERY: u32 = 10;
-/// How much faster things may become in between, and how far they may be.
+/// Factor for the increase of the speed between two measurements, in the estimate of the distance that counts as near.
 const MARGIN: f64 = 2.0;
 
-/// A body that went through another one.
+/// A body that passed through another one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Through {
-    /// When the step began that did it, s.
+    /// Time at which the step began, s.
     pub time: f64,
-    /// The geom that passed, and the one it went through.
+    /// The geom that passed, and the geom that it passed through.
     pub geoms: [usize; 2],
-    /// How far it moved against the other one in the step, m.
+    /// Displacement relative to the other geom in the step, m.
     pub moved: f64,
-    /// How thick the other one is, m.
+    /// Thickness of the other geom, m.
     pub thickness: f64,
 }
 
-/// The poses of the last step, when they are looked at.
+/// Monitors tunnelling by the poses of the previous step, which are stored while they are needed.
 #[derive(Clone, Debug)]
 pub struct TunnellingMonitor {
-    /// Geoms that may touch another one, with what they measure.
+    /// Geoms that can make contacts, and the sizes of all geoms.
     geoms: Vec<usize>,
     sizes: Vec<Size>,
     thinnest: f64,
     pos: Vec<f64>,
     mat: Vec<f64>,
-    /// How far each geom moved in the last step, its turning included, m.
+    /// Displacement of each geom in the last step, including its rotation, m.
     moved: Vec<f64>,
     is_stored: bool,
     left: u32,
 }
 
-/// The geoms of a model; none where nothing touches or their poses are not known.
+/// Starts monitoring the geoms of a model. No geom is monitored if there are no collisions or the plan does not compute
+/// geom poses.
 pub fn watch<S: Scope>(m: &Model, d: &Data<S>) -> TunnellingMonitor {
     let plan = d.plan();
     let has_poses = plan.keeps(Stage::Collision) && plan.keeps(Stage::GeomPoses);
@@ -68,12 +71,12 @@ pub fn watch<S: Scope>(m: &Model, d: &Data<S>) -> TunnellingMonitor {
     }
 }
 
-/// Forgets what was seen: something from outside has changed the state.
+/// Resets the monitor after the state was changed from outside.
 pub fn restart(w: &mut TunnellingMonitor) {
     (w.is_stored, w.left) = (false, 0);
 }
 
-/// To be called after each step.
+/// Call after each step.
 #[inline]
 pub fn observe<S: Scope>(w: &mut TunnellingMonitor, m: &Model, d: &Data<S>) -> Option<Through> {
     if w.left > 0 {
@@ -83,7 +86,7 @@ pub fn observe<S: Scope>(w: &mut TunnellingMonitor, m: &Model, d: &Data<S>) -> O
     pass(w, m, d.fields())
 }
 
-/// Keeps the poses; with those of the step before, looks at what moved, and at what passed.
+/// Stores the poses. If the previous poses are stored, checks the geoms that moved for tunnelling.
 #[inline(never)]
 fn pass(w: &mut TunnellingMonitor, m: &Model, f: &Fields) -> Option<Through> {
     if w.geoms.len() < 2 || f.geom_xpos.len() != w.pos.len() || f.geom_xmat.len() != w.mat.len() {
@@ -108,7 +111,7 @@ fn pass(w: &mut TunnellingMonitor, m: &Model, f: &Fields) -> Option<Through> {
     found
 }
 
-/// How far each geom moved; returns the longest way.
+/// Computes the displacement of each geom; returns the largest.
 fn measure(w: &mut TunnellingMonitor, f: &Fields) -> f64 {
     let far = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
     let mut most: f64 = 0.0;
@@ -121,7 +124,7 @@ fn measure(w: &mut TunnellingMonitor, f: &Fields) -> f64 {
     most
 }
 
-/// Looks at every pair of a wall and a geom that is fast for it: whether it is near, and whether it passed.
+/// For every pair of a wall and a geom that is fast relative to it: whether it is near, and whether it passed through.
 fn walls(w: &TunnellingMonitor, m: &Model, f: &Fields) -> (bool, Option<Through>) {
     let (now, mut near) = (rows::<3>(&f.geom_xpos), false);
     for &wall in w.geoms.iter().filter(|&&g| w.sizes[g].thickness.is_finite()) {
@@ -146,7 +149,8 @@ fn walls(w: &TunnellingMonitor, m: &Model, f: &Fields) -> (bool, Option<Through>
     (near, None)
 }
 
-/// How far the middle of a geom moved in the frame of a wall, m, when it went through one of its middle planes inside its outline.
+/// Displacement of the centre of a geom in the frame of a wall, m, if it crossed a middle plane of the wall inside its
+/// outline.
 fn passed(w: &TunnellingMonitor, m: &Model, f: &Fields, g: usize, wall: usize) -> Option<f64> {
     let before = within(&w.pos, &w.mat, g, wall)?;
     let after = within(&f.geom_xpos, &f.geom_xmat, g, wall)?;
@@ -156,7 +160,7 @@ fn passed(w: &TunnellingMonitor, m: &Model, f: &Fields, g: usize, wall: usize) -
     let crossed = (0..3).any(|k| {
         let part = before[k] / (before[k] - after[k]);
         let at = |j: usize| before[j] + part * (after[j] - before[j]);
-        // Without a crossing this is no part of the way, or no number; what only trembles at the plane does not cross it.
+        // Without a crossing, `part` is outside 0..=1 or NaN. A vibration about the plane is not a crossing.
         let far = (before[k] - after[k]).abs() > 2.0 * FAST * half[k];
         far && (0.0..=1.0).contains(&part) && (0..3).all(|j| j == k || at(j).abs() < half[j])
     });
@@ -164,7 +168,7 @@ fn passed(w: &TunnellingMonitor, m: &Model, f: &Fields, g: usize, wall: usize) -
     crossed.then_some(length)
 }
 
-/// The middle of a geom in the frame of another one.
+/// The centre of a geom in the frame of another one.
 fn within(pos: &[f64], mat: &[f64], g: usize, wall: usize) -> Option<[f64; 3]> {
     let (pos, mat) = (rows::<3>(pos), rows::<9>(mat).get(wall)?);
     let away = [0, 1, 2].map(|k| pos[g][k] - pos[wall][k]);
@@ -232,12 +236,12 @@ mod tests {
 
     #[test]
     fn what_may_pass_is_not_told() {
-        // Bits that do not meet, a hole, a body that flies by.
+        // Collision bits that do not match, a hole, and a body that passes beside the plate.
         assert_eq!(run(PLATE, "size=\".01\" contype=\"2\" conaffinity=\"2\"", 10.0), None);
         let hole = "<geom type=\"box\" pos=\".6 0 0\" size=\".5 1 .0005\"/><geom type=\"box\" pos=\"-.6 0 0\" size=\".5 1 .0005\"/>";
         assert_eq!(run(hole, "size=\".01\"", 10.0), None);
         assert_eq!(run("<geom type=\"box\" pos=\"2 0 0\" size=\"1 1 .0005\"/>", "size=\".01\"", 10.0), None);
-        // A card that turns.
+        // A rotating card.
         let card = "<body pos=\"0 .5 .1\"><joint axis=\"1 0 0\"/><geom type=\"box\" size=\".1 .3 .0005\" mass=\"1\"/></body>";
         assert_eq!(run(card, "size=\".01\" pos=\"0 1.5 0\"", 0.0), None);
     }

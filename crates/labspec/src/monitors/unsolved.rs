@@ -1,45 +1,46 @@
-//! Forces that were not found: whether the solver stopped at its limit of iterations with a miss that matters.
+//! Unsolved forces: detects that the solver stopped at its iteration limit with a considerable error.
 //!
-//! The solver seeks the accelerations that constraints ask for, and stops when it has made as many iterations as the model lets
-//! it. Newton's method needs few; conjugate gradients and Gauss-Seidel need many for a stack, and a model that allows one gets
-//! forces that do not hold it. A solver at its limit is no proof: often the last iterations change nothing. Proof is what it
-//! misses: with Δa between its accelerations and those of a solver that goes on to the end, and a - a₀ what the constraints have
-//! to do,
+//! The solver computes the accelerations that satisfy the constraints, and stops at the iteration limit of the model.
+//! Newton's method needs few iterations. Conjugate gradients and Gauss-Seidel need many for a stack, and a model that
+//! allows only one gets forces that do not support it. A solver at its limit is no proof, because the last iterations often
+//! change nothing. The proof is the residual: with Δa the difference between its accelerations and those of a converged
+//! solver, and a - a₀ the change that the constraints must make,
 //!
 //! > √(Δaᵀ M Δa) / √((a - a₀)ᵀ M (a - a₀))
 //!
-//! is the part of the constraints' work that is missing. One miss is soon made good by the next step, which starts from it; a
-//! large one again and again is a scene that nothing holds.
+//! is the fraction of the constraints' effect that is missing. The next step, which starts from the last solution, soon
+//! corrects a single error. Repeated large errors mean that the constraints do not hold.
 
 use labspec_core::math::dot_slice;
 use labspec_core::{
     Data, Model, Plan, Planned, Scope, exhausted, forward, limit, mul_m, solver, state, work_left,
 };
 
-/// A miss of this part matters, when it is seen so many times.
+/// A missing fraction that is reported, and how many times it must be observed.
 const PART: f64 = 0.25;
 const TIMES: u32 = 8;
-/// Steps from one look to the next: a look costs two passes.
+/// Number of steps between two evaluations, each of which costs two forward passes. `FIRST` applies to the first
+/// evaluations.
 const EVERY: u32 = 100;
 const FIRST: u32 = 10;
-/// How far a solver goes that goes to the end.
+/// Iteration limit and tolerance of the converged solver.
 const ITERATIONS: i32 = 500;
 const TOLERANCE: f64 = 1e-10;
 
 /// A solver that stopped too early.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unsolved {
-    /// Since when, s.
+    /// Time of the first large residual, s.
     pub time: f64,
-    /// Iterations that it made, all that it may.
+    /// Number of iterations, which equals the limit.
     pub iterations: usize,
-    /// The part of what the constraints have to do that is missing.
+    /// Missing fraction of the effect of the constraints.
     pub part: f64,
-    /// The degree of freedom that misses most.
+    /// The degree of freedom with the largest residual.
     pub dof: usize,
 }
 
-/// Looks at the steps in which the solver stopped at its limit.
+/// Monitors the steps in which the solver stopped at its iteration limit.
 #[derive(Clone, Debug, Default)]
 pub struct SolverMonitor {
     scratch: Option<Box<SolverScratch>>,
@@ -49,23 +50,23 @@ pub struct SolverMonitor {
     since: f64,
 }
 
-/// The same scene solved as the model says, and to the end.
+/// The same scene, solved as the model specifies and to convergence.
 #[derive(Clone, Debug)]
 struct SolverScratch {
     model: Model,
     exact: Data<Planned>,
     data: Data<Planned>,
-    /// Accelerations, and M times them.
+    /// Differences of accelerations, and M times them.
     a: Vec<f64>,
     product: Vec<f64>,
 }
 
-/// Forgets what was seen: something from outside has changed the state or the model.
+/// Resets the monitor after the state or the model was changed from outside.
 pub fn restart(w: &mut SolverMonitor) {
     *w = SolverMonitor::default();
 }
 
-/// To be called after each step.
+/// Call after each step.
 #[inline]
 pub fn observe<S: Scope>(w: &mut SolverMonitor, m: &Model, d: &Data<S>) -> Option<Unsolved> {
     let f = d.fields();
@@ -74,7 +75,7 @@ pub fn observe<S: Scope>(w: &mut SolverMonitor, m: &Model, d: &Data<S>) -> Optio
     if stopped && w.left == 0 { compare(w, m, d) } else { None }
 }
 
-/// Solves the state at hand twice.
+/// Solves the current state with both solvers.
 #[cold]
 fn compare<S: Scope>(w: &mut SolverMonitor, m: &Model, d: &Data<S>) -> Option<Unsolved> {
     w.looks += 1;
@@ -103,7 +104,7 @@ fn scratch(m: &Model) -> SolverScratch {
     SolverScratch { model, exact, data, a: vec![0.0; m.nv], product: vec![0.0; m.nv] }
 }
 
-/// The part that is missing, and where most of it is.
+/// The missing fraction, and the degree of freedom with the largest residual.
 fn residual<S: Scope>(scratch: &mut SolverScratch, m: &Model, d: &Data<S>) -> Option<(f64, usize)> {
     for data in [&mut scratch.exact, &mut scratch.data] {
         state::copy(m, d, data, state::INTEGRATION).ok()?;

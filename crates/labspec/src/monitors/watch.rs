@@ -1,4 +1,4 @@
-//! The watch over a run: every way in which it may go wrong without a word.
+//! All monitors of a run: each detects one way in which a run fails silently.
 
 use super::growth::{self, Growth};
 use super::limits::{self, Past};
@@ -8,23 +8,23 @@ use super::unsolved::{self, Unsolved};
 use labspec_core::reflect::Stage;
 use labspec_core::{Data, Model, Scope};
 
-/// What was noticed, the first of each kind.
+/// The first observation of each kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Noticed {
-    /// Energy that nothing gave, or that dampers below zero give without end.
+    /// A gain of energy that no force supplied, or that negative damping supplies without limit.
     pub growth: Option<Growth>,
-    /// A joint past its limit.
+    /// A joint beyond its limit.
     pub past: Option<Past>,
-    /// A body that went through another one.
+    /// A body that passed through another one.
     pub through: Option<Through>,
-    /// A body that stays in another one.
+    /// A body that stays inside another one.
     pub sunk: Option<Sunk>,
-    /// Forces that the solver did not find.
+    /// Forces for which the solver did not converge.
     pub unsolved: Option<Unsolved>,
 }
 
 impl Noticed {
-    /// When the first of it was, s; infinite when there is nothing.
+    /// Time of the earliest observation, s; infinite when there is none.
     pub fn time(&self) -> f64 {
         let times = [
             self.growth.map(|x| x.time),
@@ -37,22 +37,22 @@ impl Noticed {
     }
 }
 
-/// A run that is watched.
+/// The monitors of a run.
 #[derive(Clone, Debug)]
 pub struct Monitors {
-    /// `None` where programs may give any energy.
+    /// `None` where programs may supply any energy.
     growth: Option<growth::GrowthMonitor>,
     limits: limits::LimitMonitor,
     through: through::TunnellingMonitor,
     sunk: sunk::SinkMonitor,
     unsolved: unsolved::SolverMonitor,
-    /// Nothing touches, is limited or tied: only energy is to be looked at.
+    /// The scene has no contacts, limits or equality constraints: only energy is monitored.
     bare: bool,
     noticed: Noticed,
 }
 
-/// A watch over a run that is now at `d`: for energy unless programs push in every step, and for all else. Looking costs next to
-/// nothing until something is out of the ordinary.
+/// Starts monitoring a run in state `d`. Energy is monitored unless programs apply forces in every step (`pushed`). The
+/// monitors cost almost nothing until something unusual happens.
 pub fn watch<S: Scope>(m: &Model, d: &Data<S>, pushed: bool) -> Monitors {
     Monitors {
         growth: (!pushed).then(|| growth::watch(m, d)),
@@ -65,7 +65,7 @@ pub fn watch<S: Scope>(m: &Model, d: &Data<S>, pushed: bool) -> Monitors {
     }
 }
 
-/// From here on what was is forgotten but for what was noticed: something from outside has changed the state or the model.
+/// Restarts the monitors in state `d` after the state or the model was changed from outside. Observations are kept.
 pub fn restart<S: Scope>(w: &mut Monitors, m: &Model, d: &Data<S>) {
     if let Some(growth) = &mut w.growth {
         growth::restart(growth, m, d);
@@ -77,13 +77,13 @@ pub fn restart<S: Scope>(w: &mut Monitors, m: &Model, d: &Data<S>) {
     w.bare = bare(d);
 }
 
-/// Whether a scene has no constraints, whatever happens.
+/// Whether the plan has neither collisions nor constraints.
 fn bare<S: Scope>(d: &Data<S>) -> bool {
     let plan = d.plan();
     !plan.keeps(Stage::Collision) && !plan.keeps(Stage::Constraint)
 }
 
-/// To be called after each step; nothing of the run is touched.
+/// Call after each step. It does not modify the run.
 #[inline]
 pub fn observe<S: Scope>(w: &mut Monitors, m: &Model, d: &Data<S>) {
     if let Some(growth) = &mut w.growth {
@@ -94,7 +94,7 @@ pub fn observe<S: Scope>(w: &mut Monitors, m: &Model, d: &Data<S>) {
     }
 }
 
-// Apart, so that what is asked in every step stays small.
+// A separate function, so that the code that runs in every step stays small.
 #[inline(never)]
 fn constraints<S: Scope>(w: &mut Monitors, m: &Model, d: &Data<S>) {
     let found = &mut w.noticed;
@@ -112,7 +112,7 @@ fn constraints<S: Scope>(w: &mut Monitors, m: &Model, d: &Data<S>) {
     }
 }
 
-/// What was noticed so far.
+/// The observations so far.
 pub fn noticed(w: &Monitors) -> &Noticed {
     &w.noticed
 }

@@ -1,4 +1,4 @@
-//! What a student can move or press, as a page draws it.
+//! The controls of a lab, as a page draws them.
 
 use crate::bind::scalar;
 use crate::spec::{self, Lab};
@@ -9,7 +9,7 @@ use labspec_expr::Value;
 pub struct Control {
     /// Its label.
     pub label: String,
-    /// Its kind, and what it offers.
+    /// Its kind, with its range or options.
     pub kind: ControlKind,
     /// Its value when the lab is loaded; `undefined` for a button.
     pub start: Value,
@@ -28,24 +28,24 @@ pub enum ControlKind {
         step: f64,
         /// Unit, possibly empty.
         unit: String,
-        /// Decimals to show.
+        /// Number of decimals to print.
         digits: u32,
     },
     /// One of several values.
     Select {
-        /// Shown text and value of each.
+        /// Displayed text and value of each.
         options: Vec<(String, Value)>,
     },
-    /// Something that happens at a press.
+    /// A button, which runs statements when it is pressed.
     Button,
 }
 
-/// The control that a call means: by its label, or by its place in the list.
+/// Denotes a control by its label or its index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Which<'a> {
     /// The first with this label.
     Label(&'a str),
-    /// The one at this place, from 0.
+    /// The one with this index, from 0.
     Index(usize),
 }
 

@@ -1,4 +1,4 @@
-//! What a page shows: the traces of plots and the readouts, with their labels and units.
+//! The displayed values of a page: the traces of plots and the readouts, with their labels and units.
 
 use crate::spec::Lab;
 
@@ -7,18 +7,18 @@ use crate::spec::Lab;
 pub struct DisplayedValue {
     /// Its label.
     pub label: String,
-    /// Its unit, as its label or the label of its axis has it in parentheses at the end: `height (m)`. Possibly empty.
+    /// Its unit, from the parentheses at the end of its label or of the axis label: `height (m)`. Possibly empty.
     pub unit: String,
-    /// Where it is shown.
+    /// Where it is displayed.
     pub place: DisplayedIn,
 }
 
-/// Where a value is shown.
+/// Where a value is displayed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DisplayedIn {
     /// A curve of this plot, from 0.
     Plot(usize),
-    /// A readout with so many decimals: see [`Cell::rounded`](crate::run::Cell::rounded).
+    /// A readout with this number of decimals: see [`Cell::rounded`](crate::run::Cell::rounded).
     Readout(u32),
 }
 
@@ -44,7 +44,7 @@ pub(super) fn list(lab: &Lab) -> Vec<DisplayedValue> {
     all
 }
 
-/// What stands in parentheses at the end of a label.
+/// The text in parentheses at the end of a label.
 fn unit(label: &str) -> &str {
     let inside = label.trim_end().strip_suffix(')').and_then(|rest| rest.rsplit_once('('));
     inside.map_or("", |(_, unit)| unit.trim())

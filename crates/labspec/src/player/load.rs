@@ -1,4 +1,4 @@
-//! From a text to a lab that is ready to play.
+//! Loads a lab from a text.
 
 use super::{Player, Saved, control, displayed};
 use crate::bind::scene::Models;
@@ -14,15 +14,15 @@ use labspec_core::Model;
 use std::sync::Arc;
 
 impl Player {
-    /// Opens a lab from its JSON. `models` are what it may name: a map, a closure, a folder, or
+    /// Opens a lab from its JSON. `models` contains the models that it may name: a map, a closure, a folder, or
     /// [`NoModels`](crate::NoModels).
     ///
-    /// Findings are what is wrong in its JSON, its model and its code: what a page must know. Rules of lessons look at nothing here;
-    /// [`Checker`](crate::Checker) and [`Player::of_lesson`] apply them.
+    /// The findings are the errors in its JSON, its model and its code, which a page needs. The rules for lessons are not
+    /// applied; [`Checker`](crate::Checker) and [`Player::of_lesson`] apply them.
     ///
     /// # Errors
-    /// It is no lab, or its model has mistakes. Mistakes in its code stop nothing: as on every page, what has one shows
-    /// nothing, and [`Player::findings`] says why.
+    /// The text is not a lab, or its model has errors. Errors in its code do not prevent loading: as on every page, a text
+    /// with an error displays nothing, and [`Player::findings`] contains the reason.
     pub fn of_lab(json: &str, models: impl Into<ModelFolder>) -> Result<Player, Error> {
         Player::open(json, &models.into())
     }
@@ -54,8 +54,8 @@ impl Player {
         Ok(Player::start(Arc::new(lab), file.clone(), loaded, &model, programs))
     }
 
-    /// Opens a lab of a lesson by its address: `#2` is the second one, `#quiz-id.1` that of a question. The ending of
-    /// `path` says what the text is: Markdown or JSON.
+    /// Opens a lab of a lesson by its address: `#2` is the second one, `#quiz-id.1` that of a question. The extension of
+    /// `path` determines the format: Markdown or JSON.
     ///
     /// # Errors
     /// As for [`Player::of_lab`], and when there is no lab at this address.
@@ -68,7 +68,7 @@ impl Player {
         Player::of_lesson_with(path, text, address, models, Functions::new())
     }
 
-    /// The same with functions of one's own, which the texts of the lab may call.
+    /// Like [`Player::of_lesson`], with functions of the embedding program that the texts of the lab may call.
     ///
     /// # Errors
     /// As for [`Player::of_lesson`].
@@ -125,7 +125,7 @@ impl Player {
     }
 }
 
-/// Gives findings their lines and columns. A finding without a path is of the first file.
+/// Sets the lines and columns of findings. A finding without a path belongs to the first file.
 fn locate(findings: &mut [Finding], files: &[&SourceFile]) {
     let Some(first) = files.first() else { return };
     for finding in findings {

@@ -1,7 +1,8 @@
-//! A lab as a page holds it: loaded, moved, played, read, saved. Every frontend maps this one object.
+//! A lab on a page: it can be loaded, changed, played, read and saved. Every frontend maps this one object.
 //!
-//! The order of events is that of [`Session`]; a call does what a student can do on the page, and nothing else. No call panics,
-//! whatever it is given: what cannot be done is an [`Error`], and what breaks while the lab plays is a [`Finding`].
+//! The order of events is that of [`Session`]; a call does what a student can do on the page, and nothing else. No call
+//! panics, whatever its arguments. An impossible call is an [`Error`], and a breakdown while the lab plays is a
+//! [`Finding`].
 
 mod control;
 mod displayed;
@@ -24,12 +25,12 @@ use scene::Scene;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-/// A lab that is open on a page. Its clone goes on as it would.
+/// A lab that is open on a page. A clone continues independently with equal results.
 #[derive(Clone, Debug)]
 pub struct Player {
     lab: Arc<Lab>,
     file: SourceFile,
-    /// What was found when it was loaded.
+    /// The findings when it was loaded.
     loaded: Vec<Finding>,
     controls: Vec<Control>,
     displayed: Vec<DisplayedValue>,
@@ -37,7 +38,7 @@ pub struct Player {
     scene: Option<Scene>,
 }
 
-/// A state of a lab: all that decides how it goes on, the model and the `ctx` variables included.
+/// A state of a lab: everything that determines how it continues, including the model and the `ctx` variables.
 #[derive(Clone, Debug)]
 pub struct Saved {
     lab: Arc<Lab>,
@@ -52,27 +53,27 @@ impl Player {
         &self.controls
     }
 
-    /// The traces of the plots, then the readouts: what [`Player::values`] and [`Player::numbers`] hold, in their order.
+    /// The traces of the plots, then the readouts: the order of [`Player::values`] and [`Player::numbers`].
     pub fn displayed(&self) -> &[DisplayedValue] {
         &self.displayed
     }
 
-    /// The lab as it is written: title, camera, plots.
+    /// The lab of the lesson: title, camera, plots.
     pub fn lab(&self) -> &Lab {
         &self.lab
     }
 
-    /// What each trace and readout shows now.
+    /// The current value of each trace and readout.
     pub fn values(&self) -> &[Cell] {
         &self.now.cells
     }
 
-    /// The same as numbers; NaN for what is none.
+    /// The current values as numbers; NaN for other values.
     pub fn numbers(&self) -> &[f64] {
         &self.now.numbers
     }
 
-    /// Where a control stands; `None` when there is no such control, `undefined` for a button.
+    /// The current value of a control; `None` when there is no such control, `undefined` for a button.
     pub fn value<'w>(&self, which: impl Into<Which<'w>>) -> Option<&Value> {
         self.now.session.values().get(self.index(which.into()).ok()?)
     }
@@ -82,22 +83,23 @@ impl Player {
         self.now.session.world.data.time()
     }
 
-    /// Length of a step now, s.
+    /// Current length of a step, s.
     pub fn timestep(&self) -> f64 {
         self.model().opt.timestep
     }
 
-    /// The model as controls and programs left it.
+    /// The model, as changed by controls and programs.
     pub fn model(&self) -> &Model {
         &self.now.session.world.model
     }
 
-    /// The data: state, inputs, and what the programs of the lab read, as the last step has left it. [`Player::scene`] has everything.
+    /// The data after the last step: state, inputs, and the fields that the programs of the lab read. [`Player::scene`] has
+    /// all fields.
     pub fn data(&self) -> &Data<Planned> {
         &self.now.session.world.data
     }
 
-    /// Whether the lab stands still until it is reset: it reached its `stopAt`, or it froze.
+    /// Whether the lab does not continue without a reset: it reached its `stopAt`, or it is frozen.
     pub fn is_over(&self) -> bool {
         self.now.session.ended().is_some() || self.stop().is_some_and(|stop| self.time() >= stop)
     }
@@ -105,7 +107,7 @@ impl Player {
     /// Moves a slider, or chooses an option by its value or its text.
     ///
     /// # Errors
-    /// There is no such control, it is a button, no student can choose this value, or the lab is frozen.
+    /// There is no such control, it is a button, a student cannot choose this value, or the lab is frozen.
     pub fn set<'w>(&mut self, which: impl Into<Which<'w>>, value: impl Into<Value>) -> Result<(), Error> {
         let index = self.index(which.into())?;
         let Some(control) = self.lab.controls.get(index) else { return Err(self.unknown(index)) };
@@ -116,7 +118,7 @@ impl Player {
     /// Presses a button.
     ///
     /// # Errors
-    /// There is no such control, it is no button, or the lab is frozen.
+    /// There is no such control, it is not a button, or the lab is frozen.
     pub fn press<'w>(&mut self, which: impl Into<Which<'w>>) -> Result<(), Error> {
         let index = self.index(which.into())?;
         let Some(control) = self.controls.get(index) else { return Err(self.unknown(index)) };
@@ -127,7 +129,7 @@ impl Player {
         self.act(|session| session.press(index))
     }
 
-    /// One step.
+    /// Performs one step.
     ///
     /// # Errors
     /// The lab is frozen.
@@ -135,23 +137,23 @@ impl Player {
         self.act(Session::step)
     }
 
-    /// Back to the start, as the page's button does it: controls, model and `ctx` keep what they hold. A frozen lab plays
-    /// again.
+    /// Resets the lab like the button of the page: controls, model and `ctx` keep their values. A frozen lab plays again.
     pub fn reset(&mut self) {
         self.now.session.renew(Budget::TRIAL);
         self.now.session.start_over();
         self.observe();
     }
 
-    /// Plays until a time, or until the lab stops by itself; returns the number of steps. A time that has passed is no step.
+    /// Plays until a time, s, or until the lab stops by itself. Returns the number of steps; zero for a time in the past.
     ///
     /// # Errors
-    /// The time is none, it is too many steps away, or the lab is frozen before it gets there.
+    /// The time is NaN, it is too many steps away, or the lab freezes before that time.
     pub fn play_to(&mut self, time: f64) -> Result<usize, Error> {
         self.play(time, |_, _| ())
     }
 
-    /// The same for a page that draws curves: `each` gets the time and the values after every step.
+    /// Like [`Player::play_to`], for a page that draws curves: `each` is called with the time and the values after every
+    /// step.
     ///
     /// # Errors
     /// As for [`Player::play_to`].
@@ -165,8 +167,8 @@ impl Player {
         })
     }
 
-    /// Plays at most `most` steps towards a time, and stops early where `each` breaks: it gets the data and the values after
-    /// every step.
+    /// Plays at most `most` steps towards a time, and stops early where `each` breaks. `each` is called with the data and
+    /// the values after every step.
     ///
     /// # Errors
     /// As for [`Player::play_to`].
@@ -213,7 +215,7 @@ impl Player {
         self.frozen().map_or(Ok(made), Err)
     }
 
-    /// Everything that was found: in the lab when it was loaded, and whatever broke since, with its time.
+    /// All findings: those of loading the lab, and breakdowns since, with their times.
     pub fn findings(&self) -> Vec<Finding> {
         let session = &self.now.session;
         let done = self.done();
@@ -225,12 +227,12 @@ impl Player {
         all
     }
 
-    /// The state, to come back to.
+    /// The state, for [`Player::restore`].
     pub fn save(&self) -> Saved {
         self.now.clone()
     }
 
-    /// Back to a saved state: from there on everything is what it was, to the bit.
+    /// Restores a saved state. The lab then continues with equal results, bit for bit.
     ///
     /// # Errors
     /// It was saved by another lab.
@@ -259,7 +261,7 @@ impl Player {
         self.lab.stop_at.as_ref().map(|stop| stop.value)
     }
 
-    /// Does something to the lab, and looks at what it shows then.
+    /// Changes the lab, and updates the displayed values.
     fn act(&mut self, what: impl FnOnce(&mut Session<'static>)) -> Result<(), Error> {
         if let Some(frozen) = self.frozen() {
             return Err(frozen);
@@ -270,11 +272,11 @@ impl Player {
         self.frozen().map_or(Ok(()), Err)
     }
 
-    /// Takes the values of everything that is shown.
+    /// Updates the displayed values.
     fn observe(&mut self) {
         self.mark_scene_stale();
         let mut row = self.now.session.sample().into_iter();
-        // Time stands first.
+        // The first cell is the time.
         row.next();
         self.now.cells.clear();
         self.now.cells.extend(row);
@@ -286,7 +288,7 @@ impl Player {
         self.scene.iter_mut().for_each(|scene| scene.is_stale = true);
     }
 
-    /// Why the lab stands still, if something broke it.
+    /// Why the lab is frozen, if an error stopped it.
     fn frozen(&self) -> Option<Error> {
         let session = &self.now.session;
         session.ended()?;
@@ -300,7 +302,7 @@ impl Player {
         })
     }
 
-    /// A lab that does more than a page can wait for.
+    /// The finding about a lab that needs more work than a page allows.
     fn spent(&self) -> Option<Finding> {
         let Some(End::Budget { time }) = self.now.session.ended() else { return None };
         let what = format!(
@@ -313,7 +315,7 @@ impl Player {
         )
     }
 
-    /// What was done to the lab, for findings.
+    /// Describes the changed controls, for findings.
     fn done(&self) -> String {
         let moved = self.controls.iter().zip(self.now.session.values()).filter(|(c, now)| c.start != **now);
         let list: Vec<String> = moved.map(|(c, now)| format!("\"{}\" at {now}", c.label)).collect();

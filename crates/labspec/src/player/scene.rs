@@ -1,4 +1,5 @@
-//! What a page draws. The steps of a lab compute what its programs read; the rest is computed here from its state, when a page asks.
+//! The fields that a page draws. The steps of a lab compute what its programs read; the others are computed here from the
+//! state, when a page requests them.
 
 use super::Player;
 use crate::error::Error;
@@ -6,26 +7,26 @@ use crate::run::Budget;
 use labspec_core::reflect::{FieldId, FieldSet, Kind, Object, View, ViewMut};
 use labspec_core::{Data, Full, Model, Planned, exhausted, forward, limit};
 
-/// All fields at one state of a lab.
+/// All fields for one state of a lab.
 #[derive(Clone, Debug)]
 pub(super) struct Scene {
     data: Data<Full>,
-    /// The lab has moved since.
+    /// Whether the lab has moved since.
     pub(super) is_stale: bool,
 }
 
 impl Player {
-    /// All fields of the data at the present state: poses, contacts, forces. They are computed as `mj_forward` does it, once for each
-    /// state for which they are asked, and the lab goes on as if nobody had asked. Its own data ([`Player::data`]) belong to the state
-    /// before the last step, as after `mj_step`, and hold what its programs read.
+    /// All fields of the data at the current state: poses, contacts, forces. They are computed like `mj_forward`, once for
+    /// each state for which they are requested, and do not affect the lab. The data of the lab ([`Player::data`]) belong to
+    /// the state before the last step, as after `mj_step`, and contain the fields that its programs read.
     ///
     /// # Errors
-    /// The engine refuses the model as the lab has changed it, or the scene needs more work than a page allows.
+    /// The engine refuses the model as changed by the lab, or the scene needs more work than a page allows.
     pub fn scene(&mut self) -> Result<&Data<Full>, Error> {
         self.model_and_scene().map(|(_, scene)| scene)
     }
 
-    /// The model as controls and programs left it, and [`Player::scene`].
+    /// The model, as changed by controls and programs, and [`Player::scene`].
     ///
     /// # Errors
     /// As for [`Player::scene`].
@@ -44,7 +45,7 @@ impl Player {
     }
 }
 
-/// Copies state and inputs, and computes everything else.
+/// Copies state and inputs, and computes all other fields.
 fn refresh(model: &Model, from: &Data<Planned>, to: &mut Data<Full>) -> Result<(), labspec_core::Error> {
     let written = |f: &FieldId| {
         let info = f.info();

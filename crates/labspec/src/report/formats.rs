@@ -1,4 +1,4 @@
-//! Findings in the forms that other programs take: compilers' lines, GitHub, GitLab, JUnit.
+//! Findings in the formats of other programs: compiler output, GitHub, GitLab, JUnit.
 
 use super::machine::FindingRow;
 use super::uri::slashed;
@@ -15,12 +15,13 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::ops::Range;
 
-/// Line and column where a finding begins and ends, from 1; 1, 1 where its file is not at hand.
+/// Line and column of the beginning and the end of a finding, from 1; all 1 where its file is not available.
 fn place(f: &Finding, files: &[&SourceFile]) -> [usize; 4] {
     place_of(&f.path, &f.span, files).unwrap_or([1; 4])
 }
 
-/// The same of some bytes of a file, where it is at hand.
+/// Line and column of the beginning and the end of a range of bytes of a file, from 1; `None` where the file is not
+/// available.
 pub(super) fn place_of(path: &str, span: &Range<usize>, files: &[&SourceFile]) -> Option<[usize; 4]> {
     let file = file_of(files, path)?;
     let span = file.snap(span);
@@ -45,7 +46,7 @@ pub fn concise<'f>(findings: impl IntoIterator<Item = &'f Finding>, files: &[&So
     text
 }
 
-/// A JSON object in a line for each finding, as in `json`, and a last one with the summary.
+/// One line with a JSON object for each finding, as in `json`, and a last line with the summary.
 pub fn jsonl(findings: &[Finding], files: &[&SourceFile]) -> String {
     let mut text = String::new();
     for f in findings {
@@ -55,7 +56,7 @@ pub fn jsonl(findings: &[Finding], files: &[&SourceFile]) -> String {
     printable_json(&text).into_owned()
 }
 
-/// Commands of GitHub's workflows, which show each finding in its file.
+/// Commands of GitHub workflows, which annotate the files with findings.
 pub fn github(findings: &[Finding], files: &[&SourceFile]) -> String {
     let mut text = String::new();
     for f in findings {
@@ -66,7 +67,7 @@ pub fn github(findings: &[Finding], files: &[&SourceFile]) -> String {
             Severity::Note => "notice",
         };
         let help = f.help.as_ref().map_or(String::new(), |help| format!("\n{help}"));
-        // A column of the end may stand only where the end is in the same line.
+        // The end column is allowed only if the end is on the same line.
         let columns = if last == line { format!(",col={column},endColumn={end}") } else { String::new() };
         let _ = writeln!(
             text,
@@ -79,7 +80,8 @@ pub fn github(findings: &[Finding], files: &[&SourceFile]) -> String {
     text
 }
 
-/// What ends a command of GitHub's, escaped; what acts on a terminal is written out, since logs are read in one.
+/// Escapes the characters that end a GitHub command. Control characters of terminals are written as escapes, because logs
+/// are read in terminals.
 fn data(text: &str) -> String {
     printable_lines(text).replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A")
 }
@@ -88,7 +90,7 @@ fn property(text: &str) -> String {
     data(text).replace(':', "%3A").replace(',', "%2C")
 }
 
-/// A report of GitLab's code quality.
+/// A code quality report of GitLab.
 pub fn gitlab(findings: &[Finding], files: &[&SourceFile]) -> Value {
     #[derive(Serialize)]
     struct Issue<'a> {
@@ -126,7 +128,8 @@ pub fn gitlab(findings: &[Finding], files: &[&SourceFile]) -> Value {
     to_value(&issues.collect::<Vec<_>>())
 }
 
-/// By what a finding is known again when lines move: its file, code and words, and how many alike came before.
+/// The identity of a finding, which does not depend on line numbers: its file, code and message, and the number of equal
+/// findings before it.
 pub(super) fn fingerprint(f: &Finding, seen: &mut BTreeMap<String, usize>) -> String {
     let what = format!("{}\n{}\n{}", f.path, f.code, f.message);
     let before = seen.entry(what.clone()).or_default();
@@ -134,14 +137,15 @@ pub(super) fn fingerprint(f: &Finding, seen: &mut BTreeMap<String, usize>) -> St
     fnv(&format!("{what}\n{before}"))
 }
 
-/// The hash of Fowler, Noll and Vo, twice 64 bits: a name, no secret.
+/// The Fowler–Noll–Vo hash, twice 64 bits: an identifier, not for security.
 fn fnv(text: &str) -> String {
     let hash =
         |start: u64| text.bytes().fold(start, |h, b| (h ^ u64::from(b)).wrapping_mul(0x0000_0100_0000_01b3));
     format!("{:016x}{:016x}", hash(0xcbf2_9ce4_8422_2325), hash(0x9e37_79b9_7f4a_7c15))
 }
 
-/// JUnit: a suite for each file, a case for each claim of the ledger. What is wrong with the file itself fails its own case.
+/// A JUnit report: a suite for each file, a case for each claim of the ledger. Findings of the file itself fail a separate
+/// case.
 pub fn junit(ledger: &Ledger, findings: &[Finding], files: &[&SourceFile]) -> String {
     let mut by_file: BTreeMap<&str, Vec<&Entry>> = BTreeMap::new();
     for entry in ledger.entries() {
@@ -159,7 +163,7 @@ pub fn junit(ledger: &Ledger, findings: &[Finding], files: &[&SourceFile]) -> St
     };
     let all: Vec<&Entry> = ledger.entries().iter().collect();
     let mut text = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
-    // The schema of Jenkins has no `skipped` here.
+    // The schema of Jenkins does not allow `skipped` here.
     let _ = writeln!(text, "<testsuites name=\"labspec\" {}>", counts(&all).0);
     for (path, entries) in by_file {
         let (numbers, skipped) = counts(&entries);
@@ -171,7 +175,7 @@ pub fn junit(ledger: &Ledger, findings: &[Finding], files: &[&SourceFile]) -> St
                 write!(text, "    <testcase classname=\"{}\" name=\"{}\"", attribute(path), attribute(&name));
             let remark = if e.remark.is_empty() { String::new() } else { format!(": {}", e.remark) };
             let message = attribute(&format!("{}{remark}", e.word));
-            // Findings in what it is about say more; those of the whole file all of it.
+            // The case lists the findings within its span; a case of the whole file lists all.
             let inside = |f: &&Finding| {
                 e.span.is_empty() || (e.span.start <= f.span.start && f.span.end <= e.span.end)
             };
@@ -191,7 +195,7 @@ pub fn junit(ledger: &Ledger, findings: &[Finding], files: &[&SourceFile]) -> St
     text
 }
 
-/// The element that says in a case what became of it; empty where it is true.
+/// The element for the state of a case; empty where the claim is true.
 fn outcome_tag(state: State) -> &'static str {
     match state {
         State::False => "failure",
@@ -201,12 +205,12 @@ fn outcome_tag(state: State) -> &'static str {
     }
 }
 
-/// An attribute of XML: one line.
+/// An XML attribute, on one line.
 fn attribute(text: &str) -> String {
     xml(&printable(text))
 }
 
-/// Text of XML, without what XML cannot hold; what acts on a terminal is written out.
+/// XML text without characters that XML does not allow. Control characters of terminals are written as escapes.
 fn xml(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in printable_lines(text).chars() {
@@ -223,7 +227,7 @@ fn xml(text: &str) -> String {
     out
 }
 
-/// How often each rule is broken, the most frequent first.
+/// Number of violations of each rule, the most frequent first.
 pub fn statistics(findings: &[Finding]) -> String {
     let mut counts: BTreeMap<(&str, Severity), [usize; 2]> = BTreeMap::new();
     for f in findings {

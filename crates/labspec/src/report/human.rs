@@ -1,7 +1,7 @@
-//! Findings for people: code, place, the line with a mark under it, why, and what to do.
+//! Findings for people: code, location, the source line with the marked span, why, and help.
 //!
-//! Lines of lessons can be kilobytes long, so a window around each mark is shown; the place above it is the true
-//! one. Drawn by annotate-snippets, in the manner of rustc.
+//! Lines of lessons can be kilobytes long, so only a window around each span is printed. The location above it is that in
+//! the file. Rendered with annotate-snippets, in the style of rustc.
 
 use super::file_of;
 use crate::finding::{Finding, Severity};
@@ -10,12 +10,12 @@ use crate::source::SourceFile;
 use annotate_snippets::{AnnotationKind, Element, Level, Origin, Renderer, Snippet};
 use std::ops::Range;
 
-/// Characters shown on each side of a mark, and most characters of the mark itself.
+/// Number of characters on each side of a span, and maximum number of characters of the span itself.
 const CONTEXT: usize = 48;
-/// Most characters of a line that is shown whole.
+/// Maximum number of characters of a line that is printed completely.
 const WHOLE: usize = 110;
 
-/// All findings, one after another, each followed by an empty line. Colours are escape sequences of terminals.
+/// All findings, each followed by an empty line. With `colour`, the text contains escape sequences for terminals.
 pub fn human(findings: &[Finding], files: &[&SourceFile], colour: bool) -> String {
     let renderer = if colour { Renderer::styled() } else { Renderer::plain() };
     let renderer = renderer.term_width(WHOLE + 40);
@@ -52,8 +52,8 @@ fn one(finding: &Finding, files: &[&SourceFile], renderer: &Renderer) -> String 
     drawn.lines().filter(|line| !is_nameless(line)).collect::<Vec<_>>().join("\n")
 }
 
-/// Whether this is the line that announces a snippet without a path: the place stands above it already, because
-/// a snippet that is cut out of a long line does not know its own column.
+/// Whether this is the header line of a snippet without a path. The location is already printed above it, because a snippet
+/// from the middle of a long line has no column information.
 fn is_nameless(line: &str) -> bool {
     let mut visible = String::new();
     let mut in_escape = false;
@@ -68,7 +68,7 @@ fn is_nameless(line: &str) -> bool {
     visible.trim() == ":::"
 }
 
-/// The place of a span, and a window of its line.
+/// The location of a span, and a window of its line.
 fn place<'a>(
     files: &[&SourceFile],
     path: &str,
@@ -92,8 +92,8 @@ fn place<'a>(
     vec![origin.into(), Snippet::source(text).line_start(position.line).annotation(mark).into()]
 }
 
-/// A stretch of a line around a span of the file, with … where it was cut, and the span within it. A span that
-/// reaches beyond the line ends with it.
+/// The part of a line around a span of the file, with … where it was truncated, and the span within it. A span that extends
+/// beyond the line is clipped.
 fn window(line: &str, span: &Range<usize>, line_start: usize) -> (String, Range<usize>) {
     let start = span.start.saturating_sub(line_start).min(line.len());
     let end = span.end.saturating_sub(line_start).clamp(start, line.len());
@@ -121,7 +121,7 @@ fn window(line: &str, span: &Range<usize>, line_start: usize) -> (String, Range<
     written([&begin, &excerpt, &end])
 }
 
-/// The three parts of a line, safe to print, and where the middle one stands.
+/// The three parts of a line, safe to print, and the range of the middle one.
 fn written(parts: [&str; 3]) -> (String, Range<usize>) {
     let [before, inside, after] = parts.map(printable_line);
     let mark = before.len()..before.len() + inside.len();

@@ -1,5 +1,5 @@
-//! Reports for editors and pipelines, as JSON: what all of them have in common. `docs/reports.md` is their reference, and
-//! `docs/schema` holds a JSON Schema of each.
+//! JSON reports for editors and pipelines: their common parts. The reference is `docs/reports.md`, and `docs/schema`
+//! contains a JSON Schema of each report.
 
 use super::{Summary, file_of};
 use crate::finding::Finding;
@@ -9,10 +9,10 @@ use serde::Serialize;
 use serde_json::Value;
 use std::ops::Range;
 
-/// The version of the form of all reports. It goes up when a program that reads them would have to change.
+/// The version of the format of all reports. It is incremented when programs that read them must change.
 pub const SCHEMA_VERSION: u32 = 1;
 
-/// A report with this name: its version and its name stand first.
+/// A report, which begins with the version and its name.
 pub fn report(name: &str, entries: impl Serialize) -> Value {
     #[derive(Serialize)]
     #[serde(rename_all = "camelCase")]
@@ -25,7 +25,7 @@ pub fn report(name: &str, entries: impl Serialize) -> Value {
     to_value(&Report { schema_version: SCHEMA_VERSION, report: name, entries })
 }
 
-/// Words of ours as a key, or as one of a few values: `closed form` is `closedForm`.
+/// Converts words to a key or an enumeration value: `closed form` becomes `closedForm`.
 pub fn key(words: &str) -> String {
     let mut key = String::new();
     for (i, word) in words.split([' ', '-']).enumerate() {
@@ -39,7 +39,7 @@ pub fn key(words: &str) -> String {
     key
 }
 
-/// All findings and their counts. Without the file of a finding among `files`, its places are `null`.
+/// All findings and their counts. If the file of a finding is not among `files`, its positions are `null`.
 pub fn json(findings: &[Finding], files: &[&SourceFile]) -> Value {
     #[derive(Serialize)]
     struct Findings<'a> {
@@ -50,7 +50,7 @@ pub fn json(findings: &[Finding], files: &[&SourceFile]) -> Value {
     to_value(&Findings { findings: rows, summary: Summary::count(findings) })
 }
 
-/// A finding as programs read it.
+/// A finding in a report.
 #[derive(Serialize)]
 pub(super) struct FindingRow<'a> {
     code: &'a str,
@@ -100,8 +100,8 @@ impl<'a> FindingRow<'a> {
     }
 }
 
-/// The one form of places in all reports: the file; bytes of the file; lines and columns from 1, columns in characters; and the
-/// range as editors count it. An end is the place behind the last character. Of a file that is not at hand everything but its
+/// The format of locations in all reports: the file; byte offsets; lines and columns from 1, columns in characters; and the
+/// range in editor coordinates. An end is after the last character. If the file is not available, everything except the
 /// path is `null`.
 #[derive(Default, Serialize)]
 #[serde(rename_all = "camelCase")]
@@ -123,7 +123,7 @@ struct EditorPlace {
 }
 
 impl<'a> PlaceFields<'a> {
-    /// The place of some bytes of a file.
+    /// The location of a range of bytes of a file.
     pub fn new(files: &[&SourceFile], path: &'a str, span: &Range<usize>) -> PlaceFields<'a> {
         let Some(file) = file_of(files, path) else {
             return PlaceFields { file: path, ..PlaceFields::default() };
@@ -147,14 +147,14 @@ impl<'a> PlaceFields<'a> {
     }
 }
 
-/// Writes a place into an object, in the form that places have in all reports.
+/// Writes a location into an object, in the format of all reports.
 pub fn set_place(object: &mut Value, files: &[&SourceFile], path: &str, span: &Range<usize>) {
     for (key, value) in to_value(&PlaceFields::new(files, path, span)).as_object().into_iter().flatten() {
         object[key] = value.clone();
     }
 }
 
-/// The name of what JSON has no number for: `NaN`, `Infinity` or `-Infinity`; `None` for every other number.
+/// The name of a number that JSON cannot represent: `NaN`, `Infinity` or `-Infinity`; `None` for every other number.
 pub fn nonfinite(x: f64) -> Option<&'static str> {
     match x {
         x if x.is_nan() => Some("NaN"),
@@ -164,8 +164,8 @@ pub fn nonfinite(x: f64) -> Option<&'static str> {
     }
 }
 
-/// Writes a number into an object. What is no number for JSON is `null`, and the object's `nonfinite` says under the same
-/// key what it was, so that a key holds values of one type and nothing is lost.
+/// Writes a number into an object. A number that JSON cannot represent is `null`, and `nonfinite` contains its name under
+/// the same key. So every key has values of one type and no information is lost.
 pub fn set_number(object: &mut Value, key: &str, x: f64) {
     object[key] = x.into();
     if let Some(name) = nonfinite(x) {
@@ -173,7 +173,8 @@ pub fn set_number(object: &mut Value, key: &str, x: f64) {
     }
 }
 
-/// The same for a list, in which an entry may also be missing: `nonfinite` holds pairs of index and name.
+/// Writes a list of numbers into an object, like [`set_number`]. Entries may be missing; `nonfinite` contains pairs of
+/// index and name.
 pub fn set_numbers(object: &mut Value, key: &str, list: &[Option<f64>]) {
     object[key] = list.into();
     let named = |(i, x): (usize, &Option<f64>)| Some((i, nonfinite((*x)?)?));
@@ -201,7 +202,7 @@ mod tests {
     fn a_place_has_all_its_forms() {
         let file = SourceFile::new("a.md", "\u{feff}one\r\n\"𝄞ä\" x");
         let mut value = json!({});
-        // From the clef to the end of `x`, and from inside of it.
+        // From the clef to the end of `x`, and from inside the clef.
         for span in [9..17, 10..17] {
             set_place(&mut value, &[&file], "a.md", &span);
             let expected = json!({

@@ -30,7 +30,7 @@ use crate::finding::{Finding, Severity};
 use crate::source::SourceFile;
 use serde::Serialize;
 
-/// How many findings of each severity.
+/// Number of findings of each severity.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Summary {
     /// Errors.
@@ -54,7 +54,7 @@ impl Summary {
 }
 
 impl std::fmt::Display for Summary {
-    /// `2 errors, 1 warning`; `no findings` when there is nothing, which is no verdict: see [`crate::ledger`].
+    /// `2 errors, 1 warning`, or `no findings`. This is not a verdict: see [`crate::ledger`].
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let parts: Vec<String> = [(self.errors, "error"), (self.warnings, "warning"), (self.notes, "note")]
             .into_iter()
@@ -68,7 +68,7 @@ impl std::fmt::Display for Summary {
     }
 }
 
-/// The file of a path, among those that were read.
+/// The file with a path, among the files that were read.
 fn file_of<'a>(files: &[&'a SourceFile], path: &str) -> Option<&'a SourceFile> {
     files.iter().copied().find(|f| &**f.path() == path)
 }

@@ -1,4 +1,4 @@
-//! Findings as SARIF 2.1.0, the form of code scanners: the objects of the standard that ours need, by its names.
+//! Findings as SARIF 2.1.0, the format of code scanners: the objects of the standard that are needed, with its names.
 
 use super::formats::{fingerprint, place_of};
 use super::to_value;
@@ -12,7 +12,7 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// Where the pages of the rules are.
+/// The address of the pages of the rules.
 const PAGES: &str = "https://github.com/labspec/labspec/blob/main/docs/reference/codes.md";
 
 /// The page of a rule.
@@ -96,7 +96,7 @@ struct Location {
 #[serde(rename_all = "camelCase")]
 struct PhysicalLocation {
     artifact_location: ArtifactLocation,
-    /// A file that could not be read has no places.
+    /// `None` for a file that could not be read.
     #[serde(skip_serializing_if = "Option::is_none")]
     region: Option<Region>,
 }
@@ -207,7 +207,7 @@ fn region(f: &Finding, span: &Range<usize>, files: &[&SourceFile]) -> Option<Reg
     Some(Region { start_line, start_column, end_line, end_column })
 }
 
-/// A fix that a program may apply.
+/// The fix of a finding, if a program may apply it.
 fn fix<'a>(f: &'a Finding, files: &[&SourceFile]) -> Option<Fix<'a>> {
     let fix = f.fix.as_ref().filter(|fix| fix.applicability != Applicability::Display)?;
     let replacement = Replacement {

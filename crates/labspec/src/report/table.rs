@@ -1,8 +1,8 @@
-//! Tables of samples as JSON and as comma-separated values, row by row: a table of millions of rows is never held as a whole
-//! a second time.
+//! Writes tables of samples as JSON and as comma-separated values, row by row: a table of millions of rows is never copied
+//! completely.
 //!
-//! Every number is written so that reading it gives the same bits. A column of JSON holds values of one type; where a number
-//! is none, it holds `null`, and the list `nonfinite` says what was there.
+//! Every number is written so that reading it gives the same bits. A column of JSON has values of one type. For a number
+//! that JSON cannot represent it has `null`, and the list `nonfinite` contains the number.
 
 use super::{SCHEMA_VERSION, nonfinite};
 use crate::printable::printable_json;
@@ -12,18 +12,18 @@ use serde::{Serialize, Serializer};
 use serde_json::ser::Formatter;
 use std::io::{self, Write};
 
-/// What the cells of a column are, besides those with nothing in them.
+/// The type of the cells of a column, ignoring empty ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 enum Type {
     Number,
     Boolean,
-    /// Texts, or values of several types, which are then written as texts.
+    /// Texts, or values of several types, which are written as texts.
     Text,
 }
 
 impl Type {
-    /// The type of a cell; `None` when there is nothing in it.
+    /// The type of a cell; `None` for an empty cell.
     fn of_cell(cell: &Cell) -> Option<Type> {
         match cell {
             Cell::Number(_) => Some(Type::Number),
@@ -34,7 +34,7 @@ impl Type {
     }
 }
 
-/// The types of all columns. One in which there is nothing is a column of numbers that are missing.
+/// The types of all columns. An empty column is a column of missing numbers.
 fn types(table: &Table) -> Vec<Type> {
     let mut types: Vec<Option<Type>> = vec![None; table.columns.len()];
     for row in &table.rows {
@@ -48,12 +48,12 @@ fn types(table: &Table) -> Vec<Type> {
     types.into_iter().map(|t| t.unwrap_or(Type::Number)).collect()
 }
 
-/// A number in words: those of JavaScript, and `-0`, which it writes as `0`.
+/// A number as text, in the format of JavaScript, except that `-0` keeps its sign.
 pub fn number_in_table(x: f64) -> String {
     if x == 0.0 && x.is_sign_negative() { "-0".into() } else { Value::Number(x).to_string() }
 }
 
-/// The report `run`: its rows, and the cells that are no numbers, are written one by one.
+/// The report `run`. Its rows and its list of nonfinite cells are written without copying them.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 struct RunReport<'t, R: Serialize, N: Serialize> {
@@ -81,7 +81,7 @@ struct BreakdownRow<'t> {
     help: String,
 }
 
-/// What the numbers are that JSON has not.
+/// The numbers that JSON cannot represent.
 #[derive(Serialize)]
 struct Nonfinite<'t, N: Serialize> {
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -90,7 +90,7 @@ struct Nonfinite<'t, N: Serialize> {
     rows: Option<N>,
 }
 
-/// A list that is made while it is written.
+/// A list that is generated while it is written.
 struct Sequence<F>(F);
 
 impl<I: Iterator<Item: Serialize>, F: Fn() -> I> Serialize for Sequence<F> {
@@ -118,7 +118,7 @@ impl Serialize for TypedCell<'_> {
     }
 }
 
-/// Row, column and name of every number that JSON has not, where a column holds numbers.
+/// Row, column and name of every number that JSON cannot represent, in columns of numbers.
 fn nonfinite_cells<'t>(
     rows: &'t [Vec<Cell>],
     types: &'t [Type],
@@ -135,7 +135,7 @@ fn as_object<S: Serializer>(pairs: &[(&str, usize)], out: S) -> Result<S::Ok, S:
     out.collect_map(pairs.iter().copied())
 }
 
-/// JSON whose texts hold nothing that acts on a terminal.
+/// Formats JSON with control characters of terminals written as escapes.
 struct Printable;
 
 impl Formatter for Printable {
@@ -145,7 +145,7 @@ impl Formatter for Printable {
 }
 
 impl Table {
-    /// The report `run`, in the layout of the reference runner: columns, rows, warnings, errors, and what broke.
+    /// Writes the report `run`, in the layout of the reference runner: columns, rows, warnings, errors, and breakdowns.
     ///
     /// # Errors
     /// Writing fails.
@@ -174,8 +174,8 @@ impl Table {
         Ok(report.serialize(&mut serde_json::Serializer::with_formatter(out, Printable))?)
     }
 
-    /// Comma-separated values with a header. Numbers that are none are `NaN`, `Infinity` and `-Infinity`; where there is
-    /// nothing, there is nothing between the commas.
+    /// Writes comma-separated values with a header. Nonfinite numbers are `NaN`, `Infinity` and `-Infinity`; an empty cell
+    /// is an empty field.
     ///
     /// # Errors
     /// Writing fails.
@@ -235,7 +235,7 @@ mod tests {
     fn json_of(table: &Table) -> serde_json::Value {
         let text = written(|out| table.write_json(out));
         let value: serde_json::Value = serde_json::from_str(&text).unwrap();
-        // One value, with nothing in it that a writer of JSON would write otherwise.
+        // The output equals that of a JSON writer.
         assert_eq!(value.to_string(), text);
         value
     }
@@ -314,7 +314,7 @@ mod tests {
         assert_eq!(written(|out| table.write_csv(out)), lines);
     }
 
-    /// Patterns of bits from a plain generator (splitmix64), among them many that are no numbers.
+    /// Bit patterns from a simple generator (splitmix64), including many NaN.
     #[test]
     fn every_bit_of_a_number_survives() {
         let mut state = 1u64;
@@ -327,7 +327,7 @@ mod tests {
         let edges =
             [0.0, -0.0, f64::MIN_POSITIVE, f64::MAX, f64::MIN, 5e-324, 0.1 + 0.2, 2f64.powi(53), 1e21, 1e-7];
         let no = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
-        // A third of them small numbers as lessons have them, and a few with the exponent of NaN and the infinities.
+        // A third are small numbers as in lessons, and a few have the exponent of NaN and infinity.
         let random = (0..10_000).map(|i| match i % 9 {
             0..=2 => (bits() >> 11) as f64 / 2f64.powi(53) * 100.0 - 50.0,
             3 => f64::from_bits(bits() | 0x7ff0_0000_0000_0000),

@@ -1,10 +1,10 @@
-//! Paths as other programs write them: with `/` between folders, and as references of RFC 3986.
+//! Paths in the notation of other programs: with `/` between folders, and as references of RFC 3986.
 
 use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
 use std::borrow::Cow;
 
-/// The characters that RFC 3986 does not leave as they are in a relative path: all but the unreserved ones, and those that may stand
-/// between slashes. A colon is encoded, too: it would end a scheme.
+/// The characters that RFC 3986 requires to be encoded in a relative path: all except the unreserved ones and those allowed
+/// between slashes. A colon is encoded too, because it would end a scheme.
 pub const RELATIVE_PATH: &AsciiSet = &NON_ALPHANUMERIC
     .remove(b'/')
     .remove(b'-')
@@ -24,7 +24,7 @@ pub const RELATIVE_PATH: &AsciiSet = &NON_ALPHANUMERIC
     .remove(b'=')
     .remove(b'@');
 
-/// A path with `/` between its folders, and without a `./` that says nothing.
+/// A path with `/` between its folders, and without a leading `./`.
 pub(super) fn slashed(path: &str) -> Cow<'_, str> {
     let path = if cfg!(windows) { Cow::Owned(path.replace('\\', "/")) } else { Cow::Borrowed(path) };
     match path.strip_prefix("./").filter(|rest| !rest.is_empty() && !rest.starts_with('/')) {
@@ -33,8 +33,8 @@ pub(super) fn slashed(path: &str) -> Cow<'_, str> {
     }
 }
 
-/// The reference of a path: relative as the path is, or a URI of a file. What RFC 3986 does not leave as it is, is written as the
-/// bytes of UTF-8 in hexadecimal.
+/// The reference of a path: relative if the path is, else a file URI. Characters that RFC 3986 does not allow are
+/// percent-encoded as UTF-8.
 pub(super) fn uri(path: &str) -> String {
     let path = slashed(path);
     let drive = cfg!(windows) && path.get(1..2) == Some(":");
@@ -68,7 +68,7 @@ mod tests {
     }
 
     proptest! {
-        /// Nothing but what RFC 3986 allows in a path, and the path comes back.
+        /// Contains only characters that RFC 3986 allows in a path, and decodes to the same path.
         #[test]
         fn every_path_comes_back(path in "[^./\\\\][^\\\\]{0,30}") {
             let uri = uri(&path);

@@ -1,42 +1,42 @@
-//! What went wrong in a run, in a teacher's words: what broke, when, the likely cause, and what to write instead.
+//! Breakdowns of a run, described for teachers: what broke, when, the likely cause, and a suggestion.
 
 use super::cell::rounded;
 use crate::monitors::stability::{self, StiffPart, Suspect};
 use crate::rules::Rule;
 use labspec_core::{Model, Obj};
 
-/// What went wrong in a run, loudly or silently, in a teacher's words.
+/// A breakdown of a run, reported by the engine or silent, described for teachers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Breakdown {
-    /// The code of the finding.
+    /// The rule of the finding.
     pub rule: &'static Rule,
-    /// What is no number, what grows, passes or sinks, and when.
+    /// Which quantity is not a number, grows, passes or sinks, and when.
     pub what: String,
-    /// What the page shows.
+    /// The consequence on the page.
     pub why: &'static str,
     /// The likely cause, where it is known.
     pub cause: Option<String>,
     /// A shorter timestep, s.
     pub shorter: Shorter,
-    /// What else to change.
+    /// Another remedy.
     pub instead: String,
 }
 
 /// A timestep that may be short enough.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shorter {
-    /// The timestep has nothing to do with it.
+    /// The timestep is not the cause.
     No,
-    /// A shorter one may help, this one by theory where there is one. Nobody has tried it.
+    /// A shorter timestep may help; the value follows from theory if it is given. It was not tested.
     Maybe(Option<f64>),
-    /// A run with this one had no fault.
+    /// A run with this timestep had no fault.
     Tried(f64),
-    /// No run with those that were tried was free of faults.
+    /// None of the tested shorter timesteps gave a run without faults.
     Useless,
 }
 
 impl Breakdown {
-    /// The likely cause and what to change.
+    /// The likely cause and the remedies.
     pub fn help(&self) -> String {
         let cause = self.cause.as_ref().map_or(String::new(), |cause| format!("the likely cause: {cause}; "));
         let instead = &self.instead;
@@ -52,12 +52,13 @@ impl Breakdown {
     }
 }
 
-/// A time to a tenth of a millisecond.
+/// A time, s, rounded to a tenth of a millisecond.
 pub fn time(t: f64) -> String {
     without_zeros(format!("{t:.4}"))
 }
 
-/// Two digits as plain decimals: `0.85`, `0.00018`; larger numbers whole. Only what is too long for that has an exponent.
+/// Two significant digits as plain decimals: `0.85`, `0.00018`; larger numbers as integers. Very small or large numbers
+/// have an exponent.
 pub fn two_digits(x: f64) -> String {
     let size = x.abs();
     if size == 0.0 || !(1e-6..1e7).contains(&size) {
@@ -71,7 +72,7 @@ fn without_zeros(text: String) -> String {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
-/// The likely cause of what breaks, and what to write instead.
+/// The likely cause of a breakdown, and the remedies.
 pub(super) struct BreakdownAdvice {
     pub(super) cause: Option<String>,
     pub(super) shorter: Shorter,
@@ -79,17 +80,17 @@ pub(super) struct BreakdownAdvice {
 }
 
 impl BreakdownAdvice {
-    /// What to write, and nothing of timesteps.
+    /// A remedy that does not concern the timestep.
     pub(super) fn only(instead: impl Into<String>) -> BreakdownAdvice {
         BreakdownAdvice { cause: None, shorter: Shorter::No, instead: instead.into() }
     }
 
-    /// A shorter timestep, or something else.
+    /// A shorter timestep, or another remedy.
     pub(super) fn shorter(instead: impl Into<String>) -> BreakdownAdvice {
         BreakdownAdvice { cause: None, shorter: Shorter::Maybe(None), instead: instead.into() }
     }
 
-    /// By what of a model is too stiff for its timestep.
+    /// The advice that follows from the stiffest part of a model.
     pub(super) fn by_stiffness(model: &Model) -> BreakdownAdvice {
         let Some(worst) = stability::suspects(model).into_iter().next() else {
             return BreakdownAdvice::shorter("softer contacts or springs, or a smaller range of the control");
@@ -112,7 +113,7 @@ impl BreakdownAdvice {
     }
 }
 
-/// What is too stiff: `the servo "lift"`, `the spring of joint "knee"`.
+/// The name of the stiff part: `the servo "lift"`, `the spring of joint "knee"`.
 pub fn owner(model: &Model, s: &Suspect) -> String {
     let names = model.names.of_kind(s.object);
     let name = match names.get(s.id) {
@@ -131,7 +132,7 @@ pub fn owner(model: &Model, s: &Suspect) -> String {
     }
 }
 
-/// How much too stiff: `1.8 times too stiff`, `just too stiff`.
+/// By how much it is too stiff: `1.8 times too stiff`, `just too stiff`.
 pub fn how_stiff(s: &Suspect) -> String {
     match s.excess {
         x if x < 1.1 => "just too stiff".into(),
@@ -140,7 +141,7 @@ pub fn how_stiff(s: &Suspect) -> String {
     }
 }
 
-/// What to make softer.
+/// The attribute to make softer.
 pub fn softer(s: &Suspect) -> String {
     let attribute = match (s.part, s.object) {
         (StiffPart::Servo, _) => "`kp` and `kv`",

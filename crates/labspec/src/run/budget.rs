@@ -1,23 +1,23 @@
-//! How much work a run may do, and how it ends before its time.
+//! The work budget of a run, and the reasons for which it ends early.
 
-/// Work, in units of about a nanosecond of a fast machine. It is counted, not measured: the same run ends at the same
-/// place everywhere.
+/// Work, in units of about a nanosecond on a fast machine. It is counted, not measured, so the same run ends at the same
+/// step on every machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Budget {
-    /// What may still be done.
+    /// The remaining work.
     pub left: u64,
 }
 
 impl Budget {
-    /// For a run that somebody asked for.
+    /// For a run that a user requests.
     pub const ASKED: Budget = Budget { left: 100_000_000_000 };
-    /// For a run that a check makes to see what breaks.
+    /// For a run of a check that detects breakdowns.
     pub const TRIAL: Budget = Budget { left: 1_000_000_000 };
     /// For all such runs of a file.
     pub const FILE: Budget = Budget { left: 3_000_000_000 };
     /// For one of the many runs of a comparison.
     pub const COMPARED: Budget = Budget { left: 2_000_000_000 };
-    /// What a trace, a readout or a measure may do at a sample: a page computes it for every frame.
+    /// For a trace, a readout or a measure at one sample: a page evaluates it in every frame.
     pub(crate) const SAMPLE: Budget = Budget { left: 20_000_000 };
 }
 
@@ -27,18 +27,18 @@ impl Default for Budget {
     }
 }
 
-/// Why a run ended before its time.
+/// Why a run ended early.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum End {
-    /// `setup` or `controller` threw: on the page the lab is frozen there.
+    /// `setup` or `controller` threw. The page freezes the lab at this time.
     Threw,
-    /// The budget was spent.
+    /// The budget ran out.
     Budget {
         /// Simulated time of the last complete step, s.
         time: f64,
     },
-    /// Somebody pressed Ctrl-C. What a check says of such a run is not used.
+    /// The user pressed Ctrl-C. The results of such a run are discarded.
     Interrupted,
-    /// The programs were compiled for another model: nothing was run.
+    /// The programs were compiled for another model; nothing was run.
     Foreign,
 }

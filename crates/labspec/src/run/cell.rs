@@ -1,4 +1,4 @@
-//! One sampled value, and how the page prints it.
+//! One sampled value, and its format on the page.
 
 use labspec_expr::Value;
 
@@ -9,7 +9,7 @@ pub enum Cell {
     Number(f64),
     /// A text.
     Text(String),
-    /// A truth value.
+    /// A boolean.
     Bool(bool),
     /// `undefined`, `null`, or an expression that threw.
     Nothing,
@@ -21,14 +21,14 @@ impl From<Value> for Cell {
             Value::Number(x) => Cell::Number(x),
             Value::Boolean(b) => Cell::Bool(b),
             Value::String(s) => Cell::Text(s.to_string()),
-            // Lists and records are refused where a readout is compiled.
+            // Readouts of lists and records are compile errors.
             _ => Cell::Nothing,
         }
     }
 }
 
 impl Cell {
-    /// The number to draw; NaN for what is none.
+    /// The number to draw; NaN for other values.
     pub fn number(&self) -> f64 {
         match self {
             Cell::Number(x) => *x,
@@ -37,7 +37,7 @@ impl Cell {
         }
     }
 
-    /// As the page prints it with so many decimals.
+    /// The value as the page prints it with this number of decimals.
     pub fn rounded(&self, digits: u32) -> String {
         match self {
             Cell::Number(x) => rounded(*x, digits),
@@ -48,7 +48,7 @@ impl Cell {
     }
 }
 
-/// A number as the page prints it: fixed decimals, exponential when small or large.
+/// A number as the page prints it: with fixed decimals, or exponential when it is small or large.
 pub fn rounded(x: f64, digits: u32) -> String {
     if x.is_nan() {
         return "nan".into();
@@ -67,7 +67,7 @@ pub fn rounded(x: f64, digits: u32) -> String {
 
 /// The number that [`rounded`] prints.
 pub fn printed(x: f64, digits: u32) -> f64 {
-    /// Up to here every whole number of such decimals is a double, and so is the power of ten.
+    /// Up to this number of decimals, the power of ten and every scaled integer are exact doubles.
     const DIGITS: u32 = 9;
     let slow = || rounded(x, digits).parse().unwrap_or(x);
     if digits > DIGITS || !(1e-3..1e5).contains(&x.abs()) {
@@ -75,7 +75,7 @@ pub fn printed(x: f64, digits: u32) -> f64 {
     }
     let power = 10f64.powi(digits as i32);
     let scaled = x.abs() * power;
-    // The product is off by half its last bit at most: only next to a tie does that decide.
+    // The product has an error of at most half a unit in the last place, which matters only near a tie.
     if (scaled.fract() - 0.5).abs() <= scaled * f64::EPSILON {
         return slow();
     }

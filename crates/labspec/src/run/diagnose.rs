@@ -1,4 +1,4 @@
-//! What a session met, as breakdowns: the warnings of the engine, and what goes wrong without one, the worst first.
+//! The breakdowns of a session: warnings of the engine and silent faults, the worst first.
 
 use super::breakdown::{Breakdown, BreakdownAdvice, joint_of, time};
 use super::session::Session;
@@ -8,17 +8,17 @@ use labspec_core::{Model, Warning, WarningStat, joint};
 
 const RESET: &str = "MuJoCo then resets the data and continues from time 0: a student sees the scene jump back without an explanation";
 
-/// Warnings that may follow from each other, the cause first: only the first of them is reported.
+/// Warnings that may cause each other, the cause first: only the first of them is reported.
 const STATE: [Warning; 4] = [Warning::Inertia, Warning::BadQpos, Warning::BadQvel, Warning::BadQacc];
-/// Warnings that stand for themselves.
+/// Independent warnings.
 const OTHERS: [Warning; 3] = [Warning::BadCtrl, Warning::ContactFull, Warning::ConstraintFull];
 
-/// The worst of what a session met; `None` when it met nothing.
+/// The worst breakdown of a session; `None` when there is none.
 pub fn worst_breakdown(session: &Session<'_>) -> Option<Breakdown> {
     breakdowns_of(session).into_iter().next()
 }
 
-/// Everything that a session met, the worst first; without what follows from something else.
+/// All breakdowns of a session, the worst first, without consequences of other breakdowns.
 pub fn breakdowns_of(session: &Session<'_>) -> Vec<Breakdown> {
     let met = |w: &Warning| {
         let stat = session.warnings.get(*w as usize).filter(|stat| stat.number > 0)?;
@@ -28,7 +28,7 @@ pub fn breakdowns_of(session: &Session<'_>) -> Vec<Breakdown> {
     let mut since = STATE.iter().find_map(first).map_or(f64::INFINITY, |stat| stat.first_time);
     let mut state = STATE.iter().find_map(met);
     if let Some(growth) = session.growth() {
-        // What has grown for a while becomes no number in the end.
+        // A quantity that grows for a while becomes NaN or infinite in the end.
         if growth.time < since {
             since = growth.time;
             let grows = silent::growth(&session.world.model, growth);
@@ -37,13 +37,13 @@ pub fn breakdowns_of(session: &Session<'_>) -> Vec<Breakdown> {
             state = Some(Breakdown { what, ..grows });
         }
     }
-    // Where energy grows, or numbers are none, anything may follow from it; not what was before.
+    // After energy growth or a bad number, any other fault may be a consequence; earlier faults are reported.
     let noticed = silent::first(&session.world.model, &session.noticed());
     let before = noticed.filter(|(time, _)| *time < since).map(|(_, b)| b);
     before.into_iter().chain(state).chain(OTHERS.iter().filter_map(met)).collect()
 }
 
-/// A warning of the engine.
+/// Describes a warning of the engine.
 fn explain_warning(model: &Model, warning: Warning, stat: &WarningStat) -> Breakdown {
     let joint = |adr: &[i32], width| joint_of(model, stat.lastinfo, adr, width);
     let at = format!("at t = {} s", time(stat.first_time));

@@ -1,4 +1,4 @@
-//! What is read from a session between its steps: the traces and the readouts, and other expressions.
+//! Reads a session between its steps: traces, readouts, and other expressions.
 
 use super::budget::{Budget, End};
 use super::cell::Cell;
@@ -8,11 +8,11 @@ use crate::source::Text;
 use labspec_core as core;
 use labspec_expr::{Program, Value, rules};
 
-/// What a sample of a trace counts besides its own work.
+/// The work that a sample of a trace counts in addition to its own.
 const SAMPLE: u64 = 100;
 
 impl Session<'_> {
-    /// Time and every probe. What throws is nothing, as on the page.
+    /// The time and every probe. A probe that throws has no value, as on the page.
     pub fn sample(&mut self) -> Vec<Cell> {
         let mut row = Vec::with_capacity(self.programs.probes.len() + 1);
         row.push(Cell::Number(self.world.data.time()));
@@ -24,8 +24,8 @@ impl Session<'_> {
         row
     }
 
-    /// The value of an expression now; `None` when it throws, and when the budget is spent. One that came to no end before is
-    /// not tried again.
+    /// The current value of an expression; `None` when it throws, or when the budget ran out. An expression that exceeded
+    /// its budget before is not evaluated again.
     pub fn evaluate(&mut self, program: &Program, text: &Text) -> Option<Value> {
         let endless = |t: &Trouble| t.rule == rules::BUDGET && t.text == *text;
         if matches!(self.end, Some(End::Budget { .. } | End::Foreign)) || self.troubles.iter().any(endless) {

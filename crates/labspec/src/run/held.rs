@@ -1,15 +1,15 @@
-//! Who holds the programs of a run.
+//! Ownership of the programs of a run.
 
 use crate::bind::Programs;
 use std::ops::Deref;
 use std::sync::Arc;
 
-/// The programs of a lab: lent for one run, or shared with whoever keeps the lab for as long as a page is open.
+/// The programs of a lab: borrowed for one run, or shared, for a lab on a page.
 #[derive(Clone, Debug)]
 pub enum Held<'p> {
-    /// They belong to someone else.
+    /// Borrowed.
     Lent(&'p Programs),
-    /// They belong to everybody who holds them.
+    /// Shared.
     Shared(Arc<Programs>),
 }
 

@@ -7,13 +7,13 @@ use labspec_core::{Model, integrator};
 pub struct Integrator {
     /// Its number (`opt.integrator`).
     pub id: i32,
-    /// Its name, as MJCF writes it.
+    /// Its name in MJCF.
     pub name: &'static str,
-    /// MuJoCo has it too, so that a lab on a page can use it.
+    /// Whether MuJoCo has it too, so that a lab on a page can use it.
     pub shared: bool,
 }
 
-/// All of them: MuJoCo's first.
+/// All integrators, those of MuJoCo first.
 pub const INTEGRATORS: [Integrator; 9] = [
     Integrator { id: integrator::EULER, name: "Euler", shared: true },
     Integrator { id: integrator::IMPLICIT, name: "implicit", shared: true },
@@ -27,18 +27,18 @@ pub const INTEGRATORS: [Integrator; 9] = [
 ];
 
 impl Integrator {
-    /// The integrator with a name, whatever the case of its letters.
+    /// The integrator with a name, ignoring case.
     pub fn named(name: &str) -> Option<Integrator> {
         INTEGRATORS.into_iter().find(|i| i.name.eq_ignore_ascii_case(name))
     }
 
-    /// Whether its steps can be made again with any length to see what is between them: it is of an order above the second.
+    /// Whether its order is above two, so that a step can be repeated with any length to interpolate within it.
     pub fn is_high(self) -> bool {
         use integrator::{ADAPTIVE, GAUSS, RK4, RKMK4, RKMK8};
         [RK4, RKMK4, RKMK8, GAUSS, ADAPTIVE].contains(&self.id)
     }
 
-    /// The integrator that a model's options name; Euler's, as the engine takes it, for a number without a meaning.
+    /// The integrator of a model; Euler for an unknown number, as in the engine.
     pub fn of_model(model: &Model) -> Integrator {
         let euler = INTEGRATORS[0];
         INTEGRATORS.into_iter().find(|i| i.id == model.opt.integrator).unwrap_or(euler)

@@ -1,10 +1,10 @@
-//! What went wrong in a run, as findings.
+//! Findings about errors and breakdowns of a run.
 
 use super::{Breakdown, Trouble};
 use crate::finding::Finding;
 use std::ops::Range;
 
-/// A program that threw, at its place. `done` says what was done to the lab: `as it stands`.
+/// A finding at the text of a program that threw. `done` describes the interaction: `as it stands`.
 pub fn threw(t: &Trouble, done: &str) -> Finding {
     Finding::error(
         t.rule,
@@ -15,8 +15,8 @@ pub fn threw(t: &Trouble, done: &str) -> Finding {
     .help("correct the statement, or guard it with a condition")
 }
 
-/// What broke, at `place`: what the engine warned of, or what went wrong silently, with time, joint or geoms and likely cause.
-/// `done` says what was done to the lab.
+/// A finding at `place` about a breakdown: a warning of the engine or a silent fault, with time, joint or geoms and likely
+/// cause. `done` describes the interaction.
 pub fn broke(b: &Breakdown, done: &str, place: Range<usize>) -> Finding {
     let what = match b.rule.code {
         "engine-warning" => format!("the engine warns {done}: {}", b.what),

@@ -1,4 +1,4 @@
-//! Running a lab without a page: the exact order of events, sampled into a table.
+//! Runs a lab without a page: executes its events in order and samples it into a table.
 
 mod breakdown;
 mod budget;
@@ -43,28 +43,28 @@ use labspec_core::{AccessSet, Model, Plan};
 use labspec_expr::Value;
 use std::ops::ControlFlow;
 
-/// What is done to a lab while it runs.
+/// The interactions during a run, and its length.
 #[derive(Clone, Debug, Default)]
 pub struct RunOptions {
-    /// Length in seconds; without it and `steps`, the lab's `stopAt`, or 2 s.
+    /// Length in seconds; without it and `steps`, the `stopAt` of the lab, or 2 s.
     pub until: Option<f64>,
     /// Length in steps.
     pub steps: Option<usize>,
-    /// A row after every so many steps.
+    /// Number of steps between two rows.
     pub every: usize,
-    /// Controls by label, and the values they are set to before the first step.
+    /// Controls by label, and their values before the first step.
     pub set: Vec<(String, Value)>,
-    /// Buttons by label, and the times in s of their presses.
+    /// Buttons by label, and the times of their presses, s.
     pub press: Vec<(String, f64)>,
     /// Computes every field in every step, read or not.
     pub full: bool,
 }
 
-/// Most steps of one run: a lesson is minutes long at most, a mistyped length is for ever.
+/// Maximum number of steps of one run. A lesson takes minutes at most; a mistyped length would run practically forever.
 pub const MAX_STEPS: usize = 20_000_000;
-/// Most cells of a table.
+/// Maximum number of cells of a table.
 const MAX_CELLS: usize = 10_000_000;
-/// Most bytes of the texts in it.
+/// Maximum number of bytes of its texts.
 const MAX_TEXT: usize = 64 << 20;
 
 /// Why a run did not start.
@@ -79,7 +79,7 @@ impl std::fmt::Display for RunError {
 
 impl std::error::Error for RunError {}
 
-/// Number of steps that a length comes to.
+/// Number of steps of a length.
 ///
 /// # Errors
 /// More than [`MAX_STEPS`].
@@ -103,7 +103,7 @@ pub fn count_steps(
             text(length)
         )));
     }
-    // JavaScript's Math.round, as the page's own clock would count.
+    // Rounds like JavaScript's Math.round, as a page does.
     let count = (length / timestep + 0.5).floor();
     if !(0.0..=MAX_STEPS as f64).contains(&count) {
         return Err(RunError(match timestep > 0.0 {
@@ -119,22 +119,22 @@ pub fn count_steps(
     Ok(count as usize)
 }
 
-/// A run that is about to begin.
+/// A run before its first step.
 pub(crate) struct StartedRun<'p> {
     pub(crate) session: Session<'p>,
     pub(crate) samples: Samples<'p>,
-    /// Steps, and those from one sample to the next.
+    /// Number of steps, and of steps between two samples.
     pub(crate) steps: usize,
     pub(crate) every: usize,
-    /// Buttons and the times in s of their presses, in order of time.
+    /// Buttons and the times of their presses, s, in order of time.
     pub(crate) presses: Vec<(usize, f64)>,
     timestep: f64,
 }
 
-/// Loads a lab and sets its controls, for programs and monitors that need all of `access`.
+/// Loads a lab and sets its controls, for programs and monitors that read and write `access`.
 ///
 /// # Errors
-/// A control that does not exist, a setting that no student can make, or a run that is too long.
+/// A control that does not exist, a setting that a student cannot choose, or a run that is too long.
 pub(crate) fn begin<'p>(
     lab: &Lab,
     model: &Model,
@@ -158,7 +158,7 @@ pub(crate) fn begin<'p>(
         )));
     }
 
-    // What the traces read is recorded in columns of numbers, and may be much more than the traces.
+    // The inputs of the traces are recorded in columns of numbers, which may be much more than the traces.
     let (_, width) = Samples::new(programs, 0).columns();
     if (steps / every).saturating_mul(width) > 4 * MAX_CELLS {
         return Err(RunError(format!(
@@ -169,9 +169,9 @@ pub(crate) fn begin<'p>(
     Ok(StartedRun { session, samples, steps, every, presses, timestep })
 }
 
-/// Takes a sample; nothing more is run when that is not possible.
+/// Takes a sample; stops the run when that is not possible.
 pub(crate) fn take(samples: &mut Samples<'_>, session: &mut Session<'_>) -> ControlFlow<()> {
-    // Programs of another model end the session before its first step, which the table says.
+    // Programs of another model end the session before its first step, which the table reports.
     let sampled = samples.take(session);
     if sampled.is_err() || samples.text() > MAX_TEXT {
         ControlFlow::Break(())
@@ -180,10 +180,10 @@ pub(crate) fn take(samples: &mut Samples<'_>, session: &mut Session<'_>) -> Cont
     }
 }
 
-/// What a run came to, after so many steps.
+/// The table of a run after `made` steps.
 ///
 /// # Errors
-/// The texts that it shows are too long.
+/// The displayed texts are too long.
 pub(crate) fn finish(started: StartedRun<'_>, made: usize) -> Result<Table, RunError> {
     let StartedRun { session, samples, timestep, .. } = started;
     if samples.text() > MAX_TEXT {
@@ -198,11 +198,10 @@ pub(crate) fn finish(started: StartedRun<'_>, made: usize) -> Result<Table, RunE
     Ok(table)
 }
 
-/// Runs a lab and samples every trace and readout: at the start, then after every `every` steps and after the
-/// last.
+/// Runs a lab and samples every trace and readout: at the start, then after every `every` steps and after the last.
 ///
 /// # Errors
-/// A control that does not exist, a setting that no student can make, or a run that is too long.
+/// A control that does not exist, a setting that a student cannot choose, or a run that is too long.
 pub fn run(lab: &Lab, model: &Model, programs: &Programs, options: &RunOptions) -> Result<Table, RunError> {
     let mut started = begin(lab, model, programs, options, &programs.access)?;
     let StartedRun { session, samples, steps, every, presses, .. } = &mut started;

@@ -1,4 +1,4 @@
-//! The one loop of every run: presses, steps and samples, in the order in which a page has them.
+//! The only loop of runs: presses, steps and samples, in the same order as on a page.
 
 use super::Session;
 use std::ops::ControlFlow;
@@ -8,24 +8,24 @@ use std::ops::ControlFlow;
 pub struct Play<'a> {
     /// Number of steps.
     pub steps: usize,
-    /// A sample after every so many steps, and after the last one.
+    /// Number of steps between two samples; the last step is sampled too.
     pub every: usize,
-    /// Buttons by index, and the times in s at which they are pressed, in order.
+    /// Buttons by index, and the times of their presses, s, in order.
     pub presses: &'a [(usize, f64)],
-    /// Watches for energy that nothing gave.
+    /// Whether monitors detect silent faults.
     pub watched: bool,
 }
 
 impl Play<'_> {
-    /// So many steps, each of them sampled, and nothing else.
+    /// A number of steps, each of them sampled.
     pub const fn steps(steps: usize) -> Play<'static> {
         Play { steps, every: 1, presses: &[], watched: false }
     }
 }
 
-/// Plays a run: `sample` sees the start, then the lab after every so many steps, with the number of steps made; it may
-/// break the run off. Returns how many steps were made before the run ended, by itself or by `sample`. The step in which it
-/// ends by itself is not sampled: what the page shows does not change any more, or is not known.
+/// Plays a run. `sample` is called at the start and after every `every` steps, with the number of steps made; it may stop
+/// the run. Returns how many steps were made before the run ended or was stopped. The step in which the run itself ends is
+/// not sampled: the displayed values no longer change, or are unknown.
 pub fn play(
     session: &mut Session<'_>,
     play: &Play<'_>,

@@ -1,22 +1,22 @@
-//! The samples of a run while they are taken: traces that compute with numbers are recorded as columns of what they
-//! read, each element once, and computed when the run is over; all others are computed at every sample.
+//! The samples of a run. For numeric traces, the inputs are recorded as columns, each element once, and the traces are
+//! evaluated after the run. All others are evaluated at every sample.
 
 use super::{Cell, End, Session};
 use crate::bind::{Bound, Programs};
 use labspec_expr::{Access, Columnar, Effects, Foreign, Recording, Type};
 
-/// How the values of a trace or a readout are found.
+/// How the values of a trace or a readout are computed.
 #[derive(Clone, Debug)]
 enum ProbeSamples<'p> {
-    /// At the end, from recorded columns; `true` for a truth value.
+    /// After the run, from recorded columns; `true` for a boolean.
     Columns(Columnar, bool),
     /// At every sample.
     Rows(&'p Bound, Vec<Cell>),
-    /// It has mistakes.
+    /// Never: it has errors.
     Never,
 }
 
-/// Time and every probe of a lab, sample after sample.
+/// The time and every probe of a lab, sample by sample.
 #[derive(Clone, Debug)]
 pub struct Samples<'p> {
     times: Vec<f64>,
@@ -29,12 +29,12 @@ pub struct Samples<'p> {
 }
 
 impl<'p> Samples<'p> {
-    /// No samples, and memory for so many: taking them allocates nothing for numbers and truth values.
+    /// No samples, with memory for `capacity` samples: sampling numbers and booleans does not allocate.
     pub fn new(programs: &'p Programs, capacity: usize) -> Samples<'p> {
         let mut recording = Recording::new();
         let all = || programs.probes.iter().filter_map(|p| p.bound.as_ref());
         let mut samples_of = |bound: &'p Bound| {
-            // What another probe writes is read in the order of the probes.
+            // A value that another probe writes must be read in the order of the probes.
             let reads = &bound.program.effects().reads;
             let fixed = !all().any(|other| may_write(other.program.effects(), reads));
             match recording.columns(&bound.program).ok().flatten().filter(|_| fixed) {
@@ -51,7 +51,7 @@ impl<'p> Samples<'p> {
         Samples { times: Vec::with_capacity(capacity), model: programs.model, recording, probes, text: 0 }
     }
 
-    /// Number of probes that are recorded as columns, and of the different elements that these read.
+    /// Number of probes that are recorded as columns, and of the distinct elements that they read.
     pub fn columns(&self) -> (usize, usize) {
         let columns = self.probes.iter().filter(|p| matches!(p, ProbeSamples::Columns(..)));
         (columns.count(), self.recording.width())
@@ -62,10 +62,10 @@ impl<'p> Samples<'p> {
         self.text
     }
 
-    /// Takes a sample. What throws is nothing, as on the page.
+    /// Takes a sample. A probe that throws has no value, as on the page.
     ///
     /// # Errors
-    /// The probes were compiled for another model than the session runs: what that has at these places means nothing here, and no
+    /// The probes were compiled for another model than that of the session: their addresses are invalid for it, and no
     /// sample is taken.
     pub fn take(&mut self, session: &mut Session<'_>) -> Result<(), Foreign> {
         if session.ended() == Some(&End::Foreign) || session.world.model.identity() != self.model {
@@ -114,7 +114,7 @@ impl<'p> Samples<'p> {
     }
 }
 
-/// Whether a program may change what another one reads.
+/// Whether a program may change a value that another one reads.
 fn may_write(effects: &Effects, reads: &[Access]) -> bool {
     let touches = |w: &Access| reads.iter().any(|r| r.field == w.field);
     effects.writes_everything || effects.calls_values || effects.writes.iter().any(touches)

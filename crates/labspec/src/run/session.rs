@@ -1,4 +1,4 @@
-//! One run of a lab: the order of events of the lab format, step by step.
+//! One run of a lab: executes the events of the lab format in order.
 
 use super::budget::{Budget, End};
 use super::held::Held;
@@ -17,41 +17,41 @@ use labspec_core::{self as core, Data, Model, Plan, Planned, Warning, WarningSta
 use labspec_expr::rules::{self, Rule};
 use labspec_expr::{Context, Program, RuntimeError, Value};
 
-/// A running lab. Its clone goes on as it would.
+/// A running lab. A clone continues independently with equal results.
 #[derive(Clone, Debug)]
 pub struct Session<'p> {
     /// The model and its data.
     pub world: World,
     /// The `ctx` variables.
     pub context: Context,
-    /// What went wrong, the first time for each place.
+    /// Errors, the first for each place.
     pub troubles: Vec<Trouble>,
-    /// Warnings of the engine, also those of before a reset.
+    /// Warnings of the engine, including those before a reset.
     pub warnings: [WarningStat; Warning::COUNT],
     pub(super) programs: Held<'p>,
     key: Option<usize>,
     /// The current value of each control.
     values: Vec<Value>,
     watched: Option<Watched>,
-    /// How the controller ran last, where it need not run in every step.
+    /// The last run of a controller that need not run in every step.
     steady: Option<Steady>,
-    /// Work that may be done from the start on, that of the data before, and that of samples.
+    /// Work budget since the start, work of the data before the start, and work of samples.
     budget: u64,
     before: u64,
     pub(super) sampled: u64,
     pub(super) end: Option<End>,
-    /// A program left a partner of its parameter behind, as far as that is observed.
+    /// Whether a program changed a parameter without the parameters coupled to it, as far as programs observe that.
     left_behind: bool,
 }
 
 /// How a run starts.
 #[derive(Clone, Debug, Default)]
 pub struct Start {
-    /// The number of the keyframe that it starts and is reset to; without it, the model's own start.
+    /// The index of the keyframe to which it is reset; if `None`, the initial state of the model.
     pub key: Option<usize>,
-    /// What a step computes; without it, what the programs of the lab read and write.
+    /// The plan; if `None`, that of the reads and writes of the lab's programs.
     pub plan: Option<Plan>,
-    /// The work that it may do.
+    /// Its work budget.
     pub budget: Budget,
 }
 
@@ -120,18 +120,18 @@ impl<'p> Session<'p> {
         &self.values
     }
 
-    /// Whether a program changed a parameter and left behind what belongs to it, as far as its programs observe that.
+    /// Whether a program changed a parameter without the parameters coupled to it, as far as programs observe that.
     pub(crate) fn left_behind(&self) -> bool {
         self.left_behind
     }
 
-    /// Lets the run do so much work from here on, whatever it did before: for a page, which plays for as long as somebody
-    /// looks. A run that has ended stays ended.
+    /// Renews the work budget from the current time on, for a page, which plays as long as it is open. A run that has ended
+    /// stays ended.
     pub fn renew(&mut self, budget: Budget) {
         self.budget = self.spent().saturating_add(budget.left);
     }
 
-    /// Starts over, also after an end: the same reset as [`Session::reset`], and the lab is no longer frozen.
+    /// Restarts the run, even after its end: the same reset as [`Session::reset`], and the lab is no longer frozen.
     pub fn start_over(&mut self) {
         if self.end != Some(End::Foreign) {
             self.end = None;
@@ -145,12 +145,12 @@ impl<'p> Session<'p> {
         names.into_iter()
     }
 
-    /// The work that was done, in units of about a nanosecond.
+    /// The work so far, in units of about a nanosecond.
     pub fn spent(&self) -> u64 {
         (core::cost(&self.world.data) - self.before) + self.context.work() + self.sampled
     }
 
-    /// Why the run has ended, if it has: from there on nothing happens any more.
+    /// Why the run has ended, if it has. It does not continue after that.
     pub fn ended(&self) -> Option<&End> {
         self.end.as_ref()
     }
@@ -159,7 +159,7 @@ impl<'p> Session<'p> {
         self.budget.saturating_sub(self.spent())
     }
 
-    /// Lets the engine and the next program do what is left; `false` when the run has ended.
+    /// Sets the remaining work as the limit of the engine and the next program; `false` when the run has ended.
     fn go(&mut self) -> bool {
         if self.end.is_none() {
             let left = self.left();
@@ -169,7 +169,7 @@ impl<'p> Session<'p> {
         self.end.is_none()
     }
 
-    /// Ends the run when its budget is spent; what it did since this time is of no use then.
+    /// Ends the run when its budget has run out. Everything computed since `time` is then invalid.
     pub(super) fn settle(&mut self, time: f64) -> bool {
         if self.end.is_none() && (core::exhausted(&self.world.data) || self.left() == 0) {
             self.end = Some(End::Budget { time });
@@ -177,7 +177,7 @@ impl<'p> Session<'p> {
         self.end.is_none()
     }
 
-    /// A control changes: step 5.
+    /// Changes a control: step 5.
     pub fn set_control(&mut self, index: usize, value: Value) {
         let Some((_, ControlProgram::Change(_, action))) = self.programs.controls.get(index) else { return };
         let resets = action.reset;
@@ -189,7 +189,7 @@ impl<'p> Session<'p> {
         }
     }
 
-    /// A button is pressed.
+    /// Presses a button.
     pub fn press(&mut self, index: usize) {
         let programs = self.programs.clone();
         if let Some((_, ControlProgram::Press(Some(bound)))) = programs.controls.get(index) {
@@ -198,7 +198,7 @@ impl<'p> Session<'p> {
         }
     }
 
-    /// Presses every button whose time has come, and drops it from the list.
+    /// Presses every button whose time has come, and removes it from the list.
     pub fn press_due(&mut self, pending: &mut &[(usize, f64)]) {
         while let Some(&(button, time)) = pending.first()
             && self.world.data.time() >= time - 1e-12
@@ -208,19 +208,19 @@ impl<'p> Session<'p> {
         }
     }
 
-    /// Back to the start: step 6. The model and `ctx` keep what was written to them.
+    /// Resets the run: step 6. The model and `ctx` keep the values that were written to them.
     pub fn reset(&mut self) {
         self.reset_data();
         self.after_reset();
     }
 
-    /// The controller, then one step of the engine. Nothing when the run has ended.
+    /// Runs the controller, then one step of the engine. Does nothing when the run has ended.
     #[inline]
     pub fn step(&mut self) {
         self.step_by(core::step);
     }
 
-    /// The same with a step that the caller takes, who looks at the clock before and after it.
+    /// Like [`Session::step`], with a step function of the caller, which may measure the time of the step.
     #[inline]
     pub fn step_by(&mut self, engine: impl FnOnce(&Model, &mut Data<Planned>) -> Result<(), core::Error>) {
         if self.end.is_some() {
@@ -254,7 +254,8 @@ impl<'p> Session<'p> {
         self.note_warnings();
     }
 
-    /// The controller. One that would change nothing is not run; its work counts, so that every run ends where it would.
+    /// Runs the controller. A controller that would change nothing is skipped; its work is counted, so that every run ends
+    /// at the same step.
     fn control(&mut self) {
         let holds = self.steady.as_ref().and_then(|steady| steady.holds(&self.world, &self.context));
         if let Some(work) = holds.filter(|work| *work < self.left()) {
@@ -275,9 +276,8 @@ impl<'p> Session<'p> {
         }
     }
 
-    /// Watches the run that begins here for what goes wrong silently. Programs that push in every step
-    /// may give any energy, and one that moves things by itself may put them anywhere: such a run is watched for the rest,
-    /// or not at all.
+    /// Starts monitoring the run for silent faults. Programs that apply forces in every step may supply any energy, and a
+    /// program that sets positions may put bodies anywhere: such a run is monitored for other faults only, or not at all.
     pub fn watch(&mut self) {
         if self.end.is_some() {
             return;
@@ -285,24 +285,24 @@ impl<'p> Session<'p> {
         self.watched = Watched::begin(&self.programs, &self.world);
     }
 
-    /// Energy that nothing gave, when the run was watched and has gained any.
+    /// Energy growth, when the run is monitored and has gained energy.
     pub fn growth(&self) -> Option<Growth> {
         self.noticed().growth
     }
 
-    /// Everything that went wrong silently, as far as the run was watched.
+    /// All silent faults, as far as the run is monitored.
     pub fn noticed(&self) -> Noticed {
         self.watched.as_ref().map(|w| *watch::noticed(&w.watch)).unwrap_or_default()
     }
 
-    /// A run in which the engine refuses a call has nothing to go on from.
+    /// Ends a run in which the engine refuses a call, because it has no valid state.
     fn refused(&mut self, done: Result<(), core::Error>) {
         if done.is_err() {
             self.end.get_or_insert(End::Threw);
         }
     }
 
-    /// Notes what threw, unless it is the budget of the run that was spent.
+    /// Records an error, or ends the run if its budget ran out.
     pub(super) fn threw(&mut self, e: RuntimeError, text: &Text, time: f64) {
         let spent = e.rule == rules::BUDGET && (self.left() == 0 || core::exhausted(&self.world.data));
         if spent {
@@ -312,14 +312,13 @@ impl<'p> Session<'p> {
         }
     }
 
-    /// Runs statements, then `mj_forward`: what a question adds to the setup of its lab.
+    /// Runs statements, then `mj_forward`: the setup that a question adds to that of its lab.
     pub fn run_statements(&mut self, program: &Program, text: &Text) {
         self.execute(program, text, None);
         self.forward();
     }
 
-    /// Changes the numerics. What the lesson states itself is left alone: `mentioned` says that it states the
-    /// timestep.
+    /// Changes the numerics. `mentioned` states that the lesson sets the timestep, which is then kept.
     pub fn perturb(&mut self, variant: StepVariant, mentioned: bool) {
         variant.change_options(&mut self.world.model, mentioned);
         if variant.perturbation != 0.0 {
@@ -328,7 +327,7 @@ impl<'p> Session<'p> {
         }
     }
 
-    /// Computes everything from the current state: after a step, forces and what follows from them are still those of the state
+    /// Recomputes everything from the current state. After a step, forces and dependent values are those of the state
     /// before it.
     pub fn refresh(&mut self) {
         self.forward();
@@ -373,7 +372,7 @@ impl<'p> Session<'p> {
         self.forward();
     }
 
-    /// Stores the value of a control and does what it says.
+    /// Stores the value of a control and runs its action.
     fn apply(&mut self, index: usize, value: Value) {
         let programs = self.programs.clone();
         if let Some((_, ControlProgram::Change(_, action))) = programs.controls.get(index) {
@@ -416,7 +415,7 @@ impl<'p> Session<'p> {
         if !self.settle(time) {
             return good;
         }
-        // Reading past the end gives `undefined`, which a lesson may mean; a lost store it cannot.
+        // A read past the end gives `undefined`, which a lesson may intend. A lost store is an error.
         let broken = self.context.events().iter().find_map(|e| Some((e.rule()?, *e)));
         if let Some((rule, event)) = broken {
             self.note(rule, text, event.span.start..event.span.end, event.to_string());
@@ -433,9 +432,9 @@ impl<'p> Session<'p> {
         }
     }
 
-    /// Keeps warnings over resets of the data: the engine's own counters start again.
+    /// Keeps warnings across resets of the data, which reset the counters of the engine.
     fn note_warnings(&mut self) {
-        // Asked after every step, and nearly always none.
+        // Called after every step, almost always without warnings.
         if self.world.data.fields().warning.iter().map(|w| w.number).sum::<usize>() == 0 {
             return;
         }

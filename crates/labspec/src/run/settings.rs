@@ -1,5 +1,5 @@
-//! What a student can do to a lab before and while it runs: the values that a control can take, and when a button can
-//! be pressed. A run with any other setting shows what nobody can see, and is refused with what is possible.
+//! The interactions that a student can make with a lab: the values of a control, and the times at which a button can be
+//! pressed. A run with any other setting is an error that names the possible ones, because no student can see it.
 
 use super::{RunError, Session};
 use crate::bind::{ControlProgram, Programs, scalar};
@@ -8,9 +8,9 @@ use crate::spec::{Choice, Control, ControlKind, Lab};
 use labspec_expr::Value;
 use labspec_finding::order;
 
-/// How far a value may be from the grid of a slider, in steps: what rounding does to `min + k * step`.
+/// Tolerance of a value on the grid of a slider, in steps, for the rounding error of `min + k * step`.
 const ON_GRID: f64 = 1e-9;
-/// Options that a message lists.
+/// Maximum number of options in a message.
 const MOST_LISTED: usize = 12;
 
 /// Sets controls by label, in this order.
@@ -30,7 +30,7 @@ pub fn set_controls(
     Ok(())
 }
 
-/// The control of a label, and the value that it takes when a run asks for `given`.
+/// The control of a label, and its value when a run sets `given`.
 ///
 /// # Errors
 /// There is no such control, it is a button, or a student cannot choose this value.
@@ -49,10 +49,11 @@ pub fn chosen(
     }
 }
 
-/// The value that a control takes when a run asks for `given`: for a select, the text of an option means its value.
+/// The value of a control when a run sets `given`. For a select, the text of an option denotes its value.
 ///
 /// # Errors
-/// No student can choose it: it is no option, not a number, out of the slider's range, or between two of its steps.
+/// A student cannot choose it: it is not an option, not a number, out of the range of the slider, or between two of its
+/// steps.
 pub fn value(control: &Control, given: &Value) -> Result<Value, RunError> {
     let label = &control.label.value;
     match &control.kind {
@@ -75,7 +76,8 @@ pub fn value(control: &Control, given: &Value) -> Result<Value, RunError> {
     }
 }
 
-/// What a text on the command line means for this control: `4` is a number, unless only the text of an option reads so.
+/// The value that a text on the command line denotes for this control: `4` is a number, unless only the text of an option
+/// matches.
 pub fn written(lab: &Lab, label: &str, text: &str) -> Value {
     let plain = match text {
         "true" => Value::Boolean(true),
@@ -90,10 +92,10 @@ pub fn written(lab: &Lab, label: &str, text: &str) -> Value {
     }
 }
 
-/// The buttons of the options with their times, in order of time.
+/// The buttons with their times, in order of time.
 ///
 /// # Errors
-/// There is no such control, it is not a button, or the time is none that a run reaches.
+/// There is no such control, it is not a button, or a run cannot reach the time.
 pub fn presses(programs: &Programs, press: &[(String, f64)]) -> Result<Vec<(usize, f64)>, RunError> {
     let mut list = Vec::new();
     for (label, time) in press {
@@ -114,7 +116,7 @@ pub fn presses(programs: &Programs, press: &[(String, f64)]) -> Result<Vec<(usiz
     Ok(list)
 }
 
-/// Whether every press comes before the last step of a run of so many steps; a later one would never happen.
+/// Checks that every press comes before the last step of a run; a later press would never happen.
 ///
 /// # Errors
 /// The first press that comes too late.
@@ -125,7 +127,7 @@ pub fn presses_within(
     timestep: f64,
 ) -> Result<(), RunError> {
     let [last, end] = [steps.saturating_sub(1), steps].map(|n| n as f64 * timestep);
-    // Time is a sum of steps: it may lag a few bits behind the product.
+    // Time is a sum of steps, which may be a few bits less than the product.
     let late = presses.iter().find(|(_, time)| *time > last + ON_GRID * timestep);
     let Some((button, time)) = late else { return Ok(()) };
     let label = programs.controls.get(*button).map_or("", |(label, _)| label);
@@ -163,7 +165,7 @@ fn option(label: &str, options: &[Choice], given: &Value) -> Result<Value, RunEr
     )))
 }
 
-/// The value that an option gives.
+/// The value of an option.
 fn given_by(choice: &Choice) -> Value {
     scalar(&choice.value)
 }
@@ -189,7 +191,7 @@ impl Grid {
                 number(x)
             )));
         }
-        // A step that is none is a finding of its own.
+        // An invalid step has a separate finding.
         let steps = (x - min) / step;
         if !(step > 0.0 && steps.is_finite())
             || (steps - steps.round()).abs() <= ON_GRID.max(steps * f64::EPSILON)
@@ -217,7 +219,7 @@ fn same(a: &Value, b: &Value) -> bool {
     }
 }
 
-/// A value as an author writes it.
+/// A value in the notation of an author.
 fn describe_value(value: &Value) -> String {
     match value {
         Value::Number(x) => number(*x),
@@ -226,13 +228,13 @@ fn describe_value(value: &Value) -> String {
     }
 }
 
-/// A number without the last digits that rounding leaves: 0.3, not 0.30000000000000004.
+/// A number without rounding errors in its last digits: 0.3, not 0.30000000000000004.
 fn number(x: f64) -> String {
     let short = format!("{x:.11e}").parse().unwrap_or(x);
     Value::Number(short).to_string()
 }
 
-/// That there is no control with this label, and which there are.
+/// The error that no control has this label, with the existing ones.
 pub fn unknown_control(label: &str, programs: &Programs) -> RunError {
     let labels: Vec<&str> = programs.controls.iter().map(|(l, _)| l.as_str()).collect();
     let available = match labels.as_slice() {
@@ -251,7 +253,7 @@ mod tests {
     use crate::lint::load_lesson;
     use crate::source::SourceFile;
 
-    /// The controls of a lab, as JSON.
+    /// A lab with these controls, given as JSON.
     fn lab(controls: &str) -> Lab {
         let text = format!(r#"{{"model": "ball", "controls": [{controls}]}}"#);
         load_lesson(SourceFile::new("lab.json", text), &ModelFolder::unknown()).all_labs()[0].clone()
@@ -298,7 +300,7 @@ mod tests {
     #[test]
     fn a_slider_stands_only_on_its_grid() {
         let slider = lab(r#"{"label": "m", "param": "m", "min": 0.1, "max": 5, "step": 0.2, "value": 0.15}"#);
-        // The end and the start are reachable wherever the grid ends.
+        // The end and the start can be chosen even if they are not on the grid.
         for x in [0.1, 0.3, 0.1 + 0.2 * 17.0, 4.9, 5.0, 0.15] {
             assert_eq!(outcome(&slider, Value::Number(x)), format!("ok {}", Value::Number(x)));
         }

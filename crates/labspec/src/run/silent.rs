@@ -1,4 +1,4 @@
-//! What goes wrong silently, in a teacher's words: what happens, why it matters, and what to write instead.
+//! Silent faults of a run, described for teachers: what happens, the consequence, and a remedy.
 
 use super::breakdown::{Breakdown, BreakdownAdvice, joint_of, time, two_digits};
 use crate::monitors::growth::{Growth, Source};
@@ -12,10 +12,10 @@ use labspec_core::{Model, joint, solver};
 
 const GROWS: &str = "the steps create the energy, not the physics: a student sees things leap or swing ever wider, and MuJoCo gives no warning";
 
-/// Friction beyond which the edges of a pyramid have next to nothing left along the normal.
+/// Friction above which the edges of a pyramidal cone have almost no normal component.
 const SLIPPERY: f64 = 3.0;
 
-/// The first thing that was noticed besides growing energy, with its time; the others may follow from it.
+/// The earliest silent fault besides energy growth, with its time; later ones may be consequences of it.
 pub(super) fn first(model: &Model, noticed: &Noticed) -> Option<(f64, Breakdown)> {
     let list = [
         noticed.past.map(|x| (x.time, past(model, x))),
@@ -26,7 +26,7 @@ pub(super) fn first(model: &Model, noticed: &Noticed) -> Option<(f64, Breakdown)
     list.into_iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
-/// Energy that nothing gave, or that a damper gives.
+/// Energy that no force supplied, or that a damper supplies.
 pub(super) fn growth(model: &Model, g: Growth) -> Breakdown {
     let numbers = format!(
         "energy grows from t = {} s on: {} J without a source, while the start had {} J; most of it moves {}",
@@ -147,7 +147,7 @@ fn unsolved(model: &Model, u: Unsolved) -> Breakdown {
     BreakdownAdvice::only(help).breakdown(rules::SOLVER_STOPS_EARLY, what, why)
 }
 
-/// A geom by its name, or by its body's.
+/// The name of a geom, or of its body.
 fn geom(model: &Model, g: usize) -> String {
     if let Some(geom_name) = model.names.geom.get(g).filter(|n| !n.is_empty()) {
         return format!("geom \"{geom_name}\"");

@@ -1,27 +1,27 @@
-//! Controllers that need not run in every step: those that write what follows from constants, `ctx` variables, parameters of the
-//! model and inputs alone. While none of these changes, and nobody else changes what was written, one more run would write the same
-//! numbers once more.
+//! Controllers that need not run in every step: their writes depend only on constants, `ctx` variables, parameters of the
+//! model and inputs. While none of these changes and the written values are unchanged, another run would write the same
+//! numbers again.
 //!
-//! Which controllers can be like this follows from their effects. Whether anything changed is seen by looking, number by number, so
-//! that it does not matter who did it: a slider, a button, a reset, or the program around the session.
+//! The effects of a controller show whether it is of this kind. Changes are detected by comparing every number, so they may
+//! come from any source: a slider, a button, a reset, or the embedding program.
 
 use crate::bind::World;
 use labspec_core::reflect::{FieldId, Kind, Object};
 use labspec_expr::{Access, Context, FieldKey, Host, Program, Value};
 
-/// A controller of this kind, and how it was when it ran last.
+/// A controller of this kind, with the values after its last run.
 #[derive(Clone, Debug)]
 pub(super) struct Steady {
-    /// Single numbers that it reads, and those that it writes.
+    /// Elements that it reads, and those that it writes.
     elements: Vec<(FieldKey, usize)>,
     /// The `ctx` variables that it reads.
     slots: Vec<u32>,
-    /// The elements, then the variables, after the last run; and the work of that.
+    /// The elements, then the variables, after the last run; and the work of that run.
     last_values: Vec<u64>,
     work: Option<u64>,
 }
 
-/// A controller that looks at more numbers than this is as quickly run.
+/// Maximum number of compared values: with more, running the controller is as fast.
 const MOST: usize = 16;
 
 /// Whether a controller is of this kind.
@@ -43,7 +43,7 @@ impl Steady {
         let reads: Vec<_> = effects.reads.iter().map(one).collect::<Option<_>>()?;
         let writes: Vec<_> = effects.writes.iter().map(one).collect::<Option<_>>()?;
         let alone = effects.calls.is_empty() && effects.ctx_writes.is_empty();
-        // What it reads and writes itself differs from run to run.
+        // An element that it both reads and writes may differ from run to run.
         let apart = !reads.iter().any(|r| writes.contains(r));
         let fits = reads.len() + writes.len() + effects.ctx_reads.len() <= MOST;
         if looks_further || !alone || !apart || !fits || !reads.iter().all(|(field, _)| stays(*field)) {
@@ -53,7 +53,7 @@ impl Steady {
         Some(Steady { elements, slots: effects.ctx_reads.clone(), last_values: Vec::new(), work: None })
     }
 
-    /// The work of the last run, when another one would change nothing.
+    /// The work of the last run, if another run would change nothing.
     #[inline]
     pub(super) fn holds(&self, world: &World, context: &Context) -> Option<u64> {
         let work = self.work?;
@@ -61,7 +61,7 @@ impl Steady {
         self.last_values.iter().copied().map(Some).eq(now).then_some(work)
     }
 
-    /// Keeps how things are after a run that did this work. Without it, another run follows.
+    /// Stores the values after a run with this work. With `None`, the controller runs again in the next step.
     pub(super) fn keep(&mut self, world: &World, context: &Context, work: Option<u64>) {
         let mut numbers = std::mem::take(&mut self.last_values);
         numbers.clear();
@@ -70,14 +70,14 @@ impl Steady {
         self.last_values = numbers;
     }
 
-    /// All that it looks at, as bits; nothing for what is no number.
+    /// The bits of all compared values; `None` for values that are not numbers.
     fn now<'a>(&'a self, world: &'a World, context: &'a Context) -> impl Iterator<Item = Option<u64>> + 'a {
         let elements = self.elements.iter().map(|(field, i)| world.get(*field, *i).map(f64::to_bits));
         elements.chain(self.slots.iter().flat_map(|slot| bits(context.get(*slot))))
     }
 }
 
-/// What a value is, and which; nothing for what may change by itself.
+/// The type and the bits of a value; `None` for types that can change without a store.
 fn bits(value: &Value) -> [Option<u64>; 2] {
     match value {
         Value::Undefined => [Some(0), Some(0)],
@@ -88,7 +88,7 @@ fn bits(value: &Value) -> [Option<u64>; 2] {
     }
 }
 
-/// Whether steps leave a field alone: looking at others is not worth it.
+/// Whether steps do not change a field. Other fields change in every step, so comparing them is useless.
 fn stays(FieldKey(field): FieldKey) -> bool {
     FieldId::new(field as usize).is_some_and(|f| {
         let info = f.info();

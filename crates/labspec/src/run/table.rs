@@ -18,13 +18,13 @@ pub struct Table {
     pub rows: Vec<Vec<Cell>>,
     /// Warnings of the engine since the last reset: name and number.
     pub warnings: Vec<(&'static str, usize)>,
-    /// What they mean for the lesson, and what went wrong without one, the worst first.
+    /// The breakdowns of the run: explanations of warnings, and silent faults, the worst first.
     pub breakdowns: Vec<Breakdown>,
-    /// What threw.
+    /// Errors of programs.
     pub errors: Vec<String>,
 }
 
-/// The messages about programs and a model that do not belong together.
+/// The error if the programs and the model do not match.
 const FOREIGN: &str =
     "the programs belong to another model, so nothing was run; compile the lab for this one";
 

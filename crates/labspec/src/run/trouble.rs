@@ -1,18 +1,18 @@
-//! What a program of a lab did wrong while it ran.
+//! Errors of programs during a run.
 
 use crate::source::Text;
 use labspec_expr::rules::Rule;
 
-/// Something that went wrong in a program while the lab ran; JavaScript would have thrown, or said nothing.
+/// An error of a program during a run. JavaScript would have thrown, or continued silently.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trouble {
-    /// What was broken.
+    /// The violated rule.
     pub rule: &'static Rule,
-    /// The text and the bytes of it that failed.
+    /// The text that failed.
     pub text: Text,
-    /// Bytes of `text`.
+    /// The bytes of `text` that failed.
     pub span: std::ops::Range<usize>,
-    /// What happened.
+    /// The error message.
     pub message: String,
     /// Simulated time of the first occurrence, s.
     pub time: f64,

@@ -1,26 +1,26 @@
-//! Other numerics for a run: to see whether an answer depends on the step, the solver, the integrator or rounding.
+//! Perturbed numerics of a run: they show whether an answer depends on the step, the solver, the integrator or rounding.
 
 use labspec_core::{Model, integrator};
 
-/// A change of the numerics that a lesson does not mention, to see whether its answers depend on it.
+/// A change of the numerics that a lesson does not mention, to test whether its answers depend on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepVariant {
-    /// The timestep is multiplied by this.
+    /// Factor on the timestep.
     pub timestep: f64,
-    /// The constraint problem is solved to rounding.
+    /// Whether the constraint problem is solved to rounding precision.
     pub tight: bool,
-    /// Every coordinate of the start is moved by this: far less than anybody could measure.
+    /// Displacement of every coordinate of the start, far below what could be measured.
     pub perturbation: f64,
-    /// Another integrator, where the scene has the one that it has unless somebody says otherwise.
+    /// Another integrator. It replaces only the default integrator.
     pub integrator: Option<i32>,
 }
 
 impl StepVariant {
-    /// As the lesson states it.
+    /// The numerics of the lesson.
     pub const NOMINAL: StepVariant =
         StepVariant { timestep: 1.0, tight: false, perturbation: 0.0, integrator: None };
 
-    /// Changes the options of a model. What the lesson states itself is left alone: `mentioned` says that it states the timestep.
+    /// Changes the options of a model. `mentioned` states that the lesson sets the timestep, which is then kept.
     pub(super) fn change_options(&self, model: &mut Model, mentioned: bool) {
         let opt = model.edit().opt;
         if !mentioned {

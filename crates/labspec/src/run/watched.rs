@@ -1,40 +1,40 @@
-//! A run that is watched for what goes wrong silently, and which runs can be.
+//! A run that is monitored for silent faults, and which runs can be monitored.
 
 use crate::bind::{Bound, Programs, World};
 use crate::monitors::watch::{self, Monitors};
 use labspec_core::reflect::{FieldId, Kind, data, option};
 use labspec_expr::FieldKey;
 
-/// What a program may write in every step that moves nothing by itself.
+/// Fields that a program may write in every step without setting positions: forces and controls.
 const PUSHES: [FieldId; 3] = [data::ctrl, data::qfrc_applied, data::xfrc_applied];
 
-/// Whether a field is one that pushes.
+/// Whether a field is one of `PUSHES`.
 fn pushes(field: FieldKey) -> bool {
     FieldId::new(field.0 as usize).is_some_and(|f| PUSHES.contains(&f))
 }
 
-/// Whether a field follows from others, or says what of them is computed: writing it moves nothing.
+/// Whether a field is derived, or only enables computations: writing it moves nothing.
 fn follows(field: FieldKey) -> bool {
     FieldId::new(field.0 as usize).is_some_and(|f| f.info().kind == Kind::Derived || f == option::enableflags)
 }
 
-/// Whether a program may move things by itself, or change the model.
+/// Whether a program may set positions or velocities, or change the model.
 fn moves(bound: &Bound) -> bool {
     let effects = bound.program.effects();
     let still = |field: FieldKey| pushes(field) || follows(field);
     effects.writes_everything || effects.calls_values || !effects.writes.iter().all(|a| still(a.field))
 }
 
-/// A run that is watched for what goes wrong silently.
+/// A run that is monitored for silent faults.
 #[derive(Clone, Debug)]
 pub(super) struct Watched {
     pub(super) watch: Monitors,
-    /// Something from outside changed the state or the model since the last step.
+    /// Whether the state or the model was changed from outside since the last step.
     pub(super) disturbed: bool,
 }
 
 impl Watched {
-    /// Watches a run that begins in this world; `None` where a program moves things by itself.
+    /// Starts monitoring a run; `None` where a program sets positions, velocities or the model.
     pub(super) fn begin(programs: &Programs, world: &World) -> Option<Watched> {
         let probes = programs.probes.iter().filter_map(|p| p.bound.as_ref());
         let running: Vec<&Bound> = probes.chain(&programs.controller).collect();

@@ -1,15 +1,16 @@
-//! Piecewise maps from a derived text back to the text it was made from.
+//! Piecewise maps from a derived text to the text from which it was made.
 
 use std::ops::Range;
 
-/// A stretch of derived text and the stretch of origin text that it stands for.
+/// A range of derived text and the corresponding range of origin text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Piece {
     /// Bytes of the derived text.
     pub derived: Range<usize>,
     /// Bytes of the origin text.
     pub origin: Range<usize>,
-    /// Byte for byte the same; otherwise known only as a whole (an escape such as `\n`, a repaired quote).
+    /// Whether both are equal byte for byte; otherwise they correspond only as a whole (an escape such as `\n`, a repaired
+    /// quote).
     pub verbatim: bool,
 }
 
@@ -27,28 +28,28 @@ impl Piece {
 
 /// A monotone map from byte ranges of a derived text to byte ranges of its origin.
 ///
-/// Derived pieces follow each other without gaps from 0; origins may leave gaps (what was stripped).
+/// Derived pieces follow each other without gaps from 0; origins may have gaps (removed text).
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct SourceMap {
     pieces: Vec<Piece>,
 }
 
 impl SourceMap {
-    /// The map of a text that is `origin`, byte for byte.
+    /// The map of a text that equals `origin`, byte for byte.
     pub fn verbatim(origin: Range<usize>) -> SourceMap {
         let mut map = SourceMap::default();
         map.push_verbatim(origin);
         map
     }
 
-    /// The map of a text of so many bytes that was made from `origin` as a whole.
+    /// The map of a text of `length` bytes that corresponds to `origin` as a whole.
     pub fn whole(length: usize, origin: Range<usize>) -> SourceMap {
         let mut map = SourceMap::default();
         map.push_whole(length, origin);
         map
     }
 
-    /// The map of an empty text that still has a place.
+    /// The map of an empty text with a position.
     pub fn point(at: usize) -> SourceMap {
         SourceMap { pieces: vec![Piece { derived: 0..0, origin: at..at, verbatim: true }] }
     }
@@ -63,7 +64,7 @@ impl SourceMap {
         &self.pieces
     }
 
-    /// Appends derived bytes that are these origin bytes. Neighbours that continue each other are joined.
+    /// Appends derived bytes that equal these origin bytes. Adjacent pieces are joined.
     pub fn push_verbatim(&mut self, origin: Range<usize>) {
         if origin.is_empty() {
             return;
@@ -80,7 +81,7 @@ impl SourceMap {
         self.pieces.push(Piece { derived: start..start + origin.len(), origin, verbatim: true });
     }
 
-    /// Appends `len` derived bytes that stand for `origin` as a whole.
+    /// Appends `len` derived bytes that correspond to `origin` as a whole.
     pub fn push_whole(&mut self, len: usize, origin: Range<usize>) {
         let start = self.derived_len();
         if len > 0 {
@@ -88,8 +89,8 @@ impl SourceMap {
         }
     }
 
-    /// The origin of a derived range: from the origin of its first byte to that of its last one.
-    /// An empty range is a point. Ranges behind the end are cut.
+    /// The origin of a derived range: from the origin of its first byte to that of its last one. An empty range is a point.
+    /// Ranges beyond the end are clipped.
     pub fn span(&self, range: Range<usize>) -> Range<usize> {
         let start = range.start.min(self.derived_len());
         let end = range.end.min(self.derived_len()).max(start);
@@ -102,7 +103,7 @@ impl SourceMap {
         first..last.max(first)
     }
 
-    /// The origin of a position between two derived bytes: where the byte behind it begins, or the end.
+    /// The origin of a position between two derived bytes: the start of the byte after it, or the end.
     fn origin_of(&self, at: usize) -> usize {
         match self.piece_at(at) {
             Some(piece) => piece.part(at..at).start,
@@ -115,8 +116,8 @@ impl SourceMap {
         self.pieces.get(i)
     }
 
-    /// Whether a derived range stands byte for byte in one stretch of the origin, with nothing stripped from within it,
-    /// nor from behind it where it ends a line.
+    /// Whether a derived range corresponds byte for byte to one range of the origin, with nothing removed within it, nor
+    /// after it where it ends a line.
     pub fn is_unbroken(&self, range: Range<usize>) -> bool {
         let first = self.pieces.partition_point(|p| p.derived.end <= range.start);
         let inside = self.pieces.iter().skip(first).take_while(|p| p.derived.start <= range.end);
@@ -141,7 +142,7 @@ impl SourceMap {
                 whole.push_whole(piece.derived.len(), below.span(piece.origin.clone()));
                 continue;
             }
-            // A verbatim stretch may cross several pieces below: cut it at their borders.
+            // A verbatim piece may cross several pieces below: split it at their boundaries.
             let mut at = piece.origin.start;
             while at < piece.origin.end {
                 let Some(under) = below.piece_at(at) else {
@@ -161,7 +162,7 @@ impl SourceMap {
         whole
     }
 
-    /// The same map for an origin text that is a slice starting at `offset` of a larger one.
+    /// The map with all origin ranges shifted by `offset`: its origin text is a slice of a larger one that starts there.
     pub fn shifted(mut self, offset: usize) -> SourceMap {
         for piece in &mut self.pieces {
             piece.origin = piece.origin.start + offset..piece.origin.end + offset;
@@ -227,7 +228,7 @@ mod tests {
             }
         }
 
-        /// Composing maps is the same as mapping twice, byte by byte.
+        /// Composing maps equals mapping twice, byte by byte.
         #[test]
         fn composition_maps_twice(
             top in prop::collection::vec((1usize..6, 0usize..4, 1usize..6), 1..8),

@@ -1,8 +1,8 @@
-//! Files and places in them.
+//! Files and positions in them.
 //!
-//! A lesson reaches the checks through several layers: the file, the body of a fence (without the `> ` of a
-//! quote), a JSON string without its escapes, an expression in it. Every layer keeps a [`SourceMap`] back to
-//! the layer below; composed, they turn a byte of an expression into a line and column of the lesson.
+//! A lesson reaches the checks through several layers: the file, the body of a fence (without the `> ` of a quote), a JSON
+//! string without its escapes, an expression in it. Every layer has a [`SourceMap`] to the layer below. Composed, they map
+//! a byte of an expression to a line and column of the lesson.
 
 mod map;
 mod sources;
@@ -17,10 +17,10 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
-/// The largest file that is read, in bytes. Lessons are tens of kilobytes.
+/// Maximum size of a file, in bytes. Lessons are tens of kilobytes.
 pub const MAX_FILE: u64 = 16 << 20;
 
-/// A file as the author sees it.
+/// A file of the author.
 #[derive(Clone, Debug)]
 pub struct SourceFile {
     path: Arc<str>,
@@ -28,7 +28,7 @@ pub struct SourceFile {
     lines: Lines,
 }
 
-/// Why the text of a file is not what its author wrote.
+/// Why the text of a file differs from what its author wrote.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BadText {
     /// A byte that is not UTF-8, and the offset of its replacement in the text.
@@ -43,24 +43,24 @@ pub enum BadText {
 }
 
 impl SourceFile {
-    /// A file with this display path and text. No file system is touched.
+    /// A file with this display path and text. The file system is not accessed.
     pub fn new(path: impl Into<Arc<str>>, text: impl Into<Arc<str>>) -> SourceFile {
         let text = text.into();
         let lines = Lines::new(&text);
         SourceFile { path: path.into(), text, lines }
     }
 
-    /// Reads a file of at most [`MAX_FILE`] bytes of UTF-8.
+    /// Reads a UTF-8 file of at most [`MAX_FILE`] bytes.
     ///
     /// # Errors
-    /// A sentence for the author: the file cannot be read, is too large, or is not UTF-8 (and where).
+    /// A message for the author: the file cannot be read, is too large, or is not UTF-8 (with the line).
     pub fn read(path: &Path) -> Result<SourceFile, String> {
         let text = read_text(path, MAX_FILE, "a lesson or a model")?;
         Ok(SourceFile::new(path.display().to_string(), text))
     }
 
-    /// A file from its bytes, whatever they are: what is not UTF-8 is replaced, and the first place where it is not is
-    /// reported, so that the rest can still be checked. UTF-16 is read by its byte order mark.
+    /// A file from arbitrary bytes. Bytes that are not UTF-8 are replaced, and the first one is reported, so that the rest
+    /// can still be checked. UTF-16 is recognized by its byte order mark.
     pub fn from_bytes(path: impl Into<Arc<str>>, bytes: &[u8]) -> (SourceFile, Option<BadText>) {
         let wide = |from: fn([u8; 2]) -> u16| {
             let units = bytes.get(2..).unwrap_or(&[]).chunks_exact(2);
@@ -82,15 +82,15 @@ impl SourceFile {
         }
     }
 
-    /// Reads a file of at most [`MAX_FILE`] bytes as [`SourceFile::from_bytes`] does.
+    /// Reads a file of at most [`MAX_FILE`] bytes like [`SourceFile::from_bytes`].
     ///
     /// # Errors
-    /// A sentence for the author: the file cannot be read, is no file, or is too large.
+    /// A message for the author: the file cannot be read, is not a regular file, or is too large.
     pub fn read_lossy(path: &Path) -> Result<(SourceFile, Option<BadText>), String> {
         use std::io::Read;
         let displayed = path.display();
         let cannot = |e: std::io::Error| format!("cannot read {displayed}: {e}");
-        // Asked for before it is opened: to open a pipe may wait for ever.
+        // Checked before opening, because opening a pipe may block forever.
         if !std::fs::metadata(path).map_err(cannot)?.is_file() {
             return Err(format!("{displayed} is not a file"));
         }
@@ -103,7 +103,7 @@ impl SourceFile {
         Ok(SourceFile::from_bytes(displayed.to_string(), &bytes))
     }
 
-    /// The path as it is shown to people.
+    /// The path in the form that is printed.
     pub fn path(&self) -> &Arc<str> {
         &self.path
     }
@@ -113,22 +113,22 @@ impl SourceFile {
         &self.text
     }
 
-    /// The bytes of a span as text; empty when the span is not a span of this file.
+    /// The text of a span; empty when the span is not within this file.
     pub fn slice(&self, span: Range<usize>) -> &str {
         self.text.get(span).unwrap_or("")
     }
 
-    /// Line and column of a byte offset; an offset behind the end is the end.
+    /// Line and column of a byte offset; an offset beyond the end is the end.
     pub fn position(&self, offset: usize) -> Position {
         self.lines.position(&self.text, offset)
     }
 
-    /// The place of a byte offset as an editor names it.
+    /// The position of a byte offset in editor coordinates.
     pub fn editor_position(&self, offset: usize) -> EditorPosition {
         self.lines.editor(&self.text, offset)
     }
 
-    /// The bytes of a line (from 1), without its line break; `None` behind the last line.
+    /// The bytes of a line (from 1), without its line break; `None` beyond the last line.
     pub fn line_span(&self, line: usize) -> Option<Range<usize>> {
         let start = self.lines.start(line)?;
         let end = self.lines.start(line + 1).map_or(self.text.len(), |next| next.saturating_sub(1));
@@ -136,7 +136,7 @@ impl SourceFile {
         Some(start..start + text.strip_suffix('\r').unwrap_or(text).len())
     }
 
-    /// A span widened to whole characters and cut at the end of the file.
+    /// A span widened to whole characters and clipped at the end of the file.
     pub fn snap(&self, span: &Range<usize>) -> Range<usize> {
         let start = self.floor(span.start);
         let mut end = span.end.clamp(start, self.text.len());
@@ -152,10 +152,10 @@ impl SourceFile {
     }
 }
 
-/// Reads a file of at most `limit` bytes of UTF-8, `what` being what it should hold.
+/// Reads a UTF-8 file of at most `limit` bytes; `what` describes its content in messages.
 ///
 /// # Errors
-/// A sentence for the author: the file cannot be read, is too large, or is not UTF-8 (and where).
+/// A message for the author: the file cannot be read, is too large, or is not UTF-8 (with the line).
 pub fn read_text(path: &Path, limit: u64, what: &str) -> Result<String, String> {
     use std::io::Read;
     let displayed = printable_path(path);
@@ -167,8 +167,8 @@ pub fn read_text(path: &Path, limit: u64, what: &str) -> Result<String, String> 
         let kind = if meta.is_dir() { "it is a folder" } else { "it is a device or a pipe" };
         Err(format!("{displayed} is not a file: {kind}"))
     };
-    // Opening a pipe waits for somebody to write, and opening a device may do anything: the kind is looked at first.
-    // Who swaps the file between the two looks owns the folder and can stop the program in simpler ways.
+    // Opening a pipe blocks until there is a writer, and opening a device may have any effect, so the kind is checked
+    // first. Someone who swaps the file between the two checks owns the folder and can stop the program in simpler ways.
     check(std::fs::metadata(path).map_err(cannot)?)?;
     let file = std::fs::File::open(path).map_err(cannot)?;
     check(file.metadata().map_err(cannot)?)?;
@@ -184,22 +184,22 @@ pub fn read_text(path: &Path, limit: u64, what: &str) -> Result<String, String> 
     })
 }
 
-/// A piece of text that was taken out of a file, with the way back: code, HTML, a label.
+/// A piece of text from a file with its source map: code, HTML, a label.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Text {
     /// The text itself, decoded.
     pub value: String,
-    /// From bytes of `value` to bytes of the file.
+    /// Maps bytes of `value` to bytes of the file.
     pub map: SourceMap,
 }
 
 impl Text {
-    /// The bytes of the file that this text was read from (for a JSON string: without its quotes).
+    /// The bytes of the file that contain this text (for a JSON string: without its quotes).
     pub fn span(&self) -> Range<usize> {
         self.map.span(0..self.value.len())
     }
 
-    /// The bytes of the file behind a byte range of `value`.
+    /// The bytes of the file for a byte range of `value`.
     pub fn span_of(&self, range: Range<usize>) -> Range<usize> {
         self.map.span(range)
     }

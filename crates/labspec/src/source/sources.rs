@@ -1,31 +1,31 @@
-//! Where a lesson's neighbours are read from: its snapshot, the lessons whose labs it names, the files that it links to, the texts of
-//! models that an editor has not saved.
+//! The sources of a lesson's related files: its snapshot, the lessons whose labs it names, the files to which it links, and
+//! unsaved model texts of an editor.
 
 use super::read_text;
 use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// Where texts come from.
+/// The source of texts.
 #[derive(Clone, Debug)]
 pub enum Sources {
-    /// Texts in memory, by their paths, and nothing else: no file is looked for.
+    /// Only texts in memory, by their paths: no file is read.
     Given(Arc<BTreeMap<PathBuf, String>>),
-    /// Files, as they are saved.
+    /// Saved files.
     Disk,
-    /// Texts that an editor holds, and files where it holds none.
+    /// Unsaved texts of an editor, and saved files for all other paths.
     Over(Arc<Overlay>),
 }
 
 impl Default for Sources {
-    /// A text alone.
+    /// Only the lesson itself.
     fn default() -> Sources {
         Sources::Given(Arc::default())
     }
 }
 
-/// Texts that are not saved yet over files. What was asked of the disk is kept until [`Overlay::refresh`], so that a keystroke asks
-/// it nothing.
+/// Unsaved texts over saved files. Results of disk accesses are cached until [`Overlay::refresh`], so that a keystroke does
+/// not access the disk.
 #[derive(Debug, Default)]
 pub struct Overlay {
     open: Mutex<BTreeMap<PathBuf, String>>,
@@ -33,10 +33,10 @@ pub struct Overlay {
     places: Mutex<BTreeMap<(Asked, PathBuf), Option<PathBuf>>>,
 }
 
-/// What is asked of the disk about a path.
+/// A query about a path on the disk.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Asked {
-    /// The file or folder itself, links resolved.
+    /// The file or folder itself, with symbolic links resolved.
     Real,
     /// The folder of models of a lesson.
     Models,
@@ -45,26 +45,26 @@ pub enum Asked {
 }
 
 impl Overlay {
-    /// The text that the editor holds of a file, links resolved.
+    /// Sets the unsaved text of a file, whose path has its symbolic links resolved.
     pub fn put(&self, path: &Path, text: &str) {
         if locked(&self.open).insert(path.to_path_buf(), text.to_string()).is_none() {
             locked(&self.places).clear();
         }
     }
 
-    /// The editor holds no text of it any more.
+    /// Removes the unsaved text of a file.
     pub fn close(&self, path: &Path) {
         locked(&self.open).remove(path);
         self.refresh();
     }
 
-    /// Files may have changed: what was asked of the disk is asked again.
+    /// Clears the cache, because files may have changed.
     pub fn refresh(&self) {
         locked(&self.read).clear();
         locked(&self.places).clear();
     }
 
-    /// The names of the files of a folder that an editor holds as unsaved texts.
+    /// The names of the unsaved files of a folder.
     pub fn names_in(&self, folder: &Path) -> Vec<String> {
         let open = locked(&self.open);
         let inside = open.keys().filter(|path| path.parent() == Some(folder));
@@ -88,7 +88,7 @@ impl Overlay {
         })
     }
 
-    /// A text that the editor holds is there, saved or not.
+    /// A file with an unsaved text exists, saved or not.
     fn real(&self, path: &Path) -> Option<PathBuf> {
         path.canonicalize().ok().or_else(|| {
             let place = path.parent()?.canonicalize().ok()?.join(path.file_name()?);
@@ -111,7 +111,7 @@ fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// A path without the steps that only lead back, as texts in memory are named.
+/// A path with `.` and `..` resolved lexically, as for texts in memory.
 fn plain(path: &Path) -> PathBuf {
     let mut plain = PathBuf::new();
     for part in path.components() {
@@ -133,10 +133,10 @@ impl Sources {
         Sources::Given(Arc::new(texts.collect()))
     }
 
-    /// A text of at most so many bytes; `what` says what it is.
+    /// A text of at most `most` bytes; `what` describes it in messages.
     ///
     /// # Errors
-    /// A sentence that says why it cannot be read.
+    /// A message that states why it cannot be read.
     pub fn text(&self, path: &Path, most: u64, what: &str) -> Result<String, String> {
         match self {
             Sources::Given(texts) if texts.is_empty() => Err("only this lesson was given".into()),
@@ -152,12 +152,12 @@ impl Sources {
         }
     }
 
-    /// Whether there are files besides the texts: then a link to one that is missing is dead.
+    /// Whether there are files besides the texts: then a link to a missing file is reported.
     pub(crate) fn has_files(&self) -> bool {
         !matches!(self, Sources::Given(_))
     }
 
-    /// Whether there is something of this name, be it a link that leads nowhere.
+    /// Whether a path exists, including a broken link.
     pub(crate) fn has(&self, path: &Path) -> bool {
         match self {
             Sources::Disk => std::fs::symlink_metadata(path).is_ok(),
@@ -165,7 +165,7 @@ impl Sources {
         }
     }
 
-    /// The file or folder of this path, links resolved; `None` where there is none.
+    /// The file or folder of a path with symbolic links resolved; `None` where there is none.
     pub fn real(&self, path: &Path) -> Option<PathBuf> {
         match self {
             Sources::Given(texts) => texts.contains_key(&plain(path)).then(|| plain(path)),
@@ -174,7 +174,7 @@ impl Sources {
         }
     }
 
-    /// A path, and where it is a link, the path that this leads to.
+    /// A path, or the target if it is a symbolic link.
     pub(crate) fn followed(&self, path: &Path) -> PathBuf {
         let is_link = || std::fs::symlink_metadata(path).is_ok_and(|meta| meta.is_symlink());
         let real = match self {
@@ -184,7 +184,7 @@ impl Sources {
         real.unwrap_or_else(|| path.to_path_buf())
     }
 
-    /// What `find` finds about a path, which is kept where somebody types.
+    /// The result of `find` for a path, which is cached in an editor.
     pub fn place(
         &self,
         asked: Asked,
@@ -198,7 +198,7 @@ impl Sources {
         }
     }
 
-    /// A text that is not saved, and its file with links resolved.
+    /// An unsaved text, and the path of its file with symbolic links resolved.
     pub(crate) fn held(&self, path: &Path) -> Option<(PathBuf, String)> {
         let Sources::Over(overlay) = self else { return None };
         let real = self.real(path)?;
@@ -240,7 +240,7 @@ mod tests {
         assert_eq!(seen(), (false, None));
         overlay.refresh();
         assert_eq!(seen(), (true, Some("written beside".into())));
-        // What the editor holds is there before it is saved.
+        // A text of the editor exists before it is saved.
         let new = path.with_file_name("new.md");
         assert!(!sources.has(&new));
         overlay.put(&new, "typed");

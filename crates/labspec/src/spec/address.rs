@@ -1,13 +1,13 @@
-//! How a lab of a lesson is addressed: `#2`, `#quiz-id.1`.
+//! The address of a lab in a lesson: `#2`, `#quiz-id.1`.
 
 use serde::{Deserialize, Serialize};
 
 /// The address of a lab within a lesson, written `#2` or `#quiz-id.1`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum LabAddress {
-    /// A lab by its number, from 1.
+    /// The index of a lab, from 1.
     Lab(usize),
-    /// The `sim` of a question, from 1.
+    /// The `sim` of a question.
     Sim {
         /// Id of the quiz.
         quiz: String,
@@ -17,7 +17,7 @@ pub enum LabAddress {
 }
 
 impl LabAddress {
-    /// Reads `#2`, `#quiz-id.1`; ids may hold dots themselves. `None` when it is neither.
+    /// Parses `#2` or `#quiz-id.1`; ids may contain dots. `None` for other texts.
     pub fn parse(text: &str) -> Option<LabAddress> {
         let name = text.strip_prefix('#')?;
         let number = |digits: &str| digits.parse::<usize>().ok().filter(|&n| n > 0 && digits.len() < 8);

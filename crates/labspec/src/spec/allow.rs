@@ -1,5 +1,5 @@
-//! Findings that an author has looked at and keeps: `"lint": {"allow": […], "why": "…"}` in a lab, a quiz or a question, and
-//! `<!-- labspec allow CODE, CODE: reason -->` before a block of prose.
+//! Findings that an author suppresses: `"lint": {"allow": […], "why": "…"}` in a lab, a quiz or a question, and `<!--
+//! labspec allow CODE, CODE: reason -->` before a block of prose.
 
 use super::fields::Fields;
 use super::format::LINT;
@@ -9,20 +9,20 @@ use crate::json::Node;
 use crate::source::Text;
 use std::ops::Range;
 
-/// Some codes, for a stretch of a lesson.
+/// Suppressed codes for a range of a lesson.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Allowance {
-    /// Bytes of the file: the object or the comment that says it.
+    /// Bytes of the object or the comment.
     pub span: Range<usize>,
-    /// The codes, and where they stand.
+    /// The codes with their spans.
     pub codes: Vec<(String, Range<usize>)>,
     /// The reason; empty where there is none.
     pub why: String,
-    /// Bytes of the file that it is about.
+    /// Bytes of the file to which it applies.
     pub over: Range<usize>,
 }
 
-/// Reads `lint` of an object with these bytes.
+/// Reads `lint` of an object with the range `over`.
 pub(super) fn read_allowance(
     node: Option<&Node>,
     over: Range<usize>,

@@ -1,4 +1,4 @@
-//! Everything that a lesson allows: in its objects, and in comments before blocks of prose.
+//! The suppressions of a lesson: in its objects, and in comments before blocks of prose.
 
 use super::allow::Allowance;
 use super::comment::{self, Comment};
@@ -6,7 +6,7 @@ use super::lesson::Lesson;
 use std::ops::Range;
 
 impl Lesson {
-    /// Everything that is allowed in it, in the order of the text.
+    /// All suppressions, in the order of the text.
     pub fn allowances(&self) -> Vec<Allowance> {
         let mut all: Vec<Allowance> = self.all_labs().iter().filter_map(|lab| lab.lint.clone()).collect();
         for quiz in &self.quizzes {
@@ -18,7 +18,7 @@ impl Lesson {
         all
     }
 
-    /// Those in comments.
+    /// The suppressions in comments.
     fn allowances_in_comments(&self) -> Vec<Allowance> {
         let text = self.file.text();
         let one = |comment: Comment| {
@@ -29,7 +29,7 @@ impl Lesson {
     }
 }
 
-/// Codes with their places, and the reason, of a comment that is ours.
+/// The codes with their spans, and the reason, of a labspec comment.
 type CodesAndReason = (Vec<(String, Range<usize>)>, String);
 
 fn read_codes(text: &str, inside: Range<usize>) -> Option<CodesAndReason> {
@@ -50,7 +50,7 @@ mod tests {
     use super::super::read_lesson;
     use crate::source::SourceFile;
 
-    /// What a comment is about: from what follows it to the end of the block or the paragraph.
+    /// A comment applies to the text after it, up to the end of the block or the paragraph.
     #[test]
     fn a_comment_is_about_what_follows() {
         let text = "<!-- labspec allow a: x --> one <!-- labspec allow b: y --> two\nthree\n\nfour\n\n\
@@ -64,7 +64,7 @@ mod tests {
         assert_eq!(over[3], "");
     }
 
-    /// A reason may go on in the next line.
+    /// A reason may continue on the next line.
     #[test]
     fn a_comment_may_have_several_lines() {
         let text = "# A\n\n<!-- labspec allow a,\nb: read\naloud -->\n\nthis\n\nnot <!-- labspec\nallow c: x --> that\n";
@@ -78,7 +78,8 @@ mod tests {
         assert_eq!(codes(1).collect::<Vec<_>>(), [("c", "c")]);
     }
 
-    /// A hundred thousand comments in one paragraph: each end is found once. Each anew would be 10^11 bytes, and no test that ends.
+    /// A hundred thousand comments in one paragraph: each end is found once. A repeated search would read 10^11 bytes, and
+    /// the test would not end.
     #[test]
     fn many_comments_are_read_once() {
         let text = "x <!-- labspec allow a: b -->".repeat(100_000);

@@ -1,10 +1,10 @@
-//! What a `verify` object claims, part by part: values that are searched for, closed forms, quoted numbers, columns of tables; and what
-//! its runs change. None of these holds a lab.
+//! The parts of a `verify` object: searches, closed forms, quoted numbers, columns of tables, and the modifications of its
+//! runs. None of them contains a lab.
 
 use crate::json::Number;
 use crate::source::Text;
 
-/// What a run is made with several values of.
+/// A quantity that a run takes several values of.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sweep {
     /// The label of a control, or an attribute of the model.
@@ -13,34 +13,34 @@ pub struct Sweep {
     pub values: Vec<f64>,
 }
 
-/// A value that is searched for: the largest or the smallest one with which a condition holds.
+/// A search for the largest or the smallest value for which a condition holds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Find {
-    /// Its name, by which it is read like a measure.
+    /// Its name, which is read like a measure.
     pub name: Text,
-    /// The largest one is wanted.
+    /// Whether the largest value is searched.
     pub largest: bool,
     /// The label of a control, an attribute of the model, or `timestep`.
     pub what: Text,
-    /// The smallest and the largest value that are tried.
+    /// The smallest and the largest tested value.
     pub range: [f64; 2],
-    /// The run; `None` for the only one.
+    /// The name of the run; `None` for the only one.
     pub run: Option<Text>,
     /// The condition.
     pub holds: Text,
-    /// How near the found value is to the true one.
+    /// Maximum distance of the found value from the true one.
     pub tol: Number,
 }
 
-/// Most runs of a sweep.
+/// Maximum number of runs of a sweep.
 pub const MOST_SWEPT: usize = 50;
 
-/// A change of a model: an attribute of an element, and what stands in it.
+/// A modification of a model: an attribute of an element, and its value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Change {
     /// Kind, name and attribute: `geom ball friction`.
     pub path: Text,
-    /// The attribute as a model's text has it.
+    /// The attribute value in MJCF.
     pub value: String,
 }
 
@@ -51,29 +51,29 @@ pub struct Exact {
     pub trace: Text,
     /// The closed form, in the language of the lab.
     pub form: Text,
-    /// How far the trace may be from it at most, in the trace's unit; `None` to judge by convergence.
+    /// Maximum distance of the trace from it, in the unit of the trace; `None` to decide by convergence.
     pub tol: Option<Number>,
 }
 
-/// A column of a table, or one cell of it, and where its numbers come from.
+/// A column of a table, or one cell of it, and the expressions for it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
     /// The heading of the column.
     pub column: Text,
-    /// The heading of the column that tells the rows apart, and the list of its numbers.
+    /// The heading of the column that distinguishes the rows, and the list of its numbers.
     pub by: Option<(Text, Text)>,
-    /// What stands in the first column of the one row that is meant.
+    /// The text in the first column of the one row that is claimed.
     pub row: Option<Text>,
-    /// What stands in the cells.
+    /// The content of the cells.
     pub is: Stands,
 }
 
-/// What stands in the cells of a column.
+/// The content of the cells of a column.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Stands {
-    /// Numbers: a list of them, or one for one cell.
+    /// Numbers: a list of them, or one number for one cell.
     Number(Text),
-    /// Words, each with the list of what must hold for it, or one condition for one cell.
+    /// Words, each with the list of its conditions, or one condition for one cell.
     Words(Vec<(Text, Text)>),
 }
 
@@ -88,11 +88,11 @@ impl Column {
     }
 }
 
-/// What the text says and where that comes from.
+/// A quote of the text, and the expressions for it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Said {
     /// The quoted text, such as `0.442 s`.
     pub quote: Text,
-    /// The expressions whose values it states, in the order of its numbers; a condition is what its words say.
+    /// The expressions for its numbers, in order; a condition belongs to its words.
     pub exprs: Vec<Text>,
 }

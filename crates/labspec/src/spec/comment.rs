@@ -1,5 +1,5 @@
-//! Comments of ours in the text of a lesson, each about the block that follows: `<!-- labspec allow … -->`,
-//! `<!-- labspec verify {…} -->`.
+//! Comments for labspec in the text of a lesson, each about the following block: `<!-- labspec allow … -->`, `<!-- labspec
+//! verify {…} -->`.
 
 use super::lab::Verify;
 use super::problem::Problem;
@@ -17,11 +17,11 @@ const CLAIM: &str = "verify";
 /// A comment.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Comment {
-    /// Its bytes, marks included.
+    /// Its bytes, including the comment marks.
     pub(super) span: Range<usize>,
-    /// What stands behind its word.
+    /// The text after its keyword.
     pub(super) inside: Range<usize>,
-    /// The bytes that it is about.
+    /// The bytes to which it applies.
     pub(super) over: Range<usize>,
 }
 
@@ -30,14 +30,14 @@ pub(super) struct Comment {
 pub struct Remark {
     /// Bytes of the comment.
     pub span: Range<usize>,
-    /// Bytes of the block that it is about.
+    /// Bytes of the block to which it applies.
     pub over: Range<usize>,
-    /// What is claimed.
+    /// The claims.
     pub verify: Verify,
 }
 
-/// The comments of ours that begin with this word. Each is about the block that follows: a fence whole, or the text up to the
-/// next empty line.
+/// The labspec comments with this keyword. Each applies to the following block: a whole fence, or the text up to the next
+/// empty line.
 pub(super) fn comments(file: &SourceFile, scan: &Scan, word: &str) -> Vec<Comment> {
     let mut paragraph = 0..0;
     let all = ours(file.text(), scan, word).into_iter();
@@ -45,8 +45,8 @@ pub(super) fn comments(file: &SourceFile, scan: &Scan, word: &str) -> Vec<Commen
         .collect()
 }
 
-/// The block that follows a place of the text. `paragraph` is the last text that was read to its end: what begins in it ends
-/// where it does, and is not read again.
+/// The block after an offset of the text. `paragraph` is the last paragraph whose end was searched: a block that begins in
+/// it ends with it, so that it is not read again.
 fn following(file: &SourceFile, scan: &Scan, from: usize, paragraph: &mut Range<usize>) -> Range<usize> {
     let rest = file.text().get(from..).unwrap_or_default();
     let text = rest.trim_start();
@@ -64,7 +64,7 @@ fn following(file: &SourceFile, scan: &Scan, from: usize, paragraph: &mut Range<
     start..paragraph.end
 }
 
-/// The bytes of every comment of ours that begins with this word, and of what stands behind it.
+/// The bytes of every labspec comment with this keyword, and of the text after the keyword.
 fn ours(text: &str, scan: &Scan, word: &str) -> Vec<(Range<usize>, Range<usize>)> {
     let mut all = Vec::new();
     for html in &scan.html {
@@ -81,13 +81,13 @@ fn ours(text: &str, scan: &Scan, word: &str) -> Vec<(Range<usize>, Range<usize>)
     all
 }
 
-/// The bytes of the claim that a byte of a text stands in, where that is one in a comment.
+/// The bytes of the claim in a comment that contains a byte of the text.
 pub(super) fn claim_at(text: &str, scan: &Scan, byte: usize) -> Option<Range<usize>> {
     let mut all = ours(text, scan, CLAIM).into_iter().map(|(_, inside)| inside);
     all.find(|inside| (inside.start..=inside.end).contains(&byte))
 }
 
-/// What stands behind our name and the word in a comment.
+/// The text after `labspec` and the keyword in a comment.
 fn behind(text: &str, inside: Range<usize>, word: &str) -> Option<Range<usize>> {
     let mut rest = text.get(inside.clone())?;
     for part in [OURS, word] {
@@ -96,7 +96,7 @@ fn behind(text: &str, inside: Range<usize>, word: &str) -> Option<Range<usize>> 
     rest.starts_with(|c: char| c.is_whitespace() || c == '{').then(|| inside.end - rest.len()..inside.end)
 }
 
-/// The claims that stand in comments. What is wrong in them goes to `problems`, the comments that a page cannot read to `broken`.
+/// Reads the claims in comments. Errors are added to `problems`, the comments that a page cannot read to `broken`.
 pub(super) fn read_remarks(
     file: &SourceFile,
     scan: &Scan,

@@ -15,7 +15,7 @@ pub struct Control {
     pub span: Range<usize>,
     /// Its label, by which runs address it.
     pub label: Text,
-    /// What kind it is.
+    /// Its kind.
     pub kind: ControlKind,
 }
 
@@ -34,9 +34,9 @@ pub enum ControlKind {
         step: Option<Number>,
         /// Start value.
         value: Number,
-        /// Decimals shown, see [`Control::digits`].
+        /// Number of decimals, see [`Control::digits`].
         digits: Option<Number>,
-        /// What a change does.
+        /// The effect of a change.
         action: Action,
     },
     /// One of several values.
@@ -45,7 +45,7 @@ pub enum ControlKind {
         options: Vec<Choice>,
         /// The start value.
         value: Scalar,
-        /// What a change does.
+        /// The effect of a change.
         action: Action,
     },
     /// Statements at a press.
@@ -55,32 +55,32 @@ pub enum ControlKind {
     },
 }
 
-/// What the change of a slider or a select does.
+/// The effect of a change of a slider or a select.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Action {
     /// An assignable expression that gets the value.
     pub set: Option<Text>,
-    /// Statements that see the value as `value`.
+    /// Statements that read the value as `value`.
     pub apply: Option<Text>,
     /// The value is stored as `ctx.<param>`.
     pub param: Option<Text>,
-    /// Apply again after every reset.
+    /// Whether it is applied again after every reset.
     pub init: bool,
-    /// Reset the simulation after a change.
+    /// Whether the simulation is reset after a change.
     pub reset: bool,
 }
 
 /// A choice of a select.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Choice {
-    /// Shown text.
+    /// Displayed text.
     pub text: Text,
     /// The value.
     pub value: Scalar,
 }
 
 impl Control {
-    /// What a change does; `None` for a button.
+    /// The effect of a change; `None` for a button.
     pub fn action(&self) -> Option<&Action> {
         match &self.kind {
             ControlKind::Slider { action, .. } | ControlKind::Select { action, .. } => Some(action),
@@ -98,7 +98,7 @@ impl Control {
         }
     }
 
-    /// Decimals that a slider shows.
+    /// Number of decimals of a slider.
     pub fn digits(&self) -> Option<u32> {
         match &self.kind {
             ControlKind::Slider { digits, .. } => Some(decimals(digits.as_ref())),
@@ -107,7 +107,7 @@ impl Control {
     }
 }
 
-/// Decimals to show, never more than the rule on `digits` allows.
+/// Number of decimals, limited to the maximum of the rule on `digits`.
 pub(super) fn decimals(digits: Option<&Number>) -> u32 {
     digits.map_or(SLIDER.number("digits"), |d| d.value.clamp(0.0, f64::from(MAX_DIGITS))) as u32
 }
@@ -123,7 +123,7 @@ pub(super) fn read(node: &Node, problems: &mut Vec<Problem>) -> Option<Control> 
         other => {
             let span = kind.as_ref().map_or(node.span.clone(), Text::span);
             fields.problems.push(Mistake::ControlType(other.to_string()).at(span));
-            // Its other keys cannot be judged.
+            // The kind decides about the other keys, so they are not checked.
             return None;
         }
     };
@@ -153,7 +153,7 @@ fn select(fields: &mut Fields<'_, '_>) -> Option<(Text, ControlKind)> {
         let mistake = Mistake::NothingOffered.at(fields.span());
         fields.problems.push(mistake);
     }
-    // A broken option has been reported; without it, the start value cannot be judged.
+    // A broken option is already reported; without it, the start value cannot be checked.
     let options = options.map(|nodes| nodes.iter().map(|n| choice(n, fields.problems)).collect::<Vec<_>>());
     let options: Option<Vec<Choice>> = options.and_then(|all| all.into_iter().collect());
     let value = fields.scalar("value");

@@ -1,4 +1,4 @@
-//! Reads the declared keys of one object, and collects what is wrong instead of stopping at the first mistake.
+//! Reads the declared keys of an object. Errors are collected; the first one does not end the reading.
 
 use super::format::{Family, Key, Need, Object, Type};
 use super::problem::{Expected, Meant, Mistake, Problem};
@@ -7,24 +7,23 @@ use crate::json::{Json, Member, Node, Number, Scalar, nearest};
 use crate::source::Text;
 use std::ops::Range;
 
-/// The keys of one object, read one by one. [`Fields::finish`] reports what stands there and is not declared, and what
-/// is missing.
+/// Reads the keys of an object. [`Fields::finish`] reports the keys that are not declared, and the missing ones.
 pub(super) struct Fields<'n, 'f> {
-    /// What the object is, with its article: "a slider".
+    /// The kind of object, with its article: "a slider".
     what: &'static str,
-    /// The keys that it may have.
+    /// The keys that are allowed.
     keys: Vec<&'static Key>,
     members: &'n [Member],
     span: Range<usize>,
-    /// Misspelt keys: what was meant, and the index of the member.
+    /// For each misspelt key: the key that is probably meant, and the index of the member.
     meant: Vec<(&'static str, usize)>,
     missing: Vec<(&'static str, Problem)>,
-    /// Where problems go.
+    /// Receives the problems.
     pub(super) problems: &'f mut Vec<Problem>,
 }
 
 impl<'n, 'f> Fields<'n, 'f> {
-    /// Opens an object; anything else is a problem and `None`.
+    /// Opens an object. For any other value, the result is a problem and `None`.
     pub(super) fn open(
         node: &'n Node,
         object: &'static Object,
@@ -33,7 +32,7 @@ impl<'n, 'f> Fields<'n, 'f> {
         Fields::with(node, object.what, object.keys.iter().collect(), problems)
     }
 
-    /// Opens an object of a family; [`Fields::narrow`] says which one, once it is known.
+    /// Opens an object of a family. Call [`Fields::narrow`] once the kind is known.
     pub(super) fn open_one(
         node: &'n Node,
         family: &'static Family,
@@ -58,8 +57,8 @@ impl<'n, 'f> Fields<'n, 'f> {
         Some(fields)
     }
 
-    /// Finds out what misspelt keys mean. They are then read as what was meant (and reported by [`Fields::finish`]),
-    /// so that one letter does not make everything else wrong.
+    /// Finds the keys that misspelt keys probably mean. They are read as these keys, so that one typing error causes no
+    /// other problems. [`Fields::finish`] reports them.
     fn guess(&mut self) {
         for (i, member) in self.members.iter().enumerate().take(200) {
             let key = member.key.as_str();
@@ -79,19 +78,19 @@ impl<'n, 'f> Fields<'n, 'f> {
         self.keys.iter().find(|k| k.name == name).copied()
     }
 
-    /// Says which object of the family it is.
+    /// Sets which object of the family it is.
     pub(super) fn narrow(&mut self, object: &'static Object) {
         self.what = object.what;
         self.keys = object.keys.iter().collect();
     }
 
-    /// Bytes of the object, brackets included.
+    /// Byte range of the object, brackets included.
     pub(super) fn span(&self) -> Range<usize> {
         self.span.clone()
     }
 
-    /// The value of a key. Of two equal keys the last one counts, as in `JSON.parse`. One that is missing and must not
-    /// be is remembered.
+    /// The value of a key. If a key occurs twice, the last one counts, as in `JSON.parse`. Records a problem if the key is
+    /// missing and its absence is an error or a warning.
     pub(super) fn node(&mut self, key: &'static str) -> Option<&'n Node> {
         debug_assert!(self.key(key).is_some(), "{} has no key {key}", self.what);
         let exact = self.members.iter().rev().find(|m| m.key.value == key);
@@ -108,12 +107,12 @@ impl<'n, 'f> Fields<'n, 'f> {
         found
     }
 
-    /// Whether the object has this key, perhaps misspelt.
+    /// Whether the object has this key, possibly misspelt.
     pub(super) fn has(&self, key: &str) -> bool {
         self.members.iter().any(|m| m.key.value == key) || self.meant.iter().any(|(right, _)| *right == key)
     }
 
-    /// Remembers that a key is missing, at the opening bracket of the object.
+    /// Records that a key is missing. The problem points to the opening bracket of the object.
     fn missing(&mut self, key: &'static str, why: &'static str, advised: bool) {
         if self.missing.iter().any(|(k, _)| *k == key) {
             return;
@@ -123,25 +122,25 @@ impl<'n, 'f> Fields<'n, 'f> {
         self.missing.push((key, mistake.at(open)));
     }
 
-    /// A text.
+    /// Reads a text.
     pub(super) fn text(&mut self, key: &'static str) -> Option<Text> {
         let node = self.node(key)?;
         text(node, key, self.problems)
     }
 
-    /// A number.
+    /// Reads a number.
     pub(super) fn number(&mut self, key: &'static str) -> Option<Number> {
         let node = self.node(key)?;
         number(node, key, self.problems)
     }
 
-    /// A whole number; its sign and range are for the rules.
+    /// Reads an integer. The rules check its sign and its range.
     pub(super) fn whole(&mut self, key: &'static str) -> Option<Number> {
         let node = self.node(key)?;
         whole(node, key, self.problems)
     }
 
-    /// A truth value; absent or wrong means `false`.
+    /// Reads a boolean. A missing key or a value of another type gives `false`.
     pub(super) fn flag(&mut self, key: &'static str) -> bool {
         let Some(node) = self.node(key) else { return false };
         match node.json {
@@ -153,13 +152,13 @@ impl<'n, 'f> Fields<'n, 'f> {
         }
     }
 
-    /// A number, text or truth value.
+    /// Reads a number, a text or a boolean.
     pub(super) fn scalar(&mut self, key: &'static str) -> Option<Scalar> {
         let node = self.node(key)?;
         scalar(node, key, self.problems)
     }
 
-    /// The items of a list; wrong means none. `None` where the key is missing.
+    /// The items of a list, empty for a value of another type. `None` if the key is missing.
     pub(super) fn items(&mut self, key: &'static str) -> Option<&'n [Node]> {
         let node = self.node(key)?;
         Some(match &node.json {
@@ -171,12 +170,12 @@ impl<'n, 'f> Fields<'n, 'f> {
         })
     }
 
-    /// The items of a list; absent or wrong means none.
+    /// The items of a list, empty if the key is missing or has a value of another type.
     pub(super) fn list(&mut self, key: &'static str) -> &'n [Node] {
         self.items(key).unwrap_or_default()
     }
 
-    /// The members of an object of free keys; absent or wrong means none.
+    /// The members of an object with free keys, empty if the key is missing or has a value of another type.
     pub(super) fn map(&mut self, key: &'static str) -> &'n [Member] {
         let Some(node) = self.node(key) else { return &[] };
         match &node.json {
@@ -188,7 +187,7 @@ impl<'n, 'f> Fields<'n, 'f> {
         }
     }
 
-    /// Reports every key that is not declared, and those that are missing unless they are only misspelt.
+    /// Reports every key that is not declared, and every missing key, except one for which a misspelt key was reported.
     pub(super) fn finish(self) {
         let (mut misspelt, mut reported) = (Vec::new(), 0);
         for (i, member) in self.members.iter().enumerate() {
@@ -196,7 +195,7 @@ impl<'n, 'f> Fields<'n, 'f> {
             if self.key(key).is_some() {
                 continue;
             }
-            // Suggestions for the first ones only: a hostile object can have thousands.
+            // Only the first ones get suggestions: an object can have thousands of unknown keys.
             let candidates = || self.keys.iter().take(if reported < 20 { usize::MAX } else { 0 });
             let meant = self.meant.iter().find(|(right, at)| *at == i && self.key(right).is_some());
             let there =
@@ -227,7 +226,7 @@ impl<'n, 'f> Fields<'n, 'f> {
     }
 }
 
-/// Whether such a value can stand where this is taken: a list, an object, or a single value.
+/// Whether a value has the JSON type (list, object or single value) that a key of this type expects.
 pub(super) fn fits(of: &Type, value: &Json) -> bool {
     match (of, value) {
         (_, Json::Broken) => true,
@@ -242,7 +241,7 @@ const A_LIST: &str = "a list [ … ]";
 const AN_OBJECT: &str = "an object { … }";
 const A_SINGLE_VALUE: &str = "a single value";
 
-/// What is taken, in the author's words.
+/// The expected JSON type, for messages.
 fn takes(of: &Type) -> &'static str {
     match of {
         Type::List(_) | Type::Numbers(_) | Type::Pair(_) => A_LIST,

@@ -1,24 +1,24 @@
-//! What a file is, by its name, and what a JSON object was meant to be, by its keys.
+//! The kind of a file, from its name, and the kind of a JSON object, from its keys.
 
 use super::fields::fits;
 use super::format::{LAB, Object, QUIZ};
 use crate::json::{Json, Node, nearest};
 use std::path::Path;
 
-/// What a file is, by its ending, in capitals or not.
+/// The kind of a file, from its extension. Case is ignored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileKind {
     /// Markdown: `.md`, `.markdown`, `.mdx`, `.qmd`, `.Rmd`.
     Lesson,
     /// JSON: a lab, a quiz, or a list of them.
     Json,
-    /// A model, MJCF: `.xml`.
+    /// A model in MJCF: `.xml`.
     Model,
-    /// Anything else, which is not ours to read: a notebook, a picture.
+    /// Anything else; such a file is not read: a notebook, a picture.
     Unknown,
 }
 
-/// What a file is, by the ending of its name.
+/// The kind of a file, from the extension of its name.
 pub fn kind_of(path: &Path) -> FileKind {
     let ending = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
     match ending.as_str() {
@@ -29,7 +29,7 @@ pub fn kind_of(path: &Path) -> FileKind {
     }
 }
 
-/// What a JSON object was meant to be.
+/// The probable kind of a JSON object.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Nature {
     Lab,
@@ -37,12 +37,12 @@ pub(super) enum Nature {
     Neither,
 }
 
-/// Keys that make a lab a lab.
+/// Keys that identify a lab.
 const OF_LABS: [&str; 5] = ["model", "xml", "controls", "plots", "readouts"];
-/// Words that are near our keys and mean something else in other files.
+/// Words that are similar to our keys but mean something else in other files.
 const OTHER_WORDS: [&str; 8] = ["mode", "modes", "module", "modules", "mod", "plat", "xsl", "models"];
 
-/// Tells a lab from a quiz, also where the key that would tell is misspelt; then most of the other keys must be ours.
+/// Distinguishes a lab from a quiz, even if the identifying key is misspelt; then most of the other keys must be declared.
 pub(super) fn nature(node: &Node) -> Nature {
     if node.get("questions").is_some() {
         Nature::Quiz
@@ -57,7 +57,7 @@ pub(super) fn nature(node: &Node) -> Nature {
     }
 }
 
-/// Whether an object has most of its keys from a declared one, and one that is nearly a telling one.
+/// Whether most keys of an object are declared, and one of them is similar to an identifying key.
 fn nearly(node: &Node, object: &Object, telling: &[&'static str]) -> bool {
     let members = node.members();
     let (mut ours, mut near) = (0, false);

@@ -10,81 +10,81 @@ use crate::json::{Number, Scalar};
 use crate::source::Text;
 use std::ops::Range;
 
-/// A lab: a scene, what a student can change, and what is shown of it.
+/// A lab: a scene, the controls for the student, and the displayed values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lab {
-    /// Bytes of the file, braces included.
+    /// Byte range in the file, braces included.
     pub span: Range<usize>,
-    /// Name of a model of the lesson's model folder. A checked lab has exactly one of `model` and `xml`.
+    /// Name of a model in the model folder of the lesson. A checked lab has exactly one of `model` and `xml`.
     pub model: Option<Text>,
-    /// MJCF given inline.
+    /// Inline MJCF.
     pub xml: Option<Text>,
-    /// Keyframe to start from and to return to.
+    /// The keyframe that sets the initial state, also after a reset.
     pub key: Option<Number>,
-    /// Shown title.
+    /// The displayed title.
     pub title: Option<Text>,
-    /// Shown kind, see [`Lab::kind`].
+    /// The displayed kind, see [`Lab::kind`].
     pub kind: Option<Text>,
-    /// Shown note, HTML.
+    /// The displayed note, HTML.
     pub note: Option<Text>,
-    /// Pixels, see [`Lab::height`].
+    /// In pixels, see [`Lab::height`].
     pub height: Option<Number>,
-    /// Layout: docked beside the text.
+    /// Whether the lab is docked beside the text.
     pub dock: bool,
-    /// Starts playing.
+    /// Whether it starts playing when it appears.
     pub autoplay: bool,
     /// The view.
     pub camera: Camera,
-    /// Overlays drawn at the start, with their places.
+    /// The overlays with their initial visibility.
     pub overlays: Vec<(Text, bool)>,
-    /// Overlays that get a checkbox.
+    /// The overlays with a checkbox.
     pub toggles: Vec<Text>,
-    /// Metres per newton for drawn forces, see [`Lab::force_scale`].
+    /// Length of a drawn force in metres per newton, see [`Lab::force_scale`].
     pub force_scale: Option<Number>,
-    /// A site whose path is drawn.
+    /// The site whose path is drawn.
     pub trail: Option<Text>,
     /// Playback speeds, see [`Lab::speeds`].
     pub speeds: Vec<Number>,
-    /// Seconds; the run pauses once time reaches it.
+    /// In seconds; the run pauses once the time reaches it.
     pub stop_at: Option<Number>,
-    /// Statements after load and after every reset.
+    /// Statements that run after loading and after every reset.
     pub setup: Option<Text>,
-    /// Statements before every step.
+    /// Statements that run before every step.
     pub controller: Option<Text>,
     /// Sliders, selects and buttons.
     pub controls: Vec<Control>,
-    /// Whether one of the controls could not be read, which is reported.
+    /// Whether a control could not be read; this is reported.
     pub unread_controls: bool,
     /// Plots.
     pub plots: Vec<Plot>,
     /// Readouts.
     pub readouts: Vec<Readout>,
-    /// What the lesson claims about this lab.
+    /// The claims of the lesson about this lab.
     pub verify: Option<Verify>,
-    /// Findings that are not reported about it.
+    /// The findings that are suppressed for this lab.
     pub lint: Option<Allowance>,
-    /// What the author expects of its runs.
+    /// The expected result of its runs.
     pub expect: Option<Expect>,
 }
 
-/// What an author expects of the runs of a lab, where it is not that they go well.
+/// The expected result of the runs of a lab, if it is not that they succeed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Expect {
-    /// `"breaks"`: the simulation meets a bad number or gains energy from nothing, and that is the lesson. With the
-    /// place where it says so.
+    /// `"breaks"`: the simulation produces an invalid number or gains energy without a source, and the lesson shows this on
+    /// purpose. With the byte range of the word.
     Breaks(Range<usize>),
 }
 
 /// The view of a lab.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Camera {
-    /// Degrees.
+    /// In degrees.
     pub azimuth: f64,
-    /// Degrees.
+    /// In degrees.
     pub elevation: f64,
-    /// Metres; `None` means 1.9 times the extent of the model.
+    /// In metres; `None` means 1.9 times the extent of the model.
     pub distance: Option<f64>,
-    /// Metres; `None` means the centre of the model.
+    /// In metres; `None` means the centre of the model.
     pub target: Option<[f64; 3]>,
 }
 
@@ -99,22 +99,22 @@ impl Default for Camera {
     }
 }
 
-/// Where the scene of a lab comes from.
+/// The source of the scene of a lab.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ModelSource<'a> {
-    /// A named model of the model folder.
+    /// A named model in the model folder.
     Model(&'a Text),
-    /// MJCF in the lab itself.
+    /// Inline MJCF.
     Xml(&'a Text),
 }
 
 impl Lab {
-    /// Whether it is the lab of no model, in which nothing is.
+    /// Whether it is a placeholder: a lab without a model.
     pub(crate) fn is_nothing(&self) -> bool {
         self.span.is_empty() && self.xml.is_none() && self.model.as_ref().is_some_and(|m| m.value.is_empty())
     }
 
-    /// A lab that shows nothing of a model: what remains when only the model is of interest.
+    /// A lab with only a model, for work on the model alone.
     pub fn of_model(name: Text) -> Lab {
         Lab {
             span: 0..0,
@@ -146,7 +146,7 @@ impl Lab {
         }
     }
 
-    /// The scene; `None` when the lab states none or two, which is an error already reported.
+    /// The scene; `None` if the lab has no model or two, which is reported as an error elsewhere.
     pub fn scene(&self) -> Option<ModelSource<'_>> {
         match (&self.model, &self.xml) {
             (Some(model), None) => Some(ModelSource::Model(model)),
@@ -155,18 +155,18 @@ impl Lab {
         }
     }
 
-    /// Where to point when the whole lab is meant: at its model.
+    /// The range for findings about the whole lab: that of its model.
     pub fn place(&self) -> Range<usize> {
         let scene = self.model.as_ref().or(self.xml.as_ref());
         scene.map_or(self.span.start..self.span.start + 1, Text::span)
     }
 
-    /// Index of the keyframe to start from.
+    /// Index of the initial keyframe.
     pub fn keyframe(&self) -> Option<usize> {
         self.key.as_ref().map(|k| k.value.max(0.0) as usize)
     }
 
-    /// Title, or a text that stands for it.
+    /// The title, or the default.
     pub fn title(&self) -> &str {
         self.title.as_ref().map_or(LAB.text("title"), Text::as_str)
     }
@@ -176,12 +176,12 @@ impl Lab {
         self.kind.as_ref().map_or(LAB.text("kind"), Text::as_str)
     }
 
-    /// Height of the picture in pixels.
+    /// Height of the picture, in pixels.
     pub fn height(&self) -> f64 {
         self.height.as_ref().map_or(LAB.number("height"), |h| h.value)
     }
 
-    /// Metres per newton for drawn forces.
+    /// Length of a drawn force, in metres per newton.
     pub fn force_scale(&self) -> f64 {
         self.force_scale.as_ref().map_or(LAB.number("forceScale"), |s| s.value)
     }
@@ -199,12 +199,12 @@ impl Lab {
         self.controls.iter().find(|c| c.label.value == label)
     }
 
-    /// All traces, in order of plots.
+    /// All traces, in the order of the plots.
     pub fn traces(&self) -> impl Iterator<Item = &super::Trace> {
         self.plots.iter().flat_map(|p| &p.traces)
     }
 
-    /// Every text that is code, with what it is, in the order of the lab format's table.
+    /// All texts that are code, each with its form, in the order of the lab format.
     pub fn code(&self) -> Vec<(Form, &Text)> {
         let statements = [&self.setup, &self.controller].into_iter().flatten();
         let mut all: Vec<(Form, &Text)> = statements.map(|t| (Form::Statements, t)).collect();
@@ -223,43 +223,43 @@ impl Lab {
     }
 }
 
-/// What a text of code is.
+/// The form of a code text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
     /// A value: a trace, a readout, a measure.
     Expression,
-    /// What is done: a setup, a controller, what a control applies or a button runs.
+    /// Statements: the setup, the controller, the `apply` of a control, the `run` of a button.
     Statements,
-    /// What a control sets.
+    /// The assignment target of a control.
     Target,
 }
 
-/// Runs, measures over them, and what must hold.
+/// Runs, measures over them, and conditions that must hold.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verify {
-    /// Bytes of the file, braces included.
+    /// Byte range in the file, braces included.
     pub span: Range<usize>,
-    /// The lab that runs; `None` means the question's `sim`, or the lab that carries this object.
+    /// The lab that runs; `None` means the `sim` of the question, or the lab that contains this object.
     pub lab: Option<VerifyLab>,
-    /// Whose runs and measures are those of this one, too: the lab or the question that carries them.
+    /// The lab or the question whose runs and measures are used as well.
     pub uses: Option<(Text, LabAddress)>,
-    /// The runs. Empty means one run of the lab as it stands.
+    /// The runs. If empty, there is one run of the lab as loaded.
     pub runs: Vec<Run>,
-    /// Measures: name and expression, taken in every run.
+    /// Measures: name and expression, evaluated in every run.
     pub measure: Vec<(Text, Text)>,
-    /// Values that are searched for.
+    /// Values determined by a search.
     pub find: Vec<Find>,
-    /// One condition per option of the question.
+    /// One condition for each option of the question.
     pub options: Vec<Text>,
-    /// Sliders by label, and the range of each over which the answer must hold.
+    /// Sliders by label, each with the range over which the answer must hold.
     pub over: Vec<(Text, [f64; 2])>,
     /// The value of a numeric answer.
     pub value: Option<Text>,
-    /// Values that the tolerance of a numeric answer must refuse: what a mistake leads to.
+    /// Values that result from typical errors and that the tolerance of a numeric answer must reject.
     pub wrong: Vec<Text>,
-    /// Numbers quoted in the text, each with the expression it must equal as printed.
+    /// Numbers quoted in the text, each with the expression whose rounded value it must equal.
     pub says: Vec<Said>,
-    /// Columns and cells of tables, each with what it must state.
+    /// Columns and cells of tables, each with the values that it must contain.
     pub table: Vec<Column>,
     /// Closed forms that traces must follow.
     pub exact: Vec<Exact>,
@@ -268,43 +268,43 @@ pub struct Verify {
 /// The lab of a [`Verify`].
 #[derive(Clone, Debug, PartialEq)]
 pub enum VerifyLab {
-    /// Written out.
+    /// An inline lab.
     Inline(Box<Lab>),
     /// Another lab of the lesson: `#2`, `#quiz-id.1`.
     Reference(Text, LabAddress),
-    /// A lab of another lesson: `other.md#2`. The path of its file is from the folder of this one.
+    /// A lab of another lesson: `other.md#2`. The path is relative to the folder of this lesson.
     Elsewhere(Text, String, LabAddress),
-    /// Something that is no lab, which is reported.
+    /// Not a lab; this is reported.
     Broken,
 }
 
 /// A named run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
-    /// Its name, which measures are read by: `name.measure`.
+    /// Its name; measures are accessed through it: `name.measure`.
     pub name: Text,
-    /// The lab that it runs, where it is not that of the object.
+    /// The lab that it runs; `None` means that of the object.
     pub lab: Option<VerifyLab>,
-    /// Changes of the model's text, before it is compiled.
+    /// Changes to the text of the model, before it is compiled.
     pub model: Vec<Change>,
-    /// The keyframe to start from, instead of the lab's.
+    /// The initial keyframe, instead of the keyframe of the lab.
     pub key: Option<Scalar>,
-    /// Statements before every step, instead of the lab's; empty for none.
+    /// Statements before every step, instead of the controller of the lab; empty for none.
     pub controller: Option<Text>,
-    /// Control labels and the values they are set to before the run.
+    /// Labels of controls, with the values to set before the run.
     pub set: Vec<(Text, Scalar)>,
-    /// Button labels and the times (s) of their presses.
+    /// Labels of buttons, with the times in s at which they are pressed.
     pub press: Vec<(Text, Number)>,
-    /// Further statements, after the lab's own setup.
+    /// Additional statements, after the setup of the lab.
     pub setup: Option<Text>,
     /// Length in seconds.
     pub until: Option<Number>,
     /// Length in steps.
     pub steps: Option<Number>,
-    /// The run ends at the first sample at which this holds.
+    /// The run ends at the first sample at which this condition holds.
     pub stop: Option<Text>,
-    /// What is tried with several values: a run for each.
+    /// A parameter with several values; each gives a run.
     pub sweep: Option<Sweep>,
-    /// The lesson says that this run breaks, and then it must.
+    /// Whether the lesson says that this run breaks; then it must break.
     pub breaks: bool,
 }

@@ -1,4 +1,4 @@
-//! A lesson: what its fences hold, in order, and the labs and claims in it.
+//! A lesson: the contents of its blocks, in order, with the labs and the claims.
 
 use super::address::LabAddress;
 use super::comment::Remark;
@@ -11,7 +11,7 @@ use crate::source::{SourceFile, Sources, Text};
 use std::ops::Range;
 use std::path::PathBuf;
 
-/// A lesson, or a stand-alone JSON file, with everything that was found wrong in its structure.
+/// A lesson or a standalone JSON file, with all problems in its structure.
 #[derive(Clone, Debug)]
 pub struct Lesson {
     /// The file.
@@ -20,67 +20,68 @@ pub struct Lesson {
     pub labs: Vec<LabEntry>,
     /// The quizzes, in order.
     pub quizzes: Vec<Quiz>,
-    /// Blocks of widgets that are not ours to run.
+    /// Blocks of other widgets, which are not run.
     pub widgets: Vec<Widget>,
-    /// Bytes of the blocks whose JSON a page cannot read. What they were meant to be is read and checked all the same.
+    /// Byte ranges of the blocks with JSON that the page cannot parse. Their probable meaning is read and checked
+    /// nevertheless.
     pub broken: Vec<Range<usize>>,
-    /// The fences, the HTML and the listings of its Markdown.
+    /// The fences, the HTML and the listings of the Markdown.
     pub scan: Scan,
-    /// Claims about blocks of the text, in comments before them.
+    /// Claims about blocks of the text, in comments before these blocks.
     pub remarks: Vec<Remark>,
-    /// `verify` objects that use the runs and measures of others, with these.
+    /// The `verify` objects with a `use`, merged with the objects that they use.
     pub wholes: Vec<Verify>,
-    /// Labs of other lessons that this one names. Whoever has the files reads them.
+    /// Labs of other lessons that this one refers to. The code that has access to the files reads them.
     pub others: Vec<Other>,
-    /// What was wrong where it was read.
+    /// Problems found while reading.
     pub problems: Vec<Problem>,
-    /// What the rules of structure say of it, in order; nothing until [`lint`](crate::lint) has looked.
+    /// Findings of the structure rules, in order. Empty until [`lint`](crate::lint) has run.
     pub findings: Vec<Finding>,
-    /// What is stored beside it of what its labs show, or why that cannot be read; `None` where nothing is.
+    /// The stored snapshot of the results of its labs, or the reason that it cannot be read; `None` if there is none.
     pub snapshot: Option<Result<SourceFile, String>>,
-    /// Where it lies, and where its neighbours were read from; `None` until somebody has looked for them.
+    /// The path of the file, and the sources of its related files; `None` until these files were searched for.
     pub place: Option<(PathBuf, Sources)>,
 }
 
 /// A lab of a lesson.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LabEntry {
-    /// Its number, from 1. A lab that could not be read keeps its number.
+    /// Its number, from 1. A lab that could not be read also counts.
     pub number: usize,
-    /// Bytes of the fence, or of the object in a JSON file.
+    /// Byte range of the fence, or of the object in a JSON file.
     pub span: Range<usize>,
-    /// Its JSON is broken: a page cannot read it. No verdict about it may say that it is clean.
+    /// Whether its JSON is malformed, so that the page cannot parse it. Such a lab must not be reported as clean.
     pub broken: bool,
-    /// The lab; `None` when it could not be read, which is reported.
+    /// The lab; `None` if it could not be read, which is reported.
     pub lab: Option<Lab>,
 }
 
 /// A lab of another lesson.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Other {
-    /// Bytes of its name in this lesson. All places in the lab are these.
+    /// Byte range of the reference in this lesson. All ranges in the lab are equal to this one.
     pub span: Range<usize>,
-    /// The file that it stands in.
+    /// The file that contains it.
     pub path: String,
-    /// What stands in that file.
+    /// The text of that file.
     pub text: String,
-    /// The lab, or why there is none.
+    /// The lab, or the reason that there is none.
     pub lab: Result<Lab, String>,
 }
 
 /// A block of another widget.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Widget {
-    /// The widget's name.
+    /// The name of the widget.
     pub name: String,
-    /// Bytes of the fence.
+    /// Byte range of the fence.
     pub span: Range<usize>,
-    /// The model it names.
+    /// The model that it refers to.
     pub model: Option<Text>,
 }
 
 impl Lesson {
-    /// The lab at an address.
+    /// The lab with this address.
     pub fn lab(&self, address: &LabAddress) -> Option<&Lab> {
         match address {
             LabAddress::Lab(n) => self.labs.get(n.checked_sub(1)?)?.lab.as_ref(),
@@ -91,7 +92,7 @@ impl Lesson {
         }
     }
 
-    /// The lab that a `verify` object or one of its runs names; `None` when there is none, or when it could not be read.
+    /// The lab that a `verify` object or one of its runs refers to; `None` if there is none, or if it could not be read.
     pub fn named<'a>(&'a self, lab: &'a VerifyLab) -> Option<&'a Lab> {
         match lab {
             VerifyLab::Inline(lab) => Some(lab),
@@ -101,17 +102,17 @@ impl Lesson {
         }
     }
 
-    /// The lab of another lesson that is named at these bytes, where somebody has looked for it.
+    /// The lab of another lesson that is referred to in this byte range, if it was searched for.
     pub fn other(&self, span: &Range<usize>) -> Option<&Other> {
         self.others.iter().find(|other| other.span == *span)
     }
 
-    /// Every `verify` object: those of labs, then those of questions, then those in comments.
+    /// All `verify` objects: first those of labs, then those of questions, then those in comments.
     pub fn verifies(&self) -> impl Iterator<Item = &Verify> {
         self.scoped().map(|(verify, _)| verify)
     }
 
-    /// The same, each with the bytes that its quotes are looked for in, where that is not all of the lesson.
+    /// All `verify` objects, each with the byte range in which its quotes are searched for; `None` means the whole lesson.
     pub fn scoped(&self) -> impl Iterator<Item = (&Verify, Option<&Range<usize>>)> {
         let labs = self.all_labs().into_iter().filter_map(|lab| lab.verify.as_ref());
         let questions = self.quizzes.iter().flat_map(Quiz::numbered).filter_map(|(_, q)| q.verify.as_ref());
@@ -119,7 +120,7 @@ impl Lesson {
         labs.chain(questions).map(|verify| (verify, None)).chain(remarks)
     }
 
-    /// Every lab that has an address: labs in order, then the sims of the questions.
+    /// All labs with an address: the labs in order, then the sims of the questions.
     pub fn addressed(&self) -> Vec<(LabAddress, &Lab)> {
         let mut all: Vec<_> =
             self.labs.iter().filter_map(|e| Some((LabAddress::Lab(e.number), e.lab.as_ref()?))).collect();
@@ -134,14 +135,15 @@ impl Lesson {
         all
     }
 
-    /// Every lab there is, those written inside `verify` objects included.
+    /// All labs, including the inline labs of `verify` objects.
     pub fn all_labs(&self) -> Vec<&Lab> {
         let mut open: Vec<&Lab> = self.addressed().into_iter().map(|(_, lab)| lab).collect();
         let questions = self.quizzes.iter().flat_map(|q| q.numbered());
         open.extend(questions.filter_map(|(_, q)| q.verify.as_ref()).flat_map(inline));
         open.extend(self.remarks.iter().flat_map(|remark| inline(&remark.verify)));
         let mut all = Vec::new();
-        // An inline lab may carry a verify object with another inline lab; JSON depth bounds the chain.
+        // An inline lab can contain a `verify` object with another inline lab. The JSON depth limits the length of this
+        // chain.
         while let Some(lab) = open.pop() {
             open.extend(lab.verify.iter().flat_map(inline));
             all.push(lab);
@@ -149,7 +151,7 @@ impl Lesson {
         all
     }
 
-    /// Whether a page cannot read the block that holds these bytes: its JSON is broken.
+    /// Whether this byte range is in a block whose JSON is malformed, so that the page cannot parse it.
     pub fn is_broken(&self, span: &Range<usize>) -> bool {
         self.broken.iter().any(|b| b.start <= span.start && span.end <= b.end)
     }
@@ -158,13 +160,13 @@ impl Lesson {
         !self.broken.is_empty()
     }
 
-    /// Whether anything is an error.
+    /// Whether there is a finding with severity error.
     pub fn has_errors(&self) -> bool {
         self.findings.iter().any(|f| f.severity == Severity::Error)
     }
 }
 
-/// The labs that are written in a `verify` object.
+/// The inline labs of a `verify` object.
 fn inline(verify: &Verify) -> impl Iterator<Item = &Lab> {
     verify.labs().filter_map(|lab| match lab {
         VerifyLab::Inline(lab) => Some(&**lab),

@@ -1,8 +1,8 @@
 //! Labs, quizzes and lessons as typed values.
 //!
-//! Every key has its type and default from the lab format; every string that is code or HTML is a
-//! [`Text`](crate::source::Text), so that a place inside it is a place of the lesson. Reading never fails: what is wrong is
-//! a problem with its place, and what is right is still there for the checks.
+//! The types and defaults of the keys are those of the lab format. Every string with code or HTML is a
+//! [`Text`](crate::source::Text), so that positions in it map to positions in the lesson. Reading never fails: errors
+//! become problems with a position, and the valid parts remain available for the checks.
 
 mod address;
 mod allow;

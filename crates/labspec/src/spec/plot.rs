@@ -10,19 +10,19 @@ use std::ops::Range;
 /// A plot over time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plot {
-    /// Bytes of the file.
+    /// Byte range in the file.
     pub span: Range<usize>,
     /// Label of the vertical axis.
     pub ylabel: Option<Text>,
     /// Label of the horizontal axis, see [`Plot::xlabel`].
     pub xlabel: Option<Text>,
-    /// Seconds shown, see [`Plot::window`].
+    /// The displayed time span in seconds, see [`Plot::window`].
     pub window: Option<Number>,
-    /// Lower end of the vertical axis; `None` follows the data.
+    /// Lower end of the vertical axis; `None` means that it follows the data.
     pub ymin: Option<Number>,
-    /// Upper end of the vertical axis; `None` follows the data.
+    /// Upper end of the vertical axis; `None` means that it follows the data.
     pub ymax: Option<Number>,
-    /// Pixels, see [`Plot::height`].
+    /// In pixels, see [`Plot::height`].
     pub height: Option<Number>,
     /// Horizontal lines.
     pub ref_lines: Vec<RefLine>,
@@ -33,45 +33,45 @@ pub struct Plot {
 /// A horizontal line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RefLine {
-    /// Its height, in the unit of the axis.
+    /// Its vertical position, in the unit of the axis.
     pub y: Number,
-    /// Shown text.
+    /// The displayed text.
     pub label: Option<Text>,
 }
 
 /// A curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trace {
-    /// Bytes of the file.
+    /// Byte range in the file.
     pub span: Range<usize>,
-    /// Its name in the legend and in written tables.
+    /// Its name in the legend and in tables of the text.
     pub label: Text,
-    /// Expression, evaluated at every sample.
+    /// An expression, evaluated at every sample.
     pub expr: Text,
-    /// Drawn dashed.
+    /// Whether the curve is dashed.
     pub dash: bool,
 }
 
-/// A value shown as text.
+/// A value displayed as text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Readout {
-    /// Bytes of the file.
+    /// Byte range in the file.
     pub span: Range<usize>,
     /// Its name.
     pub label: Text,
-    /// Expression; a number, a text or a truth value.
+    /// An expression with a number, a text or a boolean as its value.
     pub expr: Text,
-    /// Decimals, see [`Readout::digits`].
+    /// The number of decimals, see [`Readout::digits`].
     pub digits: Option<Number>,
 }
 
 impl Plot {
-    /// Seconds shown.
+    /// The displayed time span, in seconds.
     pub fn window(&self) -> f64 {
         self.window.as_ref().map_or(PLOT.number("window"), |w| w.value)
     }
 
-    /// Height in pixels.
+    /// Height, in pixels.
     pub fn height(&self) -> f64 {
         self.height.as_ref().map_or(PLOT.number("height"), |h| h.value)
     }
@@ -83,7 +83,7 @@ impl Plot {
 }
 
 impl Readout {
-    /// Decimals to print with.
+    /// The number of displayed decimals.
     pub fn digits(&self) -> u32 {
         super::control::decimals(self.digits.as_ref())
     }

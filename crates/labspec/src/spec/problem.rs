@@ -1,124 +1,124 @@
-//! What can be wrong with the structure of a lesson, where. The words are those of `lint`.
+//! Structural problems of a lesson, with their positions. `lint` contains the messages.
 
 use crate::{json, markdown};
 use std::ops::Range;
 
-/// Something that is wrong with a lesson.
+/// A problem of a lesson.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Problem {
-    /// With its fences.
+    /// In its fences.
     Fence(markdown::Problem),
-    /// With the JSON of a block.
+    /// In the JSON of a block.
     Json(json::Problem),
-    /// With an object: it is not as the format says.
+    /// In an object that does not conform to the format.
     Format(Misfit),
 }
 
-/// Something that is not as the format says.
+/// A deviation from the format.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Misfit {
-    /// Bytes of the file.
+    /// Byte range in the file.
     pub span: Range<usize>,
-    /// What it is.
+    /// The error.
     pub mistake: Mistake,
-    /// It stands in a `verify` object, which a page does not read.
+    /// Whether it is in a `verify` object, which the page does not read.
     pub in_verify: bool,
 }
 
-/// What can be wrong.
+/// The possible errors.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Mistake {
-    /// A value of another type.
+    /// A value has the wrong type.
     Type {
-        /// What the value is: `` `stopAt` ``, `a slider`.
+        /// The value: `` `stopAt` ``, `a slider`.
         what: String,
-        /// What it should be.
+        /// The expected type.
         expected: Expected,
-        /// What it is, in an author's words.
+        /// The actual type, for messages.
         found: &'static str,
-        /// What it says, when it is a text.
+        /// The text, if the value is a text.
         text: Option<String>,
     },
-    /// A number with decimals.
+    /// A number with decimals instead of an integer.
     NotWhole {
         /// Its key.
         key: String,
         /// The number.
         value: f64,
     },
-    /// A key that the format has not.
+    /// A key that is not in the format.
     UnknownKey {
         /// The object: `a slider`.
         of: &'static str,
         /// The key.
         key: String,
-        /// What was meant.
+        /// The key that is probably meant.
         meant: Meant,
     },
-    /// A key that is not there.
+    /// A missing key.
     MissingKey {
         /// The object.
         of: &'static str,
         /// The key.
         key: &'static str,
-        /// What it is needed for.
+        /// The reason that it is needed.
         why: &'static str,
-        /// It could be left out, but should not.
+        /// Whether it is only recommended.
         advised: bool,
     },
-    /// No such control.
+    /// An unknown type of control.
     ControlType(String),
-    /// No such question.
+    /// An unknown kind of question.
     QuestionKind(String),
-    /// Something else than a pair of text and value.
+    /// An option that is not a pair of text and value.
     NoChoice,
-    /// A select without choices.
+    /// A select without options.
     NothingOffered,
     /// A plot without traces.
     NoTraces,
-    /// Something else than three numbers.
+    /// A point that is not a list of three numbers.
     NoPoint,
-    /// An overlay that is neither on nor off.
+    /// An overlay whose value is not a boolean.
     NoSwitch,
-    /// What a lab cannot be expected to do.
+    /// An unknown value of `expect` of a lab.
     LabExpects(String),
-    /// What a run cannot be expected to do.
+    /// An unknown value of `expect` of a run.
     RunExpects(String),
-    /// A text that is no place of a lab.
+    /// A text that is not the address of a lab.
     NoPlace(String),
-    /// Something that is neither the place of a lab nor a lab; what it is.
+    /// A value that is neither the address of a lab nor a lab; with a description of the value.
     NoLab(&'static str),
-    /// Something else than one control or attribute with its values.
+    /// A sweep that is not one control or one attribute with its values.
     NoSweep,
-    /// A column that says neither how its rows are distinguished nor which row is meant, or both.
+    /// A column with neither `by` nor `row`, or with both.
     NoRows,
-    /// A search for neither the largest nor the smallest value, or for both.
+    /// A search with neither `largest` nor `smallest`, or with both.
     FindsNothing,
-    /// A search whose first value is not below its last one.
+    /// A search whose first value is not less than its last value.
     FindsBackwards,
     /// A sweep with too few or too many values.
     SweptValues(usize),
-    /// Something else than a pair of label and time.
+    /// A press that is not a pair of label and time.
     NoPress,
-    /// Something else than the two ends of a range, the smaller one first.
+    /// A range that is not a pair of a smaller and a larger number.
     NoRange,
-    /// Something else than a pair of quote and expression.
+    /// A quote that is not a pair of quote and expression.
     NoQuote,
-    /// A `verify` object that compares nothing.
+    /// A `verify` object without any comparison.
     ClaimsNothing,
-    /// A fence of labs that holds a quiz; the opening line as it should be.
+    /// A lab fence that contains a quiz; with the correct opening line.
     HoldsQuiz(String),
-    /// A fence of quizzes that holds a lab; the opening line as it should be.
+    /// A quiz fence that contains a lab; with the correct opening line.
     HoldsLab(String),
-    /// A fence that holds nothing.
+    /// An empty fence.
     EmptyFence,
     /// An object that is neither a lab nor a quiz.
     UnknownObject,
-    /// A file that is larger than what is read.
+    /// A file larger than the limit.
     TooLarge,
 }
 
-/// What a value should be.
+/// The expected type of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Expected {
     /// A text.
@@ -127,7 +127,7 @@ pub enum Expected {
     Number,
     /// `true` or `false`.
     Flag,
-    /// A number, a text or a truth value.
+    /// A number, a text or a boolean.
     Scalar,
     /// A list.
     List,
@@ -135,26 +135,26 @@ pub enum Expected {
     Object,
 }
 
-/// What an unknown key was meant to be.
+/// The key that an unknown key probably means.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Meant {
-    /// A key that the object has already.
+    /// A key that the object already has.
     There(&'static str),
-    /// A key that such a value fits; it is read as that.
+    /// A key that accepts this type of value; the value is read as its value.
     Likely(&'static str),
-    /// A key that takes something else.
+    /// A key that expects another type.
     Other {
         /// The key.
         key: &'static str,
-        /// What it takes, in an author's words.
+        /// The type that it expects, for messages.
         takes: &'static str,
     },
-    /// None of these.
+    /// Unknown; with the keys that are possible.
     Unclear(Vec<&'static str>),
 }
 
 impl Mistake {
-    /// The problem at these bytes of the file.
+    /// The problem at this byte range of the file.
     pub(super) fn at(self, span: Range<usize>) -> Problem {
         Problem::Format(Misfit { span, mistake: self, in_verify: false })
     }

@@ -14,34 +14,34 @@ use std::ops::Range;
 /// A quiz.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Quiz {
-    /// Bytes of the file, braces included.
+    /// Byte range in the file, braces included.
     pub span: Range<usize>,
-    /// Its id, unique in a course: answers are stored under it.
+    /// Its id, unique in a course: the page stores answers under it.
     pub id: Option<Text>,
-    /// Shown title, see [`Quiz::title`].
+    /// The displayed title, see [`Quiz::title`].
     pub title: Option<Text>,
-    /// The questions. One that could not be understood is `None`, so that the numbers of the others stay.
+    /// The questions. One that could not be read is `None`, so that the others keep their numbers.
     pub questions: Vec<Option<Question>>,
-    /// Findings that are not reported about it.
+    /// The findings that are suppressed for this quiz.
     pub lint: Option<Allowance>,
 }
 
 /// A question.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
-    /// Bytes of the file, braces included.
+    /// Byte range in the file, braces included.
     pub span: Range<usize>,
-    /// The question, HTML.
+    /// The question as HTML.
     pub q: Text,
-    /// Shown after the answer, HTML.
+    /// Displayed after the answer, HTML.
     pub explain: Option<Text>,
-    /// Shown label.
+    /// The displayed label.
     pub label: Option<Text>,
-    /// What is asked.
+    /// The kind of question.
     pub kind: QuestionKind,
-    /// What a machine can check about the answer.
+    /// The checkable claims about the answer.
     pub verify: Option<Verify>,
-    /// Findings that are not reported about it.
+    /// The findings that are suppressed for this question.
     pub lint: Option<Allowance>,
 }
 
@@ -50,29 +50,29 @@ pub struct Question {
 pub enum QuestionKind {
     /// One of several options.
     Choice {
-        /// Which of the three kinds.
+        /// One of the three kinds.
         style: ChoiceStyle,
-        /// The options, HTML, in the order shown.
+        /// The options as HTML, in display order.
         options: Vec<Text>,
-        /// Index of the right option, from 0.
+        /// Index of the correct option, from 0.
         answer: Option<Number>,
-        /// The lab that is shown after the student has committed (`predict`).
+        /// The lab that is displayed after the student has answered (`predict`).
         sim: Option<Box<Lab>>,
     },
     /// A number.
     Numeric {
-        /// The right answer.
+        /// The correct answer.
         answer: Option<Number>,
-        /// How far an answer may be off, see [`Question::numeric`].
+        /// The tolerance, see [`Question::numeric`].
         tol: Option<Number>,
-        /// Unit, for display.
+        /// The displayed unit.
         unit: Option<Text>,
     },
-    /// A text or a program, not graded.
+    /// A text or a program, which is not graded.
     Open {
-        /// `code` rather than `open`.
+        /// Whether the kind is `code`; otherwise it is `open`.
         code: bool,
-        /// The reference answer, HTML.
+        /// The reference answer as HTML.
         reference: Option<Text>,
     },
 }
@@ -97,7 +97,7 @@ impl Question {
         }
     }
 
-    /// Right answer and tolerance of a numeric question.
+    /// The correct answer and the tolerance of a numeric question.
     pub fn numeric(&self) -> Option<(f64, f64)> {
         match &self.kind {
             QuestionKind::Numeric { answer: Some(answer), tol, .. } => {
@@ -107,7 +107,7 @@ impl Question {
         }
     }
 
-    /// Index of the right option, when it is one of the options.
+    /// Index of the correct option; `None` if there is no option with this index.
     pub fn right_option(&self) -> Option<usize> {
         match &self.kind {
             QuestionKind::Choice { answer: Some(answer), options, .. } => {
@@ -117,7 +117,7 @@ impl Question {
         }
     }
 
-    /// Every text of the question that is HTML.
+    /// All texts of the question that are HTML.
     pub fn html(&self) -> Vec<&Text> {
         let mut all = vec![&self.q];
         match &self.kind {
@@ -131,12 +131,12 @@ impl Question {
 }
 
 impl Quiz {
-    /// The shown title.
+    /// The displayed title.
     pub fn title(&self) -> &str {
         self.title.as_ref().map_or(QUIZ.text("title"), Text::as_str)
     }
 
-    /// The questions that were understood, with their numbers from 1.
+    /// The questions that could be read, with their numbers from 1.
     pub fn numbered(&self) -> impl Iterator<Item = (usize, &Question)> {
         self.questions.iter().enumerate().filter_map(|(i, q)| q.as_ref().map(|q| (i + 1, q)))
     }
@@ -183,7 +183,7 @@ fn question(node: &Node, problems: &mut Vec<Problem>) -> Option<Question> {
     Some(Question { span, q: q?, explain, label, kind: asked?, verify, lint })
 }
 
-/// `None` when an option is broken, which is reported: without it, indexes mean nothing.
+/// `None` if an option could not be read, which is reported: without it, the index of the answer has no meaning.
 fn choice(fields: &mut Fields<'_, '_>, style: ChoiceStyle) -> Option<QuestionKind> {
     let options = fields.items("options");
     let options: Option<Vec<Option<Text>>> =

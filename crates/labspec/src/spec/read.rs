@@ -1,10 +1,10 @@
-//! Reads single values out of JSON: each of its type, or a problem that says what it should be.
+//! Reads single values from JSON. A value of another type gives a problem with the expected type.
 
 use super::problem::{Expected, Mistake, Problem};
 use crate::json::{Json, Node, Number, Scalar};
 use crate::source::Text;
 
-/// A text, or a problem.
+/// Reads a text.
 pub(super) fn text(node: &Node, what: &str, problems: &mut Vec<Problem>) -> Option<Text> {
     match &node.json {
         Json::Text(text) => Some(text.clone()),
@@ -15,7 +15,7 @@ pub(super) fn text(node: &Node, what: &str, problems: &mut Vec<Problem>) -> Opti
     }
 }
 
-/// A number, or a problem.
+/// Reads a number.
 pub(super) fn number(node: &Node, what: &str, problems: &mut Vec<Problem>) -> Option<Number> {
     match &node.json {
         Json::Number(value) => Some(Number { value: *value, span: node.span.clone() }),
@@ -26,7 +26,7 @@ pub(super) fn number(node: &Node, what: &str, problems: &mut Vec<Problem>) -> Op
     }
 }
 
-/// A number without decimals, or a problem.
+/// Reads an integer.
 pub(super) fn whole(node: &Node, what: &str, problems: &mut Vec<Problem>) -> Option<Number> {
     let number = number(node, what, problems)?;
     if number.value.fract() == 0.0 {
@@ -37,7 +37,7 @@ pub(super) fn whole(node: &Node, what: &str, problems: &mut Vec<Problem>) -> Opt
     None
 }
 
-/// A number, a text or a truth value, or a problem.
+/// Reads a number, a text or a boolean.
 pub(super) fn scalar(node: &Node, what: &str, problems: &mut Vec<Problem>) -> Option<Scalar> {
     match &node.json {
         Json::Number(value) => Some(Scalar::Number(Number { value: *value, span: node.span.clone() })),
@@ -50,12 +50,12 @@ pub(super) fn scalar(node: &Node, what: &str, problems: &mut Vec<Problem>) -> Op
     }
 }
 
-/// The value of a key has another type.
+/// Reports that the value of a key has another type.
 pub(super) fn wrong_key(problems: &mut Vec<Problem>, node: &Node, key: &str, expected: Expected) {
     wrong(problems, node, format!("`{key}`"), expected);
 }
 
-/// Something has another type. What could not be read at all has been reported.
+/// Reports that a value has another type. A value that could not be parsed has been reported already.
 pub(super) fn wrong(problems: &mut Vec<Problem>, node: &Node, what: String, expected: Expected) {
     if node.is_broken() {
         return;

@@ -1,4 +1,4 @@
-//! Reads the parts of a `verify` object that hold no lab.
+//! Reads the parts of a `verify` object that contain no lab.
 
 use super::claim::{Change, Column, Exact, Find, MOST_SWEPT, Said, Stands, Sweep};
 use super::fields::Fields;
@@ -9,7 +9,7 @@ use crate::json::read::shorten;
 use crate::json::{Json, Member, Node, Number, Scalar};
 use crate::source::Text;
 
-/// A change of a model. Several numbers are written as a list.
+/// A change of the model. Several numbers are given as a list.
 pub(super) fn read_change(member: &Member, problems: &mut Vec<Problem>) -> Option<Change> {
     let what = "the value of an attribute";
     let value = match &member.value.json {
@@ -26,7 +26,7 @@ pub(super) fn read_change(member: &Member, problems: &mut Vec<Problem>) -> Optio
     Some(Change { path: member.key.clone(), value })
 }
 
-/// What a sweep changes, and the values: written one by one, or so many from one end to the other.
+/// The parameter of a sweep and its values: a list, or a number of equidistant values between two ends.
 pub(super) fn read_sweep(node: &Node, problems: &mut Vec<Problem>) -> Option<Sweep> {
     let [member] = node.members() else {
         if !node.is_broken() {
@@ -57,7 +57,7 @@ pub(super) fn read_sweep(node: &Node, problems: &mut Vec<Problem>) -> Option<Swe
     Some(Sweep { what, values })
 }
 
-/// The range of a slider over which an answer holds.
+/// The range of a slider over which the answer must hold.
 pub(super) fn read_over(member: &Member, problems: &mut Vec<Problem>) -> Option<(Text, [f64; 2])> {
     if member.value.is_broken() {
         return None;
@@ -75,7 +75,7 @@ pub(super) fn read_over(member: &Member, problems: &mut Vec<Problem>) -> Option<
     None
 }
 
-/// A value that is searched for.
+/// A value determined by a search.
 pub(super) fn read_find(member: &Member, problems: &mut Vec<Problem>) -> Option<Find> {
     let mut fields = Fields::open(&member.value, &FIND, problems)?;
     let f = &mut fields;
@@ -104,7 +104,7 @@ pub(super) fn read_find(member: &Member, problems: &mut Vec<Problem>) -> Option<
     Some(Find { name, largest, what: what?, range: range?, run, holds: holds?, tol: tol? })
 }
 
-/// What a run is expected to do.
+/// Whether the run is expected to break.
 pub(super) fn read_breaks(text: &Text, problems: &mut Vec<Problem>) -> bool {
     if text.value != "breaks" {
         problems.push(Mistake::RunExpects(text.value.clone()).at(text.span()));
@@ -160,7 +160,7 @@ pub(super) fn read_says(node: &Node, problems: &mut Vec<Problem>) -> Option<Said
     None
 }
 
-/// The heading that tells rows apart, and the list of what stands below it.
+/// The heading of the column that distinguishes the rows, and the list of its values.
 fn read_row_keys(node: &Node, problems: &mut Vec<Problem>) -> Option<(Text, Text)> {
     if let Json::Array(pair) = &node.json
         && let [heading, list] = pair.as_slice()
@@ -175,7 +175,7 @@ fn read_row_keys(node: &Node, problems: &mut Vec<Problem>) -> Option<(Text, Text
     None
 }
 
-/// What stands in cells: numbers, or words with what must hold for each.
+/// The contents of cells: numbers, or words with the condition for each.
 fn read_cells(node: &Node, problems: &mut Vec<Problem>) -> Option<Stands> {
     let text = |node: &Node, problems: &mut Vec<Problem>| read::text(node, "what the cells state", problems);
     match &node.json {
@@ -187,7 +187,7 @@ fn read_cells(node: &Node, problems: &mut Vec<Problem>) -> Option<Stands> {
     }
 }
 
-/// A column of a table, or a cell of it.
+/// A column of a table, or one of its cells.
 pub(super) fn read_column(node: &Node, problems: &mut Vec<Problem>) -> Option<Column> {
     let mut fields = Fields::open(node, &COLUMN, problems)?;
     let f = &mut fields;

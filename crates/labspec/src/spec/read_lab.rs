@@ -1,4 +1,4 @@
-//! Reads a lab and its `verify` object: either may hold the other, so that the two readers call each other.
+//! Reads a lab and its `verify` object. Each can contain the other, so the two readers call each other.
 
 use super::address::LabAddress;
 use super::fields::Fields;
@@ -158,7 +158,7 @@ fn read_verify_lab(node: &Node, problems: &mut Vec<Problem>) -> Option<VerifyLab
     }
 }
 
-/// Whose runs and measures are used.
+/// The object whose runs and measures are used.
 fn read_uses(text: Text, problems: &mut Vec<Problem>) -> Option<(Text, LabAddress)> {
     let address = LabAddress::parse(&text.value);
     if address.is_none() {

@@ -1,4 +1,4 @@
-//! From the text of a lesson to a [`Lesson`]: every fence, every comment of ours, or a stand-alone JSON file.
+//! Reads a [`Lesson`] from its text: every fence and every labspec comment of a Markdown file, or a standalone JSON file.
 
 use super::address::LabAddress;
 use super::kind::{FileKind, Nature, kind_of, nature};
@@ -13,11 +13,11 @@ use crate::source::{MAX_FILE, SourceFile, SourceMap};
 use std::ops::Range;
 use std::path::Path;
 
-/// Most problems that are looked for in a file: more than anybody reads.
+/// The maximum number of problems per file: more than anyone reads.
 const MAX_PROBLEMS: usize = 10_000;
 
-/// Reads a lesson (Markdown) or, when the path ends in `.json`, a lab, a quiz or a list of them. This never fails: what is wrong
-/// is among the problems, and what is right is there.
+/// Reads a lesson (Markdown) or, if the path ends in `.json`, a lab, a quiz or a list of them. It never fails: errors are
+/// among the problems, and the valid parts are in the lesson.
 pub fn read_lesson(file: SourceFile) -> Lesson {
     let mut lesson = read_at(file, None);
     lesson.remarks =
@@ -26,10 +26,10 @@ pub fn read_lesson(file: SourceFile) -> Lesson {
     lesson
 }
 
-/// A lab of another lesson; all places in it are `at`, where it is named.
+/// Reads a lab of another lesson. All ranges in it are `at`, the range of the reference.
 ///
 /// # Errors
-/// Why there is none.
+/// The reason that there is no such lab.
 pub fn read_other(file: SourceFile, address: &LabAddress, at: Range<usize>) -> Result<Lab, String> {
     let path = file.path().to_string();
     let lesson = read_at(file, Some(at));
@@ -44,7 +44,7 @@ pub fn read_other(file: SourceFile, address: &LabAddress, at: Range<usize>) -> R
     }
 }
 
-/// Reads the JSON of a lab, or the first lab of a list, with what is wrong in it. Markdown and quizzes are not read.
+/// Reads the JSON of a lab, or the first lab of a list, with its problems. Markdown and quizzes are not read.
 pub(crate) fn read_lab_json(file: &SourceFile) -> (Option<Lab>, Vec<Problem>) {
     let (text, mut problems) = (file.text(), Vec::new());
     if text.len() as u64 > MAX_FILE {
@@ -68,12 +68,12 @@ pub(crate) fn read_lab_json(file: &SourceFile) -> (Option<Lab>, Vec<Problem>) {
     (lab, problems)
 }
 
-/// Bytes of a byte order mark: no part of JSON, and editors hide it.
+/// The length of the byte order mark, in bytes. It is not part of the JSON, and editors do not display it.
 fn byte_order_mark(text: &str) -> usize {
     if text.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 }
 }
 
-/// Reads a lesson; all places in its JSON are `at`, if that is given.
+/// Reads a lesson. If `at` is given, all ranges in its JSON are `at`.
 fn read_at(file: SourceFile, at: Option<Range<usize>>) -> Lesson {
     let mut lesson = Lesson {
         file,
@@ -147,7 +147,7 @@ fn markdown_file(lesson: &mut Lesson, at: Option<Range<usize>>) {
     lesson.scan = scan;
 }
 
-/// The opening line of a block, for another kind.
+/// The opening line of a block, changed to another kind.
 fn head(text: &str, block: &Block, kind: &str) -> String {
     let old = text.get(block.info.clone()).unwrap_or("");
     let marks: String = old.chars().take_while(|c| matches!(c, '`' | '~')).collect();
@@ -165,7 +165,7 @@ fn body(block: &Block, at: &Option<Range<usize>>, lesson: &mut Lesson) -> Option
     read_json(&block.body.value, map.as_ref().unwrap_or(&block.body.map), block.span.clone(), lesson)
 }
 
-/// Parses JSON, which may be broken: what can be read of it is read.
+/// Parses JSON. If it is malformed, the valid parts are read.
 fn read_json(text: &str, map: &SourceMap, span: Range<usize>, lesson: &mut Lesson) -> Option<Node> {
     let parsed = json::parse(text, map);
     if parsed.broken {
@@ -181,7 +181,7 @@ fn push_lab(lesson: &mut Lesson, span: Range<usize>, lab: Option<Lab>) {
     lesson.labs.push(LabEntry { number, span, broken, lab });
 }
 
-/// A lab, a quiz, or a list of them, distinguished by their keys.
+/// A lab, a quiz, or a list of them. Labs and quizzes are distinguished by their keys.
 fn json_file(lesson: &mut Lesson, at: Option<Range<usize>>) {
     let text = lesson.file.text();
     let start = byte_order_mark(text);
@@ -215,7 +215,7 @@ mod tests {
     use crate::lint::{MAX_FINDINGS, ModelFolder, load_lesson};
     use proptest::prelude::*;
 
-    /// Lessons put together from what breaks them.
+    /// Lessons made of fragments that typically cause errors.
     fn hostile() -> impl Strategy<Value = String> {
         let piece = prop::sample::select(vec![
             "```lab simlab\n",
@@ -271,7 +271,7 @@ mod tests {
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(2000))]
-        /// No lesson is a panic; every place is a place of the file; reports can be drawn.
+        /// No lesson causes a panic, every range is within the file, and the reports can be rendered.
         #[test]
         fn hostile_lessons_are_survived(text in hostile(), json in any::<bool>()) {
             let name = if json { "h.json" } else { "h.md" };
@@ -293,7 +293,7 @@ mod tests {
         assert!(lesson.findings.iter().all(|f| lesson.file.text().get(f.span.clone()).is_some()));
     }
 
-    /// Inputs that make careless checkers slow.
+    /// Inputs on which an inefficient checker is slow.
     #[test]
     fn large_lessons_take_a_moment() {
         let wide = |item: &str, n: usize| item.repeat(n);

@@ -6,13 +6,13 @@ use super::lesson::Lesson;
 use crate::source::Text;
 use std::collections::BTreeSet;
 
-/// Longest chain of objects that use each other.
+/// The maximum length of a chain of objects that use each other.
 const LONGEST: usize = 8;
-/// Most bytes of objects that are used, each counted as often as it is.
+/// The maximum total size of the used objects, in bytes. An object that is used several times counts each time.
 const MOST: usize = 8 << 20;
 
 impl Lesson {
-    /// A `verify` object with all that it uses of others.
+    /// A `verify` object, merged with the objects that it uses.
     pub fn whole<'a>(&'a self, verify: &'a Verify) -> &'a Verify {
         match verify.uses {
             Some(_) => {
@@ -23,13 +23,13 @@ impl Lesson {
         }
     }
 
-    /// The objects that one uses, one after the other.
+    /// The chain of objects that a `verify` object uses.
     pub fn used_by<'a>(&'a self, verify: &'a Verify) -> impl Iterator<Item = &'a Verify> {
         let next = |of: &&'a Verify| self.verify_at(&of.uses.as_ref()?.1);
         std::iter::successors(next(&verify), next).take(LONGEST)
     }
 
-    /// The `verify` object of a lab, or of the question at this place.
+    /// The `verify` object of the lab, or of the question, with this address.
     pub fn verify_at(&self, address: &LabAddress) -> Option<&Verify> {
         match address {
             LabAddress::Lab(_) => self.lab(address)?.verify.as_ref(),
@@ -41,7 +41,7 @@ impl Lesson {
     }
 }
 
-/// Every object that uses others, with what it uses; as many as may be.
+/// All objects with a `use`, merged with the objects that they use, up to the maximum size.
 pub(super) fn resolve_uses(lesson: &Lesson) -> Vec<Verify> {
     let mut left = MOST;
     let users = lesson.verifies().filter(|v| v.uses.is_some());
@@ -50,7 +50,8 @@ pub(super) fn resolve_uses(lesson: &Lesson) -> Vec<Verify> {
     all
 }
 
-/// What an object names itself comes before what it uses. `None` when there is too much of it.
+/// The definitions of the object itself take precedence over those of the used object. `None` if the maximum size is
+/// exceeded.
 fn whole(lesson: &Lesson, verify: &Verify, depth: usize, left: &mut usize) -> Option<Verify> {
     *left = left.checked_sub(verify.span.len())?;
     let mut all = verify.clone();
@@ -67,7 +68,7 @@ fn whole(lesson: &Lesson, verify: &Verify, depth: usize, left: &mut usize) -> Op
     Some(all)
 }
 
-/// Puts what is used before what is there, but for what is there by its name.
+/// Puts the used entries before the own entries, except those with the name of an own entry.
 fn add<T>(entries: &mut Vec<T>, used: Vec<T>, name: impl Fn(&T) -> &Text) {
     let there: BTreeSet<String> = entries.iter().map(|one| name(one).value.clone()).collect();
     let mut all: Vec<T> = used.into_iter().filter(|one| !there.contains(&name(one).value)).collect();

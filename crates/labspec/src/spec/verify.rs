@@ -1,16 +1,16 @@
-//! What a `verify` object says of itself: which labs it names, which of its texts are code. Its type stands beside that of a lab
-//! ([`lab`](super::lab)), because each may hold the other.
+//! Properties of a `verify` object: its labs and its code texts. The type is defined beside that of a lab
+//! ([`lab`](super::lab)), because each can contain the other.
 
 use super::claim::Column;
 use super::lab::{Form, Run, Verify, VerifyLab};
 use crate::source::{SourceMap, Text};
 use std::ops::Range;
 
-/// Words that speak of a lab.
+/// Words that refer to a lab.
 const OF_A_LAB: [&str; 8] = ["data", "model", "mj", "lib", "sim", "ctx", "contact", "shown"];
 
 impl Verify {
-    /// One that only measures.
+    /// A `verify` object that only measures.
     pub fn measuring(span: Range<usize>, runs: Vec<Run>, measure: Vec<(Text, Text)>) -> Verify {
         Verify {
             span,
@@ -29,12 +29,12 @@ impl Verify {
         }
     }
 
-    /// Whether it says how the answer of its question is checked.
+    /// Whether it states how the answer of its question is checked.
     pub fn claims_answer(&self) -> bool {
         !self.options.is_empty() || self.value.is_some()
     }
 
-    /// Whether it works out formulas alone, and reads nothing of a lab.
+    /// Whether it contains only formulas that read nothing from a lab.
     pub fn is_formulas(&self) -> bool {
         let word = |c: char| c.is_alphanumeric() || c == '_';
         let reads = |text: &Text| text.value.split(|c| !word(c)).any(|w| OF_A_LAB.contains(&w));
@@ -44,27 +44,27 @@ impl Verify {
             && !self.code().iter().any(|(_, text)| reads(text))
     }
 
-    /// The labs that it names: its own, and those of its runs.
+    /// The labs that it refers to: its own, and those of its runs.
     pub fn labs(&self) -> impl Iterator<Item = &VerifyLab> {
         self.lab.iter().chain(self.runs.iter().filter_map(|run| run.lab.as_ref()))
     }
 
-    /// Whether no lab is needed besides those of its runs.
+    /// Whether it needs no labs other than those of its runs.
     pub fn every_run_names_its_lab(&self) -> bool {
         !self.runs.is_empty() && self.exact.is_empty() && self.runs.iter().all(|run| run.lab.is_some())
     }
 
-    /// Every text that is code, with what it is.
+    /// All texts that are code, each with its form.
     pub fn code(&self) -> Vec<(Form, &Text)> {
         self.runs.iter().flat_map(Run::code).chain(self.expressions()).collect()
     }
 
-    /// The expressions of what the text says.
+    /// The expressions for the numbers in the text.
     pub fn quoted(&self) -> impl Iterator<Item = &Text> {
         self.says.iter().flat_map(|s| &s.exprs).chain(self.table.iter().flat_map(Column::expressions))
     }
 
-    /// The measures and what is claimed of them: every text that is code, but for that of the runs.
+    /// The measures and the claims about them: all texts that are code, except those of the runs.
     pub fn expressions(&self) -> impl Iterator<Item = (Form, &Text)> {
         let measures = self.measure.iter().map(|(_, expr)| expr).chain(self.exact.iter().map(|e| &e.form));
         let measures = measures.chain(self.find.iter().map(|f| &f.holds));
@@ -74,7 +74,7 @@ impl Verify {
 }
 
 impl Run {
-    /// A run of the lab as it stands.
+    /// A run of the lab as loaded.
     pub fn named(name: &str) -> Run {
         Run {
             name: Text { value: name.to_string(), map: SourceMap::point(0) },
@@ -93,7 +93,7 @@ impl Run {
         }
     }
 
-    /// Every text that is code, with what it is.
+    /// All texts that are code, each with its form.
     pub fn code(&self) -> impl Iterator<Item = (Form, &Text)> {
         let statements = self.setup.iter().chain(&self.controller).map(|t| (Form::Statements, t));
         statements.chain(self.stop.iter().map(|t| (Form::Expression, t)))

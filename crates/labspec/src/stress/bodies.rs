@@ -3,7 +3,8 @@
 use labspec_core::math::{Vec3, mat_t_mul_vec, quat_to_mat, rows, sub};
 use labspec_core::{Model, can_collide, geom, geom_half_extents, geom_thickness, joint};
 
-/// The thinnest extent of a body, m: of a box along its axes around all its geoms that touch others. Without end where one is.
+/// The smallest extent of a body, m: of a box along its axes around all its geoms that can collide. Infinite where a geom
+/// is infinite.
 pub(super) fn body_thickness(m: &Model, body: usize) -> f64 {
     let mut ends = [[f64::INFINITY, f64::NEG_INFINITY]; 3];
     let bits = |list: &[i32], g: usize| list.get(g).copied().unwrap_or(0);
@@ -19,7 +20,7 @@ pub(super) fn body_thickness(m: &Model, body: usize) -> f64 {
         let centre = rows::<3>(&m.geom_pos).get(g).copied().unwrap_or_default();
         let half = geom_half_extents(m, g);
         for k in 0..3 {
-            // A ball is as wide along any axis.
+            // A sphere has the same width along every axis.
             let reach = match m.geom_type.get(g) {
                 Some(&geom::SPHERE) => half[0],
                 _ => (0..3).map(|i| axes[3 * k + i].abs() * half[i]).sum(),
@@ -30,7 +31,7 @@ pub(super) fn body_thickness(m: &Model, body: usize) -> f64 {
     ends.iter().map(|[low, high]| high - low).filter(|x| *x >= 0.0).fold(f64::INFINITY, f64::min)
 }
 
-/// The name of a body; its number where it has none.
+/// The name of a body; its index if it has none.
 pub fn body_name(m: &Model, body: usize) -> String {
     match m.names.body.get(body) {
         _ if body == 0 => "the world".into(),
@@ -39,7 +40,7 @@ pub fn body_name(m: &Model, body: usize) -> String {
     }
 }
 
-/// The name of a geom, else of its body.
+/// The name of a geom, or else of its body.
 pub(super) fn geom_name(m: &Model, g: usize) -> String {
     match m.names.geom.get(g) {
         Some(name) if !name.is_empty() => format!("\"{name}\""),
@@ -52,12 +53,12 @@ pub(super) fn joint_of_dof(m: &Model, dof: usize) -> String {
     joint_name(m, &m.jnt_dofadr, joint::nv, dof)
 }
 
-/// The joint of a coordinate.
+/// The joint of a coordinate, in words.
 pub(super) fn joint_of_place(m: &Model, i: usize) -> String {
     joint_name(m, &m.jnt_qposadr, joint::nq, i)
 }
 
-/// The joint that holds the index `i`, where `start` and `width` are the first index and the number of each joint.
+/// The joint that contains the index `i`, where `start` and `width` are the first index and the number of each joint.
 fn joint_name(m: &Model, start: &[i32], width: fn(i32) -> usize, i: usize) -> String {
     let holds = |j: &usize| {
         let first = start.get(*j).map_or(0, |&a| a as usize);
@@ -76,7 +77,7 @@ pub fn body_of(m: &Model, g: usize) -> usize {
     m.geom_bodyid.get(g).map_or(0, |&b| b as usize)
 }
 
-/// Pairs of geoms of which the first may be stopped by the second, which has an end on every side; at most `most`, and whether there
+/// Pairs of geoms in which the second, which is finite, may stop the first. Returns at most `most` pairs, and whether there
 /// are more.
 pub(super) fn pairs(m: &Model, most: usize) -> (Vec<[usize; 2]>, bool) {
     let mut list = Vec::new();
@@ -99,8 +100,8 @@ pub(super) fn pairs(m: &Model, most: usize) -> (Vec<[usize; 2]>, bool) {
     (list, false)
 }
 
-/// Whether the engine ever looks for contacts of two geoms: their bodies move against each other, are not parent and child, and
-/// neither their bits nor an exclusion keep them apart.
+/// Whether the engine tests two geoms for contacts: their bodies move relative to each other, are not parent and child, and
+/// neither their bits nor an exclusion separates them.
 pub(super) fn may_meet(m: &Model, g: usize, p: usize) -> bool {
     let weld = |g: usize| m.body_weldid.get(body_of(m, g)).map_or(0, |&w| w as usize);
     let above = |w: usize| {
@@ -119,7 +120,7 @@ pub(super) fn may_meet(m: &Model, g: usize, p: usize) -> bool {
     a != b && (moves(a) || moves(b)) && (paired || !excluded && !kin && can_collide(m, g, p).unwrap_or(false))
 }
 
-/// The centre of a geom in the axes of another, from its centre, m.
+/// The centre of a geom in the frame of another one, m.
 pub(super) fn seen_from(xpos: &[f64], xmat: &[f64], g: usize, p: usize) -> Option<Vec3> {
     let at = |g: usize| rows::<3>(xpos).get(g).copied();
     let axes = rows::<9>(xmat).get(p)?;

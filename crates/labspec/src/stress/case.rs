@@ -13,45 +13,45 @@ use labspec_core::{AccessSet, Model, Plan};
 use std::collections::VecDeque;
 use std::ops::ControlFlow;
 
-/// What all runs of a lab share.
+/// The common data of all runs of a lab.
 pub struct StressCase<'a> {
     /// The lab.
     pub lab: &'a Lab,
-    /// Its model as it is compiled, before `setup` and controls.
+    /// Its compiled model, before `setup` and controls.
     pub model: &'a Model,
-    /// Its programs, which were compiled for this model or for one that differs in numbers only.
+    /// Its programs, compiled for this model or for one that differs in numbers only.
     pub programs: &'a Programs,
     pub(super) access: AccessSet,
-    /// A program runs before every step: it may push whatever it likes.
+    /// Whether a program runs before every step. It may apply any force.
     controlled: bool,
-    /// It may also write where bodies are.
+    /// Whether a program may write positions of bodies.
     jumps: bool,
-    /// What is shown stores something when it is computed, so that it belongs to the run.
+    /// Whether a display stores something when it is evaluated, so that its evaluation affects the run.
     shows: bool,
-    /// What stands before everything else that is done.
+    /// The interaction that precedes all others.
     pub base: Interaction,
 }
 
-/// What a run came to.
+/// The results of a run.
 #[derive(Clone, Debug, Default)]
 pub struct RunOutcome {
-    /// Everything that went wrong.
+    /// All faults.
     pub faults: Vec<Fault>,
-    /// How much of the run was made, s.
+    /// Length of the completed part of the run, s.
     pub covered: f64,
-    /// The work that it took, in units of about a nanosecond.
+    /// Its work, in units of about a nanosecond.
     pub spent: u64,
-    /// How fast each body and each joint with friction moved on at the end, by name, m/s or rad/s.
+    /// Drift speed of each body and each joint with friction at the end, by name, m/s or rad/s.
     pub speeds: Vec<(String, f64)>,
-    /// Pairs of geoms that touched.
+    /// Pairs of geoms that made contact.
     pub touching: Vec<[usize; 2]>,
-    /// It ended before its time, because its budget was spent or someone pressed Ctrl-C.
+    /// Whether it ended early, because its budget ran out or the user pressed Ctrl-C.
     pub cut: bool,
 }
 
-/// A run under an interaction: the actions that are still due, and the monitors of the run.
+/// A run under an interaction: the pending actions, and the monitors of the run.
 pub(crate) struct RunWatcher<'h> {
-    /// What is to be done, in order of time.
+    /// The pending actions, in order of time.
     pending: VecDeque<&'h Action>,
     watch: RunMonitor,
     shows: bool,
@@ -59,7 +59,7 @@ pub(crate) struct RunWatcher<'h> {
 }
 
 impl RunWatcher<'_> {
-    /// Does what is due; whether something was.
+    /// Executes the actions that are due; returns whether there were any.
     fn act(&mut self, session: &mut Session<'_>) -> bool {
         let now = session.world.data.time();
         let mut acted = false;
@@ -74,12 +74,13 @@ impl RunWatcher<'_> {
         acted
     }
 
-    /// Presses what is to be pressed before the first sample is taken.
+    /// Executes the actions that are due before the first sample.
     pub(super) fn press_at_start(&mut self, session: &mut Session<'_>) {
         self.act(session);
     }
 
-    /// At the start, and after every step: what is due is done, unless the run is over, and everything is looked at.
+    /// Call at the start and after every step: executes the actions that are due, unless the run is over, and updates the
+    /// monitors.
     pub(crate) fn observe(&mut self, session: &mut Session<'_>, made: usize, over: bool) {
         let acted = !over && self.act(session);
         let disturbed = made == 0 || acted;
@@ -93,10 +94,10 @@ impl RunWatcher<'_> {
         }
     }
 
-    /// What went wrong, when the run is over.
+    /// The faults, after the run.
     pub(crate) fn faults(self, session: &Session<'_>) -> Vec<Fault> {
         let mut faults = reported_faults(session);
-        // What blew up is reported; all else that was seen follows from it.
+        // After a divergence, all other observations are consequences of it.
         let broke = |f: &Fault| matches!(f.kind, FaultKind::Diverges | FaultKind::Grows);
         let when = faults.iter().filter(|f| broke(f)).map(|f| f.time).fold(f64::INFINITY, f64::min);
         let noticed = noticed_fault(&session.world.model, &session.noticed()).filter(|f| f.time < when);
@@ -108,7 +109,7 @@ impl RunWatcher<'_> {
         for mut fault in seen {
             match faults.iter_mut().find(|reported| reported.covers(&fault)) {
                 None => faults.push(fault),
-                // The same, with more to say of it.
+                // The same fault with more evidence.
                 Some(reported) if reported.kind == fault.kind => {
                     fault.by_run = reported.by_run;
                     *reported = fault;
@@ -120,11 +121,11 @@ impl RunWatcher<'_> {
     }
 }
 
-/// A change of the model that a run is made with, after everything that is done at its start.
+/// A modification of the model for a run, after all actions at its start.
 pub type Change<'c> = &'c dyn Fn(&mut Session<'_>);
 
 impl<'a> StressCase<'a> {
-    /// The runs of a lab in which `base` is done before everything else.
+    /// The runs of a lab in which `base` precedes all other interactions.
     pub fn new(lab: &'a Lab, model: &'a Model, programs: &'a Programs, base: Interaction) -> StressCase<'a> {
         let mut access = programs.access;
         [data::geom_xpos, data::geom_xmat, data::xpos].into_iter().for_each(|f| access.reads.insert(f));
@@ -156,17 +157,17 @@ impl<'a> StressCase<'a> {
         }
     }
 
-    /// The same with another model, of which nothing but numbers differs.
+    /// The case with another model that differs in numbers only.
     pub fn with_model<'b>(&'b self, model: &'b Model) -> StressCase<'b> {
         StressCase { lab: self.lab, model, programs: self.programs, base: self.base.clone(), ..*self }
     }
 
-    /// The number of pairs of geoms that are watched for tunnelling, where the model has more of them.
+    /// The number of pairs of geoms that are monitored for tunnelling, if the model has more of them.
     pub fn watched_pairs_limit(&self) -> Option<usize> {
         (!self.jumps && bodies::pairs(self.model, MOST_PAIRS).1).then_some(MOST_PAIRS)
     }
 
-    /// The lab with everything done that comes before the first step.
+    /// The lab after all actions before the first step.
     pub fn start(&self, interaction: &Interaction, budget: u64) -> Session<'a> {
         let plan = Some(Plan::new(self.model, &self.access));
         let start = Start { key: self.lab.keyframe(), plan, budget: Budget { left: budget } };
@@ -184,7 +185,7 @@ impl<'a> StressCase<'a> {
         session
     }
 
-    /// Number of steps of a run that lasts so long.
+    /// Number of steps of a run of this length.
     pub fn steps(&self, timestep: f64, length: f64) -> usize {
         let most = (run::MAX_STEPS - 1) as f64;
         let count = (length / timestep).round();
@@ -201,7 +202,8 @@ impl<'a> StressCase<'a> {
         }
     }
 
-    /// The same on a run whose samples evaluate what is shown, and that begins with what `interaction` presses.
+    /// Like [`StressCase::watcher`], for a run whose samples evaluate the displays, and that starts with the presses of
+    /// `interaction`.
     pub(super) fn table_watcher<'h>(
         &self,
         interaction: &'h Interaction,
@@ -214,7 +216,7 @@ impl<'a> StressCase<'a> {
         }
     }
 
-    /// Makes a run of so many seconds.
+    /// Makes a run of `length` seconds.
     pub fn run(
         &self,
         interaction: &Interaction,
@@ -225,7 +227,7 @@ impl<'a> StressCase<'a> {
         self.run_to_model(interaction, change, length, budget).0
     }
 
-    /// The same, and the model as the lab left it.
+    /// Like [`StressCase::run`]; also returns the model at the end of the run.
     pub fn run_to_model(
         &self,
         interaction: &Interaction,

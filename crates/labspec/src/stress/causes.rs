@@ -1,10 +1,10 @@
-//! The cause of a fault, as far as the model shows it: a spring, a servo or a contact that is too stiff for the timestep.
+//! The cause of a fault as far as the model shows it: a spring, a servo or a contact that is too stiff for the timestep.
 
 use crate::monitors::stability;
 use crate::run;
 use labspec_core::Model;
 
-/// The part of the model that is too stiff for its timestep, in words.
+/// Describes the part of the model that is too stiff for its timestep.
 pub(super) fn stiffness_cause(m: &Model) -> Option<String> {
     let worst = stability::suspects(m).into_iter().next()?;
     Some(format!(
@@ -16,7 +16,7 @@ pub(super) fn stiffness_cause(m: &Model) -> Option<String> {
     ))
 }
 
-/// The words where no single part is too stiff.
+/// The description if no single part is too stiff.
 pub(super) fn unknown_cause(m: &Model) -> String {
     format!(
         "no single spring, servo or contact is too stiff for a step of {} s; several together may be",

@@ -1,5 +1,5 @@
-//! What rests and creeps all the same: bodies that touch others with friction and move on at the same small speed, although nothing
-//! pushes them along, and joints that move on although their friction loss is more than what pulls at them.
+//! Detects creep of objects at rest: bodies in frictional contact that move on at the same small speed although no force
+//! moves them, and joints that move on although their friction loss exceeds the load.
 
 use super::bodies::{body_name, body_of, joint_of_dof};
 use super::fault::{Evidence, Fault, FaultKind};
@@ -7,36 +7,37 @@ use super::history::RunHistory;
 use labspec_core::math::{Vec3, norm, rows, sub};
 use labspec_core::{Fields, Model, disable, geom_half_extents, joint};
 
-/// Looks between two entries of the memory, and entries before every second one is forgotten.
+/// Number of calls between two stored samples, and the number of samples at which every second one is dropped.
 const EVERY: usize = 4;
 const MOST: usize = 128;
-/// A body that moves by less than this part of its size in a second rests; one that moved farther than that part in all creeps.
+/// A body is at rest if it moves by less than the fraction `RESTS` of its size per second. It creeps if it moved by more
+/// than the fraction `CREEPS` of its size in total.
 const RESTS: f64 = 0.1;
 const CREEPS: f64 = 0.02;
-/// How straight the way is, and how even.
+/// Minimum straightness of the path, and maximum relative difference of the speeds of its halves.
 const STRAIGHT: f64 = 0.9;
 const EVEN: f64 = 0.2;
-/// How long it has to rest at least, s.
+/// Minimum duration of rest, s.
 const LONG: f64 = 0.5;
-/// How far a joint creeps at least, rad, or as a part of its body's size.
+/// Minimum displacement of a creeping hinge, rad.
 const ANGLE: f64 = 0.01;
-/// Friction below this part of its limit holds.
+/// Friction below this fraction of its limit holds.
 const HOLDS: f64 = 0.99;
-/// The kind of a constraint row that is the friction loss of a degree of freedom.
+/// The type of a constraint row for the friction loss of a degree of freedom.
 const FRICTION_OF_DOF: i32 = 1;
 
-/// What is remembered of a moment.
+/// A stored sample.
 #[derive(Debug)]
 struct CreepSample {
     time: f64,
-    /// Places of bodies, m, and which of them touch others.
+    /// Positions of bodies, m, and which of them are in contact with friction.
     places: Vec<Vec3>,
     rubs: Vec<bool>,
-    /// Positions of joints with friction loss, m or rad, and where it is less than it may be.
+    /// Positions of joints with friction loss, m or rad, and whether their friction is below its limit.
     joints: Vec<(f64, bool)>,
 }
 
-/// The memory of a run.
+/// Monitors the creep of a run by stored samples.
 #[derive(Debug)]
 pub(super) struct CreepMonitor {
     memory: RunHistory<CreepSample>,
@@ -71,13 +72,13 @@ impl CreepMonitor {
         });
     }
 
-    /// The second half of what is remembered.
+    /// The second half of the stored samples.
     fn half(&self) -> &[CreepSample] {
         let past = self.memory.past();
         past.get(past.len() / 2..).unwrap_or_default()
     }
 
-    /// Bodies and joints that creep in the second half of what is remembered.
+    /// Bodies and joints that creep in the second half of the stored samples.
     pub(super) fn faults(&self, m: &Model) -> Vec<Fault> {
         let half = self.half();
         let (Some(first), Some(last)) = (half.first(), half.last()) else { return Vec::new() };
@@ -89,7 +90,8 @@ impl CreepMonitor {
         list
     }
 
-    /// How fast each body and each joint with friction moved on in the second half of what is remembered, by name, m/s or rad/s.
+    /// Drift speed of each body and each joint with friction in the second half of the stored samples, by name, m/s or
+    /// rad/s.
     pub(super) fn speeds(&self, m: &Model) -> Vec<(String, f64)> {
         let half = self.half();
         let (Some(first), Some(last)) = (half.first(), half.last()) else { return Vec::new() };
@@ -103,7 +105,7 @@ impl CreepMonitor {
     }
 }
 
-/// Bodies that creep.
+/// The creeping bodies.
 fn bodies(m: &Model, half: &[CreepSample]) -> Vec<Fault> {
     let (Some(first), Some(last)) = (half.first(), half.last()) else { return Vec::new() };
     let time = last.time - first.time;
@@ -112,7 +114,7 @@ fn bodies(m: &Model, half: &[CreepSample]) -> Vec<Fault> {
     let distance = |b: usize, from: usize, to: usize| norm(sub(place(to, b), place(from, b)));
     let size = |b: usize| sizes(m, b);
     let end = half.len() - 1;
-    // The scene rests when every body in it does.
+    // The scene is at rest when every body is.
     let moves = |b: usize| m.body_treeid.get(b).is_some_and(|&t| t >= 0);
     let path = |b: usize| (0..end).map(|i| distance(b, i, i + 1)).sum::<f64>();
     if (1..m.nbody).filter(|b| moves(*b)).any(|b| path(b) > RESTS * size(b) * time) {
@@ -131,7 +133,7 @@ fn bodies(m: &Model, half: &[CreepSample]) -> Vec<Fault> {
     list
 }
 
-/// Joints that move on while their friction is less than it may be.
+/// Joints that move on while their friction is below its limit.
 fn joints(m: &Model, half: &[CreepSample]) -> Vec<Fault> {
     let (Some(first), Some(last)) = (half.first(), half.last()) else { return Vec::new() };
     let mut list = Vec::new();
@@ -150,7 +152,7 @@ fn joints(m: &Model, half: &[CreepSample]) -> Vec<Fault> {
     list
 }
 
-/// Joints of one degree of freedom with friction loss: their number, and where their position and speed stand.
+/// Joints with one degree of freedom and friction loss: their ids, and the indexes of their position and velocity.
 fn with_friction(m: &Model) -> impl Iterator<Item = (usize, usize, usize)> {
     let on = !m.opt.disabled(disable::FRICTIONLOSS) && !m.opt.disabled(disable::CONSTRAINT);
     (0..m.njnt).filter(move |_| on).filter_map(|j| {
@@ -162,7 +164,7 @@ fn with_friction(m: &Model) -> impl Iterator<Item = (usize, usize, usize)> {
     })
 }
 
-/// Whether the friction of a degree of freedom is less than it may be.
+/// Whether the friction of a degree of freedom is below its limit.
 fn held(d: &Fields, dof: usize) -> bool {
     let row = (0..d.efc_type.len()).find(|&i| {
         d.efc_type.get(i) == Some(&FRICTION_OF_DOF) && d.efc_id.get(i).is_some_and(|&id| id as usize == dof)

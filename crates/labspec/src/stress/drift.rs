@@ -1,4 +1,4 @@
-//! Drift that the softness of friction causes: bodies that creep as fast where friction is hard are pushed along and have no fault.
+//! Distinguishes drift caused by soft friction: a body that moves as fast with hard friction is pushed and has no fault.
 
 use super::case::StressCase;
 use super::fault::{Fault, FaultKind};
@@ -6,8 +6,8 @@ use super::interaction::Interaction;
 use crate::run::Session;
 use labspec_core::math::rows_mut;
 
-/// The faults of a run, without the drift of bodies that are pushed along; and the work of the run with hard friction that decides
-/// it.
+/// The faults of a run, without the drift of bodies that are pushed. A run with hard friction decides this; its work is
+/// returned.
 pub fn without_pushed_bodies(
     case: &StressCase<'_>,
     interaction: &Interaction,
@@ -20,12 +20,12 @@ pub fn without_pushed_bodies(
     }
     let firm = case.run(interaction, Some(&firmer), length, budget);
     let moves = |f: &Fault| firm.speeds.iter().any(|(who, speed)| *who == f.who && 2.0 * speed > f.size);
-    // Without the other run to its end the drift is not proven.
+    // Without a complete second run, the drift is not proven.
     faults.retain(|f| f.kind != FaultKind::Drifts || !firm.cut && !moves(f));
     (faults, firm.spent)
 }
 
-/// Friction a hundred times as hard.
+/// Makes friction a hundred times harder.
 fn firmer(session: &mut Session<'_>) {
     let model = session.world.model.edit();
     *model.opt.impratio *= 100.0;
@@ -35,7 +35,7 @@ fn firmer(session: &mut Session<'_>) {
     }
 }
 
-/// An impedance that gives way a hundred times less.
+/// Reduces the softness of an impedance by a factor of a hundred.
 fn harden(solimp: &mut [f64; 5]) {
     let most = solimp[1];
     solimp[..2].fill(1.0 - 0.01 * (1.0 - most));

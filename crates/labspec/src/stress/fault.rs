@@ -1,40 +1,40 @@
-//! What goes wrong in a run, with the numbers that show it.
+//! Faults of a run, with the numbers that show them.
 
 use super::interaction::Interaction;
 use crate::rules::{self, Rule};
 use crate::run::two_digits;
 
-/// What goes wrong.
+/// The kind of a fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum FaultKind {
-    /// A number was not one, or too large, and the engine reset the scene.
+    /// A number is NaN or too large, and the engine reset the scene.
     Diverges,
-    /// The engine warned of something else.
+    /// The engine gave another warning.
     Warns,
-    /// Energy that nothing gave.
+    /// Energy grows without a source.
     Grows,
-    /// Everything leaves every sensible bound, and nobody warned.
+    /// Motion exceeds every plausible bound without a warning.
     Silent,
-    /// A joint is past its limit.
+    /// A joint is beyond its limit.
     PastLimit,
     /// A body passed through another one.
     Tunnels,
-    /// A body stays in another one.
+    /// A body stays inside another one.
     Sinks,
-    /// The solver stops before it has found the forces.
+    /// The solver stops before its forces converge.
     Unsolved,
-    /// Bodies are deep in each other for a while.
+    /// Bodies penetrate each other deeply for a while.
     Penetrates,
     /// A contact switches on and off while nothing moves.
     Chatters,
-    /// What rests creeps.
+    /// An object at rest creeps.
     Drifts,
     /// A program of the lab threw.
     Throws,
 }
 
 impl FaultKind {
-    /// In words, as a heading.
+    /// The kind as a heading.
     pub fn description(self) -> &'static str {
         match self {
             FaultKind::Diverges => "diverges",
@@ -52,7 +52,7 @@ impl FaultKind {
         }
     }
 
-    /// The rule of the findings that report it; `None` where several may.
+    /// The rule of the findings that report it; `None` where several rules may.
     pub(super) fn rule(self) -> Option<&'static Rule> {
         match self {
             FaultKind::Diverges => Some(rules::SIMULATION_DIVERGES),
@@ -71,43 +71,43 @@ impl FaultKind {
     }
 }
 
-/// A value that was measured.
+/// A measured value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Evidence {
-    /// What it is.
+    /// The quantity.
     pub name: &'static str,
     /// The value.
     pub value: f64,
-    /// Its unit; empty for a share or a count.
+    /// Its unit; empty for a ratio or a count.
     pub unit: &'static str,
 }
 
-/// Something that went wrong in a run.
+/// A fault of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fault {
-    /// What.
+    /// Its kind.
     pub kind: FaultKind,
-    /// When, s of the lab's clock.
+    /// Simulated time, s.
     pub time: f64,
-    /// The joint, the body, or the two bodies that touch.
+    /// The joint, the body, or the two bodies in contact.
     pub who: String,
-    /// Why, as far as that is known.
+    /// The cause, as far as it is known.
     pub cause: String,
     /// The numbers that show it.
     pub evidence: Vec<Evidence>,
-    /// How bad it is, to compare it with others of its kind.
+    /// The severity, to compare it with other faults of its kind.
     pub size: f64,
-    /// The run itself reports it.
+    /// Whether the run itself reports it.
     pub(super) by_run: bool,
 }
 
 impl Fault {
-    /// One of the numbers, by its name.
+    /// A measured value by its name.
     pub fn value(&self, name: &str) -> Option<f64> {
         self.evidence.iter().find(|e| e.name == name).map(|e| e.value)
     }
 
-    /// Whether another fault says the same of the same bodies, or less.
+    /// Whether this fault includes another one of the same bodies.
     pub(super) fn covers(&self, other: &Fault) -> bool {
         let [mine, others] = [self, other].map(|f| {
             let mut both: Vec<&str> = f.who.split(" through ").flat_map(|part| part.split(" and ")).collect();
@@ -122,7 +122,7 @@ impl Fault {
         }
     }
 
-    /// The numbers in a line: `depth 0.02 m, share 1.3`.
+    /// The measured values in a line: `depth 0.02 m, share 1.3`.
     pub fn measured(&self) -> String {
         let one = |e: &Evidence| {
             let unit = if e.unit.is_empty() { String::new() } else { format!(" {}", e.unit) };
@@ -135,17 +135,17 @@ impl Fault {
 /// The same fault in one or several settings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FaultGroup {
-    /// As it was in the simplest setting.
+    /// The fault in the simplest setting.
     pub fault: Fault,
     /// That setting.
     pub interaction: Interaction,
-    /// How many settings show it.
+    /// Number of settings that show it.
     pub settings: usize,
-    /// The setting in which it is the worst, and how it is there, where that is another one.
+    /// The setting with the most severe fault, and that fault, if it is another setting.
     pub worst: Option<(Interaction, Fault)>,
 }
 
-/// The worst fault that breaks a run, except for those in `except`: drift, warnings and programs that throw do not count.
+/// The most severe fault of a run, except for those in `except`. Drift, warnings and errors of programs do not count.
 pub fn worst_fault<'f>(faults: &'f [Fault], except: &[(FaultKind, String)]) -> Option<&'f Fault> {
     let counts = |f: &&Fault| {
         !matches!(f.kind, FaultKind::Drifts | FaultKind::Throws | FaultKind::Warns)
@@ -154,7 +154,7 @@ pub fn worst_fault<'f>(faults: &'f [Fault], except: &[(FaultKind, String)]) -> O
     faults.iter().filter(counts).min_by_key(|f| f.kind)
 }
 
-/// Adds a fault to its group: there is one for each kind and each object.
+/// Adds a fault to its group. There is one group for each kind and object.
 pub fn add_fault(list: &mut Vec<FaultGroup>, fault: Fault, interaction: &Interaction) {
     let same = |f: &&mut FaultGroup| f.fault.kind == fault.kind && f.fault.who == fault.who;
     match list.iter_mut().find(same) {
@@ -162,7 +162,7 @@ pub fn add_fault(list: &mut Vec<FaultGroup>, fault: Fault, interaction: &Interac
         Some(group) => {
             group.settings += 1;
             let size = group.worst.as_ref().map_or(group.fault.size, |(_, f)| f.size);
-            // A little worse is the same.
+            // Five percent more severe counts as the same.
             if fault.size > 1.05 * size {
                 group.worst = Some((interaction.clone(), fault));
             }

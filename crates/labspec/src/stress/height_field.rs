@@ -1,19 +1,20 @@
-//! Bodies that fall through a height field: a middle that was above the surface, and is below it by half of the body's own thickness.
+//! Detects bodies that fall through a height field: the centre was above the surface and is below it by half of the
+//! thickness of the body.
 
 use super::bodies::{body_of, geom_name, may_meet, seen_from};
 use super::fault::{Evidence, Fault, FaultKind};
 use labspec_core::math::{Vec3, norm, rows, sub};
 use labspec_core::{Fields, Model, geom, geom_thickness};
 
-/// A geom over a height field.
+/// A geom above a height field.
 pub(super) struct HeightFieldPair {
     geoms: [usize; 2],
-    /// Where it was seen last, in the axes of the field, while it was above the surface.
+    /// Its last position above the surface, in the frame of the field.
     above: Option<Vec3>,
     done: bool,
 }
 
-/// Geoms that may meet a height field, at most `most` pairs.
+/// Geoms that may collide with a height field, at most `most` pairs.
 pub(super) fn over(m: &Model, most: usize) -> Vec<HeightFieldPair> {
     let moves = |g: &usize| m.body_treeid.get(body_of(m, *g)).is_some_and(|&t| t >= 0);
     let fields: Vec<usize> = (0..m.ngeom).filter(|&p| m.geom_type.get(p) == Some(&geom::HFIELD)).collect();
@@ -23,14 +24,14 @@ pub(super) fn over(m: &Model, most: usize) -> Vec<HeightFieldPair> {
 }
 
 impl HeightFieldPair {
-    /// Something from outside moved bodies to where they are now.
+    /// Call after bodies were moved from outside.
     pub(super) fn disturb(&mut self, m: &Model, d: &Fields) {
         let [g, p] = self.geoms;
         let place = seen_from(&d.geom_xpos, &d.geom_xmat, g, p);
         self.above = place.filter(|place| surface(m, p, *place).is_some_and(|z| z <= place[2]));
     }
 
-    /// After a step: what fell through.
+    /// Call after a step: detects a body that fell through.
     pub(super) fn observe(&mut self, m: &Model, d: &Fields) -> Option<Fault> {
         let [g, p] = self.geoms;
         if self.done {
@@ -55,13 +56,13 @@ impl HeightFieldPair {
     }
 }
 
-/// The height of a field's surface below a place in its own axes; `None` beside it.
+/// The height of the surface of a field below a position in its frame; `None` beside the field.
 fn surface(m: &Model, p: usize, place: Vec3) -> Option<f64> {
     let id = usize::try_from(*m.geom_dataid.get(p)?).ok()?;
     let [rx, ry, top, _] = *rows::<4>(&m.hfield_size).get(id)?;
     let count = |list: &[i32]| list.get(id).and_then(|n| usize::try_from(*n).ok());
     let (nrow, ncol, first) = (count(&m.hfield_nrow)?, count(&m.hfield_ncol)?, count(&m.hfield_adr)?);
-    // The cell, and where in it.
+    // The cell, and the position within it.
     let along = |x: f64, half: f64, n: usize| {
         let t = (x + half) / (2.0 * half) * n.checked_sub(1)? as f64;
         let cell = t.floor().clamp(0.0, n.saturating_sub(2) as f64);
@@ -106,7 +107,7 @@ mod tests {
                     <worldbody><geom type=\"hfield\" hfield=\"h\"/></worldbody></mujoco>";
         let m = labspec_core::xml::compile(text).unwrap();
         let at = |x: f64, y: f64| surface(&m, 0, [x, y, 9.0]);
-        // Rows go up along y or down in the file; the ends along x are the same in both.
+        // Rows are in the order of y or reversed in the file; the result at the ends along x is the same.
         assert_eq!((at(-2.0, 0.0), at(2.0, 0.3), at(1.0, 0.0)), (Some(0.0), Some(0.5), Some(0.3125)));
         assert_eq!(
             (at(0.0, 1.0).unwrap() + at(0.0, -1.0).unwrap(), at(2.1, 0.0), at(0.0, -1.1)),

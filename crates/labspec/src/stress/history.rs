@@ -1,6 +1,6 @@
-//! What a run was like before: so many entries at most, evenly over its time, however long it lasts.
+//! The history of a run: a limited number of samples at even intervals, however long the run is.
 
-/// Every so many looks an entry; every second one is forgotten when there are too many.
+/// Stores a sample at every `every`-th call. Drops every second sample when there are too many.
 #[derive(Debug)]
 pub(super) struct RunHistory<T> {
     looks: usize,
@@ -10,12 +10,12 @@ pub(super) struct RunHistory<T> {
 }
 
 impl<T> RunHistory<T> {
-    /// A memory that begins with an entry after each `every` looks, and never has more than `most`.
+    /// A history that first stores a sample at every `every`-th call, and never has more than `most`.
     pub(super) fn new(every: usize, most: usize) -> RunHistory<T> {
         RunHistory { looks: 0, every, most, past: Vec::new() }
     }
 
-    /// Looks once: `now` is asked for an entry when it is time.
+    /// Counts a call; `now` creates a sample when one is due.
     pub(super) fn observe(&mut self, now: impl FnOnce() -> T) {
         if self.looks.is_multiple_of(self.every) {
             self.past.push(now());
@@ -31,7 +31,7 @@ impl<T> RunHistory<T> {
         self.looks += 1;
     }
 
-    /// What is remembered, the oldest first.
+    /// The stored samples, the oldest first.
     pub(super) fn past(&self) -> &[T] {
         &self.past
     }

@@ -1,4 +1,5 @@
-//! What a student can do to a lab: sliders moved, options chosen, buttons pressed, each at its time; and the list of what is tried.
+//! The interactions of a student with a lab: sliders moved, options chosen, buttons pressed, each at a time; and the list
+//! of tested interactions.
 
 use crate::bind::{Programs, scalar};
 use crate::pairwise;
@@ -6,38 +7,38 @@ use crate::run::{RunError, presses, settings};
 use crate::spec::{ControlKind, Lab};
 use labspec_expr::Value;
 
-/// A control is changed or a button is pressed.
+/// A change of a control or a press of a button.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Action {
-    /// When, in s of the lab's own clock; at 0 before the first step.
+    /// Simulated time, s; 0 is before the first step.
     pub time: f64,
-    /// Which control, from 0.
+    /// Index of the control.
     pub control: usize,
-    /// What it is set to; `None` for a press.
+    /// Its new value; `None` for a press.
     pub value: Option<Value>,
 }
 
-/// Why a run is made.
+/// The kind of an interaction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
-    /// Nothing is done.
+    /// No interaction.
     AsItStands,
-    /// Nothing but a touch that nobody sees: what stands exactly in its balance shows nothing otherwise.
+    /// A push too small to be seen, which shows instability that a scene in exact equilibrium hides.
     Touched,
-    /// One slider at an end, or one option chosen.
+    /// One slider at an end, or one chosen option.
     End,
     /// One button.
     Button,
     /// All buttons, one after the other.
     InOrder,
-    /// Several controls at their ends, perhaps with a button.
+    /// Several controls at their ends, possibly with a button.
     Corner,
-    /// Controls and buttons in turn while the lab runs.
+    /// Controls and buttons in turn during the run.
     Interleaved,
 }
 
 impl Kind {
-    /// All of them, in the order in which they are tried.
+    /// All kinds, in the order in which they are tested.
     pub const ALL: [Kind; 7] = [
         Kind::AsItStands,
         Kind::Touched,
@@ -48,7 +49,7 @@ impl Kind {
         Kind::Interleaved,
     ];
 
-    /// In words.
+    /// The kind in words.
     pub fn description(self) -> &'static str {
         match self {
             Kind::AsItStands => "as it stands",
@@ -65,14 +66,14 @@ impl Kind {
 /// A run that a student can make.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Interaction {
-    /// Why.
+    /// Its kind.
     pub kind: Kind,
-    /// What is done, in order of time.
+    /// The actions, in order of time.
     pub actions: Vec<Action>,
 }
 
 impl Interaction {
-    /// What stands before everything else that is done: controls set before the first step, and buttons pressed at their times.
+    /// A base for other interactions: controls set before the first step, and buttons pressed at their times.
     ///
     /// # Errors
     /// A student cannot do this.
@@ -93,18 +94,18 @@ impl Interaction {
         Ok(Interaction { kind: Kind::AsItStands, actions })
     }
 
-    /// More that is done on this base. What it sets before the first step is set instead of what the base sets.
+    /// Adds actions to this base. Controls that they set before the first step replace those of the base.
     pub fn and(&self, kind: Kind, more: Vec<Action>) -> Interaction {
         let sets = |a: &Action| a.time <= 0.0 && a.value.is_some();
         let again = |a: &&Action| !(sets(a) && more.iter().any(|b| sets(b) && b.control == a.control));
         let mut actions: Vec<Action> = self.actions.iter().filter(again).cloned().collect();
         actions.extend(more);
-        // In order of time, of one time what is set before what is pressed; otherwise as they came.
+        // In order of time; at equal times, settings come before presses; otherwise in the given order.
         actions.sort_by(|a, b| a.time.total_cmp(&b.time).then(sets(b).cmp(&sets(a))));
         Interaction { kind, actions }
     }
 
-    /// In words: `with "kp" at 5000, "Drop" pressed at 0.1 s`.
+    /// The interaction in words: `with "kp" at 5000, "Drop" pressed at 0.1 s`.
     pub fn describe(&self, programs: &Programs) -> String {
         let label = |i: usize| programs.controls.get(i).map_or("", |(label, _)| label.as_str());
         let one = |a: &Action| match &a.value {
@@ -125,10 +126,10 @@ impl Interaction {
     }
 }
 
-/// How long a student looks at a lab that says nothing of it, s.
+/// Default length of a run, s.
 const WINDOW: f64 = 10.0;
 
-/// How long a student looks at a lab: until it stops, or as far as its plots show, s.
+/// The length for which a student watches a lab, s: until it stops, or the time range of its plots.
 pub fn window(lab: &Lab) -> f64 {
     let longest = lab.plots.iter().map(|p| p.window()).filter(|w| w.is_finite()).fold(0.0, f64::max);
     match &lab.stop_at {
@@ -138,18 +139,18 @@ pub fn window(lab: &Lab) -> f64 {
     }
 }
 
-/// The speed of every joint after a touch, m/s or rad/s.
+/// The speed of every joint after a push, m/s or rad/s.
 pub(super) const TOUCH: f64 = 1e-6;
-/// When the first button is pressed, s.
+/// Time of the first press, s.
 const PRESS: f64 = 0.1;
-/// All combinations are tried when there are no more than this.
+/// All combinations are tested when there are at most this many.
 const FEW: usize = 16;
-/// Most rows of a covering design, most controls in it, and most options of each.
+/// Maximum number of rows of a covering design, of controls in it, and of levels of each.
 const MOST_ROWS: usize = 200;
 const MOST_FACTORS: usize = 60;
 const MOST_LEVELS: usize = 30;
 
-/// How many pairs of levels of two factors there are.
+/// Number of pairs of levels of two factors.
 fn pairs(levels: &[usize]) -> usize {
     let mut before = 0usize;
     let mut count = 0usize;
@@ -160,9 +161,9 @@ fn pairs(levels: &[usize]) -> usize {
     count
 }
 
-/// The controls of a lab that the interactions of a list move.
+/// The controls that the interactions of a list move.
 struct ListedControls {
-    /// Each slider and select: its number, the values to try, and the value that the base has.
+    /// Each slider and select: its index, the values to test, and its value in the base.
     changes: Vec<(usize, Vec<Value>, Value)>,
     buttons: Vec<usize>,
 }
@@ -192,7 +193,7 @@ impl ListedControls {
     }
 }
 
-/// A control set before the first step.
+/// Sets a control before the first step.
 fn set(control: usize, value: &Value) -> Action {
     Action { time: 0.0, control, value: Some(value.clone()) }
 }
@@ -201,8 +202,8 @@ fn press_at(control: usize, time: f64) -> Action {
     Action { time, control, value: None }
 }
 
-/// Everything that is tried on a base, the simplest first, for a lab that a student looks at for `window` seconds; and how many
-/// pairs of settings meet in no run, because there are too many.
+/// All tested interactions on a base, the simplest first, for a lab that a student watches for `window` seconds. Also
+/// returns the number of pairs of settings that no run covers.
 pub fn list_interactions(lab: &Lab, window: f64, base: &Interaction) -> (Vec<Interaction>, usize) {
     let press = PRESS.min(0.5 * window);
     let controls = ListedControls::new(lab, base);
@@ -224,11 +225,11 @@ pub fn list_interactions(lab: &Lab, window: f64, base: &Interaction) -> (Vec<Int
     (all, missing)
 }
 
-/// Combinations of the ends of controls, perhaps with a button: all of them where they are few, else a pairwise design; and how many
-/// pairs of settings meet in none of them.
+/// Combinations of the ends of controls, possibly with a button: all of them where they are few, else a pairwise design.
+/// Also returns the number of pairs of settings that none of them covers.
 fn corners(controls: &ListedControls, press: f64) -> (Vec<Vec<Action>>, usize) {
     let ListedControls { changes, buttons } = controls;
-    // The last factor is which button is pressed, if any.
+    // The last factor is the pressed button, if any.
     let mut levels: Vec<usize> = changes.iter().map(|(_, values, _)| values.len()).collect();
     if !buttons.is_empty() {
         levels.push(1 + buttons.len());
@@ -254,7 +255,7 @@ fn corners(controls: &ListedControls, press: f64) -> (Vec<Vec<Action>>, usize) {
     (rows.into_iter().map(actions).collect(), missing)
 }
 
-/// Every control to its far end and to the other, a button after each.
+/// Moves every control to its far end and then to the other one, with a press of a button after each move.
 fn interleaved(
     changes: &[(usize, Vec<Value>, Value)],
     buttons: &[usize],
@@ -272,7 +273,7 @@ fn interleaved(
             list.extend(next.next().map(|b| (*b, None)));
         }
     }
-    // A select without options has no value to take.
+    // A select without options has no value.
     let is_button = |i: &usize| buttons.contains(i);
     list.retain(|(i, value)| is_button(i) || value.is_some());
     let of = list.len();
@@ -308,9 +309,9 @@ mod tests {
     #[test]
     fn ends_options_buttons_and_corners_are_tried() {
         assert_eq!(counts(&lab("")), [1, 1, 0, 0, 0, 0, 0]);
-        // One slider at its end already; both ends while it runs.
+        // One slider is at an end already; both ends are tested during the run.
         assert_eq!(counts(&lab(SLIDER)), [1, 1, 1, 0, 0, 0, 1]);
-        // 2 ends, 3 options, pressed or not.
+        // Two ends, three options, with or without the button.
         assert_eq!(counts(&lab(&[SLIDER, SELECT, BUTTON].join(","))), [1, 1, 3, 1, 0, 12, 1]);
         let two = BUTTON.replace("Go", "Stop");
         assert_eq!(counts(&lab(&[BUTTON, &two].join(","))), [1, 1, 0, 2, 1, 0, 0]);
@@ -348,7 +349,7 @@ mod tests {
             Interaction { kind: Kind::AsItStands, actions: vec![set(0, 2.0), press(2, 0.0), press(2, 0.5)] };
         let (all, _) = list_interactions(&lab(&[SLIDER, SELECT, BUTTON].join(",")), 2.0, &base);
         assert_eq!((&all[0], all[1].kind, &all[1].actions), (&base, Kind::Touched, &base.actions));
-        // Both ends of the slider differ from where the base has it.
+        // Both ends of the slider differ from its value in the base.
         let ends: Vec<&Interaction> = all.iter().filter(|h| h.kind == Kind::End).collect();
         assert_eq!(ends.len(), 4);
         assert_eq!(ends[0].actions, [set(0, 0.0), press(2, 0.0), press(2, 0.5)]);

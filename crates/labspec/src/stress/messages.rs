@@ -1,5 +1,4 @@
-//! What goes wrong in a run, in the words in which `run`, `check` and `stability` alike report it, and the shorter timesteps that
-//! were tried against it.
+//! Describes faults in the same words for `run`, `check` and `stability`, and tests shorter timesteps as a remedy.
 
 use super::case::{RunOutcome, StressCase};
 use super::drift::without_pushed_bodies;
@@ -12,12 +11,12 @@ use crate::spec::Lab;
 use labspec_core::Model;
 use std::ops::ControlFlow;
 
-/// Halvings of the timestep that are tried, work for one run with each, and for all of them.
+/// Number of tested halvings of the timestep, work budget of one run, and of all of them.
 const HALVINGS: i32 = 8;
 const WORK_OF_RUN: u64 = 300_000_000;
 const WORK: u64 = 1_000_000_000;
 
-/// A fault of which the run itself says nothing, in a teacher's words; `None` for those of which it does.
+/// Describes a fault that the run itself does not report; `None` for the others.
 pub(crate) fn describe(fault: &Fault) -> Option<Breakdown> {
     let (rule, what, why): (&'static Rule, &str, &'static str) = match fault.kind {
         _ if fault.by_run => return None,
@@ -58,7 +57,8 @@ pub(crate) fn describe(fault: &Fault) -> Option<Breakdown> {
     })
 }
 
-/// The same advice with a timestep that was tried: the longest with which the run has no fault. Work is taken from `left`.
+/// The same breakdown with a tested timestep: the longest with which the run has no fault. The work is subtracted from
+/// `left`.
 pub(crate) fn with_tried_timestep(
     case: &StressCase<'_>,
     interaction: &Interaction,
@@ -80,7 +80,7 @@ pub(crate) fn with_tried_timestep(
         budget = budget.saturating_sub(outcome.spent);
         *left = left.saturating_sub(outcome.spent);
         if !has_no_fault(&outcome, breakdown.rule) {
-            // A run that was not made to its end says nothing of this timestep, nor of shorter ones, which take longer.
+            // An incomplete run tests neither this timestep nor shorter ones, which need more work.
             if outcome.cut {
                 return breakdown;
             }
@@ -95,13 +95,13 @@ pub(crate) fn with_tried_timestep(
     breakdown
 }
 
-/// Whether nothing goes wrong in a run but what creeps, and what was reported is not there.
+/// Whether a run has no fault except drift, and not the reported one.
 fn has_no_fault(outcome: &RunOutcome, rule: &Rule) -> bool {
     let same = |f: &Fault| f.kind.rule().is_some_and(|r| r.code == rule.code);
     worst_fault(&outcome.faults, &[]).is_none() && !outcome.faults.iter().any(same)
 }
 
-/// Two digits, never more than the number.
+/// Rounds down to two digits.
 fn rounded_down(x: f64) -> f64 {
     if !(x.is_finite() && x > 0.0) {
         return 0.0;
@@ -111,10 +111,10 @@ fn rounded_down(x: f64) -> f64 {
     format!("{:.3e}", digits * unit).parse().unwrap_or(x)
 }
 
-/// [`run::run`] with the monitors of `check` and `stability`, and with timesteps that were tried.
+/// [`run::run`] with the monitors of `check` and `stability`, and with tested timesteps.
 ///
 /// # Errors
-/// A control that does not exist, a setting that no student can make, or a run that is too long.
+/// A control that does not exist, a setting that a student cannot choose, or a run that is too long.
 pub fn watched_run(
     lab: &Lab,
     model: &Model,

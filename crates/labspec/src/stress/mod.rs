@@ -1,11 +1,11 @@
-//! Faults that a student can provoke: runs with every control at its ends, in corners and in turn, and everything that goes wrong in
-//! them. `check` makes as many of these runs as its budget allows. The crate `labspec-numerics` makes all of them and longer ones,
-//! tries remedies, and searches how far a lab is from its faults.
+//! Faults that a student can provoke: runs with every control at its ends, in corners and in turn, and the faults of these
+//! runs. `check` makes as many of these runs as its budget allows. The crate `labspec-numerics` makes all of them and
+//! longer ones, tests remedies, and searches for the distance of a lab from its faults.
 //!
 //! From low to high; each module uses only those before it:
 //!
-//! * `interaction`: what a student can do, and the list of what is tried
-//! * `fault`: what goes wrong, with its evidence
+//! * `interaction`: what a student can do, and the list of tested interactions
+//! * `fault`: the faults, with their evidence
 //! * `bodies`, `causes`, `history`: geoms and names of a model, stiffness, the history of a run
 //! * `height_field`, `creep`, `runaway`, `watch`: monitors of a run
 //! * `run_faults`, `case`, `drift`: a run under an interaction, and its faults

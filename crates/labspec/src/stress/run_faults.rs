@@ -1,5 +1,5 @@
-//! The faults that a run reports itself: warnings of the engine, energy from nothing, programs that throw, and what the monitors of
-//! [`crate::monitors::watch`] noticed.
+//! The faults that a run reports itself: warnings of the engine, energy growth, errors of programs, and the observations of
+//! [`crate::monitors::watch`].
 
 use super::bodies::{geom_name, joint_of_dof, joint_of_place};
 use super::causes::{stiffness_cause, unknown_cause};
@@ -16,7 +16,7 @@ pub(super) fn warned(session: &Session<'_>, warning: Warning) -> Option<WarningS
     session.warnings.get(warning as usize).copied().filter(|stat| stat.number > 0)
 }
 
-/// Warnings of the engine, energy from nothing, and programs that threw.
+/// Warnings of the engine, energy growth, and errors of programs.
 pub(super) fn reported_faults(session: &Session<'_>) -> Vec<Fault> {
     let m = &session.world.model;
     let mut list = Vec::new();
@@ -34,7 +34,7 @@ pub(super) fn reported_faults(session: &Session<'_>) -> Vec<Fault> {
     list
 }
 
-/// How the run broke down: energy grew, or a number was not finite, whichever came first.
+/// The breakdown of a run: energy growth or a bad number, whichever came first.
 fn breakdown(session: &Session<'_>) -> Option<Fault> {
     let m = &session.world.model;
     let growth = session.growth();
@@ -91,7 +91,7 @@ fn other_warnings(session: &Session<'_>, m: &Model) -> Vec<Fault> {
             ),
             _ => ("the whole scene".into(), "more bodies touch than the engine keeps contacts"),
         };
-        // The code that `run` and `check` report (`run/breakdown.rs`).
+        // The same rule as in `run` and `check` (`run/diagnose.rs`).
         let kind = if warning == Warning::BadCtrl { FaultKind::Diverges } else { FaultKind::Warns };
         list.push(Fault {
             kind,
@@ -106,7 +106,7 @@ fn other_warnings(session: &Session<'_>, m: &Model) -> Vec<Fault> {
     list
 }
 
-/// The first thing that a run noticed besides energy: the others may follow from it.
+/// The earliest observation besides energy growth; later ones may be consequences of it.
 pub(super) fn noticed_fault(m: &Model, noticed: &Noticed) -> Option<Fault> {
     let fault = |kind, time, who: String, cause: &str, size, evidence| Fault {
         kind,

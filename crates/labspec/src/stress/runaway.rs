@@ -1,10 +1,10 @@
-//! Motion that leaves every bound without a warning.
+//! Motion that exceeds every bound without a warning.
 //!
-//! Where forces are bounded, speed grows no faster than in proportion to time: in twice the time it doubles. What is unstable grows
-//! exponentially. Speed counts as wild when it is a hundred times all that gravity and the start can give in a scene of this size, when
-//! it became ten times larger in the second half of the time since the last change from outside, and when it never stops growing:
-//! from where it was sensible to the end of the run, every eighth of the time is faster than all before. What is bounded, as a
-//! limit cycle however fast, does not run away.
+//! With bounded forces, speed grows at most in proportion to time: in twice the time it doubles. An instability grows
+//! exponentially. A speed is a runaway when three conditions hold. It is a hundred times the speed that gravity and the
+//! start can give in a scene of this size. It became ten times larger in the second half of the time since the last change
+//! from outside. It never stops growing: from a plausible speed to the end of the run, every eighth of the time is faster
+//! than all before. A bounded motion, such as a limit cycle, is not a runaway, however fast it is.
 
 use super::bodies::joint_of_dof;
 use super::causes::stiffness_cause;
@@ -15,26 +15,26 @@ use labspec_core::{Fields, Model, joint};
 
 const FAR: f64 = 100.0;
 const FASTER: f64 = 10.0;
-/// Parts of the time, and how much faster each is at least.
+/// Number of parts of the time, and the minimum growth factor of each.
 const PARTS: usize = 8;
 const MORE: f64 = 1.02;
-/// Looks between two entries of the memory.
+/// Number of calls between two stored samples.
 const EVERY: usize = 8;
-/// The number of entries before every second one is forgotten.
+/// Number of samples at which every second one is dropped.
 const MOST: usize = 256;
 
-/// The memory of a run.
+/// Monitors the speeds of a run by stored samples.
 #[derive(Debug)]
 pub(super) struct RunawayMonitor {
     start: f64,
-    /// Times, and the largest speeds up to then: of slides and of turns.
+    /// Times, and the largest speeds so far: of translations and of rotations.
     memory: RunHistory<(f64, [f64; 2])>,
     largest: [f64; 2],
     /// The largest speeds at the start.
     first: Option<[f64; 2]>,
-    /// Since when something is wild, the degree of freedom, its largest speed, and the bound.
+    /// A speed above the bound: the time, the degree of freedom, its largest speed, and the bound.
     found: Option<(f64, usize, f64, f64)>,
-    /// The same of what has run away before a change from outside.
+    /// The values of `found` for a runaway before a change from outside.
     sure: Option<(f64, usize, f64, f64)>,
 }
 
@@ -50,7 +50,7 @@ impl RunawayMonitor {
         *self = RunawayMonitor { start: time, sure: self.ran_away(m), ..RunawayMonitor::default() };
     }
 
-    /// What never stopped growing.
+    /// The speed that never stopped growing.
     fn ran_away(&self, m: &Model) -> Option<(f64, usize, f64, f64)> {
         let grows = |(_, dof, _, bound): &(f64, usize, f64, f64)| {
             let kind = usize::from(!slides(m, *dof));
@@ -115,13 +115,13 @@ impl RunawayMonitor {
     }
 }
 
-/// Speeds that a fall through the whole scene gives, of a slide and of a turn.
+/// Speeds that a fall through the whole scene gives, of a translation and of a rotation.
 fn sensible(m: &Model) -> [f64; 2] {
     let (g, extent) = (norm(m.opt.gravity).max(1.0), m.stat.extent.max(1e-3));
     [(2.0 * g * extent).sqrt(), (2.0 * g / extent).sqrt() + 10.0]
 }
 
-/// Whether a degree of freedom is a length.
+/// Whether a degree of freedom is a translation.
 fn slides(m: &Model, dof: usize) -> bool {
     let Some(&j) = m.dof_jntid.get(dof) else { return true };
     let first = m.jnt_dofadr.get(j as usize).map_or(0, |&a| a as usize);

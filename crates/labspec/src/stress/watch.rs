@@ -1,5 +1,5 @@
-//! What is looked at after every step of a run: whether bodies pass through each other or are deep in each other, contacts that
-//! switch on and off, and motion that leaves every bound. Nothing of the run is touched.
+//! The monitors that run after every step: bodies that tunnel or penetrate deeply, contacts that switch on and off, and
+//! motion that exceeds every bound. They do not modify the run.
 
 use super::bodies::{self, body_of, body_thickness, geom_name, seen_from};
 use super::causes::stiffness_cause;
@@ -10,22 +10,23 @@ use super::runaway::RunawayMonitor;
 use labspec_core::math::{Vec3, rows, sub};
 use labspec_core::{Fields, Model, geom, geom_half_extents, geom_thickness};
 
-/// Pairs of geoms that are watched for tunnelling, at most.
+/// Maximum number of pairs of geoms that are monitored for tunnelling.
 pub(super) const MOST_PAIRS: usize = 2000;
-/// Pairs that touch, of which more is remembered, at most.
+/// Maximum number of contact pairs with a history.
 const MOST_TOUCHING: usize = 500;
-/// The part of the smaller body's size that is deep, and for how long it has to be as deep, s: contacts give way for a moment wherever
-/// things meet fast.
+/// Fraction of the size of the smaller body above which a penetration is deep, and its minimum duration, s. Contacts yield
+/// for a moment in every fast impact.
 const DEEP: f64 = 0.3;
 const LASTS: f64 = 0.2;
-/// Steps of a block in which switching is counted, how many of them have to switch, and in how many blocks one after the other.
+/// Number of steps of a block in which switches are counted, the minimum number of switches in a block, and the number of
+/// consecutive blocks.
 const BLOCK: usize = 100;
 const MOST_OF_THEM: usize = 45;
 const BLOCKS: usize = 2;
-/// Bodies that move by less than this part of their size in a block are nearly at rest.
+/// A body that moves by less than this fraction of its size in a block is nearly at rest.
 const NEARLY: f64 = 0.02;
 
-/// What a run has shown so far.
+/// The observations of a run.
 pub(super) struct RunMonitor {
     pairs: Vec<PassingPair>,
     grounds: Vec<HeightFieldPair>,
@@ -35,18 +36,18 @@ pub(super) struct RunMonitor {
     faults: Vec<Fault>,
     steps: usize,
     last: f64,
-    /// Places of bodies are written by a program: they may jump.
+    /// Whether a program writes positions of bodies, which may then jump.
     jumps: bool,
 }
 
-/// A geom and another one that it may not pass.
+/// A geom and another one that it must not pass.
 struct PassingPair {
     geoms: [usize; 2],
     before: Option<Vec3>,
     done: bool,
 }
 
-/// Two geoms that touched once.
+/// Two geoms that made contact at least once.
 struct TouchingPair {
     geoms: [usize; 2],
     /// The thickness of the smaller body, m.
@@ -55,14 +56,15 @@ struct TouchingPair {
     now: bool,
     switches: usize,
     blocks: usize,
-    /// How deep they are in each other now, since when that is deep, and the largest share.
+    /// The current depth, the time since which it has been deep, and the largest ratio of depth to size.
     depth_now: f64,
     deep_since: Option<f64>,
     deepest: f64,
     depth: f64,
     at: f64,
     lasted: f64,
-    /// Where the first one was at the start of the block, seen from the second, and how far it has been from there.
+    /// The position of the first geom at the start of the block, in the frame of the second, and its largest displacement
+    /// since.
     from: Option<Vec3>,
     moved: f64,
     chatters: bool,
@@ -84,7 +86,7 @@ impl RunMonitor {
         }
     }
 
-    /// Something from outside moved bodies to where they are now: what was before says nothing of them.
+    /// Call after bodies were moved from outside: earlier positions are no longer compared.
     pub(super) fn disturb(&mut self, m: &Model, d: &Fields) {
         for pair in &mut self.pairs {
             let [g, p] = pair.geoms;
@@ -99,7 +101,7 @@ impl RunMonitor {
         self.rest.restart();
     }
 
-    /// After a step, or at the start.
+    /// Call after a step, or at the start.
     pub(super) fn observe(&mut self, m: &Model, d: &Fields) {
         if d.time < self.last || self.jumps {
             self.disturb(m, d);
@@ -111,7 +113,7 @@ impl RunMonitor {
         self.rest.observe(m, d);
     }
 
-    /// Bodies that are behind what they were before.
+    /// Detects bodies that passed through each other.
     fn pass(&mut self, m: &Model, d: &Fields) {
         let mut passed = Vec::new();
         for pair in self.pairs.iter_mut().filter(|p| !p.done) {
@@ -126,13 +128,13 @@ impl RunMonitor {
             }
         }
         self.faults.extend(self.grounds.iter_mut().filter_map(|over| over.observe(m, d)));
-        // Which of the two passed the other is one question.
+        // The two orders of a pair are the same event.
         for other in passed {
             self.pairs.iter_mut().filter(|p| p.geoms == other).for_each(|p| p.done = true);
         }
     }
 
-    /// Contacts: how deep, and how often they switch.
+    /// Updates contacts: their depth, and how often they switch.
     fn touch(&mut self, m: &Model, d: &Fields) {
         for contact in &d.contact {
             let geoms = [contact.geom1, contact.geom2];
@@ -172,17 +174,17 @@ impl RunMonitor {
         }
     }
 
-    /// Geoms that touched.
+    /// Geoms that made contact.
     pub(super) fn touching(&self) -> Vec<[usize; 2]> {
         self.touching.iter().map(|t| t.geoms).collect()
     }
 
-    /// Everything that was found, at the end.
+    /// All faults, after the run.
     pub(super) fn faults(mut self, m: &Model) -> Vec<Fault> {
         let passed: Vec<Vec<usize>> =
             self.pairs.iter().filter(|p| p.done).map(|p| p.geoms.to_vec()).collect();
         let tunnels = |t: &&TouchingPair| !passed.iter().any(|p| t.geoms.iter().all(|g| p.contains(g)));
-        // Of several geoms of two bodies, the deepest.
+        // Of several geoms of two bodies, only the deepest is reported.
         let bodies = |t: &TouchingPair| t.geoms.map(|g| body_of(m, g));
         let deeper = |t: &&TouchingPair| {
             let others = self.touching.iter().filter(|o| bodies(o) == bodies(t));
@@ -217,7 +219,7 @@ impl TouchingPair {
         }
     }
 
-    /// After all contacts of a step.
+    /// Updates the depth after all contacts of a step.
     fn deep(&mut self, time: f64) {
         let depth = std::mem::take(&mut self.depth_now);
         let share = depth / self.size;
@@ -237,8 +239,8 @@ impl TouchingPair {
     }
 }
 
-/// Whether a centre that was at one place, and now is at another, has passed through a geom whose centre is the origin: through the
-/// ellipsoid inside it from without to without, or through the middle of a plate, from one face to the other.
+/// Whether a centre that moved between two positions passed through a geom whose centre is the origin: through the
+/// inscribed ellipsoid, from outside to outside, or through the middle of a plate, from one face to the other.
 fn through(m: &Model, p: usize, from: Vec3, to: Vec3) -> bool {
     let half = geom_half_extents(m, p);
     if half.iter().any(|h| *h <= 0.0) {
@@ -250,7 +252,7 @@ fn through(m: &Model, p: usize, from: Vec3, to: Vec3) -> bool {
     let (square, inward) = (length(along), -(0..3).map(|k| a[k] * along[k]).sum::<f64>());
     if square > 0.0 && length(a) > 1.0 && length(b) > 1.0 && (0.0..=square).contains(&inward) {
         let nearest = length(a) - inward * inward / square;
-        // Where no more than its edge is cut, nothing is sure.
+        // A path that cuts only the edge is not reported.
         if nearest < 0.8 {
             return true;
         }
@@ -265,7 +267,7 @@ fn through(m: &Model, p: usize, from: Vec3, to: Vec3) -> bool {
     let cross = |k: usize| (a[k] + s * along[k]).abs();
     match m.geom_type.get(p) {
         Some(&geom::BOX) => others.iter().all(|&k| cross(k) < 0.98),
-        // A disc, or what is inside a hull at least.
+        // A disc, or the area that any hull contains.
         _ => others.iter().map(|&k| cross(k).powi(2)).sum::<f64>() < 0.5,
     }
 }

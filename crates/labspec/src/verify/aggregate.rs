@@ -1,4 +1,4 @@
-//! Aggregates: how the samples of a run become one number.
+//! Aggregates: functions that reduce the samples of a run to one number.
 
 use super::curve_trail::CurveTrail;
 use super::sample::Sample;
@@ -6,7 +6,7 @@ use crate::bind::functions;
 use crate::source::Text;
 use labspec_expr::{Aggregate, Program, Value};
 
-/// How the samples of a run become one number. The names are those of the function table.
+/// The kind of an aggregate. The names are those of the function table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum AggregateKind {
     First,
@@ -59,25 +59,25 @@ impl AggregateKind {
     }
 }
 
-/// One aggregate on its way through the samples.
+/// One aggregate while the samples are processed.
 #[derive(Debug)]
 pub(super) struct RunningAggregate<'a> {
     kind: AggregateKind,
     args: &'a [Program],
-    /// The aggregates in its arguments, which look at each sample before it does.
+    /// The aggregates in its arguments. They process each sample before this aggregate does.
     inner: Vec<RunningAggregate<'a>>,
     pub(super) slot: usize,
-    /// The result so far, NaN before there is one.
+    /// The result so far, NaN before the first.
     result: f64,
-    /// The condition has held, or the first sample was seen.
+    /// Whether the condition has held, or the first sample was processed.
     done: bool,
-    /// The value at the sample before.
+    /// The value at the previous sample.
     previous: f64,
-    /// What the measures between samples remember.
+    /// State of the measures that interpolate between samples.
     trail: CurveTrail,
-    /// Samples at which there was no number to look at, where that leaves the result open.
+    /// Samples without a number, where they leave the result undecided.
     pub(super) gaps: Gaps,
-    /// The sample before had no number.
+    /// Whether the previous sample had no number.
     lacked: bool,
 }
 
@@ -110,7 +110,7 @@ impl<'a> RunningAggregate<'a> {
         program.aggregates().iter().filter_map(start).collect()
     }
 
-    /// The result before the first sample: nothing is there yet, nothing was counted, nothing has failed.
+    /// The result before the first sample: 0 for counts and integrals, 1 (true) for `holds`, else NaN.
     fn before_first(kind: AggregateKind) -> f64 {
         match kind {
             AggregateKind::Count | AggregateKind::Crossings | AggregateKind::Integral => 0.0,
@@ -119,12 +119,12 @@ impl<'a> RunningAggregate<'a> {
         }
     }
 
-    /// The result so far: NaN where samples had no number.
+    /// The result so far; NaN if samples without a number leave it undecided.
     pub(super) fn result(&self) -> f64 {
         if self.gaps.count > 0 { f64::NAN } else { self.result }
     }
 
-    /// Whether an argument looks at the sample before the first one.
+    /// Whether an argument reads the sample before the first one.
     fn has_no_past(&self) -> bool {
         self.inner.iter().any(|r| r.kind == AggregateKind::Previous && !r.done || r.has_no_past())
     }
@@ -135,7 +135,7 @@ impl<'a> RunningAggregate<'a> {
         self.done && matches!(self.kind, First | At | Before | Crossing | Initial)
     }
 
-    /// Looks at the current sample. What stands in its arguments is what it is up to this sample.
+    /// Processes the current sample. The arguments contain the inner aggregates over the samples up to this one.
     pub(super) fn sample(&mut self, session: &mut dyn Sample, text: &Text) {
         let first = self.has_no_past();
         for inner in &mut self.inner {
@@ -147,7 +147,7 @@ impl<'a> RunningAggregate<'a> {
         }
         let time = session.time();
         let mut args = Arguments { programs: self.args, text, session, lack: false };
-        // A later sample decides whatever earlier ones left open.
+        // This sample decides what earlier samples left undecided.
         if self.take(time, &mut args) {
             self.gaps = Gaps::default();
         }
@@ -159,8 +159,8 @@ impl<'a> RunningAggregate<'a> {
         }
     }
 
-    /// Takes a sample into the result. Whether it decides what earlier samples left open. The function is long because it has one arm
-    /// for each kind of aggregate.
+    /// Includes a sample in the result. Returns whether it decides what earlier samples left undecided. The function is
+    /// long because it has one arm for each kind of aggregate.
     fn take(&mut self, time: f64, args: &mut Arguments<'_>) -> bool {
         match self.kind {
             AggregateKind::First => self.finish_where(args, |_| time),
@@ -223,14 +223,15 @@ impl<'a> RunningAggregate<'a> {
         false
     }
 
-    /// The result is found at the first sample at which the condition holds.
+    /// Sets the result at the first sample at which the condition holds.
     fn finish_where(&mut self, args: &mut Arguments<'_>, result: impl FnOnce(&mut Arguments<'_>) -> f64) {
         if args.value(0).truthy() {
             (self.result, self.done) = (result(args), true);
         }
     }
 
-    /// The value at the sample before the condition holds: what that sample lacked is lacked then.
+    /// The value at the sample before the condition holds. A number that is missing at that sample is reported when the
+    /// condition holds.
     fn take_before(&mut self, args: &mut Arguments<'_>) {
         let holds = args.value(0).truthy();
         let open = std::mem::replace(&mut args.lack, false);
@@ -258,7 +259,7 @@ impl<'a> RunningAggregate<'a> {
         self.trail.remember(time, x);
     }
 
-    /// Since when the value has been inside the band.
+    /// The time since which the value has been inside the band.
     fn take_settles(&mut self, time: f64, args: &mut Arguments<'_>) -> bool {
         let [x, target, band] = [0, 1, 2].map(|i| args.number(i));
         let inside = (x - target).abs() <= band;
@@ -274,7 +275,7 @@ impl<'a> RunningAggregate<'a> {
         if !args.value(0).truthy() && !args.lack {
             self.result = 0.0;
         }
-        // Once it has failed, nothing that comes makes it hold.
+        // After one failure, no later sample changes the result.
         let decided = self.result == 0.0;
         args.lack = args.lack && !decided;
         decided
@@ -286,7 +287,7 @@ struct Arguments<'s> {
     programs: &'s [Program],
     text: &'s Text,
     session: &'s mut dyn Sample,
-    /// Some argument has no number.
+    /// Whether an argument is not a number.
     lack: bool,
 }
 
@@ -305,14 +306,14 @@ impl Arguments<'_> {
         self.value(i).to_number()
     }
 
-    /// How far the first argument is above the second one, the level; above zero when there is no level.
+    /// The first argument minus the level (the second argument); the first argument itself if there is no level.
     fn above_level(&mut self) -> f64 {
         let level = if self.programs.len() > 1 { self.number(1) } else { 0.0 };
         self.number(0) - level
     }
 }
 
-/// The smaller of the extreme so far, NaN before there is one, and a number.
+/// The smaller of the minimum so far (NaN before the first) and a number.
 fn least(so_far: f64, x: f64) -> f64 {
     if so_far.is_nan() || x < so_far { x } else { so_far }
 }

@@ -1,5 +1,5 @@
-//! The answer of a question: one condition per option, or the value of a number, under the numerics of the lesson and under
-//! others that it does not mention.
+//! Checks the answer of a question: one condition per option, or a numeric value, under the numerics of the lesson and
+//! under perturbed numerics.
 
 use super::bound::BoundVerify;
 use super::numeric_answer::check_number;
@@ -12,7 +12,7 @@ use crate::finding::Finding;
 use crate::source::Text;
 use crate::spec::{Question, QuestionKind, Verify};
 
-/// Checks the answer of a question; `None` when the object does not say how.
+/// Checks the answer of a question; `None` when the `verify` object has no condition or value for it.
 pub(super) fn check_answer(
     bound: &BoundVerify<'_>,
     outcomes: &Outcomes,
@@ -36,7 +36,7 @@ pub(super) fn check_answer(
         add_searches(bound, std::slice::from_ref(text), &outcomes.nominal, &mut answer);
         answer
     });
-    // An object may hold both only by mistake, which is reported: the worse of the two counts.
+    // An object has both only by mistake, which is reported. The worse verdict counts.
     by_options.into_iter().chain(by_value).max_by_key(|a| a.verdict)
 }
 
@@ -44,7 +44,7 @@ fn is_right(answer: &Answer) -> bool {
     matches!(answer.verdict, Verdict::Verified | Verdict::Computed)
 }
 
-/// Says where the values were looked for that these texts read.
+/// Adds to the reason where the values that these texts read were searched for.
 fn add_searches(bound: &BoundVerify<'_>, texts: &[Text], outcome: &Outcome, answer: &mut Answer) {
     if !is_right(answer) {
         return;

@@ -1,4 +1,4 @@
-//! A simulation in which everything has some value: whatever a program reads of the data is drawn.
+//! An imagined simulation: every value that a program reads of the data is drawn at random.
 
 use super::draws::Draws;
 use crate::bind::{World, functions};
@@ -8,33 +8,33 @@ use labspec_expr::{FieldKey, FunctionId, Heap, Host, Value};
 /// How the values of an imagined run are drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Manner {
-    /// Each of any size.
+    /// Each value has any magnitude.
     Any,
-    /// Each about as large as a number of the text, or this one of any size.
+    /// Each value has about the magnitude of this number, which comes from the text or was drawn.
     Near(f64),
-    /// Nothing moves, and all is zero.
+    /// Nothing moves: all values are zero.
     Zero,
-    /// Each has one value through the whole run.
+    /// Each value is constant during the run.
     Steady,
 }
 
-/// A simulation in which everything has some value: whatever is read of the data is drawn.
+/// An imagined simulation: every value that is read of the data is drawn at random.
 pub(super) struct Anything<'w> {
     pub(super) world: &'w World,
-    /// Of the run, and of the sample.
+    /// Seeds of the run and of the sample.
     pub(super) seeds: [u64; 2],
     pub(super) manner: Manner,
-    /// The time of the sample, s, where samples follow each other.
+    /// Time of the sample, s, for samples in sequence.
     pub(super) time: Option<f64>,
 }
 
 impl<'w> Anything<'w> {
-    /// A sample alone.
+    /// A single sample.
     pub(super) fn sample_of(world: &'w World, seed: u64) -> Anything<'w> {
         Anything { world, seeds: [seed; 2], manner: Manner::Any, time: None }
     }
 
-    /// The value of something.
+    /// Draws the value with the key `what`.
     fn draw(&self, what: u64) -> f64 {
         let [run, sample] = self.seeds;
         let mut draws = Draws::new(what ^ if self.manner == Manner::Steady { run } else { sample });

@@ -24,28 +24,29 @@ use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-/// The labs, the runs and the measures of a `verify` object.
+/// The labs, runs and measures of a `verify` object.
 #[derive(Debug)]
 pub struct BoundVerify<'a> {
-    /// The lab of the object, or else of its first run, comes first.
+    /// The lab of the object, or else the lab of its first run, comes first.
     pub(super) scenes: Vec<BoundScene<'a>>,
     pub(super) runs: Vec<BoundRun<'a>>,
     pub(super) verify: &'a Verify,
     pub(super) stage: &'a Stage<'a>,
-    /// Each lab at its start, for expressions over measures, which read nothing of it, and for imagined runs.
+    /// Each lab in its initial state, for expressions over measures (which read nothing of it) and for imagined runs.
     idle: RefCell<BTreeMap<usize, Session<'a>>>,
-    /// What the measures measure, once somebody has asked.
+    /// The units of the measures, computed on first use.
     pub(super) units: OnceCell<Option<MeasureUnits>>,
-    /// The places of all numbers, and of which kind each is.
+    /// The positions of all numbers, and the kind of each.
     layout: Layout,
     kinds: OnceCell<Vec<ValueKind>>,
-    /// What was compiled, by its text.
+    /// Compiled claims by their texts.
     pub(super) claims: RefCell<BTreeMap<String, Rc<CompiledClaim>>>,
 }
 
 impl<'a> BoundVerify<'a> {
-    /// Compiles what runs do and what is measured. `scenes` has the lab of every run, one for each member of a sweep; the lab of
-    /// the object itself, where there is one, is `base`. What is wrong goes to `findings`; `None` when it cannot run.
+    /// Compiles the runs and the measures. `scenes` contains the labs of every run, one for each member of a sweep. `base`
+    /// is the lab of the object itself, if it has one. Errors are added to `findings`; returns `None` when the object
+    /// cannot run.
     pub fn new(
         verify: &'a Verify,
         base: Option<&BoundLab<'a>>,
@@ -72,7 +73,7 @@ impl<'a> BoundVerify<'a> {
         for (run, scenes) in verify.runs.iter().zip(scenes) {
             good &= bound.add_runs(run, scenes, findings);
         }
-        // Closed forms are those of the object's own lab.
+        // Closed forms belong to the lab of the object.
         if !verify.exact.is_empty() {
             let first = bound.add(base?);
             bound.put_first(first);
@@ -84,7 +85,7 @@ impl<'a> BoundVerify<'a> {
         good.then_some(bound)
     }
 
-    /// Binds the members of a run, one for each of its labs; `false` when one has mistakes.
+    /// Binds the members of a run, one for each of its labs; `false` when one has errors.
     fn add_runs(&mut self, run: &'a Run, scenes: &[BoundLab<'a>], findings: &mut Vec<Finding>) -> bool {
         for (i, scene) in scenes.iter().enumerate() {
             let at = self.add(scene);
@@ -101,7 +102,7 @@ impl<'a> BoundVerify<'a> {
         true
     }
 
-    /// Lets a lab come first in the list.
+    /// Moves the lab at index `place` to the front of the list.
     fn put_first(&mut self, place: usize) {
         self.scenes.swap(0, place);
         for run in &mut self.runs {
@@ -123,12 +124,12 @@ impl<'a> BoundVerify<'a> {
         self.layout = Layout::from_runs(&runs, self.verify.find.iter().map(|f| f.name.value.clone()));
     }
 
-    /// The places of the numbers that claims read.
+    /// The positions of the numbers that claims read.
     pub(super) fn layout(&self) -> &Layout {
         &self.layout
     }
 
-    /// Whether a measure looks at a simulation.
+    /// Whether a measure reads the simulation.
     pub(super) fn is_simulated(&self, run: usize, measure: usize) -> bool {
         let stops = self.runs.get(run).is_some_and(|run| run.stop.is_some());
         self.measure_at(run, measure).is_some_and(|m| looks_over_run(&m.program, stops))
@@ -139,7 +140,7 @@ impl<'a> BoundVerify<'a> {
         Some(named)
     }
 
-    /// Of which kind each number is.
+    /// The kind of each number.
     pub(super) fn kinds(&self) -> &[ValueKind] {
         self.kinds.get_or_init(|| {
             let mut cached: BTreeMap<(usize, &str), ValueKind> = BTreeMap::new();
@@ -163,12 +164,12 @@ impl<'a> BoundVerify<'a> {
         })
     }
 
-    /// Works with a lab at its start, for expressions over measures: they read nothing of its data.
+    /// Calls `work` with the first lab in its initial state, for expressions over measures: they read nothing of its data.
     pub(super) fn idle<T>(&self, work: impl FnOnce(&mut Session<'a>) -> T) -> Option<T> {
         self.idle_in(0, work)
     }
 
-    /// The same with the lab at a place of the list.
+    /// Like [`BoundVerify::idle`], with the lab at an index of the list.
     pub(super) fn idle_in<T>(&self, place: usize, work: impl FnOnce(&mut Session<'a>) -> T) -> Option<T> {
         let scene = &self.scenes.get(place)?.scene;
         let mut idle = self.idle.borrow_mut();
@@ -179,7 +180,7 @@ impl<'a> BoundVerify<'a> {
         Some(work(idle.entry(place).or_insert_with(session)))
     }
 
-    /// The place of a lab in the list, to which it is added the first time.
+    /// The index of a lab in the list; the lab is added on first use.
     fn add(&mut self, scene: &BoundLab<'a>) -> usize {
         if let Some(existing) = self.scenes.iter().position(|s| s.scene.is(scene)) {
             return existing;
@@ -189,7 +190,7 @@ impl<'a> BoundVerify<'a> {
         self.scenes.len() - 1
     }
 
-    /// Compiles the texts of a run; `None` when they have mistakes.
+    /// Compiles the texts of a run; `None` when they have errors.
     fn run(&mut self, run: &'a Run, scene: usize, findings: &mut Vec<Finding>) -> Option<BoundRun<'a>> {
         let BoundScene { scene: here, globals, displayed, .. } = self.scenes.get_mut(scene)?;
         let names =
@@ -217,8 +218,8 @@ impl<'a> BoundVerify<'a> {
         good.then_some(BoundRun { setup, stop, ..BoundRun::new(&run.name.value, Some(run), scene) })
     }
 
-    /// Compiles a measure for every lab. One that has no meaning in some of them is not taken there; one that has a meaning in none
-    /// is told of the first.
+    /// Compiles a measure for every lab. A lab for which it does not compile does not get the measure. If it compiles for
+    /// no lab, the diagnostics of the first lab are reported.
     fn measure(&mut self, name: &'a str, text: &'a Text, findings: &mut Vec<Finding>) -> bool {
         let mut reported: Option<Vec<Finding>> = None;
         let mut has_meaning = false;
@@ -237,7 +238,7 @@ impl<'a> BoundVerify<'a> {
         has_meaning
     }
 
-    /// The labs of every run, as [`BoundVerify::new`] takes them.
+    /// The labs of every run, in the form that [`BoundVerify::new`] takes.
     pub(super) fn labs(&self) -> Vec<Vec<BoundLab<'a>>> {
         let of = |run: &'a Run| {
             let members = self.runs.iter().filter(|b| b.spec.is_some_and(|spec| std::ptr::eq(spec, run)));
@@ -246,12 +247,12 @@ impl<'a> BoundVerify<'a> {
         self.verify.runs.iter().map(of).collect()
     }
 
-    /// What the `verify` objects of the lesson share.
+    /// The cache that the `verify` objects of the lesson share.
     pub(super) fn stage(&self) -> &'a Stage<'a> {
         self.stage
     }
 
-    /// The lab that expressions over measures are read in.
+    /// The lab in which expressions over measures are evaluated.
     pub(super) fn base(&self) -> Option<&BoundScene<'a>> {
         self.scenes.first()
     }
@@ -265,14 +266,14 @@ impl<'a> BoundVerify<'a> {
         self.scenes.get(run.scene)
     }
 
-    /// The only run, with a control set to a value that a student need not be able to choose.
+    /// Sets a control to a value for all runs. The value need not be one that a student can choose.
     pub(super) fn set_freely(&mut self, control: &'a Text, x: f64) {
         for run in &mut self.runs {
             (run.control, run.freely) = (Some((control, x)), true);
         }
     }
 
-    /// Makes every run and takes every measure; nothing is searched for. `None` when a run cannot be made.
+    /// Executes every run and evaluates every measure, without searches. `None` when a run cannot be executed.
     pub(super) fn outcome_of_runs(
         &self,
         numerics: StepVariant,
@@ -314,13 +315,13 @@ impl<'a> BoundVerify<'a> {
         runner::perform(&asked, self.stage, findings)
     }
 
-    /// The place of a run in the lesson, and whether the lesson says that it breaks.
+    /// The span of a run in the lesson, and whether the lesson declares that it breaks.
     pub(super) fn run_place(&self, index: usize) -> (std::ops::Range<usize>, bool) {
         let spec = self.runs.get(index).and_then(|r| r.spec);
         (spec.map_or(self.verify.span.clone(), |r| r.name.span()), spec.is_some_and(|r| r.breaks))
     }
 
-    /// Whether every run states its own timestep, so that half of it says nothing new.
+    /// Whether every run sets its own timestep, so that a halved timestep adds no information.
     pub(super) fn states_every_timestep(&self) -> bool {
         let states =
             |run: &BoundRun<'_>| self.scene_of(run).is_some_and(|s| runner::states(s, run, option::timestep));
@@ -332,7 +333,8 @@ impl<'a> BoundVerify<'a> {
         self.runs.iter().filter_map(|run| Some((run, self.scene_of(run)?)))
     }
 
-    /// The model of every run as it begins: after the run's controls and its setup. `None` for a run that cannot be made.
+    /// The model of every run at its start, after the controls and the setup of the run. `None` for a run that cannot be
+    /// started.
     pub(crate) fn started_models(&self) -> Vec<(String, Option<Model>)> {
         let begin = |run: &BoundRun<'_>| runner::started_models(self.scenes.get(run.scene)?, run);
         self.runs.iter().map(|run| (run.name.to_string(), begin(run))).collect()

@@ -1,4 +1,4 @@
-//! The claims of one `verify` object, judged: its runs are made, its answer, quotes and closed forms are checked.
+//! Checks the claims of one `verify` object: executes its runs and checks its answer, quotes and closed forms.
 
 use super::bound::BoundVerify;
 use super::judgement::{Judgement, Measured, RunReport, unmade};
@@ -14,8 +14,8 @@ use crate::rules;
 use crate::run::StepVariant;
 use crate::spec::{Question, Verify};
 
-/// Checks the claims of one `verify` object. `question` is what carries it, unless a lab does; `rendered` is what a reader of
-/// the lesson sees.
+/// Checks the claims of one `verify` object. `question` is the question that contains it, or `None` if it belongs to a lab;
+/// `rendered` is the rendered text of the lesson.
 pub fn check_verify(
     bound: &BoundVerify<'_>,
     verify: &Verify,
@@ -29,8 +29,8 @@ pub fn check_verify(
     }
 }
 
-/// The same with the numerics of the lesson alone: what a claim says, and not whether it survives others. `None` where a run cannot
-/// be made.
+/// Like [`check_verify`], with the numerics of the lesson only: tests the claims, not their robustness. `None` where a run
+/// cannot be executed.
 pub(crate) fn check_nominal(
     bound: &BoundVerify<'_>,
     verify: &Verify,
@@ -69,7 +69,7 @@ fn judge(
     judgement
 }
 
-/// Looks at every text of a `verify` object, and runs nothing.
+/// Lints every text of a `verify` object without executing runs.
 pub(crate) fn lint_verify(bound: &BoundVerify<'_>, verify: &Verify, findings: &mut Vec<Finding>) {
     let options = verify.options.iter().filter(|text| !is_undecided(text));
     bound.lint_texts(options.chain(&verify.value).chain(verify.quoted()), findings);
@@ -78,7 +78,7 @@ pub(crate) fn lint_verify(bound: &BoundVerify<'_>, verify: &Verify, findings: &m
     }
 }
 
-/// What became of the runs. One that breaks is a finding, and so is one that does not although the lesson says so.
+/// Reports the runs. A run that breaks unexpectedly is a finding, and so is one that is declared to break and does not.
 fn report_runs(bound: &BoundVerify<'_>, outcome: &Outcome, findings: &mut Vec<Finding>) -> Vec<RunReport> {
     let mut all = Vec::new();
     for (i, run) in outcome.runs.iter().enumerate() {

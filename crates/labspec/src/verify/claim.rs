@@ -1,6 +1,6 @@
-//! An expression over the measures: compiled once, evaluated with the numbers of every numerics, and traced. What it is worth
-//! follows from how its value came to be: which numbers it read, whether one of them was missing, and how its comparisons
-//! came out.
+//! An expression over the measures: compiled once, evaluated with the numbers of each step variant, and traced. The
+//! evidence for its value follows from the evaluation: which numbers it read, whether one of them was missing, and the
+//! results of its comparisons.
 
 use super::bound::BoundVerify;
 use super::compiled_claim::{ClaimInputs, CompiledClaim, TracedValue, looks_at_data, looks_over_run};
@@ -19,7 +19,7 @@ use std::collections::BTreeSet;
 use std::rc::Rc;
 
 impl<'a> BoundVerify<'a> {
-    /// The names of the runs that texts read; of one run that it is read on the spot.
+    /// The names of the runs that the texts read. A text with its own aggregates reads the first run.
     pub(super) fn runs_read(&self, texts: &[Text]) -> BTreeSet<&'a str> {
         let mut names = BTreeSet::new();
         for claim in texts.iter().filter_map(|text| self.claim(text)) {
@@ -35,7 +35,7 @@ impl<'a> BoundVerify<'a> {
         names
     }
 
-    /// The numbers that texts read of an outcome, by their bits.
+    /// The numbers of an outcome that the texts read, as bits.
     pub(super) fn read_by(&self, outcome: &Outcome, texts: &[Text]) -> Vec<u64> {
         let numbers = self.layout().numbers(outcome);
         let claims = texts.iter().filter_map(|text| self.claim(text));
@@ -43,13 +43,13 @@ impl<'a> BoundVerify<'a> {
         places.iter().filter_map(|place| numbers.get(*place)).map(|x| x.to_bits()).collect()
     }
 
-    /// Whether a text reads a value that is searched for.
+    /// Whether a text reads the value of the search with this index.
     pub(super) fn reads_found(&self, text: &Text, index: usize) -> bool {
         let is = |place: &usize| self.layout().slots.get(*place) == Some(&Slot::Found(index));
         self.claim(text).is_some_and(|claim| claim.reads.iter().any(is))
     }
 
-    /// An expression over the measures, compiled the first time that it is asked for.
+    /// The compiled expression of a text, from the cache after the first use.
     pub(super) fn claim(&self, text: &Text) -> Option<Rc<CompiledClaim>> {
         if let Some(cached) = self.claims.borrow().get(&text.value) {
             return Some(cached.clone());
@@ -59,7 +59,7 @@ impl<'a> BoundVerify<'a> {
         Some(claim)
     }
 
-    /// Looks at the names of expressions over the outcome before there is one.
+    /// Lints the names in expressions over the outcome, before the runs.
     pub(super) fn lint_texts<'t>(&self, texts: impl Iterator<Item = &'t Text>, findings: &mut Vec<Finding>) {
         for text in texts {
             let Some(claim) = self.claim(text) else { return };
@@ -103,12 +103,12 @@ impl CompiledClaim {
         })
     }
 
-    /// The numbers of an outcome that it is evaluated with.
+    /// The numbers of an outcome with which the claim is evaluated.
     pub(super) fn inputs(&self, bound: &BoundVerify<'_>, outcome: &Outcome, parts: Vec<f64>) -> ClaimInputs {
         ClaimInputs { numbers: bound.layout().numbers(outcome), parts }
     }
 
-    /// The places of what was measured, among the numbers and then among the parts.
+    /// The positions of the measured numbers: first those of the layout, then those of the parts.
     pub(super) fn measured(&self, bound: &BoundVerify<'_>) -> Vec<usize> {
         let slots = &bound.layout().slots;
         let simulated = |place: &usize| match slots.get(*place) {
@@ -123,10 +123,10 @@ impl CompiledClaim {
         self.reads.iter().copied().filter(simulated).chain(taken_here).collect()
     }
 
-    /// Its value with these numbers.
+    /// Evaluates the claim with these numbers. `None` if it has no program.
     ///
     /// # Errors
-    /// It throws, as when a list lacks an element that is asked for its parts.
+    /// The program throws, for example when it reads a member of a missing list element.
     pub(super) fn evaluate(
         &self,
         bound: &BoundVerify<'_>,
@@ -150,7 +150,7 @@ impl CompiledClaim {
     }
 }
 
-/// A field that is read outside of what is taken over a run.
+/// The finding about a text that reads a field outside of an aggregate.
 pub(super) fn reads_outside_run(text: &Text) -> Finding {
     let written = shorten(text.value.trim());
     Finding::error(

@@ -1,4 +1,5 @@
-//! Columns of tables: every cell is a number that is quoted, or words, and its row says which member of a sweep it is about.
+//! Columns of tables: every cell is a quoted number or a word, and the row determines the member of a sweep that the cell
+//! describes.
 
 use super::grounded::grounded_value;
 use super::quote;
@@ -10,12 +11,12 @@ use crate::source::{SourceMap, Text};
 use crate::spec::{Column, Stands};
 use labspec_expr::dimension::Dimension;
 
-/// The work of looking at a cell.
+/// The work of reading a cell.
 const LOOK: u64 = 1000;
-/// Most words that the cells of a column may hold.
+/// Maximum number of different words in the cells of a column.
 const MOST_WORDS: usize = 20;
 
-/// Holds a column, or one cell of it, to what was measured.
+/// Compares a column, or one cell of it, with the measured values.
 pub(super) fn check_column(
     checker: QuoteChecker<'_, '_>,
     claim: &Column,
@@ -63,26 +64,26 @@ pub(super) fn check_column(
     all
 }
 
-/// The members of a sweep that the rows of a table are about.
+/// The members of a sweep that the rows of a table describe.
 struct SweepRows<'c> {
     /// The list that distinguishes the rows, and its numbers.
     list: &'c Text,
     values: Vec<f64>,
-    /// What they measure.
+    /// The dimension of the numbers.
     swept: Option<Dimension>,
-    /// The unit in the heading of the column that tells the rows apart.
+    /// The unit in the heading of the column that distinguishes the rows.
     key_head: Option<quote::Unit>,
 }
 
 impl SweepRows<'_> {
-    /// The member that a row is about, by the cell that tells it.
+    /// The member that a row describes, by its key cell.
     ///
     /// # Errors
-    /// No value of the sweep is that of the cell.
+    /// No value of the sweep equals the number in the cell.
     fn member(&self, key: &Text) -> Result<usize, Box<Finding>> {
         let read = quote::reading(&key.value).ok();
         let unit = read.as_ref().and_then(|read| read.unit().cloned()).or_else(|| self.key_head.clone());
-        // Cells in millimetres beside values in metres are converted; another dimension is nobody's value.
+        // Cells in millimetres are converted to the metres of the values. A cell of another dimension matches no value.
         let held = unit.as_ref().map_or(quote::Held::Unknown, |unit| quote::hold(unit, self.swept.as_ref()));
         let wanted = unit.as_ref().and_then(|unit| unit.dimension);
         let converted = wanted.zip(self.swept).and_then(|(wanted, found)| quote::conversion(&wanted, &found));
@@ -107,7 +108,7 @@ impl SweepRows<'_> {
     }
 }
 
-/// One cell; `member` picks its number out of a list.
+/// Checks one cell; `member` selects its number in a list.
 fn check_cell(
     checker: QuoteChecker<'_, '_>,
     text: &Text,
@@ -131,7 +132,7 @@ fn check_cell(
     }
 }
 
-/// A cell that holds a word: its condition holds, and that of no other word.
+/// Checks a cell with a word: its condition holds, and the conditions of all other words do not.
 fn check_word_cell(
     checker: QuoteChecker<'_, '_>,
     text: &Text,
@@ -171,7 +172,7 @@ fn check_word_cell(
 /// The condition of the word in a cell.
 ///
 /// # Errors
-/// There is none, there are too many words, or the cell holds a number that no condition checks.
+/// The word has no condition, the column has too many words, or the cell contains a number that no condition checks.
 fn condition_of_word<'w>(text: &Text, words: &'w [(Text, Text)]) -> Result<&'w Text, Box<Finding>> {
     let is_word = |(word, _): &&(Text, Text)| quote::reads_the_same(word.as_str(), text.as_str());
     let Some((_, expr)) = words.iter().find(is_word) else {
@@ -203,7 +204,7 @@ fn condition_of_word<'w>(text: &Text, words: &'w [(Text, Text)]) -> Result<&'w T
     Ok(expr)
 }
 
-/// What was compared with nothing, which is reported.
+/// A quote that could not be compared, with a finding that reports why.
 fn refused(text: &Text, finding: Finding, findings: &mut Vec<Finding>) -> Quote {
     let quote = Quote::unclear(text, &finding.message);
     findings.push(finding);
@@ -223,7 +224,7 @@ fn values(
     (0..count.clamp(0.0, 1000.0) as usize).map(|i| number(&part(list, &format!("[{i}]")))).collect()
 }
 
-/// An expression with something behind it; its place is that of the whole.
+/// An expression with a suffix; its span is that of the whole.
 fn part(list: &Text, behind: &str) -> Text {
     if behind.is_empty() {
         return list.clone();

@@ -1,43 +1,44 @@
-//! A compiled expression over the measures, the numbers that it is evaluated with, and what an evaluation gives.
+//! A compiled expression over the measures, the numbers with which it is evaluated, and the result of an evaluation.
 
 use super::outcome_names::NamesRead;
 use crate::bind::functions;
 use labspec_core::reflect::{FieldId, Object, data};
 use labspec_expr::{Comparison, Effects, Finding, Program, Span, Value};
 
-/// A claim of a lesson, compiled.
+/// A compiled claim of a lesson.
 #[derive(Debug)]
 pub(super) struct CompiledClaim {
-    /// `None` where it has mistakes.
+    /// `None` if it has errors.
     pub(super) program: Option<Program>,
     pub(super) diagnostics: Vec<Finding>,
-    /// The places of the numbers that it may read.
+    /// The positions of the numbers that it may read.
     pub(super) reads: Vec<usize>,
-    /// Where it looks at the simulation outside of what is taken over a run.
+    /// Whether it reads the simulation outside of aggregates.
     pub(super) outside: bool,
-    /// What of the runs it names; with no place among `reads`, the text never comes to it.
+    /// The names of runs and measures in the text. A name without a position among `reads` is in code that is never
+    /// evaluated.
     pub(super) names: NamesRead,
-    /// Numbers that stand in the text.
+    /// Number literals of the text.
     pub(super) constants: Vec<f64>,
 }
 
-/// The numbers that a claim is evaluated with.
+/// The numbers with which a claim is evaluated.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct ClaimInputs {
-    /// By the places of the layout.
+    /// Indexed by the positions of the layout.
     pub(super) numbers: Vec<f64>,
-    /// What the aggregates in its own text give, in order.
+    /// The values of the aggregates in the text of the claim, in order.
     pub(super) parts: Vec<f64>,
 }
 
 impl ClaimInputs {
-    /// Takes the numbers of others, in the memory that it has.
+    /// Copies the numbers of `other` without allocating.
     pub(super) fn copy(&mut self, other: &ClaimInputs) {
         self.numbers.clone_from(&other.numbers);
         self.parts.clone_from(&other.parts);
     }
 
-    /// The number at a place: of the layout, and then of the parts.
+    /// The number at a position: first those of the layout, then the parts.
     pub(super) fn at(&self, place: usize) -> Option<f64> {
         match place.checked_sub(self.numbers.len()) {
             None => self.numbers.get(place).copied(),
@@ -45,7 +46,7 @@ impl ClaimInputs {
         }
     }
 
-    /// Puts another number at a place.
+    /// Replaces the number at a position.
     pub(super) fn put(&mut self, place: usize, x: f64) {
         let number = match place.checked_sub(self.numbers.len()) {
             None => self.numbers.get_mut(place),
@@ -57,21 +58,21 @@ impl ClaimInputs {
     }
 }
 
-/// An evaluation.
+/// The result of an evaluation.
 #[derive(Clone, Debug)]
 pub(super) struct TracedValue {
     pub(super) value: Value,
-    /// The part of the text where a NaN, or nothing, was turned into something else.
+    /// The span of the text at which NaN or undefined was converted to another value.
     pub(super) lost: Option<Span>,
     pub(super) comparisons: Vec<Comparison>,
 }
 
-/// Whether effects look at the data of a simulation.
+/// Whether effects include reads of simulation data.
 pub(super) fn looks_at_data(e: &Effects) -> bool {
     looks_at(e, &|field| field.info().object == Object::Data)
 }
 
-/// Whether effects read a field of which this holds, or what may be any.
+/// Whether effects include a read of a field that satisfies `counts`, or a read of unknown fields.
 fn looks_at(e: &Effects, counts: &dyn Fn(FieldId) -> bool) -> bool {
     let read = |a: &labspec_expr::Access| FieldId::new(a.field.0 as usize).is_some_and(counts);
     e.reads_everything
@@ -80,8 +81,8 @@ fn looks_at(e: &Effects, counts: &dyn Fn(FieldId) -> bool) -> bool {
         || e.reads.iter().any(read)
 }
 
-/// Whether a program looks at what a simulation gives, itself or in what it takes over a run. The time goes on whatever is
-/// simulated: it says something only where the run ends by its own `stop`.
+/// Whether a program reads results of a simulation, directly or in an aggregate. The time advances in every simulation, so
+/// it counts as a result only where the run ends by its own `stop`.
 pub(super) fn looks_over_run(program: &Program, stops: bool) -> bool {
     let counts = |field: FieldId| field.info().object == Object::Data && (stops || field != data::time);
     looks_at(program.effects(), &counts)

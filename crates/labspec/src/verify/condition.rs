@@ -1,21 +1,21 @@
-//! How far a condition is from saying the opposite, by the comparisons that it made.
+//! The margin of a condition: how far its comparisons are from the opposite result.
 
 use labspec_expr::ast::{Expr, ExprKind};
 use labspec_expr::{Comparison, parse_expression};
 
-/// What became of a condition.
+/// The result of a condition.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct ConditionMargin {
-    /// It holds.
+    /// Whether it holds.
     pub(super) holds: bool,
-    /// How far the nearest comparison that decides it is from turning over, in the unit of what is compared: negative where it
-    /// does not hold; `None` where nothing is compared.
+    /// Distance of the nearest decisive comparison from the opposite result, in the unit of the compared values; negative
+    /// where the condition does not hold, `None` where nothing is compared.
     pub(super) margin: Option<f64>,
-    /// A comparison that was decided by a side that is no number, as it is written.
+    /// The source text of a comparison that was decided by a NaN.
     pub(super) without_number: Option<String>,
 }
 
-/// Whether an expression is nothing but a constant: `true`, `5`, `-NaN`, `!1`. It is evidence of nothing.
+/// Whether an expression is only a constant: `true`, `5`, `-NaN`, `!1`. A constant is not evidence.
 pub(super) fn is_bare_constant(text: &str) -> bool {
     fn bare(e: &Expr) -> bool {
         match &e.kind {
@@ -29,7 +29,7 @@ pub(super) fn is_bare_constant(text: &str) -> bool {
     bare(&parse_expression(text).tree)
 }
 
-/// The numbers that stand in a text.
+/// The number literals of a text, at most 20.
 pub(super) fn numbers_in(text: &str) -> Vec<f64> {
     let mut found = Vec::new();
     let mut before = ' ';
@@ -52,11 +52,11 @@ pub(super) fn numbers_in(text: &str) -> Vec<f64> {
     found
 }
 
-/// Most comparisons of a condition that are turned over to see whether they decide it.
+/// Maximum number of comparisons of a condition that are inverted to see whether they decide it.
 const MOST_TURNED: usize = 48;
 
-/// How a condition came out, and how far it is from the opposite. `decides` tells of each comparison whether it depends on
-/// what was measured; `turn` gives the truth of the condition where one comparison comes out the other way.
+/// The result of a condition and its margin. `decides` returns for each comparison whether it depends on measured values;
+/// `turn` returns the truth of the condition if one comparison has the opposite result.
 pub(super) fn evaluate(
     holds: bool,
     comparisons: &[Comparison],

@@ -1,28 +1,28 @@
-//! What is remembered of a curve from sample to sample: where it passes zero, its area, the line nearest to it.
+//! Running state of a curve from sample to sample: its zeros, its area, and its regression line.
 
-/// What is remembered of a curve from sample to sample.
+/// Running state of a curve from sample to sample.
 #[derive(Debug)]
 pub(super) struct CurveTrail {
-    /// Time and value at the sample before; NaN before the first one.
+    /// Time and value at the previous sample; NaN before the first one.
     time: f64,
     value: f64,
-    /// The last value that was not zero was below it.
+    /// Whether the last nonzero value was negative.
     below: bool,
-    /// When the curve reached zero exactly, coming from below.
+    /// The time at which the curve reached zero exactly from below.
     reached: Option<f64>,
-    /// First and last time at which it passed zero upwards, and how often it did.
+    /// First and last time of an upward zero crossing, and the number of crossings.
     first: f64,
     last: f64,
     pub(super) count: usize,
     /// Area under the curve, and the time that it covers.
     pub(super) area: f64,
     covered: f64,
-    /// The side of zero that it was last seen on; zero when it is not known.
+    /// Sign of the last nonzero value; zero when it is unknown.
     side: f64,
     pub(super) line: FittedLine,
 }
 
-/// The straight line through points that is nearest to them: its sums, about the means of the points so far (Welford 1962).
+/// The least-squares line through points: its sums, about the means of the points so far (Welford 1962).
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct FittedLine {
     count: f64,
@@ -62,22 +62,22 @@ impl CurveTrail {
         line: FittedLine { count: 0.0, mean: [0.0; 2], squares: 0.0, products: 0.0 },
     };
 
-    /// The time at which a straight line from the sample before to this one is zero. A sample that is zero is one at
-    /// its own time.
+    /// The time at which the straight line from the previous sample to this one is zero. For a sample of value zero, this
+    /// is the time of the sample.
     pub(super) fn zero(&self, time: f64, value: f64) -> Option<f64> {
         if value == 0.0 {
             return Some(time);
         }
-        // Not across a reset, which turns time back.
+        // A reset moves time backwards; there is no crossing across it.
         let passes = self.time < time && self.value * value < 0.0;
         passes.then(|| self.time + (time - self.time) * (self.value / (self.value - value)))
     }
 
-    /// Takes a sample in as a part of an oscillation.
+    /// Processes a sample of an oscillation.
     pub(super) fn oscillate(&mut self, time: f64, value: f64) {
         let goes_on = self.time < time;
         if !goes_on || value.is_nan() {
-            // Nothing is known of what was before a gap or a reset.
+            // The state before a gap or a reset is unknown.
             (self.below, self.reached) = (false, None);
         }
         let zero = self.zero(time, value);
@@ -95,7 +95,7 @@ impl CurveTrail {
         self.remember(time, value);
     }
 
-    /// Counts passages in either direction. What touches zero and goes back has not passed.
+    /// Counts crossings in both directions. A curve that touches zero and returns does not cross it.
     pub(super) fn pass(&mut self, time: f64, value: f64) {
         if value.is_nan() || self.time > time {
             self.side = 0.0;
@@ -106,7 +106,7 @@ impl CurveTrail {
         self.remember(time, value);
     }
 
-    /// Adds the area between the sample before and this one.
+    /// Adds the area between the previous sample and this one.
     pub(super) fn add_area(&mut self, time: f64, value: f64) {
         if self.time < time {
             self.area += 0.5 * (self.value + value) * (time - self.time);
@@ -119,12 +119,12 @@ impl CurveTrail {
         (self.time, self.value) = (time, value);
     }
 
-    /// Mean time from one upward passage to the next; NaN with fewer than two.
+    /// Mean time between upward crossings; NaN with fewer than two.
     pub(super) fn period(&self) -> f64 {
         if self.count < 2 { f64::NAN } else { (self.last - self.first) / (self.count - 1) as f64 }
     }
 
-    /// The mean over time; the value itself when there is one sample.
+    /// The mean over time; the value itself if there is one sample.
     pub(super) fn mean(&self) -> f64 {
         if self.covered > 0.0 { self.area / self.covered } else { self.value }
     }
@@ -162,13 +162,13 @@ mod tests {
     fn a_crossing_lies_between_two_samples() {
         assert_eq!(crossing(&[(0.0, 1.0), (1.0, -3.0)]), 0.25);
         assert_eq!(crossing(&[(0.0, -3.0), (1.0, 1.0)]), 0.75);
-        // A sample that is zero counts, a start too.
+        // A sample of value zero is a crossing, also at the start.
         assert_eq!(crossing(&[(0.0, 1.0), (1.0, 0.0), (2.0, 1.0)]), 1.0);
         assert_eq!(crossing(&[(0.0, 0.0), (1.0, 1.0)]), 0.0);
         for never in [&[(0.0, 1.0), (1.0, 2.0)][..], &[(0.0, 1.0), (1.0, f64::NAN), (2.0, -1.0)], &[]] {
             assert!(crossing(never).is_nan(), "{never:?}");
         }
-        // A reset turns time back: nothing happened between the two.
+        // A reset moves time backwards; there is no crossing between the two samples.
         assert!(crossing(&[(5.0, 1.0), (0.0, -1.0)]).is_nan());
     }
 
@@ -179,10 +179,10 @@ mod tests {
         };
         assert_eq!(period(&saw(9)), 4.0);
         assert!(period(&saw(5)).is_nan());
-        // Zeros on the way count once, and a touch from below does not.
+        // Consecutive zeros count as one crossing, and a touch from below does not count.
         assert_eq!(period(&[(0.0, -1.0), (1.0, 0.0), (2.0, 0.0), (3.0, 1.0), (4.0, -1.0), (5.0, 1.0)]), 3.5);
         assert!(period(&[(0.0, -1.0), (1.0, 0.0), (2.0, -1.0), (3.0, 0.0), (4.0, -1.0)]).is_nan());
-        // What was before a gap is not known.
+        // The state before a gap is unknown.
         assert!(period(&[(0.0, -1.0), (1.0, 1.0), (2.0, -1.0), (3.0, f64::NAN), (4.0, 1.0)]).is_nan());
     }
 
@@ -194,14 +194,14 @@ mod tests {
     }
 
     proptest! {
-        /// A zero between two samples is missed by O(h^2) when it is interpolated (and by h when it is not).
+        /// Interpolation locates a zero between two samples with an error of O(h^2); without it the error is h.
         #[test]
         fn the_period_of_a_sine_is_found_between_samples(omega in 1.0f64..20.0, phase in 0.0f64..6.2, h in 1e-4f64..5e-3) {
             let true_period = 2.0 * std::f64::consts::PI / omega;
             let n = (5.2 * true_period / h) as usize;
             let samples: Vec<_> = (0..n).map(|i| i as f64 * h).map(|t| (t, (omega * t + phase).sin())).collect();
             let found = period(&samples);
-            // A chord misses a zero of a sine by less than (omega h)^3 / 15 of a radian.
+            // A chord locates a zero of a sine with an error below (omega h)^3 / 15 rad.
             let bound = (omega * h).powi(3) / omega + 1e-12;
             prop_assert!((found - true_period).abs() <= bound, "{} and not {}", found, true_period);
             let first = crossing(&samples);

@@ -1,4 +1,4 @@
-//! What a lab shows in a run: its traces over time, for a report that draws them.
+//! The curves of a lab in a run: its traces over time, for a report that draws them.
 
 use super::bound::BoundVerify;
 use super::bound_run::BoundRun;
@@ -9,27 +9,27 @@ use crate::spec::Plot;
 use labspec_expr::Value;
 use std::ops::Range;
 
-/// Most samples of a run: a curve in a report has fewer pixels.
+/// Maximum number of samples of a run. A curve in a report is fewer pixels wide.
 const SAMPLES: usize = 300;
 
-/// What the plots of a lab show in one run of a `verify` object.
+/// The traces of a lab in one run of a `verify` object.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curves {
-    /// The run, as conditions call it: `fine`, `fall[2]`.
+    /// The name of the run in conditions: `fine`, `fall[2]`.
     pub run: String,
-    /// The lab, by its bytes in the lesson.
+    /// The bytes of the lab in the lesson.
     pub lab: Range<usize>,
     /// Its title, possibly empty.
     pub title: String,
     /// Its plots.
     pub plots: Vec<Plot>,
-    /// When the samples were taken, s.
+    /// Times of the samples, s.
     pub times: Vec<f64>,
-    /// The values of every trace, plot after plot; NaN where it shows no number.
+    /// The values of every trace, plot after plot; NaN where a trace has no number.
     pub values: Vec<Vec<f64>>,
 }
 
-/// Makes a run once more and looks at the lab. `None` where it cannot be made, or has no trace.
+/// Repeats a run and samples the traces of the lab. `None` where it cannot be executed, or the lab has no trace.
 fn record_curves(asked: &RunRequest<'_, '_>, stage: &Stage<'_>) -> Option<Curves> {
     let scene = &asked.scene.scene;
     let (lab, programs) = (&*scene.lab, &*scene.programs);
@@ -59,7 +59,7 @@ fn record_curves(asked: &RunRequest<'_, '_>, stage: &Stage<'_>) -> Option<Curves
             take(session);
         }
     });
-    // Where it stopped.
+    // The last sample, where the run stopped.
     if seen % every != 0 && ready.session.ended().is_none() {
         take(&mut ready.session);
     }
@@ -75,8 +75,7 @@ fn record_curves(asked: &RunRequest<'_, '_>, stage: &Stage<'_>) -> Option<Curves
 }
 
 impl<'a> BoundVerify<'a> {
-    /// What the traces of its lab show in every run, up to so many; a run that cannot be made, or whose lab shows nothing, is left
-    /// out.
+    /// The traces of the lab in the first `most` runs. Runs that cannot be executed and labs without traces are left out.
     pub(crate) fn curves(&self, most: usize) -> Vec<Curves> {
         let one = |run: &BoundRun<'a>| {
             let (scene, place) = (self.scene_of(run)?, self.verify.span.clone());

@@ -1,15 +1,15 @@
-//! Whether a claim could have come out otherwise. What was measured is replaced by other values of its kind: where none of
-//! them changes what the claim says, it says nothing about the simulation, however it is written.
+//! Tests whether a claim could have a different outcome. Measured values are replaced by other values of their kind. If no
+//! replacement changes the outcome, the claim depends on no measured value and says nothing about the simulation.
 
 use super::compiled_claim::ClaimInputs;
 use super::draws::Draws;
 use super::value_kind::ValueKind;
 use labspec_expr::Comparison;
 
-/// Values that are drawn in place of what was measured.
+/// Number of drawn replacements for the measured values.
 const DRAWN: usize = 16;
 
-/// The numbers of a claim with others of their kinds in place of what was measured, again and again.
+/// The inputs of a claim with drawn values of their kinds in place of the measured ones, `DRAWN` times.
 pub(super) fn draws<'i>(
     nominal: &'i ClaimInputs,
     places: &'i [usize],
@@ -25,10 +25,10 @@ pub(super) fn draws<'i>(
     })
 }
 
-/// What a claim says with some numbers: `None` where it says nothing.
+/// Evaluates a claim with some inputs; `None` where it has no value.
 pub(super) type Says<'s> = dyn FnMut(&ClaimInputs) -> Option<(Outlook, Vec<Comparison>)> + 's;
 
-/// What a claim says: the truth of a condition, or a number.
+/// The value of a claim: the truth of a condition, or a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Outlook {
     Holds(bool),
@@ -36,7 +36,7 @@ pub(super) enum Outlook {
 }
 
 impl Outlook {
-    /// Whether two are different claims. Of a number, a part in a hundred is another one.
+    /// Whether two values are different claims. Numbers differ if they are more than one percent apart.
     pub(super) fn differs(self, other: Outlook) -> bool {
         match (self, other) {
             (Outlook::Holds(a), Outlook::Holds(b)) => a != b,
@@ -48,23 +48,24 @@ impl Outlook {
     }
 }
 
-/// How large a number may be to be tried in place of what was measured: what is a million times as large as everything that was
-/// measured is out of reach, so that `z < 1e300` says nothing.
+/// Largest magnitude of a replacement value. Values a million times as large as every measured value are excluded, so that
+/// `z < 1e300` counts as a claim without content.
 pub(super) fn reach(values: &[f64]) -> f64 {
     let largest = values.iter().filter(|x| x.is_finite()).fold(1.0, |most: f64, x| most.max(x.abs()));
     1e6 * largest
 }
 
-/// Factors by which a measured value is replaced.
+/// Factors by which a measured value is multiplied.
 const FACTORS: [f64; 14] =
     [0.0, 0.5, 2.0, -1.0, 0.9, 1.1, 0.99, 1.01, 0.999_999, 1.000_001, 0.1, 10.0, 0.001, 1000.0];
-/// Joint draws, the first of them before a number alone is searched for, and halvings of that search.
+/// Number of joint draws: `FIRST` before the search in single numbers, `JOINT` in total; and the number of bisection steps
+/// of that search.
 const FIRST: usize = 200;
 const JOINT: usize = 4000;
 const HALVINGS: usize = 60;
 
-/// Whether other values of what was measured change what a claim says. `places` are those of the numbers, and then of the
-/// parts; `kinds` are theirs.
+/// Whether other measured values change the outcome of a claim. `places` are the positions of the numbers and then of the
+/// parts; `kinds` are their kinds.
 pub(super) fn could_differ(
     nominal: &ClaimInputs,
     places: &[usize],
@@ -79,7 +80,7 @@ pub(super) fn could_differ(
     let mut all: Vec<Vec<(f64, Vec<Comparison>)>> = Vec::new();
     for (&place, list) in places.iter().zip(&lists) {
         let mut tried = Vec::new();
-        // Any measure may have no value: its event does not happen, or the run breaks.
+        // Any measure may be NaN: its event does not happen, or the run breaks.
         for x in list.iter().copied().chain([f64::NAN]) {
             inputs.put(place, x);
             if let Some((then, compared)) = says(&inputs) {
@@ -96,7 +97,7 @@ pub(super) fn could_differ(
     if together.differs(FIRST, now, says) {
         return true;
     }
-    // Where a comparison turns between two values, or comes near to that, the value is looked for.
+    // Where a comparison changes sign between two values, or comes close to it, search for the value in between.
     for ((&place, kind), tried) in places.iter().zip(kinds).zip(&all) {
         let mut alone = |x| {
             inputs.put(place, x);
@@ -110,7 +111,7 @@ pub(super) fn could_differ(
     together.differs(JOINT - FIRST, now, says)
 }
 
-/// For each measured value the others that are tried in its place, in order: parts of it, and what lies near to everything that it is
+/// For each measured value, the values that replace it, sorted: multiples of it, and values near everything that it is
 /// compared with.
 fn values_to_try(
     values: &[f64],
@@ -142,7 +143,7 @@ fn values_to_try(
     kinds.iter().enumerate().map(|(i, kind)| list(i, kind)).collect()
 }
 
-/// Changes several numbers at once: each stays, is one of its values, or that of another number.
+/// Changes several numbers at once: each keeps its value, takes one of its list, or equals another number.
 struct JointDraws<'t> {
     nominal: &'t ClaimInputs,
     places: &'t [usize],
@@ -152,7 +153,7 @@ struct JointDraws<'t> {
 }
 
 impl JointDraws<'_> {
-    /// Whether one of so many further draws changes what a claim says.
+    /// Whether one of `count` more draws changes the outcome of a claim.
     fn differs(&mut self, count: usize, now: Outlook, says: &mut Says<'_>) -> bool {
         if self.places.len() < 2 {
             return false;
@@ -183,7 +184,7 @@ impl JointDraws<'_> {
     }
 }
 
-/// Looks for a value between known ones with which a claim says something else, by the comparisons that it makes.
+/// Searches between tried values for one that changes the outcome of a claim, guided by the comparisons of the claim.
 fn turns(
     comparisons: &[(f64, Vec<Comparison>)],
     now: Outlook,
@@ -209,7 +210,7 @@ fn turns(
                 if d * low_side > 0.0 { low = middle } else { high = middle }
             }
         }
-        // The smallest distance between the sides, where it lies between two values (golden section).
+        // The minimum of the distance between the two sides, where it lies between two values (golden section search).
         for triple in comparisons.windows(3) {
             let [(a, at_a), (_, at_m), (b, at_b)] = triple else { continue };
             let all = [at_a, at_m, at_b].map(|list| difference(list, k).map(f64::abs));

@@ -1,9 +1,9 @@
-//! Closed forms: does a trace follow the formula that the author gives?
+//! Closed forms: whether a trace follows the formula that the author gives.
 //!
-//! With a tolerance the trace must stay within it. Without one the lab's own convergence decides: the error of a method of
-//! order p shrinks as hᵖ when the timestep h shrinks, so what remains of the difference after Richardson extrapolation
-//! (Richardson 1911) is the error of the formula. A right formula leaves less than the extrapolations differ among
-//! themselves; a wrong one leaves itself.
+//! With a tolerance, the trace must stay within it. Without one, the convergence of the lab decides: the error of a method
+//! of order p decreases as hᵖ with the timestep h, so the difference that remains after Richardson extrapolation
+//! (Richardson 1911) is the error of the formula. For a correct formula this remainder is smaller than the difference
+//! between the extrapolations. For a wrong formula the remainder is the error of the formula.
 
 use super::bound::BoundVerify;
 use super::format::significant;
@@ -21,36 +21,37 @@ use labspec_expr::{Access, Compiler, Program};
 use serde::{Deserialize, Serialize};
 use std::ops::{ControlFlow, Range};
 
-/// Most steps of the run at the lab's own timestep; the others take two and four times as many.
+/// Maximum number of steps of the run at the timestep of the lab. The other runs take two and four times as many.
 const MAX_STEPS: usize = 50_000;
-/// Samples of a run.
+/// Number of samples of a run.
 const SAMPLES: usize = 500;
-/// Part of a trace's size that rounding may make of it.
+/// Rounding error of a trace, relative to its size.
 const ROUNDING: f64 = 1e-9;
-/// Parts of a trace's range: how well a formula without a tolerance must be known, and how far the trace may be from it at
-/// the lab's own timestep.
+/// Fractions of the range of a trace: the uncertainty up to which a formula without a tolerance is confirmed, and the
+/// largest accepted distance of the trace from the formula at the timestep of the lab.
 const UNSURE: f64 = 0.01;
 const FAR: f64 = 0.1;
 
-/// A tolerance of so many times the larger of trace and formula is none; and how far apart both are by rounding alone.
+/// A tolerance above `WIDE` times the larger of trace and formula accepts everything. `NOISE` is the difference that
+/// rounding alone produces.
 const WIDE: f64 = 2.0;
 const NOISE: f64 = 1e-12;
 
-/// What became of the closed form of a trace.
+/// The result of checking the closed form of a trace.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ClosedForm {
     /// Label of the trace.
     pub trace: String,
-    /// Its place in the lesson.
+    /// Its span in the lesson.
     pub span: Range<usize>,
-    /// What became of it.
+    /// The state of the claim.
     pub state: State,
-    /// Why it is not true, or what shows that it is.
+    /// The reason why it is not true, or the evidence that it is.
     pub remark: String,
 }
 
 impl ClosedForm {
-    /// One that could not be checked.
+    /// A closed form that could not be checked.
     pub(super) fn unchecked(exact: &Exact, reason: &str) -> ClosedForm {
         ClosedForm {
             trace: exact.trace.value.clone(),
@@ -61,7 +62,7 @@ impl ClosedForm {
     }
 }
 
-/// Differences between the trace and its closed form at common times, and the largest magnitude of either.
+/// The values of the trace and of its closed form at common times.
 struct Differences {
     times: Vec<f64>,
     values: Vec<[f64; 2]>,
@@ -72,7 +73,7 @@ impl Differences {
         self.values.get(i).map_or(f64::NAN, |[trace, form]| trace - form)
     }
 
-    /// How far the trace goes; its size where it stays.
+    /// The range of the trace, or its magnitude if it is constant.
     fn range(&self) -> f64 {
         let traces = || self.values.iter().map(|[trace, _]| *trace);
         let [least, most] =
@@ -86,7 +87,7 @@ impl Differences {
     }
 }
 
-/// Holds a trace to its closed form. What is wrong goes to `findings`.
+/// Compares a trace with its closed form. Errors are added to `findings`.
 pub(super) fn check_closed_form(
     bound: &BoundVerify<'_>,
     claim: &Exact,
@@ -96,7 +97,7 @@ pub(super) fn check_closed_form(
         Ok((traces, form)) => (traces, form),
         Err(reason) => return ClosedForm::unchecked(claim, reason),
     };
-    // A label that several plots have means all of them: the worst one counts.
+    // A label that several plots have denotes all these traces. The worst result counts.
     let held = traces.into_iter().map(|trace| hold(bound, claim, trace, &form, findings));
     let worst = |a: ClosedForm, b: ClosedForm| if rank(b.state) > rank(a.state) { b } else { a };
     held.reduce(worst).unwrap_or_else(|| ClosedForm::unchecked(claim, "the lab has no such trace"))
@@ -110,7 +111,7 @@ fn rank(state: State) -> u8 {
     }
 }
 
-/// Holds one trace to the closed form.
+/// Compares one trace with the closed form.
 fn hold(
     bound: &BoundVerify<'_>,
     claim: &Exact,
@@ -166,7 +167,7 @@ fn hold(
     ClosedForm { trace: claim.trace.value.clone(), span: claim.trace.span(), state, remark }
 }
 
-/// The traces of the label and their closed form as programs. What is wrong goes to `findings`.
+/// The traces of the label and their closed form as programs. Errors are added to `findings`.
 pub(super) fn bind_closed_form<'b>(
     bound: &'b BoundVerify<'_>,
     claim: &Exact,
@@ -194,7 +195,7 @@ pub(super) fn bind_closed_form<'b>(
     Ok((traces, form))
 }
 
-/// What a closed form reads of the simulation besides the time; `None` for a formula of time and parameters.
+/// The simulation data that a closed form reads besides the time; `None` for a formula of time and parameters.
 fn reads_the_run(form: &Program, programs: &Programs) -> Option<String> {
     let effects = form.effects();
     let of_data = |access: &Access| {
@@ -209,7 +210,7 @@ fn reads_the_run(form: &Program, programs: &Programs) -> Option<String> {
     {
         return Some("a function that reads the simulation".to_string());
     }
-    // What the lab keeps in `ctx` or in the model while it runs may be anything.
+    // Values that the lab writes to `ctx` or to the model during the run are unknown.
     let running = programs
         .controller
         .iter()
@@ -252,7 +253,7 @@ fn no_such_trace(claim: &Exact, lab: &Lab) -> Finding {
     }
 }
 
-/// Where a trace leaves its closed form.
+/// The point at which a trace deviates from its closed form.
 struct Wrong {
     time: f64,
     trace: f64,
@@ -282,7 +283,7 @@ fn within(tol: f64, run: &Differences) -> Judged {
     let (i, worst) = largest(run.times.len(), |i| run.difference(i));
     let apart =
         format!("they differ by at most {}, the tolerance is {}", significant(worst), significant(tol));
-    // Of noise about zero nothing is large.
+    // Near zero, both values are noise, and no tolerance is too large for them.
     let noise = worst <= NOISE;
     if worst <= tol && tol > WIDE * run.size() && !noise {
         let how = format!(
@@ -298,7 +299,7 @@ fn within(tol: f64, run: &Differences) -> Judged {
     (State::False, apart.clone(), wrong(run, i, run.difference(i), apart))
 }
 
-/// Whether the difference vanishes with the timestep.
+/// Whether the difference vanishes as the timestep decreases.
 fn converges(order: i32, h: &Differences, half: &Differences, quarter: &Differences) -> Judged {
     let n = h.times.len();
     let power = f64::from(2_i32.pow(order.unsigned_abs()));
@@ -317,8 +318,8 @@ fn converges(order: i32, h: &Differences, half: &Differences, quarter: &Differen
     let vanishing = errors[2] <= 0.75 * errors[0];
     let range = quarter.range();
     if vanishing && left <= unsure + rounding {
-        // What cannot be distinguished within a hundredth of what the trace does is not called the same, and a formula of which
-        // the lab itself is far off is not what it shows.
+        // A formula that is confirmed only to more than a hundredth of the range of the trace is not accepted. Neither is
+        // a formula that differs by more than a tenth of that range from the trace at the timestep of the lab.
         if unsure > UNSURE * range + rounding {
             let how = format!("{shrinks}, so the formula is confirmed only to {}", significant(unsure));
             return (State::Unchecked, how, None);
@@ -340,18 +341,18 @@ fn converges(order: i32, h: &Differences, half: &Differences, quarter: &Differen
     (State::Unchecked, shrinks, None)
 }
 
-/// The trace as it would be, and the formula, where they differ most.
+/// The extrapolated trace and the formula, at the point of the largest difference.
 fn wrong(run: &Differences, i: usize, difference: f64, how: String) -> Option<Wrong> {
     let [_, form] = *run.values.get(i)?;
     Some(Wrong { time: *run.times.get(i)?, trace: form + difference, form, how })
 }
 
-/// The place and the size of the largest of `n` numbers.
+/// The index and the magnitude of the largest of `n` numbers.
 fn largest(n: usize, x: impl Fn(usize) -> f64) -> (usize, f64) {
     (0..n).map(|i| (i, x(i).abs())).fold((0, 0.0), |best, now| if now.1 > best.1 { now } else { best })
 }
 
-/// What the runs share.
+/// The common data of the runs.
 struct ClosedFormRuns<'a> {
     lab: &'a Lab,
     model: &'a Model,
@@ -361,7 +362,7 @@ struct ClosedFormRuns<'a> {
 }
 
 impl ClosedFormRuns<'_> {
-    /// Order of the integrator that the lab runs with.
+    /// Order of the integrator of the lab.
     fn order(&self) -> i32 {
         if self.start().world.model.opt.integrator == integrator::RK4 { 4 } else { 1 }
     }
@@ -374,7 +375,7 @@ impl ClosedFormRuns<'_> {
         Session::start(self.programs, self.model, start)
     }
 
-    /// The lab as it stands with its timestep in so many parts, sampled at the same times whatever the parts.
+    /// Runs the lab with its timestep divided by `parts`. The sample times do not depend on `parts`.
     fn run(&self, parts: usize, stage: &Stage<'_>) -> Result<Differences, String> {
         let mut session = self.start();
         let h = session.world.model.opt.timestep;

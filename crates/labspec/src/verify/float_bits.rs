@@ -1,8 +1,8 @@
-//! Numbers by their bits, `#[serde(with = "float_bits")]`: JSON has no NaN and no infinity.
+//! Serializes numbers as their bits, with `#[serde(with = "float_bits")]`: JSON has no NaN and no infinity.
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// What is stored of a number, or of one that may be missing.
+/// A number, or an optional number, and its stored form.
 pub(crate) trait Bits: Copy {
     type Stored: Serialize + for<'de> Deserialize<'de>;
     fn to_stored(self) -> Self::Stored;

@@ -13,7 +13,7 @@ pub fn significant(x: f64) -> String {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_string() } else { text }
 }
 
-/// The beginning of a text, for messages.
+/// The first 48 characters of a text, for messages.
 pub(super) fn shorten(text: &str) -> String {
     let short: String = text.chars().take(48).collect();
     if short.len() < text.len() { format!("{short}…") } else { short }

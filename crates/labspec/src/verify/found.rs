@@ -1,5 +1,5 @@
-//! The value of an expression over what the runs gave, and what it rests on: whether it is a simulation's, whether it could have come
-//! out otherwise, and how far a condition is from the opposite.
+//! The value of an expression over the results of the runs, and the evidence for it: whether it comes from a simulation,
+//! whether it could be different, and the margin of a condition.
 
 use super::bound::BoundVerify;
 use super::bound_run::CompiledText;
@@ -19,31 +19,32 @@ use crate::source::Text;
 use labspec_expr::{RuntimeError, Value};
 use std::rc::Rc;
 
-/// The value of an expression over the measures, and what it rests on.
+/// The value of an expression over the measures, and the evidence for it.
 #[derive(Clone, Debug)]
 pub(super) struct MeasuredValue {
     pub(super) value: Value,
-    /// Whether a simulation says it.
+    /// Whether the value depends on a simulation.
     pub(super) evidence: Evidence,
-    /// The text names a number of a run and never comes to it, as in `true || m > 3`.
+    /// Whether the text names a number of a run but never evaluates it, as in `true || m > 3`.
     pub(super) unread: bool,
-    /// A run that it rests on broke: its name and how, unless the expression reads the warnings of that run.
+    /// The name of a run that the expression reads and that broke, and how it broke. `None` if the expression reads the
+    /// warnings of that run.
     pub(super) broke: Option<String>,
-    /// The part of the text in which a NaN decided, and why there is one; the value is NaN then.
+    /// The part of the text that was decided by a NaN, and the reason for the NaN. The value is NaN in this case.
     pub(super) undecided: Option<Undecided>,
-    /// How it was evaluated; `None` where somebody else did it.
+    /// The evaluation; `None` where the value was recorded by another engine.
     trace: Option<Rc<Evaluated>>,
 }
 
-/// An expression that nothing decides.
+/// An expression that is undecided because of a NaN.
 #[derive(Clone, Debug)]
 pub(super) struct Undecided {
     pub(super) part: String,
-    /// What has no number, and why.
+    /// The measure that has no value, and the reason.
     pub(super) because: Option<String>,
 }
 
-/// A claim, the numbers that it was evaluated with, and what came of it.
+/// A claim, the inputs of its evaluation, and the result.
 #[derive(Debug)]
 struct Evaluated {
     claim: Rc<CompiledClaim>,
@@ -52,7 +53,7 @@ struct Evaluated {
 }
 
 impl BoundVerify<'_> {
-    /// The value of an expression over the outcome. What is wrong with it goes to `findings`.
+    /// The value of an expression over the outcome. Errors are added to `findings`.
     pub(super) fn find(
         &self,
         outcome: &Outcome,
@@ -84,7 +85,7 @@ impl BoundVerify<'_> {
                     trace: None,
                 });
             }
-            // Measured on the spot, as a lesson with one run may write it: the same run once more.
+            // The text contains aggregates, which is allowed in a lesson with one run: repeat the run to evaluate them.
             let named = CompiledText { text, program: program.clone() };
             let made = self.perform(run, outcome.numerics, &[&named], findings)?;
             let expected = run.spec.is_some_and(|r| r.breaks);
@@ -107,14 +108,14 @@ impl BoundVerify<'_> {
             because: doubt.map(|d| d.to_string()).or_else(|| self.missing(&claim, outcome, &inputs)),
         });
         let value = if undecided.is_some() { Value::Number(f64::NAN) } else { traced.value.clone() };
-        // The length of a sweep is no number that a run gives; a condition on it says nothing about one.
+        // The length of a sweep is not a result of a run, so a condition on it is not evidence.
         let is_condition = matches!(value, Value::Boolean(_));
         let unread = nothing_read && (claim.names.numbers || claim.names.lists && is_condition);
         let trace = Some(Rc::new(Evaluated { claim, inputs, traced }));
         Some(MeasuredValue { value, evidence, unread, broke, undecided, trace })
     }
 
-    /// How a run broke that a claim rests on, unless it reads the warnings of that run.
+    /// How a run broke that a claim reads, unless the claim reads the warnings of that run.
     fn broken(&self, claim: &CompiledClaim, outcome: &Outcome) -> Option<String> {
         let slots = || claim.reads.iter().filter_map(|place| self.layout().slots.get(*place));
         let excused = |place: usize| slots().any(|slot| *slot == Slot::Warnings(place));
@@ -131,7 +132,7 @@ impl BoundVerify<'_> {
         })
     }
 
-    /// The first number that a claim reads and that there is not, with the reason.
+    /// The first NaN that a claim reads, with the reason.
     fn missing(&self, claim: &CompiledClaim, outcome: &Outcome, inputs: &ClaimInputs) -> Option<String> {
         let nothing = |place: &&usize| inputs.numbers.get(**place).is_some_and(|x| x.is_nan());
         let place = claim.reads.iter().find(nothing)?;
@@ -150,10 +151,10 @@ impl BoundVerify<'_> {
         }
     }
 
-    /// Whether a claim could have come out otherwise, had the runs given something else. `says` tells what the claim says with a
-    /// value; the truth of a condition, or a number, where it is `None`.
+    /// Whether a claim could have a different outcome if the runs gave other values. `says` converts a value to the
+    /// outcome; if `None`, the outcome is the truth of a condition, or a number.
     pub(super) fn could_differ(&self, found: &MeasuredValue, says: Option<&dyn Fn(&Value) -> bool>) -> bool {
-        // What somebody else evaluated was evaluated here, too.
+        // A value that another engine recorded: the claim was tested with our own values.
         let Some(evaluated) = &found.trace else { return true };
         let Evaluated { claim, inputs, .. } = &**evaluated;
         let (places, kinds) = self.places(claim, inputs);
@@ -163,7 +164,7 @@ impl BoundVerify<'_> {
         }
         let outlook = |inputs: &ClaimInputs| {
             let traced = claim.evaluate(self, inputs, None)?.ok().filter(|t| t.lost.is_none())?;
-            // A number that is not there is no other number.
+            // NaN does not count as a different number.
             if matches!(traced.value, Value::Number(x) if x.is_nan()) {
                 return None;
             }
@@ -177,7 +178,7 @@ impl BoundVerify<'_> {
         if !evidence::could_differ(inputs, &places, &kinds, &claim.constants, &mut |inputs| outlook(inputs)) {
             return false;
         }
-        // What does not hold may be rare, and is looked for with each number alone.
+        // A claim that is false may be true only for rare values, so it is only tested with each number alone.
         match outlook(inputs) {
             Some((now, _)) if now != Outlook::Holds(false) => {
                 self.differs_somewhere(claim, inputs, now, &mut |inputs| Some(outlook(inputs)?.0))
@@ -186,7 +187,7 @@ impl BoundVerify<'_> {
         }
     }
 
-    /// Whether the value of a text says that something holds or not, as options, words and searches need it; a finding where not.
+    /// Whether the value of a text is a boolean, as options, words and searches require; otherwise a finding is added.
     pub(super) fn is_condition(
         &self,
         found: &MeasuredValue,
@@ -200,11 +201,12 @@ impl BoundVerify<'_> {
         is
     }
 
-    /// A truth value, or a number that is 0 or 1 whatever the runs give, as that of `holds(…)`: a count that happens to be 1 is none.
+    /// A boolean, or a number that is 0 or 1 for all results of the runs, as that of `holds(…)`. A count that happens to be
+    /// 1 is not one.
     fn is_truth(&self, found: &MeasuredValue) -> bool {
         let truth = |x: f64| x == 0.0 || x == 1.0;
         let Value::Number(x) = found.value else { return matches!(found.value, Value::Boolean(_)) };
-        // What somebody else evaluated was tried here, too.
+        // A value that another engine recorded: the claim was tested with our own values.
         let Some(evaluated) = found.trace.as_ref().filter(|_| truth(x)) else { return truth(x) };
         let Evaluated { claim, inputs, .. } = &**evaluated;
         let (places, kinds) = self.places(claim, inputs);
@@ -215,7 +217,7 @@ impl BoundVerify<'_> {
             && values.all(|t| matches!(t.value, Value::Boolean(_)) || truth(t.value.to_number()))
     }
 
-    /// The places of what a claim measures, or else of what it reads of a run at all, and of which kind each is.
+    /// The positions of the measured numbers of a claim, or else of all measures that it reads, and the kind of each.
     fn places(&self, claim: &CompiledClaim, inputs: &ClaimInputs) -> (Vec<usize>, Vec<ValueKind>) {
         let mut places = claim.measured(self);
         let simulated = !places.is_empty();
@@ -229,7 +231,7 @@ impl BoundVerify<'_> {
             .map(|program| self.idle(|session| kinds_of(program, &session.world, &session.context)));
         let parts = parts.flatten().unwrap_or_default();
         let count = inputs.numbers.len();
-        // What is not simulated has the one value that it has, which tells nothing of its kind.
+        // A value that is not simulated is constant, so its kind is unknown.
         let kind = |place: &usize| match place.checked_sub(count) {
             _ if !simulated => ValueKind::ANY,
             None => self.kinds().get(*place).copied().unwrap_or(ValueKind::ANY),
@@ -239,7 +241,7 @@ impl BoundVerify<'_> {
         (places, kinds)
     }
 
-    /// How a condition came out, and how far it is from the opposite.
+    /// Whether a condition holds, and its margin.
     pub(super) fn evaluate_margin(&self, found: &MeasuredValue) -> ConditionMargin {
         let holds = found.value.truthy();
         let without_number = found.undecided.as_ref().map(|u| u.part.clone());
@@ -248,11 +250,12 @@ impl BoundVerify<'_> {
         };
         let Evaluated { claim, inputs, traced } = &**evaluated;
         let measured = claim.measured(self);
-        // Comparisons that stay as they are when what was measured moves decide nothing about it: those of a loop.
+        // Comparisons whose sides do not change when the measured values are perturbed depend on none of them, for example
+        // comparisons of a loop counter.
         let moved = {
             let mut moved = inputs.clone();
             for (k, place) in measured.iter().enumerate() {
-                // Each by another part of itself, so that no ratio stays.
+                // Each value is perturbed by a different fraction, so that ratios change too.
                 let part = 1e-7 * (1.0 + 0.618 * k as f64);
                 if let Some(x) = inputs.at(*place) {
                     moved.put(*place, x + part * x.abs().max(1e-6));
@@ -272,7 +275,7 @@ impl BoundVerify<'_> {
         condition::evaluate(holds, &traced.comparisons, &decides, &mut turn)
     }
 
-    /// Those of the texts that look at the samples of the only run themselves.
+    /// The texts that contain aggregates over the samples of the only run.
     pub(super) fn on_the_spot<'t>(&self, texts: impl Iterator<Item = &'t Text>) -> Vec<&'t Text> {
         let looks = |text: &&Text| {
             let claim = self.claim(text);
@@ -282,14 +285,14 @@ impl BoundVerify<'_> {
     }
 }
 
-/// What an expression throws.
+/// The finding about an expression that throws.
 fn threw(text: &Text, error: &RuntimeError) -> Finding {
     Finding::error(error.rule, text.span_of(error.span.start..error.span.end), error.message.clone())
         .why("the claim cannot be checked: this expression has no value")
         .help("correct the expression, or guard it with a condition")
 }
 
-/// A number or a text where a condition belongs.
+/// The finding about a number or a text where a condition is required.
 fn no_condition(text: &Text, value: &Value) -> Finding {
     let what = match value {
         Value::Number(x) => format!("the number {}", significant(*x)),

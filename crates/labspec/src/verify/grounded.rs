@@ -1,4 +1,4 @@
-//! The value that a claim may rest on, or why there is none.
+//! The value of an expression if a claim may rely on it, or the reason why not.
 
 use super::bound::BoundVerify;
 use super::condition;
@@ -10,8 +10,9 @@ use crate::rules;
 use crate::source::Text;
 use labspec_expr::Value;
 
-/// The value of an expression that a claim may rest on: it has one, it depends on what was measured if it reads that, no NaN
-/// decides it, and the runs that it reads did not break. Otherwise why not, which is reported.
+/// The value of an expression if a claim may rely on it. It must have a value, must depend on the measured values that it
+/// reads, must not be decided by a NaN, and the runs that it reads must not break. Otherwise returns the reason, which is
+/// also reported.
 pub(super) fn grounded_value(
     bound: &BoundVerify<'_>,
     outcome: &Outcome,
@@ -19,7 +20,7 @@ pub(super) fn grounded_value(
     findings: &mut Vec<Finding>,
 ) -> Result<MeasuredValue, String> {
     let found = decided_value(bound, outcome, text, findings)?;
-    // A value that is not finite is reported as such.
+    // A value that is not finite gets its own finding.
     let some = !matches!(found.value, Value::Number(x) if !x.is_finite());
     if some && (found.unread || !bound.could_differ(&found, None)) {
         return Err(report_constant_claim(text, findings));
@@ -27,7 +28,7 @@ pub(super) fn grounded_value(
     Ok(found)
 }
 
-/// The same for numerics other than the lesson's own, with which a claim is not tried again.
+/// Like [`grounded_value`], for perturbed numerics: the claim is not tested with other values again.
 pub(super) fn decided_value(
     bound: &BoundVerify<'_>,
     outcome: &Outcome,
@@ -53,7 +54,7 @@ pub(super) fn decided_value(
     }
 }
 
-/// An expression whose value is the same whatever was measured.
+/// Reports an expression whose value is the same for all measured values.
 pub(super) fn report_constant_claim(text: &Text, findings: &mut Vec<Finding>) -> String {
     let message = format!(
         "`{}` gives the same result whatever the runs give, so it proves nothing",
@@ -67,7 +68,7 @@ pub(super) fn report_constant_claim(text: &Text, findings: &mut Vec<Finding>) ->
     message
 }
 
-/// An expression that a NaN decides.
+/// Reports an expression that is decided by a NaN.
 pub(super) fn report_undecided(text: &Text, undecided: &Undecided, findings: &mut Vec<Finding>) -> String {
     let part = &undecided.part;
     let because = undecided.because.as_deref();

@@ -1,6 +1,6 @@
-//! Imagined runs: everything that a measure looks at has some value, drawn for every sample. Measures of the same run look at the same
-//! samples, so that what follows from what they have in common shows: the largest value of a trace is never below its smallest one,
-//! whatever is simulated. What a claim says of every imagined run, it says of any.
+//! Imagined runs: every quantity that a measure reads has a random value, drawn for each sample. Measures of the same run
+//! read the same samples, so relations between them are preserved: the maximum of a trace is never below its minimum,
+//! whatever is simulated. A claim that is true for every imagined run is true for any run.
 
 use super::aggregate::AggregateKind;
 use super::anything::{Anything, Manner};
@@ -23,7 +23,7 @@ struct Imagined<'w> {
     context: Context,
 }
 
-/// Work that a program may do at an imagined sample.
+/// Work budget of a program at an imagined sample.
 const ALLOWED: u64 = 20_000;
 
 impl Sample for Imagined<'_> {
@@ -41,17 +41,18 @@ impl Sample for Imagined<'_> {
     }
 }
 
-/// Sets of imagined runs, and how many of them have to decide a claim.
+/// Number of sets of imagined runs, and how many of them must decide a claim.
 const SETS: u64 = 200;
 const DECIDED: usize = 24;
-/// Samples of an imagined run; many, where something is counted, up to so many.
+/// Number of samples of an imagined run, and the maximum for runs in which something is counted.
 const SAMPLES: [usize; 3] = [3, 8, 20];
 const MOST_SAMPLES: f64 = 4096.0;
-/// Most looks of measures at samples for one claim: what has not been distinguished by then is decided by the sets before.
+/// Maximum number of evaluations of measures at samples for one claim. The sets evaluated by then decide.
 const MOST_LOOKS: usize = 40_000;
 
 impl BoundVerify<'_> {
-    /// Whether some set of imagined runs makes a claim say something else than `now`; also where too few of them decide it.
+    /// Whether some set of imagined runs gives a claim an outcome other than `now`. Also `true` where too few sets decide
+    /// it.
     pub(super) fn differs_somewhere(
         &self,
         claim: &CompiledClaim,
@@ -72,7 +73,7 @@ impl BoundVerify<'_> {
         let reach = reach(&measured);
         let numbers = texts.chain(claim.constants.iter().copied());
         let numbers: Vec<f64> = numbers.filter(|x| *x != 0.0 && x.abs() <= reach).collect();
-        // What is counted has to be able to reach the numbers that it is compared with.
+        // A count must be able to reach the numbers that it is compared with.
         let largest = numbers.iter().fold(1.0, |most: f64, x| most.max(x.abs()));
         if counts && 8.0 * largest > MOST_SAMPLES {
             return true;
@@ -95,7 +96,7 @@ impl BoundVerify<'_> {
         decided < DECIDED
     }
 
-    /// The measures that a claim reads, with their places among the numbers and their runs.
+    /// The measures that a claim reads, with their positions among the numbers and their runs.
     fn measures_of(&self, claim: &CompiledClaim) -> Vec<(usize, usize, &CompiledText<'_>)> {
         let one = |place: &usize| match *self.layout().slots.get(*place)? {
             Slot::Measure(run, m) if self.is_simulated(run, m) => {
@@ -106,7 +107,7 @@ impl BoundVerify<'_> {
         claim.reads.iter().filter_map(one).collect()
     }
 
-    /// The numbers of a claim from one set of imagined runs; `None` where they cannot be made.
+    /// The inputs of a claim from one set of imagined runs; `None` where they cannot be evaluated.
     fn imagine(
         &self,
         claim: &CompiledClaim,

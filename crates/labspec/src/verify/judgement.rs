@@ -1,4 +1,4 @@
-//! What became of everything that one `verify` object claims.
+//! The results of all claims of one `verify` object.
 
 use super::exact::ClosedForm;
 use super::quote::QuoteState;
@@ -9,10 +9,10 @@ use crate::spec::{Question, Run, Verify};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-/// Everything that came of one `verify` object.
+/// The results of one `verify` object.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Judgement {
-    /// The answer of the question, when the object says how to check it.
+    /// The answer of the question, if the object checks it.
     pub answer: Option<Answer>,
     /// The numbers under `says`, in order.
     pub quotes: Vec<Quote>,
@@ -22,7 +22,7 @@ pub struct Judgement {
     pub runs: Vec<RunReport>,
     /// Every measure of every run, named as conditions read it.
     pub measures: Vec<Measured>,
-    /// Why no run was made, where none could be.
+    /// Why no run was executed, if none could be.
     pub unmade: Option<String>,
 }
 
@@ -31,15 +31,15 @@ pub struct Judgement {
 pub struct RunReport {
     /// Its name.
     pub name: String,
-    /// Its place in the lesson.
+    /// Its span in the lesson.
     pub span: Range<usize>,
-    /// What broke in it.
+    /// How it broke.
     pub broke: Option<String>,
-    /// The lesson says that it breaks.
+    /// Whether the lesson declares that it breaks.
     pub expected: bool,
 }
 
-/// A measure under the numerics of the lesson, and under others.
+/// A measure under the numerics of the lesson and at half the timestep.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Measured {
     /// `run.measure`, or the measure alone where there is one run.
@@ -47,12 +47,12 @@ pub struct Measured {
     /// Its value.
     #[serde(with = "crate::verify::float_bits")]
     pub value: f64,
-    /// Its value at half the timestep; `None` when that was not needed, or the lesson states every timestep itself.
+    /// Its value at half the timestep; `None` when it is the same, was not needed, or the lesson sets every timestep.
     #[serde(with = "crate::verify::float_bits")]
     pub halved: Option<f64>,
 }
 
-/// What remains of a `verify` object whose runs cannot be made: claims that could not be checked.
+/// The result of a `verify` object whose runs cannot be executed: no claim could be checked.
 pub fn unmade(verify: &Verify, question: Option<&Question>, reason: &str) -> Judgement {
     let run = |run: &Run| RunReport {
         name: run.name.value.clone(),
@@ -77,7 +77,7 @@ pub fn unmade(verify: &Verify, question: Option<&Question>, reason: &str) -> Jud
 }
 
 impl Judgement {
-    /// Calls nothing true of what it holds, for a reason that belongs to all of it.
+    /// Changes every true result to unchecked, for a reason that applies to all of them.
     pub(crate) fn withdraw(&mut self, reason: &str) {
         let is_true = |state: State| matches!(state, State::True(_));
         for answer in self.answer.iter_mut().filter(|a| is_true(a.verdict.state())) {

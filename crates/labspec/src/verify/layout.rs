@@ -1,47 +1,47 @@
-//! Where the numbers that claims read have their places: the measures of every run, its warnings, the values of sweeps, and values
-//! that were searched for. The layout is known before anything runs, so that a claim is compiled once and evaluated with the
-//! numbers of every numerics.
+//! The positions of the numbers that claims read: the measures of every run, its warnings, the values of sweeps, and the
+//! results of searches. The layout is known before the runs, so a claim is compiled once and evaluated with the numbers of
+//! each step variant.
 
 use super::measure_units::RunUnits;
 use super::outcome::Outcome;
 use labspec_expr::dimension::Measure;
 
-/// What stands at a place of the numbers.
+/// The number at a position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Slot {
-    /// A measure of a run, both by their places.
+    /// A measure of a run: the indexes of the run and of the measure.
     Measure(usize, usize),
     /// The number of warnings of a run.
     Warnings(usize),
     /// The value of a sweep in a run.
     Swept(usize),
-    /// A value that was searched for.
+    /// The result of a search.
     Found(usize),
-    /// Nothing: a member of a sweep lacks the measure.
+    /// No number: a member of a sweep lacks the measure.
     Missing,
 }
 
-/// A run, as claims name it.
+/// A run as claims name it.
 #[derive(Clone, Debug)]
 pub(super) struct LayoutRun {
     pub(super) name: String,
-    /// The number of values of the sweep that begins with it.
+    /// The number of values of the sweep that begins with this run.
     pub(super) list: Option<usize>,
-    /// What can be read of it, and where that begins.
+    /// The names that can be read of it, and the position of each.
     pub(super) at: Vec<(String, usize)>,
 }
 
 impl LayoutRun {
-    /// What can be read of it.
+    /// The names that can be read of it.
     pub(super) fn names(&self) -> impl Iterator<Item = String> + '_ {
         self.at.iter().map(|(name, _)| name.clone())
     }
 }
 
-/// A run before it is laid out: its name, its place and value in a sweep, and the names of its measures.
+/// The input of a layout for one run: its name, its index and value in a sweep, and the names of its measures.
 pub(super) type RunShape = (String, Option<(usize, f64)>, Vec<String>);
 
-/// The places of all numbers.
+/// The positions of all numbers.
 #[derive(Debug, Default)]
 pub(super) struct Layout {
     pub(super) runs: Vec<LayoutRun>,
@@ -49,12 +49,12 @@ pub(super) struct Layout {
     pub(super) slots: Vec<Slot>,
 }
 
-/// What the value of a sweep and the warnings of a run are called.
+/// The names of the value of a sweep and of the warnings of a run.
 const VALUE: &str = "value";
 const WARNINGS: &str = "warnings";
 
 impl Layout {
-    /// Of the runs in their order, and the names of what is searched for.
+    /// The layout for the runs in their order, and the names of the searches.
     pub(super) fn from_runs(runs: &[RunShape], found: impl Iterator<Item = String>) -> Layout {
         let mut layout = Layout::default();
         for (place, (name, swept, measures)) in runs.iter().enumerate() {
@@ -68,7 +68,7 @@ impl Layout {
                     run.at.push((WARNINGS.to_string(), layout.slots.len()));
                     layout.slots.push(Slot::Warnings(place));
                 }
-                // The first member has the lists; the values of the sweep stand before the numbers of each.
+                // The first member has the lists. The values of the sweep precede the numbers of each list.
                 Some((0, _)) => {
                     let rest = runs.iter().enumerate().skip(place + 1);
                     let others =
@@ -104,7 +104,7 @@ impl Layout {
         layout
     }
 
-    /// Whether a run has lists.
+    /// Whether a run is a sweep, whose measures are lists.
     pub(super) fn has_lists(&self) -> bool {
         self.runs.iter().any(|run| run.list.is_some())
     }
@@ -122,7 +122,7 @@ impl Layout {
         self.slots.iter().map(|slot| number(slot).unwrap_or(f64::NAN)).collect()
     }
 
-    /// What the number at a place measures.
+    /// The dimension of the number at a position.
     pub(super) fn unit_of(&self, place: usize, units: &RunUnits) -> Measure {
         match self.slots.get(place) {
             Some(Slot::Measure(run, m)) => units

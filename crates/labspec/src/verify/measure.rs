@@ -1,4 +1,4 @@
-//! Measures: what becomes of an expression over all samples of a run.
+//! Measures: an expression evaluated over all samples of a run.
 
 use super::aggregate::RunningAggregate;
 use super::sample::Sample;
@@ -10,10 +10,10 @@ use labspec_expr::{Program, Watch};
 pub(crate) struct Doubt {
     /// The part of the measure, as written.
     pub(crate) part: String,
-    /// Samples without a number, of how many.
+    /// Number of samples without a number, and of all samples.
     pub(crate) gaps: usize,
     pub(crate) samples: usize,
-    /// Time of the first one, s.
+    /// Time of the first sample without a number, s.
     pub(crate) first: f64,
 }
 
@@ -29,10 +29,10 @@ impl std::fmt::Display for Doubt {
     }
 }
 
-/// What became of a measure.
+/// The result of a measure.
 #[derive(Clone, Debug)]
 pub(crate) struct Sampled {
-    /// Its value; NaN where samples had no number.
+    /// Its value; NaN where samples without a number leave it undecided.
     pub(crate) value: f64,
     /// The results of its aggregates, in order.
     pub(crate) parts: Vec<f64>,
@@ -46,7 +46,7 @@ pub(super) struct Measure<'a> {
     text: &'a Text,
     running: Vec<RunningAggregate<'a>>,
     samples: usize,
-    /// Watches its own programs, and no others.
+    /// Observes lost numbers in the programs of this measure only.
     watch: Option<Box<Watch>>,
 }
 
@@ -57,7 +57,7 @@ impl<'a> Measure<'a> {
         Measure { program, text, running: RunningAggregate::all(program), samples: 0, watch }
     }
 
-    /// Looks at the current sample.
+    /// Processes the current sample.
     pub(super) fn sample(&mut self, session: &mut dyn Sample) {
         self.samples += 1;
         session.context().watch(self.watch.take());
@@ -65,12 +65,12 @@ impl<'a> Measure<'a> {
         self.watch = session.context().watch(None);
     }
 
-    /// The results of its aggregates, when the run is over.
+    /// The results of its aggregates at the end of the run.
     pub(super) fn parts(&self) -> Vec<f64> {
         self.running.iter().map(RunningAggregate::result).collect()
     }
 
-    /// The measure, when the run is over.
+    /// The value of the measure at the end of the run.
     pub(super) fn finish(mut self, session: &mut dyn Sample) -> Sampled {
         for r in &self.running {
             session.context().set_aggregate(r.slot, r.result());

@@ -1,15 +1,15 @@
-//! What is known of the units of the measures.
+//! The dimensions of the measures.
 
 use labspec_expr::KnownDimensions;
 use labspec_expr::dimension::Measure;
 
-/// What the measures of each run measure, by the place of the run.
+/// The dimensions of the measures of each run, indexed by run.
 pub(super) type RunUnits = Vec<Vec<(String, Measure)>>;
 
-/// What is known of the numbers that claims read.
+/// The known dimensions of the numbers that claims read.
 #[derive(Debug)]
 pub(super) struct MeasureUnits {
-    /// What the controls of the lab give.
+    /// The dimensions that follow from the controls of the lab.
     pub(super) given: KnownDimensions,
     pub(super) runs: RunUnits,
 }

@@ -1,24 +1,24 @@
-//! The truth of what a lesson claims: runs, measures over them, and verdicts.
+//! Verification of the claims of a lesson: runs, measures over them, and verdicts.
 //!
 //! | stage | module |
 //! |---|---|
-//! | the labs of the runs, as they stand or changed | `run_cache` |
+//! | labs of the runs, unchanged or with modified parameters | `run_cache` |
 //! | runs and measures, bound to their labs | `bound` |
-//! | one run, with what is measured in it | `runner`, `measure`, `reads` |
-//! | values that are searched for | `search` |
-//! | what conditions read | `outcome`, at the places of `layout` |
+//! | one run with its measures | `runner`, `measure`, `reads` |
+//! | values found by a search | `search` |
+//! | numbers that conditions read | `outcome`, at the positions of `layout` |
 //! | an expression over measures, compiled once | `claim` |
-//! | its value, and what that rests on | `found` |
-//! | whether it could have come out otherwise | `evidence` |
-//! | whether and how well a condition holds | `condition` |
+//! | its value, and the evidence for it | `found` |
+//! | whether a claim could have a different outcome | `evidence` |
+//! | whether a condition holds, and by which margin | `condition` |
 //! | the answer of a question | `answer` |
 //! | numbers in the texts of options | `option_numbers` |
 //! | numbers and words in the text | `says`, `quote` |
 //! | columns of tables | `column` |
-//! | what their numbers measure | `units` |
+//! | dimensions of the numbers | `units` |
 //! | closed forms | `exact` |
-//! | the same with the numbers of the real library | `judge` |
-//! | what the labs show in the runs, for a report | `curves` |
+//! | the same claims with numbers of MuJoCo | `judge` |
+//! | curves of the labs in the runs, for a report | `curves` |
 
 mod aggregate;
 mod answer;

@@ -1,4 +1,5 @@
-//! The answer of a numeric question: whether the keyed number is what an expression gives, within its tolerance and in its unit.
+//! The answer of a numeric question: whether the keyed number equals the value of an expression, within its tolerance and
+//! in its unit.
 
 use super::bound::BoundVerify;
 use super::format::significant;
@@ -16,7 +17,8 @@ use crate::spec::{Question, QuestionKind};
 use labspec_expr::Value;
 use std::ops::Range;
 
-/// Whether the keyed number is what the expression gives, and whether its tolerance refuses what mistakes (`wrong`) give.
+/// Checks that the keyed number equals the value of the expression, and that its tolerance rejects the values of mistakes
+/// (`wrong`).
 pub(super) fn check_number(
     bound: &BoundVerify<'_>,
     outcomes: &Outcomes,
@@ -73,7 +75,7 @@ pub(super) fn check_number(
     Answer { verdict: verdict_by(Some(value.evidence)), reason, weights }
 }
 
-/// The value of the expression of a numeric answer. Why there is none comes back, and is reported.
+/// The value of the expression of a numeric answer. If there is none, the reason is returned and reported.
 fn finite_number(
     bound: &BoundVerify<'_>,
     outcome: &Outcome,
@@ -97,15 +99,15 @@ fn finite_number(
 struct NumericKey<'q> {
     answer: f64,
     tol: f64,
-    /// Where the number stands.
+    /// The span of the number.
     span: Range<usize>,
     text: &'q Text,
-    /// What the numbers of the expression are multiplied with, to be in the unit of the question.
+    /// Factor that converts the value of the expression to the unit of the question.
     factor: f64,
 }
 
 impl NumericKey<'_> {
-    /// How far a number is inside the tolerance.
+    /// The distance of a number from the end of the tolerance, positive inside.
     fn margin(&self, x: f64) -> f64 {
         self.tol - (x - self.answer).abs()
     }
@@ -114,7 +116,7 @@ impl NumericKey<'_> {
         self.margin(x) >= 0.0
     }
 
-    /// The answer where the question asks in a unit that is unknown, or is not that of the expression.
+    /// The answer if the unit of the question is unknown or is not that of the expression.
     fn refuse_unit(&self, unit: &quote::AnswerUnit, findings: &mut Vec<Finding>) -> Option<Answer> {
         match unit {
             quote::AnswerUnit::Unread(asked_in, gives) => {
@@ -136,7 +138,7 @@ impl NumericKey<'_> {
         }
     }
 
-    /// The simulation gives another number.
+    /// Reports that the simulation gives another number.
     fn refute(&self, computed: f64, findings: &mut Vec<Finding>) -> String {
         let (answer, tol) = (self.answer, self.tol);
         let message = format!("the answer is {answer}, but the simulation gives {}", significant(computed));
@@ -153,10 +155,10 @@ impl NumericKey<'_> {
         message
     }
 
-    /// Tries what mistakes give: the tolerance must refuse it.
+    /// Checks that the tolerance rejects the values of mistakes.
     ///
     /// # Errors
-    /// It accepts one, or one has no value: the verdict, and why.
+    /// It accepts one, or one has no value: the verdict, and the reason.
     fn refuse_mistakes(
         &self,
         bound: &BoundVerify<'_>,
@@ -186,8 +188,8 @@ impl NumericKey<'_> {
         Ok(())
     }
 
-    /// What turns over in an outcome under other numerics; `weights` are widened where nothing does. `computed` is the number under
-    /// the lesson's own.
+    /// A finding if the answer is false in an outcome under perturbed numerics; otherwise the spread of `weights` is
+    /// widened. `computed` is the value under the numerics of the lesson.
     fn turned_over(
         &self,
         bound: &BoundVerify<'_>,
@@ -212,10 +214,10 @@ impl NumericKey<'_> {
     }
 }
 
-/// Of a right number whose unit is held to nothing.
+/// The remark for a correct number whose unit could not be compared.
 const UNIT_OPEN: &str = "its unit could not be compared, because the unit of the expression is uncertain";
 
-/// What a mistake gives, by an expression under `wrong`.
+/// The value of a mistake, given by an expression under `wrong`.
 fn mistaken_number(
     bound: &BoundVerify<'_>,
     outcome: &Outcome,
@@ -240,7 +242,7 @@ fn mistaken_number(
     }
 }
 
-/// A condition or a text where a number is asked for.
+/// The finding about a condition or a text where a number is required.
 fn no_quantity(text: &Text, value: &Value) -> Finding {
     let what = match value {
         Value::Boolean(_) => "a condition".to_string(),
@@ -256,7 +258,7 @@ fn no_quantity(text: &Text, value: &Value) -> Finding {
     .help("write the number of the answer: `final(speed)`")
 }
 
-/// The unit of a question that is not that of its value.
+/// The finding about a unit of a question that differs from that of the value.
 fn wrong_unit(span: Range<usize>, text: &Text, message: &str) -> Finding {
     Finding::error(rules::ANSWER_REFUTED, span, message)
         .why("a student who answers in this unit is graded as wrong")
@@ -264,7 +266,7 @@ fn wrong_unit(span: Range<usize>, text: &Text, message: &str) -> Finding {
         .related(text.span(), "the expression")
 }
 
-/// An expression that gives no number where one is claimed.
+/// The finding about an expression that gives no number where one is claimed.
 fn no_value(text: &Text, x: f64) -> Finding {
     let message = format!("this expression gives {}, which is not a number", name_not_finite(x));
     Finding::error(rules::CLAIM_WITHOUT_NUMBER, text.span(), message)

@@ -1,4 +1,4 @@
-//! Numerics that a lesson does not mention, and that its claims must survive.
+//! Perturbed numerics that a lesson does not mention, under which its claims must still hold.
 
 use crate::run::StepVariant;
 use labspec_core::integrator;
@@ -14,17 +14,17 @@ pub(super) const RK4: StepVariant = StepVariant { integrator: Some(integrator::R
 
 pub(super) const TIGHT: StepVariant = StepVariant { tight: true, ..StepVariant::NOMINAL };
 
-/// Far below what anybody could set or measure; a system that shows it after seconds is chaotic.
+/// Far below anything that could be set or measured. A system in which it is visible after seconds is chaotic.
 pub(super) const PERTURBATION: f64 = 1e-14;
-/// The start moved by `PERTURBATION`.
+/// The initial state perturbed by `PERTURBATION`.
 pub const PERTURBED_START: StepVariant = StepVariant { perturbation: PERTURBATION, ..StepVariant::NOMINAL };
-/// The start moved back by it.
+/// The initial state perturbed by `-PERTURBATION`.
 pub const PERTURBED_BACK: StepVariant = StepVariant { perturbation: -PERTURBATION, ..StepVariant::NOMINAL };
 
-/// Other numerics that every answer is put to.
+/// Number of perturbed numerics under which every answer is checked.
 pub(super) const CHANGES: usize = 4;
 
-/// The changes of the numerics that an answer must survive, and their names. The first and the third are those of quotes.
+/// The perturbed numerics under which an answer must hold, and their names. Quotes use the first and the third.
 pub(super) const PERTURBED: [(StepVariant, &str); CHANGES] = [
     (HALVED, "at half the timestep"),
     (TIGHT, "with the solver run to convergence"),
@@ -32,6 +32,6 @@ pub(super) const PERTURBED: [(StepVariant, &str); CHANGES] = [
     (FAST, "with the integrator implicitfast"),
 ];
 
-/// Those that an answer must survive besides, where what the others change of a condition could turn it over.
+/// Additional numerics for an answer, where the changes under the others come close to the margin of a condition.
 pub(super) const CLOSER: [(StepVariant, &str); 2] =
     [(QUARTERED, "at a quarter of the timestep"), (RK4, "with the integrator RK4")];

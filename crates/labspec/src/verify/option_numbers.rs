@@ -1,4 +1,5 @@
-//! The number in the text of an option beside its condition: "about 7 m" cannot be right where the condition asks for 1.23 m.
+//! Compares the number in the text of an option with its condition: "about 7 m" cannot be right if the condition requires
+//! 1.23 m.
 
 use super::bound::BoundVerify;
 use super::format::significant;
@@ -11,20 +12,21 @@ use crate::source::{SourceMap, Text};
 use labspec_expr::ast::{BinaryOp, Expr, ExprKind, LogicalOp, UnaryOp};
 use labspec_expr::{parse_expression, print};
 
-/// How far the number of an option may be off where its condition has one side.
+/// Factor by which the number of an option may differ where its condition has one side only.
 const NEAREST: f64 = 1.5;
 
-/// What a condition asks of the one quantity that it compares with numbers.
+/// The range that a condition requires of the one quantity that it compares with numbers.
 #[derive(Clone, Debug, PartialEq)]
 struct AskedRange {
     quantity: String,
-    /// It is one measured quantity over another.
+    /// Whether the quantity is a ratio of two measured quantities.
     ratio: bool,
     low: f64,
     high: f64,
 }
 
-/// Holds the numbers of all options to their conditions. `held` says which of them hold. Gives a reason where one contradicts.
+/// Compares the numbers of all options with their conditions. `held` contains which of them hold. Returns the reason if one
+/// contradicts.
 pub(super) fn check_option_numbers(
     bound: &BoundVerify<'_>,
     outcome: &Outcome,
@@ -63,11 +65,11 @@ fn contradiction(
         None if closed && asked.ratio => return no_such_ratio(option, &asked),
         None => return None,
     };
-    // One side alone may bound another quantity than the number is of: a height, beside how far something fell.
+    // A condition with one side may bound another quantity than the option mentions: a height instead of a fall distance.
     if !closed && !stated.alone {
         return None;
     }
-    // The nearest of several numbers may be right where one side is asked for.
+    // With a one-sided condition, an option with a somewhat different number may still be the nearest one.
     let slip = if closed { 1.0 } else { NEAREST };
     let widen = |x: f64, f: f64| if x > 0.0 { x * f } else { x / f };
     let stated =
@@ -94,7 +96,7 @@ fn contradiction(
     if stated.high < low - slack || stated.low > high + slack {
         return Some(format!("the option says {}, but its condition {}", stated.text, range(low, high)));
     }
-    // A number that the condition itself compares with is what the option means.
+    // A number with which the condition itself compares is the number that the option means.
     let named = |x: f64| x.is_finite() && stated.low <= x && x <= stated.high;
     if !holds || named(low) || named(high) || !(stated.low.is_finite() && stated.high.is_finite()) {
         return None;
@@ -104,7 +106,7 @@ fn contradiction(
     off.then(|| format!("the option says {}, but its condition compares {}", stated.text, significant(x)))
 }
 
-/// Of an option that states a ratio, and a condition that asks for another one.
+/// The contradiction between an option that states a ratio and a condition that requires another one.
 fn no_such_ratio(option: &Text, asked: &AskedRange) -> Option<String> {
     let stated = option_ratio(&option.value)?;
     let slack = 0.05 * asked.low.abs().max(asked.high.abs());
@@ -120,7 +122,7 @@ fn range(low: f64, high: f64) -> String {
     format!("asks for {} to {}", significant(low), significant(high))
 }
 
-/// What a condition asks of one quantity; `None` where it is about several, or about something else.
+/// The range that a condition requires of one quantity; `None` where it is about several, or has another form.
 fn asked(e: &Expr) -> Option<AskedRange> {
     match &e.kind {
         ExprKind::Logical { op: LogicalOp::And, left, right } => {
@@ -151,7 +153,7 @@ fn asked(e: &Expr) -> Option<AskedRange> {
     }
 }
 
-/// What stands in `abs(…)`.
+/// The argument of `abs(…)`.
 fn magnitude(e: &Expr) -> Option<&Expr> {
     let ExprKind::Call { callee, args, .. } = &e.kind else { return None };
     let named = match &callee.kind {
@@ -164,7 +166,7 @@ fn magnitude(e: &Expr) -> Option<&Expr> {
     args.first().filter(|_| named && args.len() == 1)
 }
 
-/// `abs(x - c) < d`, `abs(x / c - 1) < d`
+/// The range of `abs(x - c) < d` or `abs(x / c - 1) < d`.
 fn around(inner: &Expr, off: f64) -> Option<AskedRange> {
     let ExprKind::Binary { op: BinaryOp::Subtract, left, right } = &inner.kind else { return None };
     let (quantity, centre) = match (constant(left), constant(right)) {
@@ -191,7 +193,7 @@ fn around(inner: &Expr, off: f64) -> Option<AskedRange> {
     })
 }
 
-/// The number that an expression of numbers alone is.
+/// The value of an expression that contains only numbers.
 fn constant(e: &Expr) -> Option<f64> {
     match &e.kind {
         ExprKind::Number(x) => Some(*x),
@@ -210,7 +212,7 @@ fn constant(e: &Expr) -> Option<f64> {
     }
 }
 
-/// Whether an expression is one measured quantity, perhaps times a number.
+/// Whether an expression is one measured quantity, possibly times a number.
 fn single(e: &Expr) -> bool {
     match &e.kind {
         ExprKind::Name(_) => true,
@@ -226,7 +228,7 @@ fn single(e: &Expr) -> bool {
     }
 }
 
-/// Whether an expression is one measured quantity over another.
+/// Whether an expression is the ratio of two measured quantities.
 fn is_ratio(e: &Expr) -> bool {
     matches!(&e.kind, ExprKind::Binary { op: BinaryOp::Divide, left, right } if single(left) && single(right))
 }

@@ -1,4 +1,4 @@
-//! The answer of a question with options: one condition per option, and whether the keyed option is the only one that holds.
+//! The answer of a question with options: one condition per option, and whether only the keyed option holds.
 
 use super::bound::BoundVerify;
 use super::condition::ConditionMargin;
@@ -16,7 +16,7 @@ use crate::source::Text;
 use crate::spec::{Question, QuestionKind, Verify};
 use std::ops::Range;
 
-/// Which options hold, and so whether the keyed one is the only one.
+/// Evaluates which options hold, and whether the keyed one is the only one.
 pub(super) fn check_options(
     bound: &BoundVerify<'_>,
     outcomes: &Outcomes,
@@ -69,18 +69,18 @@ pub(super) fn check_options(
     }
 }
 
-/// The options of a question, and how each came out under the numerics of the lesson.
+/// The options of a question and their results under the numerics of the lesson.
 struct OptionJudgement<'q> {
     verify: &'q Verify,
     options: &'q [Text],
-    /// The keyed option, and where its key stands.
+    /// The keyed option, and the span of the key.
     answer: usize,
     keyed: Range<usize>,
     weights: Vec<Weight>,
 }
 
 impl OptionJudgement<'_> {
-    /// An option in words: `2 ("It slides.")`.
+    /// An option in a message: `2 ("It slides.")`.
     fn name(&self, i: usize) -> String {
         format!("{} (\"{}\")", i, self.options.get(i).map_or(String::new(), |o| shorten(&o.value)))
     }
@@ -89,7 +89,7 @@ impl OptionJudgement<'_> {
         list.iter().map(|&i| self.name(i)).collect::<Vec<_>>().join(", ")
     }
 
-    /// Where the condition of an option stands.
+    /// The span of the condition of an option.
     fn condition(&self, i: usize) -> Range<usize> {
         self.verify.options.get(i).map_or(self.verify.span.clone(), |c| c.span())
     }
@@ -98,7 +98,7 @@ impl OptionJudgement<'_> {
         self.weights.get(i).map_or(String::new(), Weight::describe)
     }
 
-    /// The options that hold, that do not, or that are not decided.
+    /// The options that hold (`Some(true)`), that do not (`Some(false)`), or that are undecided (`None`).
     fn options_with(&self, holds: Option<bool>) -> Vec<usize> {
         self.weights.iter().filter(|w| w.holds == holds).filter_map(|w| w.option).collect()
     }
@@ -107,7 +107,7 @@ impl OptionJudgement<'_> {
         Answer { verdict, reason, weights: self.weights.clone() }
     }
 
-    /// The answer where the keyed option is not decided, does not hold, or does not hold alone.
+    /// The answer if the keyed option is undecided, does not hold, or is not the only one.
     fn refuse(&self, undecided: &[usize], findings: &mut Vec<Finding>) -> Option<Answer> {
         let held = self.options_with(Some(true));
         if undecided.contains(&self.answer) {
@@ -120,7 +120,7 @@ impl OptionJudgement<'_> {
         (held.len() > 1).then(|| self.report_ambiguous(&held, findings))
     }
 
-    /// The keyed option does not hold.
+    /// Reports that the keyed option does not hold.
     fn refute(&self, held: &[usize], findings: &mut Vec<Finding>) -> Answer {
         let message = format!("the simulation refutes answer {}", self.name(self.answer));
         let f = Finding::error(rules::ANSWER_REFUTED, self.keyed.clone(), message.clone())
@@ -140,7 +140,7 @@ impl OptionJudgement<'_> {
         self.judged(Verdict::Refuted, message)
     }
 
-    /// The keyed option holds, and others too.
+    /// Reports that the keyed option holds and others too.
     fn report_ambiguous(&self, held: &[usize], findings: &mut Vec<Finding>) -> Answer {
         let others: Vec<usize> = held.iter().copied().filter(|&i| i != self.answer).collect();
         let message =
@@ -155,7 +155,8 @@ impl OptionJudgement<'_> {
         self.judged(Verdict::Ambiguous, message)
     }
 
-    /// What turns over in an outcome under other numerics; `weights` are widened by it.
+    /// A finding if an option changes in an outcome under perturbed numerics. The spread of `weights` is widened by the
+    /// margins.
     fn turned_over(
         &self,
         bound: &BoundVerify<'_>,
@@ -180,7 +181,7 @@ impl OptionJudgement<'_> {
         Some(fragile_answer(self.keyed.clone(), how, &what).related(self.condition(i), now))
     }
 
-    /// Says which options are not decided.
+    /// Names the undecided options.
     fn describe_undecided(&self, undecided: &[usize]) -> String {
         match undecided {
             [] => String::new(),
@@ -190,11 +191,11 @@ impl OptionJudgement<'_> {
     }
 }
 
-/// What stands for a condition where the evidence does not decide the option.
+/// The text that replaces a condition where the evidence does not decide the option.
 pub const UNDECIDED: &str = "undecided";
 
-/// The conditions of all options, each with what it rests on; `None` for one that is not decided. `tried`: whether they are to
-/// be tried with other values of what was measured, as under the lesson's own numerics.
+/// The conditions of all options with their evidence; `None` for one that is undecided. With `tried`, each is also tested
+/// with other values in place of the measured ones, as under the numerics of the lesson.
 fn evaluate_conditions(
     bound: &BoundVerify<'_>,
     outcome: &Outcome,
@@ -224,22 +225,22 @@ fn evaluate_conditions(
     reason.map_or(Ok(all), Err)
 }
 
-/// Whether a text says that the evidence does not decide an option.
+/// Whether a text declares an option as undecided.
 pub(super) fn is_undecided(text: &Text) -> bool {
     text.value.trim() == UNDECIDED
 }
 
-/// Whether exactly the same options hold, and how far that is from turning over.
+/// Whether exactly the same options hold, with the smallest margin.
 pub(super) enum SameOptions {
-    /// They do, by so much.
+    /// The same options hold, with this smallest margin.
     Yes(f64),
-    /// Another one holds, or one does not: the first one, in words.
+    /// Another option holds, or one does not: describes the first.
     No(String),
-    /// Nothing decides: why.
+    /// Undecided: the reason.
     Open(String),
 }
 
-/// Whether exactly the same options hold as before, with an outcome of other settings.
+/// Whether exactly the same options hold as before, in an outcome with other settings.
 pub(super) fn compare_options(
     bound: &BoundVerify<'_>,
     outcome: &Outcome,

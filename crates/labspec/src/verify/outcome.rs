@@ -1,4 +1,4 @@
-//! What the runs gave.
+//! The results of the runs.
 
 use super::measure::Doubt;
 use crate::run::StepVariant;
@@ -7,19 +7,19 @@ use crate::run::StepVariant;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct RunOutcome {
     pub(super) name: String,
-    /// The value that it has of what is swept, and its place in the sweep.
+    /// Its index and value in a sweep.
     pub(super) swept: Option<(usize, f64)>,
     pub(super) measures: Vec<(String, f64)>,
-    /// Why measures have no value where samples had no number, by name.
+    /// Why measures have no value because samples had no number, by name.
     pub(super) doubts: Vec<(String, Doubt)>,
     /// Number of warnings of the engine.
     pub(super) warnings: usize,
-    /// What broke in it, in one clause; what it measured is then evidence of nothing.
+    /// How it broke, in one clause. The measures of a broken run are not evidence.
     pub(super) broke: Option<String>,
 }
 
 impl RunOutcome {
-    /// How conditions call it: `fall`, `fall[2]`.
+    /// The name of the run in conditions: `fall`, `fall[2]`.
     pub(super) fn title(&self) -> String {
         match self.swept {
             Some((i, _)) => format!("{}[{i}]", self.name),
@@ -32,22 +32,22 @@ impl RunOutcome {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Outcome {
     pub(super) runs: Vec<RunOutcome>,
-    /// Values that were searched for.
+    /// Results of searches.
     pub(super) found: Vec<(String, f64)>,
-    /// Where each was looked for, in words.
+    /// The searched range of each, in words.
     pub(super) looked: Vec<String>,
     pub(super) numerics: StepVariant,
-    /// Expressions that look at the samples themselves, measured by somebody else; empty where we measure.
+    /// Values of expressions with their own aggregates, recorded by a reference engine; empty for our own outcomes.
     pub(super) elsewhere: Vec<(String, f64)>,
 }
 
 impl Outcome {
-    /// What somebody else measured with this expression.
+    /// The value that a reference engine recorded for this expression.
     pub(super) fn measured_elsewhere(&self, text: &str) -> Option<f64> {
         self.elsewhere.iter().find(|(text_of_run, _)| text_of_run == text).map(|(_, x)| *x)
     }
 
-    /// All measures, named as conditions read them.
+    /// All measures, with their names in conditions.
     pub(super) fn list(&self) -> Vec<(String, f64)> {
         let short = self.runs.len() == 1;
         let each = |r: &RunOutcome| {

@@ -1,4 +1,4 @@
-//! How conditions name what the runs gave: `run.measure`, or the measure alone when there is one run.
+//! The names of results in conditions: `run.measure`, or the measure alone when there is one run.
 
 use super::layout::{Layout, LayoutRun};
 use super::measure_units::RunUnits;
@@ -10,27 +10,27 @@ use labspec_expr::{
 };
 use std::cell::Cell;
 
-/// Numbers of run objects start here: below are the model's own.
+/// Ids of run objects start here; the ids of the model are below.
 const RUNS: u32 = 0x2000;
 
-/// The names of conditions: runs and measures; with one run also everything that a measure may use.
+/// The names in conditions: runs and measures, and with one run also everything that a measure may use.
 pub(super) struct OutcomeNames<'a> {
     layout: &'a Layout,
     model: ModelNames<'a>,
-    /// What takes the numbers of several runs together.
+    /// Functions that take the numbers of several runs.
     claims: ModelNames<'a>,
-    /// What the measures of each run measure, where that is asked for.
+    /// The dimensions of the measures, where they are needed.
     units: Option<&'a RunUnits>,
-    /// What was asked for by its name.
+    /// The names that were looked up.
     met: Cell<NamesRead>,
 }
 
-/// What a text names of the runs.
+/// The names of results of runs in a text.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct NamesRead {
-    /// A number.
+    /// Whether it names a number.
     pub(super) numbers: bool,
-    /// The list of a sweep.
+    /// Whether it names the list of a sweep.
     pub(super) lists: bool,
 }
 
@@ -41,17 +41,17 @@ impl<'a> OutcomeNames<'a> {
         OutcomeNames { layout, model, claims, units: None, met: Cell::default() }
     }
 
-    /// The same with the units of the measures.
+    /// Adds the dimensions of the measures.
     pub(super) fn measuring(self, units: &'a RunUnits) -> OutcomeNames<'a> {
         OutcomeNames { units: Some(units), ..self }
     }
 
-    /// What a text that was compiled with these names asked for.
+    /// The names that were looked up by a text compiled with this schema.
     pub(super) fn met(&self) -> NamesRead {
         self.met.get()
     }
 
-    /// Whether this is the name of a function that is called over the numbers of several runs.
+    /// Whether this is the name of a function over the numbers of several runs.
     fn takes_several(&self, name: &str) -> bool {
         name == "abs" || (self.layout.has_lists() && ["slope", "fit", "min", "max", "mean"].contains(&name))
     }
@@ -67,7 +67,7 @@ impl<'a> OutcomeNames<'a> {
         self.layout.runs.get(id.checked_sub(RUNS)? as usize)
     }
 
-    /// A number of the layout, or a list of so many, that a text names.
+    /// The entry of a number of the layout, or of a list of `list` numbers. Records the lookup.
     fn number(&self, path: String, first: usize, list: Option<usize>) -> Entry {
         let met = self.met.get();
         let [numbers, lists] = [met.numbers || list.is_none(), met.lists || list.is_some()];
@@ -75,14 +75,14 @@ impl<'a> OutcomeNames<'a> {
         number(path, first, list)
     }
 
-    /// The number, or the list of numbers, that a run has under a name.
+    /// The number, or the list of numbers, of a run with this name.
     fn measured(&self, run: &LayoutRun, name: &str) -> Option<Entry> {
         let (_, first) = run.at.iter().find(|(measure, _)| measure == name)?;
         Some(self.number(format!("{}.{name}", run.name), *first, run.list))
     }
 }
 
-/// A number of the layout; or a list of so many.
+/// The entry of a number of the layout, or of a list of `list` numbers.
 fn number(path: String, first: usize, list: Option<usize>) -> Entry {
     Entry::Field(Field {
         key: NUMBERS,

@@ -1,5 +1,4 @@
-//! Everything that the runs of a `verify` object give, its measures and the values that it searches for, under every numerics that its
-//! claims need.
+//! The outcome of a `verify` object: its measures and searches, under all numerics that its claims need.
 
 use super::bound::BoundVerify;
 use super::bound_run::BoundRun;
@@ -12,7 +11,7 @@ use crate::run::StepVariant;
 use crate::spec::{Find, Verify};
 
 impl BoundVerify<'_> {
-    /// Makes every run, takes every measure and searches for every value. `None` when a run cannot be made.
+    /// Executes every run, evaluates every measure and makes every search. `None` when a run cannot be executed.
     pub(super) fn outcome(&self, numerics: StepVariant, findings: &mut Vec<Finding>) -> Option<Outcome> {
         let mut outcome = self.outcome_of_runs(numerics, findings)?;
         for find in &self.verify.find {
@@ -23,7 +22,7 @@ impl BoundVerify<'_> {
         Some(outcome)
     }
 
-    /// Searches for a value; `None` when a run cannot be made, NaN when there is no such value, which is reported.
+    /// Searches for a value; `None` when a run cannot be executed, NaN when there is no such value, which is reported.
     fn search(
         &self,
         find: &Find,
@@ -50,23 +49,23 @@ impl BoundVerify<'_> {
     }
 }
 
-/// Every measure of an object with one run; `None` where the run cannot be made, or breaks.
+/// Every measure of an object with one run; `None` where the run cannot be executed, or breaks.
 pub fn measure_only_run(bound: &BoundVerify<'_>, numerics: StepVariant) -> Option<Vec<f64>> {
     let outcome = bound.outcome(numerics, &mut Vec::new())?;
     let run = outcome.runs.into_iter().next().filter(|run| run.broke.is_none())?;
     Some(run.measures.into_iter().map(|(_, x)| x).collect())
 }
 
-/// The runs of a `verify` object under every numerics that its claims need.
+/// The outcomes of a `verify` object under all numerics that its claims need.
 pub(super) struct Outcomes {
     pub(super) nominal: Outcome,
-    /// In the order of [`PERTURBED`](super::numerics::PERTURBED); `None` where nothing needs them.
+    /// In the order of [`PERTURBED`](super::numerics::PERTURBED); `None` where no claim needs them.
     pub(super) perturbed: [Option<Outcome>; CHANGES],
-    /// The other direction, for a value that the first one moved.
+    /// The start perturbed in the other direction, if the first perturbation changed a value.
     pub(super) perturbed_back: Option<Outcome>,
 }
 
-/// Every run under every numerics that is needed.
+/// Executes every run under all numerics that are needed.
 pub(super) fn run_all_numerics(
     bound: &BoundVerify<'_>,
     verify: &Verify,
@@ -83,7 +82,7 @@ pub(super) fn run_all_numerics(
         let mut refused = Vec::new();
         perturbed[i] = if same { Some(nominal.clone()) } else { bound.outcome(numerics, &mut refused) };
         if perturbed[i].is_none() {
-            // What stops the run here does not stop the nominal one: it takes too long.
+            // A failure here that the nominal run does not have: the run takes too long.
             findings.extend(refused.into_iter().take(1).map(|f| {
                 let message = format!("{how}: {}", f.message);
                 Finding { message, ..f }

@@ -1,8 +1,9 @@
-//! The model space of a claim: an answer that has to hold over whole ranges of sliders.
+//! Tests an answer over ranges of sliders.
 //!
-//! Corners first (all of them where there are few, else every two ends together), the middles, then a search for a counterexample:
-//! from where the answer is nearest to turning over, a step in each direction of each slider, half as long when none comes nearer
-//! (R. Hooke and T. A. Jeeves 1961). Every value is one that a student can reach.
+//! The corners come first: all of them where there are few, else a pairwise covering design. Then come the middles, and a
+//! search for a counterexample. The search starts where the margin of the answer is smallest and steps in both directions
+//! of each slider; it halves the step when no neighbour has a smaller margin (R. Hooke and T. A. Jeeves 1961). Every value
+//! is one that a student can reach.
 
 use super::bound::BoundVerify;
 use super::format::significant;
@@ -21,16 +22,16 @@ use labspec_expr::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
-/// All corners are run when there are no more than this.
+/// All corners are run when there are at most this many.
 const FEW: usize = 16;
-/// Most rows of a covering design, and most settings of a search.
+/// Maximum number of rows of a covering design, and of settings of a search.
 const ROWS: usize = 24;
 const SEARCHED: usize = 40;
-/// The first step of the search and the last, as parts of the range.
+/// The first and the last step of the search, as fractions of the range.
 const FIRST: f64 = 0.25;
 const LAST: f64 = 1.0 / 64.0;
 
-/// A slider of the space, and the values on its grid between the ends that the claim names.
+/// A slider and the values on its grid between the ends that the claim names.
 struct Axis<'v> {
     label: &'v Text,
     from: f64,
@@ -39,14 +40,14 @@ struct Axis<'v> {
 }
 
 impl Axis<'_> {
-    /// The value at a part of the range: the nearest that a student can reach.
+    /// The value at a fraction of the range: the nearest one that a student can reach.
     fn at(&self, part: f64) -> f64 {
         let x = self.from + (part * self.count).round() * self.step;
         format!("{x:.12}").parse().unwrap_or(x)
     }
 }
 
-/// Holds an answer that is true to the whole space that it is claimed over.
+/// Tests a true answer over the whole range that it is claimed for.
 pub(super) fn hold_over_range(
     bound: &BoundVerify<'_>,
     verify: &Verify,
@@ -95,10 +96,10 @@ pub(super) fn hold_over_range(
     }
 }
 
-/// The sliders of the space. Why one cannot be tested goes to `findings`.
+/// The sliders of the range. The reason why one cannot be tested is added to `findings`.
 ///
 /// # Errors
-/// The reason that the answer gets.
+/// The reason for the verdict of the answer.
 fn axes_of<'v>(
     bound: &BoundVerify<'_>,
     verify: &'v Verify,
@@ -115,7 +116,8 @@ fn axes_of<'v>(
     })
 }
 
-/// A slider that every run sets itself, of those that the conditions read. A run keeps what it sets, so that the range is never tried.
+/// A slider that every run sets itself, among the runs that the conditions read. A run keeps the values that it sets, so
+/// the range would never be tested.
 fn never_varied<'v>(bound: &BoundVerify<'_>, verify: &'v Verify) -> Option<&'v Text> {
     let read = bound.runs_read(&verify.options);
     let always_set = |label: &Text| {
@@ -149,7 +151,7 @@ fn slider_without_effect(label: &Text) -> Finding {
     .help("name a slider that these runs depend on, or remove it from `over`")
 }
 
-/// A slider whose values the space names.
+/// A slider with the values of the range.
 fn axis<'v>(lab: &Lab, label: &'v Text, ends: [f64; 2]) -> Result<Axis<'v>, Box<Finding>> {
     let wrong = |what: String| {
         let finding = Finding::error(rules::RUN_IMPOSSIBLE, label.span(), what)
@@ -182,23 +184,23 @@ fn axis<'v>(lab: &Lab, label: &'v Text, ends: [f64; 2]) -> Result<Axis<'v>, Box<
     Ok(Axis { label, from, step, count: ((to - from) / step).round() })
 }
 
-/// The settings that were tried.
+/// The tested settings.
 struct Space<'b, 's, 'v> {
     bound: &'b BoundVerify<'s>,
     verify: &'v Verify,
     axes: Vec<Axis<'v>>,
     weights: Vec<Weight>,
-    /// By the bits of the values: how far the answer is from turning over there.
+    /// The margin of the answer by the bits of the slider values.
     tried: BTreeMap<Vec<u64>, f64>,
-    /// What the conditions read in each setting, by its bits.
+    /// The numbers that the conditions read in each setting, as bits.
     seen: BTreeSet<Vec<u64>>,
 }
 
-/// A setting in words, and what does not hold there.
+/// A setting in words, and the condition that fails there.
 type Counterexample = (String, String);
 
 impl Space<'_, '_, '_> {
-    /// A counterexample, if there is one. `None` when a run cannot be made.
+    /// A counterexample, if there is one. `None` when a run cannot be executed.
     fn search(&mut self, findings: &mut Vec<Finding>) -> Option<Option<Counterexample>> {
         let levels = vec![2; self.axes.len()];
         let corners = match 1usize.checked_shl(levels.len() as u32) {
@@ -244,7 +246,7 @@ impl Space<'_, '_, '_> {
         Some(None)
     }
 
-    /// Whether the answer turns over in a setting, and how far it is from that.
+    /// A counterexample if the answer is false in a setting, and the margin there.
     fn evaluate_at(
         &mut self,
         parts: &[f64],
@@ -262,7 +264,7 @@ impl Space<'_, '_, '_> {
         let again = BoundVerify::new(&verify, base.as_ref(), &labs, stage, findings)?;
         let outcome = again.outcome(StepVariant::NOMINAL, findings)?;
         let same = compare_options(&again, &outcome, &verify, &self.weights);
-        // What ends because the work of a check is spent says nothing of the answer.
+        // A run that ended because the work budget ran out does not test the answer.
         if !matches!(same, SameOptions::Yes(_)) && stage.left() == 0 {
             findings.push(out_of_work(self.verify.span.clone(), "everywhere in its range"));
             return None;
@@ -291,14 +293,14 @@ impl Space<'_, '_, '_> {
         }
     }
 
-    /// A slider that makes no difference to the simulation.
+    /// A slider that has no effect on the simulation.
     fn without_effect(&self) -> Option<&Axis<'_>> {
         let changes =
             |axis: &Axis<'_>| slider_changes_anything(self.bound, axis.label, axis.at(0.0), axis.at(1.0));
         self.axes.iter().find(|axis| !changes(axis))
     }
 
-    /// Says in how many settings the answer holds.
+    /// Adds to the reason in how many settings the answer holds.
     fn add_coverage(&self, answer: &mut Answer) {
         let count = self.tried.len();
         let same = if self.seen.len() == 1 { ", and the measures are the same in all of them" } else { "" };
@@ -309,7 +311,7 @@ impl Space<'_, '_, '_> {
         };
     }
 
-    /// The object with these values: a run that sets a slider itself keeps its own.
+    /// The object with these slider values. A run that sets a slider itself keeps its own value.
     fn with(&self, values: &[f64]) -> Verify {
         let mut verify = Verify { over: Vec::new(), ..self.verify.clone() };
         if verify.runs.is_empty() {

@@ -1,4 +1,4 @@
-//! Checks one quote: a number, or words, against the value of its expression in the lesson's own runs and in others.
+//! Checks one quote: compares a number or words with the value of its expression, in the nominal and in perturbed runs.
 
 use super::bound::BoundVerify;
 use super::found::MeasuredValue;
@@ -15,26 +15,27 @@ use labspec_expr::Value;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-/// A number that is quoted, or words.
+/// A quoted number, or quoted words.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Quote {
-    /// The text that is quoted.
+    /// The quoted text.
     pub text: String,
-    /// Where it is claimed: under `says`.
+    /// The span of the claim under `says`.
     pub span: Range<usize>,
-    /// What became of it.
+    /// The state.
     pub state: QuoteState,
-    /// How its value was found.
+    /// Whether its value was simulated.
     pub evidence: Evidence,
     /// Why it is not right.
     pub reason: String,
-    /// What the simulation gives; NaN when nothing could be computed. Of words 1 where they are right, and 0 where they are not.
+    /// The value of the expression; NaN when it could not be computed. For words, 1 where they are right and 0 where they
+    /// are not.
     #[serde(with = "crate::verify::float_bits")]
     pub computed: f64,
 }
 
 impl Quote {
-    /// One that could not be checked.
+    /// A quote that could not be checked.
     pub(super) fn unclear(text: &Text, reason: &str) -> Quote {
         Quote {
             text: text.value.clone(),
@@ -46,7 +47,7 @@ impl Quote {
         }
     }
 
-    /// In one word.
+    /// The verdict as one word.
     pub fn verdict(&self) -> &'static str {
         match (self.state, self.evidence) {
             (QuoteState::Right, Evidence::Simulated) => "verified",
@@ -57,7 +58,7 @@ impl Quote {
     }
 }
 
-/// What quotes are held to.
+/// The data that quotes are compared with.
 #[derive(Clone, Copy)]
 pub(super) struct QuoteChecker<'c, 'b> {
     pub(super) bound: &'c BoundVerify<'b>,
@@ -65,7 +66,7 @@ pub(super) struct QuoteChecker<'c, 'b> {
     pub(super) rendered: &'c RenderedText,
 }
 
-/// The value of an expression in the lesson's own runs, and in others.
+/// The value of an expression in the nominal runs and in perturbed runs.
 pub(super) struct QuotedValue {
     found: MeasuredValue,
     timestep: Vec<OtherValue>,
@@ -91,7 +92,7 @@ impl QuotedValue {
         matches!(self.found.value, Value::Boolean(_))
     }
 
-    /// Whether it can decide about words; a finding where not.
+    /// Whether the value is a condition, as words require; a finding if not.
     pub(super) fn is_condition_of(
         &self,
         checker: QuoteChecker<'_, '_>,
@@ -101,7 +102,7 @@ impl QuotedValue {
         checker.bound.is_condition(&self.found, expr, findings)
     }
 
-    /// Whether what it says holds.
+    /// Whether the condition holds.
     pub(super) fn holds(&self) -> bool {
         self.found.value.truthy()
     }
@@ -117,7 +118,7 @@ fn value_of(
     Some(OtherValue { how, value: found.value.to_number() })
 }
 
-/// What becomes of a number.
+/// Checks a quoted number.
 pub(super) fn check_number(
     checker: QuoteChecker<'_, '_>,
     claim: &quote::QuoteClaim<'_>,
@@ -135,7 +136,7 @@ pub(super) fn check_number(
     Quote { text, span: claim.quote.span(), state, evidence, reason, computed }
 }
 
-/// What becomes of words that say that a condition holds.
+/// Checks words that state a condition.
 pub(super) fn check_words(
     checker: QuoteChecker<'_, '_>,
     claim: &quote::QuoteClaim<'_>,

@@ -1,4 +1,4 @@
-//! What a student reads under a label, or sees on a curve: the numbers of `shown('label')`.
+//! The values that a student reads under a label or sees on a curve, for `shown('label')`.
 
 use crate::bind::of_label;
 use crate::bind::{DisplayedLabels, Programs};
@@ -8,14 +8,14 @@ use crate::spec::{Lab, Plot, Readout, Trace};
 use labspec_expr::Value;
 use labspec_expr::dimension::Dimension;
 
-/// The labels of a lab: its readouts, its traces, and each of both as a table of `labspec run` calls it.
+/// The labels of a lab: its readouts, its traces, and both with the prefixes that the table of `labspec run` uses.
 pub fn labels(lab: &Lab) -> DisplayedLabels {
     let readout = |prefix: &str, r: &Readout| (format!("{prefix}{}", r.label.value), unit(&[Some(&r.label)]));
     let trace = |prefix: &str, plot: &Plot, t: &Trace| {
         (format!("{prefix}{}", t.label.value), unit(&[Some(&t.label), plot.ylabel.as_ref()]))
     };
     let bare_readouts = lab.readouts.iter().map(|r| readout("", r));
-    // A label that several plots have for different things is read as that of its plot alone.
+    // A label that several plots use for different expressions gets the prefix of its plot.
     let several = |t: &Trace| {
         lab.traces().any(|other| other.label.value == t.label.value && other.expr.value != t.expr.value)
     };
@@ -38,11 +38,11 @@ fn unit(labels: &[Option<&Text>]) -> Option<Dimension> {
     labels.iter().flatten().find_map(|label| of_label(label.as_str())).map(|(_, unit)| unit)
 }
 
-/// Stores what is shown now under these labels. A number of a readout is taken as it is printed, with its decimals.
+/// Stores the current values of these labels. The value of a readout is rounded to its decimals, as it is printed.
 pub(super) fn show(asked: &[usize], lab: &Lab, programs: &Programs, session: &mut Session<'_>) {
     let (readouts, traces) = (lab.readouts.len(), lab.traces().count());
     for &label in asked {
-        // Readouts come first among the labels, and last among the programs.
+        // Readouts are first among the labels and last among the probes.
         let probe = match label.checked_sub(readouts) {
             None => traces + label,
             Some(trace) if trace < traces => trace,

@@ -1,4 +1,4 @@
-//! What a run runs: a lab with its model and programs, as the lesson has it, or changed as the run says.
+//! The labs of runs: a lab with its model and programs, unchanged or with the modifications of a run.
 
 use super::run_result::RunResult;
 use crate::bind::Programs;
@@ -26,18 +26,18 @@ pub struct BoundLab<'a> {
     pub model: Arc<Model>,
     /// Its programs.
     pub programs: Held<'a>,
-    /// Which model the lab of the lesson has.
+    /// The identity of the model of the lab in the lesson.
     origin: u64,
-    /// The changes of its model, with their places.
+    /// The modifications of its model, with their spans.
     pub(super) patches: Vec<(Patch, Range<usize>)>,
-    /// A change of its model left behind what belongs to a parameter.
+    /// Whether a modification changed a parameter of the model without the parameters coupled to it.
     pub(super) left_behind: bool,
-    /// What was changed in the lab of the lesson, distinguished from every other change; empty for nothing.
+    /// A key that distinguishes the modifications of the lab; empty for none.
     changes: String,
 }
 
 impl<'a> BoundLab<'a> {
-    /// A lab as the lesson has it.
+    /// The unchanged lab of the lesson.
     pub fn new(lab: &'a Lab, model: &Arc<Model>, programs: &'a Programs) -> BoundLab<'a> {
         BoundLab {
             lab: Cow::Borrowed(lab),
@@ -50,28 +50,28 @@ impl<'a> BoundLab<'a> {
         }
     }
 
-    /// Whether it is the same lab with the same changes.
+    /// Whether it is the same lab with the same modifications.
     pub(super) fn is(&self, other: &BoundLab<'_>) -> bool {
         self.origin == other.origin && self.lab.span == other.lab.span && self.changes == other.changes
     }
 }
 
-/// The work that the runs of all `verify` objects of a lesson may do together.
+/// Work budget of the runs of all `verify` objects of a lesson together.
 const WORK: u64 = 12_000_000_000;
 
-/// What the `verify` objects of a lesson share: changed labs, each made once, and runs, each made once, within one budget.
+/// The cache that the `verify` objects of a lesson share: modified labs and results of runs, within one work budget.
 #[derive(Debug)]
 pub struct Stage<'a> {
     models: &'a Models,
     changed: RefCell<Vec<BoundLab<'static>>>,
     runs: RefCell<BTreeMap<String, RunResult>>,
     left: Cell<u64>,
-    /// A run since this was asked last left something behind.
+    /// Whether a run since the last query changed a parameter without the parameters coupled to it.
     left_behind: Cell<bool>,
 }
 
 impl<'a> Stage<'a> {
-    /// With the models that labs name.
+    /// An empty cache. `models` resolves the models that labs name.
     pub fn new(models: &'a Models) -> Stage<'a> {
         Stage {
             models,
@@ -82,43 +82,44 @@ impl<'a> Stage<'a> {
         }
     }
 
-    /// The text of the model of a lab, with its changes.
+    /// The text of the model of a lab, with its modifications.
     pub(super) fn written(&self, scene: &BoundLab<'_>) -> Option<String> {
         let patches: Vec<Patch> = scene.patches.iter().map(|(p, _)| p.clone()).collect();
         self.models.written(&scene.lab, &patches)
     }
 
-    /// What came of a run that was made before.
+    /// The cached result of a run.
     pub(super) fn cached_run(&self, run: &str) -> Option<RunResult> {
         self.runs.borrow().get(run).cloned()
     }
 
-    /// Keeps what came of a run.
+    /// Stores the result of a run.
     pub(super) fn keep(&self, run: String, made: &RunResult) {
         self.runs.borrow_mut().insert(run, made.clone());
     }
 
-    /// Notes whether a run left behind what belongs to a parameter.
+    /// Records whether a run changed a parameter without the parameters coupled to it.
     pub(super) fn note(&self, left_behind: bool) {
         self.left_behind.set(self.left_behind.get() || left_behind);
     }
 
-    /// Whether a run since this was asked last left behind what belongs to a parameter, as far as programs observe that.
+    /// Whether a run since the last call changed a parameter without the parameters coupled to it, as far as the programs
+    /// observe that.
     pub(crate) fn take_left_behind(&self) -> bool {
         self.left_behind.take()
     }
 
-    /// The work that is left.
+    /// The remaining work.
     pub(super) fn left(&self) -> u64 {
         self.left.get()
     }
 
-    /// Takes work from what is left.
+    /// Subtracts work from the budget.
     pub(super) fn spend(&self, work: u64) {
         self.left.set(self.left.get().saturating_sub(work));
     }
 
-    /// The lab of a run, changed as the run says; one for each member of a sweep. What cannot be changed goes to `findings`.
+    /// The lab of a run with the modifications of the run; one for each member of a sweep. Errors are added to `findings`.
     pub fn of_run<'s>(
         &self,
         base: &BoundLab<'s>,
@@ -154,7 +155,7 @@ impl<'a> Stage<'a> {
         values.iter().map(with).collect()
     }
 
-    /// A lab with changes of its model, another keyframe, another controller.
+    /// A lab with a modified model, another keyframe, or another controller.
     pub(super) fn changed<'s>(
         &self,
         base: &BoundLab<'s>,
@@ -193,7 +194,7 @@ impl<'a> Stage<'a> {
             coupled.clone().install(&mut programs, &model);
         }
         programs.observed.clone_from(observed);
-        // What is wrong with the rest of the lab is reported already.
+        // Errors in the other parts of the lab are already reported.
         let in_controller = |f: &Finding| controller.is_some_and(|c| inside(&f.span, &c.span()));
         let before = findings.len();
         findings.extend(problems.into_iter().filter(in_controller));
@@ -230,7 +231,7 @@ impl<'a> Stage<'a> {
     }
 }
 
-/// A lab with another keyframe and another controller, where there are any; an empty controller is none.
+/// A lab with another keyframe and another controller, where these are given; an empty text removes the controller.
 fn changed_lab(lab: &Lab, key: Option<usize>, controller: Option<&Text>) -> Lab {
     let key = key.map(|k| Number { value: k as f64, span: 0..0 });
     Lab {
@@ -243,7 +244,7 @@ fn changed_lab(lab: &Lab, key: Option<usize>, controller: Option<&Text>) -> Lab 
     }
 }
 
-/// What is wrong with a name that is no attribute of a model and nearly that of a control.
+/// The finding about a name that is not an attribute of the model but is similar to that of a control.
 pub(super) fn misspelt(lab: &Lab, what: &Text) -> Option<Finding> {
     let right = nearest(&what.value, lab.controls.iter().map(|c| c.label.as_str()))?;
     let message = format!("the lab has no control {}", named(&what.value));

@@ -1,15 +1,15 @@
-//! What came of one run of a `verify` object.
+//! The result of one run of a `verify` object.
 
 use super::measure::Sampled;
 
-/// What came of one run.
+/// The result of one run.
 #[derive(Clone, Debug)]
 pub(crate) struct RunResult {
     pub(super) values: Vec<Sampled>,
     /// Number of warnings of the engine.
     pub(super) warnings: usize,
-    /// What broke in it.
+    /// How it broke.
     pub(super) broke: Option<String>,
-    /// A program of it, or a change of its model, left behind what belongs to a parameter.
+    /// Whether a program, or a modification of the model, changed a parameter without the parameters coupled to it.
     pub(super) left_behind: bool,
 }

@@ -1,4 +1,5 @@
-//! One run of a `verify` object: the order of events of its lab, then its own controls and setup, and what is measured in it.
+//! Executes one run of a `verify` object: the events of its lab in order, then its own controls and setup, and its
+//! measures.
 
 use super::bound_run::{BoundRun, BoundScene, CompiledText};
 use super::measure::Measure;
@@ -15,26 +16,26 @@ use labspec_core::{AccessSet, Model, Plan};
 use labspec_expr::{Effects, Program, Value, Watch};
 use std::ops::{ControlFlow, Range};
 
-/// Most steps of one run of a `verify` object.
+/// Maximum number of steps of one run of a `verify` object.
 const MAX_VERIFY_STEPS: usize = 2_000_000;
 
-/// What is asked for: a run under some numerics, and the measures of it.
+/// A requested run: its step variant and its measures.
 pub(super) struct RunRequest<'r, 'a> {
     pub(super) scene: &'r BoundScene<'a>,
     pub(super) run: &'r BoundRun<'a>,
     pub(super) numerics: StepVariant,
     pub(super) measures: &'r [&'r CompiledText<'r>],
-    /// Where to tell what is wrong with the run.
+    /// The span for findings about the run.
     pub(super) place: Range<usize>,
 }
 
-/// Makes a run, unless the same was made before: then its result is cached, and was reported.
+/// Executes a run. A result in the cache is reused; its findings were reported before.
 pub(super) fn perform(
     asked: &RunRequest<'_, '_>,
     stage: &Stage<'_>,
     findings: &mut Vec<Finding>,
 ) -> Option<RunResult> {
-    // What the lesson states is not another numerics for it; a run that states its timestep is about the numerics.
+    // A step variant does not override what the lesson sets. A run that sets its timestep is about numerics.
     let (timestep, integrator) = (
         states(asked.scene, asked.run, option::timestep),
         states(asked.scene, asked.run, option::integrator),
@@ -57,7 +58,7 @@ pub(super) fn perform(
     Some(made)
 }
 
-/// Everything that the outcome of a run depends on, as a text.
+/// The cache key: a text of everything that the result of a run depends on.
 fn key(asked: &RunRequest<'_, '_>) -> String {
     let RunRequest { scene, run, numerics, measures, .. } = asked;
     let lab = &scene.scene.lab;
@@ -74,18 +75,18 @@ fn key(asked: &RunRequest<'_, '_>) -> String {
     format!("{labs} {of_run:?} {numerics:?} {texts:?}")
 }
 
-/// A run that is set up, and how it is played.
+/// A run after its setup, and the data for playing it.
 pub(super) struct PreparedRun<'r> {
     pub(super) session: Session<'r>,
-    /// Buttons by index, and when they are pressed.
+    /// Buttons by index, and the times at which they are pressed, s.
     pub(super) press: Vec<(usize, f64)>,
     /// Number of steps.
     pub(super) count: usize,
-    /// The time (s) at which a NaN decided whether it stops: it ended there, and nobody knows where it should have.
+    /// The time (s) at which `stop` was decided by a NaN. The run ends there, because its end is undecided.
     pub(super) open: Option<f64>,
 }
 
-/// Sets a run up: its controls, its setup, its length. What cannot be goes to `findings`.
+/// Sets up a run: its controls, its setup, its length. Errors are added to `findings`.
 pub(super) fn ready<'r>(
     asked: &RunRequest<'r, '_>,
     stage: &Stage<'_>,
@@ -107,7 +108,7 @@ pub(super) fn ready<'r>(
         let list: Vec<_> = spec.press.iter().map(|(label, t)| (label.value.clone(), t.value)).collect();
         press = run::presses(programs, &list).map_err(|e| refuse_at(place.clone(), e)).ok()?;
         until = spec.until.as_ref().map(|n| n.value);
-        // As many steps as reach as far.
+        // The same duration at any timestep.
         steps = spec.steps.as_ref().map(|n| (n.value.max(0.0) / numerics.timestep).round() as usize);
     }
     if let Some(setup) = &run.setup {
@@ -118,7 +119,7 @@ pub(super) fn ready<'r>(
     let timestep = session.world.model.opt.timestep;
     let count = run::count_steps(lab, until, steps, timestep).map_err(&mut refuse).ok()?;
     run::presses_within(programs, &press, count, timestep).map_err(&mut refuse).ok()?;
-    // A shorter timestep takes more of them; the work is limited besides.
+    // A shorter timestep takes more steps. The work is limited separately.
     if count as f64 * numerics.timestep > MAX_VERIFY_STEPS as f64 {
         refuse(RunError(format!(
             "it takes {count} steps, but a verified run may take at most {MAX_VERIFY_STEPS}"
@@ -128,7 +129,7 @@ pub(super) fn ready<'r>(
     Some(PreparedRun { session, press, count, open: None })
 }
 
-/// Plays a run to its end; `sample` sees its start and every step, with the number of steps made.
+/// Plays a run to its end. `sample` is called at the start and after every step, with the number of steps made.
 pub(super) fn play<'r>(
     asked: &RunRequest<'r, '_>,
     ready: &mut PreparedRun<'r>,
@@ -182,14 +183,15 @@ fn make(asked: &RunRequest<'_, '_>, stage: &Stage<'_>, findings: &mut Vec<Findin
     })
 }
 
-/// Sets the controls of a run. What cannot be set comes back with its place.
+/// Sets the controls of a run. An error is returned with its span.
 fn set(
     session: &mut Session<'_>,
     bound: &BoundScene<'_>,
     run: &BoundRun<'_>,
 ) -> Result<(), (Range<usize>, RunError)> {
     let (lab, programs) = (&*bound.scene.lab, &*bound.scene.programs);
-    // A control of the lab may have set it while the lab was loaded; what the run says counts.
+    // A control of the lab may have set the timestep while the lab was loaded; the modification of the run takes
+    // precedence.
     if bound.scene.patches.iter().any(|(patch, _)| is_timestep(&patch.path)) {
         *session.world.model.edit().opt.timestep = bound.scene.model.opt.timestep;
     }
@@ -211,7 +213,7 @@ fn set(
     Ok(())
 }
 
-/// The model of a run as it begins: after its controls and its setup. `None` for one that cannot be made.
+/// The model of a run at its start, after its controls and its setup. `None` for a run that cannot be started.
 pub(super) fn started_models(bound: &BoundScene<'_>, run: &BoundRun<'_>) -> Option<Model> {
     let scene = &bound.scene;
     let start = Start { budget: Budget::TRIAL, ..Start::of_lab(&scene.lab) };
@@ -223,7 +225,7 @@ pub(super) fn started_models(bound: &BoundScene<'_>, run: &BoundRun<'_>) -> Opti
     Some(session.world.model)
 }
 
-/// What the programs of the lab and of the run need.
+/// The fields that the programs of the lab and of the run read and write.
 fn access(asked: &RunRequest<'_, '_>) -> AccessSet {
     let mut access = asked.scene.scene.programs.access;
     let texts_of_run = asked.run.setup.iter().chain(&asked.run.stop).map(|s| &s.program);
@@ -240,7 +242,7 @@ fn undecided_stop(time: f64) -> String {
     format!("its `stop` compares NaN at t = {} s", run::time(time))
 }
 
-/// What broke in a run, in one clause.
+/// How a run broke, in one clause.
 fn broke(session: &Session<'_>) -> Option<String> {
     match (run::worst_breakdown(session), session.troubles.first()) {
         (Some(breakdown), _) => Some(breakdown.what),
@@ -256,7 +258,7 @@ fn broke(session: &Session<'_>) -> Option<String> {
     }
 }
 
-/// Whether the lesson itself states an option of a run: in the run, or in the lab's setup.
+/// Whether the lesson itself sets an option of a run: in the run, or in the setup of the lab.
 pub(super) fn states(scene: &BoundScene<'_>, run: &BoundRun<'_>, field: FieldId) -> bool {
     let option = field.info().name;
     let writes = |e: &Effects| e.writes.iter().any(|a| a.field.0 as usize == field.index());
@@ -269,10 +271,10 @@ pub(super) fn states(scene: &BoundScene<'_>, run: &BoundRun<'_>, field: FieldId)
         || scene.scene.patches.iter().any(|(patch, _)| patch.path.split_whitespace().eq(["option", option]))
 }
 
-/// The timestep among the attributes of a model.
+/// The path of the timestep among the attributes of a model.
 pub(super) const TIMESTEP: &str = "option timestep";
 
-/// Whether a path of the model is the timestep.
+/// Whether a path of the model is that of the timestep.
 pub(super) fn is_timestep(path: &str) -> bool {
     path.split_whitespace().eq(TIMESTEP.split_whitespace())
 }

@@ -4,12 +4,12 @@ use crate::run::Session;
 use crate::source::Text;
 use labspec_expr::{Context, Program, Value};
 
-/// What a measure looks at: a simulation, sample after sample.
+/// The input of a measure: a real or imagined simulation at one sample.
 pub(super) trait Sample {
     /// Time of the sample, s.
     fn time(&self) -> f64;
 
-    /// What programs run in.
+    /// The context in which programs run.
     fn context(&mut self) -> &mut Context;
 
     /// The value of a program; `None` where it throws.

@@ -1,4 +1,4 @@
-//! What the text says: numbers and words that are quoted, and the cells of tables.
+//! Checks quotes: numbers and words of the text, and cells of tables.
 
 use super::quote_checker::{Quote, QuoteChecker, QuotedValue, check_number, check_words};
 use super::{column, quote};
@@ -7,7 +7,7 @@ use crate::rules;
 use crate::spec::{Question, Said, Verify};
 use std::ops::Range;
 
-/// What becomes of everything that a `verify` object says is said. `question` is what carries it, unless a lab does.
+/// Checks all quotes of a `verify` object. `question` is the question that contains it, or `None` if it belongs to a lab.
 pub(super) fn check_quotes(
     checker: QuoteChecker<'_, '_>,
     verify: &Verify,
@@ -24,7 +24,7 @@ pub(super) fn check_quotes(
     all
 }
 
-/// One line: a number, or several, and what its words say.
+/// Checks one line: one or several numbers, and conditions for its words.
 fn check_line(
     checker: QuoteChecker<'_, '_>,
     quoted: &Said,
@@ -40,7 +40,8 @@ fn check_line(
         }
     }
     let numbers = given.iter().filter(|(_, given)| !given.is_condition()).count();
-    // Of one expression the number is the one that the quote states; words beside numbers leave none of these unchecked.
+    // With one expression, it belongs to the number that the quote states. With words and numbers, every number must be
+    // checked.
     let parts = match quoted.exprs.as_slice() {
         [_] if numbers == 1 => vec![quote::whole(quoted.quote.as_str())],
         _ => quote::parts(quoted.quote.as_str(), numbers),

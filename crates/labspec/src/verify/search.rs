@@ -1,9 +1,9 @@
-//! The largest or the smallest value with which a condition holds, found by running.
+//! The largest or the smallest value for which a condition holds, found by running.
 //!
-//! The two ends are run first, then a few values between them: a condition that changes more than once has no one limit. Where the
-//! condition comes near to turning over between two of these, its nearest place is looked for (golden section), so that a thin
-//! band is seen. Then the part in which the condition changes is halved until it is as short as is asked for, and both sides of
-//! the limit are looked at.
+//! The two ends are run first, then a few values between them, because a condition that changes more than once has no
+//! single limit. Where the margin of the condition has a minimum between two of these values, a golden section search looks
+//! for it, so that a narrow band is found. Then the interval in which the condition changes is bisected down to the
+//! requested length, and values on both sides of the limit are tested.
 
 use super::bound::BoundVerify;
 use super::format::significant;
@@ -16,15 +16,15 @@ use crate::source::Text;
 use crate::spec::{Find, Run, Verify};
 use labspec_core::xml::Patch;
 
-/// Values that are looked at between the ends, and of the search for a place that is near to turning over.
+/// Number of values that are tested between the ends, and of the search for the minimum of the margin.
 const PROBES: usize = 12;
 const NEARER: usize = 20;
-/// Where both sides of a limit are looked at, as parts of the range.
+/// Distances from the limit at which both sides are tested, as fractions of the range.
 const BESIDE: [f64; 2] = [0.004, 0.02];
-/// Most halvings: more are finer than numbers are.
+/// Maximum number of bisection steps; more would exceed the precision of numbers.
 const HALVINGS: usize = 60;
 
-/// A search: in which run, with which measures, of which lab.
+/// A search, with its run, its measures and its lab.
 pub(super) struct SearchCase<'c> {
     pub(super) find: &'c Find,
     pub(super) run: Option<&'c Run>,
@@ -32,23 +32,24 @@ pub(super) struct SearchCase<'c> {
     pub(super) scene: &'c BoundLab<'c>,
 }
 
-/// What was found with a value.
+/// The result for one value.
 #[derive(Clone, Debug)]
 struct TriedValue {
     holds: bool,
-    /// How far the condition is from turning over; `None` where nothing is compared, or the run broke.
+    /// The margin of the condition; `None` where nothing is compared, or the run broke.
     margin: Option<f64>,
 }
 
-/// A search that came to its end.
+/// The result of a search.
 pub(super) struct SearchLimit {
-    /// NaN when there is no one limit.
+    /// NaN when there is no single limit.
     pub(super) value: f64,
-    /// Where it looked, in words.
+    /// The searched range, in words.
     pub(super) looked: String,
 }
 
-/// Makes the search; `None` when a run cannot be made, a value of NaN when there is no one limit. Both are reported.
+/// Makes the search. Returns `None` when a run cannot be executed, and NaN when there is no single limit. Both are
+/// reported.
 pub(super) fn search(
     case: &SearchCase<'_>,
     stage: &Stage<'_>,
@@ -109,14 +110,14 @@ pub(super) fn search(
     }
 }
 
-/// Why a search has no value, and what to do about it.
+/// Why a search has no value, and the help.
 type NoLimit = (String, &'static str);
 
-/// The limit, or why there is none; `None` when a run cannot be made.
+/// The limit, or why there is none; `None` when a run cannot be executed.
 fn halve(find: &Find, try_at: &mut dyn FnMut(f64) -> Option<TriedValue>) -> Option<Result<f64, NoLimit>> {
     let [from, to] = find.range;
     let part = |i: usize| from + (to - from) * i as f64 / (PROBES + 1) as f64;
-    // The ends first: where nothing changes, nothing more is run.
+    // The ends first: if the condition is the same at both, nothing else is run.
     let ends = [try_at(from)?.holds, try_at(to)?.holds];
     if let Some(none) = no_limit(find, ends) {
         return Some(Err(none));
@@ -154,17 +155,17 @@ fn halve(find: &Find, try_at: &mut dyn FnMut(f64) -> Option<TriedValue>) -> Opti
     if found.len() != 1 {
         return Some(Err(several(&found)));
     }
-    // The value with which it was seen to hold.
+    // The end of the interval at which the condition holds.
     Some(Ok(if find.largest { low } else { high }))
 }
 
-/// Between which values the condition changes.
+/// The intervals in which the condition changes.
 fn changes(tried: &[(f64, TriedValue)]) -> Vec<[f64; 2]> {
     let pairs = tried.iter().zip(tried.iter().skip(1));
     pairs.filter(|(a, b)| a.1.holds != b.1.holds).map(|(a, b)| [a.0, b.0]).collect()
 }
 
-/// Changes that lie nearer to each other than the limit is asked for are one.
+/// Merges changes that are closer to each other than the requested precision.
 fn as_one(changes: Vec<[f64; 2]>, tol: f64) -> Vec<[f64; 2]> {
     match (changes.first(), changes.last()) {
         (Some([low, _]), Some([_, high])) if high - low <= tol => vec![[*low, *high]],
@@ -179,7 +180,7 @@ fn several(changes: &[[f64; 2]]) -> NoLimit {
     (message, "search where the condition changes only once")
 }
 
-/// Looks between three neighbours for the place where the condition is nearest to turning over, where that lies between them.
+/// Searches among three neighbours for the minimum of the margin, where it is between them.
 fn nearer(
     three: &[(f64, TriedValue)],
     try_at: &mut dyn FnMut(f64) -> Option<TriedValue>,
@@ -213,7 +214,7 @@ fn nearer(
     Some(found)
 }
 
-/// What the two ends say, where there is no limit between them or it is one of the other kind.
+/// The error if the two ends show no limit between them, or one of the other kind.
 fn no_limit(find: &Find, ends: [bool; 2]) -> Option<NoLimit> {
     let [from, to] = find.range.map(significant);
     match (ends, find.largest) {
@@ -239,7 +240,7 @@ fn no_limit(find: &Find, ends: [bool; 2]) -> Option<NoLimit> {
     }
 }
 
-/// The attribute of the model that is changed; `None` for a control.
+/// The attribute of the model that is modified; `None` for a control.
 fn path(case: &SearchCase<'_>) -> Option<String> {
     let what = &case.find.what.value;
     match case.scene.lab.control(what) {
@@ -249,7 +250,8 @@ fn path(case: &SearchCase<'_>) -> Option<String> {
     }
 }
 
-/// Whether the condition holds with this value; in a run that breaks it does not. The part that compares NaN, where nothing decides.
+/// Whether the condition holds for this value; it does not in a run that breaks. The error is the part that compares NaN,
+/// if the condition is undecided.
 fn holds(
     case: &SearchCase<'_>,
     stage: &Stage<'_>,

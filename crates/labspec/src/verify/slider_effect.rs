@@ -1,4 +1,4 @@
-//! Whether a slider makes any difference to a simulation.
+//! Whether a slider affects a simulation.
 
 use super::bound::BoundVerify;
 use super::run_cache::BoundLab;
@@ -8,8 +8,8 @@ use labspec_core::reflect::{FieldId, Object, option};
 use labspec_core::{self as core, AccessSet, Plan};
 use labspec_expr::Value;
 
-/// Whether a control makes any difference to what the simulation computes: at its start, or in its first steps. Colours and
-/// views make none.
+/// Whether a control affects any computed value of the simulation, at its start or in its first steps. Colours and views do
+/// not count.
 pub(super) fn slider_changes_anything(bound: &BoundVerify<'_>, label: &Text, from: f64, to: f64) -> bool {
     const STEPS: usize = 20;
     let Some(BoundLab { lab, model, programs, .. }) = bound.lab() else { return false };

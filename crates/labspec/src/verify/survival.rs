@@ -1,4 +1,4 @@
-//! An answer under numerics that the question does not mention: it must hold with all of them.
+//! Checks an answer under perturbed numerics that the question does not mention: it must hold under all of them.
 
 use super::bound::BoundVerify;
 use super::numerics::{CLOSER, PERTURBED};
@@ -10,19 +10,20 @@ use crate::ledger::Evidence;
 use crate::rules;
 use std::ops::Range;
 
-/// The outcomes under other numerics, with their names.
+/// The outcomes under perturbed numerics, with their names.
 fn perturbed_outcomes(outcomes: &Outcomes) -> impl Iterator<Item = (&Outcome, &'static str)> {
     outcomes.perturbed.iter().zip(PERTURBED).filter_map(|(o, (_, how))| Some((o.as_ref()?, how)))
 }
 
-/// What turns over in an outcome under other numerics, so called; the margins are widened by it.
+/// A finding if the answer changes in an outcome under perturbed numerics with the given name. The spread of the weights is
+/// widened by the margins.
 pub(super) type Turns<'t> = dyn FnMut(&Outcome, &str, &mut [Weight]) -> Option<Finding> + 't;
 
-/// Puts an answer to the other numerics, and to those that are closer where these come near. `turns` says what turns over in an
-/// outcome, and widens the margins by it.
+/// Checks an answer under the perturbed numerics, and under the closer ones where a margin is small. `turns` returns the
+/// change in an outcome, and widens the spread of the weights.
 ///
 /// # Errors
-/// It does not hold in one of them, or could not be tried: the verdict, and why.
+/// The answer does not hold under one of them, or could not be tested: the verdict, and the reason.
 pub(super) fn withstand_numerics(
     bound: &BoundVerify<'_>,
     outcomes: &Outcomes,
@@ -35,7 +36,7 @@ pub(super) fn withstand_numerics(
         let turned = outcome.map(|outcome| turns(outcome, how, weights));
         match turned {
             Some(None) => Ok(()),
-            // What ends because the work of a check is spent, or cannot be run at all, says nothing of the answer.
+            // A run that ended because the work budget ran out, or that cannot be executed, does not test the answer.
             Some(Some(finding)) if bound.stage().left() > 0 => {
                 findings.push(finding);
                 Err((Verdict::Fragile, format!("it does not hold {how}")))
@@ -61,7 +62,7 @@ pub(super) fn verdict_by(evidence: Option<Evidence>) -> Verdict {
     if evidence == Some(Evidence::Simulated) { Verdict::Verified } else { Verdict::Computed }
 }
 
-/// The work of a check was spent before an answer was put to all numerics.
+/// The finding about a work budget that ran out before an answer was tested under all numerics.
 pub(super) fn out_of_work(span: Range<usize>, how: &str) -> Finding {
     let what = format!("the work budget ran out before testing whether the answer holds {how}");
     Finding::error(rules::RUN_BREAKS, span, what)

@@ -1,4 +1,4 @@
-//! What the numbers of claims measure, as far as the units of what they are computed from say it.
+//! The dimensions of the numbers in claims, as far as they follow from the units of the inputs.
 
 use super::bound::BoundVerify;
 use super::bound_run::{BoundRun, BoundScene};
@@ -15,7 +15,7 @@ use labspec_expr::Compiler;
 use labspec_expr::dimension::{BASES, Dimension, Measure};
 
 impl BoundVerify<'_> {
-    /// What is known of the units of the measures.
+    /// The known dimensions of the measures.
     pub(super) fn units(&self) -> Option<&MeasureUnits> {
         self.units.get_or_init(|| units_of_measures(self)).as_ref()
     }
@@ -30,7 +30,7 @@ fn units_of_measures(bound: &BoundVerify<'_>) -> Option<MeasureUnits> {
     Some(MeasureUnits { given: given(lab, model, programs), runs })
 }
 
-/// What a claim measures; `None` where that is not certain.
+/// The dimension of a claim; `None` where it is not certain.
 pub(super) fn of_claim(bound: &BoundVerify<'_>, outcome: &Outcome, text: &Text) -> Option<Dimension> {
     let (base, units, claim) = (bound.base()?, bound.units()?, bound.claim(text)?);
     let names = OutcomeNames::new(bound.layout(), base.names(Scope::Measure)).measuring(&units.runs);
@@ -42,11 +42,12 @@ pub(super) fn of_claim(bound: &BoundVerify<'_>, outcome: &Outcome, text: &Text) 
     }
 }
 
-/// Factors by which base units are made smaller.
+/// Factors by which base units are divided.
 const SCALES: [f64; 2] = [2.0, 3.0];
 
-/// What a claim measures, seen from its numbers in other units: where those that it reads are in half seconds instead of seconds, a
-/// time is twice as large, whatever the text does with them. Only of texts without numbers that could be quantities themselves.
+/// The dimension of a claim, determined by evaluating it in other units: if all inputs are in half seconds instead of
+/// seconds, a time is twice as large, whatever the text computes. Applies only to texts without number literals that could
+/// be quantities themselves.
 fn by_scale(
     bound: &BoundVerify<'_>,
     outcome: &Outcome,
@@ -88,7 +89,7 @@ fn by_scale(
     Some(all)
 }
 
-/// What the values of a sweep are, under the name by which conditions read them.
+/// The dimension of the values of a sweep, with the name by which conditions read them.
 fn swept(run: &BoundRun<'_>, scene: &BoundScene<'_>) -> Option<(String, Measure)> {
     let what = &run.spec?.sweep.as_ref()?.what;
     let lab = &scene.scene.lab;

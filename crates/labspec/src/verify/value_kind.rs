@@ -1,4 +1,5 @@
-//! Which values a measure can have at all: seen from what its program gives where everything that it looks at has any value.
+//! The kind of a measure: which values it can have. It is determined by evaluating its program with random values for
+//! everything that it reads.
 
 use super::aggregate::AggregateKind;
 use super::anything::Anything;
@@ -7,14 +8,14 @@ use super::draws::Draws;
 use crate::bind::World;
 use labspec_expr::{Aggregate, Context, Program};
 
-/// Which values a measure can have at all.
+/// Which values a measure can have.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ValueKind {
-    /// It is never below zero.
+    /// Never below zero.
     pub(super) positive: bool,
-    /// It is a whole number.
+    /// Always an integer.
     pub(super) whole: bool,
-    /// It is never above one.
+    /// Never above one.
     pub(super) truth: bool,
 }
 
@@ -24,7 +25,7 @@ impl ValueKind {
     const TIME: ValueKind = ValueKind { positive: true, ..ValueKind::ANY };
     const TRUTH: ValueKind = ValueKind { truth: true, ..ValueKind::COUNT };
 
-    /// Whether it can have this value.
+    /// Whether a value is of this kind.
     pub(super) fn has(self, x: f64) -> bool {
         (!self.positive || x >= 0.0)
             && (!self.whole || x.fract() == 0.0)
@@ -32,14 +33,14 @@ impl ValueKind {
             && x.is_finite()
     }
 
-    /// The nearest value that it can have.
+    /// The nearest value of this kind.
     pub(super) fn nearest(self, x: f64) -> f64 {
         let x = if self.positive { x.abs() } else { x };
         let x = if self.whole { x.round() } else { x };
         if self.truth { x.min(1.0) } else { x }
     }
 
-    /// What a list of tried values shows.
+    /// The kind of a list of sampled values.
     fn of_values(values: &[f64]) -> ValueKind {
         let some = values.iter().filter(|x| !x.is_nan());
         if some.clone().count() == 0 {
@@ -51,10 +52,10 @@ impl ValueKind {
     }
 }
 
-/// Values that are tried of a program to see of which kind it is.
+/// Number of evaluations of a program that determine its kind.
 const DRAWS: usize = 48;
 
-/// The kind of a measure: what its program gives where everything that it looks at has any value.
+/// The kind of a measure, determined by evaluating its program with random inputs.
 pub(super) fn kind_of(measure: &CompiledText<'_>, world: &World, context: &Context) -> ValueKind {
     program_kind(&measure.program, world, &mut context.clone())
 }
@@ -68,7 +69,8 @@ pub(super) fn kinds_of(program: &Program, world: &World, context: &Context) -> V
 fn program_kind(program: &Program, world: &World, context: &mut Context) -> ValueKind {
     let kinds: Vec<ValueKind> =
         program.aggregates().iter().map(|a| aggregate_kind(a, world, context)).collect();
-    // A measure that is one aggregate, and nothing besides, is of its kind.
+    // The aggregates get values of their own kinds, so a measure that consists of one aggregate is of the kind of that
+    // aggregate.
     let mut values = Vec::new();
     let mut draws = Draws::new(1);
     for seed in 0..DRAWS as u64 {

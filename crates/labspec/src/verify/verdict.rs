@@ -1,30 +1,31 @@
-//! What became of an answer: its verdict, why, and how far every option is from turning over.
+//! The result of checking an answer: its verdict, the reason, and the margin of every option.
 
 use super::format::significant;
 use crate::ledger::{Evidence, State};
 use serde::{Deserialize, Serialize};
 
-/// What became of an answer.
+/// The verdict of an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Verdict {
-    /// The simulation shows that exactly the keyed answer holds.
+    /// The simulation shows that only the keyed answer holds.
     Verified,
-    /// Exactly the keyed answer holds, by formulas alone: nothing was simulated for it.
+    /// Only the keyed answer holds, by formulas alone, without a simulation.
     Computed,
-    /// It holds, but not under other numerics: a shorter timestep, a converged solver, a start moved by 1e-14, another integrator.
+    /// It holds, but not under perturbed numerics: a shorter timestep, a converged solver, a start perturbed by 1e-14,
+    /// another integrator.
     Fragile,
-    /// The keyed answer holds, and another one too.
+    /// The keyed answer holds, and so does another one.
     Ambiguous,
     /// The keyed answer does not hold.
     Refuted,
-    /// It could not be checked: something is wrong with the runs or the conditions.
+    /// It could not be checked: the runs or the conditions have errors.
     Failed,
     /// There is nothing to check.
     Unverified,
 }
 
 impl Verdict {
-    /// In one word.
+    /// The verdict as one word.
     pub fn as_str(self) -> &'static str {
         match self {
             Verdict::Verified => "verified",
@@ -52,46 +53,47 @@ impl Verdict {
 /// A checked answer.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Answer {
-    /// What became of it.
+    /// The verdict.
     pub verdict: Verdict,
-    /// Why, unless it is verified; or what the evidence does not decide.
+    /// The reason, unless it is verified; or which options are undecided.
     pub reason: String,
-    /// Every option with its condition, or the value of a number.
+    /// Every option with the result of its condition, or the value of a number.
     pub weights: Vec<Weight>,
 }
 
-/// An option and how well its condition holds.
+/// An option, and by which margin its condition holds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Weight {
     /// Its index, from 0; `None` for the value of a number.
     pub option: Option<usize>,
-    /// The condition holds; `None` where the author says that this evidence does not decide the option.
+    /// Whether the condition holds; `None` where the author declares the option as undecided.
     pub holds: Option<bool>,
-    /// How far the comparison that decides is from turning over; negative where the condition does not hold.
+    /// Margin of the decisive comparison; negative where the condition does not hold.
     #[serde(with = "crate::verify::float_bits")]
     pub margin: Option<f64>,
-    /// How much half and a quarter of the timestep, other integrators, a converged solver and a moved start change that.
+    /// The largest change of the margin under perturbed numerics: half and a quarter of the timestep, other integrators, a
+    /// converged solver, a perturbed start.
     #[serde(with = "crate::verify::float_bits")]
     pub spread: Option<f64>,
 }
 
 impl Weight {
-    /// Whether eight times what other numerics change could turn it over: with errors of the first order in the timestep, all
-    /// that is left to come is as much again as half of it changes.
+    /// Whether eight times the spread reaches the margin. With errors of the first order in the timestep, the remaining
+    /// error is as large as the change at half the timestep; the factor leaves a reserve.
     pub(super) fn is_close(&self) -> bool {
         self.margin
             .zip(self.spread)
             .is_some_and(|(margin, spread)| spread > 0.0 && 8.0 * spread >= margin.abs())
     }
 
-    /// Takes in what the margin is under other numerics.
+    /// Widens the spread by the margin under perturbed numerics.
     pub(super) fn widen(&mut self, other: Option<f64>) {
         if let (Some(margin), Some(other)) = (self.margin, other) {
             self.spread = Some(self.spread.unwrap_or(0.0).max((other - margin).abs()));
         }
     }
 
-    /// `holds, by 0.02`; `does not hold, by 0.6`.
+    /// The result in words: `holds, by 0.02`; `does not hold, by 0.6`.
     pub fn describe(&self) -> String {
         let Some(holds) = self.holds else { return "is not decided by this evidence".to_string() };
         let spread = match self.spread {
@@ -113,7 +115,7 @@ impl Weight {
 }
 
 impl Answer {
-    /// An answer that nobody says how to check.
+    /// An answer without a `verify` object.
     pub(crate) fn unverified(reason: impl Into<String>) -> Answer {
         Answer { verdict: Verdict::Unverified, reason: reason.into(), weights: Vec::new() }
     }

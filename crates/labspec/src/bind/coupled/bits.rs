@@ -1,11 +1,11 @@
-//! Contact bits of geoms, and what stands between them and a contact: the bits of their bodies, and the trees of bounding volumes,
-//! both made when the model is compiled.
+//! Contact bits of geoms, and the values derived from them that also decide about contacts: the bits of their bodies, and
+//! the trees of bounding volumes. Both are computed when the model is compiled.
 
 use super::change::{Changes, PartnerChange};
 use super::statements::Statements;
 use labspec_core::{Model, disable};
 
-/// Bits of geoms and of bodies: the types, or the affinities.
+/// The accessors of contact bits of geoms and of bodies: types or affinities.
 type Bits = [fn(&Model) -> &[i32]; 2];
 
 const TYPES: Bits = [|m| &m.geom_contype, |m| &m.body_contype];
@@ -15,7 +15,7 @@ fn body_of(m: &Model, geom: usize) -> Option<usize> {
     usize::try_from(*m.geom_bodyid.get(geom)?).ok()
 }
 
-/// A body can touch what its geoms can touch: each bit of a geom that is switched on is one of its body.
+/// A body needs the bits of its geoms: each bit that is set in a geom must be set in its body.
 fn bits_of_bodies(before: &Model, now: &Model, [of_geom, of_body]: Bits) -> Changes {
     let mut wanted: Vec<i32> = of_body(now).to_vec();
     for (g, (was, is)) in of_geom(before).iter().zip(of_geom(now)).enumerate() {
@@ -38,8 +38,8 @@ pub(super) fn affinities_of_bodies(before: &Model, now: &Model) -> Changes {
     bits_of_bodies(before, now, AFFINITIES)
 }
 
-/// A geom that had no contact bits when the model was compiled is in no tree of bounding volumes: where its body has one, it is found
-/// without the midphase alone.
+/// A geom without contact bits at compile time is in no tree of bounding volumes. If its body has a tree, contacts of the
+/// geom are found only without the midphase.
 pub(super) fn midphase(before: &Model, now: &Model) -> Changes {
     let visual = |g: usize| now.visual_geoms.iter().any(|&v| v as usize == g);
     let switched = |g: usize| {
@@ -61,7 +61,7 @@ pub(super) fn midphase(before: &Model, now: &Model) -> Changes {
     }
 }
 
-/// The statements for the bits of these geoms' bodies.
+/// The statements for the bits of the bodies of these geoms.
 fn repair(s: &mut Statements<'_>, geoms: &[usize], kind: &str) -> Option<()> {
     if geoms.is_empty() {
         s.add(format!(

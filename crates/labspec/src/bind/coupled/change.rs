@@ -1,6 +1,6 @@
-//! How an element of a partner changes.
+//! The change of an element of a coupled parameter.
 
-/// How an element of a partner changes.
+/// The change of an element of a coupled parameter.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum PartnerChange {
     Times(f64),
@@ -8,5 +8,5 @@ pub(super) enum PartnerChange {
     Becomes(f64),
 }
 
-/// What of a partner changes: an element of its field, and how.
+/// Changes of a coupled parameter: the index of the element, and its change.
 pub(super) type Changes = Vec<(usize, PartnerChange)>;

@@ -1,4 +1,4 @@
-//! The correction of partners behind programs, and behind changes of a model's text.
+//! Corrects coupled parameters after programs, and after modifications of a model's text.
 
 use super::change::PartnerChange;
 use super::pair_set::{PairSet, writes_field};
@@ -9,26 +9,27 @@ use labspec_core::reflect::{FieldId, Kind, Object, View};
 use labspec_core::{self as core, AccessSet, Data, Error, Model, Plan};
 use labspec_expr::Program;
 
-/// Corrects the partners of what programs of a lab write, right behind each of them.
+/// Corrects the parameters coupled to those that programs of a lab write, directly after each program.
 #[derive(Clone, Debug)]
 pub(crate) struct Coupled {
-    /// Programs, and the pairs of each that are corrected.
+    /// Programs, and the pairs that are corrected after each.
     pub(crate) programs: Vec<(Text, PairSet)>,
-    /// Those of all other programs: the setups of the runs of a `verify` object.
+    /// The pairs for all other programs: the setups of the runs of a `verify` object.
     pub(crate) others: PairSet,
-    /// Those of changes of the model itself, which a run of a `verify` object may make.
+    /// The pairs for modifications of the model, which a run of a `verify` object may make.
     pub(crate) changes: PairSet,
-    /// Constants are computed anew besides (`mj_setConst`, with qpos kept) where a program changes what they follow from.
+    /// Whether constants are also recomputed (`mj_setConst`, with qpos preserved) where a program changes a field on which
+    /// they depend.
     pub(crate) refresh: bool,
 }
 
 impl Coupled {
-    /// Whether a change of a model's text leaves a partner behind; `before` is the model without it.
+    /// Whether a modification of a model's text omits a coupled parameter; `before` is the model without it.
     pub(crate) fn is_left_by_change(&self, before: &Model, now: &Model) -> bool {
         same_objects(before, now) && left_behind(self.changes, before, now)
     }
 
-    /// A model with changes of its text, corrected; `before` is the one without them.
+    /// Corrects a model with modifications of its text; `before` is the model without them.
     pub(crate) fn changed(&self, before: &Model, now: &mut Model) {
         let mut world = World {
             model: now.clone(),
@@ -45,7 +46,7 @@ impl Coupled {
         }
     }
 
-    /// What is corrected behind a program; `None` where nothing is.
+    /// The pairs that are corrected after a program; `None` where there are none.
     pub(crate) fn behind(&self, program: &Program, text: &Text) -> Option<PairSet> {
         let listed = self.programs.iter().find(|(of, _)| of == text);
         let pairs = listed.map_or(self.others, |(_, pairs)| *pairs);
@@ -53,10 +54,10 @@ impl Coupled {
         (written || listed.is_some() && self.refresh && writes_inertial(program)).then_some(pairs)
     }
 
-    /// Corrects what a program left behind. `before` is the model before it ran.
+    /// Corrects the coupled parameters that a program did not update. `before` is the model before it ran.
     ///
     /// # Errors
-    /// What the engine says.
+    /// An error of the engine.
     pub(crate) fn follow(
         &self,
         pairs: PairSet,
@@ -64,7 +65,8 @@ impl Coupled {
         program: &Program,
         world: &mut World,
     ) -> Result<(), Error> {
-        // Where a program changes what constants follow from and leaves them, they stay: that is another omission.
+        // If the program does not recompute constants, the correction does so only with `refresh`: the omission is a
+        // separate fault.
         let forgotten = writes_inertial(program) && !calls_set_const(program);
         let done = correct_fields(pairs, before, world)?;
         if self.refresh && writes_inertial(program) || done == Some(true) && !forgotten {
@@ -79,12 +81,13 @@ fn same_objects(a: &Model, b: &Model) -> bool {
     a.nbody == b.nbody && a.ngeom == b.ngeom && a.nactuator == b.nactuator
 }
 
-/// Whether a partner of these pairs is not what follows from its parameter. `before` is the model before that was changed.
+/// Whether a coupled parameter differs from the value that follows from its parameter. `before` is the model before the
+/// change.
 pub(crate) fn left_behind(pairs: PairSet, before: &Model, now: &Model) -> bool {
     pairs.pairs().any(|(_, pair)| !(pair.follow)(before, now).is_empty())
 }
 
-/// Corrects partners, and the constants that follow from them; `None` where nothing was wrong.
+/// Corrects coupled parameters, and the constants that depend on them; `None` where nothing was wrong.
 fn correct_partners(pairs: PairSet, before: &Model, world: &mut World) -> Result<Option<bool>, Error> {
     let done = correct_fields(pairs, before, world)?;
     if done == Some(true) {
@@ -93,7 +96,8 @@ fn correct_partners(pairs: PairSet, before: &Model, world: &mut World) -> Result
     Ok(done)
 }
 
-/// Corrects partners: `None` where nothing was wrong, `true` where constants follow from what was.
+/// Corrects coupled parameters. Returns `None` where nothing was wrong, and `true` where constants depend on a corrected
+/// one.
 fn correct_fields(pairs: PairSet, before: &Model, world: &mut World) -> Result<Option<bool>, Error> {
     let mut changes: Vec<(FieldId, usize, PartnerChange)> = Vec::new();
     for (_, pair) in pairs.pairs() {
@@ -113,7 +117,7 @@ fn correct_fields(pairs: PairSet, before: &Model, world: &mut World) -> Result<O
     Ok(inertial)
 }
 
-/// `mj_setConst`, with qpos kept.
+/// Calls `mj_setConst` and preserves qpos.
 fn recompute_constants(world: &mut World) -> Result<(), Error> {
     let qpos = world.data.fields().qpos.clone();
     core::set_const(&mut world.model, &mut world.data)?;
@@ -121,7 +125,7 @@ fn recompute_constants(world: &mut World) -> Result<(), Error> {
     Ok(())
 }
 
-/// Whether two models have the same parameters and partners, to rounding.
+/// Whether two models have the same coupled parameters, up to rounding.
 pub(crate) fn agree(a: &Model, b: &Model) -> bool {
     let mut fields = PAIRS.iter().flat_map(|pair| [pair.parameter, pair.partner]);
     fields.all(|f| match (a.field(f), b.field(f)) {
@@ -134,16 +138,16 @@ pub(crate) fn agree(a: &Model, b: &Model) -> bool {
     })
 }
 
-/// A part of a number by which another order of operations may change it.
+/// Relative difference that another order of operations may cause.
 const ROUNDING: f64 = 1e-9;
 
-/// Whether a program may write what constants follow from.
+/// Whether a program may write a field on which constants depend.
 fn writes_inertial(program: &Program) -> bool {
     let written = |f: FieldId| f.info().object == Object::Model && f.info().kind == Kind::Inertial;
     program.effects().writes.iter().filter_map(|a| FieldId::new(a.field.0 as usize)).any(written)
 }
 
-/// Whether a program computes constants anew.
+/// Whether a program recomputes constants.
 fn calls_set_const(program: &Program) -> bool {
     program.effects().calls.iter().any(|f| functions::name(*f) == Some("mj_setConst"))
 }

@@ -1,14 +1,14 @@
-//! How the partner of each pair follows from what a program did: the model before and after it.
+//! How the coupled parameter of each pair follows from the model before and after a program.
 
 use super::change::{Changes, PartnerChange};
 use super::shape;
 use labspec_core::math::{norm, rows, sub};
 use labspec_core::{Model, biastype, gaintype};
 
-/// A list of the model before and after.
+/// A field of the model before and after a program.
 type Both<'m> = (&'m [f64], &'m [f64]);
 
-/// An element before and after.
+/// An element before and after a program.
 fn at((before, after): Both<'_>, i: usize) -> Option<(f64, f64)> {
     Some((*before.get(i)?, *after.get(i)?))
 }
@@ -35,10 +35,10 @@ pub(super) fn inertia_of_mass(before: &Model, now: &Model) -> Changes {
     changes
 }
 
-/// How much farther than its bounding spheres a body may seem to reach by rounding.
+/// Relative tolerance for the rounding error of the reach of a body.
 const ROUNDING: f64 = 1e-9;
 
-/// The distance of the farthest point of a body from its centre of mass; `None` where geoms do not say.
+/// The distance of the farthest point of a body from its centre of mass, m; `None` where its geoms do not determine it.
 fn reach(m: &Model, body: usize) -> Option<f64> {
     let centre = rows::<3>(&m.body_ipos).get(body)?;
     let geoms = (0..m.ngeom).filter(|g| m.geom_bodyid.get(*g).is_some_and(|b| *b as usize == body));
@@ -51,7 +51,8 @@ fn reach(m: &Model, body: usize) -> Option<f64> {
     far
 }
 
-/// Moments of a body, and the largest of their factors where a program changed some.
+/// The principal moments of a body before and after a program, and the largest factor between them, if the program changed
+/// any.
 fn moments(before: &Model, now: &Model, body: usize) -> Option<([f64; 3], [f64; 3], f64)> {
     let [a, b] = [before, now].map(|m| rows::<3>(&m.body_inertia).get(body).copied());
     let (a, b) = (a?, b?);
@@ -61,7 +62,7 @@ fn moments(before: &Model, now: &Model, body: usize) -> Option<([f64; 3], [f64; 
     (largest > 0.0 && largest.is_finite()).then_some((a, b, largest))
 }
 
-/// No mass is farther from the axis than the body reaches: a moment above m r² takes more of it.
+/// No mass is farther from the axis than the reach r of the body: a moment above m r² needs a larger mass.
 pub(super) fn mass_of_inertia(before: &Model, now: &Model) -> Changes {
     let mass = (&*before.body_mass, &*now.body_mass);
     let most = |x: [f64; 3]| x.into_iter().fold(0.0, f64::max);
@@ -77,7 +78,7 @@ pub(super) fn mass_of_inertia(before: &Model, now: &Model) -> Changes {
     (1..now.nbody).filter_map(one).collect()
 }
 
-/// No principal moment is larger than the other two together.
+/// No principal moment exceeds the sum of the other two.
 pub(super) fn other_moments(before: &Model, now: &Model) -> Changes {
     let inertia = (&*before.body_inertia, &*now.body_inertia);
     let possible = |[a, b, c]: [f64; 3]| {
@@ -95,7 +96,7 @@ pub(super) fn other_moments(before: &Model, now: &Model) -> Changes {
     changes
 }
 
-/// The geoms whose size or place was changed.
+/// The geoms whose size or position was changed.
 fn changed<'m>(
     before: &'m Model,
     now: &'m Model,
@@ -105,7 +106,7 @@ fn changed<'m>(
     (0..now.ngeom).filter(move |g| (3 * g..3 * g + 3).any(|i| !same((a, b), i)))
 }
 
-/// Contacts are looked for within the bounding radius.
+/// The collision test uses the bounding radius.
 pub(super) fn bound_of_size(before: &Model, now: &Model) -> Changes {
     let bounds = (&*before.geom_rbound, &*now.geom_rbound);
     let one = |g: usize| {
@@ -116,7 +117,7 @@ pub(super) fn bound_of_size(before: &Model, now: &Model) -> Changes {
     changed(before, now, |m| &m.geom_size).filter_map(one).collect()
 }
 
-/// The inertia of a body whose mass is that of one geom is that of its shape.
+/// If the mass of a body is that of one geom, its inertia is that of the shape of the geom.
 pub(super) fn inertia_of_size(before: &Model, now: &Model) -> Changes {
     let inertia = (&*before.body_inertia, &*now.body_inertia);
     let mut changes = Vec::new();
@@ -132,7 +133,7 @@ pub(super) fn inertia_of_size(before: &Model, now: &Model) -> Changes {
     changes
 }
 
-/// The centre of mass of a body whose mass is that of one geom is where the geom is.
+/// If the mass of a body is that of one geom, its centre of mass is the position of the geom.
 pub(super) fn centre_of_place(before: &Model, now: &Model) -> Changes {
     let (place, centre) = ((&*before.geom_pos, &*now.geom_pos), (&*before.body_ipos, &*now.body_ipos));
     let mut changes = Vec::new();
@@ -148,10 +149,10 @@ pub(super) fn centre_of_place(before: &Model, now: &Model) -> Changes {
     changes
 }
 
-/// Numbers of an actuator's gain and bias.
+/// Number of gain parameters, and of bias parameters, of an actuator.
 const PARAMETERS: usize = 10;
 
-/// The place of the bias that is minus the gain of a servo: the position's, or the velocity's.
+/// The index of the bias parameter of a servo that is minus its gain: that of the position or of the velocity.
 pub(super) fn servo(m: &Model, actuator: usize) -> Option<usize> {
     let is = |list: &[i32], kind| list.get(actuator) == Some(&kind);
     if !is(&m.actuator_gaintype, gaintype::FIXED) || !is(&m.actuator_biastype, biastype::AFFINE) {
@@ -162,7 +163,7 @@ pub(super) fn servo(m: &Model, actuator: usize) -> Option<usize> {
     [1, 2].into_iter().find(opposite).filter(|_| gain != 0.0).map(|k| PARAMETERS * actuator + k)
 }
 
-/// A servo pulls with gain * (target - length): its bias is minus the gain.
+/// A servo applies gain * (target - length), so its bias is minus the gain.
 pub(super) fn bias_of_gain(before: &Model, now: &Model) -> Changes {
     let [gain, bias] = both_of_actuators(before, now);
     let one = |actuator: usize| {

@@ -1,5 +1,5 @@
-//! Pairs in the programs of a lab: which of them are corrected, which the lab leaves apart on purpose, and the statements that repair a
-//! program.
+//! Pairs in the programs of a lab: which of them are corrected, which the lab intentionally separates, and the statements
+//! that repair a program.
 
 use super::correction::Coupled;
 use super::pair_set::{PairSet, writes_field};
@@ -12,9 +12,9 @@ use labspec_core::reflect::FieldId;
 use labspec_expr::{Compiler, Globals};
 
 impl Coupled {
-    /// Makes the runs of these programs corrected ones.
+    /// Makes the runs of these programs corrected runs.
     pub(crate) fn install(self, programs: &mut Programs, model: &Model) {
-        // What the correction reads and writes belongs to what the lab needs.
+        // The access set of the lab includes the reads and writes of the correction.
         let names = ModelNames::new(model, Scope::Lab);
         let mut globals = Globals::new();
         let set_const = "const q = data.qpos.slice(); mj.mj_setConst(model, data); data.qpos.set(q)";
@@ -26,11 +26,11 @@ impl Coupled {
     }
 }
 
-/// Most elements that a repair names one by one.
+/// Maximum number of elements that a repair names individually.
 const MOST: usize = 4;
 
 impl Repair {
-    /// The statements for these pairs; `None` where one has none.
+    /// The statements for these pairs; `None` where a pair has none.
     pub(crate) fn of_program(bound: &Bound, pairs: PairSet, model: &Model) -> Option<Repair> {
         let mut made = Statements { model, text: &bound.text.value, repair: Repair::default() };
         for (_, pair) in pairs.pairs() {
@@ -42,8 +42,8 @@ impl Repair {
     }
 }
 
-/// The pairs that some control of a lab leaves to the student on purpose: the partner has a control of its own, which does not
-/// write the parameter. Both numbers are then chosen apart from each other.
+/// The pairs that a lab intentionally separates: a control that does not write the parameter sets the coupled parameter. A
+/// student then chooses both values independently.
 pub(crate) fn chosen_apart(programs: &Programs, bound: &Bound, pairs: PairSet) -> PairSet {
     let controls = programs.controls.iter().filter_map(|(_, c)| match c {
         ControlProgram::Change(_, action) => action.run.as_ref(),
@@ -62,10 +62,10 @@ pub(crate) fn chosen_apart(programs: &Programs, bound: &Bound, pairs: PairSet) -
     pairs.pairs().filter(|(_, pair)| apart(pair)).map(|(one, _)| one).collect()
 }
 
-/// Most elements of a field that are taken one by one.
+/// Maximum number of elements of a field that are listed individually.
 const MOST_ELEMENTS: usize = 64;
 
-/// The elements of a field that a program writes itself, where it says which.
+/// The elements of a field that a program writes itself, if they are known.
 fn written_elements(bound: &Bound, field: FieldId) -> Option<Vec<usize>> {
     let written = bound.program.own_writes();
     let mut all = Vec::new();

@@ -1,17 +1,17 @@
-//! Parameters of a model that belong together: what a program changes, and the partner that it leaves behind.
+//! Coupled parameters of a model: pairs of a parameter that a program changes, and its partner, which must change with it.
 //!
-//! A body of ten times the mass has ten times the inertia, a servo of twice the gain has twice the bias. A program that writes
-//! one of a pair alone makes a body, or a servo, that does not exist. [`Coupled`] makes a lab run with the partners corrected
-//! behind every program, so that what the omission changes is measured and not guessed.
+//! A body with ten times the mass has ten times the inertia, and a servo with twice the gain has twice the bias. A program
+//! that writes only one of a pair creates a physically inconsistent body or servo. [`Coupled`] runs a lab with the partners
+//! corrected after every program, so that the effect of the omission is measured and not guessed.
 //!
-//! | piece | module |
+//! | part | module |
 //! |---|---|
 //! | the pairs | `table` |
 //! | how each partner follows | `follow` |
 //! | sets of pairs | `pair_set` |
-//! | the correction behind programs | `correction` |
+//! | the correction after programs | `correction` |
 //! | pairs in the programs of a lab | `lab` |
-//! | contact bits, and what stands between them and a contact | `bits` |
+//! | contact bits and the values derived from them | `bits` |
 //! | shapes: bounding radius, inertia, the geom that carries the mass of a body | `shape` |
 //! | the correction as statements of the language | `repair`, `statements` |
 

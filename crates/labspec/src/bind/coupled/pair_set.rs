@@ -1,10 +1,10 @@
-//! Sets of pairs, and which of them a program writes.
+//! Sets of pairs, and the pairs that a program writes.
 
 use super::table::{PAIRS, Pair};
 use labspec_core::reflect::FieldId;
 use labspec_expr::Program;
 
-/// Some of the pairs of the table.
+/// A subset of the pairs of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct PairSet(u32);
 
@@ -26,7 +26,7 @@ impl PairSet {
         PairSet(set.fold(0, |all, (i, _)| all | 1 << i))
     }
 
-    /// The pairs of the set, each with the set of it alone.
+    /// The pairs of the set, each with the set that contains only it.
     pub(crate) fn pairs(self) -> impl Iterator<Item = (PairSet, &'static Pair)> {
         let all = PAIRS.iter().enumerate().map(|(i, pair)| (PairSet(1 << i), pair));
         all.filter(move |(one, _)| self.0 & one.0 != 0)

@@ -5,7 +5,7 @@ use super::shape;
 use super::statements::Statements;
 use labspec_core::geom;
 
-/// A loop over the three numbers of a body's inertia.
+/// A loop over the three elements of the inertia of a body.
 fn over_moments(body: usize, statement: &str) -> String {
     format!("for (let i = {}; i < {}; i++) model.body_inertia[i] {statement}", 3 * body, 3 * body + 3)
 }
@@ -32,7 +32,7 @@ fn geoms(elements: &[usize]) -> Option<Vec<usize>> {
     (!all.is_empty()).then_some(all)
 }
 
-/// The three sizes of a geom, in words of the language.
+/// The three sizes of a geom as expressions of the language.
 fn sizes(g: usize) -> [String; 3] {
     [0, 1, 2].map(|k| format!("model.geom_size[{}]", 3 * g + k))
 }

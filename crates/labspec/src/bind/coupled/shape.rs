@@ -1,22 +1,22 @@
-//! Shapes of geoms: bounding radius and inertia of one kilogram, as a model that is compiled for it has them, and the geom that
+//! Shapes of geoms: bounding radius and inertia per kilogram, computed by compiling a model of the geom; and the geom that
 //! carries the mass of a body.
 
 use labspec_core::math::{Mat3, mat_mul, norm, quat_to_mat, rows, sub};
 use labspec_core::{Model, geom};
 
-/// Part of a moment by which a body may differ from the shape of its geom.
+/// Relative tolerance between the moments of a body and those of the shape of its geom.
 const SAME: f64 = 1e-6;
 
-/// What is known of a shape.
+/// The properties of a shape.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shape {
-    /// Of the bounding sphere, m.
+    /// Radius of the bounding sphere, m.
     pub(super) radius: f64,
-    /// Inertia tensor of one kilogram in the geom's frame, m².
+    /// Inertia tensor per kilogram in the frame of the geom, m².
     tensor: Mat3,
 }
 
-/// The kinds of shapes that sizes describe: the word for a model, and the number of sizes.
+/// The shapes that are defined by sizes: the type, its name in MJCF, and the number of sizes.
 const KINDS: [(i32, &str, usize); 5] = [
     (geom::SPHERE, "sphere", 1),
     (geom::CAPSULE, "capsule", 2),
@@ -25,7 +25,7 @@ const KINDS: [(i32, &str, usize); 5] = [
     (geom::BOX, "box", 3),
 ];
 
-/// The shape of a geom; `None` for planes, fields and meshes, and for sizes that no geom has.
+/// The shape of a geom; `None` for planes, height fields and meshes, and for invalid sizes.
 pub(super) fn shape_of_geom(m: &Model, g: usize) -> Option<Shape> {
     let kind = m.geom_type.get(g)?;
     let (_, word, sizes) = KINDS.iter().find(|(k, ..)| k == kind)?;
@@ -56,21 +56,22 @@ fn transposed([a, b, c, d, e, f, g, h, i]: &Mat3) -> Mat3 {
     [*a, *d, *g, *b, *e, *h, *c, *f, *i]
 }
 
-/// The rotation from a geom's frame to the principal axes of its body.
+/// The rotation from the frame of a geom to the principal axes of its body.
 pub(super) fn to_axes(m: &Model, g: usize, body: usize) -> Option<Mat3> {
     let of_geom = quat_to_mat(*rows::<4>(&m.geom_quat).get(g)?);
     let of_axes = quat_to_mat(*rows::<4>(&m.body_iquat).get(body)?);
     Some(mat_mul(&transposed(&of_axes), &of_geom))
 }
 
-/// Moments of one kilogram of a geom's shape about the principal axes of its body; `None` where these are not its own.
+/// Principal moments per kilogram of the shape of a geom, in the order of the principal axes of its body; `None` where the
+/// axes differ.
 pub(super) fn moments(m: &Model, g: usize, body: usize) -> Option<[f64; 3]> {
     let [a, ab, ac, _, b, bc, _, _, c] = turned(&shape_of_geom(m, g)?.tensor, &to_axes(m, g, body)?);
     let off_axis = ab.abs().max(ac.abs()).max(bc.abs());
     (off_axis <= SAME * (a + b + c)).then_some([a, b, c])
 }
 
-/// The body whose mass is all in this geom.
+/// The body whose mass is entirely that of this geom.
 pub(super) fn carried(m: &Model, g: usize) -> Option<usize> {
     let body = *m.geom_bodyid.get(g)? as usize;
     if body == 0 {

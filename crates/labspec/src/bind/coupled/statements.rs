@@ -1,19 +1,19 @@
-//! Statements of the language that are written before and behind a program.
+//! Statements of the language that are written before and after a program.
 
 use labspec_core::Model;
 
-/// Statements that correct what a program leaves behind.
+/// Statements that correct coupled parameters.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Repair {
-    /// Before the program: what has to be known from before it.
+    /// Before the program: they store values from before it.
     pub(crate) before: Vec<String>,
-    /// Behind it.
+    /// After the program.
     pub(crate) after: Vec<String>,
-    /// Constants have to be computed anew behind them.
+    /// Whether constants must be recomputed after them.
     pub(crate) constants: bool,
 }
 
-/// Statements on their way.
+/// Statements while they are written.
 pub(super) struct Statements<'a> {
     pub(super) model: &'a Model,
     pub(super) text: &'a str,
@@ -21,7 +21,7 @@ pub(super) struct Statements<'a> {
 }
 
 impl Statements<'_> {
-    /// A name that the program does not have.
+    /// A name that the program does not use.
     fn name(&self, wanted: &str) -> String {
         let part = |c: char| c.is_alphanumeric() || c == '_' || c == '$';
         let is_used = |name: &str| {
@@ -33,14 +33,14 @@ impl Statements<'_> {
         names.find(|name| !is_used(name)).unwrap_or_else(|| format!("{wanted}_as_it_was"))
     }
 
-    /// Keeps a value from before the program, and gives its name.
+    /// Stores a value from before the program, and returns its name.
     pub(super) fn keep(&mut self, wanted: &str, value: &str) -> String {
         let name = self.name(wanted);
         self.repair.before.push(format!("const {name} = {value}"));
         name
     }
 
-    /// Adds a statement behind the program, once.
+    /// Adds a statement after the program, once.
     pub(super) fn add(&mut self, statement: String) {
         if self.repair.after.contains(&statement) {
             return;

@@ -1,4 +1,4 @@
-//! The pairs: a parameter, the partner that follows it, and how.
+//! The pairs: a parameter, the partner that depends on it, and the dependency.
 
 use super::change::Changes;
 use super::statements::Statements;
@@ -8,25 +8,26 @@ use labspec_core::Model;
 use labspec_core::reflect::{FieldId, model, option};
 use std::ops::Range;
 
-/// Writes the statements that change the partner of these objects; `None` where that cannot be written.
+/// Writes the statements that change the partner of these objects; `None` where that is impossible.
 type Repair = fn(&mut Statements<'_>, &[usize]) -> Option<()>;
 
-/// A parameter of a model, and the partner that has to follow it.
+/// A parameter of a model, and the partner that must change with it.
 #[derive(Debug)]
 pub(crate) struct Pair {
     /// The field of the parameter.
     pub(crate) parameter: FieldId,
     /// The field of the partner.
     pub(crate) partner: FieldId,
-    /// The rule that a parameter without its partner breaks.
+    /// The rule that a change of the parameter alone violates.
     pub(crate) rule: &'static Rule,
-    /// The partner in words, where it is left behind.
+    /// The partner in a message about its omission.
     pub(crate) left: &'static str,
-    /// What the partner is after the correction, behind "with".
+    /// The corrected partner in a message, after "with".
     pub(crate) corrected: &'static str,
-    /// How to correct it, where no statements were tried.
+    /// The help, where no statements were tested.
     pub(crate) help: &'static str,
-    /// What follows from what a program did: the model before and after it. A partner that the program changed itself stays.
+    /// The changes of the partner that follow from the model before and after a program. A partner that the program itself
+    /// changed is kept.
     pub(super) follow: fn(&Model, &Model) -> Changes,
     /// The elements of the partner that belong to an element of the parameter.
     pub(super) partners: fn(usize) -> Range<usize>,
@@ -150,7 +151,7 @@ pub(crate) const PAIRS: &[Pair] = &[
     Pair { parameter: model::geom_conaffinity, ..MIDPHASE },
 ];
 
-/// A geom that is switched on, and is missing in the tree of bounding volumes of its body.
+/// A geom whose contact bits are set although it is missing in the tree of bounding volumes of its body.
 const MIDPHASE: Pair = Pair {
     parameter: model::geom_contype,
     partner: option::disableflags,

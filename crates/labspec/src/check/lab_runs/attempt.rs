@@ -1,4 +1,4 @@
-//! One run that looks for what breaks.
+//! Makes one run to detect breakdowns.
 
 use super::super::PreparedLab;
 use super::Trial;
@@ -11,43 +11,43 @@ use crate::stress::{self, Fault, StressCase};
 use labspec_core::Model;
 use std::ops::ControlFlow;
 
-/// How often what a lab shows is looked at, at least, besides its start.
+/// Minimum number of samples of the displayed values, besides the start.
 const SAMPLES: usize = 200;
 
-/// Work for trying what helps against what broke in a run.
+/// Work budget for testing remedies for the breakdowns of a run.
 const TRIES: u64 = 1_000_000_000;
 
-/// Why a run ended before its time.
+/// Why a run ended early.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Ended {
     /// A program of the lab threw.
     Threw,
-    /// The budget was spent.
+    /// The work budget ran out.
     Spent,
 }
 
-/// A run that was made.
+/// A completed run.
 pub(super) struct Attempt {
-    /// Length of what was run, s.
+    /// Length of the run, s.
     pub(super) covered: f64,
-    /// Work that it took.
+    /// Work of the run.
     pub(super) spent: u64,
     pub(super) broke: bool,
-    /// Something threw, or a number was none and the engine began anew: what was shown is not that of a whole run.
+    /// A program threw, or the engine reset the state after a bad number: the samples are not those of a whole run.
     pub(super) lost: bool,
     pub(super) ended: Option<Ended>,
-    /// The model as the lab left it.
+    /// The model at the end of the run.
     pub(super) model: Model,
-    /// What was seen.
+    /// The samples.
     pub(super) record: Record,
-    /// Everything that went wrong, loudly or not.
+    /// All faults, including silent ones.
     pub(super) faults: Vec<Fault>,
 }
 
-/// Makes one run and reports what broke.
+/// Makes one run and reports its breakdowns.
 ///
 /// # Errors
-/// The run cannot be made.
+/// The run cannot be started.
 pub(super) fn make(
     ready: &PreparedLab<'_>,
     case: &StressCase<'_>,
@@ -64,7 +64,8 @@ pub(super) fn make(
     }
     let mut session = case.start(&trial.interaction, budget.left);
     let timestep = session.world.model.opt.timestep;
-    // As long as plots show costs what it costs; what an author asks for has a limit.
+    // The length of a plot can be shortened to the maximum number of steps. A length that the author sets is an error if
+    // it is too long.
     let until = lab.stop_at.is_none().then(|| wanted.min(timestep * (run::MAX_STEPS - 1) as f64));
     let steps = run::count_steps(lab, until, None, timestep)?;
 
@@ -99,7 +100,7 @@ pub(super) fn make(
     Ok(Attempt { covered, spent, broke, lost, ended, model: session.world.model, record, faults })
 }
 
-/// Reports what threw and what broke in a run. Whether anything did, and the work of trying what helps.
+/// Reports errors and breakdowns of a run. Returns whether there were any, and the work of testing remedies.
 fn report_breaks(
     lab: &Lab,
     case: &StressCase<'_>,

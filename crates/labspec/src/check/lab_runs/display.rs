@@ -1,27 +1,27 @@
-//! A trace or a readout, as it is watched through the runs of a lab.
+//! A trace or a readout during the runs of a lab.
 
 use crate::bind::Bound;
 
-/// A trace or a readout through all runs.
+/// A trace or a readout during all runs.
 pub(crate) struct WatchedDisplay<'a> {
     pub(crate) bound: &'a Bound,
-    /// Its place in a row of samples.
+    /// Its index in a row of samples.
     pub(crate) column: usize,
     pub(crate) name: String,
     pub(crate) trace: bool,
-    /// The text itself says that there may be gaps.
+    /// Whether its text itself contains NaN, for a gap.
     pub(crate) says_gap: bool,
     pub(crate) says_infinite: bool,
-    /// Whether it was a number, a text or a truth value in any run.
+    /// Whether it was a number, a text or a boolean in any run.
     pub(crate) ever: bool,
-    /// Whether it had a gap that may be meant.
+    /// Whether it had a gap that may be intended.
     pub(crate) gap: bool,
-    /// Codes of the rules that it breaks.
+    /// Codes of the rules that it violates.
     pub(crate) reported: Vec<&'static str>,
 }
 
 impl WatchedDisplay<'_> {
-    /// What a student makes of a value that is no number.
+    /// The consequence of a NaN for a student.
     pub(crate) fn consequence(&self) -> &'static str {
         match self.trace {
             true => "the curve has a gap there, and nothing explains it",
@@ -30,7 +30,7 @@ impl WatchedDisplay<'_> {
     }
 }
 
-/// When something was displayed, in words.
+/// The time of an observation, in words.
 pub(crate) fn moment(time: f64, done: &str) -> String {
     format!("{done}, at t = {} s", crate::run::time(time))
 }

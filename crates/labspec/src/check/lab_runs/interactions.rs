@@ -1,6 +1,6 @@
-//! Whatever else a student may do to a lab that has no fault as it stands and with each control at its ends: a touch, several
-//! controls at their ends, buttons in order, everything in turn while it runs, and ten times as long as anybody looks; then twice the
-//! timestep. What `labspec stability` does, as far as a check may work.
+//! Further interactions with a lab that has no fault as loaded and with each control at its ends: a push, several controls
+//! at their ends, buttons in order, all controls in turn during the run, ten times the usual length, and then twice the
+//! timestep. These are the runs of `labspec stability`, within the work budget of a check.
 
 use super::{LabRunState, Trial, attempt};
 use crate::finding::{Finding, Severity};
@@ -9,15 +9,15 @@ use crate::run::Budget;
 use crate::spec::Lab;
 use crate::stress::{self, FaultGroup, Interaction, Kind};
 
-/// How many times longer than anybody looks the last run is.
+/// Factor of the length of the last run.
 const LONGER: f64 = 10.0;
 
-/// Nothing is done.
+/// No interaction.
 pub(super) fn nothing() -> Interaction {
     Interaction { kind: Kind::AsItStands, actions: Vec::new() }
 }
 
-/// Makes these runs, while something is left, and reports what was seen in all of them.
+/// Makes these runs within the budget, and reports the faults of all runs.
 pub(super) fn go_on(state: &mut LabRunState<'_>, left: &mut u64, findings: &mut Vec<Finding>) {
     let completed = state.tried.as_ref().is_some_and(|t| t.runs > 0 && t.ended.is_none());
     if !state.hopeless && completed {
@@ -46,7 +46,7 @@ fn try_more(state: &mut LabRunState<'_>, left: &mut u64, findings: &mut Vec<Find
             continue;
         };
         *left = left.saturating_sub(attempt.spent);
-        // A fault of a simpler setting is not reported again.
+        // A fault that a simpler interaction shows is not reported again.
         of_trial
             .retain(|f| !findings.iter().any(|reported| reported.code == f.code && reported.span == f.span));
         findings.extend(of_trial);
@@ -59,7 +59,7 @@ fn try_more(state: &mut LabRunState<'_>, left: &mut u64, findings: &mut Vec<Find
         state.note(&trial, attempt.faults, left);
     }
     if state.tried.as_ref().is_some_and(|t| t.broke) {
-        // A run shows it now.
+        // A run shows the fault, so its prediction is redundant.
         findings.retain(|f| f.code != rules::STIFF_FOR_TIMESTEP.code);
     } else if state.tried.as_ref().is_some_and(|t| t.skipped == 0) {
         let made = state.tried.as_ref().map_or(0, |t| t.runs);
@@ -69,20 +69,20 @@ fn try_more(state: &mut LabRunState<'_>, left: &mut u64, findings: &mut Vec<Find
     }
 }
 
-/// What is done, and for how long; and how many pairs of settings meet in no run, as there are too many.
+/// The interactions and their lengths, and the number of pairs of settings that no run covers.
 fn list_interactions(lab: &Lab, wanted: f64) -> (Vec<(Interaction, f64)>, usize) {
     let several =
         |h: &Interaction| matches!(h.kind, Kind::Touched | Kind::InOrder | Kind::Corner | Kind::Interleaved);
     let (all, missing) = stress::list_interactions(lab, wanted, &nothing());
     let mut all: Vec<(Interaction, f64)> = all.into_iter().filter(several).map(|h| (h, wanted)).collect();
-    // What a lab stops before is seen by nobody.
+    // A lab with a stop time is never run longer.
     if lab.stop_at.is_none() {
         all.push((nothing(), LONGER * wanted));
     }
     (all, missing)
 }
 
-/// What was seen beside that of which runs speak themselves.
+/// A finding about a fault that the runs themselves do not report.
 fn finding_of(found: &FaultGroup, state: &LabRunState<'_>) -> Option<Finding> {
     let FaultGroup { fault, interaction, settings, .. } = found;
     let breakdown = stress::describe(fault)?;

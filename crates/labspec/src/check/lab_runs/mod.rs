@@ -1,5 +1,5 @@
-//! The runs that look for what breaks, within a budget of work for the whole file: every lab as it stands and with each control at
-//! its ends; then whatever else a student may do to it.
+//! The runs that detect breakdowns, within a work budget for the whole file: every lab as loaded and with each control at
+//! its ends, then further interactions.
 
 mod attempt;
 mod display;
@@ -20,76 +20,76 @@ use seen::Seen;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-/// When buttons are pressed, s.
+/// Time at which buttons are pressed, s.
 const PRESS: f64 = 0.1;
-/// What is kept for each lab that is still to be run as it stands.
+/// Work reserved for each lab whose first run is still to be made.
 const RESERVE: u64 = 50_000_000;
 
-/// What the runs of a lab covered.
+/// The coverage of the runs of a lab.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Tried {
-    /// Runs that were made.
+    /// Number of runs.
     pub runs: usize,
-    /// How long each was meant to be, s.
+    /// Intended length of each run, s.
     #[serde(with = "crate::verify::float_bits")]
     pub wanted: f64,
-    /// How long the shortest was, s.
+    /// Length of the shortest run, s.
     #[serde(with = "crate::verify::float_bits")]
     pub covered: f64,
-    /// Runs that were not made: they cannot be, the budget was spent, or the lab breaks as it stands.
+    /// Number of runs that were not made: they cannot start, the budget ran out, or the lab breaks as loaded.
     pub skipped: usize,
-    /// Something broke.
+    /// Whether a run broke.
     pub broke: bool,
-    /// Why a run ended before its time: one short sentence.
+    /// Why a run ended early, in one short sentence.
     pub ended: Option<String>,
 }
 
-/// One thing that a student may do to a lab.
+/// One interaction with a lab.
 struct Trial<'a> {
     interaction: Interaction,
-    /// How long it is run, s.
+    /// Length of the run, s.
     length: f64,
-    /// What was done, for the message.
+    /// The interaction in words, for messages.
     done: String,
-    /// The control, unless it is the lab as it stands.
+    /// The control, unless the lab runs as loaded.
     control: Option<&'a Control>,
-    /// Its place in the list, and its value; a button has none.
+    /// The index of the control and its value; a button has no value.
     moved: Option<(usize, Option<Value>)>,
 }
 
 impl Trial<'_> {
-    /// Where to point.
+    /// The span for findings.
     fn place(&self, lab: &Lab) -> Range<usize> {
         self.control.map_or(lab.place(), |c| c.label.span())
     }
 }
 
-/// A run that cannot be made.
+/// The finding about a run that cannot be made.
 fn impossible(place: Range<usize>, e: run::RunError) -> Finding {
     Finding::error(rules::RUN_IMPOSSIBLE, place, e.0)
 }
 
-/// A lab on its way through its runs.
+/// The state of a lab during its runs.
 struct LabRunState<'a> {
     ready: &'a PreparedLab<'a>,
     case: StressCase<'a>,
     wanted: f64,
-    /// Those with controls, in order.
+    /// The remaining runs with controls, in order.
     left: std::vec::IntoIter<Trial<'a>>,
-    /// What went wrong in its runs, each kind once.
+    /// The faults of its runs, each kind once.
     faults: Vec<FaultGroup>,
     seen: Seen<'a>,
     tried: Option<Tried>,
-    /// What was seen in its runs.
+    /// The samples of its runs.
     records: Vec<Record>,
-    /// A run lost its numbers, so that not every run came to its end.
+    /// Whether a run lost its numbers, so that not every run was completed.
     lost: bool,
-    /// It breaks as it stands, or never begins to run: it would with every control.
+    /// Whether it breaks or does not start as loaded: it would with every control.
     hopeless: bool,
 }
 
 impl LabRunState<'_> {
-    /// Keeps what went wrong in a run, once for each kind and body.
+    /// Records the faults of a run, once for each kind and body.
     fn note(&mut self, trial: &Trial<'_>, faults: Vec<Fault>, left: &mut u64) {
         let Trial { interaction, length, .. } = trial;
         let (faults, spent) = stress::without_pushed_bodies(&self.case, interaction, faults, *length, *left);
@@ -97,7 +97,7 @@ impl LabRunState<'_> {
         faults.into_iter().for_each(|f| stress::add_fault(&mut self.faults, f, interaction));
     }
 
-    /// Counts runs that were not made.
+    /// Counts skipped runs.
     fn skip(&mut self, runs: usize) {
         if let Some(tried) = &mut self.tried {
             tried.skipped += runs;
@@ -105,7 +105,7 @@ impl LabRunState<'_> {
     }
 }
 
-/// Runs every lab that has an address, as it stands and with each control at its ends.
+/// Runs every lab that has an address, as loaded and with each control at its ends.
 pub(super) fn run_labs(
     lesson: &Lesson,
     ready: &[PreparedLab<'_>],
@@ -114,7 +114,7 @@ pub(super) fn run_labs(
     let addressed = lesson.addressed();
     let mut left = Budget::FILE.left;
     let mut states: Vec<(&LabAddress, &Lab, Option<LabRunState<'_>>)> = Vec::new();
-    // What is found in each lab: its author may expect some of it.
+    // The findings of each lab are separate, because its author may expect some of them.
     let mut found = vec![Vec::new(); addressed.len()];
     for (i, (address, lab)) in addressed.iter().enumerate() {
         let later = (addressed.len() - i - 1) as u64;
@@ -123,7 +123,7 @@ pub(super) fn run_labs(
         let begin = |r| begin(r, Budget { left: share }, &mut left, &mut found[i]);
         states.push((address, lab, one.map(begin)));
     }
-    // What is left is shared by the labs as they come.
+    // The labs share the remaining budget.
     let mut others = states.len() as u64;
     for (state, found) in states.iter_mut().map(|(.., state)| state).zip(&mut found) {
         let Some(state) = state else { continue };
@@ -138,7 +138,7 @@ pub(super) fn run_labs(
             observations::check_observations(state.ready, &state.records, state.wanted, found);
         }
     }
-    // What is beyond that has a budget of its own.
+    // Further interactions have a separate budget.
     let (mut left, mut others) = (Budget::FILE.left, states.len() as u64);
     for (state, found) in states.iter_mut().map(|(.., state)| state).zip(&mut found) {
         let mut share = left / others.max(1);
@@ -169,7 +169,7 @@ pub(super) fn run_labs(
     states.into_iter().map(ran).collect()
 }
 
-/// The lab as it stands.
+/// Runs the lab as loaded.
 fn begin<'a>(
     ready: &'a PreparedLab<'a>,
     budget: Budget,
@@ -220,7 +220,7 @@ fn begin<'a>(
     state
 }
 
-/// The runs with each control at its ends, while something is left.
+/// Makes the runs with each control at its ends, within the budget.
 fn go_on(state: &mut LabRunState<'_>, left: &mut u64, findings: &mut Vec<Finding>) {
     while let Some(trial) = state.left.next() {
         if *left == 0 {
@@ -241,7 +241,7 @@ fn go_on(state: &mut LabRunState<'_>, left: &mut u64, findings: &mut Vec<Finding
     }
 }
 
-/// Counts a run that was made.
+/// Counts a completed run.
 fn count(state: &mut LabRunState<'_>, trial: &Trial<'_>, attempt: Attempt, left: &mut u64) {
     state.note(trial, attempt.faults, left);
     state.records.push(attempt.record);
@@ -260,12 +260,12 @@ fn count(state: &mut LabRunState<'_>, trial: &Trial<'_>, attempt: Attempt, left:
     }
 }
 
-/// A time as a report names it: `4.0`, `0.25`, `20`.
+/// A time in the format of a report: `4.0`, `0.25`, `20`.
 fn seconds(t: f64) -> String {
     if t >= 10.0 && t.fract() == 0.0 || t == 0.0 { format!("{t:.0}") } else { run::two_digits(t) }
 }
 
-/// As it stands, then with each control at its ends.
+/// The lab as loaded, then with each control at its ends.
 fn trials(lab: &Lab, wanted: f64) -> Vec<Trial<'_>> {
     let alone = |action| Interaction { kind: Kind::End, actions: vec![action] };
     let mut trials = vec![Trial {

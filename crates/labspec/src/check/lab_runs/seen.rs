@@ -1,7 +1,7 @@
-//! What the traces and readouts of a lab show in its runs: numbers, or what no student can read.
+//! The values that the traces and readouts of a lab display in its runs: numbers, or values that a student cannot read.
 //!
-//! A gap may be meant: a text that says `NaN` itself, or reads a variable that nothing has stored yet, is silent until it
-//! is certain that no run ever fills the gap.
+//! A gap may be intended. A text that contains `NaN` itself, or reads a variable that is not stored yet, is reported only
+//! when no run fills the gap.
 
 use super::super::PreparedLab;
 use super::display::WatchedDisplay;
@@ -11,27 +11,27 @@ use crate::run::{Cell, Session, Trouble};
 use crate::source::Text;
 use std::collections::BTreeSet;
 
-/// All that a lab shows.
+/// All displays of a lab.
 pub(super) struct Seen<'a> {
     displays: Vec<WatchedDisplay<'a>>,
-    /// Traces and readouts.
+    /// Number of traces and readouts.
     width: usize,
-    /// Slots of `ctx` to which some text stores `NaN` on purpose.
+    /// Slots of `ctx` to which a text stores `NaN` intentionally.
     gaps: BTreeSet<u32>,
     found: Vec<Finding>,
-    /// What threw before.
+    /// Errors of programs that were reported before.
     troubles: Vec<(&'static Rule, Text, std::ops::Range<usize>)>,
 }
 
 impl<'a> Seen<'a> {
-    /// Nothing was seen yet.
+    /// The displays of a lab before the first run.
     pub(super) fn new(ready: &'a PreparedLab<'a>) -> Seen<'a> {
         let programs = &ready.programs;
         let displays = programs.probes.iter().enumerate().filter_map(|(i, p)| {
             let bound = p.bound.as_ref()?;
             let (kind, label) = p.name.split_once('/').unwrap_or(("", &p.name));
             let trace = kind == "plot";
-            // `plot/0/label`
+            // The name has the form `plot/0/label`.
             let label = if trace { label.split_once('/').map_or(label, |(_, l)| l) } else { label };
             let text = &bound.text.value;
             Some(WatchedDisplay {
@@ -57,7 +57,7 @@ impl<'a> Seen<'a> {
         }
     }
 
-    /// Looks at everything that is shown now. Returns the time, and what is shown.
+    /// Evaluates all displays. Returns the time and the displayed values.
     pub(super) fn observe(&mut self, session: &mut Session<'_>, done: &str) -> Vec<Cell> {
         let mut row = Vec::with_capacity(self.width + 1);
         row.push(Cell::Number(session.world.data.time()));
@@ -67,7 +67,7 @@ impl<'a> Seen<'a> {
             if session.ended().is_some_and(|e| matches!(e, crate::run::End::Budget { .. })) {
                 return row;
             }
-            // What threw is a finding of its own.
+            // A program that threw has a separate finding.
             let Some(value) = value else { continue };
             if let Some(cell) = row.get_mut(display.column) {
                 *cell = Cell::from(value.clone());
@@ -81,7 +81,7 @@ impl<'a> Seen<'a> {
             if finding.code == rules::SHOWS_NAN.code
                 && (display.says_gap || shows_nan::is_unset(display.bound, session, &self.gaps))
             {
-                // A gap that is said may be filled by what no run does, unless it is all that the text says.
+                // An intended gap may be filled by an interaction that no run tests, unless the text is constant.
                 display.gap |= !display.says_gap || display.bound.program.effects().constant();
             } else if !display.reported.contains(&finding.code) {
                 display.reported.push(finding.code);
@@ -91,18 +91,18 @@ impl<'a> Seen<'a> {
         row
     }
 
-    /// The findings since the last time.
+    /// The findings since the last call.
     pub(super) fn take(&mut self) -> Vec<Finding> {
         std::mem::take(&mut self.found)
     }
 
-    /// When all runs are made: what was never anything but a gap.
+    /// After all runs: the displays that never had a value.
     pub(super) fn never(&mut self, all: bool) -> Vec<Finding> {
         let empty = self.displays.iter().filter(|s| all && !s.ever && s.reported.is_empty());
         empty.filter(|s| s.gap).map(shows_nan::always_a_gap).collect()
     }
 
-    /// Whether a program has not thrown like this in a run before.
+    /// Whether a program has not thrown this error in a run before.
     pub(super) fn is_new(&mut self, t: &Trouble) -> bool {
         let is_reported = |(code, text, span): &(&'static Rule, Text, std::ops::Range<usize>)| {
             *code == t.rule && *text == t.text && *span == t.span

@@ -1,4 +1,4 @@
-//! Runs of a lab that are made to be sure: with several controls moved, or from another state.
+//! Additional runs of a lab that confirm an observation: with several controls moved, or from another state.
 
 use super::moves::Move;
 use super::record::{Beyond, ObservationHash, Record};
@@ -8,25 +8,25 @@ use crate::run::{self, Budget, Cell, Play, Session, Start};
 use labspec_core::{Model, Obj};
 use std::ops::ControlFlow;
 
-/// A lab, and what may still be spent on it.
+/// A lab with the remaining work budget.
 pub(crate) struct ObservationBench<'a> {
     pub(crate) ready: &'a PreparedLab<'a>,
-    /// Its programs, or what is tried instead.
+    /// The programs of the lab, or a variant of them.
     pub(crate) programs: &'a Programs,
     pub(crate) left: u64,
-    /// Runs that were made.
+    /// Number of runs.
     pub(crate) runs: usize,
 }
 
-/// How often a run is observed at.
+/// Number of samples of a run.
 const SAMPLES: usize = 60;
-/// How far a state is moved, in turn.
+/// Displacements of the state, in order.
 const DISPLACEMENTS: [f64; 4] = [0.01, 0.1, 0.4, 1.0];
-/// Steps after each.
+/// Number of steps after each displacement.
 const STEPS: usize = 3;
 
 impl ObservationBench<'_> {
-    /// What one run may spend.
+    /// The work budget of one run.
     pub(crate) fn budget(&self) -> Budget {
         Budget { left: Budget::TRIAL.left.min(self.left) }
     }
@@ -37,14 +37,14 @@ impl ObservationBench<'_> {
         Session::start(programs, model, start)
     }
 
-    /// Number of steps of a run of this length, and the timestep.
+    /// Number of steps of a run of this length, and the timestep, s.
     pub(crate) fn steps(&self, length: f64) -> Option<(usize, f64)> {
         let timestep = self.start().world.model.opt.timestep;
         let steps = run::count_steps(self.ready.lab, Some(length), None, timestep).ok()?;
         Some((steps, timestep))
     }
 
-    /// A run with these moves; `None` when it breaks, or when too much was spent.
+    /// Makes a run with these moves; `None` when it breaks, or when the budget runs out.
     pub(crate) fn run(&mut self, moves: &[Move], steps: usize) -> Option<Record> {
         let mut session = self.start();
         let (mut rows, mut hash) = (Vec::new(), ObservationHash::default());
@@ -73,7 +73,7 @@ impl ObservationBench<'_> {
         (completed && self.left > 0).then_some(Record { moved: None, rows, hash, beyond: Beyond::default() })
     }
 
-    /// What is shown from other states than the lab's own.
+    /// The displayed values in states other than that of the lab.
     pub(crate) fn perturbed_run(&mut self) -> Vec<Vec<Cell>> {
         let mut session = self.start();
         let mut rows = Vec::new();
@@ -99,24 +99,24 @@ impl ObservationBench<'_> {
     }
 }
 
-/// Work for the runs that make sure, for each lab.
+/// Work budget of the additional runs of each lab.
 const WORK: u64 = 600_000_000;
 
 /// A lab with the records of its runs.
 pub(crate) struct ObservedLab<'a> {
-    /// As it stands, then with each control at its ends.
+    /// As loaded, then with each control at its ends.
     pub(crate) records: &'a [Record],
     pub(crate) bench: ObservationBench<'a>,
-    /// The rows of a run from another state; `None` until they are needed.
+    /// The rows of a run from other states; `None` until they are needed.
     perturbed: Option<Vec<Vec<Cell>>>,
-    /// How long each run was, s.
+    /// Length of each run, s.
     pub(crate) length: f64,
-    /// Controls that a finding describes already.
+    /// Controls with a finding.
     pub(crate) reported: Vec<usize>,
 }
 
 impl<'a> ObservedLab<'a> {
-    /// From the records of runs that are `length` seconds long.
+    /// `length` is the length of the recorded runs, s.
     pub(crate) fn new(ready: &'a PreparedLab<'a>, records: &'a [Record], length: f64) -> ObservedLab<'a> {
         let bench = ObservationBench { ready, programs: &ready.programs, left: WORK, runs: 0 };
         ObservedLab { records, bench, perturbed: None, length, reported: Vec::new() }
@@ -127,7 +127,7 @@ impl<'a> ObservedLab<'a> {
         self.perturbed.get_or_insert_with(|| bench.perturbed_run())
     }
 
-    /// The runs in words.
+    /// Describes the runs for a message.
     pub(crate) fn runs(&self) -> String {
         match self.records.len() {
             1 => "the run".into(),
@@ -136,7 +136,7 @@ impl<'a> ObservedLab<'a> {
     }
 }
 
-/// A geom, in words.
+/// Describes a geom for a message.
 pub(crate) fn geom_name(model: &Model, g: usize) -> String {
     match model.names.of_kind(Obj::Geom).get(g).filter(|n| !n.is_empty()) {
         Some(geom) => format!("geom \"{geom}\""),

@@ -1,5 +1,5 @@
-//! What a student sees in the runs of a lab, and what only seems to show something: curves that cannot change, readouts that print
-//! one text, controls that do nothing. Each is reported with the runs that show it; what is not certain is not reported.
+//! Observations in the runs of a lab: displays without information, such as curves that cannot change, readouts with one
+//! text, and controls without effect. Each finding names the runs that show it. Uncertain observations are not reported.
 
 mod bench;
 mod moves;
@@ -14,7 +14,7 @@ use super::PreparedLab;
 use crate::finding::Finding;
 use crate::rules;
 
-/// Looks at a lab whose runs all came to their end.
+/// Checks a lab whose runs were all completed.
 pub(super) fn check_observations(
     ready: &PreparedLab<'_>,
     records: &[Record],
@@ -44,7 +44,8 @@ pub(super) fn check_observations(
     rules::idle_control::check_idle_controls(&mut observed, findings);
 }
 
-/// Each curve has one finding at most: that it never changes, else that it is another one, else that its plot hides it.
+/// Each curve has at most one finding: that it never changes, else that it equals another one, else that its plot does not
+/// show it.
 fn check_curves(observed: &mut ObservedLab<'_>, findings: &mut Vec<Finding>) {
     let mut first = 1;
     for plot in &observed.bench.ready.lab.plots {
@@ -65,7 +66,7 @@ fn check_curves(observed: &mut ObservedLab<'_>, findings: &mut Vec<Finding>) {
     }
 }
 
-/// What the readouts print.
+/// Checks the readouts.
 fn check_readouts(observed: &ObservedLab<'_>, findings: &mut Vec<Finding>) {
     let lab = observed.bench.ready.lab;
     for (readout, c) in lab.readouts.iter().zip(1 + lab.traces().count()..) {

@@ -1,38 +1,38 @@
-//! What a student does in a run of a lab: the moves of its controls.
+//! Interactions during a run of a lab: the moves of its controls.
 
 use crate::bind::scalar;
 use crate::check::choices::choices;
 use crate::spec::{Control, ControlKind, Lab};
 use labspec_expr::Value;
 
-/// Where on its range a slider is tried.
+/// Tried positions of a slider, as fractions of its range.
 const PLACES: [f64; 5] = [0.0, 0.24, 0.5, 0.77, 1.0];
-/// Most options that are tried.
+/// Maximum number of tried options.
 const MOST_OPTIONS: usize = 8;
 
-/// What a student does at a step.
+/// An interaction at a step.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Move {
     pub(crate) step: usize,
     pub(crate) control: usize,
-    /// `None` presses a button.
+    /// `None` for pressing a button.
     pub(crate) value: Option<Value>,
 }
 
 impl Move {
-    /// A press that does nothing: everything is computed anew, as after any press.
+    /// A press without effect: everything is recomputed, as after any press.
     pub(crate) fn nothing(step: usize) -> Move {
         Move { step, control: usize::MAX, value: None }
     }
 }
 
-/// Something that is done to the other controls.
+/// Moves of the other controls.
 pub(crate) type Setting = Vec<Move>;
 
-/// The values that a control is tried at, in order; a button has none.
+/// The tried values of a control, in order; a button has none.
 pub(crate) fn values(control: &Control) -> Vec<Option<Value>> {
     match &control.kind {
-        // What cannot be moved is another rule's.
+        // Another rule reports a slider that cannot be moved.
         ControlKind::Slider { min, max, .. } if min.value >= max.value => Vec::new(),
         ControlKind::Slider { min, max, .. } => {
             let step = control.step().filter(|s| *s > 0.0).unwrap_or(f64::NAN);
@@ -55,7 +55,7 @@ pub(crate) fn values(control: &Control) -> Vec<Option<Value>> {
     }
 }
 
-/// What is done to the other controls: nothing, each button, all of them at their ends, both together, each alone.
+/// The settings of the other controls: none, each button, all at their ends, both together, each alone.
 pub(crate) fn settings(lab: &Lab, nominal: usize, press: usize) -> Vec<Setting> {
     let others = || lab.controls.iter().enumerate().filter(move |(i, _)| *i != nominal);
     let ends: Vec<(usize, Vec<Value>)> = others()
@@ -93,7 +93,7 @@ pub(crate) fn settings(lab: &Lab, nominal: usize, press: usize) -> Vec<Setting> 
     once
 }
 
-/// Nothing, then each control pressed or moved to what a student may choose, one at a time; with what is done, in words.
+/// No move, then each control pressed or moved to a choice, one at a time; with a description of the move.
 pub(crate) fn single_moves(lab: &Lab) -> Vec<(Option<Move>, String)> {
     let mut all = vec![(None, "as the lab stands,".to_string())];
     for (i, control) in lab.controls.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! A solver that may not iterate at all, where there is something to solve.
+//! Detects a solver with zero iterations in a scene with constraints.
 
 use super::ObservedLab;
 use crate::finding::Finding;
@@ -7,7 +7,7 @@ use crate::run::{self, Play};
 use labspec_core::reflect::option;
 use std::ops::ControlFlow;
 
-/// Steps in which forces are observed for.
+/// Number of steps in which constraints are looked for.
 const STEPS: usize = 500;
 
 pub(super) fn check_solver(observed: &ObservedLab<'_>, findings: &mut Vec<Finding>) {
@@ -16,7 +16,7 @@ pub(super) fn check_solver(observed: &ObservedLab<'_>, findings: &mut Vec<Findin
     if session.world.model.opt.iterations != 0 {
         return;
     }
-    // Somebody who chooses the number wants to see what it does.
+    // An author who sets the number during a run wants to show its effect.
     let programs = &ready.programs;
     let sets = |b: &crate::bind::Bound| {
         let writes = |w: &labspec_expr::Access| w.field.0 as usize == option::iterations.index();

@@ -1,24 +1,24 @@
-//! What a student saw in a run: what was shown at every sample, and a number that stands for all of it and the picture.
+//! The record of a run: the displayed values of every sample, and a hash of them and of the picture.
 
 use crate::run::{Cell, Session};
 use labspec_core::Model;
 use labspec_expr::Value;
 use std::ops::Range;
 
-/// A run, as it was seen.
+/// The record of a run.
 #[derive(Debug)]
 pub(crate) struct Record {
-    /// The control that was moved before it, and to what; `None` for a button that was pressed.
+    /// The control that was moved before it, and its value; `None` for a button that was pressed.
     pub(crate) moved: Option<(usize, Option<Value>)>,
-    /// Time, then traces, then readouts, at every sample.
+    /// Time, then traces, then readouts, for every sample.
     pub(crate) rows: Vec<Vec<Cell>>,
-    /// Two runs that look the same have the same hash.
+    /// A hash that is equal for runs that look the same.
     pub(crate) hash: ObservationHash,
-    /// Inputs beyond their range.
+    /// Inputs outside of their range.
     pub(crate) beyond: Beyond,
 }
 
-/// A hash of what a run displays, bit by bit.
+/// A hash of the bits that a run displays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct ObservationHash(u64);
 
@@ -37,7 +37,7 @@ impl ObservationHash {
         numbers.iter().for_each(|x| self.add(x.to_bits()));
     }
 
-    /// A row, and where everything is.
+    /// Adds a row, and the positions of all objects.
     pub(crate) fn observe(&mut self, row: &[Cell], session: &Session<'_>) {
         for cell in row {
             match cell {
@@ -49,12 +49,12 @@ impl ObservationHash {
         }
         let data = session.world.data.fields();
         [&data.qpos, &data.mocap_pos, &data.mocap_quat].into_iter().for_each(|list| self.all(list));
-        // Contacts and their forces are drawn, too.
+        // Contacts and their forces are drawn too.
         self.add(data.ncon as u64);
         self.add(data.nefc as u64);
     }
 
-    /// What the model itself looks like, at the end.
+    /// Adds the geometry of the model at the end of the run.
     pub(crate) fn close(&mut self, model: &Model) {
         let lists = [&model.geom_size, &model.geom_pos, &model.geom_quat, &model.body_pos, &model.body_quat];
         lists.into_iter().for_each(|list| self.all(list));
@@ -62,7 +62,7 @@ impl ObservationHash {
     }
 }
 
-/// Whether two cells are the same to the last bit.
+/// Whether two cells are equal bit for bit.
 pub(crate) fn same(a: &Cell, b: &Cell) -> bool {
     match (a, b) {
         (Cell::Number(x), Cell::Number(y)) => x.to_bits() == y.to_bits(),
@@ -70,16 +70,16 @@ pub(crate) fn same(a: &Cell, b: &Cell) -> bool {
     }
 }
 
-/// Inputs that were beyond their range whenever they were observed at, with the least that they were beyond it by.
+/// Inputs that were outside of their range, with a value of each.
 #[derive(Debug, Default)]
 pub(crate) struct Beyond {
     pub(crate) looks: usize,
-    /// How often each input was, and what it was then.
+    /// For each input, the number of samples outside of its range, and its last value there.
     pub(crate) times: Vec<(usize, f64)>,
 }
 
 impl Beyond {
-    /// Looks at the inputs of a step that was made.
+    /// Checks the inputs of a step.
     pub(crate) fn observe(&mut self, session: &Session<'_>) {
         let (model, data) = (&session.world.model, session.world.data.fields());
         self.looks += 1;
@@ -99,13 +99,13 @@ pub(crate) fn column(records: &[Record], column: usize) -> impl Iterator<Item = 
     records.iter().flat_map(|r| &r.rows).filter_map(move |row| row.get(column))
 }
 
-/// The one number that a column shows, if it is one.
+/// The number that a column displays, if it is constant.
 pub(crate) fn constant<'r>(mut cells: impl Iterator<Item = &'r Cell>) -> Option<&'r Cell> {
     let first = cells.next().filter(|c| matches!(c, Cell::Number(x) if x.is_finite()))?;
     cells.all(|c| same(c, first)).then_some(first)
 }
 
-/// The longest stretch of equal items, the first of several; empty where there are none.
+/// The longest range of equal items, the first of several; empty where there are none.
 pub(crate) fn longest_equal<T: PartialEq>(items: &[T]) -> Range<usize> {
     let (mut best, mut start) = (0..0, 0);
     for i in 1..=items.len() {

@@ -1,8 +1,9 @@
-//! Claims that rest on a body, or a servo, that does not exist: a run in which a program changes a parameter and leaves its partner
-//! behind ([`coupled`](crate::bind::coupled)).
+//! Claims that depend on a physically inconsistent body or servo: a run in which a program changes a parameter without its
+//! coupled parameters ([`coupled`](crate::bind::coupled)).
 //!
-//! Every `verify` object whose labs have such a program is judged a second time, with the partners corrected behind every program.
-//! A claim that holds in the lab alone, and not with the partners corrected, is not true of what the text speaks of.
+//! Every `verify` object whose labs have such a program is checked a second time, with the coupled parameters corrected
+//! after every program. A claim that holds only without the correction does not hold for the physical system that the text
+//! describes.
 
 mod rests;
 
@@ -20,26 +21,26 @@ use crate::verify::{self, BoundVerify, Judgement, Measured, QuoteState, Rendered
 use rests::Rests;
 use std::cell::OnceCell;
 
-/// The part of a measure that a reader would see: what changes less says nothing of the body.
+/// Relative change of a measure above which a difference is reported; a reader does not see a smaller one.
 const MATTERS: f64 = 1e-3;
 
-/// A program that writes a parameter which others belong to.
+/// A program that writes a parameter with coupled parameters.
 #[derive(Clone)]
 pub(super) struct PartnerCandidate<'a> {
     text: Text,
-    /// What it is called.
+    /// The name of the program in messages.
     who: String,
     pairs: PairSet,
-    /// The lab; the setup of a run has none.
+    /// Its lab; `None` for the setup of a run.
     lab: Option<&'a Lab>,
-    /// It stands in this lesson.
+    /// Whether it belongs to this lesson.
     in_lesson: bool,
-    /// It is a change of the model's text.
+    /// Whether it is a modification of the model's text.
     change: bool,
 }
 
 impl PartnerCandidate<'_> {
-    /// What it leaves behind, in words.
+    /// Describes the parameters that it does not update.
     fn left(&self) -> String {
         let mut partners: Vec<&str> = self.pairs.pairs().map(|(_, pair)| pair.left).collect();
         partners.dedup();
@@ -47,27 +48,27 @@ impl PartnerCandidate<'_> {
     }
 }
 
-/// The labs of a lesson with partners corrected, and what came of their runs.
+/// The labs of a lesson with corrected coupled parameters, and a cache of their runs.
 pub(super) struct Partners<'a> {
     lesson: &'a Lesson,
     models: &'a Models,
     labs: &'a [PreparedLab<'a>],
     candidates: Vec<PartnerCandidate<'a>>,
-    /// Made when they are asked for: most lessons change no parameter that another belongs to.
+    /// Computed on first use: most lessons change no parameter with coupled parameters.
     corrected: OnceCell<Vec<PreparedLab<'a>>>,
     stage: Stage<'a>,
 }
 
-/// Under which numerics runs are made.
+/// The numerics of a check.
 #[derive(Clone, Copy)]
 enum TestedNumerics {
-    /// Those of the lesson.
+    /// The numerics of the lesson.
     Nominal,
-    /// All that a claim has to survive.
+    /// All numerics under which a claim must hold.
     All,
 }
 
-/// Who judges, and what.
+/// The claims to check, with their owner.
 #[derive(Clone, Copy)]
 struct ClaimOwner<'c> {
     verify: &'c Verify,
@@ -76,7 +77,7 @@ struct ClaimOwner<'c> {
     rendered: &'c RenderedText,
 }
 
-/// The programs of all labs that write a parameter which others belong to.
+/// The programs of all labs that write a parameter with coupled parameters.
 fn candidates<'a>(lesson: &'a Lesson, labs: &[PreparedLab<'a>]) -> Vec<PartnerCandidate<'a>> {
     let all = lesson.all_labs();
     let mut candidates = Vec::new();
@@ -108,14 +109,14 @@ fn candidates<'a>(lesson: &'a Lesson, labs: &[PreparedLab<'a>]) -> Vec<PartnerCa
     candidates
 }
 
-/// The correction of every partner that programs leave behind.
+/// The correction of every coupled parameter that programs do not update.
 fn correction(candidates: &[PartnerCandidate<'_>]) -> Coupled {
     let programs = candidates.iter().map(|c| (c.text.clone(), c.pairs)).collect();
     Coupled { programs, others: PairSet::ALL, changes: PairSet::ALL, refresh: false }
 }
 
-/// Lets every run of the labs say whether the correction would change anything in it. Where it would not, the corrected run is the
-/// same, and need not be made. Gives the programs that are corrected.
+/// Makes every run of the labs detect whether the correction would change it. If not, the corrected run is the same and is
+/// not made. Returns the programs to correct.
 pub(super) fn observe<'a>(lesson: &'a Lesson, labs: &mut [PreparedLab<'a>]) -> Vec<PartnerCandidate<'a>> {
     let candidates = candidates(lesson, labs);
     let correction = correction(&candidates);
@@ -124,7 +125,7 @@ pub(super) fn observe<'a>(lesson: &'a Lesson, labs: &mut [PreparedLab<'a>]) -> V
 }
 
 impl<'a> Partners<'a> {
-    /// With the labs as [`observe`] has left them, and what it gave.
+    /// `labs` are the labs that [`observe`] changed, and `candidates` its result.
     pub(super) fn new(
         lesson: &'a Lesson,
         labs: &'a [PreparedLab<'a>],
@@ -134,13 +135,14 @@ impl<'a> Partners<'a> {
         Partners { lesson, models, labs, candidates, corrected: OnceCell::new(), stage: Stage::new(models) }
     }
 
-    /// All labs of the lesson with every partner corrected.
+    /// All labs of the lesson with every coupled parameter corrected.
     fn corrected(&self) -> &[PreparedLab<'a>] {
         self.corrected.get_or_init(|| corrected(self.labs, &correction(&self.candidates)))
     }
 
-    /// Judges a `verify` object, in whose runs something was left behind, with partners corrected. What then is not true any more is
-    /// not true of its subject: the judgement says so, and so do findings at the claim and at the program.
+    /// Checks a `verify` object again with corrected coupled parameters, after one of its runs changed a parameter without
+    /// them. A claim that is no longer true is not true of the described system. The judgement states this, and so do
+    /// findings at the claim and at the program.
     pub(super) fn settle(
         &self,
         verify: &Verify,
@@ -155,7 +157,7 @@ impl<'a> Partners<'a> {
         if candidates.is_empty() {
             return;
         }
-        // What other numerics change of a claim is asked where the lesson's own say something else.
+        // Perturbed numerics are tested only if the nominal results differ.
         let nominal = self.judge(case, self.corrected(), &self.stage, TestedNumerics::Nominal);
         if nominal.is_some_and(|second| !differs(judgement, &second)) {
             return;
@@ -228,7 +230,7 @@ impl<'a> Partners<'a> {
         all
     }
 
-    /// Judges with these labs.
+    /// Checks a `verify` object with these labs.
     fn judge(
         &self,
         case: ClaimOwner<'_>,
@@ -248,7 +250,8 @@ impl<'a> Partners<'a> {
         }
     }
 
-    /// Whether every run that the correction changes has the corrected one beside it: then the author shows the difference on purpose.
+    /// Whether every run that the correction changes is accompanied by the corrected run: then the author shows the
+    /// difference intentionally.
     fn contrasted(&self, case: ClaimOwner<'_>, first: &Judgement, second: &Judgement) -> bool {
         let [as_is, corrected] = [self.labs, self.corrected()].map(|labs| {
             let stage = Stage::new(self.models);
@@ -267,7 +270,7 @@ impl<'a> Partners<'a> {
             })
     }
 
-    /// The programs, and the pairs of each, that make the difference when they alone are corrected.
+    /// The programs, and the pairs of each, whose correction alone changes the results.
     fn causes(
         &self,
         case: ClaimOwner<'_>,
@@ -297,8 +300,8 @@ impl<'a> Partners<'a> {
     }
 }
 
-/// Changes of a model's text in which a parameter has no partner that is compiled with it: inertias that are written out, gains and
-/// biases of general actuators.
+/// Modifications of a model's text that change a parameter without compiling its coupled parameters: explicit inertias,
+/// gains and biases of general actuators.
 fn changes(verify: &Verify) -> impl Iterator<Item = &Text> {
     let runs = verify.runs.iter();
     let of_runs =
@@ -310,12 +313,12 @@ fn changes(verify: &Verify) -> impl Iterator<Item = &Text> {
     of_runs.chain(verify.find.iter().map(|find| &find.what)).filter(alone)
 }
 
-/// The lab that a run is of.
+/// The lab of a run.
 fn lab_of<'c>(lesson: &'c Lesson, base: Option<&'c Lab>, run: &'c Run) -> Option<&'c Lab> {
     run.lab.as_ref().map_or(base, |named| lesson.named(named))
 }
 
-/// Labs whose partners are corrected.
+/// Labs with corrected coupled parameters.
 fn corrected<'a>(labs: &[PreparedLab<'a>], coupled: &Coupled) -> Vec<PreparedLab<'a>> {
     let one = |ready: &PreparedLab<'a>| {
         let mut programs = Programs { observed: None, ..ready.programs.clone() };
@@ -325,7 +328,7 @@ fn corrected<'a>(labs: &[PreparedLab<'a>], coupled: &Coupled) -> Vec<PreparedLab
     labs.iter().map(one).collect()
 }
 
-/// The pairs that the author has looked at and left as they are, at this place.
+/// The pairs whose rule the author has suppressed at this place.
 fn allowed(lesson: &Lesson, text: &Text, pairs: PairSet) -> PairSet {
     let at = text.span().start;
     let allowances = lesson.allowances();
@@ -334,7 +337,7 @@ fn allowed(lesson: &Lesson, text: &Text, pairs: PairSet) -> PairSet {
     pairs.pairs().filter(|(_, pair)| codes.contains(&pair.rule.code)).map(|(one, _)| one).collect()
 }
 
-/// Whether a measure is another number, beyond what half the timestep changes.
+/// Whether a measure differs by more than the effect of half the timestep.
 fn moved(a: &Measured, b: &Measured) -> bool {
     if a.value.is_nan() || b.value.is_nan() {
         return a.value.is_nan() != b.value.is_nan();
@@ -348,7 +351,7 @@ fn pairs<'j>(a: &'j Judgement, b: &'j Judgement) -> impl Iterator<Item = (&'j Me
     a.measures.iter().zip(&b.measures).filter(|(x, y)| x.name == y.name)
 }
 
-/// Whether the claims rest on what was corrected: a measure is another number, or what is true is not any more.
+/// Whether the claims depend on the correction: a measure differs, or the truth of a claim.
 fn differs(a: &Judgement, b: &Judgement) -> bool {
     let held = |j: &Judgement| {
         let answer = j.answer.iter().map(|a| matches!(a.verdict.state(), State::True(_)));
@@ -377,7 +380,7 @@ mod tests {
         all
     }
 
-    /// Every number of the state and of what the lab shows, bit for bit, after each of some steps.
+    /// The bits of the state and of the displayed values after each of some steps.
     fn bits(ready: &PreparedLab<'_>, programs: &Programs, actions: &[Action]) -> (Vec<u64>, bool) {
         let mut session = Session::start(programs, &ready.model, Start::of_lab(ready.lab));
         for action in actions {
@@ -396,7 +399,8 @@ mod tests {
         (all, session.left_behind())
     }
 
-    /// A run that says that nothing was left behind in it is the corrected run, bit for bit: `verify` does not make that one.
+    /// A run that reports no omitted coupled parameter equals the corrected run bit for bit, so `verify` does not make the
+    /// corrected run.
     #[test]
     fn a_run_that_leaves_nothing_behind_is_the_corrected_one() {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
@@ -432,7 +436,7 @@ mod tests {
                 }
             }
         }
-        // Of both kinds, or the comparison says nothing.
+        // Both kinds must occur, otherwise the comparison has no content.
         assert!(clean > 50 && left > 0, "{clean} clean, {left} left behind");
     }
 }

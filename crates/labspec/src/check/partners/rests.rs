@@ -1,4 +1,4 @@
-//! What becomes of claims that rest on a partner that was left behind, and the messages about them.
+//! Claims that depend on a parameter that was changed without its coupled parameters: their second verdicts and findings.
 
 use super::{ClaimOwner, PartnerCandidate, moved, pairs};
 use crate::finding::Finding;
@@ -10,13 +10,13 @@ use crate::spec::Question;
 use crate::verify::{self, Judgement, Measured, QuoteState, Verdict, significant};
 use std::ops::Range;
 
-/// What claims rest on.
+/// The dependency of claims on programs that omit coupled parameters.
 pub(super) struct Rests {
     who: String,
-    /// What they leave behind.
+    /// The parameters that they do not update, in words.
     left: String,
     corrected: String,
-    /// The measure that changes most, in words; empty where none does.
+    /// The measure that changes most, in words; empty where none changes.
     pub(super) evidence: String,
     codes: String,
 }
@@ -34,7 +34,8 @@ impl Rests {
         }
     }
 
-    /// Puts the second verdict in place of the first where a claim is not true any more; one that stays true says that it was tried.
+    /// Replaces the first verdict by the second one where a claim is no longer true. A claim that stays true gets a remark
+    /// that it was tested.
     pub(super) fn apply(
         &self,
         case: ClaimOwner<'_>,
@@ -82,7 +83,7 @@ impl Rests {
         }
     }
 
-    /// Why a claim is not true: the two numbers, and what it then is.
+    /// Why a claim is not true: the two numbers, and the second result.
     fn reason(&self, then: &str) -> String {
         let numbers = match self.evidence.as_str() {
             "" => format!("with {}", self.corrected),

@@ -1,17 +1,17 @@
-//! What to write instead: statements behind a program, or in place of it, each tried before it is given.
+//! The suggested statements: appended to a program, or in place of it. Each suggestion is tested before it is given.
 
 use super::Suspect;
 use crate::bind::coupled::Repair;
 
-/// The call that computes constants anew.
+/// The call that recomputes constants.
 const SET_CONST: &str = "mj.mj_setConst(model, data)";
 
-/// How constants are computed anew behind a program.
+/// How constants are recomputed after a program.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum SetConstAdvice {
-    /// mj_setConst alone: for a lab whose qpos is the model's own then, or that is reset at once.
+    /// mj_setConst alone: for a lab whose qpos is that of the model at this time, or that is reset immediately.
     Plain,
-    /// mj_setConst with qpos kept.
+    /// mj_setConst with qpos preserved.
     Keep,
 }
 
@@ -27,13 +27,13 @@ impl SetConstAdvice {
         }
     }
 
-    /// What is written behind a text.
+    /// The text to append to `text`.
     pub(super) fn tail(self, text: &str) -> String {
         format!("{}{}", between(text), self.statements(text))
     }
 }
 
-/// What separates a text from statements behind it.
+/// The separator between a text and statements after it.
 fn between(text: &str) -> &'static str {
     let last_line = text.lines().last().unwrap_or("");
     match text.trim_end() {
@@ -44,17 +44,17 @@ fn between(text: &str) -> &'static str {
     }
 }
 
-/// The statements of a program as they are.
+/// The statements of a program, unchanged.
 pub(super) fn source(s: &Suspect<'_>) -> String {
     let text = &s.bound.text.value;
     if s.target { format!("{text} = value") } else { text.clone() }
 }
 
-/// The statements of a program with its partners corrected, and with constants computed anew where they have to be.
+/// The statements of a program with its coupled parameters corrected, and with constants recomputed where necessary.
 pub(super) fn repaired(s: &Suspect<'_>, repair: &Repair, advice: SetConstAdvice) -> String {
     let source = source(s);
     let last = source.trim_end().trim_end_matches(';').trim_end();
-    // A call that the program ends with stays behind everything.
+    // A call of mj_setConst at the end of the program stays at the end.
     let before_call = last.strip_suffix(SET_CONST).filter(|_| s.inertial.is_none() && repair.constants);
     let mut text: String = repair.before.iter().map(|s| format!("{s}; ")).collect();
     text += before_call.map_or(source.as_str(), str::trim_end);

@@ -1,4 +1,4 @@
-//! Runs of a lab as it is, and with other statements behind a program: what is tried, and what is sampled.
+//! Runs of a lab, unchanged and with amended programs: the tested interactions and their samples.
 
 use super::difference::Columns;
 use super::{ProgramSite, Suspect};
@@ -14,34 +14,34 @@ use labspec_expr::{Access, Compiler, Effects, Type, Value};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::ops::ControlFlow;
 
-/// Most steps of one of these runs.
+/// Maximum number of steps of one of these runs.
 const STEPS: usize = 2_000;
-/// Most work of all runs of one lab, in steps of a scene of one coordinate.
+/// Work budget of all runs of one lab, in steps of a scene with one coordinate.
 const WORK: usize = 4_000_000;
-/// Most cells of one run.
+/// Maximum number of cells of one run.
 const CELLS: usize = 200_000;
-/// Longest text that is compared letter by letter.
+/// Maximum length of a text that is compared literally.
 const LONG: usize = 64;
-/// Most runs that show one program.
+/// Maximum number of runs for one program.
 const MOST_TRIALS: usize = 12;
 
-/// Most runs with another control moved besides.
+/// Maximum number of additional runs with another control moved.
 const MOST_COMBINED: usize = 24;
 
-/// What a student does at a step.
+/// An interaction at a step.
 #[derive(Clone)]
 enum Move {
     Set(usize, Value),
     Press(usize),
 }
 
-/// One run: what is done, and how a message calls it.
+/// One run: its interactions, and their description for messages.
 pub(super) struct BenchTrial {
     moves: Vec<(usize, Move)>,
     pub(super) description: String,
 }
 
-/// What is run.
+/// A lab with the remaining work budget.
 pub(crate) struct SetConstBench<'a> {
     lab: &'a Lab,
     model: &'a Model,
@@ -49,10 +49,10 @@ pub(crate) struct SetConstBench<'a> {
     work_left: usize,
 }
 
-/// A run: its samples.
+/// The samples of a run.
 pub(super) type SampleRows = Vec<Vec<Cell>>;
 
-/// A run: its samples, or why it says nothing.
+/// The samples of a run, or the reason why it has none.
 pub(super) type Record = Result<SampleRows, String>;
 
 impl<'a> SetConstBench<'a> {
@@ -60,7 +60,7 @@ impl<'a> SetConstBench<'a> {
         SetConstBench { lab, model, programs, work_left: WORK }
     }
 
-    /// What the samples of its runs are.
+    /// The columns of the samples of its runs.
     pub(super) fn columns(&self, s: &Suspect<'_>) -> Columns<'a> {
         let whole = matches!(s.place, ProgramSite::Run(_)) || self.programs.probes.is_empty();
         Columns { whole, lab: self.lab, programs: self.programs }
@@ -76,7 +76,7 @@ impl<'a> SetConstBench<'a> {
         self.programs
     }
 
-    /// Number of steps of the lab, or of the run of a question, within bounds.
+    /// Number of steps of the lab, or of the run of a question, limited to `STEPS`.
     pub(super) fn steps(&self, s: &Suspect<'_>) -> Result<usize, String> {
         let session = Session::start(self.programs, self.model, Start::of_lab(self.lab));
         let timestep = session.world.model.opt.timestep;
@@ -89,7 +89,7 @@ impl<'a> SetConstBench<'a> {
         run::count_steps(self.lab, until, steps, timestep).map(|n| n.min(STEPS)).map_err(|e| e.0)
     }
 
-    /// The runs that could show it.
+    /// The runs that could show the effect of a program.
     pub(super) fn trials(&self, s: &Suspect<'_>, steps: usize) -> Vec<BenchTrial> {
         let mut all = vec![BenchTrial { moves: Vec::new(), description: "as it stands".into() }];
         let half = steps / 2;
@@ -126,7 +126,7 @@ impl<'a> SetConstBench<'a> {
                     add(half, nominal, Some(value.clone()));
                 }
             }
-            // What other controls choose may be what it writes.
+            // The program may write values that other controls determine.
             ProgramSite::Setup | ProgramSite::Controller => {
                 for (i, control) in self.lab.controls.iter().enumerate() {
                     choices(control).into_iter().for_each(|value| add(0, i, Some(value)));
@@ -137,8 +137,8 @@ impl<'a> SetConstBench<'a> {
         all
     }
 
-    /// Whether a program reads what another control of the lab writes: variables, or fields, where it calls no function that reads
-    /// them all.
+    /// Whether a program reads values that another control of the lab writes: variables, or fields if it calls no function
+    /// that reads all of them.
     pub(super) fn reads_of_others(&self, s: &Suspect<'_>) -> bool {
         let effects = s.bound.program.effects();
         let written = |e: &Effects| {
@@ -154,7 +154,7 @@ impl<'a> SetConstBench<'a> {
         variables || effects.calls_values || others.any(|o| written(o.program.effects()))
     }
 
-    /// Runs with another control at its ends besides: a ball may roll only when a ramp is tilted.
+    /// Runs with another control at its ends: a ball may roll only if a ramp is tilted.
     pub(super) fn combined(&self, s: &Suspect<'_>) -> Vec<BenchTrial> {
         let ProgramSite::Control(nominal) = s.place else { return Vec::new() };
         let Some(control) = self.lab.controls.get(nominal) else { return Vec::new() };
@@ -201,7 +201,7 @@ impl<'a> SetConstBench<'a> {
         }
     }
 
-    /// Makes a run, as it is or amended, sampled after every step.
+    /// Makes a run of the unchanged or amended lab, sampled after every step.
     pub(super) fn record(
         &mut self,
         s: &Suspect<'_>,
@@ -212,7 +212,7 @@ impl<'a> SetConstBench<'a> {
         self.record_under(s, amended, trial, steps, StepVariant::NOMINAL)
     }
 
-    /// The same under other numerics: half the timestep, or a moved start.
+    /// Like [`SetConstBench::record`], under perturbed numerics: half the timestep, or a perturbed start.
     pub(super) fn record_under(
         &mut self,
         s: &Suspect<'_>,
@@ -231,7 +231,7 @@ impl<'a> SetConstBench<'a> {
         Ok(run.rows)
     }
 
-    /// Makes a run of a lab that observes partners, and says whether one was left behind in it.
+    /// Makes a run of a lab that observes coupled parameters. Returns whether a program changed a parameter without them.
     pub(super) fn observe(
         &mut self,
         s: &Suspect<'_>,
@@ -255,7 +255,7 @@ impl<'a> SetConstBench<'a> {
         steps: usize,
         numerics: StepVariant,
     ) -> Result<Performed, String> {
-        // Twice the steps of half the length: what happens, happens at the same time.
+        // Half the timestep needs twice the steps, so that events occur at the same time.
         let finer = if numerics.timestep < 1.0 { 2 } else { 1 };
         let steps = steps * finer;
         let mut session = self.start(programs, setup);
@@ -283,7 +283,7 @@ impl<'a> SetConstBench<'a> {
             }
             press.into_iter().for_each(|m| act(session, m));
             if moved && numerics != StepVariant::NOMINAL {
-                // A control that resets the lab takes a moved start back.
+                // A control that resets the lab removes the perturbation of the start.
                 session.perturb(numerics, step > 0);
             }
             if step % every == 0 || step == steps {
@@ -302,8 +302,8 @@ impl<'a> SetConstBench<'a> {
         Ok(Performed { rows, left_behind: session.left_behind() })
     }
 
-    /// Whether another run of the same object is what this one would be when it is corrected: then the
-    /// author shows the difference on purpose.
+    /// Whether another run of the same object equals the corrected version of this run: then the author shows the
+    /// difference intentionally.
     pub(super) fn contrasted(&mut self, s: &Suspect<'_>, verify: &Verify, anew: &Amended) -> bool {
         let ProgramSite::Run(nominal) = s.place else { return false };
         let Ok(steps) = self.steps(s) else { return false };
@@ -319,8 +319,8 @@ impl<'a> SetConstBench<'a> {
         })
     }
 
-    /// Whether another run of the same object begins with the parameters and the partners that this one has when it is corrected:
-    /// then the author shows the difference on purpose.
+    /// Whether another run of the same object starts with the parameters, including the coupled ones, of the corrected
+    /// version of this run: then the author shows the difference intentionally.
     pub(super) fn paired(&self, s: &Suspect<'_>, verify: &Verify) -> bool {
         let ProgramSite::Run(nominal) = s.place else { return false };
         let right = self.corrected(s, s.pairs);
@@ -334,7 +334,7 @@ impl<'a> SetConstBench<'a> {
         })
     }
 
-    /// The lab with its own programs or others, for a run with a setup of its own.
+    /// The lab with the given programs, for a run with a setup.
     fn start<'p>(&self, programs: &'p Programs, setup: Option<&Bound>) -> Session<'p> {
         let mut access = programs.access;
         setup.into_iter().for_each(|b| include(b.program.effects(), &mut access));
@@ -342,7 +342,7 @@ impl<'a> SetConstBench<'a> {
         Session::start(programs, self.model, Start { plan, ..Start::of_lab(self.lab) })
     }
 
-    /// The model as a run begins.
+    /// The model at the start of a run.
     fn start_model(&self, programs: &Programs, setup: Option<&Bound>, run: &Run) -> Model {
         let mut session = self.start(programs, setup);
         let trial = self.as_asked(run);
@@ -354,14 +354,14 @@ impl<'a> SetConstBench<'a> {
         session.world.model
     }
 
-    /// The lab with these partners corrected behind the program, and with constants computed anew where that is missing.
+    /// The lab with these pairs corrected after the program, and with constants recomputed where that is missing.
     pub(super) fn corrected(&self, s: &Suspect<'_>, pairs: PairSet) -> Amended {
         let mut programs = self.programs.clone();
         coupled_in(s, pairs).install(&mut programs, self.model);
         Amended { programs, bound: s.bound.clone() }
     }
 
-    /// The lab, with constants computed anew where `refreshed` says so, which observes the partners of the program.
+    /// The lab that observes the coupled parameters of the program, with constants recomputed if `refreshed`.
     pub(super) fn observed(&self, s: &Suspect<'_>, refreshed: bool) -> Amended {
         let mut programs = self.programs.clone();
         if refreshed {
@@ -391,7 +391,7 @@ impl<'a> SetConstBench<'a> {
         Some(Amended { programs, bound })
     }
 
-    /// Statements of the lab, with the place of the text that they stand for.
+    /// Compiles statements of the lab. `place` is the text that they replace.
     pub(crate) fn compile(&self, place: &Text, source: &str, given: Option<Type>) -> Option<Bound> {
         let names = ModelNames::new(self.model, Scope::Lab).with(&self.programs.functions);
         let mut globals = self.programs.globals.clone();
@@ -401,7 +401,7 @@ impl<'a> SetConstBench<'a> {
     }
 }
 
-/// What corrects these partners of a program, and its constants where they are missing.
+/// The correction of these pairs of a program, and of its constants where they are missing.
 fn coupled_in(s: &Suspect<'_>, pairs: PairSet) -> Coupled {
     Coupled {
         programs: vec![(s.bound.text.clone(), pairs)],
@@ -411,10 +411,10 @@ fn coupled_in(s: &Suspect<'_>, pairs: PairSet) -> Coupled {
     }
 }
 
-/// A run that was made.
+/// A completed run.
 struct Performed {
     rows: SampleRows,
-    /// A partner was left behind in it, as far as its programs observe that.
+    /// Whether a program changed a parameter without the parameters coupled to it, as far as programs observe that.
     left_behind: bool,
 }
 
@@ -424,7 +424,7 @@ pub(super) struct Amended {
     bound: Bound,
 }
 
-/// A long text as its beginning and a number that stands for all of it.
+/// Replaces a long text by its beginning and a hash.
 fn short(cell: Cell) -> Cell {
     match cell {
         Cell::Text(t) if t.len() > LONG => {
@@ -444,10 +444,10 @@ fn act(session: &mut Session<'_>, what: &Move) {
     }
 }
 
-/// Whether a run came to its end as it should.
+/// Whether a run was completed.
 ///
 /// # Errors
-/// A statement failed, the simulation broke, or it ended early. What fails in a trace or a readout is its own matter.
+/// A statement failed, the simulation broke, or the run ended early. Errors in a trace or a readout have separate findings.
 fn check_completion(session: &Session<'_>, programs: &Programs) -> Result<(), String> {
     let probe = |t: &Text| programs.probes.iter().any(|p| p.bound.as_ref().is_some_and(|b| b.text == *t));
     if let Some(trouble) = session.troubles.iter().find(|t| !probe(&t.text)) {

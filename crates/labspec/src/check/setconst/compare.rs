@@ -1,4 +1,4 @@
-//! A lab as it is, with its constants computed anew, and with the partners of what a program changes: what the runs show.
+//! Compares runs of a lab: unchanged, with its constants recomputed, and with coupled parameters corrected.
 
 use super::Suspect;
 use super::advice::{self, SetConstAdvice};
@@ -8,21 +8,21 @@ use crate::bind::coupled::{PairSet, Repair};
 use crate::run::StepVariant;
 use crate::verify::HALVED;
 
-/// A start that is moved by less than anybody can set.
+/// A start that is perturbed by less than anybody can set.
 const MOVED: StepVariant = StepVariant { perturbation: 1e-9, ..StepVariant::NOMINAL };
-/// A part of the range by which a repaired run may differ from the corrected one: what the order of operations makes.
+/// Fraction of the range by which a repaired run may differ from the corrected one, because of the order of operations.
 const ROUNDED: f64 = 1e-6;
 
-/// What the runs of a lab show of a program.
+/// The effects of a program in the runs of a lab.
 pub(super) struct Compared {
-    /// What the constants change, in words.
+    /// The effect of the constants, in words.
     pub(super) constants: Option<String>,
-    /// What the partners change, in words, and which of them do; nothing where none does.
+    /// The effect of the coupled parameters, in words, and the pairs that cause it; `None` where there is none.
     pub(super) partners: Option<(String, PairSet)>,
-    /// What to write: how constants are computed anew, and the whole program where its partners are corrected too.
+    /// The suggestion: how constants are recomputed, and the whole program where coupled parameters are corrected too.
     pub(super) advice: SetConstAdvice,
     pub(super) repaired: Option<String>,
-    /// Why it could not be tried what partners change.
+    /// Why the effect of coupled parameters could not be tested.
     pub(super) untried: Option<String>,
 }
 
@@ -30,32 +30,32 @@ pub(super) struct Compared {
 struct Runs<'t> {
     trial: &'t BenchTrial,
     as_is: SampleRows,
-    /// With constants computed anew.
+    /// With constants recomputed.
     anew: SampleRows,
-    /// With partners corrected besides; `None` where that changes nothing, since none was left behind.
+    /// With coupled parameters corrected too; `None` where that changes nothing, because none was omitted.
     corrected: Option<SampleRows>,
 }
 
 impl Runs<'_> {
-    /// The run with partners corrected.
+    /// The run with coupled parameters corrected.
     fn corrected(&self) -> &SampleRows {
         self.corrected.as_ref().unwrap_or(&self.anew)
     }
 }
 
-/// The lab with what is missing.
+/// The variants of the lab.
 struct LabVariants {
-    /// As it is, which observes its partners.
+    /// Unchanged; observes coupled parameters.
     as_is: Amended,
-    /// With constants computed anew; `None` where they are. It observes its partners.
+    /// With constants recomputed; `None` where the program does so. Observes coupled parameters.
     refreshed: Option<Amended>,
-    /// With all partners corrected besides.
+    /// With all coupled parameters corrected too.
     coupled: Option<Amended>,
     steps: usize,
 }
 
 impl SetConstBench<'_> {
-    /// Runs everything. `Err` says why constants could not be tried.
+    /// Makes all runs. `Err` states why constants could not be tested.
     pub(super) fn compare(&mut self, s: &Suspect<'_>) -> Result<Compared, String> {
         let steps = self.steps(s)?;
         let trials = self.trials(s, steps);
@@ -76,7 +76,8 @@ impl SetConstBench<'_> {
             return Err(reason.clone());
         }
         let mut partners = self.partners(s, &all, &variants);
-        // What a program leaves behind in no run alone, it does together with another control only where it reads what that writes.
+        // If no run with this program alone omits a coupled parameter, a combination with another control can do so only
+        // if the program reads what that control writes.
         let left = all.iter().any(|runs| runs.corrected.is_some()) || self.reads_of_others(s);
         let others = if partners.is_none() && left { self.combined(s) } else { Vec::new() };
         for trial in &others {
@@ -107,7 +108,7 @@ impl SetConstBench<'_> {
         Ok(Compared { constants, partners, advice, repaired, untried: uncoupled })
     }
 
-    /// What to write, and the corrected text where there is one that gives the same runs.
+    /// The suggestion, and the corrected text if one gives the same runs.
     fn choose_advice(
         &mut self,
         s: &Suspect<'_>,
@@ -133,7 +134,7 @@ impl SetConstBench<'_> {
         }
     }
 
-    /// The runs of one trial; why partners could not be corrected in it goes to `uncoupled`.
+    /// The runs of one trial. If coupled parameters could not be corrected in it, the reason is stored in `uncoupled`.
     fn runs<'t>(
         &mut self,
         s: &Suspect<'_>,
@@ -159,7 +160,7 @@ impl SetConstBench<'_> {
         Ok(Runs { trial, as_is, anew, corrected })
     }
 
-    /// Whether these statements in place of a program give the corrected runs, to this part of what is shown.
+    /// Whether these statements in place of a program give the corrected runs, to this fraction of the range.
     fn gives(&mut self, s: &Suspect<'_>, text: &str, all: &[Runs<'_>], steps: usize, part: f64) -> bool {
         let Some(program) = self.amended(s, text) else { return false };
         all.iter().all(|runs| {
@@ -172,7 +173,7 @@ impl SetConstBench<'_> {
         })
     }
 
-    /// What correcting the partners changes in the first trial in which it does, and which of them change it.
+    /// The effect of correcting the coupled parameters in the first trial that shows one, and the pairs that cause it.
     fn partners(
         &mut self,
         s: &Suspect<'_>,

@@ -1,16 +1,16 @@
-//! What a reader would see differ between two runs of a lab: traces, readouts, coordinates, beyond rounding.
+//! Visible differences between two runs of a lab: traces, readouts and coordinates, beyond rounding.
 
 use crate::bind::Programs;
 use crate::run::{self, Cell};
 use crate::spec::Lab;
 use labspec_expr::Value;
 
-/// A difference that cannot be seen, of the range of a trace.
+/// A difference below this fraction of the range of a trace is not visible.
 const VISIBLE: f64 = 1e-9;
-/// A difference that rounding makes, of the largest value.
+/// A difference below this fraction of the largest value is rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// A sample that differs between the lab as it is and with its constants computed anew.
+/// A sample that differs between two runs.
 pub(super) struct Difference {
     name: String,
     time: f64,
@@ -18,11 +18,11 @@ pub(super) struct Difference {
 }
 
 impl Difference {
-    /// In words; `anew` is what the other run has.
+    /// The difference in words; `anew` describes the second run.
     pub(super) fn describe(&self, trial: &str, anew: &str) -> String {
         let (x, y) = match &self.cells {
             (Cell::Number(x), Cell::Number(y)) => {
-                // As many digits as tell them apart.
+                // As many digits as are needed to distinguish them.
                 let printed = |n| (digits(*x, n), digits(*y, n));
                 (4..17).map(printed).find(|(a, b)| a != b).unwrap_or_else(|| printed(17))
             }
@@ -32,20 +32,21 @@ impl Difference {
     }
 }
 
-/// What the columns of a run are: time, traces, readouts, and coordinates where they are sampled.
+/// The columns of a run: time, traces, readouts, and coordinates where they are sampled.
 pub(super) struct Columns<'a> {
-    /// Coordinates count besides what is shown.
+    /// Whether coordinates are compared besides displayed values.
     pub(super) whole: bool,
     pub(super) lab: &'a Lab,
     pub(super) programs: &'a Programs,
 }
 
-/// A part of the range of what is shown by which a wrong partner has to change it: less is what the numerics of a lab make.
+/// Fraction of the range by which a wrong coupled parameter must change a displayed value; numerics of a lab cause smaller
+/// changes.
 const MATTERS: f64 = 1e-3;
-/// How many times what a moved start changes it has to be.
+/// Factor by which the change must exceed that of a perturbed start.
 pub(super) const BEYOND: f64 = 10.0;
 
-/// How far two runs are apart in a column, at most.
+/// The largest difference of two runs in a column.
 #[derive(Clone, Copy, Debug, Default)]
 struct Apart {
     most: f64,
@@ -55,7 +56,7 @@ struct Apart {
     cells: [f64; 2],
 }
 
-/// How far two runs are apart in a column of numbers.
+/// The largest difference of two runs in a column of numbers.
 fn apart(a: &[Vec<Cell>], b: &[Vec<Cell>], column: usize) -> Apart {
     let (mut low, mut high, mut found) = (f64::INFINITY, f64::NEG_INFINITY, Apart::default());
     for (x, y) in a.iter().zip(b) {
@@ -77,8 +78,9 @@ fn apart(a: &[Vec<Cell>], b: &[Vec<Cell>], column: usize) -> Apart {
 }
 
 impl Columns<'_> {
-    /// What of two runs is another motion or another curve, beyond what numerics change: what the lab shows first, then its
-    /// coordinates. `noise` makes the first run again under other numerics, with the factor that a difference must have.
+    /// The largest difference of two runs beyond the effect of numerics: first in displayed values, then in coordinates.
+    /// `noise` repeats the first run under perturbed numerics, each with the factor by which a difference must exceed its
+    /// effect.
     pub(super) fn mismatch(
         &self,
         a: &[Vec<Cell>],
@@ -106,14 +108,14 @@ impl Columns<'_> {
         Some(Difference { name: self.column(column), time: d.time, cells: cells.into() })
     }
 
-    /// Whether no number of two runs differs by more than this part of what its column spans.
+    /// Whether no number of two runs differs by more than this fraction of the range of its column.
     pub(super) fn close(&self, a: &[Vec<Cell>], b: &[Vec<Cell>], part: f64) -> bool {
         let width = a.first().map_or(0, Vec::len);
         let near = |d: Apart| d.most <= part * d.range || d.most <= ROUNDING * d.largest;
         a.len() == b.len() && (1..width).all(|column| near(apart(a, b, column)))
     }
 
-    /// The largest visible difference of two runs in what the lab shows, or in its coordinates where it shows nothing.
+    /// The largest visible difference of two runs in displayed values, or in coordinates if the lab displays nothing.
     pub(super) fn difference(&self, a: &[Vec<Cell>], b: &[Vec<Cell>]) -> Option<Difference> {
         let width = a.first().map_or(0, Vec::len);
         let width = if self.whole { width } else { width.min(1 + self.programs.probes.len()) };
@@ -137,7 +139,7 @@ impl Columns<'_> {
         worst.map(|(_, d)| d)
     }
 
-    /// How much of the range two samples differ by; `None` when nobody can see it.
+    /// The difference of two samples as a fraction of the range; `None` when it is not visible.
     fn visible(&self, column: usize, x: &Cell, y: &Cell, range: f64, largest: f64) -> Option<f64> {
         let (Cell::Number(p), Cell::Number(q)) = (x, y) else { return (x != y).then_some(1.0) };
         if !(p.is_finite() && q.is_finite()) {
@@ -156,11 +158,11 @@ impl Columns<'_> {
         (seen && apart > ROUNDING * largest).then_some(apart / range)
     }
 
-    /// What a column is called.
+    /// The name of a column.
     fn column(&self, column: usize) -> String {
         match self.programs.probes.get(column - 1) {
             Some(probe) => {
-                // `plot/0/label`, `readout/label`: a label may have a slash of its own.
+                // A name has the form `plot/0/label` or `readout/label`; the label itself may contain slashes.
                 let (kind, rest) = probe.name.split_once('/').unwrap_or(("", &probe.name));
                 let label = if kind == "plot" { rest.split_once('/').map_or(rest, |(_, l)| l) } else { rest };
                 format!("\"{label}\"")
@@ -170,7 +172,7 @@ impl Columns<'_> {
     }
 }
 
-/// A number with so many significant digits, without trailing zeros.
+/// A number with `count` significant digits, without trailing zeros.
 pub(crate) fn digits(x: f64, count: usize) -> String {
     let rounded: f64 = format!("{x:.*e}", count.saturating_sub(1)).parse().unwrap_or(x);
     Value::Number(rounded).to_string()

@@ -1,4 +1,4 @@
-//! The findings about a program that leaves constants or partners behind.
+//! The findings about a program that omits constants or coupled parameters.
 
 use super::advice::SetConstAdvice;
 use super::bench::SetConstBench;
@@ -12,7 +12,7 @@ const CONSTANTS: &str =
     "the constants that follow from it (subtree masses, inverse weights of contacts) keep their old values";
 
 impl SetConstBench<'_> {
-    /// The findings, unless nothing visible differs.
+    /// The findings, unless there is no visible difference.
     pub(super) fn judge(&mut self, s: &Suspect<'_>) -> Vec<Finding> {
         match self.compare(s) {
             Ok(compared) => {
@@ -26,7 +26,7 @@ impl SetConstBench<'_> {
         }
     }
 
-    /// A finding for each rule that is broken.
+    /// A finding for each violated rule.
     fn left_behind(&self, s: &Suspect<'_>, compared: &Compared, mut fix: Option<Fix>) -> Vec<Finding> {
         let (evidence, pairs, severity) = match (&compared.partners, &compared.untried) {
             (Some((evidence, pairs)), _) => (evidence.clone(), *pairs, Severity::Warning),
@@ -65,7 +65,7 @@ impl SetConstBench<'_> {
     }
 }
 
-/// The pairs of a set by the rule that they break.
+/// The pairs of a set by the rule that they violate.
 pub(in crate::check) fn by_rule(pairs: PairSet) -> Vec<(&'static Rule, Vec<&'static Pair>)> {
     let mut all: Vec<(&'static Rule, Vec<&'static Pair>)> = Vec::new();
     for (_, pair) in pairs.pairs() {
@@ -77,7 +77,7 @@ pub(in crate::check) fn by_rule(pairs: PairSet) -> Vec<(&'static Rule, Vec<&'sta
     all
 }
 
-/// That a parameter changes and its partners do not.
+/// The finding that a parameter changes and its coupled parameters do not.
 pub(in crate::check) fn left(
     rule: &'static Rule,
     span: std::ops::Range<usize>,
@@ -102,7 +102,7 @@ pub(in crate::check) fn left(
     Finding::plain(rule, span, message).severity(severity).help(help.join("; "))
 }
 
-/// The advice for a whole program.
+/// The help for a whole program.
 fn instead(s: &Suspect<'_>, text: &str) -> String {
     match s.target {
         true => format!("instead of \"set\", write \"apply\": {}", serde_json::Value::from(text)),
@@ -110,7 +110,7 @@ fn instead(s: &Suspect<'_>, text: &str) -> String {
     }
 }
 
-/// The advice for constants alone.
+/// The help for constants alone.
 fn behind(s: &Suspect<'_>, advice: SetConstAdvice) -> String {
     let text = &s.bound.text.value;
     match s.target {
@@ -122,7 +122,7 @@ fn behind(s: &Suspect<'_>, advice: SetConstAdvice) -> String {
     }
 }
 
-/// The repaired program in place of the text: a guess, as an author may want the inertia to stay.
+/// The repaired program in place of the text. The fix is unsafe, because the author may intend the inertia to stay.
 fn replacement(s: &Suspect<'_>, compared: &Compared) -> Option<Fix> {
     let text = compared.repaired.as_ref().filter(|_| !s.target)?;
     let json = serde_json::Value::from(text.as_str()).to_string();
@@ -141,7 +141,7 @@ fn about_constants(s: &Suspect<'_>) -> Option<Finding> {
     ))
 }
 
-/// That constants are not computed anew, where it shows.
+/// The finding that constants are not recomputed, where the effect is visible.
 fn missing(s: &Suspect<'_>, compared: &Compared) -> Option<Finding> {
     let evidence = compared.constants.as_ref()?;
     let finding = about_constants(s)?.why(format!("{CONSTANTS}: {evidence}"));
@@ -175,7 +175,7 @@ fn missing(s: &Suspect<'_>, compared: &Compared) -> Option<Finding> {
     Some(finding.fix(end..end, tail.trim_matches('"')))
 }
 
-/// That constants are not computed anew, and nobody can say whether it shows.
+/// The finding that constants are not recomputed, where the effect could not be tested.
 fn untried(s: &Suspect<'_>, reason: &str) -> Option<Finding> {
     Some(
         about_constants(s)?

@@ -1,11 +1,11 @@
-//! Programs that change one parameter of a model and leave what belongs to it: constants that follow from masses, the inertia of a
-//! changed mass, the bounding radius of a changed size, the bias of a changed gain. Whether it shows, and what to write instead, both
-//! by running.
+//! Detects programs that change one parameter of a model without the values that depend on it: constants that follow from
+//! masses, the inertia of a changed mass, the bounding radius of a changed size, the bias of a changed gain. The effect and
+//! the suggested repair are both determined by running the lab.
 //!
-//! Constants (subtree masses, inverse weights of contacts) keep their old value until `mj_setConst`, which also puts qpos back to
-//! the model's own. So a lab is run as it is, with the constants computed anew and the state kept, and with the partners of
-//! [`coupled`](crate::bind::coupled) corrected behind the program; where nothing visible differs, nothing is reported. The advice
-//! is run too.
+//! Constants (subtree masses, inverse weights of contacts) keep their old value until `mj_setConst`, which also resets qpos
+//! to that of the model. So a lab is run unchanged, with the constants recomputed and the state preserved, and with the
+//! parameters of [`coupled`](crate::bind::coupled) corrected after the program. Without a visible difference, nothing is
+//! reported. The suggestion is run too.
 
 mod advice;
 mod bench;
@@ -26,7 +26,7 @@ use labspec_core::Model;
 use labspec_core::reflect::{FieldId, Kind, Object};
 use labspec_expr::{Type, Value};
 
-/// Where a program stands.
+/// The location of a program.
 #[derive(Clone, Copy)]
 enum ProgramSite<'a> {
     Setup,
@@ -36,17 +36,18 @@ enum ProgramSite<'a> {
     Run(&'a Run),
 }
 
-/// A program that changes a parameter which others belong to.
+/// A program that changes a parameter on which others depend.
 struct Suspect<'a> {
     place: ProgramSite<'a>,
     bound: &'a Bound,
-    /// A field that constants follow from, where they are not computed anew; `true` where mj_setConst is called before it.
+    /// A field from which constants follow, if they are not recomputed after it is written; `true` where mj_setConst is
+    /// called before.
     inertial: Option<(FieldId, bool)>,
     /// The pairs whose parameter it writes.
     pairs: PairSet,
-    /// Its text is the target of a `set`.
+    /// Whether its text is the target of a `set`.
     target: bool,
-    /// The type of `value` in it.
+    /// The type of `value` in the program.
     given: Option<Type>,
 }
 
@@ -70,7 +71,7 @@ pub(super) fn check_setconst(lab: &Lab, model: &Model, programs: &Programs, find
     findings.extend(all.iter().flat_map(|s| bench.judge(s)));
 }
 
-/// Checks the setup of a run of a `verify` object, as `check` does that of the lab.
+/// Checks the setup of a run of a `verify` object, as [`check_setconst`] checks that of the lab.
 pub(super) fn check_run(
     verify: &Verify,
     run: &Run,
@@ -111,7 +112,8 @@ fn suspect<'a>(
     found.then_some(Suspect { place, bound, inertial, pairs, target, given })
 }
 
-/// A field that constants follow from, which a program changes without computing them anew; `true` where it does so before.
+/// A field from which constants follow and which a program changes without recomputing them; `true` where it recomputes
+/// them before.
 fn inertial(bound: &Bound) -> Option<(FieldId, bool)> {
     let inertial = |f: &FieldId| f.info().object == Object::Model && f.info().kind == Kind::Inertial;
     let set_const =

@@ -1,4 +1,4 @@
-//! What is stored against what a lab shows now: the first value that differs, and what changed about the lab.
+//! Compares stored values with those of a lab: the first value that differs, and the changes of the lab.
 
 use super::digits;
 use super::file::{OPEN, StoredLab, StoredRun, plain};
@@ -9,37 +9,37 @@ use crate::run::Cell;
 use crate::verify::significant;
 use serde::{Deserialize, Serialize};
 
-/// The first value that is not as stored.
+/// The first value that differs from the stored one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Divergence {
     /// The run, in words: `as it stands`.
     pub run: String,
-    /// The trace or readout, as in a table of `labspec run`: `plot/0/height`.
+    /// The trace or readout, named as in the table of `labspec run`: `plot/0/height`.
     pub trace: String,
     /// Simulated time, s.
     #[serde(with = "crate::verify::float_bits")]
     pub time: f64,
-    /// What is stored.
+    /// The stored value.
     pub stored: String,
-    /// What is there now, with a digit more.
+    /// The current value, with one more digit.
     pub now: String,
-    /// How far a number may be off; `None` for what is none.
+    /// The tolerance of a number; `None` for other values.
     #[serde(with = "crate::verify::float_bits")]
     pub tolerance: Option<f64>,
     /// The line of the file.
     pub line: usize,
-    /// Both curves, drawn with letters.
+    /// Both curves, drawn with characters.
     pub picture: Vec<String>,
 }
 
-/// How a lab differs from what is stored of it.
+/// The difference between a lab and its stored values.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Difference {
-    /// What changed about the lab, a clause each.
+    /// The changes of the lab, one clause each.
     pub(super) changes: Vec<String>,
-    /// The first value that is not as stored, and the number of its trace or readout in the lab.
+    /// The first value that differs, and the index of its trace or readout in the lab.
     pub(super) first: Option<(Divergence, usize)>,
-    /// Rows in which something differs, all runs together.
+    /// Number of rows that differ, over all runs.
     pub(super) rows: usize,
 }
 
@@ -79,7 +79,7 @@ fn compare_run(old: &StoredRun, run: &SnapshotRun, all: &mut Difference) {
         let list = |times: &[f64]| times.iter().map(|t| significant(*t)).collect::<Vec<_>>().join(" ");
         all.changes.push(format!("the times {} are now {}", list(&old.times), list(&run.times)));
     }
-    // Values of other times say nothing.
+    // Values at other times cannot be compared.
     let names = pairs(old, run, moved, all);
     let mut first: Option<(usize, usize, usize)> = None;
     if !moved {
@@ -98,7 +98,7 @@ fn compare_run(old: &StoredRun, run: &SnapshotRun, all: &mut Difference) {
     }
 }
 
-/// Which stored row is which of the run: by name, of several of one name in order. What has no partner changed.
+/// Pairs stored rows with those of the run: by name, and rows of equal name in order. Rows without a pair are changes.
 fn pairs(old: &StoredRun, run: &SnapshotRun, moved: bool, all: &mut Difference) -> Vec<(usize, usize)> {
     let mut free: Vec<usize> = (0..run.rows.len()).collect();
     let (mut pairs, mut lost) = (Vec::new(), Vec::new());
@@ -133,14 +133,14 @@ fn named(name: &str) -> String {
     format!("\"{}\"", printable(name))
 }
 
-/// Whether a value is as it is stored.
+/// Whether a value equals the stored one.
 fn agrees(stored: &str, now: &Cell) -> bool {
     match (digits::read(stored), now) {
         _ if stored == OPEN => true,
         (Some((x, unit)), Cell::Number(y)) => (x - y).abs() <= digits::tolerance(unit),
         (None, cell) => {
             let plain = plain(cell);
-            // A file may have been written with other escapes.
+            // The file may have been written with other escapes.
             let text = |t: &str| serde_json::from_str::<String>(t).ok();
             !matches!(cell, Cell::Number(x) if x.is_finite())
                 && (stored == plain || text(stored).is_some_and(|t| text(&plain) == Some(t)))

@@ -1,18 +1,17 @@
-//! Numbers as a snapshot has them: as many digits as the simulation can tell, at most five of the largest value of a row.
+//! Numbers in a snapshot: with as many digits as the simulation determines, at most five of the largest value of a row.
 //!
 //! A unit is the power of ten of the last digit: `0.215` is in units of 10⁻³, `2.15e4` in units of 10².
 
-/// Digits of the largest value of a row.
+/// Number of digits of the largest value of a row.
 const MOST: i32 = 5;
-/// The unit of a row in which everything is nothing.
+/// The unit of a row of zeros.
 const NOTHING: i32 = -9;
-/// Decimals that are written out; what needs more has an exponent.
+/// Maximum number of decimals; a number with more is written with an exponent.
 const DECIMALS: i32 = 8;
-/// How far a value may be from what stands there, in units: half a one, and what rounding does.
+/// Tolerance of a written number, in units: half a unit and rounding.
 const HALF: f64 = 0.5 + 1e-9;
 
-/// The units of a row: the finest, in which its values are written if they can be, and the coarsest, in which they still say
-/// something.
+/// The units of a row: the finest, which is preferred, and the coarsest that is still informative.
 pub(super) fn units(values: &[f64]) -> (i32, i32) {
     let finite = || values.iter().copied().filter(|x| x.is_finite());
     let scale = finite().fold(0.0, |most: f64, x| most.max(x.abs()));
@@ -43,12 +42,12 @@ pub(super) fn written(x: f64, unit: i32) -> String {
         let digits = exponent(x) - unit;
         match usize::try_from(digits) {
             Ok(digits) if x != 0.0 => format!("{x:.digits$e}"),
-            // Less than a unit: one of them, or none.
+            // Less than a unit: rounded to one unit or to zero.
             _ if (x / ten(unit)).abs() > 0.5 => format!("{:.0e}", ten(unit).copysign(x)),
             _ => format!("0e{unit}"),
         }
     };
-    // Nothing has no sign.
+    // Zero has no sign.
     match text.strip_prefix('-') {
         Some(rest)
             if !rest.split('e').next().unwrap_or("").contains(|c: char| c.is_ascii_digit() && c != '0') =>
@@ -59,7 +58,7 @@ pub(super) fn written(x: f64, unit: i32) -> String {
     }
 }
 
-/// The number that stands there, and its unit.
+/// The number in a text, and its unit.
 pub(super) fn read(text: &str) -> Option<(f64, i32)> {
     let (mantissa, power) = match text.split_once('e') {
         Some((mantissa, power)) => (mantissa, power.parse::<i32>().ok()?),
@@ -77,7 +76,7 @@ pub(super) fn read(text: &str) -> Option<(f64, i32)> {
     (x.is_finite() && (-400..=400).contains(&unit)).then_some((x, unit))
 }
 
-/// How far a value may be from a number in these units.
+/// The tolerance of a number with this unit.
 pub(super) fn tolerance(unit: i32) -> f64 {
     HALF * ten(unit)
 }

@@ -1,4 +1,5 @@
-//! Snapshots: what the labs of a lesson show, kept beside it in a text that people review, and held against what they show now.
+//! Snapshots: the displayed values of the labs of a lesson, stored beside it in a text that people review, and compared
+//! with the current values.
 
 mod compare;
 mod digits;
@@ -25,27 +26,27 @@ use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use std::path::Path;
 
-/// What became of the snapshot of one lab.
+/// The result of the snapshot of one lab.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SnapshotResult {
     /// Its address: `#1`.
     pub lab: String,
-    /// Bytes of the lesson; empty for a lab that is gone.
+    /// Bytes of the lesson; empty for a removed lab.
     pub span: Range<usize>,
-    /// As stored or not.
+    /// Whether it equals the stored values.
     pub state: State,
-    /// What changed about the lab, a clause each: a control, a trace, a setting.
+    /// The changes of the lab, one clause each: a control, a trace, a setting.
     pub changes: Vec<String>,
-    /// The first value that is not as stored.
+    /// The first value that differs.
     pub divergence: Option<Divergence>,
-    /// How many traces and readouts are not as stored, those of all runs together.
+    /// Number of traces and readouts that differ, over all runs.
     pub rows: usize,
     /// Why it could not be checked; empty otherwise.
     pub reason: String,
 }
 
 impl SnapshotResult {
-    /// In one or two words.
+    /// The result in one or two words.
     pub fn word(&self) -> &'static str {
         match self.state {
             State::True(_) => "as stored",
@@ -56,7 +57,7 @@ impl SnapshotResult {
         }
     }
 
-    /// Why it is not as stored, in one line.
+    /// Why it differs, in one line.
     pub fn remark(&self) -> String {
         let first = self.divergence.as_ref().map(|d| {
             let more = match self.rows {
@@ -70,7 +71,7 @@ impl SnapshotResult {
         reason.into_iter().chain(first).chain(self.changes.iter().cloned()).collect::<Vec<_>>().join("; ")
     }
 
-    /// What is shown below it: the first value that differs, and both curves.
+    /// The lines printed below it: the first value that differs, and both curves.
     pub fn lines(&self) -> Vec<String> {
         let Some(d) = &self.divergence else { return Vec::new() };
         let within = d.tolerance.map_or(String::new(), |t| format!(" (± {})", significant(t)));
@@ -79,14 +80,14 @@ impl SnapshotResult {
     }
 }
 
-/// A lesson's snapshot as it would be written now, and what is there.
+/// The snapshot of a lesson as it would be written now, and the stored one.
 #[derive(Clone, Debug)]
 pub struct Renewal {
-    /// What became of each lab; of one that is not stored, that it is not.
+    /// The result for each lab, including labs that are not stored.
     pub labs: Vec<RenewedLab>,
-    /// What is wrong with the stored file.
+    /// The error in the stored file.
     pub fault: Option<String>,
-    /// Whether a file is there.
+    /// Whether a file exists.
     pub stored: bool,
     name: String,
 }
@@ -94,20 +95,21 @@ pub struct Renewal {
 /// A lab in a renewal.
 #[derive(Clone, Debug)]
 pub struct RenewedLab {
-    /// What became of it.
+    /// The result.
     pub result: SnapshotResult,
-    /// Its lines in the file, if it is there.
+    /// Its lines in the file, if it is stored.
     pub old: Option<String>,
-    /// Its lines as they would be written now; `None` for a lab that is gone, or cannot run.
+    /// Its lines as they would be written now; `None` for a lab that was removed or cannot run.
     pub new: Option<String>,
 }
 
 impl Renewal {
-    /// The text of a file in which each lab has its new lines where `accepted`, else its old ones; `None` when no lab has any.
+    /// The text of a file with the new lines of each lab that is `accepted`, and the old lines of the others; `None` when
+    /// no lab has lines.
     pub fn text(&self, accepted: impl Fn(&RenewedLab) -> bool) -> Option<String> {
         let lines = |lab: &'_ RenewedLab| match &lab.new {
             Some(new) if accepted(lab) => Some(new.clone()),
-            // What is gone goes; what cannot run keeps what is stored of it.
+            // A removed lab is deleted; a lab that cannot run keeps its stored lines.
             None if accepted(lab) && lab.result.state == State::False => None,
             _ => lab.old.clone(),
         };
@@ -126,13 +128,13 @@ fn stored(lesson: &Lesson) -> Option<Result<Vec<StoredLab>, String>> {
     Some(file::read(file).map_err(fault))
 }
 
-/// A file without its folder.
+/// The name of a file without its folder.
 fn name_of(file: &SourceFile) -> String {
     let path = Path::new(&**file.path());
     path.file_name().map_or(String::new(), |name| printable_path(Path::new(name)))
 }
 
-/// Holds every lab of a lesson against its snapshot. Where none is stored, nothing is claimed.
+/// Compares every lab of a lesson with its snapshot. Without a stored snapshot, nothing is claimed.
 pub(super) fn check_snapshots(
     lesson: &Lesson,
     ready: &[PreparedLab<'_>],
@@ -182,7 +184,7 @@ fn unchecked(address: &crate::spec::LabAddress, lab: &Lab) -> SnapshotResult {
     }
 }
 
-/// Labs that are stored and no longer there.
+/// The stored labs that are no longer in the lesson.
 fn gone<'a>(
     labs: &'a [StoredLab],
     lab_runs: &'a [LabRuns<'_, '_>],
@@ -199,7 +201,7 @@ fn gone<'a>(
     })
 }
 
-/// One lab against what is stored of it.
+/// Compares one lab with its stored values.
 fn hold(
     now: &LabRuns<'_, '_>,
     labs: &[StoredLab],
@@ -257,7 +259,7 @@ fn review(lesson: &Lesson) -> String {
     format!("fix the lab, or accept an intended change: labspec snapshot --review {path}")
 }
 
-/// What would be stored of a lesson now, beside what is.
+/// The snapshot of a lesson as it would be written now, and the stored one.
 pub fn renew(lesson: &Lesson, models: &Models) -> Renewal {
     let mut ignored = Vec::new();
     let ready: Vec<PreparedLab<'_>> = lesson
@@ -288,7 +290,7 @@ pub fn renew(lesson: &Lesson, models: &Models) -> Renewal {
     Renewal { labs, fault, stored: lesson.snapshot.is_some(), name }
 }
 
-/// The lines of a lab, with the digits that its numerics can tell.
+/// The lines of a lab, with the digits that the numerics determine.
 fn fresh(now: &LabRuns<'_, '_>) -> Option<String> {
     let ready = now.ready.filter(|_| !now.runs.is_empty())?;
     let under = |numerics: StepVariant, input| {

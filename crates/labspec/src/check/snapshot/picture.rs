@@ -1,13 +1,13 @@
-//! Two curves in letters: what is stored, and what is there now.
+//! Draws two curves with characters: the stored and the current one.
 
 use crate::verify::significant;
 
-/// Lines of the picture.
+/// Number of lines of the picture.
 const LINES: usize = 9;
-/// Letters for each time.
+/// Number of characters for each time.
 const WIDE: usize = 5;
 
-/// `o` is stored, `x` is now, `*` is both. Nothing where there is no number, or only one.
+/// `o` is stored, `x` is now, `*` is both. Empty if there are no numbers, or if all are equal.
 pub(super) fn picture(times: &[f64], stored: &[f64], now: &[f64]) -> Vec<String> {
     let numbers = || stored.iter().chain(now).copied().filter(|x| x.is_finite());
     let (low, high) = numbers().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));

@@ -1,4 +1,4 @@
-//! The runs of a snapshot: the lab as it stands, each slider at its ends, each select at its other options, after each button.
+//! The runs of a snapshot: the lab as loaded, each slider at its ends, each select at its other options, after each button.
 
 use super::super::PreparedLab;
 use crate::run::Integrator;
@@ -11,23 +11,23 @@ use labspec_core::{Model, solver};
 use labspec_expr::{Effects, Value};
 use std::ops::ControlFlow;
 
-/// A run is looked at so often, besides its start.
+/// Number of samples of a run, besides its start.
 const LOOKS: usize = 10;
-/// When buttons are pressed, s.
+/// Time at which buttons are pressed, s.
 const PRESS: f64 = 0.1;
 
-/// What a student does before the run, and how the file calls it.
+/// The interaction before the run, and its name in the file.
 pub(super) struct SnapshotInput {
     pub(super) name: String,
     set: Vec<(String, Value)>,
     press: Vec<(String, f64)>,
 }
 
-/// What was seen in a run.
+/// The samples of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct SnapshotRun {
     pub(super) name: String,
-    /// Its length, its timestep and the like.
+    /// Its length, its timestep and further settings.
     pub(super) about: Vec<String>,
     pub(super) times: Vec<f64>,
     /// The name of each trace and readout, and a value for each time.
@@ -43,7 +43,7 @@ pub(super) struct LabRuns<'r, 'l> {
     pub(super) runs: Vec<(SnapshotInput, SnapshotRun)>,
 }
 
-/// The runs of all labs of a lesson, within the budget of a file: as it stands each is run in any case.
+/// The runs of all labs of a lesson, within the budget of a file. Each lab is run at least as loaded.
 pub(super) fn run_labs<'r, 'l>(lesson: &'l Lesson, ready: &'r [PreparedLab<'l>]) -> Vec<LabRuns<'r, 'l>> {
     let addressed = lesson.addressed();
     let (mut left, mut others) = (Budget::FILE.left, addressed.len() as u64);
@@ -67,7 +67,7 @@ pub(super) fn run_labs<'r, 'l>(lesson: &'l Lesson, ready: &'r [PreparedLab<'l>])
     all
 }
 
-/// As it stands, then with each control moved.
+/// As loaded, then with each control moved.
 fn snapshot_inputs(lab: &Lab) -> Vec<SnapshotInput> {
     let mut all = vec![SnapshotInput { name: "as it stands".into(), set: Vec::new(), press: Vec::new() }];
     for control in &lab.controls {
@@ -98,7 +98,7 @@ fn snapshot_inputs(lab: &Lab) -> Vec<SnapshotInput> {
     all
 }
 
-/// Makes a run; with the work that it took.
+/// Makes a run; returns the work that it took.
 pub(super) fn play(
     ready: &PreparedLab<'_>,
     input: &SnapshotInput,
@@ -115,7 +115,7 @@ pub(super) fn play(
     let count = run::count_steps(lab, Some(window(lab)), None, timestep)?;
     let stated = states_timestep(ready, input);
     session.perturb(numerics, stated);
-    // As many steps as reach as far.
+    // The same duration at any timestep.
     let finer = if stated { 1 } else { (1.0 / numerics.timestep).round() as usize };
     let mut looks: Vec<usize> = (0..=LOOKS).map(|i| (count * i + LOOKS / 2) / LOOKS).collect();
     looks.dedup();
@@ -137,7 +137,7 @@ pub(super) fn play(
     Ok((SnapshotRun { name: input.name.clone(), about, times, rows }, session.spent()))
 }
 
-/// Its length and its numerics.
+/// The length and the numerics of a run.
 fn about(lab: &Lab, model: &Model) -> Vec<String> {
     let opt = &model.opt;
     let solver = match opt.solver {
@@ -155,7 +155,7 @@ fn about(lab: &Lab, model: &Model) -> Vec<String> {
     ]
 }
 
-/// Whether the lesson itself states the timestep: then half of it says nothing of the digits.
+/// Whether the lesson itself sets the timestep: then half of it does not test the digits.
 fn states_timestep(ready: &PreparedLab<'_>, input: &SnapshotInput) -> bool {
     let writes = |e: &Effects| e.writes.iter().any(|a| a.field.0 as usize == option::timestep.index());
     let set = input.set.iter().filter_map(|(label, _)| ready.programs.effects_of(label));

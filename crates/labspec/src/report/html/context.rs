@@ -1,4 +1,4 @@
-//! Everything that the pieces of a lesson's page look up: the file, names, plots, and the ledger.
+//! The data that the parts of a lesson's page look up: the file, names, plots, and the ledger.
 
 use super::text::Names;
 use crate::check::{Basis, Drawn, RunSettings};
@@ -8,7 +8,7 @@ use crate::verify::RenderedText;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// Everything that the pieces of a lesson look things up in.
+/// The data that the parts of a lesson's page look up.
 pub(super) struct LessonContext<'a> {
     pub(super) lesson: &'a Lesson,
     pub(super) names: &'a Names,
@@ -23,7 +23,7 @@ impl<'a> LessonContext<'a> {
         self.lesson.file.position(at).line
     }
 
-    /// The runs of a claim, with the settings of each as it begins.
+    /// The runs of a claim, with the settings of each at its start.
     pub(super) fn runs(&self, claim: &str) -> Option<&'a [(String, Option<RunSettings>)]> {
         let basis = self.basis?.claims.iter().find(|basis| basis.name == claim)?;
         Some(&basis.runs)
@@ -35,7 +35,7 @@ impl<'a> LessonContext<'a> {
         all.iter().find(|e| e.what == what).or(all.first()).copied()
     }
 
-    /// What the ledger says of a claim: its state, and that in a word.
+    /// The state of a claim in the ledger, and the word for it.
     pub(super) fn state(
         &self,
         subject: Subject,

@@ -1,11 +1,11 @@
-//! How much of what a lesson says is claimed: its numbers with units, and its questions.
+//! The fraction of a lesson's statements with a claim: its numbers with units, and its questions.
 
 use crate::check::Checked;
 use crate::verify::{self, Stated};
 
 /// The numbers with units of a lesson.
 pub(super) struct Coverage {
-    /// How many of them a claim is about.
+    /// Number of those with a claim.
     pub(super) claimed: usize,
     /// The others, in the order of the text.
     pub(super) unclaimed: Vec<Stated>,
@@ -17,7 +17,7 @@ impl Coverage {
         Coverage { claimed: counted.claimed.len(), unclaimed: counted.left }
     }
 
-    /// All of them.
+    /// Number of all.
     pub(super) fn all(&self) -> usize {
         self.claimed + self.unclaimed.len()
     }

@@ -1,4 +1,4 @@
-//! What a claim rests on: its runs, its measures, the numbers it quotes, its closed forms.
+//! The evidence of a claim: its runs, its measures, its quoted numbers, its closed forms.
 
 use super::context::LessonContext;
 use super::plots::plots;
@@ -12,10 +12,10 @@ use crate::spec::Verify;
 use crate::verify::{Measured, Quote, QuoteState, significant};
 use std::fmt::Write;
 
-/// Most places of a quoted number that are named.
+/// Maximum number of listed places of a quoted number.
 const PLACES: usize = 8;
 
-/// The pictures of a claim, and its tables, folded up where there is nothing to doubt.
+/// The plots of a claim and its tables, which are collapsed where nothing is doubtful.
 pub(super) fn evidence(claim: &Claim, spec: Option<&Verify>, context: &LessonContext<'_>) -> String {
     let mut out = String::new();
     let spec = spec.map(|verify| context.lesson.whole(verify));
@@ -45,8 +45,7 @@ pub(super) fn evidence(claim: &Claim, spec: Option<&Verify>, context: &LessonCon
     out
 }
 
-/// A table in a box of its own, which scrolls where the screen is narrow; nothing without rows. A column in which nothing
-/// stands is left out.
+/// A table in a scrollable box; empty without rows. Empty columns are left out.
 fn table(title: &str, heads: &[&str], rows: &[Vec<String>]) -> String {
     if rows.is_empty() {
         return String::new();
@@ -82,7 +81,7 @@ fn quotes(claim: &Claim, context: &LessonContext<'_>) -> String {
             context.state(Subject::Quote, &q.span, &q.text).unwrap_or((state_of_quote, q.verdict()));
         let mut lines: Vec<usize> =
             context.rendered.places(&q.text).iter().map(|at| context.line(at.start)).collect();
-        // A cell of a table stands where it is claimed.
+        // A cell of a table is listed at the line of its claim.
         lines.extend(lines.is_empty().then(|| context.line(q.span.start)));
         lines.dedup();
         let more = if lines.len() > PLACES { ", …" } else { "" };
@@ -133,7 +132,7 @@ fn runs(claim: &Claim, spec: Option<&Verify>, context: &LessonContext<'_>) -> St
         context.runs(&claim.name).filter(|started| started.len() == judgement.runs.len()).unwrap_or(&[]);
     let numerics: Vec<String> =
         started.iter().map(|(_, s)| s.as_ref().map_or(String::new(), settings::numerics)).collect();
-    // What all of them have is reported once.
+    // Settings that all runs share are printed once.
     let same = numerics.first().filter(|first| numerics.iter().all(|other| other == *first));
     let row = |(i, r): (usize, &crate::verify::RunReport)| {
         let outcome = match (&judgement.unmade, &r.broke, r.expected) {

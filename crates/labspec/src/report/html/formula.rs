@@ -1,20 +1,20 @@
-//! Formulas in texts of lessons: read as a page of the course shows them, where plain letters can say it; else as they are written.
+//! Formulas in texts of lessons: rendered with Unicode characters where possible, else printed as source.
 //!
-//! `$v_0 = 4.3\,\mathrm{m/s}$` is v₀ = 4.3 m/s. Fractions, roots, sums and matrices are drawn by a program that this page must not
-//! run: their source stands in the page, marked as code.
+//! `$v_0 = 4.3\,\mathrm{m/s}$` becomes v₀ = 4.3 m/s. Fractions, roots, sums and matrices need a program to draw them, which
+//! this page must not run: their source is printed as code.
 
 use super::text::{cut, escape, rest};
 use crate::printable::printable;
 use crate::verify::{folded, plain};
 
-/// How deep a script may stand in another one.
+/// Maximum nesting depth of scripts.
 const DEEP: usize = 3;
-/// What parts the blocks of a text.
+/// Separates the blocks of a text.
 const APART: char = '\u{1}';
-/// Letters in whose place a script stands while the rest is read: they mean nothing.
+/// Private-use characters that mark the positions of scripts while the rest is read.
 const PLACES: std::ops::RangeInclusive<char> = '\u{e000}'..='\u{e0ff}';
 
-/// Commands for one letter that reading numbers has no need of.
+/// Commands for single characters that the reader of quoted numbers does not need.
 const LETTERS: [(&str, char); 40] = [
     ("alpha", 'α'),
     ("beta", 'β'),
@@ -58,16 +58,16 @@ const LETTERS: [(&str, char); 40] = [
     ("star", '*'),
 ];
 
-/// Commands for a function that is written as it is called.
+/// Commands for functions that are written by their name.
 const FUNCTIONS: [&str; 9] = ["sin", "cos", "tan", "exp", "ln", "log", "min", "max", "arctan"];
 
 /// Commands for a sign between two sides.
 const RELATIONS: [&str; 12] =
     ["approx", "simeq", "cong", "sim", "to", "rightarrow", "le", "leq", "ge", "geq", "lt", "gt"];
 
-/// What a reader sees of a piece of HTML, with its formulas, to stand between tags.
+/// The visible text of a piece of HTML with its formulas, as content of an element.
 pub(super) fn of_html(html: &str) -> String {
-    // Paragraphs follow each other in one line.
+    // Paragraphs are joined on one line.
     text(&plain(html).replace(APART, " "))
 }
 
@@ -91,7 +91,7 @@ fn text(text: &str) -> String {
     out
 }
 
-/// The first formula of a text: what stands before it, the formula, what stands behind it.
+/// The first formula of a text: the text before it, the formula, the text after it.
 fn formula(text: &str) -> Option<(&str, &str, &str)> {
     let mut from = 0;
     while let Some(at) = text.get(from..)?.find(['$', '\\']).map(|i| from + i) {
@@ -104,13 +104,13 @@ fn formula(text: &str) -> Option<(&str, &str, &str)> {
         if found.is_some() {
             return found;
         }
-        // `\$` is a dollar.
+        // `\$` is a dollar sign.
         from = at + if rest.starts_with("\\$") { 2 } else { 1 };
     }
     None
 }
 
-/// A formula up to its end, and what stands behind that. A price is none: `$5 and $6`.
+/// Splits a text at the end of a formula. Prices are not formulas: `$5 and $6`.
 fn split<'t>(text: &'t str, close: &str) -> Option<(&'t str, &'t str)> {
     let ends = |at: &usize| !text.get(..*at).is_some_and(|inside| inside.ends_with('\\'));
     let end = text.match_indices(close).map(|(at, _)| at).find(ends)?;
@@ -122,7 +122,7 @@ fn split<'t>(text: &'t str, close: &str) -> Option<(&'t str, &'t str)> {
     (!inside.trim().is_empty() && !price).then_some((inside, after))
 }
 
-/// A formula in plain letters; `None` where they cannot say it.
+/// A formula in Unicode characters; `None` where that is impossible.
 fn read(tex: &str, deep: usize) -> Option<String> {
     let unseen = printable(tex) != tex || tex.contains(|c| PLACES.contains(&c));
     if deep > DEEP || unseen {
@@ -142,7 +142,7 @@ fn read(tex: &str, deep: usize) -> Option<String> {
                 left = after;
             }
             '\\' => left = read_command(left, &mut letters)?,
-            // Columns of a matrix, and remarks.
+            // Columns of a matrix, and comments.
             '&' | '%' => return None,
             c => {
                 letters.push(c);
@@ -183,7 +183,7 @@ fn read_command<'t>(tex: &'t str, letters: &mut String) -> Option<&'t str> {
         letters.push_str(if apart { " " } else { "" });
         return Some(next);
     }
-    // The character after a single sign belongs to it: `\,`, `\%`.
+    // The character after the backslash belongs to a one-character command: `\,`, `\%`.
     let sign = after.chars().next().filter(|_| length == 0).map_or(0, char::len_utf8);
     letters.push_str(tex.get(..1 + length + sign)?);
     // A space after a relation is displayed; after other names it ends the name.
@@ -192,7 +192,7 @@ fn read_command<'t>(tex: &'t str, letters: &mut String) -> Option<&'t str> {
     after.get(sign..)
 }
 
-/// What stands raised or lowered: a group, a command or a letter; and what stands behind it.
+/// The argument of a superscript or subscript (a group, a command or a character), and the text after it.
 fn argument(text: &str) -> Option<(&str, &str)> {
     let text = text.trim_start_matches(' ');
     let first = text.chars().next()?;
@@ -205,7 +205,7 @@ fn argument(text: &str) -> Option<(&str, &str)> {
             })?;
             return Some((text.get(1..close.0)?, text.get(close.0 + 1..)?));
         }
-        // A command with an argument of its own is more than a letter.
+        // A command with an argument is more than a character.
         '\\' => 1 + text.bytes().skip(1).take_while(u8::is_ascii_alphabetic).count(),
         c => c.len_utf8(),
     };
@@ -267,7 +267,7 @@ mod tests {
         }
         assert_eq!(text(""), "");
         assert_eq!(rendered("$<script>$"), "&lt;script&gt;");
-        // What cannot be seen is written out, in formulas, too.
+        // Invisible characters are written as escapes, in formulas too.
         assert_eq!(rendered("$a\u{202e}b$"), "<code>a\\u{202e}b</code>");
         assert_eq!(rendered("$a_0\u{e000}$"), "<code>a_0\u{e000}</code>");
     }

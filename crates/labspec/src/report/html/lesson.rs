@@ -1,4 +1,4 @@
-//! One lesson of the page: what was checked, what was found, its questions, its labs.
+//! One lesson of the page: its summary, findings, questions and labs.
 
 use super::context::LessonContext;
 use super::coverage::Coverage;
@@ -17,12 +17,12 @@ use crate::verify::RenderedText;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// Most unclaimed numbers that are listed.
+/// Maximum number of listed unclaimed numbers.
 const LISTED: usize = 200;
 
-/// A lesson, ready to be written.
+/// The data of a lesson's page.
 pub(super) struct LessonPage<'a> {
-    /// Where links to it lead.
+    /// The anchor for links to it.
     pub(super) anchor: String,
     /// Its file.
     pub(super) name: &'a str,
@@ -99,7 +99,7 @@ fn asked<'a>(checked: &'a Checked, context: &LessonContext<'a>, anchor: &str) ->
     all
 }
 
-/// The lesson as a piece of the page.
+/// Writes the section of a lesson.
 pub(super) fn write(part: &LessonPage<'_>) -> String {
     let LessonPage { anchor, name, summary, findings, allowed, questions, context, .. } = part;
     let mut out = format!("<section class=\"lesson\" id=\"{anchor}\">\n<h2>{}</h2>\n", text(name));
@@ -137,7 +137,7 @@ pub(super) fn write(part: &LessonPage<'_>) -> String {
     out
 }
 
-/// What was found, finding by finding.
+/// Writes the list of findings.
 pub(super) fn found(findings: &[&Finding], sources: &[&SourceFile], names: &Names) -> String {
     if findings.is_empty() {
         return String::new();
@@ -167,7 +167,7 @@ pub(super) fn found(findings: &[&Finding], sources: &[&SourceFile], names: &Name
     out
 }
 
-/// The labs: what their runs came to, and what they claim.
+/// Writes the labs: the results of their runs, and their claims.
 fn labs(part: &LessonPage<'_>) -> String {
     let LessonPage { checked, context, questions, .. } = part;
     let of = |verify: Option<&Verify>| {
@@ -199,7 +199,7 @@ fn labs(part: &LessonPage<'_>) -> String {
         let line = context.line(lab.span.start);
         write(&format!("lab {address}"), lab.title(), entry, line, lab.verify.as_ref());
     }
-    // Labs that stand inside `verify` objects, and claim something themselves.
+    // Labs inside `verify` objects with claims of their own.
     let is_written = |claim: &Claim| {
         let asked = questions.iter().any(|q| q.claim.is_some_and(|c| c.span == claim.span));
         asked || addressed.iter().any(|(_, lab)| lab.verify.as_ref().is_some_and(|v| v.span == claim.span))
@@ -211,7 +211,7 @@ fn labs(part: &LessonPage<'_>) -> String {
     if out.is_empty() { out } else { format!("<h3>Labs</h3>\n{out}") }
 }
 
-/// The numbers with units that nothing holds to a run.
+/// Writes the numbers with units that no claim covers.
 fn unclaimed(part: &LessonPage<'_>) -> String {
     let all = &part.coverage.unclaimed;
     if all.is_empty() {

@@ -1,27 +1,27 @@
-//! What a page is made of.
+//! The data of a page.
 
 use crate::check::{Allowed, Basis, Checked, Drawn};
 use crate::finding::Finding;
 use crate::ledger::Ledger;
 use crate::source::SourceFile;
 
-/// What a page is made of.
+/// The data of a page.
 #[derive(Clone, Copy, Debug)]
 pub struct Material<'a> {
     /// The lessons, in order.
     pub lessons: &'a [Checked],
-    /// What the labs of each of them show in the runs of its claims.
+    /// The curves of the labs of each lesson in the runs of its claims.
     pub curves: &'a [Vec<Drawn>],
-    /// What the check of each of them rests on.
+    /// The basis of the check of each lesson.
     pub bases: &'a [Basis],
     /// All reported findings, of lessons and of models.
     pub findings: &'a [Finding],
-    /// What the lessons allow.
+    /// The suppressed findings.
     pub allowed: &'a [Allowed],
     /// The claims of the course.
     pub ledger: &'a Ledger,
-    /// The files that findings lie in.
+    /// The files with findings.
     pub sources: &'a [&'a SourceFile],
-    /// What it all comes to, in one line.
+    /// The summary in one line.
     pub summary: &'a str,
 }

@@ -1,16 +1,17 @@
-//! A course as one page of HTML: every claim with what it rests on, to be read without a server, a network or a script.
+//! A course as one HTML page: every claim with its evidence, readable without a server, a network or scripts.
 //!
-//! The page is HTML that is also XML, so that a test can hold its nesting. Text from lessons enters it through `text` and `formula` alone, and
-//! pictures are drawn by `labspec_plot`, which escapes what it is given. The policy in its head forbids everything but its style.
+//! The page is HTML that is also well-formed XML, so that a test can check its nesting. Text of lessons enters it only
+//! through `text` and `formula`, and plots are drawn by `labspec_plot`, which escapes its input. The content security
+//! policy in the head forbids everything except the style.
 //!
-//! | piece | module |
+//! | part | module |
 //! |---|---|
-//! | what it all comes to, and how much is claimed | `overview`, `coverage` |
+//! | the summary, and how much is claimed | `overview`, `coverage` |
 //! | a lesson with its findings and labs | `lesson` |
 //! | a question with its options | `question` |
 //! | runs, measures, quoted numbers, closed forms | `evidence` |
-//! | how a run is made, and with which settings | `settings` |
-//! | pictures of the runs | `plots` |
+//! | the events and the settings of a run | `settings` |
+//! | plots of the runs | `plots` |
 //! | texts of lessons, and formulas in them | `text`, `formula` |
 
 mod context;

@@ -1,4 +1,4 @@
-//! The top of the page: what it all comes to, and how much of what the course says is claimed.
+//! The top of the page: the summary, and how much of the course is claimed.
 
 use super::lesson::LessonPage;
 use super::question::QuestionPage;
@@ -11,7 +11,7 @@ use crate::report::Summary;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// The whole course in one view.
+/// Writes the overview of the course.
 pub(super) fn write(parts: &[LessonPage<'_>], summary: &str) -> String {
     let mut out = format!("<header>\n<h1>{}, checked</h1>\n", counted(parts.len(), "lesson"));
     let _ = writeln!(out, "<p class=\"summary\">{}</p>\n</header>", plain(summary));
@@ -32,7 +32,7 @@ fn is_claimed(asked: &&QuestionPage<'_>) -> bool {
     asked.state != State::NotClaimed
 }
 
-/// Numbers and questions of the whole course.
+/// Writes the counts of numbers and questions of the course.
 fn whole(parts: &[LessonPage<'_>]) -> String {
     let sum = |of: &dyn Fn(&LessonPage<'_>) -> usize| parts.iter().map(of).sum::<usize>();
     let (questions, checked) = (sum(&|p| keyed(p).count()), sum(&|p| keyed(p).filter(is_claimed).count()));
@@ -48,7 +48,7 @@ fn whole(parts: &[LessonPage<'_>]) -> String {
     out
 }
 
-/// A line for each lesson.
+/// Writes a table with a row for each lesson.
 fn table(parts: &[LessonPage<'_>]) -> String {
     let mut out = String::from("<div class=\"box\"><table>\n<thead><tr>");
     for head in ["lesson", "answers", "numbers with units", "findings"] {
@@ -82,12 +82,12 @@ fn table(parts: &[LessonPage<'_>]) -> String {
     out
 }
 
-/// What a verdict is called in a list.
+/// The name of a verdict in a list.
 fn called(state: State, word: &str) -> &str {
     if state == State::NotClaimed { "without a check" } else { word }
 }
 
-/// Every question under its verdict, and those with options that nothing decides.
+/// Writes the questions by verdict, and those with undecided options.
 fn verdicts(parts: &[LessonPage<'_>]) -> String {
     let mut by_word: BTreeMap<(State, &str), Vec<(&LessonPage<'_>, &QuestionPage<'_>)>> = BTreeMap::new();
     let mut undecided = Vec::new();
@@ -105,7 +105,7 @@ fn verdicts(parts: &[LessonPage<'_>]) -> String {
         return String::new();
     }
     let mut out = String::from("<section id=\"questions\">\n<h2>Questions by verdict</h2>\n");
-    // What is to be mended comes first, what is in order last.
+    // Verdicts that need work come first, true ones last.
     let good = |state: &State| matches!(state, State::True(_));
     let (last, first): (Vec<_>, Vec<_>) = by_word.iter().partition(|((state, _), _)| good(state));
     for ((state, word), all) in first.into_iter().chain(last) {

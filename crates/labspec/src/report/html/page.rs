@@ -9,7 +9,7 @@ use crate::printable::counted;
 
 const STYLE: &str = include_str!("style.css");
 
-/// Nothing may be loaded, and nothing may run.
+/// Nothing may be loaded, and no script may run.
 const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'";
 
 /// The page. The same material gives the same bytes.
@@ -38,7 +38,7 @@ pub fn page(material: &Material<'_>) -> String {
     out
 }
 
-/// What was found in other files: models, and files that could not be read.
+/// Writes the findings in other files: models, and files that could not be read.
 fn others(material: &Material<'_>, names: &Names) -> String {
     let is_other = |f: &&Finding| !material.lessons.iter().any(|c| *c.lesson.file.path() == f.path);
     let mut by_path: std::collections::BTreeMap<&str, Vec<&Finding>> = std::collections::BTreeMap::new();

@@ -1,4 +1,4 @@
-//! What the labs show in the runs of a claim, drawn.
+//! The plots of the labs in the runs of a claim.
 
 use crate::check::Drawn;
 use crate::printable::counted;
@@ -8,22 +8,22 @@ use crate::verify::Curves;
 use labspec_plot::{Chart, Series, line_chart};
 use std::fmt::Write;
 
-/// Size of a picture, pixels: two stand beside one another on a screen, one on a phone.
+/// Size of a plot, pixels: two fit side by side on a screen, one on a phone.
 const SIZE: (f64, f64) = (430.0, 270.0);
-/// Most curves of a picture, one for each colour.
+/// Maximum number of curves of a plot, one for each colour.
 const CURVES: usize = 7;
-/// Most pictures of one claim.
+/// Maximum number of plots of one claim.
 const PICTURES: usize = 12;
 
 /// One plot of a lab in several runs.
 struct Picture<'a> {
     plot: &'a Plot,
-    /// The place of its first trace among those of the lab.
+    /// The index of its first trace among those of the lab.
     first: usize,
     runs: Vec<&'a Curves>,
 }
 
-/// The pictures of a claim; nothing where its labs have no plots.
+/// Writes the plots of a claim; empty where its labs have no plots.
 pub(super) fn plots(drawn: &Drawn) -> String {
     let all = pictures(&drawn.runs);
     let alone = drawn.runs.len() == 1;
@@ -45,7 +45,7 @@ pub(super) fn plots(drawn: &Drawn) -> String {
     format!("<div class=\"plots\">\n{out}</div>{more}\n")
 }
 
-/// The same plot of the same lab in as many runs as one picture can show.
+/// Groups the same plot of the same lab in several runs, as many as fit into one picture.
 fn pictures(runs: &[Curves]) -> Vec<Picture<'_>> {
     let mut labs: Vec<Vec<&Curves>> = Vec::new();
     for run in runs {
@@ -104,7 +104,7 @@ fn chart(picture: &Picture<'_>, alone: bool) -> Chart {
     }
 }
 
-/// A label of a picture: what cannot be seen in it is written out, as everywhere in the page.
+/// A label of a plot, with invisible characters written as escapes.
 fn label(text: &str) -> String {
     printable(text).into_owned()
 }

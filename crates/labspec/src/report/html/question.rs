@@ -1,4 +1,4 @@
-//! A question: what is asked, what is keyed, and how each option fared.
+//! A question: its text, its key, and the result of each option.
 
 use super::context::LessonContext;
 use super::evidence::evidence;
@@ -11,23 +11,23 @@ use crate::spec::{Question, QuestionKind};
 use crate::verify::{self, Answer, Weight, significant};
 use std::fmt::Write;
 
-/// A question of a lesson, with what became of it.
+/// A question of a lesson, with the result of its check.
 pub(super) struct QuestionPage<'a> {
-    /// Where links to it lead.
+    /// The anchor for links to it.
     pub(super) anchor: String,
     /// `quiz fall, question 2`.
     pub(super) name: String,
     pub(super) question: &'a Question,
     pub(super) claim: Option<&'a Claim>,
-    /// Its state, and that in a word.
+    /// Its state, and the word for it.
     pub(super) state: State,
     pub(super) word: &'a str,
-    /// Why.
+    /// The reason.
     pub(super) remark: &'a str,
 }
 
 impl QuestionPage<'_> {
-    /// Options of it that the evidence does not decide.
+    /// Number of undecided options.
     pub(super) fn undecided(&self) -> usize {
         self.answer().map_or(0, |a| a.weights.iter().filter(|w| w.holds.is_none()).count())
     }
@@ -41,7 +41,7 @@ impl QuestionPage<'_> {
     }
 }
 
-/// The question as a piece of the page.
+/// Writes the section of a question.
 pub(super) fn write(asked: &QuestionPage<'_>, context: &LessonContext<'_>) -> String {
     let QuestionPage { anchor, name, question, claim, state, word, remark } = asked;
     let spec = question.verify.as_ref();
@@ -54,7 +54,7 @@ pub(super) fn write(asked: &QuestionPage<'_>, context: &LessonContext<'_>) -> St
     let _ = writeln!(out, "<p class=\"asked\">{}</p>", formula::of_html(&question.q.value));
     match &question.kind {
         QuestionKind::Choice { options, .. } => {
-            // From 0, as conditions and messages count.
+            // Options are counted from 0, as in conditions and messages.
             out.push_str("<ol class=\"options\" start=\"0\">\n");
             for (i, option) in options.iter().enumerate() {
                 let keyed = question.right_option() == Some(i);
@@ -101,7 +101,7 @@ pub(super) fn write(asked: &QuestionPage<'_>, context: &LessonContext<'_>) -> St
     out
 }
 
-/// A condition, and how well it holds.
+/// A condition, and its margin.
 fn format_condition(written: Option<&str>, weight: Option<&Weight>) -> String {
     let Some(written) = written else { return String::new() };
     let held = weight.map_or(String::new(), |w| condition(w.holds, &w.describe()));

@@ -1,4 +1,4 @@
-//! How a run is made: what is done in it, and the settings that it has as it begins.
+//! The events of a run, and its settings at the start.
 
 use super::text::{code, plain, text};
 use crate::check::RunSettings;
@@ -6,7 +6,8 @@ use crate::json::Scalar;
 use crate::spec::{Run, Sweep, VerifyLab};
 use crate::verify::significant;
 
-/// What is done in a run, in the order in which it is done. `name` is that of the report: of a sweep it has the member's number.
+/// The events of a run, in order. `name` is the name of the run in the report; for a sweep it includes the index of the
+/// member.
 pub(super) fn done(run: Option<&Run>, name: &str) -> String {
     let Some(run) = run else { return "as the lab stands".into() };
     let mut all = Vec::new();
@@ -43,7 +44,7 @@ pub(super) fn done(run: Option<&Run>, name: &str) -> String {
     all.join("; ")
 }
 
-/// The value of a sweep in the member of this name: `fall[2]`.
+/// The value of the member of a sweep with this name: `fall[2]`.
 fn member(sweep: &Sweep, run: &str, name: &str) -> Option<f64> {
     let number = name.strip_prefix(run)?.strip_prefix('[')?.strip_suffix(']')?;
     sweep.values.get(number.parse::<usize>().ok()?).copied()
@@ -57,7 +58,7 @@ fn scalar(value: &Scalar) -> String {
     }
 }
 
-/// Numerics of a run as it begins, in one line.
+/// The numerics of a run at its start, in one line.
 pub(super) fn numerics(s: &RunSettings) -> String {
     let RunSettings { integrator, solver, cone, iterations, .. } = s;
     let timestep = plain(&significant(s.timestep));

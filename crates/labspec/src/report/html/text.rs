@@ -1,18 +1,18 @@
-//! Text of lessons in a page: whatever stands in it is shown as text, and acts on nothing.
+//! Escapes text of lessons for a page: it is displayed as text and has no other effect.
 
 use crate::printable::printable;
 use std::borrow::Cow;
 
-/// Most characters of one text; what is longer is cut, and the page says so.
+/// Maximum number of characters of a text. A longer text is truncated, which the page states.
 const LONG: usize = 2000;
 
-/// A text in one line, to stand between tags. Its direction of writing ends with it.
+/// A text on one line, as content of an element. Its writing direction is isolated.
 pub(super) fn text(text: &str) -> String {
     let visible = plain(text);
     if visible.is_empty() { visible } else { format!("<bdi>{visible}</bdi>") }
 }
 
-/// The same where no tag may stand: in attributes and in the title.
+/// Like [`text`], for places without tags: attributes and the title.
 pub(super) fn plain(text: &str) -> String {
     let words: Vec<&str> = cut(text).split_whitespace().collect();
     let mut out = escape(&words.join(" "));
@@ -20,13 +20,13 @@ pub(super) fn plain(text: &str) -> String {
     out
 }
 
-/// A piece of code, on as many lines as it is written.
+/// A piece of code, with its lines.
 pub(super) fn code(text: &str) -> String {
     let lines: Vec<String> = cut(text.trim()).lines().map(|line| escape(&line.replace('\t', "  "))).collect();
     format!("<code>{}{}</code>", lines.join("\n"), rest(text.trim()))
 }
 
-/// What is shown of a text.
+/// The part of a text that is displayed.
 pub(super) fn cut(text: &str) -> &str {
     let end = text.char_indices().nth(LONG).map_or(text.len(), |(at, _)| at);
     text.get(..end).unwrap_or("")
@@ -37,7 +37,7 @@ pub(super) fn rest(text: &str) -> String {
     if left == 0 { String::new() } else { format!(" … ({left} more characters)") }
 }
 
-/// What means something to a browser is written so that it means itself; what cannot be seen is written out.
+/// Escapes characters that have a meaning in HTML; invisible characters are written as escapes.
 pub(super) fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len() + 16);
     for c in printable(text).chars() {
@@ -47,7 +47,7 @@ pub(super) fn escape(text: &str) -> String {
             '>' => out.push_str("&gt;"),
             '"' => out.push_str("&quot;"),
             '\'' => out.push_str("&#39;"),
-            // No characters at all.
+            // Noncharacters of Unicode.
             '\u{fffe}' | '\u{ffff}' => out.extend(c.escape_default()),
             c => out.push(c),
         }
@@ -55,13 +55,13 @@ pub(super) fn escape(text: &str) -> String {
     out
 }
 
-/// Paths without the folder that all of them share, so that a page says nothing of the machine.
+/// Paths without their common folder, so that a page does not reveal the machine.
 pub(super) struct Names {
     folder: String,
 }
 
 impl Names {
-    /// For these files.
+    /// The names of these files.
     pub(super) fn shorten_paths<'p>(mut paths: impl Iterator<Item = &'p str>) -> Names {
         let folder_of = |path: &str| path.rfind(['/', '\\']).map_or(0, |at| at + 1);
         let Some(first) = paths.next() else { return Names { folder: String::new() } };
@@ -75,13 +75,13 @@ impl Names {
         Names { folder: folder.to_string() }
     }
 
-    /// A path as the page shows it.
+    /// A path in the form that the page displays.
     pub(super) fn short<'p>(&self, path: &'p str) -> &'p str {
         let inside = path.strip_prefix(self.folder.as_str()).unwrap_or(path);
         if inside.starts_with(['/', '\\']) { inside.rsplit(['/', '\\']).next().unwrap_or("") } else { inside }
     }
 
-    /// A sentence that may name files.
+    /// A sentence with the paths in it shortened.
     pub(super) fn shorten<'t>(&self, text: &'t str) -> Cow<'t, str> {
         let whole = self.folder.len() > 1 && self.folder.starts_with(['/', '\\']);
         if whole && text.contains(&self.folder) {

@@ -22,7 +22,7 @@ pub(super) fn verdict(state: State, word: &str) -> String {
     badge(class, mark, word)
 }
 
-/// How bad a finding is: `✗ error`.
+/// The severity of a finding: `✗ error`.
 pub(super) fn severity(severity: Severity) -> String {
     let (class, mark) = match severity {
         Severity::Error => ("bad", "✗"),
@@ -47,7 +47,7 @@ fn badge(class: &str, mark: &str, word: &str) -> String {
     format!("<span class=\"verdict {class}\"><span aria-hidden=\"true\">{mark}</span> {word}</span>")
 }
 
-/// A share of a whole as a bar, which says the same in words.
+/// A fraction as a bar, with a text alternative.
 pub(super) fn bar(part: usize, whole: usize) -> String {
     let permille = part.min(whole) * 1000 / whole.max(1);
     format!(

@@ -1,4 +1,4 @@
-//! What can be written at a place of a lab or a quiz: the keys that are not there yet, or the words that a key takes.
+//! Completions in a lab or a quiz: the keys that are still missing, or the words that a key accepts.
 
 use super::describe::{default, takes};
 use super::scan::{CursorSpot, JsonScan, JsonScope, ScanStep, scan};
@@ -7,49 +7,49 @@ use crate::json::encode;
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// Something that can be written.
+/// A completion.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Completion {
     /// The key or the word, without quotes.
     pub text: Cow<'static, str>,
-    /// A key of an object, rather than a value.
+    /// Whether it is a key of an object; otherwise it is a value.
     pub is_key: bool,
-    /// The bytes that it replaces: what is written there already, quotes included.
+    /// The byte range to replace: the text that is already written, quotes included.
     pub replace: Range<usize>,
-    /// What to write in their place: JSON, for a key with the colon where none follows.
+    /// The replacement text: JSON; for a key with a colon, unless one follows already.
     pub insert: String,
-    /// What it means.
+    /// Description.
     pub doc: &'static str,
-    /// What the key takes, in words.
+    /// The type of the key, in words.
     pub takes: String,
-    /// What counts where the key is left out, as JSON.
+    /// The default of the key, as JSON.
     pub default: Option<String>,
-    /// The object is wrong without this key.
+    /// Whether the object is invalid without this key.
     pub required: bool,
 }
 
-/// Names that a completion asks for, because only the models know them.
+/// The names that a completion needs and only the models provide.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Asked<'a> {
-    /// The models that there are.
+    /// The names of all models.
     Models,
-    /// The sites of the model of this name.
+    /// The sites of the model with this name.
     SitesOf(&'a str),
-    /// The sites of a model that is written in the lab itself.
+    /// The sites of a model given as XML in the lab.
     SitesIn(&'a str),
 }
 
-/// What can be written at a byte offset of the JSON of a lab or a quiz, or of a list of them, in the order of the
-/// reference page. The text may be incomplete and broken. What is written there already chooses among the words; where
-/// no word begins so, all are given. Inside of code and of free text there is nothing.
+/// Completions at a byte offset in the JSON of a lab or a quiz, or of a list of them, in the order of the reference page.
+/// The text can be incomplete or malformed. The completions start with what is already written; if none does, all are
+/// returned. Code and free text have no completions.
 ///
-/// `names` says which names there are: `&|asked| models.names(asked)` with [`crate::bind::scene::Models`], or
-/// `&|_| Vec::new()` where nobody knows.
+/// `names` provides the names: `&|asked| models.names(asked)` with [`crate::bind::scene::Models`], or `&|_| Vec::new()` if
+/// no models are available.
 pub fn completions(text: &str, offset: usize, names: &dyn Fn(Asked<'_>) -> Vec<String>) -> Vec<Completion> {
     completions_of(None, text, offset, names)
 }
 
-/// The same in the JSON of an object that is known to be of some kind.
+/// As [`completions`], for JSON with a known kind of root object.
 pub(super) fn completions_of(
     whole: Option<&'static Object>,
     text: &str,
@@ -86,18 +86,18 @@ pub(super) fn completions_of(
     }
 }
 
-/// What an object or a list is, by the declaration.
+/// The declared type of an object or a list.
 enum Holder {
-    /// An object that may have these keys.
+    /// An object with these possible keys.
     Keys(Vec<&'static Key>),
-    /// An object of free names, or a list, of this type.
+    /// An object with free names, or a list, of this type.
     Of(Type),
-    /// Nothing that is declared.
+    /// Not declared.
     Unknown,
 }
 
 fn holder(whole: Option<&'static Object>, found: &JsonScan, index: usize) -> Holder {
-    // From the outermost to this one.
+    // From the innermost object or list to the outermost.
     let mut ancestors = vec![index];
     while let Some((parent, _)) = ancestors.last().and_then(|&i| found.scopes.get(i)?.parent.as_ref()) {
         ancestors.push(*parent);
@@ -118,7 +118,7 @@ fn holder(whole: Option<&'static Object>, found: &JsonScan, index: usize) -> Hol
     at
 }
 
-/// The object of a whole text: a quiz or a lab, and perhaps either.
+/// The root object of a text: a quiz or a lab, or either of them if its keys do not decide.
 fn root(scope: &JsonScope) -> Holder {
     let has = |object: &Object| {
         let other = if object.name == LAB.name { &QUIZ } else { &LAB };
@@ -132,7 +132,7 @@ fn root(scope: &JsonScope) -> Holder {
     Holder::Keys(allowed(objects, scope))
 }
 
-/// What a place of an object or a list takes.
+/// The type that is expected at this key or item of an object or a list.
 fn inside(holder: &Holder, step: &ScanStep) -> Option<Type> {
     match (holder, step) {
         (Holder::Keys(keys), ScanStep::Key(name)) => keys.iter().find(|k| k.name == name).map(|k| k.of),
@@ -144,7 +144,7 @@ fn inside(holder: &Holder, step: &ScanStep) -> Option<Type> {
     }
 }
 
-/// What an object or a list of this type is.
+/// The declared type of an object or a list that is the value of this type.
 fn of_type(of: Type, scope: &JsonScope) -> Holder {
     match (of, scope.list) {
         (Type::Either(a, b), _) => match of_type(*a, scope) {
@@ -158,7 +158,8 @@ fn of_type(of: Type, scope: &JsonScope) -> Holder {
     }
 }
 
-/// The objects of a family that this one can be: the one that its word tells, else those that have all its keys.
+/// The objects of a family that this one can be: the object that the family key selects, otherwise those that have all its
+/// keys.
 fn meant(family: &'static Family, scope: &JsonScope) -> Vec<&'static Object> {
     let word = scope.keys.iter().find(|(name, _)| name == family.key).and_then(|(_, word)| word.as_deref());
     if let Some(object) = word.and_then(|w| family.object(Some(w))) {
@@ -172,7 +173,7 @@ fn meant(family: &'static Family, scope: &JsonScope) -> Vec<&'static Object> {
     if some.is_empty() { family.objects.to_vec() } else { some }
 }
 
-/// The keys of objects, each once, that are not excluded by those that stand there.
+/// The keys of these objects without duplicates, except those that a present key excludes.
 fn allowed(objects: &[&'static Object], scope: &JsonScope) -> Vec<&'static Key> {
     let mut all: Vec<&'static Key> = Vec::new();
     for object in objects {
@@ -231,7 +232,7 @@ fn keys(holder: &Holder, scope: &JsonScope, spot: &CursorSpot, colon: bool) -> V
     }
 }
 
-/// The words that a place takes. `key` is what it is the value of.
+/// The words that are accepted as a value. `key` is the key of the value.
 fn values(
     key: Option<&'static Key>,
     of: Option<Type>,
@@ -266,11 +267,11 @@ fn values(
     }
 }
 
-/// The names that a place takes. Where nothing tells of which model, there are none.
+/// The names that are accepted as a value. Without a model, there are none.
 fn ask(named: Named, scope: &JsonScope, names: &dyn Fn(Asked<'_>) -> Vec<String>) -> Vec<String> {
     let text = |key: &str| {
         let (_, raw) = scope.keys.iter().find(|(name, _)| name == key)?;
-        // What is written between the quotes; damaged escapes stay as they are.
+        // The text between the quotes; an invalid escape sequence is kept unchanged.
         let raw = raw.as_ref()?;
         Some(serde_json::from_str::<String>(&format!("\"{raw}\"")).unwrap_or_else(|_| raw.clone()))
     };
@@ -282,7 +283,7 @@ fn ask(named: Named, scope: &JsonScope, names: &dyn Fn(Asked<'_>) -> Vec<String>
     }
 }
 
-/// Names, for the place of one.
+/// Completions for names.
 fn complete_key(key: Option<&'static Key>, names: Vec<String>, spot: &CursorSpot) -> Vec<Completion> {
     let name = |name: String| Completion {
         is_key: false,

@@ -1,4 +1,4 @@
-//! Completions, where an author writes.
+//! Tests of the completions.
 
 use super::*;
 use crate::markdown::{self, BlockKind};
@@ -7,10 +7,10 @@ use proptest::prelude::*;
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// Nothing is known of models.
+/// No models are available.
 const NONE: fn(Asked<'_>) -> Vec<String> = |_| Vec::new();
 
-/// The words at the bar, which is taken out of the text.
+/// The completions at the marker `¦`, which is removed from the text.
 fn at(marked: &str) -> Vec<&'static str> {
     let word = |text: Cow<'static, str>| match text {
         Cow::Borrowed(word) => word,
@@ -24,7 +24,7 @@ fn all(marked: &str) -> Vec<Completion> {
     completions(&marked.replace('¦', ""), offset, &NONE)
 }
 
-/// The text with a completion put in.
+/// The text after a completion is applied.
 fn apply_completion(marked: &str, word: &str) -> String {
     let completion = all(marked).into_iter().find(|c| c.text == word).unwrap();
     let mut text = marked.replace('¦', "");
@@ -52,7 +52,7 @@ fn behind_a_brace_or_a_comma_stand_the_keys_that_are_not_there_yet() {
         at(r#"{"id": "a", "questions": [{"kind": "predict", "sim": {"xml": "", ¦"#),
         names(&LAB, &["model", "xml"])
     );
-    // Nothing tells yet which one it is.
+    // The kind of the root object is not known yet.
     let both = at("{¦");
     assert!(both.starts_with(&names(&LAB, &[])) && both.ends_with(&["id", "questions"]));
 }
@@ -65,7 +65,7 @@ fn the_word_of_a_family_tells_the_keys_and_so_do_the_keys() {
     assert_eq!(keys, names(&SLIDER, &["label", "min"]));
     let keys = at(r#"{"controls": [{"label": "a", ¦}]}"#);
     assert!(keys.contains(&"run") && keys.contains(&"options") && keys.contains(&"min"));
-    // With `set`, `apply` does nothing.
+    // `apply` has no effect if `set` is present.
     assert!(!at(r#"{"controls": [{"type": "slider", "set": "x", ¦}]}"#).contains(&"apply"));
     assert_eq!(at(r#"{"questions": [{"kind": "numeric", "q": "?", ¦}]}"#), names(&NUMERIC, &["kind", "q"]));
     assert!(!at(r#"{"questions": [{"tol": 1, ¦}]}"#).contains(&"options"));
@@ -79,7 +79,7 @@ fn what_is_written_chooses() {
     assert_eq!(at("{\"model\": \"fall\", \"con¦\n \"controls\": []}"), ["controller"]);
     assert_eq!(at(r#"{"model": "fall", "con¦, "controls": [{"label": "a"}]}"#), ["controller"]);
     assert_eq!(at(r#"{"model": "fall", "¦"}"#), names(&LAB, &["model", "xml"]));
-    // No key begins like this: all are given.
+    // No key starts with this text, so all keys are offered.
     assert_eq!(at(r#"{"model": "fall", "zzz¦"}"#), names(&LAB, &["model", "xml"]));
     assert_eq!(
         apply_completion(r#"{"model": "fall", "con¦"}"#, "controls"),
@@ -109,7 +109,7 @@ fn a_value_takes_its_words() {
     );
 }
 
-/// The models give their own names and those of their sites, of the lab that stands around the place.
+/// The models provide their own names and the names of their sites. The sites are those of the model of the enclosing lab.
 #[test]
 fn names_come_from_the_models() {
     let names = |asked: Asked<'_>| match asked {
@@ -129,7 +129,7 @@ fn names_come_from_the_models() {
     assert_eq!(texts(r#"{"model": "swing", "trail": "t¦"}"#), ["tip", "top"]);
     assert_eq!(offered(r#"{"trail": "a¦", "model": "swing"}"#), [("a\"b".into(), r#""a\"b""#.into())]);
     assert_eq!(texts(r#"{"xml": "<mujoco model=\"m\"/>", "trail": ¦}"#), ["inside"]);
-    // The model is that of the lab, not of one around it; without a model there are no sites.
+    // The model is that of the innermost lab. Without a model, there are no sites.
     let sim = r#"{"id": "q", "questions": [{"kind": "predict", "sim": {"model": "swing", "trail": "¦"}}]}"#;
     assert_eq!(texts(sim).len(), 3);
     assert_eq!(texts(r#"{"trail": "¦"}"#), Vec::<String>::new());
@@ -180,7 +180,7 @@ fn each_says_what_it_means_what_it_takes_and_what_counts_without_it() {
     assert!(all(r#"{"plots": [{"¦"#)[0].required);
 }
 
-/// The JSON of all fences of our lessons.
+/// The JSON of all fences of the example lessons.
 fn bodies() -> Vec<String> {
     let mut all = Vec::new();
     for text in [
@@ -207,7 +207,7 @@ fn no_offset_of_a_lesson_is_a_panic() {
     }
 }
 
-/// The keys of a tree with their places, and of each the object it stands in.
+/// The keys of a tree with their byte ranges; for each key also all keys of its object.
 fn keys_of(node: &crate::json::Node, out: &mut Vec<(Range<usize>, String, Vec<String>)>) {
     if let crate::json::Json::Array(items) = &node.json {
         items.iter().for_each(|item| keys_of(item, out));
@@ -219,8 +219,8 @@ fn keys_of(node: &crate::json::Node, out: &mut Vec<(Range<usize>, String, Vec<St
     }
 }
 
-/// At every key of every real lab and quiz, that key is offered and none of the others that stand there: whether the
-/// key is whole, half, or not yet written.
+/// At every key of the labs and quizzes of the example lessons, that key is offered and the other keys of the object are
+/// not. The key can be complete, half written, or not yet written.
 #[test]
 fn at_every_key_of_a_lesson_it_is_offered_and_its_neighbours_are_not() {
     let mut tried = 0;
@@ -234,12 +234,12 @@ fn at_every_key_of_a_lesson_it_is_offered_and_its_neighbours_are_not() {
         let declared = |name: &str| OBJECTS.iter().any(|o| o.key(name).is_some());
         for (span, name, all) in keys {
             let whole = completions(&text, span.start, &NONE);
-            // A name that the author chose: the label of a control, a run, a measure.
+            // A name chosen by the author: the label of a control, the name of a run or of a measure.
             if whole.is_empty() || !declared(&name) {
                 continue;
             }
             tried += 1;
-            // Written out to its second letter, with everything behind it, or with nothing.
+            // Written up to the second letter, with the remaining text after it, or without.
             let half = span.start + name.len().min(2);
             let (before, cut) = (&text[..half], &text[half..]);
             let unclosed = format!("{before}\n{}", cut.split_once(',').map_or("", |(_, rest)| rest));
@@ -260,7 +260,7 @@ fn at_every_key_of_a_lesson_it_is_offered_and_its_neighbours_are_not() {
     assert!(tried > 200, "{tried}");
 }
 
-/// Every quote of this line could begin a string that goes to its end.
+/// Every quote in this line could start a string that extends to the end of the line.
 #[test]
 fn a_hostile_line_takes_no_longer_than_its_length() {
     for piece in ["\"a,\\", "\"\\", "{\"", "[\"a, ", "\"a\"b"] {
@@ -271,7 +271,7 @@ fn a_hostile_line_takes_no_longer_than_its_length() {
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(1000))]
-    /// No text is a panic, and what is replaced is a part of it.
+    /// No text causes a panic, and the replaced range is a part of the text.
     #[test]
     fn no_text_is_a_panic(pieces in prop::collection::vec(prop::sample::select(vec![
         "{", "}", "[", "]", ",", ":", "\"", "\\", "\n", " ", "é", "😀", "\"model\"", "\"controls\": [", "\"type\": \"",

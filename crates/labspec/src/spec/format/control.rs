@@ -57,7 +57,7 @@ const INIT: Key = key(
 
 const RESET: Key = key("reset", Type::Flag, "whether a change also resets the simulation", "true");
 
-/// What a slider and a select ask for.
+/// The rules for the keys of a slider and of a select.
 const EFFECT: &[Together] =
     &[Together::AtLeastOne(&["set", "apply", "param"]), Together::FirstCounts(&["set", "apply"])];
 

@@ -1,10 +1,10 @@
-//! What a key takes, in words: for the reference page, and for who writes in an editor.
+//! The type of a key in words, for the reference page and for editors.
 
 use super::{Absent, Key, Limits, Type, texts};
 use crate::spec::Form;
 use serde_json::{Map, Value};
 
-/// What a key takes, with its unit and its limits: `number above 0, in s`.
+/// The type of a key, with its unit and its limits: `number above 0, in s`.
 pub(super) fn takes(key: &Key) -> String {
     let mut text = kind(&key.of);
     text.push_str(&limits(&key.limits));
@@ -69,7 +69,7 @@ fn limits(limits: &Limits) -> String {
     }
 }
 
-/// What counts where a key is left out, as JSON. `None` where it is nothing, or depends on the rest.
+/// The default of a key, as JSON. `None` if it has none, or if the default depends on other values.
 pub(super) fn default(key: &Key) -> Option<Value> {
     Some(match key.absent {
         Absent::Nothing | Absent::Said(_) => return None,
@@ -82,13 +82,13 @@ pub(super) fn default(key: &Key) -> Option<Value> {
     })
 }
 
-/// A number as people write it: without decimals where it has none.
+/// A number in the usual notation: an integer is written without decimals.
 pub(super) fn number(x: f64) -> Value {
     if x.fract() == 0.0 && x.abs() < 1e15 { Value::from(x as i64) } else { Value::from(x) }
 }
 
 impl Key {
-    /// Whether an object without this key is wrong.
+    /// Whether an object without this key is invalid.
     pub fn required(&self) -> bool {
         self.items > 0 || matches!(self.need, super::Need::Must(_))
     }

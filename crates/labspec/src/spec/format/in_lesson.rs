@@ -1,4 +1,4 @@
-//! What can be written at a place of a lesson: that of the JSON which stands there.
+//! Completions in a lesson, from the JSON of its blocks.
 
 use super::complete::completions_of;
 use super::{Asked, Completion, VERIFY, completions};
@@ -8,8 +8,8 @@ use crate::spec::{FileKind, comment, kind_of};
 use std::ops::Range;
 use std::path::Path;
 
-/// What can be written at a byte offset of a lesson (Markdown) or of a JSON file; nothing outside of labs, quizzes and claims. Places
-/// are bytes of the file; `names` says which names there are, as for [`completions`].
+/// Completions at a byte offset of a lesson (Markdown) or of a JSON file. Outside of labs, quizzes and claims there are
+/// none. Offsets refer to the file. `names` provides the names, as for [`completions`].
 pub fn completions_in(
     file: &SourceFile,
     offset: usize,
@@ -30,7 +30,8 @@ pub fn completions_in(
         let place = |at: Range<usize>| claim.start + at.start..claim.start + at.end;
         return found.map(|c| Completion { replace: place(c.replace.clone()), ..c }).collect();
     };
-    // The text of a block is the file's, without what stands before its lines: bytes keep their order.
+    // The text of a block is that of the file, without the prefixes of its lines. The order of the bytes is the same, so a
+    // binary search finds the offset.
     let mut here = 0..body.value.len();
     while here.start < here.end {
         let middle = here.start + (here.end - here.start) / 2;
@@ -49,7 +50,7 @@ pub fn completions_in(
 mod tests {
     use super::*;
 
-    /// What is offered where `|` stands, and what the first of it makes of the lesson.
+    /// The completions at `|`, and the lesson after the first of them is applied.
     fn offered(lesson: &str) -> (Vec<String>, String) {
         let at = lesson.find('|').unwrap();
         let mut text = lesson.replace('|', "");
@@ -66,7 +67,7 @@ mod tests {
         let (all, text) = offered(lesson);
         assert_eq!(all, ["title"]);
         assert!(text.contains("\n \"title\"") && text.ends_with("See \"ti\".\n"), "{text}");
-        // In a quote, every line begins with a mark that is no JSON.
+        // In a block quote, every line starts with a marker that is not part of the JSON.
         let quoted =
             "> ```lab simlab\n> {\"model\": \"ball\",\n>  \"controls\": [{\"type\": \"sel|\"}]}\n> ```\n";
         let (all, text) = offered(quoted);

@@ -1,4 +1,4 @@
-//! The lab and its camera, and the order in which things happen.
+//! The lab, its camera, and the order of events.
 
 use super::lint::lint_key;
 use super::{Absent, CONTROL, Key, Named, Object, PLOT, READOUT, Together, Type, VERIFY, Word, key};
@@ -23,7 +23,7 @@ static ONE_PLOT: Type = Type::Object(&PLOT);
 static ONE_READOUT: Type = Type::Object(&READOUT);
 static NUMBER: Type = Type::Number;
 
-/// What a lab can be expected to do.
+/// The results that a lab can be expected to have.
 static EXPECTED: [Word; 1] = [Word {
     text: "breaks",
     doc: docs(
@@ -31,7 +31,7 @@ static EXPECTED: [Word; 1] = [Word {
     ),
 }];
 
-/// `verify`, on a lab and on a question. (A function: a constant may not lead back to itself.)
+/// `verify`, for a lab and for a question. (It is a function because a constant must not refer to itself.)
 pub(super) const fn verify_key() -> Key {
     key(
         "verify",
@@ -203,7 +203,7 @@ pub static CAMERA: Object = Object {
     together: &[],
 };
 
-/// The order in which things happen in a lab.
+/// The order of events in a lab.
 pub static EVENTS: [&str; 8] = [
     "The model is compiled, its data are made, and `mj_forward` computes the derived fields. With `key`, the data are set to that keyframe.",
     "Each control, in order: its `value` is stored as `ctx.<param>`, then `set` or `apply` runs with it. There is no reset in between.",

@@ -1,11 +1,11 @@
-//! What an author has looked at and wants to keep as it is.
+//! The suppression of findings that the author has reviewed.
 
 use super::{Key, Object, Type, key};
 use labspec_finding::docs;
 
 static CODE: Type = Type::Text;
 
-/// `lint`, on a lab, a quiz and a question. (A function: a constant may not lead back to itself.)
+/// `lint`, for a lab, a quiz and a question. (It is a function because a constant must not refer to itself.)
 pub(super) const fn lint_key() -> Key {
     key(
         "lint",
@@ -15,7 +15,7 @@ pub(super) const fn lint_key() -> Key {
     )
 }
 
-/// What is not reported about a lab, a quiz or a question.
+/// The findings that are suppressed for a lab, a quiz or a question.
 pub static LINT: Object = Object {
     name: "lint",
     what: "a lint object",

@@ -1,8 +1,8 @@
-//! The format of labs, quizzes and checks, declared once as data: every object, and of every key what it takes, what
-//! counts without it, what it means, and an example.
+//! The format of labs, quizzes and checks, declared as data: all objects with their keys, and for each key the type, the
+//! default, a description and an example.
 //!
-//! The readers know keys, missing ones, defaults and limits from here. The reference page, the JSON Schemas and the
-//! completions are written from here. A key that is not declared does not exist.
+//! The readers take the keys, the required keys, the defaults and the limits from this declaration. The reference page, the
+//! JSON Schemas and the completions are generated from it. A key that is not declared does not exist.
 
 mod complete;
 #[cfg(test)]
@@ -38,51 +38,51 @@ use labspec_finding::docs;
 /// An object of the format.
 #[derive(Debug)]
 pub struct Object {
-    /// Its name among the objects: `slider`.
+    /// Its name: `slider`.
     pub name: &'static str,
-    /// The same with an article, for sentences: `a slider`.
+    /// The name with an article, for sentences: `a slider`.
     pub what: &'static str,
-    /// What it is for, in a sentence or two.
+    /// Its purpose, in one or two sentences.
     pub doc: &'static str,
-    /// Where it is one of a family: the key that tells it, and the word that stands there.
+    /// For an object of a family: the key that selects it, and the value of this key.
     pub tag: Option<(&'static str, &'static str)>,
-    /// The smallest one that is whole, as JSON.
+    /// The smallest complete object, as JSON.
     pub minimal: &'static str,
-    /// Its keys, in the order in which people read them.
+    /// The keys, in reading order.
     pub keys: &'static [Key],
-    /// What some of its keys ask of others.
+    /// Rules for combinations of its keys.
     pub together: &'static [Together],
 }
 
-/// What some keys of an object ask of each other.
+/// A rule for a combination of keys.
 #[derive(Clone, Copy, Debug)]
 pub enum Together {
-    /// One of these must stand, and no more than one.
+    /// Exactly one of these must be present.
     ExactlyOne(&'static [&'static str]),
-    /// One of these must stand, or several.
+    /// At least one of these must be present.
     AtLeastOne(&'static [&'static str]),
-    /// Without any of these the object is of no use, which is a warning.
+    /// Without any of these, the object has no use; this is a warning.
     OneAdvised(&'static [&'static str]),
     /// These two exclude each other.
     AtMostOne(&'static [&'static str; 2]),
-    /// Where both of these stand, the second one does nothing, which is a warning.
+    /// If both are present, the second one has no effect; this is a warning.
     FirstCounts(&'static [&'static str; 2]),
 }
 
-/// Objects that may stand in the same place, and the key that tells which one stands there.
+/// Alternative objects, and the key that selects one of them.
 #[derive(Debug)]
 pub struct Family {
     /// Its name: `control`.
     pub name: &'static str,
-    /// The same with an article: `a control`.
+    /// The name with an article: `a control`.
     pub what: &'static str,
     /// What its objects have in common.
     pub doc: &'static str,
-    /// The key that tells them apart.
+    /// The key that selects the object.
     pub key: &'static str,
-    /// The words that it takes.
+    /// The words that this key accepts.
     pub words: &'static [Word],
-    /// The objects. Where the key is left out, the first one is meant.
+    /// The objects. If the key is absent, it is the first one.
     pub objects: &'static [&'static Object],
 }
 
@@ -91,116 +91,116 @@ pub struct Family {
 pub struct Key {
     /// Its name.
     pub name: &'static str,
-    /// What it takes.
+    /// The type of its value.
     pub of: Type,
-    /// The unit of its number; empty where it has none.
+    /// The unit of its number; empty if it has none.
     pub unit: &'static str,
-    /// Whether it must stand.
+    /// Whether it is required.
     pub need: Need,
-    /// What counts where it is left out.
+    /// The default.
     pub absent: Absent,
-    /// What its number, or each number of its list, may be.
+    /// The allowed range of its number, or of each number of its list.
     pub limits: Limits,
-    /// The fewest items of its list.
+    /// The smallest allowed number of items in its list.
     pub items: usize,
-    /// What it means.
+    /// Description.
     pub doc: &'static str,
-    /// A value that it can take, as JSON.
+    /// A possible value, as JSON.
     pub example: &'static str,
-    /// The first version of this package that knows it.
+    /// The first version of this package that supports it.
     pub since: &'static str,
 }
 
-/// What a key takes.
+/// The type of the value of a key.
 #[derive(Clone, Copy, Debug)]
 pub enum Type {
-    /// Text, shown as it is.
+    /// Text, displayed unchanged.
     Text,
-    /// The name of something that the models have.
+    /// The name of an element of the models.
     Name(Named),
-    /// Text that may hold HTML.
+    /// Text that can contain HTML.
     Html,
-    /// Code of the lab's language.
+    /// Code in the language of the lab.
     Code(Form),
     /// A number.
     Number,
-    /// A number without decimals.
+    /// An integer.
     Whole,
     /// `true` or `false`.
     Flag,
-    /// A number, a text, `true` or `false`.
+    /// A number, a text, or a boolean.
     Scalar,
     /// One of these words.
     Words(&'static [Word]),
     /// A list of items of one type.
     List(&'static Type),
-    /// A list of exactly so many numbers.
+    /// A list with exactly this number of numbers.
     Numbers(usize),
-    /// A list of two: what comes first, and what comes second.
+    /// A list of two values, with the type of each.
     Pair(&'static [PairHalf; 2]),
-    /// An object whose keys are names that the author chooses.
+    /// An object whose keys are names chosen by the author.
     Map(&'static Map),
-    /// An object whose keys are some of these words, each with `true` or `false`.
+    /// An object whose keys are some of these words, each with a boolean.
     Switches(&'static [Word]),
     /// An object of the format.
     Object(&'static Object),
     /// One object of a family.
     OneOf(&'static Family),
-    /// One or the other.
+    /// One of two types.
     Either(&'static Type, &'static Type),
 }
 
-/// What a name is of.
+/// What a name refers to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Named {
-    /// A model of the folder of models.
+    /// A model in the model folder.
     Model,
-    /// A site of the lab's own model.
+    /// A site of the model of the lab.
     Site,
 }
 
-/// A word that a key takes, and what it means.
+/// A word that a key accepts, with its description.
 #[derive(Clone, Copy, Debug)]
 pub struct Word {
     /// The word.
     pub text: &'static str,
-    /// What it means.
+    /// Description.
     pub doc: &'static str,
 }
 
-/// One half of a pair.
+/// One element of a pair.
 #[derive(Debug)]
 pub struct PairHalf {
-    /// What it is: `the label of a button`.
+    /// Its meaning: `the label of a button`.
     pub what: &'static str,
-    /// What it takes.
+    /// Its type.
     pub of: Type,
 }
 
-/// An object of names.
+/// An object with free names.
 #[derive(Debug)]
 pub struct Map {
     /// What its keys are: `the label of a trace`.
     pub names: &'static str,
-    /// What each of them takes.
+    /// The type of its values.
     pub of: Type,
 }
 
-/// Whether a key must stand.
+/// Whether a key is required.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Need {
-    /// It may be left out.
+    /// It is optional.
     Optional,
-    /// Leaving it out is a warning, for this reason.
+    /// Its absence is a warning, for this reason.
     Advised(&'static str),
-    /// Leaving it out is an error, for this reason.
+    /// Its absence is an error, for this reason.
     Must(&'static str),
 }
 
-/// What counts where a key is left out.
+/// The default of a key.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Absent {
-    /// Nothing.
+    /// No default.
     Nothing,
     /// This number.
     Number(f64),
@@ -212,23 +212,23 @@ pub enum Absent {
     Numbers(&'static [f64]),
     /// An empty list, or an empty object.
     Empty,
-    /// Something that depends on the rest, in words.
+    /// A default that depends on other values, described in words.
     Said(&'static str),
 }
 
-/// What a number may be.
+/// The allowed range of a number.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Limits {
-    /// It must be greater than this.
+    /// The exclusive lower limit.
     pub above: Option<f64>,
-    /// It must be at least this.
+    /// The inclusive lower limit.
     pub least: Option<f64>,
-    /// It must be at most this.
+    /// The inclusive upper limit.
     pub most: Option<f64>,
 }
 
 impl Limits {
-    /// Whether a number keeps to them.
+    /// Whether a number is within the limits.
     pub fn allow(&self, x: f64) -> bool {
         self.above.is_none_or(|a| x > a)
             && self.least.is_none_or(|l| x >= l)
@@ -236,10 +236,10 @@ impl Limits {
     }
 }
 
-/// The version with which the format began.
+/// The first version of the format.
 const FIRST: &str = "0.1";
 
-/// A key that may be left out.
+/// An optional key.
 const fn key(name: &'static str, of: Type, doc: &'static str, example: &'static str) -> Key {
     Key {
         name,
@@ -271,7 +271,7 @@ impl Key {
         Key { need: Need::Advised(why), ..self }
     }
 
-    /// What counts without it.
+    /// Sets the default.
     const fn or(self, absent: Absent) -> Key {
         Key { absent, ..self }
     }
@@ -293,7 +293,7 @@ impl Key {
     }
 }
 
-/// Every object, in the order of the reference page.
+/// All objects, in the order of the reference page.
 pub static OBJECTS: [&Object; 23] = [
     &LAB,
     &CAMERA,
@@ -321,12 +321,12 @@ pub static OBJECTS: [&Object; 23] = [
 ];
 
 impl Object {
-    /// The key of this name.
+    /// The key with this name.
     pub fn key(&self, name: &str) -> Option<&'static Key> {
         self.keys.iter().find(|k| k.name == name)
     }
 
-    /// The number that counts where this key is left out. NaN when the declaration has none, which a test rules out.
+    /// The numeric default of this key. NaN if the declaration has none; a test excludes this.
     pub(crate) fn number(&self, name: &str) -> f64 {
         match self.key(name).map(|k| k.absent) {
             Some(Absent::Number(x)) => x,
@@ -334,7 +334,7 @@ impl Object {
         }
     }
 
-    /// The numbers that count where this key is left out.
+    /// The default of this key, as a list of numbers.
     pub(crate) fn numbers(&self, name: &str) -> &'static [f64] {
         match self.key(name).map(|k| k.absent) {
             Some(Absent::Numbers(all)) => all,
@@ -342,7 +342,7 @@ impl Object {
         }
     }
 
-    /// The text that counts where this key is left out.
+    /// The default of this key, as a text.
     pub(crate) fn text(&self, name: &str) -> &'static str {
         match self.key(name).map(|k| k.absent) {
             Some(Absent::Text(text)) => text,
@@ -350,14 +350,14 @@ impl Object {
         }
     }
 
-    /// Whether this number may stand at a key.
+    /// Whether this number is allowed as the value of a key.
     pub(crate) fn allows(&self, name: &str, x: f64) -> bool {
         self.key(name).is_none_or(|k| k.limits.allow(x))
     }
 }
 
 impl Family {
-    /// The object that a word tells; without a word the first one.
+    /// The object that a word selects; without a word the first one.
     pub fn object(&self, word: Option<&str>) -> Option<&'static Object> {
         let has_tag = |o: &&&'static Object| o.tag.is_some_and(|(_, w)| Some(w) == word);
         match word {
@@ -366,7 +366,7 @@ impl Family {
         }
     }
 
-    /// The keys of all its objects, each name once.
+    /// The keys of all its objects, without duplicates.
     pub fn keys(&self) -> Vec<&'static Key> {
         let mut all: Vec<&'static Key> = Vec::new();
         for key in self.objects.iter().flat_map(|o| o.keys) {
@@ -378,7 +378,7 @@ impl Family {
     }
 }
 
-/// The texts of words.
+/// The texts of the words.
 pub(crate) fn texts(words: &'static [Word]) -> impl Iterator<Item = &'static str> + Clone {
     words.iter().map(|w| w.text)
 }

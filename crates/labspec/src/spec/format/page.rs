@@ -1,4 +1,4 @@
-//! `docs/reference/format.md`: a section for every object, a line for every key.
+//! Generates `docs/reference/format.md`: a section for every object, a table row for every key.
 
 use super::describe::{default, takes};
 use super::{Absent, CONTROL, EVENTS, FIRST, Family, Key, LAB, Need, OBJECTS, OVERLAYS, Object, QUESTION};
@@ -74,7 +74,7 @@ fn section(text: &mut String, object: &Object) {
     }
 }
 
-/// A link to the keys of the objects that stand here.
+/// A link to the keys of the objects that this type accepts.
 fn link(of: &Type) -> String {
     let heading = match of {
         Type::Object(object) => heading(object),
@@ -87,12 +87,12 @@ fn link(of: &Type) -> String {
     format!(" ([keys](#{}))", heading.to_lowercase().replace(' ', "-"))
 }
 
-/// What an object is called, without its article.
+/// The name of an object, without its article.
 fn heading(object: &Object) -> String {
     capital(object.what.split_once(' ').map_or(object.what, |(_, name)| name))
 }
 
-/// What happens where a key is left out.
+/// What applies if a key is absent.
 fn left_out(key: &Key) -> String {
     if key.required() {
         return "an error".into();
@@ -105,7 +105,7 @@ fn left_out(key: &Key) -> String {
     }
 }
 
-/// JSON with a space behind every comma, as people write it.
+/// JSON with a space after every comma.
 fn spaced(value: &serde_json::Value) -> String {
     match value.as_array() {
         Some(items) => {
@@ -135,7 +135,7 @@ fn events(text: &mut String) {
     }
 }
 
-/// Text in a table: its bars are no borders.
+/// Escapes the bars of a text, so that they do not separate table cells.
 fn cell(text: &str) -> String {
     text.replace('|', "\\|")
 }

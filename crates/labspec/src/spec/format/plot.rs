@@ -4,10 +4,10 @@ use super::{Absent, Key, Object, Type, key};
 use crate::spec::Form;
 use labspec_finding::docs;
 
-/// Most decimals that a number is printed with: a double has 17 significant digits.
+/// The maximum number of decimals: a double has 17 significant digits.
 pub const MAX_DIGITS: u32 = 17;
 
-/// `digits`, of a slider and of a readout.
+/// `digits`, for a slider and a readout.
 pub(super) const DIGITS: Key = key("digits", Type::Whole, "the number of decimals displayed", "2")
     .between(0.0, MAX_DIGITS as f64)
     .or(Absent::Number(3.0));
@@ -98,7 +98,7 @@ pub static REF_LINE: Object = Object {
     together: &[],
 };
 
-/// A value shown as text.
+/// A value displayed as text.
 pub static READOUT: Object = Object {
     name: "readout",
     what: "a readout",

@@ -99,7 +99,7 @@ pub static MCQ: Object = Object {
     together: &[],
 };
 
-/// A question about a mistake.
+/// A question about an error.
 pub static DEBUG: Object = Object {
     name: "debug",
     what: "a question of kind debug",
@@ -121,7 +121,7 @@ pub static DEBUG: Object = Object {
     together: &[],
 };
 
-/// A question that a simulation answers.
+/// A question whose answer a simulation shows.
 pub static PREDICT: Object = Object {
     name: "predict",
     what: "a question of kind predict",
@@ -148,10 +148,10 @@ pub static PREDICT: Object = Object {
     together: &[],
 };
 
-/// How far a numeric answer may be off where the question does not say: this part of the answer.
+/// The default tolerance of a numeric answer, relative to the answer.
 pub const TOLERANCE: f64 = 0.02;
 
-/// A question that asks for a number.
+/// A question with a numeric answer.
 pub static NUMERIC: Object = Object {
     name: "numeric",
     what: "a question of kind numeric",
@@ -187,7 +187,7 @@ const REFERENCE: Key = key(
     r#""<p>Because weight and inertia both grow with mass.</p>""#,
 );
 
-/// A question that asks for a text.
+/// A question with a text as the answer.
 pub static OPEN: Object = Object {
     name: "open",
     what: "an open question",
@@ -206,7 +206,7 @@ pub static OPEN: Object = Object {
     together: &[],
 };
 
-/// A question that asks for a program.
+/// A question with a program as the answer.
 pub static CODE: Object = Object {
     name: "code",
     what: "a question of kind code",

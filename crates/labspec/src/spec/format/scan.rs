@@ -1,8 +1,8 @@
-//! Where in a JSON text an offset lies: in which objects and lists, at a key or at a value. The text may be broken, there
-//! most of all: somebody is writing it.
+//! Finds the enclosing objects and lists at an offset of a JSON text, and whether a key or a value is expected there. The
+//! text can be malformed, most often at the offset itself, because it is being edited.
 //!
-//! One pass over the characters. Commas and colons may be missing; a string that is not closed ends with its first word,
-//! or with its line.
+//! It takes one pass over the characters. Commas and colons can be missing. A string that is not closed ends after its
+//! first word, or at the end of its line.
 
 use crate::json::MAX_DEPTH;
 use std::ops::Range;
@@ -10,48 +10,48 @@ use std::ops::Range;
 /// An object or a list.
 #[derive(Debug, Default)]
 pub(super) struct JsonScope {
-    /// What it stands in, and where there.
+    /// The enclosing object or list, and the position in it.
     pub(super) parent: Option<(usize, ScanStep)>,
-    /// A list rather than an object.
+    /// Whether it is a list.
     pub(super) list: bool,
-    /// The keys of an object and, of those that are texts, the values. Without the key at the offset.
+    /// The keys of an object, each with its value if this is a text. The key at the offset is not included.
     pub(super) keys: Vec<(String, Option<String>)>,
     /// The texts of a list, without the one at the offset.
     pub(super) texts: Vec<String>,
-    /// How many items of a list have begun.
+    /// The number of items of a list that have started.
     items: usize,
 }
 
-/// A place in an object or in a list.
+/// A position in an object or a list.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum ScanStep {
     /// The value of this key.
     Key(String),
-    /// This item, from 0.
+    /// The item with this index, from 0.
     Item(usize),
 }
 
-/// What lies at the offset.
+/// The key or the value at the offset.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct CursorSpot {
-    /// The object or list.
+    /// The index of the enclosing object or list.
     pub(super) scope: usize,
-    /// Where a value stands or is to be written; `None` for a key.
+    /// The position of the value; `None` for a key.
     pub(super) value: Option<ScanStep>,
-    /// The bytes of what is written there, quotes included; empty where nothing is.
+    /// The byte range of the text that is already written, quotes included; empty if there is none.
     pub(super) written: Range<usize>,
 }
 
-/// What a text holds, as far as it can be recognized.
+/// The structure of a text, as far as it can be recognized.
 #[derive(Debug, Default)]
 pub(super) struct JsonScan {
     /// The objects and lists; the first one is the outermost.
     pub(super) scopes: Vec<JsonScope>,
-    /// What lies at the offset; `None` where neither a key nor a value can stand.
+    /// The key or the value at the offset; `None` if neither can occur there.
     pub(super) spot: Option<CursorSpot>,
 }
 
-/// What comes next.
+/// What is expected next.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Next {
     Key,
@@ -66,17 +66,17 @@ struct Scanner<'a> {
     at: usize,
     open: Vec<usize>,
     next: Next,
-    /// The key whose value comes next.
+    /// The key whose value is expected next.
     key: String,
-    /// How many characters may still be looked at for the ends of strings.
+    /// The number of characters that can still be examined for the end of a string.
     budget: usize,
     scan: JsonScan,
 }
 
-/// Reads a text. The offset is a place between two characters of it.
+/// Scans a text. The offset must be a character boundary.
 pub(super) fn scan(text: &str, offset: usize) -> JsonScan {
     let (open, scan) = (Vec::new(), JsonScan::default());
-    // Lines of broken strings are looked at more than once.
+    // The lines of malformed strings are examined more than once.
     let budget = 16 * text.len() + 1000;
     let mut s = Scanner { text, offset, at: 0, open, next: Next::Value, key: String::new(), budget, scan };
     while s.budget > 0 {
@@ -126,7 +126,7 @@ impl<'a> Scanner<'a> {
         self.scan.scopes.get(*self.open.last()?)
     }
 
-    /// Walks over spaces; the offset may lie among them.
+    /// Skips white space, which can contain the offset.
     fn gap(&mut self) {
         let start = self.at;
         self.at += self.rest().len() - self.rest().trim_start().len();
@@ -135,7 +135,7 @@ impl<'a> Scanner<'a> {
         }
     }
 
-    /// Takes what is written here for what lies at the offset, if a key or a value can stand here.
+    /// Records this range as the text at the offset, if a key or a value is expected here.
     fn mark(&mut self, written: Range<usize>) {
         let Some(&scope) = self.open.last() else { return };
         let value = match self.next {
@@ -146,7 +146,7 @@ impl<'a> Scanner<'a> {
         self.scan.spot = Some(CursorSpot { scope, value, written });
     }
 
-    /// The place of the value that comes next.
+    /// The position of the value that is expected next.
     fn step(&self) -> ScanStep {
         match self.scope() {
             Some(scope) if scope.list => ScanStep::Item(scope.items),
@@ -163,7 +163,7 @@ impl<'a> Scanner<'a> {
         self.at += 1;
     }
 
-    /// A bracket closes the nearest one of its kind, and what is open inside of it.
+    /// A closing bracket closes the innermost open bracket of its kind, and all brackets inside it.
     fn leave(&mut self, list: bool) {
         self.at += 1;
         self.key.clear();
@@ -174,7 +174,7 @@ impl<'a> Scanner<'a> {
         }
     }
 
-    /// A value stands here: a text, or something else.
+    /// Records a value: a text, or a value of another type.
     fn valued(&mut self, text: Option<String>) {
         let key = std::mem::take(&mut self.key);
         if let Some(scope) = self.open.last().and_then(|&i| self.scan.scopes.get_mut(i)) {
@@ -197,7 +197,7 @@ impl<'a> Scanner<'a> {
         if self.in_list() {
             self.next = Next::Value;
         } else if colon || self.next == Next::Comma {
-            // A key, whatever was expected: the comma or the value before it is missing.
+            // This is a key, whatever was expected: the comma or the value before it is missing.
             self.next = Next::Key;
         } else if self.next == Next::Colon {
             self.next = Next::Value;
@@ -222,7 +222,7 @@ impl<'a> Scanner<'a> {
         self.put(start..end, value, closed, true);
     }
 
-    /// The end of the string that begins here: behind its quote, or at the end of the line.
+    /// The end of the string that starts here: after its closing quote, or at the end of the line.
     fn closed(&mut self) -> usize {
         let mut escaped = false;
         for (i, c) in self.rest().char_indices().skip(1) {
@@ -238,7 +238,7 @@ impl<'a> Scanner<'a> {
         self.text.len()
     }
 
-    /// A number, `true`, or a word that lacks its quotes.
+    /// A number, `true`, or a word without quotes.
     fn word(&mut self) {
         let length = self.rest().find(|c| !is_word(c)).unwrap_or(self.rest().len());
         let range = self.at..self.at + length;
@@ -249,7 +249,7 @@ impl<'a> Scanner<'a> {
         self.put(range, value, false, false);
     }
 
-    /// Takes in a key or a value.
+    /// Records a key or a value.
     fn put(&mut self, range: Range<usize>, value: String, closed: bool, quoted: bool) {
         let within = range.start < self.offset && self.offset < range.end + usize::from(!closed);
         if within {

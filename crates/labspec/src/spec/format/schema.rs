@@ -7,7 +7,7 @@ use crate::json::to_value;
 use serde::{Serialize, Serializer};
 use serde_json::{Map, Value};
 
-/// What a schema is of.
+/// The subject of a schema.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Root {
     /// A lab.
@@ -18,7 +18,7 @@ pub enum Root {
     Lesson,
 }
 
-/// A keyword of a schema, and what stands behind it.
+/// A keyword of a schema with its value.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 enum Keyword {
@@ -36,7 +36,7 @@ enum Keyword {
     Const(&'static str),
     Enum(Vec<&'static str>),
     Properties(Named),
-    /// Whether there may be others.
+    /// Whether other properties are allowed.
     #[serde(rename = "additionalProperties")]
     Open(bool),
     AdditionalProperties(SchemaNode),
@@ -76,7 +76,7 @@ impl SchemaNode {
     }
 }
 
-/// Schemas by name, in their order.
+/// Schemas by name, in a fixed order.
 struct Named(Vec<(&'static str, SchemaNode)>);
 
 impl Serialize for SchemaNode {
@@ -94,8 +94,8 @@ impl Serialize for Named {
     }
 }
 
-/// The schema, as JSON. What it refuses is an error of `labspec check`; what needs the model, or looks at several
-/// values at once, only the check finds.
+/// The schema, as JSON. What it rejects is an error of `labspec check`. A condition that needs the model or several values
+/// at once is found only by the check.
 pub fn schema(root: Root) -> Value {
     let item = || when(required(&["questions"]), reference(QUIZ.name), reference(LAB.name));
     let list = || SchemaNode::from(Keyword::Items(item()));
@@ -124,7 +124,7 @@ pub fn schema(root: Root) -> Value {
     to_value(&SchemaNode(head.into()).and(body.0).and([definitions]))
 }
 
-/// The names of all objects that can stand in this one.
+/// Collects the names of this object and of all objects that it can contain.
 fn reach(from: &'static Object, used: &mut Vec<&'static str>) {
     if used.contains(&from.name) {
         return;
@@ -153,7 +153,7 @@ fn definition(of: &Object) -> SchemaNode {
         .and((!together.is_empty()).then_some(Keyword::AllOf(together)))
 }
 
-/// What keys ask of each other. A schema knows errors only.
+/// A rule for a combination of keys. A schema can express only errors, so the rules with warnings are left out.
 fn rule(rule: &Together) -> Option<SchemaNode> {
     let each = |names: &[&'static str]| names.iter().map(|n| required(&[n])).collect();
     Some(SchemaNode::from(match rule {
@@ -178,7 +178,7 @@ fn property(of: &Object, key: &Key) -> SchemaNode {
         .and(example.map(|example| Keyword::Examples([example])))
 }
 
-/// What a type takes.
+/// The schema of a type.
 fn value(of: &Type, limits: &Limits) -> SchemaNode {
     let none = Limits::default();
     match of {
@@ -215,12 +215,13 @@ fn array_of(n: usize, items: Keyword) -> SchemaNode {
     typed("array").and([items, Keyword::MinItems(n), Keyword::MaxItems(n)])
 }
 
-/// An object with these keys and no others.
+/// An object with only these keys.
 fn closed(properties: impl Iterator<Item = (&'static str, SchemaNode)>) -> SchemaNode {
     typed("object").and([Keyword::Properties(Named(properties.collect())), Keyword::Open(false)])
 }
 
-/// One object of a family, by its word; anything else is read as the first one, and refused there.
+/// The schema of a family: the family key selects the object. With any other value, the object is treated as the first one,
+/// whose schema rejects the value.
 fn one_of(family: &Family) -> SchemaNode {
     let tagged = |object: &&'static Object| object.tag.map(|(key, word)| (key, word, object.name));
     let mut rest = family.objects.first().map(|o| reference(o.name)).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! The declaration is whole, its examples are right, and the readers do what it says.
+//! Tests of the declaration: it is complete, its examples are correct, and the readers follow it.
 
 use super::*;
 use crate::bind::scene::Models;
@@ -11,7 +11,7 @@ use crate::spec::{Camera, ControlKind, Lab, Lesson};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 
-/// The lab that the examples of `verify` run: all the labels that they name.
+/// The lab that the examples of `verify` run. It contains all labels that they use.
 const SCENE: &str = r#"{"model": "fall", "stopAt": 1, "controls": [
     {"label": "gravity", "min": -20, "max": 0, "step": 0.01, "value": -9.81, "set": "model.opt.gravity[2]", "reset": true},
     {"type": "button", "label": "Push", "run": "data.joint('ball').qvel[0] = 1"}],
@@ -21,7 +21,7 @@ fn parse(text: &str) -> Value {
     serde_json::from_str(text).unwrap_or_else(|e| panic!("{e}: {text}"))
 }
 
-/// A value of a type that holds an object; `None` for types that cannot.
+/// A value of a type that contains an object; `None` for types that cannot contain it.
 fn holding(of: &Type, object: &Object, value: &Value) -> Option<Value> {
     match of {
         Type::Object(o) if o.name == object.name => Some(value.clone()),
@@ -33,7 +33,7 @@ fn holding(of: &Type, object: &Object, value: &Value) -> Option<Value> {
     }
 }
 
-/// A key in the smallest object of its kind, without those that exclude it.
+/// The smallest object of its kind with a key added, and without the keys that this one excludes.
 fn with_key(object: &Object, name: &str, value: Value) -> Value {
     let mut whole = parse(object.minimal);
     let members = whole.as_object_mut().unwrap();
@@ -51,7 +51,7 @@ fn with_key(object: &Object, name: &str, value: Value) -> Value {
     whole
 }
 
-/// All labs and quizzes that hold this object in the smallest objects around it, the nearest ones first.
+/// All labs and quizzes that contain this object in the smallest possible objects, innermost first.
 fn roots(object: &'static Object, value: &Value) -> Vec<(&'static Object, Value)> {
     let (mut open, mut all) = (vec![(object, value.clone())], Vec::new());
     let mut seen = BTreeSet::new();
@@ -74,7 +74,7 @@ fn roots(object: &'static Object, value: &Value) -> Vec<(&'static Object, Value)
     all
 }
 
-/// A lesson of prose, the scene, and a lab or a quiz.
+/// A lesson with prose, the scene, and a lab or a quiz.
 fn lesson_text(object: &Object, value: &Value) -> String {
     let fence = if object.name == LAB.name { "lab simlab" } else { "quiz" };
     format!(
@@ -87,7 +87,7 @@ fn load(object: &Object, value: &Value) -> Lesson {
     load_lesson(SourceFile::new("t.md", lesson_text(object, value)), &models)
 }
 
-/// What is found when labs run and claims are checked, with the model of the examples, which gets a keyframe and a site.
+/// The findings of a check with runs and claims, with the model of the examples, to which a keyframe and a site are added.
 fn checked(object: &Object, value: &Value) -> Vec<Finding> {
     let folder = tempfile::tempdir().unwrap();
     let model = include_str!("../../../../../specs/models/fall.xml");
@@ -145,7 +145,7 @@ fn every_key_says_what_it_means() {
 fn every_smallest_object_is_whole_and_every_key_that_must_stand_does() {
     for object in OBJECTS {
         let whole = parse(object.minimal);
-        // A quiz can hold what no lab does, and the other way round: one of them must have nothing to complain about.
+        // Some objects fit only a quiz and others only a lab: at least one of the two must have no findings.
         let clean = roots(object, &whole).iter().any(|(root, value)| load(root, value).findings.is_empty());
         assert!(clean, "{}", object.name);
         for key in object.keys {
@@ -153,7 +153,7 @@ fn every_smallest_object_is_whole_and_every_key_that_must_stand_does() {
             let stood = without.as_object_mut().unwrap().remove(key.name).is_some();
             let needed = key.required() || matches!(key.need, Need::Advised(_));
             assert!(stood || !needed, "{}.{}", object.name, key.name);
-            // Without its word an object is another one, or none.
+            // Without its family key, it is another object, or none.
             if needed && object.tag.is_none_or(|(tag, _)| tag != key.name) {
                 for (root, value) in roots(object, &without) {
                     assert!(!load(root, &value).findings.is_empty(), "{}.{}", object.name, key.name);
@@ -163,7 +163,7 @@ fn every_smallest_object_is_whole_and_every_key_that_must_stand_does() {
     }
 }
 
-/// An object with the example of a key, and what that key is about.
+/// An object with the example of a key, and with the other keys that this key needs.
 fn with_its_kind(object: &'static Object, key: &Key) -> Value {
     let mut whole = with_key(object, key.name, parse(key.example));
     if (object.name, key.name) == (VERIFY.name, "over") {
@@ -181,7 +181,7 @@ fn every_example_is_right() {
     for (object, key) in every_key() {
         let whole = with_its_kind(object, key);
         let all = roots(object, &whole);
-        // There is no other object in this lesson.
+        // This lesson has no other object.
         if (object.name, key.name) == (VERIFY.name, "use") {
             let is_reported =
                 |f: &Finding| f.message.contains("has no `verify`") || f.message.contains("uses itself");
@@ -193,7 +193,8 @@ fn every_example_is_right() {
             let (root, value) = &all[0];
             load(root, value).findings
         });
-        // Conditions belong to questions with options, values to numeric ones; everything else may stand everywhere.
+        // Conditions apply only to questions with options, and values only to numeric questions. All other keys apply
+        // everywhere.
         let only_some =
             object.name == VERIFY.name && ["options", "value", "wrong", "over"].contains(&key.name);
         assert_eq!(only_some, clean.len() < all.len(), "{}.{}", object.name, key.name);
@@ -207,13 +208,14 @@ fn every_example_runs() {
         let whole = with_its_kind(object, key);
         let all = roots(object, &whole);
         let found: Vec<Vec<Finding>> = all.iter().map(|(root, value)| checked(root, value)).collect();
-        // Nothing breaks here, and that is what this key is about.
+        // Nothing breaks here, but `expect` says that something does.
         if key.name == "expect" {
             let is_break = |f: &Vec<Finding>| f.len() == 1 && f.iter().all(|f| f.message.contains("break"));
             assert!(found.iter().all(is_break), "{found:#?}");
             continue;
         }
-        // What these keys are about is not in this lesson: a measure of a sweep is a list, there is no table, and no smallest value.
+        // The targets of these keys are missing in this lesson: a measure of a sweep is a list, there is no table, and
+        // there is no smallest value.
         let absent = match (object.name, key.name) {
             ("run", "sweep") => Some("speed"),
             ("span", _) => Some("`height`"),
@@ -227,7 +229,7 @@ fn every_example_runs() {
             assert!(found.iter().all(is_expected), "{}.{}: {found:#?}", object.name, key.name);
             continue;
         }
-        // Nothing is found that could be allowed.
+        // There are no findings to suppress.
         let unused = |f: &Vec<Finding>| f.len() == 1 && f.iter().all(|f| f.code == "unused-allowance");
         if object.name == "lint" || key.name == "lint" {
             assert!(found.iter().any(unused), "{found:#?}");
@@ -240,7 +242,7 @@ fn every_example_runs() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// Values of another type than this one, each with the part of it that is wrong.
+/// Values of other types than this one, each with the part of it that is wrong.
 fn wrong(of: &Type) -> Vec<(Value, Value)> {
     let whole = |all: &[Value]| all.iter().map(|v| (v.clone(), v.clone())).collect::<Vec<_>>();
     let inside = |of: &Type, hold: &dyn Fn(Value) -> Value| {
@@ -280,7 +282,7 @@ fn a_wrong_type_is_found_where_it_stands() {
         for (value, part) in wrong(&key.of) {
             for (root, whole) in roots(object, &with_key(object, key.name, value.clone())) {
                 let lesson = load(root, &whole);
-                // The last one: the scene stands before it.
+                // The last occurrence, because the scene precedes it.
                 let written = format!("\"{}\":{value}", key.name);
                 let text = lesson.file.text();
                 let at = text.rfind(&written).unwrap_or_else(|| panic!("{written} in {text}"))
@@ -327,7 +329,7 @@ fn lab(text: &str) -> Lab {
     load(&LAB, &parse(text)).labs.pop().unwrap().lab.unwrap()
 }
 
-/// Where a default is declared, the value that is written and the one that is left out are the same to the reader.
+/// For every declared default, the reader treats the written value and an absent key alike.
 #[test]
 fn what_counts_where_a_key_is_left_out_is_what_is_declared() {
     let bare = lab(r#"{"model": "fall", "plots": [{"traces": [{"label": "z", "expr": "data.time"}]}],
@@ -364,8 +366,8 @@ fn what_counts_where_a_key_is_left_out_is_what_is_declared() {
     assert_eq!(quiz.questions[1].as_ref().unwrap().numeric(), Some((-50.0, 1.0)));
 }
 
-/// Every number, list of numbers and text that is declared as a default is read from the declaration: nowhere else stands
-/// what could differ from it.
+/// Every default that is a number, a list of numbers or a text is read from the declaration, so that no second copy can
+/// differ from it.
 #[test]
 fn declared_defaults_are_of_their_type() {
     for (object, key) in every_key() {
@@ -382,7 +384,7 @@ fn declared_defaults_are_of_their_type() {
     }
 }
 
-/// What keys ask of each other is what is found, and how bad it is.
+/// The rules for combinations of keys match what is reported, with the declared severity.
 #[test]
 fn what_keys_ask_of_each_other_is_checked() {
     for object in OBJECTS {

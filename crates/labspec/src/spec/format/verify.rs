@@ -1,10 +1,10 @@
-//! What a machine can check: runs, measures over them, and what must hold.
+//! The checkable claims: runs, measures over them, and conditions that must hold.
 
 use super::{Absent, LAB, Map, Object, PairHalf, Together, Type, Word, key};
 use crate::spec::Form;
 use labspec_finding::docs;
 
-/// How long a run is where nothing says it, in s.
+/// The default length of a run, in s.
 pub const RUN_LENGTH: f64 = 2.0;
 
 static EXPRESSION: Type = Type::Code(Form::Expression);
@@ -52,7 +52,7 @@ static PRESSED: [PairHalf; 2] = [
 ];
 static PRESS: Type = Type::Pair(&PRESSED);
 
-/// What is claimed, and how it is checked.
+/// The claims, and how they are checked.
 pub static VERIFY: Object = Object {
     name: "verify",
     what: "a verify object",
@@ -292,7 +292,7 @@ pub static FIND: Object = Object {
     together: &[Together::ExactlyOne(&["largest", "smallest"])],
 };
 
-/// Values at equal distances.
+/// Equidistant values.
 pub static SPAN: Object = Object {
     name: "span",
     what: "a span of values",

@@ -1,14 +1,14 @@
-//! What no judge looks at, counted: so that "all verdicts" is not read as if everything had been judged.
+//! Counts the claims that no reference engine checks, so that "all verdicts" is not read as "all claims".
 
 use crate::spec::Verify;
 use serde::Serialize;
 
-/// Claims of which a judge says nothing: they rest on other runs than those that it is asked to make.
+/// Claims that a reference engine does not check, because they depend on runs other than the recorded ones.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Left {
-    /// Values that are searched for: our own stay in their place.
+    /// Searches: our own results are used.
     pub searches: usize,
-    /// Answers that hold over a range: they are judged in their own runs, and nowhere else in it.
+    /// Answers over a range: only their own runs are compared, not the other values of the range.
     pub ranges: usize,
     /// Closed forms of traces.
     #[serde(rename = "closedForms")]
@@ -16,13 +16,13 @@ pub struct Left {
 }
 
 impl Left {
-    /// Those of a `verify` object.
+    /// The counts of a `verify` object.
     pub(crate) fn count(verify: &Verify) -> Left {
         let ranges = usize::from(!verify.over.is_empty());
         Left { searches: verify.find.len(), ranges, forms: verify.exact.len() }
     }
 
-    /// Both together.
+    /// The sum of both.
     pub fn and(self, other: Left) -> Left {
         Left {
             searches: self.searches + other.searches,

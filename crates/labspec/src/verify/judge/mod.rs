@@ -1,10 +1,10 @@
-//! The real library as a second judge: what becomes of claims with its numbers in place of ours.
+//! Compares with MuJoCo as a reference engine: the verdicts of claims with its numbers in place of ours.
 //!
-//! | piece | module |
+//! | part | module |
 //! |---|---|
-//! | the runs that it is asked to make | `task` |
+//! | the runs that it has to make | `task` |
 //! | its numbers beside ours | `numbers` |
-//! | what it is not asked, counted | `left` |
+//! | the claims that it does not check, counted | `left` |
 
 mod left;
 mod numbers;
@@ -32,44 +32,44 @@ use crate::spec::{Question, Verify};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// What a judge found in a run.
+/// The results of a run in the reference engine.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RecordedRun {
-    /// Measures by name, and expressions that look at the samples themselves by their text.
+    /// Measures by name, and expressions with their own aggregates by their text.
     pub values: BTreeMap<String, f64>,
-    /// Why the others have no value.
+    /// Why the other measures have no value.
     pub refused: BTreeMap<String, String>,
     /// Number of warnings.
     pub warnings: usize,
-    /// What broke in it.
+    /// How the run broke.
     pub broke: Option<String>,
 }
 
-/// What a judge makes of a `verify` object.
+/// The comparison of a `verify` object with the reference engine.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Judged {
-    /// Numbers that were compared.
+    /// Number of compared values.
     pub compared: usize,
-    /// Those that are others, by name: ours, and the judge's.
+    /// Values that differ: name, our value, reference value.
     pub differing: Vec<(String, f64, f64)>,
-    /// Those that the judge has not taken, and why.
+    /// Values that the reference engine did not record, and why.
     pub unjudged: Vec<(String, String)>,
-    /// Answers and quoted numbers that were judged again.
+    /// Number of answers and quoted numbers that were checked again.
     pub claims: usize,
-    /// Those whose verdict is another one.
+    /// Number of those whose verdict differs.
     pub turned: usize,
 }
 
-/// What a judge is called, and what it found in each run of an object; `None` for a run of which it has nothing.
+/// The name of a reference engine, and its results for each run of an object; an error for a run that is not recorded.
 pub(crate) struct Reference<'w> {
     /// `MuJoCo 3.14.0`.
     pub(crate) engine: &'w str,
-    /// In the order of [`tasks`]; with why nothing is there.
+    /// In the order of [`tasks`]; the error is the reason.
     pub(crate) runs: Vec<Result<&'w RecordedRun, String>>,
 }
 
-/// Compares every measure, and judges every claim again with the numbers of the judge in place of ours. `None` when a run cannot be
-/// made here.
+/// Compares every measure, and checks every claim again with the reference values in place of ours. `None` when a run
+/// cannot be executed here.
 pub(crate) fn judge(
     bound: &BoundVerify<'_>,
     verify: &Verify,
@@ -85,7 +85,7 @@ pub(crate) fn judge(
     if judged.compared == 0 {
         return Some(judged);
     }
-    // The range of an answer is a matter of many runs, which no judge has made: it is counted as left.
+    // An answer over a range needs many runs that are not recorded: it is counted in [`Left`].
     let verify = &Verify { over: Vec::new(), ..verify.clone() };
     let [ours, now] = [&nominal, &theirs].map(|o| verdicts(bound, verify, question, rendered, o));
     let mut turn = |place: Range<usize>, what: &str, before: &str, after: &str, values: String| {
@@ -133,7 +133,7 @@ pub(crate) fn judge(
     Some(judged)
 }
 
-/// Enough digits to see that two numbers are not the same.
+/// Formats a number with enough digits to distinguish it from another one.
 pub fn format_value(x: f64) -> String {
     let short = significant(x);
     if x.is_finite() && short.parse::<f64>().is_ok_and(|y| y != x) {
@@ -143,7 +143,7 @@ pub fn format_value(x: f64) -> String {
     }
 }
 
-/// The answer and the quoted numbers, as these numbers have them.
+/// The verdicts of the answer and of the quoted numbers for an outcome.
 fn verdicts(
     bound: &BoundVerify<'_>,
     verify: &Verify,

@@ -1,4 +1,4 @@
-//! The numbers of a judge beside ours: put in place of them, and compared.
+//! Substitutes the numbers of a reference engine for ours, and compares them.
 
 use super::task::own_texts;
 use super::{Judged, Reference};
@@ -7,12 +7,13 @@ use crate::verify::bound::BoundVerify;
 use crate::verify::numerics::{PERTURBED_START, TIGHT};
 use crate::verify::outcome::Outcome;
 
-/// A number that differs by less than this part of itself, and by less than a thousandth of that at zero, is the same.
+/// Numbers are equal if they differ by less than this fraction, or by less than a thousandth of it near zero.
 const SAME: f64 = 1e-6;
-/// So many times what a moved start or a converged solver change a number is no other engine.
+/// A difference below this factor times the effect of a perturbed start or a converged solver is not attributed to the
+/// engine.
 const NUMERICS: f64 = 2.0;
 
-/// Our outcome with the judge's numbers in place of ours, where it has them.
+/// Our outcome with the reference values in place of ours, where they exist.
 pub(super) fn replaced(
     bound: &BoundVerify<'_>,
     verify: &Verify,
@@ -41,7 +42,8 @@ pub(super) fn replaced(
                 }
             }
         }
-        // What only we notice, energy from nothing, stays noticed; a bad number that only one of both has does not.
+        // A breakdown that only our monitors detect, such as energy growth, is kept. A warning about bad numbers that only
+        // our run has is not.
         let only_ours = run.warnings > 0 && recorded.warnings == 0;
         run.broke = recorded.broke.clone().or(run.broke.take().filter(|_| !only_ours));
         run.warnings = recorded.warnings;
@@ -60,7 +62,7 @@ pub(super) fn replaced(
     theirs
 }
 
-/// Compares the numbers of both.
+/// Compares both outcomes.
 pub(super) fn compare(
     bound: &BoundVerify<'_>,
     verify: &Verify,

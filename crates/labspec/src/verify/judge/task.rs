@@ -1,4 +1,5 @@
-//! What a judge is asked: every run of a `verify` object with all that it depends on, so that somebody else can make it.
+//! The requests for a reference engine: every run of a `verify` object with everything that it depends on, so that another
+//! program can execute it.
 
 use crate::bind::scalar;
 use crate::run::settings;
@@ -13,16 +14,16 @@ use labspec_expr::Value;
 use serde::Serialize;
 use serde_json::Value as Json;
 
-/// A run that a judge is asked to make.
+/// A run for a reference engine.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Task {
     /// Its name: `fall`, `fall[2]`.
     pub(crate) run: String,
-    /// What to make; or why nobody else can make it.
+    /// The request, or the reason why another program cannot execute the run.
     pub(crate) task: Result<RunTask, String>,
 }
 
-/// Everything that a run depends on, and what to measure in it: the text of a request.
+/// Everything that a run depends on, and its measures, in the form that is written to a request.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RunTask {
     lab: LabTask,
@@ -38,7 +39,7 @@ pub struct RunTask {
     expressions: Vec<String>,
 }
 
-/// A lab as far as it runs.
+/// The parts of a lab that affect a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 struct LabTask {
     key: Option<usize>,
@@ -68,7 +69,7 @@ enum ControlTask {
     },
 }
 
-/// The runs of a `verify` object, as somebody else can make them.
+/// The runs of a `verify` object as requests.
 pub(crate) fn tasks(bound: &BoundVerify<'_>, verify: &Verify) -> Vec<Task> {
     let texts = own_texts(bound, verify);
     let task = |(run, scene): (&BoundRun<'_>, &BoundScene<'_>)| {
@@ -82,7 +83,7 @@ fn title(run: &BoundRun<'_>) -> String {
     run.swept.map_or(run.name.to_string(), |(i, _)| format!("{}[{i}]", run.name))
 }
 
-/// The texts that look at the samples themselves.
+/// The texts that contain their own aggregates.
 pub(super) fn own_texts<'v>(bound: &BoundVerify<'_>, verify: &'v Verify) -> Vec<&'v Text> {
     let all = verify.options.iter().chain(&verify.value).chain(&verify.wrong).chain(verify.quoted());
     bound.on_the_spot(all.filter(|text| !is_undecided(text)))
@@ -126,7 +127,7 @@ fn code(text: Option<&Text>) -> Option<String> {
     text.map(|t| t.value.clone())
 }
 
-/// The value that a control gets, where a text of a select was given.
+/// The value that a control gets. For a select, the text that was given is converted.
 fn chosen(lab: &Lab, label: &Text, given: &Value) -> Result<Json, String> {
     let control = lab.control(&label.value).ok_or("a control is missing")?;
     settings::value(control, given).map(|value| plain(&value)).map_err(|e| e.0)

@@ -1,4 +1,5 @@
-//! Compares a quoted number with what its expression gives, at every place where it stands; with its unit, where it has one.
+//! Compares a quoted number with the value of its expression, with its unit if it has one, at every place where the quote
+//! appears.
 
 use super::messages;
 use super::number::Quoted;
@@ -14,7 +15,7 @@ use crate::spec::Question;
 use labspec_bind::units::written;
 use labspec_expr::dimension::Dimension;
 
-/// Compares a quoted number with what its expression gives, at the precision that it is printed with.
+/// Compares a quoted number with the value of its expression, at the printed precision.
 pub(in crate::verify) fn check_quote(
     claim: &QuoteClaim<'_>,
     reading: &Result<Reading, Unread>,
@@ -59,7 +60,7 @@ pub(in crate::verify) fn check_quote(
     }
 }
 
-/// An outcome that nothing decides.
+/// An undecided outcome.
 fn unclear(
     mut outcome: QuoteOutcome,
     reason: &str,
@@ -71,7 +72,7 @@ fn unclear(
     outcome
 }
 
-/// A quote that states no number, or one that is not read.
+/// The outcome of a quote that contains no number, or one that cannot be read.
 fn report_unread(
     claim: &QuoteClaim<'_>,
     unread: &Unread,
@@ -89,26 +90,26 @@ fn report_unread(
     }
 }
 
-/// A number that was read beside what its expression gives, in the unit of the quote.
+/// A quoted number, and the value of its expression in the unit of the quote.
 struct Comparison<'q> {
     claim: &'q QuoteClaim<'q>,
     reading: &'q Reading,
-    /// The unit of the quote, and how it fits what the expression measures.
+    /// The unit of the quote, and whether it agrees with the dimension of the expression.
     unit: Option<(Unit, Held)>,
     measured: Option<Dimension>,
-    /// The expression is multiplied with this, to be in the unit of the quote.
+    /// Factor that converts the value of the expression to the unit of the quote.
     factor: Option<f64>,
     computed: f64,
     timestep: Vec<OtherValue>,
     start: Vec<OtherValue>,
-    /// The reading that is what the expression gives.
+    /// The reading of the quote that equals the value.
     fits: Option<Quoted>,
-    /// That one, or else the first.
+    /// That reading, or else the first one.
     read: Quoted,
 }
 
 impl<'q> Comparison<'q> {
-    /// Converts what the expression gives; of the places those stay that have the unit of the quote.
+    /// Converts the value of the expression. Only the places with the unit of the quote are kept.
     fn new(
         claim: &'q QuoteClaim<'q>,
         reading: &'q Reading,
@@ -120,11 +121,12 @@ impl<'q> Comparison<'q> {
             false => None,
         };
         let unit = unit_at(reading, places, measured.as_ref());
-        // Minutes and degrees are converted; a power of ten too many is reported.
+        // Minutes and degrees are converted. A factor that is a power of ten is reported instead.
         let wanted = unit.as_ref().and_then(|(unit, _)| unit.dimension);
         let factor = wanted.zip(measured).and_then(|(wanted, found)| conversion(&wanted, &found));
         let factor = factor.filter(|f| !is_power_of_ten(*f)).filter(|_| reading.share.is_none());
-        // A unit that the clause names may be that of something else: it is the number's own where the number is right in it.
+        // A unit elsewhere in the clause may belong to another quantity. It counts as the unit of the number only if the
+        // number is right in it.
         let apart = unit.as_ref().is_some_and(|(unit, _)| unit.link == Link::Clause);
         let factor = factor.filter(|f| !apart || reading.read.is(f * value.computed));
         let scale = |x: f64| factor.map_or(x, |f| x * f);
@@ -137,13 +139,13 @@ impl<'q> Comparison<'q> {
         Comparison { claim, reading, unit, measured, factor, computed, timestep, start, fits, read }
     }
 
-    /// The other runs in which the printed digits change, and what they print.
+    /// The runs under perturbed numerics in which the printed digits change, and what they print.
     fn moved(&self, others: &[OtherValue]) -> Vec<(&'static str, String)> {
         let differs = others.iter().filter(|o| self.read.differ(self.computed, o.value));
         differs.map(|o| (o.how, messages::printed(&self.read, o.value))).collect()
     }
 
-    /// The digits change with the start: nobody can reproduce them; or no run comes near to them.
+    /// The outcome where the digits depend on a perturbed start: they cannot be reproduced, or no run comes near them.
     fn judge_chaotic(&self, mut outcome: QuoteOutcome, findings: &mut Vec<Finding>) -> QuoteOutcome {
         let values: Vec<f64> = self.start.iter().map(|o| o.value).chain([self.computed]).collect();
         let doubts = self.reading.doubts.iter().map(|(q, _)| *q);
@@ -158,7 +160,7 @@ impl<'q> Comparison<'q> {
         outcome
     }
 
-    /// The number is right: its unit has to be, too.
+    /// The outcome where the number is right: its unit must be right too.
     fn judge_unit(
         self,
         fits: Quoted,
@@ -166,7 +168,7 @@ impl<'q> Comparison<'q> {
         findings: &mut Vec<Finding>,
     ) -> QuoteOutcome {
         let Comparison { claim, reading, measured, read, .. } = self;
-        // Of a fraction that is stated in percent the number is right in any unit, and a converted one is in that unit.
+        // A fraction stated in percent is right in any unit. A converted number is already in the unit of the quote.
         let kind = measured.filter(|m| m.is_exact() && !m.is_number());
         let unit = self.unit.filter(|_| (fits == reading.read || kind.is_some()) && self.factor.is_none());
         match (unit, measured) {
@@ -195,7 +197,7 @@ impl<'q> Comparison<'q> {
         outcome
     }
 
-    /// The number is another one: it may be read otherwise, or be in another unit; or it is wrong.
+    /// The outcome where the number differs: it has another reading, is in another unit, or is wrong.
     fn explain_difference(&self, mut outcome: QuoteOutcome, findings: &mut Vec<Finding>) -> QuoteOutcome {
         let Comparison { claim, reading, read, computed, .. } = self;
         if let Some((other, why)) = reading.doubts.iter().find(|(q, _)| q.is(*computed)) {
@@ -220,7 +222,7 @@ impl<'q> Comparison<'q> {
     }
 }
 
-/// Where a quote stands: in the question that claims it first.
+/// The places where a quote appears, those in the question that claims it first.
 pub(in crate::verify) fn places_of_quote(
     quote: &Text,
     question: Option<&Question>,
@@ -232,8 +234,8 @@ pub(in crate::verify) fn places_of_quote(
     inside.into_iter().chain(others).cloned().collect()
 }
 
-/// The unit of a number at the places where it stands, with what the expression measures. Places where the unit is another one for
-/// sure are no places, unless there are no others.
+/// The unit of a number at the places where it appears, compared with the dimension of the expression. Places with a unit
+/// that certainly differs are removed, unless there are no others.
 fn unit_at(
     reading: &Reading,
     places: &mut Vec<QuotePlace>,
@@ -259,13 +261,13 @@ fn unit_at(
     }
 }
 
-/// Whether a run from another start could give these digits: what the runs gave lies around them, or so near that as much again
-/// reaches them.
+/// Whether a run from another start could give these digits: they are within the range of the values of the runs, extended
+/// by its width on both sides.
 fn may_come_out(read: &Quoted, values: &[f64]) -> bool {
     let low = values.iter().copied().fold(f64::INFINITY, f64::min);
     let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let spread = high - low;
-    // Where one of them is no number, nobody knows.
+    // With a NaN among the values, this is unknown.
     !values.iter().all(|x| x.is_finite())
         || read.value + read.half_unit >= low - spread && read.value - read.half_unit <= high + spread
 }

@@ -1,4 +1,4 @@
-//! What becomes of a quote, and what is said about it, with other runs at hand.
+//! Outcomes and messages of quotes, with values of perturbed runs.
 
 use super::*;
 use crate::finding::{Finding, Severity};
@@ -6,7 +6,7 @@ use crate::lint::ModelFolder;
 use crate::lint::load_lesson;
 use crate::source::SourceFile;
 
-/// Checks a quote in a lesson that says it in its prose.
+/// Checks a quote in a lesson whose prose contains it.
 fn checked(quote: &str, computed: f64, half: &[f64], starts: &[f64]) -> (QuoteOutcome, Vec<Finding>) {
     let lab = serde_json::json!({"xml": "<mujoco/>", "verify": {"says": [[quote, "x"]]}});
     let text = format!("It is {quote} here, and {quote} there.\n\n```lab simlab\n{lab}\n```\n");
@@ -24,7 +24,7 @@ fn checked(quote: &str, computed: f64, half: &[f64], starts: &[f64]) -> (QuoteOu
     (outcome, findings)
 }
 
-/// The code and all messages.
+/// The rule and all texts of the only finding.
 fn first_finding(findings: &[Finding]) -> (&'static str, String) {
     assert_eq!(findings.len(), 1, "{findings:#?}");
     let f = &findings[0];
@@ -50,7 +50,7 @@ fn digits_that_no_reader_can_reproduce_are_never_to_be_written() {
         "{words}"
     );
     assert_eq!(outcome.moved.len(), 2);
-    // Also where the lesson's own run gives another number.
+    // The same where the nominal run gives another number.
     let (outcome, findings) = checked("-10.05 %", -20.75, &[], &[-13.58]);
     assert_eq!((outcome.state, first_finding(&findings).0), (QuoteState::Unclear, "quote-chaotic"));
     assert!(!first_finding(&findings).1.contains("write"));
@@ -73,7 +73,7 @@ fn fewer_digits_are_advised_where_all_runs_agree_on_them() {
     );
     let (_, findings) = checked("0.012 m", 0.012, &[], &[0.034]);
     assert!(!first_finding(&findings).1.contains("fewer digits"), "a zero that is none");
-    // A change below the printed digits is none.
+    // A change below the printed digits does not count.
     let (outcome, findings) = checked("1.42 s", 1.4237, &[1.4238], &[1.4241]);
     assert_eq!((outcome.state, findings.len()), (QuoteState::Right, 0));
 }
@@ -126,7 +126,7 @@ fn a_value_that_is_none_is_never_advised() {
             assert!(!words.contains("NaN") && !words.contains("0.0e") && !words.contains("write"), "{words}");
         }
     }
-    // No value in another run is a change.
+    // A missing value in a perturbed run is a change.
     let (outcome, findings) = checked("0.442 s", 0.442, &[f64::NAN], &[]);
     assert_eq!(outcome.moved, [("at half the timestep", "no value".to_string())]);
     assert!(first_finding(&findings).1.contains("no value at half the timestep"));

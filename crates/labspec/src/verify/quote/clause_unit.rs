@@ -1,19 +1,19 @@
-//! A unit that the clause of a number names apart from it: `t / ms = 0.442`, `in milliseconds: 0.442`, `0.442, counted in ms`.
+//! Finds the unit of a number elsewhere in its clause: `t / ms = 0.442`, `in milliseconds: 0.442`, `0.442, counted in ms`.
 
 use super::numeral::Chars;
 use super::unit_text::{Link, Unit};
 use labspec_bind::units;
 use std::ops::Range;
 
-/// Characters of the clause that are looked at on either side.
+/// Number of characters of the clause that are read on either side.
 const NEAR: usize = 60;
 
-/// The unit that the clause of a number without one names; `None` where it names none, or several.
+/// The unit that the clause of a number without a unit names; `None` where it names none, or several.
 pub(super) fn clause_unit(chars: Chars<'_>, number: Range<usize>) -> Option<Unit> {
     let before = chars.text(number.start.saturating_sub(NEAR), number.start);
     let behind = chars.text(number.end, number.end + NEAR);
     let before = before.get(last_end(&before)..)?;
-    // What another number has is not this one's.
+    // A unit after the next number belongs to that number.
     let until = next_number(&behind);
     let behind = behind.get(..first_end(&behind).min(until))?;
     let mut named = Vec::new();
@@ -35,42 +35,42 @@ pub(super) fn clause_unit(chars: Chars<'_>, number: Range<usize>) -> Option<Unit
     })
 }
 
-/// Where the next number of a text begins, which is no power of a unit.
+/// The index of the next number in a text. The power of a unit does not count.
 fn next_number(text: &str) -> usize {
     let mut before = ' ';
     for (at, c) in text.char_indices() {
         if c.is_ascii_digit() && !before.is_alphanumeric() && !matches!(before, '^' | '*') {
             return at;
         }
-        // `s^-1`
+        // The exponent of `s^-1`.
         before = if c == '-' && before == '^' { before } else { c };
     }
     text.len()
 }
 
-/// Where the last clause of a text begins.
+/// The index at which the last clause of a text begins.
 fn last_end(text: &str) -> usize {
     let mut ends = text.rmatch_indices(['.', ';', '!', '?', '\n', '|']);
     ends.find(|(at, mark)| is_end(text, *at, mark)).map_or(0, |(at, mark)| at + mark.len())
 }
 
-/// Where the first clause of a text ends.
+/// The index at which the first clause of a text ends.
 fn first_end(text: &str) -> usize {
     let mut ends = text.match_indices(['.', ';', '!', '?', '\n', '|']);
     ends.find(|(at, mark)| is_end(text, *at, mark)).map_or(text.len(), |(at, _)| at)
 }
 
-/// Whether a mark ends a clause: a point of a number, or of what follows without a space, does not.
+/// Whether a punctuation mark ends a clause. A decimal point, or a point without a following space, does not.
 fn is_end(text: &str, at: usize, mark: &str) -> bool {
     mark != "." || text.get(at + 1..).is_none_or(|tail| tail.is_empty() || tail.starts_with([' ', '\n']))
 }
 
-/// Whether a unit is no letter that may be a symbol.
+/// Whether a unit cannot be a symbol, because it has more than one letter.
 pub(super) fn is_sure(unit: &str) -> bool {
     unit == "°" || unit.chars().count() > 1
 }
 
-/// Whether a unit is more likely another word where no number stands before it.
+/// Whether a unit without a number before it is more likely another word.
 pub(super) fn is_word(unit: &str) -> bool {
     matches!(
         unit.to_lowercase().as_str(),
@@ -78,7 +78,7 @@ pub(super) fn is_word(unit: &str) -> bool {
     )
 }
 
-/// The unit that a text is, if it is one.
+/// The text, if all of it is a unit.
 fn whole(text: &str) -> Option<String> {
     let text = text.trim();
     let inner = text.strip_prefix('(').and_then(|t| t.strip_suffix(')'));
@@ -86,14 +86,14 @@ fn whole(text: &str) -> Option<String> {
     units::is_unit(text).then(|| text.to_string())
 }
 
-/// A unit in brackets that a text begins with: `(ms)`, `[in ms]`.
+/// A unit in brackets at the beginning of a text: `(ms)`, `[in ms]`.
 fn in_brackets(text: &str) -> Option<String> {
     let close = if text.starts_with('(') { ')' } else { ']' };
     let inner = text.get(1..)?.split(close).next()?.trim();
     whole(inner.strip_prefix("in ").unwrap_or(inner))
 }
 
-/// A unit behind `in`: of letters that could be a word, or a name of something, none is.
+/// A unit after `in`, unless it could be a word or a name.
 fn after_in(text: &str) -> Option<String> {
     let length = units::read(text)?.length;
     let unit = text.get(..length)?;
@@ -102,7 +102,7 @@ fn after_in(text: &str) -> Option<String> {
     (!is_word(unit) && !name && !goes_on).then(|| unit.to_string())
 }
 
-/// A unit that stands right before a number: `milliseconds: `, `t/ms = `, `kg `.
+/// A unit directly before a number: `milliseconds: `, `t/ms = `, `kg `.
 fn right_before(text: &str) -> Option<String> {
     let bare = text.trim_end_matches([' ', ':', '=', '≈', '~', '"', '“', '(']);
     let bare =
@@ -118,7 +118,7 @@ fn right_before(text: &str) -> Option<String> {
     (is_sure(&unit) && !owned && !is_word(&unit)).then_some(unit)
 }
 
-/// The unit that a symbol is divided by at the end of a text: of `t / ms`, `v/(m/s)`; of `4.3 m/s` there is none.
+/// The unit by which a symbol is divided at the end of a text, as in `t / ms` or `v/(m/s)`. `4.3 m/s` has no such unit.
 fn divisor(text: &str) -> Option<String> {
     let mut strokes = text.match_indices(['/', '∕', '⁄']);
     strokes.find_map(|(at, stroke)| {
@@ -129,7 +129,7 @@ fn divisor(text: &str) -> Option<String> {
     })
 }
 
-/// A unit that a text has right behind marks: `) ms`, `” ms`, `… ms`.
+/// A unit directly after punctuation: `) ms`, `” ms`, `… ms`.
 fn right_behind(text: &str) -> Option<String> {
     let exact = text.strip_prefix(" or so ").unwrap_or(text);
     let bare = exact.trim_start_matches([' ', ')', ']', '"', '”', '’', '»', '…', ':', '–', '—', ',', '`']);
@@ -143,7 +143,7 @@ fn right_behind(text: &str) -> Option<String> {
     (ends && is_sure(unit)).then(|| unit.to_string())
 }
 
-/// Words that count what follows.
+/// Whether a word is a numeral or another quantifier.
 fn is_spelled(word: &str) -> bool {
     const COUNTS: [&str; 24] = [
         "a", "an", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "twelve",

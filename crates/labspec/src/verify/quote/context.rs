@@ -1,5 +1,5 @@
-//! What stands before a quantity and makes it a part of something else. What is not understood is refused: a number is quoted only
-//! where it is sure that the text states it.
+//! Finds text before a quantity that makes it part of another expression. Text that is not understood is refused: a number
+//! counts as quoted only where the text certainly states it.
 
 use super::denial::is_denied;
 use super::numeral::Chars;
@@ -11,7 +11,7 @@ pub(super) const DIFFERENCE: &str = "a difference or a range";
 const ODD: &str = "a number after a prefix that is not understood";
 pub(super) const LETTERS: &str = "a number followed by letters";
 
-/// Characters that are looked at on either side.
+/// Number of characters that are read on either side.
 pub(super) const NEAR: usize = 40;
 
 /// Words before a number that make it a bound.
@@ -48,7 +48,7 @@ const BOUNDS: [&str; 30] = [
     "beyond",
 ];
 
-/// Words before a number that change it.
+/// Words before a number that change its value.
 const CHANGES: [&str; 70] = [
     "hundred",
     "thousand",
@@ -122,7 +122,7 @@ const CHANGES: [&str; 70] = [
     "hardly",
 ];
 
-/// The same in scripts without spaces: `负0.5秒`, `每秒0.5米`.
+/// Words that change the meaning of a number after them, in scripts without spaces: `负0.5秒`, `每秒0.5米`.
 const WIDE: [&str; 49] = [
     "负",
     "負",
@@ -175,11 +175,11 @@ const WIDE: [&str; 49] = [
     "點",
 ];
 
-/// Figures of these scripts.
+/// Numerals of these scripts.
 pub(super) const FIGURES: &str = "零〇一二三四五六七八九十百千万萬亿億兆两";
 
-/// What stands before a number, or its sign, and changes what it says.
-/// The function is long because it is one table: a row for each character that may stand there.
+/// The reason why the text before a number or its sign changes its meaning; `None` if it does not.
+/// The function is long because it is one table: a row for each character that may precede a number.
 pub(super) fn before(chars: Chars<'_>, start: usize) -> Option<&'static str> {
     let (mut at, mut attached, mut within) = (start, true, false);
     let c = loop {
@@ -224,7 +224,7 @@ pub(super) fn before(chars: Chars<'_>, start: usize) -> Option<&'static str> {
         ')' | ']' if attached && !within => Some(FORMULA),
         ')' if matches!(previous, Some('-' | '–' | '+' | '±')) => Some(FORMULA),
         c if is_wide(c) => wide_before(chars, at),
-        // A half of what follows.
+        // A fraction character that multiplies the number.
         c if c.is_numeric() && !c.is_ascii_digit() && !c.is_alphabetic() => Some(FORMULA),
         c if c.is_alphanumeric() && attached => Some(ODD),
         c if c.is_alphanumeric() => words_before(chars, at),
@@ -249,7 +249,7 @@ fn wide_before(chars: Chars<'_>, at: usize) -> Option<&'static str> {
     (figure || WIDE.into_iter().any(|w| near.ends_with(w))).then_some(ODD)
 }
 
-/// The words that end at a character.
+/// The reason why the words that end at index `at` change the meaning of the number.
 fn words_before(chars: Chars<'_>, at: usize) -> Option<&'static str> {
     let near = chars.text(at.saturating_sub(NEAR), at);
     let line = near.rsplit('\n').next().unwrap_or("").to_lowercase();
@@ -269,13 +269,13 @@ fn words_before(chars: Chars<'_>, at: usize) -> Option<&'static str> {
         return Some("a number that the words before it modify");
     }
     let last = line.rsplit(' ').next().unwrap_or("");
-    // `3 0.5 s`: two numbers without a word between them.
+    // Two numbers without a word between them: `3 0.5 s`.
     if last.starts_with(|c: char| c.is_ascii_digit())
         && last.chars().all(|c| c.is_ascii_digit() || ".,'".contains(c))
     {
         return Some(ODD);
     }
-    // A command of TeX, or a symbol of a formula.
+    // A TeX command, or a symbol of a formula.
     let command = last.starts_with('\\') || last.contains('\\');
     let mut letters = last.chars();
     let symbol = match (letters.next(), letters.next()) {

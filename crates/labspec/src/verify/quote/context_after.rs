@@ -1,11 +1,11 @@
-//! What stands behind a quantity and makes it a part of something else.
+//! Finds text after a quantity that makes it part of another expression.
 
 use super::clause_unit::{is_sure, is_word};
 use super::context::{BOUND, DIFFERENCE, FIGURES, FORMULA, LETTERS, NEAR};
 use super::numeral::{Chars, fraction};
 use labspec_bind::units::{self, is_wide};
 
-/// Words behind a number that change it.
+/// Words after a number that change its value.
 const BEHIND: [&str; 20] = [
     "or more",
     "or less",
@@ -34,8 +34,8 @@ const WIDE_BEHIND: [&str; 19] = [
     "乗", "之", "分之", "分の", "割",
 ];
 
-/// What follows a quantity and makes it a part of something else.
-/// The function is long because it is one table: a row for each character that may stand there.
+/// The reason why the text after a quantity changes its meaning; `None` if it does not.
+/// The function is long because it is one table: a row for each character that may follow a quantity.
 pub(super) fn after(chars: Chars<'_>, end: usize, has_unit: bool) -> Option<&'static str> {
     let c = chars.at(end)?;
     let next = chars.skip_blanks(end);
@@ -81,7 +81,7 @@ pub(super) fn after(chars: Chars<'_>, end: usize, has_unit: bool) -> Option<&'st
             Some(FORMULA)
         }
         c if fraction(c).is_some() => Some("a product"),
-        // `0.5 10^3`, `3 0.5 s`
+        // Examples: `0.5 10^3`, `3 0.5 s`.
         c if c.is_ascii_digit() => {
             let end = chars.digits(next);
             let power = chars.at(end) == Some('^') || chars.has(end, "**");
@@ -93,29 +93,29 @@ pub(super) fn after(chars: Chars<'_>, end: usize, has_unit: bool) -> Option<&'st
         }
         '-' | '–' if apart => letter(chars, chars.skip_blanks(next + 1)),
         c if c.is_alphabetic() => words_after(chars, next),
-        // A mark behind the whole of it, as in a list of what is done.
+        // A symbol after the whole quantity, such as a check mark in a list.
         '\u{2600}'..='\u{27bf}' | '\u{1f000}'..='\u{1faff}' if has_unit => None,
         c if c.is_ascii() && !matches!(c, '$' | '#' | '@' | '&') || PUNCTUATION.contains(c) => None,
         _ => Some("a number followed by something that is not understood"),
     }
 }
 
-/// What may stand behind a quantity, besides the characters of ASCII.
+/// Non-ASCII characters that may follow a quantity.
 const PUNCTUATION: &str = "”’»›“‘„«—–‑…†‡§≈≃≅∼≡→⇒∴•·、。，：；！？）」』】（「『【．～〜";
 
-/// Whether the word at a place is a unit.
+/// Whether the word at an index is a unit.
 fn is_unit_at(chars: Chars<'_>, at: usize) -> bool {
     let near = chars.text(at, at + NEAR);
     let word: String = near.chars().take_while(|c| c.is_alphabetic()).collect();
     units::is_unit(&word)
 }
 
-/// Marks that change the character before them.
+/// Combining characters, which change the character before them.
 fn combines(c: char) -> bool {
     matches!(c, '\u{300}'..='\u{36f}' | '\u{20d0}'..='\u{20ff}' | '\u{1ab0}'..='\u{1aff}' | '\u{fe20}'..='\u{fe2f}')
 }
 
-/// Behind the bracket that closes right behind a quantity.
+/// The reason for text after the bracket that closes directly after a quantity.
 fn behind_bracket(chars: Chars<'_>, mut at: usize) -> Option<&'static str> {
     while matches!(chars.at(at), Some(')' | ']')) {
         at += 1;
@@ -145,7 +145,7 @@ fn wide_after(chars: Chars<'_>, at: usize) -> Option<&'static str> {
 
 const UNIT_SOON: &str = "a number with words between it and its unit";
 
-/// Words that begin another phrase: a unit behind them is not that of the number before them.
+/// Words that begin another phrase: a unit after them does not belong to the number before them.
 const PHRASES: [&str; 55] = [
     "in", "at", "after", "on", "for", "to", "from", "by", "with", "before", "and", "or", "but", "when",
     "while", "as", "is", "are", "was", "were", "the", "this", "that", "these", "if", "than", "then", "until",
@@ -154,7 +154,8 @@ const PHRASES: [&str; 55] = [
     "earlier", "each", "every",
 ];
 
-/// Whether a number without a unit is followed by one that its words belong to: `half seconds`, `of a minute`, `light-seconds`.
+/// Whether a number without a unit is followed by words and a unit that belongs to them: `half seconds`, `of a minute`,
+/// `light-seconds`.
 fn has_unit_soon(line: &str) -> bool {
     let phrase =
         line.split(['.', ',', ';', ':', '(', ')', '!', '?', '\n', '—', '"', '|', '=']).next().unwrap_or("");
@@ -168,13 +169,14 @@ fn has_unit_soon(line: &str) -> bool {
         return false;
     }
     let of_one = |word: &&str| matches!(*word, "of" | "a" | "an" | "one" | "per" | "the" | "each" | "every");
-    // `makes A move`, `gives a second bounce`: such words are units only behind what makes a part of one.
+    // In `makes A move` and `gives a second bounce` these words are not units. They are units only after a word of
+    // `PARTS`.
     let part = PARTS.contains(&first.as_str());
     let is_unit = |word: &str| units::is_unit(word) && (part || is_sure(word) && !is_word(word));
     words.find(|word| !of_one(word)).is_some_and(is_unit)
 }
 
-/// Words that make a part, or another power, of the unit behind them.
+/// Words that denote a part or another power of the following unit.
 const PARTS: [&str; 18] = [
     "of",
     "half",

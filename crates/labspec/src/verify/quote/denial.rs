@@ -1,17 +1,17 @@
-//! Whether a text denies what follows: of "it does not tip over" nobody says "tip over", and "it does not take 0.44 s" says another
-//! time.
+//! Detects negation: the text "it does not tip over" does not state "tip over", and "it does not take 0.44 s" states that
+//! the time differs.
 
-/// Words that deny a verb, and how many words they reach.
+/// Words that negate a verb, and the number of following words that they affect.
 const OF_VERBS: ([&str; 7], usize) = (["not", "never", "cannot", "hardly", "nicht", "nie", "jamais"], 3);
 
-/// Words that deny a noun: `without spin it takes 0.44 s` denies nothing of the time.
+/// Words that negate a noun: `without spin it takes 0.44 s` does not negate the time.
 const OF_NOUNS: ([&str; 7], usize) = (["no", "nor", "neither", "without", "kein", "keine", "pas"], 2);
 
-/// Words behind a denial that end its reach: `not until 0.44 s`, `not only 0.44 s`, `whether or not it tips over`.
+/// Words that end the effect of a negation: `not until 0.44 s`, `not only 0.44 s`, `whether or not it tips over`.
 const ENDS: [&str; 13] =
     ["until", "only", "just", "even", "before", "because", "that", "if", "when", "and", "or", "but", "with"];
 
-/// What denies a whole clause.
+/// Phrases that negate a whole clause.
 const CLAUSES: [&str; 11] = [
     "wrong that",
     "false that",
@@ -26,10 +26,10 @@ const CLAUSES: [&str; 11] = [
     "nobody says that",
 ];
 
-/// Longest clause that is looked at, in characters.
+/// Maximum length of a clause that is read, in characters.
 const LONGEST: usize = 1000;
 
-/// Whether the words at the end of a line deny what stands behind them.
+/// Whether the words at the end of a line negate the following text.
 pub(super) fn is_denied(line: &str) -> bool {
     let start = line.char_indices().rev().take(LONGEST).last().map_or(0, |(at, _)| at);
     let line = line.get(start..).unwrap_or("");

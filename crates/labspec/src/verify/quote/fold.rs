@@ -1,5 +1,5 @@
-//! One way of writing for many: spaces, dashes, superscripts and the TeX of numbers, so that a quote may be written
-//! as the source or as the page has it.
+//! Normalizes spaces, dashes, superscripts and the TeX of numbers, so that a quote matches whether it is written as in the
+//! source or as on the page.
 
 use super::html::APART;
 use super::siunitx;
@@ -10,9 +10,9 @@ use nom::sequence::preceded;
 use nom::{IResult, Parser};
 use std::ops::Range;
 
-/// The folded text and the way back. Pieces that a page shows apart are lines. With `flat`, a dash is a minus:
-/// so texts are compared; without it, `0.4–0.5` can still be distinguished from `0.4-0.5`: so numbers are read.
-/// One step for each form that stands at the place: their order matters, so that they stay together.
+/// The normalized text and its source map. Pieces that a page displays separately become lines. With `flat`, a dash becomes
+/// a minus; texts are compared in this form. Without it, `0.4–0.5` and `0.4-0.5` remain different; numbers are read in this
+/// form. The function tries one form after the other at each index. They are in one function because their order matters.
 pub(super) fn fold(text: &str, flat: bool) -> (String, SourceMap) {
     let mut out = Out {
         text: String::with_capacity(text.len()),
@@ -40,7 +40,7 @@ pub(super) fn fold(text: &str, flat: bool) -> (String, SourceMap) {
             at = text.len() - tail.len();
             continue;
         }
-        // The arguments of a command are apart: `\frac{0.5}{2}` is no 0.52.
+        // The arguments of a command are separate: `\frac{0.5}{2}` is not 0.52.
         if rest.starts_with("}{") {
             out.push('⁄', at..at + 2, text);
             at += 2;
@@ -73,24 +73,24 @@ pub(super) fn fold(text: &str, flat: bool) -> (String, SourceMap) {
     (out.text, out.map)
 }
 
-/// What a character or a command stands for.
+/// The meaning of a character or a command.
 enum Meaning {
     Space,
     Nothing,
-    /// Shown apart from what stands before.
+    /// Displayed separately from the text before it.
     Apart,
-    /// A space behind a digit, else "about".
+    /// A space after a digit, else "about".
     Tilde,
     Letter(char),
-    /// A superscript or subscript, with the mark that begins a row of them.
+    /// A superscript or subscript, with the mark that begins a sequence of them.
     Script(char, char),
-    /// Spaces around it do not matter.
+    /// Spaces around it are removed.
     Operator(char),
-    /// As it stands.
+    /// Copied unchanged.
     Verbatim,
 }
 
-/// Whether a byte stands for itself, whatever is around it.
+/// Whether a byte means itself in any context.
 fn is_plain(b: u8) -> bool {
     b.is_ascii_graphic() && !matches!(b, b'$' | b'{' | b'}' | b'\\' | b'~')
 }
@@ -108,7 +108,7 @@ fn meaning(c: char, flat: bool) -> Meaning {
         '±' => Meaning::Operator('±'),
         '≈' | '≃' | '≅' => Meaning::Letter('≈'),
         'µ' => Meaning::Letter('μ'),
-        // Full width, as Chinese and Japanese print figures.
+        // Full-width characters, used for figures in Chinese and Japanese.
         '\u{ff01}'..='\u{ff5e}' => {
             let plain = char::from_u32(u32::from(c) - 0xfee0).unwrap_or(c);
             if plain == '~' { Meaning::Tilde } else { Meaning::Letter(plain) }
@@ -132,10 +132,10 @@ fn digit(c: char, zero: char) -> char {
     char::from_digit(u32::from(c).wrapping_sub(u32::from(zero)), 10).unwrap_or(c)
 }
 
-/// Longest argument that shows nothing, in bytes.
+/// Maximum length of an invisible argument, in bytes.
 const LONGEST_UNSEEN: usize = 1000;
 
-/// A command that shows nothing, with its argument: `\phantom{0.5}`.
+/// A command without visible output, with its argument: `\phantom{0.5}`.
 fn unseen(text: &str) -> IResult<&str, &str> {
     const NAMES: [&str; 10] =
         ["phantom", "hphantom", "vphantom", "label", "tag", "hspace", "vspace", "kern", "ref", "cite"];
@@ -143,7 +143,7 @@ fn unseen(text: &str) -> IResult<&str, &str> {
     preceded(name, |text| tex::group(text, LONGEST_UNSEEN)).parse(text)
 }
 
-/// The TeX command that `text` begins with, and its length with the spaces behind its name.
+/// The TeX command at the beginning of `text`, and its length including the spaces after its name.
 fn command(text: &str) -> (Meaning, usize) {
     let (rest, name) = tex::command(text).unwrap_or((text, ""));
     let length = text.len() - rest.len();
@@ -186,11 +186,11 @@ fn command(text: &str) -> (Meaning, usize) {
 struct Out {
     text: String,
     map: SourceMap,
-    /// Spaces that have been seen and not yet written.
+    /// Spaces that were read and not yet written.
     space: Option<Range<usize>>,
-    /// Nothing, or an operator, stands before: a space is not written.
+    /// Whether the text is empty or ends with an operator: then a space is not written.
     glue: bool,
-    /// The mark of the row of raised or lowered digits that stands before.
+    /// The mark of the preceding sequence of raised or lowered digits.
     row: Option<char>,
 }
 
@@ -228,14 +228,14 @@ impl Out {
         }
     }
 
-    /// What stands for all of a command.
+    /// Appends the text for a whole command.
     fn whole(&mut self, rendered: &str, range: Range<usize>) {
         self.settle();
         self.text.push_str(rendered);
         self.map.push_whole(rendered.len(), range);
     }
 
-    /// A raised or lowered digit: the first of a row gets the mark.
+    /// Appends a raised or lowered digit: the first of a sequence gets the mark.
     fn script(&mut self, mark: char, digit: char, range: Range<usize>, source: &str) {
         if self.row != Some(mark) || self.space.is_some() {
             self.push(mark, range.clone(), source);
@@ -283,7 +283,7 @@ mod tests {
         let at = folded.find("2.4").unwrap();
         assert_eq!(&text[map.span(at..folded.len())], "2.4 \\times 10^{-4}$ s");
     }
-    /// A text of 100 kB of whatever opens something is read in linear time.
+    /// Text of 100 kB of any opening character is read in linear time.
     #[test]
     fn hostile_texts_are_folded_in_linear_time() {
         for piece in [

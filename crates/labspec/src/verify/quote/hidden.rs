@@ -1,12 +1,13 @@
-//! Elements that a page does not show, or shows struck out: `hidden`, `template`, `display: none`, a size of zero. What opens on a
-//! click (`details`) is shown, and so is what only screen readers pass over (`aria-hidden`).
+//! Elements that a page does not display, or displays struck out: `hidden`, `template`, `display: none`, a size of zero.
+//! Content that opens on a click (`details`) counts as displayed, and so does content that only screen readers skip
+//! (`aria-hidden`).
 
 use crate::markdown::html::HtmlTag;
 
-/// An element that a page does not show, from its start tag to its end tag.
+/// An element that a page does not display, from its start tag to its end tag.
 #[derive(Default)]
 pub(super) struct Hidden {
-    /// The name of the element, and how many of this name are open; none are when everything is shown.
+    /// The name of the element, and how many elements of this name are open; zero when the text is displayed.
     name: String,
     open: usize,
 }
@@ -15,28 +16,28 @@ pub(super) struct Hidden {
 const VOID: [&str; 13] =
     ["area", "base", "br", "col", "embed", "hr", "img", "input", "link", "meta", "source", "track", "wbr"];
 
-/// Elements that no page shows where it runs scripts and plays media, and words that are struck out.
+/// Elements that a page with scripts and media does not display as text, and struck-out words.
 const UNSEEN: [&str; 17] = [
     "template", "script", "style", "title", "noscript", "datalist", "head", "iframe", "object", "audio",
     "video", "canvas", "rp", "del", "s", "strike", "noframes",
 ];
 
-/// Classes by which the usual style sheets hide an element.
+/// Classes by which common style sheets hide an element.
 const CLASSES: [&str; 7] =
     ["hidden", "d-none", "invisible", "sr-only", "visually-hidden", "is-hidden", "screen-reader-text"];
 
 impl Hidden {
-    /// Whether what follows is hidden.
+    /// Whether the following text is hidden.
     pub(super) fn is_on(&self) -> bool {
         self.open > 0
     }
 
-    /// Everything is shown again.
+    /// Ends the hidden element.
     pub(super) fn end(&mut self) {
         self.open = 0;
     }
 
-    /// Takes in a tag; whether it, too, belongs to what is hidden.
+    /// Processes a tag. Returns whether the tag itself is hidden.
     pub(super) fn take_tag(&mut self, tag: &HtmlTag) -> bool {
         let was = self.is_on();
         if was && tag.name == self.name {
@@ -48,7 +49,7 @@ impl Hidden {
     }
 }
 
-/// Whether a page does not show the element of a start tag.
+/// Whether a page does not display the element of a start tag.
 fn hides(tag: &HtmlTag) -> bool {
     let (mut hidden, mut closed) = (UNSEEN.contains(&tag.name.as_str()), tag.name == "dialog");
     for (name, value) in &tag.attributes {
@@ -64,7 +65,7 @@ fn hides(tag: &HtmlTag) -> bool {
     hidden || closed
 }
 
-/// Whether a style leaves nothing to see.
+/// Whether a style makes an element invisible.
 fn style_hides(style: &str) -> bool {
     let plain: String = style.chars().filter(|c| !c.is_whitespace()).collect();
     let pairs: Vec<(&str, &str)> = plain.split(';').filter_map(|pair| pair.split_once(':')).collect();
@@ -147,7 +148,7 @@ mod tests {
         ] {
             assert!(visible(&format!("a<{open}>b</p>c")).contains('b'), "{open}");
         }
-        // Walked once, not once for each.
+        // Read once, not once for each tag.
         assert_eq!(visible(&"<script>".repeat(200_000)), "");
     }
 }

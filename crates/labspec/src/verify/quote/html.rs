@@ -1,19 +1,19 @@
-//! HTML as a reader sees it: without tags, comments and what is hidden, entities decoded.
+//! The visible text of HTML: without tags, comments and hidden elements, with decoded entities.
 
 use super::hidden::Hidden;
 use crate::markdown::html::{HtmlTag, HtmlToken, tokens};
 use crate::source::{SourceMap, Text};
 
-/// Stands between two pieces of text that a page shows apart, such as two cells. No quote holds it.
+/// Separates two pieces of text that a page displays apart, such as two cells. No quote contains it.
 pub(super) const APART: char = '\u{1}';
 
-/// Tags that change how text looks and not where it stands.
+/// Tags that change the style of text and not its position.
 const INLINE: [&str; 28] = [
     "a", "abbr", "b", "bdi", "bdo", "big", "cite", "code", "data", "del", "dfn", "em", "font", "i", "ins",
     "kbd", "label", "mark", "q", "s", "samp", "small", "span", "strong", "time", "u", "var", "wbr",
 ];
 
-/// What a page shows instead of a tag.
+/// The character that replaces a tag in the visible text.
 pub(super) fn mark(tag: &HtmlTag) -> Option<char> {
     match tag.name.as_str() {
         "sup" => Some('^').filter(|_| !tag.closing),
@@ -23,24 +23,24 @@ pub(super) fn mark(tag: &HtmlTag) -> Option<char> {
     }
 }
 
-/// The shown text of a piece of HTML, with the way back.
+/// The visible text of a piece of HTML, with its source map.
 pub(super) fn strip(html: &str) -> (String, SourceMap) {
     strip_after(html, &mut Hidden::default())
 }
 
-/// The shown part of a text of HTML.
+/// The visible part of a text of HTML.
 pub(super) fn visible_text(html: &Text, hidden: &mut Hidden) -> Text {
     let (value, map) = strip_after(html.as_str(), hidden);
     Text { value, map: map.then(&html.map) }
 }
 
-/// The same behind what may have hidden it.
+/// Like [`strip`], where `hidden` may contain an element that is still open.
 fn strip_after(html: &str, hidden: &mut Hidden) -> (String, SourceMap) {
     let (mut text, mut map) = (String::with_capacity(html.len()), SourceMap::default());
     for token in tokens(html) {
         match token {
             HtmlToken::Tag(tag) => {
-                // What a page runs or keeps parts what stands around it.
+                // Elements such as scripts separate the text around them.
                 let parts = matches!(tag.name.as_str(), "script" | "style" | "title");
                 let unseen = hidden.take_tag(&tag);
                 if let Some(c) = mark(&tag).filter(|_| parts || !unseen) {

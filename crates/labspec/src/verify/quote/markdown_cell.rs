@@ -1,17 +1,17 @@
-//! The cell of a Markdown table that a place of the file stands in, and the unit of its column.
+//! The cell of a Markdown table at an index of the file, and the unit of its column.
 
 use super::read::reading;
 use super::table::rendered;
 use super::unit_text::{Link, Unit};
 use crate::bind::{behind_heading, of_heading};
 
-/// A cell of a table of Markdown.
+/// A cell of a Markdown table: its row, and the heading of its column.
 pub(super) struct MarkdownCell {
     pub(super) row: String,
     pub(super) head: String,
 }
 
-/// Most bytes of a row, and lines of a table.
+/// Maximum number of bytes of a row, and of lines of a table.
 pub(super) const LONG: usize = 2000;
 
 const ROWS: usize = 200;
@@ -31,12 +31,12 @@ impl MarkdownCell {
     }
 }
 
-/// The unit over the column of a cell.
+/// The unit in the heading of the column of a cell.
 pub(super) fn unit_of_column(file: &str, at: usize) -> Option<Unit> {
     unit_of_head(&rendered(&MarkdownCell::at(file, at)?.head))
 }
 
-/// The unit of a heading: of `error (mm)`, `t [ms]`, `x / mm`, `time in ms`, `depth, mm`, `t (10^-3 s)`.
+/// The unit of a heading: `error (mm)`, `t [ms]`, `x / mm`, `time in ms`, `depth, mm`, `t (10^-3 s)`.
 pub(in crate::verify) fn unit_of_head(head: &str) -> Option<Unit> {
     let unit = |text: &str, dimension| {
         Some(Unit { text: text.to_string(), dimension: Some(dimension), link: Link::Shared })
@@ -44,7 +44,7 @@ pub(in crate::verify) fn unit_of_head(head: &str) -> Option<Unit> {
     if let Some((text, dimension)) = of_heading(head) {
         return unit(text, dimension);
     }
-    // A power of ten of a unit: what stands in the cells is counted in that. `(10 s)` may be a time at which it was measured.
+    // A power of ten times a unit is the unit of the cells. `(10 s)` may be a time of measurement.
     let text = behind_heading(head)?;
     let read = reading(text).ok()?;
     let (size, of) = (read.number().value, read.unit()?.dimension?);

@@ -1,4 +1,4 @@
-//! The messages to an author about a quoted number.
+//! The findings about a quoted number.
 
 use super::number::{Form, Quoted, ten};
 use super::quote_claim::{QuoteClaim, QuoteOutcome};
@@ -9,10 +9,10 @@ use crate::rules;
 use crate::verify::format::significant;
 use std::ops::Range;
 
-/// Most further places that a finding points at.
+/// Maximum number of related places of a finding.
 const MAX_RELATED: usize = 12;
 
-/// A value as the quote would print it.
+/// A value, printed in the form of the quote.
 pub(super) fn printed(read: &Quoted, x: f64) -> String {
     if x.is_nan() {
         "no value".into()
@@ -23,7 +23,7 @@ pub(super) fn printed(read: &Quoted, x: f64) -> String {
     }
 }
 
-/// The quote as a message may show it.
+/// The quote, shortened for a message.
 pub(super) fn shorten_quote(claim: &QuoteClaim<'_>) -> String {
     crate::json::read::shorten(if claim.part.is_empty() { claim.quote.as_str() } else { claim.part.trim() })
 }
@@ -80,7 +80,7 @@ pub(super) fn no_value(claim: &QuoteClaim<'_>, computed: f64) -> Finding {
         .related(claim.quote.span(), "the quoted number")
 }
 
-/// A finding at the places where the quote stands: the first one, and the others as related places.
+/// A finding at the places where the quote appears: at the first one, with the others as related places.
 fn at_places(
     rule: &'static rules::Rule,
     severity: Severity,
@@ -103,12 +103,12 @@ fn at_places(
     found.related(claim.expr.span(), label)
 }
 
-/// "0.443 at half the timestep, 0.441 with the solver run to convergence"
+/// The perturbed values: "0.443 at half the timestep, 0.441 with the solver run to convergence".
 fn list(outcome: &QuoteOutcome) -> String {
     outcome.moved.iter().map(|(how, text)| format!("{text} {how}")).collect::<Vec<_>>().join(", ")
 }
 
-/// What was read, when that is not plain from the quote.
+/// How the quote was read, when that is not obvious from the quote.
 fn as_read(claim: &QuoteClaim<'_>, read: &Quoted) -> String {
     let text = read.to_string();
     let plain = claim.part.replace('\u{2212}', "-");
@@ -183,7 +183,7 @@ pub(super) fn of_timestep(claim: &QuoteClaim<'_>, outcome: &QuoteOutcome, read: 
         .help("state it with its timestep, and `set` the timestep in the run; the number itself is right")
 }
 
-/// A number that no run comes near, where no run can be repeated to its digits either.
+/// The finding about a number that no run comes near, where the digits of the runs cannot be reproduced either.
 pub(super) fn far(claim: &QuoteClaim<'_>, outcome: &QuoteOutcome, read: &Quoted, values: &[f64]) -> Finding {
     let message = format!(
         "the text says {}{}, but no run comes near: {} as the lesson stands, {}",
@@ -197,7 +197,7 @@ pub(super) fn far(claim: &QuoteClaim<'_>, outcome: &QuoteOutcome, read: &Quoted,
         .help(fewer(read, values))
 }
 
-/// What to write where digits cannot be reproduced.
+/// The help where digits cannot be reproduced.
 fn fewer(read: &Quoted, values: &[f64]) -> String {
     match agreed(read, values) {
         Some(text) => {
@@ -227,13 +227,13 @@ pub(super) fn chaotic(
         .help(fewer(read, values))
 }
 
-/// The longest print on which all values agree, with fewer decimals than the quote; `None` when there is none.
+/// The longest printed form on which all values agree, with fewer decimals than the quote; `None` when there is none.
 fn agreed(read: &Quoted, values: &[f64]) -> Option<String> {
     let Form::Plain(_) = read.form else { return None };
     let fewer = (0..read.decimals).rev().map(|decimals| Quoted { decimals, ..*read });
     let mut prints = fewer.map(|q| values.iter().map(|&x| printed(&q, x)).collect::<Vec<_>>());
     let same = prints.find(|all| all.iter().all(|text| Some(text) == all.first()))?;
-    // A zero says nothing of a number that is none.
+    // A print without nonzero digits is not helpful.
     let text = same.into_iter().next()?;
     let mantissa = text.split(['e', '×']).next().unwrap_or("");
     mantissa.contains(|c: char| matches!(c, '1'..='9')).then_some(text)

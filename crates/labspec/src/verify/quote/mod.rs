@@ -1,5 +1,4 @@
-//! Numbers quoted in the text: found where a reader sees them, read, and compared with what the simulation gives at
-//! the precision that they are printed with.
+//! Quoted numbers: they are found in the rendered text, read, and compared with the simulation at the printed precision.
 
 mod check_quote;
 mod clause_unit;
@@ -45,12 +44,12 @@ pub(super) use unit_check::{AnswerUnit, Held, answer_unit, conversion, hold, is_
 pub(super) use unit_text::Unit;
 pub(super) use words::{QuotedCondition, check_words};
 
-/// What a reader sees of a piece of HTML.
+/// The visible text of a piece of HTML.
 pub fn plain(html: &str) -> String {
     html::strip(html).0
 }
 
-/// A formula as a reader sees it. What has no plain letters stays as it is written, with its backslash.
+/// The visible text of a formula. A command without a plain equivalent is kept, with its backslash.
 pub fn folded(tex: &str) -> String {
     fold::fold(tex, false).0
 }

@@ -1,9 +1,9 @@
-//! A number as a text prints it: its value, its precision, and other numbers printed like it.
+//! A number as a text prints it: its value and its precision, and how other numbers are printed in the same form.
 
 use labspec_expr::to_fixed;
 use std::fmt;
 
-/// A number as it is printed.
+/// A printed number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quoted {
     /// Its value; the middle of a range.
@@ -21,37 +21,37 @@ pub struct Quoted {
 /// How a number is written.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Form {
-    /// Digits, perhaps with a power of ten.
+    /// Digits, optionally with a power of ten.
     Plain(Style),
     /// `½`, `1¾`: compared to two decimals.
     Fraction,
     /// `50 %` or `5 ‰`, read as the fraction 0.5 or 0.005.
     Share,
-    /// `0.44 ± 0.01`: everything from one end to the other is right.
+    /// `0.44 ± 0.01`: every value in the interval is right.
     PlusMinus(f64, f64),
-    /// `0.4 to 0.5`: everything from one end to the other is right.
+    /// `0.4 to 0.5`: every value in the interval is right.
     Range(f64, f64),
 }
 
 /// How digits and powers of ten are written, so that another number can be written in the same way.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Style {
-    /// What stands between groups of three digits.
+    /// The separator between groups of three digits.
     pub group: Option<char>,
     /// `×10^3` rather than `e3`.
     pub times: bool,
 }
 
 impl Quoted {
-    /// Whether this number says what `x` is, at the precision that it is printed with.
+    /// Whether this number equals `x` at its printed precision.
     pub fn is(&self, x: f64) -> bool {
         match self.form {
-            // The ends belong to it; their rounding errors must not decide.
+            // The ends are included, with a tolerance for their rounding errors.
             Form::PlusMinus(low, high) | Form::Range(low, high) => {
                 let slack = 1e-9 * low.abs().max(high.abs());
                 low - slack <= x && x <= high + slack
             }
-            // A value half way may be rounded either way; its own rounding error must not decide.
+            // A value halfway may be rounded either way, with a tolerance for its own rounding error.
             _ => (x - self.value).abs() <= self.half_unit * (1.0 + 1e-6) + 1e-12 * self.value.abs(),
         }
     }
@@ -71,7 +71,7 @@ impl Quoted {
         }
         let mantissa = self.value.abs() / ten(self.exponent);
         let mut exponent = self.exponent;
-        // A mantissa from 1 to 10 stays one: 4.4e-2 and not 44000.0e-6.
+        // A mantissa from 1 to 10 keeps this form: 4.4e-2 and not 44000.0e-6.
         if (0.9999..10.0).contains(&mantissa) && x != 0.0 {
             let printed = format!("{x:.*e}", self.decimals);
             exponent = printed.split_once('e').and_then(|(_, e)| e.parse().ok()).unwrap_or(exponent);
@@ -80,14 +80,14 @@ impl Quoted {
         if style.times { format!("{digits}×10^{exponent}") } else { format!("{digits}e{exponent}") }
     }
 
-    /// Whether the printed number distinguishes two computed numbers: where this number is right for one of them, it
-    /// is not for the other; else they print differently.
+    /// Whether the printed number distinguishes two computed numbers: it is right for only one of them, or, if it is right
+    /// for neither, they are printed differently.
     pub fn differ(&self, a: f64, b: f64) -> bool {
         if self.is(a) || self.is(b) { self.is(a) != self.is(b) } else { self.print(a) != self.print(b) }
     }
 }
 
-/// `10^n` to the last bit, as a text is read.
+/// `10^n`, rounded like a parsed literal.
 pub(super) fn ten(n: i32) -> f64 {
     format!("1e{n}").parse().unwrap_or(f64::NAN)
 }
@@ -97,7 +97,7 @@ fn without_minus_zero(text: String) -> String {
     if zero { text.trim_start_matches('-').to_string() } else { text }
 }
 
-/// Groups of three digits before the point.
+/// Inserts separators between groups of three digits before the point.
 fn group(text: &str, separator: Option<char>) -> String {
     let Some(separator) = separator else { return text.to_string() };
     let (sign, rest) = text.strip_prefix('-').map_or(("", text), |rest| ("-", rest));
@@ -120,7 +120,7 @@ impl fmt::Display for Quoted {
                 write!(f, "{} ± {}", short((low + high) / 2.0), short((high - low) / 2.0))
             }
             Form::Range(low, high) => write!(f, "{} to {}", short(low), short(high)),
-            // The digits, without what parts them.
+            // The digits without separators.
             Form::Plain(style) => {
                 let plain = Quoted { form: Form::Plain(Style { group: None, ..style }), ..*self };
                 f.write_str(&plain.print(self.value))
@@ -145,7 +145,7 @@ mod tests {
         assert!(q.is(0.4424) && q.is(0.4415) && !q.is(0.4426) && !q.is(f64::NAN));
         assert_eq!(q.print(0.46), "0.460");
         assert_eq!(q.print(-0.0001), "0.000");
-        // A tie is printed as a readout prints it: away from zero, and not to the even digit.
+        // A tie is rounded as in a readout: away from zero, not to the even digit.
         for (x, decimals, text) in
             [(248.5, 0, "249"), (-2.5, 0, "-3"), (0.125, 2, "0.13"), (1.005, 2, "1.00")]
         {
@@ -157,7 +157,7 @@ mod tests {
         assert_eq!(plain(3e-7, 1, -7).print(0.0444), "4.4e-2");
         assert_eq!(plain(3e-7, 1, -7).print(9.97e-7), "1.0e-6");
         assert_eq!(plain(30e-7, 0, -7).print(0.0), "0e-7");
-        // 12.2625 is half way between two prints of three decimals.
+        // 12.2625 is halfway between two numbers with three decimals.
         assert!(plain(12.263, 3, 0).is(12.2625) && plain(12.262, 3, 0).is(12.2625));
         let thousands =
             Quoted { form: Form::Plain(Style { group: Some(','), times: false }), ..plain(1500.0, 0, 0) };
@@ -174,7 +174,7 @@ mod tests {
         let q = plain(0.442, 3, 0);
         assert!(!q.differ(0.4419, 0.44249) && q.differ(0.44249, 0.44251) && q.differ(0.442, f64::NAN));
         assert!(!q.differ(0.5001, 0.5002) && q.differ(0.5001, 0.5009));
-        // Half way: right for both.
+        // A value halfway between is right for both.
         assert!(!q.differ(0.4425, 0.44249));
     }
 

@@ -11,27 +11,27 @@ use nom::multi::{fold_many_m_n, many0, many1};
 use nom::sequence::{delimited, preceded, terminated};
 use nom::{IResult, Parser};
 
-/// A number and where it stands, in characters.
+/// A number with its position, in characters.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Numeral {
     pub(super) quoted: Quoted,
     /// First character, the sign included.
     pub(super) start: usize,
-    /// Behind the last character.
+    /// Index after the last character.
     pub(super) end: usize,
-    /// What else it could mean.
+    /// Other possible values.
     pub(super) doubts: Vec<f64>,
-    /// Why it should not be called wrong, or not be read at all.
+    /// The reason why it must not be reported as wrong, or must not be read.
     pub(super) unsure: Option<&'static str>,
     pub(super) refused: Option<&'static str>,
 }
 
-/// Most digits of a number: more than any computation has.
+/// Maximum number of digits of a number; no computation has more.
 const MAX_DIGITS: usize = 30;
-/// Largest power of ten, so that no print of it overflows.
+/// Largest power of ten, so that printing does not overflow.
 const MAX_EXPONENT: i32 = 290;
 
-/// What stands for a fraction.
+/// The value of a fraction character.
 pub(super) fn fraction(c: char) -> Option<f64> {
     Some(match c {
         '½' => 0.5,
@@ -53,7 +53,7 @@ pub(super) fn fraction(c: char) -> Option<f64> {
     })
 }
 
-/// Characters of a text, and what stands at each of them.
+/// The characters of a text.
 #[derive(Clone, Copy)]
 pub(super) struct Chars<'a>(pub(super) &'a [char]);
 
@@ -70,7 +70,7 @@ impl Chars<'_> {
         self.at(i).is_some_and(|c| c.is_ascii_digit())
     }
 
-    /// Behind the spaces that begin at `i`; what is shown apart stands in another line.
+    /// The index after the spaces that begin at `i`. Text that is displayed separately is on another line.
     pub(super) fn skip_blanks(&self, mut i: usize) -> usize {
         while self.at(i) == Some(' ') {
             i += 1;
@@ -83,7 +83,7 @@ impl Chars<'_> {
         word.chars().enumerate().all(|(k, c)| self.at(i + k).is_some_and(|x| x.eq_ignore_ascii_case(&c)))
     }
 
-    /// Behind the digits that begin at `i`.
+    /// The index after the digits that begin at `i`.
     pub(super) fn digits(&self, mut i: usize) -> usize {
         while self.digit(i) {
             i += 1;
@@ -96,26 +96,26 @@ impl Chars<'_> {
     }
 }
 
-/// The digits of a number, as they are written.
+/// The digits of a number as they are written.
 #[derive(Default)]
 struct Mantissa {
-    /// All digits, with a point before the decimals; none before a fraction alone.
+    /// All digits, with a point before the decimals; empty for a fraction character alone.
     digits: String,
     decimals: usize,
-    /// What parts groups of three digits.
+    /// The separator between groups of three digits.
     group: Option<char>,
     doubts: Vec<f64>,
     unsure: Option<&'static str>,
     refused: Option<&'static str>,
 }
 
-/// Exactly three digits behind a separator.
+/// Exactly three digits after a separator.
 fn group(text: &str, separator: char) -> IResult<&str, &str> {
     let three = take_while_m_n(3, 3, |c: char| c.is_ascii_digit());
     preceded(char(separator), terminated(three, not(digit))).parse(text)
 }
 
-/// Digits behind a point or a comma.
+/// Digits after a point or a comma.
 fn decimals(text: &str, mark: char) -> IResult<&str, &str> {
     preceded(char(mark), digit1).parse(text)
 }
@@ -128,7 +128,7 @@ fn spaces(text: &str) -> IResult<&str, &str> {
     take_while(|c| c == ' ').parse(text)
 }
 
-/// Digits in groups of three, and what parts them.
+/// Digits in groups of three, and their separator.
 fn whole(text: &str) -> IResult<&str, (Vec<&str>, Option<char>)> {
     let (rest, first) = digit0(text)?;
     let grouped = (1..=3).contains(&first.len()) && !first.starts_with('0');
@@ -141,7 +141,7 @@ fn whole(text: &str) -> IResult<&str, (Vec<&str>, Option<char>)> {
     Ok((rest, (vec![first], None)))
 }
 
-/// Whole digits, with the decimals behind a point or a comma.
+/// An integer, with decimals after a point or a comma.
 fn mantissa(text: &str) -> IResult<&str, Mantissa> {
     let (rest, (groups, group)) = whole(text)?;
     let mut all = Mantissa { digits: groups.concat(), group, ..Mantissa::default() };
@@ -154,7 +154,7 @@ fn mantissa(text: &str) -> IResult<&str, Mantissa> {
         return Ok(all.with_decimals(rest, after));
     }
     if let Ok((rest, after)) = decimals(rest, ',') {
-        // No thousands: a decimal comma, or a list.
+        // The comma is no thousands separator: it is a decimal comma, or separates a list.
         let again = decimals(rest, ',').is_ok() || decimals(rest, '.').is_ok();
         if group.is_some() || again {
             all.refused = Some("digits with several commas");
@@ -166,14 +166,14 @@ fn mantissa(text: &str) -> IResult<&str, Mantissa> {
         return Ok((rest, all));
     }
     if let (Some(','), [first, second]) = (group, groups.as_slice()) {
-        // 1,500: thousands in English, decimals elsewhere.
+        // 1,500: a thousands separator in English, a decimal comma in other languages.
         all.doubts.extend(format!("{first}.{second}").parse::<f64>());
     }
     Ok((rest, all))
 }
 
 impl Mantissa {
-    /// The same with decimals, to which groups of three may belong: 0.000 833.
+    /// Adds decimals, which may be in groups of three: 0.000 833.
     fn with_decimals<'t>(mut self, rest: &'t str, after: &str) -> (&'t str, Mantissa) {
         self.digits = format!("{}.{after}", self.digits);
         self.decimals = after.len();
@@ -196,7 +196,7 @@ impl Mantissa {
     }
 }
 
-/// A whole number with its sign, of so few digits that it is one.
+/// A signed integer of at most eight digits.
 fn integer(text: &str) -> IResult<&str, i32> {
     let sign = alt((value(-1, one_of("-–")), value(1, char('+'))));
     let digits = terminated(take_while_m_n(1, 8, |c: char| c.is_ascii_digit()), not(digit));
@@ -242,12 +242,12 @@ fn factor(text: &str) -> IResult<&str, i32> {
     found.map_or_else(|| fail().parse(text), Ok)
 }
 
-/// What stands behind the digits of a number, or for them: a fraction (`2½`, `½`), or a power of ten.
+/// The scale after the digits of a number, or in place of them: a fraction (`2½`, `½`), or a power of ten.
 enum Scale {
     Fraction(f64),
     /// Its exponent, and whether it is written out.
     Power(i32, bool),
-    /// The same, where the digits are its base: `10^3`.
+    /// A power whose base is the digits: `10^3`, with its exponent.
     PowerOfDigits(i32),
 }
 
@@ -263,7 +263,8 @@ fn scale<'t>(text: &'t str, mantissa: &Mantissa) -> IResult<&'t str, Scale> {
     .parse(text)
 }
 
-/// Reads the number that a text begins with, a point or a fraction included, and its sign left aside; with the bytes that it takes.
+/// Reads the number at the beginning of a text, including a point or a fraction but not its sign. Returns the number of
+/// bytes read.
 fn numeral(text: &str, negative: bool) -> (Numeral, usize) {
     let (rest, mut written) = mantissa(text).unwrap_or((text, Mantissa::default()));
     let (rest, scale) = opt(|text| scale(text, &written)).parse(rest).unwrap_or((rest, None));
@@ -299,7 +300,8 @@ fn numeral(text: &str, negative: bool) -> (Numeral, usize) {
     (Numeral { quoted, start: 0, end: 0, doubts, unsure, refused }, text.len() - rest.len())
 }
 
-/// All numbers of a text, each with its first digit. Digits of words, indexes and exponents (`H2O`, `x_1`, `L^2`, `3D`, `2nd`) are none.
+/// All numbers of a text, each with the index of its first digit. Digits in words, indexes and exponents (`H2O`, `x_1`,
+/// `L^2`, `3D`, `2nd`) are skipped.
 pub(super) fn numbers(chars: Chars<'_>) -> Vec<(Numeral, usize)> {
     let text = chars.text(0, chars.0.len());
     let bytes: Vec<usize> = text.char_indices().map(|(at, _)| at).collect();
@@ -324,7 +326,7 @@ pub(super) fn numbers(chars: Chars<'_>) -> Vec<(Numeral, usize)> {
         let adjacent = chars.before(front).is_some_and(|c| c.is_ascii_digit() || c == ')');
         let mut negative = matches!(sign, Some('-' | '–')) && !adjacent;
         let mut start = if adjacent { i } else { front };
-        // `= - 0.5`, `-\,0.5`
+        // A sign separated by a space: `= - 0.5`, `-\,0.5`.
         if sign.is_none() && chars.before(i) == Some(' ') && matches!(chars.before(i - 1), Some('-' | '–'))
         {
             let edge = i.saturating_sub(2);
@@ -347,7 +349,7 @@ pub(super) fn numbers(chars: Chars<'_>) -> Vec<(Numeral, usize)> {
     all
 }
 
-/// `2nd`, `3D`: digits that count and do not measure.
+/// Whether the digits are an ordinal or a name and not a measurement: `2nd`, `3D`.
 fn is_word(chars: Chars<'_>, number: &Numeral, first_digit: usize) -> bool {
     let whole = (first_digit..number.end).all(|i| chars.digit(i));
     let letters: String =

@@ -1,4 +1,4 @@
-//! The quantities that the text of an option states, with the words that say how exactly.
+//! The quantity that the text of an option states, with its precision according to the words.
 
 use super::context::BOUND;
 use super::number::{Form, Quoted};
@@ -8,34 +8,34 @@ use super::unit_text::Unit;
 use super::{fold, html};
 use labspec_bind::units;
 
-/// What an option says of a number.
+/// The quantity that an option states.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::verify) struct OptionNumber {
     /// Number and unit as they are written.
     pub(in crate::verify) text: String,
-    /// What is right for it, in its own unit.
+    /// The range of values that agree with it, in its unit.
     pub(in crate::verify) low: f64,
     pub(in crate::verify) high: f64,
     pub(in crate::verify) unit: Unit,
-    /// The option says nothing else, so that the number is that of what the question asks for.
+    /// Whether the option contains nothing else, so that the number answers the question.
     pub(in crate::verify) alone: bool,
 }
 
-/// What an option says of a ratio: `twice as deep`, `50 %`.
+/// The ratio that an option states: `twice as deep`, `50 %`.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::verify) struct OptionRatio {
     /// As it is written.
     pub(in crate::verify) text: String,
-    /// What the ratio may be: which of two things is divided by the other, whether what is gone or what is left is meant, and how
-    /// one follows from the other (a height from a speed) is not in the words.
+    /// The possible values of the ratio. The words do not state which of two values is the divisor, whether a loss or a
+    /// remainder is meant, or how one quantity depends on the other (a height on a speed).
     pub(in crate::verify) may_be: Vec<f64>,
 }
 
-/// How far a number may be off, as a share of it: as it is printed, and with "about" before it.
+/// Relative tolerance of a number: as it is printed, and with "about" before it.
 const PRINTED: f64 = 0.05;
 const ABOUT: f64 = 0.1;
 
-/// Words before a number that make it one of something else: a change, a place, a case.
+/// Words before a number that make it another quantity: a change, a place, a condition.
 const ELSE: [&str; 14] = [
     "by",
     "than",
@@ -53,11 +53,12 @@ const ELSE: [&str; 14] = [
     "first",
 ];
 
-/// The only quantity with a unit that an option states; `None` where it states several, or where its words say something else of it.
+/// The only quantity with a unit that an option states; `None` where it states several, or where its words give the number
+/// another meaning.
 pub(in crate::verify) fn option_text(option: &str) -> Option<OptionNumber> {
     let (rendered, _) = html::strip(option);
     let (folded, _) = fold::fold(&rendered, false);
-    // Bold and italic marks are no signs of a product.
+    // Markers of bold and italic text are not products.
     let folded = spelled(&folded.replace("**", "").replace("__", ""));
     let chars: Vec<char> = folded.chars().take(2000).collect();
     let chars = Chars(&chars);
@@ -86,7 +87,7 @@ fn ends_with(text: &str, word: &str) -> bool {
     text.strip_suffix(word).is_some_and(|rest| !rest.ends_with(char::is_alphanumeric))
 }
 
-/// Whether the words behind a number compare it: `7 m farther` is a change; `7 m, no more` is none.
+/// Whether the words after a number make it a comparison: `7 m farther` is a change; `7 m, no more` is not.
 fn compares(behind: &str) -> bool {
     let words = behind.split_whitespace().take(3).map(|w| w.trim_matches(|c: char| !c.is_alphanumeric()));
     let words: Vec<&str> = words.collect();
@@ -97,7 +98,7 @@ fn compares(behind: &str) -> bool {
     })
 }
 
-/// Words before a number that is not meant exactly.
+/// Words before an approximate number.
 const APPROXIMATE: [&str; 13] = [
     "about",
     "around",
@@ -114,7 +115,7 @@ const APPROXIMATE: [&str; 13] = [
     "約",
 ];
 
-/// Words before a number that is a lower bound, or an upper one.
+/// Words before a lower bound, or an upper one.
 const MORE: [&str; 10] = [
     "more than",
     "greater than",
@@ -140,7 +141,7 @@ const LESS: [&str; 10] = [
     "≤",
 ];
 
-/// What is right for a quantity with this text before it; `None` where its words say something else of it.
+/// The range that agrees with a quantity, given the text before it; `None` where the words give it another meaning.
 fn stated_range(q: &Quantity, before: &str) -> Option<(f64, f64)> {
     let is_about = APPROXIMATE.into_iter().any(|w| match w.is_ascii() && w != "~" {
         true => ends_with(before, w),
@@ -165,7 +166,7 @@ fn stated_range(q: &Quantity, before: &str) -> Option<(f64, f64)> {
     }
 }
 
-/// Whether the rest of an option says nothing, so that it is its number alone.
+/// Whether the rest of an option has no content, so that the option is its number alone.
 fn says_nothing(rest: &str) -> bool {
     rest.to_lowercase().split_whitespace().all(|w| {
         let word = w.trim_matches(|c: char| !c.is_alphanumeric());
@@ -174,7 +175,7 @@ fn says_nothing(rest: &str) -> bool {
     })
 }
 
-/// Words that say how many times something is.
+/// Words for factors.
 const TIMES: [(&str, f64); 23] = [
     ("twice", 2.0),
     ("double", 2.0),
@@ -215,7 +216,7 @@ pub(in crate::verify) fn option_ratio(option: &str) -> Option<OptionRatio> {
         !letter(lower.get(..at).and_then(|t| t.chars().next_back()))
             && !letter(lower.get(at + length..).and_then(|t| t.chars().next()))
     };
-    // `two and a half times`
+    // Example: `two and a half times`.
     if lower.contains("and a half") {
         return None;
     }
@@ -247,7 +248,7 @@ pub(in crate::verify) fn option_ratio(option: &str) -> Option<OptionRatio> {
     Some(OptionRatio { text, may_be })
 }
 
-/// Numbers that are spelled out.
+/// Numbers in words.
 const SPELLED: [(&str, &str); 24] = [
     ("half a", "0.5"),
     ("a quarter of a", "0.25"),
@@ -275,14 +276,14 @@ const SPELLED: [(&str, &str); 24] = [
     ("a thousand", "1000"),
 ];
 
-/// A text with figures for the numbers that are spelled out before a unit: `three seconds`.
+/// Replaces numbers in words before a unit by figures: `three seconds`.
 fn spelled(text: &str) -> String {
     let lower = text.to_lowercase();
     if lower.len() != text.len() {
         return text.to_string();
     }
     let mut all = text.to_string();
-    // The longest first, so that "one hundred" is not "one" before something.
+    // The longest first, so that "one hundred" is not read as "one".
     let mut words = SPELLED;
     words.sort_by_key(|(word, _)| std::cmp::Reverse(word.len()));
     for (word, figure) in words {

@@ -1,4 +1,4 @@
-//! Everything that a reader of a lesson sees: its prose, and the shown texts of its labs and quizzes.
+//! The rendered texts of a lesson: its prose, and the displayed texts of its labs and quizzes.
 
 use super::hidden::Hidden;
 use super::html::visible_text;

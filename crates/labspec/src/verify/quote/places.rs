@@ -1,4 +1,4 @@
-//! Where texts stand as numbers of their own: all quotes are looked for at once, in one walk through the text.
+//! Finds where texts appear as separate numbers: all quotes are searched at once, in one pass through the text.
 
 use super::numeral::{Chars, fraction};
 use super::quantity::{Quantity, quantities, quantities_apart};
@@ -7,36 +7,36 @@ use super::{fold, html};
 use labspec_bind::units::is_wide;
 use std::ops::Range;
 
-/// Most places that are reported for one quote.
+/// Maximum number of reported places of one quote.
 pub(super) const MAX_PLACES: usize = 1000;
 
-/// Longest text that is looked for, in bytes: so much may be walked at every number.
+/// Maximum length of a searched text, in bytes: this bounds the work at every number.
 const MAX_LENGTH: usize = 120;
 
-/// A text as it is looked for.
+/// A searched text.
 #[derive(Debug)]
 struct Needle {
     folded: String,
-    /// Where its first digit stands: the search begins at numbers.
+    /// The index of its first digit: the search begins at numbers.
     digit: usize,
-    /// What it states when it stands alone.
+    /// The quantities that it states when it is read alone.
     quantities: Vec<Quantity>,
     found: Vec<QuoteMatch>,
 }
 
-/// A tree of the needles' bytes from their first digits on.
+/// A node of a trie over the bytes of the searched texts, from their first digits on.
 #[derive(Debug, Default)]
 struct Node {
     next: Vec<(u8, u32)>,
     ends: Vec<u32>,
 }
 
-/// Quotes, and where they have been found.
+/// Quotes, and where they were found.
 #[derive(Debug)]
 pub(super) struct Search {
     needles: Vec<Needle>,
     nodes: Vec<Node>,
-    /// Steps taken, to know that the work stays in proportion to the text.
+    /// Number of steps, for tests that the work is proportional to the text.
     pub(super) work: usize,
 }
 
@@ -45,13 +45,13 @@ impl Search {
         Search { needles: Vec::new(), nodes: vec![Node::default()], work: 0 }
     }
 
-    /// Adds a quote; the place of its results.
+    /// Adds a quote; returns the index of its results.
     pub(super) fn add(&mut self, quote: &str) -> usize {
         let (rendered, _) = html::strip(quote);
         let folded = fold::fold(&rendered, true).0.trim_matches('\n').to_string();
         let digit = folded.find(is_anchor);
         let number = self.needles.len();
-        // Longer ones are not read either.
+        // A longer text is not searched, and its numbers are not read.
         let digit = digit.filter(|_| folded.len() <= MAX_LENGTH);
         let tail = digit.and_then(|at| folded.get(at..)).unwrap_or("");
         let mut node = 0;
@@ -83,14 +83,14 @@ impl Search {
         self.nodes.get(node)?.next.iter().find(|(c, _)| *c == b).map(|(_, next)| *next as usize)
     }
 
-    /// Looks through a text.
+    /// Searches a text.
     pub(super) fn walk(&mut self, text: &Readable) {
         let bytes = text.flat.as_bytes();
         let mut previous = b' ';
         for (start, &first) in bytes.iter().enumerate() {
             let goes_on = first.is_ascii_digit() && previous.is_ascii_digit();
             previous = first;
-            // A run of digits begins here, or a character that may be a fraction.
+            // The beginning of a sequence of digits, or a byte that may begin a fraction character.
             if goes_on || !(first.is_ascii_digit() || first == 0xc2 || first == 0xe2) {
                 continue;
             }
@@ -106,7 +106,7 @@ impl Search {
         }
     }
 
-    /// Takes a needle in whose tail has been found.
+    /// Records a match if the part before the first digit matches too.
     fn note(&mut self, node: usize, i: usize, start: usize, end: usize, text: &Readable) {
         let Some(&number) = self.nodes.get(node).and_then(|n| n.ends.get(i)) else { return };
         let Some(needle) = self.needles.get_mut(number as usize) else { return };
@@ -117,7 +117,7 @@ impl Search {
         }
     }
 
-    /// Where a quote stands.
+    /// The places where a quote appears.
     pub(super) fn found(&self, number: usize) -> &[QuoteMatch] {
         self.needles.get(number).map_or(&[], |n| &n.found)
     }
@@ -127,7 +127,7 @@ fn is_anchor(c: char) -> bool {
     c.is_ascii_digit() || fraction(c).is_some()
 }
 
-/// Whether the words at the ends of a range are whole ones.
+/// Whether a range begins and ends at word boundaries.
 fn whole_words(text: &str, range: &Range<usize>) -> bool {
     let Some(quote) = text.get(range.clone()) else { return false };
     let letter = |c: Option<char>| c.filter(|c| c.is_alphanumeric() && !is_wide(*c));
@@ -138,28 +138,28 @@ fn whole_words(text: &str, range: &Range<usize>) -> bool {
     !begins && !goes_on
 }
 
-/// A place of a quote.
+/// A place where a quote appears.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct QuoteMatch {
     /// Bytes of the text that was searched.
     pub(super) bytes: Range<usize>,
-    /// The unit that the text has behind the last number of the quote, where the quote ends with that number.
+    /// The unit that the text has after the last number of the quote, if the quote ends with that number.
     pub(super) unit: Option<Unit>,
 }
 
 /// A text with its quantities.
 pub(super) struct Readable {
-    /// The folded text, dashes alike.
+    /// The normalized text, with all dashes alike.
     pub(super) flat: String,
-    /// For each byte of it the character that it belongs to.
+    /// The index of the character for each byte of `flat`.
     character: Vec<u32>,
     quantities: Vec<Quantity>,
-    /// Those with the ends of ranges apart.
+    /// The quantities with the ends of ranges as separate quantities.
     apart: Vec<Quantity>,
 }
 
 impl Readable {
-    /// `chars` are those of `flat`, with dashes distinguished.
+    /// `chars` are the characters of `flat`, but with different dashes.
     pub(super) fn new(flat: String, chars: &[char]) -> Readable {
         let mut character = Vec::with_capacity(flat.len() + 1);
         for (i, c) in flat.chars().enumerate() {
@@ -174,8 +174,8 @@ impl Readable {
         }
     }
 
-    /// Whether what stands at a range says what the quote says when it stands alone: the same numbers, with the same signs, factors
-    /// and units, and none of them a part of something else.
+    /// Whether the text at a range states what the quote states when it is read alone: the same numbers with the same
+    /// signs, factors and units, none of them part of another expression.
     fn says(&self, bytes: &Range<usize>, quantities: &[Quantity]) -> Option<QuoteMatch> {
         if !whole_words(&self.flat, bytes) {
             return None;
@@ -188,7 +188,8 @@ impl Readable {
     }
 }
 
-/// Whether the quantities at a range of characters are those of a quote; with the unit that the text has behind the last of them.
+/// Whether the quantities in a range of characters are those of a quote. Returns the unit that the text has after the last
+/// of them.
 fn says(all: &[Quantity], range: Range<usize>, quantities: &[Quantity]) -> Option<Option<Unit>> {
     let Range { start, end } = range;
     let first = all.partition_point(|q| q.whole.end <= start);
@@ -197,9 +198,9 @@ fn says(all: &[Quantity], range: Range<usize>, quantities: &[Quantity]) -> Optio
     for (i, mine) in quantities.iter().enumerate() {
         let theirs = here.next()?;
         let inside = theirs.digits == start + mine.digits && theirs.number_end == start + mine.number_end;
-        // A plus before it changes nothing.
+        // A plus sign before it has no meaning.
         let begins = theirs.whole.start >= start || theirs.whole.start + 1 == start;
-        // A quote that cannot be read is reported when it is read.
+        // A quote that cannot be read gets a finding when it is read.
         let clear = mine.refused.is_some() || theirs.refused.is_none();
         if !(inside && begins && clear && mine.says(theirs)) {
             return None;
@@ -215,7 +216,7 @@ fn says(all: &[Quantity], range: Range<usize>, quantities: &[Quantity]) -> Optio
         if mine.unit.is_some() && !mine.unit.as_ref().is_some_and(|u| u.link != Link::Direct) || !last {
             return None;
         }
-        // Of `0.7 mm per step` the number alone says nothing.
+        // In `0.7 mm per step`, the number alone is not the quantity.
         if theirs.unit.as_ref().is_some_and(|u| u.dimension.is_none() && u.link != Link::Clause) {
             return None;
         }
@@ -302,7 +303,7 @@ mod tests {
         }
     }
 
-    /// What is looked at grows with the text and not with the number of quotes.
+    /// The work grows with the text and not with the number of quotes.
     #[test]
     fn many_quotes_cost_one_walk() {
         let text = "0.442 s and 0.4421 s; ".repeat(50_000);

@@ -1,5 +1,5 @@
-//! The prose of a Markdown lesson, paragraph by paragraph, cell by cell: what is left when labs, quizzes, listings
-//! and tags are taken out. A fence without a language, or of printed output, is shown as it stands.
+//! The prose of a Markdown lesson by paragraphs and cells, without labs, quizzes, listings and tags. A fence without a
+//! language, or of printed output, is kept verbatim.
 
 use super::hidden::Hidden;
 use super::html::{APART, mark, visible_text};
@@ -12,25 +12,25 @@ use pulldown_cmark::{CodeBlockKind, Event, Options, Parser, Tag, TagEnd};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
-/// Languages of a fence whose text is what a program printed.
+/// Languages of fences that contain the output of a program.
 const OUTPUT: [&str; 5] = ["", "text", "txt", "console", "output"];
 
-/// Most bytes that are read, again and again behind damaged fences.
+/// Maximum number of bytes that are read, including repeated reading after damaged fences.
 const MAX_REREAD: usize = 64 << 20;
 
-/// What a page may show that plain CommonMark does not know.
+/// Extensions of CommonMark that pages use.
 const OPTIONS: Options = Options::ENABLE_TABLES
     .union(Options::ENABLE_FOOTNOTES)
     .union(Options::ENABLE_STRIKETHROUGH)
     .union(Options::ENABLE_MATH)
     .union(Options::ENABLE_YAML_STYLE_METADATA_BLOCKS);
 
-/// The pieces of shown prose, in order.
+/// The pieces of rendered prose, in order.
 pub(super) fn pieces(lesson: &Lesson) -> Vec<Text> {
     read(lesson).0
 }
 
-/// The tables of shown prose, in order.
+/// The tables of rendered prose, in order.
 pub(super) fn tables(lesson: &Lesson) -> Vec<Table> {
     read(lesson).1
 }
@@ -39,7 +39,7 @@ fn read(lesson: &Lesson) -> (Vec<Text>, Vec<Table>) {
     if lesson.file.path().to_ascii_lowercase().ends_with(".json") {
         return Default::default();
     }
-    // More than the parser accepts, which is reported.
+    // More markup than the parser accepts, which is reported.
     let too_much = |p: &Problem| matches!(p, Problem::Fence(markdown::Problem::TooMuchMarkup));
     if lesson.problems.iter().any(too_much) {
         return Default::default();
@@ -69,7 +69,7 @@ fn empty() -> Text {
     Text { value: String::new(), map: SourceMap::default() }
 }
 
-/// The footnotes that the text refers to, or another footnote that it refers to: a page shows no others.
+/// The footnotes to which the text, or another referenced footnote, refers. A page displays only these.
 fn notes(text: &str) -> BTreeSet<String> {
     if !text.contains("[^") {
         return BTreeSet::new();
@@ -104,19 +104,19 @@ struct Reader<'t> {
     open: Text,
     html: bool,
     hidden: Hidden,
-    /// Within a footnote that nothing refers to, or words that are struck out.
+    /// Nesting depth of footnotes without a reference and of struck-out words.
     unseen: usize,
-    /// The footnotes that something refers to.
+    /// The referenced footnotes.
     notes: BTreeSet<String>,
-    /// What is hidden began within the paragraph that is being read.
+    /// Whether the hidden element began within the current paragraph.
     inline: bool,
 }
 
 impl Reader<'_> {
-    /// Reads from `from` on. Gives where to go on when a damaged fence has swallowed what follows it. The function is long because it has
-    /// one arm for each event of the Markdown parser.
+    /// Reads from `from` on. Returns where to resume when a damaged fence contains the text after it. The function is long
+    /// because it has one arm for each event of the Markdown parser.
     fn pass(&mut self, from: usize) -> Option<usize> {
-        // In a fence: whether its text is shown. In what stands before the lesson (its metadata): not.
+        // In a fence: whether its text is rendered. In the metadata before the lesson: `false`.
         let mut fence: Option<bool> = None;
         self.hidden.end();
         self.unseen = 0;
@@ -176,7 +176,7 @@ impl Reader<'_> {
         None
     }
 
-    /// What begins or ends of a table.
+    /// Processes the events of a table.
     fn table(&mut self, event: &Event<'_>, range: &Range<usize>) {
         match event {
             Event::Start(Tag::Table(_)) => self.tables.begin(),
@@ -190,7 +190,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Whether the text of a fence is shown, and where to go on if it ends before Markdown thinks so.
+    /// Whether the text of a fence is rendered, and where to resume if the fence ends earlier than Markdown determines.
     fn fence(&self, kind: &CodeBlockKind<'_>, range: &Range<usize>) -> (bool, Option<usize>) {
         let i = self.blocks.partition_point(|b| b.span.start < range.start);
         let Some(block) = self.blocks.get(i).filter(|b| b.span.start == range.start) else {
@@ -208,14 +208,14 @@ impl Reader<'_> {
         }
     }
 
-    /// Whether this belongs to a lab or a quiz that Markdown takes for prose.
+    /// Whether a range belongs to a lab or a quiz that Markdown reads as prose.
     fn is_taken(&self, range: &Range<usize>) -> bool {
         let i = self.blocks.partition_point(|b| b.span.start <= range.start);
         let before = i.checked_sub(1).and_then(|i| self.blocks.get(i));
         before.is_some_and(|b| !matches!(b.kind, BlockKind::Code { .. }) && range.start < b.span.end)
     }
 
-    /// A tag within a line.
+    /// Processes a tag within a line.
     fn inline_html(&mut self, html: &str, range: &Range<usize>) {
         for tag in tags(html) {
             let was_on = self.hidden.is_on();
@@ -227,7 +227,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Words between double tildes are struck out; single tildes are letters.
+    /// Words between double tildes are struck out; single tildes are characters.
     fn strike(&mut self, range: &Range<usize>, at: usize, by: isize) {
         if self.text.get(range.clone()).is_some_and(|text| text.starts_with("~~")) {
             self.unseen = self.unseen.saturating_add_signed(by);
@@ -246,7 +246,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Adds what stands at a range: its bytes, or what Markdown made of them.
+    /// Appends the text of a range: its bytes, or their Markdown replacement.
     fn add(&mut self, part: &str, range: Range<usize>) {
         self.open.value.push_str(part);
         if self.text.get(range.clone()) == Some(part) {
@@ -256,7 +256,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Adds code or a formula, whose range holds its marks too.
+    /// Appends code or a formula, whose range includes its delimiters.
     fn inside(&mut self, part: &str, range: Range<usize>) {
         let outer = self.text.get(range.clone()).unwrap_or("");
         let at = outer.find(part).map(|i| range.start + i);
@@ -271,7 +271,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Printed output: every line stands alone.
+    /// Appends printed output: every line is a separate piece.
     fn lines(&mut self, part: &str, range: Range<usize>) {
         if self.text.get(range.clone()) != Some(part) {
             self.add(part, range);
@@ -291,7 +291,7 @@ fn is_output(language: &str) -> bool {
     OUTPUT.contains(&language.to_ascii_lowercase().as_str())
 }
 
-/// Tags within a line, which part nothing.
+/// Inline tags, which do not separate text.
 fn is_inline(tag: &Tag<'_>) -> bool {
     matches!(tag, Tag::Emphasis | Tag::Strong | Tag::Link { .. } | Tag::Superscript | Tag::Subscript)
 }

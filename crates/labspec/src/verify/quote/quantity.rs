@@ -1,4 +1,4 @@
-//! The one reader of quantities: sign, number, factor, unit and what they stand beside, with the exact place of each. The grammar is
+//! The only reader of quantities: sign, number, factor, unit and context, with the exact position of each. The grammar is
 //! in `docs/quantities.md`.
 
 use super::clause_unit::clause_unit;
@@ -9,44 +9,44 @@ use super::numeral::{Chars, Numeral, numbers};
 use super::unit_text::{Link, Unit, unit_behind};
 use std::ops::Range;
 
-/// A quantity and where it stands, in characters.
+/// A quantity with its position, in characters.
 #[derive(Clone, Debug)]
 pub(super) struct Quantity {
-    /// Its number, with sign, power of ten and factor; of a range both ends.
+    /// Its number, with sign, power of ten and factor; both ends of a range.
     pub(super) quoted: Quoted,
-    /// What else the number could mean.
+    /// Other possible values of the number.
     pub(super) doubts: Vec<f64>,
-    /// Why it should not be called wrong.
+    /// Why it must not be reported as wrong.
     pub(super) unsure: Option<&'static str>,
-    /// All of it, sign and unit included.
+    /// The whole quantity, including sign and unit.
     pub(super) whole: Range<usize>,
-    /// Its first digit.
+    /// Index of the first digit.
     pub(super) digits: usize,
-    /// Behind the number and before the unit.
+    /// Index after the number and before the unit.
     pub(super) number_end: usize,
     /// Its unit, if it has one.
     pub(super) unit: Option<Unit>,
-    /// Why it is no number of its own: it is a part of something, or changed by what stands around it.
+    /// Why it is not a separate number: it is part of another expression, or modified by the text around it.
     pub(super) refused: Option<&'static str>,
-    /// Only as a quote: it begins a change from one number to another.
+    /// Whether it begins a change from one number to another. Used only for quotes.
     pub(super) change: bool,
 }
 
 impl Quantity {
-    /// Whether both say the same, their units left aside.
+    /// Whether both state the same number, ignoring their units.
     pub(super) fn says(&self, other: &Quantity) -> bool {
         let (a, b) = (&self.quoted, &other.quoted);
         a.value.to_bits() == b.value.to_bits() && a.half_unit == b.half_unit && a.form == b.form
     }
 }
 
-/// All quantities of a text, in order; pairs that say one thing (`0.4 to 0.5 s`, `0.44 ± 0.01 s`) are one.
+/// All quantities of a text, in order. Pairs that state one quantity (`0.4 to 0.5 s`, `0.44 ± 0.01 s`) are one.
 pub(super) fn quantities(chars: Chars<'_>) -> Vec<Quantity> {
     read(chars, false)
 }
 
-/// The same, where the ends of a range in words that has both units (`between 0.4 s and 0.5 s`) are quantities of their own: a text
-/// states each of them.
+/// Like [`quantities`], but the ends of a range in words with two units (`between 0.4 s and 0.5 s`) are separate
+/// quantities, because a text states each of them.
 pub(super) fn quantities_apart(chars: Chars<'_>) -> Vec<Quantity> {
     read(chars, true)
 }
@@ -91,7 +91,7 @@ fn read(chars: Chars<'_>, apart: bool) -> Vec<Quantity> {
     all
 }
 
-/// The numbers of a text with their units, each for itself.
+/// The numbers of a text with their units, without joining pairs.
 pub(super) fn singles(chars: Chars<'_>) -> Vec<Quantity> {
     let one = |(number, digits): (Numeral, usize)| {
         let unit = unit_behind(chars, number.end);
@@ -111,7 +111,7 @@ pub(super) fn singles(chars: Chars<'_>) -> Vec<Quantity> {
     numbers(chars).into_iter().map(one).collect()
 }
 
-/// Of `2.31 to 3.73 N m` and `0.1, 0.2 and 0.3 s` the first numbers have the unit of the last.
+/// In `2.31 to 3.73 N m` and `0.1, 0.2 and 0.3 s` the first numbers get the unit of the last.
 fn share(chars: Chars<'_>, all: &mut [Quantity]) {
     let mut next: Option<(usize, Option<Unit>)> = None;
     for q in all.iter_mut().rev() {
@@ -136,16 +136,16 @@ fn in_words(chars: Chars<'_>, first: &Quantity, second: Option<&Quantity>) -> bo
     })
 }
 
-/// What two numbers beside each other are.
+/// How two adjacent numbers are related.
 enum Pair {
     Two,
     One(Quantity),
-    /// A change from the one to the other.
+    /// A change from the first to the second.
     Change,
     Refused(&'static str),
 }
 
-/// A plus-minus or a range, if two numbers are one.
+/// The relation of two numbers: one quantity if they form a plus-minus value or a range.
 fn pair(chars: Chars<'_>, first: &Quantity, second: &Quantity) -> Pair {
     if second.whole.start < first.number_end || second.whole.start - first.number_end > 60 {
         return Pair::Two;
@@ -183,7 +183,7 @@ fn pair(chars: Chars<'_>, first: &Quantity, second: &Quantity) -> Pair {
     join_pair(first, second, form, (a.value + b.value) / 2.0, second.unit.clone())
 }
 
-/// A value and how far it may be off, with the text between its number and the sign, and the texts of both units.
+/// A value with its uncertainty. `left` is the text between its number and the sign, followed by the texts of both units.
 fn plus_minus(
     chars: Chars<'_>,
     [first, second]: [&Quantity; 2],
@@ -204,7 +204,7 @@ fn plus_minus(
     join_pair(first, second, Form::PlusMinus(a.value - about, a.value + about), a.value, unit)
 }
 
-/// One quantity of two numbers.
+/// Joins two numbers into one quantity.
 fn join_pair(first: &Quantity, second: &Quantity, form: Form, value: f64, unit: Option<Unit>) -> Pair {
     Pair::One(Quantity {
         quoted: Quoted { form, value, ..first.quoted },
@@ -225,7 +225,7 @@ fn word_before(chars: Chars<'_>, at: usize, word: &str) -> bool {
         .is_some_and(|rest| !rest.ends_with(char::is_alphanumeric) || !word.is_ascii())
 }
 
-/// A number of percent as the fraction of one that an expression may give; `None` for other units.
+/// A number of percent as a fraction of one, which an expression may give; `None` for other units.
 pub(super) fn as_share(q: &Quoted, unit: &Unit) -> Option<Quoted> {
     let power = unit.share()?;
     let scale = |x: f64| x * ten(power);
@@ -247,7 +247,7 @@ pub(super) fn as_share(q: &Quoted, unit: &Unit) -> Option<Quoted> {
 mod tests {
     use super::*;
 
-    /// A text of 100 kB of whatever begins a number or a unit is read in linear time.
+    /// Text of 100 kB of any beginning of a number or a unit is read in linear time.
     #[test]
     fn hostile_texts_are_read_in_linear_time() {
         let pieces = "1|1,|1 |1,000|1 000|000 |1.|.|1e|1e9|10^|1×10^|½|-|- 1|1 million |1万|{|\\|s1 |1 (|1 m(|1 per |1 – |1 to |1±|秒|1秒|x|'|1'000";

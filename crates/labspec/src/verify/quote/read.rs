@@ -1,4 +1,4 @@
-//! Which number a quote states. What is not understood is refused by name, never guessed.
+//! Reads the number that a quote states. A form that is not understood is an error that names it; nothing is guessed.
 
 use super::number::{Form, Quoted, Style};
 use super::numeral::Chars;
@@ -6,20 +6,21 @@ use super::quantity::{Quantity, as_share, quantities, singles};
 use super::unit_text::Unit;
 use super::{fold, html};
 
-/// What a quote was read as.
+/// The reading of a quote.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::verify) struct Reading {
     /// The number.
     pub(super) read: Quoted,
-    /// The same as a fraction of one, for `50 %`.
+    /// The number as a fraction of one, for `50 %`.
     pub(super) share: Option<Quoted>,
-    /// Other numbers that it could state, each with a reason.
+    /// Other numbers that it may state, each with a reason.
     pub(super) doubts: Vec<(Quoted, &'static str)>,
-    /// Why it is not called wrong when it does not fit.
+    /// Why it must not be reported as wrong when it differs.
     pub(super) unsure: Option<&'static str>,
     /// Its unit, if it has one.
     pub(super) unit: Option<Unit>,
-    /// Nothing behind it in the quote states a number: where the quote has no unit, that of the text is its own.
+    /// Whether no number follows it in the quote. If so, and the quote has no unit, the unit after the quote in the text
+    /// belongs to it.
     pub(super) last: bool,
 }
 
@@ -38,31 +39,31 @@ impl Reading {
 /// Why no number was read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unread {
-    /// There is none.
+    /// The text contains no number.
     NoNumber,
-    /// It is written in a way that is not read; this names it: "a ratio".
+    /// Its form cannot be read. The text names the form: "a ratio".
     Form(&'static str),
 }
 
-/// Longest quote that is read, in characters.
+/// Maximum length of a quote, in characters.
 const MAX_QUOTE: usize = 120;
 
-/// The number that a quote states: the first one behind the last `=`, else the first one.
+/// The number that a quote states: the first one after the last `=`, else the first one.
 ///
 /// # Errors
-/// It holds none, or one in a form that is not read.
+/// It contains no number, or one in a form that cannot be read.
 pub fn quoted(text: &str) -> Result<Quoted, Unread> {
     reading(text).map(|r| r.read)
 }
 
-/// The characters of a quote as a reader sees them.
+/// The visible characters of a quote.
 fn characters(text: &str) -> Vec<char> {
     let (rendered, _) = html::strip(text);
     let (folded, _) = fold::fold(&rendered, false);
     folded.chars().take(MAX_QUOTE + 1).collect()
 }
 
-/// The number that a quote states, with everything that casts doubt on it.
+/// The number that a quote states, with its other possible readings.
 pub(in crate::verify) fn reading(text: &str) -> Result<Reading, Unread> {
     let chars = characters(text);
     if chars.len() > MAX_QUOTE {
@@ -93,7 +94,7 @@ pub(in crate::verify) fn reading(text: &str) -> Result<Reading, Unread> {
     Ok(reading)
 }
 
-/// What one quantity of a quote is read as.
+/// The reading of one quantity.
 fn of_quantity(q: &Quantity) -> Result<Reading, Unread> {
     if let Some(form) = q.refused {
         return Err(Unread::Form(form));
@@ -115,7 +116,7 @@ fn of_quantity(q: &Quantity) -> Result<Reading, Unread> {
     })
 }
 
-/// The last sign of equality that a number follows.
+/// The index of the last equality sign before a number.
 fn last_equals(chars: Chars<'_>, all: &[Quantity]) -> Option<usize> {
     let equals = |&i: &usize| matches!(chars.at(i), Some('=' | '≈')) && all.iter().any(|q| q.whole.start > i);
     (0..chars.0.len()).rev().find(equals)
@@ -129,12 +130,13 @@ pub(in crate::verify) struct QuotePart {
     pub(in crate::verify) reading: Result<Reading, Unread>,
 }
 
-/// The whole of a quote that states one number.
+/// A quote as one part.
 pub(in crate::verify) fn whole(text: &str) -> QuotePart {
     QuotePart { text: text.to_string(), reading: reading(text) }
 }
 
-/// The parts of a text that state one number each, in order. A range is one, unless both of its ends are `wanted`.
+/// The parts of a text that state one number each, in order. A range is one part, unless its two ends give the `wanted`
+/// number of parts.
 pub(in crate::verify) fn parts(text: &str, wanted: usize) -> Vec<QuotePart> {
     let chars = characters(text);
     let chars = Chars(&chars);

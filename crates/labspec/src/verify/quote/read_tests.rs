@@ -1,4 +1,4 @@
-//! Every form in which lessons print numbers: read right, or refused by name.
+//! Forms in which lessons print numbers: each is read correctly, or refused by name.
 
 use super::*;
 use proptest::prelude::*;
@@ -7,7 +7,7 @@ fn read(text: &str) -> Reading {
     reading(text).unwrap_or_else(|e| panic!("{text}: {e:?}"))
 }
 
-/// Value and half a unit of the last digit.
+/// The value, and half a unit of the last digit.
 fn plain(text: &str) -> (f64, f64) {
     let q = read(text).read;
     (q.value, q.half_unit)
@@ -201,7 +201,7 @@ fn units_are_seen() {
     }
 }
 
-/// A number printed in one of the forms that are read, with what it must be read as.
+/// A number printed in one of the supported forms, with the expected value and half unit.
 fn printed() -> impl Strategy<Value = (String, f64, f64)> {
     let digits = (any::<bool>(), 0u64..10_000_000, 0usize..6, 0usize..9, -30i32..30);
     let around =
@@ -259,7 +259,7 @@ proptest! {
         prop_assert!((q.value - value).abs() <= 1e-14 * value.abs(), "{}: {} and not {}", text, q.value, value);
         prop_assert!((q.half_unit - half).abs() <= 1e-12 * half, "{}: half a unit {} and not {}", text, q.half_unit, half);
         prop_assert!(q.is(value) && q.is(value + 0.99 * half) && !q.is(value + 1.01 * half), "{}", text);
-        // What it prints reads as the same number.
+        // The printed value is read as the same number.
         let again = reading(&q.print(value)).unwrap().read;
         prop_assert!((again.value - value).abs() <= 2.0 * half, "{}: {}", text, q.print(value));
     }

@@ -1,5 +1,5 @@
-//! The text of a lesson that a reader sees: prose, headings, cells, captions, printed output, and the shown texts of
-//! labs and quizzes. Keys, code, listings, attributes and comments are none of it.
+//! The rendered text of a lesson: prose, headings, cells, captions, printed output, and the displayed texts of labs and
+//! quizzes. Keys, code, listings, attributes and comments are not part of it.
 
 use super::denial::is_denied;
 use super::markdown_cell::unit_of_column;
@@ -14,24 +14,24 @@ use crate::spec::{ControlKind, Lesson, Verify};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// Where the quotes of a lesson stand in what is shown of it. Made once for a lesson.
+/// The places of the quotes of a lesson in its rendered text. Computed once for a lesson.
 #[derive(Debug, Default)]
 pub struct RenderedText {
     places: BTreeMap<String, Vec<QuotePlace>>,
-    /// Where a quote stands that no reader sees: in code, a key, a listing.
+    /// The place of a quote that is not rendered: in code, a key, a listing.
     hidden: BTreeMap<String, Range<usize>>,
-    /// The tables, where something is claimed of one.
+    /// The tables, if a claim refers to one.
     tables: Vec<Table>,
 }
 
-/// Most quotes of words alone that are looked for: each is a walk through the text.
+/// Maximum number of searched quotes without a number: each needs a pass through the text.
 const MAX_WORDS: usize = 200;
 
-/// Most quotes that are looked for where nobody sees them: each is a walk through the file.
+/// Maximum number of quotes that are searched outside of the rendered text: each needs a pass through the file.
 const MAX_HIDDEN: usize = 16;
 
 impl RenderedText {
-    /// Looks for all quotes of a lesson.
+    /// Searches all quotes of a lesson.
     pub fn of_lesson(lesson: &Lesson) -> RenderedText {
         let file = lesson.file.text();
         let mut search = Search::new();
@@ -77,17 +77,17 @@ impl RenderedText {
         rendered
     }
 
-    /// The bytes of the file at which a quote stands as a number of its own.
+    /// The places where a quote appears as a separate number, in bytes of the file.
     pub fn places(&self, quote: &str) -> Vec<Range<usize>> {
         self.found(quote).iter().map(|p| p.at.clone()).collect()
     }
 
-    /// The same with the units that the text has there.
+    /// The places where a quote appears as a separate number, with the units in the text.
     pub(in crate::verify) fn found(&self, quote: &str) -> &[QuotePlace] {
         self.places.get(quote).map_or(&[], Vec::as_slice)
     }
 
-    /// What of the quotes and tables of one object stands within some bytes of the file.
+    /// The places of quotes and tables of one object within a range of the file.
     pub fn within(&self, block: &Range<usize>, verify: &Verify) -> RenderedText {
         let inside = |r: &&Range<usize>| block.start <= r.start && r.end <= block.end;
         let places = verify.says.iter().map(|quoted| {
@@ -99,12 +99,12 @@ impl RenderedText {
         RenderedText { places: places.collect(), hidden: BTreeMap::new(), tables: tables.cloned().collect() }
     }
 
-    /// The tables that have these columns.
+    /// The tables with these columns.
     pub(super) fn tables<'t>(&'t self, headings: &'t [&str]) -> impl Iterator<Item = &'t Table> {
         self.tables.iter().filter(move |table| headings.iter().all(|h| table.column(h).is_some()))
     }
 
-    /// How many cells the tables have together.
+    /// The number of cells of all tables.
     pub(in crate::verify) fn cells(&self) -> usize {
         self.tables.iter().map(|table| table.head.len() * (1 + table.rows.len())).sum()
     }
@@ -114,13 +114,13 @@ impl RenderedText {
         self.tables.iter().flat_map(|table| &table.head).map(|cell| cell.text.as_str())
     }
 
-    /// Where it stands instead, when it stands only where no reader sees it.
+    /// The place of a quote that appears only in text that is not rendered.
     pub(super) fn hidden(&self, quote: &str) -> Option<Range<usize>> {
         self.hidden.get(quote).cloned()
     }
 }
 
-/// Quotes that a slider shows at first, with its unit: `0.010 s`. Only asked where nothing else says them.
+/// Quotes that equal the initial value of a slider with its unit: `0.010 s`. Used only for quotes without another place.
 fn at_sliders<'q>(lesson: &Lesson, quotes: &BTreeMap<&'q str, usize>) -> BTreeMap<&'q str, Range<usize>> {
     let folded = |text: &str| fold::fold(&html::strip(text).0, true).0;
     let wanted: BTreeMap<String, &'q str> = quotes.keys().map(|quote| (folded(quote), *quote)).collect();
@@ -134,7 +134,7 @@ fn at_sliders<'q>(lesson: &Lesson, quotes: &BTreeMap<&'q str, usize>) -> BTreeMa
     displayed.collect()
 }
 
-/// Where a quote stands outside of `verify` objects. Only asked when no reader sees it.
+/// A place of a quote outside of `verify` objects. Used only for quotes that are not rendered.
 fn unseen(quote: &str, file: &str, lesson: &Lesson) -> Option<Range<usize>> {
     if quote.is_empty() {
         return None;
@@ -151,12 +151,12 @@ fn unseen(quote: &str, file: &str, lesson: &Lesson) -> Option<Range<usize>> {
     })
 }
 
-/// Whether a text holds a number. `&frac12;` and `&#49;` are numbers, too.
+/// Whether a text contains a number. `&frac12;` and `&#49;` are numbers too.
 fn has_number(text: &str) -> bool {
     text.contains(|c: char| c.is_numeric()) || text.contains("&frac")
 }
 
-/// Where words without a number stand: whole words.
+/// The places of words without a number, at word boundaries.
 fn find_words(text: &str, quote: &str) -> Vec<Range<usize>> {
     let (plain, _) = html::strip(quote);
     let wanted = fold::fold(&plain, true).0.trim_matches('\n').to_string();
@@ -175,8 +175,8 @@ fn find_words(text: &str, quote: &str) -> Vec<Range<usize>> {
     found.filter(stands_alone).take(MAX_PLACES).collect()
 }
 
-/// Everything shown in one text, a line for each piece, with the way back to the file. Pieces without a digit hold no
-/// number; `words` takes them, too.
+/// Joins the rendered pieces into one text, a line for each piece, with a source map to the file. Pieces without a digit
+/// are included only if `words` is true.
 fn join(pieces: Vec<Text>, words: bool) -> (Readable, SourceMap) {
     let (mut all, mut chars, mut map) = (String::new(), Vec::new(), SourceMap::default());
     for Text { value: text, map: back } in pieces {

@@ -1,11 +1,11 @@
-//! What counts as shown, and what does not.
+//! Which texts count as rendered, and which do not.
 
 use super::*;
 use crate::lint::ModelFolder;
 use crate::lint::load_lesson;
 use crate::source::SourceFile;
 
-/// A lesson whose first lab quotes "0.442 s" and whatever else, around some Markdown.
+/// A lesson whose first lab quotes `quotes`, with some Markdown around it.
 fn lesson(markdown: &str, quotes: &[&str]) -> Lesson {
     let says: Vec<_> = quotes.iter().map(|q| serde_json::json!([q, "1"])).collect();
     let lab = serde_json::json!({
@@ -20,7 +20,7 @@ fn lesson(markdown: &str, quotes: &[&str]) -> Lesson {
     load_lesson(SourceFile::new("a.md", text), &ModelFolder::unknown())
 }
 
-/// The shown places of a quote, as they stand in the file.
+/// The rendered places of a quote, as texts of the file.
 fn places(markdown: &str, quote: &str) -> Vec<String> {
     let lesson = lesson(markdown, &[quote]);
     let rendered = RenderedText::of_lesson(&lesson);
@@ -88,7 +88,7 @@ fn what_no_reader_sees_is_no_place() {
         "| 0.442 | s |\n|---|---|\n| 1 | 2 |\n",
     ] {
         let found = places(markdown, "0.442 s");
-        // A loose lab is a lab: its labels are expected, its code is not.
+        // A lab without a fence is a lab: its labels are expected, its code is not.
         let expected = usize::from(markdown.starts_with('{'));
         assert_eq!(found.len(), expected, "{markdown}: {found:?}");
     }
@@ -121,8 +121,8 @@ fn prose_behind_a_damaged_fence_is_shown() {
     assert_eq!(places(markdown, "0.442 s"), ["0.442 s"]);
 }
 
-/// Hundreds of quotes in a large lesson are one walk through it, whatever their number: the walk is counted in
-/// `places`, here every place is found. (14 MB and 400 quotes take well under a second in a release build.)
+/// Hundreds of quotes in a large lesson need one pass through it. The steps are counted in the tests of `places`; this test
+/// checks that every place is found. (14 MB and 400 quotes take well under a second in a release build.)
 #[test]
 fn many_quotes_in_a_large_lesson_are_found() {
     let line =

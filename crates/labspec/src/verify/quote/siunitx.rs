@@ -1,4 +1,4 @@
-//! Numbers with units as LaTeX's `siunitx` writes them: `\SI{0.5}{\metre\per\second}` is shown as `0.5 m/s`.
+//! Numbers with units in the notation of LaTeX's `siunitx`: `\SI{0.5}{\metre\per\second}` is rendered as `0.5 m/s`.
 
 use crate::markdown::tex;
 use nom::bytes::complete::take_while_m_n;
@@ -7,10 +7,10 @@ use nom::combinator::{fail, map, map_opt, opt};
 use nom::sequence::delimited;
 use nom::{IResult, Parser};
 
-/// Longest argument, in bytes.
+/// Maximum length of an argument, in bytes.
 const LONG: usize = 80;
 
-/// What a page shows of the command that a text begins with.
+/// The rendered text of the command at the beginning of a text.
 pub(super) fn quantity(text: &str) -> IResult<&str, String> {
     let (rest, name) = tex::command(text)?;
     let options = delimited(char('['), take_while_m_n(0, LONG, |c| c != ']'), char(']'));
@@ -31,7 +31,7 @@ pub(super) fn quantity(text: &str) -> IResult<&str, String> {
     }
 }
 
-/// A number: `1.5e-3`, `-0.5`, `0.44 \pm 0.01`; `None` where it is none.
+/// A number: `1.5e-3`, `-0.5`, `0.44 \pm 0.01`; `None` for other texts.
 fn number(number: &str) -> Option<String> {
     let text = number.replace("\\pm", "±").replace("+-", "±").replace(' ', "").replace("\\,", "");
     let text = text.replace(['−', '–'], "-");
@@ -40,7 +40,7 @@ fn number(number: &str) -> Option<String> {
     (!text.is_empty() && text.chars().all(is_number_char)).then_some(text)
 }
 
-/// Macros of units, with their symbols; and those of prefixes.
+/// Macros of units with their symbols, and those of prefixes.
 const UNITS: &str = "metre=m meter=m second=s minute=min hour=h day=day gram=g kilogram=kg kelvin=K ampere=A newton=N joule=J \
     watt=W pascal=Pa hertz=Hz volt=V tesla=T coulomb=C litre=L liter=L radian=rad degree=° percent=% celsius=°C kg=kg g=g \
     m=m cm=cm mm=mm km=km s=s ms=ms N=N Hz=Hz";
@@ -52,10 +52,10 @@ fn symbol(table: &'static str, name: &str) -> Option<&'static str> {
     pairs.find(|(word, _)| *word == name).map(|(_, symbol)| symbol)
 }
 
-/// A unit in letters or in macros: `m/s`, `m.s^{-1}`, `\metre\per\second\squared`. What is not known is `None`.
+/// A unit in letters or in macros: `m/s`, `m.s^{-1}`, `\metre\per\second\squared`. `None` for an unknown macro.
 fn unit(text: &str) -> Option<String> {
     let mut out = String::new();
-    // What stands before the next macro of a unit, and its power behind it.
+    // The separator before the next macro of a unit, and the power after it.
     let (mut joint, mut power, mut rest) = ("", "", text);
     while let Some(c) = rest.chars().next() {
         let Ok((tail, name)) = tex::command(rest) else {
@@ -64,7 +64,7 @@ fn unit(text: &str) -> Option<String> {
                 '{' | '}' => {}
                 c => out.push(c),
             }
-            // Behind letters, another factor needs no point.
+            // After letters, another factor needs no separator.
             joint = if joint == "·" { "" } else { joint };
             rest = rest.get(c.len_utf8()..)?;
             continue;

@@ -1,4 +1,4 @@
-//! The numbers that a lesson states: every one that a reader sees, with its unit and the words around it.
+//! The numbers that a lesson states: every rendered number, with its unit and context.
 
 use super::context::BOUND;
 use super::markdown_cell::{LONG, MarkdownCell, unit_of_head};
@@ -21,34 +21,34 @@ use std::sync::Arc;
 /// A number of the text.
 #[derive(Clone, Debug)]
 pub struct Stated {
-    /// Number and unit as a quote has them: `0.442 s`.
+    /// Number and unit in the form of a quote: `0.442 s`.
     pub quote: String,
-    /// Its place in the file.
+    /// Its span in the file.
     pub span: Range<usize>,
     /// The number.
     pub read: Quoted,
-    /// Its unit as it is written, possibly in the head of its column.
+    /// Its unit as written, possibly from the heading of its column.
     pub unit: String,
-    /// What that means.
+    /// The dimension of the unit.
     pub dimension: Dimension,
-    /// The sentence, or the row of a table, that it stands in.
+    /// The sentence, or the row of a table, that contains it.
     pub context: String,
-    /// The head of its column; empty outside of tables.
+    /// The heading of its column; empty outside of tables.
     pub column: String,
-    /// The paragraph as it is written, tags taken out.
+    /// The paragraph as written, without tags.
     pub paragraph: Arc<str>,
-    /// Where the number begins in the paragraph.
+    /// The index of the number in the paragraph.
     pub at: usize,
-    /// It bounds something: "above 5 mm".
+    /// Whether it is a bound: "above 5 mm".
     pub bound: bool,
-    /// It is the answer of a numeric question, and no reader sees it.
+    /// Whether it is the answer of a numeric question, which is not rendered.
     pub answer: bool,
 }
 
-/// Most numbers of one lesson.
+/// Maximum number of numbers of one lesson.
 const MOST: usize = 1000;
 
-/// Every number with a unit that a reader of the lesson sees, and the answers of its numeric questions.
+/// Every number with a unit in the rendered text of a lesson, and the answers of its numeric questions.
 pub fn stated(lesson: &Lesson) -> Vec<Stated> {
     let mut all = Vec::new();
     for text in rendered_pieces(lesson) {
@@ -84,7 +84,7 @@ pub fn stated(lesson: &Lesson) -> Vec<Stated> {
     all
 }
 
-/// Where the text stands that the lesson quotes itself.
+/// The places of the texts that the lesson quotes.
 pub fn claimed(lesson: &Lesson) -> Vec<Range<usize>> {
     let rendered = RenderedText::of_lesson(lesson);
     let mut all = Vec::new();
@@ -92,7 +92,7 @@ pub fn claimed(lesson: &Lesson) -> Vec<Range<usize>> {
         let narrow = block.map(|block| rendered.within(block, verify));
         let rendered = narrow.as_ref().unwrap_or(&rendered);
         for quoted in &verify.says {
-            // A quote that is one number claims the number that it begins with, and no other end of a range.
+            // A quote that is one number claims the number at its beginning, and not the other end of a range.
             let number = quoted.exprs.len() == 1
                 && quoted.quote.as_str().trim_start().starts_with(|c: char| c.is_ascii_digit());
             let place = |at: Range<usize>| if number { at.start..at.start + 1 } else { at };
@@ -104,16 +104,16 @@ pub fn claimed(lesson: &Lesson) -> Vec<Range<usize>> {
     all
 }
 
-/// The numbers of a lesson, by whether it claims them.
+/// The numbers of a lesson, divided into claimed and unclaimed ones.
 #[derive(Clone, Debug, Default)]
 pub struct Counted {
-    /// Those that a claim is about.
+    /// Those with a claim.
     pub claimed: Vec<Stated>,
-    /// The others, in the order of the text. Bounds are left aside: they cannot be quoted.
+    /// The others, in the order of the text. Bounds are excluded, because they cannot be quoted.
     pub left: Vec<Stated>,
 }
 
-/// Which numbers of a lesson are claimed.
+/// Divides the numbers of a lesson into claimed and unclaimed ones.
 pub fn counted(lesson: &Lesson) -> Counted {
     let mut places = claimed(lesson);
     places.extend(answered(lesson));
@@ -123,7 +123,7 @@ pub fn counted(lesson: &Lesson) -> Counted {
     Counted { claimed, left }
 }
 
-/// Where the answers of numeric questions stand that a `value` computes.
+/// The places of the answers of numeric questions that a `value` computes.
 pub fn answered(lesson: &Lesson) -> impl Iterator<Item = Range<usize>> {
     let questions = lesson.quizzes.iter().flat_map(Quiz::numbered).map(|(_, question)| question);
     let claimed = questions.filter(|q| q.verify.as_ref().is_some_and(|verify| verify.value.is_some()));
@@ -172,7 +172,7 @@ fn add_numbers(lesson: &Lesson, text: &Text, all: &mut Vec<Stated>) {
     }
 }
 
-/// The sentence around a place: from the last full stop to the next one.
+/// The sentence around an index: from the last full stop to the next one.
 fn sentence(text: &str, mut at: usize) -> &str {
     let ends = |tail: &str| tail.starts_with(". ") || tail.starts_with("; ") || tail.starts_with(".\n");
     let text = around(text, &mut at);
@@ -184,7 +184,7 @@ fn sentence(text: &str, mut at: usize) -> &str {
     text.get(start..end.map_or(text.len(), |(i, _)| at + i)).unwrap_or("")
 }
 
-/// What stands near a place, which then is its place in that.
+/// The text near an index, which is changed to the index in the returned text.
 fn around<'t>(text: &'t str, at: &mut usize) -> &'t str {
     let edge = |mut i: usize| {
         while !text.is_char_boundary(i) {

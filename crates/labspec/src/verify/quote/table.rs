@@ -1,18 +1,18 @@
-//! The tables of a lesson: headings and cells as a reader sees them, with their places.
+//! The tables of a lesson: rendered headings and cells, with their spans.
 
 use super::{fold, html};
 use std::ops::Range;
 
-/// Most tables of a lesson, and cells of one.
+/// Maximum number of tables of a lesson, and of cells of one table.
 const TABLES: usize = 200;
 const CELLS: usize = 5000;
 
-/// What stands in a cell.
+/// A cell of a table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct TableCell {
-    /// What a reader sees.
+    /// The rendered text.
     pub(super) text: String,
-    /// Its place in the file.
+    /// Its span in the file.
     pub(super) span: Range<usize>,
 }
 
@@ -21,24 +21,24 @@ pub(super) struct TableCell {
 pub(super) struct Table {
     /// The headings.
     pub(super) head: Vec<TableCell>,
-    /// The rows below the rule.
+    /// The rows after the heading.
     pub(super) rows: Vec<Vec<TableCell>>,
 }
 
 impl Table {
-    /// The place of a column.
+    /// The index of a column.
     pub(super) fn column(&self, heading: &str) -> Option<usize> {
         let wanted = rendered(heading);
         self.head.iter().position(|cell| cell.text == wanted)
     }
 }
 
-/// A text as it is compared: without markup, with one kind of space.
+/// A text in the form in which texts are compared: without markup, with normalized spaces.
 pub(super) fn rendered(text: &str) -> String {
     plain(&html::strip(text).0)
 }
 
-/// The same of a text without tags.
+/// Like [`rendered`], for a text without tags.
 fn plain(text: &str) -> String {
     fold::fold(text, true).0.replace(['*', '`'], "").trim().to_string()
 }
@@ -48,7 +48,7 @@ fn plain(text: &str) -> String {
 pub(super) struct Tables {
     pub(super) all: Vec<Table>,
     row: Vec<TableCell>,
-    /// The table at hand is beyond those that are kept.
+    /// Whether the current table exceeds the maximum number.
     beyond: bool,
 }
 
@@ -60,7 +60,7 @@ impl Tables {
         }
     }
 
-    /// A cell: what a reader sees in it, and its place with the blanks around it.
+    /// Adds a cell: its rendered text, and its range including the spaces around it.
     pub(super) fn cell(&mut self, cell_text: &str, source: &str, place: Range<usize>) {
         let inner = source.trim_matches(|c: char| c.is_whitespace() || c == '|');
         let start = source.find(inner).map_or(place.start, |at| place.start + at);

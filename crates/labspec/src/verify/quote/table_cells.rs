@@ -1,4 +1,4 @@
-//! The cells that a claim about a column of a table is about.
+//! The cells that a claim about a column of a table refers to.
 
 use super::rendered::RenderedText;
 use super::table;
@@ -6,10 +6,10 @@ use crate::json::nearest;
 use crate::source::{SourceMap, Text};
 use crate::spec::Column;
 
-/// The cells of a column, or the one cell that is meant: each with what stands in the cell that tells its row.
+/// The cells of a column, or the one claimed cell, each with the cell that identifies its row.
 ///
 /// # Errors
-/// Why there are none, and what to do.
+/// Why there are no cells, and the help.
 pub(in crate::verify) fn cells_of_column(
     claim: &Column,
     rendered: &RenderedText,
@@ -58,7 +58,7 @@ pub(in crate::verify) fn cells_of_column(
     }
 }
 
-/// Whether a reader sees the same in both.
+/// Whether two texts are rendered equally.
 pub(in crate::verify) fn reads_the_same(a: &str, b: &str) -> bool {
     table::rendered(a) == table::rendered(b)
 }

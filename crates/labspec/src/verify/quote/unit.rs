@@ -3,12 +3,12 @@
 use super::number::{Quoted, ten};
 use labspec_bind::units::PREFIXES;
 
-/// How the number of a text and that of an expression differ.
+/// The difference between the number of a text and the value of an expression.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Shift {
-    /// The expression times this power of ten is the number of the text.
+    /// The number of the text is the value of the expression times this power of ten.
     pub(super) power: i32,
-    /// The unit of the text and the unit that the expression then has, when both are known.
+    /// The unit of the text, and the resulting unit of the expression, when both are known.
     pub(super) units: Option<(String, String)>,
 }
 
@@ -16,9 +16,9 @@ pub(super) struct Shift {
 const BASES: [&str; 17] =
     ["m", "s", "g", "N", "J", "W", "Pa", "Hz", "V", "A", "K", "C", "L", "l", "rad", "mol", "Nm"];
 
-/// A unit without its prefix: power of ten of the prefix, base, and the power that it is raised to.
+/// The parts of a unit: power of ten of the prefix, base, and exponent.
 fn parts(unit: &str) -> Option<(i32, &str, i32)> {
-    // Of m/s the part before the slash has the prefix.
+    // In m/s, the part before the slash has the prefix.
     let head = unit.split(['/', '·']).next().unwrap_or(unit);
     let (word, raised) = match head.split_once('^') {
         Some((word, n)) => (word, n.parse().ok()?),
@@ -33,8 +33,8 @@ fn parts(unit: &str) -> Option<(i32, &str, i32)> {
     })
 }
 
-/// The power of ten between a number that does not fit and what was computed, if there is one that units explain or
-/// that is hardly chance.
+/// The power of ten between a quoted number that differs and the computed one, if units explain it or it is unlikely to be
+/// a coincidence.
 pub(super) fn shift(quoted: &Quoted, unit: &str, computed: f64) -> Option<Shift> {
     if quoted.value == 0.0 || computed == 0.0 || !computed.is_finite() {
         return None;
@@ -46,7 +46,7 @@ pub(super) fn shift(quoted: &Quoted, unit: &str, computed: f64) -> Option<Shift>
     let figures = (quoted.value / (2.0 * quoted.half_unit)).abs().log10().floor() + 1.0;
     let raised_parts = parts(unit).filter(|(_, _, raised)| *raised > 0);
     let units = raised_parts.and_then(|(prefix, base, raised)| {
-        // The prefix that the expression's unit must have.
+        // The power of the prefix that the unit of the expression must have.
         let other = prefix * raised + power;
         let name = PREFIXES.iter().find(|(_, p)| other % raised == 0 && *p == other / raised)?.0;
         let rest = unit.get(unit.split(['/', '·']).next().map_or(0, str::len)..).unwrap_or("");

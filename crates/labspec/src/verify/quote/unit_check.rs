@@ -1,25 +1,25 @@
-//! Whether the unit of a text, or of a numeric question, is that of the numbers that an expression gives, and how these become numbers
-//! in that unit.
+//! Compares the unit of a text, or of a numeric question, with the dimension of an expression, and determines the
+//! conversion between them.
 
 use super::unit_text::{Link, Unit};
 use crate::bind::contradicts;
 use labspec_bind::units::{self, written};
 use labspec_expr::dimension::Dimension;
 
-/// What a unit is to what an expression measures.
+/// How a unit relates to the dimension of an expression.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::verify) enum Held {
-    /// It is the unit of these numbers, or they can be converted to it.
+    /// The unit agrees, or the values can be converted to it.
     Fits,
-    /// It is another one for sure.
+    /// The unit certainly differs.
     Wrong,
-    /// It may be a symbol of a formula: `2 h` are two hours, or two timesteps.
+    /// It may be a symbol of a formula: `2 h` means two hours or two timesteps.
     Unsure,
-    /// What the expression measures, or what the unit is, is not known.
+    /// The dimension of the expression or of the unit is unknown.
     Unknown,
 }
 
-/// Holds a unit to what an expression measures.
+/// Compares a unit with the dimension of an expression.
 pub(in crate::verify) fn hold(unit: &Unit, found: Option<&Dimension>) -> Held {
     let Some(found) = found else { return Held::Unknown };
     let wrong = if unit.link == Link::Clause { Held::Unsure } else { Held::Wrong };
@@ -28,16 +28,16 @@ pub(in crate::verify) fn hold(unit: &Unit, found: Option<&Dimension>) -> Held {
         let certain = found.is_exact() && !found.is_number();
         return if other && certain { wrong } else { Held::Unknown };
     };
-    // A radian may be left out, and is no other power of a radian.
+    // The unit radian may be omitted, but another power of it is wrong.
     let angle = wanted.angle();
     if found.is_exact() && found.has_angle() && angle != found.angle() && !(0.0..=1.0).contains(&angle) {
         return wrong;
     }
-    // A radian may be left out, and is nothing that is counted.
+    // The unit radian may be omitted, but names of counted things are wrong for an angle.
     if unit.is_counted() && found.is_exact() && found.has_angle() {
         return wrong;
     }
-    // A turn is not a radian.
+    // Hertz counts turns, which are not radians.
     let turns = unit.text.contains("Hz") && found.is_exact() && found.has_angle() && found.agrees(wanted);
     if !contradicts(found, wanted) && !turns {
         return Held::Fits;
@@ -50,7 +50,7 @@ pub(in crate::verify) fn hold(unit: &Unit, found: Option<&Dimension>) -> Held {
     }
 }
 
-/// What numbers of an expression are multiplied with to be numbers in a unit, where that is certain.
+/// Factor that converts the values of an expression to a unit, where that is certain.
 pub(in crate::verify) fn conversion(unit: &Dimension, found: &Dimension) -> Option<f64> {
     let factor = (unit.factor / found.factor).abs();
     (found.is_exact() && found.agrees(unit) && found.has_angle() == unit.has_angle() && factor.is_finite())
@@ -63,21 +63,22 @@ pub(super) fn is_power_of_ten(factor: f64) -> bool {
     (power - power.round()).abs() < 1e-9
 }
 
-/// What the unit of a question is to the numbers of its `value`.
+/// How the unit of a question relates to the values of its `value`.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::verify) enum AnswerUnit {
-    /// It is theirs, once they are multiplied with this: 1, or 1000 where the question asks for millimetres and the value is in metres.
+    /// The values are in this unit after multiplication by the factor: 1, or 1000 where the question asks for millimetres
+    /// and the value is in metres.
     Equal(f64),
-    /// It is another one: the unit of the question, and what the value is in.
+    /// The unit differs: the unit of the question, and that of the value.
     Wrong(String, String),
-    /// It is none that is known, and the value has one: what stands there, and what the value is in.
+    /// The unit is unknown, but the value has one: the text, and the unit of the value.
     Unread(String, String),
-    /// What the value measures is not certain, or there is no unit: the numbers are compared as they are.
+    /// The dimension of the value is uncertain, or there is no unit: the numbers are compared without conversion.
     Unknown,
 }
 
 impl AnswerUnit {
-    /// What the numbers of the value are multiplied with.
+    /// Factor that converts the value to the unit of the question.
     pub(in crate::verify) fn factor(&self) -> f64 {
         match self {
             AnswerUnit::Equal(factor) => *factor,
@@ -86,22 +87,22 @@ impl AnswerUnit {
     }
 }
 
-/// Whether a text is a unit that is known.
+/// Whether a text is a known unit.
 pub(in crate::verify) fn is_unit(text: &str) -> bool {
     let plain = super::table::rendered(text);
     !plain.is_empty() && units::read(&plain).is_some_and(|u| u.length == plain.len())
 }
 
-/// Holds the unit of a question to what its value measures.
+/// Compares the unit of a question with the dimension of its value.
 pub(in crate::verify) fn answer_unit(text: Option<&str>, found: Option<Dimension>) -> AnswerUnit {
     let plain = text.map(super::table::rendered).unwrap_or_default();
     let Some(found) = found else { return AnswerUnit::Unknown };
     let Some(read) = units::read(&plain).filter(|u| u.length == plain.len()) else {
-        // What is counted has names of any kind: "bounces".
+        // Names of counted things are arbitrary words: "bounces".
         let counted = plain.trim().is_empty() || found.is_number() || !found.is_exact();
         return if counted { AnswerUnit::Unknown } else { AnswerUnit::Unread(plain, written(&found)) };
     };
-    // The g of an acceleration is none of a mass.
+    // The symbol g of an acceleration is not the gram.
     if plain == "g" && !found.agrees(&Dimension::base(1)) {
         return AnswerUnit::Unknown;
     }
@@ -147,9 +148,9 @@ mod tests {
             assert!(matches!(of(unit, "s"), AnswerUnit::Unread(..)), "{unit}");
         }
         assert!(matches!(of("furlongs", "s"), AnswerUnit::Wrong(..)));
-        // A number of the text that is a factor may have a unit of its own.
+        // A number literal that is a factor may have a dimension.
         assert_eq!(answer_unit(Some("m/s"), d("s").map(|s| s.times(9.81))), AnswerUnit::Equal(1.0));
-        // In milliseconds already.
+        // The value is already in milliseconds.
         assert_eq!(answer_unit(Some("ms"), d("ms")), AnswerUnit::Equal(1.0));
         assert!(matches!(answer_unit(Some("s"), d("ms")), AnswerUnit::Wrong(..)));
     }

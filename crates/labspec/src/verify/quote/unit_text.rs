@@ -1,4 +1,4 @@
-//! The unit behind a number, as far as it goes.
+//! Reads the unit after a number.
 
 use super::numeral::Chars;
 use labspec_bind::units;
@@ -11,30 +11,30 @@ use nom::error::Error;
 use nom::sequence::{preceded, terminated};
 use nom::{IResult, Parser};
 
-/// A unit as it is written.
+/// A unit as written.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::verify) struct Unit {
     /// Its text, with single spaces.
     pub(in crate::verify) text: String,
-    /// What it means; `None` where that is not known: `mm per step`, `dB`.
+    /// Its dimension; `None` where that is unknown: `mm per step`, `dB`.
     pub(in crate::verify) dimension: Option<Dimension>,
-    /// How it belongs to its number.
+    /// How it is linked to its number.
     pub(in crate::verify) link: Link,
 }
 
-/// How a unit belongs to a number.
+/// How a unit is linked to a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::verify) enum Link {
-    /// It stands behind it.
+    /// It directly follows the number.
     Direct,
-    /// It stands behind a later number, or in the head of the column.
+    /// It follows a later number, or is in the heading of the column.
     Shared,
-    /// The clause of the number names it: it may be that of something else.
+    /// It is elsewhere in the clause of the number, and may belong to another quantity.
     Clause,
 }
 
 impl Unit {
-    /// The power of ten that makes a fraction of one of it: of a percentage -2.
+    /// The power of ten that converts it to a fraction of one: -2 for a percentage.
     pub(super) fn share(&self) -> Option<i32> {
         match self.text.as_str() {
             "%" | "percent" | "per cent" | "pct" | "Prozent" => Some(-2),
@@ -43,26 +43,26 @@ impl Unit {
         }
     }
 
-    /// Whether it stands behind its number, or is shared with another one, and is none of things that are counted.
+    /// Whether it follows its number or is shared with another one, and is not a name of counted things.
     pub(super) fn is_own(&self) -> bool {
         self.link != Link::Clause && !self.is_counted()
     }
 
-    /// Whether it is a name of things that are counted: `steps`, `bounces`.
+    /// Whether it is a name of counted things: `steps`, `bounces`.
     pub(super) fn is_counted(&self) -> bool {
         COUNTED.contains(&self.text.as_str())
     }
 
-    /// Whether its text may be a symbol of a formula as well: `2 h` are two hours, or two timesteps.
+    /// Whether it may also be a symbol of a formula: `2 h` means two hours or two timesteps.
     pub(super) fn is_doubtful(&self) -> bool {
         matches!(self.text.as_str(), "A" | "C" | "K" | "L" | "V" | "T" | "g" | "h" | "l")
     }
 }
 
-/// Longest unit, in characters.
+/// Maximum length of a unit, in characters.
 const LONG: usize = 40;
 
-/// The unit behind a number that ends at a character, and where it ends.
+/// The unit after a number that ends at index `end`, and the index where it ends.
 pub(super) fn unit_behind(chars: Chars<'_>, end: usize) -> Option<(Unit, usize)> {
     let text = chars.text(end, end + LONG);
     let line = text.split('\n').next().unwrap_or("");
@@ -70,19 +70,19 @@ pub(super) fn unit_behind(chars: Chars<'_>, end: usize) -> Option<(Unit, usize)>
     Some((unit, end + line.chars().count() - rest.chars().count()))
 }
 
-/// The unit that a text begins with, the space before it included.
+/// The unit at the beginning of a text, including the space before it.
 fn unit(line: &str) -> IResult<&str, Unit> {
     let hyphenated = preceded(
         (char('-'), peek(satisfy(char::is_alphabetic))),
         map(known_unit, |(text, dimension)| unit_named(text, dimension)),
     );
     let space = (opt(char(' ')), not(char(' ')));
-    // The raised ring of TeX: `30^\circ`.
+    // The superscript ring of TeX: `30^\circ`.
     let ring = opt(terminated(char('^'), peek(char('°'))));
     let counted = map(verify(word, |word: &str| COUNTED.contains(&word)), |word| {
         unit_named(word, Some(Dimension::NUMBER))
     });
-    // Once for each of something that is no unit: the number is of that.
+    // A number per thing that is not a unit, such as `per step`.
     let of_things = map(recognize((over, word)), |text| unit_named(text, None));
     alt((hyphenated, preceded((space, ring), alt((percentage, measured, counted, of_things))))).parse(line)
 }
@@ -91,7 +91,8 @@ fn unit_named(text: &str, dimension: Option<Dimension>) -> Unit {
     Unit { text: text.to_string(), dimension, link: Link::Direct }
 }
 
-/// `m/s`, `per second`, `/s`; of `0.7 mm per step` and `0.7 mm/step` all of it.
+/// A unit with its prefix "per" and suffix: `m/s`, `per second`, `/s`; `0.7 mm per step` and `0.7 mm/step` include the
+/// suffix.
 fn measured(text: &str) -> IResult<&str, Unit> {
     let per_thing = (alt((tag(" per "), tag("/"), tag(" / "))), word);
     let (rest, (text, (over, (_, dimension), thing))) =
@@ -104,7 +105,7 @@ fn over(text: &str) -> IResult<&str, &str> {
     alt((tag("per "), tag("/"))).parse(text)
 }
 
-/// A unit that is known, behind which no word goes on.
+/// A known unit that ends at a word boundary.
 fn known_unit(text: &str) -> IResult<&str, (&str, Option<Dimension>)> {
     let read =
         units::read(text).and_then(|found| Some((text.split_at_checked(found.length)?, found.dimension)));
@@ -123,7 +124,7 @@ fn percentage(text: &str) -> IResult<&str, Unit> {
     found.map_or_else(|| fail().parse(text), Ok)
 }
 
-/// What is counted: a number of them has no other unit.
+/// Names of counted things, which have no other unit.
 const COUNTED: [&str; 15] = [
     "steps",
     "frames",
@@ -142,12 +143,12 @@ const COUNTED: [&str; 15] = [
     "pieces",
 ];
 
-/// Letters of a word.
+/// The letters of a word.
 fn word(text: &str) -> IResult<&str, &str> {
     take_while1(|c: char| c.is_alphabetic() && !units::is_wide(c)).parse(text)
 }
 
-/// Where no word goes on.
+/// The end of a word.
 fn word_end(text: &str) -> IResult<&str, ()> {
     not(satisfy(|c| c.is_alphanumeric() && !units::is_wide(c) || c == '_')).parse(text)
 }

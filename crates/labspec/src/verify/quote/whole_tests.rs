@@ -1,5 +1,5 @@
-//! The whole number of the text is what is quoted: with its sign, factor and unit, and with what stands around it. True quantities in
-//! many forms are read as what they are; those that are changed in one respect are never right.
+//! A quote must match the whole number of the text: with its sign, factor, unit and context. True quantities in many forms
+//! are read correctly; quantities that differ in one respect are never right.
 
 use super::*;
 use crate::lint::{ModelFolder, load_lesson};
@@ -7,7 +7,7 @@ use crate::source::SourceFile;
 use labspec_bind::units::parse;
 use proptest::prelude::*;
 
-/// What becomes of a quote in a lesson with this text, where the expression gives a number in a unit.
+/// The state of a quote in a lesson with this text, where the expression gives `computed` in `unit`.
 fn state(text: &str, quote: &str, computed: f64, unit: &str) -> QuoteState {
     let lab = serde_json::json!({"xml": "<mujoco/>", "verify": {"says": [[quote, "x"]]}});
     let lesson = load_lesson(
@@ -32,7 +32,7 @@ fn state(text: &str, quote: &str, computed: f64, unit: &str) -> QuoteState {
 
 const RIGHT: QuoteState = QuoteState::Right;
 
-/// Other numbers than half a second, all with the characters of `0.5`.
+/// Numbers other than half a second that contain the characters `0.5`.
 const OTHERS: [&str; 110] = [
     "minus 0.5 s",
     "- 0.5 s",
@@ -152,7 +152,7 @@ fn other_numbers_are_not_right() {
     for text in OTHERS {
         for quote in ["0.5 s", "0.5", "0.5秒", "0.5 s."] {
             for sentence in [format!("It takes {text}."), format!("It takes {text} here"), text.to_string()] {
-                // A list, and a quotation, of Markdown.
+                // Markdown reads it as a list or a quotation.
                 let marked = sentence.starts_with("- ") || sentence.starts_with("> ");
                 if !marked && state(&sentence, quote, 0.5, "s") == RIGHT {
                     right.push(format!("{quote} in {sentence}"));
@@ -217,7 +217,7 @@ fn the_same_number_is_right() {
     ] {
         assert_eq!(state(text, quote, 0.5, "s"), RIGHT, "{quote} in {text}");
     }
-    // The column says in which unit.
+    // The column states the unit.
     for head in ["t (ms)", "t [ms]", "t / ms", "t in ms", "t, ms"] {
         assert_ne!(state(&format!("| {head} |\n|---|\n| 0.5 |"), "0.5", 0.5, "s"), RIGHT, "{head}");
     }
@@ -228,7 +228,7 @@ fn the_same_number_is_right() {
     assert_eq!(state("It is 0.5 s here, and 0.5 ms there.", "0.5", 0.5, "s"), RIGHT);
 }
 
-/// A unit, and the number of one of it in the unit of the expression.
+/// Units, each with the corresponding unit of the expression.
 const UNITS: [(&str, &str); 9] = [
     ("s", "s"),
     ("ms", "ms"),
@@ -241,7 +241,7 @@ const UNITS: [(&str, &str); 9] = [
     ("rad/s", "rad/s"),
 ];
 
-/// What stands around a quantity and leaves it as it is.
+/// Text around a quantity that does not change its meaning.
 const PLAIN: [(&str, &str); 9] = [
     ("It takes ", "."),
     ("(", ")"),
@@ -254,7 +254,7 @@ const PLAIN: [(&str, &str); 9] = [
     ("结果是", "。"),
 ];
 
-/// What makes another number of it.
+/// Text around a quantity that changes its meaning.
 const CHANGED: [(&str, &str); 25] = [
     ("minus ", ""),
     ("- ", ""),
@@ -301,14 +301,14 @@ proptest! {
             _ => format!("$\\SI{{{digits}}}{{{unit}}}$"),
         };
         let (before, after) = PLAIN[around];
-        // Code shows its characters as they are.
+        // Code is displayed verbatim.
         prop_assume!(!(before == "`" || before.contains('$')) || form == 0);
         let quote = if alone { digits.clone() } else { format!("{digits} {unit}") };
         let text = format!("{before}{printed}{after}");
         prop_assert_eq!(state(&text, &quote, value, dimension), RIGHT, "{} in {}", quote, text);
 
-        // A number of the text that is a factor of the expression may have a unit of its own: then nothing is certain of another unit
-        // behind a number that is quoted alone.
+        // A number literal that is a factor of the expression may have a dimension. The unit after a number that is quoted
+        // alone is then uncertain.
         let exact = parse(dimension).is_some_and(|d| d.is_exact());
         prop_assume!(exact || !alone);
         let (front, back) = CHANGED[change];

@@ -1,4 +1,4 @@
-//! Words that say that something holds: `stable`, `it tips over`.
+//! Words that state a condition: `stable`, `it tips over`.
 
 use super::messages;
 use super::quote_claim::{QuoteClaim, QuoteState};
@@ -7,18 +7,18 @@ use crate::finding::{Finding, Severity};
 use crate::rules;
 use std::ops::Range;
 
-/// What becomes of a condition.
+/// The results of a condition.
 #[derive(Clone, Debug)]
 pub(in crate::verify) struct QuotedCondition {
-    /// It holds in the lesson's own runs.
+    /// Whether it holds in the nominal runs.
     pub(in crate::verify) holds: bool,
-    /// The finer numerics under which that is otherwise.
+    /// The timestep perturbations under which the result differs.
     pub(in crate::verify) timestep: Vec<&'static str>,
-    /// The starts, no other than the lesson's to any reader, from which that is otherwise.
+    /// The perturbed starts from which the result differs.
     pub(in crate::verify) start: Vec<&'static str>,
 }
 
-/// Holds words to a condition, at every place where they stand; with a short sentence when they are not right.
+/// Compares words with a condition, at every place where they appear. Returns a short reason when they are not right.
 pub(in crate::verify) fn check_words(
     claim: &QuoteClaim<'_>,
     places: &[Range<usize>],

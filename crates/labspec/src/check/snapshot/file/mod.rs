@@ -1,6 +1,6 @@
-//! The text of a snapshot, and what it says: for people who read it in a review, and for the comparison.
+//! The text of a snapshot and its content: for people who review it, and for the comparison.
 //!
-//! Whoever reads takes nothing for granted: what is not exactly as it is written has a place and a sentence.
+//! The reader accepts only the exact form that the writer produces. Every deviation is an error with a position.
 
 mod read;
 mod write;
@@ -8,30 +8,30 @@ mod write;
 pub(super) use read::read;
 pub(super) use write::{lab, plain, whole};
 
-/// What stands in the first line.
+/// The first line.
 const HEAD: &str = "labspec snapshot 1";
-/// What stands below a run that shows what the first one shows.
+/// The line of a run that equals the first run.
 const SAME: &str = "the same as the first run";
-/// Letters of a column, at least: a digit more or less moves no other line.
+/// Minimum number of characters of a column: a change of one digit does not move other lines.
 const WIDE: usize = 8;
-/// Longest text of a cell that is written out.
+/// Maximum length of a text that is written completely.
 const LONG: usize = 40;
-/// A number of which no digit is certain.
+/// A number without a certain digit.
 pub(super) const OPEN: &str = "~";
-/// Nothing: an expression that threw, or a run that had ended.
+/// No value: the expression threw, or the run had ended.
 const NOTHING: &str = "-";
 
-/// A lab as it is stored.
+/// A stored lab.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct StoredLab {
-    /// Its address, as people write it: `#1`.
+    /// Its address: `#1`.
     pub(super) address: String,
     pub(super) runs: Vec<StoredRun>,
     /// Its lines.
     pub(super) text: String,
 }
 
-/// A run as it is stored.
+/// A stored run.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct StoredRun {
     pub(super) name: String,
@@ -40,7 +40,7 @@ pub(super) struct StoredRun {
     pub(super) rows: Vec<StoredRow>,
 }
 
-/// The values of a trace or a readout, as they stand there.
+/// The values of a trace or a readout as they are written.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct StoredRow {
     pub(super) name: String,
@@ -49,14 +49,14 @@ pub(super) struct StoredRow {
     pub(super) line: usize,
 }
 
-/// What is wrong with a file, and where.
+/// An error in a file, and its position.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct SnapshotFault {
     /// From 1.
     pub(super) line: usize,
     /// From 1, in characters.
     pub(super) column: usize,
-    /// What is wrong there.
+    /// The error.
     pub(super) message: String,
 }
 
@@ -101,7 +101,7 @@ mod tests {
         assert_eq!(read(&SourceFile::new("a.snap", other)).unwrap(), labs);
     }
 
-    /// Whatever is cut off or changed: a list of labs, or a fault with a place in the file.
+    /// A truncated or changed file gives a list of labs, or an error with a position in the file.
     #[test]
     fn a_damaged_file_has_a_place() {
         let text = text();

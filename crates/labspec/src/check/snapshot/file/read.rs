@@ -1,4 +1,4 @@
-//! What a text says, or where it is not as it is written.
+//! Reads the text of a snapshot.
 
 use super::super::digits;
 use super::{HEAD, NOTHING, OPEN, SAME, SnapshotFault, StoredLab, StoredRow, StoredRun};
@@ -6,10 +6,10 @@ use crate::printable::printable;
 use crate::source::SourceFile;
 use std::collections::BTreeSet;
 
-/// Reads what was written.
+/// Reads the labs of a snapshot.
 ///
 /// # Errors
-/// The first thing that is not as it is written.
+/// The first deviation from the written form.
 pub(in crate::check::snapshot) fn read(file: &SourceFile) -> Result<Vec<StoredLab>, SnapshotFault> {
     let mut reader = SnapshotReader { lines: file.text().lines().collect(), at: 0 };
     reader.head()?;
@@ -50,12 +50,12 @@ fn is_empty(line: &str) -> bool {
 
 struct SnapshotReader<'t> {
     lines: Vec<&'t str>,
-    /// The line that comes next.
+    /// The index of the next line.
     at: usize,
 }
 
 impl<'t> SnapshotReader<'t> {
-    /// A mistake in the line that was read last, behind so many characters.
+    /// An error in the line that was read last, after `before` characters.
     fn fault(&self, before: usize, message: &str) -> SnapshotFault {
         SnapshotFault { line: self.at.max(1), column: before + 1, message: message.to_string() }
     }
@@ -72,7 +72,7 @@ impl<'t> SnapshotReader<'t> {
         }
     }
 
-    /// The next line in which something stands.
+    /// The next line that is not empty.
     fn next(&mut self) -> Option<&'t str> {
         while let Some(line) = self.lines.get(self.at) {
             self.at += 1;
@@ -84,7 +84,7 @@ impl<'t> SnapshotReader<'t> {
         None
     }
 
-    /// The next line, if it begins like this.
+    /// The rest of the next line after `start`, if it begins with it.
     fn next_with(&mut self, start: &str) -> Option<&'t str> {
         let before = self.at;
         let rest = self.next().and_then(|line| line.strip_prefix(start));
@@ -106,7 +106,7 @@ impl<'t> SnapshotReader<'t> {
         }
     }
 
-    /// The words of a line, each with the characters before it: what is between quotes is one.
+    /// The words of a line, each with the number of characters before it. A quoted text is one word.
     fn split_words(&self, line: &'_ str, before: usize) -> Result<Vec<(usize, String)>, SnapshotFault> {
         let mut words: Vec<(usize, String)> = Vec::new();
         let mut letters = line.chars().enumerate().peekable();
@@ -194,7 +194,7 @@ impl<'t> SnapshotReader<'t> {
     }
 }
 
-/// The beginning of a word that somebody else wrote.
+/// The beginning of a word of the file, for messages.
 fn shortened(word: &str) -> String {
     let short: String = word.chars().take(24).collect();
     let more = if short.len() < word.len() { "…" } else { "" };

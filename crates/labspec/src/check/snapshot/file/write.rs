@@ -1,4 +1,4 @@
-//! What labs show, as a text.
+//! Writes the values that labs display as a text.
 
 use super::super::digits;
 use super::super::runs::SnapshotRun;
@@ -23,7 +23,7 @@ pub(in crate::check::snapshot) fn whole<'t>(name: &str, labs: impl Iterator<Item
     text
 }
 
-/// The lines of a lab. Each run has its values, and the same under the numerics that digits must survive.
+/// The lines of a lab. Each run is given with the same run under the perturbed numerics that determine the digits.
 pub(in crate::check::snapshot) fn lab(
     address: &str,
     title: &str,
@@ -54,7 +54,7 @@ fn times(run: &SnapshotRun) -> (String, Vec<String>) {
     ("time".into(), run.times.iter().map(|t| crate::verify::significant(*t)).collect())
 }
 
-/// The values of a row with the digits that all its numerics share.
+/// The values of a row with the digits that all numerics share.
 fn row(cells: &[Cell], others: &[&Vec<Cell>]) -> Vec<String> {
     let numbers: Vec<f64> = cells.iter().filter_map(number).collect();
     let (finest, coarsest) = digits::units(&numbers);
@@ -87,7 +87,7 @@ fn number(cell: &Cell) -> Option<f64> {
     }
 }
 
-/// What is no number: a text, a truth value, nothing.
+/// The text of a value that is not a finite number: a text, a boolean, no value.
 pub(in crate::check::snapshot) fn plain(cell: &Cell) -> String {
     match cell {
         Cell::Number(x) => crate::run::rounded(*x, 6),
@@ -108,7 +108,7 @@ fn quoted(text: &str) -> String {
     printable_json(&serde_json::Value::from(text).to_string()).into_owned()
 }
 
-/// Names to the left, numbers to the right, in columns.
+/// Writes columns: names aligned to the left, numbers to the right.
 fn table(rows: &[(String, Vec<String>)], text: &mut String) {
     let width = |of: &str| of.chars().count();
     let names = rows.iter().map(|(name, _)| width(name)).max().unwrap_or(0);
