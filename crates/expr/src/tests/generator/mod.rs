@@ -43,7 +43,7 @@ pub(super) struct Generator {
     random: Random,
     names: Vec<(String, Holds, bool)>,
     count: usize,
-    /// Inside a function, nothing outside is changed, so that constant folding still applies.
+    /// The number of enclosing loops within the current function; `functions` is the number of enclosing functions.
     loops: usize,
     functions: usize,
 }
