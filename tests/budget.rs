@@ -1,5 +1,6 @@
-//! Every run terminates: the cost of a lab is counted in work, for a run and for a file, and a check states what it covered.
-//! Tests also what is observed in these runs: all displayed values, over the whole time for which they are displayed.
+//! Every run terminates: the cost of a lab is counted in work, for a run and for a file, and a check states what it
+//! covered. These tests also cover the observation of these runs: all displayed values, over the whole time for
+//! which they are displayed.
 
 #![allow(clippy::unwrap_used)]
 

@@ -37,7 +37,7 @@ pub(super) enum OutputKind<'t> {
     Lesson(&'t str),
 }
 
-/// Extensions of files that labspec reads. An output never replaces such a file, whoever wrote it.
+/// Extensions of files that labspec reads. An output never replaces such a file, even if labspec wrote it.
 const READ: [&str; 14] = [
     "md", "markdown", "mdx", "qmd", "rmd", "xml", "mjcf", "urdf", "stl", "obj", "msh", "png", "toml", "snap",
 ];

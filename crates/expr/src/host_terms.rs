@@ -1,5 +1,5 @@
-//! The terms of the host. The language does not know what it computes with, so examples and advice that name a field, a text or
-//! a control of the host come from here.
+//! The terms of the host. The language itself does not depend on the kind of the host, so examples and advice that name a
+//! field, a text or a control of the host are taken from here.
 
 /// The terms of a host, for messages.
 #[derive(Clone, Copy, Debug)]

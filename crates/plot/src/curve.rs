@@ -28,7 +28,7 @@ pub(super) fn pieces(
     inside.map(|piece| simplify(&piece)).collect()
 }
 
-/// The samples in one column of pixels: their number, and those that are kept, with their order.
+/// The samples in one column of pixels: their number, and the samples that are drawn, each with its index in the column.
 struct PixelColumn {
     index: i64,
     count: usize,

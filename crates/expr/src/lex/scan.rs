@@ -114,7 +114,7 @@ fn number(input: &str) -> IResult<&str, RawToken<'_>> {
     map((literal::number, take_while(is_word_part)), |(text, tail)| RawToken::Number(text, tail)).parse(input)
 }
 
-/// The meaning of a token; reports what is wrong with it.
+/// Returns the meaning of a token, and reports what is wrong with it.
 fn token<'s>(raw: RawToken<'s>, source: &str, span: Span, diagnostics: &mut Vec<Finding>) -> TokenKind<'s> {
     match raw {
         RawToken::Word(text) => TokenKind::Word(text),

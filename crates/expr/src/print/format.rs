@@ -50,8 +50,8 @@ pub fn format_statements(source: &str) -> Option<String> {
     (shape(&again.tree) == shape(&parsed.tree)).then_some(printer.out)
 }
 
-/// A tree without its spans: two texts with the same shape mean the same. The printed text would not do for this comparison,
-/// because it cannot show what the printer itself has lost.
+/// A tree without its spans. Two texts with the same shape have the same meaning. Comparing printed texts instead would not
+/// reveal what the printer itself has lost.
 fn shape(tree: &impl std::fmt::Debug) -> String {
     let text = format!("{tree:?}");
     let mut parts = text.split("Span { start: ");

@@ -6,7 +6,7 @@ use labspec_core::reflect::{Object, Stage, data, field};
 use labspec_core::{AccessSet, Model, Plan};
 use labspec_expr::Compiler;
 
-/// Something that would be read in addition to what the lab reads.
+/// The cost of an additional reader: the stages and the time that it adds to those of the lab.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExtraReader {
     /// The text of the request.
