@@ -295,7 +295,8 @@ pub(super) fn wrong(random: &mut Random, measured: &[MeasuredNumber]) -> Vec<Cla
             all.push(table(variant, Truth::False, &format!("result ({unit})"), &text, &k.name));
         }
     };
-    // A factor does not change 0, and a sign does not change a number that is already negative. Values
+    // Some factors do not change a number near 1 (powers, roots, the reciprocal) or near 0, and a sign does not
+    // change a negative number.
     // near 0 or 1 are left out.
     let telling = (k.x - 1.0).abs() > 0.2 && k.x.abs() > 0.02;
     if telling && !n.minus {
