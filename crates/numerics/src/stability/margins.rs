@@ -356,8 +356,8 @@ fn contacts(m: &Model, touching: &[[usize; 2]]) -> Option<RaisedParameter> {
     })
 }
 
-/// The mass ratio of bodies that touch, are connected by a joint or are tied together; the heavier one is made heavier and
-/// the lighter one lighter.
+/// The mass ratios of bodies that touch, are connected by a joint or are tied together. Of each pair, each body
+/// in turn is made heavier.
 fn ratios(m: &Model, touching: &[[usize; 2]]) -> Vec<RaisedParameter> {
     let mut list: Vec<RaisedParameter> = Vec::new();
     let mut pairs: Vec<[usize; 2]> = touching.iter().map(|gs| gs.map(|g| body_of(m, g))).collect();
