@@ -1,7 +1,7 @@
-//! The step loop does not allocate after warm-up, nor do programs that compute with numbers.
+//! The step loop does not allocate after warm-up, and neither do numeric programs.
 //!
-//! Warm-up is one run of the same kind: vectors of contacts and constraint rows grow to what the scene needs,
-//! and keep their room over a reset.
+//! Warm-up is one run of the same kind: vectors of contacts and constraint rows grow to the size that the scene needs, and keep
+//! their capacity over a reset.
 
 #![allow(clippy::unwrap_used)]
 
@@ -19,15 +19,15 @@ use labspec_expr::Value;
 use serde_json::json;
 use std::fmt::Write;
 
-/// A demand that reads the coordinates only.
+/// An access set that reads only the coordinates.
 fn coordinates() -> AccessSet {
     let mut access = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
     access.reads.insert(field(Object::Data, "qpos").unwrap());
     access
 }
 
-/// Steps a model from its start, once to warm up and once to count, with the full pipeline, with a plan for
-/// anything, and with a plan for the coordinates.
+/// Steps a model from its start, once to warm up and once to count allocations: with the full pipeline, with a plan for any
+/// access, and with a plan for the coordinates.
 fn allocates_nothing(name: &str, m: &Model, steps: usize) {
     for plan in [Plan::full(), Plan::new(m, &AccessSet::ANY), Plan::new(m, &coordinates())] {
         let mut d = Data::planned(m, plan);
@@ -51,7 +51,7 @@ fn allocates_nothing(name: &str, m: &Model, steps: usize) {
     }
 }
 
-/// The models that hold every kind of sensor.
+/// Models with every kind of sensor.
 #[test]
 fn sensors() {
     for name in ["frames", "contacts", "cameras", "limits", "delays", "delays_rk4"] {
@@ -72,7 +72,7 @@ fn drop_onto_a_floor() {
     allocates_nothing("ball drop", &model("ball_drop"), 1500);
 }
 
-/// The first impact of a scene may make room; what follows may not.
+/// The first impact of a scene may allocate; later steps may not.
 #[test]
 fn rest_after_the_first_impact() {
     let m = model("ball_drop");
@@ -95,7 +95,7 @@ fn limits() {
 fn thirty_spheres_on_a_plane() {
     let mut xml = String::from("<mujoco><worldbody><geom type='plane' size='2 2 1'/>");
     for i in 0..30 {
-        // Columns of three that touch and lean a little: they fall over and roll into each other.
+        // Leaning columns of three spheres in contact, which fall over and roll into each other.
         let (x, y, z) = (f64::from(i / 3 % 5), f64::from(i / 15), f64::from(i % 3));
         let [x, y, z] = [0.079 * x, 0.079 * y + 0.01 * z, 0.04 + 0.079 * z];
         let _ = write!(
@@ -121,7 +121,7 @@ fn trees_that_fall_asleep_and_wake() {
     }
 }
 
-/// Boxes that do not touch each other: four times as many take four times the memory, not sixteen.
+/// Boxes that do not touch each other: four times as many need four times the memory, not sixteen times.
 #[test]
 fn memory_of_a_thousand_boxes() {
     let bytes = |n: usize| {
@@ -166,7 +166,7 @@ fn every_integrator_with_everything_in_the_zoo() {
     }
 }
 
-/// What `reflect::allocate_data` promises: room is made the first time only.
+/// As `reflect::allocate_data` promises, memory is allocated only the first time.
 #[test]
 fn reset() {
     let m = model("ball_drop");
@@ -174,7 +174,7 @@ fn reset() {
     assert_eq!(measure(|| core::reset_data(&m, &mut d).unwrap()).count_total, 0);
 }
 
-/// A bad number resets the data inside of a step.
+/// A non-finite number resets the data during a step.
 #[test]
 fn automatic_reset() {
     let mut m = model("ball_drop");
@@ -209,7 +209,7 @@ fn programs_of_numbers() {
     };
     run(&mut session);
     session.reset();
-    // Watching for growth, in a lab whose programs only look.
+    // Monitoring of energy growth, in a lab whose programs only read.
     let still =
         json!({"xml": model_text("ball_drop"), "readouts": [{"label": "height", "expr": "data.qpos[2]"}]});
     let quiet = load_lesson(SourceFile::new("still.json", still.to_string()), &ModelFolder::unknown());
@@ -220,7 +220,7 @@ fn programs_of_numbers() {
     assert_eq!(measure(|| run(&mut watched)).count_total, 0, "a step of a run that is watched");
     // The controller and the step.
     assert_eq!(measure(|| run(&mut session)).count_total, 0, "a step with a controller");
-    // Each trace and readout alone.
+    // Each trace and readout separately.
     for probe in &programs.probes {
         let bound = probe.bound.as_ref().unwrap();
         session.evaluate(&bound.program, &bound.text);
@@ -229,7 +229,7 @@ fn programs_of_numbers() {
         assert!(value.is_some(), "{}", probe.name);
         assert_eq!(count.count_total, 0, "{}", probe.name);
     }
-    // All of them as a run samples them: by columns of what they read, where that is all that they depend on.
+    // All of them, sampled as in a run: by columns of the elements that they read, if they depend only on these.
     let mut samples = Samples::new(&programs, 20);
     assert_eq!(
         samples.columns(),
@@ -244,7 +244,7 @@ fn programs_of_numbers() {
         let value = session.evaluate(&bound.program, &bound.text).unwrap();
         assert_eq!(rows[19][i + 1], Cell::from(value), "{}", probe.name);
     }
-    // A slider's assignment.
+    // The assignment of a slider.
     let (_, ControlProgram::Change(..)) = &programs.controls[0] else { panic!("a slider changes something") };
     let count = measure(|| session.set_control(0, Value::Number(0.5)));
     assert_eq!(count.count_total, 0, "a slider");

@@ -1,4 +1,4 @@
-//! The questions of a public course and of a first lesson, each with a claim of our own (`tests/answers`, beside the name of the
+//! The questions of a public course and of a first lesson, each with our own claim (`tests/answers`, under the name of the
 //! file): the authors' key is verified, and every other key is refuted.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
@@ -12,7 +12,7 @@ use labspec::source::SourceFile;
 use labspec::verify::{QuoteState, Verdict};
 use serde_json::{Value, json};
 
-/// A quiz, and the claims about its questions, counted from 1.
+/// A quiz, and the claims about its questions, numbered from 1.
 struct Case {
     name: String,
     quiz: Value,
@@ -38,7 +38,7 @@ fn cases() -> Vec<Case> {
     all
 }
 
-/// The verdicts of all questions of a quiz that claim something, and quotes that are not right.
+/// The verdicts of all questions of a quiz with claims, and the quotes that are not right.
 fn verdicts(quiz: &Value, models: &Models) -> (Vec<(usize, Verdict, String)>, Vec<String>) {
     let text = format!("# Questions\n\n```quiz\n{quiz:#}\n```\n");
     let lesson = load_lesson(SourceFile::new("quiz.md", text), models.folder());
@@ -52,7 +52,8 @@ fn verdicts(quiz: &Value, models: &Models) -> (Vec<(usize, Verdict, String)>, Ve
         let wrong = claim.judgement.quotes.iter().filter(|q| q.state != QuoteState::Right);
         quotes.extend(wrong.map(|q| format!("{} {}: {}", claim.name, q.text, q.reason)));
     }
-    // Numbers of a link whose mass changes and whose inertia stays: right in the lab, and of no link (`claim-of-mismatch`).
+    // Numbers of a link whose mass changes while its inertia does not: right for the lab, but not for a physical
+    // link (`claim-of-mismatch`).
     quotes.retain(|quote: &String| !quote.contains("with the inertia that this mass has"));
     if answers.is_empty() {
         quotes.extend(checked.findings.iter().map(|f| f.message.clone()));
@@ -60,7 +61,7 @@ fn verdicts(quiz: &Value, models: &Models) -> (Vec<(usize, Verdict, String)>, Ve
     (answers, quotes)
 }
 
-/// Other keys of a question: the other options, or numbers just beyond the tolerance.
+/// Other keys of a question: the other options, or numbers just outside the tolerance.
 fn other_keys(question: &Value) -> Vec<Value> {
     match question["options"].as_array() {
         Some(options) => {
@@ -74,7 +75,7 @@ fn other_keys(question: &Value) -> Vec<Value> {
     }
 }
 
-/// Puts the claims into a quiz; questions without one are left out.
+/// Inserts the claims into a quiz; questions without a claim are left out.
 fn claimed(case: &Case, key: impl Fn(usize, &Value) -> Option<Value>) -> Value {
     let mut quiz = case.quiz.clone();
     let questions = quiz["questions"].as_array_mut().unwrap();
@@ -120,7 +121,7 @@ fn keys_of_real_questions_are_verified_and_every_other_key_is_refuted() {
                 if let Some(key) = other(&questions[n - 1]) {
                     match verdict {
                         Verdict::Refuted => refuted += 1,
-                        // The runs say nothing of this option, and so not that it is wrong either: that is said, and nothing verified.
+                        // The runs do not decide this option, so it is neither verified nor refuted; this is reported.
                         Verdict::Failed if reason.contains("is not decided by this evidence") => {
                             undecided += 1
                         }

@@ -1,5 +1,5 @@
-//! What the program says about labs that break, that gain energy from nothing, or that are too stiff for their timestep: the
-//! lessons of `tests/lessons/runs`. And that it says so of no lab that is well: our own lessons and those beside the repository.
+//! Reports about labs that fail, gain energy without a source, or are too stiff for their timestep: the lessons of
+//! `tests/lessons/runs`. Labs without such faults are not reported: our own lessons and those next to the repository.
 
 #![allow(clippy::unwrap_used)]
 
@@ -37,7 +37,7 @@ fn check_labs_that_break() {
     }
 }
 
-/// Codes of what a check finds, with the files.
+/// The codes and messages of the findings of a check.
 fn found(folder: &Path, arguments: &[&str]) -> Vec<(String, String)> {
     let done = run_in(folder, &[&["check", "--format", "json"], arguments].concat());
     let report: Value = serde_json::from_str(&done.stdout).unwrap();
@@ -60,7 +60,7 @@ fn no_lab_that_is_well_is_said_to_go_wrong() {
     }
     for folder in ["corpus/labs", "corpus/quizzes", "lesson-0.1"] {
         let reported = grows(found(&shared, &[folder, "--models", "corpus/models"]));
-        // Two balls at the lower end of the damping ratio: 0.625 J before they meet, 1.376 J after it, in the library as here
+        // Two balls at the lower end of the damping ratio: 0.625 J before they meet, 1.376 J after it, in the library as well
         // (`golden/stability_labs.json`, physics-lab_04).
         let is_expected = |message: &str| message.contains("\"contact damping ratio\" at 0.02");
         let other: Vec<_> = reported.iter().filter(|(_, message)| !is_expected(message)).collect();

@@ -1,5 +1,6 @@
-//! Every run ends: what a lab may cost is counted in work, for a run and for a file, and a check says what it covered.
-//! And what is looked at in these runs: everything that a lab shows, over all the time that it shows.
+//! Every run terminates: the cost of a lab is counted in work, for a run and for a file, and a check states what it
+//! covered. These tests also cover the observation of these runs: all displayed values, over the whole time for
+//! which they are displayed.
 
 #![allow(clippy::unwrap_used)]
 
@@ -14,10 +15,10 @@ use serde_json::{Value, json};
 use std::fmt::Write;
 use std::time::Duration;
 
-/// What a check may take of the processor here, in a build that is hardly optimized.
+/// The processor time of a check in these tests, with few compiler optimizations.
 const LONGEST: Duration = Duration::from_secs(60);
 
-/// Time that this thread has used, where that is known.
+/// The processor time of this thread, if known.
 fn used() -> Option<Duration> {
     let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
     text.split(' ').next()?.parse().ok().map(Duration::from_nanos)
@@ -26,10 +27,10 @@ fn used() -> Option<Duration> {
 /// A pendulum, 1000 steps in 10 s.
 const PENDULUM: &str = "<mujoco><option timestep='.01'/><worldbody><body><joint name='swing' type='hinge' axis='0 1 0'/><geom size='.1' pos='.5 0 0' mass='1'/></body></worldbody></mujoco>";
 
-/// There is no contact.
+/// There is no contact, so this call fails.
 const THROWS: &str = "mj.mj_contactForce(model, data, 0, [0, 0, 0, 0, 0, 0])";
 
-/// The check of a lab over a scene with more keys.
+/// The check of a lab over a scene with further keys.
 fn check_lab(xml: &str, more: Value) -> Checked {
     let mut lab = json!({"xml": xml});
     for (key, value) in more.as_object().unwrap() {
@@ -68,7 +69,7 @@ fn the_first_throw_of_a_controller_ends_the_run() {
         assert_eq!(t.ended.as_deref(), Some("frozen after 0 of 10 s"));
         assert_eq!(codes(&checked).len(), 1, "{:?}", messages(&checked));
     }
-    // Later, too, and what was covered is said.
+    // Errors that occur later are reported as well, with the time that was covered.
     let checked =
         check_lab(PENDULUM, json!({"controller": format!("if (data.time > 3.995) {{ {THROWS} }}")}));
     assert_eq!(tried(&checked).ended.as_deref(), Some("frozen after 4 of 10 s"));
@@ -91,12 +92,12 @@ fn steps_in_programs_cost_what_steps_cost() {
     assert_eq!(codes(&checked), ["too-many-steps"], "{:?}", messages(&checked));
     let checked = check_lab(PENDULUM, json!({"controls": [{"type": "button", "label": "On", "run": steps}]}));
     assert_eq!(count(&checked, "too-many-steps"), 1, "{:?}", messages(&checked));
-    // As it stands, with the button, after a touch, and for long.
+    // Unchanged, with the button, with a perturbation, and for a long time.
     assert_eq!((tried(&checked).runs, tried(&checked).covered), (4, 10.0));
     let readout = format!("(() => {{ {steps}; return data.time }})()");
     let checked = check_lab(PENDULUM, json!({"readouts": [{"label": "t", "expr": readout}]}));
     assert_eq!(count(&checked, "too-many-steps"), 1, "{:?}", messages(&checked));
-    // It is not tried again, so the run goes on.
+    // The readout is not evaluated again, so the run continues.
     assert_eq!(tried(&checked).covered, 10.0);
 }
 
@@ -120,7 +121,7 @@ fn a_hundred_sliders_with_a_slow_loop() {
     let checked = check_lab(PENDULUM, json!({"controls": controls("2e5")}));
     let t = tried(&checked);
     assert!(t.runs > 1 && t.runs + t.skipped == 201, "{t:?}");
-    // Each of these alone is too much; the run does not come to its start.
+    // Each of these alone exceeds the limit; the run does not reach its start.
     let checked = check_lab(PENDULUM, json!({"controls": controls("1e9")}));
     let t = tried(&checked);
     assert_eq!((t.runs, t.skipped, t.covered), (1, 200, 0.0), "{t:?}");
@@ -160,12 +161,12 @@ fn a_thousand_sensors_of_four_million_pairs() {
     );
     let checked = check_lab(&xml, json!({"readouts": [{"label": "d", "expr": "data.sensordata[0]"}]}));
     let t = tried(&checked);
-    // Sensors that look at the same pairs begin with the best distance so far: some steps are made within the budget.
+    // Sensors for the same pairs start with the best distance so far, so that some steps fit into the budget.
     assert!(t.covered < 0.1, "{t:?}");
     assert!(t.ended.unwrap().starts_with("first 0"));
 }
 
-/// A body that covers a grid of a million cells: the walk over them ends where the work of the run is done, within a step.
+/// A body over a grid of a million cells: the traversal stops when the work limit of the run is reached, within a step.
 #[test]
 fn a_grid_of_a_million_cells_ends() {
     let xml =
@@ -216,7 +217,7 @@ fn a_lab_is_run_for_as_long_as_it_is_looked_at() {
         (json!({"plots": [{"window": 30, "traces": [{"label": "q", "expr": "data.qpos[0]"}]}]}), 29.0, true),
         (json!({"plots": [{"traces": [{"label": "q", "expr": "data.qpos[0]"}]}]}), 4.9, true),
         (json!({"plots": [{"traces": [{"label": "q", "expr": "data.qpos[0]"}]}]}), 5.1, true),
-        // A page that nothing stops runs on: ten times as long is tried.
+        // A page that nothing stops continues, so a run ten times as long is tried.
         (json!({"plots": [{"traces": [{"label": "q", "expr": "data.qpos[0]"}]}]}), 49.9, true),
         (json!({"plots": [{"traces": [{"label": "q", "expr": "data.qpos[0]"}]}]}), 50.1, false),
     ] {
@@ -257,7 +258,7 @@ fn everything_that_is_shown_is_looked_at() {
 #[test]
 fn gaps_that_are_meant_are_silent() {
     let trace = json!([{"traces": [{"label": "x", "expr": "ctx.x"}]}]);
-    // Until a button is pressed; until a routine has finished, which says so itself.
+    // Until a button is pressed, or until a routine reports its end.
     let checked = check_lab(
         PENDULUM,
         json!({"plots": trace, "controls": [{"type": "button", "label": "Go", "run": "ctx.x = data.time"}]}),
@@ -268,11 +269,11 @@ fn gaps_that_are_meant_are_silent() {
         json!({"plots": trace, "setup": "ctx.x = NaN", "controller": "if (data.time > 3) { ctx.x = 1 }"}),
     );
     assert_eq!(codes(&checked), Vec::<&str>::new(), "{:?}", messages(&checked));
-    // A gap that nothing ever fills.
+    // A gap that is never filled.
     let checked =
         check_lab(PENDULUM, json!({"plots": trace, "controller": "if (data.time > 300) { ctx.x = 1 }"}));
     assert_eq!(codes(&checked), ["shows-nan"], "{:?}", messages(&checked));
-    // No number that is computed.
+    // A computed value that is always NaN.
     let checked =
         check_lab(PENDULUM, json!({"plots": trace, "controller": "ctx.x = Math.sqrt(-1 - data.time)"}));
     assert_eq!(codes(&checked), ["shows-nan"], "{:?}", messages(&checked));
@@ -287,7 +288,7 @@ fn with_each_setting_of_a_control() {
     let checked = check_lab(PENDULUM, lab);
     assert_eq!(codes(&checked), ["shows-infinite"]);
     assert!(checked.findings[0].message.contains("with \"k\" at 0"), "{:?}", messages(&checked));
-    // As it stands and at both ends; after a touch, moved while it runs, and for long.
+    // Unchanged and at both ends of the slider; with a perturbation, moved during the run, and for a long time.
     assert_eq!((tried(&checked).runs, tried(&checked).skipped), (6, 0));
 }
 
@@ -299,7 +300,7 @@ fn every_warning_of_the_engine_is_a_finding() {
     assert!(tried(&checked).broke);
 }
 
-/// No lesson that people have is cut short, and none of them shows what no student can read.
+/// No real lesson exceeds the limit, and none displays values that a student cannot read.
 #[test]
 fn real_labs_are_covered() {
     let shared = workspace().join("../shared");
@@ -320,7 +321,7 @@ fn real_labs_are_covered() {
                 check::check_lesson(lesson, &models, CheckLevel { claims: false, ..CheckLevel::FULL });
             for lab in &checked.labs {
                 let t = lab.tried.as_ref().unwrap();
-                // Two balls gain energy at the lower end of their damping ratio, in the library as here.
+                // Two balls gain energy at the lower end of their damping ratio, in the library as well.
                 let breaks = path.ends_with("physics-lab_04_simlab.json");
                 assert_eq!(
                     (t.covered, t.skipped, t.broke),
@@ -352,7 +353,7 @@ fn counting_changes_no_number() {
     assert_eq!(free.qpos, limited.qpos);
     assert_eq!(core::cost(&free), core::cost(&limited));
     assert!(!core::exhausted(&limited) && core::cost(&free) > 200 * core::cost_of_pass(&free));
-    // Beyond the limit steps cost next to nothing.
+    // Beyond the limit, steps cost almost nothing.
     core::limit(&mut limited, 0);
     core::step(&m, &mut limited).unwrap();
     assert!(core::exhausted(&limited));

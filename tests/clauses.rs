@@ -1,12 +1,11 @@
-//! What an author wants to be told, clause by clause: a lab or a quiz in which it is so, and one that comes close to it and is right.
-//! The one is told with its rule, the other with nothing of the kind. (Each rule has two examples of its own besides, in
-//! `tests/rules.rs`.)
+//! The reports that authors expect, one clause each: a lab or a quiz with the fault, and a similar one without it. The first
+//! gives a finding of the rule, the second does not. (Each rule also has two examples, in `tests/rules.rs`.)
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use crate::support::{check_text, codes};
 
-/// A clause: what it says, its rule, what is wrong, and what comes close.
+/// A clause: its description, its rule, examples with the fault, and similar examples without it.
 struct Clause {
     says: &'static str,
     code: &'static str,
@@ -21,7 +20,7 @@ const PLATE: &str = "<mujoco><worldbody><geom name='plate' type='box' size='1 1 
 
 const CART: &str = "<mujoco><option gravity='0 0 0'/><worldbody><body name='cart'><joint name='rail' type='slide' stiffness='10'/><geom size='.1' mass='10'/></body></worldbody></mujoco>";
 
-/// Labs are written without their model: the first word says which it is.
+/// Labs are written without their model: the first word selects it.
 const CLAUSES: &[Clause] = &[
     Clause {
         says: "a button that throws",
@@ -41,7 +40,7 @@ const CLAUSES: &[Clause] = &[
         ],
         right: &[
             r#"DROP "stopAt": 0.4, "controls": [{"type": "button", "label": "kick", "run": "data.qvel[2] = 2"}], "readouts": [{"label": "height (m)", "expr": "data.qpos[2]"}]"#,
-            // The second press is the one that acts.
+            // The second press has an effect.
             r#"DROP "stopAt": 0.4, "setup": "ctx.n = 0", "controls": [{"type": "button", "label": "kick", "run": "ctx.n += 1; if (ctx.n % 2 === 0) { data.qvel[2] = 2 }"}], "readouts": [{"label": "height (m)", "expr": "data.qpos[2]"}]"#,
         ],
     },
@@ -53,7 +52,7 @@ const CLAUSES: &[Clause] = &[
         ],
         right: &[
             r#"ROD "stopAt": 0.5, "controls": [{"label": "angle", "set": "data.qpos[0]", "min": 0, "max": 1, "value": 0.5, "init": true}], "readouts": [{"label": "angle", "expr": "data.qpos[0]"}]"#,
-            // What is written into the model stays.
+            // Changes of the model persist.
             r#"ROD "stopAt": 0.5, "controls": [{"label": "damping", "set": "model.dof_damping[0]", "min": 0, "max": 1, "value": 0.5}], "readouts": [{"label": "angle", "expr": "data.qpos[0]"}]"#,
         ],
     },
@@ -78,7 +77,7 @@ const CLAUSES: &[Clause] = &[
         ],
         right: &[
             r#"DROP "controller": "if (ctx.touch === 0 && data.ncon > 0) { ctx.touch = data.time - model.opt.timestep }", "stopAt": 0.6, "setup": "ctx.touch = 0", "readouts": [{"label": "touches at", "expr": "ctx.touch"}, {"label": "height (m)", "expr": "data.qpos[2]"}]"#,
-            // The time of every step, contact or not; and contacts that are computed anew.
+            // The time of every step, with or without a contact; and contacts that are recomputed.
             r#"DROP "controller": "ctx.now = data.time; ctx.n = data.ncon", "stopAt": 0.6, "readouts": [{"label": "now", "expr": "ctx.now"}, {"label": "contacts", "expr": "ctx.n"}, {"label": "height (m)", "expr": "data.qpos[2]"}]"#,
             r#"DROP "controller": "mj.mj_forward(model, data); if (ctx.touch === 0 && data.ncon > 0) { ctx.touch = data.time }", "stopAt": 0.6, "setup": "ctx.touch = 0", "readouts": [{"label": "touches at", "expr": "ctx.touch"}, {"label": "height (m)", "expr": "data.qpos[2]"}]"#,
         ],
@@ -111,7 +110,7 @@ const CLAUSES: &[Clause] = &[
         wrong: &[
             r#"MOTOR "controller": "data.ctrl[0] = 5 + data.qpos[0]", "stopAt": 0.5, "readouts": [{"label": "angle", "expr": "data.qpos[0]"}]"#,
         ],
-        // It is at its limit first, and within its range then.
+        // The motor is at its limit at first, and within its range later.
         right: &[
             r#"MOTOR "controller": "data.ctrl[0] = 20 * (0.05 - data.qpos[0])", "setup": "data.qpos[0] = -0.2", "stopAt": 2, "readouts": [{"label": "angle", "expr": "data.qpos[0]"}]"#,
         ],
@@ -122,7 +121,7 @@ const CLAUSES: &[Clause] = &[
         wrong: &[
             r#"THIN "setup": "data.qvel[2] = -6", "stopAt": 0.5, "readouts": [{"label": "height", "expr": "data.qpos[2]"}]"#,
         ],
-        // As fast, and the plate is thick; or beside it.
+        // The same speed with a thick plate, or next to the plate.
         right: &[
             r#"PLATE "setup": "data.qvel[2] = -1", "stopAt": 0.5, "readouts": [{"label": "height", "expr": "data.qpos[2]"}]"#,
             r#"THIN "setup": "data.qpos[0] = 3; data.qvel[2] = -6", "stopAt": 0.5, "readouts": [{"label": "height", "expr": "data.qpos[2]"}]"#,
@@ -208,7 +207,7 @@ const CLAUSES: &[Clause] = &[
         says: "a lab that breaks only where two sliders meet",
         code: "energy-grows",
         wrong: &[
-            // sqrt(k / m) h is 0.28 with one of them at its end, and 4 with both.
+            // sqrt(k / m) h is 0.28 with one slider at its end, and 4 with both.
             r#"CART "stopAt": 1, "setup": "data.qpos[0] = 0.1", "controls": [{"label": "stiffness", "set": "model.jnt_stiffness[0]", "min": 10, "max": 200000, "value": 10}, {"label": "mass", "apply": "model.body_mass[1] = value; mj.mj_setConst(model, data)", "min": 0.05, "max": 10, "value": 10, "reset": true}], "readouts": [{"label": "x (m)", "expr": "data.qpos[0]"}]"#,
         ],
         right: &[

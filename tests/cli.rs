@@ -1,4 +1,4 @@
-//! The program itself: exit codes, what it prints to people and to programs, and what it says when it cannot run.
+//! The program: exit codes, its output for people and for programs, and its messages when it cannot run.
 
 #![allow(clippy::panic, clippy::unwrap_used)]
 
@@ -25,14 +25,14 @@ fn check_a_wrong_lesson() {
 #[test]
 fn check_a_folder() {
     let done = run(&["check", "course", "--models", "models"]);
-    // Other people's JSON is passed over.
+    // JSON files of other programs are skipped.
     assert_eq!((done.code, done.stderr.as_str()), (0, ""), "{}", done.stdout);
     assert!(done.stdout.contains("course/a.md") && !done.stdout.contains("package.json"), "{}", done.stdout);
-    // Named itself, it is ours to complain about.
+    // A file that is named directly is always checked.
     assert_eq!(run(&["check", "course/package.json"]).code, 1);
 }
 
-/// The lesson that this program was first written for, where it lies beside the repository.
+/// The lesson for which this program was first written, if it is next to the repository.
 #[test]
 fn check_the_real_lesson() {
     let shared = workspace().join("../shared");
@@ -43,8 +43,8 @@ fn check_the_real_lesson() {
     let report: Value = serde_json::from_str(&run_in(&shared, &arguments).stdout).unwrap();
     let findings = report["findings"].as_array().unwrap();
     let codes: Vec<&str> = findings.iter().filter_map(|f| f["code"].as_str()).collect();
-    // `<option>` in the text and in an explanation, which a browser swallows; `mj_setConst` in mid-run, which makes the scene jump;
-    // what is not claimed, and where the right option is the longest.
+    // `<option>` in the text and in an explanation, which a browser does not display; `mj_setConst` during a run, which makes
+    // the scene jump; missing claims; and a question whose right option is the longest.
     let all = [
         "numbers-unclaimed",
         "unescaped-element",
@@ -146,7 +146,7 @@ fn what_cannot_run_says_why() {
         all.push_str(&text);
         all.push('\n');
     }
-    // The system's own words for a missing file differ between systems.
+    // The message of the operating system for a missing file differs between systems.
     snapshot(
         "failures",
         all.replace("The system cannot find the file specified.", "No such file or directory"),
@@ -176,7 +176,7 @@ fn explain_knows_every_code() {
     assert_eq!(list.code, 0);
     let codes: Vec<&str> = list.stdout.lines().filter_map(|l| l.split_whitespace().next()).collect();
     assert!(codes.len() > 60, "{}", codes.len());
-    // A few of each kind; running all would take as many processes.
+    // Only a few of each kind; all of them would need as many processes.
     for code in ["answer-fragile", "unknown-key", "unknown-field", codes[0], codes[codes.len() - 1]] {
         let done = run(&["explain", code]);
         assert_eq!(done.code, 0, "{code}: {}", done.stderr);
@@ -184,7 +184,7 @@ fn explain_knows_every_code() {
     }
 }
 
-/// `labspec … | head`: a reader that goes away ends the program quietly.
+/// `labspec … | head`: if the reader closes the pipe, the program ends quietly.
 #[test]
 fn a_pipe_that_is_closed_early() {
     let folder = folder();
@@ -205,7 +205,7 @@ fn a_pipe_that_is_closed_early() {
     }
 }
 
-/// The program as it goes on, line by line, until it is told to stop.
+/// A running program whose output is read line by line until it is stopped.
 #[cfg(unix)]
 struct Watched {
     child: std::process::Child,
@@ -243,7 +243,7 @@ impl Watched {
         }
     }
 
-    /// Presses Ctrl-C; the exit code.
+    /// Sends Ctrl-C and returns the exit code.
     fn interrupt(mut self) -> i32 {
         let id = self.child.id().to_string();
         assert!(std::process::Command::new("kill").args(["-INT", &id]).status().unwrap().success());
@@ -258,7 +258,7 @@ impl Drop for Watched {
     }
 }
 
-/// Settings, the snapshot and a lesson whose lab is named are parts of a lesson, from the moment at which they come.
+/// Settings, the snapshot and a lesson with a used lab are watched from the moment at which they are created.
 #[cfg(unix)]
 #[test]
 fn watching_sees_settings_snapshots_and_neighbours() {
@@ -280,7 +280,7 @@ fn watching_sees_settings_snapshots_and_neighbours() {
     assert_eq!(watched.interrupt(), 130);
 }
 
-/// The rows of a table of docs/verify.md: a code, and when.
+/// The rows of the table in docs/verify.md: an exit code and its condition.
 fn exit_codes() -> Vec<(i32, String)> {
     let text = std::fs::read_to_string(workspace().join("docs/verify.md")).unwrap();
     let section = text.split("\n## Exit codes\n").nth(1).unwrap().split("\n## ").next().unwrap();
@@ -291,7 +291,7 @@ fn exit_codes() -> Vec<(i32, String)> {
     section.lines().filter_map(row).collect()
 }
 
-/// A lesson for a row of the table, and what came of it.
+/// A check of a lesson for a row of the table, and its result.
 fn done_for(when: &str, folder: &Path) -> Option<Done> {
     let write = |name: &str, text: &str| std::fs::write(folder.join(name), text).unwrap();
     let check = |arguments: &[&str]| Some(run_in(folder, &[&["check"], arguments].concat()));

@@ -1,5 +1,5 @@
-//! The commands that run one lab or model: `run`, `plan`, `precision`, `record`, `bench`. Run times are cut out of
-//! what is compared.
+//! The commands that run one lab or model: `run`, `plan`, `precision`, `record`, `bench`. Run times are
+//! removed before the comparison.
 
 #![allow(clippy::unwrap_used)]
 
@@ -54,7 +54,7 @@ fn run_for_programs() {
         "time,plot/0/heavy,\"plot/0/light, say\",plot/1/contacts,readout/time (s),readout/height (m)"
     );
     assert_eq!((lines.len(), lines[1]), (4, "0,1,1,0,0,1"));
-    // Both say the same, to the last bit.
+    // Both outputs contain the same bits.
     let last: Vec<f64> = lines[3].split(',').map(|x| x.parse().unwrap()).collect();
     let whole = run(&["run", "clean.md#1", "--steps", "500", "--every", "500", "--format", "json"]).stdout;
     let row = format!("{last:?}").replace(' ', "");
@@ -102,8 +102,8 @@ fn plan_gives_reasons() {
     assert_eq!(keys(&plan["stages"][0])[..3], ["stage", "keep", "reason"]);
 }
 
-/// What each stage costs, and what those would that do not run. Times are this machine's; what they add up to is not, nor what
-/// happens in the steps.
+/// The cost of each stage, and the cost of stages that do not run. The times depend on the machine; their sum and the
+/// events in the steps do not.
 #[test]
 fn plan_measures() {
     let arguments =
@@ -124,7 +124,7 @@ fn plan_measures() {
         }
     }
     assert!((shares - 1.0).abs() < 1e-9, "{shares}");
-    // Solving is work that is counted, and not all of it.
+    // The work of the solver is counted, and is not the total work.
     assert!(work > 0.0 && work < number(&plan["step"]["work"]), "{work} of {}", plan["step"]["work"]);
     // Two balls and a floor: 1000 steps, in which the balls fall, touch and come to rest.
     assert_eq!(plan["step"]["steps"], 1000);
@@ -146,7 +146,7 @@ fn plan_measures() {
     assert!(done.stderr.contains("`data.nothing` is not a field of the data"), "{}", done.stderr);
 }
 
-/// One more reader makes stages join: the same that the plan of a lab with that reader keeps.
+/// An additional reader adds stages: those that the plan of a lab with this reader keeps.
 #[test]
 fn plan_tells_what_a_reader_brings() {
     let folder = folder();
@@ -161,7 +161,7 @@ fn plan_tells_what_a_reader_brings() {
     assert_eq!(joins("qvel"), json!([]));
 }
 
-/// A run in which every field is computed shows the same to the last byte.
+/// A run in which every field is computed gives the same bytes.
 #[test]
 fn a_full_run_is_the_same_run() {
     let folder = folder();
@@ -179,7 +179,7 @@ fn a_full_run_is_the_same_run() {
 #[test]
 fn precision_against_the_closed_form() {
     let table = stdout_of(&["precision", "fall.json"]);
-    // Run times, the mark that follows from them and the advice are this machine's.
+    // Run times, the mark that depends on them and the recommendations depend on the machine.
     let stripped: Vec<String> = table
         .lines()
         .take_while(|line| !line.starts_with("With the settings of the lab"))
@@ -194,7 +194,7 @@ fn precision_against_the_closed_form() {
     snapshot("precision", stripped.join("\n"));
     let report = json_of(&["precision", "fall.json", "--format", "json", "--until", "0.2"]);
     assert_eq!(report["truth"], json!(["closedForm"]));
-    // Euler is of first order: the error is g h t / 2.
+    // Euler's method has order one: the error is g h t / 2.
     let lab_row = report["rows"].as_array().unwrap().iter().find(|row| row["own"] == true).unwrap();
     let error = lab_row["errors"][0].as_f64().unwrap();
     assert!((error - 9.81 * 0.002 * 0.2 / 2.0).abs() < 1e-12, "{error}");
@@ -265,12 +265,12 @@ fn record_repeats_the_states_of_a_recording() {
     }
 }
 
-/// The bits of a state survive the way through JSON: a reader that is off by one in the last place would show as
-/// a difference between engines that there is not.
+/// The bits of a state are preserved in JSON. A reader with an error in the last bit would suggest a
+/// difference between the engines.
 #[test]
 fn record_keeps_every_bit() {
     let folder = folder();
-    // A number that takes 17 digits, and correct rounding when it is read.
+    // A number that needs 17 digits, and correct rounding when it is parsed.
     let z = 0.800_837_999_999_999_9_f64;
     let mut worst = Vec::new();
     for i in 0..200 {
@@ -286,13 +286,13 @@ fn record_keeps_every_bit() {
     let done =
         run_in(folder.path(), &["record", "models/free_fall.xml", "--states", "s.json", "--steps", "0"]);
     assert_eq!(done.code, 0, "{}", done.stderr);
-    // Words, not numbers: this test's own reader must not round either.
+    // Compared as text, because the JSON reader of this test could round as well.
     for (z, _) in worst {
         assert!(done.stdout.contains(&format!("\"xpos\":[0.0,0.0,0.0,0.0,0.0,{z:?}]")), "{z:?}");
     }
 }
 
-/// The numbers of a lab, too, are read to the last bit.
+/// The numbers of a lab are parsed to the last bit as well.
 #[test]
 fn labs_keep_every_bit() {
     let folder = folder();

@@ -1,7 +1,7 @@
-//! The models of `../shared` (conformance, corpus, bench) against what MuJoCo 3.14.0 computes for them.
+//! The models of `../shared` (conformance, corpus, bench), compared with the results of MuJoCo 3.14.0.
 //!
-//! The repository keeps two states of each model, in `golden/conformance`. With `LABSPEC_ORACLE` naming a Python that has
-//! mujoco 3.14.0, the library itself is asked for eight.
+//! The repository contains two states of each model, in `golden/conformance`. If `LABSPEC_ORACLE` names a Python with mujoco
+//! 3.14.0, the library itself computes eight.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -12,15 +12,15 @@ use crate::support::{models, read_json, workspace};
 use crate::zoo::ORDER;
 use std::process::Command;
 
-/// How many random models are asked for.
+/// The number of random models.
 const RANDOM: usize = 100;
 
-/// Models of others that may be refused.
+/// The number of models of others that may be refused.
 const MOST_REFUSED: usize = 6;
 
 const SERVO: &str = "a servo explodes and is reset every few steps: there, too, 1e-16 at the start of a round is 1e-6 at its end";
 
-/// What is known to differ, and why.
+/// Known differences and their causes.
 const EXCEPTIONS: &[Exception] = &[
     ("conformance/engine__actuation__refsite_free", "compile", ORDER),
     ("conformance/engine__actuation__refsite_free", "forward", ORDER),
@@ -44,16 +44,16 @@ const EXCEPTIONS: &[Exception] = &[
     ("conformance/engine__sensor__fromto_capsule_ellipsoid", "discrete, moving", SLACK),
 ];
 
-/// In three random poses the library's own points move by up to 1.8e-7 m when `ccd_tolerance` is 1e-9 instead of 1e-6 (and no
-/// further for 1e-11); ours are at rounding, `geometry::tests::reference`.
+/// In three random poses, the library's points move by up to 1.8e-7 m if `ccd_tolerance` is 1e-9 instead of 1e-6 (and no
+/// further for 1e-11). Ours are accurate up to rounding, see `geometry::tests::reference`.
 const SLACK: &str =
     "the library stops within `ccd_tolerance` of the nearest points of a capsule and an ellipsoid";
 
-/// Folder of the recordings, and of the models in `../shared`.
+/// The folder of the recordings, and that of the models in `../shared`.
 const FOLDERS: [(&str, &str); 3] =
     [("conformance", "conformance/models"), ("corpus", "corpus/models"), ("bench", "bench")];
 
-/// Runs one of the recorders with the Python that has the library, if there is one.
+/// Runs a recorder with the Python that has the library, if there is one.
 fn ask(recorder: &str, arguments: &[&str]) -> Option<tempfile::TempDir> {
     let python = std::env::var_os("LABSPEC_ORACLE")?;
     let folder = tempfile::tempdir().unwrap();
@@ -84,7 +84,7 @@ fn every_shared_model_is_as_recorded() {
     standing.check(if fresh.is_some() { None } else { Some("conformance") }, EXCEPTIONS);
 }
 
-/// Random models that use everything at once. `LABSPEC_SEED` chooses others.
+/// Random models that combine all features. `LABSPEC_SEED` selects others.
 #[test]
 #[ignore = "LABSPEC_ORACLE names a Python with mujoco 3.14.0: cargo test -- --ignored"]
 fn random_models_are_as_the_library_has_them() {

@@ -1,10 +1,10 @@
-//! Constraints held against MuJoCo 3.14.0, both sides solved to rounding: `golden/constrained.py` records.
+//! Constraints compared with MuJoCo 3.14.0, with both sides solved up to rounding; recorded by `golden/constrained.py`.
 //!
-//! Our own models (`golden/constrained/*.xml`) show every kind of row with every option, field by field; the models of
-//! `../shared` show accelerations, forces and sensors, and a hundred steps. Where the contacts are not the same in number nothing else can
-//! be, and the table says so.
+//! Our own models (`golden/constrained/*.xml`) have every kind of row with every option, and are compared field by field. For
+//! the models of `../shared`, accelerations, forces, sensors and a hundred steps are compared. If the numbers of contacts
+//! differ, nothing else can agree, and the table states this.
 //!
-//! Differences are absolute for numbers up to 1 and relative above, by the largest recorded number of the field.
+//! Differences are absolute for numbers up to 1 and relative above, scaled by the largest recorded number of the field.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -19,19 +19,20 @@ use serde_json::Value;
 use std::fmt::Write;
 use std::path::Path;
 
-/// The rows: a few products.
+/// The tolerance of constraint rows, which result from a few products.
 const ROWS: f64 = 1e-10;
-/// What the solver finds: the library's own is solved no further.
+/// The tolerance of the solution: the library's solution is not more accurate.
 const SOLVED: f64 = 1e-8;
 
-/// A hundred steps with the solver as the model has it: the library stops where an improvement falls below its tolerance.
+/// The tolerance after a hundred steps with the solver settings of the model: the library stops when an improvement
+/// falls below its tolerance.
 const PATH: f64 = 1e-6;
 
-/// Fields that the solution decides.
+/// Fields that depend on the solution.
 const SOLUTION: [&str; 8] =
     ["qacc", "qfrc_constraint", "sensordata", "efc_force", "efc_state", "cfrc_ext", "cfrc_int", "cacc"];
 
-/// Why a trajectory differs that is no chaos.
+/// The causes of differences of trajectories that are not chaos.
 const REASONS: [(&str, &str); 5] = [
     ("conformance/engine__actuation__refsite_free", ORDER),
     (
@@ -44,7 +45,7 @@ const REASONS: [(&str, &str); 5] = [
     ("conformance/mjx__humanoid__humanoid", CUT_SHORT),
 ];
 
-/// Why a forward pass differs, or has other contacts.
+/// The causes of differences of forward passes or of the number of contacts.
 const FORWARD: [(&str, &str); 3] = [
     ("conformance/engine__actuation__refsite_free", ORDER),
     (
@@ -54,24 +55,25 @@ const FORWARD: [(&str, &str); 3] = [
     ("conformance/user__robot_arm", BESIDE_AN_END),
 ];
 
-/// Of a capsule that lies on a cylinder.
+/// A capsule that lies on a cylinder.
 const BESIDE_AN_END: &str = "a capsule on a cylinder, 2e-6 rad from parallel: the library's deepest point is 4e-4 m from where \
                              it is, at an end that rocking finds again; here it is a third contact beside both ends";
 
-/// `iterations="1" ls_iterations="4"`: there is no answer but the place where the search was stopped. Solved tightly, both
-/// sides agree (the forward passes of this table).
+/// `iterations="1" ls_iterations="4"`: the result is only the point where the search was stopped. When solved tightly, both
+/// sides agree (see the forward passes of this table).
 const CUT_SHORT: &str =
     "the model allows one iteration with four evaluations along the line: each side stops on its own way";
 
-/// Cases of our own models whose solution is not the library's, (model, case): of a contact whose matrix of tangents is singular
-/// `noslip` leaves the friction of the main solver there (docs/measured/parity.md). Ours is held to its optimality conditions by
-/// `crates/core/tests/laws/constraints.rs`.
+/// Cases of our own models, (model, case), whose solution differs from the library's: for a contact with a singular matrix of
+/// tangents, `noslip` of the library keeps the friction of the main solver (docs/measured/parity.md).
+/// `crates/core/tests/laws/constraints.rs` checks the optimality conditions of our solution.
 const LEFT_TO_SLIP: [(&str, &str); 2] = [("contacts", "ellipse noslip"), ("contacts", "ellipse dual noslip")];
 
-/// So many models may be chaotic: the library parts from itself as far as ours does, when its start moves by 1e-14.
+/// The maximum number of chaotic models: when its start moves by 1e-14, the library differs from itself as
+/// much as from our engine.
 const MOST_CHAOTIC: usize = 3;
 
-/// How a model came out.
+/// The result of the comparison of a model.
 enum Outcome {
     Same { rows: f64, solution: f64 },
     Contacts(String),
@@ -95,8 +97,8 @@ fn tight(m: &mut Model) {
     (*m.edit().opt.iterations, *m.edit().opt.ls_iterations) = (200, 100);
 }
 
-/// What a sum of the forces of all rows is rounded by at least: where nothing but the smallest number makes rows soft,
-/// bodies stuck in each other push with 1e18 N.
+/// A lower bound of the rounding error of a sum of the forces of all rows: if only the smallest number makes rows soft, bodies
+/// that are stuck in each other push with 1e18 N.
 fn rounding_of_forces(d: &Data) -> f64 {
     d.efc_force.iter().map(|f| f.abs() * f64::EPSILON).sum()
 }
@@ -131,7 +133,7 @@ fn compare_with_recording(path: &Path, recording: &Value) -> Outcome {
                 let (ours, theirs) = (list(&m, &d, field), numbers(values));
                 let mut scale = theirs.iter().fold(1.0, |s: f64, x| s.max(x.abs()));
                 if name == "qfrc_constraint" {
-                    // A sum is known to the rounding of its terms.
+                    // The rounding errors of the terms bound the accuracy of a sum.
                     scale = scale.max(rounding_of_forces(&d) / SOLVED);
                 }
                 let (index, apart) = worst(&ours, &theirs, scale);
@@ -152,7 +154,7 @@ fn compare_with_recording(path: &Path, recording: &Value) -> Outcome {
     if found.is_empty() { Outcome::Same { rows, solution } } else { Outcome::Differs(found) }
 }
 
-/// Our own models: all the same, to the last field.
+/// Our own models: all fields agree.
 #[test]
 fn rows_and_forces_are_those_of_mujoco() {
     let folder = workspace().join("tests/golden/constrained");
@@ -184,7 +186,7 @@ fn rows_and_forces_are_those_of_mujoco() {
     assert!(wrong.is_empty(), "differences from MuJoCo 3.14.0:\n{wrong}");
 }
 
-/// The models of `../shared`; the table `golden/constrained.md` says which are the same.
+/// The models of `../shared`; the table `golden/constrained.md` lists which agree.
 #[test]
 fn shared_models_with_constraints() {
     let shared = workspace().join("../shared");
@@ -251,7 +253,7 @@ fn shared_models_with_constraints() {
          refused, {differs} differ.\n\nA hundred steps from the start with the solver as the model has it: {along} the same within \
          {PATH:.0e}, {chaotic} chaotic, {impossible} refused there, {apart} differ.\n\n| model | outcome | where |\n|---|---|---|\n{table}"
     );
-    // Worse than this is a failure, whatever the table says.
+    // More differences than listed are a failure, independent of the table.
     if apart != REASONS.len() {
         let _ = writeln!(wrong, "{apart} differ on their way, {} are listed with a reason", REASONS.len());
     }

@@ -1,5 +1,5 @@
-//! Our own course (`specs/lessons`): everything that it says is true, lies that are planted into it are found, and another
-//! layout or other words around a number are no lie.
+//! Our own course (`specs/lessons`): all its claims are true, false claims that are inserted are found, and another layout or
+//! other words around a number do not make a claim false.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -43,12 +43,12 @@ pub(super) fn models() -> Models {
     Models::new(ModelFolder::open(&workspace().join("specs/models")).unwrap())
 }
 
-/// What a check finds in a text.
+/// The check of a text.
 pub(super) fn checked(name: &str, text: &str, models: &Models, depth: CheckLevel) -> Checked {
     check::check_lesson(load_lesson(SourceFile::new(name, text), models.folder()), models, depth)
 }
 
-/// Warnings and errors, and what the settings of the course make an error (`specs/labspec.toml`), each in a line.
+/// Warnings and errors, and findings that the settings of the course make an error (`specs/labspec.toml`), one line each.
 pub(super) fn complaints(checked: &Checked) -> Vec<String> {
     let counted = checked.findings.iter().filter(|f| counts(f));
     counted
@@ -63,7 +63,7 @@ pub(super) fn counts(f: &labspec::finding::Finding) -> bool {
     f.severity != Severity::Note || DENIED.contains(&f.code)
 }
 
-/// What `specs/labspec.toml` denies.
+/// The rules that `specs/labspec.toml` denies.
 const DENIED: [&str; 1] = ["numbers-unclaimed"];
 
 #[test]
@@ -72,7 +72,7 @@ fn the_settings_of_the_course_are_those_that_are_tested() {
     assert!(DENIED.iter().all(|code| settings.contains(&format!("\"{code}\""))), "{settings}");
 }
 
-/// Every answer is verified or computed, every number with a unit is claimed and right, and nothing is complained of.
+/// Every answer is verified or computed, every number with a unit is claimed and right, and nothing is reported.
 #[test]
 fn everything_that_the_course_says_is_true() {
     let models = models();
@@ -93,7 +93,7 @@ fn everything_that_the_course_says_is_true() {
             assert!(sure, "{}, {}: {} {}", lesson.name, claim.name, answer.verdict.as_str(), answer.reason);
             asked += 1;
         }
-        // An open question has no answer that could be checked.
+        // An open question has no answer that can be checked.
         let all = checked.lesson.quizzes.iter().flat_map(|q| q.numbered());
         let closed = all.filter(|(_, q)| !matches!(q.kind, QuestionKind::Open { .. }));
         assert_eq!(asked, closed.count(), "{}", lesson.name);
@@ -106,7 +106,7 @@ fn everything_that_the_course_says_is_true() {
     assert!(questions >= 40 && quotes > 300, "{questions} {quotes}");
 }
 
-/// What a reader sees as a number with a unit is claimed, and the answers of numeric questions have a value.
+/// Every visible number with a unit is claimed, and the answers of numeric questions have a value.
 #[test]
 fn no_number_is_unclaimed() {
     let models = models();

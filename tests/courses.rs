@@ -1,4 +1,4 @@
-//! Many lessons at once: on several threads, from the cache, and again as files change. The bytes are always the same.
+//! Many lessons at once: on several threads, from the cache, and again when files change. The output is always the same.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -7,7 +7,7 @@ use crate::program::{folder, program, wrong};
 use crate::support::workspace;
 use std::path::Path;
 
-/// Output and exit code, with a folder for results or without.
+/// The output and the exit code, with or without a cache folder.
 fn stdout_and_code(here: &Path, cache: Option<&Path>, arguments: &[&str]) -> (String, Option<i32>) {
     let mut command = program(here, arguments);
     if let Some(cache) = cache {
@@ -18,7 +18,7 @@ fn stdout_and_code(here: &Path, cache: Option<&Path>, arguments: &[&str]) -> (St
     (String::from_utf8(output.stdout).unwrap(), output.status.code())
 }
 
-/// Every lesson there is.
+/// All lessons.
 fn all_lessons() -> Vec<&'static str> {
     let mut folders = vec!["specs/lessons", "tests/lessons"];
     if needs("../shared/corpus") {
@@ -41,7 +41,7 @@ fn threads_and_the_cache_change_no_byte() {
             for (cache, more) in [
                 (None, &["--jobs", "2"][..]),
                 (None, &["--jobs", "8"]),
-                // The first fills the cache for the second; the other format reads what both left.
+                // The first run fills the cache for the second; the other format reads the results of both.
                 (Some(cache_folder.path()), &["--jobs", "2"]),
                 (Some(cache_folder.path()), &[]),
             ] {
@@ -54,7 +54,7 @@ fn threads_and_the_cache_change_no_byte() {
     assert!(files > 50, "{files}");
 }
 
-/// `off` is no folder.
+/// `off` is not a folder name.
 #[test]
 fn the_cache_can_be_switched_off() {
     let here = folder();
@@ -68,7 +68,7 @@ fn the_cache_can_be_switched_off() {
     assert_eq!(names(), before);
 }
 
-/// What is wrong with the first lesson is read while the second is still running.
+/// The findings of the first lesson are printed while the second is still running.
 #[test]
 fn findings_are_printed_as_lessons_are_done() {
     use std::io::{BufRead, BufReader, Read};
@@ -102,14 +102,14 @@ fn without_a_cache_nothing_is_kept() {
     assert_eq!(files(), 0);
     stdout_and_code(folder.path(), Some(cache_folder.path()), &["check", "clean.md"]);
     assert_eq!(files(), 2);
-    // Where nothing can be written, nothing is kept, and nothing is missing.
+    // If the cache cannot be written, nothing is stored, and the results are complete.
     let blocked = folder.path().join("fall.json");
     let [here, there] =
         [None, Some(blocked.as_path())].map(|c| stdout_and_code(folder.path(), c, &["check", "clean.md"]));
     assert_eq!(here, there);
 }
 
-/// A model that changes, entries that are damaged: the report is that of a check without a cache.
+/// After a model changes or cache entries are damaged, the report is that of a check without a cache.
 #[test]
 fn what_is_kept_is_never_trusted_beyond_its_bytes() {
     let (folder, cache_folder) = (folder(), tempfile::tempdir().unwrap());
@@ -154,7 +154,7 @@ fn what_is_kept_is_never_trusted_beyond_its_bytes() {
         lab(height);
         assert_eq!([quoted(), quoted()], [Some(code); 2], "{height}");
     }
-    // Entries that changed places.
+    // Swapped entries.
     let names: Vec<_> = files().collect();
     let texts: Vec<_> = names.iter().map(|p| std::fs::read(p).unwrap()).collect();
     for (path, text) in names.iter().zip(texts.iter().cycle().skip(1)) {
@@ -163,7 +163,7 @@ fn what_is_kept_is_never_trusted_beyond_its_bytes() {
     assert_eq!(same(), before);
 }
 
-/// A program that does not outlive its test.
+/// A program that is killed at the end of its test.
 #[cfg(unix)]
 struct Running(std::process::Child);
 
@@ -174,7 +174,7 @@ impl Drop for Running {
     }
 }
 
-/// A report, another one after a change, and an end by Ctrl-C.
+/// A report, another one after a change, and the end by Ctrl-C.
 #[cfg(unix)]
 #[test]
 fn watching_checks_again_what_changed() {
@@ -213,7 +213,7 @@ fn watching_checks_again_what_changed() {
     std::fs::write(folder.path().join("clean.md"), wrong()).unwrap();
     wait_for("error[answer-refuted]");
     wait_for("1 file, 1 lab run");
-    // A model is a part of the lesson.
+    // A model is a dependency of the lesson.
     std::fs::write(folder.path().join("clean.md"), crate::program::CLEAN).unwrap();
     wait_for("no problems found");
     let model = folder.path().join("models/ball_drop.xml");

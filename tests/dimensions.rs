@@ -1,5 +1,4 @@
-//! The dimension of every expression of the labs that people wrote, or an honest `unknown`; and that no label of theirs is told to be
-//! wrong that is not.
+//! The dimensions of all expressions of real labs, or `unknown`. No correct label of these labs is reported as wrong.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -84,7 +83,7 @@ fn every_expression_has_a_dimension_or_none_that_is_known() {
     insta::assert_snapshot!(page);
 }
 
-/// What is told of one lab: its model has two slides, `left` and `right`, a hinge `door` and a ball `ball`.
+/// The findings of a lab with a model with two slides, `left` and `right`, a hinge `door` and a ball `ball`.
 fn reported(keys: &str) -> Vec<String> {
     let body = |name: &str, joint: &str| {
         format!(
@@ -197,7 +196,8 @@ fn variables_and_loops_keep_what_is_stored() {
     }
 }
 
-/// What goes through lists, texts, functions and loops is the same quantity; where it is mixed with others, it is none for sure.
+/// Lists, strings, functions and loops preserve the dimension of a quantity; if it is mixed with others,
+/// the dimension is uncertain.
 #[test]
 fn lists_texts_and_functions_keep_what_they_are_given() {
     let mut wrong = Vec::new();
@@ -250,7 +250,7 @@ fn controls_are_held_against_what_they_set() {
         ("N m", "set", "data.ctrl[0]"),
     ] {
         let found = slider(unit, key, text);
-        // A lone gram is doubtful: it is the gravity, too.
+        // A single `g` is ambiguous: it may be gram or gravity.
         assert_eq!(found.len(), usize::from(unit != "g"), "{unit} {text}: {found:?}");
     }
     for (unit, key, text) in [
@@ -297,14 +297,14 @@ fn labels_that_name_another_are_told() {
         (&[("left (m)", r), ("right (m)", l)], 2),
         (&[("place of left (m)", r), ("place of right (m)", l)], 2),
         (&[("place of left (m)", r), ("place of right (m)", r)], 1),
-        // Nothing says that the name is not the place from which something is measured.
+        // The name may be a reference point from which something is measured.
         (&[("behind left (m)", r)], 0),
         (&[("left against right (m)", r)], 0),
         (&[("left (m)", "data.qpos[1] - data.qpos[0]")], 0),
         (&[("left (m)", "ctx.x || data.qpos[1]")], 0),
         (&[("left (s)", "data.time")], 0),
         (&[("left (m)", "data.site('tip').xpos[0]")], 0),
-        // Each label names what lies before what it shows.
+        // Each label contains the name of the object that its value belongs to.
         (&[("end of left", "data.xpos[6]"), ("end of right", "data.xpos[9]")], 0),
     ] {
         let found = both(readouts);

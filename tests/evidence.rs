@@ -1,5 +1,5 @@
-//! What a claim is worth: the tables of docs/verify.md, row by row, and the classes of claims that were once called verified
-//! without having been able to come out otherwise.
+//! What counts as evidence: the tables of docs/verify.md, row by row, and kinds of claims that earlier versions called verified
+//! although no other result was possible.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -41,7 +41,7 @@ fn verdict(checked: &Checked) -> Verdict {
     checked.claims.iter().rev().find_map(|c| c.judgement.answer.as_ref()).unwrap().verdict
 }
 
-/// A question whose first option is right by a condition, and whose second by its opposite.
+/// A question whose first option holds under a condition, and whose second holds under its negation.
 fn choice(condition: &str, more: &Json) -> Checked {
     let mut verify = json!({
         "lab": "#1", "runs": {"run": {"until": 1}}, "measure": measures(),
@@ -66,7 +66,7 @@ fn numeric(value: &str, answer: f64, more: &Json) -> Checked {
     )
 }
 
-/// Every row of the tables of a section: what is written, and what becomes of it.
+/// All rows of the tables of a section: the claim, and its result.
 fn rows(section: &str) -> Vec<(String, String)> {
     let text = std::fs::read_to_string(workspace().join("docs/verify.md")).unwrap();
     let start = text.find(&format!("\n## {section}\n")).unwrap();
@@ -98,7 +98,7 @@ fn the_tables_of_the_guide_are_so() {
     }
 }
 
-/// Every row of the table of units: what a text says, what it is held to, and what becomes of it.
+/// All rows of the table of units: the quoted text, the claim, and the result.
 #[test]
 fn the_table_of_units_is_so() {
     let text = std::fs::read_to_string(workspace().join("docs/verify.md")).unwrap();
@@ -147,7 +147,7 @@ fn a_value_is_a_number_that_could_be_another_one() {
         assert!(!matches!(verdict(&checked), Verdict::Verified), "{value}: {:?}", codes(&checked));
         assert!(!codes(&checked).is_empty() || verdict(&checked) == Verdict::Computed, "{value}");
     }
-    // What a mistake gives is undecided as well.
+    // The result of an invalid distractor is undecided as well.
     for wrong in ["never", "never || 3", "t < 1", "data.qpos[2]"] {
         let checked = numeric("z", 0.05, &json!({"wrong": [wrong]}));
         assert_eq!(verdict(&checked), Verdict::Failed, "{wrong}: {:?}", codes(&checked));
@@ -206,7 +206,7 @@ fn a_range_is_that_of_what_was_read() {
         json!({"run": {"until": 1.5, "set": {"g": -9.81}}, "free": {"until": 0.1}}),
     );
     assert_eq!(verdict(&pinned), Verdict::Failed, "{:?}", codes(&pinned));
-    // A slider that changes nothing.
+    // A slider without an effect.
     let mut with_idle = lab();
     with_idle["controls"] = json!([{"label": "idle", "apply": "data.qvel[3] = 0 * value", "min": 0, "max": 1, "step": 0.1, "value": 0}]);
     let verify = json!({"lab": "#1", "runs": runs(), "measure": measures(), "over": {"idle": [0, 1]}, "options": ["run.z < 0.4", "run.z > 5"]});
@@ -220,7 +220,7 @@ fn a_range_is_that_of_what_was_read() {
 
 #[test]
 fn a_search_sees_a_thin_band_and_says_where_it_looked() {
-    // The condition fails in a band of a hundredth of the range, between two of the values that are looked at first.
+    // The condition fails in a band of a hundredth of the range, between two of the values that are tried first.
     let find = |condition: &str| {
         json!({"find": {"limit": {"largest": "g", "from": -20, "to": -2, "while": condition, "tol": 1e-3}},
             "options": ["abs(limit + 8.163) < 0.05", "limit > -7"]})
@@ -252,7 +252,7 @@ fn a_closed_form_is_known_well_and_of_time_alone() {
     use labspec::ledger::{Evidence, State};
     assert_eq!(spring("0.001", "0.1 * Math.cos(10 * data.time)"), State::True(Evidence::Simulated));
     assert_eq!(spring("0.001", "0.1 * Math.cos(10.1 * data.time)"), State::False);
-    // Its timestep turns it by 1.5 rad: nothing is known of its formula.
+    // The timestep shifts the phase by 1.5 rad, so the formula cannot be verified.
     for form in ["0", "0.1 * Math.cos(10 * data.time)", "0.1 * Math.cos(11 * data.time)"] {
         assert_ne!(spring("0.15", form), State::True(Evidence::Simulated), "{form}");
     }
@@ -276,14 +276,15 @@ fn a_label_of_several_plots_is_none_of_them() {
         );
         assert_eq!(verdict(&checked) == Verdict::Verified, fine, "{label}: {:?}", codes(&checked));
     }
-    // A closed form means all traces of the label: it holds for one of them alone.
+    // A closed form applies to all traces with the label, but it holds for only one of them.
     two["verify"] = json!({"exact": {"x": {"is": "1 - 0.5 * 9.81 * data.time ** 2", "tol": 0.1}}});
     two["stopAt"] = json!(0.4);
     let checked = check_text("lesson.md", &format!("# A\n\n```lab\n{two}\n```\n"));
     assert!(codes(&checked).contains(&"closed-form-wrong"), "{:?}", codes(&checked));
 }
 
-/// What is left of an object with a mistake may say something else than what was meant, and a run is evidence only of what it does.
+/// An object with errors may have another meaning than intended, so it is not verified. A run is
+/// evidence only for what it does.
 #[test]
 fn what_has_mistakes_is_not_verified() {
     assert_eq!(verdict(&choice("z < 0.1", &json!({}))), Verdict::Verified);
@@ -301,7 +302,7 @@ fn what_has_mistakes_is_not_verified() {
     }
 }
 
-/// A unit that nobody knows, and one that belongs to something else, whatever the text does with the number.
+/// An unknown unit, and a unit that belongs to another quantity, in all uses of the number in the text.
 #[test]
 fn a_unit_is_compared_or_said_to_be_open() {
     let asked = |unit: &str, value: &str| {

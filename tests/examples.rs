@@ -1,4 +1,4 @@
-//! The examples of the library: they run, print what the guide shows, and stand in the guide as they are.
+//! The examples of the library: they run, print the output that the guide shows, and the guide contains their code.
 
 #![allow(clippy::unwrap_used)]
 

@@ -1,7 +1,8 @@
-//! A generator of false claims: of random labs true claims are made by simulation, and then made false or empty; none of these may be
-//! verified, and each true one is, or is reported with its reason.
+//! A generator of false claims. For random labs, true claims are made by simulation and then made false or empty. None of the
+//! false claims may be verified, and each true one is verified, or reported with the reason.
 //!
-//! `LABSPEC_FALSE_CLAIMS=100000` makes so many, `LABSPEC_SEED` chooses others; `docs/measured/false-claims.md` has what came of it.
+//! `LABSPEC_FALSE_CLAIMS=100000` makes this number of claims, `LABSPEC_SEED` selects others;
+//! `docs/measured/false-claims.md` lists the results.
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing)]
 
@@ -22,15 +23,15 @@ use scenes::Scene;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// Lessons without a wish for more, and their seed.
+/// The default number of lessons, and their seed.
 const LESSONS: usize = 60;
 const SEED: u64 = 32;
-/// Draws of claims of each kind in a lesson.
+/// The number of draws of claims of each kind in a lesson.
 const DRAWS: usize = 6;
-/// Lessons to one with snapshots.
+/// One of this many lessons has snapshots.
 const SNAPSHOTS: usize = 10;
 
-/// What came of the claims of one kind and way.
+/// The results of the claims of one kind and variant.
 #[derive(Clone, Copy, Debug, Default)]
 struct Count {
     made: usize,
@@ -44,7 +45,7 @@ struct Count {
 struct Tally {
     lessons: usize,
     counts: BTreeMap<(bool, String, String), Count>,
-    /// What is wrong: a few words, and the claim.
+    /// The wrong results: a few words, and the claim.
     wrong: Vec<String>,
 }
 
@@ -78,7 +79,7 @@ impl Tally {
     }
 }
 
-/// What the runs of a lab measure, where it is a number that can be claimed.
+/// The measures of a lab that are numbers that can be claimed.
 fn measured(scene: &Scene) -> Vec<MeasuredNumber> {
     let measured = lesson::measured(scene);
     let mut all = Vec::new();
@@ -118,12 +119,12 @@ fn claims(random: &mut Random, scene: &Scene) -> Vec<Claim> {
         _ => all.extend(spaces::exact(random, scene)),
     }
     all.extend(spaces::stop());
-    // Findings stand in the order of the text, and what is true comes first.
+    // Findings are in the order of the text; true claims come first.
     all.sort_by_key(|c| c.truth != Truth::True);
     all
 }
 
-/// A lesson, by its seed.
+/// The lesson of a seed.
 fn lesson_of(seed: u64, tally: &mut Tally) {
     let mut random = Random(seed);
     let scene = scenes::scene(&mut random);
@@ -151,7 +152,7 @@ fn lesson_of(seed: u64, tally: &mut Tally) {
     }
 }
 
-/// Snapshots of some labs, and changes of them.
+/// Snapshots of some labs, and changes of these labs.
 fn snapshots_of(seed: u64, tally: &mut Tally) {
     let mut random = Random(seed);
     let scenes: Vec<Scene> = (0..3).map(|_| scenes::scene(&mut random)).collect();
@@ -182,7 +183,7 @@ fn snapshots_of(seed: u64, tally: &mut Tally) {
     }
 }
 
-/// So many lessons, from a seed on.
+/// This number of lessons, from a seed on.
 fn tally(seed: u64, from: usize, count: usize) -> Tally {
     let one = |i: usize| {
         let mut tally = Tally::default();
@@ -199,7 +200,7 @@ fn tally(seed: u64, from: usize, count: usize) -> Tally {
     all
 }
 
-/// What is wrong, each kind and way once.
+/// The wrong results, each kind and variant once.
 fn format_tally(tally: &Tally) -> String {
     let mut measured = BTreeMap::new();
     for wrong in &tally.wrong {

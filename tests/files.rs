@@ -1,5 +1,5 @@
-//! Files that are read and written: nothing is lost, nothing overwritten, nothing blocks, and no input takes the memory
-//! of the machine.
+//! Reading and writing of files: nothing is lost or overwritten, nothing blocks, and no input exhausts
+//! the memory of the machine.
 
 #![allow(clippy::unwrap_used)]
 
@@ -9,7 +9,7 @@ use serde_json::json;
 use std::path::Path;
 use std::process::Command;
 
-/// Runs a script in which `$L` is the program; code 1000 and more: a signal ended it.
+/// Runs a script in which `$L` is the program. An exit code of 1000 or more means that a signal ended it.
 #[cfg(unix)]
 fn script(folder: &Path, script: &str) -> Done {
     use std::os::unix::process::ExitStatusExt;
@@ -36,7 +36,7 @@ fn names(folder: &Path) -> Vec<String> {
     names
 }
 
-/// A lesson of so many bytes whose code `fmt` changes.
+/// A lesson of about this many bytes whose code `fmt` changes.
 fn long_lesson(bytes: usize) -> String {
     let lab = json!({"model": "free_fall", "setup": "data.qpos[2]=1", "readouts": [{"label": "h", "expr": "data.qpos[2]+1"}]});
     format!("{}\n\n```lab simlab\n{lab}\n```\n", "Some prose that must not be lost.\n".repeat(bytes / 34))
@@ -49,7 +49,7 @@ fn a_full_disk_loses_no_lesson() {
     let lesson = long_lesson(200_000);
     std::fs::write(folder.path().join("lesson.md"), &lesson).unwrap();
     let before = names(folder.path());
-    // No file may grow beyond 32 kB, which is what a full disk looks like to the program.
+    // No file may grow beyond 32 kB, which has the same effect on the program as a full disk.
     let done = script(folder.path(), "trap '' XFSZ; ulimit -f 64; exec $L fmt lesson.md");
     assert_eq!(done.code, 2, "{}", done.stdout);
     assert!(done.stderr.contains("the old file is unchanged"), "{}", done.stderr);
@@ -73,7 +73,7 @@ fn links_and_permissions_are_kept() {
     assert!(folder.path().join("link.md").symlink_metadata().unwrap().is_symlink());
     assert!(read(folder.path(), "lesson.md").contains("data.qpos[2] + 1"));
     assert_eq!(path.metadata().unwrap().permissions().mode() & 0o777, 0o640);
-    // A link to what does not exist yet, and a circle.
+    // A link to a file that does not exist yet, and a cyclic link.
     std::fs::create_dir(folder.path().join("results")).unwrap();
     std::os::unix::fs::symlink("results/a.csv", folder.path().join("a.csv")).unwrap();
     std::os::unix::fs::symlink("round.csv", folder.path().join("round.csv")).unwrap();
@@ -146,7 +146,7 @@ fn many_plots_ask_for_a_folder() {
     assert_eq!(run_in(folder.path(), &["run", "lab.json", "--svg", "plot/"]).code, 0);
     assert_eq!(names(&folder.path().join("plot")).len(), 60);
     assert!(read(folder.path(), "plot/plot-60.svg").starts_with("<svg"));
-    // Few plots still lie beside one another.
+    // A few plots may be written next to each other.
     assert_eq!(run_in(folder.path(), &["run", "clean.md#1", "--steps", "2", "--svg", "p.svg"]).code, 0);
     assert!(read(folder.path(), "p-2.svg").starts_with("<svg"));
 }
@@ -157,7 +157,7 @@ fn a_picture_in_pixels_replaces_its_own_and_no_other() {
     let draw = || run_in(folder.path(), &["run", "clean.md#1", "--steps", "2", "--png", "p.png"]);
     assert_eq!([draw().code, draw().code], [0, 0]);
     assert!(std::fs::read(folder.path().join("p-2.png")).unwrap().starts_with(b"\x89PNG"));
-    // Pictures are height fields, too.
+    // Pictures may also be height fields.
     std::fs::write(folder.path().join("p.png"), b"\x89PNG of a mountain").unwrap();
     let done = draw();
     assert_eq!(done.code, 2, "{}", done.stdout);
@@ -199,7 +199,7 @@ fn pipes_and_devices_never_block() {
         let done = script(folder.path(), &format!("exec timeout --signal=KILL 30 $L {arguments}"));
         assert!(matches!(done.code, 1 | 2), "{arguments}: {}\n{}{}", done.code, done.stdout, done.stderr);
     }
-    // A pipe in a folder of lessons is passed by.
+    // A pipe in a folder of lessons is skipped.
     let done = script(folder.path(), "mkfifo course/pipe.md; exec timeout --signal=KILL 60 $L check course");
     assert!(done.code < 1000, "{}", done.stderr);
 }
@@ -214,7 +214,7 @@ fn fmt_keeps_the_names_of_functions() {
     let after: serde_json::Value = serde_json::from_str(&read(folder.path(), "lab.json")).unwrap();
     let code = after["setup"].as_str().unwrap();
     assert!(code.contains("function f(x) {") && code.contains("f(x - 1)"), "{code}");
-    // A second time changes nothing.
+    // Formatting again changes nothing.
     assert_eq!(run_in(folder.path(), &["fmt", "--check", "lab.json"]).code, 0);
 }
 
@@ -229,7 +229,7 @@ fn fmt_goes_on_behind_a_file_that_it_cannot_read() {
     assert!(done.stderr.contains("a.md, line 1: not UTF-8"), "{}", done.stderr);
 }
 
-/// Runs the program with so much address space; none of these may end by a signal, nor take very long.
+/// Runs the program with limited address space; no run may end by a signal or take very long.
 #[cfg(target_os = "linux")]
 fn within_memory(folder: &Path, arguments: &str) -> Done {
     let done = script(folder, &format!("ulimit -v 1500000; exec timeout --signal=KILL 280 $L {arguments}"));
@@ -279,7 +279,7 @@ fn recordings_have_limits() {
     assert_ne!(done.code, 0);
 }
 
-/// Lessons of nearly 16 MB that repeat one thing.
+/// Lessons of nearly 16 MB that repeat one element.
 #[cfg(target_os = "linux")]
 #[test]
 fn no_lesson_of_16_mb_takes_more_than_a_gigabyte() {
@@ -305,7 +305,7 @@ fn no_lesson_of_16_mb_takes_more_than_a_gigabyte() {
     within_memory(folder.path(), "check lab.json");
 }
 
-/// Files that somebody else wrote, or that another option writes: under which names, and with what.
+/// The names and contents of files that other programs or other options wrote.
 fn of_others(folder: &Path) -> Vec<String> {
     let texts: [(&str, &str); 12] = [
         ("notes.txt", "written by hand\n"),
@@ -329,7 +329,7 @@ fn of_others(folder: &Path) -> Vec<String> {
     all
 }
 
-/// Options that name a file: those that write it, with a command that needs nothing else, and those that only read it.
+/// Options that write a file, with a command that needs nothing else; the second list contains those that only read one.
 const WRITERS: [(&str, &[&str]); 15] = [
     ("check --record", &["check", "fall.json", "--record"]),
     ("check --html", &["check", "fall.json", "--html"]),
@@ -357,7 +357,7 @@ const READERS: [&str; 7] = [
     "precision --beside",
 ];
 
-/// Every option of every command that names a file, from the help of the program itself.
+/// All options of all commands that name a file, from the help of the program.
 fn file_options(folder: &Path) -> Vec<String> {
     let help =
         |arguments: &[&str]| String::from_utf8(program(folder, arguments).output().unwrap().stdout).unwrap();
@@ -387,13 +387,13 @@ fn no_option_replaces_a_file_of_another_kind() {
         {"label": "b", "set": "model.opt.timestep", "min": 0.001, "max": 0.002, "value": 0.002}]);
     let lab = json!({"model": "free_fall", "stopAt": 0.02, "controls": knobs});
     std::fs::write(folder.path().join("map.json"), lab.to_string()).unwrap();
-    // An option that is new in the program has to be put into one of the lists.
+    // A new option of the program must be added to one of the lists.
     let mut expected: Vec<String> = WRITERS.iter().map(|(option, _)| (*option).to_string()).collect();
     expected.extend(READERS.iter().map(|option| (*option).to_string()));
     expected.sort();
     assert_eq!(file_options(folder.path()), expected);
     let others = of_others(folder.path());
-    // What the other options write is foreign, too.
+    // The files of other options are of another kind as well.
     let mut written: Vec<(String, &str)> = Vec::new();
     for (i, (option, arguments)) in WRITERS.iter().enumerate() {
         let name = format!("out-{i}.dat");
@@ -403,7 +403,7 @@ fn no_option_replaces_a_file_of_another_kind() {
         }
         written.push((name, option));
     }
-    // Tables of runs and of settings are one kind to whoever reads them; so are plots.
+    // Tables of runs and of settings have the same kind, and so do plots.
     let kind = |option: &str| option.split(" --").nth(1).unwrap_or_default().to_string();
     for (option, arguments) in &WRITERS {
         let foreign = written.iter().filter(|(_, by)| kind(by) != kind(option)).map(|(name, _)| name);
@@ -427,19 +427,19 @@ fn no_command_replaces_a_file_of_another_kind() {
         assert_eq!(done.code, 2, "{arguments:?}: {}{}", done.stdout, done.stderr);
         assert_eq!(read(folder.path(), name), text, "{arguments:?}");
     };
-    // Snapshots: neither written over nor removed.
+    // Snapshots are neither overwritten nor removed.
     write("clean.md.snap", "notes of a photographer\n");
     same(&["snapshot", "clean.md", "--accept"], "clean.md.snap", "notes of a photographer\n");
     std::fs::create_dir(folder.path().join("old")).unwrap();
     write("old/gone.md.snap", "notes of a photographer\n");
     same(&["snapshot", "old", "--accept"], "old/gone.md.snap", "notes of a photographer\n");
-    // A folder that has a page of another hand.
+    // A folder with a page of another origin.
     std::fs::create_dir_all(folder.path().join("site/pages")).unwrap();
     write("site/pages/codes.md", "# Codes of conduct\n");
     same(&["reference", "site/pages"], "site/pages/codes.md", "# Codes of conduct\n");
     write("labspec.toml", "deny = [\"warnings\"]\n");
     same(&["init", "."], "labspec.toml", "deny = [\"warnings\"]\n");
-    // A lesson that is no UTF-8 is not what was read of it.
+    // A lesson that is not UTF-8 differs from its decoded text.
     let latin =
         b"# A caf\xe9\n\n```lab simlab\n{\"model\": \"free_fall\", \"setup\": \"data.qpos[2]=1\"}\n```\n";
     std::fs::write(folder.path().join("latin.md"), latin).unwrap();
@@ -449,7 +449,7 @@ fn no_command_replaces_a_file_of_another_kind() {
         run_in(folder.path(), arguments);
         assert!(std::fs::read(folder.path().join("latin.md")).unwrap() == latin, "{arguments:?}");
     }
-    // What is no lesson is left alone by those that change lessons.
+    // Commands that change lessons do not change other files.
     let model = read(folder.path(), "models/free_fall.xml");
     for command in [&["fmt"][..], &["check", "--fix"], &["check", "--unsafe-fixes"], &["scaffold", "--write"]]
     {
@@ -458,7 +458,7 @@ fn no_command_replaces_a_file_of_another_kind() {
     }
 }
 
-/// Every file of the program and its libraries by its name, without tests.
+/// All files of the program and its libraries by name, without tests.
 fn sources() -> Vec<(String, String)> {
     let crates = crate::support::workspace().join("crates");
     let folders = ["cli", "developer", "labspec", "lsp", "numerics", "proposals"];
@@ -480,14 +480,14 @@ fn sources() -> Vec<(String, String)> {
     all
 }
 
-/// The files whose code has one of these texts.
+/// The files whose code contains one of these texts.
 fn with(texts: &[&str]) -> Vec<String> {
     let has = |code: &str| texts.iter().any(|text| code.contains(text));
     sources().into_iter().filter(|(_, code)| has(code)).map(|(name, _)| name).collect()
 }
 
-/// Files are written, removed and renamed in one place, which asks what they are; the cache has a folder of its own. Lessons are read by
-/// one loader, and a text alone is what a page plays. Threads are made in one place, which gives them their stack.
+/// Files are written, removed and renamed in one module, which checks their kind; the cache has a separate folder. One loader
+/// reads lessons; a page plays a lab from its text. Threads are created in one module, which sets their stack size.
 #[test]
 fn files_lessons_and_threads_have_one_place_each() {
     let writes = [
@@ -507,7 +507,7 @@ fn files_lessons_and_threads_have_one_place_each() {
     assert_eq!(with(&["thread::spawn", "Builder::new().s"]), ["labspec/src/threads.rs"]);
 }
 
-/// A link to a lesson is followed below the root, and named where it leads out.
+/// A link to a lesson is followed below the root, and reported if it leads out of it.
 #[cfg(unix)]
 #[test]
 fn links_in_folders_are_followed_or_named() {
@@ -521,7 +521,7 @@ fn links_in_folders_are_followed_or_named() {
     symlink("shared/fall.json", at("week/again.json")).unwrap();
     let done = run_in(folder.path(), &["check", "week"]);
     assert_eq!(done.code, 0, "{}{}", done.stdout, done.stderr);
-    // It is one file under two names.
+    // It is one file with two names.
     assert!(done.stdout.contains("\n1 file, 1 lab run"), "{}", done.stdout);
     symlink("../fall.json", at("week/out.json")).unwrap();
     symlink("../outside", at("week/far")).unwrap();
@@ -536,18 +536,18 @@ fn links_in_folders_are_followed_or_named() {
     let left: Vec<&serde_json::Value> =
         json["ledger"].as_array().unwrap().iter().filter(|e| e["owner"] == "week/out.json").collect();
     assert_eq!(left.len(), 1, "{json:#}");
-    // With a root that holds both it is read.
+    // With a root that contains both, the file is read.
     std::fs::write(at("labspec.toml"), "").unwrap();
     let done = run_in(folder.path(), &["check", "week"]);
     assert_eq!(done.code, 0, "{}{}", done.stdout, done.stderr);
     assert!(done.stdout.contains("\n2 files, 2 labs run"), "{}", done.stdout);
-    // One that leads nowhere is no silence either.
+    // A dangling link is reported as well.
     symlink("nowhere.md", at("week/lost.md")).unwrap();
     let done = run_in(folder.path(), &["check", "week"]);
     assert!(done.code == 1 && done.stdout.contains("cannot read week/lost.md"), "{}", done.stdout);
 }
 
-/// However it is named, a file is one file.
+/// A file counts once, whatever its paths are.
 #[test]
 fn a_path_that_is_given_twice_is_one_file() {
     let folder = folder();
@@ -558,7 +558,7 @@ fn a_path_that_is_given_twice_is_one_file() {
         let done = run_in(folder.path(), arguments);
         assert!(done.code == 0 && done.stdout.contains("\n1 file, 2 labs run"), "{}", done.stdout);
     }
-    // What is piped stands for the file of its name.
+    // Standard input replaces the file with its name.
     let arguments = ["check", "course/a.md", "-", "--stdin-name", "./course/a.md"];
     let done = crate::program::run_with_input(folder.path(), &arguments, &crate::program::wrong());
     assert!(done.code == 1 && done.stdout.contains("\n1 file, "), "{}", done.stdout);

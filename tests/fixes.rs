@@ -1,7 +1,7 @@
-//! Every fix that a finding carries, applied to the bytes of the file: the JSON stays JSON, the finding is gone, and no
-//! new error has come.
+//! All fixes of findings, applied to the bytes of the file: the JSON stays valid, the finding disappears,
+//! and no new error appears.
 
-// A test that cannot read its own inputs has to fail.
+// A test that cannot read its own inputs must fail.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use crate::support::{check_text, workspace};
@@ -16,7 +16,7 @@ use labspec::source::SourceFile;
 use proptest::prelude::*;
 use std::path::{Path, PathBuf};
 
-/// A file, and the models it may name.
+/// A file, and the models that it may use.
 struct Case {
     name: String,
     text: String,
@@ -32,13 +32,13 @@ impl Case {
         }
     }
 
-    /// What the labs show.
+    /// The displayed values of the labs.
     fn traces_of(&self, text: &str) -> Traces {
         let lesson = load_lesson(SourceFile::new(self.name.as_str(), text), &self.models);
         traces(&lesson, &Models::new(self.models.clone()))
     }
 
-    /// Everything that is found without running, and how many blocks are broken.
+    /// All findings without runs, and the number of broken blocks.
     fn findings(&self, text: &str) -> (Vec<Finding>, usize) {
         let lesson = load_lesson(SourceFile::new(self.name.as_str(), text), &self.models);
         let broken = lesson.broken.len();
@@ -49,19 +49,19 @@ impl Case {
     }
 }
 
-/// Repairs that make a second mistake of the same text visible: what is repaired, and what then shows.
+/// Fixes that make a second error in the same text visible: the fixed code, and the code of the second error.
 const REVEALED: [(&str, &str); 8] = [
-    // 2x is 2 * x, and x has no meaning either.
+    // 2x becomes 2 * x, and x is unknown as well.
     ("bad-number", "unknown-name"),
-    // [1, 2 is closed, and is a list.
+    // [1, 2 is closed, and becomes a list.
     ("unclosed", "whole-array"),
-    // The name is found; what is done with it is wrong too.
+    // The name is corrected, but its use is also wrong.
     ("unknown-object", "assign-array"),
     ("unknown-field", "whole-array"),
     ("unknown-function", "unknown-object"),
-    // The number is a number, and does not fit the tolerance.
+    // The value becomes a number that does not fit the tolerance.
     ("wrong-type", "impossible-tolerance"),
-    // `energy()` is `sim.energy()`, which is a record with members of its own.
+    // `energy()` becomes `sim.energy()`, which is a record with members.
     ("unknown-function", "not-a-value"),
     ("unknown-function", "unknown-field"),
 ];
@@ -72,7 +72,7 @@ fn apply(text: &str, fix: &Fix) -> String {
     text
 }
 
-/// What is wrong with a fix; `None` when it does what it promises.
+/// What is wrong with a fix, or `None` if it works as intended.
 fn fault(case: &Case, finding: &Finding, before: &(Vec<Finding>, usize)) -> Option<String> {
     let fix = finding.fix.as_ref()?;
     let repaired = apply(&case.text, fix);
@@ -95,7 +95,7 @@ fn fault(case: &Case, finding: &Finding, before: &(Vec<Finding>, usize)) -> Opti
     if repaired == case.text {
         return Some(format!("changes nothing\n{}", describe()));
     }
-    // Where a place of the old text is in the new one.
+    // Maps a position of the old text to the new one.
     let shift = |at: usize| {
         if at >= fix.span.end { at - fix.span.len() + fix.text.len() } else { at }
     };
@@ -104,7 +104,7 @@ fn fault(case: &Case, finding: &Finding, before: &(Vec<Finding>, usize)) -> Opti
             && f.message == finding.message
             && (f.span.start == shift(finding.span.start) || f.span.start == finding.span.start)
     });
-    // The same text may stand there by right: deleting one of two equal commas leaves the other at its place.
+    // The same finding may remain legitimately: after deleting one of two equal commas, the other one is at its position.
     let is_syntax = |f: &&Finding| matches!(f.code, "json-syntax" | "typographic-quote");
     let syntax = |list: &[Finding]| list.iter().filter(is_syntax).count();
     let of_syntax = is_syntax(&finding);
@@ -113,7 +113,7 @@ fn fault(case: &Case, finding: &Finding, before: &(Vec<Finding>, usize)) -> Opti
         return Some(format!("does not go away\n{}", describe()));
     }
     let errors = |list: &[Finding]| list.iter().filter(|f| f.severity == Severity::Error).count();
-    // What a mistake has hidden shows itself now: behind broken JSON anything can be; else it is named below.
+    // Errors that were hidden before may appear: after broken JSON, any error; otherwise those in the list.
     let new = after.iter().find(|f| {
         f.severity == Severity::Error
             && (!of_syntax || is_syntax(f))
@@ -128,10 +128,10 @@ fn fault(case: &Case, finding: &Finding, before: &(Vec<Finding>, usize)) -> Opti
     None
 }
 
-/// What a fix that is called safe changes of what the labs show; `None` when it changes nothing.
+/// What a safe fix changes in the displayed values of the labs, or `None` if it changes nothing.
 fn unproven(case: &Case, finding: &Finding, before: &Traces) -> Option<String> {
     let fix = finding.fix.as_ref().filter(|fix| fix.applicability == Applicability::Safe)?;
-    // Its own run shows what the repair changes.
+    // The finding includes a run that shows the effect of the fix.
     if finding.code == "missing-setconst" {
         return None;
     }
@@ -140,7 +140,7 @@ fn unproven(case: &Case, finding: &Finding, before: &Traces) -> Option<String> {
     (!same).then(|| format!("{} is called safe and changes a trace\n{}\n{repaired}", finding.code, case.text))
 }
 
-/// Tries all fixes of a file; returns how many there were, and what is wrong with them.
+/// Tries all fixes of a file; returns their number, and what is wrong with them.
 fn try_all(case: &Case) -> (usize, Vec<String>) {
     let before = case.findings(&case.text);
     let with_fix: Vec<&Finding> = before.0.iter().filter(|f| f.fix.is_some()).collect();
@@ -214,7 +214,7 @@ const MODEL: &str = "<mujoco><worldbody><geom name='floor' type='plane' size='1 
 <body name='arm' pos='1 0 1'><joint name='hinge' axis='0 1 0'/><geom name='arm_geom' size='.05' pos='.2 0 0'/></body>\
 </worldbody><actuator><motor name='push' joint='hinge'/></actuator></mujoco>";
 
-/// A lab around one expression and one statement.
+/// A lab with one expression and one statement.
 fn lab(expr: &str, run: &str) -> Case {
     let value = serde_json::json!({
         "xml": MODEL,
@@ -224,7 +224,7 @@ fn lab(expr: &str, run: &str) -> Case {
     Case::new("lab.json", &serde_json::to_string_pretty(&value).unwrap())
 }
 
-/// What people write, and what is nearly that.
+/// Correct expressions of authors, and similar wrong ones.
 const EXPRESSIONS: [&str; 60] = [
     "data.body('hevy').xpos[2]",
     "data.body(\"hevy\").xpos[2]",
@@ -334,7 +334,7 @@ fn fixes_of_the_language_hold_inside_of_json() {
     all_hold(expressions.chain(statements), 35);
 }
 
-/// The mistake tests of the language: what is readable of them as a list of texts.
+/// The source texts in the tests of the language's errors, as far as they can be extracted.
 #[test]
 fn fixes_of_the_mistakes_of_the_language_hold() {
     let source = std::fs::read_to_string(workspace().join("crates/expr/src/tests/mistakes.rs")).unwrap();
@@ -355,7 +355,7 @@ fn fixes_of_the_mistakes_of_the_language_hold() {
     all_hold(cases, 40);
 }
 
-/// A lab and a quiz that are right, in every place where JSON can stand.
+/// A correct lab and a correct quiz, in every layout in which JSON can be written.
 fn right(layout: usize) -> (String, String) {
     let json = r#"{
   "model": "ball",
@@ -383,7 +383,7 @@ fn right(layout: usize) -> (String, String) {
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(600))]
-    /// One character deleted, doubled, replaced or put in: every fix that is offered holds.
+    /// One character deleted, doubled, replaced or inserted: every offered fix works.
     #[test]
     fn fixes_of_random_damage_hold(
         layout in 0usize..5,
@@ -403,7 +403,7 @@ proptest! {
     }
 }
 
-/// Broken JSON is an error whatever is made of it, and what can be read is still checked.
+/// Broken JSON is always an error, and the readable part is still checked.
 #[test]
 fn a_broken_block_is_still_checked() {
     let text = "```lab simlab\n{\"xml\": \"<mujoco/>\", \"dock\": True,\n \"readouts\": [{\"label\": \"t\", \"expr\": \"data.tiem\"},]}\n```\n";
@@ -413,7 +413,7 @@ fn a_broken_block_is_still_checked() {
     assert!(checked.lesson.labs[0].broken && checked.lesson.labs[0].lab.is_some());
 }
 
-/// Mistakes of labs that run, whose repair changes what they show: none of them is made unasked.
+/// Errors in labs that run, whose fixes change the displayed values: none of these fixes is applied without a request.
 #[test]
 fn repairs_that_change_what_a_lab_shows_are_guesses() {
     let statements = [
@@ -443,7 +443,7 @@ fn repairs_that_change_what_a_lab_shows_are_guesses() {
             let guess = fix.applicability != Applicability::Safe;
             assert!(same || guess, "{mistake}: {} changes what is shown, unasked", finding.code);
         }
-        // And what is made unasked leaves the text as it shows itself.
+        // Fixes that are applied without a request do not change the displayed values.
         let look = |text: &str| {
             let (findings, broken) = case.findings(text);
             labspec::repair::CheckedText { text: text.to_string(), findings, broken }

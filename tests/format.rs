@@ -1,5 +1,5 @@
-//! The formatter over real lessons: nothing but code changes, a second time changes nothing, and every text means the
-//! same as before on random states of its model.
+//! The formatter on real lessons: it changes only code, formatting again changes nothing, and all source texts have the same
+//! meaning as before for random states of their models.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -26,7 +26,7 @@ fn files(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// Our lessons, and those of the corpus where it is, each with its models.
+/// Our lessons, and those of the corpus if it exists, each with its models.
 fn lessons() -> Vec<(PathBuf, ModelFolder)> {
     let (specs, corpus) = (workspace().join("specs"), workspace().join("../shared/corpus"));
     let mut all = Vec::new();
@@ -47,7 +47,7 @@ fn load(path: &Path, text: &str, models: &ModelFolder) -> Lesson {
     load_lesson(SourceFile::new(path.display().to_string(), text), models)
 }
 
-/// The file without its code.
+/// The file without its source texts.
 fn around(lesson: &Lesson) -> String {
     let labs = lesson.all_labs();
     let questions = lesson.quizzes.iter().flat_map(|q| q.numbered()).filter_map(|(_, q)| q.verify.as_ref());
@@ -83,7 +83,7 @@ fn only_code_changes_and_only_once() {
     assert!(total > 30 && changed > 0);
 }
 
-/// A state of a model that no run ever reaches.
+/// A state of a model that no run reaches.
 fn random_world(model: &Model, seed: u64) -> World {
     let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
     let mut next = move || {

@@ -1,6 +1,6 @@
-//! The forms of other programs, held against what those programs promise to read: SARIF 2.1.0, GitLab's code quality, JUnit as
-//! Jenkins takes it, and the commands of GitHub's workflows. What the standards ask for is written down here in our own words; what
-//! a form says is compared with our own report.
+//! Report formats of other programs, compared with their specifications: SARIF 2.1.0, GitLab's code quality, JUnit as Jenkins
+//! reads it, and the commands of GitHub's workflows. The requirements of the standards are written here in our own words. The
+//! contents are compared with our own report.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -13,7 +13,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use tempfile::TempDir;
 
-/// What is checked: findings of every severity, with repairs, in files with odd names, odd characters and odd ends of lines.
+/// The input: findings of every severity, with fixes, in files with unusual names, characters and line ends.
 const ARGUMENTS: [&str; 9] = [
     "check",
     "wrong.md",
@@ -42,7 +42,7 @@ fn course() -> TempDir {
     folder
 }
 
-/// What the program prints of the course in a form.
+/// The output of the program for the course in a format.
 fn form(folder: &Path, name: &str) -> String {
     let arguments: Vec<&str> = ARGUMENTS.into_iter().chain(["--format", name]).collect();
     let done = run_in(folder, &arguments);
@@ -60,14 +60,15 @@ fn findings(folder: &Path) -> Vec<Value> {
     all
 }
 
-/// What stands at a place, counted as both SARIF and our report count it: lines and characters from 1.
+/// The byte of a position, counted as SARIF and our report do: lines and characters from 1.
 fn at(text: &str, line: &Value, column: &Value) -> usize {
     let (line, column) = (line.as_u64().unwrap() as usize, column.as_u64().unwrap() as usize);
     let start: usize = text.split_inclusive('\n').take(line - 1).map(str::len).sum();
     start + text[start..].chars().take(column - 1).map(char::len_utf8).sum::<usize>()
 }
 
-/// Only the characters of a path of RFC 3986, which stand for bytes of UTF-8; no scheme, as the path is relative.
+/// The path of a URI: only the path characters of RFC 3986, which stand for bytes of UTF-8, and no scheme,
+/// because the path is relative.
 fn path_of(uri: &str) -> String {
     assert!(!uri.split('/').next().unwrap().contains(':'), "{uri} begins with a scheme");
     let mut bytes = Vec::new();
@@ -84,8 +85,8 @@ fn path_of(uri: &str) -> String {
     String::from_utf8(bytes).unwrap()
 }
 
-/// The objects of SARIF 2.1.0 that a linter writes: their required properties, their types, and no others (sections 3.13 to 3.58 of
-/// the standard).
+/// The objects of SARIF 2.1.0 that a linter writes: their required properties and types, and no others (sections 3.13
+/// to 3.58 of the standard).
 fn sarif_schema() -> Value {
     let closed = |required: &[&str], properties: Value| json!({"type": "object", "required": required, "properties": properties, "additionalProperties": false});
     let to = |name: &str| json!({"$ref": format!("#/$defs/{name}")});
@@ -143,7 +144,7 @@ fn sarif_is_what_its_standard_asks_for() {
     let log: Value = serde_json::from_str(&form(folder.path(), "sarif")).unwrap();
     let schemas = BTreeMap::from([("sarif".to_string(), sarif_schema())]);
     assert_eq!(problems(&schemas, "sarif", &log), [""; 0]);
-    // The promise can be broken.
+    // The schema can be violated.
     for (place, value) in [
         ("/version", json!("2.0.0")),
         ("/runs/0/tool/driver/name", json!(1)),
@@ -181,10 +182,10 @@ fn sarif_is_what_its_standard_asks_for() {
             ("endLine", "endLine"),
             ("endColumn", "endColumn"),
         ] {
-            // A file that cannot be read has no places.
+            // A file that cannot be read has no locations.
             assert_eq!(region[theirs], f[ours], "{result}");
         }
-        // What a fix writes is what ours writes.
+        // The replacement of a fix is the same as in our report.
         let Ok(text) = std::fs::read_to_string(folder.path().join(path)) else { continue };
         for fix in result["fixes"].as_array().into_iter().flatten() {
             let change = &fix["artifactChanges"][0];
@@ -245,7 +246,7 @@ fn gitlab_can_read_its_report() {
     assert_eq!(marks.len(), all.len(), "a fingerprint stands twice");
     for (theirs, ours) in all.iter().zip(&ours_list) {
         let path = theirs["location"]["path"].as_str().unwrap();
-        // Relative to the repository, and without a dot before it.
+        // Relative to the repository, without a leading dot.
         assert!(!path.starts_with("./") && !path.starts_with('/'), "{path}");
         assert_eq!(path, ours["file"].as_str().unwrap().trim_start_matches("./"));
         assert_eq!((&theirs["check_name"], &theirs["description"]), (&ours["code"], &ours["message"]));
@@ -254,7 +255,7 @@ fn gitlab_can_read_its_report() {
         let ours = if ours["line"].is_null() { &whole } else { ours };
         assert_eq!((&lines["begin"], &lines["end"]), (&ours["line"], &ours["endLine"]));
     }
-    // Moved text keeps its marks.
+    // Fingerprints do not change when text moves.
     let lesson = folder.path().join("wrong.md");
     std::fs::write(&lesson, format!("# Before\n\nSome words.\n\n{}", wrong())).unwrap();
     let moved: Value = serde_json::from_str(&form(folder.path(), "gitlab")).unwrap();
@@ -263,7 +264,7 @@ fn gitlab_can_read_its_report() {
     assert_eq!(marks, again);
 }
 
-/// The attributes that the schema of Jenkins gives an element, and which of them have to stand there.
+/// The attributes of an element in the schema of Jenkins, and those that are required.
 fn allowed_attributes(element: &str) -> (&'static [&'static str], &'static [&'static str]) {
     match element {
         "testsuites" => (&["name", "time", "tests", "failures", "disabled", "errors"], &[]),
@@ -321,7 +322,7 @@ fn junit_has_the_elements_that_jenkins_knows() {
             assert!(elements(node) <= 1, "a case ends in one way");
         }
     }
-    // The numbers are those of what stands below.
+    // The counts equal the numbers of elements below.
     for node in tree.descendants().filter(|n| n.has_tag_name("testsuites") || n.has_tag_name("testsuite")) {
         for (attribute, element) in
             [("tests", "testcase"), ("failures", "failure"), ("errors", "error"), ("skipped", "skipped")]
@@ -331,7 +332,7 @@ fn junit_has_the_elements_that_jenkins_knows() {
             assert_eq!(number, there.to_string(), "{attribute}");
         }
     }
-    // A case for every claim, and every error and warning stands in one that fails.
+    // There is a test case for every claim, and every error and warning is part of a failed case.
     let report: Value = serde_json::from_str(&form(folder.path(), "json")).unwrap();
     let cases = tree.descendants().filter(|n| n.has_tag_name("testcase")).count();
     assert_eq!(cases, report["ledger"].as_array().unwrap().len());
@@ -341,7 +342,7 @@ fn junit_has_the_elements_that_jenkins_knows() {
         .filter_map(|n| n.text())
         .collect();
     for line in form(folder.path(), "concise").lines().filter(|l| !l.contains(": note[")) {
-        // XML reads other ends of lines.
+        // XML normalizes line ends.
         assert!(failed.contains(line), "{line}\n{failed}");
     }
 }
@@ -358,7 +359,7 @@ fn github_shows_every_finding_at_its_place() {
     };
     assert_eq!(text.lines().count(), ours_list.len());
     for (line, f) in text.lines().zip(&ours_list) {
-        // `::name key=value,key=value::words`, as the runner reads it.
+        // `::name key=value,key=value::message`, as the runner parses it.
         let rest = line.strip_prefix("::").unwrap();
         let (head, words) = rest.split_once("::").unwrap();
         let (name, properties) = head.split_once(' ').unwrap();
@@ -377,13 +378,13 @@ fn github_shows_every_finding_at_its_place() {
         assert_eq!(properties["file"], f["file"].as_str().unwrap().trim_start_matches("./"));
         assert_eq!(properties["title"], format!("labspec {}", f["code"].as_str().unwrap()));
         if f["line"].is_null() {
-            // A file that cannot be read is told at its beginning.
+            // The finding of a file that cannot be read is at its beginning.
             assert_eq!(properties["line"], "1");
             continue;
         }
         assert_eq!(properties["line"], f["line"].to_string());
         assert_eq!(properties["endLine"], f["endLine"].to_string());
-        // Columns only where the finding is in one line.
+        // Columns only if the finding is on one line.
         let columns = properties.get("col").cloned().zip(properties.get("endColumn").cloned());
         let one_line = f["line"] == f["endLine"];
         assert_eq!(columns, one_line.then(|| (f["column"].to_string(), f["endColumn"].to_string())));
@@ -391,7 +392,7 @@ fn github_shows_every_finding_at_its_place() {
     }
 }
 
-/// The forms of all lessons of ours and of all wrong ones: nothing is only held on examples.
+/// The formats of all our lessons and of all wrong lessons, so that nothing holds only for the examples.
 #[test]
 fn every_lesson_of_ours_has_its_forms() {
     let here = workspace();
@@ -411,7 +412,7 @@ fn every_lesson_of_ours_has_its_forms() {
     }
 }
 
-/// The schema of settings takes what the program takes, and refuses what it refuses.
+/// The schema of settings accepts what the program accepts, and refuses what it refuses.
 #[test]
 fn settings_have_a_schema_that_takes_what_is_right() {
     let schema = read_json(&workspace().join("docs/schema/labspec-toml.json"));

@@ -1,5 +1,5 @@
-//! A set of scenes that nobody chose: made from a seed, long after the criteria of `monitors/` were written. What is true of a run comes
-//! from a second one with steps a hundred times shorter; `stability.rs` writes what comes of it into `docs/measured/stability.md`.
+//! Random scenes that were not used to develop the criteria of `monitors/`. The truth about a run comes from a second one with
+//! steps a hundred times shorter; `stability.rs` writes the results into `docs/measured/stability.md`.
 
 #![allow(clippy::unwrap_used)]
 
@@ -9,19 +9,19 @@ use labspec_core::math::rows;
 use labspec_core::{self as core, Data, Model, Warning, geom, integrator, solver};
 use std::fmt::Write;
 
-/// The seed, scenes, steps of a run, and how many times shorter those are that tell the truth.
+/// The seed, the number of scenes, the steps of a run, and how many times shorter the steps of the reference run are.
 const SEED: u64 = 20_261_123;
 const SCENES: usize = 240;
 const STEPS: usize = 300;
 const SHORTER: usize = 100;
-/// The thickest plate that is a wall, m; its middle is at 1 m.
+/// The thickness up to which a box counts as a wall, m; its middle is at 1 m.
 const WALL: f64 = 0.03;
 
-/// Random numbers, the same for the same seed.
+/// Random numbers, reproducible for a seed.
 struct Dice(u64);
 
 impl Dice {
-    /// From 0 up to 1 (splitmix64).
+    /// A number from 0 up to 1 (splitmix64).
     fn part(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let x = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -33,7 +33,7 @@ impl Dice {
         low + (high - low) * self.part()
     }
 
-    /// Every power of ten as often as any other.
+    /// A number that is distributed evenly over powers of ten.
     fn over(&mut self, low: f64, high: f64) -> f64 {
         self.from(low.ln(), high.ln()).exp()
     }
@@ -43,7 +43,7 @@ impl Dice {
     }
 }
 
-/// A scene: its kind, its model, and how long a step is, s.
+/// A scene: its kind, its model, and its timestep, s.
 struct Scene {
     kind: &'static str,
     xml: String,
@@ -68,7 +68,7 @@ fn scene(
     Scene { kind, xml, step }
 }
 
-/// Links on hinges.
+/// Links connected by hinges.
 fn links(n: usize, length: f64, more: &str) -> String {
     let link = |inner: String| {
         format!(
@@ -145,22 +145,22 @@ fn scenes(seed: u64) -> Vec<Scene> {
     (0..SCENES).map(|i| make(i, r)).collect()
 }
 
-/// What a run shows.
+/// The observations of a run.
 #[derive(Default)]
 struct Seen {
     warned: bool,
     reported: bool,
     /// The largest kinetic energy, J.
     fastest: f64,
-    /// The ends of where middles of bodies were, m.
+    /// The ranges of the positions of body centres, m.
     ends: Vec<[f64; 2]>,
-    /// How far a joint was beyond its limits, in parts of its range.
+    /// How far a joint was outside its limits, relative to its range.
     beyond: f64,
-    /// How deep bodies are in each other at the end, in parts of a side or a diameter of 0.2 m.
+    /// The penetration depth of bodies at the end, relative to a side or a diameter of 0.2 m.
     depth: f64,
 }
 
-/// Makes a run and looks at it `STEPS` times; a watched one as a run of a lab is.
+/// Performs a run and observes it `STEPS` times; a watched run is monitored like the run of a lab.
 fn run(m: &Model, each: usize, watched: bool) -> Seen {
     let mut d = Data::new(m);
     core::reset_data_keyframe(m, &mut d, m.keys().next().unwrap()).unwrap();
@@ -199,12 +199,12 @@ fn run(m: &Model, each: usize, watched: bool) -> Seen {
     seen
 }
 
-/// What is true of a run, seen beside the same with much shorter steps.
+/// The truth about a run, from a comparison with the same run with much shorter steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Truth {
     Well,
     Wrong,
-    /// It is off, but not by much: nobody has to say so, and nobody is wrong who does. Or the short steps fail, too.
+    /// The error is moderate, so that reporting it or not is both acceptable; or the run with short steps fails as well.
     Between,
 }
 
@@ -214,7 +214,8 @@ fn truth(m: &Model, coarse: &Seen, fine: &Seen) -> Truth {
     }
     let mass: f64 = m.body_mass.iter().sum();
     let size = fine.ends.iter().map(|[a, b]| b - a).fold(0.1, f64::max);
-    // Motion that nobody minds: what a fall by a hundredth of the scene gives, and its speed without gravity in a second.
+    // Negligible motion: the kinetic energy of a fall by a hundredth of the scene, and that of this distance
+    // per second without gravity.
     let weight = mass * labspec_core::math::norm(m.opt.gravity);
     let least = 0.01 * weight * size + 0.5 * mass * (0.01 * size).powi(2);
     let faster = (coarse.fastest + least) / (fine.fastest + least);
@@ -224,7 +225,7 @@ fn truth(m: &Model, coarse: &Seen, fine: &Seen) -> Truth {
         .zip(&fine.ends)
         .map(|(c, f)| (f[0] - c[0]).max(c[1] - f[1]) / size)
         .fold(0.0, f64::max);
-    // A limit, a wall and a floor have to hold, whatever the short steps do: they are soft there, too.
+    // A limit, a wall and a floor must hold independent of the short steps, because they are soft in that run as well.
     let [past, deep] = [coarse.beyond, coarse.depth.max(fine.depth)];
     let passed = m.geom_type[0] == geom::BOX && coarse.ends.iter().any(|[_, high]| *high > 1.0 + WALL);
     if faster > 10.0 || out > 1.0 || past > 0.5 || deep > 0.3 || passed {
@@ -236,7 +237,7 @@ fn truth(m: &Model, coarse: &Seen, fine: &Seen) -> Truth {
     }
 }
 
-/// How many there are of each.
+/// The number of scenes of each kind.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Rates {
     pub(crate) scenes: usize,
@@ -248,7 +249,7 @@ pub(crate) struct Rates {
     pub(crate) between: usize,
 }
 
-/// The section of the page, the rates, and what was missed or called wrong without cause.
+/// The section of the page, the rates, and the missed faults and false alarms.
 pub(crate) fn section() -> (String, Rates, Vec<String>) {
     let mut kinds: Vec<(&str, Rates)> = Vec::new();
     let mut list = Vec::new();
@@ -258,7 +259,7 @@ pub(crate) fn section() -> (String, Rates, Vec<String>) {
         let coarse = run(&m, 1, true);
         let opt = m.edit().opt;
         (*opt.timestep, *opt.solver, *opt.iterations) = (scene.step / SHORTER as f64, solver::NEWTON, 100);
-        // The method of second order that has no fault of its own: `implicit` throws free chains by itself.
+        // A method of second order without faults of its own: `implicit` alone makes free chains gain energy.
         if *opt.integrator != integrator::RK4 {
             *opt.integrator = integrator::EULER;
         }

@@ -1,5 +1,5 @@
-//! `labspec check --html FILE`: one page that holds every claim of a course, loads nothing, runs nothing, and says nothing of the
-//! machine it was written on. The page is XML, too: a parser of XML holds its nesting.
+//! `labspec check --html FILE`: one page that contains every claim of a course, loads nothing, runs nothing, and contains no
+//! information about the machine on which it was written. The page is also XML, so that an XML parser checks its nesting.
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing)]
 
@@ -17,15 +17,15 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::OnceLock;
 
-/// Elements that a page may have.
+/// The elements that a page may contain.
 const ELEMENTS: &str = "a article b bdi body caption circle code dd desc details div dl dt figure footer g h1 h2 h3 h4 head \
                         header html li line main meta ol p path polyline rect section span style sub summary sup svg table tbody td \
                         text th thead title tr tspan ul";
-/// Attributes that it may have.
+/// The attributes that it may contain.
 const ATTRIBUTES: &str = "aria-hidden aria-label charset class content cx cy d dy fill font-family font-size font-weight height \
                           href http-equiv id lang name open points r role scope start stroke stroke-dasharray stroke-linecap \
                           stroke-linejoin stroke-width style text-anchor transform viewBox width x x1 x2 y y1 y2";
-/// Colours of pictures that can be seen on white and on black.
+/// Colours of pictures that are visible on white and on black.
 const ON_BOTH: [&str; 4] = ["none", "#cc79a7", "#e69f00", "#56b4e9"];
 
 fn parse(page: &str) -> Document<'_> {
@@ -36,7 +36,7 @@ fn parse(page: &str) -> Document<'_> {
     })
 }
 
-/// What a reader sees of an element, its spaces made one.
+/// The visible text of an element, with normalized spaces.
 fn seen(node: Node<'_, '_>) -> String {
     let all: String = node.descendants().filter(Node::is_text).filter_map(|t| t.text()).collect();
     all.split_whitespace().collect::<Vec<_>>().join(" ")
@@ -47,7 +47,7 @@ fn with_class<'a, 'i>(node: Node<'a, 'i>, class: &str) -> Vec<Node<'a, 'i>> {
     node.descendants().filter(has).collect()
 }
 
-/// Nothing is loaded, nothing runs, and every link leads to a place of the page.
+/// Nothing is loaded, nothing runs, and every link leads to an element of the page.
 fn harmless(page: &str) {
     let tree = parse(page);
     let ids: Vec<&str> = tree.descendants().filter_map(|n| n.attribute("id")).collect();
@@ -77,7 +77,7 @@ fn harmless(page: &str) {
     assert_eq!(page.chars().find(hidden), None);
 }
 
-/// A page for these paths, and the report in JSON of the same check.
+/// The page for these paths, and the JSON report of the same check.
 fn page_of(folder: &Path, arguments: &[&str]) -> (String, Value) {
     let out = tempfile::tempdir().unwrap();
     let file = out.path().join("page.html");
@@ -91,7 +91,7 @@ fn page_of(folder: &Path, arguments: &[&str]) -> (String, Value) {
 
 const COURSE: [&str; 3] = ["specs/lessons", "--models", "specs/models"];
 
-/// The page of our own course: two checks of it are enough for all tests.
+/// The page of our own course: two checks of it are sufficient for all tests.
 fn course() -> &'static (String, Value) {
     static PAGE: OnceLock<(String, Value)> = OnceLock::new();
     PAGE.get_or_init(|| page_of(&workspace(), &[&COURSE[..], &["--jobs", "4"]].concat()))
@@ -126,7 +126,7 @@ fn every_question_stands_in_the_page_with_its_verdict() {
                 let article = articles.get(&name).unwrap_or_else(|| panic!("{file}: {name}"));
                 let expected = verdicts.get(name.as_str()).map_or("open", String::as_str);
                 assert!(seen(with_class(*article, "verdict")[0]).ends_with(expected), "{file}: {name}");
-                // Formulas of one letter are that letter.
+                // A formula of one letter is displayed as that letter.
                 let normal = |html: &str| {
                     plain(html).replace('$', "").split_whitespace().collect::<Vec<_>>().join(" ")
                 };
@@ -162,7 +162,7 @@ fn every_question_stands_in_the_page_with_its_verdict() {
                 measures += 1;
                 let row =
                     rows.iter().find(|row| row[0] == *measure).unwrap_or_else(|| panic!("{file}: {measure}"));
-                // Six digits of it are shown.
+                // Six digits are displayed.
                 let agrees = |x: f64, text: &str| (text.parse::<f64>().unwrap() - x).abs() <= 5e-6 * x.abs();
                 if let Some(x) = value["value"].as_f64() {
                     assert!(agrees(x, &row[1]), "{file}: {name}: {row:?}");
@@ -196,12 +196,12 @@ fn the_page_of_a_course_loads_nothing_and_is_small() {
     let pictures =
         tree.descendants().filter(|n| n.has_tag_name(("http://www.w3.org/2000/svg", "svg"))).count();
     assert!(pictures > 30, "{pictures} pictures");
-    // The name of the language of pictures is no address that is loaded.
+    // The XML namespace of SVG is not an address that is loaded.
     let rest = page.replace("xmlns=\"http://www.w3.org/2000/svg\"", "");
     assert!(!rest.contains("src=") && !rest.contains("<link"));
 }
 
-/// On a dark screen every colour of a picture is one that was chosen for it.
+/// In dark mode, every colour of a picture is replaced by a suitable one.
 #[test]
 fn pictures_can_be_seen_in_the_dark() {
     let (page, _) = course();
@@ -229,7 +229,7 @@ fn the_same_course_gives_the_same_bytes() {
     assert!(one == course().0);
 }
 
-/// Where the course lies is no matter of the page.
+/// The page does not depend on the location of the course.
 #[test]
 fn the_page_says_nothing_of_the_machine() {
     let folder = folder();
@@ -244,7 +244,7 @@ fn the_page_says_nothing_of_the_machine() {
     }
 }
 
-/// What a lesson may hold that is meant to do something in a browser, a terminal or a reader's eye.
+/// Contents of a lesson that would have an effect in a browser or a terminal, or mislead a reader.
 const HOSTILE: [&str; 8] = [
     "$<script>alert(1)</script>_{<b onclick=alert(1)>}\\u202e$ $x^{<img src=x>}$ $\\\\frac{<i>}{2}$",
     "<script>alert(1)</script>",
@@ -292,7 +292,7 @@ fn text_of_lessons_is_text() {
     }
 }
 
-/// The numbers that the page lists as claimed by nothing are those that the rule tells.
+/// The numbers that the page lists as unclaimed are those that the rule reports.
 #[test]
 fn numbers_that_nothing_claims_are_those_of_the_rule() {
     let folder = tempfile::tempdir().unwrap();
@@ -324,7 +324,7 @@ fn numbers_that_nothing_claims_are_those_of_the_rule() {
     );
 }
 
-/// Formulas of plain letters are read, and others stand as they are written; in questions, options and explanations.
+/// Simple formulas are rendered, others are displayed as written: in questions, options and explanations.
 #[test]
 fn formulas_are_read() {
     let folder = tempfile::tempdir().unwrap();
@@ -353,7 +353,7 @@ fn formulas_are_read() {
     );
 }
 
-/// Beside each run stands what is done in it, and the settings with which it begins: those of the record.
+/// Each run is listed with its actions and its initial settings, which equal those of the record.
 #[test]
 fn runs_have_their_settings_beside_them() {
     let folder = tempfile::tempdir().unwrap();
@@ -407,7 +407,7 @@ fn runs_have_their_settings_beside_them() {
             ["many[1]", "h = 0.005; 10 steps"],
         ]
     );
-    // The record says the same of each.
+    // The record contains the same settings.
     let record: Value = serde_json::from_str(&std::fs::read_to_string(record).unwrap()).unwrap();
     let recorded = record["lessons"][0]["claims"][0]["runs"].as_array().unwrap();
     assert_eq!(recorded.len(), all.len());
@@ -425,13 +425,13 @@ fn runs_have_their_settings_beside_them() {
         assert!(row[3].starts_with(&expected), "{} and not {expected}", row[3]);
         assert_eq!(row[3].ends_with(", gravity 0 0 -1.5"), row[0] == "all", "{}", row[3]);
     }
-    // What all runs have is said once.
+    // Settings shared by all runs are stated once.
     let (caption, all) = rows(&page_of(folder.path(), &["b.md"]).0);
     assert!(caption.starts_with("Runs all with timestep 0.002 s, Euler, solver Newton"), "{caption}");
     assert!(all.iter().all(|row| row.len() == 3), "{all:?}");
 }
 
-/// A page is never written over a lesson.
+/// A page never overwrites a lesson.
 #[test]
 fn a_lesson_is_not_overwritten() {
     let folder = folder();
@@ -442,7 +442,7 @@ fn a_lesson_is_not_overwritten() {
     assert_eq!(std::fs::read_to_string(folder.path().join("clean.md")).unwrap(), before);
 }
 
-/// The curves are those of the runs: they begin where the run begins, end where it stops, and show what it measures.
+/// The curves belong to the runs: they begin where the run begins, end where it stops, and show its measured values.
 #[test]
 fn curves_are_those_of_the_runs() {
     let folder = folder();

@@ -1,4 +1,4 @@
-//! `labspec init`: what it writes is a course that is true; and `labspec completions`.
+//! `labspec init` writes a course whose claims are true; and `labspec completions`.
 
 #![allow(clippy::unwrap_used)]
 
@@ -15,7 +15,7 @@ fn a_new_folder_holds_a_lesson_that_is_true() {
     let done = run_in(folder.path(), &["check", "course/lessons", "--deny", "warnings,notes"]);
     assert_eq!(done.code, 0, "{}", done.stdout);
     assert!(done.stdout.contains("1 answer verified, 1 quoted number verified"), "{}", done.stdout);
-    // What is there is not touched.
+    // Existing files are not changed.
     let lesson = folder.path().join("course/lessons/01-fall.md");
     std::fs::write(&lesson, "mine").unwrap();
     let again = run_in(folder.path(), &["init", "course"]);
@@ -24,7 +24,7 @@ fn a_new_folder_holds_a_lesson_that_is_true() {
     assert_eq!(std::fs::read_to_string(&lesson).unwrap(), "mine");
 }
 
-/// Every command, and every long option of `check`, in the form in which each shell's script writes them.
+/// All commands, and all long options of `check`, in the syntax of each shell's script.
 #[test]
 fn shells_complete_every_command() {
     let help = run(&["check", "--help"]).stdout;
@@ -49,7 +49,7 @@ fn shells_complete_every_command() {
             assert!(done.stdout.contains(&command.replace("NAME", name)), "{shell}: {name}");
         }
         for name in options.iter().map(|o| o.trim_start_matches('-')) {
-            // Of zsh, options that take a value have a sign between.
+            // In zsh, options with a value have an additional `=`.
             let [plain, taking] =
                 [option.to_string(), option.replace('[', "=[")].map(|o| o.replace("NAME", name));
             assert!(done.stdout.contains(&plain) || done.stdout.contains(&taking), "{shell}: {name}");
@@ -57,7 +57,7 @@ fn shells_complete_every_command() {
     }
 }
 
-/// The workflow, the action and the hook call the program as it is.
+/// The workflow, the action and the hook use existing commands and options of the program.
 #[test]
 fn what_calls_the_program_names_what_there_is() {
     let read = |name: &str| std::fs::read_to_string(workspace().join(name)).unwrap();

@@ -1,8 +1,7 @@
-//! Every text of the lessons means what it means in JavaScript: on states that a lab goes through, each is run here and
-//! by node, and the values, all fields and all `ctx` variables afterwards agree to the bit.
+//! All source texts of the lessons have the same meaning as in JavaScript. Each is run here and in node, on states that a lab
+//! passes through. The values, all fields and all `ctx` variables afterwards have the same bits.
 //!
-//! Functions of the simulation are recorded here and played back there (`language.js`): it is the language that is
-//! compared.
+//! Functions of the simulation are recorded here and replayed there (`language.js`), because only the language is compared.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -93,7 +92,7 @@ fn changes(before: &Snapshot, after: &Snapshot) -> Json {
     changed.map(|(f, (_, now))| (path(f), numbers(now))).collect()
 }
 
-/// Named objects with their members: a number, or field, first element and count.
+/// Named objects with their members: a number, or a field with its first element and count.
 fn objects(names: &ModelNames<'_>) -> Json {
     let mut all = Map::new();
     for side in ["model", "data"] {
@@ -119,7 +118,7 @@ fn objects(names: &ModelNames<'_>) -> Json {
     all.into()
 }
 
-/// A world that writes down which functions are called, what they give and what they leave.
+/// A world that records calls of functions, their results and their effects.
 struct Recorder<'w> {
     world: &'w mut World,
     names: &'w ModelNames<'w>,
@@ -127,7 +126,7 @@ struct Recorder<'w> {
     calls: Vec<Json>,
 }
 
-/// What `language.js` computes itself.
+/// The functions that `language.js` computes itself.
 const COMPUTED: [&str; 8] =
     ["lib.bodyPos", "lib.sitePos", "lib.bodyId", "lib.jointId", "lib.qpos", "lib.norm", "lib.deg", "lib.rad"];
 
@@ -159,7 +158,7 @@ impl Host for Recorder<'_> {
     }
 }
 
-/// What node is asked for one lab.
+/// The requests to node for one lab.
 #[derive(Default)]
 struct Work {
     states: Vec<Json>,
@@ -167,7 +166,7 @@ struct Work {
 }
 
 impl Work {
-    /// One text on one state; the session itself stays as it is.
+    /// Adds a source text with one state; the session is not changed.
     fn add(&mut self, session: &Session<'_>, globals: &Globals, at: &Job<'_>, given: Option<Value>) {
         let (mut world, mut context) = (session.world.clone(), session.context.clone());
         let names = ModelNames::new(&session.world.model, Scope::Lab);
@@ -208,11 +207,11 @@ struct Job<'p> {
     text: &'p str,
     kind: &'static str,
     program: &'p Program,
-    /// What its control gives.
+    /// The values of its control.
     given: Vec<Value>,
 }
 
-/// Every text of a lab.
+/// All source texts of a lab.
 fn texts<'p>(lab: &Lab, programs: &'p Programs) -> Vec<Job<'p>> {
     let mut jobs = Vec::new();
     for bound in programs.setup.iter().chain(&programs.controller) {
@@ -254,7 +253,7 @@ fn texts<'p>(lab: &Lab, programs: &'p Programs) -> Vec<Job<'p>> {
     jobs
 }
 
-/// Numbers of texts and comparisons.
+/// The numbers of source texts and comparisons.
 #[derive(Default)]
 struct Count {
     labs: usize,
@@ -263,7 +262,7 @@ struct Count {
     compared: usize,
 }
 
-/// Compares every text of a lab on four states that it goes through.
+/// Compares all source texts of a lab on four states that it passes through.
 fn compare(name: &str, lab: &Lab, model: &Model, count: &mut Count) {
     let mut findings = Vec::new();
     let programs = Programs::compile(lab, model, &mut findings);
@@ -325,7 +324,7 @@ fn files(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// Every lab of some lessons.
+/// Compares all labs of some lessons.
 fn compare_lessons(lessons: &[PathBuf], models: &Path) {
     let folder = ModelFolder::open(models).unwrap();
     let mut count = Count::default();
@@ -368,7 +367,7 @@ fn our_lessons_mean_what_javascript_means() {
     compare_lessons(&files(&workspace().join("specs/lessons")), &workspace().join("specs/models"));
 }
 
-/// The forms that real labs have and these lessons do not: names, loops, closures, views as values.
+/// Constructs of real labs that these lessons do not contain: names, loops, closures, arrays as values.
 #[test]
 fn a_lab_of_everything_means_what_javascript_means() {
     if !needs("node") {

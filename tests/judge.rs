@@ -1,5 +1,5 @@
-//! `--judge-request FILE` and `--judge FILE`: the real library as a second judge. `tests/golden/judge.json` was recorded from MuJoCo
-//! 3.14.0 by `tests/judge/record.mjs`.
+//! `--judge-request FILE` and `--judge FILE`: comparison with the real library. `tests/golden/judge.json` was recorded from
+//! MuJoCo 3.14.0 by `tests/judge/record.mjs`.
 
 #![allow(clippy::unwrap_used)]
 
@@ -13,7 +13,7 @@ const BALL: &str = "<mujoco><include file='floor.xml'/><worldbody>\
     <body name='ball' pos='0 0 1'><freejoint/><geom name='ball' size='.1' mass='1'/></body></worldbody></mujoco>";
 const FLOOR: &str = "<mujoco><worldbody><geom name='floor' type='plane' size='1 1 1'/></worldbody></mujoco>";
 
-/// A question with a run as the lab stands, one with a change of its model, and a sweep.
+/// A question with a run of the unchanged lab, one with a changed model, and a sweep.
 fn lesson() -> String {
     let lab = json!({"title": "A fall", "model": "ball", "stopAt": 0.3,
         "controls": [{"label": "gravity", "apply": "model.opt.gravity[2] = -value", "min": 1, "max": 20, "step": 1, "value": 10, "reset": true}],
@@ -40,7 +40,7 @@ fn folder() -> TempDir {
     folder
 }
 
-/// What the lesson asks, and a recording in which a judge has found exactly what we find.
+/// The request for the lesson, and a recording with exactly our results.
 fn asked(folder: &Path) -> (Value, Value) {
     let done = run_in(folder, &["verify", "fall.md", "--judge-request", "request.json", "--format", "json"]);
     assert_eq!((done.code, done.stderr.as_str()), (0, ""), "{}", done.stdout);
@@ -52,7 +52,7 @@ fn asked(folder: &Path) -> (Value, Value) {
             Some((sweep, at)) => format!("{sweep}.height[{at}"),
             None => format!("{run}.height"),
         };
-        // The measure of the only run has no other name.
+        // The measure of the only run has no prefix.
         ours.get(name.as_str()).unwrap_or(&ours["height"])["value"].clone()
     };
     let request = read_json(&folder.join("request.json"));
@@ -64,7 +64,7 @@ fn asked(folder: &Path) -> (Value, Value) {
     (request, json!({"recording": "judge", "version": 1, "engine": "MuJoCo 3.14.0", "runs": runs}))
 }
 
-/// The exit code, the report, and what people are told, with this recording.
+/// The exit code, the report, and the output for people, with this recording.
 fn judged(folder: &Path, recording: &Value) -> (i32, Value, String) {
     std::fs::write(folder.join("judge.json"), recording.to_string()).unwrap();
     let [machine, human] = [&["--format", "json"][..], &[]]
@@ -86,7 +86,7 @@ fn every_measure_of_our_course_is_what_mujoco_gives() {
     assert_eq!(judge["engine"], "MuJoCo 3.14.0");
     assert_eq!((&judge["differing"], &judge["unjudged"]), (&json!([]), &json!([])));
     assert_eq!((&judge["compared"], &judge["turned"]), (&json!(count), &json!(0)));
-    // Closed forms are ours alone, and the report counts them.
+    // Closed forms are not compared with the recording, and the report counts them.
     let forms = report["ledger"].as_array().unwrap().iter();
     let forms = forms.filter(|claim| claim["subject"] == "closedForm").count();
     assert!(forms > 0);
@@ -125,7 +125,7 @@ fn a_judge_that_agrees_changes_nothing() {
     );
 }
 
-/// What rests on other runs than those that a judge makes is counted, and "all" is then said of the rest alone.
+/// Claims that depend on runs that are not recorded are counted, and "all" then refers to the rest only.
 #[test]
 fn what_is_not_judged_is_counted() {
     let folder = folder();
@@ -181,7 +181,7 @@ fn a_verdict_that_turns_over_is_found() {
     assert!(stdout.contains("differs from MuJoCo 3.14.0: 7 of 8 measures, 0 of 2 verdicts"), "{stdout}");
     assert!(stdout.contains("`plain.height` is"), "{stdout}");
 
-    // A number that differs and turns nothing over is told, and is no fault.
+    // A different number that changes no verdict is reported, and is not a failure.
     let (_, mut recording) = asked(folder.path());
     recording["runs"][2]["values"]["height"] = json!(0.7);
     let (code, report, stdout) = judged(folder.path(), &recording);
@@ -191,7 +191,7 @@ fn a_verdict_that_turns_over_is_found() {
         "{stdout}"
     );
 
-    // A run that breaks there and not here is evidence of nothing there.
+    // A run that fails only in the recording is not evidence there.
     let (_, mut recording) = asked(folder.path());
     recording["runs"][0]["broke"] = json!("badqacc at t = 0.1 s");
     assert_eq!(judged(folder.path(), &recording).0, 1);
@@ -210,7 +210,7 @@ fn a_recording_of_another_text_is_told_and_not_used() {
     assert_eq!(code, 3, "{stdout}");
     assert!(stdout.contains("not judged 8 measures: the lesson or its model has changed"), "{stdout}");
 
-    // What is not recorded at all, and what the judge could not take.
+    // Runs that are not recorded, and measures that the recorder could not evaluate.
     let (_, mut recording) = asked(folder.path());
     recording["runs"].as_array_mut().unwrap().truncate(1);
     recording["runs"][0]["values"].as_object_mut().unwrap().remove("never");

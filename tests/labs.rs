@@ -1,9 +1,10 @@
-//! The labs of `../shared` as we run them and as a page runs them on MuJoCo 3.14.0, JavaScript evaluating their
-//! expressions: `golden/labs.py` records. Each lab as it opens, with each slider at its ends, with each button pressed.
+//! The labs of `../shared` in our engine and as a page runs them on MuJoCo 3.14.0, where JavaScript evaluates
+//! their expressions; recorded by `golden/labs.py`. Each lab is run unchanged, with each slider at its ends,
+//! and with each button pressed.
 //!
-//! A trace may be off by a millionth of its range. Beyond that it has to be no better known: our own trace moves as far when
-//! the start and gravity move by 1e-14, or when the solver runs on to rounding instead of stopping at its tolerance (then
-//! the recording made with a tight solver on both sides has to agree). The test prints these.
+//! A trace may differ by a millionth of its range. A larger difference is accepted only if our own trace moves as far when the
+//! start and gravity move by 1e-14, or when the solver runs up to rounding instead of stopping at its tolerance (then the
+//! recording with a tight solver on both sides must agree). The test prints these cases.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -21,16 +22,16 @@ use serde_json::Value as Json;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Of the range of a trace.
+/// The tolerance relative to the range of a trace.
 const TRACE: f64 = 1e-6;
-/// A few last bits.
+/// A few units in the last place.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
-/// A few nudges show the order of what rounding does, not the worst of it.
+/// A few perturbations show the order of magnitude of rounding effects, not the worst case.
 const WIDER: f64 = 2.0;
-/// The step of a perturbed start.
+/// The size of the perturbation of a start.
 const PERTURBATION: f64 = 1e-14;
 
-/// Traces that are not known so well, and why: lab, trace, in so many runs at most. Beyond this list nothing is excused.
+/// Less accurate traces, with the cause: lab, trace, maximum number of runs. Nothing outside this list is excused.
 const EXCUSED: &[(&str, &str, usize, &str)] = &[
     (
         "1.2_01_simlab",
@@ -58,15 +59,15 @@ const GRIP: &str =
 /// How a lab is run.
 #[derive(Clone, Copy, PartialEq)]
 enum How {
-    /// As it was recorded.
+    /// As recorded.
     Recorded,
-    /// Coordinates and gravity moved, each by so many times [`PERTURBATION`].
+    /// With coordinates and gravity shifted by these multiples of [`PERTURBATION`].
     Nudged(f64, f64),
-    /// The solver run to rounding.
+    /// With the solver running up to rounding.
     Tight,
 }
 
-/// Every other way to run it that ought to give the same.
+/// All other variants that should give the same result.
 const OTHERWISE: [How; 7] = [
     How::Tight,
     How::Nudged(1.0, 1.0),
@@ -77,7 +78,7 @@ const OTHERWISE: [How; 7] = [
     How::Nudged(0.0, -1.0),
 ];
 
-/// Runs a lab as a recording did, or a little otherwise.
+/// Runs a lab as in a recording, or in a variant.
 fn ours(shared: &Path, recording: &Json, how: How) -> Json {
     let name = recording["lab"].as_str().unwrap();
     let folder = ModelFolder::open(&shared.join("corpus/models")).unwrap();
@@ -116,7 +117,7 @@ fn ours(shared: &Path, recording: &Json, how: How) -> Json {
     let mut text = Vec::new();
     table.write_json(&mut text).unwrap();
     let mut table: Json = serde_json::from_slice(&text).unwrap();
-    // The recordings hold the names of what is no number in its place.
+    // The recordings store the names of non-finite numbers in place of the numbers.
     let lost = table["nonfinite"]["rows"].take();
     for entry in lost.as_array().into_iter().flatten() {
         let [row, column] = [0, 1].map(|i| entry[i].as_u64().unwrap() as usize);
@@ -125,13 +126,14 @@ fn ours(shared: &Path, recording: &Json, how: How) -> Json {
     table
 }
 
-/// The largest difference of a column over its range; infinite where something is not a number on one side, or another text.
+/// The largest difference of a column relative to its range; infinite if a value is NaN on only one side, or a string differs.
 fn apart(recording: &Json, column: usize, a: &Json, b: &Json) -> f64 {
     let (a, b) = (a["rows"].as_array().unwrap(), b["rows"].as_array().unwrap());
     if a.len() != b.len() {
         return f64::INFINITY;
     }
-    // A sum that should be constant is all rounding: no less than a few bits of its largest number.
+    // The values of a sum that should be constant are only rounding errors, so the range is at least a few units in the last
+    // place of its largest number.
     let largest = a.iter().filter_map(|row| row[column].as_f64()).fold(0.0, |s: f64, x| s.max(x.abs()));
     let span = recording["span"][column].as_f64().unwrap().max(ROUNDING * largest / TRACE);
     let difference = |(x, y): (&Json, &Json)| match (x[column].as_f64(), y[column].as_f64()) {

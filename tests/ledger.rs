@@ -1,5 +1,5 @@
-//! The law of the ledger: whatever is damaged in a lesson, nothing is called verified or clean that was not computed, and no
-//! true claim is lost.
+//! The law of the ledger: for any damage of a lesson, nothing is called verified or clean that was not computed,
+//! and no true claim is lost.
 
 #![allow(clippy::unwrap_used)]
 
@@ -12,34 +12,34 @@ use labspec::lint::ModelFolder;
 use proptest::prelude::*;
 use serde_json::{Value as Json, json};
 
-/// A part of a lesson that can be damaged, and the claims that must then no longer be true.
+/// A kind of damage to a lesson. The claims that depend on the damaged part must no longer be true.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Damage {
-    /// The model of the first lab is gone.
+    /// The model of the first lab does not exist.
     ModelRemoved,
-    /// A trace of the first lab means nothing.
+    /// A trace of the first lab is invalid.
     TraceBroken,
     /// The condition of the keyed option is a constant.
     ConditionConstant,
     /// The other condition is a constant.
     OtherConstant,
-    /// The key is another option.
+    /// The key is moved to another option.
     KeyMoved,
-    /// The number in the prose is another one.
+    /// The number in the prose is changed.
     ProseChanged,
-    /// The quote is about a text that stands nowhere.
+    /// The quoted text does not occur in the lesson.
     QuoteMoved,
-    /// The expression of a quote throws.
+    /// The expression of a quote fails at run time.
     QuoteThrows,
     /// The closed form is slightly wrong.
     FormWrong,
-    /// The closed form is for no trace.
+    /// The closed form belongs to no trace.
     FormLost,
-    /// The run of the question breaks.
+    /// The run of the question fails.
     RunBroken,
-    /// The measure is never a number.
+    /// The measure is always NaN.
     MeasureNever,
-    /// The question says nothing of how it is checked.
+    /// The question has no `verify` object.
     VerifyRemoved,
 }
 
@@ -62,7 +62,7 @@ const ALL: [Damage; 13] = [
 const MODEL: &str =
     "<mujoco><worldbody><body pos='0 0 HEIGHT'><freejoint/><geom size='0.05'/></body></worldbody></mujoco>";
 
-/// A lesson about a fall from a height, of so many steps of 4 ms, in which everything is true but for the damage.
+/// A lesson about a fall from a height, with this number of steps of 4 ms, in which everything except the damage is true.
 fn lesson(height: f64, steps: u32, damage: &[Damage]) -> String {
     let has = |d: Damage| damage.contains(&d);
     let time = f64::from(steps) * 0.004;
@@ -131,7 +131,7 @@ fn lesson(height: f64, steps: u32, damage: &[Damage]) -> String {
     format!("# A fall\n\nIt falls {prose}.\n\n```lab simlab\n{lab:#}\n```\n\n```quiz\n{quiz:#}\n```\n")
 }
 
-/// The claims that a damage takes away, by subject.
+/// The subjects of the claims that a damage affects.
 fn takes(damage: Damage) -> &'static [Subject] {
     use Subject::{Answer, ClosedForm, File, Lab, Quote};
     match damage {
@@ -141,7 +141,7 @@ fn takes(damage: Damage) -> &'static [Subject] {
         Damage::ProseChanged | Damage::QuoteMoved | Damage::QuoteThrows => &[Quote, File],
         Damage::FormWrong | Damage::FormLost => &[ClosedForm, File],
         Damage::RunBroken | Damage::MeasureNever => &[Answer, Quote, File],
-        // Nothing is wrong with a question that nobody checks; it is only not verified.
+        // A question without a check is not wrong, only unverified.
         Damage::VerifyRemoved => &[Answer],
     }
 }
@@ -155,7 +155,7 @@ fn entries_of(ledger: &Ledger, subject: Subject) -> Vec<&Entry> {
     ledger.entries().iter().filter(|e| e.subject == subject).collect()
 }
 
-/// Everything that is true stands there as true, and nothing else does.
+/// Everything that is true has the state true, and nothing else has.
 fn holds(height: f64, steps: u32, damage: &[Damage]) -> Result<(), TestCaseError> {
     let text = lesson(height, steps, damage);
     let ledger = ledger(&text);
@@ -193,12 +193,12 @@ proptest! {
         damage in prop::collection::btree_set(prop::sample::select(ALL.to_vec()), 0..4),
     ) {
         let mut damage: Vec<Damage> = damage.into_iter().collect();
-        // Without its `verify` there is nothing in the question that could be damaged.
+        // Without its `verify` object, the question has nothing else that could be damaged.
         if damage.contains(&Damage::VerifyRemoved) {
             damage.retain(|d| !takes(*d).contains(&Subject::Quote) || *d == Damage::ModelRemoved);
             damage.retain(|d| !takes(*d).contains(&Subject::Answer) || matches!(d, Damage::ModelRemoved | Damage::VerifyRemoved));
         }
-        // A text of other digits says what the prose says, or not: one of the two is enough.
+        // With a moved quote, the changed prose makes no difference, so only one of the two is applied.
         if damage.contains(&Damage::QuoteMoved) {
             damage.retain(|d| *d != Damage::ProseChanged);
         }
@@ -206,7 +206,7 @@ proptest! {
     }
 }
 
-/// A lab that other lessons name, and a lesson that says something right and something wrong of it.
+/// A lab that other lessons use, and a lesson with a right and a wrong claim about it.
 pub(crate) const LABS: &str = r#"# Labs
 
 ```lab simlab
@@ -234,7 +234,7 @@ pub(crate) fn with_neighbours() -> tempfile::TempDir {
     folder
 }
 
-/// Rule and line of every finding about a lesson.
+/// The rule and the line of every finding about a lesson.
 pub(crate) fn found(report: &Json) -> Vec<(String, u64)> {
     let one = |f: &Json| (f["code"].as_str().unwrap().to_string(), f["line"].as_u64().unwrap());
     let mut all: Vec<(String, u64)> = report["findings"].as_array().unwrap().iter().map(one).collect();
@@ -250,7 +250,8 @@ fn last_line(done: &Done) -> &str {
     done.stdout.trim_end().lines().last().unwrap_or_default()
 }
 
-/// One loader: a lesson that names another one is the same lesson in a folder, alone, piped, repaired and in memory.
+/// There is only one loader: a lesson that uses another one gives the same result in a folder, alone, from a
+/// pipe, repaired and in memory.
 #[test]
 fn a_lesson_with_neighbours_is_the_same_everywhere() {
     let folder = with_neighbours();
@@ -264,7 +265,7 @@ fn a_lesson_with_neighbours_is_the_same_everywhere() {
         READER,
     );
     assert_eq!(found(&parsed(&piped)), all);
-    // From a folder above, too.
+    // Also in a subfolder.
     std::fs::create_dir(folder.path().join("week")).unwrap();
     std::fs::write(folder.path().join("week/labs.md"), LABS).unwrap();
     let arguments = ["check", "-", "--stdin-name", "week/reader.md", "--format", "json"];
@@ -280,23 +281,23 @@ fn a_lesson_with_neighbours_is_the_same_everywhere() {
     let below =
         Checker::new(models.clone()).neighbours([("week/labs.md", LABS)]).check("week/./reader.md", READER);
     assert_eq!(below.findings.len(), all.len());
-    // Without its neighbour nothing is said of it that nobody looked at.
+    // Without the other lesson, the findings state only what was checked.
     let alone = Checker::new(models.clone()).check("reader.md", READER);
     let unknown = alone.findings.iter().find(|f| f.code == "unknown-lab").unwrap();
     assert!(unknown.message.contains("only this lesson was given"), "{}", unknown.message);
     let missing = Checker::new(models.clone()).neighbours([("others.md", LABS)]).check("reader.md", READER);
     assert!(missing.findings.iter().any(|f| f.message.contains("that lesson was not given")));
-    // A page plays a lab of it; claims of another lesson's lab are none of its business.
+    // A page plays a lab of it; claims about labs of other lessons do not matter there.
     let player = labspec::Player::of_lesson("reader.md", READER, "#1", models.clone()).unwrap();
     let codes: Vec<&str> = player.findings().iter().map(|f| f.code).collect();
     assert_eq!(codes, ["duplicate-readout"]);
-    // Commands that read one lab, lay out code, and repair.
+    // Commands that read one lab, format code, and apply fixes.
     assert_eq!(run_in(folder.path(), &["run", "reader.md#1", "--steps", "2"]).code, 0);
     assert_eq!(run_in(folder.path(), &["fmt", "--check", "reader.md"]).code, 0);
     assert_eq!(run_in(folder.path(), &["check", "reader.md", "--fix", "--diff"]).code, 0);
 }
 
-/// A repair in a lesson that names others is judged with them.
+/// A fix in a lesson that uses others is verified together with them.
 #[test]
 fn a_repair_keeps_the_neighbours_in_sight() {
     let folder = with_neighbours();
@@ -311,7 +312,7 @@ fn a_repair_keeps_the_neighbours_in_sight() {
     assert!(!done.stdout.contains("unknown-lab"), "{}", done.stdout);
 }
 
-/// There is no number of other labs at which the next one is not looked for.
+/// There is no limit on the number of other labs that are searched.
 #[test]
 fn the_thirty_third_lab_of_another_lesson_is_found() {
     let folder = with_neighbours();
@@ -327,7 +328,7 @@ fn the_thirty_third_lab_of_another_lesson_is_found() {
     assert!(last_line(&done).contains("40 quoted numbers verified"), "{}", done.stdout);
 }
 
-/// What is known is known as it was claimed: a key that moves makes another claim, and what is refuted anew is told.
+/// The baseline identifies claims: a moved key makes another claim, and a new refutation is reported.
 #[test]
 fn a_baseline_hides_no_claim_that_changed() {
     let folder = folder();
@@ -350,13 +351,13 @@ fn a_baseline_hides_no_claim_that_changed() {
     assert_eq!(moved.code, 1, "{}", moved.stdout);
     assert!(moved.stdout.contains("error[answer-refuted]"), "{}", moved.stdout);
     assert!(last_line(&moved).contains("1 claim is false"), "{}", moved.stdout);
-    // The same key, and other words of the option.
+    // The same key, with another text of the option.
     write(&CLEAN.replace("\"answer\": 2", "\"answer\": 0").replace("the heavy one", "the iron one"));
     assert_eq!(check(&[]).code, 1);
-    // The same key, and a condition that says something else.
+    // The same key, with another condition.
     write(&CLEAN.replace("\"answer\": 2", "\"answer\": 0").replace("heavy < light", "heavy < light - 1"));
     assert_eq!(check(&[]).code, 1);
-    // As it was, it is known again; in order, nothing is.
+    // In the original state, the finding is in the baseline; after the correction, there is none.
     write(&format!("A line before it.\n\n{}", CLEAN.replace("\"answer\": 2", "\"answer\": 0")));
     assert_eq!(check(&[]).code, 0);
     write(CLEAN);
@@ -364,7 +365,7 @@ fn a_baseline_hides_no_claim_that_changed() {
     assert!(clean.code == 0 && last_line(&clean).contains("no problems found"), "{}", clean.stdout);
 }
 
-/// The last line says how many claims are false beside how much was found, and what the lessons allow.
+/// The last line states the number of false claims and findings, and what the lessons suppress.
 #[test]
 fn the_last_line_says_what_is_so() {
     let folder = folder();
@@ -382,7 +383,7 @@ fn the_last_line_says_what_is_so() {
     let errors = summary["errors"].as_u64().unwrap();
     assert!(wrong > 0 && errors > 0, "{summary}");
     assert!(findings.contains(&format!("{errors} error")), "{findings}");
-    // An answer that is wrong, and nothing else.
+    // Only a wrong answer.
     std::fs::write(folder.path().join("b.md"), CLEAN.replace("\"answer\": 2", "\"answer\": 0")).unwrap();
     let one = run_in(folder.path(), &["check", "b.md"]);
     assert!(
@@ -390,7 +391,7 @@ fn the_last_line_says_what_is_so() {
         "{}",
         one.stdout
     );
-    // What the lesson allows is counted, and changes nothing.
+    // Findings that the lesson suppresses are counted, and change nothing.
     let twice = FALL.replace("\"stopAt\"", "\"readouts\": [{\"label\": \"a\", \"expr\": \"data.qpos[2]\"}, {\"label\": \"a\", \"expr\": \"data.qvel[2]\"}],\n \"lint\": {\"allow\": [\"duplicate-readout\"], \"why\": \"both are read aloud\"},\n \"stopAt\"");
     std::fs::write(folder.path().join("allowed.json"), twice).unwrap();
     let allowed = run_in(folder.path(), &["check", "allowed.json"]);
@@ -399,7 +400,7 @@ fn the_last_line_says_what_is_so() {
     assert!(last_line(&allowed).ends_with(end), "{}", allowed.stdout);
 }
 
-/// A fence that is nearly ours is told, also beside a lab that is in order.
+/// A fence with almost the right word is reported, also next to a correct lab.
 #[test]
 fn a_fence_that_is_nearly_ours_is_told_beside_a_lab() {
     let folder = folder();

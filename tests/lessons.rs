@@ -1,7 +1,7 @@
-//! What an author reads about a damaged or wrong lesson: every file of `tests/lessons` against its snapshot, and
-//! the real lessons beside the repository, where they are.
+//! Reports about damaged or wrong lessons: every file of `tests/lessons` has a snapshot, and so do the real lessons next to the
+//! repository, if they exist.
 
-// A test that cannot read its own inputs has to fail.
+// A test that cannot read its own inputs must fail.
 #![allow(clippy::unwrap_used)]
 
 use crate::needs::needs;
@@ -13,12 +13,12 @@ use labspec::spec::Lesson;
 use labspec::{lint, report};
 use std::path::{Path, PathBuf};
 
-/// The workspace, two folders above the crate that this test belongs to.
+/// The workspace, two folders above the crate of this test.
 fn workspace() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// A folder of material beside the repository; says so when it is not there.
+/// A folder next to the repository; reports if it does not exist.
 fn beside(path: &str) -> Option<PathBuf> {
     needs(&format!("../shared/{path}")).then(|| workspace().join("../shared").join(path))
 }
@@ -63,7 +63,7 @@ fn findings_are_json_for_programs() {
     });
 }
 
-/// Code, line and column of every finding.
+/// The code, line and column of every finding.
 fn places(lesson: &Lesson) -> Vec<(&'static str, usize, usize)> {
     lesson
         .findings
@@ -83,7 +83,7 @@ fn the_intact_lesson_has_no_error() {
     let models = ModelFolder::open(&models).unwrap();
     let lesson = load(&path, "lesson-0.1.md", &models);
     assert!(!lesson.has_errors(), "{}", report::human(&lesson.findings, &[&lesson.file], false));
-    // `<option>` in the text and in an explanation: a browser swallows both.
+    // `<option>` in the text and in an explanation: a browser displays neither.
     let expected = [
         ("unescaped-element", 7, 281),
         ("prediction-unchecked", 18, 1),
@@ -105,7 +105,7 @@ fn the_damaged_lesson_shows_every_damage() {
     };
     let models = ModelFolder::open(&models).unwrap();
     let lesson = load(&path, "lesson-0.1.damaged.md", &models);
-    // Behind all the damage, everything is still there and checked.
+    // Despite the damage, all labs and quizzes are found and checked.
     let addresses: Vec<String> = lesson.addressed().iter().map(|(a, _)| a.to_string()).collect();
     assert_eq!(addresses, ["#1", "#2", "#0.1-predict.1", "#0.1-predict.2"]);
     assert_eq!(lesson.quizzes.len(), 2);

@@ -1,4 +1,4 @@
-//! What is told and what counts: rules chosen and left out, settings, allowances, baselines; the forms of reports; repairs.
+//! Which findings are reported and count: selected and ignored rules, settings, suppressions, baselines; report formats; fixes.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use std::path::Path;
 use tempfile::TempDir;
 
-/// Two readouts have one name: a warning, and nothing else.
+/// Two readouts with the same name: a warning, and no other finding.
 const TWICE: &str = r##"# Fall
 
 ```lab simlab
@@ -44,7 +44,7 @@ fn parsed(done: &Done) -> Value {
     serde_json::from_str(&done.stdout).unwrap_or_else(|e| panic!("{e}: {}{}", done.stdout, done.stderr))
 }
 
-/// Exit code and the codes that are told.
+/// The exit code and the reported codes.
 fn reported_codes(folder: &TempDir, arguments: &[&str]) -> (i32, Vec<String>) {
     let all: Vec<&str> = arguments.iter().copied().chain(["--format", "json"]).collect();
     let done = check(folder, &all);
@@ -76,7 +76,7 @@ fn rules_are_chosen_and_left_out() {
     assert!(wrong.stderr.contains("did you mean `duplicate-readout`"), "{}", wrong.stderr);
 }
 
-/// What is broken is not in order because nobody wants to hear of it.
+/// Ignoring an error does not make a broken lesson clean.
 #[test]
 fn an_error_that_is_ignored_is_left_out_and_not_clean() {
     let broken = TWICE.replace("data.qvel[2]", "data.qvle[2]").replacen("\"z\"", "\"v\"", 1);
@@ -148,7 +148,7 @@ fn what_the_baseline_knows_is_not_told_again() {
     let done = check(&folder, &["lessons", "--baseline", "known.json"]);
     assert!(done.stdout.contains("no problems outside the baseline"), "{}", done.stdout);
     assert!(!done.stdout.contains("no problems found"), "{}", done.stdout);
-    // Text that moves stays known; what is new is told.
+    // Moved text is still recognized by the baseline; new findings are reported.
     let moved = broken.replace("# Fall", "# Fall\n\nA ball falls.\n\nIt falls fast.");
     write(folder.path(), "lessons/a.md", &moved);
     assert_eq!(reported_codes(&folder, &["lessons", "--baseline", "known.json"]), (0, vec![]));
@@ -194,7 +194,7 @@ fn reports_have_the_forms_of_other_programs() {
 
 #[test]
 fn repairs_are_checked_before_they_are_written() {
-    // A comma too many, and a misspelt key, in a layout of the author's own.
+    // A superfluous comma and a misspelt key, in an unusual layout.
     let odd =
         TWICE.replacen("\"z\"", "\"v\"", 1).replace("2}]\n}", "2}],\n}").replace("  \"read", " \t\"read");
     let odd = odd.replace("\"title\"", "\"titel\"");
@@ -209,7 +209,7 @@ fn repairs_are_checked_before_they_are_written() {
     assert!(done.stderr.contains("fixed 1 finding in 1 file"), "{}", done.stderr);
     let safe = odd.replace("2}],\n", "2}]\n");
     assert_eq!(read(), safe);
-    // A guess is made where it is asked for.
+    // A guess is applied only on request.
     let done = check(&folder, &["a.md", "--unsafe-fixes"]);
     assert_eq!(done.code, 0, "{}{}", done.stdout, done.stderr);
     assert_eq!(read(), safe.replace("titel", "title"));
@@ -232,11 +232,11 @@ fn standard_input_has_a_name() {
 fn what_git_ignores_is_not_a_lesson() {
     let folder = folder(&[("a.md", "# A\n"), ("build/b.md", TWICE), (".gitignore", "build/\n")]);
     assert!(!check(&folder, &["."]).stdout.contains("duplicate-readout"));
-    // What is named is meant.
+    // A file that is named directly is checked.
     assert_eq!(check(&folder, &["build/b.md"]).code, 1);
 }
 
-/// A widget of which nothing is known stands in the ledger as not checked, and is counted; where the page has it, that is said.
+/// An unknown widget is in the ledger as not checked, and is counted. If the page provides it, the ledger states this.
 #[test]
 fn a_widget_that_nobody_knows_is_named_as_not_checked() {
     let folder = crate::program::folder();
@@ -256,7 +256,7 @@ fn a_widget_that_nobody_knows_is_named_as_not_checked() {
     assert_eq!(widgets, ["widget integrators", "widget playground"]);
     assert_eq!(report["summary"]["claims"]["otherWidget"]["leftOut"], 2);
     assert_eq!(report["summary"]["outcome"], "partial");
-    // Where the claims alone are verified, nothing is said of it.
+    // If only claims are verified, widgets are not mentioned.
     assert_eq!(run_in(folder.path(), &["verify", "clean.md"]).code, 0);
     let settings = folder.path().join("labspec.toml");
     std::fs::write(&settings, "widgets = [\"integrators\"]\n").unwrap();
@@ -265,12 +265,12 @@ fn a_widget_that_nobody_knows_is_named_as_not_checked() {
     assert!(done.stdout.contains("1 other widget not run, 1 other widget not checked"), "{}", done.stdout);
     std::fs::write(&settings, "widgets = [\"integrators\", \"playground\"]\n").unwrap();
     assert_eq!(check(&[]).code, 0);
-    // A misspelt one is another one.
+    // A misspelt name denotes another widget.
     std::fs::write(&settings, "widgets = [\"integrator\", \"playground\"]\n").unwrap();
     assert_eq!(check(&[]).code, 3);
 }
 
-/// However many allowances there are, so many of their mistakes are listed, and that there are more is said.
+/// For any number of suppressions, only a limited number of their errors is listed, and the report states that there are more.
 #[test]
 fn mistakes_in_allowances_are_listed_up_to_a_limit() {
     let text = "x <!-- labspec allow nonsense: why -->".repeat(100_000);

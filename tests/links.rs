@@ -1,4 +1,4 @@
-//! Whatever a page of the repository names is there: the pages and headings that it links to, the files and folders of the code.
+//! Everything to which the pages of the repository refer exists: linked pages and headings, and files and folders of the code.
 
 #![allow(clippy::unwrap_used)]
 
@@ -7,7 +7,7 @@ use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// All files and folders below a folder, but what is built and what is only found here and there.
+/// All files and folders below a folder, except build outputs and optional folders.
 fn walk(folder: &Path, out: &mut Vec<PathBuf>) {
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
@@ -22,7 +22,7 @@ fn walk(folder: &Path, out: &mut Vec<PathBuf>) {
     }
 }
 
-/// Everything in the repository, and its pages. Lessons that are damaged on purpose are none.
+/// All files of the repository, and its pages. Lessons that are damaged on purpose are not pages.
 fn all() -> (Vec<PathBuf>, Vec<PathBuf>) {
     let mut files = Vec::new();
     walk(&workspace(), &mut files);
@@ -32,7 +32,7 @@ fn all() -> (Vec<PathBuf>, Vec<PathBuf>) {
     (files, pages)
 }
 
-/// What is asked of a page: where it links to, its headings as others link to them, and its words of code.
+/// The parts of a page that are tested: its links, its headings as link targets, and its code words.
 #[derive(Default)]
 struct Page {
     links: Vec<String>,
@@ -63,7 +63,7 @@ impl Page {
     }
 }
 
-/// A heading as a page on the web is linked to it: in small letters, with hyphens for spaces, without other signs.
+/// The link target of a heading on web pages: lower case, hyphens for spaces, without other characters.
 fn anchor(heading: &str) -> String {
     let letters = heading.chars().filter(|c| c.is_alphanumeric() || matches!(c, ' ' | '-' | '_'));
     letters.map(|c| if c == ' ' { '-' } else { c }).collect::<String>().to_lowercase()
@@ -89,7 +89,7 @@ fn no_link_is_dead() {
     assert!(count > 60 && headings > 5, "{count} {headings}");
 }
 
-/// Files and folders of the code, by the end of their paths: `step/pipeline.rs`.
+/// Files and folders of the code, named by the end of their paths: `step/pipeline.rs`.
 #[test]
 fn files_that_pages_name_are_there() {
     let (files, pages) = all();
@@ -114,7 +114,7 @@ fn files_that_pages_name_are_there() {
     assert!(count > 60, "{count}");
 }
 
-/// The index of the documentation leads to every page of it.
+/// The index of the documentation links to every page.
 #[test]
 fn the_index_leads_to_every_page() {
     let docs = workspace().join("docs");

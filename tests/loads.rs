@@ -1,15 +1,15 @@
-//! What MuJoCo refuses is never called clean, and what it loads loads here: zoo models with one odd attribute, recorded by
-//! `tests/golden/loads.py`.
+//! Models that MuJoCo refuses are never called clean, and models that it loads are loaded here: models of the zoo with one
+//! unusual attribute, recorded by `tests/golden/loads.py`.
 
-// A test that cannot read its own inputs has to fail.
+// A test that cannot read its own inputs must fail.
 #![allow(clippy::unwrap_used)]
 
 use crate::support::workspace;
 use labspec_core::xml;
 use std::collections::BTreeMap;
 
-/// What is refused here and loads there, by the code of the error and a part of its message: physics would be wrong, or
-/// nobody could mean it.
+/// Models that we refuse and MuJoCo loads, by the code of the error and a part of its message, because the physics would be
+/// wrong or the model is certainly unintended.
 const STRICTER: [(&str, &str, &str); 16] = [
     ("mjcf-number", "finite", "a number that is none makes every result none"),
     (

@@ -1,4 +1,4 @@
-//! `labspec lsp` as an editor meets it: the real program, over its standard input and output.
+//! `labspec lsp` as editors use it: the real program, over its standard input and output.
 
 #![allow(clippy::unwrap_used)]
 
@@ -9,19 +9,19 @@ use std::path::Path;
 use std::process::{Child, ChildStdin, ChildStdout, Stdio};
 use std::time::{Duration, Instant};
 
-/// An editor: what it says, and what it hears.
+/// An editor that sends and receives messages.
 struct Editor {
     child: Child,
     to: ChildStdin,
     from: BufReader<ChildStdout>,
     root: String,
     next: u64,
-    /// Messages that nobody asked for and nobody has looked at.
+    /// Received notifications that have not been processed.
     heard: Vec<Value>,
 }
 
 impl Editor {
-    /// Starts the program, and says nothing yet.
+    /// Starts the program without sending a message.
     fn silent(folder: &Path) -> Editor {
         let mut command = program(folder, &["lsp", "--stdio"]);
         let mut child =
@@ -54,7 +54,7 @@ impl Editor {
         self.say(&json!({"jsonrpc": "2.0", "method": method, "params": params}));
     }
 
-    /// The next message; `None` when there will be none.
+    /// The next message, or `None` at the end of the output.
     fn hear(&mut self) -> Option<Value> {
         let mut length = 0;
         loop {
@@ -75,7 +75,7 @@ impl Editor {
         Some(message)
     }
 
-    /// A request, and its result or its error.
+    /// Sends a request, and returns its result or error.
     fn ask(&mut self, method: &str, params: Value) -> Result<Value, Value> {
         self.next += 1;
         let id = json!(self.next);
@@ -106,7 +106,7 @@ impl Editor {
         self.found(file, 1)
     }
 
-    /// Replaces a part of a document, as an editor tells it.
+    /// Replaces a part of a document with a change notification.
     fn change(&mut self, file: &str, version: u64, before: &str, part: std::ops::Range<usize>, text: &str) {
         let range = json!({"start": place(before, part.start), "end": place(before, part.end)});
         let document = json!({"uri": self.uri(file), "version": version});
@@ -114,7 +114,7 @@ impl Editor {
         self.notify("textDocument/didChange", json!({"textDocument": document, "contentChanges": changes}));
     }
 
-    /// The next findings about a version of a document.
+    /// The next findings for a version of a document.
     fn found(&mut self, file: &str, version: u64) -> Value {
         let uri = self.uri(file);
         let about = |m: &Value| {
@@ -131,7 +131,7 @@ impl Editor {
         }
     }
 
-    /// A question about a place of a document.
+    /// Sends a request for a position in a document.
     fn at(&mut self, what: &str, file: &str, text: &str, byte: usize) -> Value {
         self.try_at(what, file, text, byte, json!({})).unwrap()
     }
@@ -151,7 +151,7 @@ impl Editor {
         self.ask(&format!("textDocument/{what}"), params)
     }
 
-    /// Ends as the protocol says, and gives the exit code.
+    /// Ends the session according to the protocol, and returns the exit code.
     fn end(mut self) -> i32 {
         self.ask("shutdown", Value::Null).unwrap();
         self.notify("exit", Value::Null);
@@ -159,7 +159,7 @@ impl Editor {
     }
 }
 
-/// A place as an editor names it.
+/// The editor position of a byte.
 fn place(text: &str, byte: usize) -> Value {
     let before = &text[..byte];
     let line = before.rfind('\n').map_or(0, |at| at + 1);
@@ -170,7 +170,7 @@ fn codes(found: &Value) -> Vec<&str> {
     found.as_array().unwrap().iter().map(|d| d["code"].as_str().unwrap()).collect()
 }
 
-/// The text with all edits of one document made.
+/// Applies all edits of one document to a text.
 fn edited(text: &str, edits: &Value) -> String {
     let byte = |at: &Value| {
         let line = at["line"].as_u64().unwrap() as usize;
@@ -197,7 +197,7 @@ fn edited(text: &str, edits: &Value) -> String {
     new
 }
 
-/// The byte of `|` in a text, and the text without it.
+/// The text without the `|`, and its position.
 fn marked(text: &str) -> (String, usize) {
     (text.replace('|', ""), text.find('|').unwrap())
 }
@@ -206,7 +206,7 @@ fn lab(inside: &str) -> String {
     format!("# Ein Würfel 𝄞\n\n```lab simlab\n{{\"model\": \"ball_drop\", {inside}}}\n```\n")
 }
 
-/// A conversation from the first word to the last, as it was recorded.
+/// A complete session, as it was recorded.
 #[test]
 fn a_session_as_it_was_recorded() {
     let folder = folder();
@@ -251,7 +251,7 @@ fn a_session_as_it_was_recorded() {
     });
 }
 
-/// Whatever is typed, letter by letter: what is told at the end is what is told of the whole text.
+/// A lesson that is typed letter by letter ends with the same findings as the whole text.
 #[test]
 fn typing_a_lesson_ends_where_opening_it_does() {
     let folder = folder();
@@ -299,14 +299,14 @@ fn completions_know_the_language_the_model_and_the_format() {
         let labels: Vec<&str> =
             all.as_array().unwrap().iter().map(|i| i["label"].as_str().unwrap()).collect();
         assert!(labels.contains(&wanted) && !labels.contains(&not), "{inside}: {labels:?}");
-        // What is chosen is written, and leaves the JSON what it was.
+        // Applying the completion keeps the JSON valid.
         let item = all.as_array().unwrap().iter().find(|i| i["label"] == wanted).unwrap();
         if item.get("textEdit").is_some() {
             let new = edited(&text, &json!([item["textEdit"]]));
             assert!(new.contains(wanted) && new.ends_with("}\n```\n"), "{new}");
         }
     }
-    // In a claim in a comment, too.
+    // Also in a claim in a comment.
     for (inside, wanted, not) in [
         ("{\"lab\": \"#1\", \"mea|\"}", "measure", "model"),
         ("{\"lab\": \"#1\", \"measure\": {\"top\": \"max(data.|)\"}}", "qpos", "geom_size"),
@@ -321,7 +321,7 @@ fn completions_know_the_language_the_model_and_the_format() {
             all.as_array().unwrap().iter().map(|i| i["label"].as_str().unwrap()).collect();
         assert!(labels.contains(&wanted) && !labels.contains(&not), "{inside}: {labels:?}");
     }
-    // In prose, nothing.
+    // There are no completions in prose.
     editor.did_open("c.md", "# Title\n\nSome data.qpos\n");
     assert_eq!(editor.at("completion", "c.md", "# Title\n\nSome data.qpos\n", 15), json!([]));
     assert_eq!(editor.end(), 0);
@@ -375,7 +375,7 @@ fn a_name_leads_to_the_model_and_back() {
     assert_eq!(editor.end(), 0);
 }
 
-/// Claims in comments are renamed and looked at like all others, and those that name another lesson's lab.
+/// Claims in comments, and claims about labs of other lessons, are renamed and checked like all others.
 #[test]
 fn claims_in_comments_are_code() {
     let folder = folder();
@@ -396,7 +396,7 @@ fn claims_in_comments_are_code() {
     let edits = &answer["changes"][editor.uri("said.md").as_str()];
     let new = edited(&text, edits);
     assert_eq!(new.matches("'iron'").count(), 2, "{new}");
-    // A name that is not there is told in both.
+    // An unknown name is reported in both.
     let wrong = text.replace("'heavy'", "'haevy'");
     editor.did_open("said.md", &wrong);
     let found = editor.did_open("said.md", &wrong);
@@ -404,7 +404,7 @@ fn claims_in_comments_are_code() {
     assert_eq!(editor.end(), 0);
 }
 
-/// The whole course says the same after a rename, by the program itself; where it would not, nothing is renamed.
+/// After a rename, the program reports the same about the whole course; if it would not, nothing is renamed.
 #[test]
 fn a_rename_keeps_the_course_true() {
     let folder = folder();
@@ -417,7 +417,7 @@ fn a_rename_keeps_the_course_true() {
     let changes = answer["changes"].as_object().unwrap();
     let files: Vec<&str> =
         changes.keys().map(|uri| uri.strip_prefix(&format!("{}/", editor.root)).unwrap()).collect();
-    // Not the lesson that lies beside other models.
+    // The lesson next to other models is not changed.
     assert_eq!(files, ["clean.md", "course/a.md", "models/ball_drop.xml", "wrong.md"]);
     for (uri, edits) in changes {
         let path = folder.path().join(uri.strip_prefix(&format!("{}/", editor.root)).unwrap());
@@ -485,7 +485,7 @@ fn repairs_are_offered_and_made() {
         suppressed.contains("\"lint\": {\"allow\": [\"duplicate-readout\"], \"why\": \"\"}"),
         "{suppressed}"
     );
-    // Once a reason stands there, it is no longer told.
+    // With a reason, the finding is suppressed.
     let suppressed = suppressed.replace("\"why\": \"\"", "\"why\": \"on purpose\"");
     assert!(!codes(&editor.did_open("f.md", &suppressed)).contains(&"duplicate-readout"));
     let mut asked = ask(json!(["source.fixAll"]));
@@ -496,7 +496,7 @@ fn repairs_are_offered_and_made() {
     assert_eq!(editor.end(), 0);
 }
 
-/// What only runs find is told when the lesson is saved, unless it changes before they end.
+/// Findings that require runs are reported when the lesson is saved, unless it changes before the runs end.
 #[test]
 fn runs_go_on_beside_and_stop_when_the_text_changes() {
     let folder = folder();
@@ -511,7 +511,7 @@ fn runs_go_on_beside_and_stop_when_the_text_changes() {
             || ran.as_array().unwrap().len() > typed.as_array().unwrap().len(),
         "{ran}"
     );
-    // Runs of a minute, stopped by a change: the next findings are those of the new text, at once.
+    // A change cancels long runs: the next findings are those of the new text, without delay.
     let slow = lab(
         "\"stopAt\": 20000, \"setup\": \"data.qpos[2] = 1\", \"readouts\": [{\"label\": \"a\", \"expr\": \"data.qpos[2]\"}]",
     );
@@ -523,7 +523,7 @@ fn runs_go_on_beside_and_stop_when_the_text_changes() {
     assert_eq!(editor.end(), 0);
 }
 
-/// Nobody is trusted: neither what is said, nor in which order.
+/// The client is not trusted: messages may have any content and any order.
 #[test]
 fn whatever_is_said_the_server_goes_on() {
     let folder = folder();
@@ -545,7 +545,7 @@ fn whatever_is_said_the_server_goes_on() {
     }
     editor.raw(b"Nonsense\r\n");
     assert_eq!(editor.hear().unwrap()["error"]["code"], -32700);
-    // Parameters of all shapes, for every request.
+    // Parameters of all shapes for all requests.
     editor.did_open("b.md", &lab("\"setup\": \"data.qpos[\", \"trail\": \"“"));
     let uri = editor.uri("b.md");
     for method in [
@@ -568,7 +568,7 @@ fn whatever_is_said_the_server_goes_on() {
             json!({"textDocument": {"uri": uri}, "position": {"line": 4_294_967_295_u64, "character": 4_294_967_295_u64}, "newName": "x"}),
             json!({"textDocument": {"uri": uri}, "range": {"start": {"line": 9, "character": 9}, "end": {"line": 0, "character": 0}}}),
         ] {
-            // An answer or an error; that it comes is what counts.
+            // A response or an error; only its arrival matters.
             let _ = editor.ask(&format!("textDocument/{method}"), params);
         }
     }
@@ -588,7 +588,7 @@ fn whatever_is_said_the_server_goes_on() {
             editor.notify(method, params.clone());
         }
     }
-    // Every place of a damaged lesson.
+    // All positions of a damaged lesson.
     let text = "> ```lab simlab\n> {“model”: \"ball_drop\", 'é': [\n> \"setup\": \"data.joint('𝄞\n\n```quiz {\"q\n```lab simlab\n{\"model\": \"ball_drop\", \"setup\": \"const f = (x => f(x)); ctx.a = `${\"\n";
     editor.did_open("b.md", text);
     for (byte, _) in text.char_indices() {
@@ -603,7 +603,7 @@ fn whatever_is_said_the_server_goes_on() {
     assert_eq!(editor.child.wait().unwrap().code(), Some(0));
 }
 
-/// Without `shutdown`, the end is no good one; and the end of the input is one, too.
+/// An end without `shutdown`, or by the end of the input, gives a non-zero exit code.
 #[test]
 fn an_editor_that_vanishes_leaves_nothing_behind() {
     let folder = folder();
@@ -615,7 +615,7 @@ fn an_editor_that_vanishes_leaves_nothing_behind() {
     assert_eq!(child.wait().unwrap().code(), Some(1));
 }
 
-/// Places are counted in units of UTF-16, on lines that hold more than ASCII, whatever ends them.
+/// Positions count UTF-16 code units, on lines with non-ASCII characters and with any line end.
 #[test]
 fn places_are_those_of_editors() {
     let folder = folder();
@@ -628,7 +628,7 @@ fn places_are_those_of_editors() {
                 "{before}𝄞 Würfel\n\n{quote}```lab simlab\n{quote}{{\"model\": \"ball_drop\", {lab}}}\n{quote}```\n"
             );
             let text = text.replace('\n', end);
-            // An editor has the text without its mark.
+            // The editor's text has no byte-order mark.
             let displayed = text.trim_start_matches('\u{feff}');
             let found = editor.did_open("u.md", &text);
             let at = displayed.find("xpso").unwrap();
@@ -650,10 +650,10 @@ fn places_are_those_of_editors() {
             let renamed = editor.try_at("rename", "u.md", displayed, name, json!({"newName": "Fe"})).unwrap();
             let new = edited(displayed, &renamed["changes"][editor.uri("u.md")]);
             assert_eq!(new, displayed.replace("heavy'", "Fe'"));
-            // An edit in the middle of the line, as the editor counts.
+            // An edit in the middle of the line, with the editor's positions.
             editor.change("u.md", 2, displayed, at..at + 4, "xpos");
             assert!(!codes(&editor.found("u.md", 2)).contains(&"unknown-field"));
-            // What is allowed stands on a line of its own, which ends like the others.
+            // The suppression is on a separate line with the same line end as the others.
             let about = json!({"textDocument": {"uri": editor.uri("u.md")}, "range": wrong["range"], "context": {"diagnostics": []}});
             editor.ask("textDocument/codeAction", about).unwrap();
         }
@@ -661,7 +661,7 @@ fn places_are_those_of_editors() {
     assert_eq!(editor.end(), 0);
 }
 
-/// What the editor holds counts, saved or not; and the names by which it knows its files are those that it is told, links or not.
+/// The texts of the editor take precedence, saved or not. Files are named as the editor names them, through links or not.
 #[cfg(unix)]
 #[test]
 fn unsaved_texts_and_linked_folders_are_what_the_editor_sees() {
@@ -673,7 +673,7 @@ fn unsaved_texts_and_linked_folders_are_what_the_editor_sees() {
     editor.root = format!("file://{}", link.display());
     let root = editor.root.clone();
     editor.ask("initialize", json!({"rootUri": root})).unwrap();
-    // Not as it is saved: words before it, and one more place that names the body.
+    // Not as saved: words before it, and one more occurrence of the body's name.
     let unsaved =
         format!("Not saved.\n\n{}", CLEAN.replace("\"data.ncon\"", "\"data.body('heavy').xpos[2]\""));
     editor.did_open("clean.md", &unsaved);
@@ -703,7 +703,7 @@ fn unsaved_texts_and_linked_folders_are_what_the_editor_sees() {
     assert_eq!(editor.end(), 0);
 }
 
-/// Files that go away, before and while they are asked about.
+/// Files that are deleted, before and during requests about them.
 #[test]
 fn files_may_go_away() {
     let folder = folder();
@@ -721,7 +721,7 @@ fn files_may_go_away() {
         assert!(editor.try_at(what, "clean.md", CLEAN, byte, json!({})).is_ok(), "{what}");
     }
     assert!(editor.try_at("rename", "clean.md", CLEAN, byte, json!({"newName": "x"})).is_err());
-    // The folder that holds it all.
+    // The folder that contains all files.
     std::fs::remove_dir_all(folder.path()).unwrap();
     let mut text = CLEAN.to_string();
     text.insert(0, 'x');
@@ -731,7 +731,7 @@ fn files_may_go_away() {
     assert_eq!(editor.end(), 0);
 }
 
-/// A document that is closed while its labs run is told of no more, also when it is opened again with the same version.
+/// No findings are reported for a document that is closed during its runs, even if it is opened again with the same version.
 #[test]
 fn a_closed_document_is_told_of_no_more() {
     let folder = folder();
@@ -745,7 +745,7 @@ fn a_closed_document_is_told_of_no_more() {
         let found = editor.did_open("wrong.md", "# Only words\n");
         assert_eq!(found, json!([]));
         editor.notify("textDocument/didClose", json!({"textDocument": {"uri": uri}}));
-        // Whatever was under way comes to nothing: only what was opened and closed is told.
+        // The cancelled check has no effect: only the opening and the closing are reported.
         std::thread::sleep(Duration::from_millis(50));
         let _ = editor.ask("textDocument/nothing", json!({}));
         let notifications = std::mem::take(&mut editor.heard);
@@ -756,7 +756,7 @@ fn a_closed_document_is_told_of_no_more() {
     assert_eq!(editor.end(), 0);
 }
 
-/// A request that is cancelled, before or after it is read, is answered once, and what follows is answered, too.
+/// A request that is cancelled, before or after it is read, gets exactly one response, and later requests are answered as well.
 #[test]
 fn a_cancelled_request_is_answered_once() {
     let folder = folder();
@@ -785,7 +785,7 @@ fn a_cancelled_request_is_answered_once() {
     assert_eq!(editor.end(), 0);
 }
 
-/// Documents beyond all measure: they are told of, and the editor is answered.
+/// Documents of excessive size get findings, and requests are answered.
 #[test]
 fn huge_documents_are_answered() {
     let folder = folder();
@@ -809,7 +809,7 @@ fn huge_documents_are_answered() {
     assert_eq!(editor.end(), 0);
 }
 
-/// Where the dimension of what is pointed at is known, it is told: of variables and functions, too, which have no unit of their own.
+/// If the dimension is known, it is displayed, also for variables and functions, which have no declared unit.
 #[test]
 fn a_hover_tells_the_dimension() {
     let folder = folder();
@@ -825,7 +825,7 @@ fn a_hover_tells_the_dimension() {
         ),
         ("\"readouts\": [{\"label\": \"a\", \"expr\": \"model.body_mass[|1]\"}]", Some("is in kg")),
         ("\"readouts\": [{\"label\": \"a\", \"expr\": \"data.ti|me\"}]", Some("is in s")),
-        // What is not certain, or a plain number, is not told.
+        // If it is uncertain, or the value is dimensionless, nothing is displayed.
         ("\"controller\": \"ctx.v = data.time > 1 ? data.qvel[0] : data.qpos[0]; ctx.w = ctx.|v\"", None),
         ("\"readouts\": [{\"label\": \"a\", \"expr\": \"data.nc|on\"}]", None),
     ] {
@@ -841,8 +841,8 @@ fn a_hover_tells_the_dimension() {
     assert_eq!(editor.end(), 0);
 }
 
-/// A lesson of a hundred labs answers a keystroke in less than 50 ms, at the median even in a build for tests and with other tests
-/// beside it; no single answer may take much longer.
+/// In a lesson with a hundred labs, the median response time to a keystroke is below 50 ms, even in a test build and next to
+/// other tests; no single response may take much longer.
 #[test]
 fn a_hundred_labs_answer_at_once() {
     let folder = folder();
@@ -882,7 +882,7 @@ fn a_hundred_labs_answer_at_once() {
     assert_eq!(editor.end(), 0);
 }
 
-/// Rules and lines of what an editor shows.
+/// The rules and lines of the findings in the editor.
 fn shown_in_editor(found: &Value) -> Vec<(String, u64)> {
     let one = |f: &Value| {
         let line = f["range"]["start"]["line"].as_u64().unwrap() + 1;
@@ -893,8 +893,8 @@ fn shown_in_editor(found: &Value) -> Vec<(String, u64)> {
     all
 }
 
-/// A lesson that names another one: what is told while one types is what `check --no-run` says, and what is told when it is saved is
-/// what `check` says.
+/// In a lesson that uses another one, the findings while typing are those of `check --no-run`, and the findings after
+/// saving are those of `check`.
 #[test]
 fn an_editor_says_of_a_lesson_with_neighbours_what_the_program_says() {
     let folder = crate::ledger::with_neighbours();
@@ -916,7 +916,7 @@ fn an_editor_says_of_a_lesson_with_neighbours_what_the_program_says() {
     assert_eq!(editor.end(), 0);
 }
 
-/// What other documents hold counts before it is saved: labs, headings, models, and files that are not there yet.
+/// Unsaved contents of other documents are used: labs, headings, models, and files that do not exist yet.
 #[test]
 fn unsaved_neighbours_are_seen() {
     let folder = crate::ledger::with_neighbours();
@@ -925,7 +925,7 @@ fn unsaved_neighbours_are_seen() {
     let has = |found: &Value, code: &str| codes(found).contains(&code);
     let first = editor.did_open("reader.md", crate::ledger::READER);
     assert!(has(&first, "dead-link") && !has(&first, "unknown-lab"), "{first}");
-    // A heading that is not saved, and a lab that is gone.
+    // An unsaved heading, and a removed lab.
     editor.did_open("labs.md", labs);
     let at = labs.len();
     editor.change("labs.md", 2, labs, at..at, "\n## Elsewhere\n");
@@ -939,7 +939,7 @@ fn unsaved_neighbours_are_seen() {
     editor.notify("textDocument/didClose", document);
     let closed = editor.found("reader.md", 1);
     assert!(!has(&closed, "unknown-lab") && has(&closed, "dead-link"), "{closed}");
-    // The model as it is typed.
+    // The model while it is typed.
     let model = std::fs::read_to_string(folder.path().join("models/free_fall.xml")).unwrap();
     let open =
         json!({"uri": editor.uri("models/free_fall.xml"), "languageId": "xml", "version": 1, "text": model});
@@ -950,7 +950,7 @@ fn unsaved_neighbours_are_seen() {
     let broken = model.replacen("<body", "<bodi", 1);
     editor.change("models/free_fall.xml", 3, &broken, body + 1..body + 5, "body");
     assert!(!has(&editor.found("reader.md", 1), "model-broken"));
-    // A model and a picture that are not there, and then are.
+    // A model and a linked lesson that do not exist, and then do.
     let text = "# New\n\nSee [it](soon.md).\n\n```lab simlab\n{\"model\": \"soon\", \"stopAt\": 0.1}\n```\n";
     let new = editor.did_open("new.md", text);
     assert!(has(&new, "unknown-model") && has(&new, "dead-link"), "{new}");
@@ -964,7 +964,7 @@ fn unsaved_neighbours_are_seen() {
     assert_eq!(editor.end(), 0);
 }
 
-/// While one types nothing is asked of the disk: what was there stays there until something is saved, opened or closed.
+/// While the author types, no files are read: cached information is used until a file is saved, opened or closed.
 #[test]
 fn a_keystroke_asks_the_disk_nothing() {
     let folder = crate::ledger::with_neighbours();
@@ -981,7 +981,7 @@ fn a_keystroke_asks_the_disk_nothing() {
     for code in ["unknown-lab", "no-model-folder"] {
         assert!(codes(&now).contains(&code), "{code}: {now}");
     }
-    // So do the settings.
+    // The same applies to the settings.
     let counts = |found: &Value| codes(found).contains(&"duplicate-readout");
     std::fs::write(folder.path().join("labspec.toml"), "ignore = [\"duplicate-readout\"]\n").unwrap();
     editor.change("reader.md", 3, text, 2..2, "");

@@ -1,4 +1,4 @@
-//! Tests that cross crates.
+//! Tests of several crates together.
 
 #![allow(clippy::too_many_lines, reason = "a test is a table of cases or one sequence of steps")]
 

@@ -1,7 +1,7 @@
-//! Mistakes that authors make, planted one by one into real labs and quizzes: how many of them are found.
+//! Mutation tests: mistakes of authors are planted one by one into real labs and quizzes, to measure how many are found.
 //!
-//! A mutant counts when it changes what a student sees (`mutants/eyes.rs`), and it is found when a finding of the level of a
-//! warning, or above, comes that the original does not have. The table is kept in `docs/measured/mutants.md`.
+//! A mutant counts if it changes what a student sees (`mutants/eyes.rs`). It is found if it gives a finding with the severity
+//! of a warning or higher that the original does not have. The table is in `docs/measured/mutants.md`.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -26,29 +26,29 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// A kind of mistake: what it is called, what it is, and how it is made: a copy for every place.
+/// A kind of mistake: its name, its description, and a function that makes a copy for every place.
 pub(crate) struct Kind {
     name: &'static str,
     words: &'static str,
     plant: fn(&Value) -> Vec<Value>,
-    /// What a mutant would be without its mistake, where that is not the original: what is shown is compared with it.
+    /// The correct version of a mutant, if it is not the original: displayed values are compared with it.
     right: Option<fn(&Value) -> Value>,
 }
 
-/// Most mutants of one kind that a piece gives, chosen by the seed.
+/// The maximum number of mutants of one kind per piece, selected by the seed.
 const PLACES: usize = 2;
 const SEED: u64 = 16;
-/// Survivors that are named in the table, of each kind.
+/// The maximum number of survivors of each kind that the table lists.
 const NAMED: usize = 50;
 
-/// A mistake that was planted.
+/// A planted mistake.
 struct Mutant {
     kind: usize,
     piece: usize,
     json: Value,
 }
 
-/// What became of it.
+/// The result for a mutant.
 #[derive(Clone, Copy, PartialEq)]
 enum Detection {
     Unseen,
@@ -56,14 +56,14 @@ enum Detection {
     Survived,
 }
 
-/// What it takes to know a mistake.
+/// The information that is needed to recognize a mistake.
 #[derive(Clone, Copy, PartialEq)]
 enum Ground {
-    /// The lab or the quiz alone.
+    /// Only the lab or the quiz.
     Itself,
-    /// A claim, which the lesson has.
+    /// A claim, which the lesson contains.
     Claimed,
-    /// A claim, which it has not.
+    /// A claim, which the lesson does not contain.
     Unclaimed,
 }
 
@@ -74,7 +74,7 @@ fn kinds() -> Vec<(What, &'static Kind)> {
     labs.chain(quizzes).chain(labs::LABELS.iter().map(|k| (What::Lab, k))).collect()
 }
 
-/// A number that follows from others, for choices.
+/// A pseudo-random number that depends on others, for selections.
 fn mixed(numbers: [u64; 3]) -> u64 {
     let mut x = SEED;
     for n in numbers {
@@ -84,7 +84,7 @@ fn mixed(numbers: [u64; 3]) -> u64 {
     x
 }
 
-/// Everything that is planted.
+/// All mutants.
 fn planted(pieces: &[Piece]) -> Vec<Mutant> {
     let mut all = Vec::new();
     for (k, (what, kind)) in kinds().into_iter().enumerate() {
@@ -99,14 +99,14 @@ fn planted(pieces: &[Piece]) -> Vec<Mutant> {
     all
 }
 
-/// How often each code is found in a piece, at the level of a warning and above.
+/// The number of findings of each code in a piece, with the severity of a warning or higher.
 fn codes(piece: &Piece, json: &Value, models: &Models) -> BTreeMap<&'static str, usize> {
     let (name, text) = piece.file(json);
     // A quiz has answers, a lab has runs.
     counted(name, text, models, if piece.what == What::Quiz { CheckLevel::CLAIMS } else { CheckLevel::FULL })
 }
 
-/// The same in the lesson of a lab of which something is claimed: what the claims say.
+/// The same for the lesson of a lab with claims: the findings of the claims.
 fn claims_say(piece: &Piece, json: &Value, models: &Models) -> BTreeMap<&'static str, usize> {
     piece.lesson(json).map_or(BTreeMap::new(), |text| counted("lesson.md", text, models, CheckLevel::CLAIMS))
 }
@@ -180,7 +180,7 @@ fn planted_mistakes_are_found() {
     hold(&table(&pieces, &mutants, &detections));
 }
 
-/// Every mutant that is seen and not found: its kind, its piece, and what was changed.
+/// All mutants that are visible and not found: their kind, their piece, and the change.
 fn survivors(pieces: &[Piece], mutants: &[Mutant], detections: &[(Detection, Ground)]) -> String {
     let (kinds, mut page) = (kinds(), String::new());
     for (m, (_, ground)) in mutants.iter().zip(detections).filter(|(_, f)| f.0 == Detection::Survived) {
@@ -196,7 +196,7 @@ fn survivors(pieces: &[Piece], mutants: &[Mutant], detections: &[(Detection, Gro
     page
 }
 
-/// How many were seen and found, of those that a rule picks.
+/// The numbers of visible and of found mutants, of those that a predicate selects.
 fn count(
     mutants: &[Mutant],
     detections: &[(Detection, Ground)],
@@ -275,7 +275,7 @@ fn table(pieces: &[Piece], mutants: &[Mutant], detections: &[(Detection, Ground)
     page
 }
 
-/// The kinds of what is not found, with the first of the pieces.
+/// The kinds of mistakes that are not found, with the first of the pieces.
 fn undetected(
     page: &mut String,
     pieces: &[Piece],
@@ -307,7 +307,7 @@ fn undetected(
     }
 }
 
-/// The page is the one that is kept, or becomes it.
+/// Compares the page with the stored one, or replaces it.
 fn hold(page: &str) {
     let path = workspace().join("docs/measured/mutants.md");
     if std::env::var_os("LABSPEC_BLESS").is_some() {

@@ -1,7 +1,7 @@
-//! What some tests need and not every machine has: the material in `../shared`, and node.
+//! Prerequisites of some tests that not every machine has: the material in `../shared`, and node.
 //!
-//! Without it a test checks nothing, passes, and says so past the capture of `cargo test`, with the number so far;
-//! `zz.rs` ends with the sum. With `LABSPEC_REQUIRE=all`, as in `.ci/run`, it fails.
+//! Without its prerequisite, a test checks nothing, passes, and prints this past the output capture of `cargo test`, with the
+//! number of such tests so far; `zz.rs` prints the total. With `LABSPEC_REQUIRE=all`, as in `.ci/run`, it fails.
 
 #![allow(clippy::unwrap_used)]
 
@@ -11,11 +11,11 @@ use std::path::Path;
 use std::process::Command;
 use std::sync::Mutex;
 
-/// Tests, and what the first thing was that each of them missed.
+/// Tests with the first missing prerequisite of each.
 static MISSING: Mutex<BTreeMap<String, String>> = Mutex::new(BTreeMap::new());
 
-/// Whether something is there that a test needs: `node`, or a place seen from the workspace (`../shared/corpus`). To be
-/// asked before anything else; where the answer is no, the test has to return.
+/// Whether a prerequisite exists: `node`, or a path relative to the workspace (`../shared/corpus`). Must be called before
+/// anything else; if it returns `false`, the test must return.
 pub(crate) fn needs(what: &str) -> bool {
     if there(what) {
         return true;
@@ -41,12 +41,12 @@ fn refusal(what: &str) -> String {
     format!("LABSPEC_REQUIRE=all: this test needs {what}, which is not there")
 }
 
-/// Tests keep what macros print to themselves when they pass; this line they do not see.
+/// Prints a line that the output capture of tests does not suppress.
 fn say(line: &str) {
     let _ = writeln!(std::io::stderr().lock(), "{line}");
 }
 
-/// The sum, for the last test of a binary.
+/// Prints the total, for the last test of a binary.
 pub(crate) fn summary() {
     let missing = MISSING.lock().unwrap();
     let mut reasons = BTreeMap::new();

@@ -1,4 +1,4 @@
-//! `check --no-run`: what needs no run is checked as always; what needs one is left out, counted, and never called true.
+//! `check --no-run`: what needs no run is checked as usual; what needs one is left out, counted, and never called true.
 
 #![allow(clippy::unwrap_used)]
 
@@ -25,7 +25,7 @@ fn what_is_left_out_is_said_and_counted() {
     assert_eq!(report["lessons"][0]["labs"].as_array().unwrap().len(), 0);
 }
 
-/// Names are wrong whether anything is run or not: in labs, and in every text of a `verify` object.
+/// Wrong names are found without a run: in labs, and in all source texts of a `verify` object.
 #[test]
 fn a_wrong_name_is_found_without_a_run() {
     let report = run(&["check", "wrong.md", "--no-run", "--format", "json"]);
@@ -55,7 +55,8 @@ fn a_wrong_name_is_found_without_a_run() {
     }
 }
 
-/// Nothing runs: a lab that would run for a long time, and one that breaks, are as quick as any, and nothing is said of what they do.
+/// Nothing runs: a lab that would run for a long time and one that would fail are checked as fast as any, without
+/// findings about their runs.
 #[test]
 fn nothing_is_run() {
     let folder = crate::program::folder();
@@ -65,19 +66,19 @@ fn nothing_is_run() {
     let done = run_in(folder.path(), &["check", "slow.json", "--no-run"]);
     assert_eq!((done.code, done.stderr.as_str()), (3, ""), "{}", done.stdout);
     assert!(done.stdout.contains("1 lab left out"), "{}", done.stdout);
-    // A run says otherwise.
+    // With a run, the result differs.
     assert_eq!(run_in(folder.path(), &["check", "slow.json"]).code, 1);
 }
 
-/// A folder in which nothing needs a run is checked in full: a model is loaded, and a quiz without a check claims nothing.
+/// A folder in which nothing needs a run is checked completely: a model is loaded, and a quiz without a check claims nothing.
 #[test]
 fn where_nothing_needs_a_run_nothing_is_left_out() {
     assert_eq!(run(&["check", "models/ball_drop.xml", "--no-run"]).code, 0);
     assert_eq!(run(&["check", "empty", "--no-run"]).code, 2);
 }
 
-/// For every lesson that there is: a check without runs says nothing that the full one does not say, calls nothing true that needs a
-/// run, and counts as many claims.
+/// For all lessons: a check without runs has no finding that the full check does not have, calls nothing true that needs a run,
+/// and counts the same number of claims.
 #[test]
 fn it_says_less_and_never_more() {
     let mut left = 0;

@@ -1,8 +1,8 @@
-//! Every number that the lesson on two falling balls states, to the last digit that it prints, from our engine.
+//! All numbers that the lesson on two falling balls states are reproduced by our engine to the last printed digit.
 //!
-//! The numbers themselves were found with MuJoCo 3.14.0. Most of them are put into the words of a lab here and
-//! checked as a lesson's are: a note quotes them, `verify` measures them. The models are those of the lesson,
-//! written anew (`golden/models/free_fall.xml`, `ball_drop.xml`).
+//! The numbers were found with MuJoCo 3.14.0. Most of them are written as claims of a lab here and checked like those of a
+//! lesson: a note quotes them, and `verify` measures them. The models of the lesson were written anew
+//! (`golden/models/free_fall.xml`, `ball_drop.xml`).
 
 #![allow(clippy::unwrap_used)]
 
@@ -18,7 +18,7 @@ use labspec_core::{self as core, AccessSet, Data, Model, Plan};
 use labspec_expr::Value;
 use serde_json::{Value as Json, json};
 
-/// Checks a lab whose note quotes numbers: pairs of the number as printed and the expression it must equal.
+/// Checks a lab whose note quotes numbers: pairs of a printed number and the expression that must give it.
 fn check(xml: &str, controls: Json, verify: Json, says: &[(&str, &str)]) -> Checked {
     let quotes: Vec<&str> = says.iter().map(|(quote, _)| *quote).collect();
     let mut verify = verify;
@@ -27,10 +27,10 @@ fn check(xml: &str, controls: Json, verify: Json, says: &[(&str, &str)]) -> Chec
     check_text("lab.json", &serde_json::to_string_pretty(&lab).unwrap())
 }
 
-/// The same; everything must be right.
+/// The same; every quote must be right.
 fn verified(xml: &str, controls: Json, verify: Json, says: &[(&str, &str)]) {
     let checked = check(xml, controls, verify, says);
-    // Some of these numbers are those of a timestep, which is noted; and one slider puts the balls back where they began.
+    // Some of these numbers depend on the timestep, which is noted; and one slider moves the balls back to their start.
     let expected = ["quote-of-timestep", "setconst-jumps"];
     let wrong: Vec<_> = codes(&checked).into_iter().filter(|c| !expected.contains(c)).collect();
     assert_eq!(wrong, [""; 0], "{:#?}", checked.findings);
@@ -53,7 +53,7 @@ fn position_error_of_a_free_fall() {
         ("-7.35750 mm", "five.error"),
         ("-14.71500 mm", "ten.error"),
         ("-12.2625 mm", "quiz.error"),
-        // What theory says of it: -g h t / 2.
+        // The theoretical value: -g h t / 2.
         ("-2.94300 mm", "two.theory"),
     ];
     verified(
@@ -91,7 +91,7 @@ fn touchdown_and_rest() {
                 "idealSpeed": "Math.sqrt(2 * 9.81 * 0.95)",
                 "rest": "final(1000 * (0.05 - data.qpos[2]))",
                 "restLight": "final(1000 * (0.05 - data.qpos[9]))",
-                // Where a contact is seen; at 20 ms the sample before is deeper, and shows none yet.
+                // At samples with a contact; at 20 ms, the previous sample is deeper, but has no contact yet.
                 "peak": "max(data.ncon > 0 ? 1000 * (0.05 - data.qpos[2]) : 0)",
                 "deepest": "max(1000 * (0.05 - data.qpos[2]))",
                 "estimate": "1000 * Math.sqrt(2 * 9.81 * 0.95) * 0.02 / Math.E"
@@ -162,7 +162,7 @@ fn a_mass_without_set_const_sinks_deeper() {
         }),
         &[("9.81 mm", "rest")],
     );
-    // The number is right, and the author is told why it is so strange.
+    // The number is right, and the finding explains why it is unexpected.
     assert_eq!(codes(&checked), ["missing-setconst"]);
     assert_eq!(checked.claims[0].judgement.quotes[0].verdict(), "verified");
 }
@@ -182,7 +182,7 @@ fn the_mass_slider_in_mid_run() {
     let mut findings = Vec::new();
     let programs = Programs::compile(lab, &model, &mut findings);
     assert_eq!(findings, []);
-    // A page that may read anything, and a run that needs nothing else: both see what the library sees.
+    // A plan for any access, and one for exactly the required access: both must agree with the library.
     for access in [programs.access, AccessSet::ANY] {
         let plan = Some(Plan::new(&model, &access));
         let mut session = Session::start(&programs, &model, Start { plan, ..Start::default() });
@@ -198,14 +198,14 @@ fn the_mass_slider_in_mid_run() {
             let d = session.world.data.fields();
             assert_eq!(d.time, numbers(&row["time"])[0], "row {i}");
             assert_eq!(d.ncon as u64, row["ncon"].as_u64().unwrap(), "row {i}");
-            // As every trajectory with contacts: see `parity`.
+            // The tolerance for trajectories with contacts, see `parity`.
             for (ours, theirs) in
                 d.qpos.iter().chain(&d.qvel).zip(numbers(&row["qpos"]).iter().chain(&numbers(&row["qvel"])))
             {
                 assert!((ours - theirs).abs() <= 1e-10, "row {i}: {ours} {theirs}");
             }
             if i == 1 {
-                // Back at the start with the speed it had: the side effect of mj_setConst.
+                // Back at the start with its previous speed, a side effect of mj_setConst.
                 assert_eq!((d.qpos[9], format!("{:.4}", d.qvel[8])), (1.0, "-1.9620".into()));
             }
         }
@@ -215,7 +215,7 @@ fn the_mass_slider_in_mid_run() {
     }
 }
 
-/// The model of the drop with the floor's and the heavy ball's contact parameters.
+/// The drop model with contact parameters for the floor and the heavy ball.
 fn drop_with(floor: &str, heavy: &str) -> String {
     model_text("ball_drop")
         .replace("size=\"2 2 0.05\"", &format!("size=\"2 2 0.05\" {floor}"))
@@ -226,7 +226,7 @@ fn drop_with(floor: &str, heavy: &str) -> String {
 fn rebound() {
     let soft = "solref=\"0.02 0.2\"";
     let measure = json!({
-        // The first sample after the impact at which it falls again.
+        // The first sample after the impact at which the ball falls again.
         "apex": "at(data.time > 0.5 && data.qvel[2] < 0, data.qpos[2])",
         "when": "first(data.time > 0.5 && data.qvel[2] < 0)",
         "peak": "max(1000 * (0.05 - data.qpos[2]))"
@@ -238,7 +238,7 @@ fn rebound() {
         run.clone(),
         &[("0.33402 m", "apex"), ("0.694 s", "when"), ("12.13 mm", "peak")],
     );
-    // On the floor only: the contact mixes (0.02, 0.2) with (0.02, 1).
+    // Only on the floor: the contact mixes (0.02, 0.2) with (0.02, 1).
     verified(&drop_with(soft, ""), json!([]), run, &[("0.08765 m", "apex")]);
     let m = compile(&drop_with(soft, ""));
     let mut d = Data::new(&m);
@@ -248,7 +248,7 @@ fn rebound() {
     assert_eq!(d.contact[0].solref, [0.02, 0.6]);
 }
 
-/// Depth in m of the heavy ball at rest.
+/// The penetration depth of the heavy ball at rest, m.
 fn depth(m: &Model, timestep: f64) -> f64 {
     let mut m = m.clone();
     *m.edit().opt.timestep = timestep;
@@ -269,7 +269,7 @@ fn largest_timestep_that_rests_above_a_height() {
         }
         assert_eq!(format!("{low:.6}"), "0.022576", "floor {floor}");
         assert_eq!(format!("{:.4}", 1e3 * depth(&m, low)), "1.0000", "floor {floor}");
-        // The contact's time constant is 2 h there, so depth is 4 h^2 g (1 - dw).
+        // The contact's time constant is 2 h there, so the depth is 4 h^2 g (1 - dw).
         assert!((low - f64::sqrt(1e-3 / (4.0 * 0.05 * 9.81))).abs() < 1e-7);
     }
 }

@@ -1,9 +1,8 @@
-//! Numbers of MuJoCo 3.14.0, recorded by `golden/record.py`, against ours.
+//! Values of MuJoCo 3.14.0, recorded by `golden/record.py`, compared with ours.
 //!
-//! Three things are held against the recording: what the compiler makes of a model, every field after a forward
-//! pass in eight states, and whole trajectories with the number of contacts and constraint rows of every step.
-//! Differences are absolute for numbers up to 1 and relative above, by the largest recorded number of the field:
-//! a force of 1e4 N is not known to 1e-9 N by anyone.
+//! Three things are compared: the compiled model, every field after a forward pass in eight states, and whole trajectories with
+//! the number of contacts and constraint rows of every step. Differences are absolute for numbers up to 1 and relative above,
+//! scaled by the largest recorded number of the field, because a force of 1e4 N cannot be accurate to 1e-9 N.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -14,10 +13,10 @@ use labspec_core::{self as core, Contact, Data, Model, Warning};
 use serde_json::Value;
 use std::fmt::Write;
 
-/// A recorded case and the tolerance of its trajectory.
+/// A recorded case, with the tolerance of its trajectory.
 struct Case {
     name: &'static str,
-    /// Largest difference of `qpos` and `qvel` at any recorded step.
+    /// The largest difference of `qpos` and `qvel` at any recorded step.
     trajectory: f64,
 }
 
@@ -25,10 +24,10 @@ const fn case(name: &'static str, trajectory: f64) -> Case {
     Case { name, trajectory }
 }
 
-/// Rounding alone: the same formulas, summed in another order, over as many steps as recorded.
+/// Only rounding: the same formulas, summed in another order, over the recorded number of steps.
 const ROUNDING: f64 = 1e-12;
-/// With contacts and limits the library's solver stops when an improvement falls below its tolerance of 1e-8
-/// times the scale of the problem, ours when it is at the solution: what is left between them, over the run.
+/// With contacts and limits, the library's solver stops when an improvement falls below its tolerance of 1e-8 times the scale
+/// of the problem, and ours at the solution. This is the remaining difference over the run.
 const SOLVED: f64 = 1e-10;
 
 const CASES: &[Case] = &[
@@ -70,12 +69,13 @@ const CASES: &[Case] = &[
     case("no_passive", SOLVED),
 ];
 
-/// One forward pass, with both solvers run to rounding: condition numbers up to 1e4 times the unit of rounding.
+/// The tolerance of a forward pass, with both solvers running up to rounding: condition numbers up to 1e4
+/// times the unit roundoff.
 const FORWARD: f64 = 1e-11;
-/// The compiler does no more than a few products and one diagonalization.
+/// The compiler performs only a few products and one diagonalization.
 const COMPILED: f64 = 1e-12;
 
-/// The model of a case with its options.
+/// The model of a case, with its options.
 fn load(case: &Value) -> Model {
     let mut m = compile(&model_text(case["model"].as_str().unwrap()));
     let mut scratch = Data::new(&m);
@@ -88,7 +88,7 @@ fn load(case: &Value) -> Model {
     m
 }
 
-/// Differences above their tolerance, a line each.
+/// Differences above their tolerance, one line each.
 #[derive(Default)]
 struct Report(String);
 
@@ -106,7 +106,7 @@ impl Report {
     }
 }
 
-/// Inertia tensors about the bodies' frames: principal axes may be listed in any order and sign.
+/// Inertia tensors in the bodies' frames, because the order and the signs of principal axes are arbitrary.
 fn tensors(inertia: &[f64], iquat: &[f64]) -> Vec<f64> {
     let mut all = Vec::new();
     for (i, q) in inertia.chunks(3).zip(iquat.chunks(4)) {
@@ -143,7 +143,7 @@ fn models_compile_to_the_same_numbers() {
     report.finish();
 }
 
-/// What is recorded of a contact: name and number of values.
+/// The recorded values of a contact: name and number of values.
 const CONTACT: [(&str, usize); 12] = [
     ("geom1", 1),
     ("geom2", 1),
@@ -159,7 +159,7 @@ const CONTACT: [(&str, usize); 12] = [
     ("solimp", 5),
 ];
 
-/// Everything about a contact, in the order of the recording.
+/// All values of a contact, in the order of the recording.
 fn contact(c: &Contact) -> Vec<f64> {
     let counts = [c.geom1, c.geom2, c.dim, usize::from(c.exclude)].map(|n| n as f64);
     let numbers = counts.into_iter().chain([c.dist, c.includemargin, c.mu]);
@@ -167,7 +167,7 @@ fn contact(c: &Contact) -> Vec<f64> {
     numbers.chain(arrays.copied()).collect()
 }
 
-/// Contacts by geoms, then place: each side lists them as its own broad phase finds them.
+/// Contacts sorted by geoms, then by position, because each side lists them in the order of its broad phase.
 fn sorted(contacts: &[Contact]) -> Vec<Vec<f64>> {
     let mut rows: Vec<&Contact> = contacts.iter().collect();
     rows.sort_by_key(|c| (c.geom1, c.geom2, c.pos.map(|x| (x * 1e6).round() as i64)));
@@ -227,7 +227,7 @@ fn every_field_after_a_forward_pass_is_the_same() {
     report.finish();
 }
 
-/// A recorded count of every step, from its run lengths.
+/// The recorded count of every step, from its run lengths.
 fn counts(recorded: &Value) -> Vec<usize> {
     let mut all = Vec::new();
     for run in recorded.as_array().unwrap() {
@@ -237,7 +237,7 @@ fn counts(recorded: &Value) -> Vec<usize> {
     all
 }
 
-/// Where `record.py` puts the mocap body before a step.
+/// The position to which `record.py` moves the mocap body before a step.
 fn move_mocap(m: &Model, d: &mut Data, step: usize) {
     if m.nmocap > 0 {
         let t = step as f64 * m.opt.timestep;
@@ -273,7 +273,7 @@ fn trajectories_are_the_same() {
                 let (ours, theirs) = ([d.ncon as f64, d.nefc as f64], [ncon[i] as f64, nefc[i] as f64]);
                 report.compare(format_args!("{name}, step {i}: ncon, nefc"), &ours, &theirs, 0.0);
             }
-            // What follows a difference follows from it.
+            // Later differences follow from the first one.
             if report.0.len() > before {
                 break;
             }

@@ -1,5 +1,5 @@
-//! Parameters of a model that belong together: a program that changes one and leaves its partner behind is told with the numbers of
-//! both runs, its repair was run, and a claim that rests on it is not verified.
+//! Coupled parameters of a model: if a program changes one without the other, the finding contains the results of both runs and
+//! a tested fix, and a claim that depends on it is not verified.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -33,7 +33,7 @@ const MASS: &str = "model.body_mass[1] = value; mj.mj_setConst(model, data)";
 const BOTH: &str = "const f = value / model.body_mass[1]; model.body_mass[1] = value; \
     for (let i = 3; i < 6; i++) model.body_inertia[i] *= f; mj.mj_setConst(model, data)";
 
-/// The rules about partners and constants.
+/// The rules about coupled parameters and constants.
 const RULES: [&str; 7] = [
     "mass-alone",
     "inertia-alone",
@@ -54,7 +54,7 @@ fn slider(range: [f64; 3], action: &Json) -> Json {
     json!([control])
 }
 
-/// What is found of these rules.
+/// The findings of these rules.
 fn found(lab: &Json) -> Vec<Finding> {
     let mut all = check_text("lab.json", &lab.to_string()).findings;
     all.retain(|f| RULES.contains(&f.code));
@@ -65,7 +65,7 @@ fn codes(lab: &Json) -> Vec<&'static str> {
     found(lab).iter().map(|f| f.code).collect()
 }
 
-/// The numbers of both runs: those before and behind ", but ".
+/// The results of both runs: the numbers before and after ", but ".
 fn numbers(why: &str) -> (f64, f64) {
     let (before, after) = why.split_once(")\" is ").unwrap().1.split_once(", but ").unwrap();
     let first = |text: &str| {
@@ -75,7 +75,7 @@ fn numbers(why: &str) -> (f64, f64) {
     (first(before), first(after))
 }
 
-/// The only finding is a warning of this rule, its fix is one that has to be asked for, and behind it nothing is left to say.
+/// The only finding is a warning of this rule with a fix that must be requested; after the fix, there is no finding.
 fn repaired(lab: &Json, code: &str) -> (f64, f64) {
     let all = found(lab);
     assert_eq!(all.iter().map(|f| f.code).collect::<Vec<_>>(), [code], "{all:#?}");
@@ -99,18 +99,18 @@ fn a_ball_of_ten_times_the_mass_rolls_as_any_ball() {
         lab(RAMP, &slider([1.0, 10.0, 1.0], &json!({"apply": apply})), speed)
     };
     let (alone, both) = repaired(&lab_of(MASS), "mass-alone");
-    // g sin 30° t / (1 + I / (m r²)), I of one kilogram beside that of ten.
+    // g sin 30° t / (1 + I / (m r²)), with the inertia of one kilogram compared with that of ten.
     let speed = |inertia: f64| 9.81 * 0.5 / (1.0 + inertia);
     assert!((alone - speed(0.04)).abs() < 0.03 && (both - speed(0.4)).abs() < 0.03, "{alone} {both}");
     assert_eq!(codes(&lab_of(BOTH)), Vec::<&str>::new());
-    // However the mass is written.
+    // Independent of how the mass is written.
     for apply in [
         "model.body_mass.fill(value); mj.mj_setConst(model, data)",
         "for (let b = 1; b < model.nbody; b++) { model.body_mass[b] = value } mj.mj_setConst(model, data)",
         "const m = model.body_mass; m[1] = value; mj.mj_setConst(model, data);",
         "model.body('ball').mass[0] = value; mj.mj_setConst(model, data)",
         "if (value > 2) model.body_mass[1] = value; else model.body_mass[1] = 1; mj.mj_setConst(model, data)",
-        // One of three moments is no inertia of a ball.
+        // Changing only one of three moments does not give the inertia of a ball.
         "const f = value / model.body_mass[1]; model.body_mass[1] = value; model.body_inertia[3] *= f; mj.mj_setConst(model, data)",
     ] {
         assert!(codes(&lab_of(apply)).contains(&"mass-alone"), "{apply}: {:?}", found(&lab_of(apply)));
@@ -146,7 +146,7 @@ fn what_is_no_slider_is_held_to_the_same() {
 
 #[test]
 fn missing_setconst_shows_no_wrong_number_as_right() {
-    // Nothing that the constants change is as large as what the inertia does.
+    // The change of the constants alone has a smaller effect than that of the inertia.
     for xml in [RAMP, CYLINDER] {
         let lab = lab(xml, &slider([1.0, 10.0, 1.0], &json!({"set": "model.body_mass[1]"})), "data.qvel[0]");
         let all = found(&lab);
@@ -169,13 +169,13 @@ fn missing_setconst_shows_no_wrong_number_as_right() {
 #[test]
 fn a_body_that_does_not_turn_has_no_partner_to_miss() {
     let mass = json!({"apply": MASS});
-    // It falls, flat; it spins where nothing touches it; its inertia is a thousandth of what swings.
+    // It falls without rotation; it spins without contact; its inertia is a thousandth of that of the pendulum.
     assert_eq!(codes(&lab(DROP, &slider([1.0, 10.0, 1.0], &mass), "data.qpos[2]")), Vec::<&str>::new());
     let mut thrown = lab(DROP, &slider([1.0, 10.0, 1.0], &mass), "data.qvel[3]");
     thrown["stopAt"] = json!(0.3);
     thrown["setup"] = json!("data.qvel[4] = 20; data.qvel[0] = 1");
     assert_eq!(codes(&thrown), Vec::<&str>::new());
-    // Until it bounces: then the spin makes it swerve.
+    // Once it bounces, the spin deflects it.
     thrown["stopAt"] = json!(1);
     thrown["readouts"][0]["expr"] = json!("data.qvel[0]");
     repaired(&thrown, "mass-alone");
@@ -208,14 +208,14 @@ fn an_inertia_that_no_body_has() {
         codes(&lab(RAMP, &slider([0.004, max, 0.004], &apply), "data.qvel[0]"))
     };
     let all = "for (let i = 3; i < 6; i++) model.body_inertia[i] = value; mj.mj_setConst(model, data)";
-    // A hollow ball has two thirds of m r², a hoop all of it, and nothing more.
+    // A hollow ball has two thirds of m r², and a hoop has m r², which is the maximum.
     assert_eq!(of(all, 0.0099), Vec::<&str>::new());
-    // What rolls with more takes more mass to do so.
+    // A rolling body with a larger inertia needs a larger mass.
     assert_eq!(of(all, 0.5), ["inertia-alone"]);
-    // On a hinge with weight it is the mass that swings.
+    // On a hinge with gravity, the mass determines the swing.
     let swing = lab(ROD, &slider([0.1, 5.0, 0.1], &json!({"apply": all})), "data.qpos[0]");
     assert_eq!(codes(&swing), ["inertia-alone"]);
-    // A mass and an inertia with a slider each are chosen apart.
+    // A mass and an inertia with separate sliders are chosen independently.
     let mut two = slider([1.0, 10.0, 1.0], &json!({"apply": MASS}));
     let other = json!({"label": "inertia", "min": 0.004, "max": 0.009, "step": 0.001, "value": 0.004, "reset": true, "apply": all.replace("for (let i = 3; i < 6; i++) model.body_inertia[i] = value", "model.body_inertia[3] = value; model.body_inertia[4] = value; model.body_inertia[5] = value")});
     two.as_array_mut().unwrap().push(other);
@@ -230,11 +230,11 @@ fn a_size_takes_its_bounds_and_its_inertia_along() {
     let finding = found(&size(DROP, "model.geom_size[3] = value", "data.qpos[2]")).remove(0);
     assert!(finding.message.contains("but not `model.geom_rbound`"), "{finding:?}");
     let (alone, both) = repaired(&size(DROP, "model.geom_size[3] = value", "data.qpos[2]"), "shape-alone");
-    // The ball rests at its radius, or at what its bounds let it sink to.
+    // The ball rests at its radius, or deeper if its bounding volume is too small.
     assert!(both > 0.25 && alone < 0.2, "{alone} {both}");
     let right = "model.geom_size[3] = value; model.geom_rbound[1] = value";
     assert_eq!(codes(&size(DROP, right, "data.qpos[2]")), Vec::<&str>::new());
-    // A roller of the same mass and another radius has another inertia.
+    // A roller with the same mass and another radius has another inertia.
     let turned = DROP.replace("size='.05' mass='1'", "type='cylinder' size='.05 .1' euler='90 0 0' mass='1'");
     let mut rolls = size(
         &turned,
@@ -246,7 +246,7 @@ fn a_size_takes_its_bounds_and_its_inertia_along() {
     let finding = found(&rolls).remove(0);
     assert!(finding.message.ends_with("but not `model.body_inertia`"), "{finding:?}");
     repaired(&rolls, "shape-alone");
-    // The bob of a pendulum takes the centre of mass along.
+    // The bob of a pendulum moves the centre of mass.
     let bob = lab(
         &PENDULUM.replace("RADIUS", ".05"),
         &slider([0.3, 0.9, 0.6], &json!({"apply": "model.geom_pos[0] = value; mj.mj_setConst(model, data)"})),
@@ -269,10 +269,10 @@ fn a_geom_that_is_switched_on_takes_its_body_along() {
     }
     let right = "model.geom_contype[1] = 1; model.body_contype[1] = 1";
     assert_eq!(codes(&button(&off, right)), Vec::<&str>::new());
-    // Off and on again is no omission, and neither is switching off.
+    // Toggling, and disabling, are complete changes.
     let run = "model.geom_contype[1] = 1 - model.geom_contype[1]; model.geom_conaffinity[1] = model.geom_contype[1]";
     assert_eq!(codes(&button(DROP, run)), Vec::<&str>::new());
-    // In a body with others the bounding volumes stand between as well.
+    // In a body with several geoms, the bounding volumes of the body matter as well.
     let two = off.replace("</body>", "<geom size='.01' pos='0 0 .1' mass='0'/></body>");
     let (alone, both) = repaired(&button(&two, "model.geom_contype[1] = 1"), "contype-alone");
     assert!(alone < 0.0 && both > 0.0, "{alone} {both}");
@@ -291,7 +291,7 @@ fn a_servo_goes_to_its_target_whatever_its_gain() {
     repaired(&servo(SERVO, "model.actuator_biasprm[1] = -value"), "gain-alone");
     let right = "model.actuator_gainprm[0] = value; model.actuator_biasprm[1] = -value";
     assert_eq!(codes(&servo(SERVO, right)), Vec::<&str>::new());
-    // Damping is no partner of stiffness.
+    // Damping is not coupled to stiffness.
     assert_eq!(codes(&servo(SERVO, "model.actuator_biasprm[2] = -value")), Vec::<&str>::new());
     let velocity = SERVO.replace("position joint='hinge' kp='10'", "velocity joint='hinge' kv='10'");
     repaired(&servo(&velocity, "model.actuator_gainprm[0] = value"), "gain-alone");
@@ -300,7 +300,7 @@ fn a_servo_goes_to_its_target_whatever_its_gain() {
     assert_eq!(codes(&servo(&motor, "model.actuator_gainprm[0] = value")), Vec::<&str>::new());
 }
 
-/// A lesson: a ball on a ramp, and what is claimed of it.
+/// A lesson about a ball on a ramp, with claims.
 fn lesson(apply: &str, lint: &str, verify: &str, question: &str) -> String {
     let mut lab = lab(
         RAMP,
@@ -320,7 +320,7 @@ const KEY: &str = r#""kind": "mcq", "q": "Which ball is faster after a second?",
 const RUNS: &str = r#""runs": {"light": {"set": {"x": 1}}, "heavy": {"set": {"x": 10}}}, "measure": {"v": "final(Math.hypot(data.qvel[0], data.qvel[2]))"}"#;
 const FASTER: &str = r#""options": ["heavy.v > 1.2 * light.v", "abs(heavy.v - light.v) < 0.05"]"#;
 
-/// The verdict of the question and the codes of what is found.
+/// The verdict of the question, and the codes of the findings.
 fn judged(text: &str) -> (Verdict, Vec<&'static str>) {
     let checked = check_text("lesson.md", text);
     let mut codes: Vec<&str> = checked.findings.iter().map(|f| f.code).collect();
@@ -337,7 +337,7 @@ fn a_claim_of_a_body_that_does_not_exist_is_refuted() {
     let right = KEY.replace("\"answer\": 0", "\"answer\": 1");
     assert_eq!(judged(&lesson(BOTH, "", &verify, &right)), (Verdict::Verified, vec![]));
     assert_eq!(judged(&lesson(BOTH, "", &verify, KEY)).0, Verdict::Refuted);
-    // The finding says which run and which control, and both numbers.
+    // The finding names the run and the control, and contains both results.
     let checked = check_text("lesson.md", &lesson(MASS, "", &verify, KEY));
     let finding = checked.findings.iter().find(|f| f.code == "claim-of-mismatch").unwrap();
     let why = finding.why.as_ref().unwrap();
@@ -366,13 +366,13 @@ fn a_change_of_a_written_out_inertia_is_held_to_the_same() {
         let runs = format!(
             r#""runs": {{"light": {{}}, "heavy": {{"model": {change}}}}}, "measure": {{"v": "final(data.qvel[0])"}}"#
         );
-        // A slider that leaves the mass alone.
+        // A slider that does not change the mass.
         let text = lesson("model.opt.gravity[1] = 0 * value", "", &format!("{runs}, {FASTER}"), KEY);
         judged(&text.replace(&serde_json::to_string(RAMP).unwrap(), &serde_json::to_string(xml).unwrap()))
     };
     let codes = vec!["mass-alone", "claim-of-mismatch"];
     assert_eq!(of(&xml, r#"{"inertial mass": 10}"#), (Verdict::Refuted, codes));
-    // Where the mass of a geom changes, the inertia is computed from it.
+    // If the mass of a geom changes, the inertia is computed from it.
     let (verdict, codes) = of(RAMP, r#"{"body ball geom mass": 10}"#);
     assert!(verdict != Verdict::Verified && !codes.contains(&"claim-of-mismatch"), "{codes:?}");
     let both = r#"{"inertial mass": 10, "inertial diaginertia": "0.04 0.04 0.04"}"#;
@@ -401,7 +401,7 @@ fn quotes_and_closed_forms_are_judged_twice() {
     let allowed = check_text("lesson.md", &lesson(MASS, "mass-alone", &right, open));
     let quote = allowed.claims.iter().flat_map(|c| c.judgement.quotes.clone()).next().unwrap();
     assert_eq!(quote.verdict(), "verified", "{}", quote.reason);
-    // A closed form of a lab whose setup makes the ball heavy.
+    // A closed form of a lab whose setup makes the ball heavier.
     let mut lab = lab(RAMP, &json!([]), "data.qvel[0]");
     lab["setup"] = json!("model.body_mass[1] = 10; mj.mj_setConst(model, data)");
     lab["plots"] = json!([{"traces": [{"label": "v", "expr": "data.qvel[0]"}]}]);
@@ -425,7 +425,7 @@ fn a_difference_that_is_shown_on_purpose_is_not_refuted() {
     );
     let (verdict, codes) = judged(&lesson(BOTH, "", &runs, KEY));
     assert_eq!((verdict, codes), (Verdict::Verified, vec![]), "{text}");
-    // An author who has looked at it, and says so.
+    // An author who has reviewed it, and suppresses the finding.
     let verify = format!("{RUNS}, {FASTER}");
     assert_eq!(judged(&lesson(MASS, "mass-alone", &verify, KEY)), (Verdict::Verified, vec![]));
 }

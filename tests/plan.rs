@@ -1,5 +1,5 @@
-//! A plan never changes a number: planned and full runs agree bit for bit on every field that is read, for
-//! random scenes, random demands and random interference; what a plan leaves out is not computed.
+//! A plan never changes a number: planned and full runs agree bit for bit on every field that is read, for random scenes,
+//! access sets and writes. A stage that a plan leaves out does not compute anything.
 
 #![allow(clippy::unwrap_used)]
 
@@ -12,7 +12,7 @@ use proptest::prelude::*;
 use std::fmt::Write;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// The fields that programs may write in these tests, each with a value that does something.
+/// The fields that programs may write in these tests, each with a value that has an effect.
 const WRITES: &[(Object, &str, f64)] = &[
     (Object::Data, "qpos", 0.07),
     (Object::Data, "qvel", -0.8),
@@ -83,8 +83,7 @@ const WRITES: &[(Object, &str, f64)] = &[
     (Object::Option, "wind", 0.4),
 ];
 
-/// What happens before a step: one element of a field is written, or constants are recomputed, or all starts
-/// again.
+/// An event before a step: one element of a field is written, constants are recomputed, or the simulation is reset.
 #[derive(Clone, Debug)]
 enum Event {
     Write { step: usize, field: usize, element: prop::sample::Index },
@@ -93,7 +92,7 @@ enum Event {
     Forward { step: usize },
 }
 
-/// Steps of a run.
+/// The number of steps of a run.
 const STEPS: usize = 50;
 
 fn event() -> impl Strategy<Value = Event> {
@@ -133,18 +132,18 @@ fn apply<S: Scope>(event: &Event, now: usize, m: &mut Model, d: &mut Data<S>) {
     }
 }
 
-/// The bits of a field. NaN is one value: which of its bits a processor keeps depends on the order of the operands.
+/// The bits of a field. All NaN values count as equal, because their bits depend on the order of the operands.
 fn bits<S: Scope>(m: &Model, d: &Data<S>, f: FieldId) -> Vec<u64> {
     let bits = |x: f64| if x.is_nan() { f64::NAN.to_bits() } else { x.to_bits() };
     (0..core::length(m, d, f)).map(|i| bits(core::element(m, d, f, i).unwrap())).collect()
 }
 
-/// Runs a scene with a plan and with the full pipeline; the first field that differs, with its step.
+/// Runs a scene with a plan and with the full pipeline; returns the first field that differs, with its step.
 fn difference(m: &Model, access: &AccessSet, events: &[Event]) -> Option<String> {
     difference_of(m, Data::planned(m, Plan::new(m, access)), access, events)
 }
 
-/// The same of data whose plan is already decided.
+/// The same for data with a given plan.
 fn difference_of(
     m: &Model,
     mut planned: Data<Planned>,
@@ -162,7 +161,7 @@ fn difference_of(
         core::step(&m2, &mut full).unwrap();
         for f in access.reads.iter() {
             let (mut a, mut b) = (bits(&m1, &planned, f), bits(&m2, &full, f));
-            // Of the sensors, those that are read.
+            // Of the sensors, only those that are read.
             for (i, (a, b)) in a.iter_mut().zip(&mut b).enumerate() {
                 if !access.reads.contains_element(f, i) {
                     (*a, *b) = (0, 0);
@@ -182,12 +181,12 @@ fn difference_of(
     None
 }
 
-/// The fields of the data, of which a demand reads some.
+/// The fields of the data, some of which an access set contains.
 fn data_fields() -> Vec<FieldId> {
     reflect::fields().filter(|f| f.info().object == Object::Data).collect()
 }
 
-/// What the events write, as a lab's programs would declare it.
+/// The fields that the events write, as the programs of a lab would declare them.
 fn writes(events: &[Event]) -> FieldSet {
     let mut set = FieldSet::EMPTY;
     for event in events {
@@ -219,7 +218,7 @@ proptest! {
         let all = data_fields();
         let mut access = AccessSet { reads: FieldSet::EMPTY, writes: writes(&events) };
         reads.iter().for_each(|i| access.reads.insert(*i.get(&all)));
-        // The state is what every lab shows, whatever else it reads.
+        // Every lab displays the state.
         for name in ["time", "qpos", "qvel"] {
             access.reads.insert(field(Object::Data, name));
         }
@@ -227,7 +226,7 @@ proptest! {
         prop_assert!(difference.is_none(), "{}", difference.unwrap_or_default());
     }
 
-    /// The same with programs that nobody told the plan of, and with a plan for any values.
+    /// The same with writes that the plan does not contain, and with a plan for any values.
     #[test]
     fn writes_that_nobody_announced_count(
         scene in tied_scene(),
@@ -246,7 +245,7 @@ proptest! {
         prop_assert!(difference.is_none(), "{}", difference.unwrap_or_default());
     }
 
-    /// Sensors are left out one by one.
+    /// Sensors are left out individually.
     #[test]
     fn planned_and_full_runs_agree_on_the_sensors_that_are_read(
         scene in sensing(),
@@ -266,7 +265,7 @@ proptest! {
         prop_assert!(difference.is_none(), "{}", difference.unwrap_or_default());
     }
 
-    /// What `labspec plan` runs to measure: a stage more than the plan keeps, and a clock between the stages.
+    /// The measurement of `labspec plan`: an additional stage, and a clock between the stages.
     #[test]
     fn a_stage_more_and_a_clock_change_nothing(
         scene in tied_scene(),
@@ -299,8 +298,8 @@ proptest! {
     }
 }
 
-/// A clock between the stages sees each that the plan keeps in every pass, also in those within a step of Runge and Kutta, and no
-/// other; the work that it finds is that of the engine but for a number for each pass.
+/// A clock between the stages records exactly the stages that the plan keeps, in every pass, including those within a
+/// Runge–Kutta step. The work that it finds equals that of the engine, except for a constant per pass.
 #[test]
 fn a_clock_sees_what_the_plan_keeps() {
     fn tick() -> u64 {
@@ -322,7 +321,7 @@ fn a_clock_sees_what_the_plan_keeps() {
         for decision in d.plan().decisions() {
             let lap = laps.stage_time(decision.stage);
             work += lap.work;
-            // What sensors show is left out of the passes within a step.
+            // Sensor stages are not evaluated in passes within a step.
             let displayed = matches!(decision.stage, Stage::Sensors | Stage::SubtreeVel | Stage::RnePost);
             let least = if displayed { 10 } else { 10 * passes };
             assert_eq!(
@@ -340,7 +339,7 @@ fn a_clock_sees_what_the_plan_keeps() {
     }
 }
 
-/// A sensor that nobody reads is not evaluated, nor are the stages that it alone needs; and nobody can read it by mistake.
+/// A sensor that is not read is not evaluated, nor are the stages that only it needs; reading it is an error.
 #[test]
 fn sensors_that_nobody_reads_are_left_out() {
     let m = compile(
@@ -366,14 +365,14 @@ fn sensors_that_nobody_reads_are_left_out() {
     assert!(plan.evaluates(&m, name("clock")) && plan.evaluates(&m, name("pulled")));
 }
 
-/// A demand that reads these fields of the data and writes nothing.
+/// An access set that reads these fields of the data and writes nothing.
 fn reading(names: &[&str]) -> AccessSet {
     let mut access = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
     names.iter().for_each(|n| access.reads.insert(field(Object::Data, n)));
     access
 }
 
-/// Fields that a stage may leave to whoever resets the data: they hold their values from there.
+/// Fields of a stage that is left out keep the values of the last reset.
 fn untouched(f: FieldId, d: &Data<Planned>, m: &Model, before: &Data<Planned>) -> bool {
     assert!(d.read(f).is_err(), "{} was left out, and can be read", f.info().name);
     let n = core::length(m, d, f);
@@ -405,7 +404,7 @@ fn what_is_left_out_is_not_computed() {
             left_out += 1;
             assert!(!plan.keeps(decision.stage));
             for f in data_fields().into_iter().filter(|f| f.info().stage == decision.stage) {
-                // The acceleration stands in for a solver that has nothing to do.
+                // Without constraints, the acceleration is set although the solver does not run.
                 if f.info().name != "qacc" {
                     assert!(
                         untouched(f, &d, &m, &before),
@@ -417,7 +416,7 @@ fn what_is_left_out_is_not_computed() {
             }
         }
     }
-    // Free fall alone leaves out all but the sum of forces.
+    // Free fall alone leaves out everything except the sum of forces.
     assert!(left_out > 30, "{left_out}");
 }
 
@@ -428,7 +427,7 @@ fn the_full_plan_keeps_everything() {
     assert!(!plan.keeps(Stage::Compile) && !plan.keeps(Stage::User));
 }
 
-/// Turning on energy in mid-run needs the poses that it depends on.
+/// Enabling energy during a run requires the poses on which it depends.
 #[test]
 fn a_written_flag_keeps_what_it_may_switch_on() {
     let m = compile(&model_text("free_fall"));
@@ -471,7 +470,7 @@ fn decisions_read_as_reasons() {
     });
 }
 
-/// Forces that a plan was not told of act: it is made again.
+/// Forces outside the plan's access set act: the plan is recomputed.
 #[test]
 fn a_force_that_nobody_announced_acts() {
     let m = model("free_fall");
@@ -493,7 +492,7 @@ fn a_force_that_nobody_announced_acts() {
     assert_eq!(bits(&m, &planned, field(Object::Data, "qvel")), bits(&m, &full, field(Object::Data, "qvel")));
 }
 
-/// Parameters that a plan was told would stay may change all the same: it is made again.
+/// Parameters that the plan assumed constant may change: the plan is recomputed.
 #[test]
 fn a_parameter_that_nobody_announced_counts() {
     unannounced(model("pendulum"), |m| {
@@ -502,7 +501,7 @@ fn a_parameter_that_nobody_announced_counts() {
     });
 }
 
-/// So may those that say how forces change with velocities, which are looked at once.
+/// The same holds for parameters of the derivatives of forces with respect to velocities, which are analysed once.
 #[test]
 fn a_slope_that_nobody_announced_counts() {
     let slide = "<mujoco><option integrator='implicitfast'/><worldbody><body><joint name='x' type='slide' damping='1'/>\
@@ -511,7 +510,7 @@ fn a_slope_that_nobody_announced_counts() {
     unannounced(compile(slide), |m| m.edit().dof_damping[0] = 30.0);
 }
 
-/// Steps with a plan before and after `change` end as full steps after it.
+/// Planned steps before and after `change` give the same result as full steps after it.
 fn unannounced(mut m: Model, change: impl Fn(&mut Model)) {
     let mut planned = Data::planned(&m, Plan::new(&m, &reading(&["qpos"])));
     planned.edit().qvel[0] = 1.0;

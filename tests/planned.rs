@@ -1,6 +1,6 @@
-//! Every function, every field, every accessor by name and every sensor: a planned run gives the same value as a full one, to
-//! the bit, on every model of the corpus and of our own. The expressions follow from the schema of the language, so that a new
-//! row of a table is covered without a change here.
+//! Every function, every field, every accessor by name and every sensor: a planned run gives the same bits as a full one, on
+//! every model of the corpus and of our own. The expressions are generated from the schema of the language, so that new rows of
+//! a table are covered automatically.
 
 #![allow(clippy::unwrap_used)]
 
@@ -11,11 +11,11 @@ use labspec_core::reflect::{self, FieldSet, Object};
 use labspec_core::{self as core, AccessSet, Data, Model, Plan};
 use labspec_expr::{CollectionId, Compiler, Context, Entry, Globals, ObjectId, Param, Schema, Value};
 
-/// Most elements of a field, and most objects of a kind, that are read.
+/// The maximum number of elements of a field, and of objects of a kind, that are read.
 const MOST: usize = 3;
 const STEPS: usize = 4;
 
-/// Every expression of a model.
+/// All expressions of a model.
 fn expressions(model: &Model) -> Vec<String> {
     let names = ModelNames::new(model, Scope::Measure);
     let mut all = Vec::new();
@@ -91,10 +91,10 @@ fn some(names: &ModelNames<'_>, collection: CollectionId) -> Vec<String> {
     names.names(collection).into_iter().filter(plain).take(MOST).collect()
 }
 
-/// What is written in the midst of a run: a field, an element of it and its new value.
+/// A write during a run: a field, an element of it and its new value.
 type Change = (Object, &'static str, usize, f64);
 
-/// What a control, a button, a keyframe or a program of a lab writes, each of which decides what of a plan is kept.
+/// Writes of a control, a button, a keyframe or a program of a lab, each of which affects which stages a plan keeps.
 const CHANGES: [Change; 16] = [
     (Object::Option, "integrator", 0, 1.0),
     (Object::Option, "integrator", 0, 3.0),
@@ -133,7 +133,7 @@ fn world(model: &Model, plan: Plan, change: Option<Change>) -> World {
     World { model, data, key: None, functions: Functions::new(), displayed: Vec::new(), numbers: Vec::new() }
 }
 
-/// What an expression gives, as text with every bit.
+/// The value of an expression as text with all bits.
 fn evaluate(world: &mut World, text: &str, access: Option<&mut AccessSet>) -> Option<String> {
     let mut globals = Globals::new();
     let program = {
@@ -161,7 +161,7 @@ fn bits(context: &Context, value: &Value) -> String {
     }
 }
 
-/// How many expressions of a model were compared, and those that differ, with a change that programs announced or did not.
+/// Compares the expressions of a model after a declared or undeclared change; returns their number, and those that differ.
 fn compare(model: &Model, change: Option<Change>, announced: bool) -> (usize, Vec<String>) {
     let full = world(model, Plan::full(), change);
     let (mut count, mut wrong) = (0, Vec::new());
@@ -194,7 +194,7 @@ fn planned_equals_full_for_everything_that_can_be_read() {
     }
     let done = for_each(files.len(), |i| {
         let text = std::fs::read_to_string(&files[i]).unwrap();
-        // Models that name meshes are read elsewhere.
+        // Models with mesh files are tested elsewhere.
         if text.contains("file=") || text.contains("<include") {
             return (0, Vec::new());
         }
@@ -210,8 +210,8 @@ fn planned_equals_full_for_everything_that_can_be_read() {
     assert!(count > 2000, "{count}");
 }
 
-/// Labs of twenty kinds (`tests/speed/kinds.py`), of which something is written that decides what their plans keep: announced, so that the
-/// plan takes it as it is until then, and by somebody whom nobody expected.
+/// Labs of twenty kinds (`tests/speed/kinds.py`) with a write that affects which stages their plans keep: declared, so that the
+/// plan considers the value as variable from the start, and undeclared.
 #[test]
 fn planned_equals_full_whatever_is_switched() {
     let folder = workspace().join("tests/speed/kinds");

@@ -1,4 +1,4 @@
-//! A lab as a page holds it, models from anywhere, and the language without a lab.
+//! A lab as a page uses it, models from any source, and the language without a lab.
 
 #![allow(clippy::unwrap_used)]
 
@@ -37,7 +37,7 @@ fn bits(player: &Player) -> Vec<u64> {
     std::iter::once(&d.time).chain(all).map(|x| x.to_bits()).collect()
 }
 
-/// The scene has every field of the present state, also after a reset and a return, and the lab goes on as if nobody had looked.
+/// The scene has all fields of the present state, also after a reset and a restore, and reading it does not affect the lab.
 #[test]
 fn a_scene_is_the_present_state_and_changes_nothing() {
     let (mut drawn, mut plain) = (player(), player());
@@ -92,7 +92,7 @@ fn a_page_draws_what_the_lab_says() {
     assert_eq!(player.findings(), []);
 }
 
-/// Names and indexes of one model mean nothing in another: no sample is taken, and the table says why.
+/// Names and indexes of one model have no meaning in another: no sample is recorded, and the table contains the reason.
 #[test]
 fn programs_of_another_model_are_not_run() {
     let lesson = load_lesson(labspec::source::SourceFile::new("lab.json", LAB), &models().into());
@@ -102,13 +102,13 @@ fn programs_of_another_model_are_not_run() {
     let options = RunOptions { steps: Some(10), ..RunOptions::default() };
     let table = run::run(lab, &model.clone(), &programs, &options).unwrap();
     assert_eq!((table.rows.len(), table.errors.len()), (11, 0));
-    // Even a model of the same text is another one.
+    // Another model with the same text has another identity.
     let table = run::run(lab, &twin, &programs, &options).unwrap();
     assert!(table.rows.is_empty(), "{:?}", table.rows);
     assert!(table.errors[0].contains("another model"), "{:?}", table.errors);
 }
 
-/// Nor are they sampled: the columns of one model are not filled from another, whatever session is handed over.
+/// The columns of one model are never filled from a session with another model.
 #[test]
 fn a_recording_takes_no_samples_of_another_model() {
     let lesson = load_lesson(labspec::source::SourceFile::new("lab.json", LAB), &models().into());
@@ -125,7 +125,7 @@ fn a_recording_takes_no_samples_of_another_model() {
     assert_eq!(samples.rows().len(), 1);
 }
 
-/// Nor is a single expression of another model evaluated: it fails, and is no number.
+/// An expression of another model is not evaluated: it fails instead of giving NaN.
 #[test]
 fn a_session_evaluates_nothing_of_another_model() {
     let lesson = load_lesson(labspec::source::SourceFile::new("lab.json", LAB), &models().into());
@@ -141,7 +141,7 @@ fn a_session_evaluates_nothing_of_another_model() {
     assert!(session.troubles[0].message.contains("compiled for something else"), "{:?}", session.troubles);
 }
 
-/// A player that is stepped shows what `run` writes, bit for bit, whatever a frontend asks for in between.
+/// A player that is stepped gives the same values as `run`, bit for bit, independent of requests by the frontend in between.
 #[test]
 fn a_player_goes_the_way_of_a_run() {
     let lesson = load_lesson(labspec::source::SourceFile::new("lab.json", LAB), &models().into());
@@ -158,7 +158,7 @@ fn a_player_goes_the_way_of_a_run() {
     let mut player = player();
     player.set("height", 1.5).unwrap();
     for (i, row) in table.rows.iter().enumerate() {
-        // A run presses before the step, and its first sample is the start.
+        // A run presses buttons before the step, and its first sample is the start.
         if i > 0 {
             player.step().unwrap();
         }
@@ -228,7 +228,7 @@ fn a_saved_state_goes_on_to_the_bit() {
     });
     assert_eq!(player.value("solver"), Some(&Value::Number(2.0)));
     assert_eq!(go_on(&mut player), first);
-    // Without the restored model, the solver would be another one.
+    // Without the restored model, the solver would be different.
     assert!(matches!(self::player().restore(&saved), Err(Error::Call(_))));
 }
 
@@ -237,7 +237,7 @@ fn controls_and_resets_keep_the_order_of_the_format() {
     let mut player = player();
     assert_eq!(player.numbers()[0], 1.0);
     player.play_to(0.2).unwrap();
-    // `reset: true` starts over with the new value; `ctx` is kept.
+    // `reset: true` restarts with the new value; `ctx` is kept.
     player.set(0, 2.0).unwrap();
     assert_eq!((player.time(), player.numbers()[0], player.numbers()[2]), (0.0, 2.0, 1.0));
     player.press("Kick").unwrap();
@@ -293,7 +293,7 @@ fn what_breaks_is_a_finding_with_its_time() {
         let lab = serde_json::json!({"model": "ball_drop", "controller": controller, "readouts": [{"label": "z", "expr": "data.qpoz[2]"}]});
         Player::of_lab(&lab.to_string(), models()).unwrap()
     };
-    // A mistake in a readout is told at once, and the readout shows nothing.
+    // An error in a readout is reported at once, and the readout displays nothing.
     let mut player = broken("data.time > 0.1 ? data.qvel[2] = Infinity : 0");
     let codes = |player: &Player| player.findings().iter().map(|f| f.code).collect::<Vec<_>>();
     let loaded = codes(&player);
@@ -304,7 +304,7 @@ fn what_breaks_is_a_finding_with_its_time() {
     let last = found.iter().find(|f| f.code == "simulation-diverges").unwrap();
     assert!(last.message.contains("at t = 0.1") && last.position.is_some(), "{last}");
 
-    // A controller that throws freezes the lab until it is reset.
+    // A controller that fails stops the lab until it is reset.
     let mut player = broken("data.time > 0.1 ? model.opt.timestep = -1 : 0");
     let frozen = player.play_to(0.2).unwrap_err();
     assert_eq!(frozen.findings().len(), 1, "{frozen}");
@@ -313,7 +313,7 @@ fn what_breaks_is_a_finding_with_its_time() {
     player.reset();
     assert!(!player.is_over() && player.step().is_ok());
 
-    // One that never ends stops the lab, not the page.
+    // A controller that never ends stops the lab, not the page.
     let mut player = broken("for (let i = 0; i < 1e9; i++) { ctx.x = i }");
     assert!(player.step().is_err() && player.is_over());
 }
@@ -375,7 +375,7 @@ fn a_model_that_there_is_not_is_told() {
     assert_eq!(codes(Checker::new(NoModels)), ["unknown-model"]);
     assert_eq!(codes(Checker::new(|_: &str| None)), ["unknown-model"]);
     assert_eq!(codes(Checker::new(ModelFolder::unknown())), ["no-model-folder"]);
-    // Its mistakes stand in its own text.
+    // The errors of a model have locations in its own text.
     let mut checker = Checker::new([("drop", "<mujoco>\n<bdy/></mujoco>")]);
     let report = checker.check("a.md", lesson);
     let inside = report.findings.iter().find(|f| &*f.path == "models/drop.xml").unwrap();
@@ -403,12 +403,12 @@ fn a_text_knows_its_model() {
     let z = drop.expression("data.qpos[2]").unwrap();
     let push = drop.statements("data.qvel[2] = 1; ctx.pushed = true").unwrap();
     assert_eq!(z.number(&mut drop).unwrap(), 1.0);
-    // Even of the same text: another model is another model.
+    // Another model with the same text has another identity.
     for refused in [z.number(&mut other).map(drop_number), push.run(&mut other)] {
         let Err(Error::Call(why)) = refused else { unreachable!("{refused:?}") };
         assert!(why.contains("another model"), "{why}");
     }
-    // A copy of the engine is the same model, in another state.
+    // A copy of the engine has the same model, in another state.
     let mut copy = drop.clone();
     push.run(&mut copy).unwrap();
     copy.step().unwrap();
@@ -427,7 +427,7 @@ fn variables_of_an_engine_are_shared_by_its_texts() {
         .unwrap()
         .run(&mut engine)
         .unwrap();
-    // Named by a text only after it was stored under a computed name.
+    // A program mentions the name only after the value was stored under a computed name.
     let sum = engine.expression("ctx.q1 + ctx.q2").unwrap();
     assert_eq!(sum.number(&mut engine).unwrap(), 30.0);
     engine.statements("ctx['q' + 1] = 5").unwrap().run(&mut engine).unwrap();

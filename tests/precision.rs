@@ -1,5 +1,5 @@
-//! Error against run time: the standard set shows the orders of theory, and what `precision` advises holds in a run that owes
-//! nothing to it.
+//! Error against run time: the standard set shows the theoretical orders, and the recommendations of `precision`
+//! hold in an independent run.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -42,11 +42,11 @@ impl Opened {
         compare(&self.lab, &self.model, &programs, options, &mut findings, &mut |_| ()).unwrap()
     }
 
-    /// The lab as `run` plays it, with other numerics, sampled after every so many steps.
+    /// Runs the lab as `run` does, with other numerics, sampled after every `every` steps.
     fn run(&self, integrator: i32, timestep: f64, length: f64, every: usize) -> Table {
         let mut model = Model::clone(&self.model);
         (*model.edit().opt.timestep, *model.edit().opt.integrator) = (timestep, integrator);
-        // A slider of the timestep would set its own.
+        // A slider for the timestep would set its own value.
         let mut lab = self.lab.clone();
         lab.controls.retain(|c| !format!("{:?}", c.kind).contains("opt.timestep"));
         let programs = Programs::compile(&lab, &model, &mut Vec::new());
@@ -63,7 +63,7 @@ fn standard() -> Vec<PathBuf> {
     labs
 }
 
-/// The order that a method shows at the shortest timesteps that are above rounding.
+/// The observed order of a method at the shortest timesteps with errors above rounding.
 fn order(report: &Report, id: i32) -> f64 {
     let rows = report.rows.iter().filter(|r| r.setting.integrator.id == id && r.status == RunStatus::Good);
     rows.filter_map(|r| r.errors[0].order).next_back().unwrap()
@@ -72,7 +72,7 @@ fn order(report: &Report, id: i32) -> f64 {
 #[test]
 fn orders_are_those_of_theory() {
     use integrator::{DISCRETE, EULER, GAUSS, IMPLICIT, RK4, RKMK4, RKMK8};
-    // Runge and Kutta's method is of second order where bodies turn in space.
+    // The Runge–Kutta method has order two if bodies rotate in space.
     let expected: [(&str, &[(i32, f64)]); 5] = [
         ("01", &[(EULER, 1.0), (IMPLICIT, 1.0), (DISCRETE, 1.0)]),
         ("02", &[(EULER, 1.0), (IMPLICIT, 1.0), (RK4, 4.0), (RKMK4, 4.0)]),
@@ -89,7 +89,8 @@ fn orders_are_those_of_theory() {
             open(path, ModelFolder::unknown()).compare(&Options { integrators, ..Options::default() });
         for (id, theory) in orders {
             let seen = order(&report, *id);
-            // Steps of which the eighth order is seen above rounding are too long for its first term alone: a little more shows.
+            // At timesteps at which the error of order eight is above rounding, higher-order terms contribute: the observed
+            // order is slightly larger.
             let beyond = if *id == RKMK8 { 0.3 } else { 0.1 };
             assert!(
                 seen > theory - 0.1 && seen < theory + beyond,
@@ -106,7 +107,7 @@ fn what_a_teacher_cares_about_is_ten_times_closer() {
     for name in ["03_double_pendulum", "05_tumbling_box"] {
         let path = labs.iter().find(|p| p.file_stem().is_some_and(|s| s == name)).unwrap();
         let report = open(path, ModelFolder::unknown()).compare(&all);
-        // In the engine's own count of work, which is the same on every machine.
+        // In the engine's count of work, which is the same on every machine.
         let good = |shared: bool| {
             report
                 .rows
@@ -127,13 +128,13 @@ fn what_a_teacher_cares_about_is_ten_times_closer() {
     }
 }
 
-/// The advised setting against steps of Runge and Kutta's method that are far shorter, both as the page would run them. `false`
-/// where the lab's own code sets the timestep as it starts, so that nobody else can.
+/// Compares the recommended setting with a Runge–Kutta run with much shorter steps, both performed as on a page. Returns
+/// `false` if the lab's own code sets the timestep at the start, so that it cannot be changed.
 fn advice_holds(name: &str, lab: &Opened, report: &Report, setting: &Setting) -> bool {
     let timestep = lab.model.opt.timestep;
     let fine = timestep.min(setting.timestep) / 8.0;
     let every = (setting.timestep / fine).round() as usize;
-    // Long steps need not divide the run: to the last whole one.
+    // Long steps may not divide the run: compared up to the last whole one.
     let length = setting.timestep * (report.length / setting.timestep + 1e-9).floor();
     let coarse = lab.run(setting.integrator.id, setting.timestep, length, 1);
     let time = |k: usize| if let Cell::Number(t) = coarse.rows[k][0] { t } else { f64::NAN };
@@ -147,7 +148,7 @@ fn advice_holds(name: &str, lab: &Opened, report: &Report, setting: &Setting) ->
         let column = coarse.columns.iter().position(is).unwrap();
         let number = |row: &Vec<Cell>| if let Cell::Number(x) = row[column] { x } else { f64::NAN };
         let pairs = coarse.rows.iter().zip(&truth.rows).map(|(a, b)| (number(a) - number(b)).abs());
-        // Every sample counts; the same digits are less than a unit apart, which is twice what they hide.
+        // Every sample counts. Equal digits differ by less than one unit, which is twice the invisible error.
         let error = pairs.fold(0.0, f64::max);
         let most = if target.readout { 2.0 } else { 1.5 } * target.unseen;
         assert!(error <= most, "{name}: {}: {error} for {}", target.label, target.unseen);
@@ -167,7 +168,7 @@ fn advice_holds_in_an_independent_run() {
     labs.retain(|p| p.extension().is_some_and(|e| e == "json"));
     labs.sort();
     let (mut held, mut tried) = (0, 0);
-    // The chain and the stack take long, and are no labs.
+    // The chain and the stack take long, and are not labs.
     let mut all: Vec<(PathBuf, Opened)> = labs
         .into_iter()
         .chain(standard().into_iter().take(9))
@@ -184,7 +185,7 @@ fn advice_holds_in_an_independent_run() {
         if !report.advice.iter().any(|a| a.kind == Kind::Right) {
             continue;
         }
-        // What is advised is the cheapest by the clock, which on a loaded machine may be any of those that are right.
+        // The recommended setting is the cheapest by run time, which on a busy machine may be any of the correct ones.
         let shorter = |r: &Row, than: &Row| {
             r.setting.integrator.id == than.setting.integrator.id
                 && r.setting.timestep <= than.setting.timestep

@@ -1,5 +1,5 @@
-//! `precision` against truths by other means: events and ends of labs of twenty kinds from equations derived by hand
-//! (`tests/golden/precision.py`), and what advice, costs and orders say of them.
+//! `precision` compared with truths from other sources: events and final values of labs of twenty kinds from equations derived
+//! by hand (`tests/golden/precision.py`), and tests of its recommendations, costs and orders.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -21,7 +21,7 @@ fn kinds() -> PathBuf {
     workspace().join("tests/precision/kinds.md")
 }
 
-/// A lab written down, in a lesson of its own.
+/// A lab in a separate lesson.
 fn written(lab: &Value) -> Lesson {
     let text = format!("```lab simlab\n{lab}\n```\n");
     load_lesson(SourceFile::new("lab.md", text), &ModelFolder::unknown())
@@ -42,7 +42,7 @@ fn report(lab: &Lab, options: &Options) -> Report {
     compare(lab, &model, &programs, options, &mut findings, &mut |_| ()).unwrap()
 }
 
-/// The two columns of a run with some numerics: time, and what a trace or readout showed.
+/// The values of a trace or readout in a run with some numerics.
 fn column(lab: &Lab, (id, timestep): (i32, f64), length: f64, label: &str) -> Vec<f64> {
     let mut model = Model::clone(&model(lab));
     (*model.edit().opt.timestep, *model.edit().opt.integrator) = (timestep, id);
@@ -62,7 +62,7 @@ fn right(report: &Report) -> &Row {
     &report.rows[advice.row]
 }
 
-/// A mass on a line, with what joint, options and actuators have besides.
+/// A mass on a line, with additional options, joint attributes and actuators.
 fn slider(options: &str, joint: &str, more: &str) -> String {
     format!(
         "<mujoco><option {options}/><worldbody><body><joint name='j' type='slide' axis='1 0 0' {joint}/>\
@@ -95,7 +95,7 @@ fn events_and_ends_are_those_of_equations_by_hand() {
             assert!(event.uncertain < 1e-6, "{title}: {name}: ± {:e}", event.uncertain);
             times += 1;
         }
-        // What is said of the lab's own run at the end is its distance from the truth.
+        // The reported error of the lab's own run at the end is its distance from the truth.
         let mine = lab_row(&report);
         for (label, end) in expected["end"].as_object().unwrap() {
             let i = report.targets.iter().position(|t| t.label == *label).unwrap();
@@ -112,7 +112,7 @@ fn events_and_ends_are_those_of_equations_by_hand() {
             );
             ends += 1;
         }
-        // Nothing is shown below its doubt.
+        // No error is reported below its uncertainty.
         for row in &report.rows {
             for (off, event) in row.events.iter().zip(&report.events) {
                 assert!(off.is_nan() || *off >= event.uncertain, "{title}: {}: {off:e}", event.name);
@@ -122,8 +122,8 @@ fn events_and_ends_are_those_of_equations_by_hand() {
     assert!(times >= 50 && ends >= 20, "{times} times, {ends} ends");
 }
 
-/// What `stability` says of small differences, in steps that leave no error to see, beside the derivative of the flow by the equations
-/// (`tests/golden/parting.py`): the same directions become as many times as large.
+/// The growth of small differences by `stability`, with timesteps small enough to have no visible error, compared with the
+/// derivative of the flow from the equations (`tests/golden/parting.py`): the same directions grow by the same factors.
 #[test]
 fn small_differences_grow_as_by_equations_by_hand() {
     let golden = read_json(&workspace().join("tests/golden/parting.json"));
@@ -154,7 +154,7 @@ fn small_differences_grow_as_by_equations_by_hand() {
 
 #[test]
 fn a_dip_after_the_start_is_no_passage() {
-    // A body at rest, up to rounding, that is pushed later: it sinks by 1e-9 first, and passes nothing.
+    // A body at rest up to rounding, which is pushed later: it sinks by 1e-9 first, and crosses no value.
     let lab = serde_json::json!({
         "xml": slider("gravity='0 0 0'", "damping='2000'", "<actuator><motor joint='j'/></actuator>"),
         "setup": "data.qvel[0] = -1e-6", "controller": "data.ctrl[0] = data.time > 0.1 ? 20000 : 0",
@@ -178,7 +178,7 @@ fn longer_steps_are_tried_until_something_changes() {
             (integrator::RK4, longest),
             "{title}"
         );
-        // One more doubling shows.
+        // Another doubling of the timestep is visible.
         let next = report
             .rows
             .iter()
@@ -191,11 +191,11 @@ fn longer_steps_are_tried_until_something_changes() {
 fn a_run_that_breaks_is_no_measure_of_a_plot() {
     let lesson = load_lesson(SourceFile::read(&kinds()).unwrap(), &ModelFolder::unknown());
     let labs = lesson.addressed();
-    // The lab's own setting turns the gyroscope's axis over, with numbers of any size.
+    // With the lab's own setting, the gyroscope's axis turns over, with arbitrarily large numbers.
     let lab = labs.iter().find(|(_, l)| l.title() == "A gyroscope").unwrap().1;
     let report = report(lab, &Options::default());
     assert_ne!(lab_row(&report).status, RunStatus::Good);
-    // Its speed across keeps within 11 rad/s: half a pixel of that is little.
+    // Its transverse speed stays within 11 rad/s, half a pixel of which is small.
     assert!(report.targets[1].unseen < 0.06, "{}", report.targets[1].unseen);
     let best = right(&report);
     let setting = (best.setting.integrator.id, best.setting.timestep);
@@ -207,7 +207,7 @@ fn a_run_that_breaks_is_no_measure_of_a_plot() {
 
 #[test]
 fn every_sample_of_a_readout_counts() {
-    // A spring that swings ten times and comes to rest: at the end all are right.
+    // A spring that oscillates ten times and comes to rest: at the end, all settings are right.
     let lab = serde_json::json!({
         "xml": slider("gravity='0 0 0' integrator='RK4'", "stiffness='100' damping='3'", ""), "setup": "data.qpos[0] = 1",
         "stopAt": 6.4, "readouts": [{"label": "place", "expr": "10 * data.qpos[0]", "digits": 1}],
@@ -218,7 +218,7 @@ fn every_sample_of_a_readout_counts() {
     let euler = report.rows.iter().find(|r| r.setting.integrator.id == integrator::EULER);
     let euler = euler.unwrap();
     assert!(euler.errors[0].end < 0.05 && euler.errors[0].wrong > 10 && euler.score > 1.0);
-    // What is advised shows the digits of a far finer run at every sample.
+    // The recommended setting displays the digits of a much more accurate run at every sample.
     let best = right(&report).setting;
     let seen = column(lab, (best.integrator.id, best.timestep), report.length, "place");
     let fine = column(lab, (integrator::RKMK8, best.timestep / 2.0), report.length, "place");
@@ -229,7 +229,7 @@ fn every_sample_of_a_readout_counts() {
 
 #[test]
 fn late_contacts_count() {
-    // It falls for a second and then lies on the ground for as long.
+    // It falls for one second and then lies on the ground for one second.
     let lab = serde_json::json!({
         "xml": "<mujoco><worldbody><geom type='plane' size='5 5 1'/><body pos='0 0 4.905'><freejoint/>\
                 <geom type='box' size='0.1 0.1 0.1'/></body></worldbody></mujoco>",
@@ -254,7 +254,7 @@ fn work_decides_and_is_the_same_again() {
     let numbers = |r: &Report| -> Vec<f64> { r.rows.iter().map(|row| row.cost.work).collect() };
     assert_eq!(numbers(&one), numbers(&two));
     assert_eq!((&one.front, &one.advice), (&two.front, &two.advice));
-    // What solves with derivatives is dearer than what does not.
+    // An integrator that solves with derivatives costs more than one that does not.
     let of = |id: i32| {
         let row = one.rows.iter().find(|r| r.setting.integrator.id == id && r.setting.timestep == 0.002);
         row.unwrap().cost.work
@@ -318,7 +318,7 @@ fn no_cost_of_a_plan_is_negative() {
     for (_, lab) in lesson.addressed().into_iter().take(8) {
         let model = model(lab);
         let programs = Programs::compile(lab, &model, &mut Vec::new());
-        // What is read already joins nothing: its cost is the clock's noise, on either side of nothing.
+        // Fields that are read already require no further stage: their cost is noise of the clock around zero.
         let read = vec!["data.qpos".to_string(), "data.qvel".to_string(), "data.time".to_string()];
         let report = plan(lab, &model, &programs, &PlanOptions { read, run: true }).unwrap();
         let stages =
@@ -332,7 +332,7 @@ fn no_cost_of_a_plan_is_negative() {
 
 #[test]
 fn nothing_reads_zero_where_more_is_true() {
-    // A pendulum whose plot is compared with a reference, and a stack whose contacts are late by a step in a page.
+    // A pendulum whose plot is compared with a reference, and a stack whose contacts a page displays one step late.
     let lesson = load_lesson(SourceFile::read(&kinds()).unwrap(), &ModelFolder::unknown());
     for (_, lab) in lesson.addressed() {
         let report = report(lab, &Options::default());

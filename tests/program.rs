@@ -1,6 +1,6 @@
-//! The program in a folder of its own, for the tests of the command line.
+//! Runs the program in a separate folder, for the tests of the command line.
 //!
-//! Every command runs there with relative paths, so that snapshots hold no place of this machine.
+//! Every command runs there with relative paths, so that snapshots do not depend on the machine.
 
 #![allow(clippy::unwrap_used)]
 
@@ -96,7 +96,7 @@ pub(crate) fn folder() -> tempfile::TempDir {
     folder
 }
 
-/// What a command came to.
+/// The result of a command.
 pub(crate) struct Done {
     pub(crate) code: i32,
     pub(crate) stdout: String,
@@ -106,18 +106,18 @@ pub(crate) struct Done {
 pub(crate) fn program(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_labspec"));
     command.current_dir(folder).args(arguments).env_remove("CLICOLOR_FORCE").stdin(Stdio::null());
-    // Nothing is kept, and nothing of the person who runs the tests is read.
+    // Nothing is cached, and nothing in the home folder of the user is read.
     command.env("LABSPEC_CACHE", "");
     command
 }
 
-/// What a command prints for programs is held against its schema, in every test.
+/// Runs a command. Output for programs is validated against its schema, in every test.
 pub(crate) fn run_in(folder: &Path, arguments: &[&str]) -> Done {
     let output = program(folder, arguments).output().unwrap();
     finished(folder, arguments, output)
 }
 
-/// The same with something to read.
+/// The same with standard input.
 pub(crate) fn run_with_input(folder: &Path, arguments: &[&str], input: &str) -> Done {
     use std::io::Write;
     let mut command = program(folder, arguments);
@@ -149,7 +149,7 @@ pub(crate) fn json_of(arguments: &[&str]) -> Value {
     serde_json::from_str(&done.stdout).unwrap()
 }
 
-/// Command, exit code and everything printed.
+/// The command, the exit code and all output.
 pub(crate) fn stdout_of(arguments: &[&str]) -> String {
     stdout_in(folder().path(), arguments)
 }

@@ -1,5 +1,5 @@
-//! What a text says, in all its forms: several numbers and words in one quote, tables of words, comments before a block, runs that are
-//! shared, labs of other lessons.
+//! Quotes in all forms: several numbers and words in one quote, tables of words, comments before a block, shared
+//! runs, labs of other lessons.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -10,10 +10,10 @@ use labspec::lint::{ModelFolder, load_lesson_file};
 use labspec::verify::{Judgement, QuoteState, Verdict};
 use serde_json::{Value, json};
 
-/// Runge–Kutta: a fall is exact in any step.
+/// Runge–Kutta: a fall is exact with any timestep.
 const BALL: &str = "<mujoco><option integrator='RK4'/><worldbody><geom name='floor' type='plane' size='1 1 1'/><body name='ball' pos='0 0 1'><freejoint/><geom name='ball' type='sphere' size='0.05' mass='1'/></body></worldbody></mujoco>";
 
-/// A lab with a ball 0.95 m above a floor, and what is claimed of it.
+/// A lab with a ball 0.95 m above a floor, with claims.
 fn lab(verify: Value) -> String {
     let mut lab = json!({
         "title": "A ball above a floor", "xml": BALL,
@@ -50,7 +50,7 @@ const RIGHT: QuoteState = QuoteState::Right;
 const WRONG: QuoteState = QuoteState::Wrong;
 const UNCLEAR: QuoteState = QuoteState::Unclear;
 
-/// What the claims of a text come to.
+/// The results of a claim by name.
 fn judged(checked: &Checked, name: &str) -> Judgement {
     let claims = checked.claims.iter();
     let names: Vec<&str> = claims.clone().map(|c| c.name.as_str()).collect();
@@ -63,13 +63,13 @@ fn one_quote_may_state_several_numbers() {
     let says = |text: &str, exprs: [&str; 2]| json!({"says": [[text, exprs]]});
     let both = ["earth.lands", "moon.lands"];
     assert_eq!(quotes(prose, says("0.440 s here and 1.083 s", both)), (vec![RIGHT, RIGHT], vec![]));
-    // The other way round both are wrong, each at its own number.
+    // In the other order, both are wrong, each at its own number.
     let (states, codes) = quotes(prose, says("0.440 s here and 1.083 s", ["moon.lands", "earth.lands"]));
     assert_eq!((states, codes), (vec![WRONG, WRONG], vec!["quote-wrong", "quote-wrong"]));
-    // One expression for two numbers, or two for one, is no claim.
+    // One expression for two numbers, or two for one, is not a valid claim.
     let (states, codes) = quotes(prose, says("0.440 s", both));
     assert_eq!((states, codes), (vec![UNCLEAR], vec!["quote-unclear"]));
-    // A lie about the second number is found.
+    // A false second number is found.
     let (states, _) =
         quotes("It takes 0.440 s here and 1.093 s on the moon.", says("0.440 s here and 1.093 s", both));
     assert_eq!(states, [RIGHT, WRONG]);
@@ -85,7 +85,7 @@ fn words_are_a_condition() {
     // Whole words, and words that a reader sees.
     let (states, codes) = quotes("On the moon it is much slowerer.", says("much slower", slower));
     assert_eq!((states, codes), (vec![UNCLEAR], vec!["quote-not-found"]));
-    // A comparison with what is no number shows nothing, and a constant is none.
+    // A comparison with NaN proves nothing, and a constant is not evidence.
     let (states, codes) = quotes("It is slow.", says("slow", "!(earth.lands < 0 / 0)"));
     assert!(states == [UNCLEAR] && codes.contains(&"compares-nan"), "{codes:?}");
     let (states, codes) = quotes("It is slow.", says("slow", "true"));
@@ -93,10 +93,10 @@ fn words_are_a_condition() {
     // A number is not checked by a condition.
     let (states, codes) = quotes("It lands after 0.440 s.", says("after 0.440 s", slower));
     assert_eq!((states, codes), (vec![UNCLEAR], vec!["quote-unclear"]));
-    // With a number in one quote.
+    // Together with a number in one quote.
     let mixed = json!({"says": [["1.083 s, far slower", ["moon.lands", slower]]]});
     assert_eq!(quotes("It lands after 1.083 s, far slower.", mixed).0, [RIGHT, RIGHT]);
-    // Words that the last digits decide are right for nobody.
+    // If the last digits decide a condition, the words are never right.
     let edge = "earth.speed > 4.316400";
     let (_, codes) = quotes("It is fast.", says("fast", edge));
     assert!(codes.iter().all(|c| ["quote-of-timestep", "quote-wrong"].contains(c)), "{codes:?}");
@@ -118,7 +118,7 @@ fn a_table_may_have_words() {
     };
     assert_eq!(states(&table("is in the air"), &claim), (vec![RIGHT, RIGHT], vec![]));
     assert_eq!(states(&table("lands"), &claim), (vec![RIGHT, WRONG], vec!["quote-wrong"]));
-    // Two words that hold in one row tell nothing.
+    // Two words that hold in the same row are ambiguous.
     let mut loose = claim.clone();
     loose["table"][0]["is"]["lands"] = json!("fall.low.map(z => z < 2)");
     assert_eq!(states(&table("is in the air"), &loose).0, [RIGHT, UNCLEAR]);
@@ -150,14 +150,14 @@ fn a_comment_is_about_the_block_that_follows() {
         let judged = judged(&checked, &format!("comment in line {line}"));
         assert_eq!(judged.quotes.iter().map(|q| q.verdict()).collect::<Vec<_>>(), ["verified"], "{block}");
     }
-    // Elsewhere the same text is another claim, which nobody makes.
+    // Elsewhere, the same text is another claim, which does not exist.
     let far = check_text("fall.md", &text("It falls.\n\nIt takes 0.440 s."));
     assert_eq!(codes(&far), ["quote-not-found"]);
     assert!(labspec::verify::claimed(&far.lesson).is_empty());
-    // A lie where the comment stands is found, also where the right number stands elsewhere.
+    // A false number at the comment is found, even if the right number is elsewhere.
     let lie = check_text("fall.md", &text("It takes 0.450 s.\n\nIt takes 0.440 s."));
     assert_eq!(codes(&lie), ["quote-not-found"]);
-    // What is wrong in a comment has its place.
+    // An error in a comment has a location.
     let broken = check_text("fall.md", &text("x").replace("\"says\"", "says"));
     assert!(codes(&broken).contains(&"json-syntax"), "{:?}", codes(&broken));
     let unknown = check_text("fall.md", &text("It takes 0.440 s.").replace("\"#1\"", "\"#7\""));
@@ -178,11 +178,11 @@ fn runs_and_measures_are_shared() {
     let judged = judged(&checked, "quiz q, question 1");
     assert_eq!(judged.answer.unwrap().verdict, Verdict::Verified);
     assert_eq!(judged.runs.iter().map(|r| r.name.as_str()).collect::<Vec<_>>(), ["earth", "moon"]);
-    // What both name is as it is here.
+    // A name that both objects define has the local meaning.
     let verify = json!({"use": "#1", "runs": {"moon": {"set": {"gravity": -3.24}, "until": 2}}, "value": "moon.lands"});
     let checked = check_text("fall.md", &text(verify));
     assert!(codes(&checked).contains(&"answer-refuted"), "{:?}", codes(&checked));
-    // One that is not there is told, and so is one that uses itself.
+    // A missing object is reported, and so is one that uses itself.
     let none = json!({"use": "#2", "lab": "#1", "value": "max(data.time)"});
     assert!(codes(&check_text("fall.md", &text(none))).contains(&"unknown-lab"));
     let itself = json!({"use": "#q.1", "lab": "#1", "value": "crossing(data.qpos[2] - 0.05)"});
@@ -226,7 +226,7 @@ fn a_lab_may_stand_in_another_lesson() {
     let checked = check("quiz.md");
     assert_eq!(codes(&checked), [] as [&str; 0]);
     assert_eq!(judged(&checked, "quiz q, question 1").answer.unwrap().verdict, Verdict::Verified);
-    // A change over there is a change here, at the place where it is named.
+    // A change of the other lesson changes the result here, with a finding where it is named.
     write(
         "labs.md",
         &format!("# Labs\n{}{}", lab(Value::Null), lab(Value::Null).replace("0 0 1", "0 0 0.9")),
@@ -245,7 +245,7 @@ fn a_lab_may_stand_in_another_lesson() {
         assert_eq!(checked.lesson.file.slice(found[0].span.clone()), format!("\"{name}\"").trim_matches('"'));
         assert_eq!(judged(&checked, "quiz q, question 1").answer.unwrap().verdict, Verdict::Failed);
     }
-    // Broken code over there is told there; here it is said that nothing could be checked.
+    // Invalid code in the other lesson is reported there; here, the finding states that nothing could be checked.
     write("quiz.md", &quiz("labs.md#1"));
     write("labs.md", &lab(Value::Null).replace("data.qpos[2]", "data.qpo[2]"));
     let checked = check("quiz.md");
@@ -255,7 +255,7 @@ fn a_lab_may_stand_in_another_lesson() {
 
 #[test]
 fn a_measure_may_look_at_the_sample_before() {
-    // It is fastest just before it is slowed down.
+    // Its speed is largest just before it is slowed down.
     let begins = "first(-data.qvel[2] < previous(-data.qvel[2]))";
     let claim = |expr: &str| {
         json!({"runs": {"earth": {"until": 1}}, "measure": {"slows": expr, "lands": "crossing(data.qpos[2] - 0.05)"},
@@ -263,7 +263,7 @@ fn a_measure_may_look_at_the_sample_before() {
     };
     let checked = check_text("fall.md", &format!("It slows as it lands.\n{}", lab(claim(begins))));
     assert_eq!(codes(&checked), [] as [&str; 0], "{:#?}", checked.claims[0].judgement.measures);
-    // Another measure within one is what it is so far.
+    // Inside a condition, another measure has its value so far.
     let far = "crossing(data.qpos[2], max(data.qpos[2]) - 0.1)";
     let claim =
         json!({"runs": {"earth": {"until": 1}}, "measure": {"far": far}, "says": [["0.143 s", "far"]]});
@@ -276,7 +276,7 @@ fn what_a_slider_shows_is_said() {
     let says = json!({"says": [["-9.810 m/s^2", "model.opt.gravity[2]"]]});
     let checked = check_text("fall.md", &format!("A ball falls.\n{}", lab(says.clone())));
     assert_eq!(codes(&checked), [] as [&str; 0]);
-    // It is not said where the slider shows another number.
+    // The quote does not match if the slider has another value.
     let other = check_text(
         "fall.md",
         &format!("A ball falls.\n{}", lab(says).replace("\"value\":-9.81", "\"value\":-9.8")),
@@ -284,11 +284,11 @@ fn what_a_slider_shows_is_said() {
     assert_eq!(codes(&other), ["quote-not-found"]);
 }
 
-/// Claims that would take for ever, or all memory, are told and not followed.
+/// Claims that would take too long or too much memory are reported and not evaluated.
 #[test]
 fn too_much_is_told() {
     let began = std::time::Instant::now();
-    // Twenty thousand objects that each use one of a megabyte.
+    // Many objects that each use one of a megabyte.
     let long = "1 + ".repeat(250_000) + "1";
     let mut text = lab(json!({"measure": {"long": long}, "says": [["1 m", "long"]]}));
     let users: String = (0..1500)
@@ -297,7 +297,7 @@ fn too_much_is_told() {
     text.push_str(&users);
     let checked = check_text("fall.md", &text);
     assert!(codes(&checked).contains(&"unknown-lab"), "{:?}", &codes(&checked)[..9]);
-    // More words than are looked for, in a long text.
+    // More words than the limit, in a long text.
     let words: Vec<Value> =
         (0..5000).map(|i| json!([format!("word {}", "x".repeat(1 + i % 300)), "1 < 2 * height"])).collect();
     let text = format!(

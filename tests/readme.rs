@@ -1,4 +1,4 @@
-//! What the README and the guides show is what the program does.
+//! The output in the README and the guides is the output of the program.
 
 #![allow(clippy::unwrap_used)]
 
@@ -26,14 +26,14 @@ fn file(name: &str) -> String {
 #[test]
 fn the_example_lessons_print_what_the_readme_shows() {
     let output = run(&["check", "specs/lessons"]);
-    // The last lesson and the sum of all; the others are many.
+    // The last lesson and the summary; the other lessons are too many.
     let last = output.rfind("\n\nspecs/lessons/").unwrap();
     let output = output[last..].trim();
     assert!(output.contains("no problems found"), "{output}");
     assert!(file("README.md").contains(output), "the README shows something else than\n{output}");
 }
 
-/// The lesson behind the three findings that the README shows.
+/// The lesson for the three findings in the README.
 const WRONG: &str = r#"```lab simlab
 {"model": "drop",
  "controls": [{"label": "mass", "apply": "model.body_mass[2] = value", "min": 1, "max": 5, "value": 2}],
@@ -77,7 +77,7 @@ fn the_picture_of_the_readme_is_of_the_lesson() {
     );
 }
 
-/// Every command that is not for engineers alone stands in the table.
+/// The table contains all commands that are not for engineers only.
 #[test]
 fn the_readme_names_every_command() {
     let help = run(&["--help"]);
@@ -95,14 +95,14 @@ fn the_readme_names_every_command() {
     assert!(count > 7, "{help}");
 }
 
-/// Rows of the first table of a page: the scene, and the numbers behind it.
+/// The rows of the first table of a page: the scene, and its numbers.
 fn rows(page: &str) -> Vec<Vec<String>> {
     let table = page.lines().skip_while(|l| !l.starts_with("| scene |")).skip(2);
     let cells = |l: &str| l.split('|').map(|c| c.trim().to_string()).filter(|c| !c.is_empty()).collect();
     table.take_while(|l| l.starts_with('|')).map(cells).collect()
 }
 
-/// The README shows some columns of the measurement, and changes none.
+/// The README contains some columns of the measurement without changes.
 #[test]
 fn the_speeds_of_the_readme_are_those_that_were_measured() {
     let (documented, measured) = (rows(&file("README.md")), rows(&file("docs/measured/speed.md")));

@@ -1,8 +1,8 @@
-//! Holding a model against its recording (`golden/recording.py`): compiled constants, forward passes and a trajectory
-//! for each integrator, all with constraints switched off on both sides.
+//! Comparison of a model with its recording (`golden/recording.py`): compiled constants, forward passes and a trajectory for
+//! each integrator, all with constraints disabled on both sides.
 //!
-//! Differences of computed fields are absolute for numbers up to 1 and relative above, by the largest recorded
-//! number of the field: a force of 1e4 N is not known to 1e-10 N by anyone. Constants are relative to their field.
+//! Differences of computed fields are absolute for numbers up to 1 and relative above, scaled by the largest recorded number of
+//! the field, because a force of 1e4 N cannot be accurate to 1e-10 N. Differences of constants are relative to their field.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -14,22 +14,22 @@ use serde_json::{Map, Value};
 use std::fmt;
 use std::path::Path;
 
-/// The compiler does no more than a few products and one diagonalization.
+/// The tolerance of the compiler, which performs only a few products and one diagonalization.
 const COMPILED: f64 = 1e-12;
-/// What is zero on one side may be rounding on the other.
+/// A value that is zero on one side may be a rounding error on the other.
 const COMPILED_ZERO: f64 = 1e-16;
-/// What the library keeps in single precision.
+/// The tolerance of values that the library stores in single precision.
 const SINGLE: f64 = 1e-6;
-/// One forward pass.
+/// The tolerance of a forward pass.
 const FORWARD: f64 = 1e-10;
-/// Two hundred steps.
+/// The tolerance after two hundred steps.
 const TRAJECTORY: f64 = 1e-9;
 
-/// Integrators by number.
+/// The integrators by number.
 const INTEGRATORS: [&str; 5] = ["Euler", "RK4", "implicit", "implicitfast", "discrete"];
 
-/// Where we are held against the library: trajectories from the default or first keyframe, and from a state in which
-/// everything moves.
+/// The aspects that are compared: trajectories start from the default or first keyframe, and from a state
+/// in which everything moves.
 pub(crate) const ASPECTS: [&str; 12] = [
     "compile",
     "forward",
@@ -45,7 +45,7 @@ pub(crate) const ASPECTS: [&str; 12] = [
     "discrete, moving",
 ];
 
-/// One number that is not theirs.
+/// A number that differs.
 #[derive(Clone, Debug)]
 pub(crate) struct Difference {
     /// `state 3`, `step 40`; empty for constants.
@@ -65,17 +65,17 @@ impl fmt::Display for Difference {
     }
 }
 
-/// How one aspect of a model came out.
+/// The result for one aspect of a model.
 #[derive(Clone, Debug)]
 pub(crate) enum Verdict {
-    /// Within the tolerance; the largest difference.
+    /// Within the tolerance, with the largest difference.
     Same(f64),
-    /// Further apart than the tolerance, but no further than the library is from itself when its start moves by 1e-14,
-    /// or its coordinates by their last bit for one forward pass: the difference and the library's own.
+    /// The difference exceeds the tolerance, but not the difference of the library from itself when its start moves by 1e-14
+    /// (for one forward pass, when its coordinates change in the last bit): our difference, and the library's own.
     Sensitive(f64, f64),
-    /// The library itself cannot: its message.
+    /// The library itself fails, with this message.
     Refused(String),
-    /// Numbers beyond the tolerance, the worst of each field.
+    /// Numbers outside the tolerance, the worst one of each field.
     Differs(Vec<Difference>),
 }
 
@@ -85,7 +85,7 @@ impl Verdict {
     }
 }
 
-/// A word for a table.
+/// The word in a table.
 impl fmt::Display for Verdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -102,10 +102,10 @@ impl fmt::Display for Verdict {
     }
 }
 
-/// How a model came out: an aspect each, or why it does not load.
+/// The result for a model: a verdict for each aspect, or the reason why it does not load.
 pub(crate) type Outcome = Result<Vec<Verdict>, String>;
 
-/// Loads a model and holds it against its recording.
+/// Loads a model and compares it with its recording.
 pub(crate) fn compare_with_recording(model: &Path, recording: &Value) -> Outcome {
     let m = compile_unconstrained(model).map_err(|list| reason(&list))?;
     let mut verdicts = vec![compiled(&m, &recording["compiled"]), forward(&m, &recording["forward"])];
@@ -166,8 +166,8 @@ fn compiled(m: &Model, recording: &Value) -> Verdict {
     Verdict::from_differences(found, worst)
 }
 
-/// Hulls are found in another order, and flat sides of more than three corners are cut otherwise: what counts is which
-/// vertices they have.
+/// The library lists hulls in another order, and splits flat faces with more than three corners differently, so only
+/// their vertices are compared.
 fn without_order(field: &str, list: Vec<f64>) -> Vec<f64> {
     let mut vertices: Vec<f64> = Vec::new();
     match field {
@@ -188,7 +188,7 @@ fn without_order(field: &str, list: Vec<f64>) -> Vec<f64> {
     vertices
 }
 
-/// The kind of object that MuJoCo calls by this name.
+/// The kind of object with this name in MuJoCo.
 fn obj(kind: &str) -> Option<Obj> {
     Some(match kind {
         "body" => Obj::Body,
@@ -249,7 +249,7 @@ fn forward(m: &Model, states: &Value) -> Verdict {
             hold(&field, &ours, &theirs);
         }
     }
-    // The first state in which a field differs says enough.
+    // Only the first state in which a field differs is reported.
     let mut seen = std::collections::HashSet::new();
     found.retain(|d: &Difference| seen.insert(d.field.clone()));
     match sensitive {
@@ -258,7 +258,7 @@ fn forward(m: &Model, states: &Value) -> Verdict {
     }
 }
 
-/// What is computed on request, in the order of the recording, each beside what the library computed.
+/// Quantities that are computed on request, in the order of the recording, each with our value and that of the library.
 fn on_request(m: &Model, d: &mut Data, row: &Value) -> Vec<(String, Vec<f64>, Vec<f64>)> {
     let vector: Vec<f64> = (0..m.nv).map(|i| (7 * i % 5) as f64 - 2.0).collect();
     let mut out = Vec::new();
@@ -281,7 +281,7 @@ fn on_request(m: &Model, d: &mut Data, row: &Value) -> Vec<(String, Vec<f64>, Ve
     let mut m = m.clone();
     m.set_enabled(enable::INVDISCRETE, true);
     for (name, values) in objects(&row["inverse"]) {
-        // The library counts dampers here that the flag switches off: it would not undo its own step.
+        // The library includes dampers that the flag disables here, so that the result is not the inverse of its own step.
         if name == "Euler" && m.opt.disabled(disable::DAMPER) {
             continue;
         }
@@ -293,7 +293,7 @@ fn on_request(m: &Model, d: &mut Data, row: &Value) -> Vec<(String, Vec<f64>, Ve
     out
 }
 
-/// What a function gives for the vector, point and bodies of the recorder.
+/// The result of a function for the vector, point and bodies of the recorder.
 fn function(m: &Model, d: &mut Data, name: &str, vector: &[f64]) -> Vec<f64> {
     let body = m.nbody - 1;
     let at = &d.xpos[3 * body..];
@@ -330,10 +330,10 @@ fn function(m: &Model, d: &mut Data, name: &str, vector: &[f64]) -> Vec<f64> {
     out
 }
 
-/// Moments of actuators: which entries are kept depends on which are rounded to zero.
+/// The sparse moments of actuators: which entries are stored depends on which are rounded to zero.
 const MOMENTS: [&str; 4] = ["moment_rownnz", "moment_rowadr", "moment_colind", "actuator_moment"];
 
-/// The matrix of what [`MOMENTS`] names, with zeros.
+/// The dense matrix of the entries in [`MOMENTS`].
 fn dense([number, address, column, value]: &[Vec<f64>; 4], nv: usize) -> Vec<f64> {
     let mut out = vec![0.0; number.len() * nv];
     for (row, (&n, &start)) in out.chunks_mut(nv.max(1)).zip(number.iter().zip(address)) {
@@ -344,9 +344,9 @@ fn dense([number, address, column, value]: &[Vec<f64>; 4], nv: usize) -> Vec<f64
     out
 }
 
-/// How far beyond the spread of the library's own sixteen runs ours may end. If it were one of them it would be the
-/// farthest in one case of seventeen; twice as far is another matter. It counts only where the library parts from itself
-/// by more than the tolerance.
+/// How far our run may be outside the spread of sixteen runs of the library. If our run had the same distribution, it would be
+/// the farthest in one case of seventeen, and twice as far very rarely. This applies only if the library differs from itself by
+/// more than the tolerance.
 const SPREAD: f64 = 2.0;
 
 /// Follows a recorded trajectory from its start.
@@ -372,7 +372,7 @@ pub(crate) fn trajectory(m: &Model, start: &Value, recording: &Value, tolerance:
             apart = apart.max(note(&mut found, &place, field, &ours, &theirs, scale, tolerance));
         }
         if !found.is_empty() {
-            // What follows a difference follows from it.
+            // Later differences follow from the first one.
             return if apart <= SPREAD * spread[k] {
                 Verdict::Sensitive(apart, spread[k])
             } else {
@@ -384,7 +384,7 @@ pub(crate) fn trajectory(m: &Model, start: &Value, recording: &Value, tolerance:
     Verdict::from_differences(warnings(&d, &recording["warnings"]), worst)
 }
 
-/// Warnings that were raised another number of times.
+/// Warnings with a different count.
 fn warnings(d: &Data, recording: &Value) -> Vec<Difference> {
     let count = |w: Warning| {
         let mut named =
@@ -399,21 +399,21 @@ fn warnings(d: &Data, recording: &Value) -> Vec<Difference> {
     found
 }
 
-/// Puts the data into a recorded state.
+/// Sets the data to a recorded state.
 pub(crate) fn set(m: &Model, d: &mut Data, state: &Value) {
     start(m, d);
-    // Only data are written, but reflection wants both.
+    // Only data are written, but reflection requires both.
     let mut m = m.clone();
     for (field, values) in objects(state) {
         let id = named(Object::Data, field);
         for (i, x) in numbers(values).into_iter().enumerate() {
-            // A model that was not compiled to the same sizes is told elsewhere.
+            // A model that was compiled to other sizes is reported elsewhere.
             core::view_mut(&mut m, d, id).unwrap().set(i, x);
         }
     }
 }
 
-/// The first keyframe, or the default configuration.
+/// Sets the first keyframe, or the default configuration.
 pub(crate) fn start(m: &Model, d: &mut Data) {
     match m.keys().next() {
         Some(key) => core::reset_data_keyframe(m, d, key).unwrap(),
@@ -421,7 +421,7 @@ pub(crate) fn start(m: &Model, d: &mut Data) {
     }
 }
 
-/// The field of a recording; a recording that has what ours lacks says so, or nobody would look at it.
+/// The field of a recording. A field that we do not have is a failure, because it would otherwise not be compared.
 pub(crate) fn named(object: Object, name: &str) -> FieldId {
     reflect::field(object, name)
         .unwrap_or_else(|| panic!("the recording has `{name}`, which is no field here"))
@@ -433,7 +433,7 @@ pub(crate) fn list<S: Scope>(m: &Model, d: &Data<S>, field: FieldId) -> Vec<f64>
     (0..view.len()).filter_map(|i| view.get(i)).collect()
 }
 
-/// The members of an object, none when it is no object.
+/// The members of an object; empty if the value is not an object.
 pub(crate) fn objects(value: &Value) -> impl Iterator<Item = (&String, &Value)> {
     value.as_object().into_iter().flat_map(Map::iter)
 }
@@ -442,8 +442,8 @@ fn largest(list: &[f64]) -> f64 {
     list.iter().fold(0.0, |s, x| s.max(x.abs()))
 }
 
-/// The place of the largest difference and that difference over `scale`; infinite when the lengths differ or a number
-/// is none.
+/// The index of the largest difference, and that difference divided by `scale`; infinite if the lengths
+/// differ or a number is NaN.
 pub(crate) fn worst(ours: &[f64], theirs: &[f64], scale: f64) -> (usize, f64) {
     if ours.len() != theirs.len() {
         return (ours.len().min(theirs.len()), f64::INFINITY);
@@ -459,7 +459,7 @@ pub(crate) fn worst(ours: &[f64], theirs: &[f64], scale: f64) -> (usize, f64) {
     at
 }
 
-/// Adds the worst difference of a field when it is beyond the tolerance, and returns it.
+/// Adds the worst difference of a field if it exceeds the tolerance, and returns it.
 fn note(
     found: &mut Vec<Difference>,
     place: &str,

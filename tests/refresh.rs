@@ -1,5 +1,5 @@
-//! Masses that change without `mj_setConst`, controls that a reset undoes, labs that are meant to break: each verdict
-//! is earned by running, and each advice was run.
+//! Masses that change without `mj_setConst`, controls that a reset undoes, labs that are meant to fail: each finding depends on
+//! a run, and each recommendation was tested in a run.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -19,7 +19,7 @@ const ARM: &str = "<mujoco><compiler angle='radian'/><worldbody><geom name='floo
   <body name='fore' pos='0.4 0 0'><joint name='b' axis='0 1 0' damping='1' range='-1 1' limited='true'/><geom type='capsule' fromto='0 0 0 0.4 0 0' size='0.03' mass='1'/>
   </body></body></worldbody><keyframe><key qpos='0.5 0.3'/></keyframe></mujoco>";
 
-/// A pendulum that touches nothing.
+/// A pendulum without contacts.
 const PENDULUM: &str = "<mujoco><worldbody><body name='bob' pos='0 0 1'><joint name='hinge' axis='0 1 0'/>
   <geom size='0.05' pos='0.3 0 0' mass='1'/></body></worldbody></mujoco>";
 
@@ -31,7 +31,7 @@ fn slider(more: &Json) -> Json {
 
 fn found(lab: &Json) -> Vec<Finding> {
     let mut all = check_text("lab.json", &lab.to_string()).findings;
-    // What other rules say of masses and of steep springs.
+    // Findings of other rules about masses and stiff springs.
     all.retain(|f| !["mass-alone", "mjcf-too-fast"].contains(&f.code));
     all
 }
@@ -43,7 +43,7 @@ fn only(lab: &Json) -> Finding {
     all[0].clone()
 }
 
-/// Applies the fix of the only finding: the lab is still JSON, and nothing is left to say.
+/// Applies the fix of the only finding: the lab is still valid JSON, and there is no finding left.
 fn fixed(lab: &Json) -> String {
     let (mut text, fix) = (lab.to_string(), only(lab).fix.unwrap());
     text.replace_range(fix.span, &fix.text);
@@ -65,7 +65,7 @@ fn a_mass_that_shows_is_said_with_its_evidence() {
     let why = finding.why.unwrap();
     assert!(why.contains("with \"mass\" at 5, \"depth (mm)\" is "), "{why}");
     assert!(why.contains(" with the constants recomputed"), "{why}");
-    // A `set` is a target: nothing can be written behind it.
+    // A `set` is a target: no statement can be added after it.
     assert_eq!(finding.fix, None);
     let help = finding.help.unwrap();
     assert!(help.contains("\"apply\": \"model.body_mass[2] = value; const q = data.qpos.slice(); mj.mj_setConst(model, data); data.qpos.set(q)\""), "{help}");
@@ -73,7 +73,7 @@ fn a_mass_that_shows_is_said_with_its_evidence() {
 
 #[test]
 fn what_shows_nowhere_is_not_said() {
-    // Without contacts, limits or friction, nothing that follows from an inertia is ever used.
+    // Without contacts, limits or friction, no field that depends on an inertia is used.
     for (key, text) in [("set", "model.dof_armature[0]"), ("apply", "model.dof_armature[0] = value")] {
         let lab = json!({
             "xml": PENDULUM, "controls": [slider(&json!({key: text}))],
@@ -81,7 +81,7 @@ fn what_shows_nowhere_is_not_said() {
         });
         assert_eq!(found(&lab), []);
     }
-    // The same with an arm in the air that is posed by a key.
+    // The same with an arm in the air that a keyframe poses.
     let lab = json!({
         "xml": ARM.replace("type='plane'", "type='plane' pos='0 0 -5'"), "key": 0, "stopAt": 0.2,
         "controls": [slider(&json!({"apply": "model.dof_armature.fill(value); model.body_mass[2] = value"}))]
@@ -103,13 +103,13 @@ fn an_arm_posed_by_a_key_keeps_its_pose() {
 
 #[test]
 fn the_plain_call_is_advised_where_it_was_seen_to_be_right() {
-    // From the reference, and reset after every change: qpos is not there to be lost.
+    // Starting from the reference pose, and reset after every change, so that qpos cannot be lost.
     let lab =
         drop(&json!([slider(&json!({"apply": "model.body_mass[2] = value;", "value": 0.1, "reset": true}))]));
     let help = only(&lab).help.unwrap();
     assert!(help.starts_with("add `mj.mj_setConst(model, data)`; in a test run"), "{help}");
     assert!(!fixed(&lab).contains("slice"));
-    // Moved in mid-run it would throw the ball back to its start.
+    // If it were moved during a run, the ball would jump back to its start.
     let lab = drop(&json!([slider(&json!({"apply": "model.body_mass[2] = value // kg", "value": 0.1}))]));
     assert!(only(&lab).help.unwrap().contains("data.qpos.slice()"));
     fixed(&lab);
@@ -147,7 +147,7 @@ fn the_setup_of_a_verified_run_is_held_to_the_same() {
     let finding = only(&lab);
     assert!(finding.why.unwrap().contains("in the run `heavy`, "), "{:?}", finding.help);
     fixed(&lab);
-    // Beside the run that does it right, the difference is what is shown.
+    // Compared with the correct run, the difference is intended.
     let right = "model.body_mass[2] = 5; mj.mj_setConst(model, data)";
     lab["verify"]["runs"] = json!({
         "right": {"setup": right, "until": 1}, "forgotten": {"setup": "model.body_mass[2] = 5", "until": 1}
@@ -155,7 +155,7 @@ fn the_setup_of_a_verified_run_is_held_to_the_same() {
     assert_eq!(found(&lab), []);
     lab["verify"]["runs"]["right"]["setup"] = json!("data.qvel[0] = 1");
     only(&lab);
-    // Nothing is read that follows from this one.
+    // No field that depends on this one is read.
     lab["verify"]["runs"] = json!({});
     lab["xml"] = json!(PENDULUM);
     lab["readouts"] = json!([]);
@@ -175,7 +175,7 @@ fn what_could_not_be_tried_says_so() {
     assert_eq!(finding.fix, None);
 }
 
-/// What the advice does is what the engine's own state functions do.
+/// The recommended code has the same effect as the engine's own state functions.
 #[test]
 fn keeping_qpos_is_keeping_the_state() {
     for xml in [model_text("ball_drop"), ARM.to_string()] {
@@ -213,7 +213,7 @@ fn lost_at_reset_is_not_hidden_by_an_unrelated_call() {
     ] {
         assert_eq!(lost(&format!("data.ctrl[0] = value{call}")), ["lost-at-reset"], "{call}");
     }
-    // A start of its own, and what mj_setConst moves and an author puts back.
+    // A separate start, and values that mj_setConst changes and the author restores.
     assert_eq!(lost("mj.mj_resetData(model, data); data.qvel[0] = value"), Vec::<&str>::new());
     let keep = "model.body_mass[1] = value; const q = data.qpos.slice(); mj.mj_setConst(model, data); data.qpos.set(q)";
     assert_eq!(lost(keep), Vec::<&str>::new());
@@ -239,7 +239,7 @@ fn apply_beside_set_is_dead() {
     assert_eq!(codes, ["apply-unused"]);
 }
 
-/// A spring that no step of this length can follow.
+/// A spring that is too stiff for this timestep.
 fn spring(timestep: &str, more: &Json) -> Vec<&'static str> {
     let xml = format!(
         "<mujoco><option timestep='{timestep}' integrator='Euler'><flag eulerdamp='disable'/></option><worldbody><body><joint type='slide' stiffness='1000'/><geom size='0.1' mass='0.1'/></body></worldbody></mujoco>"

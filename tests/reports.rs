@@ -1,5 +1,5 @@
-//! Reports are contracts: whatever the program prints for programs, in any test, is what `docs/reports.md` and the schemas of
-//! `docs/schema` promise.
+//! Reports are contracts: all output for programs, in any test, must be valid according to `docs/reports.md` and the
+//! schemas of `docs/schema`.
 
 use crate::program::{folder, json_of, run_in};
 use crate::support::report::hold_value;
@@ -8,7 +8,7 @@ use crate::support::workspace;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 
-/// Every key of a schema is in one style, says what it holds, and each schema is of one report.
+/// All keys of a schema have one style and a description, and each schema is for one report.
 #[test]
 fn schemas_describe_every_key() {
     fn check_properties(file: &str, schema: &Value, keys: &mut BTreeSet<String>) {
@@ -45,7 +45,7 @@ fn schemas_describe_every_key() {
     assert!(keys.len() > 80, "{}", keys.len());
 }
 
-/// The promise can be broken: each of these reports is refused.
+/// The schemas can be violated: each of these reports is refused.
 #[test]
 fn a_report_that_breaks_its_promise_is_refused() {
     let good = json_of(&["check", "clean.md", "--format", "json"]);
@@ -78,7 +78,7 @@ fn a_report_that_breaks_its_promise_is_refused() {
     }
 }
 
-/// A lab whose numbers are none, whose texts and truth values stand beside them, and that throws.
+/// A lab with values that are NaN, next to strings and booleans, and with a program that fails.
 fn odd_lab() -> String {
     json!({
         "model": "free_fall",
@@ -93,7 +93,7 @@ fn odd_lab() -> String {
     .to_string()
 }
 
-/// A lab that breaks, with a prediction about it.
+/// A lab that fails, with a prediction about it.
 fn broken_lab() -> String {
     json!({"model": "free_fall", "stopAt": 0.1, "setup": "data.qvel[2] = 1e11",
         "plots": [{"traces": [{"label": "height", "expr": "data.qpos[2]"}]}],
@@ -102,7 +102,7 @@ fn broken_lab() -> String {
     .to_string()
 }
 
-/// Every report once with findings, once without, and once for a lab that breaks. Each passes [`hold`] in `run_in`.
+/// Every report once with findings, once without, and once for a lab that fails. Each is validated by [`hold`] in `run_in`.
 #[test]
 fn every_report_keeps_its_promise() {
     let folder = folder();
@@ -164,7 +164,7 @@ fn every_report_keeps_its_promise() {
             let outcome = ["clean", "findings", "nothing"][code as usize];
             assert_eq!(report["summary"]["outcome"], outcome, "{arguments:?}");
         }
-        // Nothing of this machine: what was named relatively is told relatively.
+        // The output does not depend on the machine: relative paths remain relative.
         let place = here.to_string_lossy().into_owned();
         let real = here.canonicalize().unwrap().to_string_lossy().into_owned();
         assert!(
@@ -172,7 +172,7 @@ fn every_report_keeps_its_promise() {
             "{arguments:?}\n{}",
             done.stdout
         );
-        // And nothing of this moment, where no time was asked for.
+        // The output does not depend on the time, unless times are measured.
         let measures =
             matches!(arguments[0], "bench" | "precision" | "plan") && !arguments.contains(&"--no-run");
         if !measures {
@@ -198,7 +198,7 @@ fn numbers_that_are_none_are_named() {
     assert_eq!(lines, ["0,NaN,Infinity,0,false,", "0.002,NaN,-Infinity,down,true,"]);
 }
 
-/// Bytes, lines and the ranges of editors lead to the same text of a lesson, in whatever it is written.
+/// Bytes, lines and editor ranges identify the same text of a lesson, for any encoding of characters and line ends.
 #[test]
 fn places_lead_to_their_text() {
     let folder = folder();
@@ -210,7 +210,7 @@ fn places_lead_to_their_text() {
     let number = |at: &str| finding.pointer(at).and_then(Value::as_u64).unwrap() as usize;
     let text = &lesson[number("/start")..number("/end")];
     assert!(text.contains("modle"), "{text}");
-    // An editor has the text without its mark, in units of UTF-16.
+    // The editor's text has no byte-order mark, and counts UTF-16 code units.
     let lines: Vec<Vec<u16>> = lesson[3..].split("\r\n").map(|l| l.encode_utf16().collect()).collect();
     let line = &lines[number("/range/start/line")];
     let part = &line[number("/range/start/character")..number("/range/end/character")];
@@ -220,7 +220,7 @@ fn places_lead_to_their_text() {
     assert_eq!(part, text);
 }
 
-/// The guide for people who write such programs: its files, its commands, and what they print.
+/// The guide for programs that read reports: its files, its commands, and their output.
 #[test]
 fn the_examples_of_the_guide_are_real() {
     let guide = std::fs::read_to_string(workspace().join("docs/reports.md")).unwrap();
@@ -252,7 +252,7 @@ fn the_examples_of_the_guide_are_real() {
                     unmeasured(&mut report);
                     serde_json::to_string_pretty(&report).unwrap()
                 };
-                // Texts, because the order of keys is part of the promise.
+                // Compared as text, because the order of keys is part of the format.
                 similar(command, &comparable(&inside.join("\n")), &comparable(&done.stdout));
                 documented.insert(arguments[0].to_string());
             }
@@ -263,7 +263,7 @@ fn the_examples_of_the_guide_are_real() {
     assert_eq!(documented, all);
 }
 
-/// Run times and the version are of the machine and of the day.
+/// Removes run times and the version, which depend on the machine and the date.
 fn unmeasured(value: &mut Value) {
     for (key, value) in value.as_object_mut().into_iter().flatten() {
         match key.as_str() {
@@ -272,7 +272,7 @@ fn unmeasured(value: &mut Value) {
                 *value = json!(0)
             }
             "version" => *value = json!(""),
-            // What follows from run times.
+            // Values that depend on run times.
             "repeats" | "front" | "advice" => *value = json!([]),
             _ => unmeasured(value),
         }
@@ -280,14 +280,14 @@ fn unmeasured(value: &mut Value) {
     value.as_array_mut().into_iter().flatten().for_each(unmeasured);
 }
 
-/// The first line in which two texts differ.
+/// Compares two texts, and reports the first line that differs.
 fn similar(what: &str, documented: &str, real: &str) {
     let mut lines = documented.lines().zip(real.lines());
     let differ = lines.find(|(documented, real)| documented != real);
     assert!(documented == real, "{what}: the guide shows {differ:?}, in\n{real}");
 }
 
-/// Numbers of every pattern of bits, written as literals into a lab, come out of the program as they went in.
+/// Numbers with arbitrary bits, written as literals into a lab, are preserved by the program.
 #[test]
 fn every_bit_survives_the_program() {
     let folder = folder();

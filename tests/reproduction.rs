@@ -1,4 +1,4 @@
-//! `labspec check --record FILE`: what a verdict rests on; and `--since FILE`: what has changed, and what changed with it.
+//! `labspec check --record FILE` writes the basis of every verdict; `--since FILE` reports changed results and their causes.
 
 #![allow(clippy::unwrap_used)]
 
@@ -14,7 +14,7 @@ const MODEL: &str = "<mujoco><option integrator='RK4' density='1.2'/><worldbody>
     <body pos='0 0 1'><freejoint/><geom name='ball' size='.1' mass='1' solref='0.01 1' condim='4'/><geom size='.05' mass='1'/></body>\
     </worldbody></mujoco>";
 
-/// A question about a fall, with a run at a timestep of its own and one with a heavier ball.
+/// A question about a fall, with a run at another timestep and one with a heavier ball.
 fn lesson() -> String {
     let lab = json!({"title": "A fall", "model": "ball", "stopAt": 0.3,
         "controls": [{"label": "timestep h", "set": "model.opt.timestep", "min": 0.001, "max": 0.02, "step": 0.001, "value": 0.002}],
@@ -49,7 +49,7 @@ fn record(folder: &Path, arguments: &[&str]) -> Value {
     read_json(&folder.join("records/now.json"))
 }
 
-/// What `--since` tells programs, and the exit code.
+/// The output of `--since` for programs, and the exit code.
 fn since(folder: &Path) -> (i32, Value) {
     let done = run_in(folder, &["check", "lessons", "--since", "records/now.json", "--format", "json"]);
     let report: Value = serde_json::from_str(&done.stdout).unwrap();
@@ -86,7 +86,7 @@ fn a_record_says_what_every_verdict_rests_on() {
         coarse["contacts"],
         json!({"ball": {"condim": [4.0], "solref": [0.01, 1.0]}, "floor": {"friction": [0.5, 0.005, 0.0001]}})
     );
-    // The runs change the model, each in its own way; as it stands the lab changes nothing.
+    // The runs change the model in different ways; the unchanged lab changes nothing.
     assert!(coarse["model"] != heavy["model"] && heavy["model"] != lab["model"]);
     assert_eq!(lesson["labs"][0]["model"], claim["model"]);
     assert_eq!(
@@ -100,7 +100,7 @@ fn a_record_says_what_every_verdict_rests_on() {
     assert_eq!((state("answer"), state("quotedNumber")), (json!("verified"), json!("verified")));
 }
 
-/// The same bytes with one thread and with four, from a result that was kept and from a new one, whatever the folder is called.
+/// The record has the same bytes with one thread and with four, with a cached and with a new result, and in any folder.
 #[test]
 fn a_record_is_the_same_everywhere() {
     let text = |arguments: &[&str]| {
@@ -129,7 +129,7 @@ fn nothing_has_changed_since_the_same_check() {
     assert!(done.stdout.contains("nothing has changed since records/now.json"), "{}", done.stdout);
 }
 
-/// A setting of a run, and what came of it: the value by how much, the verdict.
+/// A changed setting of a run, and its effects: the difference of the value, and the verdict.
 #[test]
 fn a_setting_that_changed_is_told_with_what_it_changed() {
     let folder = folder();
@@ -154,11 +154,11 @@ fn a_setting_that_changed_is_told_with_what_it_changed() {
         (&json!(0.02), &json!(0.01), &json!(-0.01))
     );
     assert!(change["causes"].as_array().unwrap().iter().any(|c| c["what"] == "the text"));
-    // The verdict is what it was.
+    // The verdict has not changed.
     assert!(!change["effects"].as_array().unwrap().iter().any(|e| e["what"] == "answer"), "{change}");
 }
 
-/// A model that changed: the verdicts that are others now, and by how much a number is off.
+/// A changed model: the changed verdicts, and the differences of numbers.
 #[test]
 fn a_model_that_changed_is_told_with_what_it_changed() {
     let folder = folder();
@@ -184,7 +184,7 @@ fn a_model_that_changed_is_told_with_what_it_changed() {
     snapshot("since-model", comparison.join("\n"));
 }
 
-/// What is no record is refused with what to do, and nothing that is read is overwritten.
+/// A file that is not a record is refused with advice, and no input is overwritten.
 #[test]
 fn a_file_that_is_no_record_is_refused() {
     let folder = folder();
@@ -203,7 +203,7 @@ fn a_file_that_is_no_record_is_refused() {
             done.stderr
         );
     }
-    // Below the head every key has its type, or the file is refused: nothing panics.
+    // After the head, every key must have its type; otherwise the file is refused, without a panic.
     let good = record(folder.path(), &[]);
     for lessons in [
         json!([1, null, {"file": 7}]),

@@ -1,4 +1,4 @@
-//! Every rule has two examples, and both are executed: the wrong one breaks the rule, the right one breaks none.
+//! Every rule has two examples, and both are executed: the wrong one violates the rule, the right one violates no rule.
 
 #![allow(clippy::unwrap_used)]
 
@@ -7,10 +7,10 @@ use labspec::rules::{self, Rule, example};
 use labspec_finding::{Example, Layer};
 use std::ops::Range;
 
-/// A finding: its code, the file, its bytes there.
+/// A finding: its code, the file, and its byte range.
 type Found = (String, String, Range<usize>);
 
-/// What checking an example finds, and all that the program says.
+/// The findings of a check of an example, and all output of the program.
 fn found(example: &Example) -> (Vec<Found>, String) {
     let folder = tempfile::tempdir().unwrap();
     let files = example::files(example);
@@ -23,16 +23,16 @@ fn found(example: &Example) -> (Vec<Found>, String) {
         }
     }
     for model in ["ball", "pendulum"] {
-        // What lessons name in passing; a rule about models brings its own.
+        // Models that lessons use; a rule about models has its own.
         if matches!(example, Example::Lesson(_) | Example::Lab(_) | Example::Quiz(_) | Example::Json(_)) {
             std::fs::create_dir_all(folder.path().join("models")).unwrap();
             std::fs::write(folder.path().join(format!("models/{model}.xml")), example::MODEL).unwrap();
         }
     }
-    // Beside it a lesson in order: where nothing at all could be read there is no report.
+    // A correct lesson next to it, because there is no report if nothing could be read.
     std::fs::write(folder.path().join("other.md"), "A lesson in order.\n").unwrap();
     let mut arguments = vec!["check", "--format", "json", &files[0].0, "other.md"];
-    // What the real library has recorded is a file that is named.
+    // The recording of the real library is a file that an option names.
     if files.iter().any(|(name, _)| name == "judge.json") {
         arguments.extend(["--judge", "judge.json"]);
     }
@@ -51,10 +51,10 @@ fn start(text: &str, most: usize) -> String {
     text.chars().take(most).collect()
 }
 
-/// What is no place in the text of the file that is checked.
+/// Rules whose finding has no location in the checked file.
 const WITHOUT_A_PLACE: [&str; 1] = ["model-unreadable"];
 
-/// The examples of one layer do what they say.
+/// Checks the examples of one layer.
 fn hold(layer: Layer) {
     let mut wrong = Vec::new();
     for Rule { code, bad, good, .. } in rules::all().filter(|rule| rule.layer == layer) {
@@ -105,8 +105,8 @@ fn every_rule_says_why() {
     }
 }
 
-/// A scene whose mass matrix is constant is not looked at in every step: that a lab makes it negative is told all the same, as
-/// MuJoCo 3.14.0 does (101 warnings of inertia in 100 steps).
+/// A scene with a constant mass matrix is not checked in every step. Still, a negative matrix is reported, as in MuJoCo 3.14.0
+/// (101 warnings of inertia in 100 steps).
 #[test]
 fn an_inertia_that_a_lab_takes_away_is_told() {
     let lab = |setup: &str| {

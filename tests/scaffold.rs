@@ -1,4 +1,4 @@
-//! `labspec scaffold`: objects for real questions verify as they are proposed, and a wrong key gets none.
+//! `labspec scaffold`: proposals for real questions verify without changes, and a wrong key gets none.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -26,8 +26,8 @@ fn verified(found: &ScaffoldOutcome) -> bool {
     matches!(found, ScaffoldOutcome::Proposed { verdict: Some((Verdict::Verified, _)), .. })
 }
 
-/// The `predict` questions of a public course and of a first lesson: each block verifies without an edit; with the key moved to any
-/// other option nothing is proposed that would verify it.
+/// The `predict` questions of a public course and of a first lesson: each proposal verifies without an edit; with the key moved
+/// to any other option, nothing is proposed that would verify it.
 #[test]
 fn predictions_of_real_lessons_are_scaffolded() {
     if !needs("../shared/corpus") {
@@ -100,7 +100,7 @@ fn words_of_change_move_a_control() {
     assert_eq!(verdict.as_ref().map(|(v, _)| *v), Some(Verdict::Verified), "{verify:#} {verdict:?}");
     assert!(undecided.is_empty() && values.len() == 2 && values[1].1 > values[0].1, "{values:?}");
     assert!(verify["runs"].as_object().unwrap().values().any(|r| r["set"]["gravity"] == 5.0), "{verify:#}");
-    // What is written is read, and nothing else has changed.
+    // The written objects are parsed, and nothing else has changed.
     let text = written(&lesson, &all);
     let again = load_lesson(SourceFile::new("fall.md", text.as_str()), &ModelFolder::unknown());
     assert_eq!(

@@ -1,7 +1,7 @@
-//! The models of our own lessons (`specs/models`) against what MuJoCo 3.14.0 computes for them: `golden/course.py` records.
+//! The models of our own lessons (`specs/models`), compared with the results of MuJoCo 3.14.0; recorded by `golden/course.py`.
 //!
-//! Constants, forward passes and all integrators without constraints, as the zoo has them; then runs with everything
-//! switched on, as the lessons set them. Differences are absolute for numbers up to 1 and relative above.
+//! Constants, forward passes and all integrators without constraints, as for the zoo; then runs with all features, with the
+//! settings of the lessons. Differences are absolute for numbers up to 1 and relative above.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -13,9 +13,9 @@ use labspec_core::{self as core, Data, Model, xml};
 use serde_json::Value;
 use std::path::PathBuf;
 
-/// How far a run may end from the library's. Its solver stops where an improvement falls below 1e-8.
+/// The tolerance of a run. The library's solver stops when an improvement falls below 1e-8.
 const RUN: f64 = 1e-6;
-/// The same for forces, which a stiff contact makes of the places.
+/// The tolerance of forces, which a stiff contact derives from the positions.
 const FORCE: f64 = 1e-4;
 
 fn folder() -> PathBuf {
@@ -35,7 +35,7 @@ fn every_model_of_the_lessons_is_as_recorded() {
     standing.check(None, &[]);
 }
 
-/// Writes what a run sets: a field of the model, of its options or of the data.
+/// Writes the settings of a run: fields of the model, of its options or of the data.
 fn write(m: &mut Model, d: &mut Data, settings: &Value) {
     for setting in settings.as_array().unwrap() {
         let name = setting[0].as_str().unwrap();
@@ -50,7 +50,7 @@ fn write(m: &mut Model, d: &mut Data, settings: &Value) {
     }
 }
 
-/// Follows a recorded run; what differs, in words.
+/// Follows a recorded run; returns the differences in words.
 fn follow(m: &mut Model, run: &Value) -> Vec<String> {
     let mut d = Data::new(m);
     write(m, &mut d, &run["set"]);

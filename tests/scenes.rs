@@ -1,5 +1,4 @@
-//! Random scenes for the property tests: trees of bodies with every type of joint, spheres, limits, springs,
-//! and what may stand around them.
+//! Random scenes for property tests: trees of bodies with every type of joint, spheres, limits, springs, and other elements.
 
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -8,7 +7,7 @@ use std::fmt::Write;
 /// Three numbers in a cube around zero.
 type Triple = (f64, f64, f64);
 
-/// Sensors that any scene may have: together they need the results of every stage.
+/// Sensors that any scene may have; together they need the results of all stages.
 pub(crate) const SENSORS: [&str; 22] = [
     "<clock/>",
     "<framepos objtype='body' objname='b0'/>",
@@ -34,7 +33,7 @@ pub(crate) const SENSORS: [&str; 22] = [
     "<user dim='1'/>",
 ];
 
-/// A joint other than a free one.
+/// A joint other than a free joint.
 #[derive(Clone, Debug)]
 pub(crate) struct Joint {
     /// 0 ball, 1 slide, 2 hinge.
@@ -44,23 +43,23 @@ pub(crate) struct Joint {
     damping: f64,
     stiffness: f64,
     armature: f64,
-    /// Growth of stiffness and damping.
+    /// The growth of stiffness and damping.
     growth: (f64, f64),
-    /// Half width of the limits, rad or m.
+    /// Half the width of the limits, rad or m.
     range: Option<f64>,
 }
 
 /// A body with its spheres.
 #[derive(Clone, Debug)]
 pub(crate) struct Body {
-    /// Which of the bodies before this one holds it; the world when the number is even.
+    /// The index of its parent among the bodies before it; the world if the number is even.
     parent: usize,
-    /// A free joint, where the parent is the world.
+    /// Whether it has a free joint, if its parent is the world.
     free: bool,
     joints: Vec<Joint>,
     pos: Triple,
     euler: Triple,
-    /// Place, radius and mass.
+    /// The position, radius and mass of each sphere.
     spheres: Vec<(Triple, f64, f64)>,
     gravcomp: f64,
     /// solref, friction, condim, margin, gap.
@@ -70,16 +69,16 @@ pub(crate) struct Body {
 /// A tendon.
 #[derive(Clone, Debug)]
 pub(crate) struct Tendon {
-    /// Over joints, where there are any that it can pass.
+    /// Whether it is a fixed tendon, if there are suitable joints.
     fixed: bool,
-    /// Bodies whose sites it passes, the sphere it goes around on the way there, whether a pulley stands before.
+    /// The bodies whose sites it passes, the sphere that it wraps before each, and whether a pulley precedes it.
     path: Vec<(usize, Option<usize>, bool)>,
     stiffness: (f64, f64),
     damping: f64,
     armature: f64,
 }
 
-/// Actuators that any joint of one coordinate, and any tendon, may have.
+/// Actuators that any joint with one coordinate, and any tendon, may have.
 const ACTUATORS: [&str; 8] = [
     "motor gear='2'",
     "position kp='30' kv='2'",
@@ -90,31 +89,31 @@ const ACTUATORS: [&str; 8] = [
     "general gaintype='affine' gainprm='3 -1 -0.5' biastype='affine' biasprm='0.2 -4 -1'",
     "muscle ctrlrange='0 1' lengthrange='-1 1' force='5'",
 ];
-/// `Euler` three times out of seven.
+/// `Euler` in three of seven cases.
 const INTEGRATORS: [&str; 7] = ["Euler", "Euler", "Euler", "RK4", "implicit", "implicitfast", "discrete"];
 
 /// An actuator.
 #[derive(Clone, Debug)]
 pub(crate) struct Actuator {
-    /// Place in `ACTUATORS`, and what it acts on.
+    /// The index in `ACTUATORS`, and the target.
     kind: usize,
     on: usize,
-    /// Largest force.
+    /// The largest force.
     most: Option<f64>,
-    /// Damping and inertia that it adds to what it acts on.
+    /// The damping and inertia that it adds to its target.
     damping: f64,
     armature: f64,
 }
 
-/// What ties a body or a joint, and how constraints are solved.
+/// Equality constraints, and the settings of the solver.
 #[derive(Clone, Debug, Default)]
 struct Ties {
-    /// Places in `TIES`, each with two things to tie.
+    /// Indexes in `TIES`, each with two objects to tie.
     list: Vec<(usize, usize, usize)>,
     frictionloss: f64,
     cone: bool,
     condim: usize,
-    /// Place in `SOLVERS`.
+    /// The index in `SOLVERS`.
     solver: usize,
     noslip: bool,
     sleep: bool,
@@ -131,14 +130,14 @@ pub(crate) struct Scene {
     tendons: Vec<Tendon>,
     actuators: Vec<Actuator>,
     ties: Ties,
-    /// Density of the medium, kg/m^3.
+    /// The density of the medium, kg/m^3.
     density: f64,
     floor: bool,
     mocap: bool,
-    /// Places in `SENSORS`.
+    /// Indexes in `SENSORS`.
     pub(crate) sensors: Vec<usize>,
     energy: bool,
-    /// Place in `INTEGRATORS`.
+    /// The index in `INTEGRATORS`.
     integrator: usize,
 }
 
@@ -211,7 +210,7 @@ fn actuator() -> impl Strategy<Value = Actuator> {
         .prop_map(|(kind, on, most, damping, armature)| Actuator { kind, on, most, damping, armature })
 }
 
-/// Scenes of one to five bodies.
+/// Scenes with one to five bodies.
 pub(crate) fn scene() -> impl Strategy<Value = Scene> {
     let density = prop_oneof![3 => Just(0.0), 1 => 0.1..20.0];
     let sensors = prop_oneof![Just(vec![]), vec(0..SENSORS.len(), 1..4)];
@@ -233,8 +232,8 @@ pub(crate) fn scene() -> impl Strategy<Value = Scene> {
     )
 }
 
-/// The same with equality constraints and dry friction, cones, every solver, and trees that sleep.
-#[allow(dead_code)] // one of the two users of this file has no need of it
+/// The same with equality constraints and dry friction, cones, all solvers, and sleeping trees.
+#[allow(dead_code)] // one of the two users of this file does not need it
 pub(crate) fn tied_scene() -> impl Strategy<Value = Scene> {
     let list = vec((0..TIES.len(), 0usize..1000, 0usize..1000), 0..3);
     let condim = prop_oneof![2 => Just(0usize), 1 => Just(4), 1 => Just(6)];
@@ -260,7 +259,7 @@ pub(crate) fn tied_scene() -> impl Strategy<Value = Scene> {
         .prop_map(|(scene, ties)| Scene { ties, ..scene })
 }
 
-/// A failing test shows the model, which is what one wants to load.
+/// A failing test prints the model, so that it can be loaded.
 impl std::fmt::Debug for Scene {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(&self.xml())
@@ -268,24 +267,24 @@ impl std::fmt::Debug for Scene {
 }
 
 impl Scene {
-    /// As MJCF.
+    /// The scene as MJCF.
     pub(crate) fn xml(&self) -> String {
         self.write(true)
     }
 
-    /// The trees alone: nothing touches, nothing is limited, nothing is damped; the energy is computed.
-    #[allow(dead_code)] // one of the two users of this file has no need of it
+    /// Only the trees, without contacts, limits and damping; the energy is computed.
+    #[allow(dead_code)] // one of the two users of this file does not need it
     pub(crate) fn conservative(&self) -> String {
         self.undamped().write(false)
     }
 
-    /// The trees alone, with springs and dampers: forces are smooth.
+    /// Only the trees, with springs and dampers, so that forces are smooth.
     #[allow(dead_code)] // as above
     pub(crate) fn smooth(&self) -> String {
         self.write(false)
     }
 
-    /// The trees alone, each floating freely where there is no gravity.
+    /// Only the trees, each floating freely without gravity.
     #[allow(dead_code)] // as above
     pub(crate) fn floating(&self) -> String {
         let mut scene = self.undamped();
@@ -299,7 +298,7 @@ impl Scene {
         scene
     }
 
-    /// With all that a scene may have, or without what constrains.
+    /// Writes the scene with all elements, or without constraints.
     fn write(&self, constraints: bool) -> String {
         let mut text = String::from("<mujoco><option");
         if constraints {
@@ -326,7 +325,7 @@ impl Scene {
             );
         }
         text.push_str("<site name=\"anchor\" pos=\"0 0 0.5\"/>");
-        // Joints with one coordinate.
+        // The joints with one coordinate.
         let mut scalars = Vec::new();
         for i in (0..self.bodies.len()).filter(|&i| self.parent(i).is_none()) {
             self.body(i, constraints, &mut text, &mut scalars);
@@ -339,7 +338,7 @@ impl Scene {
             }
             text.push_str("</tendon><actuator>");
             let joints = scalars.iter().map(|j| (format!("joint='{j}'"), true));
-            // A tendon around geoms, or without inertia of its own, takes none of an actuator.
+            // A tendon that wraps geoms or has no inertia gets no actuator inertia.
             let tendons = self.tendons.iter().enumerate().map(|(i, t)| {
                 let takes = t.armature != 0.0 || t.fixed && scalars.len() > 1;
                 (format!("tendon='t{i}'"), takes)
@@ -366,7 +365,7 @@ impl Scene {
             "joint" if !scalars.is_empty() => {
                 write!(text, "<joint joint1='{}' polycoef='0.1 1 0 0 0'/>", scalars[one % scalars.len()])
             }
-            // Not where trees sleep: the engine says that it does not simulate this.
+            // Not with sleeping trees, because the engine does not support this.
             "tendon" if tendons > 0 && !self.ties.sleep => {
                 write!(text, "<tendon tendon1='t{}'/>", one % tendons)
             }
@@ -374,7 +373,7 @@ impl Scene {
         };
     }
 
-    /// The body that holds body `i`, `None` for the world.
+    /// The parent of body `i`, or `None` for the world.
     fn parent(&self, i: usize) -> Option<usize> {
         let parent = self.bodies[i].parent;
         (i > 0 && parent % 2 == 1).then(|| parent / 2 % i)
@@ -393,7 +392,7 @@ impl Scene {
         } else {
             let mut turns = false;
             for (k, joint) in b.joints.iter().enumerate() {
-                // A ball turns about everything: no other joint of the body may turn, too.
+                // A ball joint has all rotations, so no other joint of the body may rotate.
                 let joint =
                     if turns && joint.kind != 1 { &Joint { kind: 1, ..joint.clone() } } else { joint };
                 turns |= joint.kind == 0 || (joint.kind == 2 && b.joints.iter().any(|j| j.kind == 0));
@@ -443,14 +442,14 @@ impl Tendon {
             text.push_str("</fixed>");
             return;
         }
-        // A tendon with inertia goes straight, and to one body: its inertia does not couple branches of a tree, and
-        // what is left of it need not be positive.
+        // A tendon with inertia is straight and ends at one body, because inertia that couples branches of a tree is not
+        // supported, and the remaining matrix might not be positive definite.
         let wraps = self.armature == 0.0;
         let path = if wraps { &self.path[..] } else { &self.path[..1] };
         let armature = if wraps { String::new() } else { format!(" armature=\"{}\"", self.armature) };
         let _ = write!(text, "<spatial {laws}{armature}>");
         for (leg, &(site, around, pulley)) in path.iter().enumerate() {
-            // From the anchor to a body, or on from one body to the next.
+            // From the anchor to a body, or from one body to the next.
             if pulley || leg == 0 {
                 if pulley {
                     text.push_str("<pulley divisor=\"2\"/>");

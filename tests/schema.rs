@@ -1,6 +1,6 @@
-//! The published JSON Schemas: what the reader takes without an error they take too, and what is wrong they refuse.
+//! The published JSON Schemas accept what the reader accepts without an error, and refuse what is wrong.
 
-// A test that cannot read its own inputs has to fail.
+// A test that cannot read its own inputs must fail.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use crate::needs::needs;
@@ -30,7 +30,7 @@ fn files(folder: &Path) -> Vec<PathBuf> {
     all
 }
 
-/// The labs and quizzes of a file that are JSON, each with what it is, and whether the reader finds an error in it.
+/// The labs and quizzes of a file that are valid JSON, each with its kind, and whether the reader finds an error in it.
 fn objects(path: &Path) -> Vec<(Root, Value, bool)> {
     let text = std::fs::read_to_string(path).unwrap();
     let name = path.file_name().unwrap().to_str().unwrap();
@@ -56,7 +56,7 @@ fn objects(path: &Path) -> Vec<(Root, Value, bool)> {
     all
 }
 
-/// All of them pass their schema; gives their number.
+/// All of them are valid according to their schema; returns their number.
 fn all_pass(folder: &Path) -> usize {
     let mut passed = 0;
     for path in files(folder) {
@@ -102,7 +102,7 @@ fn every_smallest_object_and_every_example_passes() {
     }
 }
 
-/// Labs and quizzes with one mistake each, and the same without it.
+/// Labs and quizzes with one error each, and the same without it.
 const WRONG: [(&str, &str); 26] = [
     (r#"{"modle": "fall"}"#, r#"{"model": "fall"}"#),
     (r#"{"title": "A fall"}"#, r#"{"title": "A fall", "model": "fall"}"#),
@@ -184,12 +184,12 @@ fn wrong_ones_fail_and_right_ones_do_not() {
     }
 }
 
-/// Where something stands in JSON, and every such place.
+/// The pointers of all values in JSON.
 fn places(value: &Value, at: &str, all: &mut Vec<String>) {
     all.push(at.to_string());
     match value {
         Value::Object(entries) => {
-            // A pointer writes `/` of a key in two letters.
+            // In a JSON pointer, `/` in a key is encoded with two characters.
             let pointed = |k: &str| k.replace('~', "~0").replace('/', "~1");
             entries.iter().for_each(|(k, v)| places(v, &format!("{at}/{}", pointed(k)), all));
         }
@@ -200,7 +200,7 @@ fn places(value: &Value, at: &str, all: &mut Vec<String>) {
     }
 }
 
-/// What goes wrong in the format when somebody types: a key misspelt, a key forgotten, a value of another type.
+/// Errors in the format: a misspelt key, a missing key, a value of another type.
 fn damaged(value: &Value, at: &str) -> Vec<Value> {
     let (parent, key) = at.rsplit_once('/').unwrap();
     let key = &key.replace("~1", "/").replace("~0", "~");
@@ -224,8 +224,7 @@ fn damaged(value: &Value, at: &str) -> Vec<Value> {
     all
 }
 
-/// Mistakes of the format, planted into real labs and quizzes: where the reader finds one, the schema refuses; where the reader finds
-/// nothing wrong, the schema takes it.
+/// Format errors in real labs and quizzes: the schema refuses what the reader reports, and accepts what the reader accepts.
 #[test]
 fn mistakes_of_the_format_are_refused() {
     const OF_FORMAT: [&str; 3] = ["unknown-key", "wrong-type", "missing-key"];
@@ -243,7 +242,7 @@ fn mistakes_of_the_format_are_refused() {
         let mut all = Vec::new();
         places(&value, "", &mut all);
         for at in all.iter().filter(|at| !at.is_empty()) {
-            // Every seventh, which is another kind at another place in turn.
+            // Every seventh mutant, so that the kinds and places alternate.
             for mutant in damaged(&value, at) {
                 turn += 1;
                 if turn % 7 != 0 || mutant == value {

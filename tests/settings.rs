@@ -1,5 +1,5 @@
-//! Settings that no student can make are refused, in the runs of a `verify` object and on the command line, each with
-//! what is possible.
+//! Settings that a student cannot make are refused, in the runs of a `verify` object and on the command line,
+//! with the possible values.
 
 #![allow(clippy::unwrap_used)]
 
@@ -31,7 +31,7 @@ fn lab(verify: &Json) -> Json {
     })
 }
 
-/// The check of a lab with one run, which takes two measures.
+/// The check of a lab with one run and two measures.
 fn checked(run: &Json) -> (Checked, String) {
     let measure = json!({"kind": "final(model.opt.integrator)", "g": "final(model.opt.gravity[2])"});
     let text = lab(&json!({"runs": {"one": run}, "measure": measure, "says": []})).to_string();
@@ -44,10 +44,10 @@ fn measured(run: &Json, name: &str) -> f64 {
     checked.claims[0].judgement.measures.iter().find(|m| m.name.ends_with(name)).unwrap().value
 }
 
-/// The text of the lesson that a refused run points at, and the message.
+/// The source text of the finding about a refused run, and its message.
 fn refused(run: &Json) -> (String, String) {
     let (checked, text) = checked(run);
-    // A label that is none is also found without a run.
+    // An unknown label is also found without a run.
     let expected = |c: &&str| *c == "run-impossible" || *c == "unknown-control";
     assert!(codes(&checked).iter().all(expected), "{run}: {:?}", checked.findings);
     assert!(checked.claims[0].judgement.unmade.is_some());
@@ -97,10 +97,10 @@ fn a_press_that_never_happens_is_refused() {
     assert_eq!(measured(&json!({"press": [["Kick", 0.098]], "until": 0.1}), "kind"), 0.0);
 }
 
-/// The same lab run by the library, as `labspec run` does.
+/// Runs the same lab with the library, as `labspec run` does.
 fn run_with(set: &[(&str, Value)], press: &[(&str, f64)]) -> Result<f64, String> {
     let lesson = load_lesson(
-        // It begins between two steps.
+        // The initial value is between two steps of the slider.
         SourceFile::new("lab.json", lab(&json!({"says": []})).to_string().replace("-9.75", "-9.81")),
         &ModelFolder::unknown(),
     );

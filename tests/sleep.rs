@@ -1,5 +1,5 @@
-//! Sleeping trees: `golden/sleep.py` recorded when MuJoCo 3.14.0 puts them to sleep, what wakes them and what their
-//! fields show meanwhile.
+//! Sleeping trees: `golden/sleep.py` recorded when MuJoCo 3.14.0 puts trees to sleep, what wakes them, and the values
+//! of their fields meanwhile.
 
 #![allow(clippy::unwrap_used)]
 
@@ -8,12 +8,12 @@ use crate::support::{model, numbers, recording};
 use labspec_core::reflect::{self, Object};
 use labspec_core::{self as core, AccessSet, Data, Plan};
 
-/// Rounding alone, over steps that are stable.
+/// Only rounding, over stable steps.
 const ROUNDING: f64 = 1e-12;
-/// Where a solver works to a tolerance of 1e-12.
+/// The tolerance if a solver works to a tolerance of 1e-12.
 const SOLVED: f64 = 1e-8;
-/// The removal of slip ends when its objective no longer falls. The objective is flat at its minimum, so that its rounding of 1e-16 hides
-/// relative differences of forces of up to the root of that, on both sides.
+/// The removal of slip ends when its objective stops decreasing. The objective is flat at its minimum, so that its rounding
+/// error of 1e-16 hides relative differences of forces of up to the square root of that, on both sides.
 const SLIP_REMOVED: f64 = 2e-7;
 
 fn differences(scene: &str, tolerance: f64) {
@@ -63,19 +63,19 @@ fn trees_sleep_and_wake_as_recorded() {
     differences("sleep", ROUNDING);
 }
 
-/// Boxes in a pile sleep together; a ball, a body placed from outside, a push or a lift wakes them.
+/// Boxes in a pile sleep together; a ball, a body that is moved from outside, a push or a lift wakes them.
 #[test]
 fn piles_sleep_and_wake_as_recorded() {
     differences("sleep_pile", SOLVED);
 }
 
-/// Limits, dry friction, equalities and tendons hold what sleeps, and wake it.
+/// Limits, dry friction, equalities and tendons act on sleeping trees, and wake them.
 #[test]
 fn what_is_tied_sleeps_and_wakes_as_recorded() {
     differences("sleep_ties", SOLVED);
 }
 
-/// A plan that leaves out what nobody reads changes no bit of what sleeps.
+/// A plan that leaves out unread fields changes no bit of sleeping trees.
 #[test]
 fn a_plan_lets_trees_sleep_as_they_do() {
     for scene in ["sleep", "sleep_pile", "sleep_ties"] {

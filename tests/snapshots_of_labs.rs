@@ -1,4 +1,4 @@
-//! What `labspec snapshot` stores, and what `check` finds when a lab has become another one.
+//! The snapshots that `labspec snapshot` stores, and the findings of `check` when the output of a lab changes.
 
 #![allow(clippy::unwrap_used)]
 
@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use std::path::Path;
 use tempfile::TempDir;
 
-/// A pendulum that swings, and a ball that falls: two labs of one lesson.
+/// A swinging pendulum and a falling ball: two labs of one lesson.
 fn lesson() -> String {
     let pendulum = json!({
         "title": "A pendulum", "stopAt": 2, "setup": "data.qpos[0] = 0.5",
@@ -52,7 +52,7 @@ fn with_snapshot() -> TempDir {
     folder
 }
 
-/// What became of the snapshot of each lab after a change of the lesson, with the exit code.
+/// The state of the snapshot of each lab after a change of the lesson, with the exit code.
 fn after(from: &str, to: &str) -> (i32, Value) {
     let folder = with_snapshot();
     assert!(lesson().contains(from), "{from}");
@@ -68,7 +68,7 @@ fn a_snapshot_is_a_text_for_reviewers() {
     snapshot("snapshot-file", stored(folder.path()));
 }
 
-/// The same lesson gives the same bytes, and is as stored, with any number of threads.
+/// The same lesson gives the same bytes and agrees with its snapshot, with any number of threads.
 #[test]
 fn what_has_not_changed_is_as_stored() {
     let folder = with_snapshot();
@@ -86,7 +86,7 @@ fn what_has_not_changed_is_as_stored() {
     assert!(run_in(folder.path(), &["check", "two.md"]).stdout.contains("2 snapshots as stored"));
 }
 
-/// Nothing is stored: nothing is claimed.
+/// Without a stored snapshot, nothing is claimed.
 #[test]
 fn without_a_snapshot_nothing_is_claimed() {
     let folder = folder();
@@ -99,10 +99,10 @@ fn without_a_snapshot_nothing_is_claimed() {
     assert!(done.code == 3 && done.stdout.contains("2 snapshots left out"), "{}", done.stdout);
 }
 
-/// A number of the model, the sign of a trace, the integrator: each is found where it shows first.
+/// A number of the model, the sign of a trace, the integrator: each is reported at its first effect.
 #[test]
 fn the_first_divergence_has_its_lab_its_run_its_trace_and_its_time() {
-    // A longer pendulum: the same start, another swing.
+    // A longer pendulum: the same start, another motion.
     let (code, all) = after("0 0 -.5' mass", "0 0 -.6' mass");
     assert_eq!(code, 1);
     assert_eq!((&all[0]["state"], &all[1]["state"]), (&json!("false"), &json!("true")));
@@ -111,14 +111,14 @@ fn the_first_divergence_has_its_lab_its_run_its_trace_and_its_time() {
     assert_eq!(first["time"], 0.2);
     assert_eq!(all[0]["rows"], 2);
 
-    // The other sign of a trace, from the start on.
+    // A trace with the opposite sign, from the start on.
     let (code, all) = after("\"height\",\"expr\":\"data.qpos[2]\"", "\"height\",\"expr\":\"-data.qpos[2]\"");
     let first = &all[1]["divergence"];
     assert_eq!((code, &first["trace"], &first["time"]), (1, &json!("plot/0/height"), &json!(0.0)));
     assert_eq!((&first["stored"], &first["now"]), (&json!("1.0000"), &json!("-1.00000")));
     assert_eq!((&all[0]["state"], &first["tolerance"]), (&json!("true"), &json!(0.5e-4)));
 
-    // Another integrator: its name is told, and what it changes.
+    // Another integrator: its name and its effects are reported.
     let (code, all) = after("timestep='0.01'", "timestep='0.01' integrator='RK4'");
     assert_eq!((code, &all[0]["changes"]), (1, &json!(["Euler is now RK4"])));
     let first = &all[0]["divergence"];
@@ -127,7 +127,7 @@ fn the_first_divergence_has_its_lab_its_run_its_trace_and_its_time() {
         "{all}"
     );
 
-    // Only with a slider at its end: the lab as it stands is as it was.
+    // Only with a slider at its end: the unchanged lab has the same output.
     let (code, all) = after("\"min\":-20", "\"min\":-19");
     assert_eq!(code, 1);
     let changes = json!([
@@ -137,19 +137,19 @@ fn the_first_divergence_has_its_lab_its_run_its_trace_and_its_time() {
     assert_eq!((&all[1]["changes"], &all[1]["divergence"]), (&changes, &Value::Null));
 }
 
-/// What a reader of the terminal sees: the finding at the trace, the values, and both curves.
+/// The output on a terminal: the finding at the trace, the values, and both curves.
 #[test]
 fn a_change_is_drawn() {
     let folder = with_snapshot();
     write(folder.path(), &lesson().replace("0 0 -.5' mass", "0 0 -.6' mass"));
     let done = run_in(folder.path(), &["check", "two.md"]);
-    // The lab itself is one long line, which is not what this is about.
+    // The lab itself is one long line, which is irrelevant here.
     let report: Vec<&str> =
         done.stdout.lines().filter(|line| !line.contains("simlab") && !line.starts_with("5 |")).collect();
     snapshot("snapshot-differs", report.join("\n"));
 }
 
-/// Traces, controls and labs that come, go or get another name.
+/// Traces, controls and labs that are added, removed or renamed.
 #[test]
 fn what_changed_about_a_lab_is_said() {
     let changes = |from: &str, to: &str| {
@@ -186,11 +186,11 @@ fn what_changed_about_a_lab_is_said() {
         let text = lesson();
         let first = text.find("```lab").unwrap();
         let second = text.rfind("```lab").unwrap();
-        // Only the pendulum is left.
+        // Only the pendulum remains.
         write(folder.path(), &text[..second]);
         let gone = run_in(folder.path(), &["check", "two.md", "--format", "json"]);
         assert_eq!(gone.code, 1);
-        // And a third lab.
+        // A third lab.
         write(folder.path(), &format!("{text}\n{}", &text[first..second]));
         let done = run_in(folder.path(), &["check", "two.md", "--format", "json"]);
         let both = json!(
@@ -203,7 +203,7 @@ fn what_changed_about_a_lab_is_said() {
     assert_eq!(all[1][2]["changes"], json!(["the lab is not in the snapshot"]));
 }
 
-/// What nobody stored is stored; what is stored is replaced only by whoever accepts it.
+/// A new snapshot is stored; an existing one is replaced only when the user accepts the change.
 #[test]
 fn only_what_is_accepted_is_overwritten() {
     let folder = with_snapshot();
@@ -242,7 +242,7 @@ fn only_what_is_accepted_is_overwritten() {
     assert_eq!(run_in(folder.path(), &["check", "."]).code, 0);
 }
 
-/// Results that were kept are not used when the snapshot is another one.
+/// Cached results are not used if the snapshot has changed.
 #[test]
 fn the_cache_sees_another_snapshot() {
     let folder = with_snapshot();
@@ -269,7 +269,8 @@ fn the_cache_sees_another_snapshot() {
     assert!(code == 0 && !output.contains("snapshot"), "{output}");
 }
 
-/// A file that is cut off, edited, empty, huge, no text or a folder: a finding with its place, and claims that could not be checked.
+/// A truncated, edited, empty, huge or binary file, or a folder: a finding with its location, and claims
+/// that could not be checked.
 #[test]
 fn a_file_that_is_no_snapshot_has_a_place() {
     let folder = with_snapshot();
@@ -317,7 +318,7 @@ fn a_file_that_is_no_snapshot_has_a_place() {
     assert!(done.code == 1 && done.stdout.contains("it is a folder"), "{}", done.stdout);
 }
 
-/// The lessons of the repository: stored, and the same when they are looked at again.
+/// The lessons of the repository agree with their stored snapshots.
 #[test]
 fn the_lessons_of_the_repository_are_as_stored() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,8 +1,9 @@
-//! Stiff and extreme scenes, ours beside MuJoCo 3.14.0's: `golden/stability.py` states the cases and recorded theirs, this
-//! writes `docs/measured/stability.md`.
+//! Stiff and extreme scenes compared with MuJoCo 3.14.0: `golden/stability.py` defines the cases and recorded the library's
+//! results; this test writes `docs/measured/stability.md`.
 //!
 //! The scenes and searches run as a test. Long runs (10 million steps) are shortened there; `LABSPEC_STABILITY=long` with
-//! `LABSPEC_BLESS=1` runs them in full, best in a release build, and keeps what they came to in `golden/stability_long.json`.
+//! `LABSPEC_BLESS=1` performs them in full, preferably in a release build, and stores their results in
+//! `golden/stability_long.json`.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -13,12 +14,12 @@ use labspec_core::{self as core, Data, Model, Warning, enable};
 use serde_json::{Value as Json, json};
 use std::fmt::Write;
 
-/// Coordinates that are compared at the end.
+/// The number of coordinates that are compared at the end.
 const KEPT: usize = 7;
-/// Steps that a test affords of a long run.
+/// The number of steps of a long run in a test.
 const SHORTENED: u64 = 2_000;
 
-/// What a run came to, in the words of the recording.
+/// The result of a run, in the format of the recording.
 fn run(xml: &str, steps: u64, long: u64, keep: &Json) -> Json {
     let mut m = compile(xml);
     let mut d = Data::new(&m);
@@ -48,7 +49,7 @@ fn run(xml: &str, steps: u64, long: u64, keep: &Json) -> Json {
                 return json!({"warning": which.name().trim_start_matches("bad"), "time": before, "dof": stat.lastinfo, "told": reported});
             }
         }
-        // Never a silent NaN: a step that left one would be reported by the next.
+        // NaN never occurs silently: the next step would report it.
         reach = reach.max(largest(&d.qpos));
         out = out.max(out_of(&d, keep, "way"));
     }
@@ -69,7 +70,7 @@ fn run(xml: &str, steps: u64, long: u64, keep: &Json) -> Json {
     out
 }
 
-/// What was noticed first, and when.
+/// The fault that was noticed first, and its time.
 fn to_json(noticed: &Noticed) -> Json {
     let pushed = noticed.growth.is_some_and(|g| matches!(g.source, Source::Damper(_)));
     let grows = if pushed { "a damper pushes" } else { "energy grows" };
@@ -84,7 +85,7 @@ fn to_json(noticed: &Noticed) -> Json {
     first.map_or(Json::Null, |(what, time)| json!({"what": what, "time": time}))
 }
 
-/// How far a run is out of what its case keeps.
+/// How far a run is outside the bounds of its case.
 fn out_of(d: &Data, keep: &Json, when: &str) -> f64 {
     let list = keep.as_array().into_iter().flatten().filter(|k| k["when"] == when);
     let far = list.map(|k| {
@@ -95,7 +96,7 @@ fn out_of(d: &Data, keep: &Json, when: &str) -> f64 {
     far.fold(0.0, f64::max)
 }
 
-/// Potential and kinetic energy of a state, J.
+/// The potential and kinetic energy of a state, J.
 fn energy(m: &mut Model, d: &Data) -> f64 {
     let mut d = d.clone();
     m.set_enabled(enable::ENERGY, true);
@@ -108,7 +109,7 @@ fn largest(v: &[f64]) -> f64 {
     v.iter().fold(0.0, |s: f64, x| if x.is_nan() { f64::INFINITY } else { s.max(x.abs()) })
 }
 
-/// What a run came to, in words. A run that left its bounds went wrong and nobody said so.
+/// The result of a run in words. A run outside its bounds has failed silently.
 fn describe_outcome(outcome: &Json, bound: f64) -> String {
     if let Some(kind) = outcome["warning"].as_str() {
         return format!("bad {kind} at {} s", short(outcome["time"].as_f64().unwrap()));
@@ -123,7 +124,7 @@ fn describe_outcome(outcome: &Json, bound: f64) -> String {
     if speed < 1e-3 { "at rest".into() } else { format!("moves at {}", short(speed)) }
 }
 
-/// Two digits.
+/// A number with two digits.
 fn short(x: f64) -> String {
     if x == 0.0 || (1e-3..1e4).contains(&x.abs()) {
         let digits = (1 - x.abs().max(1e-3).log10().floor() as i32).max(0) as usize;
@@ -133,7 +134,7 @@ fn short(x: f64) -> String {
     }
 }
 
-/// How far apart two runs ended: the largest difference of coordinates.
+/// The largest difference of the coordinates at the end of two runs.
 fn apart(a: &Json, b: &Json) -> String {
     if a["warning"].is_string() || b["warning"].is_string() {
         let same = a["warning"].is_string() == b["warning"].is_string();
@@ -145,27 +146,27 @@ fn apart(a: &Json, b: &Json) -> String {
     if far == 0.0 { "0".into() } else { format!("{far:.0e}") }
 }
 
-/// Whether a run went well.
+/// Whether a run has no fault.
 fn fine(outcome: &Json, bound: f64) -> bool {
     outcome["reach"].as_f64().is_some_and(|reach| reach <= bound)
         && outcome["out"].as_f64().is_none_or(|out| out == 0.0)
 }
 
-/// What the runs of a class come to.
+/// The results of the runs of a class.
 #[derive(Default)]
 struct Class {
     name: String,
     runs: usize,
-    /// Runs there and here that go well, that go wrong with a warning, and without one.
+    /// Runs of the library and of our engine without a fault, with a warned fault, and with a silent fault.
     well: [usize; 2],
     loud: [usize; 2],
     silent: [usize; 2],
-    /// Silent runs here that are reported, and runs that go well and are called wrong.
+    /// Silent faults of ours that are reported, and runs without a fault that are reported as wrong.
     reported: usize,
     called: usize,
 }
 
-/// All classes, with the runs that are called wrong or missed.
+/// All classes, with the false alarms and missed faults.
 #[derive(Default)]
 struct Classes {
     list: Vec<Class>,
@@ -174,7 +175,7 @@ struct Classes {
 }
 
 impl Classes {
-    /// Counts a run; theirs is not known of every one.
+    /// Counts a run; the library's result may be missing.
     fn count(&mut self, class: &str, name: &str, outcomes: [Option<&Json>; 2], bound: f64) {
         if self.list.iter().all(|c| c.name != class) {
             self.list.push(Class { name: class.into(), ..Class::default() });
@@ -247,7 +248,7 @@ impl Classes {
     }
 }
 
-/// What was reported of a run: what was noticed and when, or that nobody did.
+/// The report about a run: the fault and its time, or that there is no report.
 fn reported(outcome: &Json, bound: f64) -> String {
     match (outcome["told"]["what"].as_str(), outcome["told"]["time"].as_f64()) {
         (Some(what), Some(time)) => format!("{what}, {} s", short(time)),
@@ -256,7 +257,7 @@ fn reported(outcome: &Json, bound: f64) -> String {
     }
 }
 
-/// Cases side by side; adds those that end well there and not here to `wrong`.
+/// Cases side by side; adds those that are fine in the library and not here to `wrong`.
 fn table(
     cases: &[Json],
     ours: impl Fn(&Json) -> Json,
@@ -292,12 +293,12 @@ fn table(
     text
 }
 
-/// The longest timestep at which a family of models stays within its bound, all shorter ones included.
+/// The longest timestep at which a family of models, and all shorter ones, stay within the bound.
 fn longest(search: &Json, timesteps: &[f64], classes: &mut Classes) -> Option<f64> {
     let xml = search["xml"].as_str().unwrap();
     let of = |key: &str| search[key].as_str().unwrap_or_default();
     let bound = search["bound"].as_f64().unwrap();
-    // Within the bound of the search, far as it is, a ball may bounce faster than its fall lets it: that does not go well.
+    // Within the wide bound of the search, a ball may bounce faster than its fall allows, which counts as a fault.
     let keep = if of("section").starts_with("Contact") {
         let height = Data::new(&compile(&xml.replace("TIMESTEP", "0.001"))).qpos[2];
         let fastest = 1.25 * (2.0 * 9.81 * height).sqrt();
@@ -316,7 +317,7 @@ fn longest(search: &Json, timesteps: &[f64], classes: &mut Classes) -> Option<f6
     timesteps.iter().copied().take_while(|h| stays(h)).last()
 }
 
-/// Searches side by side: a row a stiffness, a column an integrator, "theirs / ours" where these differ.
+/// Searches side by side: a row for each stiffness, a column for each integrator, "theirs / ours" if these differ.
 fn searched(searches: &[Json], timesteps: &[f64], differ: &mut Vec<String>, classes: &mut Classes) -> String {
     const COLUMNS: [&str; 5] = ["Euler", "RK4", "implicit", "implicitfast", "discrete"];
     let mut rows: Vec<&[Json]> = searches.chunks(COLUMNS.len()).collect();
@@ -343,7 +344,7 @@ fn searched(searches: &[Json], timesteps: &[f64], differ: &mut Vec<String>, clas
     text
 }
 
-/// What a page has a line about: digits at the level of rounding come and go, scenes do not.
+/// The subjects of the lines of a page: digits at the level of rounding vary, scenes do not.
 fn subjects(page: &str) -> Vec<&str> {
     page.lines()
         .map(|line| line.split('|').nth(1).unwrap_or(line))
@@ -372,7 +373,7 @@ fn stiff_and_extreme_scenes() {
         std::fs::write(&recorded, serde_json::to_string_pretty(&runs).unwrap() + "\n").unwrap();
     }
     for case in &long {
-        // The beginning of a long run is a test that nothing breaks soon.
+        // The beginning of a long run tests that nothing fails early.
         run(case["xml"].as_str().unwrap(), 0, SHORTENED, &Json::Null);
     }
     let mut wrong = Vec::new();
@@ -445,7 +446,7 @@ fn stiff_and_extreme_scenes() {
     {
         println!("{line}");
     }
-    // A set that nobody chose: most of what goes wrong is reported, and next to nothing is called wrong that goes well.
+    // Random scenes: most faults are reported, and almost no run without a fault is.
     assert!(rates.wrong >= 30 && rates.well >= 60, "{} and {} scenes", rates.wrong, rates.well);
     assert!(4 * rates.reported >= 3 * rates.wrong, "{} of {} are told", rates.reported, rates.wrong);
     assert!(50 * rates.alarms <= rates.well, "{} of {} are called wrong", rates.alarms, rates.well);

@@ -1,7 +1,7 @@
-//! How many models are held against MuJoCo and how each came out: the tables `golden/zoo.md` and
-//! `golden/conformance.md`. `LABSPEC_BLESS=1 cargo test` writes them; a test fails when they are stale.
+//! The number of models that are compared with MuJoCo, and the results: the tables `golden/zoo.md` and `golden/conformance.md`.
+//! `LABSPEC_BLESS=1 cargo test` writes them; a test fails if they are out of date.
 
-// A test that fails says why.
+// A failing test states the reason.
 #![allow(clippy::panic, clippy::unwrap_used)]
 
 use crate::recorded::{ASPECTS, Outcome, Verdict};
@@ -9,10 +9,10 @@ use crate::support::workspace;
 use labspec_core::xml::rules;
 use std::fmt::Write;
 
-/// A difference that is known: model (`*` for any), aspect (`load` or one of [`ASPECTS`]), cause.
+/// A known difference: model (`*` for any), aspect (`load` or one of [`ASPECTS`]), cause.
 pub(crate) type Exception = (&'static str, &'static str, &'static str);
 
-/// Models and what became of them.
+/// Models and their results.
 #[derive(Default)]
 pub(crate) struct Standing(Vec<(String, Outcome)>);
 
@@ -21,14 +21,14 @@ impl Standing {
         self.0.push((name, outcome));
     }
 
-    /// How many models do not load.
+    /// The number of models that do not load.
     pub(crate) fn refused(&self) -> usize {
         self.0.iter().filter(|(_, outcome)| outcome.is_err()).count()
     }
 
-    /// Fails when a model differs that is not excepted, when an exception no longer holds, and when the table is stale.
+    /// Fails if a model differs without a listed exception, if an exception no longer applies, or if the table is out of date.
     ///
-    /// What is not supported is no failure: the table names it, and shows when it changes.
+    /// An unsupported feature is not a failure: the table lists it, and shows when it changes.
     pub(crate) fn check(&self, table: Option<&str>, exceptions: &[Exception]) {
         let covers = |e: &Exception, model: &str, aspect: &str| (e.0 == "*" || e.0 == model) && e.1 == aspect;
         let cause =
@@ -60,7 +60,7 @@ impl Standing {
         assert!(wrong.is_empty(), "differences from MuJoCo 3.14.0:\n{wrong}");
     }
 
-    /// The largest differences, for `cargo test -- --nocapture`.
+    /// Prints the largest differences, for `cargo test -- --nocapture`.
     fn print(&self) {
         for (i, aspect) in ASPECTS.into_iter().enumerate() {
             let mut same = (0.0, "");
@@ -79,7 +79,7 @@ impl Standing {
         }
     }
 
-    /// Model, aspect and what is wrong with it.
+    /// The model, the aspect and the failure.
     fn failures(&self) -> Vec<(String, &'static str, String)> {
         let mut all = Vec::new();
         for (name, outcome) in &self.0 {
@@ -134,7 +134,7 @@ impl Standing {
         text
     }
 
-    /// A line for everything that is not simply the same.
+    /// A line for every result other than equality.
     fn exceptional(&self, cause: impl Fn(&str, &str) -> Option<&'static str>) -> String {
         let mut text = String::new();
         for (name, outcome) in &self.0 {

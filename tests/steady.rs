@@ -1,5 +1,5 @@
-//! A controller that would change nothing is not run: every number, and the work that is counted, are those of a run in which it is
-//! run before each step, whatever happens in between.
+//! A controller that would change nothing is not run. All numbers, and the counted work, equal those of a run in which it runs
+//! before each step, for any events in between.
 
 #![allow(clippy::unwrap_used)]
 
@@ -13,7 +13,7 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 use serde_json::json;
 
-/// Controllers, and whether each may be left out.
+/// Controllers, and whether each may be skipped.
 const CONTROLLERS: [(&str, bool); 10] = [
     ("data.qfrc_applied[2] = ctx.push", true),
     ("data.qfrc_applied[2] = ctx.push * ctx.kicks - 1 / (ctx.other || 3); data.qfrc_applied[8] = 0.2", true),
@@ -27,7 +27,7 @@ const CONTROLLERS: [(&str, bool); 10] = [
     ("data.qfrc_applied[2] = 0.3; mj.mj_forward(model, data)", false),
 ];
 
-/// What happens before a step.
+/// An event before a step.
 #[derive(Clone, Debug)]
 enum Event {
     Slide(f64),

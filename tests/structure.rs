@@ -1,26 +1,26 @@
 //! The order of modules: which modules a module may import, and that files form no import cycles.
 
-// A test that fails says why.
+// A failing test states the reason.
 #![allow(clippy::panic, clippy::unwrap_used)]
 
 use crate::support::workspace;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-/// The files of a folder by module, and which modules each of them imports.
+/// The files of a folder by module, and the modules that each of them imports.
 struct ModuleGraph {
     text: BTreeMap<String, String>,
     uses: BTreeMap<String, BTreeSet<String>>,
 }
 
-/// Rust without comments and tests.
+/// Rust code without comments and tests.
 fn code(path: &Path) -> String {
     let text = std::fs::read_to_string(path).unwrap();
     let text = text.split("#[cfg(test)]").next().unwrap_or_default();
     text.lines().map(|line| line.split("//").next().unwrap_or("")).collect::<Vec<_>>().join("\n")
 }
 
-/// Paths of all `use` declarations, braces written out: `a::{b, c::d}` is `a::b` and `a::c::d`.
+/// The paths of all `use` declarations, with braces expanded: `a::{b, c::d}` gives `a::b` and `a::c::d`.
 fn imports(code: &str) -> Vec<String> {
     fn written_out(prefix: &str, rest: &str, out: &mut Vec<String>) {
         let Some(open) = rest.find('{') else { return out.push(format!("{prefix}{rest}")) };
@@ -42,7 +42,7 @@ fn imports(code: &str) -> Vec<String> {
     }
     let mut out = Vec::new();
     for part in code.split("use ").skip(1) {
-        // `a::b as c` is `a::b`.
+        // `a::b as c` gives `a::b`.
         let mut words = part.split(';').next().unwrap_or("").split_whitespace();
         let mut path = String::new();
         while let Some(word) = words.next() {
@@ -55,7 +55,7 @@ fn imports(code: &str) -> Vec<String> {
         }
         written_out("", &path, &mut out);
     }
-    // What is named by its whole path where it is used.
+    // Items that are named by their full path where they are used.
     for (at, _) in code.match_indices("crate::") {
         let path: String =
             code[at..].chars().take_while(|c| c.is_alphanumeric() || matches!(c, '_' | ':')).collect();
@@ -67,7 +67,7 @@ fn imports(code: &str) -> Vec<String> {
 }
 
 impl ModuleGraph {
-    /// A folder of a crate, its subfolders included; their modules are named by their paths.
+    /// Reads a folder of a crate with its subfolders; modules are named by their paths.
     fn read(krate: &str, folder: &str) -> ModuleGraph {
         let root = workspace().join("crates").join(krate).join("src").join(folder);
         let inside = if folder.is_empty() { 1 } else { 2 };
@@ -127,14 +127,15 @@ impl ModuleGraph {
         graph
     }
 
-    /// The module that a path leads to: the longest beginning that is one, or where that one has the name from.
+    /// The module to which a path refers: the longest prefix that is a module, or the module from which
+    /// that one imports the name.
     fn owner(&self, path: &[&str]) -> Option<String> {
         let (module, name) = (0..=path.len()).rev().find_map(|n| {
             let module = path[..n].join("::");
             self.text.contains_key(&module).then(|| (module, path.get(n).copied()))
         })?;
         let Some(name) = name else { return Some(module) };
-        // A rule is on the page with its name; the build script writes the list of them.
+        // A rule is on the page with its name; the build script writes the list of pages.
         let page = format!("{module}::{}", name.to_lowercase());
         if module == "rules" && name.to_uppercase() == name && self.text.contains_key(&page) {
             return Some(page);
@@ -151,7 +152,7 @@ impl ModuleGraph {
         Some(from.filter(|m| self.text.contains_key(m)).unwrap_or(module))
     }
 
-    /// A cycle of modules, parents and their children left out.
+    /// A cycle of modules, not counting parents and their children.
     fn cycle(&self) -> Option<Vec<String>> {
         let kin = |a: &str, b: &str| {
             a.is_empty()
@@ -182,7 +183,7 @@ impl ModuleGraph {
     }
 }
 
-/// Shapes, rays, distances and contacts know numbers and kinds of shapes, and nothing of models, data or dynamics.
+/// Shapes, rays, distances and contacts use only numbers and kinds of shapes; they do not depend on models, data or dynamics.
 #[test]
 fn geometry_takes_shapes() {
     let graph = ModuleGraph::read("core", "geometry");
@@ -197,7 +198,7 @@ fn geometry_takes_shapes() {
     }
 }
 
-/// The modules of the engine, from the lowest to the highest. A file imports its own module and lower ones.
+/// The modules of the engine, from the lowest to the highest. A file imports only its own module and lower ones.
 const MODULES: [&str; 14] = [
     "math",
     "kinds",
@@ -234,8 +235,8 @@ fn engine_modules_import_only_lower_modules() {
     }
 }
 
-/// The modules of the language, from the lowest to the highest. Binding stands after programs: the arguments of an aggregate are
-/// programs.
+/// The modules of the language, from the lowest to the highest. Binding comes after programs, because the arguments of
+/// an aggregate are programs.
 const LANGUAGE: [&str; 37] = [
     "host_terms",
     "rules",
@@ -276,11 +277,11 @@ const LANGUAGE: [&str; 37] = [
     "reference",
 ];
 
-/// A module of the language uses those before it, never one that comes after.
+/// A module of the language uses only modules before it.
 #[test]
 fn a_module_of_the_language_uses_those_before_it() {
     let mut graph = ModuleGraph::read("expr", "");
-    // A host for tests alone, which uses everything.
+    // The test host uses everything.
     graph.uses.remove("mock");
     assert!(graph.text.len() > 120 && graph.uses.values().map(BTreeSet::len).sum::<usize>() > 400);
     let place = |module: &str| {
@@ -300,8 +301,8 @@ fn files_of_the_language_form_no_import_cycles() {
     assert_eq!(ModuleGraph::read("expr", "").cycle(), None);
 }
 
-/// The pipeline of a lesson, in order: what a text is, what stands in it, what the rules say of that, what it means to the engine, what
-/// happens when it runs, what is true of that, and how it is shown. Facades come last.
+/// The pipeline of a lesson, in order: its text, its contents, the rules, the meaning for the engine, runs, verification of
+/// claims, and reports. Facades come last.
 const PIPELINE: [&str; 27] = [
     "printable",
     "interrupt",
@@ -332,8 +333,8 @@ const PIPELINE: [&str; 27] = [
     "engine",
 ];
 
-/// A module looks at those before it, never at one that comes after. A page of a rule, which has its check, stands as high as what the
-/// check uses.
+/// A module uses only modules before it. The page of a rule, which contains its check, has the position of the highest
+/// module that the check uses.
 #[test]
 fn a_module_of_the_pipeline_uses_those_before_it() {
     let graph = ModuleGraph::read("labspec", "");
@@ -349,7 +350,7 @@ fn a_module_of_the_pipeline_uses_those_before_it() {
             .unwrap_or_else(|| panic!("{module} is not in the pipeline"))
     };
     let pages: Vec<_> = graph.uses.iter().filter(|(module, _)| module.starts_with("rules::")).collect();
-    // The highest is reached by way of so many pages at most.
+    // The highest module may be reached through several pages.
     for (page, uses) in pages.iter().flat_map(|_| &pages) {
         let highest = uses.iter().map(|used| place(&places, used)).max();
         places.insert(page, highest.unwrap_or(0).max(place(&places, page)));
@@ -380,7 +381,7 @@ fn files_of_a_crate_form_no_import_cycles() {
     }
 }
 
-/// A name says which file is meant: `contact.rs` is one file. (`mod.rs` and `tests.rs` go by their folder.)
+/// A file name is unique: `contact.rs` is one file. (`mod.rs` and `tests.rs` are identified by their folder.)
 #[test]
 fn no_two_files_of_the_engine_have_one_name() {
     let (mut seen, mut folders) = (BTreeMap::new(), vec![workspace().join("crates/core/src")]);
@@ -399,7 +400,7 @@ fn no_two_files_of_the_engine_have_one_name() {
     assert!(seen.len() > 150);
 }
 
-/// The language knows nothing of what it computes with: what a message calls the things of a lab comes from the host.
+/// The language does not depend on its host: the terms for the objects of a lab in messages come from the host.
 #[test]
 fn the_language_has_no_words_of_labs() {
     const WORDS: [&str; 16] = [
@@ -428,7 +429,7 @@ fn the_language_has_no_words_of_labs() {
             if path.is_dir() && !matches!(name.as_str(), "tests" | "snapshots") {
                 folders.push(path);
             } else if name.ends_with(".rs") && !matches!(name.as_str(), "mock.rs" | "tests.rs") {
-                // The examples of a rule are texts of labs. Every second piece between quotes is a text.
+                // The examples of a rule are source texts of labs. Every second part between quotes is a string.
                 let code = code(&path);
                 let outside_examples = code.split("bad: Example::").next().unwrap_or("");
                 for text in outside_examples.split('"').skip(1).step_by(2) {

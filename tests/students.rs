@@ -1,12 +1,12 @@
-//! `labspec stability`: what a student can do to a lab, and what it comes to. Small labs that break in one way each, and labs that
-//! do not break.
+//! `labspec stability`: what a student can do to a lab, and the faults that result. Small labs that fail in one way each,
+//! and labs that do not fail.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use crate::program::{run_in, snapshot};
 use serde_json::{Value, json};
 
-/// A lab of a second around a model.
+/// A lab of one second around a model.
 pub(crate) fn lab(option: &str, world: &str, more: Value) -> Value {
     let xml = format!("<mujoco><option {option}/><worldbody>{world}</worldbody>ACTUATORS</mujoco>");
     let mut lab = json!({"xml": xml, "stopAt": 1});
@@ -27,7 +27,7 @@ pub(crate) fn report(lab: &Value, more: &[&str]) -> (i32, Value) {
     (done.code, report)
 }
 
-/// Kinds of the findings, with who it is.
+/// The kinds of the findings, with the object concerned.
 fn kinds(report: &Value) -> Vec<(String, String)> {
     let text = |f: &Value, key: &str| f[key].as_str().unwrap().to_string();
     report["findings"].as_array().unwrap().iter().map(|f| (text(f, "kind"), text(f, "who"))).collect()
@@ -38,7 +38,7 @@ fn evidence(finding: &Value, name: &str) -> f64 {
     list.iter().find(|e| e["name"] == name).unwrap()["value"].as_f64().unwrap()
 }
 
-/// A cart of 1 kg on a rail with a servo, whose gain a slider sets.
+/// A cart of 1 kg on a rail with a servo whose gain a slider sets.
 fn servo(most: f64) -> Value {
     let cart = r#"<body name="cart"><joint name="rail" type="slide"/><geom size=".1" mass="1"/></body>"#;
     let gain = "model.actuator_gainprm[0] = value; model.actuator_biasprm[1] = -value";
@@ -67,7 +67,7 @@ fn a_gain_that_is_too_high_is_found_at_the_end_of_its_slider() {
 
     let (code, report) = self::report(&servo(8e5), &[]);
     assert_eq!((code, kinds(&report)), (0, Vec::new()));
-    // 1 as it stands, 1 touched, 3 other ends, 4 corners, all in turn; each ten times as long as the lab.
+    // 1 unchanged, 1 perturbed, 3 at the other ends, 4 corners, 1 with all in turn; each ten times as long as the lab.
     let made: Vec<&Value> = report["tried"].as_array().unwrap().iter().map(|t| &t["made"]).collect();
     assert_eq!(
         (made, &report["length"]),
@@ -105,9 +105,9 @@ fn a_ball_that_no_step_sees_touch_a_plate_is_found_behind_it() {
     let first = &report["findings"][0];
     assert_eq!(first["setting"], json!([{"control": "Fire", "time": 0.1, "value": null}]));
     assert!((evidence(first, "way in one step") - 0.6).abs() < 1e-9);
-    // In the middle of its second step it is at 0.9 m, at its end at 1.5 m.
+    // In the middle of its second step, it is at 0.9 m, and at the end of the step at 1.5 m.
     assert!((first["time"].as_f64().unwrap() - 0.102).abs() < 0.0021, "{}", first["time"]);
-    // A slow one comes back.
+    // A slow ball bounces back.
     assert_eq!(kinds(&self::report(&thrown(0.8, 0.002), &[]).1), []);
 }
 
@@ -154,7 +154,7 @@ fn a_contact_that_switches_while_nothing_moves_is_found() {
     assert_eq!(kinds(&report(&ball("-1e5 -100", json!([])), &[]).1), []);
 }
 
-/// A block on a slope of 15°, or a ball that a heavy damper lowers slowly onto nothing.
+/// A block on a slope of 15°, and other slow motions.
 #[test]
 fn a_block_that_friction_holds_and_that_creeps_is_found() {
     let block = |option: &str| {
@@ -165,9 +165,9 @@ fn a_block_that_friction_holds_and_that_creeps_is_found() {
     let creeps = block("");
     assert_eq!(kinds(&creeps), [("drift".into(), "\"block\"".into())]);
     assert!(evidence(&creeps["findings"][0], "speed") > 1e-4);
-    // Friction that is hard, and a slope on which it slides.
+    // Stiff friction, and a slope on which the block slides.
     assert_eq!(kinds(&block(r#"cone="elliptic" impratio="1000""#)), []);
-    // What a servo pushes along does not creep.
+    // A body that a motor pushes does not creep.
     let pushed = r#"<geom type="plane" size="5 5 1"/><body name="sledge" pos="0 0 .099"><joint type="slide" damping="200"/><joint type="slide" axis="0 0 1"/>
         <geom type="box" size=".1 .1 .1" mass="1"/></body>"#;
     let motor = json!({"actuators": r#"<motor joint="x"/>"#, "setup": "data.ctrl[0] = 11"});
@@ -189,14 +189,14 @@ fn what_grows_exponentially_in_silence_is_found() {
     let run = |most: f64| kinds(&report(&lab(r#"gravity="0 0 0""#, cart, more(most)), &[]).1);
     assert_eq!(run(60.0), [("silentDivergence".into(), "joint \"rail\"".into())]);
     assert_eq!(run(0.3), []);
-    // What falls for long, or is driven by a constant force, is fast and not wild.
+    // A body that falls for a long time, or that a constant force drives, is fast without a fault.
     let falls = r#"<body name="stone"><freejoint/><geom size=".01"/></body>"#;
     assert_eq!(kinds(&report(&lab("", falls, json!({"stopAt": 30})), &[]).1), []);
     let driven = json!({"actuators": r#"<motor joint="rail"/>"#, "setup": "data.ctrl[0] = 1000"});
     assert_eq!(kinds(&report(&lab(r#"gravity="0 0 0""#, cart, driven), &[]).1), []);
 }
 
-/// The largest value of a margin, and the bound beside it.
+/// The largest value of a margin, and its theoretical bound.
 fn margin(report: &Value, knob: &str, who: &str) -> (f64, Option<f64>) {
     let all = report["margins"].as_array().unwrap();
     let found = all.iter().find(|m| m["knob"] == knob && m["who"].as_str().unwrap().contains(who));
@@ -221,7 +221,7 @@ fn margins_meet_the_bounds_of_one_degree_of_freedom() {
     still["stopAt"] = json!(20);
     let (code, report) = report(&still, &["--margins", "--until", "20"]);
     assert_eq!(code, 0);
-    // 1 kg on 150 N/m: 2/ω. Then at 2 ms: 4/h² for all springs together.
+    // 1 kg on 150 N/m: 2/ω. Then, at 2 ms, 4/h² for all springs together.
     for (knob, who, bound) in [
         ("timestep", "lab", 2.0 / 150f64.sqrt()),
         ("gain", "servo", 1e6 - 50.0),
@@ -260,7 +260,8 @@ fn what_is_said_to_help_does() {
         .iter()
         .map(|r| r["change"].as_str().unwrap())
         .collect();
-    // 2/ω at 3e6 N/m is 1.15 ms: steps of 1 ms and a smaller gain are stable, and show nothing of the motion, nor does `RK4`.
+    // 2/ω at 3e6 N/m is 1.15 ms: timesteps of 1 ms and a smaller gain are stable, but do not resolve the
+    // motion, and neither does `RK4`.
     assert_eq!(helps, ["`integrator=\"discrete\"`"]);
     let mended = |from: &str, to: &str| {
         let mut lab = servo(3e6);
@@ -289,11 +290,11 @@ fn the_exponent_and_the_horizon_are_those_of_a_linear_equation() {
     for key in ["mean", "low", "high"] {
         near(exponent[key].as_f64().unwrap(), 2.0, 0.1);
     }
-    // A start that is 1e-9 off is off by half of that times exp(2 t): half a unit of the third digit.
+    // A perturbation of 1e-9 becomes half of that times exp(2 t), which reaches half a unit of the third digit.
     let horizons = &report["sensitivity"]["horizons"];
     near(horizons[0]["until"].as_f64().unwrap(), 1e6f64.ln() / 2.0, 0.01);
     assert_eq!(horizons[1], json!({"label": "coarse", "until": null}));
-    // x¨ = -0.75 x - 2 x˙: exp(-t / 2) lasts the longest.
+    // For x¨ = -0.75 x - 2 x˙, exp(-t / 2) decays slowest.
     let (_, damped) = self::report(&pushed("-0.75 * data.qpos[0] - 2 * data.qvel[0]"), &["--until", "10"]);
     assert_eq!(damped["sensitivity"]["exponent"], Value::Null);
     assert!(damped["sensitivity"]["parting"]["high"].as_f64().unwrap() < 0.1);
@@ -336,7 +337,7 @@ fn what_cannot_be_tried_is_counted() {
         .collect();
     let (code, report) = report(&ball("0.02 1", json!(many)), &["--until", "0.01"]);
     assert_eq!((code, kinds(&report), &report["fine"]), (1, Vec::new(), &json!(false)));
-    // 60 of 70 sliders are combined: 70 · 69 / 2 pairs of sliders less 60 · 59 / 2, with four settings each.
+    // 60 of 70 sliders are combined: 70 · 69 / 2 pairs of sliders minus 60 · 59 / 2, with four settings each.
     assert_eq!(report["pairsLeftOut"], json!(4 * (70 * 69 - 60 * 59) / 2));
 }
 
@@ -348,7 +349,7 @@ fn a_lab_that_says_that_it_breaks_may() {
     assert_eq!((code, &report["findings"][0]["expected"]), (0, &json!(true)));
 }
 
-/// A report without what a clock measured.
+/// A report without measured times.
 fn untimed(text: &str) -> String {
     let parts: Vec<&str> = text.split(" times the time").collect();
     let (last, measured) = parts.split_last().unwrap();
@@ -400,7 +401,7 @@ fn a_base_is_where_everything_begins() {
 
 #[test]
 fn a_remedy_says_what_it_costs() {
-    // A cart of 1 kg that a spring of 2e6 N/m swings, by Euler's method at 2 ms.
+    // A cart of 1 kg on a spring of 2e6 N/m, with Euler's method at 2 ms.
     let cart = r#"<body name="cart"><joint name="rail" type="slide" stiffness="100" damping="1"/><geom size=".1" mass="1"/></body>"#;
     let more = json!({
         "setup": "data.qpos[0] = 0.1", "readouts": [{"label": "x (m)", "expr": "data.qpos[0]"}], "stopAt": 0.02,
@@ -409,7 +410,7 @@ fn a_remedy_says_what_it_costs() {
     let (_, report) = report(&lab(r#"gravity="0 0 0""#, cart, more), &["--until", "2"]);
     let list = report["findings"][0]["remedies"].as_array().unwrap();
     let of = |words: &str| list.iter().find(|r| r["change"].as_str().unwrap().contains(words)).unwrap();
-    // Two radians in a step of 1 ms: neither that nor RK4 at 2 ms follows the phase, and neither is advised.
+    // Two radians per step of 1 ms: neither this nor RK4 at 2 ms resolves the phase, and neither is recommended.
     assert!(
         list.iter().all(|r| r["change"] != "a timestep of 0.001 s" && r["change"] != "`integrator=\"RK4\"`")
     );

@@ -1,6 +1,6 @@
-//! What several modules of tests need: places, models, and the recorded numbers of MuJoCo.
+//! Shared functions of the test modules: paths, models, and the recorded values of MuJoCo.
 
-// A test that cannot read its own inputs has to fail.
+// A test that cannot read its own inputs must fail.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 pub(crate) mod report;
@@ -17,7 +17,7 @@ use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// The workspace, two folders above the crate that the tests belong to.
+/// The workspace, two folders above the crate of the tests.
 pub(crate) fn workspace() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
@@ -32,7 +32,7 @@ pub(crate) fn model(name: &str) -> Model {
     compile(&model_text(name))
 }
 
-/// Compiles a model that is meant to be right.
+/// Compiles a model that must be valid.
 pub(crate) fn compile(xml: &str) -> Model {
     xml::compile(xml).unwrap_or_else(|list| {
         let text: Vec<String> = list.iter().map(|d| d.to_string()).collect();
@@ -40,14 +40,14 @@ pub(crate) fn compile(xml: &str) -> Model {
     })
 }
 
-/// Compiles a model file with constraints switched off in its text, as the recordings of MuJoCo are made.
+/// Compiles a model file with constraints disabled in its text, as for the recordings of MuJoCo.
 pub(crate) fn compile_unconstrained(path: &Path) -> Result<Model, Vec<Finding>> {
     let text = std::fs::read_to_string(path).unwrap();
     let folder = Folder::new(path.parent().unwrap()).unwrap();
     xml::compile_with(&unconstrained(&text), &folder, path.file_name().and_then(|name| name.to_str()))
 }
 
-/// A model's text with constraints switched off.
+/// The text of a model with constraints disabled.
 pub(crate) fn unconstrained(text: &str) -> String {
     let root = text.find("<mujoco").unwrap();
     let end = root + text[root..].find('>').unwrap();
@@ -59,7 +59,7 @@ pub(crate) fn unconstrained(text: &str) -> String {
     format!("{head}<option><flag constraint=\"disable\"/></option>{tail}")
 }
 
-/// A file of `tests/golden`, by its name without the ending.
+/// A file of `tests/golden`, by its name without the extension.
 pub(crate) fn recording(name: &str) -> Value {
     read_json(&workspace().join(format!("tests/golden/{name}.json")))
 }
@@ -78,8 +78,8 @@ pub(crate) fn models(folder: &Path) -> Vec<String> {
     names
 }
 
-/// The numbers of a recorded array: words between spaces, `0*12` for twelve zeros. Rust reads each to the bit
-/// that was written.
+/// The numbers of a recorded array: words separated by spaces, with `0*12` for twelve zeros. Rust parses
+/// each to the written bits.
 pub(crate) fn numbers(recorded: &Value) -> Vec<f64> {
     let mut all = Vec::new();
     for word in recorded.as_str().unwrap().split_whitespace() {
@@ -96,12 +96,12 @@ pub(crate) fn check_text(name: &str, text: &str) -> Checked {
     check::check_lesson(lesson, &models, CheckLevel::FULL)
 }
 
-/// The codes of everything that was found.
+/// The codes of all findings.
 pub(crate) fn codes(checked: &Checked) -> Vec<&'static str> {
     checked.findings.iter().map(|f| f.code).collect()
 }
 
-/// Does something for each of so many, on all processors; the results stand in order.
+/// Calls `work` for each index on all processors; the results are in order.
 pub(crate) fn for_each<T: Send>(count: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
     let next = AtomicUsize::new(0);
     let threads = std::thread::available_parallelism().map_or(2, usize::from);

@@ -1,5 +1,5 @@
-//! What reaches a terminal: nothing raw from a lesson, a model or a file name; and what happens when there is no terminal,
-//! a full one, or somebody presses Ctrl-C.
+//! Output to a terminal: control characters of a lesson, a model or a file name are escaped. Also the behaviour without a
+//! terminal, with a full device, and on Ctrl-C.
 
 #![allow(clippy::unwrap_used)]
 
@@ -8,17 +8,17 @@ use crate::support::report::hold;
 use serde_json::json;
 use std::path::Path;
 
-/// Characters that act on a terminal, turn text around, or cannot be seen.
+/// Characters that control a terminal, change the direction of text, or are invisible.
 const HOSTILE: &str = "\u{1b}[2K\r\u{9b}31m\u{202e}\u{2066}\u{200f}\u{61c}\u{2028}\u{200b}\u{feff}\u{7f}\n";
 
-/// Whether output holds nothing but text and its own line breaks.
+/// Whether the output contains only text and its own line breaks.
 fn is_safe(output: &str) -> bool {
     let hidden = HOSTILE.chars().filter(|&c| c != '\n' && (c.is_control() || !c.is_ascii()));
     let hidden: Vec<char> = hidden.collect();
     !output.contains(&hidden[..])
 }
 
-/// A lab whose every text is hostile, and which throws, shows a text and breaks.
+/// A lab with control characters in all its texts, with a program that fails, a displayed string and a failing run.
 fn hostile_lab() -> String {
     let bad = |name: &str| format!("{name}{HOSTILE}verified");
     json!({
@@ -35,7 +35,7 @@ fn hostile_lab() -> String {
     .to_string()
 }
 
-/// A lesson with hostile ids, labels, keys, names of models and a claim that is false.
+/// A lesson with control characters in ids, labels, keys and names of models, and a false claim.
 fn hostile_lesson() -> String {
     let bad = |name: &str| format!("{name}{HOSTILE}verified   question 1");
     let quiz = json!({
@@ -55,7 +55,7 @@ fn hostile_lesson() -> String {
     format!("raw {HOSTILE} text\n\n```quiz\n{quiz}\n```\n\n```lab simlab\n{lab}\n```\n")
 }
 
-/// The names of files are foreign text in every form of a report, and no name adds a line, a command or a key of its own.
+/// File names are untrusted in every report format: no name adds a line, a command or a key.
 #[test]
 fn names_of_files_are_escaped_in_every_format() {
     let folder = folder();
@@ -183,7 +183,7 @@ fn lengths_that_make_no_sense_are_errors_in_words() {
     assert!(run_in(folder.path(), &["run", "clean.md#1", "--steps", "0"]).stdout.contains("(1 sample)"));
 }
 
-/// Exit code of a script in which `$L` is the program; `None` when a signal ended it.
+/// The exit code of a script in which `$L` is the program; `None` if a signal ended it.
 #[cfg(unix)]
 fn code(folder: &Path, script: &str) -> Option<i32> {
     let mut command = program(folder, &[]);
@@ -216,15 +216,15 @@ fn output_that_cannot_be_written_is_exit_2() {
         ("$L plan clean.md#1 > /dev/full", 2),
         ("$L check clean.md > /dev/full", 2),
         ("$L check clean.md --format json > /dev/full", 2),
-        // A message that nobody gets changes nothing.
+        // A message that cannot be printed changes nothing.
         ("$L check no-such.md 2> /dev/full", 2),
         ("$L --no-such 2> /dev/full", 2),
         ("$L check no-such.md 2>&-", 2),
         ("$L --no-such 2>&- >&-", 2),
         ("$L check clean.md 2> /dev/full", 0),
-        // Rust opens the null device in place of a closed output: there is nothing that could fail.
+        // Rust replaces a closed output by the null device, so that writing cannot fail.
         ("$L check wrong.md >&-", 1),
-        // A reader that has gone away is no failure.
+        // A closed pipe is not a failure.
         ("$L explain | head -1", 0),
         ("$L run clean.md#1 --until 10 --format csv | head -1", 0),
     ] {
@@ -247,7 +247,7 @@ fn a_reader_that_has_gone_away_ends_the_program_quietly() {
 #[test]
 fn ctrl_c_prints_what_is_finished() {
     let folder = folder();
-    // A step of this lab is slow, so that the run is still going on when the signal comes.
+    // A step of this lab is slow, so that the run is still active when the signal arrives.
     let lab = r#"{"title": "Slow", "model": "free_fall", "stopAt": 2000,
         "controller": "let s = data.time; for (let i = 0; i < 2000; i++) { s = s + i }",
         "readouts": [{"label": "time", "expr": "data.time"}]}"#;
@@ -259,18 +259,18 @@ fn ctrl_c_prints_what_is_finished() {
         code(folder.path(), &script);
         assert!(started.elapsed().as_secs() < 50, "{command}");
         let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
-        // (`--foreground`: else `timeout` sends the signal twice, which ends the program at once.)
-        // `timeout` itself says 124; the program's own code is asked for below.
+        // With `--foreground`, because `timeout` otherwise sends the signal twice, which ends the program at once. `timeout`
+        // itself returns 124; the exit code of the program is tested below.
         let output = read("out");
         hold(&output);
         output
     };
     let output = interrupt("run slow.json");
     assert!(output.contains("stopped by Ctrl-C at t = ") && output.starts_with("Slow, after"), "{output}");
-    // A table that is cut short says so.
+    // A truncated table states this.
     let output = interrupt("run slow.json --format json");
     assert!(output.contains("\"errors\":[\"stopped by Ctrl-C at t = "), "{output:.300}");
-    // A check is cut short in the middle of a lesson's runs; what was checked before stays.
+    // A check is interrupted during a lesson's runs; the results of earlier lessons are kept.
     let late: String = (0..60).map(|_| format!("```lab simlab\n{lab}\n```\n\n")).collect();
     std::fs::write(folder.path().join("late.md"), late).unwrap();
     let started = std::time::Instant::now();

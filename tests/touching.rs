@@ -1,17 +1,18 @@
-//! Bodies that touch exactly when the run begins (distance 0 in numbers that have no rounding), against what MuJoCo 3.14.0 computes: the
-//! first step is free fall, since nothing is pressed yet.
+//! Bodies that exactly touch at the start of a run (distance 0 in numbers without rounding), compared with MuJoCo 3.14.0: the
+//! first step is free fall, because there is no penetration yet.
 //!
-//! A capsule or cylinder that lies has a rotation that rounds. In the library and here, one of its ends is 1e-16 m deep, and the force at that
-//! end alone turns the body. That is not the exact answer, but it is one answer, and it is compared as well.
+//! The rotation of a lying capsule or cylinder has rounding errors. In the library and here, one of its ends has a
+//! penetration of 1e-16 m, and the force at that end turns the body. This is not the exact solution, but a unique result,
+//! and it is compared as well.
 
-#![allow(clippy::unwrap_used)] // a test that fails says why
+#![allow(clippy::unwrap_used)] // a failing test states the reason
 
 use crate::support::{compile, read_json, workspace};
 use labspec_core::{self as core, Data};
 use serde_json::Value;
 
-/// Where the library's iteration, not the scene, decides: it finds the ellipsoid 1.4e-8 m deep and off its lowest point, and the lying
-/// cylinder, which is 1e-16 m deep on a plane, outside the box.
+/// Cases that depend on the library's iteration: it finds the ellipsoid 1.4e-8 m deep and off its lowest point, and the lying
+/// cylinder, which has a penetration of 1e-16 m on a plane, outside the box.
 const ITERATED: [&str; 2] = ["ellipsoid on box", "cylinder lying on box"];
 
 fn numbers(of: &Value) -> Vec<f64> {
@@ -44,13 +45,14 @@ fn bodies_that_touch_exactly_begin_as_in_the_library() {
     }
 }
 
-/// By its symmetry an ellipsoid on a box falls, is stopped, and neither slides nor turns; on a plane it does the same, in the library too.
+/// By symmetry, an ellipsoid on a box falls and is stopped without sliding or turning. On a plane, it does the
+/// same, also in the library.
 #[test]
 fn an_ellipsoid_moves_on_a_box_as_on_a_plane() {
     let golden = read_json(&workspace().join("tests/golden/touching.json"));
     let on = |ground: &str| velocities(golden[format!("ellipsoid on {ground}")]["xml"].as_str().unwrap(), 4);
     assert_eq!(on("box"), on("plane"));
-    // The lying cylinder is pushed at one end, by rounding, on either.
+    // Rounding pushes the lying cylinder at one end, on both grounds.
     let lying =
         |ground: &str| velocities(golden[format!("cylinder lying on {ground}")]["xml"].as_str().unwrap(), 4);
     for (a, b) in lying("box").iter().flatten().zip(lying("plane").iter().flatten()) {

@@ -1,4 +1,4 @@
-//! `labspec trace`: numbers of real lessons traced to their runs, and what it proposes, taken over and verified.
+//! `labspec trace`: numbers of real lessons are traced to their runs, and its proposals, when accepted, verify.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -35,7 +35,7 @@ impl Case {
     }
 }
 
-/// A line for each number: its place, its text, and where it comes from.
+/// A line for each number: its location, its text, and its origin.
 fn traced(case: &Case) -> Vec<(usize, String, String)> {
     let lesson = case.lesson(&case.text);
     let models = Models::new(case.models.clone());
@@ -56,7 +56,7 @@ fn traced(case: &Case) -> Vec<(usize, String, String)> {
     found.numbers.iter().map(|n| (line(n.stated.span.start), n.stated.quote.clone(), of(&n.origin))).collect()
 }
 
-/// Takes every proposal over, and checks the lesson: how many quotes are right, and what is not.
+/// Accepts all proposals and checks the lesson: the number of right quotes, and the failures.
 fn accepted(case: &Case) -> (usize, Vec<String>) {
     let lesson = case.lesson(&case.text);
     let models = Models::new(case.models.clone());
@@ -88,7 +88,7 @@ fn accepted(case: &Case) -> (usize, Vec<String>) {
     (right, wrong.collect())
 }
 
-/// What `NUMBERS.md` records of the lesson, by line and text: the run, and what its measure says.
+/// The expected origins of the numbers of the lesson (`NUMBERS.md`), by line and text: the run, and a part of the measure.
 const LESSON: [(usize, &str, &str, &str); 38] = [
     (5, "2 ms", "#1 as it stands", "1000 * model.opt.timestep"),
     (7, "0.002 s", "#1 as it stands", "model.opt.timestep"),
@@ -130,7 +130,7 @@ const LESSON: [(usize, &str, &str, &str); 38] = [
     (108, "12.26 mm", "worked out", "0.5 * 9.81 * 0.005 * 0.5"),
 ];
 
-/// Numbers of which more than one reading is right: constants of the model that the text states, by what they may be.
+/// Numbers with several right origins: constants of the model in the text, with the possible measures.
 const OTHERS: [(&str, &str); 5] = [
     ("20 ms", "model.opt.timestep"),
     ("2 ms", "model.opt.timestep"),
@@ -151,7 +151,7 @@ fn numbers_of_a_real_lesson_are_traced() {
         }
     }
     assert!(untraced.is_empty(), "{untraced:#?}");
-    // What is told beside these is right, too.
+    // The other reported origins are right as well.
     for (line, quote, from) in &all {
         let set = ["set: ", "chance", "unknown"].iter().any(|w| from.starts_with(w));
         let listed = LESSON.iter().any(|(l, q, run, m)| {
@@ -181,8 +181,8 @@ fn explanations_of_a_real_quiz_are_traced() {
     }
 }
 
-/// The question's own gripper holds a cube of 1.2 kg; its explanation speaks of the one that the course has shown before, which is that
-/// of the model's file, and of the lab.
+/// The question's own gripper holds a cube of 1.2 kg; its explanation refers to the cube that the course has used before, which
+/// is that of the model file and of the lab.
 #[test]
 fn what_a_setup_changes_is_put_back() {
     let found = |case: &Case, quote: &str| {
@@ -193,7 +193,7 @@ fn what_a_setup_changes_is_put_back() {
         found(&quiz, "15.44 N"),
         "#5.3-check.5 after \"Grasp and lift\" is pressed, with the model as in its file: -final(data.actuator_force[3])"
     );
-    // Its other numbers are those of the lab as it stands.
+    // Its other numbers are those of the unchanged lab.
     for (quote, measure) in [
         ("30 N", "as it stands: max(data.actuator_force[3])"),
         ("1.2 kg", "as it stands: model.body('cube').mass[0]"),
@@ -202,7 +202,7 @@ fn what_a_setup_changes_is_put_back() {
         assert!(from.ends_with(measure), "{quote} is {from}");
     }
 
-    // Beside the lab of the course it is a readout of that.
+    // Next to the lab of the course, it is a readout of that lab.
     let lab = Case::open("corpus/labs/5.3_01_simlab.json").unwrap();
     let text = format!("# A grasp\n\n```lab simlab\n{}\n```\n\n```quiz\n{}\n```\n", lab.text, quiz.text);
     let both = Case { name: "5.3.md".into(), text, ..quiz };
@@ -212,7 +212,7 @@ fn what_a_setup_changes_is_put_back() {
     );
 }
 
-/// A setting that the sentence names is that of its number.
+/// A setting that the sentence names applies to its number.
 #[test]
 fn a_sentence_that_names_a_setting_speaks_of_it() {
     let Some(case) = Case::open("lesson-0.1/lesson-0.1.md") else { return };
@@ -221,7 +221,7 @@ fn a_sentence_that_names_a_setting_speaks_of_it() {
     assert_eq!(from, "#1 as it stands: 1000 * model.geom('heavy_geom').size[0] - min(data.qpos[2])");
 }
 
-/// The answer of a numeric question is claimed by its `value`, and by nothing else.
+/// The answer of a numeric question is claimed only by its `value`.
 #[test]
 fn an_answer_that_is_computed_is_claimed() {
     let folder = workspace().join("specs/models");
@@ -243,7 +243,7 @@ fn an_answer_that_is_computed_is_claimed() {
     }
 }
 
-/// Whatever is proposed is true when it is taken over.
+/// All proposals are true when they are accepted.
 #[test]
 fn what_is_proposed_verifies() {
     for (path, least) in [
@@ -261,7 +261,7 @@ fn what_is_proposed_verifies() {
     }
 }
 
-/// What a lesson quotes is claimed; and nothing that it quotes is proposed again.
+/// Quoted numbers are claimed, and are not proposed again.
 #[test]
 fn what_is_claimed_is_told_as_claimed() {
     let folder = workspace().join("specs");
@@ -280,7 +280,7 @@ fn what_is_claimed_is_told_as_claimed() {
     for (line, quote, from) in all.iter().filter(|(_, quote, _)| quoted(quote)) {
         assert_eq!(from, "claimed", "line {line}: {quote}");
     }
-    // Where it quotes nothing, its answers alone are claimed.
+    // Without quotes, only its answers are claimed.
     let silent = Case { text: case.text.replace("\"says\": [", "\"says\": [], \"was\": ["), ..case };
     let all = traced(&silent);
     let claimed: Vec<&str> = all.iter().filter(|n| n.2 == "claimed").map(|n| n.1.as_str()).collect();

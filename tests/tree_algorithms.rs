@@ -1,4 +1,4 @@
-//! Each short way of computing trees against the general one: over the zoo, and over random trees.
+//! Each specialized tree algorithm compared with the general one, for the zoo and for random trees.
 
 #![allow(clippy::unwrap_used)]
 
@@ -9,7 +9,7 @@ use labspec_core::reflect::{self, Object};
 use labspec_core::{self as core, AccessSet, Data, Model, Plan, Planned, TreeAlgorithm, TreeAlgorithms};
 use proptest::prelude::*;
 
-/// What trees are computed for. `qLD` of short chains and of rows is the same matrix.
+/// The compared fields. `qLD` of short chains and of rows is the same matrix.
 const FIELDS: [&str; 9] =
     ["xpos", "xquat", "M", "qLD", "qLDiagInv", "qfrc_bias", "qacc_smooth", "qacc", "qfrc_constraint"];
 
@@ -19,11 +19,11 @@ fn numbers(m: &Model, d: &Data<Planned>, name: &str) -> Vec<f64> {
     (0..view.len()).filter_map(|i| view.get(i)).collect()
 }
 
-/// A field, and its numbers.
+/// A field and its numbers.
 type Column = (&'static str, Vec<f64>);
 
-/// The field that differs most between two ways after a forward pass, or the state after three steps more, with its difference
-/// relative to its largest number.
+/// The field that differs most between two sets of algorithms after a forward pass, or the state after three more steps, with
+/// the difference relative to the largest number of the field.
 fn difference(
     m: &Model,
     start: impl Fn(&mut Data<Planned>),
@@ -53,7 +53,7 @@ fn difference(
         .fold((0.0, ""), |worst, now| if now.0 > worst.0 { now } else { worst })
 }
 
-/// Each way alone, and all of them.
+/// Each algorithm alone, and all of them.
 fn every() -> impl Iterator<Item = TreeAlgorithms> {
     let alone = |algorithm| {
         TreeAlgorithm::short().filter(|w| *w != algorithm).fold(TreeAlgorithms::ALL, TreeAlgorithms::without)

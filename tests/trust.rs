@@ -1,4 +1,5 @@
-//! Nothing is called verified or clean that was not checked: every verdict that was once given without being earned.
+//! Nothing is called verified or clean that was not checked. Each test covers a verdict that an earlier
+//! version gave without evidence.
 
 #![allow(clippy::unwrap_used)]
 
@@ -29,7 +30,7 @@ fn check_json(value: &Json) -> Checked {
     check_text("lesson.json", &serde_json::to_string_pretty(value).unwrap())
 }
 
-/// A question about the fall with one option more than it needs.
+/// A question about the fall with two options.
 fn question(answer: usize, verify: Json) -> Json {
     json!({"id": "q", "questions": [{
         "kind": "predict", "q": "How far in 0.5 s: 1.231 m?", "options": ["not far", "far"], "answer": answer, "sim": lab(json!({})), "verify": verify,
@@ -119,7 +120,7 @@ fn closed_forms_are_held_to_their_traces() {
     }
 }
 
-/// The fourth-order method is held to its own order, and an exact trace to rounding.
+/// The tolerance for a fourth-order method follows from its order, and an exact trace must agree up to rounding.
 #[test]
 fn closed_forms_are_judged_at_the_order_of_the_integrator() {
     let xml = "<mujoco><option integrator='RK4' timestep='0.01'><flag contact='disable'/></option><worldbody><body><joint name='s' type='slide' axis='1 0 0' stiffness='10'/><geom size='0.1' mass='1'/></body></worldbody><keyframe><key qpos='0.1'/></keyframe></mujoco>";
@@ -131,7 +132,7 @@ fn closed_forms_are_judged_at_the_order_of_the_integrator() {
     };
     assert_eq!(exact("0.1 * Math.cos(Math.sqrt(10) * data.time)"), State::True(Evidence::Simulated));
     assert_eq!(exact("0.1 * Math.cos(Math.sqrt(10.0001) * data.time)"), State::False);
-    // What the same run computes is no formula, however it gets there.
+    // A value that the same run computes is not an independent formula, in any form.
     for form in [
         "data.qpos[0]",
         "data.time + 0 * data.qvel[0]",
@@ -142,7 +143,7 @@ fn closed_forms_are_judged_at_the_order_of_the_integrator() {
     }
 }
 
-/// Line 3: only `says`: the numbers are verified, the answer is not, and the two are told apart.
+/// Line 3: only `says`: the numbers are verified, the answer is not, and the report distinguishes them.
 #[test]
 fn numbers_do_not_verify_an_answer() {
     let verify = json!({"runs": {"run": {"set": {"h": 0.002}, "until": 0.5}}, "measure": {"fall": "2 - final(data.qpos[2])"}, "says": [["1.231 m", "fall"]]});
@@ -153,7 +154,7 @@ fn numbers_do_not_verify_an_answer() {
     assert_eq!(entries(&checked, Subject::Quote)[0].state, State::True(Evidence::Simulated));
 }
 
-/// Line 4: bare constants, formulas, and comparisons with NaN.
+/// Line 4: constants, formulas without simulation, and comparisons with NaN.
 #[test]
 fn constants_and_nan_are_evidence_of_nothing() {
     let judged = |options: Json, measure: Json| {
@@ -200,7 +201,7 @@ fn a_numeric_answer_needs_a_simulated_value() {
     assert_eq!(judged("first(data.qpos[2] < -99)"), (Verdict::Failed, vec!["claim-without-number"]));
 }
 
-/// Line 5: a run that breaks verifies nothing, unless a condition reads its warnings, or the lesson says that it breaks.
+/// Line 5: a run that fails verifies nothing, unless a condition reads its warnings, or the lesson states that it fails.
 #[test]
 fn a_run_that_breaks_verifies_nothing() {
     let judged = |options: Json, expect: Option<&str>| {
@@ -220,7 +221,7 @@ fn a_run_that_breaks_verifies_nothing() {
     assert_eq!(codes(&check_json(&question(0, calm))), ["does-not-break"]);
 }
 
-/// A claim that throws at run time is a claim that could not be checked.
+/// A claim that fails at run time is a claim that could not be checked.
 #[test]
 fn a_claim_that_throws_is_not_true() {
     let verify = json!({"runs": {"run": {"until": 0.5}}, "measure": {"z": "final(data.qpos[2])"}, "options": ["z.toFixed(101) < 2", "z > 3"]});
@@ -230,7 +231,7 @@ fn a_claim_that_throws_is_not_true() {
     assert!(!checked.findings.is_empty());
 }
 
-/// Line 9: what was measured, at half the timestep too, and how far each condition is from the other answer.
+/// Line 9: the report contains the measures, also at half the timestep, and the margin of each condition.
 #[test]
 fn doubtful_answers_show_what_was_measured() {
     let folder = folder();
@@ -248,7 +249,7 @@ fn doubtful_answers_show_what_was_measured() {
     }
 }
 
-/// What nobody can check is exit 2, whatever was given.
+/// If nothing can be checked, the exit code is 2, for any arguments.
 #[test]
 fn nothing_to_check_is_no_success() {
     let folder = folder();
@@ -264,7 +265,7 @@ fn nothing_to_check_is_no_success() {
     assert_eq!(run_in(folder.path(), &["check", "broken/models/ball_drop.xml"]).code, 1);
 }
 
-/// A file that cannot be read hides nothing of the others.
+/// A file that cannot be read does not affect the others.
 #[test]
 fn an_unreadable_file_hides_nothing() {
     let folder = folder();
@@ -276,11 +277,11 @@ fn an_unreadable_file_hides_nothing() {
     }
 }
 
-/// Claims that would take for ever end within the work of a check, and say so.
+/// Claims that would take too long stop at the work limit of a check, and this is reported.
 #[test]
 fn claims_are_checked_within_a_budget() {
     let start = std::time::Instant::now();
-    // 2,000 measures over 900,000 steps, and as many again for each change of the numerics.
+    // 2,000 measures over 900,000 steps, and the same number for each numerical variant.
     let measure: Json = (0..2000)
         .map(|i| (format!("m{i}"), json!(format!("final(data.qpos[2]) + {i}"))))
         .collect::<serde_json::Map<_, _>>()
@@ -291,7 +292,7 @@ fn claims_are_checked_within_a_budget() {
     assert_eq!(answer(&checked).verdict, Verdict::Failed);
     assert!(codes(&checked).contains(&"run-breaks"), "{:?}", codes(&checked));
     assert!(entries(&checked, Subject::Run)[0].remark.contains("the work budget ran out"));
-    // 400 quotes in a lesson of megabytes, each found where it stands.
+    // 400 quotes in a lesson of megabytes, each found at its location.
     let says: Vec<Json> = (0..400).map(|i| json!([format!("{i}.25 m"), format!("{i} + 0.25")])).collect();
     let verify = json!({"runs": {"run": {"until": 0.1}}, "measure": {"fall": "2 - final(data.qpos[2])"}, "says": says});
     let prose: String = (0..400)
@@ -303,11 +304,11 @@ fn claims_are_checked_within_a_budget() {
     let right =
         entries(&checked, Subject::Quote).iter().filter(|e| matches!(e.state, State::True(_))).count();
     assert_eq!(right, 400, "{:?}", codes(&checked));
-    // Two cases, twenty seconds of one core each at most; the machine may be busy.
+    // Two cases with at most twenty seconds of processor time each; the machine may be busy.
     assert!(start.elapsed().as_secs() < 120, "{:?}", start.elapsed());
 }
 
-/// A lab in broken JSON is read on, and still nothing about it is called true: no page can read it.
+/// A lab in broken JSON is still parsed, but nothing about it is called true, because a page cannot read it.
 #[test]
 fn broken_json_is_never_clean() {
     let text = format!("```lab\n{}\n```\n", lab(json!({})).to_string().replacen(',', " ", 1));
@@ -316,7 +317,7 @@ fn broken_json_is_never_clean() {
     assert_eq!(outcome(&checked), Outcome::Findings);
 }
 
-/// A control whose end no run can be made with: the lab was not run in full.
+/// A control for whose end no run is possible: the lab was not run completely.
 #[test]
 fn a_control_that_cannot_be_tried_is_no_whole_run() {
     let slider =

@@ -1,11 +1,11 @@
-//! The tutorial, followed word for word: its files are written, its changes made, its commands typed, and the terminal shows
-//! what the page shows.
+//! The tutorial, executed literally: its files are written, its changes made, its commands run, and the output
+//! must equal that in the page.
 //!
-//! A block belongs to the line of words before it. `diff` changes the file that the line names last; `sh` is typed, and a block of
-//! `text` behind it is what then stands on the terminal; any other block is written into the file that the line names last, or,
-//! where the line begins with "Add", behind what the file holds. A picture of the page is the file of that name.
+//! A block belongs to the line of prose before it. `diff` changes the last file named in the line. `sh` is run, and a block of
+//! `text` after it is its output. Any other block is written into the last file named in the line, or appended to it if the
+//! line begins with "Add". A picture in the page is the file with that name.
 //!
-//! `LABSPEC_BLESS=1 cargo test -p labspec-cli --test all tutorial` writes into the page and its pictures what is shown now.
+//! `LABSPEC_BLESS=1 cargo test -p labspec-cli --test all tutorial` writes the current output into the page and its pictures.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -13,7 +13,7 @@ use crate::support::workspace;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The words and blocks of a page, in their order.
+/// The prose and the blocks of a page, in order.
 enum Part<'a> {
     Words(&'a str),
     Block { ticks: &'a str, kind: &'a str, inside: String },
@@ -34,13 +34,13 @@ fn parts(page: &str) -> Vec<Part<'_>> {
     out
 }
 
-/// A terminal: a folder in which one is, and a shell with the program among its commands.
+/// A terminal: a current folder, and a shell whose path contains the program.
 struct Terminal {
     here: PathBuf,
 }
 
 impl Terminal {
-    /// What a block of commands prints. `cd` lasts for the blocks that follow.
+    /// Runs a block of commands, and returns its output. `cd` affects the following blocks.
     fn types(&mut self, commands: &str) -> String {
         let program = Path::new(env!("CARGO_BIN_EXE_labspec")).parent().unwrap();
         let path = format!("{}:{}", program.display(), std::env::var("PATH").unwrap());
@@ -56,7 +56,7 @@ impl Terminal {
         String::from_utf8(done.stdout).unwrap()
     }
 
-    /// Makes a change as a page shows it: lines that go begin with `-`, lines that come with `+`, others stay.
+    /// Applies a change in the format of the page: `-` marks removed lines, `+` added lines; others remain.
     fn changes(&self, name: &str, change: &str) {
         let side = |gone: char| -> String {
             let lines = change.lines().filter(|l| !l.starts_with(gone));
@@ -69,7 +69,7 @@ impl Terminal {
     }
 }
 
-/// The one block that is not typed: it builds the program, and the test was given one.
+/// The only block that is not run: it builds the program, which already exists in the test.
 const BUILD: &str = "cargo install --path crates/cli --locked\nlabspec --version\n";
 
 #[test]
@@ -79,7 +79,7 @@ fn the_tutorial_is_followed_word_for_word() {
     let bless = std::env::var_os("LABSPEC_BLESS").is_some();
     let folder = tempfile::tempdir().unwrap();
     let mut terminal = Terminal { here: folder.path().into() };
-    // What stands on the terminal and was not looked at, and the page as it should be.
+    // The output that has not been compared yet, and the updated page.
     let (mut output, mut real) = (None, String::new());
     let (mut before, mut typed, mut pictures) = ("", 0, 0);
     for part in parts(&page) {

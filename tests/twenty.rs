@@ -1,5 +1,5 @@
-//! Labs of twenty kinds (`twenty/labs.md`) and random settings of them, each run in MuJoCo 3.14.0 as well (`golden/twenty.py`): what is
-//! broken there is reported, what is sound is not, and `run`, `check` and `stability` report the same.
+//! Labs of twenty kinds (`twenty/labs.md`) with random settings, each also run in MuJoCo 3.14.0 (`golden/twenty.py`): runs that
+//! fail there are reported, others are not, and `run`, `check` and `stability` report the same.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -18,7 +18,7 @@ use serde_json::Value as Json;
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// What is broken and reported at least, and what is sound and reported at most, in parts.
+/// The minimum share of reported faults, and the maximum share of false alarms.
 const REPORTED: f64 = 0.99;
 const ALARMS: f64 = 0.003;
 
@@ -45,7 +45,7 @@ fn ready(text: &str) -> Ready {
     Ready { lab, model, programs }
 }
 
-/// The codes of what `run` reports of a setting.
+/// The codes that `run` reports for a setting.
 fn run(ready: &Ready, set: Vec<(String, Value)>) -> BTreeSet<&'static str> {
     let options = RunOptions { set, every: 100, ..RunOptions::default() };
     let table = stress::watched_run(&ready.lab, &ready.model, &ready.programs, &options).unwrap();
@@ -92,7 +92,7 @@ fn broken_settings_are_reported_and_sound_ones_are_not() {
     assert!(intact[1] as f64 <= ALARMS * intact[0] as f64, "{intact:?}");
 }
 
-/// What `stability` calls what `check` and `run` report by this code.
+/// The kind in `stability` for a code of `check` and `run`.
 fn kind(code: &str) -> Option<&'static str> {
     Some(match code {
         "simulation-diverges" => "diverges",
@@ -122,7 +122,7 @@ fn set(text: &str, values: &Json) -> String {
 /// A lab: its name, its text, and the folder of its model.
 type Named = (String, String, Option<&'static str>);
 
-/// The labs of the corpus, where it is there.
+/// The labs of the corpus, if it exists.
 fn corpus() -> Vec<Named> {
     if !needs("../shared/corpus") {
         return Vec::new();
@@ -137,7 +137,7 @@ fn corpus() -> Vec<Named> {
     files.iter().map(named).collect()
 }
 
-/// What a command of the program reports of a lab.
+/// The report of a command for a lab.
 fn report(command: &str, file: &Path, models: Option<&str>, more: &[&str]) -> Json {
     let mut words = vec![command, file.to_str().unwrap(), "--format", "json"];
     words.extend(more);
@@ -146,7 +146,7 @@ fn report(command: &str, file: &Path, models: Option<&str>, more: &[&str]) -> Js
     serde_json::from_str(&done.stdout).unwrap_or_else(|_| panic!("{}: {}", file.display(), done.stderr))
 }
 
-/// Where the three do not report the same of a lab as it stands.
+/// Compares the reports of the three commands for the unchanged lab.
 fn three(folder: &Path, name: &str, text: &str, models: Option<&str>) -> Option<String> {
     let lesson = load_lesson(SourceFile::new("lab.json", text), &ModelFolder::unknown());
     let window = stress::window(lesson.all_labs()[0]).to_string();
@@ -177,7 +177,7 @@ fn three(folder: &Path, name: &str, text: &str, models: Option<&str>) -> Option<
 fn run_check_and_stability_report_the_same() {
     let blocks = texts();
     let golden = read_json(&workspace().join("tests/golden/twenty.json"));
-    // Settings as they come, as many of each lab; the last one is what 700 of them have found: a control above 1e10.
+    // The first settings, the same number for each lab; the last one was found among 700: a control above 1e10.
     let wanted = std::env::var("LABSPEC_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(40);
     let settings = golden["settings"].as_array().unwrap().iter().enumerate();
     let mut labs: Vec<Named> = settings
@@ -199,8 +199,8 @@ fn run_check_and_stability_report_the_same() {
     assert!(wrong.is_empty(), "{} of {}:\n{}", wrong.len(), labs.len(), wrong.join("\n"));
 }
 
-/// What `precision` and `verify` make of a lab as it stands beside `run`: the same words where it breaks, the same number at its end to
-/// the bit where it does not.
+/// Compares `precision` and `verify` with `run` for the unchanged lab: the same messages if it fails, otherwise the same
+/// bits of the final number.
 fn others(folder: &Path, name: &str, text: &str, models: Option<&str>) -> Result<bool, String> {
     let lesson = load_lesson(SourceFile::new("lab.json", text), &ModelFolder::unknown());
     let lab = lesson.all_labs()[0];
@@ -215,7 +215,7 @@ fn others(folder: &Path, name: &str, text: &str, models: Option<&str>) -> Result
     let report = |command: &str, more: &[&str]| report(command, &file, models, more);
     let until = window.to_string();
     let run = report("run", &["--until", &until]);
-    // What only the watch of `check` and `stability` sees is not asked of the others.
+    // Faults that only the monitors of `check` and `stability` detect are not expected from the others.
     let loud: BTreeSet<String> = run["breakdowns"]
         .as_array()
         .unwrap()
@@ -227,7 +227,7 @@ fn others(folder: &Path, name: &str, text: &str, models: Option<&str>) -> Result
         })
         .map(|b| b["what"].as_str().unwrap().to_string())
         .collect();
-    // The lab's own setting is among those that are compared, whichever integrators are named.
+    // The lab's own setting is among those that are compared, for any list of integrators.
     let precision = report("precision", &["--until", &until, "--integrator", "Euler"]);
     let lab_row = precision["rows"].as_array().unwrap().iter().find(|row| row["own"] == true);
     if let Some(lab_row) = lab_row {
@@ -261,9 +261,9 @@ fn others(folder: &Path, name: &str, text: &str, models: Option<&str>) -> Result
     Ok(displayed.is_some())
 }
 
-/// What `trace` finds of the first readout at the end of a lab's own run, quoted in a sentence: the measures that it proposes have the
-/// values that `verify` gives them, to the bit. Returns how many measures there were, and of how many the value is the one that `run`
-/// ends with, to the bit.
+/// Quotes the first readout at the end of a lab's own run in a sentence, and traces it: the measures that `trace`
+/// proposes have the values of `verify`, to the bit. Returns the number of measures, and how many of them have the
+/// final value of `run`, to the bit.
 fn traced(folder: &Path, name: &str, text: &str, models: Option<&str>) -> Result<[usize; 2], String> {
     let report = |command: &str, file: &Path| report(command, file, models, &[]);
     let lab = folder.join(format!("{name}.json"));

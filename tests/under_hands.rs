@@ -1,6 +1,6 @@
-//! Labs under a student's hands, beside MuJoCo 3.14.0: every run that `labspec stability --margins` makes of the labs of
-//! `stability/labs.md` and of `../shared`, and what the library makes of the same settings (recorded by `stability/theirs.mjs` in
-//! `golden/stability_labs.json`). Writes `docs/measured/stability-labs.md`.
+//! Labs with interactions of a student, compared with MuJoCo 3.14.0: all runs that `labspec stability --margins` performs for
+//! the labs of `stability/labs.md` and of `../shared`, and the library's results for the same settings (recorded by
+//! `stability/theirs.mjs` in `golden/stability_labs.json`). Writes `docs/measured/stability-labs.md`.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -11,11 +11,12 @@ use serde_json::Value as Json;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-/// Where searches of the library differ by more than this among themselves, there is no margin, but chance.
+/// If searches of the library differ by more than this factor among themselves, the margin is random.
 const CHANCE: f64 = 1.5;
-/// Margins may differ from the library's by this part.
+/// The tolerance of margins, relative to the library's.
 const CLOSE: f64 = 0.1;
-/// Whether the contacts of a stack at rest switch in a step is decided by what the solver leaves at its tolerance, there as here.
+/// The tolerance if the contacts of a stack at rest switch in a step, which depends on the remaining error of
+/// the solver on both sides.
 const CHATTERS: f64 = 0.5;
 
 /// Our report of a lab.
@@ -37,7 +38,7 @@ fn ours(lab: &str) -> Json {
     serde_json::from_str(&done.stdout).unwrap_or_else(|_| panic!("{lab}: {}", done.stderr))
 }
 
-/// The reports of all labs, in their order; two are made at a time.
+/// The reports of all labs in their order; two are computed at a time.
 fn reports(labs: &[&str]) -> Vec<Json> {
     let half = |k: usize| labs.iter().skip(k).step_by(2).map(|lab| ours(lab)).collect::<Vec<_>>();
     let (even, odd) = std::thread::scope(|scope| {
@@ -52,7 +53,7 @@ fn texts(list: &Json) -> BTreeSet<&str> {
     list.as_array().unwrap().iter().map(|x| x.as_str().unwrap()).collect()
 }
 
-/// Whether two settings are the same; JavaScript writes 0 where we write 0.0.
+/// Whether two settings are equal; JavaScript writes 0 where we write 0.0.
 fn same(a: &Json, b: &Json) -> bool {
     match (a, b) {
         (Json::Number(a), Json::Number(b)) => a.as_f64() == b.as_f64(),
@@ -64,19 +65,19 @@ fn same(a: &Json, b: &Json) -> bool {
     }
 }
 
-/// What the runs of a lab come to.
+/// The results of the runs of a lab.
 #[derive(Default)]
 struct Count {
     runs: usize,
-    /// Runs in which the library warns, and those of them in which something is told here.
+    /// Runs in which the library warns, and those of them for which we report a fault.
     warned: usize,
     heard: usize,
-    /// Runs that go wrong by the same criteria there, and here; and those that go wrong here alone.
+    /// Runs with a fault by the same criteria in the library, and here; and those with a fault only here.
     wrong: [usize; 2],
     alarms: usize,
 }
 
-/// Holds our runs against the library's; `list` takes what differs.
+/// Compares our runs with the library's; differences are added to `list`.
 fn runs(lab: &str, theirs: &Json, ours: &Json, list: &mut Vec<String>) -> Count {
     let [there, here] = [theirs, ours].map(|x| x["runs"].as_array().unwrap());
     assert_eq!(
@@ -91,11 +92,11 @@ fn runs(lab: &str, theirs: &Json, ours: &Json, list: &mut Vec<String>) -> Count 
             "{lab}: a recording of other settings: {there} {here}"
         );
         let [mut a, b] = [there, here].map(|x| texts(&x["wrong"]));
-        // A control that is not a number or exceeds 1e10 is one that the library warns of: `watch.mjs` looks at the state alone.
+        // The library warns of a control that is NaN or exceeds 1e10, but `watch.mjs` only inspects the state.
         if there["warnings"].get("badctrl").is_some() {
             a.insert("diverges");
         }
-        // What `watch.mjs` has no criterion for; what sinks in is what is pressed deep for good.
+        // Faults without a criterion in `watch.mjs`; `sinksIn` corresponds to its permanent deep penetration.
         let other = ["engineWarns", "throws", "solverStopsEarly"];
         let renamed = b.into_iter().filter(|k| !other.contains(k));
         let b: BTreeSet<&str> = renamed.map(|k| if k == "sinksIn" { "penetration" } else { k }).collect();
@@ -115,12 +116,12 @@ fn runs(lab: &str, theirs: &Json, ours: &Json, list: &mut Vec<String>) -> Count 
     count
 }
 
-/// Three digits.
+/// A number with four significant digits or more.
 fn short(x: Option<f64>) -> String {
     x.map_or("none".into(), |x| if (1e-3..1e4).contains(&x) { format!("{x:.4}") } else { format!("{x:.3e}") })
 }
 
-/// Margins side by side; `far` takes those that are not close.
+/// Margins side by side; those that differ are added to `far`.
 fn margins(lab: &str, theirs: &Json, ours: &Json, far: &mut Vec<String>) -> (String, [usize; 2]) {
     let [there, here] = [theirs, ours].map(|x| x["margins"].as_array().unwrap());
     assert_eq!(
@@ -135,7 +136,7 @@ fn margins(lab: &str, theirs: &Json, ours: &Json, far: &mut Vec<String>) -> (Str
         let [x, y] = [a, b].map(|m| m["largest"].as_f64());
         let ratio = x.zip(y).map(|(x, y)| y / x);
         let bounded = [a, b].map(|m| m["breaks"].is_number());
-        // Where a billionth more at the start finds another margin, the library's own lies between two ends.
+        // If a perturbation of 1e-9 at the start changes the library's own margin, the margin is an interval.
         let ends = a["spread"].as_array().map(|s| [0, 1].map(|k| s[k].as_f64().unwrap()));
         let chance = ends.is_some_and(|[low, high]| high > CHANCE * low);
         let chatters = [&a["how"], &b["how"]["kind"]].iter().any(|how| **how == "chatter");
@@ -170,7 +171,7 @@ fn margins(lab: &str, theirs: &Json, ours: &Json, far: &mut Vec<String>) -> (Str
     (text, [there.len(), chances])
 }
 
-/// What a page has a line about; its last digits may be those of another machine.
+/// The subjects of the lines of a page; the last digits may come from another machine.
 fn subjects(page: &str) -> Vec<String> {
     page.lines().map(|l| l.split('|').take(3).collect::<Vec<_>>().join("|")).collect()
 }

@@ -1,4 +1,4 @@
-//! What a verified lesson comes to: one small lesson for every verdict, with everything its author reads.
+//! The results of verification: one small lesson for every verdict, with all output for the author.
 
 #![allow(clippy::unwrap_used)]
 
@@ -41,7 +41,7 @@ fn lesson(prose: &str, question: &str) -> String {
     )
 }
 
-/// Checks a lesson, holds its verdict and shows everything else as a snapshot.
+/// Checks a lesson, asserts its verdict, and compares all other output with a snapshot.
 fn expect(name: &str, verdict: Verdict, prose: &str, question: &str) {
     let text = lesson(prose, question);
     let checked = check_text("fall.md", &text);
@@ -52,7 +52,7 @@ fn expect(name: &str, verdict: Verdict, prose: &str, question: &str) {
         let _ = writeln!(output, "  {}: {} {}", quote.text, quote.verdict(), quote.reason);
     }
     for m in &claim.judgement.measures {
-        // Nine digits: the last bits are no promise to a reader.
+        // Nine digits, because the last bits are not guaranteed.
         let halved = m.halved.map_or(String::new(), |x| format!(", {x:.9} at half the timestep"));
         let _ = writeln!(output, "  {} = {:.9}{halved}", m.name, m.value);
     }
@@ -68,7 +68,7 @@ fn expect(name: &str, verdict: Verdict, prose: &str, question: &str) {
     assert_eq!(checked.claims.len(), 1);
 }
 
-/// The same of a question whose answer is right and whose first quote that is not right comes to this.
+/// The same for a question whose answer is right; the first quote that is not right must have this verdict.
 fn expect_quote(name: &str, word: &str, prose: &str, question: &str) {
     expect(name, Verdict::Verified, prose, question);
     let checked = check_text("fall.md", &lesson(prose, question));
@@ -77,7 +77,7 @@ fn expect_quote(name: &str, word: &str, prose: &str, question: &str) {
     assert_eq!(found, Some(word), "{quotes:?}");
 }
 
-/// Number of quoted numbers that are right.
+/// The number of quoted numbers that are right.
 fn right(checked: &Checked) -> usize {
     checked.claims[0].judgement.quotes.iter().filter(|q| q.state == QuoteState::Right).count()
 }
@@ -85,7 +85,7 @@ fn right(checked: &Checked) -> usize {
 const TWO_GRAVITIES: &str = r#""runs": {"earth": {"until": 1}, "half": {"set": {"gravity": -4.905}, "until": 1}},
       "measure": {"touch": "first(contact('ball', 'floor'))"}"#;
 
-/// A question on two runs, with an answer and three conditions.
+/// A question about two runs, with an answer and three conditions.
 fn choice(answer: usize, conditions: [&str; 3]) -> String {
     format!(
         r##"    {{
@@ -139,7 +139,7 @@ fn a_run_that_cannot_be_made_fails() {
     expect("failed-run", Verdict::Failed, "Drop it.", &question);
 }
 
-/// A question with a number for an answer.
+/// A question with a numeric answer.
 fn numeric(answer: &str, tol: &str, value: &str, says: &str) -> String {
     format!(
         r##"    {{
@@ -166,7 +166,7 @@ fn a_wrong_number_is_refuted() {
     expect("numeric-refuted", Verdict::Refuted, "Drop it.", &numeric("0.45", "0.005", "touch", ""));
 }
 
-/// A contact is looked for once in a step: a time of touchdown finer than a step is a property of the timestep.
+/// Contacts are detected once per step, so a touchdown time that is more precise than a step is a property of the timestep.
 #[test]
 fn an_answer_finer_than_the_timestep_is_fragile() {
     expect("fragile", Verdict::Fragile, "Drop it.", &numeric("0.442", "0.0004", "seen", ""));
@@ -175,7 +175,7 @@ fn an_answer_finer_than_the_timestep_is_fragile() {
     expect("fragile-choice", Verdict::Fragile, "Drop it.", &choice(0, order));
 }
 
-/// The same question is sound once it says which timestep it means.
+/// The same question is robust if it states its timestep.
 #[test]
 fn an_answer_that_states_its_timestep_is_not_fragile() {
     let question = numeric("0.442", "0.0004", "seen", "")
@@ -203,8 +203,8 @@ fn a_quote_without_a_number_is_reported() {
     expect_quote("quote-without-number", "failed", "It takes about half a second.", &question);
 }
 
-/// A question whose only claims beside its answer are quotes, in a lesson with this prose: number of right quotes,
-/// codes of what was found.
+/// A question whose only claims besides its answer are quotes, in a lesson with this prose: the number of right quotes, and
+/// the codes of the findings.
 fn quotes(prose: &str, says: &str) -> (usize, Vec<&'static str>) {
     let text = lesson(prose, &numeric("0.44", "0.005", "touch", says));
     let checked = check_text("fall.md", &text);
@@ -212,7 +212,7 @@ fn quotes(prose: &str, says: &str) -> (usize, Vec<&'static str>) {
     (right(&checked), codes)
 }
 
-/// Issue 12, line 7: a number changed in the prose stayed verified, because something that nobody reads still held it.
+/// Issue 12, line 7: a changed number in the prose remained verified, because invisible text still contained the old one.
 #[test]
 fn a_changed_number_in_prose_is_not_verified_by_what_no_reader_sees() {
     let prose = "It touches after 0.443 s.\n\n```python\nassert touch == \"0.442 s\"\n```\n\n<!-- 0.442 s -->\n\n\
@@ -229,7 +229,7 @@ fn a_changed_number_in_prose_is_not_verified_by_what_no_reader_sees() {
     assert_eq!(right(&checked), 1);
 }
 
-/// Issue 12, line 7: every form is read right or refused by name, never called wrong.
+/// Issue 12, line 7: every form of a number is parsed correctly or refused with a reason, never called wrong.
 #[test]
 fn every_form_of_a_right_number_is_right() {
     for (prose, quote, expr) in [
@@ -301,7 +301,7 @@ fn what_is_not_understood_is_said_and_not_called_wrong() {
     }
 }
 
-/// What an author reads, for each kind of finding about a quote.
+/// The findings for each kind of error in a quote.
 #[test]
 fn findings_about_quotes_say_what_to_do() {
     let says = r#"["0.25 m", "0.3 + 0"]"#;
@@ -327,21 +327,21 @@ fn findings_about_quotes_say_what_to_do() {
     expect_quote("quote-hidden", "failed", prose, &numeric("0.44", "0.005", "touch", says));
 }
 
-/// Issue 12, line 8: a number of the time grid is right where its timestep is stated, and is never rewritten.
+/// Issue 12, line 8: a number of the time grid is right if its timestep is stated, and is never rewritten.
 #[test]
 fn digits_that_change_with_the_timestep_are_noted() {
     let question = numeric("0.44", "0.005", "touch", r#"["0.442 s", "seen"]"#);
     expect("quote-of-timestep", Verdict::Verified, "It touches after 0.442 s.", &question);
     let question = numeric("0.44", "0.005", "touch", r#"["0.439 s", "seen"]"#);
     expect_quote("quote-wrong-of-timestep", "refuted", "It touches after 0.439 s.", &question);
-    // Stated, there is nothing to note.
+    // If the timestep is stated, there is nothing to note.
     let stated = numeric("0.44", "0.005", "touch", r#"["0.442 s", "seen"]"#)
         .replace(r#""drop": {"#, r#""drop": {"set": {"timestep": 0.002}, "#);
     let checked = check_text("fall.md", &lesson("It touches after 0.442 s.", &stated));
     assert_eq!((right(&checked), checked.findings.len()), (1, 0));
 }
 
-/// Issue 12, line 8: an event between two samples is interpolated, so that its digits do not follow the time grid.
+/// Issue 12, line 8: an event between two samples is interpolated, so that its digits do not depend on the time grid.
 #[test]
 fn events_between_samples_are_interpolated() {
     let says = r#"["0.4513 s", "crossing(1 - 0.5 * 9.81 * data.time * data.time - 0.001)"],
@@ -357,7 +357,7 @@ fn a_question_without_claims_is_unverified() {
     expect("unverified", Verdict::Unverified, "Drop it.", question);
 }
 
-/// A double pendulum that falls from above: after 20 s no digit of it is left that a start moved by a bit would share.
+/// A double pendulum that falls from above: after 20 s, a perturbation of one bit changes all digits.
 fn double_pendulum(quote: &str, until: u32) -> String {
     let bob = "<geom type='sphere' size='0.03' pos='0 0 -0.3' mass='1' contype='0' conaffinity='0'/>";
     let inner = format!("<body pos='0 0 -0.3'><joint axis='0 1 0'/>{bob}</body>");
@@ -384,7 +384,7 @@ The error is {quote} in the end.
     )
 }
 
-/// Issue 12, line 8: a number that a start moved by 1e-14 changes is never to be written, right or wrong.
+/// Issue 12, line 8: a number that changes if the start is perturbed by 1e-14 is never recommended, right or wrong.
 #[test]
 fn digits_of_a_chaotic_motion_are_never_recommended() {
     let check = |quote: &str, until| check_text("chaos.md", &double_pendulum(quote, until));
@@ -394,7 +394,7 @@ fn digits_of_a_chaotic_motion_are_never_recommended() {
         let checked = check(&quote, 20);
         let quote = &checked.claims[0].judgement.quotes[0];
         let found: Vec<&str> = checked.findings.iter().map(|f| f.code).collect();
-        // A number that no run comes near is wrong besides.
+        // A number that no run approaches is also wrong.
         assert!(found.contains(&"quote-chaotic") || found.contains(&"quote-wrong"), "{found:?}");
         assert_ne!(quote.state, QuoteState::Right, "{quote:?}");
         for finding in &checked.findings {
@@ -402,13 +402,13 @@ fn digits_of_a_chaotic_motion_are_never_recommended() {
             assert!(!help.contains(&format!("{right:.2}")) && finding.fix.is_none(), "{finding:?}");
         }
     }
-    // The same angle after half a second is anybody's.
+    // The same angle after half a second is reproducible.
     let short = computed(&check("-77.25", 1));
     let checked = check(&format!("{short:.2}"), 1);
     assert_eq!(checked.claims[0].judgement.quotes[0].state, QuoteState::Right, "{:?}", checked.findings);
 }
 
-/// An option that the runs say nothing about is counted, and neither refuted nor held.
+/// An option that the runs do not decide is counted as neither refuted nor verified.
 #[test]
 fn what_is_not_decided_is_no_distractor_that_is_refuted() {
     let lesson = |options: [&str; 3]| {
@@ -425,12 +425,12 @@ fn what_is_not_decided_is_no_distractor_that_is_refuted() {
     assert_eq!((verdict, holds), (Verdict::Verified, vec![Some(true), Some(false), None]));
     assert!(reason.contains("option 2") && reason.contains("is not decided"), "{reason}");
     assert_eq!(lesson(["z > 9", "z < 9", "undecided"]).0, Verdict::Refuted);
-    // An answer of which nothing is known, or beside which nothing is, is not verified.
+    // An answer that is undecided, or whose alternatives are all undecided, is not verified.
     assert_eq!(lesson(["undecided", "z > 9", "z > 10"]).0, Verdict::Failed);
     assert_eq!(lesson(["z < 9", "undecided", "undecided"]).0, Verdict::Failed);
 }
 
-/// A formula needs no lab, and is computed, not verified: nothing was simulated for it.
+/// A formula needs no lab, and is computed, not verified, because nothing was simulated for it.
 #[test]
 fn formulas_need_no_lab() {
     let lesson = |verify: serde_json::Value| {
@@ -447,7 +447,7 @@ fn formulas_need_no_lab() {
     );
     assert_eq!(lesson(json!({"value": "2 * 9.81 * 0.4"})), (Verdict::Refuted, vec!["answer-refuted"]));
     assert_eq!(lesson(json!({"value": "5.886"})), (Verdict::Failed, vec!["constant-claim"]));
-    // What reads a lab needs one.
+    // A formula that reads a lab needs one.
     for reads in [
         json!({"value": "2 * -model.opt.gravity[2] * 0.3"}),
         json!({"runs": {"r": {"until": 1}}, "value": "2 * 9.81 * 0.3"}),
@@ -457,7 +457,7 @@ fn formulas_need_no_lab() {
     }
 }
 
-/// Measures over a run, against what a fall is: z = 9 - ½ g t (t + h).
+/// Measures over a run, compared with the formula of a fall: z = 9 - ½ g t (t + h).
 #[test]
 fn measures_over_a_fall_are_those_of_a_fall() {
     let lab = |measure: &str, quote: &str| {
@@ -482,7 +482,7 @@ fn measures_over_a_fall_are_those_of_a_fall() {
     }
 }
 
-/// A lab that claims something of what a student reads: its verdicts and findings.
+/// A lab with a claim about a displayed value: its verdicts and findings.
 fn read_off(readout: &str, measure: &str) -> (Vec<QuoteState>, Vec<&'static str>) {
     let text = r#"The ball has fallen 0.441 m after 0.3 s.
 
@@ -529,7 +529,7 @@ fn what_a_lab_shows_can_be_claimed() {
     }
 }
 
-/// A lab whose `verify` says this of a ball that falls from 1 m onto a floor: verdicts of its quotes, and what was found.
+/// A lab with this `verify` object about a ball that falls from 1 m onto a floor: the verdicts of its quotes, and the findings.
 fn dropped(
     says: &[[&str; 2]],
     verify: serde_json::Value,
@@ -551,12 +551,13 @@ fn dropped(
     (quotes.map(|q| q.verdict()).collect(), checked.findings.clone())
 }
 
-/// Whether something that was found says this.
+/// Whether a finding contains these words.
 fn says(found: &[labspec::finding::Finding], words: &str) -> bool {
     found.iter().any(|f| f.message.contains(words) || f.help.as_deref().is_some_and(|h| h.contains(words)))
 }
 
-/// The model of a run is changed before it is compiled, the controller and the keyframe are its own, and it ends when it says.
+/// The model of a run is changed before it is compiled, a run may have its own controller and keyframe, and
+/// it ends at its own time.
 #[test]
 fn a_run_changes_model_keyframe_and_controller() {
     let verify = json!({
@@ -579,7 +580,7 @@ fn a_run_changes_model_keyframe_and_controller() {
         ["0.44 s", "ends.t"],
     ];
     let (verdicts, found) = dropped(&right, verify.clone());
-    // What only reads the model is computed.
+    // A value that only reads the model is computed.
     assert_eq!(verdicts[1..3], ["computed"; 2], "{found:#?}");
     assert_eq!([&verdicts[..1], &verdicts[3..]].concat(), ["verified"; 6], "{found:#?}");
     let wrong = [["1.00 kg", "heavy.mass"], ["0.95 m", "quick.z"], ["1.0 m", "low.z"], ["3.00 s", "ends.t"]];
@@ -608,7 +609,7 @@ fn what_a_run_cannot_change_is_said_with_what_is_near() {
     }
 }
 
-/// One object reads several labs, by their places; a measure is taken where it has a meaning.
+/// One object uses several labs by address; a measure is evaluated in the labs where it is valid.
 #[test]
 fn runs_are_of_several_labs() {
     let lab = |body: &str, z: f64| json!({"xml": format!("<mujoco><worldbody><body name='{body}' pos='0 0 {z}'><freejoint/><geom size='.1'/></body></worldbody></mujoco>")});
@@ -621,7 +622,7 @@ fn runs_are_of_several_labs() {
     let verdict = |checked: &Checked| checked.claims[0].judgement.answer.clone().unwrap().verdict;
     let right = lesson("final(data.body('two').xpos[2])", "#2");
     assert_eq!(verdict(&right), Verdict::Verified, "{:#?}", right.findings);
-    // Misspelt, it has a meaning nowhere; and a lab that is not there cannot run.
+    // A misspelt name is valid in no lab, and a lab that does not exist cannot run.
     let wrong = lesson("final(data.body('too').xpos[2])", "#2");
     assert_eq!(verdict(&wrong), Verdict::Failed);
     assert!(says(&wrong.findings, "named \"too\""), "{:#?}", wrong.findings);
@@ -634,7 +635,7 @@ fn runs_are_of_several_labs() {
     assert_eq!(verdict(&none), Verdict::Failed);
 }
 
-/// A sweep is a run for each value; its measures are lists, over which a line or a power law is laid.
+/// A sweep is a run for each value; its measures are lists, to which a line or a power law is fitted.
 #[test]
 fn sweeps_measure_a_law() {
     let verify = json!({
@@ -643,7 +644,7 @@ fn sweeps_measure_a_law() {
             "fall": {"sweep": {"start (m)": {"from": 0.25, "to": 1.25, "count": 5}}, "set": {"timestep h": 0.001}, "controller": "", "until": 1, "stop": "contact('ball', 'floor')"},
             "weigh": {"sweep": {"body ball mass": [1, 2, 4]}, "until": 0.01}}});
     let right = [
-        // A fall over z - 0.05 takes the root of it.
+        // A fall takes a time proportional to the square root of z - 0.05.
         ["0.50", "slope(fall.touch.map(t => Math.log(t)), fall.value.map(z => Math.log(z - 0.05)))"],
         ["0.451 s", "fall.touch[3] + 0.451 - 0.441"],
         ["5 times", "fall.touch.length"],
@@ -654,12 +655,12 @@ fn sweeps_measure_a_law() {
         ["2.33 kg", "mean(weigh.mass)"],
     ];
     let (verdicts, found) = dropped(&right, verify.clone());
-    // What only reads the model is computed.
+    // A value that only reads the model is computed.
     assert_eq!(verdicts[..2], ["verified"; 2], "{found:#?}");
     assert_eq!(verdicts[2..], ["computed"; 6], "{found:#?}");
     let wrong = [["0.60", right[0][1]], ["2.00 kg", "slope(weigh.mass)"], ["0.50 m", "fall.value[3]"]];
     assert_eq!(dropped(&wrong, verify.clone()).0, ["refuted"; 3]);
-    // What is no list, no member, or no law is said.
+    // Values that are not lists, members or laws are reported.
     for (expr, words) in [
         ("fall.touch[5]", "indexes are 0 to 4"),
         ("fit(fall.touch, 'root')", "'power'"),
@@ -688,8 +689,8 @@ fn a_sweep_that_is_none_is_refused() {
     }
 }
 
-/// The largest timestep with which a ball still rests above 0.049 m, as it is recorded: 0.022576 s. It is found through the model,
-/// through `timestep` and through a control, beyond whose end it lies.
+/// The largest timestep with which a ball still rests above 0.049 m; the recorded value is 0.022576 s. It is found through the
+/// model, through `timestep`, and through a control, for which it lies outside the range.
 #[test]
 fn a_limit_is_found_by_halving() {
     let rest = |find: serde_json::Value, says: &[[&str; 2]]| {
@@ -737,7 +738,8 @@ fn a_limit_is_found_by_halving() {
     assert_eq!(rest(find, &[["0.022576 s", "limit"]]).0, ["verified"]);
 }
 
-/// A column of a table is held to a sweep, cell by cell, and a single cell to one number; a wrong cell is told at its place.
+/// A column of a table is compared with a sweep, cell by cell, and a single cell with one number; a wrong cell is
+/// reported at its location.
 #[test]
 fn tables_are_held_to_sweeps() {
     let lesson = |cell: &str, table: serde_json::Value| {
@@ -798,7 +800,7 @@ fn tables_are_held_to_sweeps() {
     }
 }
 
-/// A question about the height after 0.3 s, which falls with gravity; `over` a range of it.
+/// A question about the height after 0.3 s, which decreases with gravity; `over` is a range of gravity.
 fn space(over: &str, answer: usize) -> Checked {
     let question = format!(
         r##"{{"kind": "mcq", "q": "How high is it after 0.3 s?", "options": ["above 0.4 m", "below 0.4 m"], "answer": {answer}, "verify": {{
@@ -808,7 +810,7 @@ fn space(over: &str, answer: usize) -> Checked {
     check_text("fall.md", &lesson("", &question))
 }
 
-/// An answer that is claimed over a range is tried in all of it, at values that a student can reach.
+/// An answer that is claimed over a range is tested in the whole range, at values that a student can set.
 #[test]
 fn an_answer_over_a_range_holds_in_all_of_it_or_has_a_counterexample() {
     let answer = |checked: &Checked| checked.claims[0].judgement.answer.clone().unwrap();
@@ -820,7 +822,7 @@ fn an_answer_over_a_range_holds_in_all_of_it_or_has_a_counterexample() {
     assert_eq!(answer(&fails).verdict, Verdict::Refuted);
     assert!(codes(&fails).contains(&"counterexample"), "{:?}", fails.findings);
     assert!(answer(&fails).reason.contains("with \"gravity\" at -20"), "{}", answer(&fails).reason);
-    // What is true nowhere else than at the lab's own setting is no claim over a range.
+    // A claim that holds only at the lab's own setting is not a claim over a range.
     let off = space(r#"{"gravity": [-20, -12]}"#, 0);
     assert_eq!(answer(&off).verdict, Verdict::Refuted);
     for (wrong, code) in [
@@ -838,7 +840,7 @@ fn an_answer_over_a_range_holds_in_all_of_it_or_has_a_counterexample() {
     }
 }
 
-/// A range of a slider that every run sets itself is never tried, and that is said.
+/// A range of a slider that every run sets itself is never tested, and this is reported.
 #[test]
 fn a_range_that_no_run_tries_verifies_nothing() {
     let question = r##"{"kind": "mcq", "q": "How high is it?", "options": ["above 0.4 m", "below 0.4 m"], "answer": 0, "verify": {
@@ -850,7 +852,7 @@ fn a_range_that_no_run_tries_verifies_nothing() {
     assert!(codes(&checked).contains(&"run-impossible"), "{:?}", codes(&checked));
 }
 
-/// Inside of a range, where both ends are fine: a resonance is found by the search.
+/// Inside a range whose ends are both fine, the search finds a resonance.
 #[test]
 fn a_counterexample_between_the_corners_is_found() {
     let lab = r#"{"xml": "<mujoco><option gravity='0 0 0'/><worldbody><body name='cart'><joint name='rail' type='slide' stiffness='1' damping='.1'/><geom size='.1' mass='1'/></body></worldbody><actuator><motor joint='rail'/></actuator></mujoco>",
@@ -871,7 +873,7 @@ fn a_counterexample_between_the_corners_is_found() {
     assert!((omega - 1.0).abs() < 0.25, "{}", answer.reason);
 }
 
-/// An answer that only the default integrator gives is fragile, unless the run says that it is about it.
+/// An answer that only the default integrator gives is fragile, unless the run declares its integrator.
 #[test]
 fn an_answer_of_one_integrator_is_fragile() {
     let of = |run: &str| {

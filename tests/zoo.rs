@@ -1,4 +1,4 @@
-//! The zoo (`specs/models/zoo`, one model a feature) against what MuJoCo 3.14.0 computes for it.
+//! The zoo (`specs/models/zoo`, one model per feature), compared with the results of MuJoCo 3.14.0.
 
 use crate::recorded::{compare_with_recording, list, objects, set};
 use crate::standing::{Exception, Standing};
@@ -9,7 +9,7 @@ use serde_json::Value;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-/// What is known to differ, and why.
+/// Known differences and their causes.
 const EXCEPTIONS: &[Exception] = &[
     (
         "mesh_builtin",
@@ -52,25 +52,25 @@ const EXCEPTIONS: &[Exception] = &[
     ("tendon_wrap_inside", "discrete, moving", RING),
 ];
 
-/// The library ends its search for the point where a tendon touches a ring from inside at 1e-6 of its equation: up to 1.5e-7
-/// m off the shortest path, which ours finds (`tendon::wrap`, against a search that owes nothing to either).
+/// The library's search for the point where a tendon touches a ring from inside ends at 1e-6 of its equation: up to 1.5e-7 m
+/// off the shortest path, which ours finds (`tendon::wrap`, compared with an independent search).
 const RING: &str = "the library's point on the ring is the shortest path's to 1e-6 of its own equation";
 
-/// `crates/core/tests/library` holds lengths against velocities.
+/// `crates/core/tests/library` compares lengths with velocities.
 pub(crate) const ORDER: &str = "the library composes the orientation of a site in the order site, body";
 
-/// Where the picture shows a site (`crates/core/tests/library`).
+/// Where a site appears in the picture (`crates/core/tests/library`).
 const PRINCIPAL: &str = "the library leaves the principal point of a camera out of its projections";
 
-/// A torque that its range holds at the length 0.3 is as long as 0.3 or one rounding shorter; the library takes it for
-/// held in the one case and free in the other.
+/// At the length 0.3, a torque at its limit has a length of 0.3 or one rounding less; the library treats it as limited in one
+/// case and free in the other.
 const CLAMPED: &str = "whether the range holds the torque is decided by its last bit";
 
 fn folder() -> PathBuf {
     workspace().join("specs/models/zoo")
 }
 
-/// The models that load, each in the second of its recorded states: everything moves.
+/// The models that load, each in the second of its recorded states, in which everything moves.
 pub(crate) fn animals() -> impl Iterator<Item = (String, Model, Value)> {
     models(&folder()).into_iter().filter_map(|name| {
         let m = compile_unconstrained(&folder().join(format!("{name}.xml"))).ok()?;
@@ -90,7 +90,7 @@ fn every_model_of_the_zoo_is_as_recorded() {
     standing.check(Some("zoo"), EXCEPTIONS);
 }
 
-/// What the library has and we have not, of all that is recorded.
+/// Recorded fields of the library that we do not have.
 const LACKING: &[&str] = &[];
 
 #[test]
@@ -124,7 +124,7 @@ fn initial_data(m: &Model, state: &Value) -> Data {
     d
 }
 
-/// A plan for one field computes that field as the full pipeline does, whichever it is.
+/// A plan for any single field computes that field as the full pipeline does.
 #[test]
 fn a_plan_for_any_field_changes_no_bit_of_it() {
     let fields: Vec<_> = reflect::fields().filter(|f| f.info().object == Object::Data).collect();
@@ -150,7 +150,7 @@ fn a_plan_for_any_field_changes_no_bit_of_it() {
     assert_eq!(wrong, [""; 0]);
 }
 
-/// A simulation that was saved and restored goes on with the same bits, whatever is in it and by every integrator.
+/// A simulation that was saved and restored continues with the same bits, for all contents and all integrators.
 #[test]
 fn what_is_restored_goes_on_as_before() {
     let mut wrong = Vec::new();

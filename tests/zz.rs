@@ -1,4 +1,4 @@
-//! The last test of a binary: tests start in the order of their names, and ask for what they need before anything else.
+//! The last test of a binary. Tests start in the order of their names, and check their prerequisites before anything else.
 
 #[test]
 fn zz_what_was_skipped() {

@@ -1,4 +1,5 @@
-//! A page starts with 16 MB: enough for most labs without growing, which makes views of memory anew.
+//! Sets the initial memory to 16 MB. This is enough for most labs without growth, after which all views of
+//! the memory must be renewed.
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");

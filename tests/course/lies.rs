@@ -1,4 +1,4 @@
-//! Lies, planted in turn into every answer and every claimed number of the course.
+//! False statements, inserted one after another into every answer and every claimed number of the course.
 
 use super::places::{Place, digits, places, quotes, verifies};
 use super::{CourseLesson, checked, complaints, counts, course, for_each, models};
@@ -7,16 +7,16 @@ use labspec::check::CheckLevel;
 use labspec::verify::QuoteState;
 use std::ops::Range;
 
-/// A number as somebody got it wrong; `None` where that is no other number.
+/// Changes a number to a false one; `None` if the result is the same number.
 type Lie = fn(&str) -> Option<String>;
 
-/// The ways to lie about a number.
+/// The ways to falsify a number.
 const LIES: [(&str, Lie); 3] = [("a digit", digit), ("a tenth", tenth), ("a unit", unit)];
 
-/// Half of g h t is 0.73575 mm for the shortest step: it rounds to either, and the next one is no lie.
+/// Half of g h t is 0.73575 mm for the shortest step. It can be rounded to either neighbour, so the next one is not false.
 const EITHER: &str = "-0.7357";
 
-/// One unit more in the last digit.
+/// Increases the last digit by one.
 fn digit(quote: &str) -> Option<String> {
     let at = digits(quote);
     let decimals = quote[at.clone()].split_once('.').map_or(0, |(_, d)| d.len());
@@ -25,7 +25,7 @@ fn digit(quote: &str) -> Option<String> {
     Some(format!("{}{other:.decimals$}{}", &quote[..at.start], &quote[at.end..]))
 }
 
-/// A tenth more, with a digit more where that is needed.
+/// Increases the number by a tenth, with an additional digit if necessary.
 fn tenth(quote: &str) -> Option<String> {
     let at = digits(quote);
     let decimals = quote[at.clone()].split_once('.').map_or(0, |(_, d)| d.len());
@@ -64,7 +64,7 @@ const UNITS: [(&str, &str); 24] = [
     ("g", "kg"),
 ];
 
-/// Another unit.
+/// Changes the unit.
 fn unit(quote: &str) -> Option<String> {
     let at = digits(quote);
     let rest = &quote[at.end..];
@@ -74,7 +74,7 @@ fn unit(quote: &str) -> Option<String> {
     Some(format!("{}{space}{other}", &quote[..at.end]))
 }
 
-/// A text with something else at these places.
+/// A text with replacements at these byte ranges.
 fn replaced(text: &str, changes: &[(Range<usize>, String)]) -> String {
     let (mut out, mut from) = (String::new(), 0);
     for (at, new) in changes {
@@ -85,8 +85,8 @@ fn replaced(text: &str, changes: &[(Range<usize>, String)]) -> String {
     out + &text[from..]
 }
 
-/// The lesson with formulas in place of measures, and runs of one step: where a number stands does not depend on what was
-/// computed, and so a thousand lies are planted in the time of a few.
+/// The lesson with formulas instead of measures, and with runs of one step. The location of a number does not depend on what
+/// was computed, so a thousand false numbers can be tested in a short time.
 fn without_runs(text: &str) -> String {
     let claims = |object: &Range<usize>| {
         let object_text = &text[object.clone()];
@@ -112,7 +112,8 @@ fn without_runs(text: &str) -> String {
     replaced(text, &changes)
 }
 
-/// What becomes of a lie in the text, where the claim knows better: found at its place, or in the claim that has lost its text.
+/// Whether a false number in the text is found while the claim is right: at its location, or at the claim,
+/// whose quote is then missing.
 fn is_found(name: &str, text: &str, place: &Place, lie: &str, models: &Models) -> bool {
     let lied = replaced(text, &[(place.at.clone(), lie.to_string())]);
     let checked = checked(name, &lied, models, CheckLevel::CLAIMS);
@@ -124,7 +125,7 @@ fn is_found(name: &str, text: &str, place: &Place, lie: &str, models: &Models) -
     })
 }
 
-/// Somebody changes a number of the text and not the claim.
+/// An author changes a number in the text but not in the claim.
 #[test]
 fn a_number_that_is_changed_in_the_text_is_found() {
     let models = models();
@@ -156,10 +157,10 @@ fn a_number_that_is_changed_in_the_text_is_found() {
     assert!(undetected.is_empty(), "{}", undetected.join("\n"));
 }
 
-/// What the course says when somebody believes this lie about each of its numbers that can be told so, and writes it into the text
-/// and into the claim: how many there are, and those that are held to be right.
+/// Falsifies all numbers of a lesson that can be falsified in this way, in the text and in the claims. Returns how many there
+/// are, and which of them are judged right.
 fn believed(lesson: &CourseLesson, how: &str, lie: Lie, models: &Models) -> (usize, Vec<String>) {
-    // All at once: each is judged by itself.
+    // All at once, because each is judged separately.
     let mut changes: Vec<_> =
         places(&lesson.text).into_iter().filter_map(|p| Some((p.at, lie(&p.quote)?))).collect();
     let mut lies = Vec::new();
@@ -184,7 +185,7 @@ fn believed(lesson: &CourseLesson, how: &str, lie: Lie, models: &Models) -> (usi
     (lies.len(), right.map(|q| format!("{}: {} ({how})", lesson.name, q.text)).collect())
 }
 
-/// Somebody believes another number, and writes it into the text and into the claim.
+/// An author is wrong about a number and writes the wrong number into the text and into the claim.
 #[test]
 fn a_number_that_is_claimed_wrongly_is_refuted() {
     let models = models();
@@ -200,8 +201,8 @@ fn a_number_that_is_claimed_wrongly_is_refuted() {
     assert!(count > 600 && undetected.is_empty(), "{}", undetected.join("\n"));
 }
 
-/// Somebody believes that the number has another unit, and writes it into the text and into the claim. It is found where the fields
-/// that the claim reads have a unit: not of numbers of the text, of gains and of `solref`, and not where a factor may have one.
+/// An author is wrong about the unit of a number and writes it into the text and into the claim. This is found if the fields
+/// that the claim reads have a unit: not for numbers from texts, gains and `solref`, and not where a factor may have a unit.
 #[test]
 fn a_unit_that_is_claimed_wrongly_is_refuted() {
     let models = models();
@@ -218,7 +219,8 @@ fn a_unit_that_is_claimed_wrongly_is_refuted() {
     );
 }
 
-/// The keys of a lesson: the bytes of each `"answer": N` of a question with options, and how many options there are.
+/// The keyed options of a lesson: the byte range of each `"answer": N` of a question with options, the key,
+/// and the number of options.
 fn keys(text: &str) -> Vec<(Range<usize>, usize, usize)> {
     let mut all = Vec::new();
     for (start, _) in text.match_indices("\"options\": [\"") {
@@ -234,7 +236,7 @@ fn keys(text: &str) -> Vec<(Range<usize>, usize, usize)> {
     all
 }
 
-/// Every other option is marked as the right one, in turn; and every numeric answer is made a tenth larger.
+/// Each other option is marked as the right one, in turn, and every numeric answer is increased by a tenth.
 #[test]
 fn every_wrong_key_is_found() {
     let models = models();

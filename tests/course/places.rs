@@ -1,8 +1,8 @@
-//! Where the claimed numbers of a lesson stand in its bytes. Found here anew, and not by the code that is tested.
+//! The locations of the claimed numbers in the bytes of a lesson. They are determined independently of the tested code.
 
 use std::ops::Range;
 
-/// A claimed number at one place of the text.
+/// One occurrence of a claimed number in the text.
 #[derive(Clone, Debug)]
 pub(super) struct Place {
     /// The bytes of the quoted text.
@@ -11,7 +11,7 @@ pub(super) struct Place {
     pub(super) quote: String,
 }
 
-/// The bytes of every `verify` object.
+/// The byte ranges of all `verify` objects.
 pub(super) fn verifies(text: &str) -> Vec<Range<usize>> {
     let mut all: Vec<Range<usize>> = Vec::new();
     for (start, _) in text.match_indices("\"verify\":") {
@@ -42,7 +42,7 @@ pub(super) fn quotes(object: &str) -> Vec<String> {
     says.iter().map(|pair| pair[0].as_str().unwrap().to_string()).collect()
 }
 
-/// Every place at which a claimed number stands, outside of claims, in order.
+/// All occurrences of claimed numbers outside of claims, in order.
 pub(super) fn places(text: &str) -> Vec<Place> {
     let hidden = verifies(text);
     let mut all: Vec<Place> = Vec::new();
@@ -64,7 +64,7 @@ pub(super) fn places(text: &str) -> Vec<Place> {
     all
 }
 
-/// Whether a text stands as a number of its own.
+/// Whether a text is a complete number, not a part of a longer one.
 fn alone(text: &str, at: &Range<usize>) -> bool {
     let before = text[..at.start].chars().next_back();
     let mut after = text[at.end..].chars();
@@ -80,7 +80,7 @@ fn alone(text: &str, at: &Range<usize>) -> bool {
     !(joined(before) || before == Some('.') || signed || joined(next) || goes_on || longer)
 }
 
-/// The digits of a quote: those of its last `=`, else the first.
+/// The digits of a quote: those after its last `=`, otherwise the first ones.
 pub(super) fn digits(quote: &str) -> Range<usize> {
     let from = quote.rfind('=').map_or(0, |i| i + 1);
     let start = from + quote[from..].find(|c: char| c.is_ascii_digit()).unwrap();

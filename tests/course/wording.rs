@@ -1,4 +1,4 @@
-//! Another layout, and other words around a number, are no lie.
+//! Another layout, and other words around a number, do not make a claim false.
 
 use super::places::{Place, places, verifies};
 use super::{checked, complaints, course, for_each, models};
@@ -7,7 +7,7 @@ use labspec::check::CheckLevel;
 use labspec::verify::QuoteState;
 use serde_json::Value;
 
-/// A lesson as somebody else would have laid it out or worded it.
+/// A lesson with another layout or wording.
 type Change = fn(&str) -> String;
 
 const CHANGES: [(&str, Change); 6] = [
@@ -19,7 +19,7 @@ const CHANGES: [(&str, Change); 6] = [
     ("other words", |text| at_places(text, |quote| format!("what comes to {quote}, as they say,"))),
 ];
 
-/// Paragraphs of prose on lines of at most so many letters. Everything else stays.
+/// Wraps paragraphs of prose at this width. Everything else is unchanged.
 fn wrapped(text: &str, width: usize) -> String {
     let (mut out, mut words, mut fenced, mut formula) = (String::new(), Vec::new(), false, false);
     let flush = |out: &mut String, words: &mut Vec<&str>| {
@@ -60,7 +60,7 @@ fn wrapped(text: &str, width: usize) -> String {
     out
 }
 
-/// The JSON of every fence, written anew.
+/// Writes the JSON of every fence with another function.
 fn fences(text: &str, write: impl Fn(Value) -> String) -> String {
     let (mut out, mut rest) = (String::new(), text);
     while let Some(start) =
@@ -74,8 +74,8 @@ fn fences(text: &str, write: impl Fn(Value) -> String) -> String {
     out + rest
 }
 
-/// The numbers of prose, questions and explanations, each written in another way. Labels are no HTML and stay as they are; in
-/// formulas a word would be italic letters.
+/// Writes each number of prose, questions and explanations in another way. Labels are not HTML, so they are left unchanged. In
+/// formulas, a word would be set as italic letters.
 fn at_places(text: &str, write: impl Fn(&str) -> String) -> String {
     let mut out = String::new();
     let mut from = 0;
@@ -88,7 +88,7 @@ fn at_places(text: &str, write: impl Fn(&str) -> String) -> String {
         if plain || formula || line < from {
             continue;
         }
-        // One in each line: more words make a line too long to read, and change nothing more.
+        // At most one in each line: more changes would make a line too long to read, without testing anything else.
         out.push_str(&text[from..at.start]);
         out.push_str(&write(&quote));
         from = at.end;
@@ -115,7 +115,7 @@ fn another_layout_and_other_words_are_no_lie() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// What `labspec fmt` writes is as true as before.
+/// The course remains correct after `labspec fmt`.
 #[test]
 fn a_formatted_course_is_clean() {
     let folder = tempfile::tempdir().unwrap();

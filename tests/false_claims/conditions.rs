@@ -1,4 +1,4 @@
-//! Options of questions: conditions that hold and could fail, and what was made of them.
+//! Options of questions: conditions that are true but could be false, and altered ones.
 
 use super::lesson::{Body, Claim, Truth};
 use super::random::{Random, printed};
@@ -6,7 +6,7 @@ use super::scenes::NEVER;
 use super::values::other_units;
 use serde_json::json;
 
-/// A measure of a run, as a claim reads it, with its value.
+/// A measure of a run, by its name in a claim, with its value.
 #[derive(Clone)]
 pub(super) struct MeasuredNumber {
     pub(super) name: String,
@@ -30,7 +30,7 @@ pub(super) fn question(
     Claim { kind, variant: variant.into(), truth, body: Body::Question(q) }
 }
 
-/// Conditions that do not hold, and could.
+/// Conditions that are false here but could be true.
 fn not_so(k: &MeasuredNumber) -> [String; 2] {
     let MeasuredNumber { name, x, .. } = k;
     let far = 2.0 * x.abs() + 1.0;
@@ -38,12 +38,12 @@ fn not_so(k: &MeasuredNumber) -> [String; 2] {
 }
 
 fn option(variant: &str, truth: Truth, condition: &str, k: &MeasuredNumber) -> Claim {
-    // The others read something that may be below zero, so that they could hold.
+    // Both other options use the first condition, which could be true even if the measure is never negative.
     let others = not_so(k);
     question("option", variant, truth, condition, [&others[0], &others[0]])
 }
 
-/// True conditions.
+/// Questions with true conditions.
 pub(super) fn right(random: &mut Random, measured: &[MeasuredNumber]) -> Vec<Claim> {
     let k = random.pick(measured);
     let MeasuredNumber { name, x, .. } = k;
@@ -57,7 +57,7 @@ pub(super) fn right(random: &mut Random, measured: &[MeasuredNumber]) -> Vec<Cla
     vec![option("", Truth::True, random.pick::<String>(&texts), k)]
 }
 
-/// False ones.
+/// Questions with false conditions.
 pub(super) fn wrong(random: &mut Random, measured: &[MeasuredNumber]) -> Vec<Claim> {
     let k = random.pick(measured);
     let MeasuredNumber { name, x, .. } = k;
@@ -91,7 +91,7 @@ pub(super) fn wrong(random: &mut Random, measured: &[MeasuredNumber]) -> Vec<Cla
     made.into_iter().map(|(variant, text)| option(variant, Truth::False, &text, k)).collect()
 }
 
-/// Conditions that say nothing about a measure `m`, of value `x`, and another one `n`.
+/// Conditions without a statement about a measure `m` of value `x` and another measure `n`.
 fn empty_of(m: &str, n: &str, x: f64, positive: bool) -> Vec<(&'static str, String)> {
     let mut all: Vec<(&'static str, String)> = [
         "{m} === {m}",
@@ -191,7 +191,7 @@ fn empty_of(m: &str, n: &str, x: f64, positive: bool) -> Vec<(&'static str, Stri
     all
 }
 
-/// Conditions that a missing number decides: `z` never happens, `m` is a measure.
+/// Conditions that are decided by a missing number: the event of `z` never happens, and `m` is a measure.
 fn missing_of(z: &str, m: &str) -> Vec<String> {
     [
         "!({z} < 1)",
@@ -252,7 +252,7 @@ fn missing_of(z: &str, m: &str) -> Vec<String> {
     .collect()
 }
 
-/// Conditions over samples of which some are no number.
+/// Conditions on samples some of which are NaN.
 const MISSING: &[&str] = &[
     "holds(!(NaN < -1)) === 1",
     "hopeless === 1",
@@ -276,7 +276,7 @@ const MISSING: &[&str] = &[
     "integral(Math.sqrt(0.2 - data.time)) > 0",
 ];
 
-/// Conditions that measures of one run fulfil in every run.
+/// Conditions that the measures of a run satisfy in every run.
 const TIED: &[&str] = &[
     "{r}.seven === 7",
     "{r}.seven > 3",
@@ -326,7 +326,7 @@ pub(super) fn empty(random: &mut Random, measured: &[MeasuredNumber]) -> Vec<Cla
     all.iter().map(|(variant, text)| option(variant, Truth::Empty, &in_run(text), k)).collect()
 }
 
-/// Options whose own text states a number, beside a condition on the same measure.
+/// Options whose text states a number, with a condition on the same measure.
 pub(super) fn texts(random: &mut Random, measured: &[MeasuredNumber]) -> Vec<Claim> {
     let k = random.pick(measured);
     let Some((x, _)) = printed(k.x).filter(|_| !k.unit.is_empty() && k.x > 0.05) else { return Vec::new() };
@@ -355,7 +355,7 @@ pub(super) fn texts(random: &mut Random, measured: &[MeasuredNumber]) -> Vec<Cla
         random.pick(&forms).replace("{}", &format!("{number} {unit}"))
     };
     let mut all = vec![claim("", Truth::True, &say(&x, unit, random))];
-    // Nothing but a number, beside a condition with one side.
+    // The text is only a number, and the condition has only one bound.
     for factor in [0.3, 3.0] {
         let condition = format!("{} < {}", k.name, 1.2 * k.x);
         let mut made = question(
@@ -373,7 +373,7 @@ pub(super) fn texts(random: &mut Random, measured: &[MeasuredNumber]) -> Vec<Cla
     for factor in [0.1, 0.5, 0.8, 1.25, 2.0, 10.0] {
         all.push(claim("another number", Truth::False, &say(&times(factor), unit, random)));
     }
-    // Units of the same kind: of another one the number may be of something else.
+    // Only units of the same kind: with another kind of unit, the number could be a different quantity.
     let kind = |u: &&&str| match unit {
         "s" => ["ms", "min", "h", "µs"].contains(u),
         "m" => ["mm", "cm", "km"].contains(u),

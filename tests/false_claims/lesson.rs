@@ -1,4 +1,4 @@
-//! A lesson full of claims about one lab, checked once, and what became of each of them.
+//! A lesson with many claims about one lab, which is checked once, and the outcome of each claim.
 
 use super::scenes::{NEVER, Scene};
 use labspec::bind::scene::Models;
@@ -10,44 +10,44 @@ use labspec::verify::{Judgement, QuoteState, Verdict};
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
-/// What is known of a claim by how it was made.
+/// What is known about a claim by its construction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Truth {
     True,
     False,
-    /// It would be the same whatever the simulation does, or says nothing at all.
+    /// The result does not depend on the simulation, or the claim states nothing.
     Empty,
-    /// It is worked out without a run, and true: it may be *computed*, never *verified*.
+    /// The claim is true and evaluated without a run: the outcome may be *computed*, but not *verified*.
     Worked,
 }
 
 #[derive(Clone, Debug)]
 pub(super) enum Body {
     Question(Value),
-    /// A comment, and the block that it is about.
+    /// A comment, and the block to which it applies.
     Text(Value, String),
 }
 
 #[derive(Clone, Debug)]
 pub(super) struct Claim {
     pub(super) kind: &'static str,
-    /// How it was made of a true one; empty for a true one.
+    /// How a true claim was altered; empty if it was not.
     pub(super) variant: String,
     pub(super) truth: Truth,
     pub(super) body: Body,
 }
 
-/// What became of a claim.
+/// The outcome of a claim.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Outcome {
     Verified,
     Computed,
     Refuted,
-    /// It could not be checked, or depends on the numerics.
+    /// The claim could not be checked, or depends on the numerics.
     Open,
 }
 
-/// Measures that are what they are in every run: alone, or beside each other.
+/// Measures with the same values, or the same relations between them, in every run.
 const TIED: [(&str, &str); 10] = [
     ("seven", "final(0 * data.qpos[0] + 7)"),
     ("nothing", "final(data.qpos[0] - data.qpos[0])"),
@@ -61,7 +61,7 @@ const TIED: [(&str, &str); 10] = [
     ("late", "first(data.time > 0.03)"),
 ];
 
-/// The `verify` object of the lab, whose runs and measures all others use.
+/// The `verify` object of the lab, with the runs and measures that all other claims use.
 fn shared(scene: &Scene) -> Value {
     let named = scene.measures.iter().chain(&NEVER).map(|m| (m.name.to_string(), json!(m.expr)));
     let mut measures: Map<String, Value> = named.collect();
@@ -113,11 +113,11 @@ pub(super) fn measured(scene: &Scene) -> Vec<(String, f64)> {
     judgement.measures.iter().map(|m| (m.name.clone(), m.value)).collect()
 }
 
-/// What became of each claim, and the first finding at it.
+/// The outcome of each claim, and its first finding.
 pub(super) fn outcomes(checked: &Checked, claims: &[Claim]) -> Vec<(Outcome, String)> {
     let is_question = |c: &Claim| matches!(c.body, Body::Question(_));
     let count = claims.iter().filter(|c| is_question(c)).count();
-    // The lab comes first, then all questions, then all comments.
+    // The claim of the lab comes first, then all questions, then all comments.
     assert_eq!(
         checked.claims.len(),
         1 + claims.len(),

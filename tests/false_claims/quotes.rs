@@ -1,4 +1,4 @@
-//! Numbers of the text and of tables, quoted: true ones, and what was made of them.
+//! Quoted numbers of texts and tables: true ones, and altered ones.
 
 use super::conditions::MeasuredNumber;
 use super::lesson::{Body, Claim, Truth};
@@ -27,7 +27,7 @@ struct Number {
 
 fn number(k: &MeasuredNumber) -> Option<Number> {
     let (text, decimals) = printed(k.x)?;
-    // The text is at the edge of what it may be: half a step of the run could decide.
+    // If the value is close to a rounding limit of the text, half a step of the run could change the digits.
     let unit = 10f64.powi(-(decimals as i32));
     let off = (k.x - text.parse::<f64>().unwrap()).abs() / unit;
     (off < 0.4).then(|| Number {
@@ -69,7 +69,7 @@ pub(super) fn right(random: &mut Random, measured: &[MeasuredNumber]) -> Vec<Cla
     ]
 }
 
-/// Texts around a true number that state another one, or none: `{T}` is the number, `{U}` its unit, `{N}` both.
+/// Texts around a true number that make it state another number, or none: `{T}` is the number, `{U}` its unit, `{N}` both.
 const FACTORS: &[&str] = &[
     "{T} thousand {U}",
     "{T} million {U}",
@@ -180,7 +180,7 @@ const UNITS: &[&str] = &[
     "{T} /{U}",
 ];
 
-/// Numbers whose unit `{O}` stands apart from them, or behind a word.
+/// Numbers whose unit `{O}` is not next to them, or is after a word.
 const APART: &[&str] = &[
     "In {O}: {T}",
     "x / {O} = {T}",
@@ -250,7 +250,7 @@ const HIDDEN: &[&str] = &[
     "<span style=\"font-size:0\">{N}</span>",
 ];
 
-/// Cells, and what is around a table, so that no reader sees the number in it.
+/// Cells, and the text around a table, that hide the number from a reader.
 const STRUCK: [(&str, &str); 6] = [
     ("~~{N}~~ 77777", "{B}"),
     ("<del>{N}</del> 77777", "{B}"),
@@ -273,7 +273,7 @@ pub(super) fn wrong(random: &mut Random, measured: &[MeasuredNumber]) -> Vec<Cla
             .to_string()
     };
     let mut all = Vec::new();
-    // A number that is not so: by at least two of its last digits.
+    // A false number, which differs by at least two units in the last digit.
     let step = (2 + random.below(80)) as f64 * 10f64.powi(-(n.decimals as i32));
     for x in [k.x + step, k.x - step, 10.0 * k.x, 0.1 * k.x] {
         let text = with_unit(&format!("{x:.*}", n.decimals), unit);
@@ -284,7 +284,7 @@ pub(super) fn wrong(random: &mut Random, measured: &[MeasuredNumber]) -> Vec<Cla
     // The quote is the whole text, or the number in it.
     let mut around = |variant: &str, template: &str, random: &mut Random| {
         let text = fill(template);
-        // The quote is looked for as a reader sees it.
+        // The quote is searched in the text as a reader sees it.
         let inner = match random.below(3) {
             0 => text.clone(),
             1 => fill("{N}"),
@@ -295,7 +295,9 @@ pub(super) fn wrong(random: &mut Random, measured: &[MeasuredNumber]) -> Vec<Cla
             all.push(table(variant, Truth::False, &format!("result ({unit})"), &text, &k.name));
         }
     };
-    // Factors of one, and signs of a number that is negative already, change nothing.
+    // Some factors do not change a number near 1 (powers, roots, the reciprocal) or near 0, and a sign does not
+    // change a negative number.
+    // near 0 or 1 are left out.
     let telling = (k.x - 1.0).abs() > 0.2 && k.x.abs() > 0.02;
     if telling && !n.minus {
         for _ in 0..8 {
@@ -338,7 +340,7 @@ pub(super) fn wrong(random: &mut Random, measured: &[MeasuredNumber]) -> Vec<Cla
         all.push(table("another unit", Truth::False, &heading, &n.text, &expr));
         let scaled = format!("result (10^{} {unit})", random.pick(&["-3", "3", "2", "-6"]));
         all.push(table("another unit", Truth::False, &scaled, &n.text, &k.name));
-        // A share of a quantity is no such quantity.
+        // A percentage of a quantity is not the quantity itself.
         if ["s", "m", "m/s"].contains(&unit) {
             let share = with_unit(&format!("{:.2}", 100.0 * k.x), "%");
             all.push(says("another unit", Truth::False, &share, &k.name, format!("It is {share} here.")));
@@ -353,7 +355,7 @@ pub(super) fn wrong(random: &mut Random, measured: &[MeasuredNumber]) -> Vec<Cla
     }
     let block = fill(random.pick::<&str>(DENIED));
     all.push(says("a number that is denied", Truth::False, &fill("{N}"), &k.name, block));
-    // What no reader sees.
+    // Texts that are hidden from readers.
     for _ in 0..3 {
         let block = random.pick(HIDDEN).replace("{N}", &whole);
         all.push(says("hidden", Truth::False, &whole, &k.name, block));
@@ -374,7 +376,7 @@ pub(super) fn wrong(random: &mut Random, measured: &[MeasuredNumber]) -> Vec<Cla
     {
         all.push(says("words that are denied", Truth::False, "hold", &so, block.into()));
     }
-    // Another measure, or the same one of another run.
+    // Another measure, or the same measure of another run.
     let other = random.pick(measured);
     if (other.x - k.x).abs() > 3.0 * 10f64.powi(-(n.decimals as i32)) {
         all.push(says(
@@ -392,7 +394,7 @@ pub(super) fn wrong(random: &mut Random, measured: &[MeasuredNumber]) -> Vec<Cla
             &other.name,
         ));
     }
-    // Words, with a condition that does not hold.
+    // Words with a false condition.
     all.push(says(
         "a condition that does not hold",
         Truth::False,

@@ -1,4 +1,4 @@
-//! Random numbers, the same for the same seed (SplitMix64), and numbers as a lesson prints them.
+//! Random numbers that depend only on the seed (SplitMix64), and numbers as printed in a lesson.
 
 pub(super) struct Random(pub(super) u64);
 
@@ -11,7 +11,7 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// A number below `n`, which is not zero.
+    /// A number below `n`; `n` must not be 0.
     pub(super) fn below(&mut self, n: usize) -> usize {
         (self.next() % n as u64) as usize
     }
@@ -20,15 +20,15 @@ impl Random {
         &list[self.below(list.len())]
     }
 
-    /// A number between two ends, at one of so many even steps.
+    /// A number from `low` to `high`, on a grid of `steps` equal steps.
     pub(super) fn between(&mut self, low: f64, high: f64, steps: usize) -> f64 {
         let x = low + (high - low) * self.below(steps + 1) as f64 / steps as f64;
         format!("{x:.6}").parse().unwrap()
     }
 }
 
-/// A number with three significant digits, and how many decimals that are. `None` where it is nothing, or too large or small
-/// to be printed plainly.
+/// A number with three significant digits, and its number of decimals. `None` if it is not finite, or too large or too small to
+/// be printed without an exponent.
 pub(super) fn printed(x: f64) -> Option<(String, usize)> {
     if !x.is_finite() || x.abs() < 2e-3 || x.abs() >= 1e4 {
         return None;

@@ -1,17 +1,17 @@
-//! Random labs: a handful of families, each with random parameters, two runs, what is measured in them, and what is known of
-//! them by a formula.
+//! Random labs: a few families, each with random parameters, two runs, their measures, and the measures
+//! that are known by a formula.
 
 use super::random::Random;
 use serde_json::{Value, json};
 
-/// Something that is measured.
+/// A measure of a run.
 #[derive(Clone, Copy)]
 pub(super) struct Measure {
     pub(super) name: &'static str,
     pub(super) expr: &'static str,
     /// Its unit; empty for a number without one.
     pub(super) unit: &'static str,
-    /// It is never below zero, whatever happens.
+    /// Whether it can never be negative.
     pub(super) positive: bool,
 }
 
@@ -19,7 +19,7 @@ const fn measure(name: &'static str, expr: &'static str, unit: &'static str, pos
     Measure { name, expr, unit, positive }
 }
 
-/// A closed form: the label of a trace, and a formula that it follows; and formulas that it does not follow.
+/// Closed forms: the label of a trace, a formula that the trace follows, and formulas that it does not follow.
 pub(super) struct Form {
     pub(super) trace: &'static str,
     pub(super) right: String,
@@ -47,7 +47,7 @@ pub(super) struct Scene {
     pub(super) law: Option<Law>,
 }
 
-/// Measures of events that never happen: each is NaN, and so is what follows from it.
+/// Measures of events that never happen: they and all numbers computed from them are NaN.
 pub(super) const NEVER: [Measure; 3] = [
     measure("never", "first(data.time > 1000)", "s", true),
     measure("nowhere", "crossing(data.qpos[0], 1000)", "s", true),
@@ -58,12 +58,12 @@ fn slider(label: &str, unit: &str, ends: [f64; 2], step: f64, value: f64, apply:
     json!({"label": label, "unit": unit, "min": ends[0], "max": ends[1], "step": step, "value": value, "apply": apply, "reset": true})
 }
 
-/// A slider that changes only how a lab looks.
+/// A slider that changes only the appearance of a lab.
 fn colour() -> Value {
     slider("colour", "", [0.0, 1.0], 0.1, 0.5, "model.geom_rgba[0] = value")
 }
 
-/// A slider of gravity, as a positive number.
+/// A slider for gravity, as a positive number.
 fn gravity() -> Value {
     slider("g", "m/s^2", [1.0, 20.0], 0.01, 9.81, "model.opt.gravity[2] = -value")
 }

@@ -1,4 +1,4 @@
-//! Snapshots: what is stored of labs, and the same with one place changed.
+//! Snapshots: the stored text of labs, and copies with one change in each lab.
 
 use super::random::Random;
 use super::scenes::Scene;
@@ -19,13 +19,13 @@ fn lesson(scenes: &[Scene], snapshot: Option<&str>) -> Lesson {
     lesson
 }
 
-/// What is stored of these labs.
+/// The snapshot of these labs.
 pub(super) fn stored(scenes: &[Scene]) -> String {
     let models = Models::new(ModelFolder::unknown());
     check::renew(&lesson(scenes, None), &models).text(|_| true).unwrap()
 }
 
-/// Of each lab, whether it is as stored.
+/// Whether each lab agrees with the snapshot.
 pub(super) fn unchanged(scenes: &[Scene], snapshot: &str) -> Vec<bool> {
     let models = Models::new(ModelFolder::unknown());
     let checked = check::check_lesson(lesson(scenes, Some(snapshot)), &models, DEPTH);
@@ -38,7 +38,7 @@ pub(super) fn unchanged(scenes: &[Scene], snapshot: &str) -> Vec<bool> {
     (0..scenes.len()).map(of).collect()
 }
 
-/// The snapshot with one place changed in every lab, and how.
+/// The snapshot with one change in every lab, and the kind of each change.
 pub(super) fn changed(random: &mut Random, snapshot: &str) -> (String, Vec<&'static str>) {
     let mut variants = Vec::new();
     let mut parts = snapshot.split("\nlab \"");
@@ -68,7 +68,7 @@ fn change(random: &mut Random, lines: &mut Vec<String>) -> &'static str {
             }
             match random.below(5) {
                 0 => {
-                    // Another sign, where there is a number.
+                    // Changes the sign of a number other than 0.
                     let words: Vec<&str> = numbers.split_whitespace().collect();
                     let k = random.below(words.len());
                     if words[k].parse::<f64>().is_ok_and(|x| x != 0.0) {
@@ -98,11 +98,11 @@ fn change(random: &mut Random, lines: &mut Vec<String>) -> &'static str {
                         .collect();
                     if let Some(&at) = digits.get(random.below(digits.len().max(1))) {
                         let digit = numbers.as_bytes()[at] - b'0';
-                        // By at least two of this place, which is more than half of the last one.
+                        // By at least two units of this digit, which is more than half a unit of the last digit.
                         let other = (digit + 2 + random.below(7) as u8) % 10;
                         let mut changed = numbers.to_string();
                         changed.replace_range(at..=at, &other.to_string());
-                        // Digits of an exponent, and of what is 0, are left alone.
+                        // Digits of exponents and of zeros are not changed.
                         if !changed.contains('e')
                             && changed.split_whitespace().all(|w| w.parse::<f64>().is_ok() || w == "-")
                         {

@@ -1,4 +1,4 @@
-//! Claims over ranges, searches, fits and ends of runs, by a law that is known; and closed forms.
+//! Claims about ranges, searches, fits and ends of runs, by a known law; and closed forms.
 
 use super::lesson::{Body, Claim, Truth};
 use super::random::Random;
@@ -10,7 +10,7 @@ impl Law {
         self.factor * slider.powf(self.power)
     }
 
-    /// Where the slider stands when the measure has this value.
+    /// The value of the slider at which the measure has this value.
     fn reached(&self, x: f64) -> f64 {
         (x / self.factor).powf(1.0 / self.power)
     }
@@ -172,7 +172,7 @@ pub(super) fn find(random: &mut Random, scene: &Scene) -> Vec<Claim> {
     ];
     for (truth, text) in [(Truth::True, limit), (Truth::False, 1.2 * limit)] {
         let quote = format!("{text:.0}");
-        // The steps of the run move the limit by up to a part in a hundred.
+        // The steps of the run change the limit by up to one percent.
         let sure = (0.99 * limit).round() == (1.01 * limit).round();
         if sure && (truth == Truth::True || (text - limit).abs() > 1.0) {
             let mut verify = object("largest", &right);
@@ -244,7 +244,7 @@ pub(super) fn fit(scene: &Scene) -> Vec<Claim> {
     ]
 }
 
-/// Runs that end where something holds.
+/// Runs that end when a condition holds.
 pub(super) fn stop() -> Vec<Claim> {
     let claim = |variant: &str, truth, stop: &str, keyed: &str| {
         let verify = json!({"lab": "#1", "runs": {"r": {"stop": stop, "until": 1}}, "measure": {"end": "final(data.time)"}});
@@ -328,7 +328,7 @@ pub(super) fn columns(random: &mut Random, scene: &Scene) -> Vec<Claim> {
         let block = format!("| {} | {} |\n|---|---|\n{}", heads[0], heads[1], rows.trim_end());
         Claim { kind: "column", variant: variant.into(), truth, body: Body::Text(verify, block) }
     };
-    // Two digits, and none that half a step of the run could decide.
+    // Two decimals, and only texts whose digits half a step of the run cannot change.
     let cell = |x: f64| {
         let text = format!("{x:.2}");
         ((x - text.parse::<f64>().unwrap()).abs() < 0.003).then_some(text)

@@ -1,4 +1,4 @@
-//! Numeric questions: a value, its tolerance and unit, the values of mistakes; and what was made of them.
+//! Numeric questions: a value, its tolerance and unit, and the values of mistakes; true ones, and altered ones.
 
 use super::conditions::MeasuredNumber;
 use super::lesson::{Body, Claim, Truth};
@@ -56,7 +56,7 @@ pub(super) fn right(random: &mut Random, measured: &[MeasuredNumber]) -> Vec<Cla
     ]
 }
 
-/// Units that are not this one, of the same kind or of another.
+/// Units that differ from this one, of the same kind or of another.
 pub(super) fn other_units(unit: &str) -> &'static [&'static str] {
     match unit {
         "s" => &["ms", "kg", "min", "h", "m", "N", "m/s", "µs", "s^2"],
@@ -68,7 +68,7 @@ pub(super) fn other_units(unit: &str) -> &'static [&'static str] {
     }
 }
 
-/// The same number, by a text that does something with it.
+/// The same number, computed by other expressions.
 pub(super) fn through_code(random: &mut Random, k: &MeasuredNumber) -> String {
     let texts = [
         "{m}",
@@ -119,7 +119,7 @@ pub(super) fn wrong(random: &mut Random, measured: &[MeasuredNumber]) -> Vec<Cla
     if (other.x - k.x).abs() > 1.2 * a.tol {
         all.push(value("another measure or run", Truth::False, &a, &other.name));
     }
-    // What a mistake gives lies within the tolerance, or is nothing.
+    // The value of a mistake is within the tolerance, or is missing.
     let inside = format!("{} + {}", k.name, 0.4 * a.tol);
     all.push(question("wrong", "a mistake within the tolerance", Truth::False, &a, &k.name, &[inside]));
     all.push(question(

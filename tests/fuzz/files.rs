@@ -1,5 +1,5 @@
-//! Random trees of files with odd names, contents and kinds, and random command lines over them: the program ends by
-//! itself, with 0, 1 or 2.
+//! Random trees of files with unusual names, contents and file types, and random command lines for them. The program terminates
+//! without a signal, with exit code 0, 1 or 2.
 
 use super::{Random, tries};
 use crate::program::{CLEAN, FALL, wrong};
@@ -10,9 +10,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// What a test run affords.
+/// The number of cases of a test run.
 const CASES: u64 = 40;
-/// The longest run of the program, on a machine that is busy with something else.
+/// The maximum time of one call of the program, on a busy machine.
 const LONGEST: Duration = Duration::from_secs(120);
 
 const NAMES: &[&str] = &[
@@ -91,7 +91,7 @@ const WORDS: &[&str] = &[
 ];
 
 fn write(path: &Path, random: &mut Random) {
-    // Writing into a pipe waits for its reader.
+    // Writing into a pipe would block until it is read.
     if std::fs::metadata(path).is_ok_and(|m| !m.is_file()) {
         return;
     }
@@ -112,7 +112,7 @@ fn write(path: &Path, random: &mut Random) {
     let _ = std::fs::write(path, text);
 }
 
-/// Links stay in the tree, and may lead in circles.
+/// Unusual files. Links point into the tree and may form cycles.
 #[cfg(unix)]
 fn odd(path: &Path, all: &[PathBuf], random: &mut Random) {
     use std::os::unix::fs::{PermissionsExt, symlink};
@@ -133,7 +133,7 @@ fn odd(path: &Path, _: &[PathBuf], random: &mut Random) {
     write(path, random);
 }
 
-/// Fills a folder; every place that was made or tried.
+/// Fills a folder. Returns all paths that were created or attempted.
 fn grow(root: &Path, random: &mut Random) -> Vec<PathBuf> {
     let (mut folders, mut all) = (vec![root.to_path_buf()], vec![root.to_path_buf()]);
     for _ in 0..3 + random.below(14) {
@@ -152,7 +152,7 @@ fn grow(root: &Path, random: &mut Random) -> Vec<PathBuf> {
     all
 }
 
-/// Runs the program to its end, or ends it; how it ended and what it said of errors.
+/// Runs the program, and kills it after `LONGEST`. Returns its error output, or how it failed.
 fn run(root: &Path, outputs: &Path, arguments: &[String]) -> Result<String, String> {
     let out = |name: &str| File::create(outputs.join(name)).unwrap();
     let mut child = Command::new(env!("CARGO_BIN_EXE_labspec"))

@@ -1,4 +1,4 @@
-//! Damaged lessons, labs and quizzes: read, checked, some of them run, laid out anew, and reported to people and programs.
+//! Damaged lessons, labs and quizzes: they are read, checked, formatted and reported to people and programs; some are run.
 
 use super::{Random, tries};
 use crate::program::{CLEAN, FALL, wrong};
@@ -13,12 +13,12 @@ use labspec::source::SourceFile;
 use std::ops::Range;
 use std::path::Path;
 
-/// What a test run affords.
+/// The number of cases of a test run.
 const CASES: u64 = 600;
-/// Of so many cases one is run and verified, in a lesson that does not take long.
+/// One of this many cases is run and verified, in a lesson with short runs.
 const RUN: u64 = 20;
 
-/// What is put between any two characters, and what numbers and strings are replaced by.
+/// Texts that are inserted between two characters or that replace numbers and strings.
 const PIECES: &[&str] = &[
     "\"",
     "{",
@@ -101,7 +101,7 @@ const VALUES: &[&str] = &[
     "{\"a\": 1}",
 ];
 
-/// Lessons that end soon, then all others, with the folder of models they name.
+/// Lessons with short runs, and all lessons.
 struct Corpus {
     quick: Vec<String>,
     all: Vec<String>,
@@ -128,7 +128,7 @@ fn boundary(text: &str, at: usize) -> usize {
     (at.min(text.len())..).find(|&i| text.is_char_boundary(i)).unwrap()
 }
 
-/// Places of numbers and of strings with their quotes.
+/// The byte ranges of numbers, and of strings with their quotes.
 fn scalars(text: &str) -> Vec<Range<usize>> {
     let (mut all, mut at) = (Vec::new(), 0);
     let bytes = text.as_bytes();
@@ -168,7 +168,7 @@ fn mutate(random: &mut Random, corpus: &Corpus, text: &mut String) {
             }
         }
         7 => {
-            // One value in the place of another.
+            // Replaces a value by another one.
             let places = scalars(text);
             if !places.is_empty() {
                 let other = text[random.pick(&places).clone()].to_string();
@@ -177,7 +177,7 @@ fn mutate(random: &mut Random, corpus: &Corpus, text: &mut String) {
             }
         }
         8 => {
-            // A line twice, or moved.
+            // Inserts a copy of a line.
             let lines: Vec<&str> = text.split_inclusive('\n').collect();
             if lines.is_empty() {
                 return;
@@ -195,13 +195,13 @@ fn mutate(random: &mut Random, corpus: &Corpus, text: &mut String) {
     }
 }
 
-/// Whether two backticks of a message have nothing between them. Three are a fence.
+/// Whether nothing is between two backticks of a message. Three backticks are a fence.
 fn holds_nothing(text: &str) -> bool {
     let at = |i: usize| text.as_bytes().get(i) == Some(&b'`');
     text.match_indices("``").any(|(i, _)| !(at(i + 2) || i > 0 && at(i - 1)))
 }
 
-/// What a check says of a text: the report for people and the one for programs. Every place lies in the file.
+/// The findings of a check as text: the report for people and the report for programs. Every span is inside the file.
 fn messages(name: &str, text: &str, models: &ModelFolder, depth: CheckLevel) -> String {
     let mut models = Models::new(models.clone());
     let lesson = load_lesson(SourceFile::new(name, text), models.folder());
@@ -212,12 +212,12 @@ fn messages(name: &str, text: &str, models: &ModelFolder, depth: CheckLevel) -> 
     for finding in checked.findings.iter().filter(|f| f.path == *file.path()) {
         assert!(inside(&finding.span), "{finding:?}");
         assert!(finding.fix.as_ref().is_none_or(|fix| inside(&fix.span)), "{finding:?}");
-        // A name that is empty has no place between backticks.
+        // An empty name must not be printed between backticks.
         let texts = [finding.message.as_str()]
             .into_iter()
             .chain(finding.help.as_deref())
             .chain(finding.why.as_deref());
-        // (A backtick of the author's own, other than those of fences, may stand beside one of ours.)
+        // A backtick that the author wrote, outside of fences, may be next to a backtick of the message.
         let rest = |l: &str| l.trim_start_matches(['>', ' ']).trim_start_matches("```").contains('`');
         let has_code = text.lines().any(rest) || (name.ends_with("json") && text.contains('`'));
         texts.for_each(|t| assert!(has_code || !holds_nothing(t), "{finding:?}"));

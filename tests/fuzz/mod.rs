@@ -1,10 +1,10 @@
-//! Random and damaged input of every kind: no panic, no hang, bounded memory, the same twice. In a test run a fixed number
-//! of cases from a fixed seed; for an hour of each kind, with other seeds:
+//! Random and damaged input of every kind: no panic, no hang, bounded memory, and the same result twice. A test run has a fixed
+//! number of cases with a fixed seed. This command runs each kind for an hour with other seeds:
 //!
 //!     LABSPEC_FUZZ_SECONDS=3600 LABSPEC_SEED=2 cargo test --workspace -- fuzz --nocapture
 //!
-//! A failure names its case; `LABSPEC_FUZZ_CASE=4294967296 cargo test --workspace -- fuzz::lessons --nocapture` runs that
-//! one alone and keeps its input in `target/tmp`. The expressions are in `crates/expr/src/tests/language.rs`.
+//! A failure reports the number of its case. `LABSPEC_FUZZ_CASE=4294967296 cargo test --workspace -- fuzz::lessons --nocapture`
+//! runs only this case and writes its input to `target/tmp`. The expressions are in `crates/expr/src/tests/language.rs`.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -17,11 +17,11 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// The longest case, in a build that is hardly optimized: time of the processor where that is known, because the
-/// machine may be busy with something else.
+/// The maximum time of one case, in a build with few optimizations. It is processor time if that is known, because the machine
+/// may be busy with other programs.
 const LONGEST: Duration = Duration::from_secs(60);
 
-/// A sequence of numbers that looks random (Steele, Lea and Flood 2014, SplitMix64).
+/// A pseudorandom sequence of numbers (Steele, Lea and Flood 2014, SplitMix64).
 struct Random(u64);
 
 impl Random {
@@ -33,7 +33,7 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// A number below `n`, which is not zero.
+    /// A number below `n`; `n` must not be 0.
     fn below(&mut self, n: usize) -> usize {
         (self.next() % n as u64) as usize
     }
@@ -51,13 +51,13 @@ fn variable(name: &str) -> Option<u64> {
     std::env::var(name).ok().and_then(|s| s.parse().ok())
 }
 
-/// How long this thread has run.
+/// The processor time of this thread.
 fn running() -> Option<Duration> {
     let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
     text.split(' ').next()?.parse().ok().map(Duration::from_nanos)
 }
 
-/// Tries `cases` cases, or as many as `LABSPEC_FUZZ_SECONDS` give room for. A case gives back its input.
+/// Runs `cases` cases, or as many as fit into `LABSPEC_FUZZ_SECONDS`. A case returns its input.
 fn tries(cases: u64, mut case: impl FnMut(u64) -> String) {
     if let Some(n) = variable("LABSPEC_FUZZ_CASE") {
         let case_file = Path::new(env!("CARGO_TARGET_TMPDIR")).join("case");

@@ -1,5 +1,5 @@
-//! Hostile MJCF: models of the zoo and of `../shared`, mutated. Each is compiled and, where it compiles, stepped: no
-//! panic, no hang, bounded memory. A case is a number; a failure says which.
+//! Hostile MJCF: mutated models of the zoo and of `../shared`. Each is compiled and, if it compiles, stepped: no panic, no
+//! hang, bounded memory. Each case has a number, which a failure reports.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -8,12 +8,12 @@ use crate::support::{models, unconstrained, workspace};
 use labspec_core::xml::{self, FileProblem, Files};
 use labspec_core::{self as core, Data};
 
-/// What a test run affords.
+/// The number of cases of a test run.
 const CASES: u64 = 8000;
-/// What one case may allocate at a time, bytes.
+/// The maximum memory that one case may have allocated at any time, bytes.
 const MOST_MEMORY: u64 = 1 << 30;
 
-/// Values that numbers and names are replaced by.
+/// Values that replace numbers and names.
 const VALUES: &[&str] = &[
     "0",
     "-0",
@@ -56,9 +56,9 @@ const VALUES: &[&str] = &[
 ];
 const NUMBERS: &[&str] =
     &["0", "1", "-1", "2", "1e-9", "1e-15", "1e9", "-1e9", "0.3", "-0.7", "45", "1e15", "1e150", "-1e150"];
-/// What is put between any two characters.
+/// Characters that are inserted between any two characters.
 const SIGNS: &[&str] = &["\"", "<", ">", "/", "=", "&", "\u{0}", " ", "9", "e", "."];
-/// Elements that are put anywhere.
+/// Elements that are inserted anywhere.
 const ELEMENTS: &[&str] = &[
     "<include file=\"self.xml\"/>",
     "<include file=\"../up.xml\"/>",
@@ -79,7 +79,7 @@ const ELEMENTS: &[&str] = &[
     "-->",
 ];
 
-/// Every text and what it may name.
+/// The texts, each with the names that it may use.
 struct Corpus(Vec<(String, String)>);
 
 impl Corpus {
@@ -101,7 +101,7 @@ impl Corpus {
     }
 }
 
-/// Whatever a model names is the model itself: cycles are the rule.
+/// Any file name refers to the model itself, so that cycles are frequent.
 struct Itself<'a>(&'a str);
 
 impl Files for Itself<'_> {
@@ -114,13 +114,13 @@ impl Files for Itself<'_> {
     }
 }
 
-/// Places of the attribute values of a text, without quotes.
+/// The byte ranges of the attribute values of a text, without quotes.
 fn values(text: &str) -> Vec<std::ops::Range<usize>> {
     let quotes: Vec<usize> = text.match_indices('"').map(|(i, _)| i).collect();
     quotes.chunks_exact(2).map(|q| q[0] + 1..q[1]).collect()
 }
 
-/// Places of the tags of a text.
+/// The byte ranges of the tags of a text.
 fn tags(text: &str) -> Vec<std::ops::Range<usize>> {
     let starts = text.match_indices('<').map(|(i, _)| i);
     starts.filter_map(|i| text[i..].find('>').map(|n| i..i + n + 1)).collect()
@@ -135,7 +135,7 @@ fn mutate(random: &mut Random, corpus: &Corpus, text: &mut String) {
     let value = random.pick(&values).clone();
     match random.below(18) {
         12.. => {
-            // Another number, of those that are often allowed.
+            // Replaces numbers by numbers that are often allowed.
             let words: Vec<&str> = text[value.clone()].split(' ').collect();
             if words.iter().all(|w| w.parse::<f64>().is_ok()) {
                 let new: Vec<&str> = words
@@ -152,7 +152,7 @@ fn mutate(random: &mut Random, corpus: &Corpus, text: &mut String) {
             text.replace_range(value, &other);
         }
         4 => {
-            // One number of a list.
+            // Replaces one number of a list.
             let words: Vec<&str> = text[value.clone()].split(' ').collect();
             let at = random.below(words.len());
             let new: Vec<&str> = words
@@ -177,7 +177,7 @@ fn mutate(random: &mut Random, corpus: &Corpus, text: &mut String) {
             text.insert_str(tag.end, other);
         }
         9 => {
-            // A part moves.
+            // Copies a part of the text.
             let other = random.pick(&tags).clone();
             let (a, b) = (tag.start.min(other.start), tag.start.max(other.start));
             let piece = text[a..b].to_string();
@@ -200,7 +200,7 @@ fn mutate(random: &mut Random, corpus: &Corpus, text: &mut String) {
 fn case(corpus: &Corpus, number: u64) -> String {
     let mut random = Random(number);
     let (_, text) = random.pick(&corpus.0);
-    // Without constraints more models can be simulated.
+    // Without constraints, more models can be simulated.
     let mut text = if random.below(3) == 0 { text.clone() } else { unconstrained(text) };
     for _ in 0..1 + random.below(4) {
         mutate(&mut random, corpus, &mut text);
@@ -208,7 +208,7 @@ fn case(corpus: &Corpus, number: u64) -> String {
     text
 }
 
-/// Compiles and, where that works, steps; how far it came.
+/// Compiles the text and, if that succeeds, performs three steps. Returns whether it compiled.
 fn run(text: &str) -> bool {
     let Ok(m) = xml::compile_with(text, &Itself(text), Some("self.xml")) else { return false };
     let mut d = Data::new(&m);

@@ -1,12 +1,12 @@
-//! The engine as an embedder meets it: random calls with hostile numbers, indexes and lengths. Nothing panics; what a call
-//! cannot do it refuses.
+//! The engine through its public interface: random calls with hostile numbers, indices and lengths. Nothing panics;
+//! invalid calls are refused.
 
 use super::{Random, tries};
 use crate::support::{model, models, workspace};
 use labspec_core::reflect::{self, Elem, Kind};
 use labspec_core::{self as core, AccessSet, Data, Model, Obj, Plan, save, state};
 
-/// What a test run affords.
+/// The number of cases of a test run.
 const CASES: u64 = 400;
 
 const NUMBERS: &[f64] = &[
@@ -41,7 +41,7 @@ fn number(random: &mut Random) -> f64 {
     if random.below(4) == 0 { random.below(2000) as f64 / 1000.0 - 1.0 } else { *random.pick(NUMBERS) }
 }
 
-/// A list that has the right length most of the time.
+/// A list, most of the time of the right length.
 fn numbers(random: &mut Random, right: usize) -> Vec<f64> {
     let n = if random.below(4) == 0 { random.below(right + 3) } else { right };
     (0..n).map(|_| number(random)).collect()
@@ -51,12 +51,12 @@ fn point(random: &mut Random) -> [f64; 3] {
     std::array::from_fn(|_| number(random))
 }
 
-/// Stores something in a field that a lesson may write: all but what is fixed when a model is compiled.
+/// Writes to a random field that a lesson may write: any field that is not fixed when a model is compiled.
 fn write(m: &mut Model, d: &mut Data, random: &mut Random) -> String {
     let fields: Vec<_> = reflect::fields().filter(|f| f.info().kind != Kind::Structure).collect();
     let field = *random.pick(&fields);
     let info = field.info();
-    // How many turns a solver may take is a budget of its own.
+    // The number of solver iterations is limited, because it has its own budget.
     let most = if info.name.contains("iterations") { 100.0 } else { f64::INFINITY };
     let n = core::length(m, d, field);
     let i = if random.below(8) == 0 { *random.pick(INDEXES) } else { random.below(n + 1) };
@@ -67,20 +67,20 @@ fn write(m: &mut Model, d: &mut Data, random: &mut Random) -> String {
     format!("{}[{i}] = {value:?}", info.name)
 }
 
-/// A model that none of the others is.
+/// A model that differs from all others.
 fn other_model() -> Model {
     let text = "<mujoco><worldbody><body><freejoint/><geom size='1'/></body></worldbody></mujoco>";
     Model::from_xml(text).unwrap()
 }
 
-/// One call; what it was.
+/// Performs one random call; returns its description.
 fn call(m: &mut Model, d: &mut Data, saved: &mut Vec<u8>, random: &mut Random) -> String {
     let k = if random.below(2) == 0 { random.below(4) } else { *random.pick(INDEXES) };
     let mut out = numbers(random, m.nv);
     let what = random.below(36);
     let keys: Vec<_> = m.keys().collect();
     let key = keys.get(k % keys.len().max(1)).copied();
-    // Whether a call is refused is its own business: it returns.
+    // A call may be refused, but it must return.
     match what {
         0 => drop(core::reset_data(m, d)),
         1 => drop(key.map(|key| core::reset_data_keyframe(m, d, key))),
@@ -123,7 +123,7 @@ fn call(m: &mut Model, d: &mut Data, saved: &mut Vec<u8>, random: &mut Random) -
             let _ = core::object_acceleration(m, d, kind, k, random.below(2) == 0);
         }
         21 => {
-            // Also one that no simulation has found.
+            // Contacts that were not computed by a simulation are passed as well.
             let mut contact = d.contact.first().cloned().unwrap_or_default();
             if random.below(2) == 0 {
                 contact.dim = *random.pick(INDEXES);
@@ -197,7 +197,7 @@ fn random_calls_of_the_engine_do_not_panic() {
     });
 }
 
-/// FNV-1a, so that a changed model passes for one that was stored so.
+/// FNV-1a. With it, a modified model has a valid checksum.
 fn fingerprint(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, |h, &b| (h ^ u64::from(b)).wrapping_mul(0x0000_0100_0000_01b3))
 }
@@ -215,7 +215,7 @@ fn stored_models_come_back_or_are_refused() {
         let mut bytes = random.pick(&all).to_bytes();
         let end = bytes.len() - 8;
         for _ in 0..1 + random.below(3) {
-            // Integers are four bytes long, and small: most changes make others.
+            // Integers have four bytes and are small, so most changes produce other valid integers.
             let at = 28 + random.below(end - 28);
             bytes[at] = if random.below(2) == 0 { random.below(8) as u8 } else { random.next() as u8 };
         }

@@ -1,8 +1,8 @@
-//! Which mistakes can be known of a lab or a quiz alone, and which need a claim of its author.
+//! Which mistakes in a lab or a quiz can be detected without a claim, and which need a claim of the author.
 //!
-//! A mistake is known without a claim when nothing that an author could sensibly have meant is the lab as it is then. It needs a
-//! claim when the lab is a sound one that somebody could have written on purpose. Where a kind has both, a predicate tells them
-//! apart by what the lesson says; it does not ask whether anything was found.
+//! A mistake can be detected without a claim if no author could reasonably have intended the resulting lab. It needs a claim if
+//! the result is a correct lab that somebody could have written on purpose. For kinds that contain both, a predicate decides by
+//! the content of the lesson. It does not depend on whether the mistake was found.
 
 use super::eyes;
 use super::material::{Piece, What};
@@ -15,26 +15,26 @@ use labspec_core::Obj;
 use labspec_expr::dimension::Measure;
 use serde_json::Value;
 
-/// A mistake in its place.
+/// A mistake and its context.
 pub(super) struct Case<'a> {
     pub(super) piece: &'a Piece,
     pub(super) json: &'a Value,
     pub(super) models: &'a Models,
 }
 
-/// What it takes to know a mistake of a kind.
+/// What is needed to detect a mistake of a kind.
 #[derive(Clone, Copy)]
 pub(super) enum Needs {
-    /// Nothing.
+    /// No claim is needed.
     Nothing,
-    /// A claim, and why.
+    /// A claim is needed, for this reason.
     Claim(&'static str),
-    /// Nothing where this holds, else a claim; and why.
+    /// No claim is needed if the predicate is true, otherwise a claim, for this reason.
     Some(fn(&Case<'_>) -> bool, &'static str),
 }
 
-/// Kinds that need a claim, all or some of them. Others need none: no author means a name that does not exist, a plot that shows
-/// nothing, a control that does nothing.
+/// Kinds of which all or some mistakes need a claim. Other kinds need none: no author intends a name that does not exist, a
+/// plot that shows nothing, or a control without an effect.
 const KINDS: [(&str, Needs); 23] = [
     (
         "next-index",
@@ -139,12 +139,12 @@ const KINDS: [(&str, Needs); 23] = [
     ("unused-element", Needs::Nothing),
 ];
 
-/// What it takes to know mistakes of a kind.
+/// What is needed to detect mistakes of a kind.
 pub(super) fn needs(kind: &str) -> Needs {
     KINDS.iter().find(|(name, _)| *name == kind).map_or(Needs::Nothing, |(_, needs)| *needs)
 }
 
-/// Whether this mistake can be known without a claim.
+/// Whether this mistake can be detected without a claim.
 pub(super) fn is_measurable(kind: &str, case: &Case<'_>) -> bool {
     match needs(kind) {
         Needs::Nothing => true,
@@ -153,7 +153,7 @@ pub(super) fn is_measurable(kind: &str, case: &Case<'_>) -> bool {
     }
 }
 
-/// Whether the lesson claims something of what was changed.
+/// Whether the lesson makes a claim about the changed part.
 pub(super) fn claimed(case: &Case<'_>) -> bool {
     let at = |json: &Value| json["questions"].as_array().cloned().unwrap_or_default();
     match case.piece.what {
@@ -165,7 +165,7 @@ pub(super) fn claimed(case: &Case<'_>) -> bool {
     }
 }
 
-/// Every pair of texts under a pointer with `*` for lists, in the original and in the mutant, that is not the same; with its index.
+/// The entries of a list whose texts under `key` differ between the original and the mutant, with their indices.
 fn changed<'v>(a: &'v Value, b: &'v Value, list: &str, key: &str) -> Vec<(usize, &'v Value, &'v Value)> {
     let of = |v: &'v Value| v[list].as_array().map_or(&[][..], Vec::as_slice);
     of(a)
@@ -177,7 +177,7 @@ fn changed<'v>(a: &'v Value, b: &'v Value, list: &str, key: &str) -> Vec<(usize,
         .collect()
 }
 
-/// Traces and readouts as they stand in the order of a lab's programs, each with the label of its plot.
+/// Traces and readouts in the order of a lab's programs, each with the label of its plot.
 fn displayed(lab: &Value) -> Vec<(&Value, &str)> {
     let list = |v: &'_ Value| v.as_array().map_or(0, Vec::len);
     let mut all = Vec::new();
@@ -190,7 +190,7 @@ fn displayed(lab: &Value) -> Vec<(&Value, &str)> {
     all
 }
 
-/// What every trace and readout measures.
+/// The quantity that each trace and readout measures.
 fn measures(json: &Value, models: &Models) -> Option<Vec<Measure>> {
     let lesson = load_lesson(SourceFile::new("piece.json", json.to_string()), models.folder());
     let lab = lesson.all_labs().into_iter().next()?;
@@ -200,7 +200,7 @@ fn measures(json: &Value, models: &Models) -> Option<Vec<Measure>> {
     Some(found.into_iter().map(|m| m.map_or(Measure::Unknown, |m| m.value)).collect())
 }
 
-/// Words of the model that labels may use.
+/// The names of the model that labels may contain.
 fn names(json: &Value, models: &Models) -> Vec<String> {
     let lesson = load_lesson(SourceFile::new("piece.json", json.to_string()), models.folder());
     let model =
@@ -229,7 +229,7 @@ fn measures_another(case: &Case<'_>) -> bool {
     let of = |json| measures(json, case.models).and_then(|all| all.get(i).copied());
     let differ = match (of(&case.piece.json), of(case.json)) {
         (Some(Measure::Known(a)), Some(Measure::Known(b))) => !a.agrees(&b),
-        // An index that does not exist has no measure.
+        // An expression with an invalid index has no measure.
         (Some(_), None) => true,
         _ => false,
     };

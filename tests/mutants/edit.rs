@@ -1,10 +1,10 @@
-//! Changes to the JSON of a lab or a quiz, at every place where they are possible.
+//! Changes to the JSON of a lab or a quiz, at every possible location.
 
 use serde_json::Value;
 use std::fmt::Write;
 
-/// Copies of an object, each with one of the values at this path changed; `*` stands for every element of a list. What the
-/// change refuses (`None`) gives no copy.
+/// Copies of an object, each with one of the values at this path changed; `*` is every element of a list. There is no copy for
+/// a value for which `change` returns `None`.
 pub(super) fn each(json: &Value, path: &[&str], change: impl Fn(&Value) -> Option<Value>) -> Vec<Value> {
     let mut places = vec![String::new()];
     for part in path {
@@ -31,12 +31,12 @@ pub(super) fn each(json: &Value, path: &[&str], change: impl Fn(&Value) -> Optio
     places.into_iter().filter_map(made).collect()
 }
 
-/// The same for a text.
+/// As `each`, for texts.
 pub(super) fn text(json: &Value, path: &[&str], change: impl Fn(&str) -> Option<String>) -> Vec<Value> {
     each(json, path, |old| Some(Value::from(change(old.as_str()?)?)))
 }
 
-/// Every control, changed.
+/// Changes every control.
 pub(super) fn controls(json: &Value, change: impl Fn(&mut Value) -> Option<()>) -> Vec<Value> {
     each(json, &["controls", "*"], |old| {
         let mut new = old.clone();
@@ -45,14 +45,14 @@ pub(super) fn controls(json: &Value, change: impl Fn(&mut Value) -> Option<()>) 
     })
 }
 
-/// The text of every trace and readout, changed.
+/// Changes the expression of every trace and readout.
 pub(super) fn displayed_code(json: &Value, change: impl Fn(&str) -> Option<String>) -> Vec<Value> {
     let mut all = text(json, &["plots", "*", "traces", "*", "expr"], &change);
     all.extend(text(json, &["readouts", "*", "expr"], &change));
     all
 }
 
-/// All statements and targets, changed.
+/// Changes all statements and targets.
 pub(super) fn statements(json: &Value, change: impl Fn(&str) -> Option<String>) -> Vec<Value> {
     let mut all = text(json, &["setup"], &change);
     all.extend(text(json, &["controller"], &change));
@@ -62,14 +62,14 @@ pub(super) fn statements(json: &Value, change: impl Fn(&str) -> Option<String>) 
     all
 }
 
-/// All code, changed.
+/// Changes all code.
 pub(super) fn code(json: &Value, change: impl Fn(&str) -> Option<String>) -> Vec<Value> {
     let mut all = statements(json, &change);
     all.extend(displayed_code(json, &change));
     all
 }
 
-/// The lab with a key of its own set.
+/// The lab with a top-level key set.
 pub(super) fn with(json: &Value, key: &str, value: Value) -> Vec<Value> {
     let mut copy = json.clone();
     if let Some(object) = copy.as_object_mut() {
@@ -78,25 +78,25 @@ pub(super) fn with(json: &Value, key: &str, value: Value) -> Vec<Value> {
     vec![copy]
 }
 
-/// The lab without a key.
+/// The lab without a top-level key.
 pub(super) fn without(json: &Value, key: &str) -> Vec<Value> {
     let mut copy = json.clone();
     let had = copy.as_object_mut().and_then(|o| o.shift_remove(key));
     had.map_or(Vec::new(), |_| vec![copy])
 }
 
-/// The lab with statements behind its setup.
+/// The lab with statements added after its setup.
 pub(super) fn setup(json: &Value, more: &str) -> Vec<Value> {
     let old = json["setup"].as_str().unwrap_or("");
     with(json, "setup", Value::from(if old.is_empty() { more.into() } else { format!("{old}; {more}") }))
 }
 
-/// A text with the first place of a word replaced; `None` where it does not stand.
+/// Replaces the first occurrence of a word; `None` if the text does not contain it.
 pub(super) fn swap(text: &str, word: &str, other: &str) -> Option<String> {
     text.contains(word).then(|| text.replacen(word, other, 1))
 }
 
-/// The first index `[n]` of a text moved on by so many.
+/// Increases the first index `[n]` of a text by `by`.
 pub(super) fn move_index(text: &str, by: usize) -> Option<String> {
     let open = text.match_indices('[').map(|(i, _)| i).find(|&i| {
         let rest = &text[i + 1..];
@@ -107,7 +107,7 @@ pub(super) fn move_index(text: &str, by: usize) -> Option<String> {
     Some(format!("{}{}{}", &text[..=open], n + by, &text[close..]))
 }
 
-/// Writes down where two objects differ.
+/// Lists the differences between two objects.
 pub(super) fn differences(path: &str, a: &Value, b: &Value, page: &mut String) {
     let keys = |v: &Value| -> Vec<String> {
         match v {

@@ -1,5 +1,5 @@
-//! What a student sees of a lab or a quiz: what is written on it, and what it shows while it runs, also after a control was moved
-//! and after a reset.
+//! What a student sees of a lab or a quiz: its texts, and what it displays while it runs, also after a control was
+//! moved and after a reset.
 
 use super::material::{Piece, What};
 use labspec::bind::Programs;
@@ -14,12 +14,12 @@ use serde_json::Value;
 use std::fmt::Write;
 use std::ops::ControlFlow;
 
-/// Steps of the lab as it stands; before a control is moved, after that, and after the reset.
+/// The numbers of steps: of the unchanged lab, before a control is moved, after that, and after the reset.
 const STEPS: [usize; 4] = [260, 20, 80, 40];
-/// Samples are this many steps apart.
+/// The number of steps between samples.
 const EVERY: usize = 20;
 
-/// What is code, and shown to nobody.
+/// Keys that contain code, which a student does not see.
 const CODE: [&str; 13] = [
     "model",
     "xml",
@@ -36,17 +36,17 @@ const CODE: [&str; 13] = [
     "verify",
 ];
 
-/// Every stage in every step: what nobody reads is drawn all the same.
+/// Runs every stage in every step, because stages that no program needs are drawn as well.
 fn start_with_every_stage<'p>(lab: &Lab, model: &Model, programs: &'p Programs) -> Session<'p> {
     let start = Start { plan: Some(Plan::full()), ..Start::of_lab(lab) };
     Session::start(programs, model, start)
 }
 
-/// All that can be seen, as a text.
+/// Everything that a student can see, as a text.
 pub(crate) fn seen(piece: &Piece, json: &Value, models: &Models) -> String {
     let mut visible = json.clone();
     if piece.what == What::Quiz {
-        // The labs of its questions are pieces of their own.
+        // The labs of its questions are separate pieces.
         return visible.to_string();
     }
     hide(&mut visible);
@@ -81,12 +81,12 @@ pub(crate) fn seen(piece: &Piece, json: &Value, models: &Models) -> String {
     text
 }
 
-/// Takes the code out of a lab.
+/// Removes the code from a lab.
 fn hide(json: &mut Value) {
     match json {
         Value::Object(map) => {
             CODE.iter().for_each(|key| drop(map.shift_remove(*key)));
-            // What a readout prints is looked at in the runs.
+            // The digits are visible in the runs, where the readouts are printed.
             let readouts = map.get_mut("readouts").and_then(Value::as_array_mut);
             for readout in readouts.into_iter().flatten().filter_map(Value::as_object_mut) {
                 readout.shift_remove("digits");
@@ -98,7 +98,7 @@ fn hide(json: &mut Value) {
     }
 }
 
-/// Writes down what is shown in so many steps: readouts as they are printed, traces and places beyond rounding.
+/// Writes what is displayed in this many steps: readouts as printed, traces and positions rounded to six digits.
 fn play(session: &mut Session<'_>, lab: &Lab, steps: usize, text: &mut String) {
     let traces = lab.traces().count();
     run::play(session, &Play { every: EVERY, ..Play::steps(steps) }, |session, _| {
@@ -119,12 +119,12 @@ fn play(session: &mut Session<'_>, lab: &Lab, steps: usize, text: &mut String) {
     writeln!(text, "{:?} {:?}", session.ended(), session.warnings.map(|w| w.number > 0)).unwrap();
 }
 
-/// Six significant digits, and nothing below 1e-9.
+/// Six significant digits; values below 1e-9 become 0.
 fn rounded(x: f64) -> String {
     if x.abs() < 1e-9 { "0".into() } else { format!("{x:.5e}") }
 }
 
-/// The texts that a readout prints in short runs, as the lab stands and with every control moved.
+/// The texts that a readout prints in short runs of the unchanged lab and with every control moved.
 pub(super) fn prints(json: &Value, models: &Models, readout: usize) -> std::collections::BTreeSet<String> {
     let mut all = std::collections::BTreeSet::new();
     let lesson = load_lesson(SourceFile::new("piece.json", json.to_string()), models.folder());

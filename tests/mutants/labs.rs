@@ -6,21 +6,21 @@ use super::edit::{
 };
 use serde_json::{Value, json};
 
-/// The texts of traces and readouts.
+/// The paths of the expressions of traces and readouts.
 const TRACE: [&str; 5] = ["plots", "*", "traces", "*", "expr"];
 const READOUT: [&str; 3] = ["readouts", "*", "expr"];
 
-/// A kind, in one line.
+/// A kind of mistake.
 const fn kind(name: &'static str, words: &'static str, plant: fn(&Value) -> Vec<Value>) -> Kind {
     Kind { name, words, plant, right: None }
 }
 
-/// A kind that leaves out a call: what the lab is with it.
+/// A kind of mistake that omits a call. Its `right` is the lab with the call.
 const fn without_forward(name: &'static str, words: &'static str, plant: fn(&Value) -> Vec<Value>) -> Kind {
     Kind { name, words, plant, right: Some(forwarded) }
 }
 
-/// The lab with `mj_forward` behind what its setup writes.
+/// The lab with `mj_forward` after the writes of its setup.
 fn forwarded(l: &Value) -> Value {
     let mut l = l.clone();
     let text = l["setup"].as_str().unwrap_or("");
@@ -29,7 +29,7 @@ fn forwarded(l: &Value) -> Value {
     l
 }
 
-/// What is wrong in a text.
+/// Mistakes in texts.
 pub(super) const TEXTS: [Kind; 18] = [
     kind("misspelt-field", "a field is misspelt", |l| {
         code(l, |t| swap(t, "qpos", "qops").or_else(|| swap(t, "qvel", "qvle")))
@@ -77,7 +77,7 @@ pub(super) const TEXTS: [Kind; 18] = [
     }),
 ];
 
-/// What is wrong with plots and readouts, and how long is looked at them.
+/// Mistakes in plots and readouts, and in the displayed time.
 pub(super) const VIEWS: [Kind; 13] = [
     kind("constant-trace", "a trace shows the initial value of its coordinate", |l| {
         text(l, &TRACE, |t| swap(t, "data.qpos", "model.qpos0"))
@@ -133,7 +133,7 @@ pub(super) const VIEWS: [Kind; 13] = [
     }),
 ];
 
-/// What is wrong with labels. They stand last, so that the places of the other kinds stay.
+/// Mistakes in labels. They come last, so that the positions of the other kinds do not change.
 pub(super) const LABELS: [Kind; 2] = [
     kind("labels-exchanged", "two traces or readouts have each other's label", |l| {
         let mut all = each(l, &["plots", "*", "traces"], exchanged);
@@ -145,14 +145,14 @@ pub(super) const LABELS: [Kind; 2] = [
     }),
 ];
 
-/// The labels of readouts and plots, changed.
+/// Changes the labels of readouts and plots.
 fn labels(l: &Value, change: fn(&str) -> Option<String>) -> Vec<Value> {
     let mut all = text(l, &["readouts", "*", "label"], change);
     all.extend(text(l, &["plots", "*", "ylabel"], change));
     all
 }
 
-/// A list whose first two have each other's label.
+/// A list whose first two elements have exchanged labels.
 fn exchanged(list: &Value) -> Option<Value> {
     let mut list = list.clone();
     let [first, second] = [0, 1].map(|i| list.get(i).map(|one| one["label"].clone()));
@@ -161,7 +161,7 @@ fn exchanged(list: &Value) -> Option<Value> {
     Some(list)
 }
 
-/// A plot with other ends.
+/// A plot with other limits.
 fn limits(plot: &Value, low: f64, high: f64) -> Option<Value> {
     let mut plot = plot.clone();
     plot["ymin"] = json!(low);
@@ -169,7 +169,7 @@ fn limits(plot: &Value, low: f64, high: f64) -> Option<Value> {
     Some(plot)
 }
 
-/// A number of a slider, changed by what the slider is.
+/// Sets a number of every slider to a value computed from the slider.
 fn slider(l: &Value, key: &str, value: fn(&Value) -> Option<f64>) -> Vec<Value> {
     controls(l, |c| {
         c["min"].as_f64()?;
@@ -183,12 +183,12 @@ fn number(c: &Value, key: &str) -> Option<f64> {
     c[key].as_f64()
 }
 
-/// A control without a key that says `true`.
+/// Removes a key from every control that has it.
 fn unset(l: &Value, key: &str) -> Vec<Value> {
     controls(l, |c| c.as_object_mut()?.shift_remove(key).map(drop))
 }
 
-/// What is wrong with controls.
+/// Mistakes in controls.
 pub(super) const CONTROLS: [Kind; 24] = [
     kind("off-grid", "a slider begins between two of its steps", |l| {
         slider(l, "value", |c| {
@@ -336,7 +336,7 @@ pub(super) const CONTROLS: [Kind; 24] = [
     }),
 ];
 
-/// What is wrong with the scene and its programs.
+/// Mistakes in the scene and its programs.
 pub(super) const SCENES: [Kind; 18] = [
     kind("no-controller", "the controller is missing", |l| without(l, "controller")),
     kind("no-setup", "the setup is missing", |l| without(l, "setup")),

@@ -1,4 +1,4 @@
-//! What mistakes are planted into: labs and quizzes that real people wrote, each as one object of JSON.
+//! The material into which mistakes are planted: labs and quizzes written by people, each as one JSON object.
 
 use crate::support::workspace;
 use labspec::bind::scene::Models;
@@ -6,15 +6,16 @@ use labspec::lint::ModelFolder;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
-/// Longest time that a lab is run for, s: many mutants have to be run.
+/// The maximum simulated time of a lab, s, because many mutants have to be run.
 const LONGEST: f64 = 1.0;
 
-/// Lessons of our own that are taken. More would make a long test longer: into all of them lies are planted in `tests/course.rs`.
+/// The number of this repository's lessons that are used. More would make a long test longer, and `tests/course.rs` plants
+/// false statements into all of them.
 const OURS: usize = 2;
-/// How a quiz of ours begins that is lied to only there.
+/// The start of a quiz that is not used here, only in `tests/course.rs`.
 const LATER: &str = "{\"id\": \"02-balls\"";
 
-/// What a piece is.
+/// The kind of a piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum What {
     Lab,
@@ -23,30 +24,30 @@ pub(crate) enum What {
 
 /// A lab or a quiz.
 pub(crate) struct Piece {
-    /// Where it is from.
+    /// The file and the number of the piece.
     pub(crate) name: String,
     pub(crate) what: What,
     pub(crate) json: Value,
-    /// Which of the folders of models it uses.
+    /// The index of its folder of models.
     pub(crate) models: usize,
-    /// The lesson before and behind it, for a quiz whose answers are verified with the labs of its lesson.
+    /// The text of the lesson before and after it, for a quiz whose answers are verified with the labs of its lesson.
     pub(crate) around: Option<(String, String)>,
-    /// Where claims are made of a lab.
+    /// The lesson with claims about a lab.
     pub(crate) home: Option<Home>,
 }
 
-/// The place of a lab in a lesson with claims about it.
+/// The location of a lab in a lesson with claims about it.
 #[derive(Clone)]
 pub(crate) struct Home {
     before: String,
     behind: String,
-    /// The object of the fence, and where in it the lab is.
+    /// The object of the fence. `at` is the path of the lab in it.
     whole: Value,
     at: String,
 }
 
 impl Piece {
-    /// The file that holds this piece, or what has become of it.
+    /// The name and content of a file with the original or mutated piece.
     pub(crate) fn file(&self, json: &Value) -> (&'static str, String) {
         let text = serde_json::to_string_pretty(json).unwrap();
         match &self.around {
@@ -55,7 +56,7 @@ impl Piece {
         }
     }
 
-    /// The lesson of a lab of which something is claimed, with this in its place.
+    /// The lesson with claims about a lab, in which `json` replaces the lab.
     pub(crate) fn lesson(&self, json: &Value) -> Option<String> {
         let Home { before, behind, whole, at } = self.home.as_ref()?;
         let mut whole = whole.clone();
@@ -65,7 +66,7 @@ impl Piece {
     }
 }
 
-/// What was changed from one object to another, done to a third.
+/// Applies the changes between two objects to a third one.
 fn carried(from: &Value, to: &Value, third: &Value) -> Value {
     if from == to {
         return third.clone();
@@ -93,13 +94,13 @@ fn carried(from: &Value, to: &Value, third: &Value) -> Value {
     }
 }
 
-/// The folders of models, opened.
+/// The opened folders of models.
 pub(crate) fn models() -> Vec<Models> {
     let open = |folder: PathBuf| Models::new(ModelFolder::open(&folder).unwrap());
     vec![open(workspace().join("specs/models")), open(workspace().join("../shared/corpus/models"))]
 }
 
-/// All labs and quizzes, in an order that does not change. A damaged lesson is none.
+/// All labs and quizzes, in a fixed order. Damaged lessons are left out.
 pub(crate) fn pieces() -> Vec<Piece> {
     let shared = workspace().join("../shared");
     let mut all = Vec::new();
@@ -122,7 +123,7 @@ pub(crate) fn pieces() -> Vec<Piece> {
     all
 }
 
-/// Lessons and objects of a folder by name.
+/// The lessons and JSON files of a folder, sorted by name; of this repository's lessons, only the first `OURS`.
 fn files(folder: &Path) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path());
     let is_one = |p: &PathBuf| {
@@ -138,7 +139,7 @@ fn files(folder: &Path) -> Vec<PathBuf> {
     all
 }
 
-/// The objects in the fences of a lesson.
+/// Adds the objects in the fences of a lesson.
 fn lesson(all: &mut Vec<Piece>, name: &str, models: usize, text: &str) {
     let mut at = 0;
     let mut number = 0;
@@ -146,7 +147,7 @@ fn lesson(all: &mut Vec<Piece>, name: &str, models: usize, text: &str) {
         let begin = at + start + text[at + start..].find('\n').unwrap() + 1;
         let end = begin + text[begin..].find("\n```").unwrap() + 1;
         number += 1;
-        // Which mistakes are planted follows from the number of a piece: one that came later would change all choices.
+        // The planted mistakes depend on the number of a piece, so an additional piece would change all choices.
         if text[begin..end].starts_with(LATER) {
             at = end + 3;
             continue;
@@ -157,7 +158,7 @@ fn lesson(all: &mut Vec<Piece>, name: &str, models: usize, text: &str) {
     }
 }
 
-/// An object, and the labs of its questions.
+/// Adds an object, and the labs of its questions.
 fn add(all: &mut Vec<Piece>, name: &str, models: usize, text: &str, around: Option<(String, String)>) {
     let json: Value = serde_json::from_str(text).unwrap();
     let name = name.to_string();
@@ -180,7 +181,7 @@ fn add(all: &mut Vec<Piece>, name: &str, models: usize, text: &str, around: Opti
     all.push(Piece { name, what: What::Quiz, json, models, around, home: None });
 }
 
-/// A lab without its lesson: nothing is claimed of it, and it is run for a short time.
+/// A lab without claims, and with a short run.
 fn alone(lab: &Value) -> Value {
     let mut lab = lab.clone();
     let object = lab.as_object_mut().unwrap();

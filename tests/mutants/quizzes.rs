@@ -8,7 +8,7 @@ const fn kind(name: &'static str, words: &'static str, plant: fn(&Value) -> Vec<
     Kind { name, words, plant, right: None }
 }
 
-/// Every question, changed.
+/// Changes every question.
 fn questions(quiz: &Value, change: fn(&mut Value) -> Option<()>) -> Vec<Value> {
     each(quiz, &["questions", "*"], |old| {
         let mut new = old.clone();
@@ -17,7 +17,7 @@ fn questions(quiz: &Value, change: fn(&mut Value) -> Option<()>) -> Vec<Value> {
     })
 }
 
-/// Every numeric question, with the value of a key that its answer gives.
+/// Sets a key of every numeric question to a value computed from its answer.
 fn numeric(quiz: &Value, key: &'static str, value: impl Fn(f64) -> f64) -> Vec<Value> {
     each(quiz, &["questions", "*"], |old| {
         let mut new = old.clone();

@@ -1,6 +1,6 @@
-//! Why mistakes are not found that could be known without a claim.
+//! Reasons why some mistakes are not found although they could be detected without a claim.
 
-/// Kinds with survivors, and the reason.
+/// Kinds with mistakes that are not found, and the reason.
 pub(super) const REASONS: [(&str, &str); 7] = [
     ("nan-at-start", "the text reads a variable that is initially null, so a gap may be intended"),
     ("constant-trace", "the text contains a formula of time, which changes"),

@@ -1,4 +1,4 @@
-//! What every test asks of what the program prints for programs: it is a report, and keeps what its schema promises.
+//! The checks of every JSON output that a test receives: it is a report, and it conforms to the published schema.
 
 use super::schema::{problems, schemas};
 use serde_json::Value;
@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::OnceLock;
 
-/// Holds what was printed against the promise, where it is JSON.
+/// Checks an output against its schema, if it is JSON.
 pub(crate) fn hold(printed: &str) {
     if printed.starts_with('{') {
         let report = serde_json::from_str(printed).unwrap_or_else(|e| panic!("{e} in\n{printed:.2000}"));
@@ -14,18 +14,18 @@ pub(crate) fn hold(printed: &str) {
     }
 }
 
-/// Commands that print JSON must have printed a report.
+/// Checks the outputs of a command. Commands that print JSON must have printed a report.
 pub(crate) fn hold_command(folder: &Path, arguments: &[&str], code: i32, printed: &str) {
     let asked = |option: &str, value: &str| arguments.windows(2).any(|pair| pair == [option, value]);
     let always = matches!(arguments.first(), Some(&("bench" | "record")));
     if (always || asked("--format", "json")) && matches!(code, 0 | 1 | 130) {
         assert!(printed.starts_with('{'), "{arguments:?} prints no report:\n{printed:.2000}");
     }
-    // Forms of other programs have schemas of their own.
+    // Formats of other programs have separate schemas.
     if !["jsonl", "sarif", "gitlab"].iter().any(|form| asked("--format", form)) {
         hold(printed);
     }
-    // And what it wrote.
+    // The report that was written to a file.
     let file = arguments.iter().position(|a| *a == "--json").and_then(|i| arguments.get(i + 1));
     if let Some(file) = file.filter(|_| code < 2) {
         hold(&std::fs::read_to_string(folder.join(file)).unwrap());
@@ -43,7 +43,7 @@ pub(crate) fn hold_value(report: &Value) {
     assert!(wrong.is_empty(), "{file}:\n{}\nin\n{report:.4000}", wrong.join("\n"));
 }
 
-/// What `nonfinite` names is `null`.
+/// Every value that `nonfinite` names is `null`.
 fn named_numbers(value: &Value, at: &str, wrong: &mut Vec<String>) {
     match value {
         Value::Array(items) => {
@@ -72,7 +72,7 @@ fn named_numbers(value: &Value, at: &str, wrong: &mut Vec<String>) {
     }
 }
 
-/// A row of a table has an entry for each column, and all entries of a column are of its type.
+/// Each row of a table has one entry per column, and all entries of a column have its type.
 fn columns(report: &Value, wrong: &mut Vec<String>) {
     let Some(types) = report["types"].as_array() else { return };
     let rows = report["rows"].as_array().unwrap();

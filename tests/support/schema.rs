@@ -1,5 +1,5 @@
-//! JSON Schema 2020-12, as far as `docs/schema` uses it. A keyword that is not known here fails, so that nothing in a
-//! schema is passed over. (The small crates that do this ask for a hundred others.)
+//! A validator for JSON Schema 2020-12, limited to what `docs/schema` uses. An unknown keyword fails, so that no part of a
+//! schema is ignored. (The small crates for this purpose have about a hundred dependencies.)
 
 use super::{read_json, workspace};
 use serde_json::Value;
@@ -14,7 +14,7 @@ pub(crate) fn schemas() -> BTreeMap<String, Value> {
     reports.map(|(name, p)| (name, read_json(&p))).collect()
 }
 
-/// What is wrong with a value, each with the place of it; empty when the schema holds: that of a file, or a part of it
+/// The errors in a value, each with its path; empty if the value conforms to the schema. The schema is a file or a part of one
 /// (`lesson.json#/$defs/lab`).
 pub(crate) fn problems(schemas: &BTreeMap<String, Value>, name: &str, value: &Value) -> Vec<String> {
     let mut look = Look { schemas, problems: Vec::new() };
@@ -28,7 +28,7 @@ struct Look<'s> {
     problems: Vec<String>,
 }
 
-/// Keys of an object that a schema has spoken of.
+/// The keys of an object that a schema has evaluated.
 type Spoken = BTreeSet<String>;
 
 impl<'s> Look<'s> {
@@ -43,9 +43,9 @@ impl<'s> Look<'s> {
         for (keyword, want) in keywords {
             let holds = match keyword.as_str() {
                 "$schema" | "title" | "description" | "$defs" | "default" | "examples" => true,
-                // What `if` decides between.
+                // Evaluated with `if`.
                 "then" | "else" => true,
-                // CheckedText at when all others have spoken.
+                // Evaluated after all other keywords.
                 "unevaluatedProperties" => true,
                 "const" => value == want,
                 "enum" => list(want).contains(value),
@@ -140,15 +140,15 @@ impl<'s> Look<'s> {
         spoken
     }
 
-    /// The keys that a schema has spoken of, when it holds.
+    /// The keys that a schema evaluates, if the value conforms to it.
     fn holds(&self, file: &str, schema: &'s Value, value: &Value) -> Option<Spoken> {
         let mut alone = Look { schemas: self.schemas, problems: Vec::new() };
         let spoken = alone.check(file, schema, value, "");
         alone.problems.is_empty().then_some(spoken)
     }
 
-    /// Keys that the schemas which hold have spoken of. When none holds: the problems of the one that comes closest,
-    /// which is one that fails inside of the value, not at the value itself.
+    /// The keys that the matching schemas evaluate. If none matches, the errors of the closest schema are reported: one that
+    /// fails inside the value, not at the value itself.
     fn any_of(&mut self, file: &str, any: &'s [Value], value: &Value, at: &str) -> Spoken {
         let mut closest = None;
         let mut spoken = Spoken::new();
@@ -166,7 +166,7 @@ impl<'s> Look<'s> {
         spoken
     }
 
-    /// `#/$defs/place` of the same file, or another file.
+    /// Resolves a reference: `#/$defs/place` of the same file, or another file.
     fn follow(&self, file: &str, to: &str) -> (String, &'s Value) {
         let (name, inside) = to.split_once('#').unwrap_or((to, ""));
         let name = if name.is_empty() { file } else { name };
@@ -192,7 +192,7 @@ fn is(value: &Value, name: &Value) -> bool {
     }
 }
 
-/// The validator itself: each keyword can fail, and says where.
+/// Tests the validator itself: each keyword can fail, and reports the path.
 #[test]
 fn every_keyword_can_fail() {
     use serde_json::json;

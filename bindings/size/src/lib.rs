@@ -1,8 +1,9 @@
-//! What a page needs of the engine, exported: a model, its data, steps, coordinates. `weigh.sh` says what that weighs.
+//! Exports what a page needs from the engine: a model, its data, steps, coordinates. `weigh.sh` reports
+//! the size of this module.
 
 use labspec_core::{Data, Model, contact_force, forward, inverse, reset_data, save, step};
 
-/// A simulation behind one address.
+/// A model and its data, behind one pointer.
 pub struct Simulation {
     model: Model,
     data: Data,
@@ -17,30 +18,30 @@ fn boxed(model: Result<Model, labspec_core::Error>) -> *mut Simulation {
 
 /// # Safety
 ///
-/// `text` points at `length` bytes.
+/// `text` must point to `length` bytes.
 #[cfg(feature = "mjcf")]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn from_xml(text: *const u8, length: usize) -> *mut Simulation {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     let bytes = unsafe { std::slice::from_raw_parts(text, length) };
     std::str::from_utf8(bytes).map_or(std::ptr::null_mut(), |text| boxed(Model::from_xml(text)))
 }
 
 /// # Safety
 ///
-/// `bytes` points at `length` bytes.
+/// `bytes` must point to `length` bytes.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn from_bytes(bytes: *const u8, length: usize) -> *mut Simulation {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     boxed(Model::from_bytes(unsafe { std::slice::from_raw_parts(bytes, length) }))
 }
 
 /// # Safety
 ///
-/// `s` comes from `from_xml` or `from_bytes`, and is not null.
+/// `s` must come from `from_xml` or `from_bytes`, and must not be null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn call(s: *mut Simulation, which: u32) -> i32 {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     let Simulation { model, data } = unsafe { &mut *s };
     let done = match which {
         0 => step(model, data),
@@ -55,9 +56,9 @@ pub unsafe extern "C" fn call(s: *mut Simulation, which: u32) -> i32 {
 
 /// # Safety
 ///
-/// `s` comes from `from_xml` or `from_bytes`, and is not null.
+/// `s` must come from `from_xml` or `from_bytes`, and must not be null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn qpos(s: *mut Simulation) -> *mut f64 {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe { (*s).data.edit().qpos.as_mut_ptr() }
 }

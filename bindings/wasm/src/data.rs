@@ -1,4 +1,4 @@
-//! Data of one's own, beside the model that they belong to.
+//! Simulation data, separate from their model.
 
 use crate::error::{call_error, refused};
 use crate::fields::{by_index, copied, is_live, place};
@@ -9,7 +9,7 @@ use labspec_core::reflect::{self, Object};
 use labspec_core::{self as core, AccessSet, Contact, Data, Error, Model, Plan, Scope};
 use wasm_bindgen::prelude::*;
 
-/// State and results of a simulation. Its model is given to every call.
+/// The state and results of a simulation. Its model is passed to every call.
 #[wasm_bindgen]
 pub struct RawData {
     world: World,
@@ -17,7 +17,7 @@ pub struct RawData {
 }
 
 impl RawData {
-    /// Runs something with the model in its place.
+    /// Calls a function with the model of the page in the world.
     pub(crate) fn with_world<T>(&mut self, model: &mut RawModel, what: impl FnOnce(&mut World) -> T) -> T {
         std::mem::swap(&mut self.world.model, &mut model.model);
         let result = what(&mut self.world);
@@ -25,7 +25,7 @@ impl RawData {
         result
     }
 
-    /// One step with a model that is in step with its views.
+    /// Performs one step with a model whose views have been synchronized.
     pub(crate) fn step_once(&mut self, model: &RawModel) -> Result<(), JsValue> {
         core::step(&model.model, &mut self.world.data).map_err(|e| refused(&e))
     }
@@ -35,7 +35,7 @@ impl RawData {
     }
 }
 
-/// Calls that take the model and all of the data.
+/// Functions of the model and the data.
 type Pass = fn(&Model, &mut Data<core::Planned>) -> Result<(), Error>;
 const PASSES: [(&str, Pass); 13] = [
     ("mj_step1", core::step1),
@@ -53,12 +53,12 @@ const PASSES: [(&str, Pass); 13] = [
     ("mj_rnePostConstraint", core::rne_post_constraint),
 ];
 
-/// Steps of one call.
+/// The maximum number of steps of one call.
 const MAX_STEPS: usize = 100_000_000;
 
 #[wasm_bindgen]
 impl RawData {
-    /// Data for a model, at its default configuration.
+    /// Creates data for a model, at its default configuration.
     #[wasm_bindgen(constructor)]
     pub fn new(model: &RawModel) -> Result<RawData, JsValue> {
         let data = Data::planned(&model.model, Plan::new(&model.model, &AccessSet::ANY));
@@ -73,7 +73,7 @@ impl RawData {
         Ok(RawData { world, poses: Vec::new() })
     }
 
-    /// Makes so many steps.
+    /// Performs `steps` steps.
     pub fn step(&mut self, model: &mut RawModel, steps: usize) -> Result<(), JsValue> {
         if steps > MAX_STEPS {
             return Err(call_error(
@@ -88,7 +88,7 @@ impl RawData {
         Ok(())
     }
 
-    /// A call by MuJoCo's name.
+    /// Calls a function by its name in MuJoCo.
     pub fn pass(&mut self, model: &mut RawModel, name: &str) -> Result<(), JsValue> {
         let found = PASSES.iter().find(|(listed, _)| *listed == name);
         let (_, pass) =
@@ -97,7 +97,7 @@ impl RawData {
         pass(&model.model, &mut self.world.data).map_err(|e| refused(&e))
     }
 
-    /// Back to a keyframe.
+    /// Resets the simulation to a keyframe.
     #[wasm_bindgen(js_name = resetKeyframe)]
     pub fn reset_keyframe(&mut self, model: &mut RawModel, key: usize) -> Result<(), JsValue> {
         model.sync();
@@ -116,14 +116,14 @@ impl RawData {
         core::set_keyframe(&mut model.model, &self.world.data, id).map_err(|e| refused(&e))
     }
 
-    /// Computes constants that follow from masses, inertias and poses.
+    /// Computes the constants that depend on masses, inertias and poses.
     #[wasm_bindgen(js_name = setConst)]
     pub fn set_const(&mut self, model: &mut RawModel) -> Result<(), JsValue> {
         model.sync();
         core::set_const(&mut model.model, &mut self.world.data).map_err(|e| refused(&e))
     }
 
-    /// Address and count of a field that is seen where it lies.
+    /// The address and the element count of a field that the page can view in memory.
     pub fn place(&mut self, field: usize) -> Result<Vec<u32>, JsValue> {
         let field = by_index(field)?;
         let view = self.data().read(field).map_err(|e| refused(&e))?;
@@ -133,17 +133,17 @@ impl RawData {
             .ok_or_else(|| call_error("unknown-field", "this field is seen as a copy"))
     }
 
-    /// The numbers of a field.
+    /// A copy of a field.
     pub fn field(&self, field: usize) -> Result<JsValue, JsValue> {
         self.data().read(by_index(field)?).map(copied).map_err(|e| refused(&e))
     }
 
-    /// The first number of a field.
+    /// The first element of a field.
     pub fn number(&self, field: usize) -> f64 {
         by_index(field).ok().and_then(|f| self.data().read(f).ok()?.get(0)).unwrap_or(f64::NAN)
     }
 
-    /// Writes numbers from an element of a field on.
+    /// Writes numbers into a field, starting at an element.
     pub fn write(&mut self, field: usize, from: usize, values: &[f64]) -> Result<(), JsValue> {
         let field = by_index(field)?;
         if field.info().object == Object::Data && !reflect::is_writable(field) {
@@ -153,27 +153,27 @@ impl RawData {
         if store(&mut view, from, values) { Ok(()) } else { Err(past_the_end(field)) }
     }
 
-    /// Everything as bytes.
+    /// Saves the complete simulation as bytes.
     pub fn save(&self, model: &RawModel) -> Result<Vec<u8>, JsValue> {
         core::save::save(&model.model, self.data()).map_err(|e| refused(&e))
     }
 
-    /// Back to what was saved.
+    /// Restores a saved simulation.
     pub fn restore(&mut self, model: &mut RawModel, bytes: &[u8]) -> Result<(), JsValue> {
         model.sync();
         core::save::restore(&model.model, &mut self.world.data, bytes).map_err(|e| refused(&e))
     }
 
-    /// The contacts with their forces: see [`contacts`].
+    /// The contacts with their forces, see [`contacts`].
     pub fn contacts(&self, model: &RawModel) -> Result<Vec<f64>, JsValue> {
         contacts(&model.model, self.data())
     }
 
-    /// The poses of all geoms: for each a matrix of 4 x 4, column after column.
+    /// The poses of all geoms: a 4 x 4 matrix for each, in column-major order.
     pub fn poses(&mut self) -> js_sys::Float32Array {
         let fields = self.world.data.fields();
         write_poses(&fields.geom_xpos, &fields.geom_xmat, &mut self.poses);
-        // SAFETY: the page copies it before it calls again.
+        // SAFETY: the page copies it before its next call.
         unsafe { js_sys::Float32Array::view(&self.poses) }
     }
 
@@ -200,7 +200,7 @@ impl RawData {
         done.map(|()| out).map_err(|e| refused(&e))
     }
 
-    /// A Jacobian: its rows of translation, then those of rotation.
+    /// A Jacobian: its translational rows, then its rotational rows.
     pub fn jacobian(
         &self,
         model: &RawModel,
@@ -227,7 +227,7 @@ impl RawData {
         Ok(jacp)
     }
 
-    /// Velocity of an object: angular, then linear.
+    /// The velocity of an object: angular, then linear.
     #[wasm_bindgen(js_name = objectVelocity)]
     pub fn object_velocity(
         &self,
@@ -240,7 +240,7 @@ impl RawData {
         found.map(|v| v.to_vec()).map_err(|e| refused(&e))
     }
 
-    /// The nearest geom on a ray: distance, geom and normal; nothing where it hits none.
+    /// The nearest geom on a ray: distance, geom and normal; `undefined` if it hits none.
     pub fn ray(
         &self,
         model: &RawModel,
@@ -277,7 +277,7 @@ impl RawData {
         done.map(|()| qfrc).map_err(|e| refused(&e))
     }
 
-    /// Acceleration of an object as an accelerometer feels it: angular, then linear.
+    /// The acceleration of an object as an accelerometer measures it: angular, then linear.
     #[wasm_bindgen(js_name = objectAcceleration)]
     pub fn object_acceleration(
         &self,
@@ -305,7 +305,7 @@ impl RawData {
         Ok(vec![found.dist, a, b, c, x, y, z])
     }
 
-    /// The position that a velocity leads to in a time.
+    /// The position after moving with a velocity for some time.
     #[wasm_bindgen(js_name = integratePos)]
     pub fn integrate_pos(
         &self,
@@ -317,7 +317,7 @@ impl RawData {
         core::integrate_pos(&model.model, &mut qpos, v, h).map(|()| qpos).map_err(|e| refused(&e))
     }
 
-    /// The velocity that leads from a position to another one in a time.
+    /// The velocity that moves from one position to another in some time.
     #[wasm_bindgen(js_name = differentiatePos)]
     pub fn differentiate_pos(
         &self,
@@ -344,18 +344,18 @@ impl RawData {
         core::state::set(&model.model, &mut self.world.data, values, signature).map_err(|e| refused(&e))
     }
 
-    /// How often each warning was raised.
+    /// The number of warnings of each kind.
     pub fn warnings(&self) -> Vec<u32> {
         self.data().fields().warning.iter().map(|w| w.number as u32).collect()
     }
 }
 
-/// Numbers of a contact in a list of contacts.
+/// The number of values per contact in a list of contacts.
 const CONTACT: usize = 40;
 
-/// All contacts with their forces, each as 40 numbers: geom1, geom2, dist, pos (3), frame (9), dim, friction (5), force and torque
-/// in the contact's frame (6), includemargin, solref (2), solreffriction (2), solimp (5), mu, exclude, efc_address (-1: none), then a
-/// zero.
+/// All contacts with their forces, as 40 numbers each: geom1, geom2, dist, pos (3), frame (9), dim, friction (5), force
+/// and torque in the contact frame (6), includemargin, solref (2), solreffriction (2), solimp (5), mu, exclude,
+/// efc_address (-1: none), and a zero.
 pub(crate) fn contacts<S: Scope>(model: &Model, data: &Data<S>) -> Result<Vec<f64>, JsValue> {
     let list: &[Contact] = &data.fields().contact;
     let mut out = Vec::with_capacity(list.len() * CONTACT);
@@ -376,7 +376,7 @@ pub(crate) fn contacts<S: Scope>(model: &Model, data: &Data<S>) -> Result<Vec<f6
     Ok(out)
 }
 
-/// Poses as matrices of 4 x 4, column after column: what scenes are drawn with.
+/// Writes poses as 4 x 4 matrices in column-major order, for drawing.
 pub(crate) fn write_poses(xpos: &[f64], xmat: &[f64], out: &mut Vec<f32>) {
     out.clear();
     for (p, r) in xpos.chunks_exact(3).zip(xmat.chunks_exact(9)) {

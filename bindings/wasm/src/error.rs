@@ -1,4 +1,4 @@
-//! Errors of JavaScript: a message, a code, and the findings behind it.
+//! JavaScript errors: a message, a code, and the findings.
 
 use crate::{finding, object};
 use js_sys::{Error, Reflect};
@@ -12,13 +12,13 @@ pub(crate) fn call_error(code: &str, message: &str) -> JsValue {
     with_findings(code, message, &[])
 }
 
-/// What the library refused.
+/// The error for a failure of the library.
 pub(crate) fn thrown(e: &labspec::Error) -> JsValue {
     let code = e.findings().first().map_or("call", |f| f.code);
     with_findings(code, &e.to_string(), e.findings())
 }
 
-/// What the engine refused.
+/// The error for a failure of the engine.
 pub(crate) fn refused(e: &core::Error) -> JsValue {
     let code = match e {
         core::Error::Model(_) | core::Error::File(_) => e.diagnostics().first().map_or("model", |f| f.code),

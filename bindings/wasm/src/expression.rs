@@ -1,4 +1,4 @@
-//! Expressions and statements over models of one's own.
+//! Expressions and statements for models without a lab.
 
 use crate::data::RawData;
 use crate::error::{call_error, thrown};
@@ -11,10 +11,10 @@ use labspec_expr::{Compiler, Context, Globals, Program, Value};
 use std::sync::Arc;
 use wasm_bindgen::prelude::*;
 
-/// What one run may do, in units of about a nanosecond.
+/// The work limit of one run, in units of about a nanosecond.
 const WORK: u64 = 1_000_000_000;
 
-/// Compiled texts, with the variables that they share.
+/// Compiled source texts, with the variables that they share.
 #[wasm_bindgen]
 pub struct RawExpression {
     programs: Vec<Program>,
@@ -47,23 +47,23 @@ impl RawExpression {
         Ok(RawExpression { programs, context: Context::for_globals(&globals) })
     }
 
-    /// The value of one of them as a number; NaN for what is none.
+    /// The value of an expression as a number; NaN if it is not a number.
     pub fn number(&mut self, model: &mut RawModel, data: &mut RawData, at: usize) -> Result<f64, JsValue> {
         model.sync();
         Ok(self.run(model, data, at)?.to_number())
     }
 
-    /// Its value.
+    /// The value of an expression.
     pub fn value(&mut self, model: &mut RawModel, data: &mut RawData, at: usize) -> Result<JsValue, JsValue> {
         model.sync();
         match self.run(model, data, at)? {
-            // JSON has no such numbers.
+            // JSON cannot represent all numbers.
             Value::Number(x) => Ok(JsValue::from_f64(x)),
             other => crate::object(&value(&other)),
         }
     }
 
-    /// The values now and after each of so many steps: one column after the other.
+    /// The values now and after each of `steps` steps, in column order.
     pub fn record(
         &mut self,
         model: &mut RawModel,
@@ -111,7 +111,7 @@ impl RawExpression {
     }
 }
 
-/// What findings call the text at this place.
+/// The name of a source text in findings.
 fn path_of(at: usize) -> Arc<str> {
     Arc::from(if at == 0 { "expression".to_string() } else { format!("expression {}", at + 1) })
 }

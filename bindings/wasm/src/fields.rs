@@ -1,4 +1,4 @@
-//! Fields of models and data by their number in the table, as JavaScript sees them.
+//! Fields of models and data by their index in the table.
 
 use crate::error::call_error;
 use js_sys::{Float64Array, Int32Array, Uint8Array};
@@ -6,12 +6,12 @@ use labspec_core::reflect::{self, Elem, FieldId, Kind, Object, View};
 use serde_json::{Value as Json, json};
 use wasm_bindgen::prelude::*;
 
-/// The field with this number.
+/// The field with this index.
 pub(crate) fn by_index(index: usize) -> Result<FieldId, JsValue> {
     FieldId::new(index).ok_or_else(|| call_error("unknown-field", &format!("there is no field {index}")))
 }
 
-/// The numbers of a field in a typed array of JavaScript's own.
+/// The numbers of a field in a JavaScript typed array that owns them.
 pub(crate) fn copied(view: View<'_>) -> JsValue {
     match view {
         View::F64(list) => Float64Array::from(list).into(),
@@ -23,7 +23,7 @@ pub(crate) fn copied(view: View<'_>) -> JsValue {
     }
 }
 
-/// Where the numbers of a field lie: address and count; `None` where they are seen as copies only.
+/// The address and the element count of a field in memory; `None` if it is available only as a copy.
 pub(crate) fn place(view: View<'_>) -> Option<[u32; 2]> {
     match view {
         View::F64(list) => Some([list.as_ptr() as usize as u32, list.len() as u32]),
@@ -32,8 +32,8 @@ pub(crate) fn place(view: View<'_>) -> Option<[u32; 2]> {
     }
 }
 
-/// Whether a field is seen where it lies: numbers that the engine does not index by, as many as the model decides. Truth
-/// values are not: another byte than 0 and 1 is none.
+/// Whether the page can view a field in memory: numbers that the engine does not use as indexes, with a count that the model
+/// determines. Booleans are excluded, because bytes other than 0 and 1 are not valid.
 pub(crate) fn is_live(field: FieldId) -> bool {
     let info = field.info();
     let sized = info.shape.iter().all(|dim| dim.parse::<usize>().is_ok() || is_size(dim));
@@ -48,7 +48,8 @@ fn is_size(dim: &str) -> bool {
     reflect::field(Object::Model, dim).is_some_and(|size| size.info().elem == Elem::Size)
 }
 
-/// The table of fields as JSON: object, name, element, shape, whether it is seen where it lies, whether it may be written.
+/// The table of fields as JSON: object, name, element type, shape, whether the page can view it in memory,
+/// whether it can be written.
 #[wasm_bindgen(js_name = fieldTable)]
 pub fn field_table() -> String {
     let row = |field: FieldId| {
@@ -71,7 +72,7 @@ pub fn field_table() -> String {
     reflect::fields().map(row).collect::<Json>().to_string()
 }
 
-/// What fields are, for people: unit and a line of documentation, in the order of the table.
+/// The documentation of the fields: unit and description, in the order of the table.
 #[cfg(feature = "checker")]
 #[wasm_bindgen(js_name = fieldDocs)]
 pub fn field_docs() -> String {

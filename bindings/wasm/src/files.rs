@@ -1,4 +1,4 @@
-//! Models and their files as a page gives them: an object of names and contents.
+//! Models and their files from a page: an object of names and contents.
 
 use crate::error::call_error;
 use js_sys::{Array, Object, Uint8Array};
@@ -7,7 +7,7 @@ use labspec_core::xml::{FileProblem, Files};
 use std::collections::BTreeMap;
 use wasm_bindgen::{JsCast, JsValue};
 
-/// What is said where models are given in another form.
+/// The message for models in another form.
 const MODELS: &str = "`models` is an object: names with MJCF as text, and paths with files as `Uint8Array`";
 
 /// Models by name, and files by path.
@@ -17,7 +17,7 @@ pub(crate) struct PageModels {
 }
 
 impl PageModels {
-    /// A text is a model: under its name, or as the file `NAME.xml`. Bytes are a file.
+    /// A string is a model, available under its name and as the file `NAME.xml`. Bytes are a file.
     pub(crate) fn new(given: &JsValue) -> Result<PageModels, JsValue> {
         let wrong = || call_error("wrong-type", MODELS);
         let object: &Object = given.dyn_ref().ok_or_else(wrong)?;

@@ -1,7 +1,7 @@
-//! Labs and checks of lessons for pages: what [`labspec::Player`] and [`labspec::Checker`] do, under the names of JavaScript.
+//! Labs and checks of lessons for pages: the functions of [`labspec::Player`] and [`labspec::Checker`] with JavaScript names.
 //!
-//! Nothing is evaluated as JavaScript. Mistakes are thrown as an `Error` whose `findings` tell what is wrong and where. Numbers of traces
-//! are seen where they lie in the module's memory: a view is good until the next call into the module.
+//! Nothing is evaluated as JavaScript. Failures throw an `Error` whose `findings` describe the mistakes and their locations.
+//! Numbers of traces are views of the module's memory: a view is valid until the next call into the module.
 
 mod data;
 mod error;
@@ -111,15 +111,15 @@ extern "C" {
 #[wasm_bindgen]
 pub struct Lab {
     player: Player,
-    /// Rows of the last recording: time, then every number that is shown.
+    /// The rows of the last recording: time, then all displayed numbers.
     rows: Vec<f64>,
-    /// Poses of geoms, as they were asked for last.
+    /// The poses of geoms at the last request.
     poses: Vec<f32>,
     /// Pairs of geoms that touched after the last step of [`Lab::advance`].
     touching: Vec<(usize, usize)>,
 }
 
-/// A state to which a lab can go back.
+/// A state that a lab can restore.
 #[wasm_bindgen]
 pub struct State(Saved);
 
@@ -159,7 +159,7 @@ impl Lab {
         Ok(object(&self.player.controls().iter().map(one).collect())?.unchecked_into())
     }
 
-    /// The traces of the plots, then the readouts: the order of `numbers`.
+    /// The traces of the plots, then the readouts, in the order of `numbers`.
     #[wasm_bindgen(getter, js_name = "shown")]
     pub fn displayed(&self) -> Result<ShownList, JsValue> {
         let one = |s: &labspec::player::DisplayedValue| match s.place {
@@ -169,32 +169,32 @@ impl Lab {
         Ok(object(&self.player.displayed().iter().map(one).collect())?.unchecked_into())
     }
 
-    /// Time, s.
+    /// The simulated time, s.
     #[wasm_bindgen(getter)]
     pub fn time(&self) -> f64 {
         self.player.time()
     }
 
-    /// Timestep, s.
+    /// The timestep, s.
     #[wasm_bindgen(getter)]
     pub fn timestep(&self) -> f64 {
         self.player.timestep()
     }
 
-    /// Whether the lab has stopped for good.
+    /// Whether the lab has stopped permanently.
     #[wasm_bindgen(getter, js_name = isOver)]
     pub fn is_over(&self) -> bool {
         self.player.is_over()
     }
 
-    /// What is shown now, as numbers; NaN for what is none. A view: good until the next call.
+    /// The displayed values as numbers; NaN for values that are not numbers. A view, valid until the next call.
     #[wasm_bindgen(getter)]
     pub fn numbers(&self) -> Float64Array {
-        // SAFETY: the view is of memory that the lab owns; a page reads it before it calls again, as is said above.
+        // SAFETY: the view refers to memory that the lab owns; a page reads it before its next call, as documented above.
         unsafe { Float64Array::view(self.player.numbers()) }
     }
 
-    /// Moves a slider or chooses from a select.
+    /// Moves a slider or selects an option.
     pub fn set(&mut self, label: &str, value: &Input) -> Result<(), JsValue> {
         let done = match (value.as_f64(), value.as_bool(), value.as_string()) {
             (Some(x), ..) => self.player.set(label, x),
@@ -210,12 +210,12 @@ impl Lab {
         self.player.press(label).map_err(|e| thrown(&e))
     }
 
-    /// Back to the start; controls stay where they are.
+    /// Resets the lab; controls keep their values.
     pub fn reset(&mut self) {
         self.player.reset();
     }
 
-    /// One step.
+    /// Performs one step.
     pub fn step(&mut self) -> Result<(), JsValue> {
         self.player.step().map_err(|e| thrown(&e))
     }
@@ -226,8 +226,8 @@ impl Lab {
         self.player.play_to(time).map_err(|e| thrown(&e))
     }
 
-    /// Plays at most `most` steps towards a time. `levels` are pairs: the place of a number, and a level; the call ends after a
-    /// step in which a number crosses its level, or, with `contacts`, in which other geoms touch than before.
+    /// Plays at most `most` steps towards a time. `levels` are pairs of the index of a number and a level. The call ends after
+    /// a step in which a number crosses its level or, with `contacts`, in which the set of touching geoms changes.
     pub fn advance(
         &mut self,
         time: f64,
@@ -253,27 +253,27 @@ impl Lab {
         done.map_err(|e| thrown(&e))
     }
 
-    /// The poses of all geoms: for each a matrix of 4 x 4, column after column.
+    /// The poses of all geoms: a 4 x 4 matrix for each, in column-major order.
     pub fn poses(&mut self) -> Result<Float32Array, JsValue> {
         let scene = self.player.scene().map_err(|e| thrown(&e))?;
         data::write_poses(&scene.geom_xpos, &scene.geom_xmat, &mut self.poses);
-        // SAFETY: the page copies it before it calls again.
+        // SAFETY: the page copies it before its next call.
         Ok(unsafe { Float32Array::view(&self.poses) })
     }
 
-    /// The pairs of geoms that touched in the last step, one after the other: what `advance` stops at.
+    /// The pairs of geoms that touched in the last step, in sequence: the criterion at which `advance` stops.
     pub fn touching(&self) -> Vec<u32> {
         let pairs = touching_pairs(self.player.data().fields());
         pairs.into_iter().flat_map(|(a, b)| [a as u32, b as u32]).collect()
     }
 
-    /// The contacts with their forces: see [`data::contacts`].
+    /// The contacts with their forces, see [`data::contacts`].
     pub fn contacts(&mut self) -> Result<Vec<f64>, JsValue> {
         let (model, scene) = self.player.model_and_scene().map_err(|e| thrown(&e))?;
         data::contacts(model, scene)
     }
 
-    /// The numbers of a field of the model or the data, as they are now.
+    /// The current values of a field of the model or the data.
     pub fn field(&mut self, field: usize) -> Result<JsValue, JsValue> {
         let field = fields::by_index(field)?;
         let (model, scene) = self.player.model_and_scene().map_err(|e| thrown(&e))?;
@@ -286,12 +286,12 @@ impl Lab {
         model::names(self.player.model(), kind)
     }
 
-    /// The model as controls and programs left it, as one of its own.
+    /// A copy of the model with the changes of controls and programs.
     pub fn model(&self) -> model::RawModel {
         model::RawModel::from_model(self.player.model().clone())
     }
 
-    /// The current value of a control; `null` where there is none.
+    /// The current value of a control; `null` if it does not exist.
     pub fn value(&self, label: &str) -> Result<JsValue, JsValue> {
         object(&self.player.value(label).map_or(Json::Null, value))
     }
@@ -306,8 +306,8 @@ impl Lab {
         self.player.writes()
     }
 
-    /// Makes so many steps, and gives a row for the start and for every step: time, then `numbers`. A view, good until the next
-    /// call; it ends early when the lab does.
+    /// Performs `steps` steps, and returns a row for the start and for every step: time, then `numbers`. A view, valid until
+    /// the next call. The recording ends early if the lab stops.
     pub fn record(&mut self, steps: usize) -> Result<Float64Array, JsValue> {
         self.rows.clear();
         let width = self.player.numbers().len() + 1;
@@ -333,7 +333,7 @@ impl Lab {
         Ok(unsafe { Float64Array::view(&self.rows) })
     }
 
-    /// What was found when the lab was opened, and what broke since.
+    /// The findings from opening the lab and from its runs.
     #[wasm_bindgen(getter)]
     pub fn findings(&self) -> Result<Findings, JsValue> {
         Ok(object(&self.player.findings().iter().map(finding).collect())?.unchecked_into())
@@ -344,17 +344,17 @@ impl Lab {
         State(self.player.save())
     }
 
-    /// Goes back to a state of this lab.
+    /// Restores a state of this lab.
     pub fn restore(&mut self, state: &State) -> Result<(), JsValue> {
         self.player.restore(&state.0).map_err(|e| thrown(&e))
     }
 }
 
-/// Reading Markdown is the checker's.
+/// Only the checker reads Markdown.
 #[cfg(feature = "checker")]
 #[wasm_bindgen]
 impl Lab {
-    /// Opens a lab of a lesson by its address: `#2` is the second one, `#quiz-id.1` that of a question.
+    /// Opens a lab of a lesson by its address: `#2` is the second lab, `#quiz-id.1` that of a question.
     #[wasm_bindgen(js_name = ofLesson)]
     pub fn of_lesson(path: &str, text: &str, address: &str, models: &Models) -> Result<Lab, JsValue> {
         let models = PageModels::new(models)?;
@@ -362,8 +362,8 @@ impl Lab {
     }
 }
 
-/// Checks a lesson from its text. `path` says by its ending what it is: Markdown, or JSON. What it names in `neighbours` is found
-/// from that path, as files would be.
+/// Checks a lesson from its text. The extension of `path` determines its format: Markdown or JSON. Names in `neighbours` are
+/// relative to that path, like files.
 #[cfg(feature = "checker")]
 #[wasm_bindgen]
 pub fn check(
@@ -389,7 +389,7 @@ pub fn check(
     Ok(object(&whole)?.unchecked_into())
 }
 
-/// Numbers of one recording.
+/// The maximum number of values of one recording.
 const MAX_RECORDED: usize = 1 << 24;
 
 /// The pairs of geoms that touched in the last step.
@@ -401,7 +401,7 @@ fn touching_pairs(fields: &labspec_core::Fields) -> Vec<(usize, usize)> {
     pairs
 }
 
-/// Takes the pairs of geoms that touch now; whether they are others.
+/// Stores the pairs of geoms that touch now; returns whether they changed.
 fn changed(touching: &mut Vec<(usize, usize)>, fields: &labspec_core::Fields) -> bool {
     let now = touching_pairs(fields);
     let other = now != *touching;
@@ -409,7 +409,7 @@ fn changed(touching: &mut Vec<(usize, usize)>, fields: &labspec_core::Fields) ->
     other
 }
 
-/// Texts by their names from an object of JavaScript; `expected` says what it is when it is none.
+/// A map of texts by name from a JavaScript object; `expected` is the message if it is not one.
 #[cfg(feature = "checker")]
 fn named(texts: &JsValue, expected: &str) -> Result<BTreeMap<String, String>, JsValue> {
     let wrong = || JsValue::from(Error::new(expected));

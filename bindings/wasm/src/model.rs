@@ -1,4 +1,4 @@
-//! Models of one's own.
+//! Models without a lab.
 
 use crate::error::{call_error, refused, thrown};
 use crate::fields::{by_index, copied, is_live, place};
@@ -9,20 +9,20 @@ use labspec_finding::{Finding, Lines};
 use std::sync::{Arc, OnceLock};
 use wasm_bindgen::prelude::*;
 
-/// A compiled model, with the fields that a page sees where they lie.
+/// A compiled model, and the fields that the page can view in memory.
 #[wasm_bindgen]
 pub struct RawModel {
     pub(crate) model: Model,
-    /// Fields that the page may write behind our back, with what they held last.
+    /// Fields that the page may write in memory, with their last known contents.
     exposed: Vec<(FieldId, Vec<u64>)>,
-    /// Data of nobody, which writes are given.
+    /// Unused data, because writing a model requires data.
     nobody: Data<Planned>,
 }
 
 /// An empty model.
 pub(crate) fn nothing() -> Model {
     static NOTHING: OnceLock<Model> = OnceLock::new();
-    // An empty text has no mistakes.
+    // An empty text has no errors.
     #[allow(clippy::unwrap_used)]
     NOTHING.get_or_init(|| Model::from_xml("<mujoco/>").unwrap()).clone()
 }
@@ -34,7 +34,7 @@ impl RawModel {
         RawModel { model, exposed: Vec::new(), nobody }
     }
 
-    /// Tells the model what a page wrote into its views.
+    /// Synchronizes the model with the values that a page wrote into its views.
     pub(crate) fn sync(&mut self) {
         if self.exposed.is_empty() {
             return;
@@ -47,7 +47,7 @@ impl RawModel {
             }
             let (field, held) = (*field, snapshot(view));
             self.exposed[at].1 = held;
-            // A field is written through the table so that its stamp is a new one.
+            // The field is written through the table to update its stamp.
             write(&mut self.model, &mut self.nobody, field, |_| ());
         }
     }
@@ -55,14 +55,14 @@ impl RawModel {
 
 #[wasm_bindgen]
 impl RawModel {
-    /// Compiles a model from MJCF. `files` are what it includes or names.
+    /// Compiles a model from MJCF. `files` are the files that it includes or refers to.
     #[wasm_bindgen(js_name = fromXml)]
     pub fn from_xml(xml: &str, files: &JsValue) -> Result<RawModel, JsValue> {
         let files = PageModels::new(files)?;
         Model::from_xml_with(xml, &files).map(RawModel::from_model).map_err(|e| mistakes(xml, &e))
     }
 
-    /// A model from the bytes of `toBytes`.
+    /// Creates a model from the bytes of `toBytes`.
     #[wasm_bindgen(js_name = fromBytes)]
     pub fn from_bytes(bytes: &[u8]) -> Result<RawModel, JsValue> {
         Model::from_bytes(bytes).map(RawModel::from_model).map_err(|e| refused(&e))
@@ -70,13 +70,13 @@ impl RawModel {
 
     /// The model as bytes.
     #[wasm_bindgen(js_name = toBytes)]
-    #[allow(clippy::wrong_self_convention)] // what a page wrote is taken over first
+    #[allow(clippy::wrong_self_convention)] // values that a page wrote are synchronized first
     pub fn to_bytes(&mut self) -> Vec<u8> {
         self.sync();
         self.model.to_bytes()
     }
 
-    /// Address and count of a field that is seen where it lies.
+    /// The address and the element count of a field that the page can view in memory.
     pub fn place(&mut self, field: usize) -> Result<Vec<u32>, JsValue> {
         let field = by_index(field)?;
         let view = self.model.field(field).ok_or_else(|| foreign(field))?;
@@ -88,18 +88,18 @@ impl RawModel {
         Ok(found.to_vec())
     }
 
-    /// The numbers of a field.
+    /// A copy of a field.
     pub fn field(&self, field: usize) -> Result<JsValue, JsValue> {
         let field = by_index(field)?;
         self.model.field(field).map(copied).ok_or_else(|| foreign(field))
     }
 
-    /// A size or another number of the model.
+    /// A size or another single number of the model.
     pub fn number(&self, field: usize) -> f64 {
         by_index(field).ok().and_then(|f| self.model.field(f)?.get(0)).unwrap_or(f64::NAN)
     }
 
-    /// Writes numbers from an element of a field on.
+    /// Writes numbers into a field, starting at an element.
     pub fn write(&mut self, field: usize, from: usize, values: &[f64]) -> Result<(), JsValue> {
         let field = by_index(field)?;
         if field.info().object == Object::Data {
@@ -124,7 +124,7 @@ impl RawModel {
     }
 }
 
-/// The mistakes of a model, with their lines.
+/// The error for the findings of a model, with their lines.
 fn mistakes(xml: &str, e: &labspec_core::Error) -> JsValue {
     if e.diagnostics().is_empty() {
         return refused(e);
@@ -141,13 +141,13 @@ fn mistakes(xml: &str, e: &labspec_core::Error) -> JsValue {
 
 /// Writes a field of the model through the table.
 fn write(model: &mut Model, nobody: &mut Data<Planned>, field: FieldId, what: impl FnOnce(&mut ViewMut<'_>)) {
-    // The engine writes a model beside data: these are nobody's.
+    // The engine requires data to write a model.
     if let Ok(mut view) = labspec_core::view_mut(model, nobody, field) {
         what(&mut view);
     }
 }
 
-/// Stores numbers; `false` when there are not as many elements.
+/// Stores numbers; returns `false` if there are not enough elements.
 pub(crate) fn store(view: &mut ViewMut<'_>, from: usize, values: &[f64]) -> bool {
     let len = match view {
         ViewMut::F64(v) => v.len(),
@@ -187,7 +187,7 @@ fn same(view: View<'_>, held: &[u64]) -> bool {
     }
 }
 
-/// Kinds of objects, by MuJoCo's words for their lists.
+/// The kinds of objects, by MuJoCo's prefixes.
 const KINDS: [(&str, Obj); 21] = [
     ("body", Obj::Body),
     ("jnt", Obj::Joint),
@@ -212,7 +212,7 @@ const KINDS: [(&str, Obj); 21] = [
     ("key", Obj::Key),
 ];
 
-/// The kind of this word.
+/// The kind with this prefix.
 pub(crate) fn kind(word: &str) -> Result<Obj, JsValue> {
     let found = KINDS.iter().find(|(name, _)| *name == word);
     found.map(|(_, kind)| *kind).ok_or_else(|| {

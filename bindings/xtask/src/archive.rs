@@ -1,4 +1,4 @@
-//! The program as an archive.
+//! Packs the program into an archive.
 
 use flate2::{Compression, GzBuilder};
 use sha2::{Digest, Sha256};
@@ -6,16 +6,16 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// What lies beside the program.
+/// The documents next to the program.
 const PAPERS: [&str; 5] = ["README.md", "CHANGELOG.md", "LICENSE-MIT", "LICENSE-APACHE", "NOTICE"];
 
-/// Builds the program, and writes its archive with a checksum; the archive's path.
+/// Builds the program, and writes its archive with a checksum; returns the path of the archive.
 pub(crate) fn release(folder: Option<PathBuf>) -> Result<PathBuf, String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let built = Command::new(&cargo)
         .args(["build", "--release", "--quiet", "--locked", "--package", "labspec-cli"])
-        // Names and lines are for those who measure it.
+        // Symbols are needed only for profiling.
         .env("CARGO_PROFILE_RELEASE_STRIP", "symbols")
         .current_dir(&root)
         .status()
@@ -41,7 +41,7 @@ pub(crate) fn release(folder: Option<PathBuf>) -> Result<PathBuf, String> {
     Ok(archive)
 }
 
-/// What the program says of itself: `labspec 0.1.0`.
+/// The version that the program reports: `labspec 0.1.0`.
 fn version(program: &Path) -> Result<String, String> {
     let output = Command::new(program).arg("--version").output().map_err(|e| e.to_string())?;
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
@@ -51,7 +51,7 @@ fn version(program: &Path) -> Result<String, String> {
         .ok_or_else(|| "the program does not say its version".into())
 }
 
-/// The machine that it was built for.
+/// The target for which it was built.
 fn host() -> Result<String, String> {
     let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
     let output = Command::new(rustc).arg("-vV").output().map_err(|e| format!("cannot run rustc: {e}"))?;
@@ -60,7 +60,7 @@ fn host() -> Result<String, String> {
     host.ok_or_else(|| "rustc does not say what it builds for".into())
 }
 
-/// No times and no owners: the same files are the same bytes.
+/// Without times and owners, so that the same files give the same bytes.
 fn pack(root: &Path, program: &Path, name: &str) -> Result<Vec<u8>, String> {
     let zip = GzBuilder::new().mtime(0).write(Vec::new(), Compression::best());
     let mut tar = tar::Builder::new(zip);

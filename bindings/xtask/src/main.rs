@@ -1,14 +1,14 @@
-//! Builds what is published.
+//! Builds the published artifacts.
 //!
-//! `cargo run --manifest-path bindings/xtask/Cargo.toml -- [FOLDER]` builds the modules of `bindings/wasm`, each with its JavaScript
-//! and its TypeScript types: the player, and the checker, which contains the player. They are written to `web/labspec/generated`,
-//! where the npm package takes them, and the checker to FOLDER (`bindings/wasm/pkg`), in `node/` and `web/`. Where the package
-//! `binaryen` is installed in `web/`, its `wasm-opt` makes the modules smaller. The target is added where rustup is there and has it
-//! not. `LABSPEC_PROFILE=quick` builds in a minute what is slow and large.
+//! `cargo run --manifest-path bindings/xtask/Cargo.toml -- [FOLDER]` builds the modules of `bindings/wasm`, each with its
+//! JavaScript and its TypeScript types: the player, and the checker, which contains the player. They are written to
+//! `web/labspec/generated`, where the npm package reads them, and the checker to FOLDER (`bindings/wasm/pkg`), in `node/` and
+//! `web/`. If the package `binaryen` is installed in `web/`, its `wasm-opt` reduces the size of the modules. If rustup is
+//! installed, the compilation target is added if necessary. `LABSPEC_PROFILE=quick` builds slow and large modules in a minute.
 //!
 //! `… -- release [FOLDER]` builds the program for this machine and packs it with its licences into
-//! `labspec-VERSION-TARGET.tar.gz`, with its SHA-256 beside it, in FOLDER (`target/release-archives`). The same program gives the
-//! same bytes.
+//! `labspec-VERSION-TARGET.tar.gz`, next to a file with its SHA-256, in FOLDER (`target/release-archives`). The same
+//! program gives the same bytes.
 
 mod archive;
 
@@ -36,11 +36,12 @@ fn main() -> ExitCode {
     }
 }
 
-/// A module that is built: its folder in the package, its features, and the other forms in which it is written.
+/// A module: its folder in the package, its features, and the additional formats in which it is written.
 const MODULES: [(&str, &[&str], &[&str]); 2] =
     [("player", &["--no-default-features"], &[]), ("checker", &[], &["node", "web"])];
 
-/// What the modules use, for `wasm-opt`. Never relaxed vectors: their results depend on the machine.
+/// The WebAssembly features of the modules, for `wasm-opt`. Relaxed SIMD is never used, because its
+/// results depend on the machine.
 const FEATURES: [&str; 7] = [
     "--enable-simd",
     "--enable-bulk-memory",
@@ -56,7 +57,7 @@ fn build(folder: Option<PathBuf>) -> Result<PathBuf, String> {
     let web = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../web");
     let folder = folder.unwrap_or_else(|| crates.join("pkg"));
     let profile = std::env::var("LABSPEC_PROFILE").unwrap_or_else(|_| "release".into());
-    // Where there is no rustup, the target may be there all the same: the build tells.
+    // Without rustup, the target may be installed in another way; otherwise the build reports that it is missing.
     let _ = Command::new("rustup").args(["target", "add", TARGET]).output();
     let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| crates.join("target"), PathBuf::from);
     for (name, features, others) in MODULES {
@@ -71,12 +72,12 @@ fn build(folder: Option<PathBuf>) -> Result<PathBuf, String> {
         let module = target.join(TARGET).join(&profile).join("labspec_wasm.wasm");
         let inside = web.join("labspec/generated").join(name);
         let forms = others.iter().map(|other| (*other, folder.join(other)));
-        // All forms have the same module: it is optimized once.
+        // All formats contain the same module, so it is optimized once.
         let mut optimized: Option<[Vec<u8>; 2]> = None;
         for (form, out) in std::iter::once(("web", inside.clone())).chain(forms) {
             let mut bindgen = wasm_bindgen_cli_support::Bindgen::new();
             bindgen.input_path(&module).typescript(true).remove_name_section(true).out_name("labspec");
-            // The package says itself where its module lies.
+            // The package determines the location of its module itself.
             bindgen.omit_default_module_path(out == inside);
             let chosen = match form {
                 "node" => bindgen.nodejs(true),
@@ -102,7 +103,7 @@ fn build(folder: Option<PathBuf>) -> Result<PathBuf, String> {
     Ok(folder)
 }
 
-/// Makes a module smaller, where `wasm-opt` is installed.
+/// Reduces the size of a module if `wasm-opt` is installed.
 fn optimize(web: &Path, module: &Path) -> Result<(), String> {
     let program = web.join("node_modules/.bin/wasm-opt");
     if !program.exists() {

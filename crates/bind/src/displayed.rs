@@ -1,4 +1,5 @@
-//! What a page shows under labels: readouts and traces, which `shown('label')` reads. Whoever has the page computes them.
+//! The values that a page displays under labels: readouts and traces, which `shown('label')` reads. The owner
+//! of the page computes them.
 
 use labspec_expr::dimension::Dimension;
 use labspec_expr::{CollectionId, ObjectId};
@@ -8,17 +9,18 @@ use std::collections::BTreeSet;
 /// The collection of all labels.
 pub(crate) const LABELS: CollectionId = CollectionId(u32::MAX);
 
-/// Labels, and which of them texts have asked for.
+/// Labels, and which of them programs have used.
 #[derive(Clone, Debug, Default)]
 pub struct DisplayedLabels {
     labels: Vec<String>,
-    /// What the numbers measure, as far as the labels say it.
+    /// The dimension that each label states, if it states one.
     measures: Vec<Option<Dimension>>,
     asked: RefCell<BTreeSet<usize>>,
 }
 
 impl DisplayedLabels {
-    /// With these labels, and what each says of its unit. Of two equal ones the first counts.
+    /// Creates the list of labels, each with the dimension of the unit that it states. If two labels are
+    /// equal, the first one is used.
     pub fn new(labels: impl IntoIterator<Item = (String, Option<Dimension>)>) -> DisplayedLabels {
         let (labels, measures) = labels.into_iter().unzip();
         DisplayedLabels { labels, measures, asked: RefCell::default() }
@@ -28,12 +30,12 @@ impl DisplayedLabels {
         self.measures.get(label).copied().flatten()
     }
 
-    /// The labels.
+    /// Returns the labels.
     pub fn labels(&self) -> &[String] {
         &self.labels
     }
 
-    /// The places in the list of what was asked for: only these need be computed.
+    /// Returns the indexes of the labels that programs use. Only these need to be computed.
     pub fn asked(&self) -> Vec<usize> {
         self.asked.borrow().iter().copied().collect()
     }

@@ -1,13 +1,13 @@
-//! Which part of a field belongs to which object of the model, and what its elements are: the one place where
-//! named access, the help on an element and the rewriting of bare indexes come from.
+//! Which part of a field belongs to which object of the model, and what its elements are. Named access, the help for an element
+//! and the replacement of numeric indexes all use this module.
 
 use crate::rules::QUATERNION_AS_ANGLE;
 use labspec_core::reflect::{self, FieldId, data, model};
 use labspec_core::{Model, Obj, joint};
 use labspec_expr::{AngleAdvice, FieldKey, Role};
 
-/// First element and number of elements of a field that belong to one object; `None` when the field has no rows
-/// of this kind.
+/// The first element and the number of elements of a field that belong to one object, or `None` if the field has no rows
+/// for this kind of object.
 pub(super) fn row(m: &Model, f: FieldId, kind: Obj, index: usize) -> Option<(usize, usize)> {
     let shape = reflect::shape(m, f);
     let width: usize = shape.iter().skip(1).try_fold(1usize, |n, d| n.checked_mul((*d)?))?;
@@ -15,7 +15,7 @@ pub(super) fn row(m: &Model, f: FieldId, kind: Obj, index: usize) -> Option<(usi
     Some((first.checked_mul(width)?, count.checked_mul(width)?))
 }
 
-/// First and number of the rows of one object along a dimension.
+/// The first row and the number of rows of one object along a dimension.
 fn span(m: &Model, kind: Obj, dim: FieldId, index: usize) -> Option<(usize, usize)> {
     let at = |v: &[i32]| v.get(index).and_then(|&x| usize::try_from(x).ok());
     let one = |wanted: FieldId| (dim == wanted).then_some((index, 1));
@@ -32,7 +32,7 @@ fn span(m: &Model, kind: Obj, dim: FieldId, index: usize) -> Option<(usize, usiz
     }
 }
 
-/// Whether a dimension has rows of the objects of a kind.
+/// Whether a dimension has rows for objects of a kind.
 pub(super) fn has_rows(kind: Obj, dim: FieldId) -> bool {
     let parts: &[FieldId] = match kind {
         Obj::Joint => &[model::nq, model::nv],
@@ -73,7 +73,7 @@ fn size_of(kind: Obj) -> Option<FieldId> {
     })
 }
 
-/// The object that an element of a field belongs to.
+/// The object to which an element of a field belongs.
 pub(super) fn owner(m: &Model, f: FieldId, index: usize) -> Option<(Obj, usize)> {
     let dim = f.rows()?;
     let kinds = super::handle::KINDS.iter().map(|(kind, _)| *kind);
@@ -88,7 +88,8 @@ pub(super) fn owner(m: &Model, f: FieldId, index: usize) -> Option<(Obj, usize)>
     None
 }
 
-/// The object of the model that all of some elements of a field belong to; `None` when they belong to several, or to none.
+/// The object of the model to which a range of elements of a field belongs, or `None` if they belong to
+/// several objects or to none.
 pub fn element_owner(m: &Model, FieldKey(f): FieldKey, first: usize, count: usize) -> Option<(Obj, usize)> {
     let field = FieldId::new(f as usize)?;
     let (kind, object) = owner(m, field, first)?;
@@ -96,7 +97,7 @@ pub fn element_owner(m: &Model, FieldKey(f): FieldKey, first: usize, count: usiz
     (first + count.max(1) <= start + length).then_some((kind, object))
 }
 
-/// What an element is: `joint "light_free" (free): z position, m`.
+/// The description of an element: `joint "light_free" (free): z position, m`.
 pub(super) fn help(m: &Model, f: FieldId, index: usize) -> Option<String> {
     let (kind, object) = owner(m, f, index)?;
     let (first, count) = row(m, f, kind, object)?;
@@ -143,7 +144,7 @@ fn joint_word(ty: i32) -> &'static str {
     }
 }
 
-/// What a coordinate of a joint is, and its unit.
+/// The description and the unit of a coordinate of a joint.
 fn coordinate(ty: i32, at: usize) -> Option<(&'static str, &'static str)> {
     const QUATERNION: [&str; 4] =
         ["quaternion w (cosine of half the angle)", "quaternion x", "quaternion y", "quaternion z"];
@@ -156,7 +157,7 @@ fn coordinate(ty: i32, at: usize) -> Option<(&'static str, &'static str)> {
     })
 }
 
-/// What a degree of freedom of a joint is, and the unit of its coordinate.
+/// The description of a degree of freedom of a joint, and the unit of its coordinate.
 fn rate(ty: i32, at: usize) -> Option<(&'static str, &'static str)> {
     const TURN: [&str; 3] = ["turning about its own x", "turning about its own y", "turning about its own z"];
     Some(match (ty, at) {
@@ -168,7 +169,7 @@ fn rate(ty: i32, at: usize) -> Option<(&'static str, &'static str)> {
     })
 }
 
-/// A number of a quaternion is no angle.
+/// A component of a quaternion is not an angle.
 const QUATERNION: AngleAdvice = AngleAdvice {
     rule: QUATERNION_AS_ANGLE,
     what: "a component of a quaternion",
@@ -176,7 +177,7 @@ const QUATERNION: AngleAdvice = AngleAdvice {
     help: "write the whole angle as `2 * Math.acos(w)`, with w the first of the four numbers",
 };
 
-/// What an element measures: coordinates of joints are angles, parts of quaternions, or neither.
+/// The role of an element: an angle, a component of a quaternion, or neither.
 pub(super) fn role(m: &Model, f: FieldId, index: usize) -> Role {
     if f != data::qpos {
         return Role::Other;
@@ -201,8 +202,8 @@ mod tests {
     use labspec_expr::{Compiler, Globals};
     use std::path::Path;
 
-    /// Every field that has rows of one kind of object can be read by the name of each object that has one, and means
-    /// exactly the elements that belong to it; together they are the whole field.
+    /// Every field with rows for one kind of object can be read by the name of each object that has a row. The named field
+    /// contains exactly the elements of that object, and together the named fields cover the whole field.
     #[test]
     fn every_field_of_every_object_has_a_name() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../specs/models/zoo");

@@ -1,4 +1,4 @@
-//! Functions that an embedding program brings: numbers in, a number out.
+//! Functions of the embedding program, from numbers to a number.
 
 use crate::Error;
 use crate::functions::{self, is_taken};
@@ -9,11 +9,11 @@ use labspec_expr::{
 use std::fmt;
 use std::sync::Arc;
 
-/// What a call costs, in units of about a nanosecond. It is not known what such a function does.
+/// The cost of a call, in units of about a nanosecond. The actual cost of such a function is unknown.
 pub(crate) const PRICE: u64 = 200;
 
-/// Functions by name, called as `name(x, y)`. They see their arguments and nothing else of the simulation, so that no plan
-/// depends on them; for the same arguments they should give the same number.
+/// Functions by name, called as `name(x, y)`. They depend only on their arguments, not on the simulation, so that no plan
+/// depends on them. For the same arguments they should return the same number.
 #[derive(Clone, Default)]
 pub struct Functions(Arc<Vec<EmbeddedFunction>>);
 
@@ -28,16 +28,16 @@ struct EmbeddedFunction {
 type Call = Arc<dyn Fn(&[f64]) -> Result<f64, String> + Send + Sync>;
 
 impl Functions {
-    /// None.
+    /// Returns an empty set of functions.
     pub fn new() -> Functions {
         Functions::default()
     }
 
-    /// With one more: its name, how many numbers it takes, a line of documentation, and what it does. An error is a sentence for
-    /// the author of the text.
+    /// Adds a function: its name, the number of its arguments, a line of documentation, and its implementation. An error of the
+    /// implementation is a sentence for the author of the program text.
     ///
     /// # Errors
-    /// The name is none that a text could call, or it has a meaning already.
+    /// The name cannot be called in a program text, or it already has a meaning.
     pub fn with(
         mut self,
         name: &str,
@@ -52,10 +52,10 @@ impl Functions {
         let function =
             EmbeddedFunction { name: name.to_string(), params, doc: doc.to_string(), call: Arc::new(call) };
         Arc::make_mut(&mut self.0).push(function);
-        // Whether a text can call it is for the language to say.
+        // The compiler of the language decides whether a text can call it.
         let text = format!("{name}({})", vec!["0"; params].join(", "));
         let (names, mut globals) = (Only(&self), Globals::new());
-        // Where there is one, `value` is the value of a control.
+        // `value` is a name of the language if there is a control.
         let mut compiler = Compiler::new(&names, &mut globals).with_value(Some(Type::Number));
         let program = compiler.expression(&text).program;
         match program.is_some_and(|p| p.effects().calls.contains(&FunctionId(at))) {
@@ -64,7 +64,7 @@ impl Functions {
         }
     }
 
-    /// The number of the function with this name.
+    /// Returns the index of the function with this name.
     pub(crate) fn find(&self, name: &str) -> Option<usize> {
         self.0.iter().position(|f| f.name == name)
     }
@@ -73,7 +73,7 @@ impl Functions {
         self.0.iter().map(|f| f.name.as_str())
     }
 
-    /// Signature and effects of one of them.
+    /// Returns the signature and the effects of a function.
     pub(crate) fn info(&self, at: usize) -> Option<FunctionInfo> {
         let function = self.0.get(at)?;
         Some(FunctionInfo {
@@ -92,7 +92,7 @@ impl Functions {
         })
     }
 
-    /// Calls one of them.
+    /// Calls a function.
     pub(crate) fn call(&self, at: usize, args: &[Value]) -> Option<Result<Value, String>> {
         let function = self.0.get(at)?;
         let numbers: Vec<f64> = args.iter().map(Value::to_number).collect();
@@ -100,7 +100,7 @@ impl Functions {
     }
 }
 
-/// The functions and no other names.
+/// A schema that contains only these functions.
 struct Only<'f>(&'f Functions);
 
 impl Schema for Only<'_> {

@@ -1,4 +1,4 @@
-//! A model with the accessor language: what it takes to ask a simulation for a number in one line.
+//! A model with the accessor language: the shortest way to evaluate an expression in a simulation.
 
 use crate::error::located;
 use crate::{Error, Functions, ModelNames, Scope, World};
@@ -7,10 +7,11 @@ use labspec_expr::{Compiled, Compiler, Context, Globals, Program, Value};
 use labspec_finding::Finding;
 use std::sync::Arc;
 
-/// What the texts of an engine may do in one run, in units of about a nanosecond.
+/// The work limit of one run of a program, in units of about a nanosecond.
 const WORK: u64 = 1_000_000_000;
 
-/// A model, its data, and the variables of the texts that are compiled for it. Its clone goes on as it would.
+/// A model, its data, and the variables of the programs that are compiled for it. A clone continues
+/// independently with the same results.
 #[derive(Clone, Debug)]
 pub struct Engine {
     world: World,
@@ -19,20 +20,20 @@ pub struct Engine {
 }
 
 impl Engine {
-    /// Compiles a model from MJCF, at its default configuration.
+    /// Compiles a model from MJCF, and sets it to its default configuration.
     ///
     /// # Errors
-    /// All mistakes of the model.
+    /// Returns all errors of the model.
     #[cfg(feature = "mjcf")]
     pub fn compile(xml: &str) -> Result<Engine, Error> {
         let model = core::xml::compile(xml).map_err(|list| findings(list, "model.xml", xml))?;
         Engine::with_model(model)
     }
 
-    /// The engine of a model that is already compiled.
+    /// Creates the engine for a compiled model.
     ///
     /// # Errors
-    /// The engine refuses the model's first pass.
+    /// The first forward pass of the model fails.
     pub fn with_model(model: Model) -> Result<Engine, Error> {
         let mut data = Data::planned(&model, Plan::new(&model, &AccessSet::ANY));
         core::forward(&model, &mut data).map_err(refused)?;
@@ -47,17 +48,17 @@ impl Engine {
         Ok(Engine { world, context: Context::new(), globals: Globals::new() })
     }
 
-    /// The same with functions of the embedding program, which texts compiled from now on may call.
+    /// Adds functions of the embedding program, which programs that are compiled from now on can call.
     pub fn with_functions(mut self, functions: Functions) -> Engine {
         self.world.functions = functions;
         self
     }
 
-    /// Compiles an expression: names, indexes and types are checked against the model. All texts of an engine share
-    /// their `ctx` variables.
+    /// Compiles an expression, and checks names, indexes and types against the model. All programs of an engine
+    /// share their `ctx` variables.
     ///
     /// # Errors
-    /// All mistakes of the text.
+    /// Returns all errors of the text.
     pub fn expression(&mut self, text: &str) -> Result<Expression, Error> {
         self.bind(text, "expression", |compiler| compiler.expression(text)).map(Expression)
     }
@@ -65,33 +66,33 @@ impl Engine {
     /// Compiles statements.
     ///
     /// # Errors
-    /// All mistakes of the text.
+    /// Returns all errors of the text.
     pub fn statements(&mut self, text: &str) -> Result<Statements, Error> {
         self.bind(text, "statements", |compiler| compiler.statements(text)).map(Statements)
     }
 
-    /// One step of the model's timestep.
+    /// Advances the simulation by one timestep.
     ///
     /// # Errors
-    /// The engine refuses it.
+    /// The engine refuses the step.
     pub fn step(&mut self) -> Result<(), Error> {
         core::step(&self.world.model, &mut self.world.data).map_err(refused)
     }
 
-    /// Computes all that follows from the state.
+    /// Computes all fields that depend on the state.
     ///
     /// # Errors
-    /// The engine refuses it.
+    /// The engine refuses the pass.
     pub fn forward(&mut self) -> Result<(), Error> {
         core::forward(&self.world.model, &mut self.world.data).map_err(refused)
     }
 
-    /// Simulated time, s.
+    /// The simulated time in s.
     pub fn time(&self) -> f64 {
         self.world.data.time()
     }
 
-    /// The model as it is now.
+    /// The current model.
     pub fn model(&self) -> &Model {
         &self.world.model
     }
@@ -103,7 +104,7 @@ impl Engine {
         compile: impl FnOnce(&mut Compiler<'_>) -> Compiled,
     ) -> Result<Accessor, Error> {
         let names = ModelNames::new(&self.world.model, Scope::Lab).with(&self.world.functions);
-        // A text with mistakes leaves no variables behind.
+        // A text with errors must not add variables.
         let mut globals = self.globals.clone();
         let compiled = compile(&mut Compiler::new(&names, &mut globals));
         let Some(program) = compiled.program else { return Err(findings(compiled.diagnostics, what, text)) };
@@ -112,7 +113,7 @@ impl Engine {
     }
 }
 
-/// A compiled text, and the model that it was compiled for.
+/// A compiled text, and the identity of its model.
 #[derive(Clone, Debug)]
 struct Accessor {
     program: Program,
@@ -138,7 +139,7 @@ impl Accessor {
             findings(vec![finding], self.what, &self.text)
         };
         let value = result.map_err(|e| failed(e.rule, e.span, e.message))?;
-        // A store past the end does nothing in JavaScript; nobody means it.
+        // JavaScript ignores a store past the end, but it is never intended.
         match engine.context.events().iter().find_map(|e| Some((e.rule()?, *e))) {
             Some((rule, event)) => Err(failed(rule, event.span, event.to_string())),
             None => Ok(value),
@@ -146,20 +147,20 @@ impl Accessor {
     }
 }
 
-/// An expression: a question to the simulation.
+/// A compiled expression.
 #[derive(Clone, Debug)]
 pub struct Expression(Accessor);
 
 impl Expression {
-    /// Its value now: a number, a text, a truth value, or nothing.
+    /// Returns its current value: a number, a string, a boolean, `null` or `undefined`.
     ///
     /// # Errors
-    /// The engine is that of another model, or the expression fails.
+    /// The engine has another model, or the expression fails.
     pub fn value(&self, engine: &mut Engine) -> Result<Value, Error> {
         self.0.run(engine)
     }
 
-    /// Its value as a number, as JavaScript makes one of it.
+    /// Returns its value converted to a number as in JavaScript.
     ///
     /// # Errors
     /// As for [`Expression::value`].
@@ -168,15 +169,15 @@ impl Expression {
     }
 }
 
-/// Statements: something done to the simulation.
+/// Compiled statements.
 #[derive(Clone, Debug)]
 pub struct Statements(Accessor);
 
 impl Statements {
-    /// Runs them once.
+    /// Executes the statements once.
     ///
     /// # Errors
-    /// The engine is that of another model, or a statement fails; those before it have been done.
+    /// The engine has another model, or a statement fails; the statements before it have been executed.
     pub fn run(&self, engine: &mut Engine) -> Result<(), Error> {
         self.0.run(engine).map(drop)
     }

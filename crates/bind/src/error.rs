@@ -1,20 +1,20 @@
-//! The one error of the library as frontends hold it.
+//! The error type of the library, as used by frontends.
 
 use labspec_finding::{Finding, Lines};
 use std::fmt;
 use std::sync::Arc;
 
-/// Why something could not be done.
+/// The reason for a failure.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Error {
-    /// What was given has mistakes, or it broke: each is a finding with its place.
+    /// The input has errors, or a program failed. Each finding has a location.
     Findings(Vec<Finding>),
-    /// The call asks for what there is not. A sentence says what there is.
+    /// The arguments of the call are invalid. The sentence states which are valid.
     Call(String),
 }
 
 impl Error {
-    /// The findings; none when the call itself was wrong.
+    /// Returns the findings; empty if the call itself was invalid.
     pub fn findings(&self) -> &[Finding] {
         match self {
             Error::Findings(list) => list,
@@ -40,7 +40,7 @@ impl fmt::Display for Error {
 
 impl std::error::Error for Error {}
 
-/// A finding in a text of this name, with line and column.
+/// Adds a path, and the line and column in `text`, to a finding.
 pub(crate) fn located(mut finding: Finding, path: &Arc<str>, text: &str) -> Finding {
     finding.position = Some(Lines::new(text).position(text, finding.span.start));
     finding.path = path.clone();

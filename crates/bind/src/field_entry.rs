@@ -1,4 +1,5 @@
-//! A field of the engine's table as the language sees it: its name, its kind, what computes it, whose index it has.
+//! The language's view of a field of the engine's table: its name, its kind, the stage that computes it, and the
+//! objects that it belongs to.
 
 use super::elements;
 use super::handle::KINDS;
@@ -6,7 +7,7 @@ use labspec_core::Obj;
 use labspec_core::reflect::{self, FieldId, Kind, Object, Stage, model};
 use labspec_expr::{Elem, Field, FieldKey, FieldKind};
 
-/// The name of a field in a named object: without the prefix that says what it belongs to.
+/// The name of a field in a named object: without the prefix for the kind of object.
 pub(super) fn short_name(name: &str) -> &str {
     const PREFIXES: [&str; 22] = [
         "body_",
@@ -35,8 +36,7 @@ pub(super) fn short_name(name: &str) -> &str {
     PREFIXES.iter().find_map(|p| name.strip_prefix(p)).unwrap_or(name)
 }
 
-/// How a field of the table is written for one object that has a name: `data.joint('…').qpos`; `None` when it has no
-/// rows of one kind of object.
+/// The form of a field for one named object: `data.joint('…').qpos`, or `None` if the field has no rows for one kind of object.
 pub fn named_field(f: FieldId) -> Option<String> {
     let (object, name, dim) = (f.info().object, f.info().name, f.rows()?);
     let holder = match object {
@@ -48,7 +48,7 @@ pub fn named_field(f: FieldId) -> Option<String> {
     Some(format!("{holder}.{}('…').{}", noun(*kind), member_name(object, name, *kind)))
 }
 
-/// What a field is called in a named object: in short, unless that means a field before it (`dof_solref` of a joint).
+/// The name of a field in a named object: the short name, unless an earlier field has it (`dof_solref` of a joint).
 pub(super) fn member_name(object: Object, name: &'static str, kind: Obj) -> &'static str {
     if name == "sensordata" {
         return "data";
@@ -97,7 +97,7 @@ pub(super) fn field(
     }
 }
 
-/// What computes a field, as the object of "computed by".
+/// What computes a field, as a phrase after "computed by".
 fn stage_phrase(stage: Stage) -> &'static str {
     match stage {
         Stage::Compile => "the model compiler",
@@ -129,7 +129,7 @@ fn stage_phrase(stage: Stage) -> &'static str {
     }
 }
 
-/// Whose index it is, in a sentence.
+/// The objects that determine the size of a field, as a phrase.
 pub(super) fn owner(f: FieldId, shape: &[Option<usize>]) -> String {
     let (Some(rows), Some(Some(count))) = (f.rows(), shape.first()) else { return String::new() };
     let things = match rows {

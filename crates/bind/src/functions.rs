@@ -1,4 +1,4 @@
-//! The one table of functions that programs may call: signature, effects, documentation, and what they do.
+//! The table of all functions that programs can call: signature, effects, documentation and implementation.
 
 pub(super) mod access;
 mod lib;
@@ -18,21 +18,21 @@ use labspec_core::reflect::{self, FieldId, Kind, Object, Stage, data, option};
 use labspec_expr::dimension::Dimension;
 use labspec_expr::{AccessedFields, FieldKey, FunctionId, FunctionInfo, Param, ResultDimension, Type, Value};
 
-/// The objects that hold functions.
+/// The objects that contain functions.
 pub(super) const OBJECTS: [&str; 3] = ["mj", "sim", "lib"];
 
-/// Where a function may be called.
+/// Where a function can be called.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum FunctionPlace {
     /// In labs and in measures.
     Everywhere,
-    /// In the measures of `verify` only: no page knows it.
+    /// Only in the measures of `verify`; a page does not have it.
     Measures,
-    /// In what `verify` claims of several runs: it takes the members of a sweep together.
+    /// Only in claims of `verify` about several runs: the function combines the members of a sweep.
     Claims,
 }
 
-/// What a parameter takes, before it is known which model.
+/// The type of a parameter, independent of a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Arg {
     Model,
@@ -47,13 +47,13 @@ pub(super) enum Arg {
     Any,
     /// The name of an object of this kind.
     Name(Obj),
-    /// A label under which something is shown.
+    /// A label under which a value is displayed.
     Label,
-    /// A sub-program of an aggregate.
+    /// The program of an argument of an aggregate.
     Lazy,
 }
 
-/// What a function touches.
+/// The part of the simulation that a function reads or writes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Touches {
     Nothing,
@@ -67,58 +67,58 @@ pub(super) enum Touches {
     Contacts,
     /// Energies.
     Energy,
-    /// The flags of options that are switched on.
+    /// The option flags that are enabled.
     Flags,
-    /// Places of bodies and sites.
+    /// Positions and orientations of bodies and sites.
     Places,
-    /// All that a Jacobian follows from.
+    /// All fields on which a Jacobian depends.
     Motion,
     /// The mass matrix.
     Mass,
-    /// What is shown, which says itself what it reads.
+    /// Displayed values, whose programs declare what they read.
     DisplayedLabels,
 }
 
-/// What the numbers of a result measure.
+/// The dimension of the numbers in a result.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Unit {
-    /// That depends.
+    /// Not fixed.
     Unknown,
     /// This unit.
     Of(&'static str),
-    /// What its argument measures, in numbers that are larger by this factor.
+    /// The dimension of the argument, for numbers that are larger by this factor.
     Argument(f64),
-    /// What this argument measures, times this unit.
+    /// The dimension of this argument, times this unit.
     Times(usize, &'static str),
 }
 
 /// A row of the table.
 pub(super) struct Function {
-    /// The object that holds it; empty for a function by its own name.
+    /// The object that contains it; empty for a global function.
     pub(super) object: &'static str,
     pub(super) name: &'static str,
     pub(super) args: &'static [Arg],
     pub(super) optional: usize,
     pub(super) returns: Type,
-    /// Members of a record that it gives.
+    /// The members of the result, if it is a record.
     pub(super) members: &'static [(&'static str, Type)],
-    /// Number of elements of a list that it gives.
+    /// The number of elements of the result, if it is a list.
     pub(super) length: Option<usize>,
-    /// The field of the data whose part for an object of this kind it gives.
+    /// The field of the data of which it returns the part of one object of this kind.
     pub(super) gives: Option<(FieldId, Obj)>,
     pub(super) reads: Touches,
     pub(super) writes: &'static [Touches],
     pub(super) place: FunctionPlace,
     pub(super) aggregate: bool,
-    /// What the numbers that it gives measure.
+    /// The dimension of the numbers in the result.
     pub(super) unit: Unit,
     pub(super) doc: &'static str,
-    /// Statements and a last expression on `specs/models/pendulum.xml`, or a measure over 0.1 s of it, and its value.
+    /// Statements and a last expression for `specs/models/pendulum.xml`, or a measure over 0.1 s of it, and the value.
     pub(super) example: (&'static str, &'static str),
     pub(super) run: access::Run,
 }
 
-/// Of no function: what the rows below do not say.
+/// Default values for the rows below; not a function itself.
 pub(super) const ROW: Function = Function {
     object: "",
     name: "",
@@ -138,21 +138,21 @@ pub(super) const ROW: Function = Function {
     run: |_, _, _| NOTHING,
 };
 
-/// All functions. Their place in this list is their id.
+/// All functions. The id of a function is its index in this list.
 pub(super) static TABLE: LazyLock<Vec<&'static Function>> = LazyLock::new(|| {
     [mj::ROWS, lib::ROWS, sim::ROWS, measure::ROWS, over::ROWS].into_iter().flatten().collect()
 });
 
-/// The result of a function that gives nothing back.
+/// The result of a function that returns nothing.
 const NOTHING: Result<Value, String> = Ok(Value::Undefined);
 
-/// The result of a pass of the engine.
+/// The result of a function that runs a pass of the engine.
 fn done(result: Result<(), access::Failed>) -> Result<Value, String> {
     result?;
     NOTHING
 }
 
-/// What a call costs when it is no pass of the engine, in the unit of [`labspec_core::cost`].
+/// The cost of a call that does not run a pass of the engine, in the unit of [`labspec_core::cost`].
 pub(super) fn price(f: &Function, w: &World) -> u64 {
     let (nv, ncon) = (w.model.nv as u64, w.data.fields().contact.len() as u64);
     let reads = match f.reads {
@@ -166,12 +166,12 @@ pub(super) fn price(f: &Function, w: &World) -> u64 {
     50 + reads + writes
 }
 
-/// The first argument, the name of an object, as its index.
+/// The index of the object whose name is the first argument.
 fn index(args: &[Value]) -> Result<usize, String> {
     args.first().map(|v| handle::index_of(v.to_number())).ok_or_else(|| "a name is missing".into())
 }
 
-/// Whether a function looks at the simulation: `abs` does not.
+/// Whether a function reads the simulation; `abs`, for example, does not.
 pub fn reads(FunctionId(f): FunctionId) -> bool {
     TABLE.get(f as usize).is_some_and(|function| function.reads != Touches::Nothing)
 }
@@ -180,16 +180,16 @@ fn number(args: &[Value]) -> Result<f64, String> {
     args.first().map(Value::to_number).ok_or_else(|| "a number is missing".into())
 }
 
-/// Signature and effects of every function, in the order of the table.
+/// The signatures and effects of all functions, in the order of the table.
 pub(super) static INFO: LazyLock<Vec<FunctionInfo>> =
     LazyLock::new(|| TABLE.iter().map(|f| info(f)).collect());
 
-/// Of no function.
+/// A placeholder for an unknown function.
 pub(super) fn none() -> FunctionInfo {
     info(&ROW)
 }
 
-/// Signature and effects in the words of the language.
+/// The signature and effects in the types of the language.
 fn info(f: &Function) -> FunctionInfo {
     let param = |arg: &Arg| match arg {
         Arg::Model => Param::Object(handle::encode(handle::Thing::Struct(Object::Model))),
@@ -226,12 +226,12 @@ fn info(f: &Function) -> FunctionInfo {
     }
 }
 
-/// How an author writes it.
+/// The name as an author writes it.
 fn path(f: &Function) -> String {
     if f.object.is_empty() { f.name.to_string() } else { format!("{}.{}", f.object, f.name) }
 }
 
-/// What the Jacobian of a site follows from.
+/// The fields on which the Jacobian of a site depends.
 const MOTION: [FieldId; 5] = [data::xanchor, data::xaxis, data::xmat, data::xpos, data::site_xpos];
 
 fn accessed_fields(touches: &[Touches]) -> AccessedFields {
@@ -257,27 +257,27 @@ fn accessed_fields(touches: &[Touches]) -> AccessedFields {
     if fields.is_empty() { AccessedFields::Nothing } else { AccessedFields::Fields(fields) }
 }
 
-/// The name of a function, without what holds it.
+/// The name of a function without the object that contains it.
 pub fn name(FunctionId(f): FunctionId) -> Option<&'static str> {
     TABLE.get(f as usize).map(|f| f.name)
 }
 
-/// A function as the reference shows it.
+/// A function for the reference.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FunctionDoc {
-    /// Name and parameters.
+    /// The name and the parameters.
     pub signature: String,
-    /// One line.
+    /// A line of documentation.
     pub doc: &'static str,
-    /// Only in the measures of `verify`.
+    /// Whether it exists only in the measures of `verify`.
     pub measure: bool,
-    /// Only in what `verify` claims of several runs.
+    /// Whether it exists only in claims of `verify` about several runs.
     pub claim: bool,
-    /// An example and what it gives.
+    /// An example and its value.
     pub example: (&'static str, &'static str),
 }
 
-/// Every function, in the order of the table.
+/// Returns all functions in the order of the table.
 pub fn reference() -> Vec<FunctionDoc> {
     let word = |f: &Function, arg: &Arg| match arg {
         Arg::Model => "model",
@@ -304,7 +304,7 @@ pub fn reference() -> Vec<FunctionDoc> {
     TABLE.iter().map(|f| one(f)).collect()
 }
 
-/// Whether a name at the start of an expression has a meaning, whatever the model.
+/// Whether a name at the start of an expression has a meaning for every model.
 pub(crate) fn is_taken(name: &str) -> bool {
     ["model", "data", "mj_setConst"].contains(&name)
         || OBJECTS.contains(&name)

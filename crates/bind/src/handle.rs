@@ -1,32 +1,32 @@
-//! Numbers that stand for objects and collections in the language: small, dense, and decoded without a table.
+//! Encoding of objects and collections as ids of the language: small, dense, and decoded without a table.
 
 use labspec_core::Obj;
 use labspec_core::reflect::Object;
 use labspec_expr::{CollectionId, ObjectId};
 
-/// `model` or `data`: which fields a named object shows.
+/// `model` or `data`: which fields a named object has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Side {
     Model,
     Data,
 }
 
-/// Something with members.
+/// An object with members.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Thing {
     /// `model`, `model.opt`, `model.stat`, `data`.
     Struct(Object),
-    /// `mj`, `sim`, `lib`: the number of its name in [`super::functions::OBJECTS`].
+    /// `mj`, `sim` or `lib`: the index of its name in [`super::functions::OBJECTS`].
     Functions(usize),
-    /// `mj.mjtObj`: the number of an enumeration in [`super::enums::ENUMS`].
+    /// `mj.mjtObj`: the index of an enumeration in [`super::enums::ENUMS`].
     Enum(usize),
-    /// `mj.mjtObj.mjOBJ_BODY`: one of its members.
+    /// `mj.mjtObj.mjOBJ_BODY`: the indexes of an enumeration and its member.
     Member(usize, usize),
     /// `data.joint("hinge")`: one object of the model.
     Named(Side, Obj, usize),
 }
 
-/// Kinds of objects with names, and what they are called in the language.
+/// The kinds of named objects, and their nouns in the language.
 pub(super) const KINDS: [(Obj, &str); 21] = [
     (Obj::Body, "body"),
     (Obj::Joint, "joint"),
@@ -51,7 +51,7 @@ pub(super) const KINDS: [(Obj, &str); 21] = [
     (Obj::Key, "key"),
 ];
 
-/// Shorter and longer words for the same, as the library's own bindings have them.
+/// Alternative nouns, as in MuJoCo's own bindings.
 const ALIASES: [(&str, &str); 8] = [
     ("jnt", "joint"),
     ("cam", "camera"),
@@ -63,7 +63,7 @@ const ALIASES: [(&str, &str); 8] = [
     ("hf", "hfield"),
 ];
 
-/// The kind of object that a word means.
+/// The kind of object that a noun denotes.
 pub(super) fn kind_of(word: &str) -> Option<Obj> {
     let word = ALIASES.iter().find(|(alias, _)| *alias == word).map_or(word, |(_, noun)| noun);
     KINDS.iter().find(|(_, noun)| *noun == word).map(|(kind, _)| *kind)
@@ -72,13 +72,13 @@ pub(super) fn kind_of(word: &str) -> Option<Obj> {
 const STRUCTS: [Object; 4] = [Object::Model, Object::Option, Object::Statistic, Object::Data];
 const FUNCTIONS: u32 = 0x100;
 const ENUMS: u32 = 0x200;
-/// Members of the enumerations: 256 numbers for each.
+/// The first id of the members of enumerations, 256 ids for each enumeration.
 const MEMBERS: u32 = 0x1_0000;
 const NAMED: u32 = 1 << 31;
 const DATA_SIDE: u32 = 1 << 30;
 const INDEX: u32 = (1 << 24) - 1;
 
-/// The id of an object.
+/// Returns the id of an object.
 pub(super) fn encode(thing: Thing) -> ObjectId {
     ObjectId(match thing {
         Thing::Struct(object) => STRUCTS.iter().position(|&s| s == object).unwrap_or(0) as u32,
@@ -93,7 +93,7 @@ pub(super) fn encode(thing: Thing) -> ObjectId {
     })
 }
 
-/// The object of an id; `None` for a number that no object has.
+/// Returns the object of an id, or `None` if no object has the id.
 pub(super) fn decode(ObjectId(id): ObjectId) -> Option<Thing> {
     if id & NAMED != 0 {
         let side = if id & DATA_SIDE != 0 { Side::Data } else { Side::Model };
@@ -112,18 +112,18 @@ pub(super) fn decode(ObjectId(id): ObjectId) -> Option<Thing> {
     STRUCTS.get(id as usize).map(|&s| Thing::Struct(s))
 }
 
-/// The index of the object whose id a function gets as a number.
+/// The index of the object whose id is passed to a function as a number.
 pub(super) fn index_of(number: f64) -> usize {
     (number as u32 & INDEX) as usize
 }
 
-/// The collection of all objects of a kind.
+/// Returns the collection of all objects of a kind.
 pub(super) fn collection(side: Side, kind: Obj) -> CollectionId {
     let kind = KINDS.iter().position(|&(k, _)| k == kind).unwrap_or(0) as u32;
     CollectionId(kind << 1 | u32::from(side == Side::Data))
 }
 
-/// Side, kind and noun of a collection.
+/// Returns the side, the kind and the noun of a collection.
 pub(super) fn of_collection(CollectionId(id): CollectionId) -> Option<(Side, Obj, &'static str)> {
     let (kind, noun) = *KINDS.get((id >> 1) as usize)?;
     Some((if id & 1 == 1 { Side::Data } else { Side::Model }, kind, noun))

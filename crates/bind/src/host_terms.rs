@@ -2,7 +2,7 @@
 
 use labspec_expr::HostTerms;
 
-/// What the language calls the things of a lab.
+/// The terms of a lab, for messages of the language.
 pub static HOST_TERMS: HostTerms = HostTerms {
     lab: "lab",
     lesson: "lesson",

@@ -1,9 +1,9 @@
-//! The accessor language over the engine: names are those of the field table, programs run over a model and its data. It knows
-//! nothing of labs and lessons.
+//! The accessor language over the engine: names come from the field table, and programs run over a model and its data. It does
+//! not depend on labs and lessons.
 //!
-//! An [`Engine`] is a model with the language: what it takes to ask a simulation for a number in one line. Below it,
-//! [`ModelNames`] answers the language's questions at compile time, [`World`] at run time, and [`functions`] is the one table of
-//! what programs may call; [`Functions`] are those that an embedding program brings.
+//! An [`Engine`] is a model with the language, the shortest way to evaluate an expression in a simulation. Below it,
+//! [`ModelNames`] implements the language's schema at compile time and [`World`] its host at run time. [`functions`] is the
+//! table of all functions that programs can call; [`Functions`] are those of an embedding program.
 
 mod displayed;
 mod elements;

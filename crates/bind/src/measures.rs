@@ -1,5 +1,5 @@
-//! What every element of every field measures: the unit of its row in the table, and where that depends on the element, the type
-//! of the joint, actuator or sensor that it belongs to.
+//! The dimension of every element of every field: the unit in the field's row of the table. Where the unit depends on the
+//! element, the type of its joint, actuator or sensor decides.
 
 use super::{elements, units};
 use labspec_core::reflect::{Elem, FieldId, data, model};
@@ -8,26 +8,26 @@ use labspec_core::{
 };
 use labspec_expr::dimension::{Dimension, Measure};
 
-/// Most elements that are asked one by one: what a larger part of a field measures is not known.
+/// The maximum number of elements that are analysed one by one; the dimension of a larger part of a field is unknown.
 const MOST: usize = 4096;
 
-/// Whether something moves along a line or turns.
+/// Whether a motion is a translation or a rotation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Motion {
     Along,
     Turning,
-    /// A part of a quaternion: no quantity of its own.
+    /// A component of a quaternion, which has no dimension itself.
     Number,
 }
 
-/// What elements of a field measure, where they all measure the same.
+/// The dimension of a range of elements of a field, if it is the same for all of them.
 pub(super) fn measure(m: &Model, f: FieldId, first: usize, count: Option<usize>) -> Measure {
     let shape = reflect::shape(m, f);
     let size = shape.iter().try_fold(1usize, |n, dim| n.checked_mul((*dim)?));
     let last = match (count, size) {
         (Some(count), _) => first.saturating_add(count),
         (None, Some(size)) => size,
-        // How many there are changes, and their row says what each is.
+        // The number of rows changes during a run; the unit of the field applies to each row.
         (None, None) => first + 1,
     };
     if last.saturating_sub(first) > MOST {
@@ -38,13 +38,13 @@ pub(super) fn measure(m: &Model, f: FieldId, first: usize, count: Option<usize>)
     all.fold(start, |common, next| if common == next { common } else { Measure::Unknown })
 }
 
-/// What one element measures.
+/// The dimension of one element.
 fn element(m: &Model, f: FieldId, shape: &[Option<usize>], at: usize) -> Measure {
     let info = f.info();
     if info.elem != Elem::F64 {
         return Measure::Known(Dimension::NUMBER);
     }
-    // These have another meaning where they are negative.
+    // Negative values of these parameters have another meaning.
     if info.name.contains("solref") {
         return Measure::Unknown;
     }
@@ -64,7 +64,7 @@ fn element(m: &Model, f: FieldId, shape: &[Option<usize>], at: usize) -> Measure
     let Some((along, turning)) = unit.split_once(" or ") else { return read(unit) };
     let motion = match dim {
         Some(dim @ (model::nq | model::nv | model::njnt)) => joint_motion(m, f, dim, at),
-        // A row of coordinates for every keyframe.
+        // A keyframe is a row of coordinates.
         Some(model::nkey) => row_motion(m, f, at % width.max(1)),
         Some(model::nout | model::nactuator) => {
             elements::owner(m, f, at).and_then(|(_, i)| actuator_motion(m, i))
@@ -83,33 +83,34 @@ fn read(unit: &str) -> Measure {
     units::parse(unit).map_or(Measure::Unknown, Measure::Known)
 }
 
-/// The unit of one of the numbers of a row: `1, m, m` has three; `N, N m` of six numbers has two for three each.
+/// The unit of one number in a row: `1, m, m` has one unit for each of three numbers; `N, N m` has one for
+/// each half of six numbers.
 fn part(unit: &str, at: usize, width: usize) -> Option<&str> {
     let parts: Vec<&str> = unit.split(", ").collect();
     let which = match (parts.len(), width) {
         (1, _) => 0,
         (n, w) if n == w => at,
         (2, 6) => at / 3,
-        // Of an inertia: six, three and one.
+        // An inertia has one number of the third unit, three of the second and six of the first.
         (3, 10) => [0, 0, 0, 0, 0, 0, 1, 1, 1, 2].get(at).copied()?,
         _ => return None,
     };
     parts.get(which).copied()
 }
 
-/// How the joint moves that an element belongs to.
+/// The motion of the joint to which an element belongs.
 fn joint_motion(m: &Model, f: FieldId, dim: FieldId, at: usize) -> Option<Motion> {
     let (Obj::Joint, object) = elements::owner(m, f, at)? else { return None };
     let (first, _) = elements::row(m, f, Obj::Joint, object)?;
     motion(*m.jnt_type.get(object)?, at - first, dim)
 }
 
-/// How a coordinate of a joint moves.
+/// The motion of a coordinate of a joint.
 fn motion(ty: i32, at: usize, dim: FieldId) -> Option<Motion> {
     Some(match (ty, dim) {
         (joint::SLIDE, _) => Motion::Along,
         (joint::HINGE, _) => Motion::Turning,
-        // Limits of a ball are those of its angle.
+        // The limits of a ball joint apply to its angle.
         (joint::BALL, model::njnt) => Motion::Turning,
         (joint::FREE, model::nq | model::nv) if at < 3 => Motion::Along,
         (joint::FREE | joint::BALL, model::nq) => Motion::Number,
@@ -118,7 +119,7 @@ fn motion(ty: i32, at: usize, dim: FieldId) -> Option<Motion> {
     })
 }
 
-/// How a coordinate of a keyframe moves.
+/// The motion of a coordinate in a keyframe.
 fn row_motion(m: &Model, f: FieldId, at: usize) -> Option<Motion> {
     let (starts, dim) = match f {
         model::key_qpos => (&m.jnt_qposadr, model::nq),
@@ -129,7 +130,7 @@ fn row_motion(m: &Model, f: FieldId, at: usize) -> Option<Motion> {
     motion(*m.jnt_type.get(object)?, at - *first as usize, dim)
 }
 
-/// Whether an actuator pulls along a line or turns something, where its gear does not change units.
+/// The motion that an actuator causes, if its gear does not change units.
 fn actuator_motion(m: &Model, actuator: usize) -> Option<Motion> {
     let out = usize::try_from(*m.actuator_outadr.get(actuator)?).ok()?;
     let gear = m.actuator_gear.get(6 * out..6 * out + 6)?;
@@ -148,7 +149,7 @@ fn actuator_motion(m: &Model, actuator: usize) -> Option<Motion> {
     }
 }
 
-/// A tendon through space has a length; one that adds up coordinates has one when all of these are lengths.
+/// The motion of a tendon: a spatial tendon has a length; a fixed tendon has one if all its coordinates are lengths.
 fn tendon_motion(m: &Model, tendon: usize) -> Option<Motion> {
     let first = usize::try_from(*m.tendon_adr.get(tendon)?).ok()?;
     let count = usize::try_from(*m.tendon_num.get(tendon)?).ok()?;
@@ -160,7 +161,7 @@ fn tendon_motion(m: &Model, tendon: usize) -> Option<Motion> {
     (first..first + count).all(along).then_some(Motion::Along)
 }
 
-/// What a control means: the force of a motor, the place or the velocity that a servo is to reach.
+/// The dimension of a control: the force of a motor, or the target position or velocity of a servo.
 fn control(m: &Model, at: usize) -> Measure {
     let object = (0..m.nactuator).find(|i| m.actuator_ctrladr.get(*i).is_some_and(|a| *a as usize == at));
     let Some(i) = object.filter(|i| m.actuator_ctrlnum.get(*i) == Some(&1)) else { return Measure::Unknown };
@@ -180,7 +181,7 @@ fn control(m: &Model, at: usize) -> Measure {
     read(if motion == Motion::Along { unit[0] } else { unit[1] })
 }
 
-/// What a value of a sensor measures.
+/// The dimension of a value of a sensor.
 fn sensor(m: &Model, f: FieldId, at: usize) -> Measure {
     let Some((Obj::Sensor, s)) = elements::owner(m, f, at) else { return Measure::Unknown };
     let unit = core::sensor_unit(m, s);

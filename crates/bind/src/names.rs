@@ -1,4 +1,4 @@
-//! What names mean: the language's [`Schema`] over the engine's field table and one model.
+//! The meanings of names: the language's [`Schema`] over the engine's field table and one model.
 
 use super::Functions;
 use super::displayed::{DisplayedLabels, LABELS};
@@ -17,14 +17,14 @@ use labspec_expr::{
     Role, Schema, Value,
 };
 
-/// Where a program stands: decides which functions exist.
+/// The context of a program, which decides which functions exist.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scope {
-    /// In a lab: what the page knows.
+    /// In a lab: the functions of the page.
     Lab,
     /// In a measure of `verify`: also aggregates over a run.
     Measure,
-    /// In what `verify` claims of several runs: what takes their numbers together, and nothing else.
+    /// In a claim of `verify` about several runs: only functions that combine their numbers.
     Claim,
 }
 
@@ -33,26 +33,26 @@ pub enum Scope {
 pub struct ModelNames<'m> {
     /// The model.
     pub model: &'m Model,
-    /// Where the program stands.
+    /// The context of the program.
     pub scope: Scope,
-    /// Functions of the embedding program, if it has any.
+    /// Functions of the embedding program, if there are any.
     functions: Option<&'m Functions>,
-    /// What is shown under labels, where something is.
+    /// Displayed labels, if there are any.
     displayed: Option<&'m DisplayedLabels>,
 }
 
 impl<'m> ModelNames<'m> {
-    /// The names of a model.
+    /// Creates the names of a model.
     pub fn new(model: &'m Model, scope: Scope) -> ModelNames<'m> {
         ModelNames { model, scope, functions: None, displayed: None }
     }
 
-    /// The same with functions of the embedding program.
+    /// Adds functions of the embedding program.
     pub fn with(self, functions: &'m Functions) -> ModelNames<'m> {
         ModelNames { functions: Some(functions), ..self }
     }
 
-    /// The same with what is shown under labels.
+    /// Adds displayed labels.
     pub fn showing(self, displayed: &'m DisplayedLabels) -> ModelNames<'m> {
         ModelNames { displayed: Some(displayed), ..self }
     }
@@ -68,7 +68,7 @@ impl ModelNames<'_> {
         })
     }
 
-    /// A function by its holder and name.
+    /// Finds a function by its object and its name.
     fn function_of(&self, object: &str, name: &str) -> Option<Entry> {
         let found = self.functions().find(|(_, f)| f.object == object && f.name == name);
         found.map(|(i, _)| Entry::Function(FunctionId(i as u32)))
@@ -81,7 +81,7 @@ impl ModelNames<'_> {
         field(f, path, 0, shape, owner)
     }
 
-    /// The fields of one object, with the name that they have there.
+    /// The fields of one object, with their names in the object.
     fn rows(
         &self,
         side: Side,
@@ -117,7 +117,7 @@ impl ModelNames<'_> {
         Some(Entry::Field(field(f, path, first, vec![Some(count)], format!("{holder} has {count} of these"))))
     }
 
-    /// How an author writes an object: `data.joint("hinge")`.
+    /// An object as an author writes it: `data.joint("hinge")`.
     fn path(&self, side: Side, kind: Obj, index: usize) -> String {
         let holder = if side == Side::Data { "data" } else { "model" };
         let name = self.model.names.of_kind(kind).get(index).map_or("", String::as_str);
@@ -138,7 +138,7 @@ impl Schema for ModelNames<'_> {
         match name {
             "model" => Some(Entry::Object(handle::encode(Thing::Struct(Object::Model)))),
             "data" => Some(Entry::Object(handle::encode(Thing::Struct(Object::Data)))),
-            // The shorthand of the lab format.
+            // The short form that the lab format allows.
             "mj_setConst" => self.function_of("mj", name),
             _ => match OBJECTS.iter().position(|o| *o == name) {
                 Some(i) => Some(Entry::Object(handle::encode(Thing::Functions(i)))),
@@ -179,7 +179,7 @@ impl Schema for ModelNames<'_> {
                     Object::Data => Some(Side::Data),
                     _ => None,
                 };
-                // A field of the name comes first, as in `data.contact`.
+                // A field with this name takes precedence, as in `data.contact`.
                 if let (Some(side), Some(kind), None) =
                     (side, handle::kind_of(name), reflect::field(of, name))
                 {
@@ -325,12 +325,12 @@ impl Schema for ModelNames<'_> {
         };
         let (kind, object) = elements::owner(self.model, field, index)?;
         let (first, _) = elements::row(self.model, field, kind, object)?;
-        // A name that needs escapes is not worth it.
+        // A name that needs escapes is not used.
         let plain = |n: &&String| !n.is_empty() && !n.contains(['\'', '\\']) && !n.contains(char::is_control);
         let name = self.model.names.of_kind(kind).get(object).filter(plain)?;
         let short = member_name(field.info().object, field.info().name, kind);
         let holder = if side == Side::Data { "data" } else { "model" };
-        // In single quotes, which need no escapes in the JSON of a lab.
+        // Single quotes need no escapes in the JSON of a lab.
         Some(format!("{holder}.{}('{name}').{short}[{}]", noun(kind), index - first))
     }
 

@@ -16,15 +16,15 @@ use nom::multi::{fold_many_m_n, fold_many1};
 use nom::sequence::{delimited, pair, preceded, terminated};
 use nom::{IResult, Parser};
 
-/// What a unit means; `None` where it is a unit of something else (`dB`), or can be read in two ways (`N m/rad s`).
+/// The dimension of a unit, or `None` if it is a known unit that is not supported (`dB`) or is ambiguous (`N m/rad s`).
 type Meaning = Option<Dimension>;
 
-/// Brackets within brackets, factors of one unit, and characters of a word.
+/// Limits on nested brackets, on the factors of one unit, and on the characters of a word.
 const DEEP: usize = 4;
 const MANY: usize = 8;
 const WORD: usize = 40;
 
-/// The longest product that a text begins with.
+/// Parses the longest product at the beginning of a text.
 pub(crate) fn unit(text: &str) -> IResult<&str, Meaning> {
     product(text, 0)
 }
@@ -33,7 +33,7 @@ fn product(text: &str, depth: usize) -> IResult<&str, Meaning> {
     let (rest, first) = factor(text, depth, true)?;
     let linked = pair(link, |text| factor(text, depth, depth > 0));
     let multiply = |(all, divided): (Meaning, bool), (divides, next): (bool, Meaning)| {
-        // What stands behind a stroke is one unit, or in brackets, or every one has a stroke of its own.
+        // After a division, only one unit or a bracket may follow, unless every further factor has its own division.
         let clear = divides || !divided;
         let power = if divides { -1.0 } else { 1.0 };
         (all.filter(|_| clear).and_then(|all| all.product(next?.power(power)?)), divides || divided)
@@ -41,7 +41,7 @@ fn product(text: &str, depth: usize) -> IResult<&str, Meaning> {
     map(fold_many_m_n(0, MANY - 1, linked, || (first, false), multiply), |(all, _)| all).parse(rest)
 }
 
-/// What joins two factors; whether the second divides.
+/// Parses the separator of two factors, and returns whether the second is a divisor.
 fn link(text: &str) -> IResult<&str, bool> {
     let space = || opt(char(' '));
     let spaces = || take_while(|c| c == ' ');
@@ -49,14 +49,14 @@ fn link(text: &str) -> IResult<&str, bool> {
         value(true, (char(' '), alt((tag("per "), tag("pro "), tag("par "), tag("por "))))),
         value(true, (space(), one_of("/⁄÷∕每毎"), spaces())),
         value(false, (space(), one_of("·⋅*×∙•"), spaces())),
-        // `m.s^-1`: a point parts factors where the next one has a power.
+        // `m.s^-1`: a point separates factors if the next one has a power.
         value(false, (char('.'), peek((map_opt(take_while1(is_letter), symbol), satisfy(begins_power))))),
         value(false, space()),
     ))
     .parse(text)
 }
 
-/// A unit with its power. `first`: a `1` may stand here.
+/// Parses a unit with its power. `first` states whether `1` is allowed here.
 fn factor(text: &str, depth: usize, first: bool) -> IResult<&str, Meaning> {
     let (rest, found) = base(text, depth, first)?;
     let (rest, raised) = opt(|text| power(text, depth)).parse(rest)?;
@@ -66,7 +66,7 @@ fn factor(text: &str, depth: usize, first: bool) -> IResult<&str, Meaning> {
 fn base(text: &str, depth: usize, first: bool) -> IResult<&str, Meaning> {
     let inner = |text| if depth < DEEP { product(text, depth + 1) } else { fail().parse(text) };
     let number = |factor| Some(Dimension::NUMBER.times(factor));
-    // Of `1/s` a part; in `m 1` it is a number.
+    // In `1/s`, the `1` is a part of the unit; in `m 1`, it is a number.
     let before_stroke = peek(alt((recognize((take_while(|c| c == ' '), char('/'))), eof)));
     alt((
         delimited(char('('), inner, char(')')),
@@ -80,8 +80,8 @@ fn base(text: &str, depth: usize, first: bool) -> IResult<&str, Meaning> {
     .parse(text)
 }
 
-/// A symbol or a name: letters up to the next character that is none. Where words are not parted by spaces, the longest beginning
-/// that is a unit.
+/// Parses a symbol or a name: letters up to the next other character. In scripts without spaces between words, it is the
+/// longest prefix that is a unit.
 fn name(text: &str) -> IResult<&str, Meaning> {
     let wide = text.starts_with(is_wide);
     let letter = |c: char| is_letter(c) && is_wide(c) == wide || matches!(c, '°' | 'µ' | '℃' | '℉');
@@ -94,7 +94,7 @@ fn name(text: &str) -> IResult<&str, Meaning> {
     found.map_or_else(|| fail().parse(text), Ok)
 }
 
-/// The power behind a symbol.
+/// Parses the power after a symbol.
 fn power(text: &str, depth: usize) -> IResult<&str, f64> {
     let word_ends = || not(satisfy(char::is_alphanumeric));
     let whole = || terminated(integer, not(decimals));
@@ -115,7 +115,8 @@ fn integer(text: &str) -> IResult<&str, f64> {
     Ok((rest, sign.unwrap_or(1.0) * f64::from(n)))
 }
 
-/// Digits behind a symbol without a sign for it, `s-1`: one from 1 to 6, and no number that goes on, or has a unit of its own.
+/// Parses a power without a sign for it, as in `s-1`: a digit from 1 to 6 that is not part of a longer
+/// number and has no unit itself.
 fn bare_power(text: &str, depth: usize) -> IResult<&str, f64> {
     let goes_on = satisfy(|c| c.is_alphanumeric() && !is_wide(c));
     let unit_behind = preceded(char(' '), |text| base(text, depth, true));
@@ -129,7 +130,7 @@ fn minus(text: &str) -> IResult<&str, f64> {
     value(-1.0, one_of("⁻-−–")).parse(text)
 }
 
-/// A digit, raised or not.
+/// Parses a digit, superscript or not.
 fn digit(text: &str) -> IResult<&str, u32> {
     let raised = |c| RAISED.chars().position(|digit| digit == c).map(|n| n as u32);
     map_opt(anychar, |c| c.to_digit(10).or_else(|| raised(c))).parse(text)

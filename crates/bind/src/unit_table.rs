@@ -1,4 +1,4 @@
-//! The names of units: symbols with their prefixes, and words of several languages.
+//! The names of units: symbols with their prefixes, and words in several languages.
 
 use labspec_expr::dimension::{ANGLE, Dimension};
 use std::f64::consts::PI;
@@ -9,7 +9,7 @@ pub(crate) const S: usize = 3;
 pub(crate) const K: usize = 4;
 pub(crate) const A: usize = 5;
 
-/// Prefixes of units, as powers of ten.
+/// The prefixes of unit symbols, as powers of ten.
 pub const PREFIXES: [(&str, i32); 13] = [
     ("", 0),
     ("p", -12),
@@ -26,7 +26,7 @@ pub const PREFIXES: [(&str, i32); 13] = [
     ("T", 12),
 ];
 
-/// A unit: how large it is, the powers of base units that it is made of, and whether it takes prefixes.
+/// A unit: its symbol, its size, the powers of its base units, and whether it can have a prefix.
 struct Row(&'static str, f64, &'static [(usize, i32)], bool);
 
 const ANGLES: &[(usize, i32)] = &[(ANGLE, 1)];
@@ -38,7 +38,7 @@ const ENERGY: &[(usize, i32)] = &[(KG, 1), (M, 2), (S, -2)];
 const POWER: &[(usize, i32)] = &[(KG, 1), (M, 2), (S, -3)];
 const PRESSURE: &[(usize, i32)] = &[(KG, 1), (M, -1), (S, -2)];
 
-/// Symbols of units, as they stand, and names in scripts without capitals.
+/// The symbols of units, case-sensitive, and names in scripts without capital letters.
 const UNITS: [Row; 49] = [
     Row("rad", 1.0, ANGLES, true),
     Row("deg", PI / 180.0, ANGLES, false),
@@ -91,7 +91,7 @@ const UNITS: [Row; 49] = [
     Row("ラジアン", 1.0, ANGLES, true),
 ];
 
-/// Further names of that kind.
+/// Further names in such scripts.
 const NAMED: [Row; 8] = [
     Row("牛", 1.0, FORCE, true),
     Row("牛顿", 1.0, FORCE, true),
@@ -103,7 +103,7 @@ const NAMED: [Row; 8] = [
     Row("赫兹", 1.0, &[(S, -1)], true),
 ];
 
-/// Names of units without an `s` behind them, in lower case: how large they are in the unit of a symbol, and that.
+/// Names of units in lower case without a plural `s`: their size in the unit of a symbol, and that symbol.
 const WORDS: [(&str, f64, &str); 73] = [
     ("radian", 1.0, "rad"),
     ("degree", 1.0, "°"),
@@ -180,7 +180,7 @@ const WORDS: [(&str, f64, &str); 73] = [
     ("litre", 1.0, "L"),
 ];
 
-/// Prefixes of names.
+/// The prefixes of unit names.
 const NAMED_PREFIXES: [(&str, i32); 20] = [
     ("pico", -12),
     ("nano", -9),
@@ -204,7 +204,8 @@ const NAMED_PREFIXES: [(&str, i32); 20] = [
     ("キロ", 3),
 ];
 
-/// Units of what lessons of mechanics do not compute, or that differ by more than a factor: they are units, and none of ours.
+/// Known units that are not supported, because mechanics lessons do not compute them or because they
+/// differ by more than a factor.
 const OTHER: [&str; 65] = [
     "°C",
     "°F",
@@ -273,7 +274,7 @@ const OTHER: [&str; 65] = [
     "gf",
 ];
 
-/// What a unit without its power is: its size and its dimension.
+/// The size and the dimension of a unit without a power.
 pub(crate) fn symbol(word: &str) -> Option<Dimension> {
     let row = |name: &str| UNITS.iter().chain(&NAMED).find(|row| row.0 == name);
     let lower = word.to_lowercase();
@@ -297,11 +298,11 @@ pub(crate) fn symbol(word: &str) -> Option<Dimension> {
     };
     let powers = row.2.iter().map(|(base, n)| Dimension::base(*base).power(f64::from(*n)));
     let dimension = powers.into_iter().try_fold(Dimension::NUMBER, |all, one| all.product(one?))?;
-    // A larger unit has smaller numbers.
+    // Numbers in a larger unit are smaller.
     Some(dimension.times(1.0 / (row.1 * size)))
 }
 
-/// A symbol behind a prefix that is written out: `millis`, `kiloN`.
+/// A symbol after a prefix that is written as a word: `millis`, `kiloN`.
 fn spelled(word: &str) -> Option<(&'static Row, f64)> {
     let mut found = NAMED_PREFIXES.iter().filter(|(p, _)| p.is_ascii()).filter_map(|(prefix, power)| {
         let (head, tail) = word.split_at_checked(prefix.len())?;
@@ -311,7 +312,7 @@ fn spelled(word: &str) -> Option<(&'static Row, f64)> {
     found.next()
 }
 
-/// A unit by its name in lower case: how large it is, and in which unit.
+/// A unit by its name in lower case: its size, and the symbol in whose unit the size is.
 fn named(word: &str) -> Option<(f64, &'static str)> {
     let one = |word: &str| WORDS.iter().find(|(name, ..)| *name == word).map(|(_, size, of)| (*size, *of));
     let any = |word: &str| one(word).or_else(|| one(word.strip_suffix('s')?));
@@ -325,12 +326,12 @@ fn named(word: &str) -> Option<(f64, &'static str)> {
     })
 }
 
-/// Whether this is a unit of something else.
+/// Whether this is a known unit that is not supported.
 pub(crate) fn is_other(word: &str) -> bool {
     OTHER.contains(&word) || word.len() > 3 && OTHER.contains(&word.to_lowercase().as_str())
 }
 
-/// Letters of scripts that write words without spaces between them.
+/// Whether the letter belongs to a script without spaces between words.
 pub fn is_wide(c: char) -> bool {
     matches!(c, '\u{3005}'..='\u{30ff}' | '\u{3400}'..='\u{9fff}' | '\u{f900}'..='\u{faff}' | '\u{ff66}'..='\u{ff9f}')
 }

@@ -1,4 +1,4 @@
-//! Units: what their names mean, and how a dimension is written.
+//! Units: parsing of unit texts, and formatting of dimensions.
 
 use crate::unit_grammar::unit;
 use crate::unit_table::{A, K, KG, M, S};
@@ -6,7 +6,7 @@ pub use crate::unit_table::{PREFIXES, is_wide};
 use labspec_expr::dimension::{ANGLE, BASES, Dimension};
 use std::f64::consts::PI;
 
-/// The base units, by their places in a [`Dimension`]; the order in which they are written is another.
+/// The base units in the order of a [`Dimension`]; `WRITTEN` is the order in which they are formatted.
 const NAMES: [&str; BASES] = ["rad", "kg", "m", "s", "K", "A"];
 const WRITTEN: [usize; BASES] = [KG, M, S, K, A, ANGLE];
 
@@ -15,35 +15,35 @@ const WRITTEN: [usize; BASES] = [KG, M, S, K, A, ANGLE];
 pub struct UnitText {
     /// Its length in bytes.
     pub length: usize,
-    /// What it means; `None` where it is a unit of something else (`dB`), or can be read in two ways (`N m/rad s`).
+    /// Its dimension, or `None` if it is a known unit that is not supported (`dB`) or is ambiguous (`N m/rad s`).
     pub dimension: Option<Dimension>,
 }
 
-/// What a unit means: `m/s^2`, `N m s/rad`, `kg·m²`, `1/(kg m^2)`, `m s⁻¹`; `None` for what is no unit.
+/// The dimension of a unit: `m/s^2`, `N m s/rad`, `kg·m²`, `1/(kg m^2)`, `m s⁻¹`; `None` if the text is not a supported unit.
 pub fn parse(text: &str) -> Option<Dimension> {
     let text = text.trim();
     let found = read(text)?;
     found.dimension.filter(|_| found.length == text.len())
 }
 
-/// Whether a text is a unit as a whole, of ours or of something else.
+/// Whether the whole text is a unit, supported or not.
 pub fn is_unit(text: &str) -> bool {
     read(text).is_some_and(|found| found.length == text.len())
 }
 
-/// Reads the longest unit expression that a text begins with.
+/// Parses the longest unit expression at the beginning of a text.
 pub fn read(text: &str) -> Option<UnitText> {
     let (rest, dimension) = unit(text).ok()?;
-    // A `1` alone is a number; before a stroke it is a part of a unit.
+    // A `1` alone is a number; before `/` it is a part of a unit.
     let is_number = !rest.is_empty() && text.strip_suffix(rest) == Some("1");
     (!is_number).then_some(UnitText { length: text.len() - rest.len(), dimension })
 }
 
-/// Units that are written for the powers that they stand for.
+/// Units that are preferred to powers of base units.
 const USUAL: [&str; 9] = ["N", "N m", "N/m", "N s/m", "W", "Pa", "N s", "1/s", "m"];
 
-/// How a dimension is written: `mm/s`, `N m`, `deg`; a plain number is `1`. What a factor does that is no power of ten is said in
-/// words.
+/// Formats a dimension: `mm/s`, `N m`, `deg`; a dimensionless number is `1`. A factor that is not a power of
+/// ten is described in words.
 pub fn written(dimension: &Dimension) -> String {
     let usual = USUAL
         .iter()
@@ -68,7 +68,7 @@ pub fn written(dimension: &Dimension) -> String {
     }
 }
 
-/// A factor in few digits.
+/// Formats a factor with few digits.
 fn shortest(x: f64) -> String {
     let text = format!("{x:.3}");
     let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
@@ -181,7 +181,7 @@ mod tests {
         assert_eq!(of("balls"), None);
     }
 
-    /// A text of 100 kB of whatever a unit may begin with is read in no time, without deep recursion.
+    /// A text of 100 kB of characters with which a unit may begin is parsed fast, without deep recursion.
     #[test]
     fn hostile_units_are_read_in_linear_time() {
         for piece in [

@@ -1,4 +1,4 @@
-//! The engine as the language's host: fields are read and written by id and flat index.
+//! The engine as the host of the language: fields are read and written by id and flat index.
 
 use super::embedded::{self, Functions};
 use super::functions;
@@ -6,20 +6,21 @@ use labspec_core::reflect::{self, Elem, FieldId, Object, model, option};
 use labspec_core::{self as core, Data, Error, Model, Planned};
 use labspec_expr::{FieldKey, FunctionId, Heap, Host, Value};
 
-/// A model and its data, while a lab runs.
+/// A model and its data during a run.
 #[derive(Clone, Debug)]
 pub struct World {
-    /// The model; controls write to it.
+    /// The model; controls may write to it.
     pub model: Model,
-    /// The state and what follows from it.
+    /// The state and the fields that depend on it.
     pub data: Data<Planned>,
-    /// The keyframe to return to.
+    /// The keyframe of a reset.
     pub key: Option<usize>,
     /// Functions of the embedding program.
     pub functions: Functions,
-    /// What is shown now, in the order of [`DisplayedLabels`](super::DisplayedLabels)'s labels, where somebody asks.
+    /// The currently displayed values, in the order of the labels of
+    /// [`DisplayedLabels`](super::DisplayedLabels), if programs read them.
     pub displayed: Vec<Value>,
-    /// Numbers of no field, which texts read under [`NUMBERS`]: the members of sweeps.
+    /// Numbers that belong to no field, which programs read under [`NUMBERS`]: the members of sweeps.
     pub numbers: Vec<f64>,
 }
 
@@ -38,7 +39,7 @@ impl Host for World {
     fn set(&mut self, FieldKey(f): FieldKey, index: usize, value: f64) -> Result<(), String> {
         let field = FieldId::new(f as usize).ok_or("the field does not exist")?;
         check_write(field, value)?;
-        // What stays as it is is no change of the model: plans were made for it.
+        // Writing the same value is not a change of the model, which would require a new plan.
         let same = |held: f64| held.to_bits() == value.to_bits();
         if field.info().object != Object::Data
             && reflect::is_writable(field)
@@ -61,7 +62,7 @@ impl Host for World {
             Some(function) => {
                 let before = core::cost(&self.data);
                 let result = functions::access::call(function.run, self, heap, args);
-                // Passes of the engine have counted themselves.
+                // Passes of the engine have already added their cost.
                 let price =
                     if core::cost(&self.data) == before { functions::price(function, self) } else { 0 };
                 core::charge(&mut self.data, price);
@@ -87,10 +88,10 @@ impl Host for World {
 }
 
 impl World {
-    /// Back to a keyframe, or to the default configuration.
+    /// Resets the simulation to a keyframe, or to the default configuration.
     ///
     /// # Errors
-    /// What the engine says.
+    /// Returns the error of the engine.
     pub fn reset_to(&mut self, key: Option<usize>) -> Result<(), Error> {
         match key.and_then(|k| self.model.keys().nth(k)) {
             Some(key) => core::reset_data_keyframe(&self.model, &mut self.data, key),
@@ -99,11 +100,11 @@ impl World {
     }
 }
 
-/// Values that the engine has no meaning for are refused, not ignored.
+/// Refuses values that have no meaning for the engine.
 fn check_write(field: FieldId, value: f64) -> Result<(), String> {
     let refused = |reason: &str| Err(format!("`{}` cannot be {value}: {reason}", field.info().name));
     let is = |allowed: &[i32]| allowed.iter().any(|&a| f64::from(a) == value);
-    // What is left of a flag is a byte in JavaScript, and on or off here.
+    // As in JavaScript, a flag stores a byte; here the byte must be 0 or 1.
     let byte = if value.is_finite() { value.trunc().rem_euclid(256.0) } else { 0.0 };
     match field {
         _ if field.info().elem == Elem::Bool && byte > 1.0 => refused("0 is off, 1 is on"),
@@ -126,8 +127,8 @@ fn check_write(field: FieldId, value: f64) -> Result<(), String> {
 mod tests {
     use crate::Engine;
 
-    /// What is left of a value in a double, an integer and a flag; as in JavaScript's typed arrays, except that flags are not
-    /// other bytes than 0 and 1.
+    /// A double, an integer and a flag convert values as JavaScript's typed arrays do, except that flags
+    /// accept only the bytes 0 and 1.
     #[test]
     fn fields_keep_what_typed_arrays_keep() {
         let mjcf = "<mujoco><worldbody><body name='a'><freejoint/><geom size='1'/></body></worldbody>

@@ -1,8 +1,8 @@
-//! Findings that are known: `--baseline FILE` tells only those that are not in it, `--update-baseline` writes it anew.
+//! The baseline of known findings: `--baseline FILE` reports only findings that are not in it, `--update-baseline` replaces it.
 //!
-//! A finding is known by its file, its code, its words and the line that it stands in, not by the number of that line: text that
-//! moves stays known. A finding about a claim is known by the claim, too, and by what was claimed and what came out: a key that moved, or
-//! another value, is new. Of several alike so many are known as there were.
+//! A finding is identified by its file, its code, its message and the text of its line, not by the line number, so that it is
+//! still recognized when text moves. A finding about a claim is also identified by the claim, by the claimed value and by the
+//! computed value: if the key or a value changes, the finding is new. The baseline stores how many equal findings there were.
 
 use super::common::Failure;
 use super::output_kind::OutputKind;
@@ -20,7 +20,7 @@ const STORED: StoredReport = StoredReport {
     output: OutputKind::Baseline,
 };
 
-/// What a finding is known by.
+/// The identification of a finding.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 struct BaselineKey {
     file: String,
@@ -29,7 +29,7 @@ struct BaselineKey {
     line: String,
 }
 
-/// The claim that a finding is about: whose it is, what was claimed, and what came out.
+/// The claim to which a finding belongs: its owner, and the claimed and the computed value.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 struct ClaimKey {
     claim: String,
@@ -55,7 +55,7 @@ struct BaselineFile {
     findings: Vec<BaselineEntry>,
 }
 
-/// How often each finding is in the baseline.
+/// The number of occurrences of each finding in the baseline.
 #[derive(Debug, Default)]
 pub(super) struct Baseline {
     folder: PathBuf,
@@ -63,7 +63,7 @@ pub(super) struct Baseline {
 }
 
 impl Baseline {
-    /// An empty baseline; files are named from the folder of a file.
+    /// An empty baseline; the paths of files are relative to the folder of `path`.
     pub(super) fn new(path: &Path) -> Baseline {
         let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
@@ -71,7 +71,7 @@ impl Baseline {
     }
 
     /// # Errors
-    /// It cannot be read, or is no baseline.
+    /// The file cannot be read, or is not a baseline.
     pub(super) fn read(path: &Path) -> Result<Baseline, Failure> {
         let mut all = Baseline::new(path);
         for BaselineEntry { key, count, claim } in read_report::<BaselineFile>(path, &STORED)?.findings {
@@ -81,7 +81,7 @@ impl Baseline {
         Ok(all)
     }
 
-    /// Removes the findings of the baseline.
+    /// Removes the findings that are in the baseline, and returns them.
     pub(super) fn apply(&self, findings: &mut Vec<Finding>, files: &[&SourceFile]) -> Vec<Finding> {
         let mut met: BTreeMap<_, usize> = BTreeMap::new();
         let mut baselined = Vec::new();
@@ -133,7 +133,7 @@ impl Baseline {
     }
 }
 
-/// The line that holds a place, without the space around it.
+/// The line that contains a position, without surrounding space.
 fn line(text: &str, at: usize) -> &str {
     let (before, after) = text.split_at_checked(at).unwrap_or((text, ""));
     let start = before.rfind('\n').map_or(0, |i| i + 1);
@@ -167,7 +167,7 @@ mod tests {
         assert!(Baseline::read(&path).unwrap_err().contains("--update-baseline"));
     }
 
-    /// A wrong type, a missing key, a number that is too large: an error with the file and the next step, and no panic.
+    /// A wrong type, a missing key or a too large number gives an error with the file and the next step, and no panic.
     #[test]
     fn a_damaged_baseline_is_refused() {
         let folder = tempfile::tempdir().unwrap();

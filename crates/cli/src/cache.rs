@@ -1,8 +1,7 @@
-//! Results of earlier checks: kept by the content of a lesson, of its models and of this program.
+//! The cache of check results, identified by the content of a lesson, of its models and of this program.
 //!
-//! Each lesson has one file, which holds its last result. The result counts only if the same program found it, in the same
-//! bytes, to the same depth; otherwise the lesson is checked as if nothing had been kept. Where nothing can be written
-//! nothing is kept.
+//! Each lesson has one file with its last result. The result is valid only if the same program computed it, from the same bytes
+//! and at the same check level; otherwise the lesson is checked again. If the cache cannot be written, nothing is stored.
 
 use super::digest;
 use super::output::clear_abandoned;
@@ -17,26 +16,26 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// Where results are kept.
+/// The storage of results.
 #[derive(Debug)]
 pub(super) struct Cache {
-    /// A folder of files.
+    /// A folder with a file for each lesson.
     folder: Option<PathBuf>,
-    /// This process, while it waits for changes.
+    /// The memory of this process, used while it waits for changes.
     memory: Option<Mutex<BTreeMap<String, String>>>,
-    /// What this program is.
+    /// The version and the digest of this program.
     program: String,
 }
 
 impl Cache {
-    /// The user's cache, unless `off`; with `memory`, results are kept in this process, too.
+    /// Opens the user's cache, unless `off`. With `memory`, results are stored in this process as well.
     pub(super) fn open(off: bool, memory: bool) -> Cache {
         let folder = if off { None } else { folder() };
         if let Some(folder) = &folder {
             clear_abandoned(folder, is_unfinished);
         }
         let program = folder.as_deref().map(program);
-        // A program that cannot be known again keeps nothing on a disk.
+        // A program without a digest stores nothing on disk, because its results could not be attributed to it.
         let has_digest = program.as_ref().is_some_and(Option::is_some);
         Cache {
             folder: folder.filter(|_| has_digest),
@@ -49,7 +48,8 @@ impl Cache {
         self.folder.is_none() && self.memory.is_none()
     }
 
-    /// The findings of a lesson: from the cache, or computed and stored, unless `cancelled` says that the check was cut short.
+    /// Returns the findings of a lesson: from the cache, or computed and stored, unless `cancelled` states that
+    /// the check was incomplete.
     pub(super) fn check_cached(
         &self,
         path: &Path,
@@ -74,7 +74,7 @@ impl Cache {
         found
     }
 
-    /// Everything that a result depends on, but for the models.
+    /// Everything on which a result depends, except the models.
     fn key(&self, lesson: &Lesson, models: &Models, level: CheckLevel) -> String {
         let flags =
             [level.programs, level.labs, level.claims, models.folder().names().is_some()].map(u8::from);
@@ -113,7 +113,7 @@ impl Cache {
     }
 }
 
-/// Where results are kept on this machine. A `LABSPEC_CACHE` that is empty, or `off`, says: nowhere.
+/// The folder of the cache on this machine. No results are stored if `LABSPEC_CACHE` is empty or `off`.
 fn folder() -> Option<PathBuf> {
     let set = |name: &str| std::env::var_os(name).map(PathBuf::from);
     let full = |path: &PathBuf| path.is_absolute();
@@ -128,14 +128,14 @@ fn folder() -> Option<PathBuf> {
     Some(caches?.join("labspec"))
 }
 
-/// The name of a lesson's file in the cache.
+/// The name of the lesson's file in the cache.
 fn slot(path: &Path, level: CheckLevel) -> String {
     let real = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
     let flags = [level.programs, level.labs, level.claims].map(u8::from);
     digest::hex_of(&[real.as_os_str().as_encoded_bytes(), &flags])
 }
 
-/// The names of the models of a lesson's labs, once each.
+/// The names of the models of a lesson's labs, without duplicates.
 fn named_models(lesson: &Lesson) -> BTreeSet<&str> {
     let named = |lab: &'_ Lab| matches!(lab.scene(), Some(ModelSource::Model(_)));
     let others = lesson.others.iter().filter_map(|other| other.lab.as_ref().ok());
@@ -143,7 +143,7 @@ fn named_models(lesson: &Lesson) -> BTreeSet<&str> {
     labs.filter_map(|lab| lab.model.as_ref().map(Text::as_str)).collect()
 }
 
-/// A result with what it depends on.
+/// A result with its dependencies.
 #[derive(Serialize, Deserialize)]
 struct CacheEntry<O> {
     key: String,
@@ -151,16 +151,16 @@ struct CacheEntry<O> {
     found: O,
 }
 
-/// A model that a lab of the lesson names.
+/// A model that a lab of the lesson uses.
 #[derive(Serialize, Deserialize)]
 struct UsedModel {
     name: String,
     has_diagnostics: bool,
-    /// `None` where the folder has no such model.
+    /// `None` if the folder has no such model.
     files: Option<Vec<ModelFile>>,
 }
 
-/// A result as a text; `None` for what would not be read back as it is.
+/// The result as text, or `None` if it would not be equal after reading it back.
 fn entry(key: &str, lesson: &Lesson, models: &Models, found: &LabOutcome) -> Option<String> {
     let used = named_models(lesson).into_iter().map(|name| {
         let (files, has_diagnostics) = models.parts(name).unzip();
@@ -172,8 +172,8 @@ fn entry(key: &str, lesson: &Lesson, models: &Models, found: &LabOutcome) -> Opt
     (serde_json::to_string(&again).ok()? == body).then(|| with_digest(&body))
 }
 
-/// The result in a text, if it is whole and about these models. Models that have something to say are compiled, so that
-/// they say it.
+/// The result in a text, if it is complete and belongs to these models. Models with diagnostics are compiled, so
+/// that these are reported.
 fn recall(text: &str, key: &str, lesson: &Lesson, models: &Models) -> Option<LabOutcome> {
     let entry: CacheEntry<LabOutcome> = serde_json::from_str(whole(text)?).ok()?;
     let is_same = |used: &UsedModel| match &used.files {
@@ -190,19 +190,19 @@ fn recall(text: &str, key: &str, lesson: &Lesson, models: &Models) -> Option<Lab
     Some(entry.found)
 }
 
-/// A text below its digest.
+/// A text after its digest.
 fn with_digest(body: &str) -> String {
     format!("{}\n{body}", digest::hex(body.as_bytes()))
 }
 
-/// What stands below its digest, if it is whole.
+/// The text after a digest, if the digest matches.
 fn whole(text: &str) -> Option<&str> {
     let (hash, body) = text.split_once('\n')?;
     (digest::hex(body.as_bytes()) == hash).then_some(body)
 }
 
-/// The version and the digest of this program's file. Reading all of it takes longer than many a check, so its digest is
-/// kept, too, under what the system says of the file.
+/// The version and the digest of this program's file. Reading the whole file takes longer than many checks, so its digest is
+/// cached as well, under the metadata of the file.
 fn program(folder: &Path) -> Option<String> {
     let path = std::env::current_exe().ok()?;
     let slot = format!("program-{}", digest::hex_of(&[identity(&path)?.as_bytes()]));
@@ -218,7 +218,7 @@ fn program(folder: &Path) -> Option<String> {
     Some(format!("results 2 of labspec {} {digest}", env!("CARGO_PKG_VERSION")))
 }
 
-/// What distinguishes a file from every other, by its metadata.
+/// The metadata that identify a file.
 fn identity(path: &Path) -> Option<String> {
     let meta = std::fs::metadata(path).ok()?;
     let mut text = format!("{} {} {:?}", path.display(), meta.len(), meta.modified().ok()?);
@@ -230,14 +230,14 @@ fn identity(path: &Path) -> Option<String> {
     Some(text)
 }
 
-/// Whether a file of the cache was being written: `12-0.new`.
+/// Whether this is the name of a temporary file of the cache: `12-0.new`.
 fn is_unfinished(name: &str) -> bool {
     let number = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
     let inside = name.strip_suffix(".new").and_then(|rest| rest.split_once('-'));
     inside.is_some_and(|(a, b)| number(a) && number(b))
 }
 
-/// Writes a file of the cache, whole or not at all.
+/// Writes a file of the cache atomically.
 fn write(folder: &Path, slot: &str, text: &str) {
     static COUNT: AtomicUsize = AtomicUsize::new(0);
     let new = folder.join(format!("{}-{}.new", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed)));
@@ -304,7 +304,7 @@ mod tests {
         assert!(recall(&text, "other", &lesson, &models).is_none());
     }
 
-    /// A byte that is another one, or an end that is missing: there is no result.
+    /// A changed byte or a truncated file gives no result.
     #[test]
     fn a_damaged_result_is_none() {
         let top = course();
@@ -321,7 +321,7 @@ mod tests {
             }
             assert!(recall(&text[..i], "key", &lesson, &models).is_none(), "{i} bytes");
         }
-        // A whole entry of another make is no result either, and no panic.
+        // A complete entry with another structure gives no result, and no panic.
         for body in [
             "",
             "[]",
@@ -335,7 +335,7 @@ mod tests {
         }
     }
 
-    /// Checked anew whenever something that it depends on is another, and only then.
+    /// A lesson is checked again exactly when something changes on which the result depends.
     #[test]
     fn a_result_is_about_the_same_bytes() {
         let top = course();
@@ -368,7 +368,7 @@ mod tests {
         assert!(!fresh(&cache, &newer, DEEP));
         let other = Cache { program: "two".into(), ..cache };
         assert!(fresh(&other, &newer, DEEP), "the program");
-        // Damaged on the disk: checked anew, and written anew.
+        // A damaged file on disk: the lesson is checked again, and the file is replaced.
         for file in std::fs::read_dir(top.path().join("cache")).unwrap() {
             std::fs::write(file.unwrap().path(), [0xff, 0, 0x80]).unwrap();
         }
@@ -376,7 +376,7 @@ mod tests {
         assert!(!fresh(&other, &newer, DEEP));
     }
 
-    /// A model reports its diagnostics also when the result of its lab is cached.
+    /// A model reports its diagnostics even if the result of its lab is cached.
     #[test]
     fn a_model_reports_its_diagnostics_again() {
         let top = course();

@@ -1,4 +1,4 @@
-//! `labspec check` and `labspec verify`: the arguments, and what is read before the check.
+//! `labspec check` and `labspec verify`: the arguments, and the input that is read before the check.
 
 use super::baseline::Baseline;
 use super::cache::Cache;
@@ -95,7 +95,7 @@ pub(super) struct CheckArguments {
     since: Option<PathBuf>,
 }
 
-/// The files that a check writes besides what it prints, and the earlier record that it compares with.
+/// The files that a check writes in addition to its output, and the earlier record with which it is compared.
 #[derive(Clone, Copy, Default)]
 struct RecordPaths<'a> {
     write: Option<&'a Path>,
@@ -103,9 +103,9 @@ struct RecordPaths<'a> {
     since: Option<&'a Path>,
 }
 
-/// Everything that is read before the check.
+/// The input that is read before the check.
 struct CheckInputs<'a> {
-    /// The name and text of a lesson from standard input.
+    /// The name and the text of a lesson from standard input.
     stdin: Option<(PathBuf, String)>,
     baseline: Option<Baseline>,
     previous: Option<PreviousRecord<'a>>,
@@ -183,7 +183,7 @@ fn run_check(
     })
 }
 
-/// Reads what the arguments name, and makes sure that the outputs can be written and overwrite no input.
+/// Reads the files that the arguments name, and checks that the outputs can be written and overwrite no input.
 fn read_inputs<'a>(a: &Arguments, fixes: bool, paths: RecordPaths<'a>) -> Result<CheckInputs<'a>, Failure> {
     let piped = a.paths.iter().any(|p| p.as_os_str() == STDIN);
     let stdin = piped.then(|| read_stdin().map(|text| (a.stdin_name.clone(), text))).transpose()?;
@@ -195,13 +195,13 @@ fn read_inputs<'a>(a: &Arguments, fixes: bool, paths: RecordPaths<'a>) -> Result
         _ => None,
     };
     check_outputs(a, paths)?;
-    // Read before anything is written: it may be the same file.
+    // Read before anything is written, because it may be the same file.
     let previous = paths.since.map(|file| Ok::<_, Failure>((file, reproduction::read(file)?))).transpose()?;
     let recording = a.judge.as_deref().map(judge::read).transpose()?;
     Ok(CheckInputs { stdin, baseline, previous, recording })
 }
 
-/// Makes sure that the outputs can be written and overwrite no input.
+/// Checks that the outputs can be written and overwrite no input.
 fn check_outputs(a: &Arguments, paths: RecordPaths<'_>) -> Result<(), Failure> {
     let outputs = [
         (OutputKind::Record, paths.write),
@@ -220,7 +220,7 @@ fn check_outputs(a: &Arguments, paths: RecordPaths<'_>) -> Result<(), Failure> {
     look_ahead(&inputs, &outputs)
 }
 
-/// Applies fixes. With `--diff` the command ends here, with this outcome.
+/// Applies fixes. With `--diff`, the command ends here with the returned outcome.
 fn apply_fixes(request: &CheckRequest<'_>, mode: FixMode) -> Result<Option<Outcome>, Failure> {
     let repaired = fix(request, mode)?;
     if mode.diff {
@@ -236,7 +236,7 @@ fn apply_fixes(request: &CheckRequest<'_>, mode: FixMode) -> Result<Option<Outco
     Ok(None)
 }
 
-/// Largest lesson on standard input, in bytes.
+/// The maximum size of a lesson on standard input, in bytes.
 const MAX_STDIN: u64 = 64 << 20;
 
 fn read_stdin() -> Result<String, Failure> {

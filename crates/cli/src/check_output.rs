@@ -1,4 +1,4 @@
-//! The output of a check: what is printed in each format, the files that are written, and the outcome of the command.
+//! The output of a check: what each format prints, the files that are written, and the outcome of the command.
 
 use super::baseline::Baseline;
 use super::common::{Color, Failure, Outcome, interrupted};
@@ -39,18 +39,18 @@ pub(super) enum Format {
     Junit,
 }
 
-/// A record of an earlier check: its file and its content.
+/// The record of an earlier check: its file and its content.
 pub(super) type PreviousRecord<'a> = (&'a Path, Record);
 
-/// The file of the earlier record, and what changed since.
+/// The file of the earlier record, and the changes since then.
 type Changes<'a> = (&'a Path, Vec<since::LessonChange>);
 
-/// What is printed and written.
+/// The options of the output.
 pub(super) struct OutputOptions<'a> {
     pub(super) paths: &'a [PathBuf],
     pub(super) format: Format,
     pub(super) color: Color,
-    /// The command is `verify`: the evidence of every claim is printed.
+    /// Whether the command is `verify`, which prints the evidence of every claim.
     pub(super) with_evidence: bool,
     pub(super) statistics: bool,
     pub(super) show_allowed: bool,
@@ -58,20 +58,20 @@ pub(super) struct OutputOptions<'a> {
     pub(super) new_baseline: Option<&'a Path>,
     /// The request to the reference simulator to write.
     pub(super) judge_request: Option<&'a Path>,
-    /// The recording of the reference simulator that was compared with.
+    /// The recording of the reference simulator that was used for the comparison.
     pub(super) recording: Option<&'a Path>,
     /// The record of this check to write.
     pub(super) record: Option<&'a Path>,
     /// The page to write.
     pub(super) html: Option<&'a Path>,
-    /// The record of an earlier check that is compared with.
+    /// The record of the earlier check that is used for the comparison.
     pub(super) previous: Option<&'a PreviousRecord<'a>>,
 }
 
 /// Writes the files, prints the results, and returns the outcome of the command.
 ///
 /// # Errors
-/// Something cannot be written, or no lesson claims anything that could be verified.
+/// Something cannot be written, or no lesson contains a claim that could be verified.
 pub(super) fn report_results(
     options: &OutputOptions<'_>,
     results: &CourseResults,
@@ -101,7 +101,7 @@ pub(super) fn report_results(
     command_outcome(options, outcome, results)
 }
 
-/// The outcome of the ledger; of `verify` nothing, where nothing is claimed.
+/// The outcome of the ledger; `Nothing` for `verify` if there are no claims.
 fn overall_outcome(options: &OutputOptions<'_>, results: &CourseResults) -> ledger::Outcome {
     let is_claimed = |e: &Entry| {
         let claims = [Subject::Answer, Subject::Quote, Subject::ClosedForm, Subject::Run];
@@ -117,7 +117,7 @@ fn overall_outcome(options: &OutputOptions<'_>, results: &CourseResults) -> ledg
     }
 }
 
-/// Writes the files that were requested. After Ctrl-C only the baseline is written.
+/// Writes the requested files. After Ctrl-C, only the baseline is written.
 fn write_files(
     options: &OutputOptions<'_>,
     results: &CourseResults,
@@ -148,7 +148,7 @@ fn write_files(
     Ok(())
 }
 
-/// The text for people. The findings of lessons are printed already.
+/// The output for people. The findings of lessons have already been printed.
 fn human_text(
     options: &OutputOptions<'_>,
     outcome: ledger::Outcome,
@@ -173,7 +173,7 @@ fn human_text(
     text
 }
 
-/// The outcome of the command.
+/// Returns the outcome of the command.
 ///
 /// # Errors
 /// Nothing could be checked or verified.
@@ -183,7 +183,7 @@ fn command_outcome(
     results: &CourseResults,
 ) -> Result<Outcome, Failure> {
     if options.new_baseline.is_some() {
-        // The current findings are the baseline now: the next check reports new ones.
+        // The current findings have become the baseline, so there are no new ones.
         return Ok(Outcome::Clean);
     }
     let names = || options.paths.iter().map(|p| printable_path(p)).collect::<Vec<_>>().join(", ");

@@ -1,4 +1,4 @@
-//! Which files a command is about: those that were named, and the lessons of folders.
+//! The files of a command: those named by the user, and the lessons in folders.
 
 use super::stdio::complain;
 use labspec::lint::{self, root_of};
@@ -7,7 +7,7 @@ use labspec::spec::{FileKind, kind_of};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// The snapshots below these folders, or named themselves, whose lessons are gone, in a fixed order.
+/// The snapshots whose lessons no longer exist, below these folders or named directly, in a fixed order.
 pub(super) fn lost_snapshots(paths: &[PathBuf]) -> Vec<PathBuf> {
     let is_lost = |path: &Path| {
         let name = path.file_name().and_then(|name| name.to_str());
@@ -27,27 +27,27 @@ pub(super) fn lost_snapshots(paths: &[PathBuf]) -> Vec<PathBuf> {
     all.files.into_iter().map(|(path, _)| path).collect()
 }
 
-/// A file to check, and whether it was named itself.
+/// A file to check, and whether the user named it directly.
 pub(super) type ListedFile = (PathBuf, bool);
-/// What could not be read, and why.
+/// A path that could not be read, and the reason.
 pub(super) type UnreadFile = (PathBuf, String);
 
-/// What stands for standard input.
+/// The path that stands for standard input.
 pub(super) const STDIN: &str = "-";
 
-/// What lies under the paths that a command was given.
+/// The files under the paths of a command.
 #[derive(Default)]
 pub(super) struct Collected {
-    /// The files, in a fixed order.
+    /// The files in a fixed order.
     pub(super) files: Vec<ListedFile>,
-    /// What could not be read, and why.
+    /// Paths that could not be read, with the reasons.
     pub(super) problems: Vec<UnreadFile>,
-    /// What was left out, and why: links that lead out of the root.
+    /// Paths that were skipped, with the reasons: links that lead out of the root.
     pub(super) left_out: Vec<UnreadFile>,
 }
 
 impl Collected {
-    /// Names on standard error what was left out.
+    /// Prints the skipped paths on standard error.
     pub(super) fn complain(&self) {
         for (path, why) in &self.left_out {
             complain(&printable_lines(&format!("labspec: {} is skipped: {why}\n", path.display())));
@@ -55,13 +55,13 @@ impl Collected {
     }
 }
 
-/// The files to check.
+/// Returns the files to check.
 pub(super) fn collect(paths: &[PathBuf]) -> Collected {
     let mut all = Collected::default();
     let is_lesson = |path: &Path| matches!(kind_of(path), FileKind::Lesson | FileKind::Json);
     for path in paths {
         match std::fs::metadata(path) {
-            // Standard input is read by whoever called.
+            // The caller reads standard input.
             _ if path.as_os_str() == STDIN => {}
             Err(e) => all.problems.push((path.clone(), unreadable(path, &e))),
             Ok(meta) if meta.is_dir() => walk(path, &is_lesson, &mut all),
@@ -76,7 +76,7 @@ fn unreadable(path: &Path, e: &std::io::Error) -> String {
     format!("cannot read {}: {e}", printable_path(path))
 }
 
-/// Each file once, however often and under whatever paths it was given: under the first of them.
+/// Removes duplicates of the same file; the first path is used.
 fn once(files: Vec<ListedFile>) -> Vec<ListedFile> {
     let mut places: BTreeMap<PathBuf, usize> = BTreeMap::new();
     let mut all: Vec<ListedFile> = Vec::new();
@@ -91,11 +91,12 @@ fn once(files: Vec<ListedFile>) -> Vec<ListedFile> {
     all
 }
 
-/// Deepest nesting of folders.
+/// The maximum nesting of folders.
 const MAX_DEPTH: usize = 32;
 
-/// The files of a folder that are wanted, but for what is hidden, what `.gitignore` names, and the packages of node. A link to a file
-/// below the root is followed. One that leads out of the root is left out, and a folder is looked through where it lies.
+/// Collects the wanted files of a folder, except hidden files, files listed in `.gitignore`, and `node_modules`. A link to a
+/// file below the root is followed. A link that leads out of the root is skipped. Links to folders are not followed, because
+/// the folder itself is visited.
 fn walk(folder: &Path, wanted: &dyn Fn(&Path) -> bool, all: &mut Collected) {
     let entries = ignore::WalkBuilder::new(folder)
         .follow_links(false)
@@ -128,7 +129,7 @@ fn walk(folder: &Path, wanted: &dyn Fn(&Path) -> bool, all: &mut Collected) {
     }
 }
 
-/// Takes the file that a link leads to, where it lies below the root.
+/// Adds the target of a link if it is below the root.
 fn follow(link: &Path, root: &Path, wanted: &dyn Fn(&Path) -> bool, all: &mut Collected) {
     let real = match link.canonicalize() {
         Ok(real) => real,

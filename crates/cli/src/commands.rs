@@ -1,4 +1,4 @@
-//! The commands of the program: their arguments, and how one is executed.
+//! The commands of the program: their arguments, and the dispatch.
 
 use super::common::{Failure, Outcome, interrupted};
 #[cfg(feature = "lsp")]
@@ -82,7 +82,7 @@ pub(crate) fn run_program() -> ExitCode {
     if cli.command.prints_what_is_finished() {
         listen();
     }
-    // The same stack for all work, whatever the system gives the first thread.
+    // All work uses the same stack size, independent of that of the main thread.
     match threads::run(|| execute(&cli.command)) {
         Ok(_) if interrupted() => ExitCode::from(130),
         Ok(Outcome::Clean) => ExitCode::SUCCESS,
@@ -95,13 +95,14 @@ pub(crate) fn run_program() -> ExitCode {
     }
 }
 
-/// From now on Ctrl-C sets the flag that ends long work; a second one ends the program at once, with exit code 130.
+/// Registers a handler for Ctrl-C, which sets a flag that ends long work. A second Ctrl-C ends the program at
+/// once with exit code 130.
 fn listen() {
     #[cfg(any(unix, windows))]
     {
         use signal_hook::{consts::SIGINT, flag};
         let requested = interrupt::flag();
-        // The handlers run in this order. Where they cannot be set, Ctrl-C ends the program as it always does.
+        // The handlers run in this order. If they cannot be registered, Ctrl-C ends the program as usual.
         if flag::register_conditional_shutdown(SIGINT, 130, requested.clone()).is_ok() {
             let _ = flag::register(SIGINT, requested);
         }
@@ -133,7 +134,7 @@ fn execute(command: &Command) -> Result<Outcome, Failure> {
 }
 
 impl Command {
-    /// Whether Ctrl-C is asked for between pieces of work. All other commands it ends at once.
+    /// Whether the command tests for Ctrl-C between pieces of work. Ctrl-C ends all other commands at once.
     fn prints_what_is_finished(&self) -> bool {
         use Command::{
             Bench, Check, Fmt, Plan, Precision, Record, Run, Scaffold, Snapshot, Stability, Trace, Verify,
@@ -156,10 +157,10 @@ impl Command {
     }
 }
 
-/// Help and version, which are no errors, or what is wrong with the arguments.
+/// Prints the help or the version, which are not errors, or the error in the arguments.
 fn usage(e: &clap::Error) -> ExitCode {
     if e.use_stderr() {
-        // An argument may be the name of a file that someone else chose.
+        // An argument may be a file name that someone else chose.
         complain(&printable_lines(&e.render().to_string()));
         return ExitCode::from(2);
     }

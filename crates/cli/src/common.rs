@@ -1,4 +1,4 @@
-//! What all commands share: the options for models and colours, the outcome, failures, and Ctrl-C.
+//! Items shared by all commands: options for models and colours, the outcome, failures, and Ctrl-C.
 
 use clap::{Args, ValueEnum};
 use labspec::interrupt;
@@ -37,19 +37,19 @@ impl Color {
     }
 }
 
-/// What a command came to.
+/// The outcome of a command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Outcome {
     Clean,
     Findings,
-    /// What was checked is in order, and not everything was asked for.
+    /// What was checked is in order, but not everything was checked.
     Partial,
 }
 
-/// Why a command could not run: a sentence for the user that says what to do next.
+/// The reason why a command could not run: a sentence for the user that states what to do next.
 pub(super) type Failure = String;
 
-/// Whether the person at the terminal has pressed Ctrl-C: print what is finished and stop. The exit code is then 130.
+/// Whether the user has pressed Ctrl-C: the command then prints finished results and stops with exit code 130.
 pub(super) fn interrupted() -> bool {
     interrupt::requested()
 }

@@ -1,4 +1,4 @@
-//! `labspec completions`: what a shell needs to complete commands and options.
+//! `labspec completions`: completion scripts for shells.
 
 use super::common::{Failure, Outcome};
 use super::stdio::print;

@@ -1,4 +1,4 @@
-//! What is to be checked, and what the check of all files found: a request and its results.
+//! The request and the results of the check of all files.
 
 use super::baseline::Baseline;
 use super::common::ModelOptions;
@@ -10,61 +10,61 @@ use labspec::source::SourceFile;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-/// What is checked, and how.
+/// The files to check, and the options of the check.
 pub(super) struct CheckRequest<'a> {
     pub(super) paths: &'a [PathBuf],
-    /// A lesson from standard input: its name and its text.
+    /// The name and the text of a lesson from standard input.
     pub(super) stdin: Option<&'a (PathBuf, String)>,
     pub(super) models: &'a ModelOptions,
     pub(super) level: CheckLevel,
-    /// Which findings are reported, and how severe they are.
+    /// Which findings are reported, and with which severity.
     pub(super) policy: &'a PolicyOptions,
-    /// Findings that are not reported again.
+    /// Known findings, which are not reported again.
     pub(super) baseline: Option<&'a Baseline>,
     /// Whether the basis of every verdict is collected.
     pub(super) with_bases: bool,
     pub(super) cross_check: CrossCheckRequest<'a>,
     /// Whether the plots of the runs of the claims are collected.
     pub(super) with_curves: bool,
-    /// Largest number of threads.
+    /// The maximum number of threads.
     pub(super) jobs: usize,
-    /// Whether the name of a file is shown while the file is checked.
+    /// Whether the name of a file is displayed while the file is checked.
     pub(super) progress: bool,
-    /// The findings of a lesson are printed as soon as it and all lessons before it are checked, with colours or without;
-    /// `None` prints nothing.
+    /// If set, the findings of a lesson are printed as soon as it and all lessons before it are checked;
+    /// the flag enables colours.
     pub(super) findings_in_color: Option<bool>,
 }
 
-/// A comparison with the reference simulator.
+/// The options of a comparison with the reference simulator.
 #[derive(Clone, Copy, Default)]
 pub(super) struct CrossCheckRequest<'a> {
-    /// Whether the runs that it has to make are collected.
+    /// Whether the runs that it must perform are collected.
     pub(super) collect_runs: bool,
-    /// What it recorded.
+    /// Its recording.
     pub(super) recording: Option<&'a Recording>,
 }
 
-/// Everything that was checked, and the results.
+/// The checked files and the results.
 #[derive(Default)]
 pub(super) struct CourseResults {
     pub(super) checked: Vec<Checked>,
-    /// The basis of the verdicts of each lesson, where requested.
+    /// The basis of the verdicts of each lesson, if requested.
     pub(super) bases: Vec<Basis>,
     /// The comparison with the reference simulator for each lesson.
     pub(super) cross_checks: Vec<CrossCheck>,
-    /// The name of the reference simulator, where there is a recording.
+    /// The name of the reference simulator, if there is a recording.
     pub(super) reference_engine: Option<String>,
-    /// The plots of the runs of each lesson's claims, where requested.
+    /// The plots of the runs of each lesson's claims, if requested.
     pub(super) curves: Vec<Vec<Drawn>>,
     /// All findings.
     pub(super) findings: Vec<Finding>,
-    /// The findings that exist only once all lessons are checked: about models, and about several lessons together.
+    /// Findings that require all lessons: about models, and about several lessons together.
     pub(super) course_findings: Vec<Finding>,
     pub(super) ledger: Ledger,
     pub(super) suppressed: SuppressedFindings,
-    /// Files with findings, besides the lessons.
+    /// Files with findings, in addition to the lessons.
     pub(super) sources: Vec<SourceFile>,
-    /// Every file that the results depend on, and the folders of models.
+    /// All files on which the results depend, and the folders of models.
     pub(super) dependencies: BTreeSet<PathBuf>,
 }
 
@@ -77,7 +77,7 @@ pub(super) struct SuppressedFindings {
 }
 
 impl SuppressedFindings {
-    /// Moves the findings of a file here that the policy ignores and that the baseline holds.
+    /// Moves those findings of a file here that the policy ignores or the baseline contains.
     pub(super) fn suppress(
         &mut self,
         policy: &Policy,
@@ -91,7 +91,7 @@ impl SuppressedFindings {
         }
     }
 
-    /// Adds those of a file.
+    /// Adds the suppressed findings of a file.
     pub(super) fn append(&mut self, more: SuppressedFindings) {
         self.ignored.extend(more.ignored);
         self.allowed.extend(more.allowed);

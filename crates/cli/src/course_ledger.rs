@@ -1,4 +1,4 @@
-//! The ledger of a course: the claims of all lessons and models, as far as findings that are not reported leave them.
+//! The ledger of a course: the claims of all lessons and models, adjusted for suppressed findings.
 
 use super::common::Failure;
 use super::course::CourseResults;
@@ -11,21 +11,21 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Everything that only the collection of the files knows and the ledger holds.
+/// The information about files that the ledger needs in addition to the results.
 #[derive(Default)]
 pub(super) struct FileOutcomes {
     /// Lessons whose check ended with a panic.
     pub(super) cancelled: BTreeSet<Arc<str>>,
     /// Models that the user named, and whether they load.
     pub(super) models: Vec<(PathBuf, bool)>,
-    /// Files that were left out, and why.
+    /// Files that were skipped, with the reasons.
     pub(super) left_out: Vec<(PathBuf, String)>,
 }
 
-/// The ledger of everything that was checked.
+/// Builds the ledger of everything that was checked.
 ///
 /// # Errors
-/// The settings near a lesson cannot be read.
+/// The settings of a lesson cannot be read.
 pub(super) fn build_ledger(
     results: &CourseResults,
     files: &FileOutcomes,
@@ -42,7 +42,7 @@ pub(super) fn build_ledger(
     Ok(ledger)
 }
 
-/// Accepts the widgets that the page of a lesson has, according to its settings.
+/// Accepts the widgets of a lesson's page that its settings declare.
 fn accept_page_widgets(
     ledger: &mut Ledger,
     results: &CourseResults,
@@ -59,8 +59,8 @@ fn accept_page_widgets(
     Ok(())
 }
 
-/// A suppressed finding is no reason to report success: an ignored error leaves its file out of the check, and a claim whose
-/// findings are all in the baseline is baselined.
+/// A suppressed finding must not turn a failure into a success: a file with an ignored error counts as not checked, and a claim
+/// whose findings are all in the baseline gets the state "baselined".
 fn settle_suppressed(ledger: &mut Ledger, results: &CourseResults) {
     let problems = |all: &[Finding]| {
         group_by_path(all.iter().filter(|f| f.severity != Severity::Note).cloned().collect())
@@ -77,12 +77,12 @@ fn settle_suppressed(ledger: &mut Ledger, results: &CourseResults) {
     }
 }
 
-/// Whether a finding is about what an entry claims.
+/// Whether a finding concerns the claim of an entry.
 fn is_about(f: &Finding, e: &Entry) -> bool {
     let whole = e.span.is_empty();
     let inside = f.span.start <= e.span.end && e.span.start <= f.span.end;
     let claims = [Subject::Answer, Subject::Option, Subject::Quote, Subject::ClosedForm, Subject::Run];
-    // A false claim has findings of its own; one that was never judged fails with what holds it.
+    // A false claim has its own findings. A claim that was not evaluated fails because of the findings of its container.
     let is_claim = claims.contains(&e.subject);
     match &f.claim {
         Some(claim) if is_claim => check::is_about(claim, e),
@@ -92,7 +92,7 @@ fn is_about(f: &Finding, e: &Entry) -> bool {
     }
 }
 
-/// Findings by the path of their file.
+/// Groups findings by the path of their file.
 pub(super) fn group_by_path(findings: Vec<Finding>) -> BTreeMap<Arc<str>, Vec<Finding>> {
     let mut by_path: BTreeMap<Arc<str>, Vec<Finding>> = BTreeMap::new();
     for f in findings {
@@ -101,7 +101,7 @@ pub(super) fn group_by_path(findings: Vec<Finding>) -> BTreeMap<Arc<str>, Vec<Fi
     by_path
 }
 
-/// A file that was not checked in full, and why.
+/// The entry of a file that was not checked completely, with the reason.
 fn left_out_entry(path: &Path, remark: String) -> Entry {
     let path: Arc<str> = Arc::from(path.display().to_string());
     Entry {
@@ -116,7 +116,7 @@ fn left_out_entry(path: &Path, remark: String) -> Entry {
     }
 }
 
-/// The claim of a model that was named itself.
+/// The entry of a model that the user named.
 fn model_entry(path: &Path, loads: bool) -> Entry {
     let (state, word) =
         if loads { (State::True(Evidence::Computed), "loads") } else { (State::False, "refused") };

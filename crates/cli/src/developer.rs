@@ -1,4 +1,4 @@
-//! `labspec record` and `labspec bench`, for engineers of labspec: their work is in the crate `labspec-developer`.
+//! `labspec record` and `labspec bench`, for engineers of labspec. The crate `labspec-developer` implements them.
 
 use super::common::{Failure, ModelOptions, Outcome};
 use super::stdio::print_json;

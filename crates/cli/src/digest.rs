@@ -1,13 +1,13 @@
-//! SHA-256 in hexadecimal digits: by content results of earlier checks are known again.
+//! SHA-256 in hexadecimal digits, which identifies the content of cached results.
 
 use sha2::{Digest, Sha256};
 
-/// The digest of some bytes.
+/// The digest of bytes.
 pub(super) fn hex(bytes: &[u8]) -> String {
     format!("{:x}", Sha256::digest(bytes))
 }
 
-/// The digest of several texts, which `["ab", "c"]` and `["a", "bc"]` do not share.
+/// The digest of several texts. It distinguishes `["ab", "c"]` from `["a", "bc"]`.
 pub(super) fn hex_of(parts: &[&[u8]]) -> String {
     let mut hash = Sha256::new();
     for part in parts {

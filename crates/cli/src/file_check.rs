@@ -1,4 +1,4 @@
-//! The check of one file: what has to be done with it, and the outcome.
+//! The check of one file: the task and the outcome.
 
 use super::cache::Cache;
 use super::collect::ListedFile;
@@ -20,44 +20,44 @@ use labspec::threads;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// What has to be done with a file.
+/// The task for a file.
 pub(super) enum FileTask {
-    /// Check the lesson, with the models of this number.
+    /// Check the lesson with the models of this index.
     CheckLesson(usize),
-    /// Check the model; the files that it names are below this folder.
+    /// Check the model. The files that it includes are below this folder.
     CheckModel(PathBuf),
-    /// Nothing, for this reason.
+    /// Do not check the file, for this reason.
     Refuse(String),
 }
 
 /// The outcome of a file.
 pub(super) enum FileOutcome {
     Lesson(Box<LessonOutcome>),
-    /// JSON of other programs.
+    /// JSON of another program.
     OtherJson,
     Model {
         loads: bool,
         findings: Vec<Finding>,
         sources: Vec<SourceFile>,
     },
-    /// It could not be read.
+    /// The file could not be read.
     Refused(String),
     /// Ctrl-C was pressed before it was checked.
     Interrupted,
 }
 
-/// A lesson that was checked.
+/// The outcome of a lesson.
 pub(super) struct LessonOutcome {
     pub(super) checked: Checked,
     pub(super) suppressed: SuppressedFindings,
     pub(super) basis: Basis,
     pub(super) curves: Vec<Drawn>,
     pub(super) cross_check: CrossCheck,
-    /// A panic ended the check.
+    /// Whether a panic ended the check.
     pub(super) cancelled: bool,
 }
 
-/// The task of each file, and the models that the lessons share: each folder of models once.
+/// Returns the task of each file, and the models that the lessons share, with each folder of models once.
 ///
 /// # Errors
 /// A folder of models cannot be read.
@@ -67,7 +67,7 @@ pub(super) fn plan_tasks(
     hash: Hash,
 ) -> Result<(Vec<FileTask>, Vec<Models>), Failure> {
     let mut tasks = Vec::new();
-    // Lessons of one folder have one folder of models, which is found and listed once.
+    // Lessons of one folder share a folder of models, which is searched and listed once.
     let mut name_by_lesson_folder: BTreeMap<PathBuf, String> = BTreeMap::new();
     let mut folders: BTreeMap<String, ModelFolder> = BTreeMap::new();
     let mut lessons = Vec::new();
@@ -105,7 +105,7 @@ pub(super) fn plan_tasks(
     Ok((tasks, folders.into_values().map(|folder| Models::with_hash(folder, hash)).collect()))
 }
 
-/// Checks one file. A panic ends the check of this file alone.
+/// Checks one file. A panic ends only the check of this file.
 pub(super) fn check_file(
     request: &CheckRequest<'_>,
     cache: &Cache,
@@ -156,7 +156,7 @@ fn check_lesson(
         Ok(outcome) => outcome,
         Err(panic) => return FileOutcome::Lesson(Box::new(cancelled_lesson(lesson, &panic))),
     };
-    // Runs may have been cut short: an incomplete check is no check.
+    // Runs may have been incomplete, and an incomplete check has no result.
     if interrupted() {
         return FileOutcome::Interrupted;
     }
@@ -185,7 +185,7 @@ fn check_lesson(
     }))
 }
 
-/// The lesson of a file, or of standard input where that stands for the file.
+/// Reads a lesson from its file, or from standard input if that stands for the file.
 fn read_lesson(request: &CheckRequest<'_>, path: &Path, models: &Models) -> Result<Lesson, String> {
     match request.stdin.filter(|(name, _)| name == path) {
         Some((name, text)) => {
@@ -196,7 +196,7 @@ fn read_lesson(request: &CheckRequest<'_>, path: &Path, models: &Models) -> Resu
     }
 }
 
-/// A lesson whose check ended with a panic: the panic is its only finding besides those of its structure.
+/// The outcome of a lesson whose check ended with a panic: the panic is reported in addition to the findings of its structure.
 fn cancelled_lesson(lesson: Lesson, panic: &str) -> LessonOutcome {
     let finding = Finding::error(rules::UNREADABLE_FILE, 0..0, panic_message(panic))
         .why("no lab of this lesson was run to its end, and no claim was checked")
@@ -211,12 +211,13 @@ fn cancelled_lesson(lesson: Lesson, panic: &str) -> LessonOutcome {
     }
 }
 
-/// The message where a panic ended the check of a file.
+/// The message of a panic that ended the check of a file.
 fn panic_message(panic: &str) -> String {
     format!("labspec failed while checking this file: {panic}")
 }
 
-/// Other JSON lies in folders of lessons; a file that was named is always ours.
+/// Whether the file is JSON of another program, which may be in a folder of lessons. A file that the user
+/// named is always checked.
 pub(super) fn is_other_json(lesson: &Lesson) -> bool {
     lesson.findings.iter().any(|f| f.code == "unknown-spec")
 }

@@ -1,6 +1,7 @@
-//! `labspec check --fix`: what has a safe repair is repaired, and every repair is checked before it is written.
+//! `labspec check --fix`: applies safe fixes. Every fix is verified before the file is written.
 //!
-//! Which repairs are kept, and how they are proven, is decided in [`labspec::repair`]. All other bytes of the file stay what they are.
+//! [`labspec::repair`] decides which fixes are applied, and how they are verified. All other bytes of
+//! the file remain unchanged.
 
 use super::collect::collect;
 use super::common::{Failure, interrupted};
@@ -20,26 +21,26 @@ use labspec::spec::{FileKind, Lesson, kind_of};
 use similar::TextDiff;
 use std::path::Path;
 
-/// What is repaired, and whether it is written.
+/// The options of `--fix`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FixMode {
-    /// Guesses, too.
+    /// Whether fixes that are guesses are applied as well.
     pub(super) guesses: bool,
-    /// Show what would change, and change nothing.
+    /// Whether changes are only displayed.
     pub(super) diff: bool,
 }
 
-/// How many repairs were made, in how many files.
+/// The number of applied fixes, and of changed files.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Repaired {
     pub(super) fixes: usize,
     pub(super) files: usize,
 }
 
-/// Repairs every lesson.
+/// Applies fixes to all lessons.
 ///
 /// # Errors
-/// A file cannot be written. One that cannot be read is left to the check.
+/// A file cannot be written. A file that cannot be read is left to the check.
 pub(super) fn fix(request: &CheckRequest<'_>, mode: FixMode) -> Result<Repaired, Failure> {
     let mut policies = Policies::new(request.policy)?;
     let mut repaired = Repaired::default();
@@ -84,7 +85,7 @@ pub(super) fn fix(request: &CheckRequest<'_>, mode: FixMode) -> Result<Repaired,
     Ok(repaired)
 }
 
-/// What changes in a file, as `diff -u` shows it.
+/// The changes of a file in the format of `diff -u`.
 fn difference(path: &Path, old: &str, new: &str) -> String {
     let name = printable_path(path);
     let diff = TextDiff::from_lines(old, new);

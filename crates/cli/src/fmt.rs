@@ -49,14 +49,14 @@ pub(super) fn fmt(a: &Arguments) -> Result<Outcome, Failure> {
                 }
                 print(&format!("{}: {text}\n", printable_path(&path)))?;
             }
-            // One file that cannot be read or written says nothing about the others.
+            // A file that cannot be read or written does not affect the others.
             Err(failure) => failures.push(failure),
         }
     }
     if failures.is_empty() { Ok(outcome) } else { Err(failures.join("\nlabspec: ")) }
 }
 
-/// Lays out one file; what to say about it, when there is anything to say.
+/// Formats one file; returns a message for the user, if there is one.
 fn one(a: &Arguments, path: &Path, named: bool) -> Result<Option<String>, Failure> {
     let file = SourceFile::read(path)?;
     let folder = model_folder(&a.models, path)?;
@@ -69,7 +69,7 @@ fn one(a: &Arguments, path: &Path, named: bool) -> Result<Option<String>, Failur
     if done.changed == 0 {
         return Ok(None);
     }
-    // The file as it would be is read once more before anything is replaced.
+    // The formatted text is parsed again before the file is replaced.
     let again = reload_lesson(&lesson, &done.text, &folder);
     if !format::says_the_same(&lesson, &again) {
         return Err(format!(

@@ -1,6 +1,6 @@
-//! `--judge-request FILE` and `--judge FILE`: the real library as a second judge.
+//! `--judge-request FILE` and `--judge FILE`: comparison with the real MuJoCo library.
 //!
-//! We write what it is to run, `tests/judge/record.mjs` runs it, and what that has recorded is read here.
+//! labspec writes a request, `tests/judge/record.mjs` runs it, and this module reads the recording.
 
 use super::common::Failure;
 use super::course::CourseResults;
@@ -18,12 +18,12 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// Bytes of a recording, at most.
+/// The maximum size of a recording in bytes.
 const MOST: u64 = 64 << 20;
-/// The version of both forms.
+/// The version of both formats.
 const VERSION: u64 = 1;
 
-/// What a judge is asked.
+/// The request to the reference simulator.
 #[derive(Serialize)]
 struct JudgeRequest<'c> {
     request: &'c str,
@@ -32,7 +32,7 @@ struct JudgeRequest<'c> {
     runs: Vec<RequestedRun<'c>>,
 }
 
-/// A run that it is asked to make; or why it is not.
+/// A requested run, or the reason why it is not requested.
 #[derive(Serialize)]
 struct RequestedRun<'c> {
     file: String,
@@ -45,7 +45,7 @@ struct RequestedRun<'c> {
     refused: Option<&'c str>,
 }
 
-/// What a judge has recorded, as it writes it.
+/// The recording as the reference simulator writes it.
 #[derive(Default, Deserialize)]
 #[serde(default)]
 struct RecordingFile {
@@ -55,7 +55,7 @@ struct RecordingFile {
     runs: Field<Vec<Field<RecordingRow>>>,
 }
 
-/// A run in it.
+/// A run in the recording.
 #[derive(Default, Deserialize)]
 #[serde(default)]
 struct RecordingRow {
@@ -69,7 +69,7 @@ struct RecordingRow {
     broke: Option<Field<String>>,
 }
 
-/// A number, or the name of what JSON has no number for.
+/// A number, or the name of a value that JSON cannot represent.
 #[derive(Deserialize)]
 #[serde(untagged)]
 enum RecordedNumber {
@@ -77,7 +77,7 @@ enum RecordedNumber {
     Named(String),
 }
 
-/// A field of a file that somebody else wrote. One of another type is an error that names it, not one of the whole file.
+/// A field of a file from another program. A wrong type is an error of this field, not of the whole file.
 #[derive(Deserialize)]
 #[serde(untagged)]
 enum Field<T> {
@@ -100,7 +100,7 @@ impl<T> Field<T> {
     }
 }
 
-/// What the judge says of all lessons.
+/// The results of the comparison for all lessons.
 #[derive(Default, Serialize)]
 #[serde(rename_all = "camelCase")]
 struct JudgeReport<'c> {
@@ -134,7 +134,7 @@ struct Unjudged<'c> {
     reason: &'c str,
 }
 
-/// Writes what a judge is asked.
+/// Writes the request to the reference simulator.
 ///
 /// # Errors
 /// The file cannot be written.
@@ -159,7 +159,7 @@ pub(super) fn write_request(file: &Path, results: &CourseResults) -> Result<(), 
 /// Reads a recording.
 ///
 /// # Errors
-/// It cannot be read, or is none.
+/// The file cannot be read, or is not a recording.
 pub(super) fn read(file: &Path) -> Result<Recording, Failure> {
     let no = |why: &str| {
         format!(
@@ -209,7 +209,7 @@ fn number(of: &RecordedNumber) -> Option<f64> {
     }
 }
 
-/// What is recorded of a run.
+/// The recorded values of a run.
 fn recorded(row: &RecordingRow) -> Result<RecordedRun, String> {
     let mut recorded = RecordedRun::default();
     for (name, value) in row.values.valid().ok_or("it has no \"values\"")? {
@@ -260,12 +260,12 @@ impl<'c> JudgeReport<'c> {
     }
 }
 
-/// Whether something that is claimed was not judged for want of a recording.
+/// Whether a claim could not be compared because a recording is missing or out of date.
 pub(super) fn is_partial(results: &CourseResults) -> bool {
     results.cross_checks.iter().any(|h| h.stale + h.missing > 0)
 }
 
-/// What the judge says, for people.
+/// The results of the comparison, for people.
 pub(super) fn summary(file: &Path, engine: &str, results: &CourseResults) -> String {
     let all = JudgeReport::new(engine, results);
     let (compared, differing, turned) = (all.compared, all.differing.len(), all.turned);
@@ -277,7 +277,7 @@ pub(super) fn summary(file: &Path, engine: &str, results: &CourseResults) -> Str
     } else {
         "differs from"
     };
-    // Where something is left out, "all" is said of what was judged.
+    // If something was left out, "all" refers only to what was compared.
     let (left, judged) = match left(all.not_judged) {
         Some(left) => (format!("; not judged: {left}"), "judged "),
         None => (String::new(), ""),
@@ -313,12 +313,12 @@ pub(super) fn summary(file: &Path, engine: &str, results: &CourseResults) -> Str
     printable_lines(&text).into_owned()
 }
 
-/// What the judge says, for programs.
+/// The results of the comparison, for programs.
 pub(super) fn machine(engine: &str, results: &CourseResults) -> Value {
     to_value(&JudgeReport::new(engine, results))
 }
 
-/// `2 searches, 1 range, 5 closed forms`; nothing where nothing is left.
+/// `2 searches, 1 range, 5 closed forms`, or `None` if nothing was left out.
 fn left(left: Left) -> Option<String> {
     let kinds = [
         (left.searches, "search", "searches"),

@@ -1,4 +1,4 @@
-//! Which lab a command runs, and how it is handled: `--set LABEL=VALUE`, `--press LABEL@TIME`.
+//! The lab of a command, and the interactions with it: `--set LABEL=VALUE`, `--press LABEL@TIME`.
 
 use super::common::{Failure, ModelOptions};
 use super::output::{PlannedOutput, look_ahead};
@@ -7,7 +7,7 @@ use labspec::run::settings;
 use labspec::spec::Lab;
 use labspec_expr::Value;
 
-/// The first arguments of every command that runs a lab.
+/// The common arguments of all commands that run a lab.
 #[derive(clap::Args, Debug)]
 pub(super) struct LabArguments {
     /// LAB.json, LESSON.md#2 (its second lab), LESSON.md#quiz-id.1 (a question's sim), or MODEL.xml
@@ -27,7 +27,7 @@ impl LabArguments {
         target::open(&self.lab, &self.models)
     }
 
-    /// Looks whether these files can be written, and would not overwrite what was read.
+    /// Checks that these files can be written and would not overwrite an input.
     pub(super) fn look_ahead(&self, target: &LabTarget, outputs: &[PlannedOutput]) -> Result<(), Failure> {
         look_ahead(&target::read_for(&self.lab, &self.models, &target.lab), outputs)
     }
@@ -41,13 +41,13 @@ impl LabArguments {
     }
 }
 
-/// `LABEL=VALUE`. Both may hold equals signs: it is split where the label of a control ends, else at the last sign.
+/// Parses `LABEL=VALUE`. Both parts may contain `=`: the text is split after the label of a control, otherwise at the last `=`.
 fn assignment(lab: &Lab, text: &str) -> Result<(String, Value), Failure> {
     let (label, value) = split(lab, text, '=').ok_or_else(|| format!("--set {text}: write LABEL=VALUE"))?;
     Ok((label.to_string(), settings::written(lab, label, value.trim())))
 }
 
-/// `LABEL@TIME`, or a label alone for the start.
+/// Parses `LABEL@TIME`, or only a label for a press at the start.
 fn press(lab: &Lab, text: &str) -> Result<(String, f64), Failure> {
     match split(lab, text, '@').filter(|_| lab.control(text).is_none()) {
         None => Ok((text.to_string(), 0.0)),
@@ -58,7 +58,7 @@ fn press(lab: &Lab, text: &str) -> Result<(String, f64), Failure> {
     }
 }
 
-/// The label of a control and what stands behind the mark after it.
+/// Splits a text at `mark` into the label of a control and the rest.
 fn split<'t>(lab: &Lab, text: &'t str, mark: char) -> Option<(&'t str, &'t str)> {
     let places = text.match_indices(mark).map(|(i, m)| (&text[..i], &text[i + m.len()..]));
     let at_label = places.into_iter().find(|(label, _)| lab.control(label).is_some());

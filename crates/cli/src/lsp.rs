@@ -26,7 +26,7 @@ pub(super) struct Arguments {
 
 pub(super) fn lsp(a: &Arguments) -> Result<Outcome, Failure> {
     Policies::new(&a.policy)?;
-    // What cannot be read is reported once, on standard error: editors keep it in their log.
+    // Each problem is reported once on standard error, which editors write to their log.
     let reported = RefCell::new(BTreeSet::new());
     let say = |why: Failure| {
         if reported.borrow_mut().insert(why.clone()) {
@@ -39,7 +39,7 @@ pub(super) fn lsp(a: &Arguments) -> Result<Outcome, Failure> {
             ModelFolder::unknown()
         })
     };
-    // Settings may change while the editor is open: they are read anew where files may have changed.
+    // Settings may change while the editor is open, so they are read again when files may have changed.
     let policies: RefCell<BTreeMap<PathBuf, Policy>> = RefCell::default();
     let mut policy = |path: &Path, findings: &mut Vec<Finding>| {
         if let Some(policy) = policies.borrow().get(path) {

@@ -1,4 +1,4 @@
-//! What `check` and `verify` print for programs: findings, the summary, every lesson, and the ledger.
+//! The output of `check` and `verify` for programs: findings, the summary, all lessons, and the ledger.
 
 use super::course::CourseResults;
 use super::report_json::{MeasureRow, NonFinite, nonfinite, object, place};
@@ -20,9 +20,9 @@ pub(super) struct CheckReport<'a> {
     suppressed: SuppressedRow<'a>,
     lessons: Vec<LessonRow<'a>>,
     ledger: Vec<EntryRow<'a>>,
-    /// What changed since an earlier record, where one was named.
+    /// The changes since an earlier record, if one was named.
     pub(super) since: Option<&'a [LessonChange]>,
-    /// What the reference simulator gives, where its recording was named.
+    /// The results of the reference simulator, if a recording was named.
     pub(super) judge: Option<Value>,
 }
 
@@ -51,7 +51,7 @@ struct AllowedRow<'a> {
     place: Value,
 }
 
-/// The report of a check, and what it comes to. `sources` are the files that places lie in.
+/// Builds the report of a check and its outcome. `sources` are the files to which locations refer.
 pub(super) fn check_report<'a>(
     outcome: Outcome,
     results: &'a CourseResults,
@@ -127,7 +127,7 @@ fn lesson(c: &Checked) -> LessonRow<'_> {
     }
 }
 
-/// What became of the snapshot of a lab.
+/// The comparison of a lab with its snapshot.
 #[derive(Serialize)]
 pub(super) struct SnapshotRow<'a> {
     lab: &'a str,
@@ -138,7 +138,7 @@ pub(super) struct SnapshotRow<'a> {
     reason: &'a str,
 }
 
-/// The first value that differs. Times in s.
+/// The first value that differs. Times are in s.
 #[derive(Serialize)]
 struct DivergenceRow<'a> {
     run: &'a str,
@@ -172,7 +172,7 @@ pub(super) fn snapshot_row(k: &SnapshotResult) -> SnapshotRow<'_> {
     }
 }
 
-/// A lab; what its runs covered in s.
+/// A lab; the simulated time that its runs cover is in s.
 #[derive(Serialize)]
 struct LabRow<'a> {
     address: String,
@@ -284,7 +284,7 @@ fn answer(a: &Answer) -> AnswerRow<'_> {
     }
 }
 
-/// A quote; the value in the unit of the text.
+/// A quote; its value is in the unit of the text.
 #[derive(Serialize)]
 struct QuoteRow<'a> {
     text: &'a str,

@@ -1,5 +1,5 @@
-//! The `labspec` program: one file per command, each a thin layer over the libraries. Exit code 0: clean; 1: findings; 2: could not
-//! run or print; 3: not everything asked for was checked; 130: stopped by Ctrl-C.
+//! The `labspec` program: one file per command, each a thin layer over the libraries. Exit code 0: clean; 1: findings; 2: could
+//! not run or print; 3: not everything requested was checked; 130: stopped by Ctrl-C.
 
 mod baseline;
 mod cache;

@@ -1,5 +1,5 @@
-//! Files that are written: beside the old one and renamed, so that a full disk or a crash loses nothing; and never
-//! over a file that was read, nor two outputs into one file.
+//! Writing of files. A file is written under a temporary name and renamed, so that a full disk or a crash loses nothing. An
+//! output never overwrites an input, and two outputs never use the same file.
 
 use super::common::Failure;
 use super::output_kind::OutputKind;
@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Writes a file whole or not at all. What is there is replaced when it is of the same kind, and never otherwise.
+/// Writes a file atomically. An existing file is replaced only if it is of the same kind.
 pub(super) fn write_file(path: &Path, kind: OutputKind<'_>, text: &str) -> Result<(), Failure> {
     write_with(path, kind, |out| out.write_all(text.as_bytes()))
 }
@@ -26,7 +26,7 @@ pub(super) fn remove_file(path: &Path, kind: OutputKind<'_>) -> Result<(), Failu
     fs::remove_file(path).map_err(cannot)
 }
 
-/// A picture in pixels, twice as many across as its size says.
+/// Writes a picture as PNG, with two pixels per unit of the SVG.
 pub(super) fn write_png(path: &Path, svg: &str) -> Result<(), Failure> {
     let bytes = pixels(svg).map_err(|e| format!("cannot draw {}: {e}", printable_path(path)))?;
     write_with(path, OutputKind::Picture, |out| out.write_all(&bytes))
@@ -42,7 +42,7 @@ fn pixels(_: &str) -> Result<Vec<u8>, String> {
     Err("this program was built without the feature `png`; --svg draws the same picture".into())
 }
 
-/// The same, piece by piece.
+/// As [`write_file`], with a function that writes the content.
 pub(super) fn write_with(
     path: &Path,
     kind: OutputKind<'_>,
@@ -72,21 +72,21 @@ fn replace(
     }
     let mut out = BufWriter::with_capacity(1 << 16, file);
     let done = write(&mut out).and_then(|()| out.flush());
-    // Dropping the buffer would write once more to a disk that has just failed.
+    // Dropping the buffer would write again to a disk that has just failed.
     let (file, _) = out.into_parts();
     done?;
     file.sync_all()?;
     drop(file);
     fs::rename(&temporary.path, &place)?;
     temporary.renamed = true;
-    // The name itself lies in the folder; not every system can sync one.
+    // The folder contains the new name, so it is synced as well; not every system supports this.
     if let Some(folder) = place.parent() {
         let _ = File::open(folder).and_then(|f| f.sync_all());
     }
     Ok(())
 }
 
-/// How long a temporary file that grows no more may lie there, in seconds: another run may still be writing it.
+/// The age in seconds after which an unchanged temporary file counts as abandoned. A younger one may belong to another run.
 const ABANDONED: u64 = 600;
 
 /// Whether a file has the name of a [`Temporary`]: `.labspec-12-0.tmp`.
@@ -96,8 +96,8 @@ fn is_temporary(name: &str) -> bool {
     inside.and_then(|rest| rest.split_once('-')).is_some_and(|(a, b)| number(a) && number(b))
 }
 
-/// Removes what runs that were killed have left in a folder: temporary files, by their names, whose process is gone, or, where that is
-/// not known, that nobody has written for ten minutes. Each folder is looked through once.
+/// Removes the temporary files of killed runs from a folder: files with such a name whose process does not exist any more, or,
+/// if that is unknown, that have not been written for ten minutes. Each folder is searched once.
 pub(super) fn clear_abandoned(folder: &Path, is_temporary: fn(&str) -> bool) {
     static SEEN: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
     if !SEEN.lock().is_ok_and(|mut seen| seen.insert(folder.to_path_buf())) {
@@ -116,12 +116,12 @@ pub(super) fn clear_abandoned(folder: &Path, is_temporary: fn(&str) -> bool) {
     }
 }
 
-/// Whether no process of this number runs on this machine, where the system tells.
+/// Whether the system states that no process with this id is running.
 fn is_gone(process: u32) -> bool {
     Path::new("/proc/self").exists() && !Path::new(&format!("/proc/{process}")).exists()
 }
 
-/// A file that is removed again unless it got its name.
+/// A temporary file, which is removed when dropped unless it was renamed.
 struct Temporary {
     path: PathBuf,
     renamed: bool,
@@ -152,7 +152,7 @@ impl Drop for Temporary {
     }
 }
 
-/// What an administrator writes stays its owner's, where that is allowed.
+/// Keeps the owner of a file that another user replaces, such as an administrator, if the system allows it.
 fn keep_owner(path: &Path, old: &fs::Metadata) {
     #[cfg(unix)]
     {
@@ -165,7 +165,7 @@ fn keep_owner(path: &Path, old: &fs::Metadata) {
     let _ = (path, old);
 }
 
-/// Where a path leads: links are followed, so that they stay links, also one to a file that does not exist yet.
+/// The target of a path. Links are resolved so that they remain links, including links to files that do not exist yet.
 fn place(path: &Path) -> io::Result<PathBuf> {
     let mut path = path.to_path_buf();
     for _ in 0..40 {
@@ -186,7 +186,7 @@ fn place(path: &Path) -> io::Result<PathBuf> {
     Err(io::Error::new(io::ErrorKind::InvalidInput, "its links form a circle"))
 }
 
-/// What is there now, if it is a file that may be written. A pipe or a device is never opened: it may block.
+/// The metadata of the existing file, if it can be written. A pipe or a device is never opened, because that may block.
 fn writable(place: &Path) -> io::Result<Option<fs::Metadata>> {
     let meta = match fs::metadata(place) {
         Ok(meta) => meta,
@@ -197,12 +197,12 @@ fn writable(place: &Path) -> io::Result<Option<fs::Metadata>> {
         let what = if meta.is_dir() { "it is a folder" } else { "it is a device or a pipe, not a file" };
         return Err(io::Error::new(io::ErrorKind::InvalidInput, what));
     }
-    // Renaming would replace a file that is read-only.
+    // Renaming would replace even a read-only file.
     OpenOptions::new().write(true).open(place)?;
     Ok(Some(meta))
 }
 
-/// A file, known by its place and, where it exists, by what the system knows it by.
+/// The identity of a file: its path and, if it exists, its number in the file system.
 #[derive(Debug, PartialEq, Eq)]
 struct Identity {
     place: PathBuf,
@@ -234,13 +234,13 @@ fn number(meta: &fs::Metadata) -> Option<(u64, u64)> {
     }
 }
 
-/// An output that was asked for: what it is, and the file.
+/// A requested output: its kind and its file.
 pub(super) struct PlannedOutput {
     pub(super) kind: OutputKind<'static>,
     pub(super) path: PathBuf,
 }
 
-/// Those of the outputs that were asked for.
+/// The outputs that were requested.
 pub(super) fn wanted(outputs: &[(OutputKind<'static>, &Option<PathBuf>)]) -> Vec<PlannedOutput> {
     let asked = outputs
         .iter()
@@ -248,14 +248,14 @@ pub(super) fn wanted(outputs: &[(OutputKind<'static>, &Option<PathBuf>)]) -> Vec
     asked.collect()
 }
 
-/// Looks at all outputs of a command before it begins.
+/// Checks all outputs of a command before it begins.
 ///
 /// # Errors
-/// One would overwrite a file that is read or another output, or cannot be written.
+/// An output would overwrite an input or another output, or cannot be written.
 pub(super) fn look_ahead(read: &[PathBuf], outputs: &[PlannedOutput]) -> Result<(), Failure> {
     let inputs: Vec<Identity> = read.iter().filter_map(|p| Identity::read(p).ok()).collect();
     let mut written: Vec<(Identity, String)> = Vec::new();
-    // Where standard output itself goes to a file.
+    // Standard output may be redirected to a file.
     #[cfg(unix)]
     if let Some(meta) = fs::metadata("/dev/stdout").ok().filter(fs::Metadata::is_file) {
         written.push((Identity { place: PathBuf::new(), number: number(&meta) }, "the output".into()));
@@ -290,12 +290,13 @@ pub(super) fn look_ahead(read: &[PathBuf], outputs: &[PlannedOutput]) -> Result<
 mod tests {
     use super::*;
 
-    /// A run that was killed between writing and renaming leaves its file; the next one that writes there removes it.
+    /// A run that was killed between writing and renaming leaves a temporary file, which the next run removes.
     #[test]
     fn what_a_killed_run_has_left_is_cleared() {
         let folder = tempfile::tempdir().unwrap();
         let at = |name: &str| folder.path().join(name);
-        // No process has the number of the first; the second is this one's, and still being written; the others are no temporary files.
+        // The first name has a process id that does not exist. The second belongs to this process, which may still write it.
+        // The others are not names of temporary files.
         let temporary = format!(".labspec-{}-77.tmp", std::process::id());
         let remaining = [
             temporary.as_str(),

@@ -1,54 +1,55 @@
-//! What a file is that the program writes, and by what an old one is recognized: a writer replaces files of its own kind and no others.
+//! The kinds of files that the program writes, and how an existing file of a kind is recognized. Only files of
+//! the same kind are replaced.
 
 use labspec::report::number_in_table;
 use std::fs::{self, File};
 use std::io::{BufReader, Read, Seek, SeekFrom};
 use std::path::Path;
 
-/// What is written.
+/// The kind of an output.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum OutputKind<'t> {
-    /// Findings that are known.
+    /// A baseline of known findings.
     Baseline,
-    /// What every verdict rests on.
+    /// A record of the basis of every verdict.
     Record,
-    /// What a second judge is to run.
+    /// A request to the reference simulator.
     JudgeRequest,
-    /// A page with the evidence.
+    /// An HTML page with the evidence.
     Page,
-    /// A run, as JSON.
+    /// A run as JSON.
     Run,
-    /// A run, as a table.
+    /// A run as a table.
     Table,
-    /// Settings and their errors, as a table.
+    /// A table of settings and their errors.
     Settings,
-    /// A plot, as SVG.
+    /// A plot as SVG.
     Plot,
-    /// A plot, in pixels.
+    /// A plot as PNG.
     Picture,
-    /// What the labs of a lesson show.
+    /// The stored output of the labs of a lesson.
     Snapshot,
-    /// A page of the reference, or a schema.
+    /// A reference page or a schema.
     Reference,
-    /// A file that is not there yet.
+    /// A file that does not exist yet.
     New,
-    /// A lesson with a change. This is its text as it was read: whatever else stands in the file by now stays.
+    /// A changed lesson, with its text as it was read. A file that has changed since is not replaced.
     Lesson(&'t str),
 }
 
-/// Files that labspec reads: an output never replaces one of these, whoever wrote it.
+/// Extensions of files that labspec reads. An output never replaces such a file, even if labspec wrote it.
 const READ: [&str; 14] = [
     "md", "markdown", "mdx", "qmd", "rmd", "xml", "mjcf", "urdf", "stl", "obj", "msh", "png", "toml", "snap",
 ];
-/// Bytes of an output in JSON that is read whole to be recognized, at most.
+/// The maximum size of a JSON output that is read completely to recognize it.
 const MOST: u64 = 64 << 20;
-/// Bytes by which others are recognized.
+/// The number of bytes by which other outputs are recognized.
 const HEAD: u64 = 4 << 10;
 /// The first columns of a table of settings.
 const SETTINGS: [&str; 4] = ["integrator", "solver", "timestep", "own"];
 
 impl OutputKind<'_> {
-    /// Which option asks for it.
+    /// The option that requests this output.
     pub(super) fn option(self) -> &'static str {
         match self {
             OutputKind::Baseline => "--update-baseline",
@@ -66,7 +67,7 @@ impl OutputKind<'_> {
         }
     }
 
-    /// Whether a file has the name of something that labspec reads, and was not drawn here.
+    /// Whether a file has the extension of a file that labspec reads, and was not drawn by labspec.
     pub(super) fn is_input(self, place: &Path) -> bool {
         let ending = place.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
         match self {
@@ -75,7 +76,7 @@ impl OutputKind<'_> {
         }
     }
 
-    /// Why this may not replace the file that lies there; `None` where it may.
+    /// Why this output may not replace an existing file, or `None` if it may.
     pub(super) fn refuses(self, place: &Path, old: &fs::Metadata) -> Option<&'static str> {
         match self {
             OutputKind::New => Some("a file already exists there"),
@@ -92,7 +93,7 @@ impl OutputKind<'_> {
         }
     }
 
-    /// Whether a file looks as this writes it.
+    /// Whether a file looks like an output of this kind.
     fn wrote(self, place: &Path, size: u64) -> bool {
         let head = head(place);
         let text = head.trim_start_matches('\u{feff}').trim_start();
@@ -134,14 +135,14 @@ impl OutputKind<'_> {
     }
 }
 
-/// The first bytes of a file, as text.
+/// The first bytes of a file as text.
 fn head(place: &Path) -> String {
     let mut bytes = Vec::new();
     let read = File::open(place).and_then(|file| file.take(HEAD).read_to_end(&mut bytes));
     read.map_or(String::new(), |_| String::from_utf8_lossy(&bytes).into_owned())
 }
 
-/// The last bytes of a file, as text.
+/// The last bytes of a file as text.
 fn tail(place: &Path, size: u64) -> String {
     let mut bytes = Vec::new();
     let read = File::open(place).and_then(|mut file| {
@@ -151,7 +152,7 @@ fn tail(place: &Path, size: u64) -> String {
     read.map_or(String::new(), |_| String::from_utf8_lossy(&bytes).into_owned())
 }
 
-/// Whether a file is a picture that this program drew. Other pictures may be height fields of a model.
+/// Whether this program drew a picture. Other pictures may be height fields of a model.
 #[cfg(feature = "png")]
 fn drawn_here(place: &Path) -> bool {
     let mut start = Vec::new();
@@ -164,8 +165,9 @@ fn drawn_here(_: &Path) -> bool {
     false
 }
 
-/// Whether a file is a table of ours, read to its end: columns that are called as ours are, and in every row as many cells, the first
-/// of which is a time or an integrator as we write it. Somebody's own measurements are none.
+/// Whether a file is a table of labspec, which is read to its end: the columns have the names that labspec uses, and
+/// every row has as many cells, the first of which is a time or an integrator in labspec's format. A user's own
+/// measurements are not such a table.
 fn is_table(place: &Path) -> bool {
     let Ok(file) = File::open(place) else { return false };
     let mut rows = Rows { bytes: BufReader::new(file).bytes(), most: MOST_OF_ROW };
@@ -192,14 +194,14 @@ fn is_table(place: &Path) -> bool {
     }
 }
 
-/// `readout/height (m)`, `plot/0/height`.
+/// Whether a column has a name like `readout/height (m)` or `plot/0/height`.
 fn is_column(name: &str) -> bool {
     let plot = || name.strip_prefix("plot/")?.split_once('/');
     let is_plot = plot().is_some_and(|(n, _)| !n.is_empty() && n.bytes().all(|b| b.is_ascii_digit()));
     name.starts_with("readout/") || is_plot
 }
 
-/// A number as it is written here. Times go back where a run was reset.
+/// Whether a cell is a number in the format of a table. Times may decrease where a run was reset.
 fn is_time(cell: &str) -> bool {
     cell.parse::<f64>().is_ok_and(|time| number_in_table(time) == cell)
 }
@@ -208,17 +210,17 @@ fn is_name(cell: &str) -> bool {
     !cell.is_empty() && cell.bytes().all(|b| b.is_ascii_alphanumeric())
 }
 
-/// Bytes of a row, at most.
+/// The maximum size of a row in bytes.
 const MOST_OF_ROW: usize = 64 << 20;
 
-/// The rows of comma-separated values, one after the other.
+/// Iterates over the rows of comma-separated values.
 struct Rows<I> {
     bytes: I,
     most: usize,
 }
 
 impl<I: Iterator<Item = std::io::Result<u8>>> Rows<I> {
-    /// The cells of the next row; `None` at the end, `Some(None)` where these are no such values.
+    /// Returns the cells of the next row, `None` at the end, or `Some(None)` if the text is not comma-separated values.
     fn next_row(&mut self) -> Option<Option<Vec<String>>> {
         let (mut cells, mut cell) = (Vec::new(), Vec::new());
         let (mut quoted, mut any, mut size) = (false, false, 0);
@@ -236,7 +238,7 @@ impl<I: Iterator<Item = std::io::Result<u8>>> Rows<I> {
                 return Some(None);
             }
             match byte {
-                // Two quotes inside of quotes close and open them again: for counting cells that is the same.
+                // Two quotes inside quotes close and reopen them, which makes no difference for counting cells.
                 b'"' => quoted = !quoted,
                 b',' | b'\n' if !quoted => {
                     let Ok(text) = String::from_utf8(std::mem::take(&mut cell)) else { return Some(None) };
@@ -298,7 +300,7 @@ mod tests {
         assert!(!refused(OutputKind::Lesson("as read")));
         assert!(refused(OutputKind::Lesson("as  read")) && refused(OutputKind::Lesson("AS READ")));
         assert!(refused(OutputKind::New) && refused(OutputKind::Snapshot) && refused(OutputKind::Reference));
-        // Nothing stands in it, and it is a lesson all the same.
+        // An empty file with the extension of a lesson is still a lesson.
         fs::write(&path, "").unwrap();
         assert!(refused(OutputKind::Table) && refused(OutputKind::Page) && refused(OutputKind::New));
     }

@@ -1,4 +1,4 @@
-//! The overview of a check for people: what was run and verified, lesson by lesson, and the summary.
+//! The overview of a check for people: what was run and verified in each lesson, and the summary.
 
 use super::course::CourseResults;
 use labspec::check::{self, Checked};
@@ -10,8 +10,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::sync::Arc;
 
-/// What was run and what was verified, lesson by lesson. Claims that are true stand together; each of the others stands
-/// alone, with its reason.
+/// What was run and verified in each lesson. True claims share a line; each other claim has its own line with the reason.
 pub(super) fn format_overview(results: &CourseResults, with_evidence: bool) -> String {
     let mut text = String::new();
     let mut by_path: BTreeMap<&Arc<str>, Vec<&Entry>> = BTreeMap::new();
@@ -28,7 +27,7 @@ pub(super) fn format_overview(results: &CourseResults, with_evidence: bool) -> S
     text
 }
 
-/// The claims of a lesson, its snapshots, and the evidence of claims.
+/// Writes the claims of a lesson, its snapshots, and the evidence of claims.
 fn write_lesson(text: &mut String, c: &Checked, entries: &[&Entry], with_evidence: bool) {
     let mut written = 0;
     while let Some(entry) = entries.get(written) {
@@ -53,8 +52,8 @@ fn write_lesson(text: &mut String, c: &Checked, entries: &[&Entry], with_evidenc
     }
 }
 
-/// How many of the first entries share a line: those of the same subject, owner and state that follow each other, if they are
-/// true or left out.
+/// The number of leading entries that share a line: consecutive ones with the same subject, owner and state
+/// that are true or left out.
 fn joined_entries(entries: &[&Entry]) -> usize {
     let Some(first) = entries.first() else { return 0 };
     let is_plain = matches!(first.state, State::True(_) | State::LeftOut);
@@ -65,7 +64,7 @@ fn joined_entries(entries: &[&Entry]) -> usize {
     entries.iter().take_while(same).count().max(1)
 }
 
-/// The line of so many claims of the same subject and state; `None` where there is nothing to report.
+/// The line for `n` claims with the same subject and state, or `None` if there is nothing to report.
 fn format_entries(entry: &Entry, n: usize) -> Option<String> {
     let remark = if entry.remark.is_empty() { String::new() } else { format!(": {}", entry.remark) };
     let good = matches!(entry.state, State::True(_));
@@ -100,7 +99,7 @@ fn format_entries(entry: &Entry, n: usize) -> Option<String> {
     })
 }
 
-/// The last line: all claims in numbers, and the conclusion.
+/// The last line: the number of claims by state, and the conclusion.
 pub(super) fn format_summary(results: &CourseResults) -> String {
     let found = Summary::count(&results.findings);
     let found = if results.findings.is_empty() { String::new() } else { found.to_string() };

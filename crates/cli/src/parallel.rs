@@ -1,4 +1,4 @@
-//! Files checked on several threads, and their texts printed in the order of the files.
+//! Checks files on several threads, and prints their output in the order of the files.
 
 use super::common::Failure;
 use super::stdio::{clear_progress, print};
@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// The results of some work for each item, in the order of the items; on this thread and at most `threads - 1` others.
+/// Applies `work` to each item, on this thread and at most `threads - 1` others; returns the results in the order of the items.
 pub(super) fn map_in_parallel<T: Sync, R: Send>(
     items: &[T],
     threads: usize,
@@ -24,7 +24,7 @@ pub(super) fn map_in_parallel<T: Sync, R: Send>(
     };
     let mut results = std::thread::scope(|scope| {
         let others = 1..threads.min(items.len());
-        // Where the system gives no further thread, the existing ones do all the work.
+        // If the system provides no further thread, the existing ones do all the work.
         let spawn = || threads::checking().spawn_scoped(scope, take_items).ok();
         let threads: Vec<_> = others.map_while(|_| spawn()).collect();
         let mut results = take_items();
@@ -40,20 +40,20 @@ pub(super) fn map_in_parallel<T: Sync, R: Send>(
     results.into_iter().map(|(_, result)| result).collect()
 }
 
-/// Prints a text for each file, each once the texts of all files before it are printed.
+/// Prints a text for each file as soon as the texts of all files before it are printed.
 pub(super) struct OrderedPrinter {
     queue: Mutex<PrintQueue>,
-    /// Whether a line of progress has to be cleared before something is printed.
+    /// Whether a progress line must be cleared before something is printed.
     progress: bool,
 }
 
 #[derive(Default)]
 struct PrintQueue {
-    /// How many files are printed.
+    /// The number of files whose texts are printed.
     printed: usize,
     /// The texts of later files.
     waiting: BTreeMap<usize, String>,
-    /// Why nothing can be printed any more.
+    /// The reason why nothing more can be printed.
     failure: Option<Failure>,
 }
 
@@ -62,7 +62,7 @@ impl OrderedPrinter {
         OrderedPrinter { queue: Mutex::default(), progress }
     }
 
-    /// Takes the text of the file of this number.
+    /// Adds the text of a file.
     pub(super) fn add(&self, file: usize, text: String) {
         let mut queue = self.queue.lock().unwrap_or_else(PoisonError::into_inner);
         queue.waiting.insert(file, text);

@@ -54,7 +54,7 @@ fn names(set: &FieldSet) -> Vec<&'static str> {
     set.iter().map(|f| f.info().name).collect()
 }
 
-/// Nanoseconds, to what can be known of them.
+/// Formats nanoseconds with the precision of the measurement.
 fn ns(x: f64) -> String {
     if x.abs() < 10.0 { format!("{x:.1}") } else { format!("{x:.0}") }
 }
@@ -122,7 +122,7 @@ fn human(report: &PlanReport) -> String {
     text
 }
 
-/// Pairs of geoms, the solver, the integrator, and algorithms of trees.
+/// Writes pairs of geoms, the solver, the integrator, and tree algorithms.
 fn parts(report: &PlanReport, text: &mut String) {
     let pairs = &report.pairs;
     let _ = writeln!(text, "\npairs of geoms  {} of {} can touch", pairs.can_touch, pairs.all);
@@ -157,7 +157,7 @@ fn parts(report: &PlanReport, text: &mut String) {
     tree_algorithms(report, text);
 }
 
-/// The sensors, those alike in one line.
+/// Writes the sensors; equal ones share a line.
 fn sensors(report: &PlanReport, text: &mut String) {
     if report.sensors.is_empty() {
         return;
@@ -174,7 +174,7 @@ fn sensors(report: &PlanReport, text: &mut String) {
     }
 }
 
-/// Which algorithms compute trees.
+/// Writes the tree algorithms in use.
 fn tree_algorithms(report: &PlanReport, text: &mut String) {
     let _ = writeln!(text, "\ntree algorithms");
     for algorithm in report.tree_algorithms.iter().filter(|w| w.trees != [0; 3]) {
@@ -191,7 +191,7 @@ fn tree_algorithms(report: &PlanReport, text: &mut String) {
     }
 }
 
-/// Those that are used, then the others by reason.
+/// Writes the options in use, then the others by reason.
 fn list(what: &str, codes: &[EngineOption], text: &mut String) {
     let _ = writeln!(text, "\n{what}");
     for verb in ["keep ", "leave"] {
@@ -205,7 +205,7 @@ fn list(what: &str, codes: &[EngineOption], text: &mut String) {
     }
 }
 
-/// What one more reader would cost.
+/// Writes the cost of additional readers.
 fn readers(report: &PlanReport, text: &mut String) {
     if report.readers.is_empty() {
         return;
@@ -244,7 +244,7 @@ struct Report<'a> {
     readers: Vec<Reader<'a>>,
 }
 
-/// A stage; its share of a step, its time in ns, its work in the engine's units.
+/// A stage: its share of a step, its time in ns, its work in units of the engine.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 struct Stage<'a> {
@@ -257,7 +257,7 @@ struct Stage<'a> {
     forced_ns: Option<f64>,
 }
 
-/// What a step costs: the middle of the repeats and its quarters, and the same with everything read, in ns.
+/// The cost of a step in ns: the median and the quartiles of the repetitions, and the median with everything read.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 struct Step {
@@ -271,7 +271,7 @@ struct Step {
     controller: Option<Cost>,
 }
 
-/// A share of a step, and its time in ns.
+/// A share of a step, and the time in ns.
 #[derive(Serialize)]
 struct Cost {
     share: f64,
@@ -305,7 +305,7 @@ struct LeftOut {
     pairs: usize,
 }
 
-/// The mean and the largest of a count.
+/// The mean and the maximum of a count.
 #[derive(Serialize)]
 struct MeanAndMost {
     mean: f64,
@@ -320,7 +320,7 @@ struct Solver<'a> {
     iterations: Option<MeanAndMost>,
 }
 
-/// How many trees an algorithm computes.
+/// The number of trees that an algorithm computes.
 #[derive(Serialize)]
 struct TreeAlgorithm {
     name: &'static str,
@@ -329,7 +329,7 @@ struct TreeAlgorithm {
     accelerations: usize,
 }
 
-/// One more reader; what a step takes longer, in ns and as a share of it.
+/// An additional reader: the additional time of a step in ns, and as a share of it.
 #[derive(Serialize)]
 struct Reader<'a> {
     read: &'a str,

@@ -1,4 +1,4 @@
-//! Which findings are reported, and how severe they are: according to the command line and the nearest `labspec.toml`.
+//! Which findings are reported, and with which severity, according to the command line and the nearest `labspec.toml`.
 
 use super::common::Failure;
 use ignore::gitignore::{Gitignore, GitignoreBuilder};
@@ -11,9 +11,9 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The name of the file of settings.
+/// The name of the settings file.
 pub(super) const FILE: &str = "labspec.toml";
-/// Its bytes, at most.
+/// The maximum size of a settings file in bytes.
 const MOST: u64 = 1 << 20;
 
 /// The options of the command line for findings.
@@ -35,13 +35,13 @@ pub(super) struct PolicyOptions {
 }
 
 impl PolicyOptions {
-    /// The file of settings that was named.
+    /// The settings file that was named.
     pub(super) fn config(&self) -> Option<&Path> {
         self.config.as_deref()
     }
 }
 
-/// Some rules.
+/// A set of rules.
 #[derive(Clone, Debug, Default)]
 struct RuleSet {
     codes: Vec<&'static str>,
@@ -50,12 +50,12 @@ struct RuleSet {
     all: bool,
 }
 
-/// Words for findings as bad as this.
+/// The words for all findings of a severity.
 const SEVERITIES: [(&str, Severity); 3] =
     [("errors", Severity::Error), ("warnings", Severity::Warning), ("notes", Severity::Note)];
 
 impl RuleSet {
-    /// Adds what a word means.
+    /// Adds the rules that a word denotes.
     fn add(&mut self, word: &str) -> Result<(), String> {
         let word = word.trim();
         let words = || {
@@ -96,18 +96,18 @@ impl RuleSet {
     }
 }
 
-/// What is done with the findings of a file.
+/// The treatment of the findings of a file.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Policy {
     select: RuleSet,
     ignore: RuleSet,
     deny: RuleSet,
-    /// Widgets that the page has, besides ours.
+    /// Additional widgets that the page provides.
     pub(super) widgets: Vec<String>,
 }
 
 impl Policy {
-    /// Takes the ignored findings out and returns them; the others get the severity of the policy.
+    /// Removes the ignored findings and returns them; the others get the severity of the policy.
     pub(super) fn apply(&self, findings: &mut Vec<Finding>) -> Vec<Finding> {
         let mut ignored = Vec::new();
         findings.retain(|f| {
@@ -124,22 +124,22 @@ impl Policy {
     }
 }
 
-/// Settings of one file of settings.
+/// The content of one settings file.
 #[derive(Debug, Default)]
 struct PolicyFile {
     select: Vec<String>,
     ignore: Vec<String>,
     deny: Vec<String>,
     widgets: Vec<String>,
-    /// For some paths: rules that are ignored there, and rules that are errors there.
+    /// For some paths: the rules that are ignored there, and the rules that are errors there.
     paths: Vec<(Globs, Vec<String>, Vec<String>)>,
 }
 
-/// Patterns of paths, as in `.gitignore`, from the folder of the settings.
+/// Patterns of paths as in `.gitignore`, relative to the folder of the settings.
 #[derive(Debug)]
 struct Globs(Gitignore);
 
-/// The policies of all files, each file of settings read once.
+/// The policies of all files; each settings file is read once.
 #[derive(Default)]
 pub(super) struct Policies {
     options: PolicyOptions,
@@ -149,7 +149,7 @@ pub(super) struct Policies {
 
 impl Policies {
     /// # Errors
-    /// A word that is no rule, or settings that cannot be read.
+    /// A word is not a rule, or the settings cannot be read.
     pub(super) fn new(options: &PolicyOptions) -> Result<Policies, Failure> {
         for (name, words) in
             [("--select", &options.select), ("--ignore", &options.ignore), ("--deny", &options.deny)]
@@ -160,10 +160,10 @@ impl Policies {
         Ok(Policies { options: options.clone(), read: BTreeMap::new(), given })
     }
 
-    /// The policy of a file.
+    /// Returns the policy of a file.
     ///
     /// # Errors
-    /// The settings near it cannot be read.
+    /// The settings that apply to it cannot be read.
     pub(super) fn policy_for(&mut self, path: &Path) -> Result<Policy, Failure> {
         let whole = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
         let settings = match &self.given {
@@ -187,7 +187,7 @@ impl Policies {
         })
     }
 
-    /// The settings of a folder: its own, else those of the nearest folder around it.
+    /// The settings of a folder: those in the folder, otherwise those of the nearest enclosing folder.
     fn near(&mut self, folder: Option<&Path>) -> Result<Option<Arc<PolicyFile>>, Failure> {
         let Some(folder) = folder else { return Ok(None) };
         if let Some(cached) = self.read.get(folder) {
@@ -214,7 +214,7 @@ impl Globs {
     }
 }
 
-/// Keys of settings, and of settings for some paths.
+/// The keys of settings, and of settings for some paths.
 const KEYS: [&str; 5] = ["select", "ignore", "deny", "widgets", "paths"];
 const OF_PATHS: [&str; 3] = ["match", "ignore", "deny"];
 
@@ -249,14 +249,14 @@ fn read(path: &Path) -> Result<PolicyFile, Failure> {
     Ok(PolicyFile { select, ignore, deny, widgets, paths })
 }
 
-/// The tables of `[[paths]]`; none if the settings have none.
+/// The tables of `[[paths]]`; empty if there are none.
 fn of_paths(table: &toml::Table) -> Result<Vec<&toml::Table>, String> {
     let Some(value) = table.get("paths") else { return Ok(Vec::new()) };
     let tables = value.as_array().and_then(|list| list.iter().map(toml::Value::as_table).collect());
     tables.ok_or_else(|| "`paths` must be a list of tables: [[paths]]".to_string())
 }
 
-/// Every key is one of these.
+/// Refuses unknown keys.
 fn reject_unknown_keys(table: &toml::Table, keys: &[&str]) -> Result<(), String> {
     let Some(key) = table.keys().find(|key| !keys.contains(&key.as_str())) else { return Ok(()) };
     let near = match nearest(key, keys.iter().copied()) {
@@ -266,7 +266,7 @@ fn reject_unknown_keys(table: &toml::Table, keys: &[&str]) -> Result<(), String>
     Err(format!("unknown setting `{}`; {near}", printable(key)))
 }
 
-/// A list of texts; of rules, if so.
+/// A list of strings, which must be names of rules if `of_rules`.
 fn string_list(table: &toml::Table, name: &str, of_rules: bool) -> Result<Vec<String>, String> {
     let Some(value) = table.get(name) else { return Ok(Vec::new()) };
     let list = value.as_array().map(|list| list.iter().map(|v| v.as_str().map(String::from)).collect());

@@ -1,5 +1,5 @@
-//! What all reports in JSON have in common: the head, places, the names of what JSON has no number for; and reports in files that
-//! are read again.
+//! The common parts of all JSON reports: the head, locations, and the names of numbers that JSON cannot represent; and reports
+//! in files that a later run reads.
 
 use super::common::Failure;
 use super::output::write_file;
@@ -24,7 +24,7 @@ struct Report<'a, T> {
     entries: &'a T,
 }
 
-/// What a file says of itself.
+/// The head of a file.
 #[derive(Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 struct Head {
@@ -37,33 +37,33 @@ pub(super) fn print_report(name: &str, entries: &impl Serialize) -> Result<(), F
     print_json(&Report { schema_version: SCHEMA_VERSION, report: name, entries }, true)
 }
 
-/// A report that a later run reads.
+/// The kind of a report that a later run reads.
 pub(super) struct StoredReport {
     /// Its name in the head.
     pub(super) name: &'static str,
-    /// In words, with an article.
+    /// Its description with an article.
     pub(super) what: &'static str,
-    /// What to do about a file that is another one.
+    /// What to do if a file is not such a report.
     pub(super) next_step: &'static str,
     pub(super) output: OutputKind<'static>,
 }
 
-/// Bytes of a stored report, at most.
+/// The maximum size of a stored report in bytes.
 const MOST: u64 = 64 << 20;
-/// Letters of a reader's complaint, at most: it may quote the file.
+/// The maximum length of an error message of the parser, which may quote the file.
 const MOST_QUOTED: usize = 200;
 
 /// Reads a stored report.
 ///
 /// # Errors
-/// The file cannot be read, or is another one.
+/// The file cannot be read, or is not such a report.
 pub(super) fn read_report<T: DeserializeOwned>(path: &Path, stored: &StoredReport) -> Result<T, Failure> {
     let no =
         |why: &str| format!("{} is not {}: {why}; {}", printable_path(path), stored.what, stored.next_step);
     let invalid =
         |e: serde_json::Error| no(&printable(&e.to_string().chars().take(MOST_QUOTED).collect::<String>()));
     let text = read_text(path, MOST, stored.what)?;
-    // The head first: of another version nothing is expected.
+    // The head is parsed first, because the content depends on the version.
     let head: Head = serde_json::from_str(&text).map_err(invalid)?;
     if head.report != stored.name || head.schema_version != SCHEMA_VERSION {
         return Err(no("its version is missing or unsupported"));
@@ -71,7 +71,7 @@ pub(super) fn read_report<T: DeserializeOwned>(path: &Path, stored: &StoredRepor
     serde_json::from_str(&text).map_err(invalid)
 }
 
-/// Writes a report for a later run, whole or not at all.
+/// Writes a report for a later run atomically.
 ///
 /// # Errors
 /// The file cannot be written.
@@ -85,7 +85,7 @@ pub(super) fn write_report(
     write_file(path, stored.output, &(text + "\n"))
 }
 
-/// A place, as all reports have it: to be flattened.
+/// A location in the format of all reports, to be flattened into an object.
 pub(super) fn place(sources: &[&SourceFile], path: &str, span: &Range<usize>) -> Value {
     let mut place = Value::Null;
     report::set_place(&mut place, sources, path, span);
@@ -97,12 +97,13 @@ pub(super) fn object<T: Serialize>(entries: impl Iterator<Item = (String, T)>) -
     entries.map(|(key, value)| (key, serde_json::to_value(value).unwrap_or_default())).collect()
 }
 
-/// The names of what JSON has no number for, by key: `NaN`, `Infinity`, `-Infinity`; in a list, pairs of index and name.
+/// The names of numbers that JSON cannot represent, by key: `NaN`, `Infinity`, `-Infinity`; for a list,
+/// pairs of index and name.
 pub(super) type NonFinite = Map<String, Value>;
 
-/// A number, one that may be missing, or a list of such.
+/// A number, an optional number, or a list of these.
 pub(super) trait Numbers {
-    /// The names of what JSON does not have.
+    /// The names of those numbers that JSON cannot represent.
     fn names(&self) -> Option<Value>;
 }
 
@@ -132,12 +133,12 @@ impl Numbers for Vec<Option<f64>> {
     }
 }
 
-/// The names of those of some numbers that JSON does not have.
+/// The names of those of several numbers that JSON cannot represent.
 pub(super) fn nonfinite(numbers: &[(&str, &dyn Numbers)]) -> NonFinite {
     numbers.iter().filter_map(|(key, x)| Some((key.to_string(), x.names()?))).collect()
 }
 
-/// A row with these numbers. `nonfinite` stands behind the first of them that JSON does not have.
+/// A row with these numbers. `nonfinite` follows the first of them that JSON cannot represent.
 pub(super) fn with_nonfinite(row: &impl Serialize, numbers: &[(&str, &dyn Numbers)]) -> Map<String, Value> {
     let mut names = Some(nonfinite(numbers));
     let mut all = Map::new();
@@ -151,12 +152,12 @@ pub(super) fn with_nonfinite(row: &impl Serialize, numbers: &[(&str, &dyn Number
     all
 }
 
-/// A number that JSON has.
+/// The number, if JSON can represent it.
 pub(super) fn finite(x: f64) -> Option<f64> {
     x.is_finite().then_some(x)
 }
 
-/// A measure, and what it is at half the timestep, in the unit of the measure.
+/// A measure and its value at half the timestep, in the unit of the measure.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct MeasureRow {
     pub(super) value: Option<f64>,

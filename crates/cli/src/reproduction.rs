@@ -1,6 +1,6 @@
-//! `labspec check --record FILE`: every verdict with what it rests on; and `--since FILE`: what has changed since.
+//! `labspec check --record FILE` writes every verdict with its basis, and `--since FILE` reports the changes since then.
 //!
-//! Files are named from the folder of the record, so that it says the same on every machine.
+//! File names are relative to the folder of the record, so that a record is the same on every machine.
 
 use super::common::Failure;
 use super::course::CourseResults;
@@ -14,9 +14,9 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Whose meaning the engine has.
+/// The simulator whose semantics the engine implements.
 const ENGINE: &str = "MuJoCo 3.14.0";
-/// The format of lessons.
+/// The version of the lesson format.
 const FORMAT: &str = "0.1";
 
 const STORED: StoredReport = StoredReport {
@@ -26,7 +26,7 @@ const STORED: StoredReport = StoredReport {
     output: OutputKind::Record,
 };
 
-/// What a check came to, and what that rests on.
+/// The results of a check, and their basis.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Record {
     pub(super) labspec: String,
@@ -43,7 +43,7 @@ pub(super) struct LessonRecord {
     pub(super) verdicts: Vec<VerdictRecord>,
 }
 
-/// A lab as it stands: digests of its text and its model; `None` where it cannot run.
+/// A lab: digests of its text and of its model, and its settings, which are `None` if it cannot run.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct LabRecord {
     pub(super) lab: String,
@@ -52,10 +52,10 @@ pub(super) struct LabRecord {
     pub(super) settings: Option<SettingsRecord>,
 }
 
-/// Numbers by name; `None` for what JSON has no number for.
+/// Numbers by name; `None` for a number that JSON cannot represent.
 type Numbers = BTreeMap<String, Vec<Option<f64>>>;
 
-/// The settings of a run that begins; the timestep in s.
+/// The settings of a run at its start; the timestep is in s.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct SettingsRecord {
     pub(super) model: String,
@@ -65,15 +65,15 @@ pub(super) struct SettingsRecord {
     pub(super) cone: String,
     pub(super) iterations: i32,
     pub(super) tolerance: Option<f64>,
-    /// Options that are not MuJoCo's default.
+    /// Options that differ from MuJoCo's defaults.
     pub(super) options: Numbers,
-    /// Parameters of contacts that are not, by geom.
+    /// Contact parameters that differ from the defaults, by geom.
     pub(super) contacts: BTreeMap<String, Numbers>,
     #[serde(default, skip_serializing_if = "NonFinite::is_empty")]
     nonfinite: NonFinite,
 }
 
-/// A question or a lab with claims: digests as of a lab.
+/// A question, or a lab with claims, with digests as in [`LabRecord`].
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct ClaimRecord {
     pub(super) name: String,
@@ -90,7 +90,7 @@ pub(super) struct RunRecord {
     pub(super) settings: Option<SettingsRecord>,
 }
 
-/// What the text quotes, and the value in its unit.
+/// The quoted text, and the computed value in its unit.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct QuoteRecord {
     pub(super) text: String,
@@ -108,7 +108,7 @@ pub(super) struct VerdictRecord {
     pub(super) word: String,
 }
 
-/// What a check says now, as it would be recorded in this file.
+/// The record of the current check, as it would be written to this file.
 pub(super) fn now(file: &Path, results: &CourseResults) -> Record {
     let folder = folder_of(file);
     let both = results.checked.iter().zip(&results.bases);
@@ -135,7 +135,7 @@ pub(super) fn write(file: &Path, record: &Record) -> Result<(), Failure> {
 /// Reads a record.
 ///
 /// # Errors
-/// It cannot be read, or is none.
+/// The file cannot be read, or is not a record.
 pub(super) fn read(file: &Path) -> Result<Record, Failure> {
     read_report(file, &STORED)
 }
@@ -145,7 +145,7 @@ fn folder_of(file: &Path) -> PathBuf {
     folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf())
 }
 
-/// A file from a folder, with `/` on every system.
+/// A file name relative to a folder, with `/` on every system.
 fn name_of(folder: &Path, path: &str) -> String {
     let path = Path::new(path);
     let whole = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
@@ -215,9 +215,9 @@ fn claim(b: &ClaimBasis, judged: Option<&Claim>) -> ClaimRecord {
     }
 }
 
-/// What became of a claim, and by what it is sorted.
+/// The verdict of a claim, and the key by which verdicts are sorted.
 fn verdict(name: &str, path: &str, e: &Entry) -> (String, VerdictRecord) {
-    // A file is named from the record's folder, as everywhere in it.
+    // The owner is named relative to the record's folder if it is a file.
     let owner = if e.owner == path { name } else { &e.owner };
     let verdict = VerdictRecord {
         subject: key(e.subject.as_str()),

@@ -106,7 +106,7 @@ pub(super) fn run(a: &Arguments) -> Result<Outcome, Failure> {
     Ok(if clean { Outcome::Clean } else { Outcome::Findings })
 }
 
-/// The end of the run as the page shows it: readouts, traces of labs without readouts, warnings.
+/// The output at the end of the run: readouts, traces of labs without readouts, warnings.
 fn readouts(lab: &Lab, table: &Table) -> String {
     let mut text = String::new();
     let Some(last) = table.rows.last() else { return text };
@@ -148,10 +148,11 @@ fn readouts(lab: &Lab, table: &Table) -> String {
     text
 }
 
-/// Most plots that go beside one another into a folder that holds other things.
+/// The maximum number of plots written into a folder that contains other files.
 const MAX_LOOSE: usize = 50;
 
-/// The files of a lab's plots: FILE, FILE-2.svg, FILE-3.svg, …, or plot-1.svg, plot-2.svg, … in a folder; or with another ending.
+/// The files of a lab's plots: FILE, FILE-2.svg, FILE-3.svg, …, or plot-1.svg, plot-2.svg, … in a folder,
+/// or with another extension.
 fn plot_files(lab: &Lab, file: &Path, ending: &str) -> Result<Vec<PathBuf>, Failure> {
     let count = lab.plots.len();
     if count == 0 {

@@ -52,7 +52,7 @@ pub(super) fn scaffold(a: &Arguments) -> Result<Outcome, Failure> {
     let proposals = all.iter().filter(|one| matches!(one.found, ScaffoldOutcome::Proposed { .. })).count();
     if a.write && proposals > 0 {
         let text = written(&lesson, &all);
-        // The file as it would be is read once more before anything is replaced.
+        // The new text is parsed again before the file is replaced.
         let again = reload_lesson(&lesson, &text, &folder);
         if again.verifies().count() != lesson.verifies().count() + proposals {
             return Err(format!(
@@ -70,7 +70,7 @@ pub(super) fn scaffold(a: &Arguments) -> Result<Outcome, Failure> {
     Ok(if all.iter().all(done) { Outcome::Clean } else { Outcome::Findings })
 }
 
-/// Whether a proposal is true as it stands.
+/// Whether a proposal is true.
 fn is_confirmed(verdict: &Option<(Verdict, String)>) -> bool {
     verdict.as_ref().is_none_or(|(v, _)| matches!(v, Verdict::Verified | Verdict::Computed))
 }
@@ -127,13 +127,13 @@ fn human(a: &Arguments, lesson: &Lesson, all: &[Scaffold]) -> String {
     text
 }
 
-/// What is proposed, for programs.
+/// The proposals for programs.
 #[derive(Serialize)]
 struct Report<'a> {
     found: Vec<ScaffoldRow<'a>>,
 }
 
-/// A question or a lab, its place in bytes of the file and from 1, and what came of it.
+/// A question or a lab, its location in bytes and in lines from 1, and the result.
 #[derive(Default, Serialize)]
 struct ScaffoldRow<'a> {
     name: &'a str,
@@ -150,7 +150,7 @@ struct ScaffoldRow<'a> {
     option: Option<usize>,
 }
 
-/// A measure, in its own unit.
+/// A measure in its unit.
 #[derive(Serialize)]
 struct ValueRow<'a> {
     name: &'a str,

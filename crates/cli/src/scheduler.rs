@@ -1,12 +1,12 @@
 //! The check of all files of a course, in this order:
 //!
-//! 1. [`select_files`]: the files of the paths that the user named.
-//! 2. [`plan_jobs`]: what has to be done with each, and its policy.
-//! 3. [`check_files`]: each is checked, on several threads; findings of lessons are printed in the order of the files.
-//! 4. [`collect_outcomes`]: the outcomes of all files together, in the order of the files.
-//! 5. [`add_course_findings`]: the findings about models and about several lessons together.
-//! 6. [`apply_policies`]: suppressed findings are taken out of those.
-//! 7. [`build_ledger`]: the claims of everything.
+//! 1. [`select_files`] finds the files of the paths that the user named.
+//! 2. [`plan_jobs`] determines the task and the policy of each file.
+//! 3. [`check_files`] checks the files on several threads, and prints the findings of lessons in the order of the files.
+//! 4. [`collect_outcomes`] joins the outcomes of all files in the order of the files.
+//! 5. [`add_course_findings`] adds the findings about models and about several lessons together.
+//! 6. [`apply_policies`] removes the suppressed findings from those.
+//! 7. [`build_ledger`] builds the ledger of all claims.
 //!
 //! The results do not depend on the thread that checked a file.
 
@@ -30,19 +30,19 @@ use labspec::source::SourceFile;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// A file, and everything that its check needs.
+/// A file with everything that its check needs.
 struct Job {
     file: ListedFile,
     task: FileTask,
     policy: Policy,
 }
 
-/// Checks every file. One that cannot be read is a finding and hides nothing of the others.
+/// Checks every file. A file that cannot be read gives a finding, and does not affect the others.
 pub(super) fn check_lessons(request: &CheckRequest<'_>, cache: &Cache) -> Result<CourseResults, Failure> {
     check_with_hash(request, cache, digest::hex_of)
 }
 
-/// The same with another hash for the files of models.
+/// As [`check_lessons`], with another hash for the files of models.
 fn check_with_hash(request: &CheckRequest<'_>, cache: &Cache, hash: Hash) -> Result<CourseResults, Failure> {
     let Collected { files, problems, left_out } = select_files(request)?;
     let mut policies = Policies::default();
@@ -56,15 +56,15 @@ fn check_with_hash(request: &CheckRequest<'_>, cache: &Cache, hash: Hash) -> Res
     Ok(results)
 }
 
-/// The files below the named paths, and the one from standard input.
+/// Returns the files below the named paths, and the one from standard input.
 ///
 /// # Errors
-/// There are none.
+/// There are no files.
 fn select_files(request: &CheckRequest<'_>) -> Result<Collected, Failure> {
     let mut collected = collect(request.paths);
     collected.complain();
     if let Some((name, _)) = request.stdin {
-        // The text of standard input stands for the file of its name.
+        // The text from standard input replaces the file with its name.
         let real = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
         collected.files.retain(|(path, _)| real(path) != real(name));
         collected.files.push((name.clone(), true));
@@ -75,10 +75,10 @@ fn select_files(request: &CheckRequest<'_>) -> Result<Collected, Failure> {
     }
 }
 
-/// What has to be done with each file, its policy, and the models that lessons share.
+/// Returns the task and the policy of each file, and the models that lessons share.
 ///
 /// # Errors
-/// A folder of models or a file of settings cannot be read, or an option names an unknown rule.
+/// A folder of models or a settings file cannot be read, or an option names an unknown rule.
 fn plan_jobs(
     request: &CheckRequest<'_>,
     files: Vec<ListedFile>,
@@ -120,7 +120,7 @@ fn check_files(
     Ok(outcomes)
 }
 
-/// Takes the suppressed findings out of those of a lesson.
+/// Moves the suppressed findings of a lesson.
 fn suppress_findings(request: &CheckRequest<'_>, policy: &Policy, outcome: &mut FileOutcome) {
     if let FileOutcome::Lesson(lesson) = outcome {
         let (c, suppressed) = (&mut lesson.checked, &mut lesson.suppressed);
@@ -137,7 +137,7 @@ fn findings_text(outcome: &FileOutcome, color: bool) -> String {
     }
 }
 
-/// The outcomes of all files together.
+/// Joins the outcomes of all files.
 ///
 /// # Errors
 /// No file could be read.
@@ -173,7 +173,7 @@ fn collect_outcomes(
                 results.sources.extend(sources);
             }
             FileOutcome::Refused(why) => refused.push((path.clone(), why)),
-            // The user named it and it was not checked: that is reported.
+            // The user requested the check and it did not happen, so this is reported.
             FileOutcome::Interrupted => {
                 refused.push((path.clone(), "interrupted before it was checked".into()))
             }
@@ -186,7 +186,8 @@ fn collect_outcomes(
     Ok((results, files))
 }
 
-/// Adds the findings about lost snapshots, about several lessons together and about models, and the files that they depend on.
+/// Adds the findings about lost snapshots, about several lessons together and about models, with the
+/// files on which they depend.
 fn add_course_findings(
     request: &CheckRequest<'_>,
     jobs: &[Job],
@@ -207,10 +208,10 @@ fn add_course_findings(
     }
 }
 
-/// Takes the suppressed findings out of those of the course, and joins all findings.
+/// Removes the suppressed findings of the course, and joins all findings.
 ///
 /// # Errors
-/// The settings near a file cannot be read.
+/// The settings that apply to a file cannot be read.
 fn apply_policies(
     request: &CheckRequest<'_>,
     policies: &mut Policies,
@@ -251,7 +252,7 @@ fn lost_snapshot_finding(path: &Path) -> Finding {
     f
 }
 
-/// Why nothing was checked, and what to do.
+/// The reason why nothing was checked, and what to do.
 fn nothing_to_check(paths: &[PathBuf], problems: &[(PathBuf, String)]) -> Failure {
     let names: Vec<String> = paths.iter().map(|p| printable_path(p)).collect();
     match problems {
@@ -270,7 +271,8 @@ mod tests {
     use labspec::check::CheckLevel;
     use labspec::ledger::{Evidence, State, Subject};
 
-    /// A mistake of the program ends the check of one lesson, and is reported there; the others are checked, on one thread or several.
+    /// A bug that panics ends the check of one lesson and is reported there. The other lessons are checked,
+    /// on one thread or several.
     #[test]
     fn a_panic_in_one_lesson_is_its_finding_and_no_other_lesson_is_lost() {
         let folder = tempfile::tempdir().unwrap();

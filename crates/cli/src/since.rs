@@ -1,4 +1,5 @@
-//! What has changed between two records of a check: verdicts and values, and the settings and models that changed with them.
+//! The differences between two records of a check: changed verdicts and values, and the settings and
+//! models that changed with them.
 
 use super::report_json::NonFinite;
 use super::reproduction::{ClaimRecord, LessonRecord, Record, SettingsRecord};
@@ -9,32 +10,32 @@ use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
-/// What changed of one lab, one question, or of labspec itself.
+/// The changes of one lab, of one question, or of labspec itself.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(super) struct LessonChange {
-    /// The lesson; empty for what concerns all of them.
+    /// The lesson; empty for changes that concern all lessons.
     file: String,
     /// The lab or the question.
     owner: String,
-    /// What it came to: verdicts and values.
+    /// Changed verdicts and values.
     effects: Vec<ChangedValue>,
-    /// What changed with it: settings, contacts, models, texts.
+    /// Changed settings, contacts, models and texts.
     causes: Vec<ChangedValue>,
 }
 
-/// Something that was one thing and is another.
+/// A value that has changed.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 struct ChangedValue {
     what: String,
-    /// `null` where it was not there.
+    /// `null` if it did not exist.
     before: Value,
-    /// `null` where it is gone.
+    /// `null` if it does not exist any more.
     now: Value,
-    /// By how much a number has changed, in its own unit.
+    /// The difference of a number, in its unit.
     difference: Option<f64>,
 }
 
-/// Everything that differs, in the order of the files.
+/// All differences, in the order of the files.
 pub(super) fn changes(before: &Record, now: &Record) -> Vec<LessonChange> {
     let change = |file: &str, owner: &str, effects: Vec<ChangedValue>, causes: Vec<ChangedValue>| {
         LessonChange { file: file.into(), owner: owner.into(), effects, causes }
@@ -65,18 +66,18 @@ pub(super) fn changes(before: &Record, now: &Record) -> Vec<LessonChange> {
     all
 }
 
-/// Whatever a lesson has verdicts, settings or values of.
+/// All owners of verdicts, settings or values in a lesson.
 fn owners(lesson: &LessonRecord) -> BTreeSet<String> {
     let verdicts = lesson.verdicts.iter().map(|v| v.owner.clone());
     let labs = lesson.labs.iter().map(|lab| format!("lab {}", lab.lab));
     verdicts.chain(labs).chain(lesson.claims.iter().map(|c| c.name.clone())).collect()
 }
 
-/// The verdicts and values of an owner that changed.
+/// The changed verdicts and values of an owner.
 fn effects(owner: &str, old: &LessonRecord, new: &LessonRecord) -> Vec<ChangedValue> {
     let mut steps = Vec::new();
     let [a, b] = [old, new].map(|lesson| {
-        // Several about the same are distinguished by their order.
+        // Several verdicts with the same subject are distinguished by their order.
         let mut counts: BTreeMap<(&str, &str), usize> = BTreeMap::new();
         let verdicts = lesson.verdicts.iter().filter(|v| v.owner == owner).map(|v| {
             let count = counts.entry((&v.subject, &v.what)).or_default();
@@ -108,12 +109,12 @@ fn claim<'r>(lesson: &'r LessonRecord, owner: &str) -> Option<&'r ClaimRecord> {
     lesson.claims.iter().find(|c| c.name == owner)
 }
 
-/// A number, or the name of what JSON has no number for.
+/// A number, or the name of a number that JSON cannot represent.
 fn number(x: Option<f64>, nonfinite: &NonFinite, key: &str) -> Value {
     x.map_or_else(|| nonfinite.get(key).cloned().unwrap_or_default(), Value::from)
 }
 
-/// The texts, models and settings of an owner that changed.
+/// The changed texts, models and settings of an owner.
 fn causes_of(owner: &str, old: &LessonRecord, new: &LessonRecord) -> Vec<ChangedValue> {
     let mut steps = Vec::new();
     let name = owner.strip_prefix("lab ").unwrap_or_default();
@@ -122,7 +123,7 @@ fn causes_of(owner: &str, old: &LessonRecord, new: &LessonRecord) -> Vec<Changed
     differ("the text", c.map(|lab| &*lab.block), d.map(|lab| &*lab.block), &mut steps);
     let [x, y] = [c, d].map(|lab| lab.and_then(|lab| lab.model.as_deref()));
     differ("the model", x, y, &mut steps);
-    // What the model itself is has been reported.
+    // A change of the model itself has already been reported.
     let model_changed = x != y;
     let [x, y] = [c, d].map(|lab| lab.and_then(|lab| lab.settings.as_ref()));
     settings("", x, y, model_changed, &mut steps);
@@ -141,7 +142,7 @@ fn causes_of(owner: &str, old: &LessonRecord, new: &LessonRecord) -> Vec<Changed
     steps
 }
 
-/// What the settings of every run have.
+/// The settings that every run has.
 const NUMERICS: [&str; 6] = ["timestep", "integrator", "solver", "cone", "iterations", "tolerance"];
 
 fn numerics(s: &SettingsRecord) -> [Value; 6] {
@@ -149,7 +150,7 @@ fn numerics(s: &SettingsRecord) -> [Value; 6] {
     [s.timestep.into(), integrator, solver, cone, s.iterations.into(), s.tolerance.into()]
 }
 
-/// Options, and parameters of contacts by geom, that are not the default.
+/// Options, and contact parameters by geom, that differ from the defaults.
 fn parameters(s: Option<&SettingsRecord>) -> BTreeMap<(Option<&str>, &str), Value> {
     let options = s.into_iter().flat_map(|s| s.options.iter().map(|(name, value)| ((None, &**name), value)));
     let contacts = s
@@ -159,7 +160,7 @@ fn parameters(s: Option<&SettingsRecord>) -> BTreeMap<(Option<&str>, &str), Valu
     options.chain(contacts).map(|(at, value)| (at, value.as_slice().into())).collect()
 }
 
-/// Settings of a run that begins. `model_changed`: that has been reported.
+/// Compares the settings at the start of a run. `model_changed` states that a changed model has already been reported.
 fn settings(
     of: &str,
     a: Option<&SettingsRecord>,
@@ -180,14 +181,14 @@ fn settings(
         Value::from(if geom.is_none() { "the default" } else { "the defaults" })
     };
     differ_each(&parameters(a), &parameters(b), in_words, default, steps);
-    // Something of the model that has no name here: a mass, a length.
+    // A property of the model without an entry in the record has changed, such as a mass or a length.
     if !model_changed && before == steps.len() {
         let [x, y] = [a, b].map(|s| s.map(|s| &*s.model));
         differ(&format!("the initial model{of}"), x, y, steps);
     }
 }
 
-/// Compares what is in either list, in order.
+/// Compares all entries of two maps, in order.
 fn differ_each<K: Ord>(
     a: &BTreeMap<K, Value>,
     b: &BTreeMap<K, Value>,
@@ -209,7 +210,7 @@ fn differ(what: &str, before: impl Into<Value>, now: impl Into<Value>, steps: &m
     }
 }
 
-/// `quotedNumber` in words.
+/// Turns `quotedNumber` into words.
 fn describe_key(key: &str) -> String {
     let mut words = String::new();
     for c in key.chars() {

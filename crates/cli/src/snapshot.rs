@@ -1,4 +1,4 @@
-//! `labspec snapshot`: what the labs of lessons show, stored beside them; and the review of what has changed.
+//! `labspec snapshot`: the output of the labs of lessons, stored in files next to the lessons, and the review of changes.
 
 use super::collect::{Collected, collect, lost_snapshots};
 use super::common::{Failure, ModelOptions, Outcome, interrupted};
@@ -50,18 +50,18 @@ enum Format {
     Json,
 }
 
-/// The findings about the snapshot of a lesson.
+/// The state of the snapshot of a lesson.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Standing {
-    /// None was stored.
+    /// There is no stored snapshot.
     New,
-    /// Everything is as stored.
+    /// The output is as stored.
     Same,
-    /// Something is not.
+    /// The output differs from the stored one.
     Changed,
-    /// What is stored cannot be read.
+    /// The stored snapshot cannot be read.
     Unreadable,
-    /// The lesson is gone.
+    /// The lesson does not exist any more.
     Gone,
 }
 
@@ -77,12 +77,12 @@ impl Standing {
     }
 }
 
-/// A snapshot, and what was done with it.
+/// A snapshot, and the actions on it.
 struct Looked {
     file: PathBuf,
     standing: Standing,
     renewal: Option<Renewal>,
-    /// Labs that are stored as they are now.
+    /// Labs whose current output is accepted.
     accepted: BTreeSet<String>,
     written: bool,
 }
@@ -95,7 +95,7 @@ pub(super) fn snapshot(a: &Arguments) -> Result<Outcome, Failure> {
         if interrupted() {
             return Ok(Outcome::Findings);
         }
-        // What nobody has stored yet overwrites nothing.
+        // A new snapshot overwrites nothing.
         let whole = a.accept || (one.standing == Standing::New && !a.review);
         if let Some(renewal) = one.renewal.as_ref().filter(|_| whole) {
             one.accepted = renewal.labs.iter().map(|lab| lab.result.lab.clone()).collect();
@@ -119,7 +119,7 @@ pub(super) fn snapshot(a: &Arguments) -> Result<Outcome, Failure> {
     Ok(if bad { Outcome::Findings } else { Outcome::Clean })
 }
 
-/// Reads every lesson, runs its labs, and compares.
+/// Reads every lesson, runs its labs, and compares the output with the snapshots.
 fn collect_lessons(a: &Arguments) -> Result<Vec<Looked>, Failure> {
     let collected = collect(&a.paths);
     collected.complain();
@@ -173,7 +173,7 @@ fn collect_lessons(a: &Arguments) -> Result<Vec<Looked>, Failure> {
     Ok(all)
 }
 
-/// Labs that are not as stored, or not stored, also afterwards.
+/// Labs whose output differs from the snapshot, or is not stored, even after this command.
 fn left(one: &Looked) -> impl Iterator<Item = &RenewedLab> {
     let labs = one.renewal.iter().flat_map(|r| &r.labs);
     labs.filter(|lab| {
@@ -183,7 +183,7 @@ fn left(one: &Looked) -> impl Iterator<Item = &RenewedLab> {
     })
 }
 
-/// Asks for each lab that is not as stored whether it is meant.
+/// Asks for each lab with a different output whether the change is intended.
 fn review(
     all: &mut [Looked],
     answers: &mut impl BufRead,
@@ -223,7 +223,7 @@ fn review(
     Ok(())
 }
 
-/// Writes what was accepted.
+/// Writes the accepted output.
 fn store(one: &mut Looked, everything: bool) -> Result<(), Failure> {
     let Some(renewal) = &one.renewal else {
         if everything {
@@ -237,7 +237,7 @@ fn store(one: &mut Looked, everything: bool) -> Result<(), Failure> {
     }
     let Some(text) = renewal.text(|lab| one.accepted.contains(&lab.result.lab)) else { return Ok(()) };
     let old = std::fs::read_to_string(&one.file).ok();
-    // Line breaks may have been changed on the way.
+    // Line breaks may have been converted by other tools.
     if old.is_none_or(|old| old.replace("\r\n", "\n") != text) {
         write_file(&one.file, OutputKind::Snapshot, &text)?;
         one.written = true;
@@ -245,7 +245,7 @@ fn store(one: &mut Looked, everything: bool) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The messages about a lab that is not as stored.
+/// The message about a lab whose output differs from the snapshot.
 fn about(lab: &RenewedLab) -> String {
     let snapshot = &lab.result;
     let mut text = format!(
@@ -260,7 +260,7 @@ fn about(lab: &RenewedLab) -> String {
     text
 }
 
-/// Everything, for people. What was asked about is not repeated.
+/// The summary for people. Labs that were reviewed interactively are not repeated.
 fn summary(all: &[Looked], asked: bool) -> String {
     let mut text = String::new();
     let (mut same, mut open) = (0, 0);
@@ -343,7 +343,7 @@ mod tests {
     use labspec::source::SourceFile;
     use labspec::spec::read_lesson;
 
-    /// A lesson with three labs, of which nothing is stored.
+    /// A lesson with three labs without stored output.
     fn looked() -> Looked {
         let lab = "```lab simlab\n{\"xml\": \"<mujoco/>\", \"stopAt\": 0.01, \"readouts\": [{\"label\": \"t\", \"expr\": \"data.time\"}]}\n```\n\n";
         let lesson = read_lesson(SourceFile::new("a.md", lab.repeat(3)));

@@ -1,34 +1,34 @@
-//! Standard output and standard error: a device that is full is an error, a reader that has gone away is not.
+//! Standard output and standard error. A full device is an error; a reader that has closed the pipe is not.
 
 use super::common::Failure;
 use labspec::report::printable_json;
 use serde::Serialize;
 use std::io::{self, BufWriter, IsTerminal, Write};
 
-/// Prints to standard output. A reader that has gone away (`| head`) ends the program quietly.
+/// Prints to standard output. If the reader has closed the pipe (`| head`), the program ends quietly.
 ///
-/// What a lesson holds goes through [`labspec::report::printable`] before it becomes part of `text`.
+/// Text from a lesson must pass through [`labspec::report::printable`] before it becomes part of `text`.
 pub(super) fn print(text: &str) -> Result<(), Failure> {
     stream(|out| out.write_all(text.as_bytes()))
 }
 
-/// Prints a value as JSON, in which nothing acts on a terminal.
+/// Prints a value as JSON without characters that control a terminal.
 pub(super) fn print_json(value: &impl Serialize, pretty: bool) -> Result<(), Failure> {
     let text = if pretty { serde_json::to_string_pretty(value) } else { serde_json::to_string(value) };
     let text = text.map_err(|e| e.to_string())?;
     print(&format!("{}\n", printable_json(&text)))
 }
 
-/// Prints what is written piece by piece and never held as a whole.
+/// Prints output that is written in pieces and never stored as a whole.
 pub(super) fn stream(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
     let mut out = BufWriter::with_capacity(1 << 16, io::stdout().lock());
     let done = write(&mut out).and_then(|()| out.flush());
-    // Dropping the buffer would write what is left once more, to an output that has just failed.
+    // Dropping the buffer would write the rest again, to an output that has just failed.
     let _ = out.into_parts();
     outcome(done)
 }
 
-/// What printing came to.
+/// The outcome of printing.
 pub(super) fn outcome(done: io::Result<()>) -> Result<(), Failure> {
     match done {
         Err(e) if e.kind() != io::ErrorKind::BrokenPipe => {
@@ -38,33 +38,33 @@ pub(super) fn outcome(done: io::Result<()>) -> Result<(), Failure> {
     }
 }
 
-/// Prints to standard error. Where that fails there is nobody left to tell.
+/// Prints to standard error. A failure is ignored, because it cannot be reported anywhere.
 pub(super) fn complain(text: &str) {
     let _ = io::stderr().lock().write_all(text.as_bytes());
 }
 
-/// Replaces the line of progress on a terminal.
+/// Replaces the progress line on a terminal.
 pub(super) fn show_progress(text: &str) {
     complain(&format!("\r\x1b[K{text}"));
 }
 
-/// Clears the line of progress.
+/// Clears the progress line.
 pub(super) fn clear_progress() {
     show_progress("");
 }
 
-/// One line on a terminal that says what long work is at, and is gone when it ends.
+/// A progress line on a terminal, which is cleared at the end of the work.
 pub(super) struct Progress {
     is_visible: bool,
 }
 
 impl Progress {
-    /// Shown where a person looks at the terminal.
+    /// Creates the progress line; it is visible if the output is for people and standard error is a terminal.
     pub(super) fn new(for_people: bool) -> Progress {
         Progress { is_visible: for_people && io::stderr().is_terminal() }
     }
 
-    /// Says what is being done now.
+    /// Displays the current activity.
     pub(super) fn report(&self, text: &str) {
         if self.is_visible {
             show_progress(text);

@@ -1,4 +1,4 @@
-//! What a command is pointed at: a lab in a file, or a model.
+//! The target of a command: a lab in a file, or a model.
 
 use super::common::{Failure, ModelOptions};
 use labspec::bind::Programs;
@@ -12,7 +12,7 @@ use labspec_core::Model;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The folder of models for a file that was named itself.
+/// The folder of models for a file that the user named.
 pub(super) fn model_folder(options: &ModelOptions, file: &Path) -> Result<ModelFolder, Failure> {
     model_folder_within(options, file, &[])
 }
@@ -36,7 +36,8 @@ pub(super) fn model_folder_within(
     })
 }
 
-/// What the models of a folder may read: what `--root` says, else what the folders around them say.
+/// The root below which the models of a folder may read files: that of `--root`, otherwise the one
+/// given by the enclosing folders.
 pub(super) fn root(options: &ModelOptions, models: &Path, named: &[PathBuf]) -> Result<PathBuf, Failure> {
     let Some(root) = &options.root else { return Ok(root_of(models, named)) };
     let real = root.canonicalize().map_err(|e| format!("cannot read the root {}: {e}", root.display()))?;
@@ -50,14 +51,14 @@ pub(super) fn root(options: &ModelOptions, models: &Path, named: &[PathBuf]) -> 
     }
 }
 
-/// A lab, ready to run.
+/// A lab that is ready to run.
 pub(super) struct LabTarget {
     pub(super) lab: Lab,
     pub(super) model: Arc<Model>,
     pub(super) programs: Programs,
 }
 
-/// Opens `LAB.json`, `LESSON.md#2`, `LESSON.md#quiz-id.1` or `MODEL.xml` (a lab without anything else).
+/// Opens `LAB.json`, `LESSON.md#2`, `LESSON.md#quiz-id.1` or `MODEL.xml` (a lab with only a model).
 pub(super) fn open(argument: &str, options: &ModelOptions) -> Result<LabTarget, Failure> {
     let (path, address) = split(argument)?;
     if path.extension().is_some_and(|e| e == "xml") {
@@ -74,7 +75,7 @@ pub(super) fn open(argument: &str, options: &ModelOptions) -> Result<LabTarget, 
     let mut findings: Vec<Finding> =
         findings.into_iter().map(|f| if f.path.is_empty() { f.at(&lesson.file) } else { f }).collect();
     findings.extend(models.take_findings());
-    // Only what stops this lab matters here: `check` reports everything.
+    // Only errors that concern this lab are reported; `check` reports everything.
     findings.retain(|f| f.severity == Severity::Error && (f.path != *lesson.file.path() || within(&lab, f)));
     match (model, programs) {
         (Some(model), Some(programs)) if findings.is_empty() => Ok(LabTarget { lab, model, programs }),
@@ -91,7 +92,7 @@ pub(super) fn open(argument: &str, options: &ModelOptions) -> Result<LabTarget, 
     }
 }
 
-/// The files that [`open`] read for a lab, as far as they have names: no output may overwrite them.
+/// The files that [`open`] read for a lab, as far as they have names. No output may overwrite them.
 pub(super) fn read_for(argument: &str, options: &ModelOptions, lab: &Lab) -> Vec<PathBuf> {
     let Ok((path, _)) = split(argument) else { return Vec::new() };
     let model = lab.model.as_ref().and_then(|name| model_folder(options, &path).ok()?.path(&name.value));
@@ -102,7 +103,7 @@ fn within(lab: &Lab, f: &Finding) -> bool {
     lab.span.start <= f.span.start && f.span.end <= lab.span.end
 }
 
-/// Path and address of `LESSON.md#2`. A `#` that belongs to a file name is left alone.
+/// The path and the address of `LESSON.md#2`. A `#` in the name of an existing file is not a separator.
 fn split(argument: &str) -> Result<(PathBuf, Option<LabAddress>), Failure> {
     if Path::new(argument).exists() {
         return Ok((PathBuf::from(argument), None));
@@ -135,7 +136,7 @@ fn choose<'l>(lesson: &'l Lesson, address: Option<&LabAddress>, argument: &str) 
     }
 }
 
-/// A model alone, as a lab that shows nothing.
+/// A model as a lab without displays.
 fn bare_model(path: &Path, options: &ModelOptions) -> Result<LabTarget, Failure> {
     let model = Arc::new(load_model(path, options)?);
     let text = Text { value: String::new(), map: SourceMap::point(0) };
@@ -144,7 +145,7 @@ fn bare_model(path: &Path, options: &ModelOptions) -> Result<LabTarget, Failure>
     Ok(LabTarget { lab, model, programs })
 }
 
-/// Compiles a model file. Warnings are for `check`.
+/// Compiles a model file. Warnings are left to `check`.
 pub(super) fn load_model(path: &Path, options: &ModelOptions) -> Result<Model, Failure> {
     let file = SourceFile::read(path)?;
     let root = root(options, &lesson_folder(path), &[])?;

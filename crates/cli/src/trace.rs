@@ -51,7 +51,7 @@ pub(super) fn trace(a: &Arguments) -> Result<Outcome, Failure> {
     Ok(if found.numbers.iter().all(traced) { Outcome::Clean } else { Outcome::Findings })
 }
 
-/// Where a hit comes from, in words.
+/// The origin of a hit in words.
 fn place(found: &Traces<'_>, hit: &Hit) -> String {
     match hit.place.and_then(|(lab, trial)| found.run(lab, trial)) {
         Some((address, words)) => format!("lab {address} {words}"),
@@ -85,7 +85,7 @@ fn human(a: &Arguments, lesson: &Lesson, found: &Traces<'_>) -> String {
     text
 }
 
-/// Where a number comes from, in words.
+/// The origin of a number in words.
 fn describe_origin(origin: &Origin, found: &Traces<'_>) -> String {
     match origin {
         Origin::From(hit) => {
@@ -110,7 +110,7 @@ fn describe_origin(origin: &Origin, found: &Traces<'_>) -> String {
     }
 }
 
-/// How many numbers have each kind of origin.
+/// The number of origins of each kind.
 fn summarize(numbers: &[Traced]) -> String {
     let count = |is: fn(&Origin) -> bool| numbers.iter().filter(|n| is(&n.origin)).count();
     let claimed = count(|o| matches!(o, Origin::Claimed));
@@ -132,14 +132,14 @@ fn share(x: f64) -> String {
     if x < 0.001 { "below 0.1 %".to_string() } else { format!("{:.1} %", 100.0 * x) }
 }
 
-/// Where the numbers of a lesson come from, for programs.
+/// The origins of the numbers of a lesson, for programs.
 #[derive(Serialize)]
 struct Report<'a> {
     numbers: Vec<NumberRow<'a>>,
     proposals: Vec<ProposalRow>,
 }
 
-/// A number, its place in bytes of the file and from 1, and where it comes from; `value` is in SI units.
+/// A number, its location in bytes and in lines from 1, and its origin; `value` is in SI units.
 #[derive(Serialize)]
 struct NumberRow<'a> {
     text: &'a str,
@@ -157,7 +157,7 @@ struct NumberRow<'a> {
     by: Option<&'a str>,
 }
 
-/// An object for a lab, as an author would write it.
+/// A proposed object for a lab, in the form in which an author writes it.
 #[derive(Serialize)]
 struct ProposalRow {
     lab: String,

@@ -1,4 +1,4 @@
-//! Waiting for files to change, by looking at their sizes and times.
+//! Detects changes of files by their sizes and times.
 
 use super::collect::collect;
 use super::common::{Failure, Outcome, interrupted};
@@ -10,14 +10,14 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
-/// How often files are looked at.
+/// The interval between two inspections of the files.
 const PAUSE: Duration = Duration::from_millis(300);
 
-/// What a file was when it was looked at: its size and time; `None` while there is none.
+/// The size and the time of a file, or `None` if it does not exist.
 type Stamp = Option<(u64, SystemTime)>;
 
-/// Checks, waits until something has changed, and checks again, until Ctrl-C. `check` says what came of it, and which files
-/// it depends on besides those that were named.
+/// Checks, waits until a file changes, and checks again, until Ctrl-C. `check` returns its outcome and the files on which it
+/// depends, in addition to those that were named.
 pub(super) fn watch(
     paths: &[PathBuf],
     settings: &[&Path],
@@ -25,10 +25,10 @@ pub(super) fn watch(
 ) -> Result<Outcome, Failure> {
     let mut also: BTreeSet<PathBuf> = settings.iter().map(|path| path.to_path_buf()).collect();
     loop {
-        // Before the check: what changes while it goes on is checked again.
+        // Recorded before the check, so that a change during the check triggers another one.
         let mut before = stamps(paths, &also);
         let outcome = check().and_then(|(outcome, read)| {
-            // What this check was the first to read.
+            // The files that this check was the first to read.
             let new: BTreeSet<PathBuf> = read.difference(&also).cloned().collect();
             for path in new {
                 before.entry(path.clone()).or_insert_with(|| stamp(&path));
@@ -52,15 +52,14 @@ pub(super) fn watch(
     }
 }
 
-/// What counts for a lesson besides its own text: its snapshot, and the settings of the folders around it, which may not be there
-/// yet.
+/// The other files that affect a lesson: its snapshot, and the settings of the enclosing folders, which may not exist yet.
 fn beside(path: &Path) -> Vec<PathBuf> {
     let real = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
     let settings = real.ancestors().skip(1).map(|folder| folder.join(policy::FILE));
     settings.chain([lint::snapshot_path(path)]).collect()
 }
 
-/// The files that were named or lie in folders that were named, and others.
+/// The state of the named files, of the files in named folders, and of further files.
 fn stamps(paths: &[PathBuf], also: &BTreeSet<PathBuf>) -> BTreeMap<PathBuf, Stamp> {
     let found = collect(paths).files.into_iter().map(|(path, _)| path);
     found

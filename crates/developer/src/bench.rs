@@ -1,4 +1,4 @@
-//! The cost of a step. This is also what an instruction counter runs.
+//! The run time of a step. Instruction counters run this as well.
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use labspec::bind::Programs;
@@ -11,7 +11,7 @@ use labspec_core::{AccessSet, Model, Plan, TreeAlgorithm, TreeAlgorithms};
 use serde::Serialize;
 use std::time::Instant;
 
-/// What is measured.
+/// The options of the measurement.
 #[derive(clap::Args, Clone, Debug)]
 pub struct Options {
     /// Steps of each repetition
@@ -39,33 +39,33 @@ pub struct Options {
 #[derive(Clone, Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct StepTime {
-    /// The fastest repetition, ns; `None` when none was finished.
+    /// The fastest repetition, ns; `None` if no repetition was completed.
     pub min_ns: Option<f64>,
     /// The median of the repetitions, ns.
     pub median_ns: Option<f64>,
-    /// Steps of each repetition.
+    /// The steps of each repetition.
     pub steps: usize,
-    /// Degrees of freedom.
+    /// The degrees of freedom.
     pub nv: usize,
-    /// Contacts at the end.
+    /// The contacts at the end.
     pub ncon: usize,
-    /// Rows of constraints at the end.
+    /// The constraint rows at the end.
     pub nefc: usize,
-    /// Simulated time at the end, s.
+    /// The simulated time at the end, s.
     pub time: f64,
-    /// What the time is, where it is none.
+    /// The name of the time, if it is not finite.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub nonfinite: Option<NonfiniteTime>,
 }
 
-/// A time for which JSON has no number.
+/// A time that JSON cannot represent.
 #[derive(Clone, Debug, Serialize)]
 pub struct NonfiniteTime {
-    /// What it is.
+    /// Its name.
     pub time: &'static str,
 }
 
-/// A specialized algorithm for trees, by its name.
+/// A parser for the name of a specialized tree algorithm.
 fn specialized_algorithm() -> impl TypedValueParser<Value = TreeAlgorithm> {
     PossibleValuesParser::new(TreeAlgorithm::short().map(TreeAlgorithm::name)).try_map(|name| {
         let mut algorithms = TreeAlgorithm::short();
@@ -73,7 +73,8 @@ fn specialized_algorithm() -> impl TypedValueParser<Value = TreeAlgorithm> {
     })
 }
 
-/// Measures the steps of a lab, or of a model as a lab that shows nothing. Ctrl-C ends it after the last finished repetition.
+/// Measures the steps of a lab, or of a model as a lab without displays. Ctrl-C ends the measurement after the
+/// last completed repetition.
 pub fn measure_steps(lab: &Lab, model: &Model, programs: &Programs, options: &Options) -> StepTime {
     let reads = if options.full { FieldSet::ALL } else { programs.access.reads };
     let access = AccessSet { reads, ..programs.access };
@@ -83,7 +84,7 @@ pub fn measure_steps(lab: &Lab, model: &Model, programs: &Programs, options: &Op
     let mut session = Session::start(programs, model, start);
     let steps = options.steps.clamp(1, MAX_STEPS);
     let has_programs = !programs.probes.is_empty() || programs.controller.is_some();
-    // Inlined here, so that a counter of `advance` does not see it.
+    // Inlined here, so that a counter of `advance` does not include these steps.
     run_steps(&mut session, options.warm.min(MAX_STEPS), has_programs);
     let start = session.world.data.clone();
     let mut nanoseconds = Vec::new();
@@ -96,7 +97,7 @@ pub fn measure_steps(lab: &Lab, model: &Model, programs: &Programs, options: &Op
         }
         let clock = Instant::now();
         advance(&mut session, steps, has_programs);
-        // A repetition that was cut short is no measurement.
+        // An interrupted repetition is not a valid measurement.
         if interrupt::requested() {
             break;
         }
@@ -122,17 +123,17 @@ fn advance(session: &mut Session<'_>, steps: usize, has_programs: bool) {
     run_steps(session, steps, has_programs);
 }
 
-/// Whole steps: of the engine for a model alone, of the session with its controller for a lab.
+/// Performs whole steps: of the engine for a model, of the session with its controller for a lab.
 #[inline(always)]
 fn run_steps(session: &mut Session<'_>, steps: usize, has_programs: bool) {
-    // Ctrl-C is asked for now and then, so that asking costs nothing that can be measured.
+    // Ctrl-C is checked only every 256 steps, so that the check does not affect the measurement.
     for first in (0..steps).step_by(256) {
         let some = 256.min(steps - first);
         if has_programs {
             (0..some).for_each(|_| session.step());
         } else {
             let world = &mut session.world;
-            // Data and model of a session belong together: no step is refused.
+            // Data and model of a session belong together, so no step is refused.
             (0..some).for_each(|_| drop(labspec_core::step(&world.model, &mut world.data)));
         }
         if interrupt::requested() {

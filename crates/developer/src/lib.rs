@@ -1,5 +1,5 @@
-//! Tools for engineers of labspec: the time of a step (`bench`), and the numbers of this engine for the states of a recording of MuJoCo
-//! (`record`). The program runs them as commands; neither opens a model or prints.
+//! Tools for engineers of labspec: the run time of a step (`bench`), and the values of this engine for the states of a MuJoCo
+//! recording (`record`). The program runs them as commands; this crate neither opens models nor prints.
 
 pub mod bench;
 mod number_fields;

@@ -3,8 +3,8 @@
 use labspec::report::nonfinite;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
-/// An object of numbers, in the order of the list. JSON has no NaN and no infinities: such a number is `null`, and the entry
-/// `nonfinite`, after the first one that holds any, says under the same names what they are.
+/// An object of numbers in the order of the list. JSON has no NaN and no infinities: such a number is `null`, and the entry
+/// `nonfinite`, after the first one that contains such a number, contains their names under the same keys.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct NumberFields(pub Vec<(String, Numbers)>);
 
@@ -22,7 +22,7 @@ pub enum Numbers {
     Objects(Vec<NumberFields>),
 }
 
-/// What numbers are for which JSON has none: of a list, the index of each and what it is.
+/// The names of numbers that JSON cannot represent; for a list, the index and the name of each.
 #[derive(serde::Serialize)]
 #[serde(untagged)]
 enum Nonfinite {
@@ -31,7 +31,7 @@ enum Nonfinite {
 }
 
 impl Numbers {
-    /// How many values it holds.
+    /// The number of values.
     fn count_values(&self) -> usize {
         match self {
             Numbers::Count(_) | Numbers::One(_) => 1,
@@ -54,12 +54,12 @@ impl Numbers {
 }
 
 impl NumberFields {
-    /// An object of so many numbers.
+    /// Creates an object of N numbers.
     pub fn new<const N: usize>(fields: [(&str, Numbers); N]) -> NumberFields {
         NumberFields(fields.map(|(name, numbers)| (name.to_string(), numbers)).into())
     }
 
-    /// How many values it holds.
+    /// The number of values.
     pub(crate) fn count_values(&self) -> usize {
         self.0.iter().map(|(_, numbers)| numbers.count_values()).sum()
     }

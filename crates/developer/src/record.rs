@@ -1,4 +1,4 @@
-//! Our engine's numbers in the layout of a recording of MuJoCo, for the same states.
+//! The values of this engine for the states of a MuJoCo recording, in the same layout.
 
 use super::number_fields::{NumberFields, Numbers};
 use labspec::interrupt;
@@ -11,7 +11,7 @@ use serde::Serialize;
 use serde_json::Value;
 use std::path::PathBuf;
 
-/// What is recorded.
+/// The options of the recording.
 #[derive(clap::Args, Clone, Debug)]
 pub struct Options {
     /// A recording with the states to use
@@ -31,34 +31,34 @@ pub struct Options {
     pub option: Vec<String>,
 }
 
-/// The numbers of this engine.
+/// The values of this engine.
 #[derive(Clone, Debug, Serialize)]
 pub struct Recording {
-    /// The program that made it.
+    /// The program that computed it.
     pub version: &'static str,
-    /// Sizes of the model that the recording of MuJoCo names.
+    /// The sizes of the model that the MuJoCo recording contains.
     pub sizes: NumberFields,
-    /// Always empty: names are those of the recording of MuJoCo.
+    /// Always empty: names are in the MuJoCo recording.
     pub names: NumberFields,
-    /// Fields of the model that it names.
+    /// The fields of the model that the MuJoCo recording contains.
     pub model: NumberFields,
-    /// For each of its states the fields that it names there, after a forward pass.
+    /// For each of its states, the fields that it contains, after a forward pass.
     pub forward: Vec<NumberFields>,
     /// A run from the start, row by row.
     pub trajectory: Vec<NumberFields>,
-    /// How often the engine warned, by the names of its warnings.
+    /// The number of warnings of the engine, by name.
     pub warnings: NumberFields,
 }
 
-/// Largest recording that is read, in bytes.
+/// The maximum size of a recording that is read, in bytes.
 const MAX_RECORDING: u64 = 64 << 20;
-/// Most numbers that are written.
+/// The maximum number of values that are written.
 const MAX_NUMBERS: usize = 5_000_000;
 
-/// What is recorded of each state besides the arrays that the recording names.
+/// The arrays that are recorded for each state, in addition to those that the recording contains.
 const STATE: [&str; 6] = ["qpos", "qvel", "act", "ctrl", "mocap_pos", "mocap_quat"];
 
-/// Computes the numbers that a recording of MuJoCo holds, for the same model.
+/// Computes the values that a MuJoCo recording contains, for the same model.
 ///
 /// # Errors
 /// The recording cannot be read or is for another model, an option does not exist, or the result is too long.
@@ -92,7 +92,7 @@ pub fn record(mut m: Model, options: &Options) -> Result<Recording, String> {
     })
 }
 
-/// Reads the recording of MuJoCo.
+/// Reads the MuJoCo recording.
 fn read_oracle(options: &Options) -> Result<Value, String> {
     let text = read_text(&options.states, MAX_RECORDING, "a recording")?;
     serde_json::from_str(&text).map_err(|e| format!("{} is not JSON: {e}", printable_path(&options.states)))
@@ -112,7 +112,7 @@ fn check_length(options: &Options, m: &Model) -> Result<(), String> {
     Ok(())
 }
 
-/// The arrays that the recording names, computed for each of its states.
+/// Computes the arrays that the recording contains for each of its states.
 fn forward_rows(
     options: &Options,
     oracle: &Value,
@@ -129,7 +129,7 @@ fn forward_rows(
         core::forward(m, d)?;
         let row = known_fields(state, |name| match name {
             "contact" => Some(contacts(d)),
-            // As it was recorded, not as a step may have changed it.
+            // The recorded value, not one that a step may have changed.
             _ if STATE.contains(&name) => Some(Numbers::List(recorded(&state[name]))),
             "M" => core::full_m(m, d).ok().map(Numbers::List),
             _ => field(m, d, Object::Data, name),
@@ -149,7 +149,7 @@ fn forward_rows(
     Ok(rows)
 }
 
-/// The state of a run after every so many steps.
+/// The state of a run after every `every` steps.
 fn trajectory_rows(options: &Options, m: &Model, d: &mut Data) -> Result<Vec<NumberFields>, String> {
     start(m, d)?;
     let mut rows = Vec::new();
@@ -181,13 +181,13 @@ fn start(m: &Model, d: &mut Data) -> Result<(), core::Error> {
     }
 }
 
-/// Of the names of a recorded object those for which there are numbers.
+/// Those fields of a recorded object for which there are values.
 fn known_fields(recorded: &Value, numbers: impl Fn(&str) -> Option<Numbers>) -> NumberFields {
     let names = recorded.as_object().into_iter().flat_map(|o| o.keys());
     NumberFields(names.filter_map(|name| Some((name.clone(), numbers(name)?))).collect())
 }
 
-/// Arrays as lists, counts as numbers; `None` for a field that does not exist.
+/// Arrays as lists, counts as numbers; `None` if the field does not exist.
 fn field(m: &Model, d: &Data, object: Object, name: &str) -> Option<Numbers> {
     Some(match core::view(m, d, reflect::field(object, name)?).ok()? {
         View::Size(n) => Numbers::Count(n),
@@ -195,7 +195,7 @@ fn field(m: &Model, d: &Data, object: Object, name: &str) -> Option<Numbers> {
     })
 }
 
-/// The contacts, by their geoms, then by their positions to a micrometre.
+/// The contacts, sorted by their geoms, then by their positions to a micrometre.
 fn contacts(d: &Data) -> Numbers {
     let mut rows: Vec<_> = d.contact.iter().collect();
     rows.sort_by(|a, b| {
@@ -220,7 +220,7 @@ fn contacts(d: &Data) -> Numbers {
     Numbers::Objects(rows.into_iter().map(row).collect())
 }
 
-/// The numbers of a recorded array; NaN for what is none.
+/// The values of a recorded array; NaN for entries that are not numbers.
 fn recorded(values: &Value) -> Vec<f64> {
     values.as_array().into_iter().flatten().map(|v| v.as_f64().unwrap_or(f64::NAN)).collect()
 }

@@ -1,4 +1,4 @@
-//! The tree of a source text. Every node keeps the bytes that it came from.
+//! The syntax tree. Every node stores its source span.
 
 pub use crate::operators::{BinaryOp, LogicalOp, UnaryOp};
 use labspec_finding::Span;
@@ -6,18 +6,18 @@ use labspec_finding::Span;
 /// An expression.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expr {
-    /// What it is.
+    /// The kind, with its operands.
     pub kind: ExprKind,
-    /// Where it stands, parentheses around it not included.
+    /// The source span, without enclosing parentheses.
     pub span: Span,
 }
 
-/// A name with its place.
+/// A name with its location.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Name {
     /// The text.
     pub text: String,
-    /// Where it stands.
+    /// Its source span.
     pub span: Span,
 }
 
@@ -36,33 +36,33 @@ pub enum ExprKind {
     Name(String),
     /// `object.name`
     Member {
-        /// Before the point.
+        /// The expression before the point.
         object: Box<Expr>,
-        /// After it.
+        /// The name after it.
         name: Name,
         /// `object?.name`
         optional: bool,
     },
     /// `object[index]`
     Index {
-        /// Before the brackets.
+        /// The expression before the brackets.
         object: Box<Expr>,
-        /// Between them.
+        /// The expression between them.
         index: Box<Expr>,
         /// `object?.[index]`
         optional: bool,
     },
     /// `callee(arguments)`
     Call {
-        /// What is called.
+        /// The function that is called.
         callee: Box<Expr>,
-        /// In order; some may be spreads.
+        /// The arguments in order; some may be spreads.
         args: Vec<Expr>,
         /// `callee?.(arguments)`
         optional: bool,
     },
-    /// Members, indexes and calls with at least one `?.` in their chain: where an optional one meets nothing, all
-    /// of the chain is `undefined`.
+    /// Members, indexes and calls with at least one `?.` in their chain: if the object of an optional link is `null` or
+    /// `undefined`, the whole chain is `undefined`.
     Chain(Box<Expr>),
     /// `[items]`; some may be spreads.
     Array(Vec<Expr>),
@@ -70,23 +70,23 @@ pub enum ExprKind {
     Object(Vec<Property>),
     /// `...list`, only among items and arguments.
     Spread(Box<Expr>),
-    /// `` `text ${value} text` ``: texts and the values between them; one text more than values.
+    /// `` `text ${value} text` ``: strings, and the values between them; there is one string more than values.
     Template {
-        /// Before, between and behind the values.
+        /// The strings before, between and after the values.
         texts: Vec<String>,
-        /// In order.
+        /// The values in order.
         values: Vec<Expr>,
     },
     /// `(x) => x * x`, or `function (x) { return x * x }`
     Function(Box<Function>),
-    /// `-operand` and its like.
+    /// `-operand` and the other unary operators.
     Unary {
-        /// The sign.
+        /// The operator.
         op: UnaryOp,
-        /// What it applies to.
+        /// Its operand.
         operand: Box<Expr>,
     },
-    /// `left + right` and its like.
+    /// `left + right` and the other binary operators.
     Binary {
         /// The operator.
         op: BinaryOp,
@@ -108,29 +108,29 @@ pub enum ExprKind {
     Conditional {
         /// Before the question mark.
         test: Box<Expr>,
-        /// The value when `test` holds.
+        /// The value if `test` holds.
         then: Box<Expr>,
-        /// The value when it does not.
+        /// The value if `test` does not hold.
         otherwise: Box<Expr>,
     },
     /// `target = value`, `target += value`
     Assign {
-        /// What is assigned to.
+        /// The target of the assignment.
         target: Box<Expr>,
         /// The operator of a compound assignment.
         op: Option<BinaryOp>,
-        /// Where `=` or `+=` stands.
+        /// The span of `=` or `+=`.
         op_span: Span,
         /// The new value, or the right operand of `op`.
         value: Box<Expr>,
     },
     /// `target ||= value`, `target &&= value`, `target ??= value`
     AssignLogical {
-        /// What is assigned to.
+        /// The target of the assignment.
         target: Box<Expr>,
-        /// Decides whether.
+        /// The operator that decides whether the assignment happens.
         op: LogicalOp,
-        /// Where the operator stands.
+        /// The span of the operator.
         op_span: Span,
         /// The new value.
         value: Box<Expr>,
@@ -139,14 +139,14 @@ pub enum ExprKind {
     Sequence(Vec<Expr>),
     /// `target++`, `--target`
     Update {
-        /// What is changed.
+        /// The target that changes.
         target: Box<Expr>,
-        /// `++` rather than `--`.
+        /// `true` for `++`, `false` for `--`.
         increment: bool,
-        /// The operator stands before the target.
+        /// Whether the operator is in front of the target.
         prefix: bool,
     },
-    /// Could not be read; already reported.
+    /// An expression that could not be parsed; the error has been reported.
     Error,
 }
 
@@ -162,7 +162,7 @@ pub enum Property {
     },
     /// `[key]: value`
     Computed {
-        /// Gives the key.
+        /// The expression of the key.
         key: Expr,
         /// Its value.
         value: Expr,
@@ -171,51 +171,51 @@ pub enum Property {
     Spread(Expr),
 }
 
-/// A function of the text's own.
+/// A function that the source text defines.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Function {
-    /// The name by which a `function` that is a value can call itself. A declaration holds its own.
+    /// The name by which a `function` expression can call itself. For a declaration, the name is in [`StmtKind::Function`].
     pub name: Option<Name>,
-    /// In order.
+    /// The parameters in order.
     pub params: Vec<Element>,
-    /// What it does.
+    /// The body.
     pub body: Body,
-    /// All of it.
+    /// The span of the whole function.
     pub span: Span,
 }
 
-/// What a function does.
+/// The body of a function.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Body {
-    /// Gives a value.
+    /// An expression whose value is returned.
     Value(Expr),
-    /// Runs statements up to `return`.
+    /// Statements, executed up to `return`.
     Block(Vec<Stmt>),
 }
 
-/// What a declaration names: one value, or parts of a list or a record.
+/// The target of a declaration: one name, or a destructuring pattern of a list or a record.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Pattern {
     /// `name`
     Name(Name),
     /// `[a, , b]`
     List {
-        /// `None` for an element that is passed over.
+        /// `None` for an element that is skipped.
         items: Vec<Option<Element>>,
-        /// All of it.
+        /// The span of the whole pattern.
         span: Span,
     },
     /// `{a, b: c}`
     Record {
-        /// Key and what it is bound to.
+        /// Each key with its target.
         entries: Vec<(Name, Element)>,
-        /// All of it.
+        /// The span of the whole pattern.
         span: Span,
     },
 }
 
 impl Pattern {
-    /// Where it stands.
+    /// The span of the pattern.
     pub fn span(&self) -> Span {
         match self {
             Pattern::Name(name) => name.span,
@@ -224,10 +224,10 @@ impl Pattern {
     }
 }
 
-/// A part of a pattern, or a parameter: what it names, and the value it takes instead of `undefined`.
+/// An element of a pattern, or a parameter: its target, and the default that replaces `undefined`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Element {
-    /// What it names.
+    /// The name or the pattern that it binds.
     pub target: Pattern,
     /// `= value`
     pub default: Option<Expr>,
@@ -236,74 +236,74 @@ pub struct Element {
 /// A statement.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stmt {
-    /// What it is.
+    /// The kind, with its parts.
     pub kind: StmtKind,
-    /// Where it stands, without the semicolon.
+    /// The source span, without the semicolon.
     pub span: Span,
 }
 
 /// The kinds of statements.
 #[derive(Clone, Debug, PartialEq)]
 pub enum StmtKind {
-    /// An expression for its effect: an assignment or a call.
+    /// An expression evaluated for its effect: an assignment or a call.
     Expr(Expr),
     /// `const a = 1, b = 2` or `let …`
     Declare {
-        /// `const` rather than `let`.
+        /// `true` for `const`, `false` for `let`.
         constant: bool,
-        /// At least one.
+        /// The declarators, at least one.
         declarators: Vec<Declarator>,
     },
     /// `function name(x) { … }`
     Function {
-        /// The new name.
+        /// The declared name.
         name: Name,
-        /// What it does.
+        /// The function.
         function: Box<Function>,
     },
     /// `if (test) then else otherwise`
     If {
-        /// Between the parentheses.
+        /// The condition between the parentheses.
         test: Expr,
-        /// Run when it holds.
+        /// Executed if the condition holds.
         then: Box<Stmt>,
-        /// Run when it does not.
+        /// Executed if it does not hold.
         otherwise: Option<Box<Stmt>>,
     },
     /// `for (init; test; update) body`
     For {
-        /// Run once before.
+        /// Executed once before the loop.
         init: Option<Box<Stmt>>,
-        /// Asked before every turn.
+        /// The condition, evaluated before every iteration.
         test: Option<Expr>,
-        /// Run after every turn.
+        /// Executed after every iteration.
         update: Option<Expr>,
-        /// Run in every turn.
+        /// Executed in every iteration.
         body: Box<Stmt>,
     },
     /// `for (const target of items) body`
     ForOf {
-        /// `const` rather than `let`.
+        /// `true` for `const`, `false` for `let`.
         constant: bool,
-        /// Names each item.
+        /// The target that is bound to each item.
         target: Pattern,
         /// A list, an array of the simulation or a string.
         items: Expr,
-        /// Run for every item.
+        /// Executed for every item.
         body: Box<Stmt>,
     },
     /// `while (test) body`
     While {
-        /// Asked before every turn.
+        /// The condition, evaluated before every iteration.
         test: Expr,
-        /// Run in every turn.
+        /// Executed in every iteration.
         body: Box<Stmt>,
     },
     /// `do body while (test)`
     DoWhile {
-        /// Run in every turn.
+        /// Executed in every iteration.
         body: Box<Stmt>,
-        /// Asked after every turn.
+        /// The condition, evaluated after every iteration.
         test: Expr,
     },
     /// `{ … }`
@@ -316,15 +316,15 @@ pub enum StmtKind {
     Return(Option<Expr>),
     /// `;`
     Empty,
-    /// Could not be read; already reported.
+    /// A statement that could not be parsed; the error has been reported.
     Error,
 }
 
 /// `target = value` of a declaration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Declarator {
-    /// The new name, or names.
+    /// The declared name, or a pattern of names.
     pub target: Pattern,
-    /// Its first value; without one it is `undefined`.
+    /// Its initial value; without one it is `undefined`.
     pub value: Option<Expr>,
 }

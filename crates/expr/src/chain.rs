@@ -1,5 +1,5 @@
-//! What stands before a place of a text, as far as its tokens tell: `data.joint("hinge").qpos[0]` is a name, a member, a call, a
-//! member and an index. The text around it may be incomplete, which is what it is while somebody writes.
+//! The chain before a position of a source text, determined from its tokens: `data.joint("hinge").qpos[0]` is a name, a member,
+//! a call, a member and an index. The text around the position may be incomplete, as it is while an author types.
 
 use crate::globals::Globals;
 use crate::lex::{Token, TokenKind, tokens};
@@ -8,21 +8,21 @@ use crate::types::{CollectionId, FunctionId, ObjectId, Type};
 use labspec_finding::Span;
 use labspec_finding::order;
 
-/// How often a variable may stand for another one.
+/// Limit on the aliases that are followed (a variable that stands for another one).
 const MAX_ALIASES: usize = 8;
-/// The longest chain that is looked at.
+/// Limit on the number of links of a chain.
 const MAX_LINKS: usize = 32;
 
-/// What a chain means.
+/// The meaning of a chain.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum PathMeaning {
     Object(ObjectId),
     Field(Field),
-    /// One element of a field: the field, and its index where it is a number of the text.
+    /// An element of a field: the field, and the index if it is a literal.
     Element(Field, Option<usize>),
     Collection(CollectionId),
     Function(FunctionId),
-    /// What a function gives.
+    /// The result of a function.
     Result(FunctionId),
     /// `Math`
     Math,
@@ -32,43 +32,43 @@ pub(crate) enum PathMeaning {
     Value(Type),
 }
 
-/// A text by its tokens.
+/// The tokens of a source text.
 pub(crate) struct Tokens<'s> {
     list: Vec<Token<'s>>,
-    /// `None` where only its form is of interest.
+    /// `None` if only the syntax is needed.
     schema: Option<&'s dyn Schema>,
 }
 
-/// A name between quotes that a call takes for the name of an object.
+/// A string literal that a call interprets as the name of an object.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NamedObject {
-    /// The objects among which it is looked up.
+    /// The collection in which the name is looked up.
     pub collection: CollectionId,
     /// The name.
     pub name: String,
-    /// Its bytes in the text, without quotes.
+    /// The span of the name in the text, without quotes.
     pub span: Span,
 }
 
-/// A field that a text names.
+/// A field that a text mentions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FieldMention {
-    /// The field, or the part of it that one object has.
+    /// The field, or the part of it that belongs to one object.
     pub field: Field,
-    /// The element, counted from the start of that part, where a number of the text tells it.
+    /// The element, counted from the start of that part, if its index is a literal.
     pub element: Option<usize>,
-    /// Bytes of the text, an index included.
+    /// The span in the text, including an index.
     pub span: Span,
 }
 
-/// All names of objects in a text, in order. Where it is broken, those that can be recognized.
+/// Returns all names of objects in a text, in order. In an invalid text, returns those that can be recognized.
 pub fn names_in(schema: &dyn Schema, source: &str) -> Vec<NamedObject> {
     let all = Tokens::read(schema, source);
     let named = (0..all.list.len()).filter_map(|i| all.named(i));
     named.collect()
 }
 
-/// All texts between quotes in a text, with their bytes (without quotes).
+/// Returns all string literals in a text, with their spans (without quotes).
 pub fn texts_in(source: &str) -> Vec<(String, Span)> {
     let found = tokens(source, &mut Vec::new());
     let text = |t: Token<'_>| match t.kind {
@@ -78,16 +78,16 @@ pub fn texts_in(source: &str) -> Vec<(String, Span)> {
     found.into_iter().filter_map(text).collect()
 }
 
-/// The longest chain of names, members, indexes and calls that ends with the link at a byte of a text: in `data.qpos[0]` that is
-/// `data` at its first letter, `data.qpos` behind the point, and all of it at the index.
+/// Returns the span of the longest chain of names, members, indexes and calls that ends with the link at byte `offset`. In
+/// `data.qpos[0]`, this is `data` at its first letter, `data.qpos` after the point, and the whole chain at the index.
 pub fn chain_at(source: &str, offset: usize) -> Option<Span> {
     let all = Tokens { list: listed(source), schema: None };
     let holds = |t: &Token<'_>| t.span.start <= offset && offset <= t.span.end;
-    // Between two tokens, the one that begins there is meant, if it is a name.
+    // Between two tokens, a name that begins there is preferred.
     let near: Vec<usize> = (0..all.len()).filter(|&i| all.list.get(i).is_some_and(holds)).collect();
     let is_word = |i: &&usize| matches!(all.kind(**i), Some(TokenKind::Word(_)));
     let mut last = *near.iter().find(is_word).or(near.first())?;
-    // In the brackets of an index or a call, all of it is meant.
+    // Inside the brackets of an index or a call, the chain ends at the closing bracket.
     if !matches!(all.kind(last), Some(TokenKind::Word(_))) {
         let mut depth = 0usize;
         last = (last..all.len()).find(|&i| match all.kind(i) {
@@ -103,7 +103,7 @@ pub fn chain_at(source: &str, offset: usize) -> Option<Span> {
             _ => false,
         })?;
     }
-    // A name that is called means what the call gives.
+    // For the name of a called function, the chain includes the call.
     if matches!(all.kind(last + 1), Some(TokenKind::Symbol("("))) {
         let close = (last + 1..all.len()).find(|&i| all.opening(i) == Some(last + 1) && i > last + 1)?;
         last = close;
@@ -113,12 +113,12 @@ pub fn chain_at(source: &str, offset: usize) -> Option<Span> {
     Some(first.span.to(last.span))
 }
 
-/// All fields that a text names, in order.
+/// Returns all fields that a text mentions, in order.
 pub fn fields_in(schema: &dyn Schema, source: &str) -> Vec<FieldMention> {
     let all = Tokens::read(schema, source);
     let mut found = Vec::new();
     for i in 0..all.list.len() {
-        // The last link of a chain: nothing goes on behind it.
+        // The last link of a chain, which no further link follows.
         let ends = matches!(all.kind(i), Some(TokenKind::Word(_) | TokenKind::Symbol("]")));
         if !ends || matches!(all.kind(i + 1), Some(TokenKind::Symbol("." | "?." | "(" | "["))) {
             continue;
@@ -141,12 +141,12 @@ pub fn fields_in(schema: &dyn Schema, source: &str) -> Vec<FieldMention> {
     found
 }
 
-/// The bytes of a text between quotes, without the quotes.
+/// The span of a string literal without its quotes.
 fn inner(span: Span) -> Span {
     Span::new(span.start + 1, span.end.saturating_sub(1).max(span.start + 1))
 }
 
-/// The tokens of a text, without its end.
+/// The tokens of a text, without the end token.
 fn listed(source: &str) -> Vec<Token<'_>> {
     let mut list = tokens(source, &mut Vec::new());
     list.pop();
@@ -166,14 +166,14 @@ impl<'s> Tokens<'s> {
         self.list.get(i).map(|t| &t.kind)
     }
 
-    /// The name of an object that stands at a token.
+    /// The name of an object at a token.
     fn named(&self, i: usize) -> Option<NamedObject> {
         let Some(TokenKind::Text(name)) = self.kind(i) else { return None };
         let collection = self.collection_at(i)?;
         Some(NamedObject { collection, name: name.clone(), span: inner(self.list.get(i)?.span) })
     }
 
-    /// The objects whose names the argument takes that stands at, or would stand at, a token.
+    /// The collection whose names are valid for the argument at a token, whether or not the argument has been typed yet.
     pub(crate) fn collection_at(&self, i: usize) -> Option<CollectionId> {
         let (mut depth, mut argument, mut at) = (0usize, 0usize, i);
         let open = loop {
@@ -196,7 +196,7 @@ impl<'s> Tokens<'s> {
         }
     }
 
-    /// What the chain means that ends before a token, and the token at which it begins.
+    /// The meaning of the chain that ends before token `end`, and the token at which the chain begins.
     pub(crate) fn meaning(&self, end: usize) -> Option<(PathMeaning, usize)> {
         self.meaning_within(end, MAX_ALIASES)
     }
@@ -237,7 +237,7 @@ impl<'s> Tokens<'s> {
         }
     }
 
-    /// The bracket that a bracket closes.
+    /// The opening bracket that matches a closing bracket.
     fn opening(&self, close: usize) -> Option<usize> {
         let mut depth = 0usize;
         for at in (0..=close).rev() {
@@ -264,7 +264,7 @@ impl<'s> Tokens<'s> {
         }
     }
 
-    /// The end of what a variable is declared as, before a token: `const v = CHAIN`.
+    /// For a declaration `const v = CHAIN` before a token, the token at which the chain ends.
     fn declared(&self, name: &str, before: usize) -> Option<usize> {
         let is = |i: usize, text: &str| matches!(self.kind(i), Some(TokenKind::Word(w) | TokenKind::Symbol(w)) if *w == text);
         let declares = |i: &usize| {
@@ -279,11 +279,11 @@ impl<'s> Tokens<'s> {
             None => true,
         };
         let end = (start..=self.list.len()).find(ends)?;
-        // Nothing but one chain.
+        // The initial value must consist of exactly one chain.
         (end <= before && self.begin(end)? == start).then_some(end)
     }
 
-    /// Whether as many brackets are closed as are opened between two tokens.
+    /// Whether the brackets between two tokens are balanced.
     fn is_level(&self, from: usize, to: usize) -> bool {
         let count = |marks: [&str; 3]| {
             let within = (from..to)
@@ -293,7 +293,7 @@ impl<'s> Tokens<'s> {
         count(["(", "[", "{"]) == count([")", "]", "}"])
     }
 
-    /// Where the chain begins that ends before a token.
+    /// The token at which the chain that ends before token `end` begins.
     fn begin(&self, end: usize) -> Option<usize> {
         let mut at = end;
         loop {
@@ -336,7 +336,7 @@ impl<'s> Tokens<'s> {
         }
     }
 
-    /// Every name that the text declares: variables, functions and their parameters.
+    /// All names that the text declares: variables, functions and their parameters.
     pub(crate) fn variables(&self) -> Vec<&'s str> {
         let mut names: Vec<&'s str> = Vec::new();
         let word = |i: usize| match self.kind(i) {
@@ -382,7 +382,7 @@ pub(crate) fn of_entry(entry: Entry) -> PathMeaning {
     }
 }
 
-/// The variables of `ctx` that any of these texts names.
+/// The variables of `ctx` that any of these texts mentions.
 pub fn variables_of<'t>(schema: &dyn Schema, texts: impl IntoIterator<Item = &'t str>) -> Globals {
     let mut globals = Globals::new();
     for text in texts {

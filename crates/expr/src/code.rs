@@ -1,39 +1,39 @@
-//! The code of a program: what the machine runs, and what the heap keeps of functions.
+//! The machine code of a program: the virtual machine runs it, and function values on the heap refer to it.
 
 use crate::row::Row;
 use crate::ssa::{Num, Op, Representation, SsaProgram, Val};
 use crate::value::Value;
 use labspec_finding::Span;
 
-/// What an operation counts, in units of work.
+/// The cost of an operation, in units of work.
 pub(crate) const OPERATION: u64 = 2;
 
-/// A program for the machine.
+/// A program of the virtual machine.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct MachineCode {
-    /// What it was made from, with the names, tables and arrays that its operations name by number.
+    /// The SSA form from which it was made. It holds the names, tables and arrays to which operations refer by index.
     pub(crate) form: SsaProgram,
-    /// The functions; the first is the text itself.
+    /// The functions; the first is the program itself.
     pub(crate) units: Vec<MachineFunction>,
 }
 
-/// A function for the machine. Its first registers hold its result, the next its parameters and what it uses of
-/// the functions around it.
+/// A function of the virtual machine. Its first registers are for its result, the next for its parameters, and the next
+/// for its captured variables.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct MachineFunction {
     pub(crate) ops: Vec<Op>,
-    /// Where each operation comes from.
+    /// The source span of each operation.
     pub(crate) spans: Vec<Span>,
     /// Lists of registers.
     pub(crate) args: Vec<u32>,
-    /// Numbers that are computed together, with how many operations each formula is.
+    /// Formulas, each with the number of operations that it replaces.
     pub(crate) formulas: Vec<(Row, u32)>,
     /// Constants and the registers that hold them.
     pub(crate) numbers: Vec<(Num, f64)>,
     pub(crate) values: Vec<(Val, Value)>,
-    /// What running it once costs, without the turns of its loops.
+    /// The cost of one execution, without the iterations of its loops.
     pub(crate) cost: u64,
-    /// Registers used.
+    /// The number of registers used.
     pub(crate) number_count: u32,
     pub(crate) value_count: u32,
     pub(crate) params: Vec<Representation>,

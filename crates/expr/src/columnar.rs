@@ -1,5 +1,6 @@
-//! Numeric expressions over recorded samples: every operation runs over a block of samples at once, and what several
-//! expressions read is recorded once (Boncz, Zukowski and Nes, "MonetDB/X100: hyper-pipelining query execution", 2005).
+//! Evaluation of numeric expressions over recorded samples. Every operation processes a block of samples at once, and a
+//! field element that several expressions read is recorded once (Boncz, Zukowski and Nes, "MonetDB/X100: hyper-pipelining
+//! query execution", 2005).
 
 use std::fmt;
 use std::sync::Arc;
@@ -12,28 +13,28 @@ use crate::operators::BinaryOp;
 use crate::program::Program;
 use crate::types::FieldKey;
 
-/// Samples that an operation takes at once: few enough that all registers stay in the nearest cache.
+/// Samples per block: few enough that all registers fit into the first-level cache.
 const BLOCK: usize = 32;
 
 /// The values of all samples of a block.
 type SampleBlock = [f64; BLOCK];
 
-/// An expression over the columns of a recording.
+/// An expression that is evaluated over the columns of a recording.
 #[derive(Clone, Debug)]
 pub struct Columnar {
     formula: Arc<Formula>,
-    /// The column that each operation loads, if it loads one.
+    /// The column that each operation loads; unused for operations that do not load.
     columns: Vec<usize>,
-    /// What it was compiled for.
+    /// The identity of the schema for which it was compiled.
     identity: u64,
 }
 
-/// Why samples and expressions do not belong together.
+/// Why a recording and an expression or a host do not match.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Foreign {
-    /// The host, or another expression, is of something else: elements of the same numbers have another meaning there.
+    /// The host, or another expression, has a different identity: the same field numbers have another meaning there.
     Identity,
-    /// The recording was made for other expressions, and does not hold what this one reads.
+    /// The recording was made for other expressions and does not contain what this one reads.
     Recording,
 }
 
@@ -48,28 +49,26 @@ impl fmt::Display for Foreign {
 
 impl std::error::Error for Foreign {}
 
-/// The elements that several expressions read, recorded sample after sample.
+/// The field elements that several expressions read, recorded at every sample.
 #[derive(Clone, Debug, Default)]
 pub struct Recording {
-    /// What its expressions were compiled for; `None` while there are none.
+    /// The identity for which the expressions were compiled, or `None` if there are no expressions.
     identity: Option<u64>,
     elements: Vec<(FieldKey, u32)>,
     columns: Vec<Vec<f64>>,
 }
 
 impl Recording {
-    /// Nothing is recorded yet.
+    /// An empty recording.
     pub fn new() -> Recording {
         Recording::default()
     }
 
-    /// The columns of an expression that gives a number or a truth value (as 1 or 0); `None` when its value depends
-    /// on more than elements of fields at known indexes.
-    ///
-    /// To be asked before the first sample.
+    /// Registers an expression with a numeric or boolean value (as 1 or 0). Returns `None` if its value depends on anything
+    /// other than field elements at known indexes. Must be called before the first sample.
     ///
     /// # Errors
-    /// The expression was compiled for something else than those before it.
+    /// The expression was compiled for another schema than the earlier ones.
     pub fn columns(&mut self, program: &Program) -> Result<Option<Columnar>, Foreign> {
         let Some(formula) = program.formula.clone().filter(|_| self.columns.iter().all(Vec::is_empty)) else {
             return Ok(None);
@@ -95,17 +94,17 @@ impl Recording {
         })
     }
 
-    /// Makes room for so many samples, so that recording them allocates nothing.
+    /// Reserves memory for `samples` samples, so that recording them does not allocate.
     pub fn reserve(&mut self, samples: usize) {
         for column in &mut self.columns {
             column.reserve_exact(samples);
         }
     }
 
-    /// Records the elements as they are now.
+    /// Records the current values of the elements.
     ///
     /// # Errors
-    /// The expressions were compiled for something else than the host is: nothing is recorded.
+    /// The expressions were compiled for another host. Nothing is recorded.
     pub fn sample(&mut self, host: &dyn Host) -> Result<(), Foreign> {
         if self.identity.is_some_and(|identity| identity != host.identity()) {
             return Err(Foreign::Identity);
@@ -116,35 +115,35 @@ impl Recording {
         Ok(())
     }
 
-    /// Number of samples.
+    /// The number of samples.
     pub fn len(&self) -> usize {
         self.columns.first().map_or(0, Vec::len)
     }
 
-    /// Whether there is no sample.
+    /// Whether there are no samples.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// Number of different elements that are recorded.
+    /// The number of distinct elements that are recorded.
     pub fn width(&self) -> usize {
         self.elements.len()
     }
 }
 
 impl Columnar {
-    /// The values at all samples of a recording that holds what it reads.
+    /// Returns the values at all samples of a recording that contains what the expression reads.
     ///
     /// # Errors
-    /// The recording is one of something else, or of other expressions.
+    /// The recording is from another host or was made for other expressions.
     pub fn evaluate(&self, recording: &Recording) -> Result<Vec<f64>, Foreign> {
         let mut out = vec![0.0; recording.len()];
         self.evaluate_into(recording, &mut Vec::new(), &mut out)?;
         Ok(out)
     }
 
-    /// The same into a slice as long as the recording; `scratch` is kept from call to call, so that nothing is
-    /// allocated.
+    /// As [`Columnar::evaluate`], into a slice as long as the recording. Passing the same `scratch` to
+    /// every call avoids allocation.
     ///
     /// # Errors
     /// As for [`Columnar::evaluate`].
@@ -175,7 +174,7 @@ impl Columnar {
         Ok(())
     }
 
-    /// Whether a recording is of the same thing, and holds at their places all elements that are loaded.
+    /// Checks that a recording has the same identity and contains all loaded elements in the expected columns.
     fn fits(&self, recording: &Recording) -> Result<(), Foreign> {
         if recording.identity.is_some_and(|identity| identity != self.identity) {
             return Err(Foreign::Identity);
@@ -188,7 +187,7 @@ impl Columnar {
         if all { Ok(()) } else { Err(Foreign::Recording) }
     }
 
-    /// One operation over a block that begins at a sample. Operands are results of operations before it.
+    /// Evaluates one operation for the block that begins at a sample. The operands are results of earlier operations.
     #[inline]
     fn block(
         &self,
@@ -239,7 +238,7 @@ impl Columnar {
     }
 }
 
-/// A loop over a whole block, which the compiler turns into vector instructions.
+/// A loop over a whole block, which the compiler vectorizes.
 #[inline(always)]
 fn one(dst: &mut SampleBlock, a: &SampleBlock, f: impl Fn(f64) -> f64) {
     for i in 0..BLOCK {
@@ -298,7 +297,7 @@ mod tests {
         }
     }
 
-    /// A world like another, and not the same.
+    /// A world with the same fields as another, but a different identity.
     struct Elsewhere(World);
 
     impl Host for Elsewhere {
@@ -332,16 +331,16 @@ mod tests {
         let [mut one, mut other] = [Recording::new(), Recording::new()];
         let of_height = one.columns(&height).unwrap().unwrap();
         let of_time = other.columns(&time).unwrap().unwrap();
-        // The samples of another world are not taken.
+        // Samples of a world with another identity are refused.
         assert_eq!(one.sample(&Elsewhere(World::new())), Err(Foreign::Identity));
         assert!(one.is_empty());
         one.sample(&World::new()).unwrap();
         other.sample(&World::new()).unwrap();
-        // The first column of each recording is another element.
+        // The first columns of the two recordings hold different elements.
         assert_eq!(of_height.evaluate(&one), Ok(vec![102.0]));
         assert_eq!(of_height.evaluate(&other), Err(Foreign::Recording));
         assert_eq!(of_time.evaluate(&one), Err(Foreign::Recording));
-        // Programs that were compiled for different things have no recording in common.
+        // Programs that were compiled for different schemas cannot share a recording.
         let foreign = Program { identity: 7, ..height.clone() };
         let mut both = Recording::new();
         both.columns(&time).unwrap().unwrap();

@@ -1,5 +1,5 @@
-//! What can be written at a place of a text that may be incomplete: names, members, methods, and the names of objects between
-//! quotes.
+//! Completions at a position of a source text that may be incomplete: names, members, methods, and names of
+//! objects in string literals.
 
 use crate::chain::{PathMeaning, Tokens, of_entry};
 use crate::globals::Globals;
@@ -10,40 +10,40 @@ use crate::schema::{Field, Schema, signature};
 use crate::types::Type;
 use labspec_finding::Span;
 
-/// What a suggestion is.
+/// The kind of a suggestion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Suggested {
-    /// Something with members, or what gives one.
+    /// An object with members, or a function that returns one.
     Object,
-    /// Numbers of the host.
+    /// A field of the host.
     Field,
     /// A function or a method.
     Function,
-    /// The name of an object, between quotes.
+    /// The name of an object, in quotes.
     Name,
     /// A variable of the text, or of `ctx`.
     Variable,
-    /// A fixed value.
+    /// A constant.
     Constant,
 }
 
-/// Something that can be written.
+/// A completion.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Suggestion {
-    /// What to write.
+    /// The text to insert.
     pub text: String,
-    /// What it is.
+    /// Its kind.
     pub kind: Suggested,
-    /// In full: `data.qpos`, or a signature.
+    /// The full form: `data.qpos`, or a signature.
     pub title: String,
-    /// What it means.
+    /// Its documentation.
     pub doc: String,
-    /// The bytes that it replaces: what is written there already.
+    /// The span that it replaces: the part already typed.
     pub replace: Span,
 }
 
-/// What can be written at a byte of a text, in the order of the host. `globals` are the variables of all texts together.
-/// Inside of numbers, comments and free texts there is nothing.
+/// Returns the completions at byte `offset`, in the order of the host. `globals` contains the variables of all programs of the
+/// lab. There are no completions inside numbers, comments and strings that are not names of objects.
 pub fn complete(
     schema: &dyn Schema,
     globals: &Globals,
@@ -86,11 +86,11 @@ pub fn complete(
     }
 }
 
-/// What is open at the end of a text.
+/// The construct that is open at the end of a text.
 enum Open {
     Nothing,
     Comment,
-    /// A text between quotes, and where it begins.
+    /// A string literal, and its start.
     Text(usize),
 }
 
@@ -101,7 +101,7 @@ fn unclosed(text: &str) -> Open {
         open = match (open, c) {
             (Open::Nothing, '\'' | '"' | '`') => Open::Text(at),
             (Open::Nothing, '/') if next == Some('/') => {
-                // To the end of the line.
+                // A comment extends to the end of the line.
                 match chars.by_ref().find(|(_, c)| *c == '\n') {
                     Some(_) => Open::Nothing,
                     None => return Open::Comment,
@@ -128,7 +128,7 @@ fn unclosed(text: &str) -> Open {
     open
 }
 
-/// The names of objects that a call takes, between quotes.
+/// The names of objects that a call accepts, in quotes.
 fn names(schema: &dyn Schema, source: &str, start: usize, offset: usize) -> Vec<Suggestion> {
     let all = Tokens::read(schema, source.get(..start).unwrap_or(""));
     let Some(collection) = all.collection_at(all.len()) else { return Vec::new() };
@@ -146,7 +146,7 @@ fn names(schema: &dyn Schema, source: &str, start: usize, offset: usize) -> Vec<
     schema.names(collection).into_iter().map(one).collect()
 }
 
-/// Suggestions for one place.
+/// The completions at one position.
 struct SuggestionList<'s> {
     schema: &'s dyn Schema,
     replace: Span,
@@ -201,7 +201,7 @@ impl SuggestionList<'_> {
         }
     }
 
-    /// What stands behind a point.
+    /// Adds the members after a point.
     fn members(&mut self, of: Option<PathMeaning>, globals: &Globals) {
         match of {
             Some(PathMeaning::Object(id)) => {
@@ -250,7 +250,7 @@ impl SuggestionList<'_> {
     }
 }
 
-/// What a field is, in a sentence.
+/// A description of a field in one sentence.
 fn about(field: &Field) -> String {
     let unit = if field.unit.is_empty() { String::new() } else { format!(", {}", field.unit) };
     let shape: Vec<String> = field.shape.iter().map(|n| n.map_or("?".into(), |n| n.to_string())).collect();

@@ -1,4 +1,4 @@
-//! Where programs run: variables, lists and registers.
+//! The run-time state of programs: variables, lists and registers.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -10,51 +10,51 @@ use crate::runtime_event::RuntimeEvent;
 use crate::value::Value;
 use crate::watch::Watch;
 
-/// Where programs run: the `ctx` variables, the results of aggregates and registers. One for all
-/// programs of a lab; a numeric program allocates nothing once the registers have grown.
+/// The state in which programs run: the `ctx` variables, the results of aggregates, and registers. All programs of a lab share
+/// one context. A numeric program does not allocate once the registers have grown.
 #[derive(Clone, Debug, Default)]
 pub struct Context {
     /// The lists, records and functions that values refer to.
     pub heap: Heap,
     pub(crate) globals: Vec<Value>,
-    /// Slots of variables, by their names: a program may compute a name.
+    /// Slots of variables by name, for programs that compute a name.
     named: BTreeMap<Arc<str>, u32>,
-    /// Variables with computed names that no text names.
+    /// Variables with computed names that no program mentions literally.
     unnamed: BTreeMap<String, Value>,
     pub(crate) aggregates: Vec<f64>,
     pub(crate) numbers: Vec<f64>,
     pub(crate) values: Vec<Value>,
-    /// What is handed to a function of the host.
+    /// The arguments of a call of the host.
     pub(crate) handed: Vec<Value>,
     pub(crate) events: Vec<RuntimeEvent>,
-    /// What runs note, where somebody watches them.
+    /// Records of the runs, if they are watched.
     pub(crate) watch: Option<Box<Watch>>,
-    /// Work of all runs but that of the host, and what the next run may do.
+    /// Work of all runs, without that of the host; `allowed` is the limit for the next run.
     pub(crate) work: u64,
     pub(crate) allowed: Option<u64>,
 }
 
-/// Variables with computed names.
+/// Limit on the variables with computed names.
 const MAX_UNNAMED: usize = 1000;
 
-/// Events kept of one run.
+/// Limit on the events stored per run.
 const MAX_EVENTS: usize = 16;
 
 impl Context {
-    /// All variables `undefined`.
+    /// A context with all variables `undefined`.
     pub fn new() -> Context {
         Context::default()
     }
 
-    /// All variables `undefined`, and their names known: no later run has to learn them.
+    /// A context with all variables `undefined` that already knows their names.
     pub fn for_globals(globals: &Globals) -> Context {
         let mut context = Context::new();
         context.learn(globals.shared_names());
         context
     }
 
-    /// Takes in the names of variables before a program runs that was compiled with them, whenever this context was made. What was
-    /// stored under a computed name before any text named it is found under that name from now on.
+    /// Adds the names of the variables of a program, before it runs, at any time after the context was made. A value that was
+    /// stored under a computed name before any program mentioned that name moves to the variable of that name.
     pub(crate) fn learn(&mut self, names: &GlobalNames) {
         if names.len() <= self.named.len() {
             return;
@@ -67,24 +67,24 @@ impl Context {
         }
     }
 
-    /// Stores a variable for the host, such as what a control gives. Programs find it by its name, too.
+    /// Stores a variable for the host, such as the value of a control. Programs find it by name as well.
     pub fn store(&mut self, globals: &Globals, slot: u32, value: Value) {
         self.learn(globals.shared_names());
         self.set(slot, value);
     }
 
-    /// Lets the next run do so much work and no more, in units of about a nanosecond; work of the host counts too. A run
-    /// has a limit of its own besides, see [`crate::rules::BUDGET`].
+    /// Limits the work of the next run, including work of the host, in units of about a nanosecond. A run also has a fixed
+    /// limit, see [`crate::rules::BUDGET`].
     pub fn allow(&mut self, units: u64) {
         self.allowed = Some(units);
     }
 
-    /// The work that programs did in this context, without that of the host. Formulas are too short to be counted.
+    /// Returns the work of all programs in this context, without that of the host. Formulas are too short to be counted.
     pub fn work(&self) -> u64 {
         self.work
     }
 
-    /// A variable by its name.
+    /// Returns a variable by its name.
     pub(crate) fn get_named(&self, name: &str) -> Value {
         match self.named.get(name) {
             Some(slot) => self.get(*slot).clone(),
@@ -92,7 +92,7 @@ impl Context {
         }
     }
 
-    /// Stores a variable by its name; `false` when there are too many.
+    /// Stores a variable by its name; returns `false` if there are too many.
     pub(crate) fn set_named(&mut self, name: &str, value: Value) -> bool {
         match self.named.get(name) {
             Some(slot) => self.set(*slot, value),
@@ -104,18 +104,18 @@ impl Context {
         true
     }
 
-    /// Collects what neither a variable nor a register nor the input refers to.
+    /// Frees the objects to which no variable, register or input refers.
     pub(crate) fn collect(&mut self, input: Option<&Value>) {
         let Context { heap, globals, unnamed, values, .. } = self;
         heap.collect(globals.iter().chain(unnamed.values()).chain(&*values).chain(input));
     }
 
-    /// A `ctx` variable.
+    /// Returns a `ctx` variable.
     pub fn get(&self, slot: u32) -> &Value {
         self.globals.get(slot as usize).unwrap_or(&Value::Undefined)
     }
 
-    /// Stores a `ctx` variable of a program whose names are known.
+    /// Stores a `ctx` variable of a program whose names have been added.
     pub(crate) fn set(&mut self, slot: u32, value: Value) {
         let i = slot as usize;
         if self.globals.len() <= i {
@@ -132,17 +132,17 @@ impl Context {
         self.aggregates[slot] = value;
     }
 
-    /// Watches the runs that follow; `None` ends that. What was watched until now comes back.
+    /// Watches the following runs, or ends the watch with `None`. Returns the previous watch.
     pub fn watch(&mut self, watch: Option<Box<Watch>>) -> Option<Box<Watch>> {
         std::mem::replace(&mut self.watch, watch)
     }
 
-    /// What the last run noted, if runs are watched.
+    /// Returns the records of the last run, if runs are watched.
     pub fn watched(&self) -> Option<&Watch> {
         self.watch.as_deref()
     }
 
-    /// What happened in the last run, one event for each place in the program.
+    /// Returns the events of the last run, at most one for each location in the program.
     pub fn events(&self) -> &[RuntimeEvent] {
         &self.events
     }

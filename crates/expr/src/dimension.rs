@@ -1,61 +1,62 @@
-//! What a number measures: a product of powers of base units, and by how much the number is larger than in these units.
+//! The dimension of a number: a product of powers of base units, and a factor by which the number is
+//! larger than in these units.
 //!
-//! Which base units there are is the host's to say. The language knows one of them, the angle, because functions of `Math`
-//! take and give angles.
+//! The host defines the base units. The language knows only one of them, the angle, because functions of
+//! `Math` take and return angles.
 
-/// How many base units there may be.
+/// The maximum number of base units.
 pub const BASES: usize = 6;
 
-/// The place of the angle among the base units.
+/// The index of the angle among the base units.
 pub const ANGLE: usize = 0;
 
-/// Powers are counted in sixths, so that square and cube roots have one.
+/// Powers are stored in sixths, so that square roots and cube roots of units can be represented.
 const SIXTHS: i16 = 6;
 
-/// Powers beyond this are those of no quantity.
+/// Largest power, in sixths. No physical quantity has a larger one.
 const MOST: i16 = 24 * SIXTHS;
 
-/// A product of powers of base units. A number of millimetres is one of metres with the factor 1000.
+/// A product of powers of base units. A number of millimetres has the dimension of metres with the factor 1000.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dimension {
     /// The power of each base unit, in sixths.
     powers: [i16; BASES],
-    /// What the number is multiplied with; NaN when that is not known, or may have a unit of its own.
+    /// The number is `factor` times larger than in base units. NaN if the factor is unknown, or may have a unit itself.
     pub factor: f64,
 }
 
-/// What is known of the dimension of a value.
+/// What is known about the dimension of a value.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Measure {
-    /// A number of the text, which may stand for a quantity of any dimension.
+    /// A literal number, which may be a quantity of any dimension.
     Anything,
-    /// This.
+    /// This dimension.
     Known(Dimension),
-    /// Nothing.
+    /// Nothing is known.
     #[default]
     Unknown,
 }
 
 impl Dimension {
-    /// A plain number.
+    /// The dimension of a number without a unit.
     pub const NUMBER: Dimension = Dimension { powers: [0; BASES], factor: 1.0 };
 
     /// An angle in radians.
     pub const RADIAN: Dimension = Dimension::base(ANGLE);
 
-    /// A base unit.
+    /// The dimension of a base unit.
     pub const fn base(at: usize) -> Dimension {
         let mut powers = [0; BASES];
         powers[at] = SIXTHS;
         Dimension { powers, factor: 1.0 }
     }
 
-    /// The same, in numbers that are so much larger.
+    /// The same dimension, for numbers that are larger by a factor.
     pub fn times(self, factor: f64) -> Dimension {
         Dimension { factor: self.factor * factor, ..self }
     }
 
-    /// The dimension of a product.
+    /// The dimension of a product, or `None` if a power is out of range.
     pub fn product(self, other: Dimension) -> Option<Dimension> {
         let mut powers = self.powers;
         for (p, q) in powers.iter_mut().zip(other.powers) {
@@ -65,7 +66,7 @@ impl Dimension {
         small.then_some(Dimension { powers, factor: self.factor * other.factor })
     }
 
-    /// The dimension of a power; `None` for powers that no root of a product has.
+    /// The dimension of a power, or `None` if a resulting power of a unit is not a multiple of 1/6 or is out of range.
     pub fn power(self, exponent: f64) -> Option<Dimension> {
         let mut powers = self.powers;
         for p in &mut powers {
@@ -78,12 +79,13 @@ impl Dimension {
         Some(Dimension { powers, factor: self.factor.powf(exponent) })
     }
 
-    /// The power of a base unit, when it is a whole number.
+    /// The power of a base unit, if it is an integer.
     pub fn whole_power(&self, base: usize) -> Option<i16> {
         self.powers.get(base).filter(|p| *p % SIXTHS == 0).map(|p| p / SIXTHS)
     }
 
-    /// Whether both are powers of the same units, angles left aside: an arc is a radius times an angle.
+    /// Whether the powers of all units except the angle are equal. The angle is ignored, because an arc is
+    /// a radius times an angle.
     pub fn agrees(&self, other: &Dimension) -> bool {
         let rest = |d: &Dimension| {
             let mut powers = d.powers;
@@ -93,7 +95,7 @@ impl Dimension {
         rest(self) == rest(other)
     }
 
-    /// Whether the number is that of its base units.
+    /// Whether the number is in base units, up to its sign.
     pub fn is_exact(&self) -> bool {
         (self.factor.abs() - 1.0).abs() < 1e-9
     }
@@ -108,25 +110,26 @@ impl Dimension {
         f64::from(self.powers[ANGLE]) / f64::from(SIXTHS)
     }
 
-    /// Whether angles have a part in it.
+    /// Whether the dimension includes an angle.
     pub fn has_angle(&self) -> bool {
         self.powers[ANGLE] != 0
     }
 
-    /// Whether it is a number without any unit.
+    /// Whether the number has no unit.
     pub fn is_number(&self) -> bool {
         self.powers.iter().all(|p| *p == 0)
     }
 }
 
 impl Measure {
-    /// A plain number of which nothing follows: a sine may stand for a length of one metre times itself.
+    /// A dimensionless number with an unknown factor, from which nothing can be concluded: a sine may be a
+    /// factor of an implied 1 m.
     pub(crate) const LOOSE: Measure = Measure::Known(Dimension { powers: [0; BASES], factor: f64::NAN });
 
-    /// A plain number.
+    /// A number without a unit.
     pub(crate) const NUMBER: Measure = Measure::Known(Dimension::NUMBER);
 
-    /// What is the one or the other.
+    /// The measure of a value that has one of two measures.
     pub fn or(self, other: Measure) -> Measure {
         match (self, other) {
             (Measure::Anything, one) | (one, Measure::Anything) => one,
@@ -135,8 +138,7 @@ impl Measure {
         }
     }
 
-    /// A sum, a difference or a remainder. A number of the text that is a factor may have a unit, so what it is a factor of
-    /// proves nothing.
+    /// The measure of a sum, a difference or a remainder. A literal factor may have a unit, so that its product proves nothing.
     pub(crate) fn sum(self, other: Measure) -> Measure {
         match (self, other) {
             (Measure::Known(a), Measure::Known(b)) if !a.agrees(&b) => match (a.is_exact(), b.is_exact()) {
@@ -148,7 +150,7 @@ impl Measure {
         }
     }
 
-    /// Whether a sum of both means nothing for sure.
+    /// Whether a sum of both is certainly wrong.
     pub(crate) fn clashes(self, other: Measure) -> bool {
         match (self, other) {
             (Measure::Known(a), Measure::Known(b)) => a.is_exact() && b.is_exact() && !a.agrees(&b),
@@ -156,7 +158,7 @@ impl Measure {
         }
     }
 
-    /// A product; `number` is what stands for itself, if one of the two is a number of the text.
+    /// The measure of a product; `number` is the value of a literal factor, if there is one.
     pub(crate) fn product(self, other: Measure, number: Option<f64>) -> Measure {
         match (self, other) {
             (Measure::Anything, Measure::Anything) => Measure::Anything,
@@ -169,7 +171,7 @@ impl Measure {
         }
     }
 
-    /// Whether the same is known of both.
+    /// Whether both measures are identical.
     pub(crate) fn is(self, other: Measure) -> bool {
         match (self, other) {
             (Measure::Known(a), Measure::Known(b)) => {
@@ -179,7 +181,7 @@ impl Measure {
         }
     }
 
-    /// A power with a known exponent.
+    /// The measure of a power with a known exponent.
     pub(crate) fn power(self, exponent: f64) -> Measure {
         match self {
             Measure::Known(d) => d.power(exponent).map_or(Measure::Unknown, Measure::Known),
@@ -188,7 +190,7 @@ impl Measure {
     }
 }
 
-/// Two that agree: the factor stays where it is the same, and the angle where one has it.
+/// Joins two dimensions that agree: the factor is kept if both have it, and the angle if either has it.
 fn joined(a: Dimension, b: Dimension) -> Dimension {
     let of = if a.powers[ANGLE].abs() >= b.powers[ANGLE].abs() { a } else { b };
     let same = (a.factor - b.factor).abs() <= 1e-9 * a.factor.abs();
@@ -224,7 +226,7 @@ mod tests {
         assert_eq!(speed.sum(fallen), speed);
         assert_eq!(speed.sum(certain(S)), Measure::Unknown);
         assert_eq!(certain(M).product(Measure::Anything, Some(1000.0)), certain(M.times(1000.0)));
-        // A mean of metres and millimetres is in neither.
+        // A value in either metres or millimetres has no known factor.
         let Measure::Known(mixed) = certain(M).or(certain(M.times(1000.0))) else { panic!() };
         assert!(mixed.factor.is_nan());
     }

@@ -1,4 +1,4 @@
-//! What a program touches: known before it runs, and all that plans and lints need.
+//! The effects of a program. They are known before it runs, and plans and lints depend on them alone.
 
 use std::collections::BTreeSet;
 
@@ -10,47 +10,47 @@ use crate::types::{FieldKey, FunctionId};
 pub struct Access {
     /// The field.
     pub field: FieldKey,
-    /// First element, counted from the start of the whole field.
+    /// The first element, counted from the start of the whole field.
     pub first: usize,
-    /// Number of elements; `None` for all from `first` on.
+    /// The number of elements; `None` means all from `first` on.
     pub count: Option<usize>,
 }
 
-/// The effects of one program. Lists are in order of first use, without repetition. What the arguments of an
-/// aggregate touch is in the effects of those programs, see [`crate::Aggregate`].
+/// The effects of one program. Lists are in order of first use, without duplicates. The effects of the arguments of an
+/// aggregate belong to the programs of those arguments, see [`crate::Aggregate`].
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Effects {
-    /// What it may read; a computed index reads the whole view.
+    /// Elements that it may read; a computed index reads the whole view.
     pub reads: Vec<Access>,
-    /// What it may write.
+    /// Elements that it may write.
     pub writes: Vec<Access>,
-    /// Functions of the host that it may call, aggregates not included.
+    /// Functions of the host that it may call, without aggregates.
     pub calls: Vec<FunctionId>,
     /// Slots of `ctx` variables that it may read.
     pub ctx_reads: Vec<u32>,
     /// Slots of `ctx` variables that it may store.
     pub ctx_writes: Vec<u32>,
-    /// It calls a function that may read everything.
+    /// Whether it calls a function that may read everything.
     pub reads_everything: bool,
-    /// It calls a function that may write everything.
+    /// Whether it calls a function that may write everything.
     pub writes_everything: bool,
-    /// It computes the name of a `ctx` variable, so it may read and store any.
+    /// Whether it computes the name of a `ctx` variable, so that it may read and store any of them.
     pub any_ctx: bool,
-    /// It calls functions that are known only while running, as those that another text left in `ctx`. What they
-    /// touch is in the effects of the text that holds them.
+    /// Whether it calls functions that are known only at run time, such as a function that another program stored in `ctx`. The
+    /// effects of such a function belong to the program that defines it.
     pub calls_values: bool,
-    /// It stores elements of lists and arrays that are known only while running.
+    /// Whether it stores elements of lists and arrays that are known only at run time.
     pub(crate) stores_items: bool,
-    /// It uses `value`.
+    /// Whether it uses `value`.
     pub uses_value: bool,
-    /// It holds aggregates.
+    /// Whether it contains aggregates.
     pub aggregates: bool,
-    /// A run may end in a [`crate::RuntimeError`].
+    /// Whether a run may end in a [`crate::RuntimeError`].
     pub can_throw: bool,
 }
 
 impl Effects {
-    /// Whether every run gives the same value and changes nothing.
+    /// Whether every run returns the same value and changes nothing.
     pub fn constant(&self) -> bool {
         let reads = self.reads_everything || self.uses_value || self.aggregates || !self.ctx_reads.is_empty();
         let reads = reads || self.any_ctx || self.calls_values;
@@ -63,7 +63,7 @@ impl Effects {
         self.writes.is_empty() && !ctx && !self.writes_everything && !self.stores_items && !self.calls_values
     }
 
-    /// Whether a run may store elements of lists and arrays that are known only while running.
+    /// Whether a run may store elements of lists and arrays that are known only at run time.
     pub fn stores_items(&self) -> bool {
         self.stores_items
     }

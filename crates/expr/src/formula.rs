@@ -1,6 +1,6 @@
-//! Numeric expressions without effects: a list of operations, each on results of operations before it. One list serves
-//! all ways to run it: once for the state at hand (`row`), over columns of recorded samples (`columnar`), and as a part
-//! of a longer program, whose numbers are its inputs.
+//! Numeric expressions without effects, as a list of operations, each on results of earlier operations. The same list is used
+//! in three ways: once for the current state (`row`), over columns of recorded samples (`columnar`), and as a part of a longer
+//! program, whose numbers are its inputs.
 
 use std::collections::BTreeMap;
 
@@ -9,10 +9,10 @@ use crate::operation::select;
 use crate::operators::{BinaryOp, UnaryOp};
 use crate::types::FieldKey;
 
-/// The number of an operation, and so of its result.
+/// The index of an operation, and of its result.
 pub(crate) type StepId = u32;
 
-/// A constant, by its bits: zeros of both signs are equal, but not the same.
+/// A constant, identified by its bits, because zeros of both signs are equal but not identical.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct ConstantBits(u64);
 
@@ -28,16 +28,16 @@ impl ConstantBits {
 pub(crate) enum FormulaStep {
     Constant(ConstantBits),
     Load(FieldKey, u32),
-    /// A number of the program around it.
+    /// A number of the enclosing program.
     Input(u32),
     Unary(UnaryOp, StepId),
     Binary(BinaryOp, StepId, StepId),
-    /// With a constant on the right, or on the left.
+    /// A binary operation with a constant on the right; `Left` has it on the left.
     Right(BinaryOp, StepId, ConstantBits),
     Left(BinaryOp, ConstantBits, StepId),
-    /// By the truth of the first: the second or the third.
+    /// The second operand if the first is true, otherwise the third.
     Select(StepId, StepId, StepId),
-    /// First and number of its arguments in the list of arguments.
+    /// A function, with the first index and the number of its arguments in the list of arguments.
     Math(math::MathFunction, u32, u32),
 }
 
@@ -47,9 +47,9 @@ pub(crate) struct Formula {
     pub(crate) steps: Vec<FormulaStep>,
     args: Vec<StepId>,
     pub(crate) output: StepId,
-    /// It gives 1 or 0 for a truth value.
+    /// Whether the value is a boolean, as 1 or 0.
     pub(crate) truth: bool,
-    /// Operations that are there already; of functions, by their arguments.
+    /// Operations already in the list, for reuse; functions of `Math` are stored with their arguments.
     existing: BTreeMap<FormulaStep, StepId>,
     existing_math: BTreeMap<(math::MathFunction, Vec<StepId>), StepId>,
 }
@@ -60,7 +60,7 @@ impl Formula {
         self.args.get(first as usize..(first + count) as usize).unwrap_or(&[])
     }
 
-    /// The constant that a step is.
+    /// The value of a constant step.
     pub(crate) fn constant_at(&self, at: StepId) -> Option<f64> {
         match self.steps.get(at as usize) {
             Some(FormulaStep::Constant(k)) => Some(k.number()),
@@ -68,7 +68,7 @@ impl Formula {
         }
     }
 
-    /// An operation, or the same one that is there already.
+    /// Adds an operation, or returns an identical existing one.
     pub(crate) fn step(&mut self, step: FormulaStep) -> StepId {
         if let Some(at) = self.existing.get(&step) {
             return *at;
@@ -91,8 +91,8 @@ impl Formula {
         self.step(FormulaStep::Unary(op, a))
     }
 
-    /// Constants become part of the operation. What can be turned round is, and `x - k` is `x + -k` and `x ** 2` is `x * x`,
-    /// to the bit.
+    /// Adds a binary operation. A constant operand becomes part of it, and the operands of commutative operations may be
+    /// swapped. `x - k` becomes `x + -k` and `x ** 2` becomes `x * x`, which give the same bits.
     pub(crate) fn binary(&mut self, op: BinaryOp, a: StepId, b: StepId) -> StepId {
         let turns = matches!(op, BinaryOp::Add | BinaryOp::Multiply);
         let bits = |k: f64| ConstantBits(k.to_bits());
@@ -126,7 +126,7 @@ impl Formula {
         at
     }
 
-    /// Leaves out what the results do not need; gives where each step stands now. What was known is forgotten.
+    /// Removes operations that the results do not need, and updates the indexes in `results`. The tables for reuse are cleared.
     pub(crate) fn finish(&mut self, results: &mut [StepId]) {
         self.existing = BTreeMap::new();
         self.existing_math = BTreeMap::new();
@@ -160,7 +160,7 @@ impl Formula {
 }
 
 impl FormulaStep {
-    /// The operations whose results it uses.
+    /// Calls `f` for every operand.
     fn each(&mut self, args: &mut [StepId], f: &mut impl FnMut(&mut StepId)) {
         match self {
             FormulaStep::Constant(_) | FormulaStep::Load(..) | FormulaStep::Input(_) => {}

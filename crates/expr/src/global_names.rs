@@ -1,8 +1,9 @@
-//! Names of `ctx` variables in the order of their slots: a list that only grows, shared by everybody who compiled with it.
+//! Names of `ctx` variables in the order of their slots: a list that only grows, shared by all that compiled with it.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// The first names of a list. Its clone costs nothing; where two clones grow apart, the second to grow takes a copy.
+/// The first names of a shared list. Cloning does not copy the list; when two clones diverge, the second
+/// one to grow makes a copy.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct GlobalNames {
     list: Arc<Mutex<Vec<Arc<str>>>>,
@@ -10,7 +11,7 @@ pub(crate) struct GlobalNames {
 }
 
 impl GlobalNames {
-    /// How many names are known.
+    /// The number of names.
     pub(crate) fn len(&self) -> usize {
         self.count
     }
@@ -66,7 +67,7 @@ mod tests {
         assert_eq!(names(&first, 1), [pair(1, "b"), pair(2, "d")]);
         assert_eq!(names(&other, 0), [pair(0, "a"), pair(1, "c")]);
         assert_eq!((early.len(), first.len(), other.len()), (1, 3, 2));
-        // Nothing was copied where nobody grew apart.
+        // The list is copied only where clones diverged.
         assert!(Arc::ptr_eq(&early.list, &first.list) && !Arc::ptr_eq(&early.list, &other.list));
     }
 }

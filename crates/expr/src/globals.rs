@@ -1,4 +1,4 @@
-//! The `ctx` variables of one lab: names to slots, shared by all its programs, and who stores and reads them.
+//! The `ctx` variables of one lab: their slots, shared by all programs, and which programs store and read them.
 
 use std::collections::BTreeMap;
 
@@ -7,33 +7,33 @@ use crate::host_terms::HostTerms;
 use crate::rules;
 use labspec_finding::{Finding, Span, nearest};
 
-/// A compiled text, counted from 0 in the order of compilation with one [`Globals`].
+/// The id of a compiled text, counted from 0 in the order of compilation with one [`Globals`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct ProgramId(pub u32);
 
-/// The variables of a lab. A variable exists as soon as any program names it, and is `undefined` until stored.
+/// The variables of a lab. A variable exists once any program mentions it, and is `undefined` until it is stored.
 #[derive(Clone, Debug, Default)]
 pub struct Globals {
     slots: BTreeMap<String, u32>,
     names: Vec<String>,
-    /// The same names, for whoever runs programs.
+    /// The same names, shared with the contexts in which programs run.
     shared_names: GlobalNames,
-    /// The host itself stores the variable.
+    /// Whether the host itself stores the variable.
     given: Vec<bool>,
     uses: Vec<GlobalUse>,
-    /// Beginnings of names that some program computes.
+    /// Prefixes of variable names that programs compute.
     computed: Vec<String>,
     programs: u32,
 }
 
-/// A point in the work on a lab, to go back to.
+/// A state of the uses to which they can be reset.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct GlobalsMark {
     uses: usize,
     computed: usize,
 }
 
-/// One mention of a variable.
+/// A mention of a variable.
 #[derive(Clone, Copy, Debug)]
 struct GlobalUse {
     slot: u32,
@@ -43,12 +43,12 @@ struct GlobalUse {
 }
 
 impl Globals {
-    /// No variables.
+    /// Returns an empty set of variables.
     pub fn new() -> Globals {
         Globals::default()
     }
 
-    /// The slot of a variable that the host stores (the `param` of a control).
+    /// Returns the slot of a variable that the host stores (the `param` of a control).
     pub fn define(&mut self, name: &str) -> u32 {
         let slot = self.intern(name);
         if let Some(given) = self.given.get_mut(slot as usize) {
@@ -57,22 +57,22 @@ impl Globals {
         slot
     }
 
-    /// The slot of a variable that is already named.
+    /// Returns the slot of a variable that has been mentioned.
     pub fn slot(&self, name: &str) -> Option<u32> {
         self.slots.get(name).copied()
     }
 
-    /// The name of a slot, empty when there is no such slot.
+    /// Returns the name of a slot, or an empty string if the slot does not exist.
     pub fn name(&self, slot: u32) -> &str {
         self.names.get(slot as usize).map_or("", String::as_str)
     }
 
-    /// Number of slots.
+    /// The number of slots.
     pub fn len(&self) -> usize {
         self.names.len()
     }
 
-    /// Whether no variable is named.
+    /// Whether there are no variables.
     pub fn is_empty(&self) -> bool {
         self.names.is_empty()
     }
@@ -87,8 +87,8 @@ impl Globals {
         self.uses.iter().filter(move |u| u.slot == slot && !u.stores).map(|u| u.program)
     }
 
-    /// Variables that a program reads and nothing ever stores: a warning for each first reading in a program.
-    /// To be asked when all texts of the lab are compiled.
+    /// Warns about variables that programs read and nothing stores: one warning for the first read in each program. Must be
+    /// called after all texts of the lab are compiled.
     pub fn unset(&self, host_terms: &HostTerms) -> Vec<(ProgramId, Finding)> {
         let mut stored = self.given.clone();
         for usage in self.uses.iter().filter(|u| u.stores) {
@@ -123,12 +123,12 @@ impl Globals {
         id
     }
 
-    /// Notes that a program stores and reads names with this beginning, which it computes.
+    /// Records that a program stores and reads variables whose computed names have this prefix.
     pub(crate) fn mention_all(&mut self, beginning: &str) {
         self.computed.push(beginning.to_owned());
     }
 
-    /// All names, for whoever runs programs.
+    /// All names, for the contexts in which programs run.
     pub(crate) fn shared_names(&self) -> &GlobalNames {
         &self.shared_names
     }
@@ -137,7 +137,7 @@ impl Globals {
         GlobalsMark { uses: self.uses.len(), computed: self.computed.len() }
     }
 
-    /// Forgets the uses since a mark. Names keep their slots.
+    /// Removes the uses since a mark. Names keep their slots.
     pub(crate) fn back_to(&mut self, mark: GlobalsMark) {
         self.uses.truncate(mark.uses);
         self.computed.truncate(mark.computed);

@@ -1,6 +1,6 @@
-//! Where the lists, records and functions of one lab live. Values refer to them by number, so that a value stays
-//! small, may be sent between threads, and a ring of lists is no leak: what nothing refers to any more is
-//! collected (mark and sweep; McCarthy, "Recursive functions of symbolic expressions", 1960).
+//! The heap of one lab: lists, records and functions. Values refer to heap objects by index, so that a value is small and can
+//! be sent between threads, and cycles of lists do not leak: unreachable objects are collected (mark and sweep; McCarthy,
+//! "Recursive functions of symbolic expressions", 1960).
 
 use std::fmt::Write;
 use std::sync::Arc;
@@ -10,64 +10,64 @@ use crate::number;
 use crate::types::Elem;
 use crate::value::{Ref, Value};
 
-/// Something that a value refers to.
+/// An object to which a value refers.
 #[derive(Clone, Debug, Default)]
 pub(crate) enum HeapObject {
     #[default]
     Free,
-    /// A list of JavaScript.
+    /// A JavaScript array.
     List(Vec<Value>),
-    /// A typed array: its length is fixed, and it holds numbers only.
+    /// A typed array: its length is fixed, and it contains only numbers.
     Numbers(Vec<f64>, Elem),
-    /// In the order in which the keys were stored.
+    /// The entries are in the order in which the keys were first stored.
     Record(Vec<(Arc<str>, Value)>),
     Closure {
         code: Arc<MachineCode>,
         unit: u32,
         captures: Vec<Value>,
     },
-    /// A variable that several functions share; `None` before its declaration.
+    /// A variable that several functions share; `None` before its declaration is executed.
     Cell(Option<Value>),
 }
 
-/// Bytes that all lists, records and texts of a lab may take together.
+/// Limit on the bytes of all lists, records and strings of a lab.
 const MAX_BYTES: usize = 64 << 20;
-/// Bytes of one value in a list.
+/// The bytes of one value in a list.
 const VALUE: usize = size_of::<Value>();
-/// Bytes below which nothing is collected.
+/// Bytes in use below which nothing is collected.
 const CALM: usize = 1 << 20;
-/// Lists inside lists that are still printed.
+/// Limit on the depth of nested lists that are printed.
 const MAX_PRINT_DEPTH: usize = 32;
-/// The longest string that a program can build, in bytes: a sum that grows with every step must not eat the
-/// memory of the page.
+/// The longest string that a program can build, in bytes. A string that grows with every step must not
+/// exhaust the memory of the page.
 pub(crate) const MAX_TEXT: usize = 1 << 20;
 
 /// The heap is full.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Full;
 
-/// Lists, records and functions.
+/// The heap: lists, records and functions.
 #[derive(Clone, Debug, Default)]
 pub struct Heap {
     objects: Vec<HeapObject>,
     free: Vec<u32>,
-    /// Bytes in use, as far as known.
+    /// Bytes in use, approximately.
     bytes: usize,
-    /// Bytes at which to collect next.
+    /// The number of bytes at which the next collection happens.
     threshold: usize,
 }
 
 impl Heap {
-    /// A new list.
+    /// Creates a list.
     ///
     /// # Errors
-    /// The lists of the lab take more memory than it may have.
+    /// The lists of the lab exceed the memory limit.
     pub fn list(&mut self, items: Vec<Value>) -> Result<Value, Full> {
         let bytes = items.iter().map(weight).sum();
         self.add(HeapObject::List(items), bytes).map(Value::List)
     }
 
-    /// A new list of numbers.
+    /// Creates a list of numbers.
     ///
     /// # Errors
     /// As [`Heap::list`].
@@ -75,7 +75,7 @@ impl Heap {
         self.list(items.iter().map(|&x| Value::Number(x)).collect())
     }
 
-    /// A new record.
+    /// Creates a record.
     ///
     /// # Errors
     /// As [`Heap::list`].
@@ -84,7 +84,7 @@ impl Heap {
         self.add(HeapObject::Record(entries), bytes).map(Value::Record)
     }
 
-    /// A new typed array.
+    /// Creates a typed array.
     pub(crate) fn typed(&mut self, items: Vec<f64>, elem: Elem) -> Result<Value, Full> {
         let bytes = items.len() * size_of::<f64>();
         self.add(HeapObject::Numbers(items, elem), bytes).map(Value::List)
@@ -100,12 +100,12 @@ impl Heap {
         self.add(HeapObject::Closure { code, unit, captures }, bytes).map(Value::Function)
     }
 
-    /// A new shared variable; a value refers to it as if it were a list, and only the machine sees that value.
+    /// Creates a shared variable. The value refers to it as if it were a list; only the virtual machine sees that value.
     pub(crate) fn cell(&mut self, value: Option<Value>) -> Result<Value, Full> {
         self.add(HeapObject::Cell(value), VALUE).map(Value::List)
     }
 
-    /// Number of elements of a list.
+    /// Returns the number of elements of a list.
     pub fn len(&self, value: &Value) -> Option<usize> {
         match self.object(value) {
             HeapObject::List(items) => Some(items.len()),
@@ -114,7 +114,7 @@ impl Heap {
         }
     }
 
-    /// An element of a list; `None` past the end, and for what is no list.
+    /// Returns an element of a list, or `None` past the end or if the value is not a list.
     pub fn item(&self, value: &Value, index: usize) -> Option<Value> {
         match self.object(value) {
             HeapObject::List(items) => items.get(index).cloned(),
@@ -123,7 +123,7 @@ impl Heap {
         }
     }
 
-    /// All elements of a list, as numbers; `None` for what is no list.
+    /// Returns all elements of a list as numbers, or `None` if the value is not a list.
     pub fn to_numbers(&self, value: &Value) -> Option<Vec<f64>> {
         match self.object(value) {
             HeapObject::List(items) => Some(items.iter().map(|v| self.number(v)).collect()),
@@ -132,8 +132,8 @@ impl Heap {
         }
     }
 
-    /// Writes numbers over the first elements of a list; `false`, and nothing is written, where it is none, is shorter, or
-    /// holds integers.
+    /// Overwrites the first elements of a list with numbers. Returns `false` and writes nothing if the value is not a list, is
+    /// shorter, or contains integers.
     pub fn overwrite(&mut self, value: &Value, numbers: &[f64]) -> bool {
         match self.object_mut(value) {
             Some(HeapObject::List(items)) if items.len() >= numbers.len() => {
@@ -150,7 +150,7 @@ impl Heap {
         }
     }
 
-    /// A member of a record.
+    /// Returns a member of a record.
     pub fn get(&self, value: &Value, key: &str) -> Option<Value> {
         match self.object(value) {
             HeapObject::Record(entries) => entries.iter().find(|(k, _)| **k == *key).map(|(_, v)| v.clone()),
@@ -158,7 +158,7 @@ impl Heap {
         }
     }
 
-    /// JavaScript's `String(v)`; of an array of the simulation only what it is.
+    /// JavaScript's `String(v)`. For an array of the simulation, the text only describes the array.
     pub fn text(&self, value: &Value) -> String {
         let mut out = String::new();
         self.write(value, 0, &mut out);
@@ -199,13 +199,13 @@ impl Heap {
                 }
             }
             _ => {
-                // Writing to a string does not fail.
+                // Writing to a `String` cannot fail.
                 let _ = write!(out, "{value}");
             }
         }
     }
 
-    /// What a value refers to.
+    /// Returns the object to which a value refers.
     pub(crate) fn object(&self, value: &Value) -> &HeapObject {
         const NOTHING: &HeapObject = &HeapObject::Free;
         match value {
@@ -216,7 +216,7 @@ impl Heap {
         }
     }
 
-    /// The same for changing it. Whoever lets it grow says so with [`Heap::grow`].
+    /// As [`Heap::object`], for modification. A caller that enlarges the object must call [`Heap::grow`].
     pub(crate) fn object_mut(&mut self, value: &Value) -> Option<&mut HeapObject> {
         match value {
             Value::List(r) | Value::Record(r) | Value::Function(r) => self.objects.get_mut(r.0 as usize),
@@ -224,7 +224,7 @@ impl Heap {
         }
     }
 
-    /// Notes that something grows by a value.
+    /// Records that an object grows by a value.
     pub(crate) fn grow(&mut self, value: &Value) -> Result<(), Full> {
         self.take(VALUE + weight(value))
     }
@@ -247,12 +247,12 @@ impl Heap {
         Ok(Ref(at))
     }
 
-    /// Whether so much was made since the last time that it is worth a look for what can go.
+    /// Whether enough memory was allocated since the last collection to make another one worthwhile.
     pub(crate) fn wants_collection(&self) -> bool {
         self.bytes > self.threshold.max(CALM)
     }
 
-    /// Frees what cannot be reached from the roots.
+    /// Frees all objects that are unreachable from the roots.
     pub(crate) fn collect<'a>(&mut self, roots: impl Iterator<Item = &'a Value>) {
         let mut reached = vec![false; self.objects.len()];
         let mut waiting: Vec<Ref> = Vec::new();
@@ -303,7 +303,7 @@ impl Heap {
     }
 }
 
-/// Bytes of a value in a list, with its text.
+/// The bytes of a value in a list, including its string.
 fn weight(value: &Value) -> usize {
     VALUE + value.text_len()
 }

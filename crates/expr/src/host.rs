@@ -1,17 +1,16 @@
-//! The host while a program runs: what reads and stores the elements of fields, and calls the functions that the schema
-//! describes.
+//! The host at run time: reads and stores elements of fields, and calls the functions that the schema describes.
 
 use crate::heap::Heap;
 use crate::types::{FieldKey, FunctionId};
 use crate::value::Value;
 
-/// The host while a program runs. Indexes count from the start of the whole field, as [`crate::Field::first`].
+/// The host of running programs. Indexes count from the start of the whole field, as in [`crate::Field::first`].
 pub trait Host {
-    /// Element `index`; `None` past the end.
+    /// Returns element `index`, or `None` past the end.
     fn get(&self, field: FieldKey, index: usize) -> Option<f64>;
 
-    /// Several elements at once, into as many numbers; `false` when one of them does not exist. This is how an
-    /// expression reads everything that it needs, sorted by field and index.
+    /// Reads several elements into `out`; returns `false` if one of them does not exist. An expression reads all elements that
+    /// it needs in one call, sorted by field and index.
     fn read(&self, elements: &[(FieldKey, u32)], out: &mut [f64]) -> bool {
         out.iter_mut().zip(elements).all(|(x, &(field, index))| match self.get(field, index as usize) {
             Some(now) => {
@@ -25,26 +24,26 @@ pub trait Host {
     /// Stores an element that exists.
     ///
     /// # Errors
-    /// The host refuses: the text becomes the message of a [`crate::RuntimeError`].
+    /// The host refuses. The string becomes the message of a [`crate::RuntimeError`].
     fn set(&mut self, field: FieldKey, index: usize, value: f64) -> Result<(), String>;
 
-    /// Number of elements of the whole field, now.
+    /// Returns the current number of elements of the whole field.
     fn len(&self, field: FieldKey) -> usize;
 
-    /// Calls a function. Lists and records among the arguments and the result live in `heap`. Arguments for [`crate::Param::Object`] are not passed; parameters that were left out
-    /// make the list shorter.
+    /// Calls a function. Lists and records among the arguments and in the result are objects of `heap`. Arguments for
+    /// [`crate::Param::Object`] are not passed. If optional arguments are omitted, `args` is shorter.
     ///
     /// # Errors
-    /// The call fails: the text becomes the message of a [`crate::RuntimeError`].
+    /// The call fails. The string becomes the message of a [`crate::RuntimeError`].
     fn call(&mut self, heap: &mut Heap, function: FunctionId, args: &[Value]) -> Result<Value, String>;
 
-    /// What the numbers of fields and elements are of here, as [`crate::Schema::identity`] says of programs. Hosts of one kind need not
-    /// tell.
+    /// Identifies the model to which field numbers and element indexes refer, as [`crate::Schema::identity`] does for programs.
+    /// Hosts of which there is only one kind may return 0.
     fn identity(&self) -> u64 {
         0
     }
 
-    /// The work that calls did so far, in units of about a nanosecond: it counts as work of the program that calls.
+    /// Returns the work of all calls so far, in units of about a nanosecond. It counts as work of the calling program.
     fn work(&self) -> u64 {
         0
     }

@@ -1,53 +1,53 @@
-//! What the host calls its things. The language knows nothing of what it computes with: examples and advice that name a field, a
-//! text or a control of the host come from here.
+//! The terms of the host. The language itself does not depend on the kind of the host, so examples and advice that name a
+//! field, a text or a control of the host are taken from here.
 
-/// The words of a host, for messages.
+/// The terms of a host, for messages.
 #[derive(Clone, Copy, Debug)]
 pub struct HostTerms {
-    /// What the texts belong to: `lab`.
+    /// The unit to which the source texts belong: `lab`.
     pub lab: &'static str,
-    /// What an author writes: `lesson`.
+    /// The document that an author writes: `lesson`.
     pub lesson: &'static str,
-    /// What the fields are the memory of: `simulation`.
+    /// The system whose state the fields store: `simulation`.
     pub world: &'static str,
-    /// What the sizes of the fields follow from: `model`.
+    /// The object that determines the sizes of the fields: `model`.
     pub model: &'static str,
-    /// A number of the host.
+    /// An example of a number of the host.
     pub number: &'static str,
-    /// An array.
+    /// An example of an array.
     pub array: &'static str,
-    /// An array whose rows follow each other.
+    /// An example of an array of rows.
     pub matrix: &'static str,
-    /// How an object is chosen by its name.
+    /// How an object is selected by its name.
     pub choice: &'static str,
-    /// A call that gives a record, with names for its parts: `{a, b} = f()`.
+    /// A call that returns a record, with names for its parts: `{a, b} = f()`.
     pub parts: &'static str,
-    /// The names that every text has.
+    /// The names that every source text can use.
     pub names: &'static str,
-    /// The texts that may hold statements.
+    /// The source texts that may contain statements.
     pub statements: &'static str,
-    /// The text that computes what others only show.
+    /// The source text that computes what others only display.
     pub keeper: &'static str,
-    /// Where a value is shown.
+    /// Where a value is displayed.
     pub display: &'static str,
-    /// What tells the time.
+    /// The expression for the current time.
     pub clock: &'static str,
     /// What to write where JavaScript would wait.
     pub wait: &'static str,
-    /// How a text that is too long is split.
+    /// How to split a source text that is too long.
     pub split: &'static str,
-    /// What gives `value`, and what to do where nothing does.
+    /// What supplies `value`, and what to do where nothing does.
     pub input: (&'static str, &'static str),
-    /// Where a variable is stored first; `{name}` is the variable.
+    /// Where a variable is first stored; `{name}` is the variable.
     pub store: &'static str,
-    /// Where a number is rounded for a reader, behind another way to do it.
+    /// Where a number is rounded for a reader, as an alternative to another way.
     pub rounding: &'static str,
-    /// What computes anew what follows from a parameter.
+    /// The call that recomputes what depends on a parameter.
     pub recompute: &'static str,
 }
 
 impl HostTerms {
-    /// The words of a host that says nothing.
+    /// The terms of a host that does not define its own.
     pub const PLAIN: HostTerms = HostTerms {
         lab: "program",
         lesson: "program",

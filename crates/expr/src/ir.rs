@@ -1,4 +1,4 @@
-//! The typed tree: what a program means, with every name resolved. Made by `bind`, read by `lower`.
+//! The typed tree: a program with every name resolved. `bind` builds it, and `lower` reads it.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use crate::types::{Elem, FunctionId, Type};
 use crate::value::{Value, View};
 use labspec_finding::Span;
 
-/// A value to be computed.
+/// An expression of the typed tree.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Ir {
     pub(crate) kind: IrKind,
@@ -16,13 +16,13 @@ pub(crate) struct Ir {
     pub(crate) span: Span,
 }
 
-/// A variable, counted over all functions of a program.
+/// A local variable, numbered across all functions of a program.
 pub(crate) type LocalId = u32;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum IrKind {
     Constant(Value),
-    /// An element of a field; past the end it is `undefined`.
+    /// An element of a field; `undefined` past the end.
     Load(View, Index),
     /// The number of elements of a view.
     Length(View),
@@ -31,7 +31,7 @@ pub(crate) enum IrKind {
     /// A `ctx` variable whose name is computed.
     GlobalNamed(Box<Ir>),
     Local(LocalId),
-    /// The chosen value of a control, `value`.
+    /// The selected value of a control, `value`.
     Input,
     /// The number that the host computed for an aggregate.
     Aggregate(u32),
@@ -47,58 +47,58 @@ pub(crate) enum IrKind {
     /// A function of `Math` over all elements of a list.
     MathOver(math::MathFunction, Box<Ir>),
     Call(FunctionId, Vec<Ir>),
-    /// `place = value` or `place op= value`; gives the stored value.
+    /// `place = value` or `place op= value`. The result is the stored value.
     Store(Box<AssignmentTarget>, Option<BinaryOp>, Box<Ir>),
-    /// `place ||= value` and its like.
+    /// `place ||= value`, `place &&= value` and `place ??= value`.
     StoreIf(LogicalOp, Box<AssignmentTarget>, Box<Ir>),
-    /// `place++` and its like: adds the number; gives the new value, or the old one.
+    /// `place++` and similar: adds the number. The result is the new or the old value.
     Update(Box<AssignmentTarget>, f64, UpdateResult),
     /// Stores one number in every element.
     Fill(View, Box<Ir>),
-    /// Stores values one after the other, from an element of the view on.
+    /// Stores several values in succession, from an element of the view on.
     StoreAll(View, usize, Vec<Ir>),
-    /// A list, with spreads.
+    /// A list literal, with spreads.
     List(Vec<IrItem>),
     Record(Vec<IrEntry>),
-    /// `object[index]` of something known only while running.
+    /// `object[index]` of an object that is known only at run time.
     Element(Box<Ir>, Box<Ir>),
-    /// `object.name` of something known only while running.
+    /// `object.name` of an object that is known only at run time.
     Member(Box<Ir>, Arc<str>),
     /// A method of a value.
     Method(MethodId, Box<Ir>, Vec<IrItem>),
-    /// A function that is no method.
+    /// A free function (not a method).
     Native(FreeFunctionId, Vec<IrItem>),
     /// A function of the text, as a value.
     Closure(UnitId),
     /// A call of a known function of the text.
     Invoke(UnitId, Vec<Ir>),
-    /// A call of whatever function the value is.
+    /// A call of a function value.
     InvokeValue(Box<Ir>, Vec<IrItem>),
-    /// The array that belongs to the object of a computed name.
+    /// The array that belongs to the object with a computed name.
     Pick(Arc<MemberTable>, Box<Ir>),
-    /// The end of a chain with `?.` in it.
+    /// A whole chain that contains `?.`.
     Chain(Box<Ir>),
-    /// What stands before `?.`: where it is nothing, the chain around it is `undefined`.
+    /// The operand of `?.`: if it is `null` or `undefined`, the enclosing chain is `undefined`.
     Present(Box<Ir>),
     /// Statements, then a value.
     Block(Vec<IrStatement>, Box<Ir>),
 }
 
-/// Which value a `++` gives.
+/// Which value `++` or `--` returns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum UpdateResult {
     New,
     Old,
 }
 
-/// A function of the text.
+/// The index of a function of the program.
 pub(crate) type UnitId = u32;
 
-/// A name that is a method of something: its first row in the table of `natives`. Rows of one name follow each other.
+/// The name of a method: the index of its first row in the table of `natives`. Rows with the same name are adjacent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct MethodId(pub(crate) u8);
 
-/// A function that belongs to nothing.
+/// The index of a free function in that table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct FreeFunctionId(pub(crate) u8);
 
@@ -106,7 +106,7 @@ pub(crate) struct FreeFunctionId(pub(crate) u8);
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct IrItem {
     pub(crate) value: Ir,
-    /// Its elements, rather than itself.
+    /// Whether its elements are inserted instead of the value itself.
     pub(crate) spread: bool,
 }
 
@@ -121,11 +121,11 @@ pub(crate) enum IrEntry {
 /// One member of every object of a collection, by the name of the object.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct MemberTable {
-    /// What the objects are called: `joint`.
+    /// The noun for the objects: `joint`.
     pub(crate) noun: String,
     /// Sorted by name.
     pub(crate) of: Vec<(Arc<str>, Value)>,
-    /// The members are numbers: the first element of each view is loaded.
+    /// Whether the members are numbers: then the first element of each view is loaded.
     pub(crate) scalar: bool,
 }
 
@@ -136,14 +136,14 @@ pub(crate) enum Index {
     Computed(Box<Ir>),
 }
 
-/// What can be assigned to.
+/// A target of an assignment.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum AssignmentTarget {
     Element(View, Index),
     Global(u32),
     GlobalNamed(Ir),
     Local(LocalId),
-    /// An element of something known only while running.
+    /// An element of an object that is known only at run time.
     Item(Ir, Ir),
     Member(Ir, Arc<str>),
 }
@@ -151,64 +151,64 @@ pub(crate) enum AssignmentTarget {
 /// A statement.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum IrStatement {
-    /// Computed for its effect.
+    /// Evaluated for its effect.
     Effect(Ir),
-    /// The first value of a variable.
+    /// Initializes a variable.
     Declare(LocalId, Ir),
-    /// A variable that functions share gets its place; it has no value yet.
+    /// Creates the cell of a shared variable, without a value.
     Reserve(LocalId),
-    /// A variable that functions share gets a new place with its value: the next turn of a loop has its own.
+    /// Gives a shared variable a new cell with the same value: each iteration of a loop has its own variable.
     Renew(LocalId),
     If(Ir, Vec<IrStatement>, Vec<IrStatement>),
     Loop(Box<IrLoop>),
     Break,
     Continue,
     Return(Ir),
-    /// Statements in which `Return` ends only them, and stores its value; the place is where they seem to stand.
+    /// Inlined statements: `Return` ends only these, and stores its value in the variable. The span is that of the call.
     Inline(LocalId, Vec<IrStatement>, Span),
 }
 
 /// A loop of any kind.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct IrLoop {
-    /// Asked before every turn; at the end of every turn when `late`.
+    /// Evaluated before every iteration, or after it if `late`.
     pub(crate) test: Option<Ir>,
     pub(crate) late: bool,
     pub(crate) body: Vec<IrStatement>,
-    /// Run after every turn.
+    /// Executed after every iteration.
     pub(crate) update: Vec<IrStatement>,
     pub(crate) span: Span,
 }
 
-/// A function of the text, or the text itself.
+/// A function of the program, or the program itself.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct IrFunction {
     pub(crate) params: Vec<LocalId>,
-    /// Variables of the functions around it that it uses.
+    /// Captured variables of enclosing functions.
     pub(crate) captures: Vec<LocalId>,
     pub(crate) body: Vec<IrStatement>,
-    /// Type of what it returns.
+    /// The type of the result.
     pub(crate) result: Option<Type>,
 }
 
-/// What is known of a variable.
+/// The properties of a local variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Local {
     pub(crate) ty: Type,
-    /// It is changed while functions use it, so that they share one place.
+    /// Whether it changes while several functions use it, so that they must share one cell.
     pub(crate) shared: bool,
 }
 
-/// All functions and variables of a program; the first function is the text itself.
+/// All functions and variables of a program. The first function is the program itself.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct IrProgram {
     pub(crate) units: Vec<IrFunction>,
     pub(crate) locals: Vec<Local>,
-    /// Arrays that become values, with what their elements are.
+    /// Arrays used as values, with the types of their elements.
     pub(crate) views: Vec<ExposedView>,
 }
 
-/// An array of the simulation that becomes a value.
+/// An array of the simulation that is used as a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct ExposedView {
     pub(crate) view: View,
@@ -234,7 +234,7 @@ impl Ir {
         Ir::constant(Value::Undefined, span)
     }
 
-    /// The value, if it is known and a primitive one.
+    /// The value, if it is a known primitive.
     pub(crate) fn as_constant(&self) -> Option<&Value> {
         match &self.kind {
             IrKind::Constant(value) if value.is_primitive() => Some(value),
@@ -242,12 +242,12 @@ impl Ir {
         }
     }
 
-    /// The value, if it is known and may decide something before the run. NaN decides while running, where a watch sees it.
+    /// The value, if it may decide a branch at compile time. NaN decides at run time, where a watch records it.
     fn decided(&self) -> Option<&Value> {
         self.as_constant().filter(|value| !value.is_nan())
     }
 
-    /// Whether it is never a string nor something with parts: then arithmetic on it can use plain numbers.
+    /// Whether the value is never a string, list, record or function, so that arithmetic can use plain numbers.
     pub(crate) fn is_plain(&self) -> bool {
         match (&self.kind, self.ty) {
             (IrKind::Logical(_, a, b) | IrKind::Choice(_, a, b), Type::Any) => a.is_plain() && b.is_plain(),
@@ -259,7 +259,7 @@ impl Ir {
         Ir::sign(UnaryOp::Not, operand, span)
     }
 
-    /// `op operands`, computed at once when all operands are known.
+    /// `op operand`, evaluated at compile time if the operand is known.
     pub(crate) fn sign(op: UnaryOp, operand: Ir, span: Span) -> Ir {
         if op == UnaryOp::Plus {
             return Ir::to_number(operand, span);
@@ -315,7 +315,7 @@ impl Ir {
             return Ir { span, ..if op.keeps(value) { left } else { right } };
         }
         let ty = match (op, left.ty) {
-            // What is left of a number or nothing in front of a default.
+            // The value is a number or `undefined`, and `right` replaces `undefined`.
             (LogicalOp::Nullish | LogicalOp::Or, Type::Element) if right.ty == Type::Number => Type::Number,
             (LogicalOp::Nullish, Type::Number | Type::Boolean | Type::String) => left.ty,
             (LogicalOp::Nullish, Type::Undefined | Type::Null) => right.ty,
@@ -337,7 +337,7 @@ impl Ir {
             args.iter().map(|a| a.as_constant().map(Value::to_number)).collect();
         let ty = if function.gives_boolean() { Type::Boolean } else { Type::Number };
         let applied = constants.map(|numbers| (numbers.iter().any(|x| x.is_nan()), function.apply(&numbers)));
-        // A NaN that is lost is lost while running, where a watch sees it.
+        // A NaN that would disappear in the result is handled at run time, where a watch records it.
         let keeps_nan = |(nan, x): &(bool, f64)| !nan || x.is_nan() || ty == Type::Boolean;
         match applied.filter(keeps_nan).filter(|_| !args.is_empty()).map(|(_, x)| x) {
             Some(x) if ty == Type::Boolean => Ir::constant(Value::Boolean(x != 0.0), span),
@@ -347,7 +347,7 @@ impl Ir {
     }
 }
 
-/// Whether statements never come to their end: all ways through them return.
+/// Whether all paths through the statements return.
 pub(crate) fn always_return(steps: &[IrStatement]) -> bool {
     steps.iter().any(|step| match step {
         IrStatement::Return(_) => true,

@@ -1,25 +1,24 @@
 //! The accessor language of lessons: text in, typed program out.
 //!
-//! A lesson writes the side-effect-limited core of JavaScript: `data.qpos[2]`, `model.opt.timestep = 0.02`,
-//! `ctx.peak = Math.max(ctx.peak || 0, data.qvel[2])`. This crate parses such a text, resolves every name
-//! against the [`Schema`] of a host, checks indexes, kinds and signatures, and compiles it to a [`Program`]
-//! that runs against a [`Host`] without looking at a string again. It knows nothing of physics: what exists,
-//! what may be written and what a function does is the host's to say.
+//! A lesson is written in the side-effect-limited core of JavaScript: `data.qpos[2]`, `model.opt.timestep = 0.02`, `ctx.peak =
+//! Math.max(ctx.peak || 0, data.qvel[2])`. This crate parses such a text, resolves every name against the [`Schema`] of a host,
+//! checks indexes, kinds and signatures, and compiles the text to a [`Program`] that runs against a [`Host`] without string
+//! lookups. It does not depend on physics: the host defines which fields exist, which can be written, and what functions do.
 //!
 //! | stage | module | result |
 //! |---|---|---|
 //! | text to tokens | `lex` (nom) | tokens with byte spans |
-//! | tokens to tree | `parse` | [`ast`], always, with the mistakes beside it |
-//! | tree to meaning | `bind` | typed tree of `ir`, every name resolved |
-//! | meaning to form | `lower` | blocks of operations, every value defined once |
-//! | form to code | `lower::emit`, `lower::pure` | [`Program`]: operations on registers, formulas |
-//! | running | `vm`, `row` | a [`Value`], or a [`RuntimeError`] |
-//! | running over samples | `columnar` | a column of numbers |
+//! | tokens to tree | `parse` | [`ast`], always, with a list of findings |
+//! | tree to typed tree | `bind` | typed tree of `ir`, every name resolved |
+//! | typed tree to SSA form | `lower` | basic blocks of operations, every value defined once |
+//! | SSA form to code | `lower::emit`, `lower::pure` | [`Program`]: operations on registers, formulas |
+//! | evaluation | `vm`, `row` | a [`Value`], or a [`RuntimeError`] |
+//! | evaluation over samples | `columnar` | a column of numbers |
 //!
-//! Values are JavaScript's: arithmetic, comparisons, texts and conversions to the last bit; functions of `Math` that
-//! the standard leaves to the engine, such as `sin` and `tanh`, to 2 units in the last place, as measured beside node
-//! (`docs/measured/math.md`: of 100,000 arguments of each, 91 to 100 % give the same bits). Parsing and compiling never
-//! fail: they return what was understood and a list of [`Finding`]s.
+//! Values are those of JavaScript. Arithmetic, comparisons, strings and conversions give the same bits. Functions of `Math`
+//! that the standard leaves to the implementation, such as `sin` and `tanh`, are within 2 units in the last place, as measured
+//! against node (`docs/measured/math.md`: for 100,000 arguments of each function, 91 to 100 % of the results have the same
+//! bits). Parsing and compiling never fail: they return what was understood and a list of [`Finding`]s.
 
 pub mod ast;
 pub mod dimension;

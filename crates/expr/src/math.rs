@@ -1,14 +1,14 @@
 //! The `Math` object and the global number functions, as ECMAScript defines them ("Function Properties of the
 //! Math Object"). Transcendental functions come from `libm`, so that every platform gives the same bits.
 
-/// Most arguments of a function within a formula.
+/// The maximum number of arguments of a function in a formula.
 pub(crate) const FEW: usize = 16;
 
 /// A function of `Math`, or one of the global functions on numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct MathFunction(u8);
 
-/// Name, smallest and largest number of arguments that make sense, and the function of all arguments.
+/// A row: name, smallest and largest number of arguments that make sense, and the function.
 struct MathRow {
     name: &'static str,
     least: usize,
@@ -16,7 +16,7 @@ struct MathRow {
     apply: MathEvaluation,
 }
 
-/// How a function takes its arguments.
+/// The implementation of a function, by how it takes its arguments.
 #[derive(Clone, Copy)]
 pub(crate) enum MathEvaluation {
     One(fn(f64) -> f64),
@@ -71,15 +71,15 @@ const MATH: &[MathRow] = &[
     one("tan", libm::tan),
     one("tanh", libm::tanh),
     one("trunc", f64::trunc),
-    // Global functions, which give `true` or `false`.
+    // Global functions with a boolean result.
     one("isFinite", |x| f64::from(u8::from(x.is_finite()))),
     one("isNaN", |x| f64::from(u8::from(x.is_nan()))),
 ];
 
-/// What a function gives, and an example with its value.
+/// The name, the result in words, and an example with its value.
 type Doc = (&'static str, &'static str, (&'static str, &'static str));
 
-/// What the functions give, for help and the reference.
+/// The documentation of the functions, for help and the reference.
 pub(crate) const DOCS: &[Doc] = &[
     ("abs", "magnitude", ("Math.abs(-2)", "2")),
     ("acos", "angle in rad from 0 to π whose cosine is x", ("Math.acos(-1)", "3.141592653589793")),
@@ -166,38 +166,38 @@ impl MathFunction {
         &MATH[usize::from(self.0)]
     }
 
-    /// How it is written, with `Math.` when it belongs there.
+    /// The function as it is written, with `Math.` if it is a member.
     pub(crate) fn path(self) -> String {
         let name = self.row().name;
         if self.gives_boolean() { name.into() } else { format!("Math.{name}") }
     }
 
-    /// Its name, without `Math.`.
+    /// The name without `Math.`.
     pub(crate) fn name(self) -> &'static str {
         self.row().name
     }
 
-    /// What it gives.
+    /// The documentation of its result.
     pub(crate) fn doc(self) -> &'static str {
         DOCS.iter().find(|(name, ..)| *name == self.row().name).map_or("", |(_, doc, _)| doc)
     }
 
-    /// Whether the result is `true` or `false`.
+    /// Whether the result is a boolean.
     pub(crate) fn gives_boolean(self) -> bool {
         usize::from(self.0) >= MATH.len() - GLOBALS
     }
 
-    /// Smallest and largest number of arguments that make sense.
+    /// The smallest and the largest number of arguments that make sense.
     pub(crate) fn arity(self) -> (usize, Option<usize>) {
         (self.row().least, self.row().most)
     }
 
-    /// What computes it.
+    /// The implementation.
     pub(crate) fn apply_by(self) -> MathEvaluation {
         self.row().apply
     }
 
-    /// The value; a missing argument is `undefined`, so NaN.
+    /// Evaluates the function. A missing argument is `undefined`, hence NaN.
     #[inline]
     pub(crate) fn apply(self, args: &[f64]) -> f64 {
         let arg = |i: usize| args.get(i).copied().unwrap_or(f64::NAN);
@@ -209,8 +209,8 @@ impl MathFunction {
     }
 }
 
-/// `Math.atan2`. Where y is beyond x by more than 2^60, half a turn of the last digit is lost to x's sign in `libm`;
-/// engines give the nearest number to ±π/2 there.
+/// `Math.atan2`. If |y| exceeds |x| by a factor of more than 2^60, the result of `libm` differs by half a unit in the last
+/// place depending on the sign of x. JavaScript engines return the number nearest to ±π/2 there.
 fn atan2(y: f64, x: f64) -> f64 {
     let exponent = |v: f64| (v.to_bits() >> 52 & 0x7ff) as i32;
     let beyond = x != 0.0 && exponent(y) - exponent(x) > 60 && !x.is_nan() && !y.is_nan();
@@ -219,7 +219,7 @@ fn atan2(y: f64, x: f64) -> f64 {
 
 /// `**` and `Math.pow`: IEEE's pow, except that a NaN exponent and (±1) ** ±Infinity give NaN.
 pub(crate) fn pow(base: f64, exponent: f64) -> f64 {
-    // The most frequent power, and exact: every engine rounds the product once.
+    // The most frequent power. It is exact: every engine rounds the product once.
     if exponent == 2.0 {
         return base * base;
     }
@@ -229,15 +229,15 @@ pub(crate) fn pow(base: f64, exponent: f64) -> f64 {
     libm::pow(base, exponent)
 }
 
-/// The exponential; of 1 it is `Math.E` in every engine, where libm is off by the last bit.
+/// The exponential function. For 1 it is `Math.E` in every engine, where libm differs in the last bit.
 fn exp(x: f64) -> f64 {
     if x == 1.0 { std::f64::consts::E } else { libm::exp(x) }
 }
 
-/// The nearest whole number, ties towards +Infinity; keeps the sign of zero.
+/// The nearest integer, ties towards +Infinity; keeps the sign of zero.
 fn round(x: f64) -> f64 {
     let below = x.floor();
-    // Not floor(x + 0.5): that sum rounds 0.49999999999999994 up.
+    // `floor(x + 0.5)` would be wrong: the sum rounds 0.49999999999999994 up.
     let nearest = if x - below >= 0.5 { below + 1.0 } else { below };
     nearest.copysign(x)
 }
@@ -246,7 +246,7 @@ fn sign(x: f64) -> f64 {
     if x.is_nan() || x == 0.0 { x } else { 1f64.copysign(x) }
 }
 
-/// The largest; NaN when any is NaN; 0 is larger than -0.
+/// The largest argument. NaN if any argument is NaN; 0 is larger than -0.
 fn max(args: &[f64]) -> f64 {
     args.iter().fold(f64::NEG_INFINITY, |a, &b| match a.partial_cmp(&b) {
         None => f64::NAN,
@@ -256,7 +256,7 @@ fn max(args: &[f64]) -> f64 {
     })
 }
 
-/// The smallest; NaN when any is NaN; -0 is smaller than 0.
+/// The smallest argument. NaN if any argument is NaN; -0 is smaller than 0.
 fn min(args: &[f64]) -> f64 {
     args.iter().fold(f64::INFINITY, |a, &b| match a.partial_cmp(&b) {
         None => f64::NAN,
@@ -266,8 +266,8 @@ fn min(args: &[f64]) -> f64 {
     })
 }
 
-/// `Math.hypot`: the root of the sum of squares, scaled by the largest against overflow and summed with Kahan's
-/// compensation, as engines do. An infinite argument wins over NaN.
+/// `Math.hypot`: the square root of the sum of squares, scaled by the largest argument to avoid overflow, and summed with
+/// Kahan's compensation, as engines do. If any argument is infinite, the result is infinite, even if another one is NaN.
 pub fn hypot(args: &[f64]) -> f64 {
     if args.iter().any(|x| x.is_infinite()) {
         return f64::INFINITY;

@@ -1,4 +1,4 @@
-//! A small host for the tests: a model, data, named objects and functions, in the shape of a real one.
+//! A small host for the tests, with a model, data, named objects and functions like those of a real host.
 
 use crate::*;
 
@@ -7,7 +7,7 @@ const DATA: ObjectId = ObjectId(1);
 const OPT: ObjectId = ObjectId(2);
 const MJ: ObjectId = ObjectId(3);
 const RUN: ObjectId = ObjectId(4);
-/// Joints of `data` are objects 10 and 11, bodies of `model` 20 to 22.
+/// Joints of `data` are objects 10 and 11; bodies of `model` are objects 20 to 22.
 const DATA_JOINTS: CollectionId = CollectionId(0);
 const MODEL_BODIES: CollectionId = CollectionId(1);
 const SENSORS: CollectionId = CollectionId(2);
@@ -37,7 +37,7 @@ const FIELDS: &[Row] = &[
     ("model.opt.iterations", &[], "constant", Elem::Int, ""),
 ];
 
-/// What the host calls its things: those of a workbook. Names in examples are names that this host has.
+/// The terms of the host: those of a workbook. Names in examples are names of this host.
 static WORDS: HostTerms = HostTerms {
     lab: "sheet",
     lesson: "workbook",
@@ -327,7 +327,7 @@ impl Schema for Mock {
     }
 }
 
-/// The running host: element i of field k is 100 k + i at first, as far as its elements hold it.
+/// The running host. Initially, element i of field k is 100 k + i, converted to the element type of the field.
 pub(crate) struct World {
     pub(crate) fields: Vec<Vec<f64>>,
     pub(crate) calls: Vec<(u32, Vec<Value>)>,
@@ -382,7 +382,7 @@ impl Host for World {
     }
 }
 
-/// Compiles an expression that must be right and runs it in a fresh world.
+/// Compiles a valid expression and runs it in a new world.
 pub(crate) fn evaluate(source: &str) -> Value {
     let mut globals = Globals::new();
     let compiled = Compiler::new(&Mock, &mut globals).expression(source);
@@ -390,7 +390,7 @@ pub(crate) fn evaluate(source: &str) -> Value {
     program.run(&mut World::new(), &mut Context::new(), None).unwrap()
 }
 
-/// Compiles statements that must be right and runs them; gives the world and `ctx.out`.
+/// Compiles valid statements and runs them; returns the world and `ctx.out`.
 pub(crate) fn execute(source: &str) -> (World, Value) {
     let mut globals = Globals::new();
     let out = globals.define("out");

@@ -1,6 +1,6 @@
-//! Numbers and text, as ECMAScript converts them: `Number::toString`, `StringToNumber`, `ToInt32`.
+//! Conversions between numbers and strings as in ECMAScript: `Number::toString`, `StringToNumber`, `ToInt32`.
 
-/// JavaScript's `String(x)`: the shortest digits that read back as the same double, in its layout.
+/// JavaScript's `String(x)`: the shortest digits that parse to the same double, in JavaScript's format.
 pub(crate) fn to_text(x: f64) -> String {
     if x.is_nan() {
         return "NaN".into();
@@ -11,7 +11,7 @@ pub(crate) fn to_text(x: f64) -> String {
     if x == 0.0 {
         return "0".into(); // of either sign
     }
-    // Rust's exponent form has the same shortest digits: `d.ddde±n`.
+    // Rust's exponent form has the same number of digits: `d.ddde±n`.
     let scientific = format!("{:e}", x.abs());
     let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
     let digits: String = mantissa.chars().filter(|c| *c != '.').collect();
@@ -22,14 +22,15 @@ pub(crate) fn to_text(x: f64) -> String {
     format!("{sign}{}", layout(&digits, point))
 }
 
-/// The shortest digits; where the number lies exactly between two, the even ones. Rust gives either.
+/// The shortest digits. If the number lies exactly between two candidates, JavaScript uses the even digits,
+/// and Rust may use either.
 fn even_of_two(digits: String, exponent: &str, x: f64) -> String {
     let n: u64 = digits.parse().unwrap_or(0);
-    // Fewer digits are further apart than doubles.
+    // With fewer digits, the candidates are further apart than doubles, so there is no tie.
     if digits.len() < 15 || n.is_multiple_of(2) {
         return digits;
     }
-    // The digits before the middle between two, if the number lies there.
+    // The lower candidate, if the number lies exactly in the middle between two.
     let below = |decimals: usize| {
         let exact = format!("{x:.decimals$e}");
         let exact = exact.split('e').next().unwrap_or("").replace('.', "");
@@ -37,7 +38,7 @@ fn even_of_two(digits: String, exponent: &str, x: f64) -> String {
         let zeros = rest.strip_prefix('5')?;
         zeros.bytes().all(|b| b == b'0').then(|| below.to_owned())
     };
-    // 800 digits show every double in full.
+    // 800 digits represent every double exactly.
     let Some(below) = below(40).and_then(|_| below(800)) else { return digits };
     let even = if below == digits { n + 1 } else { n - 1 }.to_string();
     let (first, rest) = even.split_at(1);
@@ -45,7 +46,7 @@ fn even_of_two(digits: String, exponent: &str, x: f64) -> String {
     if same { even } else { digits }
 }
 
-/// Writes 0.`digits` × 10^`point` as the standard's `Number::toString` does.
+/// Formats 0.`digits` × 10^`point` as the standard's `Number::toString` does.
 fn layout(digits: &str, point: i32) -> String {
     let k = digits.len() as i32;
     if (k..=21).contains(&point) {
@@ -67,7 +68,7 @@ fn layout(digits: &str, point: i32) -> String {
     format!("{first}{fraction}e{sign}{}", e.abs())
 }
 
-/// White space of JavaScript, line ends included.
+/// White space of JavaScript, including line ends.
 pub(crate) fn is_space(c: char) -> bool {
     c.is_whitespace() && c != '\u{85}' || c == '\u{feff}'
 }
@@ -90,17 +91,17 @@ pub(crate) fn from_text(text: &str) -> f64 {
     if magnitude == "Infinity" {
         return sign * f64::INFINITY;
     }
-    // Rust also reads `inf`, `nan` and a second sign: only digits, point and exponent are numbers here.
+    // Rust also accepts `inf`, `nan` and a second sign; JavaScript accepts only digits, a point and an exponent.
     let starts = magnitude.starts_with(|c: char| c.is_ascii_digit() || c == '.');
     let plain = magnitude.chars().all(|c| c.is_ascii_digit() || matches!(c, '.' | 'e' | 'E' | '+' | '-'));
     if starts && plain { sign * magnitude.parse().unwrap_or(f64::NAN) } else { f64::NAN }
 }
 
-/// Digits of a radix that is a power of two, correctly rounded; `None` when a character is not a digit.
+/// The value of digits in a radix that is a power of two, correctly rounded, or `None` if a character is not a digit.
 pub(crate) fn from_digits(digits: &str, radix: u32) -> Option<f64> {
     let bits = radix.trailing_zeros();
     let mut mantissa: u128 = 0;
-    let mut dropped: i32 = 0; // binary places left out
+    let mut dropped: i32 = 0; // the number of binary places that were dropped
     let mut lost = false; // whether any of them was not zero
     for c in digits.chars() {
         let digit = c.to_digit(radix)?;
@@ -111,7 +112,7 @@ pub(crate) fn from_digits(digits: &str, radix: u32) -> Option<f64> {
             lost |= digit != 0;
         }
     }
-    // A lost bit breaks a tie upwards; it is far below the 53 bits that are kept.
+    // A dropped nonzero bit breaks a tie upwards; it is far below the 53 bits of the result.
     let value = (mantissa | u128::from(lost)) as f64;
     (!digits.is_empty()).then(|| libm::ldexp(value, dropped.min(5000)))
 }
@@ -142,7 +143,7 @@ mod tests {
             (5e-324, "5e-324"),
             (f64::MAX, "1.7976931348623157e+308"),
             (123.456, "123.456"),
-            // Exactly between two: the even one.
+            // Exactly between two candidates: the even one.
             (1.204_811_096_191_406_2, "1.2048110961914062"),
             (-1.204_811_096_191_406_2, "-1.2048110961914062"),
             (f64::NAN, "NaN"),

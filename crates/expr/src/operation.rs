@@ -1,18 +1,18 @@
-//! What the operators mean to numbers, defined once: folding, formulas (by row and by column) and the machine all ask here.
-//! The functions of `Math` stand in a table of their own, `math`.
+//! The numeric meaning of the operators, defined once: folding, formulas (by row and by column) and the virtual machine use it.
+//! The functions of `Math` have a separate table, `math`.
 //!
-//! Everything is inlined: where an operator is known while this crate is compiled, nothing is left of the choice.
+//! Everything is inlined, so that an operator that is known at compile time costs no dispatch.
 
 use crate::number::to_int32;
 use crate::operators::{BinaryOp, UnaryOp};
 
-/// Whether a number counts as true.
+/// Whether a number is truthy.
 #[inline(always)]
 pub(crate) fn truthy(x: f64) -> bool {
     x != 0.0 && !x.is_nan()
 }
 
-/// A truth value as a number.
+/// A boolean as a number.
 #[inline(always)]
 pub(crate) fn truth(holds: bool) -> f64 {
     f64::from(u8::from(holds))
@@ -25,7 +25,7 @@ pub(crate) fn select<T>(test: f64, yes: T, no: T) -> T {
 }
 
 impl UnaryOp {
-    /// The operator on a number. `typeof` gives a text and never comes here.
+    /// Applies the operator to a number. `typeof` gives a string and is not used here.
     #[inline(always)]
     pub(crate) fn on_number(self, x: f64) -> f64 {
         match self {
@@ -38,7 +38,7 @@ impl UnaryOp {
 }
 
 impl BinaryOp {
-    /// The operator on two numbers; comparisons give 1 or 0.
+    /// Applies the operator to two numbers; comparisons give 1 or 0.
     #[inline(always)]
     pub(crate) fn on_numbers(self, a: f64, b: f64) -> f64 {
         match self {
@@ -56,17 +56,17 @@ impl BinaryOp {
         }
     }
 
-    /// The rest, in a place of its own: what runs often stays short.
+    /// The less frequent operators, out of line, so that frequently executed code stays short.
     #[inline(never)]
     fn on_numbers_seldom(self, a: f64, b: f64) -> f64 {
         match self {
-            // Rust's remainder has the sign of the dividend, as JavaScript's.
+            // Rust's remainder has the sign of the dividend, as in JavaScript.
             BinaryOp::Remainder => a % b,
             BinaryOp::Power => crate::math::pow(a, b),
             BinaryOp::BitAnd => f64::from(to_int32(a) & to_int32(b)),
             BinaryOp::BitOr => f64::from(to_int32(a) | to_int32(b)),
             BinaryOp::BitXor => f64::from(to_int32(a) ^ to_int32(b)),
-            // Only the low five bits of a shift count.
+            // Only the low five bits of the shift count are used.
             BinaryOp::ShiftLeft => f64::from(to_int32(a).wrapping_shl(to_int32(b) as u32)),
             BinaryOp::ShiftRight => f64::from(to_int32(a).wrapping_shr(to_int32(b) as u32)),
             BinaryOp::ShiftRightUnsigned => f64::from((to_int32(a) as u32).wrapping_shr(to_int32(b) as u32)),
@@ -86,7 +86,7 @@ impl BinaryOp {
     }
 }
 
-/// `$run` of an operator between two numbers; of a frequent one it is known which it is, and the choice costs nothing.
+/// Evaluates `$run` with the operator as a constant if it is a frequent one, so that the dispatch happens only once.
 macro_rules! known_operator {
     ($op:expr, $run:expr) => {
         match $op {

@@ -1,7 +1,7 @@
-//! The operators: how they are written and how tightly they bind (ECMAScript, chapter "Expressions"). What they mean to
-//! numbers is in `operation`, what they mean to values in `value`.
+//! The operators: their symbols and precedences (ECMAScript, chapter "Expressions"). Their meaning for numbers is in
+//! `operation`, that for values in `value`.
 
-/// Operators before one operand.
+/// Unary operators.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum UnaryOp {
     /// `-x`
@@ -17,7 +17,7 @@ pub enum UnaryOp {
 }
 
 impl UnaryOp {
-    /// How it is written.
+    /// Its symbol.
     pub fn symbol(self) -> &'static str {
         match self {
             UnaryOp::Minus => "-",
@@ -29,7 +29,7 @@ impl UnaryOp {
     }
 }
 
-/// Operators that choose one of their operands.
+/// Operators that select one of their operands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum LogicalOp {
     /// `&&`
@@ -41,10 +41,10 @@ pub enum LogicalOp {
 }
 
 impl LogicalOp {
-    /// All of them.
+    /// All logical operators.
     pub const ALL: [LogicalOp; 3] = [LogicalOp::And, LogicalOp::Or, LogicalOp::Nullish];
 
-    /// How it is written.
+    /// Its symbol.
     pub fn symbol(self) -> &'static str {
         match self {
             LogicalOp::And => "&&",
@@ -62,9 +62,9 @@ impl LogicalOp {
     }
 }
 
-/// Operators between two operands that evaluate both.
+/// Binary operators that evaluate both operands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[allow(missing_docs)] // `symbol` says what each is
+#[allow(missing_docs)] // `symbol` describes each of them
 pub enum BinaryOp {
     Add,
     Subtract,
@@ -89,7 +89,7 @@ pub enum BinaryOp {
 }
 
 impl BinaryOp {
-    /// All of them.
+    /// All binary operators.
     pub const ALL: [BinaryOp; 20] = [
         BinaryOp::Add,
         BinaryOp::Subtract,
@@ -113,7 +113,7 @@ impl BinaryOp {
         BinaryOp::StrictNotEqual,
     ];
 
-    /// How it is written.
+    /// Its symbol.
     pub fn symbol(self) -> &'static str {
         match self {
             BinaryOp::Add => "+",
@@ -139,7 +139,7 @@ impl BinaryOp {
         }
     }
 
-    /// How tightly it binds; higher is tighter. 1 is assignment, 2 is `? :`, 15 is a sign, 17 is a member.
+    /// Binding power; higher binds more tightly. 1 is assignment, 2 is `? :`, 15 is a unary operator, 17 is a member.
     pub fn power(self) -> u8 {
         match self {
             BinaryOp::BitOr => 5,
@@ -154,7 +154,7 @@ impl BinaryOp {
         }
     }
 
-    /// Whether the result is `true` or `false`.
+    /// Whether the result is a boolean.
     pub fn is_comparison(self) -> bool {
         matches!(self.power(), 8 | 9)
     }

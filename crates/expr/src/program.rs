@@ -1,4 +1,4 @@
-//! The compiled [`Program`]: what it is known to do, and how it runs.
+//! The compiled [`Program`]: its properties, and its execution.
 
 use std::sync::Arc;
 
@@ -23,29 +23,29 @@ use crate::value::Value;
 use crate::vm;
 use labspec_finding::Span;
 
-/// The call of an aggregate function in a program: `first(contact('a', 'b'))`, `max(x)`. The host runs `args` over
-/// many samples, stores what it makes of them with [`Context::set_aggregate`], then runs the program.
+/// A call of an aggregate function in a program: `first(contact('a', 'b'))`, `max(x)`. The host runs `args` over many samples,
+/// stores the result with [`Context::set_aggregate`], and then runs the program.
 #[derive(Clone, Debug)]
 pub struct Aggregate {
-    /// Which function.
+    /// The function.
     pub function: FunctionId,
-    /// Its arguments, each a program. They may hold aggregates of their own.
+    /// Its arguments, each of which is a program. They may contain further aggregates.
     pub args: Vec<Program>,
-    /// Where the result goes; no two aggregates of one source text share a slot.
+    /// The slot of the result; each aggregate of a source text has a different one.
     pub slot: usize,
-    /// Where the call stands.
+    /// The span of the call.
     pub span: Span,
 }
 
 impl Aggregate {
-    /// What its result measures.
+    /// The measure of its result.
     fn measure(&self, schema: &dyn Schema, given: &KnownDimensions) -> Measure {
         let arg = |i: usize| self.args.get(i).map_or(Measure::Unknown, |p| p.measured(schema, given).value);
         schema.function(self.function).gives.resolve(arg)
     }
 }
 
-/// A compiled text.
+/// A compiled source text.
 #[derive(Clone, Debug)]
 pub struct Program {
     pub(crate) code: Arc<MachineCode>,
@@ -53,18 +53,18 @@ pub struct Program {
     pub(crate) result: Type,
     pub(crate) aggregates: Vec<Aggregate>,
     pub(crate) order: WriteOrder,
-    /// The variables that were named when it was compiled.
+    /// The variables that existed when it was compiled.
     pub(crate) global_names: GlobalNames,
-    /// What the numbers of its fields and elements are of ([`crate::Schema::identity`]).
+    /// Identifies the model to which its fields and elements belong ([`crate::Schema::identity`]).
     pub(crate) identity: u64,
-    /// What it computes, if it is a numeric expression without effects.
+    /// Its formula, if it is a numeric expression without effects.
     pub(crate) formula: Option<Arc<Formula>>,
-    /// The shorter way to run that.
+    /// The faster representation of that formula.
     pub(crate) row: Option<Arc<Row>>,
 }
 
 impl Program {
-    /// The code of a tree that was bound to a schema, with the variables that are named by then.
+    /// Compiles a tree that was bound to a schema, with the variables that exist by then.
     pub(crate) fn new(
         tree: &IrProgram,
         schema: &dyn Schema,
@@ -90,29 +90,29 @@ impl Program {
         }
     }
 
-    /// What it was compiled for: the [`crate::Schema::identity`] of then.
+    /// The [`crate::Schema::identity`] for which it was compiled.
     pub fn identity(&self) -> u64 {
         self.identity
     }
 
-    /// What it touches.
+    /// Its effects.
     pub fn effects(&self) -> &Effects {
         &self.effects
     }
 
-    /// What its numbers measure. `schema` is what it was compiled for; it may know more of the units by now.
+    /// The dimensions of its numbers. `schema` is the one for which it was compiled; it may know more units by now.
     pub fn measured(&self, schema: &dyn Schema, given: &KnownDimensions) -> TextDimensions {
         let aggregates = self.aggregates.iter().map(|a| (a.slot, a.measure(schema, given))).collect();
         measured(&self.code.form, schema, given, &aggregates).of_type(self.result)
     }
 
-    /// What every run stores after the last call of a function of the host that it may make; `None` when it never
-    /// calls it. What some way through the text passes by is not certain and left out.
+    /// The elements that every run stores after the last possible call of `function`, or `None` if it never calls it. Writes
+    /// that some path through the program bypasses are not certain and not included.
     pub fn writes_after(&self, function: FunctionId) -> Option<Vec<Access>> {
         self.order.writes_after(function)
     }
 
-    /// What the text may store itself, rather than a function of the host that it calls.
+    /// The elements that the program may store itself, without those stored by functions of the host.
     pub fn own_writes(&self) -> Vec<Access> {
         self.order.own_writes()
     }
@@ -127,12 +127,12 @@ impl Program {
         &self.aggregates
     }
 
-    /// Runs it once. `value` is what the control gives, if any. Statements give `undefined`.
+    /// Runs the program once. `value` is the value of a control, if there is one. Statements return `undefined`.
     ///
     /// # Errors
-    /// The host is of something else than what the program was compiled for, as another model: nothing is run. A function of the
-    /// host fails, the host refuses to store a value, or a string grows beyond its limit. What was stored before stays stored,
-    /// as in JavaScript.
+    /// The host has a different identity than the program, such as that of another model; then nothing is run. A function of
+    /// the host fails, the host refuses to store a value, or a string exceeds its limit. As in JavaScript, values stored before
+    /// the error remain stored.
     pub fn run(
         &self,
         host: &mut dyn Host,
@@ -152,7 +152,8 @@ impl Program {
         vm::run(&self.code, host, context, value)
     }
 
-    /// The value of a formula; `None` where the machine has to run it: an element does not exist, or a watch needs places.
+    /// Returns the value of a formula, or `None` if the virtual machine must run it: an element does not
+    /// exist, or a watch needs spans.
     #[inline]
     fn quick(&self, row: &Row, host: &dyn Host, context: &mut Context) -> Option<Value> {
         match &mut context.watch {

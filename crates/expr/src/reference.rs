@@ -1,4 +1,4 @@
-//! The reference page of the language, written from the tables that compile and run it. Its examples are tests.
+//! The reference page of the language, generated from the tables that compile and run it. Its examples are tested.
 
 use std::fmt::Write;
 
@@ -8,7 +8,7 @@ use crate::math;
 use crate::natives::{self, ReceiverKind};
 use crate::parse;
 
-/// The grammar, in the notation of ISO 14977: `,` is left out, `{ }` repeats, `[ ]` may be missing.
+/// The grammar in the notation of ISO 14977, without the `,` between symbols: `{ }` repeats, `[ ]` is optional.
 const GRAMMAR: &str = r#"
 text         = { statement } ;                                   (* where statements are written *)
 value        = expression ;                                      (* where a value is written *)
@@ -40,7 +40,7 @@ template     = "`" { character | "${" expression "}" } "`" ;
 place        = name | postfix "." name | postfix "[" expression "]" ;
 "#;
 
-/// A row of a table: how it is written, what it gives, an example with its value.
+/// A row of a table: the syntax, the result, and an example with its value.
 struct ReferenceRow {
     name: String,
     doc: &'static str,
@@ -68,7 +68,7 @@ fn functions_of_math() -> Vec<ReferenceRow> {
     .collect()
 }
 
-/// A section with a table.
+/// Writes a section with a table.
 fn table(out: &mut String, title: &str, rows: Vec<ReferenceRow>) {
     let _ = write!(out, "\n## {title}\n\n| name | gives | example | value |\n|---|---|---|---|\n");
     for ReferenceRow { name, doc, example: (source, value) } in rows {
@@ -77,7 +77,7 @@ fn table(out: &mut String, title: &str, rows: Vec<ReferenceRow>) {
     }
 }
 
-/// The page, in Markdown, with the words of a host.
+/// Returns the page in Markdown, with the terms of a host.
 pub fn language_page(host_terms: &HostTerms) -> String {
     let mut out = format!(
         "# The language of {0}s\n\nThe core of JavaScript that {0}s use. Values are JavaScript's, bit for bit: double arithmetic, `%`, `||` that returns an operand, numbers to text. The functions of `Math` whose result the standard leaves to the engine (`sin`, `exp`, `pow`, `**` …) are the same on every machine, and as near to node's as [measured](../measured/math.md).\n\n## Grammar\n\n```ebnf",
@@ -152,7 +152,7 @@ mod tests {
             let (_, got) = execute(&format!("ctx.out = String({source})"));
             assert_eq!(got.to_string(), value, "{name}: {source}");
         }
-        // Every function of `Math` has an example, and its example shows it.
+        // Every function of `Math` has an example that calls it.
         for name in math::names().filter(|n| math::constant(n).is_none()) {
             let example = math::DOCS.iter().find(|(n, ..)| *n == name).map(|(.., (source, _))| *source);
             assert!(example.is_some_and(|e| e.contains(&format!("Math.{name}("))), "{name}: {example:?}");

@@ -1,4 +1,4 @@
-//! Why a run ended early, and what happened in one that JavaScript passes over in silence.
+//! Errors that end a run, and events of a run that JavaScript ignores silently.
 
 use std::fmt;
 
@@ -7,14 +7,14 @@ use crate::rules::{self, Rule};
 use crate::types::FieldKey;
 use labspec_finding::Span;
 
-/// Why a run ended early.
+/// The error that ended a run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RuntimeError {
-    /// What was broken, one of [`rules::ALL`].
+    /// The violated rule, one of [`rules::ALL`].
     pub rule: &'static Rule,
     /// The part of the program that failed.
     pub span: Span,
-    /// What happened.
+    /// The message.
     pub message: String,
 }
 
@@ -26,32 +26,33 @@ impl fmt::Display for RuntimeError {
 
 impl std::error::Error for RuntimeError {}
 
-/// What happened that JavaScript passes over in silence.
+/// The kind of an event that JavaScript ignores silently.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EventKind {
-    /// An element that does not exist was read: it is `undefined`.
+    /// An element that does not exist was read; the value is `undefined`.
     ReadPastEnd,
-    /// An element that does not exist was assigned: nothing happened.
+    /// An element that does not exist was assigned, without effect.
     StorePastEnd,
 }
 
-/// Something noteworthy of the last run.
+/// An event of the last run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RuntimeEvent {
-    /// What.
+    /// The kind.
     pub kind: EventKind,
     /// The part of the program.
     pub span: Span,
     /// The field.
     pub field: FieldKey,
-    /// The index as written, in the view; may be negative, fractional or NaN.
+    /// The index in the view, as computed; may be negative, fractional or NaN.
     pub index: f64,
-    /// How many elements the view had.
+    /// The number of elements of the view.
     pub len: usize,
 }
 
 impl RuntimeEvent {
-    /// What was broken, one of [`rules::ALL`]. To read past the end breaks nothing: it gives `undefined`, which may be meant.
+    /// The violated rule, one of [`rules::ALL`]. A read past the end violates none: it gives
+    /// `undefined`, which may be intended.
     pub fn rule(&self) -> Option<&'static Rule> {
         match self.kind {
             EventKind::ReadPastEnd => None,

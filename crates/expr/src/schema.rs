@@ -1,6 +1,5 @@
-//! What a host offers at compile time: roots, their members, fields with shape and kind, named objects,
-//! functions with signature and effects. The numbers in the ids are the host's own; this crate only hands
-//! them back.
+//! What a host defines at compile time: roots, their members, fields with shape and kind, named objects, and functions with
+//! signature and effects. The host assigns the numbers in the ids; this crate only passes them back.
 
 use crate::dimension::{Dimension, Measure};
 use crate::host_terms::HostTerms;
@@ -8,46 +7,46 @@ use crate::rules::Rule;
 use crate::types::{CollectionId, Elem, FieldKey, FunctionId, ObjectId, Type};
 use crate::value::Value;
 
-/// What a name stands for.
+/// The meaning of a name.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Entry {
-    /// Something with members.
+    /// An object with members.
     Object(ObjectId),
-    /// Numbers.
+    /// A field: one number or an array.
     Field(Field),
-    /// Called with a literal name, gives an object.
+    /// A collection, which is called with a literal name and returns an object.
     Collection(CollectionId),
     /// A function.
     Function(FunctionId),
-    /// A fixed value.
+    /// A constant.
     Constant(Value),
 }
 
-/// Numbers of the host: a whole array, or the part of it that belongs to one named object.
+/// A field of the host: a whole array, or the part of it that belongs to one named object.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Field {
-    /// Which array.
+    /// The array.
     pub key: FieldKey,
-    /// How an author writes it, for messages: `data.qpos`, `data.joint("a").qpos`.
+    /// The path as an author writes it, for messages: `data.qpos`, `data.joint("a").qpos`.
     pub path: String,
-    /// Element of the array at which this view starts.
+    /// The element of the array at which this view starts.
     pub first: usize,
-    /// Dimensions, outermost first; empty for one number, `None` for one that changes while running.
+    /// The dimensions, outermost first; empty for a single number. `None` marks a dimension that changes during a run.
     pub shape: Vec<Option<usize>>,
-    /// What it is, and so what assigning means.
+    /// The kind, which determines the effect of an assignment.
     pub kind: FieldKind,
-    /// What its elements are.
+    /// The type of its elements.
     pub elem: Elem,
-    /// Unit, empty when it has none.
+    /// The unit; empty if there is none.
     pub unit: String,
     /// One line of documentation.
     pub doc: String,
-    /// Whose index it is, as the start of a sentence on its size: `the model has 14 coordinates`. May be empty.
+    /// The object that determines its size, as the start of a sentence: `the model has 14 coordinates`. May be empty.
     pub owner: String,
 }
 
 impl Field {
-    /// Number of elements of the view; `None` when it changes while running.
+    /// The number of elements of the view, or `None` if it changes during a run.
     pub fn len(&self) -> Option<usize> {
         self.shape.iter().try_fold(1usize, |n, dim| n.checked_mul((*dim)?))
     }
@@ -57,38 +56,38 @@ impl Field {
         self.len() == Some(0)
     }
 
-    /// Whether its elements may be set.
+    /// Whether its elements can be assigned.
     pub fn is_assignable(&self) -> bool {
         !matches!(self.kind, FieldKind::Derived { .. } | FieldKind::Structure)
     }
 
-    /// Whether it is one number rather than an array.
+    /// Whether it is a single number, not an array.
     pub fn is_scalar(&self) -> bool {
         self.shape.is_empty()
     }
 }
 
-/// What a field is.
+/// The kind of a field.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FieldKind {
-    /// Evolves while running; may be set.
+    /// State, which evolves during a run; can be assigned.
     State,
-    /// Set from outside.
+    /// An input, which is set from outside.
     Input,
     /// A parameter.
     Constant,
-    /// A parameter that others are computed from.
+    /// A parameter from which others are computed.
     Inertial,
-    /// Computed: assigning has no lasting effect, so it is refused.
+    /// Computed: an assignment would have no lasting effect, so it is refused.
     Derived {
-        /// What computes it, as the object of "computed by": `the kinematics stage`.
+        /// What computes it, as a phrase after "computed by": `the kinematics stage`.
         by: String,
     },
-    /// Size, type or address: cannot be assigned.
+    /// A size, type or address; cannot be assigned.
     Structure,
 }
 
-/// What a function of the host touches.
+/// The fields that a function of the host reads or writes.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum AccessedFields {
     /// Nothing.
@@ -103,33 +102,33 @@ pub enum AccessedFields {
 /// Signature, effects and documentation of a function.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FunctionInfo {
-    /// How an author writes it: `mj.mj_setConst`.
+    /// The name as an author writes it: `mj.mj_setConst`.
     pub name: String,
     /// Parameters in order.
     pub params: Vec<Param>,
-    /// How many trailing parameters may be left out.
+    /// The number of trailing parameters that are optional.
     pub optional: usize,
-    /// All arguments may be left out, and the bare name as a statement is a call.
+    /// Whether all arguments may be omitted, so that the name alone as a statement is a call.
     pub implied: bool,
-    /// Type of the result.
+    /// The type of the result.
     pub returns: Type,
-    /// Members of the result, when it is a record of known members.
+    /// The members of the result, if it is a record with known members.
     pub members: Vec<(String, Type)>,
-    /// Number of elements of the result, when it is a list of known length.
+    /// The number of elements of the result, if it is a list of known length.
     pub length: Option<usize>,
-    /// The arguments are sub-programs that the host evaluates over many samples, see [`crate::Aggregate`].
+    /// Whether the arguments are programs that the host evaluates over many samples, see [`crate::Aggregate`].
     pub aggregate: bool,
-    /// What it reads.
+    /// The fields that it reads.
     pub reads: AccessedFields,
-    /// What it writes.
+    /// The fields that it writes.
     pub writes: AccessedFields,
-    /// What the numbers that it gives measure.
+    /// The dimension of the numbers in its result.
     pub gives: ResultDimension,
     /// One line of documentation.
     pub doc: String,
 }
 
-/// How a function is called, in short: `mj.mj_forward(model, data)`.
+/// The short form of a call: `mj.mj_forward(model, data)`.
 pub(crate) fn signature(schema: &dyn Schema, info: &FunctionInfo) -> String {
     let params = info.params.iter().map(|param| match param {
         Param::Number | Param::Angle | Param::Lazy => "x".to_owned(),
@@ -143,57 +142,57 @@ pub(crate) fn signature(schema: &dyn Schema, info: &FunctionInfo) -> String {
     format!("{}({})", info.name, params.collect::<Vec<_>>().join(", "))
 }
 
-/// What the numbers of a result measure.
+/// The dimension of the numbers in a result.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum ResultDimension {
-    /// That is not known.
+    /// Unknown.
     #[default]
     Unknown,
-    /// This.
+    /// This dimension.
     This(Dimension),
-    /// What this argument measures, times this dimension.
+    /// The dimension of this argument, times a dimension.
     Argument(usize, Dimension),
 }
 
 impl ResultDimension {
-    /// What a result measures whose arguments measure this.
+    /// The measure of the result, given the measures of the arguments.
     pub(crate) fn resolve(self, argument: impl Fn(usize) -> Measure) -> Measure {
         match self {
             ResultDimension::Unknown => Measure::Unknown,
             ResultDimension::This(dimension) => Measure::Known(dimension),
             ResultDimension::Argument(i, times) => match argument(i) {
                 Measure::Known(d) => d.product(times).map_or(Measure::Unknown, Measure::Known),
-                // A number of the text may stand for anything, and so may what it is multiplied with.
+                // A literal number may have any dimension, and so may its product.
                 other => other,
             },
         }
     }
 }
 
-/// What a parameter takes.
+/// The type of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Param {
     /// A number; passed as [`Value::Number`].
     Number,
     /// A number that is an angle in radians; passed as [`Value::Number`].
     Angle,
-    /// Text; passed as [`Value::String`].
+    /// A string; passed as [`Value::String`].
     Text,
-    /// Anything, converted to true or false.
+    /// Any value, converted to a boolean.
     Boolean,
-    /// A list of numbers, or an array of the simulation, which is passed as a copy: always a [`Value::List`].
+    /// A list of numbers, or an array of the simulation, of which a copy is passed: always a [`Value::List`].
     Numbers,
-    /// Any value, as it is.
+    /// Any value, passed unchanged.
     Any,
-    /// Exactly this object, checked when compiling. **Not passed** at run time.
+    /// Exactly this object, checked at compile time. **Not passed** at run time.
     Object(ObjectId),
-    /// A literal string that names a member of the collection; passed as the number of its [`ObjectId`].
+    /// A string literal that names a member of the collection; passed as the number of its [`ObjectId`].
     Name(CollectionId),
-    /// A sub-program; only of aggregate functions.
+    /// A program; only for aggregate functions.
     Lazy,
 }
 
-/// What a single element of a field measures, as far as mistakes about it are known.
+/// The meaning of a single element of a field, as far as it matters for lints.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Role {
     /// Anything else.
@@ -201,65 +200,66 @@ pub enum Role {
     Other,
     /// An angle in rad.
     Angle,
-    /// A number that is easily taken for an angle and is none.
+    /// A number that is easily mistaken for an angle.
     NoAngle(&'static AngleAdvice),
 }
 
-/// What a host says of a mistake that the language finds.
+/// The host's part of a finding that the language reports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct AngleAdvice {
-    /// The rule of the host that is broken.
+    /// The violated rule of the host.
     pub rule: &'static Rule,
-    /// What it is that was written.
+    /// What was written.
     pub what: &'static str,
     /// Why it is a mistake.
     pub why: &'static str,
-    /// What to do.
+    /// How to correct it.
     pub help: &'static str,
 }
 
-/// What a place in a text is, for a person who points at it.
+/// Help for a part of a source text, for a user who points at it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Help {
-    /// How it is written in full, or its signature.
+    /// The full form, or the signature.
     pub title: String,
-    /// What it is, in sentences without full stops.
+    /// The description, in sentences without full stops.
     pub lines: Vec<String>,
 }
 
-/// Names to things, at compile time. Lists are for suggestions and should have a stable order.
+/// The names of a host at compile time. Lists are used for suggestions and should have a stable order.
 pub trait Schema {
-    /// What a name at the start of an expression stands for. `Math`, `NaN`, `Infinity`, `undefined`, `isNaN`,
-    /// `isFinite`, `value` and `ctx` belong to the language and are not asked for.
+    /// The meaning of a name at the start of an expression. `Math`, `NaN`, `Infinity`, `undefined`, `isNaN`, `isFinite`,
+    /// `value` and `ctx` belong to the language and are never passed.
     fn root(&self, name: &str) -> Option<Entry>;
 
-    /// All such names.
+    /// All names that [`Schema::root`] knows.
     fn root_names(&self) -> Vec<String>;
 
-    /// What `object.name` stands for.
+    /// The meaning of `object.name`.
     fn member(&self, object: ObjectId, name: &str) -> Option<Entry>;
 
-    /// All members of an object.
+    /// The names of all members of an object.
     fn member_names(&self, object: ObjectId) -> Vec<String>;
 
-    /// How to call an object in a message: `model.opt`, `the joint "light_free"`.
+    /// How a message refers to an object: `model.opt`, `the joint "light_free"`.
     fn describe(&self, object: ObjectId) -> String;
 
-    /// The object of this name.
+    /// The object with this name.
     fn lookup(&self, collection: CollectionId, name: &str) -> Option<ObjectId>;
 
-    /// All names of a collection.
+    /// All names in a collection.
     fn names(&self, collection: CollectionId) -> Vec<String>;
 
-    /// What one of its objects is called: `joint`.
+    /// The noun for an object of a collection: `joint`.
     fn noun(&self, collection: CollectionId) -> &str;
 
-    /// What the numbers of its fields and elements are of. They mean nothing to a host that says something else.
+    /// Identifies the model to which field numbers and element indexes refer. They have no meaning for a
+    /// host with another identity.
     fn identity(&self) -> u64 {
         0
     }
 
-    /// The field whose elements a function of one object gives, so that a single one can be read without the call.
+    /// The field whose elements a function of one object returns, so that a single element can be read without the call.
     fn result_field(&self, function: FunctionId, object: ObjectId) -> Option<Field> {
         let _ = (function, object);
         None
@@ -268,49 +268,50 @@ pub trait Schema {
     /// Signature and effects of a function.
     fn function(&self, function: FunctionId) -> FunctionInfo;
 
-    /// A remark of the host on a member that does not exist: what people who write it usually mean.
+    /// A remark of the host about a member that does not exist: what authors who write it usually mean.
     fn hint(&self, object: ObjectId, name: &str) -> Option<String> {
         let _ = (object, name);
         None
     }
 
-    /// What element `index` of a whole field is: `joint light_free (free): z position, m`.
+    /// The description of element `index` of a whole field: `joint light_free (free): z position, m`.
     fn element_help(&self, field: FieldKey, index: usize) -> Option<String> {
         let _ = (field, index);
         None
     }
 
-    /// What element `index` of a whole field measures.
+    /// The role of element `index` of a whole field.
     fn role(&self, field: FieldKey, index: usize) -> Role {
         let _ = (field, index);
         Role::Other
     }
 
-    /// What the result of a function measures; `first` is its first argument, where that is a known number or name.
+    /// The dimension of the result of a function; `first` is its first argument, if that is a known number or name.
     fn gives(&self, function: FunctionId, first: Option<f64>) -> ResultDimension {
         let _ = first;
         self.function(function).gives
     }
 
-    /// What the elements of a whole field from `first` on measure, where they all measure the same; without a count, all of them.
+    /// The measure of the elements of a whole field from `first` on, if it is the same for all of them; without
+    /// a count, of all of them.
     fn measure(&self, field: FieldKey, first: usize, count: Option<usize>) -> Measure {
         let _ = (field, first, count);
         Measure::Unknown
     }
 
-    /// How an author writes element `index` of a whole field by the name of the object that it belongs to:
+    /// The expression for element `index` of a whole field by the name of the object to which it belongs:
     /// `data.joint("light_free").qpos[2]`.
     fn named_element(&self, field: FieldKey, index: usize) -> Option<String> {
         let _ = (field, index);
         None
     }
 
-    /// What the host calls its things.
+    /// The terms of the host.
     fn host_terms(&self) -> &'static HostTerms {
         &HostTerms::PLAIN
     }
 
-    /// What an author writes to have derived fields computed again, as `mj_forward`.
+    /// The call by which an author recomputes derived fields, such as `mj_forward`.
     fn refresh(&self) -> Option<String> {
         None
     }

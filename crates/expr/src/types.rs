@@ -1,10 +1,10 @@
-//! The types of values, what the elements of arrays are, and the numbers by which a host names its things.
+//! The types of values, the element types of arrays, and the ids of a host's objects, functions and fields.
 
 /// An object with members: `model`, `model.opt`, the joint `"hinge"`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct ObjectId(pub u32);
 
-/// Named objects of one sort: what `data.joint(…)` chooses from.
+/// A collection of named objects of one kind, such as `data.joint(…)`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct CollectionId(pub u32);
 
@@ -12,11 +12,11 @@ pub struct CollectionId(pub u32);
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct FunctionId(pub u32);
 
-/// An array or number of the host.
+/// A field of the host: an array or a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct FieldKey(pub u32);
 
-/// What the elements of a field are, and so what is left of a number that is stored there.
+/// The element type of a field, which determines how a stored number is converted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Elem {
     /// Doubles.
@@ -29,7 +29,7 @@ pub enum Elem {
 }
 
 impl Elem {
-    /// What is kept of a number.
+    /// Converts a number as storing it does.
     pub(crate) fn keep(self, x: f64) -> f64 {
         match self {
             Elem::Double => x,
@@ -39,39 +39,39 @@ impl Elem {
     }
 }
 
-/// What is known of a value before running.
+/// The type of a value, as known before the run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Type {
     /// A double.
     Number,
     /// `true` or `false`
     Boolean,
-    /// Text.
+    /// A string.
     String,
     /// `null`
     Null,
     /// `undefined`
     Undefined,
-    /// Known only while running.
+    /// Known only at run time.
     Any,
-    /// Nothing: the function is called for its effect.
+    /// No value: the function is called for its effect.
     Void,
     /// A list.
     List,
     /// A record.
     Record,
-    /// A function of the text.
+    /// A function of a program.
     Function,
     /// An array of the simulation.
     View,
-    /// No value ever: what a function gives that never returns.
+    /// No value exists: the result of a function that never returns.
     Never,
     /// A number, or `undefined`: an element at an index that may be past the end.
     Element,
 }
 
 impl Type {
-    /// The type of a value that is one or the other.
+    /// The type of a value that has one of two types.
     pub fn or(self, other: Type) -> Type {
         match (self, other) {
             (Type::Never, one) | (one, Type::Never) => one,
@@ -84,12 +84,12 @@ impl Type {
         }
     }
 
-    /// Whether it is nothing but numbers, truth values and nothing: then arithmetic on it can use plain numbers.
+    /// Whether the value is a number, a boolean, `null` or `undefined`, so that arithmetic can use plain numbers.
     pub(crate) fn is_plain(self) -> bool {
         !self.may_have_parts() && self != Type::String
     }
 
-    /// Whether it may be something with parts: a list, a record, an array, a function.
+    /// Whether the value may be a list, a record, an array or a function.
     pub(crate) fn may_have_parts(self) -> bool {
         matches!(self, Type::List | Type::Record | Type::View | Type::Function | Type::Any)
     }

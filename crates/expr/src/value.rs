@@ -1,6 +1,5 @@
-//! Values of a program: JavaScript's primitive values and their conversions (ECMAScript, "Type Conversion" and
-//! "Testing and Comparison Operations"), what the operators do to values, and
-//! references to lists, records and functions, which live in a [`crate::Heap`].
+//! The values of programs: JavaScript's primitive values and their conversions (ECMAScript, "Type Conversion" and "Testing and
+//! Comparison Operations"), the operators on values, and references to lists, records and functions in a [`crate::Heap`].
 
 use std::fmt;
 use std::sync::Arc;
@@ -10,11 +9,11 @@ use crate::operation::truthy;
 use crate::operators::{BinaryOp, LogicalOp, UnaryOp};
 use crate::types::{FieldKey, Type};
 
-/// The number of a list, record or function in its [`crate::Heap`].
+/// The index of a list, record or function in its [`crate::Heap`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Ref(pub(crate) u32);
 
-/// A value of JavaScript.
+/// A JavaScript value.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Value {
     /// `undefined`
@@ -26,36 +25,36 @@ pub enum Value {
     Number(f64),
     /// `true` or `false`
     Boolean(bool),
-    /// Text.
+    /// A string.
     String(Arc<str>),
     /// A list of values, or a copy of an array of the simulation.
     List(Ref),
-    /// Values with names.
+    /// A record: values with keys.
     Record(Ref),
-    /// A function of a text.
+    /// A function of a program.
     Function(Ref),
-    /// An array of the simulation itself: reading and writing its elements reads and writes the simulation.
+    /// An array of the simulation, not a copy: accesses to its elements read and write the simulation.
     View(View),
 }
 
-/// A part of a field, in elements of the whole field.
+/// A part of a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct View {
     /// The field.
     pub field: FieldKey,
-    /// Its first element.
+    /// Its first element, as an index in the whole field.
     pub first: u32,
     count: u32,
 }
 
 impl View {
-    /// `count` elements from `first` on; without a count up to the end, which may move while running.
+    /// `count` elements from `first` on, or without a count all elements to the end, which may change during a run.
     pub(crate) fn new(field: FieldKey, first: usize, count: Option<usize>) -> View {
         let small = |n: usize| u32::try_from(n).unwrap_or(u32::MAX - 1).min(u32::MAX - 1);
         View { field, first: small(first), count: count.map_or(u32::MAX, small) }
     }
 
-    /// Number of elements; `None` when it may change while running.
+    /// The number of elements, or `None` if it may change during a run.
     pub fn count(self) -> Option<usize> {
         (self.count != u32::MAX).then_some(self.count as usize)
     }
@@ -77,7 +76,7 @@ impl Value {
         }
     }
 
-    /// What `typeof` says.
+    /// The result of `typeof`.
     pub(crate) fn type_name(&self) -> &'static str {
         match self {
             Value::Undefined => "undefined",
@@ -94,12 +93,12 @@ impl Value {
         matches!(self, Value::Undefined | Value::Null)
     }
 
-    /// Whether it is a number, a truth value, a text or nothing: all that needs no heap.
+    /// Whether it is a primitive value, which needs no heap: a number, a boolean, a string, `null` or `undefined`.
     pub fn is_primitive(&self) -> bool {
         !matches!(self, Value::List(_) | Value::Record(_) | Value::Function(_) | Value::View(_))
     }
 
-    /// JavaScript's `Number(v)` of a primitive value; of others NaN, see [`crate::Heap::number`].
+    /// JavaScript's `Number(v)` of a primitive value. NaN for other values, see [`crate::Heap::number`].
     pub fn to_number(&self) -> f64 {
         match self {
             Value::Undefined => f64::NAN,
@@ -111,7 +110,7 @@ impl Value {
         }
     }
 
-    /// Whether it is NaN itself.
+    /// Whether it is the number NaN.
     pub(crate) fn is_nan(&self) -> bool {
         matches!(self, Value::Number(x) if x.is_nan())
     }
@@ -127,7 +126,7 @@ impl Value {
         }
     }
 
-    /// `a + b` of primitive values: concatenation when either is a string.
+    /// `a + b` of primitive values: concatenation if either is a string.
     pub(crate) fn plus(&self, other: &Value) -> Value {
         match (self, other) {
             (Value::String(_), _) | (_, Value::String(_)) => Value::String(format!("{self}{other}").into()),
@@ -135,14 +134,14 @@ impl Value {
         }
     }
 
-    /// Bytes of the text, 0 for what is not text.
+    /// The length of a string in bytes, 0 for other values.
     pub(crate) fn text_len(&self) -> usize {
         if let Value::String(s) = self { s.len() } else { 0 }
     }
 
     /// `a === b`
     pub fn strictly_equals(&self, other: &Value) -> bool {
-        // Derived equality is exactly that: same type, same value, NaN unlike itself, 0 like -0.
+        // Derived equality has this meaning: same type and same value; NaN is not equal to itself, and 0 equals -0.
         self == other
     }
 
@@ -158,7 +157,7 @@ impl Value {
     }
 }
 
-/// JavaScript's `String(v)` of a primitive value; of others only what it is, see [`crate::Heap::text`].
+/// JavaScript's `String(v)` of a primitive value. Only a description of other values, see [`crate::Heap::text`].
 impl fmt::Display for Value {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -193,7 +192,7 @@ impl From<&str> for Value {
 }
 
 impl UnaryOp {
-    /// The operator on a value.
+    /// Applies the operator to a value.
     pub(crate) fn on_value(self, value: &Value) -> Value {
         match self {
             UnaryOp::Not => Value::Boolean(!value.truthy()),
@@ -204,7 +203,7 @@ impl UnaryOp {
 }
 
 impl LogicalOp {
-    /// Whether `left op right` is the left operand.
+    /// Whether the result of `left op right` is the left operand.
     pub(crate) fn keeps(self, left: &Value) -> bool {
         match self {
             LogicalOp::And => !left.truthy(),
@@ -215,7 +214,7 @@ impl LogicalOp {
 }
 
 impl BinaryOp {
-    /// The operator on two values.
+    /// Applies the operator to two values.
     pub(crate) fn on_values(self, a: &Value, b: &Value) -> Value {
         match self {
             BinaryOp::Add => a.plus(b),
@@ -231,7 +230,7 @@ impl BinaryOp {
         }
     }
 
-    /// Whether a comparison holds of two things in this order.
+    /// Whether a comparison holds for operands in this order.
     fn on_order(self, order: std::cmp::Ordering) -> bool {
         match self {
             BinaryOp::Less => order.is_lt(),
@@ -242,7 +241,7 @@ impl BinaryOp {
     }
 }
 
-/// JavaScript orders strings by UTF-16 code units, which differs from Rust's order beyond the basic plane.
+/// JavaScript's order of strings, by UTF-16 code units. It differs from Rust's order outside the basic multilingual plane.
 fn compare_utf16(a: &str, b: &str) -> std::cmp::Ordering {
     a.encode_utf16().cmp(b.encode_utf16())
 }

@@ -1,9 +1,9 @@
-//! What a watched run notes: where a value that is not a number was turned into something else, and how the comparisons of
-//! numbers came out. Claims are decided by it: a condition that lost a NaN on its way says nothing, and how far a condition is
-//! from the opposite follows from its comparisons.
+//! The watch of a run: it records where a value that is not a number was turned into an ordinary value, and the results of
+//! comparisons of numbers. Claims depend on it: a condition that lost a NaN during its evaluation proves nothing, and the
+//! comparisons show how far a condition is from the opposite result.
 //!
-//! NaN and `undefined` stand for "there is no number": an event that never happened, a root of a negative number. Arithmetic
-//! passes NaN on. Comparisons, tests, texts, indexes and most methods make an ordinary value of it; that is a loss.
+//! NaN and `undefined` mean "there is no number": an event that never happened, or the root of a negative number. Arithmetic
+//! propagates NaN. Comparisons, branches, strings, indexes and most methods turn it into an ordinary value, which is a loss.
 
 use crate::operation::truth;
 use crate::operators::{BinaryOp, UnaryOp};
@@ -12,56 +12,56 @@ use labspec_finding::Span;
 /// A comparison of two numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Comparison {
-    /// The left side.
+    /// The left operand.
     pub left: f64,
-    /// The right side.
+    /// The right operand.
     pub right: f64,
-    /// How far the sides are from giving the other answer: not negative where the comparison holds, not positive where it does
-    /// not; NaN where a side is not a number.
+    /// How far the operands are from the opposite result: not negative if the comparison holds, not positive if it does not,
+    /// NaN if an operand is not a number.
     pub margin: f64,
     /// Whether it holds.
     pub holds: bool,
 }
 
-/// What the runs in a [`crate::Context`] note, once it is given to [`crate::Context::watch`].
+/// The records of the runs in a [`crate::Context`], after it was passed to [`crate::Context::watch`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Watch {
-    /// The number of the comparison, in the order of evaluation, that gives the opposite of what it would.
+    /// The index of the comparison, in the order of evaluation, whose result is inverted.
     pub turned: Option<usize>,
-    /// The comparisons of the last run, if [`Watch::comparing`] made this.
+    /// The comparisons of the last run, if this watch was created by [`Watch::comparing`].
     pub comparisons: Vec<Comparison>,
-    /// The part of the program where a value that is not a number was turned into something else first.
+    /// The first part of the program where a value that is not a number was turned into an ordinary value.
     pub lost: Option<Span>,
     compares: bool,
     loses: bool,
     undefined: bool,
 }
 
-/// Comparisons kept of one run.
+/// Limit on the comparisons stored per run.
 const MOST: usize = 4096;
 
 impl Watch {
-    /// Notes losses of NaN alone.
+    /// A watch that records only losses of NaN.
     pub fn losses() -> Watch {
         Watch::default()
     }
 
-    /// Notes losses of NaN and `undefined`, and comparisons, of which one may be turned over.
+    /// A watch that records losses of NaN and `undefined`, and comparisons, one of which may be inverted.
     pub fn comparing(turned: Option<usize>) -> Watch {
         Watch { turned, compares: true, undefined: true, ..Watch::default() }
     }
 
-    /// Whether `undefined` counts as what is not a number.
+    /// Whether `undefined` counts as not being a number.
     pub(crate) fn counts_undefined(&self) -> bool {
         self.undefined
     }
 
-    /// Whether it notes comparisons, besides losses.
+    /// Whether it records comparisons in addition to losses.
     pub(crate) fn notes_comparisons(&self) -> bool {
         self.compares
     }
 
-    /// Forgets the last run.
+    /// Clears the records of the last run.
     pub(crate) fn begin(&mut self) {
         self.comparisons.clear();
         (self.lost, self.loses) = (None, false);
@@ -71,7 +71,7 @@ impl Watch {
         self.loses = true;
     }
 
-    /// Whether the operation that ran last lost a value; its place is kept.
+    /// Records the span of the last operation if it lost a value.
     pub(crate) fn settle(&mut self, span: Span) {
         if std::mem::take(&mut self.loses) {
             self.lost.get_or_insert(span);
@@ -82,7 +82,7 @@ impl Watch {
         self.loses
     }
 
-    /// The outcome of an operation on numbers, which it may have turned over.
+    /// The result of an operation on numbers, which is inverted if it is the chosen comparison.
     pub(crate) fn binary(&mut self, op: BinaryOp, a: f64, b: f64) -> f64 {
         let x = op.on_numbers(a, b);
         self.note_result(a.is_nan() || b.is_nan(), x);
@@ -95,17 +95,17 @@ impl Watch {
         x
     }
 
-    /// A number that decides which way is taken.
+    /// Records a number that decides a branch.
     pub(crate) fn test(&mut self, x: f64) {
         self.loses |= x.is_nan();
     }
 
-    /// What became of operands.
+    /// Records a loss if an operand was NaN and the result is not.
     pub(crate) fn note_result(&mut self, nan: bool, result: f64) {
         self.loses |= nan && !result.is_nan();
     }
 
-    /// Takes a comparison in, which gave `x`; gives what the program is to see.
+    /// Records a comparison with the result `x`, and returns the result that the program receives.
     pub(crate) fn compared(&mut self, op: BinaryOp, a: f64, b: f64, x: f64) -> f64 {
         let Some(margin) = margin(op, a, b).filter(|_| self.compares) else { return x };
         let at = self.comparisons.len();
@@ -117,7 +117,7 @@ impl Watch {
     }
 }
 
-/// How far a comparison is from the other answer; `None` for what is no comparison.
+/// How far a comparison is from the opposite result, or `None` if the operator is not a comparison.
 fn margin(op: BinaryOp, a: f64, b: f64) -> Option<f64> {
     Some(match op {
         BinaryOp::Less | BinaryOp::LessEqual => b - a,
@@ -135,7 +135,7 @@ mod tests {
     use crate::{Compiler, Context, Globals, Value};
     use proptest::prelude::*;
 
-    /// Runs an expression in which `data.qpos[0]` is `x`; the value, and what was noted.
+    /// Evaluates an expression with `data.qpos[0]` equal to `x`; returns the value and the records.
     fn run(source: &str, x: f64, watch: Watch) -> (Value, Watch) {
         let mut globals = Globals::new();
         let compiled = Compiler::new(&Mock, &mut globals).expression(source);
@@ -250,7 +250,7 @@ mod tests {
     }
 
     proptest! {
-        /// What need not be watched loses nothing.
+        /// An expression that needs no watch loses nothing.
         #[test]
         fn losses_are_the_same_with_comparisons(
             tree in crate::tests::roundtrip::expression(), x in prop_oneof![-2f64..2.0, Just(f64::NAN)],
@@ -270,7 +270,7 @@ mod tests {
             }
         }
 
-        /// A watch changes no value.
+        /// A watch does not change any value.
         #[test]
         fn a_watched_run_gives_the_same(tree in crate::tests::roundtrip::expression(), x in -2f64..2.0) {
             let source = crate::print(&tree);

@@ -1,20 +1,20 @@
-//! Examples of rules, as texts: with the feature `docs`.
+//! Examples of rules as texts, with the feature `docs`.
 
 use std::ops::Range;
 
-/// The lab of questions in examples.
+/// The lab to which questions in examples belong.
 const FALLING: &str = r#"{"xml": "<mujoco><worldbody><geom name='floor' type='plane' size='1 1 1'/><body name='ball' pos='0 0 1'><freejoint/><geom name='ball' size='.05' mass='1'/></body></worldbody></mujoco>",
  "title": "Falling", "readouts": [{"label": "height (m)", "expr": "data.qpos[2]"}]}"#;
 
-/// What encloses the place that the rule points at, in its wrong example. It is not part of the example.
+/// The marks around the span of the finding in a wrong example. They are not part of the example.
 const MARKS: [&str; 2] = ["⟦", "⟧"];
 
-/// An example of a rule. In the wrong one, `⟦` and `⟧` stand around the place that is found.
+/// An example of a rule. In a wrong example, `⟦` and `⟧` mark the span of the finding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Example {
     /// A whole lesson, Markdown.
     Lesson(&'static str),
-    /// The JSON of a question about a ball that falls, in a quiz below its lab.
+    /// The JSON of a question about a falling ball, in a quiz below its lab.
     Question(&'static str),
     /// The JSON of a lab.
     Lab(&'static str),
@@ -22,24 +22,24 @@ pub enum Example {
     Quiz(&'static str),
     /// A stand-alone JSON file.
     Json(&'static str),
-    /// A lesson that says the same thing very often.
+    /// A lesson that repeats the same text many times.
     Repeated(&'static str, usize),
-    /// An expression: what a trace or a readout shows.
+    /// An expression, as in a trace or a readout.
     Expression(&'static str),
-    /// Statements: what a controller does.
+    /// Statements, as in a controller.
     Statements(&'static str),
-    /// An expression so long or deep that it has to be made: before, repeated, how often, after.
+    /// A very long or deep expression, which is generated: prefix, repeated text, number of repetitions, suffix.
     Long(&'static str, &'static str, usize, &'static str),
-    /// A model, MJCF.
+    /// A model in MJCF.
     Model(&'static str),
-    /// A model so large that it has to be made: before, repeated, how often, after.
+    /// A very large model, which is generated: prefix, repeated text, number of repetitions, suffix.
     LongModel(&'static str, &'static str, usize, &'static str),
-    /// Files by their names, the first of which is checked; bytes, for those that are no text.
+    /// Files with their names, the first of which is checked. They are bytes, because some are not text.
     Files(&'static [(&'static str, &'static [u8])]),
 }
 
 impl Example {
-    /// The language of the listing that shows it.
+    /// The language of its code listing.
     pub fn language(&self) -> &'static str {
         match self {
             Example::Lesson(_)
@@ -54,7 +54,7 @@ impl Example {
         }
     }
 
-    /// The name of a file that would hold it.
+    /// A file name for the example.
     pub fn name(&self) -> &'static str {
         match self {
             Example::Json(_) => "example.json",
@@ -64,12 +64,12 @@ impl Example {
         }
     }
 
-    /// The whole text, as it would stand in a file.
+    /// The whole text, as in a file.
     pub fn text(&self) -> String {
         String::from_utf8_lossy(&self.bytes()).into_owned()
     }
 
-    /// The file's bytes, which need not be text.
+    /// The bytes of the file, which may not be text.
     pub fn bytes(&self) -> Vec<u8> {
         let mut bytes = self.written();
         for mark in MARKS {
@@ -80,7 +80,7 @@ impl Example {
         bytes
     }
 
-    /// Bytes of [`Example::text`] that the rule points at; `None` where the example does not mark them.
+    /// The range of [`Example::text`] that the finding marks, or `None` if the example has no marks.
     pub fn marked(&self) -> Option<Range<usize>> {
         let bytes = self.written();
         let text = String::from_utf8_lossy(&bytes);
@@ -111,7 +111,7 @@ impl Example {
         text.into_bytes()
     }
 
-    /// The rendered text: a repetition is named, not repeated.
+    /// The text for readers: a repetition is described, not repeated.
     pub fn render(&self) -> String {
         let text = match self {
             Example::Repeated(text, times) => {
@@ -135,7 +135,7 @@ impl Example {
     }
 }
 
-/// Where a text stands in bytes.
+/// The position of a text in bytes.
 fn find(bytes: &[u8], text: &str) -> Option<usize> {
     bytes.windows(text.len()).position(|window| window == text.as_bytes())
 }

@@ -1,4 +1,4 @@
-//! One thing that is wrong or doubtful, and where.
+//! A finding: one thing that is wrong or doubtful, and its location.
 
 use crate::order::sort_by;
 use crate::place::{Place, Position};
@@ -8,15 +8,15 @@ use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Who may apply a fix.
+/// How certain a fix is, and therefore who may apply it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Applicability {
-    /// A program: it changes only what the author certainly meant.
+    /// A program may apply it: the author certainly intended the result.
     Safe,
-    /// A program that was asked to: it is a guess.
+    /// A program may apply it on request: it is a guess.
     Unsafe,
-    /// Nobody but the author: it shows how the right thing looks.
+    /// Only the author may apply it: it shows the correct form.
     Display,
 }
 
@@ -31,109 +31,109 @@ impl Applicability {
     }
 }
 
-/// A replacement that repairs a finding.
+/// A replacement that corrects a finding.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Fix {
-    /// Bytes of the text that are replaced; empty to insert.
+    /// The byte range to replace; empty for an insertion.
     pub span: Range<usize>,
-    /// What to write there.
+    /// The replacement.
     pub text: String,
-    /// Who may do it.
+    /// Who may apply it.
     pub applicability: Applicability,
 }
 
 impl Fix {
-    /// A replacement that is certainly what was meant.
+    /// A replacement that is certainly intended.
     pub fn safe(span: impl Into<Range<usize>>, text: impl Into<String>) -> Fix {
         Fix { span: span.into(), text: text.into(), applicability: Applicability::Safe }
     }
 }
 
-/// The claim that a finding is about: it ties the finding to its entry in the ledger, whatever bytes both point at.
+/// The claim to which a finding belongs. It connects the finding with its entry in the ledger, independent of their spans.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ClaimId {
-    /// Who claims it: `quiz fall, question 2`.
+    /// The owner of the claim: `quiz fall, question 2`.
     pub owner: String,
-    /// Which of the owner's claims: `answer`, `quoted number 0.45 s`; empty when the finding concerns all of them.
+    /// The claim of the owner: `answer`, `quoted number 0.45 s`; empty if the finding concerns all of them.
     pub part: String,
-    /// What was claimed, and what came out.
+    /// The claimed and the computed value.
     pub result: String,
 }
 
-/// One thing that is wrong or doubtful, and where.
+/// One thing that is wrong or doubtful, and its location.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Finding {
     /// The rule's code, such as `unknown-key`.
     pub code: &'static str,
-    /// How bad it is.
+    /// Its severity.
     pub severity: Severity,
-    /// The file, as it is shown to people; empty while only the text is known.
+    /// The file, as displayed to users; empty while only the text is known.
     pub path: Arc<str>,
-    /// Bytes of that text; empty for a point.
+    /// The byte range in that text; empty for a point.
     pub span: Range<usize>,
-    /// Line and column where it begins, from whoever had the text at hand.
+    /// The line and column of its start, filled in where the text is available.
     pub position: Option<Position>,
     /// What is wrong, without a full stop.
     pub message: String,
-    /// Why it matters; `None` when the message says it all.
+    /// Why it matters; `None` if the message is sufficient.
     pub why: Option<String>,
     /// What to write instead.
     pub help: Option<String>,
-    /// A replacement that does it.
+    /// A replacement that does this.
     pub fix: Option<Fix>,
-    /// Other places.
+    /// Other locations.
     pub related: Vec<Place>,
-    /// The claim that it is about; `None` for what is wrong with something else.
+    /// The claim to which it belongs; `None` if it does not concern a claim.
     pub claim: Option<Box<ClaimId>>,
 }
 
 impl Finding {
-    /// A finding of a rule, with the rule's severity and reason. The path is filled in by whoever collects it.
-    // Inlined so that a program has the code of a rule without the texts and examples of its page.
+    /// A finding of a rule, with the severity and the reason of the rule. The code that collects findings fills in the path.
+    // Inlined, so that a program contains the code of a rule without the texts and examples of its page.
     #[inline(always)]
     pub fn new(rule: &Rule, span: impl Into<Range<usize>>, message: impl Into<String>) -> Finding {
         bare(rule.code, rule.severity, rule.why, span.into(), message.into())
     }
 
-    /// A finding whose message says why, or that states its own reason: the rule's is left to its explanation.
+    /// A finding whose message contains the reason, or that gets its own reason. The reason of the rule is not repeated.
     #[inline(always)]
     pub fn plain(rule: &Rule, span: impl Into<Range<usize>>, message: impl Into<String>) -> Finding {
         bare(rule.code, rule.severity, "", span.into(), message.into())
     }
 
-    /// An error of a rule, in words that say why.
+    /// An error of a rule, whose message contains the reason.
     #[inline(always)]
     pub fn error(rule: &Rule, span: impl Into<Range<usize>>, message: impl Into<String>) -> Finding {
         bare(rule.code, Severity::Error, "", span.into(), message.into())
     }
 
-    /// A warning of a rule, in words that say why.
+    /// A warning of a rule, whose message contains the reason.
     #[inline(always)]
     pub fn warning(rule: &Rule, span: impl Into<Range<usize>>, message: impl Into<String>) -> Finding {
         bare(rule.code, Severity::Warning, "", span.into(), message.into())
     }
 
-    /// Another reason than the rule's general one.
+    /// Sets a reason that replaces that of the rule.
     pub fn why(mut self, why: impl Into<String>) -> Finding {
         self.why = Some(why.into());
         self
     }
 
-    /// What to do.
+    /// Sets the advice.
     pub fn help(mut self, help: impl Into<String>) -> Finding {
         self.help = Some(help.into());
         self
     }
 
-    /// A replacement that is certainly what was meant.
+    /// Sets a replacement that is certainly intended.
     pub fn fix(mut self, span: impl Into<Range<usize>>, text: impl Into<String>) -> Finding {
         self.fix = Some(Fix::safe(span, text));
         self
     }
 
-    /// A replacement that is probably what was meant.
+    /// Sets a replacement that is probably intended.
     pub fn guess(self, span: impl Into<Range<usize>>, text: impl Into<String>) -> Finding {
         let mut found = self.fix(span, text);
         if let Some(fix) = &mut found.fix {
@@ -142,19 +142,19 @@ impl Finding {
         found
     }
 
-    /// Another place of the same text.
+    /// Adds another location in the same text.
     pub fn related(mut self, span: impl Into<Range<usize>>, label: impl Into<String>) -> Finding {
         self.related.push(Place { path: Arc::from(""), span: span.into(), label: label.into() });
         self
     }
 
-    /// Another severity than the rule's.
+    /// Sets another severity than that of the rule.
     pub fn severity(mut self, severity: Severity) -> Finding {
         self.severity = severity;
         self
     }
 
-    /// Whether what it is about is refused because of it.
+    /// Whether the finding is an error, so that the program, model or claim with it is refused.
     pub fn is_error(&self) -> bool {
         self.severity == Severity::Error
     }
@@ -182,7 +182,7 @@ fn bare(
     }
 }
 
-/// As a compiler says it: place, severity, code and message, then the reason and the next step on lines of their own.
+/// The format of compilers: location, severity, code and message, then the reason and the help on separate lines.
 impl fmt::Display for Finding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if !self.path.is_empty() {
@@ -206,7 +206,7 @@ impl fmt::Display for Finding {
 
 impl std::error::Error for Finding {}
 
-/// Puts findings into their order (file, place, code) and drops those that say the same thing twice.
+/// Sorts findings by file, location and code, and removes duplicates.
 pub fn sort(findings: &mut Vec<Finding>) {
     sort_by(findings, |a, b| {
         (&a.path, a.span.start, a.span.end, a.severity, a.code, &a.message).cmp(&(

@@ -1,8 +1,8 @@
-//! What a check has to say, whoever checks: the compiler of models, the language, the rules of lessons, a run.
+//! Findings, the common type of all checks: the model compiler, the language, the rules of lessons, and runs.
 //!
-//! A [`Rule`] says once what is wrong, why it matters, and how the wrong and the right thing look. A [`Finding`] is one
-//! place where a rule is broken, in words for the person who wrote it. The engine, the language and the lessons speak in this
-//! one type, so that a program that shows findings knows one type, too.
+//! A [`Rule`] describes one kind of mistake: what is wrong, why it matters, and a wrong and a right example. A [`Finding`] is
+//! one violation of a rule, described for the author. The engine, the language and the lessons use this one type, so that a
+//! program that displays findings needs only one type as well.
 
 #[cfg_attr(not(feature = "docs"), path = "no_example.rs")]
 mod example;
@@ -22,7 +22,7 @@ pub use place::{EditorPosition, Lines, Place, Position, Span, floor};
 pub use rule::{Layer, Rule};
 pub use severity::Severity;
 
-/// A text for people who write lessons: a description, an example. Empty in a build without the feature `docs`.
+/// A text for authors, such as a description or an example. Empty in a build without the feature `docs`.
 pub const fn docs(text: &'static str) -> &'static str {
     if cfg!(feature = "docs") { text } else { "" }
 }

@@ -1,26 +1,25 @@
-//! "Did you mean": the candidate nearest to what was written. There is no other edit distance in the project.
+//! "Did you mean": the candidate nearest to a misspelt name. This is the only edit distance in the project.
 
 use crate::order::sort_by;
 
-/// Names longer than this are not compared: nobody means them, and the cost grows with the product of lengths.
+/// Names longer than this are not compared: they are never intended, and the cost grows with the product of the lengths.
 const LONGEST: usize = 64;
 
-/// The candidate that was probably meant by `written`: the same word in other letters' case, one with few
-/// edits (insert, delete, replace, swap neighbours), one that begins with the word or that the word begins with
-/// (`expression` for `expr`), or one that holds the word as one of its parts (`mass` for `body_mass`). Of equals the
-/// first wins.
+/// Returns the candidate that `written` probably means: the same word in another case, one with few edits (insertion, deletion,
+/// replacement, swap of neighbours), one that is a prefix or an extension of the word (`expression` for `expr`), or one that
+/// contains the word as a part (`mass` for `body_mass`). Among equal candidates, the first one is returned.
 pub fn nearest<'a>(written: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     ranked(written, candidates).map(|(_, candidate)| candidate)
 }
 
-/// The same with its distance, for comparing the best of several lists.
+/// Returns the same candidate with its distance, to compare the best candidates of several lists.
 pub fn ranked<'a>(written: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<(usize, &'a str)> {
     if written.is_empty() || written.len() > LONGEST {
         return None;
     }
-    // One edit for short words, more for longer ones.
+    // One edit is allowed for short words, more for longer ones.
     let allowed = written.chars().count().div_ceil(3).min(3);
-    // A single letter is one edit away from every other one: only its own capital was meant.
+    // A single letter is one edit away from every other letter, so only its other case is accepted.
     let most = if written.chars().nth(1).is_none() { 1 } else { 10 * allowed + 1 };
     let mut best: Option<(usize, &str)> = None;
     for c in candidates {
@@ -32,7 +31,7 @@ pub fn ranked<'a>(written: &str, candidates: impl IntoIterator<Item = &'a str>) 
     best
 }
 
-/// How far the candidate is from what was written, in tenths of an edit; `None` when it is that, or too long.
+/// The distance of a candidate in tenths of an edit, or `None` if it is equal or too long.
 #[inline(never)]
 fn cost(written: &str, candidate: &str) -> Option<usize> {
     if candidate.len() > LONGEST || candidate == written {
@@ -51,11 +50,11 @@ fn cost(written: &str, candidate: &str) -> Option<usize> {
     if sorted == b {
         return Some(5); // the same parts in another order
     }
-    // Letters of another case are hardly a difference.
+    // A difference in case counts little.
     let same_case = 10 * distance(written, candidate);
     let edits =
         same_case.min(1 + 10 * distance(&written.to_ascii_lowercase(), &candidate.to_ascii_lowercase()));
-    // `mass` for `body_mass`: the fewer parts are missing, the better.
+    // `mass` for `body_mass`: the distance grows with the number of missing parts.
     let holds = !a.is_empty() && written.len() >= 3 && a.iter().all(|p| b.contains(p));
     let edits = if holds { edits.min(8 + b.len()) } else { edits };
     let (written, candidate) = (written.to_ascii_lowercase(), candidate.to_ascii_lowercase());

@@ -1,12 +1,12 @@
-//! Examples of rules in a build without the feature `docs`: none of their texts is kept.
+//! Examples of rules in a build without the feature `docs`, which contains none of their texts.
 
 use std::ops::Range;
 
-/// An example of a rule, which this build does not hold.
+/// An example of a rule, without its text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Example;
 
-/// The kinds of examples, under the names that they have with the feature `docs`.
+/// Constructors with the names of the variants that exist with the feature `docs`.
 #[allow(non_snake_case, missing_docs, reason = "they stand for the variants of the enumeration")]
 impl Example {
     pub const fn Lesson(_: &'static str) -> Example {

@@ -1,9 +1,9 @@
-//! Sorting for code that runs once. The standard library compiles its sort anew for each type, 5 kB of a WebAssembly module each time;
-//! here indices are sorted, by one copy for all types.
+//! Sorting for code that runs rarely. The standard library's sort is compiled for each type, and takes 5 kB of a WebAssembly
+//! module each time. Here, one copy sorts indices for all types.
 
 use std::cmp::Ordering;
 
-/// Sorts by an order; equal items stay in their order.
+/// Sorts by an order; the sort is stable.
 pub fn sort_by<T>(items: &mut [T], mut order: impl FnMut(&T, &T) -> Ordering) {
     let mut sources = sorted_indices(items.len(), &mut |i, j| match (items.get(i), items.get(j)) {
         (Some(a), Some(b)) => order(a, b),
@@ -12,7 +12,7 @@ pub fn sort_by<T>(items: &mut [T], mut order: impl FnMut(&T, &T) -> Ordering) {
     arrange(&mut sources, &mut |i, j| items.swap(i, j));
 }
 
-/// Sorts by a key; items with equal keys stay in their order.
+/// Sorts by a key; the sort is stable.
 pub fn sort_by_key<T, K: Ord>(items: &mut [T], key: impl Fn(&T) -> K) {
     sort_by(items, |a, b| key(a).cmp(&key(b)));
 }
@@ -23,7 +23,7 @@ fn sorted_indices(count: usize, order: &mut dyn FnMut(usize, usize) -> Ordering)
     indices
 }
 
-/// Brings each item to its place by exchanges along the cycles of a permutation; `sources[i]` is where the item for place `i` is.
+/// Applies a permutation by swaps along its cycles; `sources[i]` is the index of the item for place `i`.
 fn arrange(sources: &mut [usize], swap: &mut dyn FnMut(usize, usize)) {
     for start in 0..sources.len() {
         let mut place = start;

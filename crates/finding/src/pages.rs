@@ -1,17 +1,18 @@
-//! For build scripts: a folder of rules, a page each, as a list. A new rule is so one file.
+//! Support for build scripts: lists a folder of rules with one page each, so that a new rule is one file.
 
 use std::fmt::Write as _;
 use std::io;
 use std::path::PathBuf;
 
-/// Writes `rules.rs` into the folder of what is built: every file in the folder `pages` of the crate as a module, the rule that it declares
-/// (`pub const NAME: &Rule`), and all of them as `list`. Pages that declare `const CHECK: Check` are listed in `CHECKS`, too.
+/// Writes `rules.rs` into the output folder of the build: every file in the folder `pages` of the crate as a module, the
+/// rule that it declares (`pub const NAME: &Rule`), and all rules as `list`. Pages that declare `const CHECK: Check` are
+/// also listed in `CHECKS`.
 ///
-/// To be called from a build script. What the `mod.rs` of the folder names as a module itself is no page.
+/// Must be called from a build script. Modules that the folder's `mod.rs` declares itself are not pages.
 ///
 /// # Errors
-/// A page does not declare one rule: it would be left out without a word. Or what the system says: the folder cannot be read, the list
-/// not be written.
+/// A page does not declare exactly one rule, and would silently be left out; the folder cannot be read; or
+/// the list cannot be written.
 pub fn list_rules(pages: &str, list: &str) -> io::Result<()> {
     let folder = |name: &str| std::env::var_os(name).map(PathBuf::from).ok_or(io::ErrorKind::NotFound);
     let rules = folder("CARGO_MANIFEST_DIR")?.join(pages);
@@ -31,7 +32,7 @@ pub fn list_rules(pages: &str, list: &str) -> io::Result<()> {
     std::fs::write(folder("OUT_DIR")?.join("rules.rs"), text)
 }
 
-/// The text of the list; or what is wrong with a page, and what to do.
+/// Returns the text of the list, or the error of a page and how to correct it.
 fn listed(list: &str, pages: &[(PathBuf, String)]) -> Result<String, String> {
     let (mut text, mut rules, mut checks) = (String::new(), Vec::new(), Vec::new());
     let module = |path: &PathBuf| path.file_stem().and_then(|s| s.to_str()).unwrap_or_default().to_string();
@@ -85,7 +86,7 @@ fn declared(page: &str) -> Vec<&str> {
     constants.filter_map(|rest| Some(rest.split_once(": &Rule =")?.0)).collect()
 }
 
-/// Whether a `mod.rs` names this module itself.
+/// Whether a `mod.rs` declares this module itself.
 fn names(head: &str, module: &str) -> bool {
     let named =
         |line: &str| line.trim().strip_suffix(';')?.rsplit_once("mod ").map(|(_, name)| name == module);
@@ -101,7 +102,7 @@ mod tests {
         (Path::new("/r").join(name), text.to_string())
     }
 
-    /// A page that declares no rule, or two, would be left out in silence: the build says so instead.
+    /// A page that declares no rule, or two, would silently be left out; the build fails instead.
     #[test]
     fn a_page_that_is_no_rule_is_refused() {
         let rule = "pub const ONE: &Rule = &Rule {};";

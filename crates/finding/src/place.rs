@@ -1,9 +1,9 @@
-//! Places in a text: bytes, lines and columns, and what editors count.
+//! Locations in a text: bytes, lines and columns, and positions of editors.
 
 use std::ops::Range;
 use std::sync::Arc;
 
-/// A range of bytes of a text, end excluded, that can be copied. Always on character boundaries.
+/// A byte range of a text, end excluded, that can be copied. Always on character boundaries.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Span {
     /// First byte.
@@ -13,22 +13,22 @@ pub struct Span {
 }
 
 impl Span {
-    /// The bytes from `start` to `end`.
+    /// Creates the span from `start` to `end`.
     pub const fn new(start: usize, end: usize) -> Span {
         Span { start, end }
     }
 
-    /// The smallest span that holds both.
+    /// Returns the smallest span that contains both.
     pub fn to(self, other: Span) -> Span {
         Span { start: self.start.min(other.start), end: self.end.max(other.end) }
     }
 
-    /// The empty span just behind this one.
+    /// Returns the empty span directly after this one.
     pub fn after(self) -> Span {
         Span { start: self.end, end: self.end }
     }
 
-    /// The text of the span, empty when it does not lie in `source`.
+    /// Returns the text of the span, or an empty text if the span is not in `source`.
     pub fn text(self, source: &str) -> &str {
         source.get(self.start..self.end).unwrap_or("")
     }
@@ -52,15 +52,15 @@ impl PartialEq<Span> for Range<usize> {
     }
 }
 
-/// Another place that helps to understand a finding.
+/// A further location that helps to understand a finding.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Place {
-    /// The file; empty for that of the finding.
+    /// The file; empty if it is that of the finding.
     pub path: Arc<str>,
-    /// Bytes of that file.
+    /// The byte range in that file.
     pub span: Range<usize>,
-    /// What is there.
+    /// What is at this location.
     pub label: String,
 }
 
@@ -74,31 +74,31 @@ pub struct Position {
     pub column: usize,
 }
 
-/// A place as an editor names it: lines from 0, and on a line the units of UTF-16.
+/// A position as used by editors: lines from 0, and UTF-16 code units on a line.
 ///
-/// After the Language Server Protocol 3.17, "Position": a line ends with `\n`, `\r\n` or a single `\r`. A byte-order mark
-/// is how a file is written, not part of what an editor shows, so it counts nothing.
+/// Follows the Language Server Protocol 3.17, "Position": a line ends with `\n`, `\r\n` or a single `\r`. A byte-order mark
+/// belongs to the encoding of a file and is not displayed, so it is not counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct EditorPosition {
     /// Line, from 0.
     pub line: usize,
-    /// Units of UTF-16 before it on its line: two for `𝄞`, one for `ä`.
+    /// The UTF-16 code units before it on its line: two for `𝄞`, one for `ä`.
     pub character: usize,
 }
 
-/// What a file may begin with, so that its encoding is known.
+/// The byte-order mark at the beginning of a file.
 const MARK: char = '\u{feff}';
 
-/// Where the lines of a text begin. Its calls want the text that it was made of.
+/// The starts of the lines of a text. The methods require the text from which it was created.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Lines {
     starts: Vec<usize>,
-    /// The bytes behind every `\r` that ends a line on its own: for editors.
+    /// The byte after every `\r` that ends a line without `\n`: for editors.
     returns: Vec<usize>,
 }
 
 impl Lines {
-    /// The lines of a text. For people only `\n` ends one.
+    /// Finds the lines of a text. In messages for users, only `\n` ends a line.
     pub fn new(text: &str) -> Lines {
         let after = text.match_indices('\n').map(|(i, _)| i.saturating_add(1));
         let behind = text.match_indices('\r').map(|(at, _)| at.saturating_add(1));
@@ -106,7 +106,8 @@ impl Lines {
         Lines { starts: std::iter::once(0).chain(after).collect(), returns }
     }
 
-    /// First byte of a line, from 1; `None` behind the last one. A text that ends with a line break has an empty one more.
+    /// The first byte of a line, counted from 1, or `None` after the last one. A text that ends with a line break has
+    /// an additional empty line.
     pub fn start(&self, line: usize) -> Option<usize> {
         self.starts.get(line.checked_sub(1)?).copied()
     }
@@ -116,7 +117,8 @@ impl Lines {
         self.starts.partition_point(|&start| start <= byte).max(1)
     }
 
-    /// Line and column of a byte. A byte inside of a character is where the character begins, one behind the end is the end.
+    /// The line and column of a byte. A byte inside a character has the position of the character, and one past
+    /// the end that of the end.
     pub fn position(&self, text: &str, byte: usize) -> Position {
         let byte = floor(text, byte);
         let line = self.line(byte);
@@ -124,7 +126,7 @@ impl Lines {
         Position { line, column: before.chars().count() + 1 }
     }
 
-    /// The place of a byte as an editor names it. One inside of a line break is the end of its line.
+    /// The editor position of a byte. A byte inside a line break has the position of the end of its line.
     pub fn editor(&self, text: &str, byte: usize) -> EditorPosition {
         let byte = floor(text, byte);
         let line = self.line(byte);
@@ -135,7 +137,7 @@ impl Lines {
         if start == 0 {
             before = before.strip_prefix(MARK).unwrap_or(before);
         }
-        // What ends with a return here stands between the two halves of `\r\n`.
+        // Here, a trailing `\r` is the first half of `\r\n`, and the byte is between the halves.
         before = before.strip_suffix('\r').unwrap_or(before);
         EditorPosition { line: line - 1 + returns, character: before.chars().map(char::len_utf16).sum() }
     }
@@ -151,7 +153,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Against a walk over the whole text.
+    /// Compared with a traversal of the whole text.
     #[test]
     fn positions_of_every_byte() {
         for text in ["", "a", "äö\nx𝄞y\r\n\n\u{feff}z\t!", "\n\n", "𝄞𝄞\n𝄞"] {
@@ -169,7 +171,7 @@ mod tests {
         }
     }
 
-    /// The same, by walking over the text byte by byte, as an editor would that was handed UTF-16.
+    /// The same by traversing the text byte by byte, as an editor that uses UTF-16 does.
     fn walked(text: &str, offset: usize) -> EditorPosition {
         let chars: Vec<(usize, char)> = text.char_indices().collect();
         let (mut line, mut units): (usize, Vec<u16>) = (0, Vec::new());
@@ -183,7 +185,7 @@ mod tests {
                 continue;
             }
             if c == '\r' && next == Some('\n') {
-                // Between the two: still the end of the line.
+                // Between `\r` and `\n`: still the end of the line.
                 continue;
             }
             if c == '\n' || c == '\r' {
@@ -212,7 +214,7 @@ mod tests {
             (place.line, place.character)
         };
         assert_eq!([at('ä'), at('\t'), at('x')], [(0, 0), (0, 1), (0, 2)]);
-        // A clef is two units, a scientist five.
+        // The clef has two units, the emoji of a scientist five.
         assert_eq!([at('b'), at('c'), at('d')], [(1, 2), (1, 8), (2, 0)]);
         assert_eq!(lines.editor(text, 1000), EditorPosition { line: 3, character: 0 });
     }

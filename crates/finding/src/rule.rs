@@ -1,18 +1,18 @@
-//! Rules: declared once, with their reasons and examples.
+//! Rules, each declared once with its reason and examples.
 
 use crate::example::Example;
 use crate::severity::Severity;
 
-/// What a rule needs in order to look: a layer knows what the layers before it know, and more.
+/// The information that a rule needs. Each layer includes the information of the layers before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Layer {
-    /// Bytes and lines of a file.
+    /// The bytes and lines of a file.
     Source,
-    /// JSON, before anybody knows what it is about.
+    /// JSON values, without their interpretation.
     Json,
     /// The objects of a lesson: labs, quizzes, claims.
     Structure,
-    /// The model that a lab names.
+    /// The model of a lab.
     Model,
     /// The expressions and statements, bound to the model.
     Program,
@@ -48,28 +48,28 @@ impl Layer {
     }
 }
 
-/// What can be wrong: what it is called, why it matters, and how the wrong and the right thing look.
+/// A kind of mistake: its name, why it matters, and a wrong and a right example.
 ///
-/// Both examples are executed: the wrong one breaks the rule, the right one breaks none.
+/// Both examples are executed: the wrong one must violate the rule, the right one must violate no rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Rule {
-    /// Stable name, in words: `unknown-key`.
+    /// The stable name, in words: `unknown-key`.
     pub code: &'static str,
-    /// How bad it is, as a rule.
+    /// The usual severity.
     pub severity: Severity,
-    /// What it needs in order to look.
+    /// The information that it needs.
     pub layer: Layer,
     /// What is wrong, in one line without a full stop.
     pub summary: &'static str,
-    /// Why it matters to students; may be empty when the summary says it.
+    /// Why it matters to students; may be empty if the summary is sufficient.
     pub why: &'static str,
-    /// Something that breaks the rule.
+    /// An example that violates the rule.
     pub bad: Example,
-    /// The same, done right.
+    /// The same example, corrected.
     pub good: Example,
 }
 
-/// A finding's code names its rule.
+/// The code of a finding identifies its rule.
 impl PartialEq<Rule> for str {
     fn eq(&self, rule: &Rule) -> bool {
         self == rule.code
@@ -77,7 +77,7 @@ impl PartialEq<Rule> for str {
 }
 
 impl Rule {
-    /// The long explanation, as Markdown: what, why, wrong, right.
+    /// Returns the long explanation as Markdown: the mistake, the reason, a wrong and a right example.
     pub fn explain(&self) -> String {
         let mut text =
             format!("# {} ({})\n\n{}\n", self.code, self.severity.as_str(), sentence(self.summary));
@@ -95,7 +95,7 @@ impl Rule {
     }
 }
 
-/// With a capital and a full stop. What begins with code keeps its letters.
+/// The text with a capital letter and a full stop. Code at the beginning keeps its case.
 fn sentence(text: &str) -> String {
     let mut chars = text.chars();
     let first = chars.next().map(|c| c.to_uppercase().to_string()).unwrap_or_default();

@@ -1,16 +1,16 @@
-//! How bad a finding is.
+//! The severity of findings.
 
 use std::fmt;
 
-/// How bad it is.
+/// The severity of a finding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Severity {
-    /// It is broken or says something false.
+    /// Something is broken or false.
     Error,
-    /// Probably not what the author meant.
+    /// Probably not what the author intended.
     Warning,
-    /// Worth knowing.
+    /// Useful information.
     Note,
 }
 

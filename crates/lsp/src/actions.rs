@@ -1,4 +1,4 @@
-//! What an editor offers where something is found: its repair, all safe repairs, or to keep it with a reason.
+//! Code actions for findings: the fix, all safe fixes, or suppression with a reason.
 
 use super::convert;
 use super::diagnostic::diagnostic;
@@ -15,10 +15,10 @@ use lsp_types::{
 };
 use std::ops::Range;
 
-/// Safe fixes of the whole document at once.
+/// All safe fixes of a document at once.
 const FIX_ALL: CodeActionKind = CodeActionKind::new("source.fixAll.labspec");
 
-/// What is offered for a range of a document. `only` are the kinds that are asked for; without it all are.
+/// The code actions for a range of a document. `only` are the requested kinds; without it, all kinds are returned.
 pub(super) fn code_actions(
     document: &OpenDocument,
     lesson: Option<&Lesson>,
@@ -49,7 +49,7 @@ pub(super) fn code_actions(
     all.into_iter().map(CodeActionOrCommand::from).collect()
 }
 
-/// The fix of a finding.
+/// The action that applies the fix of a finding.
 fn apply_fix(document: &OpenDocument, f: &Finding, fix: &Fix) -> Option<CodeAction> {
     let file = &document.file;
     let (old, new) = (shorten(file.slice(fix.span.clone())), shorten(&fix.text));
@@ -67,7 +67,7 @@ fn apply_fix(document: &OpenDocument, f: &Finding, fix: &Fix) -> Option<CodeActi
     Some(CodeAction { is_preferred: Some(is_preferred), ..quick_fix(document, f, title, edit) })
 }
 
-/// An action that answers a finding.
+/// An action that resolves a finding.
 fn quick_fix(document: &OpenDocument, f: &Finding, title: String, edit: WorkspaceEdit) -> CodeAction {
     CodeAction {
         title,
@@ -85,7 +85,7 @@ fn shorten(text: &str) -> String {
     if cut.len() < text.len() { format!("{cut}…") } else { cut }
 }
 
-/// A text in place of a span of the document, in the version that the editor holds.
+/// An edit that replaces a span of the document, in the version that the editor has.
 fn workspace_edit(document: &OpenDocument, span: Range<usize>, new_text: String) -> WorkspaceEdit {
     let edit = TextEdit { range: convert::range(&document.file, &span), new_text };
     let edits = TextDocumentEdit {
@@ -98,7 +98,7 @@ fn workspace_edit(document: &OpenDocument, span: Range<usize>, new_text: String)
     WorkspaceEdit { document_changes: Some(DocumentChanges::Edits(vec![edits])), ..WorkspaceEdit::default() }
 }
 
-/// All safe fixes that are proven, at once.
+/// The action that applies all verified safe fixes at once.
 fn fix_all(document: &OpenDocument, lesson: &Lesson, models: &Models) -> Option<CodeAction> {
     let is_safe = |f: &Finding| f.fix.as_ref().is_some_and(|fix| fix.applicability == Applicability::Safe);
     if !document.findings.iter().any(is_safe) {
@@ -116,7 +116,7 @@ fn fix_all(document: &OpenDocument, lesson: &Lesson, models: &Models) -> Option<
         }
     };
     let old = lesson.file.text();
-    // What only a run of the labs finds has been found already.
+    // Findings that require runs of the labs are not computed again.
     let now = CheckedText {
         text: old.to_string(),
         findings: check_text(old).findings,
@@ -135,7 +135,7 @@ fn fix_all(document: &OpenDocument, lesson: &Lesson, models: &Models) -> Option<
     })
 }
 
-/// Where two texts differ, and what the second has there.
+/// The range in which two texts differ, and the replacement from the second one.
 fn changed(old: &str, new: &str) -> (Range<usize>, String) {
     let start: usize =
         old.chars().zip(new.chars()).take_while(|(a, b)| a == b).map(|(c, _)| c.len_utf8()).sum();
@@ -145,8 +145,8 @@ fn changed(old: &str, new: &str) -> (Range<usize>, String) {
     (start..old.len() - end, new_rest.get(..new_rest.len() - end).unwrap_or("").to_string())
 }
 
-/// To suppress a finding: its code in the `lint` of the lab, the question or the quiz, where the author writes the reason; for prose,
-/// in a comment before it.
+/// The action that suppresses a finding. It adds the code to the `lint` of the lab, the question or the quiz, where the author
+/// writes the reason; for prose, it inserts a comment before the text.
 fn suppress(document: &OpenDocument, lesson: &Lesson, f: &Finding) -> Option<CodeAction> {
     let file = &document.file;
     if lesson.is_broken(&f.span) {
@@ -162,7 +162,7 @@ fn suppress(document: &OpenDocument, lesson: &Lesson, f: &Finding) -> Option<Cod
         labs.chain(questions).filter(|(span, _)| holds(span)).min_by_key(|(span, _)| span.end - span.start);
     let (at, text) = match object {
         Some((_, Some(lint))) => {
-            // One code more in a list that there is.
+            // Adds a code to an existing list.
             let (_, last) = lint.codes.last()?;
             (last.end + 1, format!(", \"{}\"", f.code))
         }
@@ -174,7 +174,7 @@ fn suppress(document: &OpenDocument, lesson: &Lesson, f: &Finding) -> Option<Cod
         }
         None if document.kind == FileKind::Lesson => {
             let line = file.position(f.span.start).line;
-            // Before the paragraph or the block, where a comment is one.
+            // Before the paragraph or the block, where a comment is valid.
             let empty =
                 |line: usize| file.line_span(line).is_none_or(|span| file.slice(span).trim().is_empty());
             let block =

@@ -1,7 +1,7 @@
-//! What is found as one types: the rules of structure, models, and the names in every text. Nothing is run.
+//! Findings while the author types: rules of structure, models, and the names in all source texts. Nothing is run.
 //!
-//! A lesson is read anew at every change, which is quick. Its code is bound block by block, and what was found of a block is kept
-//! for as long as its text and the labs that it names stay what they are.
+//! A lesson is parsed again at every change, which is fast. Its programs are bound block by block. The findings of a block are
+//! cached as long as its text and the labs that it names do not change.
 
 use super::context::ModelContext;
 use super::documents::OpenDocument;
@@ -17,13 +17,13 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Looks at a document: what is found of it is in the document then.
+/// Checks a document, and stores the findings in it.
 pub(super) fn check_document(document: &mut OpenDocument, context: &ModelContext) {
     document.stale = false;
     match document.kind {
         FileKind::Lesson | FileKind::Json => {
             let lesson = read(document, context);
-            // JSON that is neither labs nor quizzes belongs to somebody else.
+            // JSON that contains neither labs nor quizzes belongs to another program.
             let other =
                 document.kind == FileKind::Json && lesson.labs.is_empty() && lesson.quizzes.is_empty();
             document.findings =
@@ -42,7 +42,7 @@ pub(super) fn check_document(document: &mut OpenDocument, context: &ModelContext
     }
 }
 
-/// The lesson of a document, read if need be.
+/// The lesson of a document, parsed if necessary.
 pub(super) fn lesson(document: &mut OpenDocument, context: &ModelContext) -> Option<Arc<Lesson>> {
     if !matches!(document.kind, FileKind::Lesson | FileKind::Json) {
         return None;
@@ -56,7 +56,7 @@ fn read(document: &OpenDocument, context: &ModelContext) -> Lesson {
     load_lesson_at(document.file.clone(), &document.path, &context.sources, context.models.folder())
 }
 
-/// The findings of a lesson whose blocks are bound as far as they are new.
+/// The findings of a lesson. Only new blocks are bound.
 fn check_blocks(
     lesson: &Lesson,
     blocks: &mut BTreeMap<String, Vec<Finding>>,
@@ -70,7 +70,7 @@ fn check_blocks(
         let cached = blocks.get(&key).or_else(|| next_blocks.get(&key)).cloned();
         let found = cached.unwrap_or_else(|| check_block(lesson, &unit, models));
         findings.extend(found.iter().map(|f| moved(f, |at| at + unit.start)));
-        // A finding that points out of its block rests on more than the block.
+        // A finding that refers to text outside its block depends on more than the block.
         if found.iter().all(|f| spans(f).all(|span| span.end <= unit.len())) {
             next_blocks.insert(key, found);
         }
@@ -80,21 +80,22 @@ fn check_blocks(
     check::join(lesson.clone(), found, CheckLevel::STATIC).findings
 }
 
-/// A hash of the models, which changes when they do.
+/// A hash that changes with the list of models.
 fn models_hash(models: &Models) -> u64 {
     let mut hasher = DefaultHasher::new();
     (models.folder().path_of_folder(), models.folder().names()).hash(&mut hasher);
     hasher.finish()
 }
 
-/// The labs, quizzes and claims in comments of a lesson, as bytes.
+/// The byte ranges of the labs, quizzes and claims in comments of a lesson.
 fn units(lesson: &Lesson) -> Vec<Range<usize>> {
     let labs = lesson.labs.iter().map(|entry| entry.span.clone());
     let quizzes = lesson.quizzes.iter().map(|quiz| quiz.span.clone());
     labs.chain(quizzes).chain(lesson.remarks.iter().map(|remark| remark.span.clone())).collect()
 }
 
-/// What the findings of a block rest on: its text, that which it is about, and that of the labs and claims that it names.
+/// The dependencies of the findings of a block: its text, the text to which it applies, and the texts of the labs
+/// and claims that it names.
 fn block_key(lesson: &Lesson, unit: &Range<usize>) -> String {
     let over = lesson.remarks.iter().filter(|remark| remark.span == *unit).map(|remark| remark.over.clone());
     let mut key = lesson.file.slice(unit.clone()).to_string();
@@ -124,7 +125,7 @@ fn claims<'l>(lesson: &'l Lesson, unit: &Range<usize>) -> impl Iterator<Item = &
     lesson.verifies().filter(|claim| within(&claim.span, unit))
 }
 
-/// The labs that they name, and those that these use.
+/// The labs that these name, and the labs that those use.
 fn named_by<'l>(lesson: &'l Lesson, unit: &Range<usize>) -> impl Iterator<Item = &'l VerifyLab> {
     claims(lesson, unit).flat_map(|claim| lesson.whole(claim).labs())
 }
@@ -133,7 +134,7 @@ fn within(span: &Range<usize>, unit: &Range<usize>) -> bool {
     unit.start <= span.start && span.end <= unit.end
 }
 
-/// Binds one block, as if there were no others but those that it names. Occurrences count from its beginning.
+/// Binds one block as if only the blocks that it names existed. Spans count from the start of the block.
 fn check_block(lesson: &Lesson, unit: &Range<usize>, models: &Models) -> Vec<Finding> {
     let named: Vec<&VerifyLab> = named_by(lesson, unit).collect();
     let wanted: Vec<&Lab> = named.iter().filter_map(|named| lesson.named(named)).collect();
@@ -167,7 +168,7 @@ fn check_block(lesson: &Lesson, unit: &Range<usize>, models: &Models) -> Vec<Fin
     inside.map(|f| moved(&f, |at| at.wrapping_sub(unit.start))).collect()
 }
 
-/// A finding with all its places moved.
+/// A finding with all its spans shifted.
 fn moved(f: &Finding, to: impl Fn(usize) -> usize) -> Finding {
     let mut f = f.clone();
     let shift = |span: &Range<usize>| to(span.start)..to(span.end);
@@ -182,7 +183,7 @@ fn moved(f: &Finding, to: impl Fn(usize) -> usize) -> Finding {
     f
 }
 
-/// All places of a finding in its own text.
+/// All spans of a finding in its own text.
 fn spans(f: &Finding) -> impl Iterator<Item = &Range<usize>> {
     let related = f.related.iter().filter(|place| place.path.is_empty()).map(|place| &place.span);
     related.chain(f.fix.iter().map(|fix| &fix.span)).chain([&f.span])
@@ -196,7 +197,7 @@ mod tests {
     use lsp_types::TextDocumentContentChangeEvent;
     use std::path::Path;
 
-    /// What a lesson says without anything kept: what [`check_document`] must find, too.
+    /// The findings of a lesson without the cache, which [`check_document`] must find as well.
     fn plainly(file: SourceFile, path: &Path, models: &Models) -> Vec<Finding> {
         check::check_lesson(
             load_lesson_at(file, path, &Sources::Disk, models.folder()),
@@ -206,7 +207,8 @@ mod tests {
         .findings
     }
 
-    /// Claims that name others: one in a comment, one of another lesson's lab, one that uses the runs of another.
+    /// Claims that name others: one in a comment, one about a lab of another lesson, and one that uses
+    /// the runs of another claim.
     const NAMING: &str = r##"# Naming
 
 ```lab simlab
@@ -221,7 +223,7 @@ The pendulum swings low.
 It comes late.
 "##;
 
-    /// Changes in the texts of real lessons: what is kept of the blocks never changes what is found.
+    /// Changes in the texts of real lessons: the cache of blocks never changes the findings.
     #[test]
     fn what_is_kept_changes_nothing() {
         let specs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../specs").canonicalize().unwrap();

@@ -1,4 +1,4 @@
-//! The texts of a lesson that are code, each with the lab that it is about.
+//! The source texts in a lesson, each with the lab to which it belongs.
 
 use labspec::bind::{ModelNames, Scope};
 use labspec::source::Text;
@@ -6,20 +6,20 @@ use labspec::spec::{Form, Lab, Lesson, Run, Verify};
 use labspec_core::Model;
 use labspec_expr::{Compiled, Compiler, Globals, Type};
 
-/// A text of code.
+/// A source text.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CodeText<'l> {
     pub(super) form: Form,
-    /// Which functions there are.
+    /// Which functions exist.
     pub(super) scope: Scope,
     pub(super) text: &'l Text,
-    /// The lab whose model it names.
+    /// The lab whose model it uses.
     pub(super) lab: &'l Lab,
-    /// The claim that it stands in.
+    /// The claim that contains it.
     pub(super) verify: Option<&'l Verify>,
 }
 
-/// Every text of code, in the order in which the lesson is read.
+/// All source texts, in the order of the lesson.
 pub(super) fn code_texts(lesson: &Lesson) -> Vec<CodeText<'_>> {
     let mut all = Vec::new();
     for lab in lesson.all_labs() {
@@ -56,7 +56,7 @@ fn add_claim<'l>(lesson: &'l Lesson, verify: &'l Verify, lab: Option<&'l Lab>, a
     add(verify.expressions().collect(), base.or_else(|| whole.runs.iter().find_map(lab_of)));
 }
 
-/// The text of code at a byte of the lesson, and the byte of the text.
+/// The source text at a byte of the lesson, and the offset in the text.
 pub(super) fn code_at(lesson: &Lesson, byte: usize) -> Option<(CodeText<'_>, usize)> {
     let all = code_texts(lesson);
     let piece = all.into_iter().find(|p| {
@@ -66,7 +66,7 @@ pub(super) fn code_at(lesson: &Lesson, byte: usize) -> Option<(CodeText<'_>, usi
     Some((piece, offset_in_text(piece.text, byte)))
 }
 
-/// The byte of a text that stands at a byte of the file. The bytes of both keep their order.
+/// The offset in a text for a byte of the file. The mapping is monotonic.
 fn offset_in_text(text: &Text, byte: usize) -> usize {
     let (mut low, mut high) = (0, text.value.len());
     while low < high {
@@ -80,7 +80,7 @@ fn offset_in_text(text: &Text, byte: usize) -> usize {
     labspec_expr::floor(&text.value, low)
 }
 
-/// Compiles a text with what each part of it means.
+/// Compiles a source text with help for each of its parts.
 pub(super) fn explained(piece: &CodeText<'_>, model: &Model, globals: &mut Globals) -> Compiled {
     let readouts = labspec::verify::labels(piece.lab);
     let names = ModelNames::new(model, piece.scope).showing(&readouts);

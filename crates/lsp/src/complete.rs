@@ -1,4 +1,4 @@
-//! What can be written at a place: keys and words of the format, names of the language and of the model.
+//! Completions: keys and values of the format, and names of the language and of the model.
 
 use super::check::lesson;
 use super::code;
@@ -11,7 +11,7 @@ use labspec::spec::format::{Completion, completions_in};
 use labspec_expr::{Globals, Suggested, Suggestion, complete, variables_of};
 use lsp_types::{CompletionItem, CompletionItemKind, Documentation, MarkupContent, MarkupKind, TextEdit};
 
-/// What can be written at a byte of a document.
+/// The completions at a byte of a document.
 pub(super) fn completions(
     document: &mut OpenDocument,
     context: &ModelContext,
@@ -45,7 +45,7 @@ pub(super) fn completions(
     let items = offered.into_iter().enumerate().map(|(i, c)| {
         let kind = if c.is_key { CompletionItemKind::PROPERTY } else { CompletionItemKind::VALUE };
         let documentation = describe_completion(&c);
-        // What is written there already begins with a quote where there is one.
+        // The existing text may begin with a quote.
         let is_quoted = file.slice(c.replace.clone()).starts_with('"');
         let filter_text = is_quoted.then(|| format!("\"{}", c.text));
         let text_edit = TextEdit { range: convert::range(file, &c.replace), new_text: c.insert };
@@ -55,7 +55,7 @@ pub(super) fn completions(
     items.collect()
 }
 
-/// The variables that controls store.
+/// Declares the variables that controls store.
 fn define_params(lab: &labspec::spec::Lab, globals: &mut Globals) {
     let actions = lab.controls.iter().filter_map(|control| control.action());
     actions.filter_map(|action| action.param.as_ref()).for_each(|param| {
@@ -63,7 +63,7 @@ fn define_params(lab: &labspec::spec::Lab, globals: &mut Globals) {
     });
 }
 
-/// What is written for a suggestion: names stand between quotes in JSON, where a quote would end the text.
+/// The text of a suggestion inside a JSON string, with escapes.
 fn quoted(s: &Suggestion) -> String {
     labspec::json::encode(&s.text)
 }
@@ -85,7 +85,7 @@ fn item_kind(kind: Suggested) -> CompletionItemKind {
     }
 }
 
-/// Runs and measures of a claim, by whose names its conditions are written.
+/// Adds the runs and measures of a claim, which its conditions use by name.
 fn add_measures(verify: &Verify, items: &mut Vec<CompletionItem>) {
     let named = |name: &str, what: &str| CompletionItem {
         label: name.to_string(),
@@ -113,7 +113,7 @@ fn completion_item(
         kind: Some(kind),
         detail: Some(detail),
         documentation: Some(Documentation::MarkupContent(documentation)),
-        // In the order of the reference.
+        // Sorted in the order of the reference.
         sort_text: Some(format!("{index:05}")),
         text_edit: Some(text_edit.into()),
         ..CompletionItem::default()

@@ -1,4 +1,4 @@
-//! What lies around a document: the models that its labs name, compiled once, and the other lessons of the folder.
+//! The context of a document: the models of its labs, each compiled once, and the other lessons of the folder.
 
 use super::convert;
 use super::documents::OpenDocument;
@@ -13,39 +13,39 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Most lessons of a folder that are looked at.
+/// The maximum number of lessons of a folder that are searched.
 const MOST: usize = 2_000;
-/// Most entries that are walked over to find them.
+/// The maximum number of directory entries that are visited to find them.
 const MOST_ENTRIES: usize = 100_000;
 
 /// The models of one folder, and the labs that were started with them.
 #[derive(Debug)]
 pub(super) struct ModelContext {
-    /// The models; threads that run labs share them.
+    /// The models, shared with threads that run labs.
     pub(super) models: Arc<Models>,
-    /// Where other lessons are read from: the editor's texts, then files.
+    /// The source of other lessons: the texts in the editor, then files.
     pub(super) sources: Sources,
-    /// The labs that somebody pointed into last.
+    /// The labs into which a user pointed last.
     pub(super) started: StartedLabs,
 }
 
-/// The models and sources of all open documents, by the folder of models.
+/// The models and sources of all open documents, by folder of models.
 #[derive(Debug, Default)]
 pub(super) struct ModelContexts {
     by_folder: BTreeMap<Option<PathBuf>, ModelContext>,
-    /// The folder of models of each document, as it was found.
+    /// The folder of models of each document, cached.
     folders: BTreeMap<PathBuf, ModelFolder>,
-    /// The texts that the editor holds.
+    /// The texts in the editor.
     pub(super) overlay: Arc<Overlay>,
 }
 
 impl ModelContexts {
-    /// Nothing is compiled yet; these are the texts that the editor holds.
+    /// Creates the contexts without compiled models, for the texts in the editor.
     pub(super) fn with_overlay(overlay: Arc<Overlay>) -> ModelContexts {
         ModelContexts { overlay, ..ModelContexts::default() }
     }
 
-    /// The models and sources of a document.
+    /// Returns the models and sources of a document.
     pub(super) fn model_context(
         &mut self,
         document: &Path,
@@ -65,40 +65,40 @@ impl ModelContexts {
             started: StartedLabs::default(),
         };
         let context = self.by_folder.entry(key).or_insert_with(|| new(folder));
-        // A model that was added or taken away.
+        // A model was added or removed.
         if context.models.folder().names() != folder.names() {
             *context = new(folder);
         }
         context
     }
 
-    /// The texts of the editor over files.
+    /// The texts of the editor, which override files.
     pub(super) fn sources(&self) -> Sources {
         Sources::Over(self.overlay.clone())
     }
 
-    /// Texts of models changed: all are compiled anew.
+    /// Discards all compiled models, because texts of models changed.
     pub(super) fn forget(&mut self) {
         self.by_folder.clear();
     }
 
-    /// Files may have changed: the disk is asked again for what is there.
+    /// Discards cached information about files, which may have changed on disk.
     pub(super) fn refresh(&mut self) {
         self.overlay.refresh();
         self.folders.clear();
     }
 }
 
-/// A folder that the editor opened.
+/// A folder that is open in the editor.
 #[derive(Debug)]
 pub(super) struct WorkspaceRoot {
-    /// As the editor names it.
+    /// The path as the editor names it.
     pub(super) named: PathBuf,
-    /// Links resolved.
+    /// The path with resolved links.
     pub(super) real: PathBuf,
 }
 
-/// A file as the editor names it: by the document that it has open, or by the folder that it opened.
+/// The URI of a file as the editor names it: that of an open document, or one below an open folder.
 pub(super) fn editor_uri(
     path: &Path,
     open: &BTreeMap<String, OpenDocument>,
@@ -111,7 +111,7 @@ pub(super) fn editor_uri(
     convert::uri_of_path(inside.as_deref().unwrap_or(path))
 }
 
-/// The lessons below a folder, as the editor holds them or else as they are saved. Files that `.gitignore` names are left out.
+/// The lessons below a folder, with the text of the editor or of the file. Files listed in `.gitignore` are left out.
 pub(super) fn lessons_below(folder: &Path, open: &BTreeMap<String, OpenDocument>) -> Vec<SourceFile> {
     let mut paths: Vec<PathBuf> = WalkBuilder::new(folder)
         .build()
@@ -128,7 +128,7 @@ pub(super) fn lessons_below(folder: &Path, open: &BTreeMap<String, OpenDocument>
     paths.iter().filter_map(|path| text_of(path, open)).collect()
 }
 
-/// A file as the editor holds it, or else as it is saved.
+/// A file with the text of the editor, or as it is saved.
 pub(super) fn text_of(path: &Path, open: &BTreeMap<String, OpenDocument>) -> Option<SourceFile> {
     if let Some(document) = open.values().find(|d| d.path == path) {
         return Some(document.file.clone());

@@ -1,4 +1,4 @@
-//! Positions as editors name them (lines from 0, units of UTF-16), and files as URIs.
+//! Conversion of editor positions (lines from 0, UTF-16 code units) and of file URIs.
 
 use labspec::report::uri::RELATIVE_PATH;
 use labspec::source::SourceFile;
@@ -8,7 +8,8 @@ use serde_json::Value;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-/// What is encoded in the path of a URI, where a colon ends no scheme: editors leave it as it is.
+/// The characters that are encoded in an absolute path of a URI. The colon is not encoded, because it cannot end a scheme there
+/// and editors leave it unencoded.
 const ABSOLUTE_PATH: &AsciiSet = &RELATIVE_PATH.remove(b':');
 
 /// The range of a span.
@@ -24,7 +25,8 @@ pub(super) fn position(file: &SourceFile, byte: usize) -> Position {
     Position { line: number(at.line), character: number(at.character) }
 }
 
-/// The byte of a position; the end of its line when the line is shorter, the end of the text when it has fewer lines.
+/// The byte of a position. A position past the end of a line is the end of the line, and one past the last
+/// line is the end of the text.
 pub(super) fn byte_offset(text: &str, position: Position) -> usize {
     let mut start = 0;
     let bytes = text.as_bytes();
@@ -38,7 +40,7 @@ pub(super) fn byte_offset(text: &str, position: Position) -> usize {
         let pair = bytes.get(end) == Some(&b'\r') && bytes.get(end + 1) == Some(&b'\n');
         start = end + if pair { 2 } else { 1 };
     }
-    // Editors hide a byte-order mark.
+    // Editors do not display a byte-order mark.
     if start == 0 && text.starts_with('\u{feff}') {
         start = '\u{feff}'.len_utf8();
     }
@@ -49,20 +51,20 @@ pub(super) fn byte_offset(text: &str, position: Position) -> usize {
         }
         units += c.len_utf16();
         if units > character {
-            // Inside of a surrogate pair: its beginning.
+            // A position inside a surrogate pair is the beginning of the character.
             return start + at;
         }
     }
     text.len()
 }
 
-/// The bytes of a range. Ends that are swapped are put in order.
+/// The byte range of an editor range. Reversed ends are swapped.
 pub(super) fn byte_span(text: &str, range: lsp_types::Range) -> Range<usize> {
     let (a, b) = (byte_offset(text, range.start), byte_offset(text, range.end));
     a.min(b)..a.max(b)
 }
 
-/// The file of a URI; `None` for a URI of another scheme or another machine.
+/// The path of a URI, or `None` for a URI with another scheme or of another machine.
 pub(super) fn path_of_uri(uri: &Uri) -> Option<PathBuf> {
     if !uri.scheme()?.eq_lowercase("file") || !matches!(uri.authority()?.as_str(), "" | "localhost") {
         return None;
@@ -71,12 +73,12 @@ pub(super) fn path_of_uri(uri: &Uri) -> Option<PathBuf> {
     if !path.starts_with('/') || path.contains('\0') {
         return None;
     }
-    // `file:///c:/x` is a path of Windows.
+    // `file:///c:/x` is a Windows path.
     let drive = path.get(2..3) == Some(":") && cfg!(windows);
     Some(PathBuf::from(if drive { path.get(1..)? } else { &path }))
 }
 
-/// What a URI cannot hold raw. `%` is left: it begins what is encoded.
+/// The characters that a URI must not contain unencoded. `%` is excluded, because it begins an encoded character.
 const NOT_IN_URIS: &AsciiSet = &CONTROLS
     .add(b' ')
     .add(b'"')
@@ -91,7 +93,7 @@ const NOT_IN_URIS: &AsciiSet = &CONTROLS
     .add(b'|')
     .add(b'}');
 
-/// Encodes what the URIs of a message hold raw (`file:///a b/ä.md`): some editors write paths as they are.
+/// Encodes unencoded characters in the URIs of a message (`file:///a b/ä.md`), because some editors send paths unencoded.
 pub(super) fn encode_uris(message: &mut Value) {
     match message {
         Value::Array(items) => items.iter_mut().for_each(encode_uris),
@@ -109,13 +111,13 @@ pub(super) fn encode_uris(message: &mut Value) {
     }
 }
 
-/// The file itself, whatever links lead to it; it may not be there yet.
+/// The path with all links resolved; the file may not exist yet.
 pub(super) fn resolve_links(path: &Path) -> PathBuf {
     let beside = || Some(path.parent()?.canonicalize().ok()?.join(path.file_name()?));
     path.canonicalize().ok().or_else(beside).unwrap_or_else(|| path.to_path_buf())
 }
 
-/// The URI of a file. `None` stands for text that the parser of URIs refuses, which the encoding rules out.
+/// The URI of a file. `None` is returned if the URI parser refuses the text, which the encoding prevents.
 pub(super) fn uri_of_path(path: &Path) -> Option<Uri> {
     let text = path.display().to_string().replace('\\', "/");
     let root = if text.starts_with('/') { "file://" } else { "file:///" };
@@ -154,19 +156,19 @@ mod tests {
     }
 
     proptest! {
-        /// Every byte that begins a character comes back from its position.
+        /// Converting a byte at the start of a character to a position and back gives the same byte.
         #[test]
         fn positions_come_back(text in "[ä𝄞\ta \r\n]{0,24}") {
             let file = SourceFile::new("a.md", text.as_str());
             for (at, _) in text.char_indices() {
                 let position = position(&file, at);
                 let back = byte_offset(&text, position);
-                // Between the two halves of a line break the position is the end of the line.
+                // Between the two halves of a line break, the position is the end of the line.
                 prop_assert!(back == at || text[..at].ends_with('\r') && back + 1 == at, "{at} {back} {position:?}");
             }
         }
 
-        /// Every path has a URI, and comes back from it.
+        /// Converting a path to a URI and back gives the same path.
         #[test]
         fn paths_come_back(path in "/[^\0\\\\]{0,30}") {
             let uri = uri_of_path(Path::new(&path)).unwrap();

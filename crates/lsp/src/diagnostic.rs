@@ -1,4 +1,4 @@
-//! A finding as an editor shows it.
+//! Conversion of findings to diagnostics of the editor.
 
 use super::convert;
 use labspec::finding::{self, Finding};
@@ -9,10 +9,10 @@ use lsp_types::{
     NumberOrString, Uri,
 };
 
-/// Rules about what could as well be left out; editors draw it pale.
+/// Rules about code that has no effect; editors display it faded.
 const UNNECESSARY: [&str; 3] = ["unused-allowance", "value-unused", "apply-unused"];
 
-/// The finding, at its place in a file that the editor knows by this URI.
+/// The diagnostic of a finding in a file with this URI.
 pub(super) fn diagnostic(f: &Finding, file: &SourceFile, uri: &Uri) -> Diagnostic {
     let severity = match f.severity {
         finding::Severity::Error => DiagnosticSeverity::ERROR,
@@ -21,7 +21,7 @@ pub(super) fn diagnostic(f: &Finding, file: &SourceFile, uri: &Uri) -> Diagnosti
     };
     let parts = [Some(&f.message), f.why.as_ref(), f.help.as_ref()];
     let message: Vec<&str> = parts.into_iter().flatten().map(String::as_str).collect();
-    // Places in files that are not at hand have no lines to name.
+    // Locations in other files are left out, because the lines of those files are not available.
     let related = f.related.iter().filter(|place| place.path == *file.path());
     let related: Vec<DiagnosticRelatedInformation> = related
         .map(|place| DiagnosticRelatedInformation {

@@ -1,4 +1,4 @@
-//! What the editor holds: texts that may not be saved yet, and what was found of them.
+//! The documents that are open in the editor, whose texts may not be saved yet, and their findings.
 
 use super::convert;
 use labspec::finding::Finding;
@@ -9,31 +9,31 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// A text of the editor.
+/// A document that is open in the editor.
 #[derive(Debug)]
 pub(super) struct OpenDocument {
-    /// Its name for the editor.
+    /// The URI that the editor uses.
     pub(super) uri: Uri,
-    /// Its file, links resolved, which may not exist yet.
+    /// The path with resolved links; the file may not exist yet.
     pub(super) path: PathBuf,
-    /// What it is.
+    /// The kind of file.
     pub(super) kind: FileKind,
     /// The text.
     pub(super) file: SourceFile,
-    /// Counted by the editor.
+    /// The version number of the editor.
     pub(super) version: i32,
-    /// It was changed and not looked at since.
+    /// Whether it changed since the last check.
     pub(super) stale: bool,
-    /// As it was read the last time, if it is a lesson.
+    /// The parsed lesson of the last check, if it is a lesson.
     pub(super) lesson: Option<Arc<Lesson>>,
-    /// What is reported of it.
+    /// The reported findings.
     pub(super) findings: Vec<Finding>,
-    /// What was found of each block, by the block's text and what it rests on.
+    /// The findings of each block, by the text of the block and its dependencies.
     pub(super) blocks: BTreeMap<String, Vec<Finding>>,
 }
 
 impl OpenDocument {
-    /// A text that was opened.
+    /// Creates a document that was opened.
     pub(super) fn new(uri: Uri, path: PathBuf, text: &str, version: i32) -> OpenDocument {
         let name = path.display().to_string();
         OpenDocument {
@@ -49,7 +49,7 @@ impl OpenDocument {
         }
     }
 
-    /// Applies changes, one after the other: each is a text for a range, or the whole text.
+    /// Applies changes in order: each replaces a range, or the whole text.
     pub(super) fn change(&mut self, changes: &[TextDocumentContentChangeEvent], version: i32) {
         let mut text = self.file.text().to_string();
         for change in changes {

@@ -1,37 +1,38 @@
-//! The names in a model's file: which elements have one, and which attributes name them. The text may be broken, which it is while
-//! somebody writes; which attribute holds a name is what the schema of MJCF says.
+//! The names in a model file: which elements have names, and which attributes refer to them. The text may be invalid, as it is
+//! while an author types. The MJCF schema determines which attributes contain names.
 
 use labspec_core::xml::{Kind, schema_rows};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::LazyLock;
 
-/// A name in a model's file.
+/// A name in a model file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct ElementName {
-    /// What is called so: `body`, `joint`.
+    /// The noun for the named object: `body`, `joint`.
     pub(super) noun: &'static str,
     pub(super) name: String,
-    /// Bytes of the name, without quotes.
+    /// The byte range of the name, without quotes.
     pub(super) span: Range<usize>,
-    /// Here it gets its name.
+    /// Whether the element gets its name here.
     pub(super) defines: bool,
 }
 
-/// What the names of a model's file are.
+/// All names in a model file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct ElementNames {
     pub(super) all: Vec<ElementName>,
-    /// An element that makes names out of others, or takes them from other files: then a name may mean more than this file shows.
+    /// An element that generates names from others or takes them from other files. Then a name may have meanings that
+    /// this file does not show.
     pub(super) composed: Option<String>,
-    /// Texts in attributes of which nobody knows what they name.
+    /// Texts in attributes that the schema does not know, which may be names.
     pub(super) texts: Vec<(String, Range<usize>)>,
 }
 
-/// Elements that make names.
+/// Elements that generate names.
 const COMPOSING: [&str; 5] = ["include", "attach", "replicate", "composite", "flexcomp"];
 
-/// What attributes hold, by the section, the element and the attribute.
+/// The kinds of attributes, by section, element and attribute.
 static SCHEMA: LazyLock<BTreeMap<String, Kind>> = LazyLock::new(|| {
     let mut all = BTreeMap::new();
     for row in schema_rows() {
@@ -45,7 +46,7 @@ static SCHEMA: LazyLock<BTreeMap<String, Kind>> = LazyLock::new(|| {
     all
 });
 
-/// What `objtype` and its like say.
+/// The noun for the value of `objtype` and similar attributes.
 fn noun_of(word: &str) -> Option<&'static str> {
     let word = if word == "xbody" { "body" } else { word };
     SCHEMA.values().find_map(|kind| match kind {
@@ -54,10 +55,10 @@ fn noun_of(word: &str) -> Option<&'static str> {
     })
 }
 
-/// All names of a model's text.
+/// All names in the text of a model.
 pub(super) fn element_names(xml: &str) -> ElementNames {
     let mut found = ElementNames::default();
-    // Below the root, the first element that is open is the section.
+    // The first open element below the root is the section.
     let mut open: Vec<&str> = Vec::new();
     let mut at = 0;
     while let Some(start) = xml.get(at..).and_then(|rest| rest.find('<')).map(|i| at + i) {
@@ -71,7 +72,7 @@ pub(super) fn element_names(xml: &str) -> ElementNames {
             at = behind(">");
         } else if let Some(name) = rest.strip_prefix("</") {
             let name = word(name);
-            // An element that was never closed ends with the one around it.
+            // An element that was not closed ends with its parent.
             if let Some(depth) = open.iter().rposition(|o| *o == name) {
                 open.truncate(depth);
             }
@@ -90,7 +91,7 @@ pub(super) fn element_names(xml: &str) -> ElementNames {
     found
 }
 
-/// The name that a text begins with.
+/// The name at the beginning of a text.
 fn word(text: &str) -> &str {
     let end = text
         .find(|c: char| !(c.is_alphanumeric() || matches!(c, '_' | '-' | ':' | '.')))
@@ -98,10 +99,10 @@ fn word(text: &str) -> &str {
     text.get(..end).unwrap_or("")
 }
 
-/// The name of an attribute, and the bytes of its value.
+/// The name of an attribute, and the byte range of its value.
 type Attribute<'x> = (&'x str, Range<usize>);
 
-/// The attributes of a tag from a byte on, where the tag ends, and whether the element does, too.
+/// The attributes of a tag from a byte on, the end of the tag, and whether the element ends with the tag.
 fn attributes(xml: &str, from: usize) -> (Vec<Attribute<'_>>, usize, bool) {
     let (mut all, mut at) = (Vec::new(), from);
     let rest = |at: usize| xml.get(at..).unwrap_or("");
@@ -113,7 +114,7 @@ fn attributes(xml: &str, from: usize) -> (Vec<Attribute<'_>>, usize, bool) {
         match first {
             '>' => return (all, at + 1, false),
             '/' if rest(at).starts_with("/>") => return (all, at + 2, true),
-            // The next tag begins: this one was not finished.
+            // The next tag begins, so this one was not finished.
             '<' => return (all, at, false),
             _ if name.is_empty() => at += first.len_utf8(),
             _ => {
@@ -135,7 +136,7 @@ fn attributes(xml: &str, from: usize) -> (Vec<Attribute<'_>>, usize, bool) {
     }
 }
 
-/// Notes the names that an element has and names.
+/// Collects the names that an element defines and refers to.
 fn element(xml: &str, section: &str, name: &str, attributes: &[Attribute<'_>], found: &mut ElementNames) {
     if COMPOSING.contains(&name) {
         found.composed.get_or_insert_with(|| name.to_string());
@@ -146,7 +147,7 @@ fn element(xml: &str, section: &str, name: &str, attributes: &[Attribute<'_>], f
             Some(Kind::Name(noun)) => (*noun, true),
             Some(Kind::Ref(noun)) => (*noun, false),
             Some(Kind::Text) => {
-                // What `objname` and `refname` name is said by the attribute beside them.
+                // An adjacent attribute gives the kind of object to which `objname` and `refname` refer.
                 let kind_attribute =
                     attribute.strip_suffix("name").map(|beginning| format!("{beginning}type"));
                 let kind = attributes.iter().find(|(a, _)| Some(*a) == kind_attribute.as_deref());
@@ -227,7 +228,7 @@ mod tests {
     }
 
     proptest! {
-        /// No text is a panic, and every place is one.
+        /// No text causes a panic, and every span contains its name.
         #[test]
         fn any_text_is_read(text in "[<>/='\"a! \\-é]{0,40}|(<mujoco>|<worldbody>|<body |name=|'a'|/>|<!--|\\]\\]>|</body>|é){0,12}") {
             for m in element_names(&text).all {

@@ -1,4 +1,4 @@
-//! The unit of what a text names, behind it, for who asks for it.
+//! Inlay hints: the units of fields that source texts mention, if enabled.
 
 use super::check::lesson;
 use super::code;
@@ -10,7 +10,7 @@ use labspec_expr::{FieldMention, Schema, fields_in};
 use lsp_types::InlayHint;
 use std::ops::Range;
 
-/// The units within a range of a document.
+/// The unit hints in a range of a document.
 pub(super) fn hints(
     document: &mut OpenDocument,
     context: &ModelContext,
@@ -44,8 +44,8 @@ pub(super) fn hints(
     all
 }
 
-/// The unit of a field, or of the element of one whose elements differ: the height of a free body is in m, the parts of its
-/// quaternion have none.
+/// The unit of a field, or of one of its elements if these differ: the height of a free body is in m, and the components of its
+/// quaternion have no unit.
 fn unit(names: &ModelNames<'_>, mention: &FieldMention) -> Option<String> {
     let FieldMention { field, element, .. } = mention;
     let help = element.and_then(|i| names.element_help(field.key, field.first + i));
@@ -53,7 +53,7 @@ fn unit(names: &ModelNames<'_>, mention: &FieldMention) -> Option<String> {
         help.as_deref().and_then(|help| help.rsplit_once(", ")).map(|(_, unit)| unit.to_string());
     match field.unit.as_str() {
         "" => None,
-        // Each element is of its own kind of joint.
+        // The unit depends on the joint of the element.
         several if several.contains(" or ") => of_element,
         unit => Some(unit.to_string()),
     }

@@ -1,5 +1,5 @@
-//! What stands at a place: what a name of the language or the model means, and what it is worth at the start of its lab; what a key
-//! of the format takes.
+//! Hover texts: the meaning of a name of the language or the model, with its value at the start of the lab, and the
+//! meaning of a key of the format.
 
 use super::check::lesson;
 use super::code;
@@ -14,7 +14,7 @@ use labspec_expr::{Globals, Help, Span, chain_at};
 use lsp_types::{Hover, HoverContents, MarkupContent, MarkupKind};
 use std::ops::Range;
 
-/// What is displayed for a byte of a document; nothing where there is nothing to say.
+/// The hover text for a byte of a document, or `None` if there is none.
 pub(super) fn hover(document: &mut OpenDocument, context: &mut ModelContext, byte: usize) -> Option<Hover> {
     let lesson = lesson(document, context)?;
     let file = &document.file;
@@ -56,10 +56,10 @@ fn markdown_hover(value: String, file: &SourceFile, span: &Range<usize>) -> Hove
     Hover { contents, range: Some(convert::range(file, span)) }
 }
 
-/// What a key of the format takes and means.
+/// The value type and the meaning of a key of the format.
 fn hover_key(document: &OpenDocument, context: &ModelContext, byte: usize) -> Option<Hover> {
     let file = &document.file;
-    // The text between quotes that the byte stands in.
+    // The quoted text that contains the byte.
     let line = file.text().get(..byte)?.rfind('\n').map_or(0, |at| at + 1);
     let start = file.text().get(line..byte)?.rfind('"').map(|at| line + at)?;
     let end = start + 1 + file.text().get(start + 1..)?.find(['"', '\n'])?;

@@ -1,4 +1,4 @@
-//! How a conversation begins: what the editor says of itself and of its settings, and what this server can do.
+//! Initialization: the information and settings that the editor sends, and the capabilities of this server.
 
 use lsp_types::{
     CodeActionKind, CodeActionOptions, CodeActionProviderCapability, CompletionOptions,
@@ -9,19 +9,19 @@ use lsp_types::{
 use serde::Deserialize;
 use serde_json::Value;
 
-/// What this server reads of `InitializeParams`. The capabilities of the editor are not read: one that is newer than the types
-/// of `lsp_types` is served, too.
+/// The part of `InitializeParams` that this server reads. The capabilities of the editor are not read, so that editors newer
+/// than the types of `lsp_types` work as well.
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct ClientSetup {
     root_uri: Option<Uri>,
     workspace_folders: Option<Vec<WorkspaceFolder>>,
-    /// Settings of this server.
+    /// The settings of this server.
     pub(super) initialization_options: Option<Value>,
 }
 
 impl ClientSetup {
-    /// The folders that the editor opened.
+    /// The folders that are open in the editor.
     pub(super) fn roots(&self) -> Vec<&Uri> {
         match self.workspace_folders.as_deref() {
             None | Some([]) => self.root_uri.iter().collect(),
@@ -30,12 +30,12 @@ impl ClientSetup {
     }
 }
 
-/// What the person wants.
+/// The settings of the user.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct EditorSettings {
-    /// Units behind what texts name.
+    /// Whether units are displayed after fields.
     pub(super) units: bool,
-    /// Labs are run when a lesson is saved.
+    /// Whether labs are run when a lesson is saved.
     pub(super) run_on_save: bool,
 }
 
@@ -46,12 +46,12 @@ impl Default for EditorSettings {
 }
 
 impl EditorSettings {
-    /// Takes the settings that a message has, and leaves the rest.
+    /// Applies the settings in a message; others keep their values.
     ///
     /// # Errors
     /// A value has the wrong type; then nothing changes.
     pub(super) fn update(&mut self, mut message: Value) -> Result<(), serde_json::Error> {
-        // In a section of the server's name, or alone.
+        // The settings are in a section with the name of the server, or at the top level.
         let section = message.get_mut("labspec").map(Value::take);
         let settings = section.unwrap_or(message);
         let Some(settings) = serde_json::from_value::<Option<ClientSettings>>(settings)? else {
@@ -64,7 +64,7 @@ impl EditorSettings {
     }
 }
 
-/// Settings as editors send them.
+/// The settings as editors send them.
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
 struct ClientSettings {
@@ -78,7 +78,7 @@ struct InlayHintSettings {
     units: Option<bool>,
 }
 
-/// What this server can do.
+/// The capabilities of this server.
 pub(super) fn initialize_result() -> InitializeResult {
     let sync = TextDocumentSyncOptions {
         open_close: Some(true),

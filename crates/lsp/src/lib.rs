@@ -1,12 +1,13 @@
-//! The program as a server of editors, after the Language Server Protocol 3.17: what is wrong as one types, what can be written,
-//! what a name means and is worth at the start of its lab, where it stands in the model, and what repairs it.
+//! A server for editors, following the Language Server Protocol 3.17: diagnostics, completion, hover texts with values at the
+//! start of a lab, navigation to names of models, and fixes.
 //!
-//! * `wire`: messages from bytes, whatever the bytes are; `server`: the loop; `state`: what it holds
-//! * `initialize`, `requests`, `notifications`: each message as its type of the protocol, and what it does
-//! * `documents`, `convert`, `context`: what the editor holds, positions and URIs as it names them, the models and lessons around
-//! * `check`, `runs`, `diagnostic`: what is found as one types, what runs find on a thread of their own, how it is reported
-//! * `code`, `elements`, `start`: the texts of a lesson that are code, the names in a model, labs at their start
-//! * `complete`, `hover`, `names`, `rename`, `actions`, `hints`: an answer each
+//! * `wire`: parses messages from arbitrary bytes; `server`: the main loop; `state`: its state
+//! * `initialize`, `requests`, `notifications`: the handlers of messages
+//! * `documents`, `convert`, `context`: the documents of the editor, its positions and URIs, the models and
+//!   lessons around a document
+//! * `check`, `runs`, `diagnostic`: findings while typing, findings from runs on a separate thread, conversion to diagnostics
+//! * `code`, `elements`, `start`: the source texts of a lesson, the names in a model, labs at their start
+//! * `complete`, `hover`, `names`, `rename`, `actions`, `hints`: one request each
 
 mod actions;
 mod check;

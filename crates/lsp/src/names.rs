@@ -1,4 +1,4 @@
-//! Where a name of the model stands: in the model itself, and in the labs and claims of the lessons around it.
+//! The occurrences of a name of a model: in the model itself, and in the labs and claims of the lessons around it.
 
 use super::code;
 use super::context::{ModelContexts, WorkspaceRoot, editor_uri, lessons_below, text_of};
@@ -17,38 +17,38 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// A name, and in which model it has its meaning.
+/// A name, and the model that defines its meaning.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct QualifiedName {
-    /// What is called so: `body`.
+    /// The noun for the named object: `body`.
     pub(super) noun: String,
     pub(super) name: String,
     pub(super) model: ModelLocation,
-    /// Where it was pointed at: bytes of that file.
+    /// The span at which the user pointed, in bytes of that file.
     pub(super) span: Range<usize>,
 }
 
-/// Where the text of a model stands.
+/// The location of the text of a model.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum ModelLocation {
-    /// A file of its own.
+    /// A separate file.
     File(PathBuf),
-    /// The lab with these bytes of a lesson.
+    /// A lab at this span of a lesson.
     Lab(PathBuf, Range<usize>),
 }
 
-/// A place where a name stands.
+/// An occurrence of a name.
 #[derive(Clone, Debug)]
 pub(super) struct Occurrence {
     pub(super) file: SourceFile,
     pub(super) span: Range<usize>,
-    /// Here the element gets its name.
+    /// Whether the element gets its name here.
     pub(super) defines: bool,
-    /// The bytes are the name, letter by letter.
+    /// Whether the bytes are the name without escapes.
     pub(super) plain: bool,
 }
 
-/// What else stands around that bears the name, and may mean it.
+/// Another text that contains the name and may refer to it.
 #[derive(Clone, Debug)]
 pub(super) struct Ambiguity {
     pub(super) file: SourceFile,
@@ -56,14 +56,14 @@ pub(super) struct Ambiguity {
     pub(super) why: &'static str,
 }
 
-/// Every place of a name.
+/// All occurrences of a name.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Occurrences {
     pub(super) all: Vec<Occurrence>,
     pub(super) ambiguities: Vec<Ambiguity>,
 }
 
-/// What is needed to find names: what the editor holds, and where models and folders are.
+/// The data for a search of names: the open documents, and the locations of models and folders.
 pub(super) struct SearchScope<'a> {
     pub(super) open: &'a BTreeMap<String, OpenDocument>,
     pub(super) folders: &'a [WorkspaceRoot],
@@ -72,7 +72,7 @@ pub(super) struct SearchScope<'a> {
 }
 
 impl SearchScope<'_> {
-    /// A file as the editor names it.
+    /// The URI of a file as the editor names it.
     pub(super) fn uri(&self, path: &Path) -> Option<Uri> {
         editor_uri(path, self.open, self.folders)
     }
@@ -112,7 +112,7 @@ pub(super) fn name_in_lesson(
             span: text.span(),
         });
     }
-    // In a model that is written in the lab itself.
+    // In a model that is part of the lab itself.
     let inline =
         lesson.all_labs().into_iter().find_map(|lab| Some((lab, lab.xml.as_ref().filter(|t| holds(t))?)));
     let (lab, text) = inline?;
@@ -127,7 +127,7 @@ pub(super) fn name_in_lesson(
     })
 }
 
-/// The name at a byte of a model's file.
+/// The name at a byte of a model file.
 pub(super) fn name_in_model(file: &SourceFile, path: &Path, byte: usize) -> Option<(QualifiedName, bool)> {
     let all = element_names(file.text()).all.into_iter();
     let ElementName { noun, name, span, defines } =
@@ -138,7 +138,7 @@ pub(super) fn name_in_model(file: &SourceFile, path: &Path, byte: usize) -> Opti
     ))
 }
 
-/// The file of the model that a lab names, where the byte stands in that name.
+/// The file of the model that a lab uses, if the byte is inside the model's name.
 pub(super) fn model_named(lesson: &Lesson, models: &Models, byte: usize) -> Option<PathBuf> {
     let named = lesson.all_labs().into_iter().filter_map(|lab| lab.model.as_ref());
     let widgets = lesson.widgets.iter().filter_map(|widget| widget.model.as_ref());
@@ -153,7 +153,7 @@ fn model_location(lab: &Lab, path: &Path, models: &Models) -> Option<ModelLocati
     }
 }
 
-/// Every place of a name in its model, and in the labs and claims that are about this model.
+/// All occurrences of a name in its model, and in the labs and claims that use this model.
 pub(super) fn find_occurrences(name: &QualifiedName, scope: &SearchScope<'_>) -> Occurrences {
     let mut found = Occurrences::default();
     let mut contexts = ModelContexts::with_overlay(scope.overlay.clone());
@@ -179,7 +179,7 @@ pub(super) fn find_occurrences(name: &QualifiedName, scope: &SearchScope<'_>) ->
     found
 }
 
-/// The lessons of the folder that the editor opened around a model, or else of that which holds the folder of models.
+/// The lessons in the open folder that contains a model, otherwise in the parent of the folder of models.
 fn lessons_around(model: &Path, scope: &SearchScope<'_>) -> Vec<(PathBuf, SourceFile)> {
     let opened = scope
         .folders
@@ -193,7 +193,7 @@ fn lessons_around(model: &Path, scope: &SearchScope<'_>) -> Vec<(PathBuf, Source
     all.map(|file| (PathBuf::from(&**file.path()), file)).collect()
 }
 
-/// In the text of the model.
+/// Adds the occurrences in the text of the model.
 fn in_model(
     name: &QualifiedName,
     file: &SourceFile,
@@ -218,7 +218,7 @@ fn in_model(
     }
 }
 
-/// In the labs and claims of a lesson that are about this model.
+/// Adds the occurrences in the labs and claims of a lesson that use this model.
 fn in_lesson(name: &QualifiedName, lesson: &Lesson, path: &Path, models: &Models, found: &mut Occurrences) {
     let file = &lesson.file;
     let about = |lab: &Lab| model_location(lab, path, models).is_some_and(|location| location == name.model);
@@ -236,7 +236,7 @@ fn in_lesson(name: &QualifiedName, lesson: &Lesson, path: &Path, models: &Models
         for n in named.iter().filter(|n| n.name == name.name && names.noun(n.collection) == name.noun) {
             occurrence(piece.text, n.span.into());
         }
-        // Texts that bear the name, alone or as one of several, and are no name of an object.
+        // Texts that contain the name, alone or as one of several words, but do not refer to an object.
         let bears = |text: &str| {
             text.split(|c: char| !(c.is_alphanumeric() || "_-.".contains(c))).any(|w| w == name.name)
         };
@@ -255,7 +255,7 @@ fn in_lesson(name: &QualifiedName, lesson: &Lesson, path: &Path, models: &Models
     let broken = lesson.broken.iter().filter(|span| file.slice((*span).clone()).contains(&name.name));
     let why = "the JSON of this block must be fixed before it can be read";
     found.ambiguities.extend(broken.map(|span| Ambiguity { file: file.clone(), span: span.clone(), why }));
-    // The model itself, where it is written in the lab.
+    // The model itself, if it is part of the lab.
     for lab in lesson.all_labs() {
         if let (ModelLocation::Lab(of, span), Some(xml)) = (&name.model, &lab.xml)
             && of == path
@@ -269,7 +269,7 @@ fn in_lesson(name: &QualifiedName, lesson: &Lesson, path: &Path, models: &Models
     found.all.dedup_by(|a, b| a.span == b.span && a.file.path() == b.file.path());
 }
 
-/// Occurrences as the editor names them.
+/// The locations of occurrences, as the editor names them.
 pub(super) fn locations<'o>(
     occurrences: impl Iterator<Item = &'o Occurrence>,
     scope: &SearchScope<'_>,
@@ -287,7 +287,7 @@ pub(super) fn beginning(uri: Uri) -> Location {
     Location { uri, range: lsp_types::Range::new(zero, zero) }
 }
 
-/// Whether a document is a model's.
+/// Whether a document is a model file.
 pub(super) fn is_model(document: &OpenDocument) -> bool {
     document.kind == FileKind::Model
 }

@@ -1,5 +1,5 @@
-//! What an editor reports: documents that were opened, changed, saved and closed, files and settings that changed. Nothing of this
-//! is answered; what cannot be read is logged.
+//! Notifications of the editor: documents that were opened, changed, saved and closed, and files and settings that changed.
+//! Notifications have no response; invalid ones are logged.
 
 use super::convert;
 use super::documents::OpenDocument;
@@ -20,10 +20,10 @@ use serde_json::Value;
 use std::io;
 use std::path::PathBuf;
 
-/// Takes a notification.
+/// Handles a notification.
 ///
 /// # Errors
-/// What it makes the server send cannot be written.
+/// A resulting message cannot be written.
 pub(super) fn handle(state: &mut ServerState<'_>, notification: Message) -> io::Result<()> {
     let Message { method, mut params } = notification;
     convert::encode_uris(&mut params);
@@ -48,7 +48,7 @@ pub(super) fn handle(state: &mut ServerState<'_>, notification: Message) -> io::
     }
 }
 
-/// Reads the parameters for a handler. What cannot be read is logged.
+/// Parses the parameters for a handler. Invalid parameters are logged.
 fn with_params<P: DeserializeOwned>(
     state: &mut ServerState<'_>,
     method: &str,
@@ -61,7 +61,8 @@ fn with_params<P: DeserializeOwned>(
     }
 }
 
-/// Closes a document of which a change cannot be read: its text here is no longer the editor's, and an edit would damage the lesson.
+/// Closes a document after an invalid change: the server's text differs from the editor's, so that an edit
+/// would damage the lesson.
 fn lose(state: &mut ServerState<'_>, uri: &str, e: &serde_json::Error) -> io::Result<()> {
     state.log(format!("a change of `{uri}` cannot be read: {e}. Close and open it again to see findings"))?;
     match uri.parse() {
@@ -117,7 +118,7 @@ fn did_close(state: &mut ServerState<'_>, params: DidCloseTextDocumentParams) ->
     state.publish_diagnostics(PublishDiagnosticsParams { uri, diagnostics: Vec::new(), version: None })
 }
 
-/// Files that somebody else changed. Of one that is open, the editor's text counts.
+/// Files that other programs changed. If a file is open, the text of the editor takes precedence.
 fn did_change_files(state: &mut ServerState<'_>, params: DidChangeWatchedFilesParams) -> io::Result<()> {
     state.refresh();
     let paths = params.changes.iter().filter_map(|change| convert::path_of_uri(&change.uri));

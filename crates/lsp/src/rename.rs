@@ -1,5 +1,5 @@
-//! A new name for an element of a model, in the model and in every lab and claim that names it. Where it is not certain what a text
-//! means, nothing is changed, and the answer says why.
+//! Renames an element of a model, in the model and in all labs and claims that refer to it. If the meaning of a text is
+//! uncertain, nothing is changed, and the response contains the reason.
 
 use super::convert;
 use super::names::{Occurrence, Occurrences, QualifiedName, SearchScope};
@@ -9,17 +9,17 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// The answer to a rename: a `WorkspaceEdit` whose files have an order, which those of `lsp_types` do not have.
+/// The response to a rename: a `WorkspaceEdit` in which the order of files is deterministic, unlike that of `lsp_types`.
 #[derive(Debug, Default, Serialize)]
 pub(super) struct FileEdits {
-    /// The edits of each file, by its URI.
+    /// The edits of each file, by URI.
     changes: BTreeMap<String, Vec<TextEdit>>,
 }
 
-/// All changes that the new name asks for.
+/// Returns all edits for the new name.
 ///
 /// # Errors
-/// A sentence for the author: the name cannot be one, is taken, or it is not certain what bears the old one.
+/// A sentence for the author: the name is invalid or in use, or some text with the old name is ambiguous.
 pub(super) fn rename(
     name: &QualifiedName,
     found: &Occurrences,
@@ -56,7 +56,7 @@ pub(super) fn rename(
     Ok(edits)
 }
 
-/// Names that need escapes nowhere: neither in MJCF, nor in JSON, nor in code.
+/// Checks that a name needs no escapes in MJCF, JSON or the language.
 fn validate_name(new: &str) -> Result<(), String> {
     if new.is_empty() || new.trim() != new {
         return Err("a name needs at least one character, and no spaces around it".into());

@@ -1,4 +1,4 @@
-//! What an editor asks for: which request is answered by what.
+//! Requests of the editor, and their dispatch.
 
 use super::actions::code_actions;
 use super::check::lesson;
@@ -33,10 +33,10 @@ fn error(code: ErrorCode, message: impl Into<String>) -> ResponseError {
     ResponseError { code: code as i32, message: message.into(), data: None }
 }
 
-/// Answers a request, whatever it asks.
+/// Returns the response to any request.
 pub(super) fn answer(state: &mut ServerState<'_>, request: lsp_server::Request) -> Response {
     let lsp_server::Request { id, method, params } = request;
-    // No panic is known here. If there is one, one answer is lost, and not the editor's work.
+    // No panic is known here. If one occurs, only this response is lost, and not the user's work.
     let answer = catch_unwind(AssertUnwindSafe(|| dispatch(state, &method, params)));
     let failed = || Err(error(ErrorCode::InternalError, format!("`{method}` failed; please report this")));
     match answer.unwrap_or_else(|_| failed()) {
@@ -57,7 +57,7 @@ fn dispatch(state: &mut ServerState<'_>, method: &str, params: Value) -> Answer<
         (Phase::Running, Initialize::METHOD) => {
             return Err(error(ErrorCode::InvalidRequest, "`initialize` can be sent only once"));
         }
-        // It has no parameters.
+        // This request has no parameters.
         (Phase::Running, Shutdown::METHOD) => {
             state.phase = Phase::ShutDown;
             state.cancel_runs();
@@ -78,7 +78,7 @@ fn dispatch(state: &mut ServerState<'_>, method: &str, params: Value) -> Answer<
     }
 }
 
-/// Reads the parameters, and writes what the handler answers.
+/// Parses the parameters, and serializes the result of the handler.
 fn respond<P: DeserializeOwned, R: Serialize>(
     state: &mut ServerState<'_>,
     method: &str,
@@ -111,7 +111,7 @@ fn open_document<'s>(state: &'s ServerState<'_>, id: &TextDocumentIdentifier) ->
     state.documents.get(id.uri.as_str()).ok_or_else(not_open)
 }
 
-/// The byte of the document that a request is about.
+/// The byte of the document to which a request refers.
 fn byte_at(state: &ServerState<'_>, params: &TextDocumentPositionParams) -> Answer<usize> {
     let document = open_document(state, &params.text_document)?;
     Ok(convert::byte_offset(document.file.text(), params.position))
@@ -131,7 +131,7 @@ fn hover_at(state: &mut ServerState<'_>, params: HoverParams) -> Answer<Option<H
     Ok(hover(document, context, byte))
 }
 
-/// The name at a position; and whether the position is where the element gets it.
+/// The name at a position, and whether the element gets its name there.
 fn name_at(
     state: &mut ServerState<'_>,
     at: &TextDocumentPositionParams,
@@ -166,7 +166,7 @@ fn find_definition(
 ) -> Answer<Option<GotoDefinitionResponse>> {
     let at = params.text_document_position_params;
     if let Some((name, defines)) = name_at(state, &at)? {
-        // From where the element gets its name, the way leads back to those who use it.
+        // At the definition, the request returns the references instead.
         let found = find_occurrences(state, &name);
         let others = found.all.iter().filter(|occurrence| occurrence.defines != defines);
         return Ok(Some(names::locations(others, &search_scope(state)).into()));
@@ -179,7 +179,7 @@ fn find_definition(
     Ok(uri.map(|uri| names::beginning(uri).into()))
 }
 
-/// `ReferenceParams` of an editor that may leave out the context.
+/// `ReferenceParams` whose context may be missing.
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
 struct FindReferencesParams {
@@ -228,7 +228,7 @@ fn list_code_actions(
 ) -> Answer<Vec<CodeActionOrCommand>> {
     let document = open_document(state, &params.text_document)?;
     let span = convert::byte_span(document.file.text(), params.range);
-    // What is offered belongs to the text as it is.
+    // The actions must refer to the current text.
     if document.stale {
         let uri = params.text_document.uri.as_str();
         state.check_documents().map_err(|e| error(ErrorCode::InternalError, format!("{uri}: {e}")))?;

@@ -1,4 +1,5 @@
-//! What only runs find, on a thread of its own: started when a lesson is saved, stopped when newer text comes.
+//! Findings that require runs, computed on a separate thread. It is started when a lesson is saved, and
+//! cancelled when the text changes.
 
 use labspec::bind::scene::Models;
 use labspec::check::{self, CheckLevel};
@@ -11,27 +12,27 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// What was found of a version of a document.
+/// The findings for a version of a document.
 #[derive(Debug)]
 pub(super) struct FinishedJob {
-    /// Of which check this is the outcome.
+    /// The number of the check.
     pub(super) job: u64,
     pub(super) uri: String,
     pub(super) version: i32,
     pub(super) findings: Vec<Finding>,
 }
 
-/// A check that goes on.
+/// A check in progress.
 #[derive(Debug)]
 pub(super) struct Job {
-    /// Counted by whoever starts it.
+    /// A consecutive number, assigned by the caller.
     pub(super) number: u64,
     pub(super) uri: String,
     stop: Arc<AtomicBool>,
 }
 
 impl Job {
-    /// Checks a text with all its runs. `done` is called at the end, unless it was stopped.
+    /// Starts a check of a text with all its runs. `done` is called at the end, unless the check was cancelled.
     pub(super) fn start(
         number: u64,
         uri: &str,
@@ -47,7 +48,7 @@ impl Job {
                 let lesson = load_lesson_at(file, &path, &sources, models.folder());
                 check::check_lesson(lesson, &models, CheckLevel::FULL).findings
             });
-            // What a run that was stopped says is not used.
+            // The results of a cancelled check are discarded.
             if !asked.load(Ordering::Relaxed) {
                 done(FinishedJob { job: number, uri: of, version, findings });
             }
@@ -56,7 +57,7 @@ impl Job {
         Some(Job { number, uri, stop })
     }
 
-    /// Its outcome is no longer wanted.
+    /// Cancels the check.
     pub(super) fn stop(&self) {
         self.stop.store(true, Ordering::Relaxed);
     }

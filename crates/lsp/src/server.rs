@@ -1,4 +1,4 @@
-//! The loop: a message in, what it asks for out. All state belongs to this thread; runs go on beside it.
+//! The main loop: receives messages and handles them. All state belongs to this thread; runs are performed on another one.
 
 use super::state::{CourseConfig, Phase, ServerEvent, ServerState};
 use super::wire::{self, Incoming};
@@ -11,17 +11,17 @@ use std::io::{self, BufRead, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{Receiver, channel};
 
-/// The answer to what cannot be read: nobody knows the id of its request.
+/// The response to an invalid message: the id of its request is unknown.
 #[derive(Debug, Serialize)]
 struct Unidentified {
     id: (),
     error: ResponseError,
 }
 
-/// Serves an editor until it says `exit`, or says nothing more. `true` when it did so by the protocol.
+/// Serves an editor until it sends `exit`, or the input ends. Returns `true` if the session ended according to the protocol.
 ///
 /// # Errors
-/// The answers cannot be written.
+/// The responses cannot be written.
 pub fn serve<'c>(
     course: CourseConfig<'c>,
     mut input: impl BufRead + Send + 'static,
@@ -29,7 +29,7 @@ pub fn serve<'c>(
 ) -> io::Result<bool> {
     let (sender, events) = channel();
     let incoming = sender.clone();
-    // It ends with the input, or with the program.
+    // The thread ends with the input, or with the program.
     threads::checking().spawn(move || {
         loop {
             let read = wire::read(&mut input).unwrap_or(Incoming::End);
@@ -44,7 +44,7 @@ pub fn serve<'c>(
 
 fn run(state: &mut ServerState<'_>, events: &Receiver<ServerEvent>) -> io::Result<bool> {
     loop {
-        // What waits is done first: of many changes that follow each other only the last is checked.
+        // Pending messages are handled first, so that only the last of several consecutive changes is checked.
         let event = match events.try_recv() {
             Ok(event) => event,
             Err(_) => {
@@ -72,13 +72,13 @@ fn run(state: &mut ServerState<'_>, events: &Receiver<ServerEvent>) -> io::Resul
                 return Ok(state.phase == Phase::ShutDown);
             }
             ServerEvent::Incoming(Incoming::Message(Message::Notification(n))) => {
-                // What is before or behind the conversation is dropped, as the protocol asks.
+                // Notifications before initialization or after shutdown are dropped, as the protocol requires.
                 if state.phase == Phase::Running {
                     let handled = catch_unwind(AssertUnwindSafe(|| notifications::handle(state, n)));
                     handled.unwrap_or(Ok(()))?;
                 }
             }
-            // This server sends no requests.
+            // This server sends no requests, so responses are ignored.
             ServerEvent::Incoming(Incoming::Message(Message::Response(_))) => {}
         }
     }
@@ -90,7 +90,7 @@ mod tests {
     use labspec::lint::ModelFolder;
     use serde_json::{Value, json};
 
-    /// What the server answers to requests, in order, and whether it ended by the protocol.
+    /// The responses of the server to requests, in order, and whether the session ended according to the protocol.
     fn answers(requests: &[(&str, Value)]) -> (Vec<Value>, bool) {
         let mut input = Vec::new();
         for (id, (method, params)) in requests.iter().enumerate() {

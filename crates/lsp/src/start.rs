@@ -1,4 +1,4 @@
-//! Labs at their start, for whoever points at something in them: what it is worth before the first step.
+//! Labs at their start, to display values before the first step.
 
 use labspec::bind::dimension_of;
 use labspec::bind::scene::Models;
@@ -12,11 +12,11 @@ use labspec_core::{AccessSet, Model, Plan};
 use labspec_expr::{Compiler, Type};
 use std::sync::Arc;
 
-/// What a lab may do to get there, in units of about a nanosecond: who points at something does not wait.
+/// The work limit to start a lab, in units of about a nanosecond, so that a user does not have to wait.
 const WORK: Budget = Budget { left: 20_000_000 };
-/// How many labs are kept.
+/// The maximum number of cached labs.
 const MOST: usize = 8;
-/// Most elements of an array that are displayed.
+/// The maximum number of displayed elements of an array.
 const MOST_ELEMENTS: usize = 9;
 
 /// A lab at its start.
@@ -28,12 +28,12 @@ pub(super) struct StartedLab {
     session: Session<'static>,
 }
 
-/// The labs that somebody pointed into last.
+/// The labs into which a user pointed last.
 #[derive(Debug, Default)]
 pub(super) struct StartedLabs(Vec<StartedLab>);
 
 impl StartedLabs {
-    /// A lab, started if need be. `None` when its model does not exist, or has mistakes.
+    /// Returns a lab, started if necessary, or `None` if its model does not exist or has errors.
     pub(super) fn start(&mut self, models: &Models, lab: &Lab, key: &str) -> Option<&StartedLab> {
         if let Some(at) = self.0.iter().position(|s| s.key == key) {
             return self.0.get(at);
@@ -51,7 +51,7 @@ impl StartedLabs {
     }
 }
 
-/// What an expression is worth at the start of the lab, as text. `None` when it means nothing there, or does not come to an end.
+/// The value of an expression at the start of the lab as text, or `None` if it is invalid or exceeds its work limit.
 pub(super) fn value(started: &StartedLab, code: &str) -> Option<String> {
     let mut session = started.session.clone();
     if session.ended().is_some() {
@@ -64,14 +64,14 @@ pub(super) fn value(started: &StartedLab, code: &str) -> Option<String> {
     }
 }
 
-/// What an expression measures, as a unit; `None` where that is not certain, or it is a plain number.
+/// The unit of an expression, or `None` if it is uncertain or the expression is dimensionless.
 pub(super) fn unit(started: &StartedLab, lab: &Lab, code: &str) -> Option<String> {
     let dimension = dimension_of(lab, &started.model, started.session.programs(), code)?;
-    // A number of the text may stand for anything.
+    // A literal number may have any dimension.
     (!dimension.is_number() && !dimension.factor.is_nan()).then(|| written(&dimension))
 }
 
-/// The first elements of an array; an array alone is no value of an expression.
+/// The first elements of an array, because an array alone is not a valid expression.
 fn elements(session: &mut Session<'static>, model: &Model, code: &str) -> Option<String> {
     let mut text = |code: String| evaluate(session, model, &code).map(|(_, text)| text);
     let count: usize = text(format!("({code}).length"))?.parse().ok()?;

@@ -1,4 +1,4 @@
-//! What the server holds: documents, the models around them, settings, and the runs that go on beside. All of it belongs to one thread.
+//! The state of the server: documents, the models around them, settings, and the check in progress. It belongs to one thread.
 
 use super::check::check_document;
 use super::context::{ModelContext, ModelContexts, WorkspaceRoot};
@@ -23,23 +23,23 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::mpsc::Sender;
 
-/// What the program knows of a course: where its models are, and which findings it reports.
+/// The callbacks that define a course: the folders of models, and which findings are reported.
 pub struct CourseConfig<'c> {
-    /// The models of a lesson.
+    /// Returns the folder of models of a lesson.
     pub models: &'c dyn Fn(&Path) -> ModelFolder,
-    /// Takes out what is not to be reported of a file.
+    /// Removes the findings of a file that are not reported.
     pub policy: &'c mut dyn FnMut(&Path, &mut Vec<Finding>),
-    /// Files may have changed: cached settings are read again.
+    /// Called when files may have changed, to read cached settings again.
     pub refresh: &'c dyn Fn(),
 }
 
-/// What wakes the server.
+/// An event that the server handles.
 pub(super) enum ServerEvent {
     Incoming(Incoming),
     Finished(FinishedJob),
 }
 
-/// Where the conversation is.
+/// The phase of the session.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Phase {
     /// Before `initialize`.
@@ -54,14 +54,14 @@ pub(super) struct ServerState<'c> {
     output: &'c mut dyn Write,
     sender: Sender<ServerEvent>,
     pub(super) phase: Phase,
-    /// What the editor has open, by its URI.
+    /// The open documents, by URI.
     pub(super) documents: BTreeMap<String, OpenDocument>,
     pub(super) contexts: ModelContexts,
-    /// The folders that the editor opened.
+    /// The folders that are open in the editor.
     pub(super) folders: Vec<WorkspaceRoot>,
     pub(super) settings: EditorSettings,
     job: Option<Job>,
-    /// How many checks were started.
+    /// The number of checks that were started.
     jobs: u64,
 }
 
@@ -88,7 +88,7 @@ impl<'c> ServerState<'c> {
     /// Sends a message.
     ///
     /// # Errors
-    /// It cannot be written.
+    /// The message cannot be written.
     pub(super) fn send(&mut self, message: &impl Serialize) -> io::Result<()> {
         wire::write(self.output, message)
     }
@@ -98,20 +98,20 @@ impl<'c> ServerState<'c> {
         self.send(&lsp_server::Notification { method: PublishDiagnostics::METHOD.to_string(), params })
     }
 
-    /// Tells the person at the editor, in its log, what could not be done.
+    /// Reports a problem to the user in the log of the editor.
     ///
     /// # Errors
-    /// It cannot be written.
+    /// The message cannot be written.
     pub(super) fn log(&mut self, message: String) -> io::Result<()> {
         let params = LogMessageParams { typ: MessageType::WARNING, message };
         let params = serde_json::to_value(params)?;
         self.send(&lsp_server::Notification { method: LogMessage::METHOD.to_string(), params })
     }
 
-    /// Takes settings from the editor. What cannot be read is logged.
+    /// Applies settings from the editor. Invalid settings are logged.
     ///
     /// # Errors
-    /// The log cannot be written.
+    /// The log message cannot be written.
     pub(super) fn update_settings(&mut self, message: Value) -> io::Result<()> {
         match self.settings.update(message) {
             Ok(()) => Ok(()),
@@ -119,14 +119,14 @@ impl<'c> ServerState<'c> {
         }
     }
 
-    /// The folders that the editor opened.
+    /// Sets the folders that are open in the editor.
     pub(super) fn open_folders(&mut self, uris: &[&Uri]) {
         let paths = uris.iter().filter_map(|uri| convert::path_of_uri(uri));
         self.folders =
             paths.map(|named| WorkspaceRoot { real: convert::resolve_links(&named), named }).collect();
     }
 
-    /// A document that is open, with the models and sources that it uses.
+    /// Returns an open document with the models and sources that it uses.
     pub(super) fn document_in_context(
         &mut self,
         uri: &Uri,
@@ -136,7 +136,7 @@ impl<'c> ServerState<'c> {
         Some((document, context))
     }
 
-    /// The text that the editor holds of a file now, or that it holds none; whoever reads the file is checked again.
+    /// Sets the text of a file in the editor, or `None` if it is not open. Documents that depend on the file are checked again.
     pub(super) fn set_text(&mut self, path: &Path, text: Option<&str>) {
         let sources = self.contexts.sources();
         let now = || sources.text(path, MAX_FILE, "a lesson or a model").ok();
@@ -154,7 +154,7 @@ impl<'c> ServerState<'c> {
         }
     }
 
-    /// Lessons that name labs of this one, or link to it, are read again.
+    /// Marks lessons that use labs of this one, or link to it, to be parsed again.
     pub(super) fn mark_readers_stale(&mut self, path: &Path) {
         let sources = self.contexts.sources();
         for document in self.documents.values_mut() {
@@ -170,13 +170,13 @@ impl<'c> ServerState<'c> {
         }
     }
 
-    /// The disk is asked again for what is there.
+    /// Reads cached information about files again.
     pub(super) fn refresh(&mut self) {
         self.contexts.refresh();
         (self.course.refresh)();
     }
 
-    /// Models are compiled anew, and everything is checked again.
+    /// Recompiles models, and checks everything again.
     pub(super) fn recompile_models(&mut self) {
         self.cancel_runs();
         self.contexts.forget();
@@ -187,7 +187,7 @@ impl<'c> ServerState<'c> {
         }
     }
 
-    /// Runs the labs of a document on a thread of their own.
+    /// Runs the labs of a document on a separate thread.
     pub(super) fn start_runs(&mut self, uri: &str) {
         self.cancel_runs();
         let Some(document) = self.documents.get(uri) else { return };
@@ -195,15 +195,15 @@ impl<'c> ServerState<'c> {
         let context = (context.models.clone(), context.sources.clone());
         let text = (document.file.clone(), document.path.clone());
         let sender = self.sender.clone();
-        // Nobody listens any more when the server has ended.
+        // The channel is closed if the server has ended.
         let done = move |finished| drop(sender.send(ServerEvent::Finished(finished)));
         self.jobs += 1;
         self.job = Job::start(self.jobs, uri, document.version, text, context, done);
     }
 
-    /// What runs found, unless the text is another one by now.
+    /// Stores the findings of runs, unless the text has changed.
     pub(super) fn finish_runs(&mut self, finished: FinishedJob) -> io::Result<()> {
-        // One that was stopped may have ended just before.
+        // A cancelled check may have finished just before.
         if self.job.as_ref().is_none_or(|job| job.number != finished.job) {
             return Ok(());
         }
@@ -230,7 +230,7 @@ impl<'c> ServerState<'c> {
         }
     }
 
-    /// Checks every document that was changed.
+    /// Checks all changed documents.
     pub(super) fn check_documents(&mut self) -> io::Result<()> {
         let stale = self.documents.iter().filter(|(_, document)| document.stale);
         let stale: Vec<String> = stale.map(|(uri, _)| uri.clone()).collect();

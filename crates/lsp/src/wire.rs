@@ -1,32 +1,32 @@
-//! Messages from bytes and back: a header with the length of what follows, then JSON.
+//! Reading and writing of messages: a header with the length of the body, then JSON.
 //!
-//! Whoever writes is not trusted: a length beyond all measure is passed over without memory for it, and what is no message is
-//! reported to the sender, who may go on.
+//! The sender is not trusted: a message of excessive length is skipped without allocating memory for it, and an invalid message
+//! is reported to the sender, who may continue.
 
 use lsp_server::Message;
 use serde::Serialize;
 use std::io::{self, BufRead, Read, Write};
 
-/// Most bytes of a message. Lessons have at most 16 MB.
+/// The maximum size of a message in bytes. Lessons have at most 16 MB.
 const MOST: u64 = 64 << 20;
-/// Most bytes of a line of a header.
+/// The maximum size of a header line in bytes.
 const MOST_LINE: u64 = 8 << 10;
 
-/// What was read.
+/// The result of reading.
 #[derive(Debug)]
 pub(super) enum Incoming {
-    /// A message.
+    /// A valid message.
     Message(Message),
-    /// Something that is none, and why.
+    /// An invalid message, and the reason.
     Bad(String),
-    /// Nothing more will come.
+    /// The end of the input.
     End,
 }
 
 /// Reads a message.
 ///
 /// # Errors
-/// What the system says.
+/// Returns the error of the input.
 pub(super) fn read(input: &mut impl BufRead) -> io::Result<Incoming> {
     let mut length = None;
     loop {
@@ -64,7 +64,7 @@ pub(super) fn read(input: &mut impl BufRead) -> io::Result<Incoming> {
     })
 }
 
-/// A message as it is written.
+/// The message as it is written.
 #[derive(Serialize)]
 struct Envelope<'m, M> {
     jsonrpc: &'static str,
@@ -75,7 +75,7 @@ struct Envelope<'m, M> {
 /// Writes a message with its header.
 ///
 /// # Errors
-/// What the system says.
+/// Returns the error of the output.
 pub(super) fn write(out: &mut dyn Write, message: &impl Serialize) -> io::Result<()> {
     let text = serde_json::to_string(&Envelope { jsonrpc: "2.0", message })?;
     write!(out, "Content-Length: {}\r\n\r\n{text}", text.len())?;

@@ -1,8 +1,8 @@
-//! Axes: the range shown, round ticks, and their labels, linear and logarithmic.
+//! Axes: their range, round ticks and tick labels, linear and logarithmic.
 //!
-//! Ticks of a linear axis are integers times a power of ten, so that labels are written by moving a decimal point:
-//! exact, and as short as the step allows. Steps are 1, 2 or 5 times a power of ten. What all labels share (a power
-//! of ten, or a value around which a curve varies by little) is taken out of them and stands once beside the axis.
+//! Ticks of a linear axis are integers times a power of ten, so that labels are written by moving a decimal point: exact, and
+//! as short as the step allows. Steps are 1, 2 or 5 times a power of ten. What all labels share (a power of ten, or a value
+//! around which a curve varies by little) is removed from the labels and written once next to the axis.
 
 use super::canvas::Label;
 use super::number::{decade, drawable, log10, minus, pow10};
@@ -14,11 +14,11 @@ pub(super) struct Axis {
     /// The ends, as values or as decimal logarithms.
     low: f64,
     high: f64,
-    /// Labelled places.
+    /// The labelled positions.
     pub(super) ticks: Vec<Tick>,
-    /// Places between them that have a line of the grid, as fractions of the axis.
+    /// Further positions with grid lines, as fractions of the axis.
     pub(super) minor: Vec<f64>,
-    /// What was taken out of all labels.
+    /// The part that all labels share.
     pub(super) note: Option<Label>,
 }
 
@@ -28,16 +28,16 @@ enum Scale {
     Log,
 }
 
-/// A labelled place on an axis.
+/// A labelled position on an axis.
 #[derive(Clone, Debug)]
 pub(super) struct Tick {
     /// 0 at the low end, 1 at the high end.
     pub(super) at: f64,
-    /// Its text.
+    /// The label.
     pub(super) label: Label,
 }
 
-/// The ends of a linear axis before they are rounded, and whether each may be moved outwards to a tick.
+/// The ends of a linear axis before rounding, and whether each end may move outwards to a tick.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Range {
     /// The low end.
@@ -51,8 +51,8 @@ pub(super) struct Range {
 }
 
 impl Axis {
-    /// Where a value is: 0 at the low end, 1 at the high end, beyond both for values outside. `None` if the axis has
-    /// no place for it: not finite, or not positive where the scale is logarithmic.
+    /// The position of a value: 0 at the low end, 1 at the high end, outside this range for values outside. `None` if the axis
+    /// has no position for it: the value is not finite, or not positive on a logarithmic scale.
     pub(super) fn fraction(&self, value: f64) -> Option<f64> {
         let at = match self.scale {
             Scale::Linear => value,
@@ -76,7 +76,7 @@ impl Axis {
     }
 }
 
-/// The range of an axis that shows `data` (its extremes, if there are any) between the wished ends.
+/// The range of an axis for data with these extremes (if there are any), between the requested ends.
 pub(super) fn range(data: Option<(f64, f64)>, low: Option<f64>, high: Option<f64>) -> Range {
     let (low, high) = (low.filter(|v| drawable(*v)), high.filter(|v| drawable(*v)));
     let (low, high) = match (low, high) {
@@ -91,7 +91,7 @@ pub(super) fn range(data: Option<(f64, f64)>, low: Option<f64>, high: Option<f64
     let (free_low, free_high) = (low.is_none(), high.is_none());
     let (mut a, mut b) = (low.unwrap_or(data_low), high.unwrap_or(data_high));
     if b < a {
-        // All data are beyond the one end that was wished for.
+        // All data are outside the one end that was requested.
         if free_high { b = a } else { a = b }
     }
     let magnitude = a.abs().max(b.abs());
@@ -101,14 +101,14 @@ pub(super) fn range(data: Option<(f64, f64)>, low: Option<f64>, high: Option<f64
         let margin = 0.1 * magnitude;
         (a, b) = if free_low || !free_high { (a - margin, b + margin) } else { (a, b + 2.0 * margin) };
     } else if b - a < 1e-13 * magnitude {
-        // Closer than doubles can be distinguished in a picture.
+        // Too close to be distinguished as doubles in a picture.
         (a, b) = (a - 1e-13 * magnitude, b + 1e-13 * magnitude);
     }
     Range { low: a, high: b, free_low, free_high }
 }
 
-/// A linear axis with at most about `count` steps. A free end moves to the next tick if that costs at most `slack`
-/// times the range.
+/// A linear axis with at most about `count` steps. A free end moves to the next tick if that extends the range by at most
+/// `slack` times the range.
 pub(super) fn linear(range: Range, count: usize, slack: f64) -> Axis {
     let Range { mut low, mut high, free_low, free_high } = range;
     let step = TickStep::over((high - low) / count.max(1) as f64);
@@ -143,7 +143,7 @@ impl TickStep {
     /// The smallest step that is not smaller than `least`.
     fn over(least: f64) -> TickStep {
         let (mantissa, exponent) = decade(least);
-        // A range that is a round number of steps must not miss its step by the last bit.
+        // If the range is an integer number of steps, rounding in the last bit must not cause a larger step.
         match mantissa - 1e-9 {
             m if m <= 1.0 => TickStep { mantissa: 1, exponent },
             m if m <= 2.0 => TickStep { mantissa: 2, exponent },
@@ -161,13 +161,13 @@ impl TickStep {
     }
 }
 
-/// `integer` times 10 to the power `exponent`, rounded once where both are exact.
+/// `integer` times 10 to the power `exponent`, rounded only once if both factors are exact.
 fn decimal(integer: i64, exponent: i32) -> f64 {
     let integer = integer as f64;
     if exponent < 0 { integer / pow10(-exponent) } else { integer * pow10(exponent) }
 }
 
-/// The labels of ticks at integers times 10 to the power `exponent`, and what was taken out of them.
+/// The labels of ticks at integers times 10 to the power `exponent`, and the part that they share.
 fn write(integers: &[i64], exponent: i32) -> (Vec<String>, Option<Label>) {
     let offset = shared(integers);
     let left: Vec<i64> = integers.iter().map(|i| i - offset).collect();
@@ -189,7 +189,7 @@ fn write(integers: &[i64], exponent: i32) -> (Vec<String>, Option<Label>) {
     (labels, note)
 }
 
-/// What to subtract from integers that have many digits in common: the roundest number among them, else 0.
+/// The offset to subtract from integers that have many digits in common: the roundest number among them, or 0.
 fn shared(integers: &[i64]) -> i64 {
     let (Some(&low), Some(&high)) = (integers.iter().min(), integers.iter().max()) else { return 0 };
     let most = digits(low.unsigned_abs().max(high.unsigned_abs()));
@@ -210,7 +210,8 @@ fn digits(integer: u64) -> i32 {
     integer.checked_ilog10().map_or(1, |d| d as i32 + 1)
 }
 
-/// `integer` times 10 to the power `exponent`, in full. The exponent is small: a larger part was taken out before.
+/// `integer` times 10 to the power `exponent`, written out. The exponent is small, because a larger common
+/// factor was removed before.
 fn shift(integer: i64, exponent: i32) -> String {
     if integer == 0 {
         return String::from("0");
@@ -226,7 +227,7 @@ fn shift(integer: i64, exponent: i32) -> String {
     format!("{sign}{text}{}", "0".repeat(zeros))
 }
 
-/// A value that was taken out of labels: without trailing zeros, and with an exponent if it is long.
+/// A common offset of labels: without trailing zeros, and with an exponent if it is long.
 fn scientific(integer: i64, exponent: i32) -> String {
     let (mut integer, mut exponent) = (integer, exponent);
     while integer != 0 && integer % 10 == 0 {
@@ -240,13 +241,13 @@ fn scientific(integer: i64, exponent: i32) -> String {
     format!("{text}e{}", minus(&top.to_string()))
 }
 
-/// A logarithmic axis that shows positive values between `low` and `high`. Its ends are 1, 2 or 5 times powers of ten
-/// outside of the data. `extent` is the part of the axis that a label takes, between 0 and 1.
+/// A logarithmic axis for positive values between `low` and `high`. Its ends are 1, 2 or 5 times powers of ten outside the
+/// data. `extent` returns the part of the axis that a label occupies, between 0 and 1.
 pub(super) fn logarithmic(low: f64, high: f64, extent: impl Fn(&Label) -> f64) -> Axis {
-    // Marks on the frame itself would be hard to see: some space, more on an axis of many decades.
+    // Marks on the frame would be hard to see, so there is some margin, and a larger one on an axis of many decades.
     let space = 1.05 + 0.1 * (log10(high) - log10(low));
     let (mut low, mut high) = (round(low / space, -1), round(high * space, 1));
-    // A single value, or values close to each other, stand in the middle of at least a decade.
+    // A single value, or values close to each other, are in the middle of at least one decade.
     if log10(high.1) - log10(low.1) < 0.999 {
         (low, high) = (round(low.1 * 0.6, -1), round(high.1 * 1.7, 1));
     }
@@ -260,10 +261,10 @@ pub(super) fn logarithmic(low: f64, high: f64, extent: impl Fn(&Label) -> f64) -
     let decades = low.0..=high.0.saturating_add(1);
     let whole: Vec<(i32, Tick)> = decades.clone().filter_map(|e| Some((e, tick(1, e)?))).collect();
 
-    // Every decade has a label, or every second, fifth, tenth, …, as many as have room.
+    // Every decade has a label, or every second, fifth, tenth, …, so that the labels fit.
     let most = whole.iter().map(|(_, t)| extent(&t.label)).fold(0.0, f64::max) * (b - a);
     let every = [1, 2, 5, 10, 20, 50, 100].into_iter().find(|n| f64::from(*n) >= most).unwrap_or(200);
-    // The few decades of an axis may fall between two multiples: then one in the middle has the label.
+    // If the decades of the axis contain no multiple, one in the middle gets the label.
     let multiple = whole.iter().any(|(e, _)| e.rem_euclid(every) == 0);
     let phase = if multiple { 0 } else { whole.get(whole.len() / 2).map_or(0, |(e, _)| e.rem_euclid(every)) };
     let (labelled, others): (Vec<_>, Vec<_>) =
@@ -286,7 +287,7 @@ pub(super) fn logarithmic(low: f64, high: f64, extent: impl Fn(&Label) -> f64) -
     Axis { scale: Scale::Log, low: a, high: b, ticks, minor, note: None }
 }
 
-/// The next 1, 2 or 5 times a power of ten at or beyond a positive value in a direction: its exponent and value.
+/// The next 1, 2 or 5 times a power of ten in a direction, at or beyond a positive value: its exponent and value.
 fn round(value: f64, direction: i32) -> (i32, f64) {
     let (m, e) = decade(value);
     let (m, e) = match (direction > 0, m) {

@@ -1,28 +1,28 @@
 //! The writer of SVG elements.
 //!
-//! Untrusted text enters a picture only through [`Canvas::text`], [`Canvas::label`], [`Canvas::named`] and the title
-//! and description, which all escape. Everything else is numbers and attributes written in this crate.
+//! Untrusted text enters a picture only through [`Canvas::text`], [`Canvas::label`], [`Canvas::named`] and the title and
+//! description, which all escape it. Everything else is numbers and attributes from this crate.
 
 use super::number::px;
 use super::style::{POWER, TICK};
 use super::text::{clean, escape, width};
 
-/// Space after a raised part. A space character there is dropped by some renderers.
+/// The space after a superscript. Some renderers drop a space character there.
 const SPACE: f64 = 3.5;
 
-/// Text at ticks, perhaps with a raised part, such as a power of ten: `×10` `−6` `+ 0.981`.
+/// The text of a tick, which may have a superscript, as in a power of ten: `×10` `−6` `+ 0.981`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Label {
-    /// What comes first.
+    /// The text before the superscript.
     pub(super) text: String,
-    /// What is raised.
+    /// The superscript.
     pub(super) power: String,
-    /// What follows on the line again.
+    /// The text after it on the baseline.
     pub(super) rest: String,
 }
 
 impl Label {
-    /// A label without a raised part.
+    /// A label without a superscript.
     pub(super) fn plain(text: impl Into<String>) -> Self {
         Label { text: text.into(), ..Label::default() }
     }
@@ -33,14 +33,14 @@ impl Label {
     }
 }
 
-/// A picture being written.
+/// A picture that is being written.
 pub(super) struct Canvas {
     out: String,
     depth: usize,
 }
 
 impl Canvas {
-    /// A white picture with a name and a description for those who cannot see it.
+    /// Creates a white picture with a name and a description for screen readers.
     pub(super) fn new(size: (f64, f64), title: &str, description: &str) -> Self {
         let (w, h) = (px(size.0), px(size.1));
         let mut canvas = Canvas { out: String::new(), depth: 0 };
@@ -55,13 +55,13 @@ impl Canvas {
         canvas
     }
 
-    /// Opens a group whose attributes hold for all that follows until [`Canvas::close`].
+    /// Opens a group whose attributes apply to all elements until [`Canvas::close`].
     pub(super) fn open(&mut self, attributes: &str) {
         self.push(&format!("<g {attributes}>"));
         self.depth += 1;
     }
 
-    /// Opens a group with a name, which viewers show when the pointer rests on it.
+    /// Opens a group with a name, which viewers display when the pointer rests on it.
     pub(super) fn named(&mut self, attributes: &str, name: &str) {
         self.open(attributes);
         if !name.is_empty() {
@@ -69,13 +69,13 @@ impl Canvas {
         }
     }
 
-    /// Closes the group that was opened last.
+    /// Closes the innermost group.
     pub(super) fn close(&mut self) {
         self.depth = self.depth.saturating_sub(1).max(1);
         self.push("</g>");
     }
 
-    /// A straight line.
+    /// Draws a straight line.
     pub(super) fn line(&mut self, from: (f64, f64), to: (f64, f64)) {
         self.push(&format!(
             "<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"/>",
@@ -86,7 +86,7 @@ impl Canvas {
         ));
     }
 
-    /// A filled rectangle between two corners.
+    /// Draws a filled rectangle between two corners.
     pub(super) fn area(&mut self, from: (f64, f64), to: (f64, f64), fill: &str) {
         self.push(&format!(
             "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{fill}\"/>",
@@ -97,12 +97,12 @@ impl Canvas {
         ));
     }
 
-    /// A path with the given data, written in this crate.
+    /// Draws a path from data of this crate.
     pub(super) fn path(&mut self, data: &str) {
         self.push(&format!("<path d=\"{data}\"/>"));
     }
 
-    /// A filled disc.
+    /// Draws a filled disc.
     pub(super) fn disc(&mut self, at: (f64, f64), radius: f64, fill: &str) {
         self.push(&format!(
             "<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"{fill}\" stroke=\"none\"/>",
@@ -112,12 +112,12 @@ impl Canvas {
         ));
     }
 
-    /// A line of text. `at` is on its baseline.
+    /// Writes a line of text. `at` is on its baseline.
     pub(super) fn text(&mut self, at: (f64, f64), text: &str) {
         self.label(at, &Label::plain(text));
     }
 
-    /// A label. `at` is on its baseline.
+    /// Writes a label. `at` is on its baseline.
     pub(super) fn label(&mut self, at: (f64, f64), label: &Label) {
         let mut inner = escape(&label.text);
         if !label.power.is_empty() {
@@ -135,7 +135,7 @@ impl Canvas {
         self.push(&format!("<text x=\"{}\" y=\"{}\">{inner}</text>", px(at.0), px(at.1)));
     }
 
-    /// The picture.
+    /// Returns the picture.
     pub(super) fn finish(mut self) -> String {
         self.depth = 0;
         self.push("</svg>");
@@ -149,7 +149,7 @@ impl Canvas {
     }
 }
 
-/// How far below the middle of a line of text its baseline is.
+/// The distance of the baseline below the middle of a line of text.
 pub(super) fn drop(size: f64) -> f64 {
     0.35 * size
 }

@@ -1,7 +1,8 @@
-//! A map of coloured cells: what becomes of something over two settings, such as where a scene is stable.
+//! A map of coloured cells: an outcome as a function of two settings, such as whether a scene is stable.
 //!
-//! The values of the first setting stand below the columns, those of the second beside the rows, the lowest row at the bottom. What
-//! a colour means stands in the legend; in a cell that is not the first kind a mark says the same without colour.
+//! The values of the first setting are written below the columns, those of the second next to the rows, the lowest row at
+//! the bottom. The legend explains the colours. Each cell that is not of the first kind also has a mark, so that the map
+//! can be read without colours.
 
 use super::canvas::{Canvas, drop, style};
 use super::frame::{self, EDGE, Frame, Words};
@@ -12,30 +13,30 @@ use super::text::{clean, fit, width};
 /// A map of cells.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Cells {
-    /// Shown above the map; may be empty.
+    /// The title above the map; may be empty.
     pub title: String,
-    /// What changes from column to column.
+    /// The setting that changes from column to column.
     pub xlabel: String,
-    /// What changes from row to row.
+    /// The setting that changes from row to row.
     pub ylabel: String,
-    /// The value at each column.
+    /// The value of each column.
     pub columns: Vec<String>,
-    /// The value at each row, from the bottom.
+    /// The value of each row, from the bottom.
     pub rows: Vec<String>,
-    /// What a cell may be: the first is what is good, and stays light.
+    /// The kinds of cells. The first one is the good outcome, with a light colour.
     pub kinds: Vec<String>,
-    /// For each row, which kind each cell is; `None` for what is not known, which is left white.
+    /// The kind of each cell, row by row; `None` if unknown, which is left white.
     pub cells: Vec<Vec<Option<usize>>>,
-    /// Width of the whole picture, pixels.
+    /// The width of the whole picture, pixels.
     pub width: f64,
-    /// Height of the whole picture, pixels, legend included. At least 160 are used.
+    /// The height of the whole picture including the legend, pixels; at least 160.
     pub height: f64,
 }
 
-/// Most columns or rows that are drawn.
+/// The maximum number of columns or rows that are drawn.
 const MOST: usize = 200;
 
-/// Draws a map as a complete SVG document. Any data give a picture; without cells it says so.
+/// Draws a map as a complete SVG document. Any data give a picture; if there are no cells, the picture states that.
 pub fn cells(chart: &Cells) -> String {
     let map = Layout::new(chart);
     let named = if map.words.title.trim().is_empty() { "A map of cells" } else { map.words.title };
@@ -59,16 +60,16 @@ pub fn cells(chart: &Cells) -> String {
     canvas.finish()
 }
 
-/// Where everything stands in the picture.
+/// The layout of the picture.
 struct Layout<'c> {
     size: (f64, f64),
     words: Words<'c>,
     columns: usize,
     rows: usize,
-    /// The values of the rows, as long as there is room for them.
+    /// The values of the rows, shortened to the available width.
     row_values: Vec<String>,
     legend: legend::Plan,
-    /// The map without what stands around it.
+    /// The area of the cells.
     area: Frame,
 }
 
@@ -101,7 +102,7 @@ impl<'c> Layout<'c> {
         self.area.bottom - self.area.height() * j as f64 / self.rows.max(1) as f64
     }
 
-    /// The cells, with marks where there is room for them.
+    /// Draws the cells, with marks if they fit.
     fn draw_cells(&self, canvas: &mut Canvas, chart: &Cells) {
         let mut marks = Vec::new();
         for (j, row) in chart.cells.iter().take(self.rows).enumerate() {
@@ -126,7 +127,7 @@ impl<'c> Layout<'c> {
         }
     }
 
-    /// As many values of rows and columns as there is room for, the first and then every so many.
+    /// Draws the values of rows and columns: the first one, and then every n-th, as many as fit.
     fn draw_values(&self, canvas: &mut Canvas, chart: &Cells) {
         canvas.open(&style(TICK, SOFT, "end"));
         let every = (1.6 * TICK * self.rows as f64 / self.area.height()).ceil().max(1.0) as usize;
@@ -150,7 +151,7 @@ impl<'c> Layout<'c> {
         canvas.close();
     }
 
-    /// The title, and the labels of both axes.
+    /// Draws the title and the labels of both axes.
     fn draw_titles(&self, canvas: &mut Canvas) {
         let (words, area, whole) = (&self.words, &self.area, self.size.0 - 2.0 * EDGE);
         canvas.open(&style(LABEL, INK, "start"));
@@ -170,12 +171,12 @@ impl<'c> Layout<'c> {
     }
 }
 
-/// The colour of a kind: what is good stays light.
+/// The colour of a kind; the first kind is light.
 fn fill(kind: usize) -> &'static str {
     if kind == 0 { SHADE } else { colour(kind - 1) }
 }
 
-/// The picture in words.
+/// The description of the picture in words.
 fn describe(chart: &Cells) -> String {
     let count = |kind: Option<usize>| chart.cells.iter().flatten().filter(|k| **k == kind).count();
     let mut text = String::from("A map of cells.");

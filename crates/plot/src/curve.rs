@@ -1,22 +1,22 @@
-//! From samples to the few points that a picture needs.
+//! Reduces samples to the few points that a picture needs.
 //!
-//! A million samples become a curve of a few hundred points in three steps. First, of all samples in one column of
-//! pixels only the lowest and the highest are kept (a reduced form of the M4 aggregation of Jugel et al., 2014), so
-//! that a spike of one sample stays visible. Then the curve is cut at the frame (Liang and Barsky, 1984). Last,
-//! points that lie on the line between their neighbours are dropped (Ramer, 1972; Douglas and Peucker, 1973).
+//! A million samples become a curve of a few hundred points in three steps. First, only the lowest and the highest sample in
+//! each column of pixels are kept (a reduced form of the M4 aggregation of Jugel et al., 2014), so that a spike of one sample
+//! stays visible. Then the curve is clipped to the frame (Liang and Barsky, 1984). Finally, points on the line between their
+//! neighbours are removed (Ramer, 1972; Douglas and Peucker, 1973).
 
 use super::frame::{Frame, Point};
 use super::number::px;
 
-/// How far a dropped point may be from the drawn line, in pixels. Invisible, also when the picture is enlarged.
+/// The maximum distance of a removed point from the drawn line, in pixels. It is invisible even when the picture is enlarged.
 const TOLERANCE: f64 = 0.05;
-/// Places beyond this many pixels are drawn as if they were there: far outside of any picture.
+/// Positions further away than this many pixels are moved to this distance, which is far outside any picture.
 const FAR: f64 = 1e6;
 
-/// The pieces of the curve through `samples` inside of the frame. A sample for which `place` knows no place ends a
-/// piece, and so does a step backwards in x: after a reset, time starts again.
+/// The parts of the curve through `samples` inside the frame. A sample for which `place` returns no position ends a part, and
+/// so does a step backwards in x, because time starts again after a reset.
 ///
-/// Pieces of one point are isolated samples.
+/// Parts with a single point are isolated samples.
 pub(super) fn pieces(
     samples: &[(f64, f64)],
     frame: &Frame,
@@ -28,7 +28,7 @@ pub(super) fn pieces(
     inside.map(|piece| simplify(&piece)).collect()
 }
 
-/// The samples of one column of pixels: their count, and the ones to keep with their order.
+/// The samples in one column of pixels: their number, and the samples that are drawn, each with its index in the column.
 struct PixelColumn {
     index: i64,
     count: usize,
@@ -56,8 +56,8 @@ impl PixelColumn {
         }
     }
 
-    /// Appends the extremes in their order; with them the first and the last sample where the curve starts, ends, or
-    /// comes in from outside.
+    /// Appends the extreme samples in their order. The first and the last sample are added if the curve starts or ends here, or
+    /// enters the frame from outside.
     fn flush(&self, starts: bool, ends: bool, piece: &mut Vec<Point>) {
         let mut extremes = vec![self.low, self.high];
         if starts {
@@ -85,7 +85,7 @@ fn columns(places: impl Iterator<Item = Option<Point>>, frame: &Frame) -> Vec<Ve
         let point = (x.clamp(-FAR, FAR), y.clamp(-FAR, FAR));
         let index = point.0.clamp(frame.left - 1.0, frame.right + 1.0).floor() as i64;
         match &mut open {
-            // A gap that is narrower than a pixel cannot be seen.
+            // A gap that is narrower than a pixel is invisible.
             Some(column) if column.index == index => column.add(point),
             Some(column) => {
                 let outside = !(frame.left..=frame.right).contains(&(column.index as f64));
@@ -107,7 +107,7 @@ fn columns(places: impl Iterator<Item = Option<Point>>, frame: &Frame) -> Vec<Ve
     pieces
 }
 
-/// The parts of a piece that are inside of the frame.
+/// The parts of a curve that are inside the frame.
 fn clip(piece: &[Point], frame: &Frame) -> Vec<Vec<Point>> {
     if let [only] = piece {
         return if frame.holds(*only) { vec![vec![*only]] } else { Vec::new() };
@@ -129,7 +129,7 @@ fn clip(piece: &[Point], frame: &Frame) -> Vec<Vec<Point>> {
     parts
 }
 
-/// The part of a straight line that is inside of the frame.
+/// The part of a straight line that is inside the frame.
 pub(super) fn segment(from: Point, to: Point, frame: &Frame) -> Option<(Point, Point)> {
     let (dx, dy) = (to.0 - from.0, to.1 - from.1);
     let edges = [
@@ -159,7 +159,7 @@ pub(super) fn segment(from: Point, to: Point, frame: &Frame) -> Option<(Point, P
     Some((start, end))
 }
 
-/// The piece without the points that lie on the line between the points that are kept.
+/// Removes the points that lie on the line between the remaining points.
 fn simplify(piece: &[Point]) -> Vec<Point> {
     let mut keep = vec![false; piece.len()];
     for end in [0, piece.len().saturating_sub(1)] {
@@ -195,7 +195,7 @@ fn distance(point: Point, from: Point, to: Point) -> f64 {
     (ox * ox + oy * oy).sqrt()
 }
 
-/// Path data of all pieces with more than one point.
+/// The path data of all parts with more than one point.
 pub(super) fn path(pieces: &[Vec<Point>]) -> String {
     let mut data = String::new();
     for piece in pieces.iter().filter(|p| p.len() > 1) {

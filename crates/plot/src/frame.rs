@@ -5,7 +5,7 @@ use super::canvas::{Canvas, Label, drop, style};
 use super::style::{AXIS, FAINT, GRID, INK, LABEL, SOFT, TICK, TITLE};
 use super::text::{clean, fit, width};
 
-/// A place in a picture, in pixels.
+/// A position in a picture, in pixels.
 pub(super) type Point = (f64, f64);
 
 /// A rectangle in pixels; y grows downwards, so `top` is less than `bottom`.
@@ -23,7 +23,7 @@ impl Frame {
         (self.left..=self.right).contains(&point.0) && (self.top..=self.bottom).contains(&point.1)
     }
 
-    /// Whether two rectangles have an area in common.
+    /// Whether two rectangles overlap.
     pub(super) fn overlaps(&self, other: &Frame) -> bool {
         self.left < other.right
             && other.left < self.right
@@ -31,57 +31,57 @@ impl Frame {
             && other.top < self.bottom
     }
 
-    /// The place of fractions along both axes.
+    /// The position for fractions along both axes.
     pub(super) fn at(&self, x: f64, y: f64) -> Point {
         (self.left + x * (self.right - self.left), self.bottom - y * (self.bottom - self.top))
     }
 
-    /// Its width.
+    /// The width.
     pub(super) fn width(&self) -> f64 {
         self.right - self.left
     }
 
-    /// Its height.
+    /// The height.
     pub(super) fn height(&self) -> f64 {
         self.bottom - self.top
     }
 }
 
-/// The words around a plot.
+/// The title and labels of a plot.
 pub(super) struct Words<'a> {
     pub(super) title: &'a str,
     pub(super) xlabel: &'a str,
     pub(super) ylabel: &'a str,
-    /// Width of the whole picture: what stands above a plot may be wider than the plot.
+    /// The width of the whole picture: text above a plot may be wider than the plot.
     pub(super) width: f64,
 }
 
-/// Space between the edge of a picture and what is in it.
+/// The margin inside the edge of a picture.
 pub(super) const EDGE: f64 = 12.0;
-/// Space between an axis and the labels of its ticks.
+/// The space between an axis and the labels of its ticks.
 const TO_TICK: f64 = 8.0;
 
 impl Words<'_> {
-    /// Height of the rows above the area: the title, the label of the vertical axis, and half a tick label.
+    /// The height of the rows above the area: the title, the label of the vertical axis, and half a tick label.
     pub(super) fn above(&self) -> f64 {
         let title = if self.title.trim().is_empty() { 0.0 } else { 22.0 };
         EDGE + title + 18.0
     }
 
-    /// Height of the rows below the area: the labels of ticks and of the horizontal axis.
+    /// The height of the rows below the area: the labels of ticks and of the horizontal axis.
     pub(super) fn below(&self) -> f64 {
         let label = if self.xlabel.trim().is_empty() { 0.0 } else { 18.0 };
         20.0 + label + 6.0
     }
 }
 
-/// Width of the labels of the vertical axis, to the left of the area.
+/// The width of the tick labels of the vertical axis, to the left of the area.
 pub(super) fn margin(y: &Axis) -> f64 {
     EDGE + y.widest(TICK) + TO_TICK
 }
 
-/// Draws everything but the data. The scales fill `inner`; the horizontal lines and the border are those of `outer`,
-/// which has areas beside the scale if it is wider.
+/// Draws everything except the data. The scales extend over `inner`. The horizontal lines and the border extend over `outer`,
+/// which is wider than `inner` if there are strips next to the scale.
 pub(super) fn draw(canvas: &mut Canvas, outer: &Frame, inner: &Frame, x: &Axis, y: &Axis, words: &Words) {
     let across = |at: f64| snap(inner.at(0.0, at).1);
     let along = |at: f64| snap(inner.at(at, 0.0).0);
@@ -127,8 +127,8 @@ pub(super) fn draw(canvas: &mut Canvas, outer: &Frame, inner: &Frame, x: &Axis, 
     label(canvas, outer, x, y, words);
 }
 
-/// The title, the label of the vertical axis in a row of its own above it (where it can be read without turning one's
-/// head), and the label of the horizontal axis below.
+/// Draws the title, the label of the vertical axis, which is horizontal and above the axis so that it is easy to read, and the
+/// label of the horizontal axis below it.
 fn label(canvas: &mut Canvas, outer: &Frame, x: &Axis, y: &Axis, words: &Words) {
     let end = words.width - EDGE;
     // Bold glyphs are wider by about this factor.
@@ -166,14 +166,14 @@ fn label(canvas: &mut Canvas, outer: &Frame, x: &Axis, y: &Axis, words: &Words) 
     }
 }
 
-/// What was taken out of the labels of all ticks.
+/// Draws the part that all tick labels share.
 fn shared(canvas: &mut Canvas, note: &Label, at: Point, anchor: &str) {
     canvas.open(&style(TICK, SOFT, anchor));
     canvas.label(at, note);
     canvas.close();
 }
 
-/// Says in the middle of the plot why nothing is drawn there.
+/// Writes the reason why nothing is drawn in the middle of the plot.
 pub(super) fn empty(canvas: &mut Canvas, frame: &Frame, why: &str) {
     let (x, y) = frame.at(0.5, 0.5);
     let half = width(why, LABEL) / 2.0 + 6.0;
@@ -183,7 +183,7 @@ pub(super) fn empty(canvas: &mut Canvas, frame: &Frame, why: &str) {
     canvas.close();
 }
 
-/// The middle of a pixel, where a line of one pixel is sharp.
+/// The middle of a pixel, where a line with a width of one pixel is sharp.
 fn snap(at: f64) -> f64 {
     at.floor() + 0.5
 }

@@ -1,26 +1,27 @@
-//! Places for labels at points: beside their point, clear of all other points, labels and, above all, curves.
+//! Placement of labels next to points, without overlapping other points, labels and, most importantly, curves.
 
 use super::curve::segment;
 use super::frame::{Frame, Point};
 use super::style::SMALL;
 use super::text::width;
 
-/// A label that wants a place.
+/// A label to be placed.
 pub(super) struct Wish {
-    /// The point that it names.
+    /// The point to which it belongs.
     pub(super) point: Point,
     /// Its text.
     pub(super) text: String,
-    /// Whether it is served before others. The ends of a curve say most.
+    /// Whether it is placed before others. The ends of a curve are most informative.
     pub(super) first: bool,
 }
 
-/// Half the size of a mark, with some space.
+/// Half the size of a mark, with a margin.
 const MARK: f64 = 5.5;
-/// Most marks of a chart with labels: the work grows with the square of their number, and more are a cloud anyway.
+/// The maximum number of marks of a chart with labels. The work grows with the square of their number, and
+/// more marks overlap anyway.
 const MOST: usize = 300;
 
-/// Baselines of the labels that found a place, in the order of service. A label that finds none is left out.
+/// The baselines of the labels that could be placed, in the order of placement. The others are left out.
 pub(super) fn arrange(
     mut wishes: Vec<Wish>,
     marks: &[Point],
@@ -54,7 +55,7 @@ pub(super) fn arrange(
     placed
 }
 
-/// Rectangles beside the point, the best first: to the sides, above, below, then at the corners.
+/// The rectangles next to the point, the preferred ones first: at the sides, above, below, then at the corners.
 fn candidates(wish: &Wish) -> [Frame; 8] {
     let (w, h) = (width(&wish.text, SMALL) + 2.0, SMALL);
     let (x, y) = (MARK + w / 2.0, MARK + h / 2.0);

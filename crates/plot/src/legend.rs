@@ -1,40 +1,41 @@
-//! The legend: to the right of the plot where there is room, else in rows below it. Never on it.
+//! The legend: to the right of the plot if it fits there, otherwise in rows below it, but never inside the plot.
 
 use super::canvas::{Canvas, drop, style};
 use super::frame::{EDGE, Frame};
 use super::style::{INK, LABEL};
 use super::text::{clean, fit, width};
 
-/// How one curve is named.
+/// A curve in the legend.
 pub(super) struct Entry {
     /// Its name.
     pub(super) label: String,
-    /// Its place among the curves, which decides its colour and mark.
+    /// The index of the curve, which determines its colour and mark.
     pub(super) index: usize,
 }
 
-/// Width of the sample of a curve, with the space after it.
+/// The width of the sample line of a curve, including the space after it.
 const SAMPLE: f64 = 30.0;
-/// Width of the sample itself.
+/// The width of the sample line alone.
 pub(super) const STROKE: f64 = 22.0;
-/// Height of a row.
+/// The height of a row.
 const ROW: f64 = 18.0;
-/// Space between entries of a row.
+/// The space between entries in a row.
 const BETWEEN: f64 = 18.0;
 
-/// Where each entry goes.
+/// The layout of the legend.
 pub(super) struct Plan {
-    /// Width to keep free to the right of the plot.
+    /// The width reserved to the right of the plot.
     pub(super) right: f64,
-    /// Height to keep free below the labels of the horizontal axis.
+    /// The height reserved below the labels of the horizontal axis.
     pub(super) below: f64,
-    /// Entries with their place: right of the area's corner, or right of the edge and below the rows of the axis.
+    /// The entries with their positions, relative to the corner of the area if at the right, otherwise to the edge
+    /// below the rows of the axis.
     entries: Vec<(f64, f64, Entry)>,
-    /// The number of curves without an entry, and where that is said.
+    /// The number of curves without an entry, and the position of this note.
     more: Option<(f64, f64, usize)>,
 }
 
-/// Plans the legend of a picture of some width whose plot has some height. `aside` allows the right side.
+/// Plans the legend of a picture of width `size` whose plot has height `height`. `beside_plot` allows the right side.
 pub(super) fn plan(entries: Vec<Entry>, size: f64, height: f64, beside_plot: bool) -> Plan {
     let entries: Vec<Entry> = entries
         .into_iter()
@@ -61,7 +62,7 @@ fn rows(entries: Vec<Entry>, size: f64, height: f64) -> Plan {
     for (i, entry) in entries.into_iter().enumerate() {
         let label = fit(&entry.label, LABEL, available - SAMPLE);
         let wide = SAMPLE + width(&label, LABEL);
-        // The last row keeps room for the number of curves that found none, if any are left.
+        // The last row reserves space for the note about the remaining curves, if there are any.
         let reserve = if row + 1.0 >= most && i + 1 < count { BETWEEN + 60.0 } else { 0.0 };
         if x > 0.0 && x + wide + reserve > available {
             if row + 1.0 >= most {
@@ -77,7 +78,7 @@ fn rows(entries: Vec<Entry>, size: f64, height: f64) -> Plan {
     plan
 }
 
-/// Draws the legend. `below` is the height of the rows of the horizontal axis. `sample` draws the sample of a curve
+/// Draws the legend. `below` is the height of the rows of the horizontal axis. `sample` draws the sample line of a curve,
 /// from a point to the right.
 pub(super) fn draw(
     canvas: &mut Canvas,
@@ -89,7 +90,7 @@ pub(super) fn draw(
     if plan.entries.is_empty() {
         return;
     }
-    // Rows start at the plot if their width allows, which is most often the case.
+    // Rows start at the left edge of the plot if they fit, which is usually the case.
     let widest = plan.entries.iter().map(|(x, _, e)| x + SAMPLE + width(&e.label, LABEL)).fold(0.0, f64::max);
     let left = if widest + 80.0 <= frame.right - frame.left { frame.left } else { EDGE };
     let corner = if plan.right > 0.0 {

@@ -1,17 +1,17 @@
 //! Plots as SVG: lines over time, cost against error, and maps of cells.
 //!
-//! Plain data in, one self-contained picture out. The pictures need no style sheet, font or script, hold no ids
-//! (several can stand in one page), and are the same bytes on every platform: numbers are rounded here, and no
-//! function of the platform's mathematics library is called. Labels are untrusted text.
+//! The input is plain data, the output one self-contained picture. Pictures need no style sheet, font or script, and contain no
+//! ids, so that a page can contain several of them. They consist of the same bytes on every platform: numbers are rounded here,
+//! and no function of the platform's mathematics library is called. Labels are untrusted text.
 //!
 //! * [`line_chart`]: traces of a lab over time
-//! * [`work_precision`]: what accuracy costs, for several methods, both axes logarithmic
-//! * [`cells`]: what becomes of something over two settings
+//! * [`work_precision`]: cost against error for several methods, both axes logarithmic
+//! * [`cells`]: an outcome as a function of two settings
 //!
-//! With the feature `png` a picture is drawn in pixels, too.
+//! With the feature `png`, a picture can also be rasterized.
 //!
-//! Inside: `number` and `text` turn values into characters, `canvas` writes elements, `axis` chooses ranges and
-//! ticks, `curve` turns samples into few points, `frame`, `legend` and `labels` draw what is common.
+//! Internal modules: `number` and `text` format values, `canvas` writes elements, `axis` chooses ranges and ticks, `curve`
+//! reduces samples to few points, and `frame`, `legend` and `labels` draw the common parts.
 
 mod axis;
 mod canvas;

@@ -9,40 +9,40 @@ use super::number::{drawable, short};
 use super::style::{AXIS, INK, SMALL, TICK, ZERO, colour, dash, extent};
 use super::text::{clean, fit, width};
 
-/// One curve.
+/// A curve.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Series {
-    /// Its name in the legend; without one it has no entry.
+    /// The name in the legend; a curve without a name has no entry.
     pub label: String,
-    /// Drawn dashed.
+    /// Whether the curve is dashed.
     pub dash: bool,
-    /// Samples (x, y) in the units of the axes, in the order of x. A sample that is not finite breaks the line, and
-    /// so does a step backwards in x.
+    /// Samples (x, y) in the units of the axes, in the order of x. A sample that is not finite breaks the line, and so
+    /// does a step backwards in x.
     pub points: Vec<(f64, f64)>,
 }
 
-/// A plot of curves over time, or over anything else that grows.
+/// A plot of curves over time, or over another increasing quantity.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Chart {
-    /// Shown above the plot; may be empty.
+    /// The title above the plot; may be empty.
     pub title: String,
-    /// Name and unit of the horizontal axis.
+    /// The name and the unit of the horizontal axis.
     pub xlabel: String,
-    /// Name and unit of the vertical axis.
+    /// The name and the unit of the vertical axis.
     pub ylabel: String,
-    /// Width of the whole picture, pixels.
+    /// The width of the whole picture, pixels.
     pub width: f64,
-    /// Height of the whole picture, pixels, legend included. At least 160 are used.
+    /// The height of the whole picture including the legend, pixels; at least 160.
     pub height: f64,
-    /// Lower end of the vertical axis; `None` follows the data.
+    /// The lower end of the vertical axis; `None` uses the data.
     pub ymin: Option<f64>,
-    /// Upper end of the vertical axis; `None` follows the data.
+    /// The upper end of the vertical axis; `None` uses the data.
     pub ymax: Option<f64>,
-    /// Left end of the horizontal axis; `None` follows the data.
+    /// The left end of the horizontal axis; `None` uses the data.
     pub xmin: Option<f64>,
-    /// Right end of the horizontal axis; `None` follows the data.
+    /// The right end of the horizontal axis; `None` uses the data.
     pub xmax: Option<f64>,
-    /// Horizontal lines: their height in the unit of the axis, and what they mean.
+    /// Horizontal reference lines: the value on the vertical axis, and the label.
     pub ref_lines: Vec<(f64, Option<String>)>,
     /// The curves.
     pub series: Vec<Series>,
@@ -50,9 +50,9 @@ pub struct Chart {
 
 /// Draws a plot of lines as a complete SVG document.
 ///
-/// Any data give a picture: ranges that are empty, reversed or not finite are replaced by those of the data, and
-/// without data the picture says so. Of many samples per pixel the extremes are kept, so that the size of the result
-/// depends on the width of the picture and not on the number of samples.
+/// Any data give a picture: empty, reversed or non-finite ranges are replaced by those of the data, and a picture without data
+/// states that. If there are many samples per pixel, the extreme ones are kept, so that the size of the result depends on the
+/// width of the picture and not on the number of samples.
 pub fn line_chart(chart: &Chart) -> String {
     let size = (extent(chart.width, 200.0, 640.0), extent(chart.height, 160.0, 320.0));
     let words = Words { title: &chart.title, xlabel: &chart.xlabel, ylabel: &chart.ylabel, width: size.0 };
@@ -100,7 +100,7 @@ pub fn line_chart(chart: &Chart) -> String {
     canvas.finish()
 }
 
-/// The ranges of both axes. Only samples between wished ends of the horizontal axis count for the vertical one.
+/// The ranges of both axes. Only samples inside a requested horizontal range are considered for the vertical one.
 fn ranges(chart: &Chart) -> (Range, Range) {
     let samples = || chart.series.iter().flat_map(|s| &s.points).filter(|p| drawable(p.0) && drawable(p.1));
     let x = range(extremes(samples().map(|p| p.0)), chart.xmin, chart.xmax);
@@ -121,8 +121,8 @@ fn steps(length: f64, least: f64) -> usize {
     (length / least).clamp(1.0, 10.0) as usize
 }
 
-/// The horizontal axis with as many ticks as have room for their labels, and the right end of the plot, which keeps
-/// half of the last label inside of the picture if nothing else is to the right of it.
+/// The horizontal axis with as many ticks as there is space for labels, and the right end of the plot. If nothing else is to
+/// the right of the plot, the end leaves space for half of the last label.
 fn horizontal(range: Range, left: f64, limit: f64, alone: bool) -> (f64, Axis) {
     let build = |count: usize| {
         let x = linear(range, count, 0.02);
@@ -143,8 +143,8 @@ fn stroke(index: usize, dashed: bool) -> String {
     format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"1.75\" stroke-linejoin=\"round\"{cap}{pattern}")
 }
 
-/// Draws the curves, solid ones first, so that a dashed prediction stays visible on the curve that it predicts.
-/// False if there is nothing to draw.
+/// Draws the curves, solid ones first, so that a dashed prediction stays visible on top of the predicted curve. Returns `false`
+/// if there is nothing to draw.
 fn curves(canvas: &mut Canvas, series: &[Series], frame: &Frame, x: &Axis, y: &Axis) -> bool {
     let place = |(sx, sy): (f64, f64)| -> Option<Point> {
         let finite = drawable(sx) && drawable(sy);
@@ -174,7 +174,7 @@ fn curves(canvas: &mut Canvas, series: &[Series], frame: &Frame, x: &Axis, y: &A
     found
 }
 
-/// Draws the horizontal lines, with their labels to the right of the plot where no curve is.
+/// Draws the horizontal reference lines, with their labels to the right of the plot, where no curve is.
 fn references(canvas: &mut Canvas, refs: &[(f64, String)], frame: &Frame, y: &Axis) {
     let mut seen: Vec<(f64, &str)> = refs
         .iter()
@@ -201,8 +201,8 @@ fn references(canvas: &mut Canvas, refs: &[(f64, String)], frame: &Frame, y: &Ax
     canvas.close();
 }
 
-/// Heights in ascending order, moved so that lines of text there do not touch: down from the first on, and up again
-/// from the last on where that left the frame.
+/// Heights in ascending order, moved apart so that lines of text do not touch: downwards from the first one, and back upwards
+/// from the last one if it left the frame.
 fn apart(heights: &[f64], frame: &Frame) -> Vec<f64> {
     let row = SMALL + 2.0;
     let mut least = f64::NEG_INFINITY;
@@ -231,13 +231,13 @@ fn nothing(chart: &Chart) -> &'static str {
     }
 }
 
-/// The picture in words.
+/// The description of the picture in words.
 fn describe(chart: &Chart) -> String {
     let (x, y) = (clean(&chart.xlabel), clean(&chart.ylabel));
     let over = if x.is_empty() { String::new() } else { format!(" over {x}") };
     let what = if y.is_empty() { String::from("Lines") } else { format!("Lines of {y}") };
     let mut text = format!("{what}{over}.");
-    // Every curve would be a page that nobody listens to.
+    // A description of every curve would be too long for a listener.
     for series in chart.series.iter().take(12) {
         let values = || series.points.iter().filter(|p| drawable(p.0) && drawable(p.1));
         let label = clean(&series.label);

@@ -1,11 +1,11 @@
 //! Numbers: decimal exponents, logarithms and short text, with the same result on every platform.
 //!
-//! `f64::log10` is taken from the platform and may differ in its last bit, which is enough to move a printed digit.
-//! Decimal exponents come from Rust's exact formatting instead, and the logarithm from the series of artanh.
+//! `f64::log10` comes from the platform and may differ in its last bit, which is enough to change a printed digit. Decimal
+//! exponents come from Rust's exact formatting instead, and the logarithm from the series of artanh.
 
 use std::f64::consts::{LOG10_2, LOG10_E, SQRT_2};
 
-/// Magnitudes above this are treated as infinite, so that a difference of two values stays finite.
+/// Larger magnitudes are treated as infinite, so that the difference of two values stays finite.
 pub(super) const HUGE: f64 = 1e300;
 
 /// Whether a value can be drawn on a linear axis.
@@ -46,7 +46,7 @@ pub(super) fn log10(value: f64) -> f64 {
     exponent * LOG10_2 + 2.0 * s * series * LOG10_E
 }
 
-/// A coordinate in pixels: at most two decimals, nothing that a renderer could stumble over.
+/// Formats a coordinate in pixels: at most two decimals, in a form that every renderer accepts.
 pub(super) fn px(value: f64) -> String {
     if !drawable(value) {
         return String::from("0");
@@ -56,7 +56,7 @@ pub(super) fn px(value: f64) -> String {
     if matches!(text, "-0" | "") { String::from("0") } else { text.to_owned() }
 }
 
-/// A value for a sentence: four significant digits, with an exponent where that is shorter.
+/// Formats a value for a sentence: four significant digits, with an exponent if that is shorter.
 pub(super) fn short(value: f64) -> String {
     if !value.is_finite() {
         return String::from("not finite");
@@ -64,7 +64,7 @@ pub(super) fn short(value: f64) -> String {
     if value == 0.0 {
         return String::from("0");
     }
-    // Rounded first: 9.9996 has the exponent of 10.
+    // Rounded first, because 9.9996 then has the exponent of 10.
     let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
     let (_, exponent) = decade(rounded.abs());
     let text = if (-4..6).contains(&exponent) {
@@ -76,7 +76,7 @@ pub(super) fn short(value: f64) -> String {
     minus(&text)
 }
 
-/// The same text with the typographic minus sign.
+/// Replaces hyphens by the typographic minus sign.
 pub(super) fn minus(text: &str) -> String {
     text.replace('-', "\u{2212}")
 }

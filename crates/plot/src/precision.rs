@@ -1,10 +1,10 @@
-//! Work–precision chart: what accuracy costs.
+//! Work–precision chart: the cost of accuracy.
 //!
-//! Error to the right, cost upwards, both logarithmic, one curve per method over its timesteps (as in Hairer,
-//! Nørsett, Wanner, "Solving Ordinary Differential Equations I", II.4). Lower and further left is better. A method of
-//! order p appears as a straight line of slope -1/p. Runs without a finite error stand in a strip of their own at
-//! the right end, runs without any error in one at the left end: neither has a place on a logarithmic axis. A bar shows how far a
-//! cost spreads, an arrow to the left that an error is at most what it stands at.
+//! Error is on the horizontal axis, cost on the vertical axis, both logarithmic, with one curve per method over its timesteps
+//! (as in Hairer, Nørsett, Wanner, "Solving Ordinary Differential Equations I", II.4). Lower and further left is better. A
+//! method of order p appears as a straight line of slope -1/p. A logarithmic axis has no position for some runs: those without
+//! a finite error are drawn in a separate strip at the right end, and those without any error in one at the left end. A
+//! vertical bar shows the spread of a cost. An arrow to the left shows that the error is at most the drawn value.
 
 use super::axis::{Axis, logarithmic};
 use super::canvas::{Canvas, Label, style};
@@ -16,18 +16,19 @@ use super::number::{HUGE, px, short};
 use super::style::{SHADE, SMALL, SOFT, TICK, colour, dash, extent};
 use super::text::{clean, fit, width};
 
-/// One curve: a method over its timesteps.
+/// A curve: a method over its timesteps.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Method {
-    /// Its name in the legend.
+    /// The name in the legend.
     pub label: String,
-    /// Its runs, in the order of the timestep.
+    /// The runs in the order of the timestep.
     pub points: Vec<MethodPoint>,
-    /// It is another program's version of the method at this index: the same colour and shape, hollow and dashed.
+    /// If set, this is another program's version of the method at this index, drawn in the same colour and
+    /// shape, but hollow and dashed.
     pub echo: Option<usize>,
 }
 
-/// How a method is drawn.
+/// The style of a method.
 #[derive(Clone, Copy)]
 struct MarkerStyle {
     index: usize,
@@ -40,41 +41,41 @@ impl MarkerStyle {
     }
 }
 
-/// One run of a method.
+/// A run of a method.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MethodPoint {
-    /// What it cost, in the unit of the vertical axis. Without a positive finite cost the run is left out.
+    /// The cost in the unit of the vertical axis. A run without a positive finite cost is left out.
     pub cost: f64,
-    /// Its error, in the unit of the horizontal axis; the sign does not matter.
+    /// The error in the unit of the horizontal axis; its sign is ignored.
     pub error: f64,
-    /// Shown beside the point, such as `2 ms`.
+    /// The text next to the point, such as `2 ms`.
     pub note: String,
-    /// It diverged; `error` is not looked at.
+    /// Whether it diverged; `error` is then ignored.
     pub failed: bool,
-    /// Its error is at most `error`: nothing more is known of it.
+    /// Whether the error is at most `error`, and nothing more is known about it.
     pub at_most: bool,
-    /// The ends of a bar along the vertical axis: how far the cost spreads.
+    /// The ends of a vertical bar for the spread of the cost.
     pub spread: Option<[f64; 2]>,
 }
 
 /// Cost against error for several methods.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct WorkPrecision {
-    /// Shown above the plot; may be empty.
+    /// The title above the plot; may be empty.
     pub title: String,
-    /// What the error is, with its unit.
+    /// The meaning of the error, with its unit.
     pub xlabel: String,
-    /// What the cost is, with its unit.
+    /// The meaning of the cost, with its unit.
     pub ylabel: String,
     /// The curves.
     pub methods: Vec<Method>,
-    /// Width of the whole picture, pixels.
+    /// The width of the whole picture, pixels.
     pub width: f64,
-    /// Height of the whole picture, pixels, legend included. At least 160 are used.
+    /// The height of the whole picture including the legend, pixels; at least 160.
     pub height: f64,
 }
 
-/// Where a run stands along the horizontal axis.
+/// The position of a run along the horizontal axis.
 #[derive(Clone, Copy, PartialEq)]
 enum Error {
     Zero,
@@ -91,10 +92,11 @@ struct Run<'a> {
     spread: Option<[f64; 2]>,
 }
 
-/// The least positive value that is distinguished from zero.
+/// The smallest positive value that is distinguished from zero.
 const TINY: f64 = 1e-300;
 
-/// Draws a work–precision chart as a complete SVG document. Any data give a picture; without runs it says so.
+/// Draws a work–precision chart as a complete SVG document. Any data give a picture; if there are no runs,
+/// the picture states that.
 pub fn work_precision(chart: &WorkPrecision) -> String {
     let size = (extent(chart.width, 200.0, 640.0), extent(chart.height, 160.0, 420.0));
     let words = Words { title: &chart.title, xlabel: &chart.xlabel, ylabel: &chart.ylabel, width: size.0 };
@@ -110,7 +112,7 @@ pub fn work_precision(chart: &WorkPrecision) -> String {
     let right = (size.0 - EDGE - legend.right - 4.0).max(left + 40.0);
     let outer = Frame { left, top, right, bottom };
 
-    // The strips beside the scale, only if something stands there.
+    // The strips next to the scale exist only if they contain runs.
     let some = |error: Error| all().any(|r| r.error == error);
     let diverging = methods.iter().filter(|m| m.iter().any(|r| r.error == Error::Diverged)).count();
     let zero = if some(Error::Zero) { 34.0f64.min(0.15 * outer.width()) } else { 0.0 };
@@ -145,7 +147,7 @@ pub fn work_precision(chart: &WorkPrecision) -> String {
     canvas.finish()
 }
 
-/// At the ends, the names of the strips have precedence over the labels of the scale.
+/// Removes tick labels at the ends of the scale that would overlap the names of the strips.
 fn drop_labels_under_strips(x: &mut Axis, outer: &Frame, inner: &Frame, size: f64) {
     let least = if inner.left > outer.left { (outer.left + inner.left) / 2.0 + 12.0 } else { 0.0 };
     let name = width(DIVERGED, TICK);
@@ -158,7 +160,7 @@ fn drop_labels_under_strips(x: &mut Axis, outer: &Frame, inner: &Frame, size: f6
     }
 }
 
-/// The strips beside the scale: runs without an error on the left, runs that diverge on the right.
+/// Shades the strips next to the scale: runs without an error on the left, diverged runs on the right.
 fn shade_strips(canvas: &mut Canvas, outer: &Frame, inner: &Frame) {
     if inner.left > outer.left {
         canvas.area((outer.left, outer.top), (inner.left, outer.bottom), SHADE);
@@ -179,7 +181,7 @@ fn name_strips(canvas: &mut Canvas, outer: &Frame, inner: &Frame) {
     canvas.close();
 }
 
-/// The word below the strip of runs without a finite error.
+/// The label of the strip of runs without a finite error.
 const DIVERGED: &str = "diverged";
 
 fn runs(points: &[MethodPoint]) -> Vec<Run<'_>> {
@@ -201,17 +203,17 @@ fn axis(values: impl Iterator<Item = f64>, extent: impl Fn(&Label) -> f64) -> Ax
     if low <= high { logarithmic(low, high, extent) } else { logarithmic(1.0, 10.0, extent) }
 }
 
-/// A run with its place.
+/// A run with its position.
 struct Placed<'a> {
     error: Error,
     at: Point,
     note: &'a str,
     at_most: bool,
-    /// The heights of the ends of its bar.
+    /// The vertical positions of the ends of its bar.
     bar: Option<[f64; 2]>,
 }
 
-/// The places of all runs. Crosses of different methods stand beside each other, in the order of the methods.
+/// The positions of all runs. Crosses of different methods are placed side by side, in the order of the methods.
 fn place<'a>(
     methods: &[Vec<Run<'a>>],
     (outer, inner): (&Frame, &Frame),
@@ -233,7 +235,7 @@ fn place<'a>(
                 Error::Finite(error) => inner.at(x.fraction(error)?, 0.0).0,
                 Error::Diverged => inner.right + cross * (outer.right - inner.right),
             };
-            // A bar that leaves the frame ends there.
+            // A bar is clipped to the frame.
             let end = |cost: f64| -> Option<f64> {
                 let fraction = if cost > 0.0 { y.fraction(cost) } else { None };
                 Some(inner.at(0.0, fraction?.clamp(0.0, 1.0)).1)
@@ -279,7 +281,7 @@ fn plot(canvas: &mut Canvas, chart: &WorkPrecision, methods: &[Vec<Placed>], fra
     let marks: Vec<Point> = methods.iter().flatten().map(|run| run.at).collect();
     let lines: Vec<Vec<Point>> = curves.into_iter().flatten().collect();
     canvas.open(&style(SMALL, SOFT, "start"));
-    // To the right, a label may reach into the space before the legend.
+    // At the right, a label may extend into the space before the legend.
     let bounds = Frame { right: frame.right + 8.0, ..*frame };
     for (at, text) in arrange(wishes, &marks, &lines, &bounds) {
         canvas.text(at, &text);
@@ -287,7 +289,7 @@ fn plot(canvas: &mut Canvas, chart: &WorkPrecision, methods: &[Vec<Placed>], fra
     canvas.close();
 }
 
-/// Neighbouring runs that have a place on the scale are connected.
+/// The lines between consecutive runs that have a position on the scale.
 fn connected(method: &[Placed]) -> Vec<Vec<Point>> {
     let on_scale = |run: &Placed| matches!(run.error, Error::Finite(_));
     let parts = method.chunk_by(|a, b| on_scale(a) && on_scale(b));
@@ -300,7 +302,7 @@ fn stroke(look: MarkerStyle) -> String {
     format!("fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\"{pattern}", colour(look.index))
 }
 
-/// The mark of a run. Its shape goes with the colour, for print without colours.
+/// Draws the mark of a run. Its shape corresponds to the colour, for prints without colours.
 fn mark(canvas: &mut Canvas, look: MarkerStyle, at: Point) {
     let [fill, edge] = match look.hollow {
         false => [colour(look.index), "#ffffff"],
@@ -314,7 +316,7 @@ fn mark(canvas: &mut Canvas, look: MarkerStyle, at: Point) {
     canvas.close();
 }
 
-/// A disc, square, triangle, diamond, or triangle on its tip.
+/// A disc, square, triangle, diamond, or inverted triangle.
 fn shape(index: usize, (x, y): Point) -> String {
     let corners: &[Point] = match index % 5 {
         0 => {
@@ -329,7 +331,7 @@ fn shape(index: usize, (x, y): Point) -> String {
     path(&[corners.iter().map(|(dx, dy)| (x + dx, y + dy)).collect()]) + "Z"
 }
 
-/// How far the cost of a run spreads.
+/// Draws the bar for the spread of a cost.
 fn bar(canvas: &mut Canvas, index: usize, x: f64, [low, high]: [f64; 2]) {
     canvas.open(&format!("fill=\"none\" stroke=\"{}\" stroke-width=\"1\"", colour(index)));
     let end = |y: f64| vec![(x - 2.5, y), (x + 2.5, y)];
@@ -337,7 +339,7 @@ fn bar(canvas: &mut Canvas, index: usize, x: f64, [low, high]: [f64; 2]) {
     canvas.close();
 }
 
-/// To the left of a run whose error is at most where it stands.
+/// Draws an arrow to the left of a run whose error is at most the drawn value.
 fn arrow(canvas: &mut Canvas, index: usize, (x, y): Point) {
     canvas.open(&format!("fill=\"none\" stroke=\"{}\" stroke-width=\"1.25\"", colour(index)));
     let tip = (x - 12.0, y);
@@ -346,7 +348,7 @@ fn arrow(canvas: &mut Canvas, index: usize, (x, y): Point) {
     canvas.close();
 }
 
-/// The mark of a run without a finite error.
+/// Draws the mark of a run without a finite error.
 fn cross(canvas: &mut Canvas, index: usize, (x, y): Point) {
     canvas.open(&format!("fill=\"none\" stroke=\"{}\" stroke-width=\"2\"", colour(index)));
     let arms = [vec![(x - 3.5, y - 3.5), (x + 3.5, y + 3.5)], vec![(x - 3.5, y + 3.5), (x + 3.5, y - 3.5)]];
@@ -354,7 +356,7 @@ fn cross(canvas: &mut Canvas, index: usize, (x, y): Point) {
     canvas.close();
 }
 
-/// The picture in words.
+/// The description of the picture in words.
 fn describe(chart: &WorkPrecision) -> String {
     let mut text =
         String::from("Cost against error, both on logarithmic axes; lower and further left is better.");

@@ -1,18 +1,18 @@
-//! Pictures of pixels, drawn by `resvg` from our own SVG, with a font of our own: the same pixels wherever it runs.
+//! Pixel images, rendered by `resvg` from our own SVG with an embedded font, so that the pixels are the same on every machine.
 
 use resvg::{tiny_skia, usvg};
 
-/// Letters of Latin, Greek and Cyrillic, arrows and signs of mathematics.
+/// The font has Latin, Greek and Cyrillic letters, arrows and mathematical symbols.
 const FONT: &[u8] = include_bytes!("../fonts/DejaVuSans.ttf");
-/// Pixels across and down, at most.
+/// The maximum width and height in pixels.
 const MOST: f32 = 8192.0;
-/// Who made a picture, as it says of itself.
+/// The metadata that identify the program that made a picture.
 const MAKER: (&str, &str) = ("Software", "labspec");
 
-/// A picture as PNG, so many times as large as its own size says.
+/// Renders a picture as PNG, scaled by a factor.
 ///
 /// # Errors
-/// It is no picture, or too large.
+/// The text is not a picture, or the image would be too large.
 pub fn png(svg: &str, scale: f32) -> Result<Vec<u8>, String> {
     let mut options = usvg::Options { font_family: "DejaVu Sans".into(), ..usvg::Options::default() };
     options.fontdb_mut().load_font_data(FONT.to_vec());
@@ -36,7 +36,7 @@ pub fn png(svg: &str, scale: f32) -> Result<Vec<u8>, String> {
     written.map(|()| bytes).map_err(|e| e.to_string())
 }
 
-/// Whether a file that starts so is one of these pictures.
+/// Whether a file with this beginning is one of these images.
 pub fn is_png_of_ours(start: &[u8]) -> bool {
     let comment = format!("{}\0{}", MAKER.0, MAKER.1);
     start.starts_with(b"\x89PNG") && start.windows(comment.len()).take(256).any(|w| w == comment.as_bytes())

@@ -1,28 +1,28 @@
 //! Colours, line patterns and sizes.
 //!
-//! Colours of the data are those of Okabe and Ito ("Color Universal Design", 2008), which people with any common
-//! colour vision can tell apart; their yellow is left out, as it cannot be seen on white.
+//! The colours of the data are those of Okabe and Ito ("Color Universal Design", 2008), which people with all common types of
+//! colour vision can distinguish. Their yellow is not used, because it is invisible on white.
 
-/// Colours of curves, in the order in which they are given out.
+/// The colours of curves, in the order of their use.
 const PALETTE: [&str; 7] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"];
-/// Patterns (pixels drawn, left out, …) of curves that are not meant to be dashed, one for each round of the colours.
+/// The dash patterns (pixels drawn, skipped, …) of curves that are not dashed, one for each cycle through the colours.
 const SOLID: [Option<&str>; 3] = [None, Some("10 3 2 3"), Some("2 3")];
-/// Patterns of curves that are meant to be dashed.
+/// The dash patterns of dashed curves.
 const DASHED: [Option<&str>; 3] = [Some("6 4"), Some("12 5"), Some("4 2")];
 
-/// Titles and labels of axes.
+/// Titles and axis labels.
 pub(super) const INK: &str = "#222222";
-/// Labels of ticks and of points.
+/// Labels of ticks and points.
 pub(super) const SOFT: &str = "#4d4d4d";
-/// Lines of axes.
+/// Axes.
 pub(super) const AXIS: &str = "#7f7f7f";
-/// The line of the grid at zero.
+/// The grid line at zero.
 pub(super) const ZERO: &str = "#b5b5b5";
-/// Lines of the grid at ticks.
+/// Grid lines at ticks.
 pub(super) const GRID: &str = "#e3e3e3";
-/// Lines of the grid between ticks.
+/// Grid lines between ticks.
 pub(super) const FAINT: &str = "#f2f2f2";
-/// Areas beside a scale.
+/// Areas next to a scale.
 pub(super) const SHADE: &str = "#f6f6f6";
 
 /// Font size of the title, in pixels.
@@ -31,9 +31,9 @@ pub(super) const TITLE: f64 = 14.0;
 pub(super) const LABEL: f64 = 12.0;
 /// Font size of ticks, in pixels.
 pub(super) const TICK: f64 = 11.0;
-/// Font size of the raised part of a tick label, in pixels.
+/// Font size of the superscript of a tick label, in pixels.
 pub(super) const POWER: f64 = 8.5;
-/// Font size of labels at points and lines, in pixels.
+/// Font size of labels of points and lines, in pixels.
 pub(super) const SMALL: f64 = 10.0;
 
 /// The colour of the curve with this index.
@@ -41,14 +41,14 @@ pub(super) fn colour(index: usize) -> &'static str {
     PALETTE.get(index % PALETTE.len()).copied().unwrap_or(INK)
 }
 
-/// The dash pattern of the curve with this index; `None` is a solid line. Once all colours are given out, the next
-/// round has another pattern, so that 21 curves of each kind differ.
+/// The dash pattern of the curve with this index; `None` is a solid line. Each further cycle through the colours uses another
+/// pattern, so that 21 curves of each kind differ.
 pub(super) fn dash(index: usize, dashed: bool) -> Option<&'static str> {
     let patterns = if dashed { DASHED } else { SOLID };
     patterns.get(index / PALETTE.len() % patterns.len()).copied().flatten()
 }
 
-/// A whole picture's width or height in pixels: the wish, if it is a number, within reason.
+/// The width or height of a picture in pixels: the requested value within limits, or the default if it is not finite.
 pub(super) fn extent(wish: f64, least: f64, default: f64) -> f64 {
     if wish.is_finite() { wish.clamp(least, 4000.0).round() } else { default }
 }

@@ -1,4 +1,4 @@
-//! Pictures as a whole: snapshots to be looked at, and laws that hold for any data.
+//! Whole pictures: snapshots for review, and laws that hold for any data.
 
 use super::*;
 use proptest::prelude::*;
@@ -8,7 +8,8 @@ fn sampled(label: &str, dash: bool, f: impl Fn(f64) -> f64) -> Series {
     Series { label: label.into(), dash, points }
 }
 
-/// A wave of period and amplitude 1 from parabolas: a sine of the platform could change the last digit of a snapshot.
+/// A wave with period and amplitude 1, made of parabolas, because the platform's sine could change the
+/// last digit of a snapshot.
 fn wave(turns: f64) -> f64 {
     let u = turns - turns.floor();
     if u < 0.5 { 16.0 * u * (0.5 - u) } else { 16.0 * (u - 0.5) * (u - 1.0) }
@@ -150,7 +151,7 @@ fn zoom() -> Chart {
     }
 }
 
-/// All pictures of this module, to be written to a folder and looked at.
+/// All pictures of this module, which can be written to a folder for review.
 fn gallery() -> Vec<(&'static str, String)> {
     vec![
         ("fall", line_chart(&fall())),
@@ -169,7 +170,7 @@ fn gallery() -> Vec<(&'static str, String)> {
     ]
 }
 
-/// A triangle that is stable, what is beyond it, and a corner that was not run.
+/// A stable triangular region, the region beyond it, and a corner that was not run.
 fn region() -> Cells {
     let kind = |i: usize, j: usize| match i + j {
         0..=9 => Some(0),
@@ -216,7 +217,7 @@ fn a_million_samples_are_a_small_file() {
     assert!(picture.len() < 6_000, "{}", picture.len());
 }
 
-/// Whether every element is closed, attributes are quoted, and no number is broken.
+/// Checks that every element is closed, that attributes are quoted, and that all numbers are valid.
 fn check_picture(picture: &str) -> Result<(), String> {
     let mut open: Vec<&str> = Vec::new();
     let mut rest = picture;
@@ -247,7 +248,7 @@ fn check_picture(picture: &str) -> Result<(), String> {
     if open.is_empty() { Ok(()) } else { Err(format!("open at the end: {open:?}")) }
 }
 
-/// The attributes of a tag that hold numbers, together.
+/// The numeric attributes of a tag, joined.
 fn digits(tag: &str) -> String {
     let values = tag.split('"').collect::<Vec<_>>();
     let pairs =
@@ -261,7 +262,7 @@ fn digits(tag: &str) -> String {
         .join(" ")
 }
 
-/// Numbers of all kinds, the nasty ones often.
+/// Numbers of all kinds, with special values often.
 fn number() -> impl Strategy<Value = f64> {
     prop_oneof![
         any::<f64>(),

@@ -1,12 +1,12 @@
 //! Text for pictures: escaping of untrusted labels, and widths.
 //!
-//! The renderer chooses the font, so widths are estimates from the classes of glyphs in common sans-serif fonts,
-//! on the wide side: a margin that is a little too large looks better than a label that is cut.
+//! The renderer chooses the font, so widths are estimated from the classes of glyphs in common sans-serif fonts. They are
+//! rather too large, because a slightly larger margin looks better than a truncated label.
 
-/// Most characters of any label. Longer ones are cut: no picture has room for more.
+/// The maximum number of characters of a label. Longer ones are truncated, because no picture has space for more.
 const LONGEST: usize = 160;
 
-/// A label on one line without characters that XML forbids or that change the direction of the text around them.
+/// A label on one line, without characters that XML forbids or that change the direction of the surrounding text.
 pub(super) fn clean(label: &str) -> String {
     let mut text: String = label.chars().take(LONGEST).map(tame).collect();
     if label.chars().nth(LONGEST).is_some() {
@@ -30,7 +30,7 @@ fn tame(c: char) -> char {
     }
 }
 
-/// The text with the characters escaped that mean something to XML.
+/// Escapes the characters that have a meaning in XML.
 pub(super) fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {
@@ -46,12 +46,12 @@ pub(super) fn escape(text: &str) -> String {
     escaped
 }
 
-/// Estimated width in pixels at a font size in pixels.
+/// The estimated width in pixels for a font size in pixels.
 pub(super) fn width(text: &str, size: f64) -> f64 {
     text.chars().map(advance).sum::<f64>() * size
 }
 
-/// Estimated width of a glyph in units of the font size.
+/// The estimated width of a glyph in units of the font size.
 fn advance(c: char) -> f64 {
     match c {
         'i' | 'j' | 'l' | '.' | ',' | ':' | ';' | '\'' | '|' | '!' | ' ' => 0.31,
@@ -64,7 +64,7 @@ fn advance(c: char) -> f64 {
     }
 }
 
-/// The text, cut with an ellipsis where it is wider than `limit` pixels. Empty if not even one character fits.
+/// The text, truncated with an ellipsis if it is wider than `limit` pixels. Empty if not even one character fits.
 pub(super) fn fit(text: &str, size: f64, limit: f64) -> String {
     if width(text, size) <= limit {
         return text.to_owned();

@@ -1,6 +1,6 @@
-//! What the rows of the table have of the simulation: numbers to read, and functions of the engine. The model and the data
-//! themselves are private here, so that a row calls the engine in no other way; and an error of the engine is the result of
-//! the call, whatever the row makes of it. No row turns one into a value.
+//! The access of the table's rows to the simulation: numbers to read, and functions of the engine. The model and the data are
+//! private here, so that a row cannot call the engine in another way. An error of the engine always becomes the error of the
+//! call; no row can replace it by a value.
 
 use crate::World;
 use crate::world::NUMBERS;
@@ -8,14 +8,14 @@ use labspec_core::{self as core, Contact, Data, Error, Fields, Jacobian, Model, 
 use labspec_expr::{Heap, Host, Value};
 use std::cell::RefCell;
 
-/// The simulation, for one call of a function.
+/// The simulation during one call of a function.
 pub(crate) struct EngineAccess<'w> {
     world: &'w mut World,
     /// The first error of the engine.
     failed: RefCell<Option<String>>,
 }
 
-/// An error of the engine, which is noted already.
+/// An error of the engine that has been recorded.
 pub(super) struct Failed(String);
 
 impl From<Failed> for String {
@@ -24,10 +24,10 @@ impl From<Failed> for String {
     }
 }
 
-/// What a row computes, or why it does not.
+/// The implementation of a row: computes the result or an error.
 pub(crate) type Run = fn(&mut EngineAccess<'_>, &mut Heap, &[Value]) -> Result<Value, String>;
 
-/// Calls a row.
+/// Calls the implementation of a row.
 pub(crate) fn call(run: Run, world: &mut World, heap: &mut Heap, args: &[Value]) -> Result<Value, String> {
     let mut access = EngineAccess { world, failed: RefCell::new(None) };
     let result = run(&mut access, heap, args);
@@ -37,7 +37,7 @@ pub(crate) fn call(run: Run, world: &mut World, heap: &mut Heap, args: &[Value])
     }
 }
 
-/// Passes of the engine over the model and the data.
+/// Defines passes of the engine over the model and the data.
 macro_rules! passes {
     ($($name:ident)*) => {
         $(pub(super) fn $name(&mut self) -> Result<(), Failed> {
@@ -57,7 +57,7 @@ impl EngineAccess<'_> {
         self.noted(result)
     }
 
-    /// The result of the engine, with its error noted.
+    /// Returns the result of the engine, and records its error.
     fn noted<T>(&self, result: Result<T, Error>) -> Result<T, Failed> {
         result.map_err(|error| {
             let message = String::from(error);
@@ -71,23 +71,23 @@ impl EngineAccess<'_> {
         self.noted(result)
     }
 
-    /// Back to a keyframe, or to the default configuration.
+    /// Resets the simulation to a keyframe, or to the default configuration.
     pub(super) fn reset_to(&mut self, key: Option<usize>) -> Result<(), Failed> {
         let result = self.world.reset_to(key);
         self.noted(result)
     }
 
-    /// Back to the keyframe of the lab.
+    /// Resets the simulation to the keyframe of the lab.
     pub(super) fn reset(&mut self) -> Result<(), Failed> {
         self.reset_to(self.world.key)
     }
 
-    /// Force (N) and torque (N m) of a contact in its frame.
+    /// The force (N) and the torque (N m) of a contact in the contact frame.
     pub(super) fn contact_force(&self, contact: &Contact) -> Result<[f64; 6], Failed> {
         self.noted(core::contact_force(&self.world.model, &self.world.data, contact))
     }
 
-    /// The mass matrix, nv rows of nv numbers in one list.
+    /// The mass matrix: nv rows of nv numbers in one list.
     pub(super) fn full_m(&self) -> Result<Vec<f64>, Failed> {
         self.noted(core::full_m(&self.world.model, &self.world.data))
     }
@@ -104,7 +104,7 @@ impl EngineAccess<'_> {
         self.noted(core::differentiate_pos(&self.world.model, h, from, to))
     }
 
-    /// Potential and kinetic energy, J; switches their computation on.
+    /// The potential and the kinetic energy in J; enables their computation.
     pub(super) fn energy(&mut self) -> Result<[f64; 2], Failed> {
         if !self.world.model.opt.enabled(enable::ENERGY) {
             self.world.model.set_enabled(enable::ENERGY, true);
@@ -113,7 +113,7 @@ impl EngineAccess<'_> {
         Ok(self.fields().energy)
     }
 
-    /// The numbers of the data.
+    /// The fields of the data.
     pub(super) fn fields(&self) -> &Fields {
         self.world.data.fields()
     }
@@ -126,7 +126,7 @@ impl EngineAccess<'_> {
         &self.world.model.names
     }
 
-    /// Degrees of freedom.
+    /// The number of degrees of freedom.
     pub(super) fn nv(&self) -> usize {
         self.world.model.nv
     }
@@ -141,12 +141,12 @@ impl EngineAccess<'_> {
         self.fields().qpos.get(usize::try_from(first).ok()?).copied()
     }
 
-    /// The body that a geom belongs to.
+    /// The body to which a geom belongs.
     pub(super) fn body_of(&self, geom: usize) -> Option<usize> {
         usize::try_from(*self.world.model.geom_bodyid.get(geom)?).ok()
     }
 
-    /// What is shown under a label.
+    /// The value that is displayed under a label.
     pub(super) fn displayed_value(&self, label: usize) -> Option<&Value> {
         self.world.displayed.get(label)
     }

@@ -1,4 +1,4 @@
-//! The functions of `lib`: what lessons ask for most, in one word.
+//! The functions of `lib`: shortcuts for what lessons need most often.
 
 use super::access::EngineAccess;
 use super::{Arg, Function, ROW, Touches, Unit, index, number};
@@ -9,7 +9,7 @@ use labspec_finding::order;
 
 const LIST: Function = Function { object: "lib", returns: Type::List, ..ROW };
 
-/// What `energy` gives, J.
+/// The members of the result of `energy`, in J.
 pub(super) const ENERGIES: &[(&str, Type)] =
     &[("potential", Type::Number), ("kinetic", Type::Number), ("total", Type::Number)];
 
@@ -210,7 +210,7 @@ fn place(heap: &mut Heap, places: &[f64], index: usize) -> Result<Value, String>
     heap.numbers(place).map_err(|_| full())
 }
 
-/// Potential, kinetic and total energy.
+/// The potential, kinetic and total energy.
 pub(super) fn energy(w: &mut EngineAccess<'_>, heap: &mut Heap) -> Result<Value, String> {
     let [potential, kinetic] = w.energy()?;
     let numbers = [potential, kinetic, potential + kinetic];
@@ -218,7 +218,7 @@ pub(super) fn energy(w: &mut EngineAccess<'_>, heap: &mut Heap) -> Result<Value,
     heap.record(entries.collect()).map_err(|_| full())
 }
 
-/// The name of a geom, or of its body.
+/// The name of a geom, or of its body if the geom has none.
 fn label<'w>(w: &'w EngineAccess<'_>, geom: usize) -> &'w str {
     let names = w.names();
     let geom_name = names.geom.get(geom).map_or("", String::as_str);
@@ -226,7 +226,7 @@ fn label<'w>(w: &'w EngineAccess<'_>, geom: usize) -> &'w str {
     if geom_name.is_empty() { names.body.get(body).map_or("", String::as_str) } else { geom_name }
 }
 
-/// The six rows of the Jacobian of a site, or their first columns.
+/// The six rows of the Jacobian of a site, or their first `columns` columns.
 fn jacobian(w: &EngineAccess<'_>, site: usize, columns: Option<f64>) -> Result<Vec<Vec<f64>>, String> {
     let nv = w.nv();
     let width = columns.map_or(nv, |c| c.clamp(0.0, nv as f64) as usize);
@@ -240,7 +240,7 @@ fn matrix(heap: &mut Heap, rows: &[Vec<f64>]) -> Result<Value, String> {
     rows.and_then(|rows| heap.list(rows)).map_err(|_| full())
 }
 
-/// Roots of the eigenvalues of J Jᵀ, largest first, by cyclic rotations (Jacobi 1846; Golub and Van Loan, "Matrix
+/// The square roots of the eigenvalues of J Jᵀ, largest first, by cyclic rotations (Jacobi 1846; Golub and Van Loan, "Matrix
 /// Computations", section 8.5).
 fn singular_values(j: &[Vec<f64>]) -> Vec<f64> {
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).fold(0.0, |sum, (x, y)| sum + x * y);
@@ -250,8 +250,8 @@ fn singular_values(j: &[Vec<f64>]) -> Vec<f64> {
     values
 }
 
-/// The eigenvalues of a symmetric matrix, in no order, by rotations (C. G. J. Jacobi 1846) until the squares beside the diagonal
-/// add up to less than `small`.
+/// The eigenvalues of a symmetric matrix, unordered, by rotations (C. G. J. Jacobi 1846) until the sum of the squares above the
+/// diagonal is less than `small`.
 pub(super) fn eigenvalues(mut a: Vec<Vec<f64>>, small: f64) -> Vec<f64> {
     let n = a.len();
     for _sweep in 0..100 {
@@ -269,7 +269,7 @@ pub(super) fn eigenvalues(mut a: Vec<Vec<f64>>, small: f64) -> Vec<f64> {
     (0..n).map(|i| a[i][i]).collect()
 }
 
-/// Makes the element (p, q) of a symmetric matrix zero.
+/// Zeroes the element (p, q) of a symmetric matrix by a rotation.
 fn rotate(a: &mut [Vec<f64>], p: usize, q: usize) {
     if a[p][q].abs() < 1e-300 {
         return;

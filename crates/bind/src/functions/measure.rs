@@ -1,4 +1,4 @@
-//! Functions of the measures of `verify`: over the samples of a run, and on the contacts of one sample.
+//! Functions for the measures of `verify`: over the samples of a run, and on the contacts of one sample.
 
 use super::access::EngineAccess;
 use super::lib::eigenvalues;
@@ -8,7 +8,7 @@ use labspec_core::{self as core, Obj};
 use labspec_expr::{Heap, Type, Value};
 use labspec_finding::order;
 
-/// What `mixed` gives.
+/// The members of the result of `mixed`.
 const CONTACT: &[(&str, Type)] = &[
     ("dim", Type::Number),
     ("friction", Type::List),
@@ -22,7 +22,7 @@ const CONTACT: &[(&str, Type)] = &[
     ("force", Type::List),
 ];
 
-/// The deepest contact of two geoms.
+/// The parameters of the deepest contact between two geoms.
 fn mixed(w: &mut EngineAccess<'_>, heap: &mut Heap, args: &[Value]) -> Result<Value, String> {
     let (a, b) = (index(args)?, args.get(1).map(|v| handle::index_of(v.to_number())));
     let between =
@@ -56,7 +56,7 @@ fn mixed(w: &mut EngineAccess<'_>, heap: &mut Heap, args: &[Value]) -> Result<Va
         .map_err(|_| "the lists of this lab take too much memory".to_owned())
 }
 
-/// A symmetric matrix, from a list of its rows or of its numbers. `None` when it is none.
+/// A symmetric matrix from a list of its rows or of its numbers, or `None` if it is not a symmetric matrix.
 fn symmetric(heap: &Heap, value: &Value) -> Option<Vec<Vec<f64>>> {
     let n = heap.len(value)?;
     let rows: Option<Vec<Vec<f64>>> = (0..n).map(|i| heap.to_numbers(&heap.item(value, i)?)).collect();
@@ -77,7 +77,7 @@ fn symmetric(heap: &Heap, value: &Value) -> Option<Vec<Vec<f64>>> {
     good.then_some(rows)
 }
 
-/// A function over all samples of a run; what it makes of them is for whoever has the run.
+/// A function over all samples of a run; the owner of the run computes the result.
 const OVER_RUN: Function =
     Function { args: &[Arg::Lazy], place: FunctionPlace::Measures, aggregate: true, ..ROW };
 

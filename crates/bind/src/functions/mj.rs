@@ -1,4 +1,4 @@
-//! The functions of `mj`: MuJoCo's own, over the model and the data of the lab.
+//! The functions of `mj`: functions of MuJoCo on the model and the data of the lab.
 
 use super::{Arg, Function, NOTHING, ROW, Touches, done, number};
 use labspec_core::Obj;
@@ -259,12 +259,12 @@ pub(super) const ROWS: &[Function] = &[
     },
 ];
 
-/// A list of numbers among the arguments.
+/// An argument that is a list of numbers.
 fn numbers(heap: &Heap, args: &[Value], i: usize) -> Result<Vec<f64>, String> {
     args.get(i).and_then(|v| heap.to_numbers(v)).ok_or_else(|| "a list of numbers is missing".into())
 }
 
-/// Writes a result into the list of the first argument.
+/// Writes a result into the list that is the first argument.
 fn written(heap: &mut Heap, args: &[Value], result: &[f64], otherwise: &str) -> Result<Value, String> {
     if args.first().is_some_and(|list| heap.overwrite(list, result)) {
         NOTHING
@@ -273,7 +273,7 @@ fn written(heap: &mut Heap, args: &[Value], result: &[f64], otherwise: &str) -> 
     }
 }
 
-/// The kind of object of a number of `mjtObj`.
+/// The kind of object for a number of `mjtObj`.
 fn kind(number: f64) -> Option<Obj> {
     let kinds = crate::handle::KINDS.iter().map(|(kind, _)| *kind).chain([Obj::XBody]);
     kinds.into_iter().find(|kind| f64::from(*kind as i32) == number)

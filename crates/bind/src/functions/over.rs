@@ -1,4 +1,4 @@
-//! Functions of what `verify` claims of several runs: over the numbers that a measure has in the members of a sweep.
+//! Functions for claims of `verify` about several runs: they combine the values of a measure in the members of a sweep.
 
 use super::access::EngineAccess;
 use super::{Arg, Function, FunctionPlace, ROW, Unit};
@@ -70,16 +70,16 @@ pub(super) const ROWS: &[Function] = &[
     },
 ];
 
-/// Laws that logarithms make straight: whether that of x is taken, and that of y.
+/// Laws that become linear in logarithms: whether the logarithm of x is used, and that of y.
 const LAWS: [(&str, bool, bool); 3] =
     [("power", true, true), ("exponential", false, true), ("logarithm", true, false)];
 
-/// The natural logarithm of a number above zero.
+/// The natural logarithm of a positive number, NaN for others.
 fn ln(x: f64) -> f64 {
     if x > 0.0 { x.ln() } else { f64::NAN }
 }
 
-/// What an argument lists, and where that begins among the numbers of the sweeps.
+/// The numbers in the argument, and the index of the first one among the numbers of the sweeps.
 fn numbers(
     w: &EngineAccess<'_>,
     heap: &Heap,
@@ -98,7 +98,7 @@ fn numbers(
     }
 }
 
-/// The numbers of a measure, and the values that they belong to, which stand just before them.
+/// The values of a measure, and the values of x to which they belong, which are stored directly before them.
 fn pairs(
     w: &EngineAccess<'_>,
     heap: &Heap,
@@ -123,12 +123,12 @@ fn pairs(
 
 fn fold(w: &EngineAccess<'_>, heap: &Heap, args: &[Value], of: fn(f64, f64) -> f64) -> Result<Value, String> {
     let (list, _) = numbers(w, heap, args.first())?;
-    // What is no number in one member is no number of all.
+    // If the value of one member is NaN, the result is NaN.
     let all = list.iter().copied().reduce(|a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { of(a, b) });
     Ok(Value::Number(all.unwrap_or(f64::NAN)))
 }
 
-/// Slope of the straight line through points that is nearest to them (least squares).
+/// The slope of the least-squares line through the points.
 fn slope(x: &[f64], y: &[f64]) -> f64 {
     let n = x.len() as f64;
     let [mx, my] = [x, y].map(|list| list.iter().sum::<f64>() / n);

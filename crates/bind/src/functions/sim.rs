@@ -1,4 +1,4 @@
-//! The functions of `sim`: the simulation as the page sees it. Playing and pausing mean nothing without a page.
+//! The functions of `sim`: the simulation as seen by the page. Playing and pausing have no effect without a page.
 
 use super::lib::{ENERGIES, energy};
 use super::{Function, ROW, Touches, Unit, done};

@@ -1,4 +1,4 @@
-//! `labspec init`: a folder for lessons, with one that is true.
+//! `labspec init`: a folder for lessons, with a first lesson whose claims are true.
 
 use super::common::{Failure, Outcome};
 use super::output::write_file;
@@ -15,7 +15,7 @@ pub(super) struct Arguments {
     folder: PathBuf,
 }
 
-/// What is written: under which name, and the text.
+/// The names and contents of the files that are written.
 const FILES: [(&str, &str); 4] = [
     ("labspec.toml", include_str!("labspec.toml")),
     ("lessons/01-fall.md", include_str!("lesson.md")),
@@ -26,7 +26,7 @@ const FILES: [(&str, &str); 4] = [
 pub(super) fn init(a: &Arguments) -> Result<Outcome, Failure> {
     let places: Vec<(PathBuf, &str)> =
         FILES.iter().map(|(name, text)| (a.folder.join(name), *text)).collect();
-    // Nothing is written where something is there already.
+    // Nothing is written if one of the files already exists.
     if let Some((path, _)) = places.iter().find(|(path, _)| path.symlink_metadata().is_ok()) {
         return Err(format!(
             "{} already exists, so nothing was written; name an empty folder: labspec init FOLDER",

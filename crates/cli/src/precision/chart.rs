@@ -1,4 +1,4 @@
-//! The picture of a comparison: cost against error.
+//! The chart of a comparison: cost against error.
 
 use super::table::named;
 use labspec::run::INTEGRATORS;
@@ -6,12 +6,12 @@ use labspec::verify::significant;
 use labspec_numerics::precision::{Errors, Report, Row, RunStatus, milliseconds};
 use labspec_plot::{Method, MethodPoint, WorkPrecision, work_precision};
 
-/// Log-log chart of the first trace: error across, cost upwards, one curve per integrator.
+/// A log-log chart of the first trace: error on the horizontal axis, cost on the vertical axis, one curve per integrator.
 pub(super) fn chart(report: &Report, title: &str) -> String {
-    // The first whose truth is known.
+    // The first number whose truth is known.
     let first = report.targets.iter().position(|t| t.is_compared());
     let target = first.and_then(|i| report.targets.get(i));
-    // What is as exact as the reference stands where that is off.
+    // An error below the uncertainty of the reference is drawn at that uncertainty.
     let doubt = target.map_or(0.0, |t| t.uncertain);
     let of = |errors: &[Errors]| first.and_then(|i| errors.get(i)).copied();
     let point = |errors: &[Errors], cost: f64| {
@@ -19,7 +19,7 @@ pub(super) fn chart(report: &Report, title: &str) -> String {
         let error = if e.below { e.largest.max(doubt) } else { e.largest };
         Some(MethodPoint { cost, error, at_most: e.below, ..MethodPoint::default() })
     };
-    // What is not compared has no place; what broke has one.
+    // A run that is not compared is not drawn; a run that failed is.
     let mine = |row: &Row| {
         let note = format!("{} ms", milliseconds(row.setting.timestep));
         let spread = Some([row.cost.low, row.cost.high]);

@@ -1,4 +1,4 @@
-//! A comparison for programs: CSV and JSON.
+//! The output of a comparison for programs: CSV and JSON.
 
 use super::super::report_json::with_nonfinite;
 use labspec::report::key;
@@ -9,7 +9,7 @@ use serde::Serialize;
 use serde_json::{Map, Value};
 use std::io;
 
-/// A line for each setting and number.
+/// Writes a line for each setting and number.
 pub(super) fn csv(report: &Report, out: &mut dyn io::Write) -> io::Result<()> {
     writeln!(
         out,
@@ -38,7 +38,8 @@ pub(super) fn csv(report: &Report, out: &mut dyn io::Write) -> io::Result<()> {
     Ok(())
 }
 
-/// A comparison. Lengths and times in s, errors in the unit of their trace, energy in J, momentum in kg m/s and kg m²/s, depths in m.
+/// A comparison. Lengths and times are in s, errors in the unit of their trace, energy in J, momentum in kg m/s
+/// and kg m²/s, depths in m.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 struct PrecisionReport<'a> {
@@ -64,7 +65,7 @@ struct PrecisionReport<'a> {
     nearby: Option<Nearby>,
 }
 
-/// A setting; of each trace its errors. `work` is in the engine's units.
+/// A setting with the errors of each trace. `work` is in units of the engine.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 struct RunRow<'a> {
@@ -121,7 +122,7 @@ struct BesideRunRow<'a> {
 
 pub(super) fn machine(report: &Report) -> Map<String, Value> {
     let targets = || report.targets.iter();
-    // A closed form is not off: there is no number for it, not one that was lost.
+    // A closed form has no uncertainty: its entry is missing, not lost.
     let of = |f: fn(&Compared) -> Option<f64>| targets().map(f).collect::<Vec<_>>();
     let uncertainty = of(|t| (!t.closed).then_some(t.uncertain));
     let (unseen, until) = (of(|t| Some(t.unseen)), of(|t| t.until));

@@ -112,7 +112,7 @@ pub(super) fn precision(a: &Arguments) -> Result<Outcome, Failure> {
     Ok(if report.reference.is_none() || lost(&report) { Outcome::Findings } else { Outcome::Clean })
 }
 
-/// Whether the lab as it stands is no good, or the truth is not known to its end.
+/// Whether the run with the lab's own setting failed, or the truth is not known to its end.
 fn lost(report: &Report) -> bool {
     report.rows.iter().any(|r| r.is_own && r.status != RunStatus::Good)
         || report.targets.iter().any(|t| t.until.is_some())
@@ -128,7 +128,7 @@ impl Vary {
     }
 }
 
-/// Bytes of a recording, at most.
+/// The maximum size of a recording in bytes.
 const MOST: u64 = 256 << 20;
 
 fn recording(path: &Path) -> Result<Recording, Failure> {
@@ -201,7 +201,7 @@ fn human(report: &Report) -> String {
     text
 }
 
-/// When runs are compared.
+/// The times at which runs are compared.
 fn compared_at(report: &Report) -> String {
     let apart = report.length / report.samples as f64;
     let shortest = report.rows.iter().map(|r| r.setting.timestep).fold(f64::INFINITY, f64::min);
@@ -211,7 +211,7 @@ fn compared_at(report: &Report) -> String {
     }
 }
 
-/// What became of each run.
+/// Writes the outcome of each run.
 fn fates(report: &Report, text: &mut String) {
     for row in &report.rows {
         let reason = row.reported.first().map_or(String::new(), |t| format!(": {}", printable(t)));

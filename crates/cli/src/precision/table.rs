@@ -12,16 +12,17 @@ pub(super) fn setting(row: &Row) -> String {
     format!("{}{solver}{mark}", row.setting.integrator.name)
 }
 
-/// A column of the table: what it is, and a cell for each row.
+/// A column of the table: its meaning, and a cell for each row.
 struct Column {
     legend: String,
     cells: Vec<String>,
 }
 
-/// Columns that stand beside each other.
+/// The maximum number of columns next to each other.
 const ABREAST: usize = 5;
 
-/// The largest errors of all that is compared, a column each; what is best in both is marked.
+/// Writes the largest errors of all compared quantities, with one column each, and marks the settings that
+/// are best in cost and error.
 pub(super) fn table(report: &Report, text: &mut String) {
     let columns = columns(report);
     for (k, column) in columns.iter().enumerate() {
@@ -102,14 +103,14 @@ fn columns(report: &Report) -> Vec<Column> {
     list
 }
 
-/// What rounding leaves of a number in a run of many steps.
+/// The relative rounding error of a number after a run of many steps.
 const ROUNDING: f64 = 1e-13;
 
 fn cell(x: f64) -> String {
     if x.is_finite() { format!("{x:.1e}") } else { "–".into() }
 }
 
-/// An error that is known down to its doubt.
+/// An error, or the doubt about the truth if that is larger.
 fn at_most(error: f64, doubt: f64) -> String {
     if error <= doubt { format!("≤{doubt:.0e}") } else { cell(error) }
 }
@@ -119,7 +120,7 @@ fn error(e: &Errors, target: &Compared) -> String {
     if e.below { format!("≤{:.0e}", target.uncertain.max(e.largest)) } else { cell(e.largest) }
 }
 
-/// A number to the digits that are certain, and one more.
+/// A number with its certain digits and one more.
 fn with_doubt(x: f64, doubt: f64) -> String {
     if !(doubt > 0.0 && doubt.is_finite()) {
         return significant(x);
@@ -128,7 +129,7 @@ fn with_doubt(x: f64, doubt: f64) -> String {
     format!("{x:.decimals$}")
 }
 
-/// What is compared, with its unit.
+/// The label of a compared number, with its unit.
 pub(super) fn named(target: &Compared) -> String {
     let label = printable(&target.label).to_string();
     match &target.unit {
@@ -137,7 +138,7 @@ pub(super) fn named(target: &Compared) -> String {
     }
 }
 
-/// What a column of errors is held against, and what it takes to be seen.
+/// The truth with which a column of errors was computed, and the smallest visible error.
 fn about(target: &Compared) -> String {
     let unit = target.unit.as_ref().map_or(String::new(), |u| format!(" {}", printable(u)));
     let of = if unit.is_empty() { String::new() } else { format!(" in{unit}") };
@@ -156,7 +157,7 @@ fn about(target: &Compared) -> String {
     )
 }
 
-/// Another program's runs: the same columns of errors, its own times.
+/// Writes the runs of another program: the same columns of errors, and the times that it measured.
 pub(super) fn others(report: &Report, beside: &Beside, text: &mut String) {
     let _ = writeln!(text, "\nBeside: {}, largest errors against the same truth", printable(&beside.engine));
     let columns = || report.targets.iter().enumerate().filter(|(_, t)| !t.blank).take(ABREAST);

@@ -1,4 +1,4 @@
-//! What `labspec stability` prints for programs.
+//! The output of `labspec stability` for programs.
 
 use super::super::report_json::{NonFinite, nonfinite, with_nonfinite};
 use super::left_out;
@@ -11,7 +11,7 @@ use labspec_numerics::stability::{
 use serde::Serialize;
 use serde_json::{Map, Value};
 
-/// What was tried and found, for programs. Times in s.
+/// The performed runs and the results. Times are in s.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Report<'a> {
@@ -48,7 +48,7 @@ struct RunRow<'a> {
     wrong: Vec<String>,
 }
 
-/// What a student does: a control changed, or a button pressed.
+/// An action of a student: a control changed, or a button pressed.
 #[derive(Serialize)]
 struct ActionRow<'a> {
     control: &'a str,
@@ -86,7 +86,7 @@ struct FindingRow<'a> {
     worst: Option<FaultRow<'a>>,
 }
 
-/// What helps; its cost in times of that of the lab as it stands, its error as a share of a range.
+/// A remedy: its cost relative to that of the unchanged lab, and its error as a share of a range.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 struct RemedyRow<'a> {
@@ -96,7 +96,7 @@ struct RemedyRow<'a> {
     error: Option<f64>,
 }
 
-/// How far something may be raised, in its unit.
+/// How far a parameter can be raised, in its unit.
 #[derive(Serialize)]
 struct MarginRow<'a> {
     knob: String,
@@ -132,7 +132,7 @@ struct PartingRow {
     high: f64,
 }
 
-/// Lyapunov exponents, 1/s.
+/// Lyapunov exponents in 1/s.
 #[derive(Serialize)]
 struct ExponentRow {
     mean: f64,
@@ -273,7 +273,7 @@ fn control_value(value: &labspec_expr::Value) -> Value {
     }
 }
 
-/// What a student does: a list of changes, each with its time.
+/// The actions of a student in an interaction, each with its time.
 fn actions<'a>(interaction: &Interaction, programs: &'a Programs) -> Vec<ActionRow<'a>> {
     let row = |a: &Action| ActionRow {
         control: programs.controls.get(a.control).map_or("", |(label, _)| label.as_str()),

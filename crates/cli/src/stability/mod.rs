@@ -78,7 +78,8 @@ pub(super) fn stability(a: &Arguments) -> Result<Outcome, Failure> {
     Ok(if report.fine() { Outcome::Clean } else { Outcome::Findings })
 }
 
-/// `CONTROL1,CONTROL2`. Both labels may hold commas: it is split where the label of a control ends, else at the last one.
+/// Parses `CONTROL1,CONTROL2`. Labels may contain commas: the text is split after the label of a control,
+/// otherwise at the last comma.
 fn two_labels(lab: &Lab, text: &str) -> Result<[String; 2], Failure> {
     let splits = || text.match_indices(',').map(|(i, _)| [text[..i].trim(), text[i + 1..].trim()]);
     let at_labels = splits().find(|two| two.iter().all(|label| lab.control(label).is_some()));
@@ -157,7 +158,7 @@ fn finding(found: &StabilityFinding, programs: &Programs, text: &mut String) {
     }
 }
 
-/// How far everything may be raised.
+/// Writes how far each parameter can be raised.
 fn margins(report: &StressReport, text: &mut String) {
     let list = &report.margins;
     if list.is_empty() {
@@ -208,7 +209,7 @@ fn margin(m: &Margin) -> [String; 6] {
     ]
 }
 
-/// How much the lab depends on its start.
+/// Writes how strongly the lab depends on its initial state.
 fn sensitivity(s: &Sensitivity, text: &mut String) {
     if let Some(p) = &s.parting {
         let most = 1.0 / s.apart;
@@ -248,7 +249,7 @@ fn sensitivity(s: &Sensitivity, text: &mut String) {
     }
 }
 
-/// The map in letters: a row for each value of the second control, the largest first.
+/// Writes the map in letters: a row for each value of the second control, the largest value first.
 fn letters(map: &StabilityMap, text: &mut String) {
     let [x, y] = map.labels.each_ref().map(|l| printable(l).into_owned());
     let _ = writeln!(text, "\n\"{y}\" upwards, \"{x}\" to the right:");
@@ -277,7 +278,7 @@ fn letters(map: &StabilityMap, text: &mut String) {
     let _ = writeln!(text, "  {}", legend.join(", "));
 }
 
-/// What goes wrong anywhere in a map, the worst first.
+/// The kinds of faults in a map, the worst first.
 fn kinds(map: &StabilityMap) -> Vec<FaultKind> {
     let broken = |c: &MapCell| match c {
         MapCell::Broken(kind) => Some(*kind),
@@ -289,7 +290,7 @@ fn kinds(map: &StabilityMap) -> Vec<FaultKind> {
     list
 }
 
-/// The place of a cell's kind behind what is fine.
+/// The index of a cell's kind; index 0 means no fault.
 fn index(kinds: &[FaultKind], cell: MapCell) -> Option<usize> {
     match cell {
         MapCell::Fine => Some(0),
@@ -315,7 +316,7 @@ fn chart(map: &StabilityMap, title: &str) -> String {
     })
 }
 
-/// Everything that was not tried, or not to its end.
+/// Everything that was not tried, or not completely.
 fn left_out(report: &StressReport) -> Vec<String> {
     let mut list = Vec::new();
     for t in &report.tried {

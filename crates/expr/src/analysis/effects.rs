@@ -1,4 +1,4 @@
-//! What a text touches, read off its form.
+//! Which fields, variables and functions a program reads, writes and calls, derived from its SSA form.
 
 use crate::effects::{Access, Effects};
 use crate::ir::UnitId;
@@ -6,13 +6,13 @@ use crate::schema::Schema;
 use crate::ssa::{Args, Op, SsaFunction, SsaProgram, Terminator, Val};
 use crate::value::{Value, View};
 
-/// The effects of a text: of everything that it may come to, in the order in which it comes there first.
+/// Returns the effects of a program, including all functions that it may call, in the order of their first occurrence.
 pub(crate) fn effects(form: &SsaProgram, schema: &dyn Schema) -> Effects {
     let mut look =
         EffectWalk { form, schema, effects: Effects::default(), seen: vec![false; form.units.len()] };
     look.unit(0);
     let mut effects = look.effects;
-    // Arrays that became values may be read, and stored to when anything is stored through a value.
+    // Arrays used as values may be read. They may also be written if the program stores through any value.
     for exposed in &form.views {
         effects.read(whole(exposed.view));
         if effects.stores_items && exposed.assignable {
@@ -27,7 +27,7 @@ pub(super) fn whole(view: View) -> Access {
     Access { field: view.field, first: view.first as usize, count: view.count() }
 }
 
-/// One element of a view, where its index is known, or else all.
+/// One element of a view if its index is known, otherwise all elements.
 pub(super) fn element(view: View, index: Option<f64>) -> Access {
     match index {
         Some(i) if i >= 0.0 && i.fract() == 0.0 => Access {
@@ -39,7 +39,7 @@ pub(super) fn element(view: View, index: Option<f64>) -> Access {
     }
 }
 
-/// The elements that an operation stores by itself.
+/// The elements that an operation stores directly.
 pub(super) fn written(op: &Op, unit: &SsaFunction) -> Option<Access> {
     match *op {
         Op::Store(field, at, _) => Some(Access { field, first: at as usize, count: Some(1) }),
@@ -49,7 +49,7 @@ pub(super) fn written(op: &Op, unit: &SsaFunction) -> Option<Access> {
     }
 }
 
-/// Whether an operation may store elements of a value.
+/// Whether an operation may store elements through a value.
 pub(super) fn stores_items(op: &Op) -> bool {
     match op {
         Op::StoreItem(_, _, _, record) | Op::StoreMember(_, _, _, record) => !record,
@@ -62,7 +62,7 @@ struct EffectWalk<'f> {
     form: &'f SsaProgram,
     schema: &'f dyn Schema,
     effects: Effects,
-    /// Functions that were looked at.
+    /// Functions already visited.
     seen: Vec<bool>,
 }
 
@@ -73,7 +73,7 @@ impl EffectWalk<'_> {
             return;
         }
         unit.ops.iter().for_each(|op| self.op(op, unit));
-        // A loop may be stopped.
+        // A loop may be stopped by the iteration limit, which is an error.
         self.effects.can_throw |= unit.blocks.iter().any(|b| matches!(b.end, Terminator::Again(_)));
     }
 
@@ -114,7 +114,7 @@ impl EffectWalk<'_> {
     }
 }
 
-/// The array that a method is called on, where it is a known one.
+/// The array on which a method is called, if it is known statically.
 pub(super) fn receiver(op: &Op, unit: &SsaFunction) -> Option<View> {
     let of = |args: &Args| args.operands(&unit.args).first().copied();
     let name = match op {

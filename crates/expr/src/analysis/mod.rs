@@ -1,4 +1,4 @@
-//! What is known of a program before it runs: what it touches, in which order, and what its numbers measure.
+//! Static analyses of a program: its effects, the order of its writes and calls, and the dimensions of its numbers.
 
 mod effects;
 pub(crate) mod measure;

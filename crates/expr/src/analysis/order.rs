@@ -1,6 +1,6 @@
-//! In which order a text writes and calls, read off its form: what lints need to tell a call that comes too early. What
-//! some way through a function passes by may not happen; a call of a function that is known only while running may
-//! call anything.
+//! The order in which a program writes and calls, derived from its SSA form. Lints use it to find calls that come too
+//! early. An operation that some path through a function bypasses is uncertain. A call of a function that is known only at
+//! run time may call any function.
 
 use super::effects::{receiver, stores_items, whole, written};
 use crate::effects::{Access, Effects};
@@ -9,24 +9,24 @@ use crate::ssa::{Op, SsaFunction, SsaProgram, Terminator};
 use crate::types::FunctionId;
 use crate::value::View;
 
-/// Something that a program does.
+/// A write or a call of a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum OrderedEvent {
-    /// It stores elements itself, rather than through a function of the host.
+    /// The program stores elements itself, not through a function of the host.
     Write(Access),
     /// It calls a function of the host.
     Call(FunctionId),
-    /// It calls something that is known only while running.
+    /// It calls a function that is known only at run time.
     Anything,
 }
 
-/// What a program does, in order; `true` beside what every run does that does not end early.
+/// The events of a program in order. The flag is `true` if every run that does not end early performs the event.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct WriteOrder {
     events: Vec<(OrderedEvent, bool)>,
 }
 
-/// Operations that are looked at: a function of the text that is called twice counts twice.
+/// Limit on the operations visited. A function of the program that is called twice counts twice.
 const MOST_PARTS: usize = 20_000;
 
 impl WriteOrder {
@@ -38,14 +38,15 @@ impl WriteOrder {
         let mut walk = OrderWalk { form, events: Vec::new(), within: Vec::new(), parts: 0 };
         walk.unit(0, true);
         if walk.parts > MOST_PARTS {
-            // Not seen to the end: nothing is certain of the order.
+            // The walk was cut off: nothing about the order is certain.
             walk.events.iter_mut().for_each(|(_, certain)| *certain = false);
             walk.events.push((OrderedEvent::Anything, false));
         }
         WriteOrder { events: walk.events }
     }
 
-    /// What every run stores after the last call of `function` that it may make; `None` when it makes none.
+    /// The elements that every run stores after the last possible call of `function`, or `None` if the program never calls
+    /// it.
     pub(crate) fn writes_after(&self, function: FunctionId) -> Option<Vec<Access>> {
         self.events.iter().position(|(e, _)| *e == OrderedEvent::Call(function))?;
         let may_call = |e: &OrderedEvent| *e == OrderedEvent::Call(function) || *e == OrderedEvent::Anything;
@@ -53,7 +54,7 @@ impl WriteOrder {
         Some(self.events.get(last..)?.iter().filter(|(_, certain)| *certain).filter_map(store).collect())
     }
 
-    /// What the text may store itself, calls of the host's functions left aside.
+    /// The elements that the program may store itself, without those stored by functions of the host.
     pub(crate) fn own_writes(&self) -> Vec<Access> {
         let mut all: Vec<Access> = Vec::new();
         for access in self.events.iter().filter_map(store) {
@@ -72,7 +73,7 @@ fn store((event, _): &(OrderedEvent, bool)) -> Option<Access> {
 struct OrderWalk<'f> {
     form: &'f SsaProgram,
     events: Vec<(OrderedEvent, bool)>,
-    /// Functions around: one that calls itself is looked at once.
+    /// The functions being visited. A recursive function is visited once.
     within: Vec<UnitId>,
     parts: usize,
 }
@@ -105,13 +106,13 @@ impl OrderWalk<'_> {
             Op::CallHost(_, function, _) => self.events.push((OrderedEvent::Call(function), certain)),
             Op::Invoke(..) | Op::InvokeList(..) => self.events.push((OrderedEvent::Anything, certain)),
             Op::Call(id) => self.unit(id, certain),
-            // It may run whenever somebody calls it, from here on.
+            // From here on, any call may run it.
             Op::Closure(_, id, _) => self.unit(id, false),
             _ => {}
         }
     }
 
-    /// A store into an array that is a value: into this one, or into whichever became one.
+    /// A store into an array that is used as a value: into `view`, or, if that is unknown, into any array used as a value.
     fn through_values(&mut self, view: Option<View>) {
         for exposed in self.form.views.iter().filter(|s| s.assignable && view.is_none_or(|v| v == s.view)) {
             self.events.push((OrderedEvent::Write(whole(exposed.view)), false));
@@ -119,8 +120,8 @@ impl OrderWalk<'_> {
     }
 }
 
-/// Which blocks every way from start to end passes. Blocks stand in the order of the text: what no way from before leads
-/// past is passed by all.
+/// Which blocks lie on every path from start to end. Blocks are in source order, so a block lies on every path if no jump
+/// from an earlier block leads past it.
 fn passed(unit: &SsaFunction) -> Vec<bool> {
     let end = unit.blocks.len();
     let (mut reached, mut furthest) = (vec![false; end + 1], 0);
@@ -173,7 +174,7 @@ mod tests {
             ("mj_setConst; const m = model.body_mass; m[1] = 2", Some(&[1])),
             ("const heavy = (x) => { model.body_mass[1] = x }; mj_setConst(); heavy(2)", Some(&[1])),
             ("const late = () => mj_setConst(); model.body_mass[1] = 2; late()", Some(&[])),
-            // Nothing is certain of these.
+            // In these programs, no write after the call is certain.
             ("mj_setConst; if (data.time > 0) { model.body_mass[1] = 2 }", Some(&[])),
             ("mj_setConst; data.time > 0 && (model.body_mass[1] = 2)", Some(&[])),
             ("mj_setConst; for (let i = 0; i < 2; i++) model.body_mass[i] = 2", Some(&[])),

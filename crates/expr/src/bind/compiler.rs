@@ -1,4 +1,4 @@
-//! The compiler of the texts of one lab: the passes in order.
+//! The compiler for the programs of one lab: it runs the passes in order.
 
 use super::lints;
 use super::names::{self, Surroundings};
@@ -14,7 +14,7 @@ use labspec_finding::order;
 
 use labspec_finding::{Finding, Fix, Span};
 
-/// Compiles the texts of one lab.
+/// Compiles the source texts of one lab.
 pub struct Compiler<'s> {
     schema: &'s dyn Schema,
     globals: &'s mut Globals,
@@ -26,28 +26,28 @@ pub struct Compiler<'s> {
 /// The result of compiling one text.
 #[derive(Clone, Debug)]
 pub struct Compiled {
-    /// Which text this was for the [`Globals`].
+    /// The id of this program in [`Globals`].
     pub id: ProgramId,
-    /// The program; `None` when there are errors.
+    /// The program, or `None` if there are errors.
     pub program: Option<Program>,
     /// Findings in source order.
     pub diagnostics: Vec<Finding>,
-    /// What the parts of the text are, for a person who points at them, if wanted.
+    /// Help for the parts of the source text, for a user who points at them; empty unless requested.
     pub help: Vec<(Span, Help)>,
-    /// Bare indexes that could be written by the name of their object: `data.qpos[9]` as
-    /// `data.joint("light_free").qpos[2]`, if wanted. Both mean the same element of the model at hand.
+    /// Replacements of numeric indexes by object names: `data.qpos[9]` becomes `data.joint("light_free").qpos[2]`. Both
+    /// denote the same element of the current model. Empty unless requested.
     pub named: Vec<Fix>,
 }
 
 impl Compiled {
-    /// The source with every bare index that belongs to a named object written by its name.
+    /// Returns the source with every numeric index that belongs to a named object replaced by the name.
     pub fn modernized(&self, source: &str) -> String {
         let mut out = String::new();
         let mut at = 0;
         let mut fixes: Vec<&Fix> = self.named.iter().collect();
         order::sort_by_key(&mut fixes, |f| (f.span.start, f.span.end));
         for fix in fixes {
-            // An index inside an index stays.
+            // An index inside a replaced index is skipped.
             if let Some(before) = source.get(at..fix.span.start) {
                 out.push_str(before);
                 out.push_str(&fix.text);
@@ -59,42 +59,45 @@ impl Compiled {
 }
 
 impl<'s> Compiler<'s> {
-    /// A compiler for texts that name things of `schema` and share the variables `globals`.
+    /// A compiler for source texts that refer to names of `schema` and share the variables `globals`.
     pub fn new(schema: &'s dyn Schema, globals: &'s mut Globals) -> Compiler<'s> {
         Compiler { schema, globals, value: None, explains: false, tells: false }
     }
 
-    /// A compiler for texts of a control, which gives a `value` of this type; `None` where no control gives one.
+    /// A compiler for programs of a control with a `value` of this type, or `None` where no control supplies a value.
     pub fn with_value(self, value: Option<Type>) -> Compiler<'s> {
         Compiler { value, ..self }
     }
 
-    /// A compiler that also makes [`Compiled::help`] and [`Compiled::named`], which take longer than the program itself.
+    /// A compiler that also computes [`Compiled::help`] and [`Compiled::named`]. These take longer than the compilation
+    /// itself.
     pub fn explaining(self) -> Compiler<'s> {
         Compiler { explains: true, ..self }
     }
 
-    /// A compiler for a host that tells of typographic quotes itself: there is no program where they stand, and no finding.
+    /// A compiler for a host that reports typographic quotes itself: a text with such quotes gives no program and no
+    /// finding.
     pub fn without_quotes(self) -> Compiler<'s> {
         Compiler { tells: true, ..self }
     }
 
-    /// An expression: a trace, a readout, a condition. It reads and changes nothing, unless a function does.
+    /// Compiles an expression, such as a trace, a readout or a condition. It reads, and changes nothing unless it calls a
+    /// function that does.
     pub fn expression(&mut self, source: &str) -> Compiled {
         let Parsed { tree, diagnostics, quotes_left_to_host } =
             parse::expression(source, self.schema.host_terms(), self.tells);
         self.compile(source, diagnostics, quotes_left_to_host, SourceTree::Expression(&tree))
     }
 
-    /// Statements: `setup`, `controller`, `apply`, `run`.
+    /// Compiles statements: `setup`, `controller`, `apply`, `run`.
     pub fn statements(&mut self, source: &str) -> Compiled {
         let Parsed { tree, diagnostics, quotes_left_to_host } =
             parse::statements(source, self.schema.host_terms(), self.tells);
         self.compile(source, diagnostics, quotes_left_to_host, SourceTree::Statements(&tree))
     }
 
-    /// The target of a control (`set`): the program stores `value` there. Without a known type of `value` it
-    /// may be anything.
+    /// Compiles the target of a control (`set`): the program stores `value` there. If the type of `value` is unknown, it
+    /// may be any type.
     pub fn assignment(&mut self, target: &str) -> Compiled {
         let Parsed { tree, diagnostics, quotes_left_to_host } =
             parse::expression(target, self.schema.host_terms(), self.tells);
@@ -139,7 +142,7 @@ impl<'s> Compiler<'s> {
         let bound = types::bind(&mut context, source, tree, &names, id);
         found.extend(lints::lint(self.schema, source, tree, &bound.typed));
         found.extend(bound.found);
-        // Nothing is left out of a program without a word.
+        // An unresolved name without an error would silently remove code from the program.
         if let Some(span) = bound.unresolved.filter(|_| !found.iter().any(Finding::is_error)) {
             let name = source.get(span.start..span.end).unwrap_or("");
             found.push(Finding::error(rules::UNKNOWN_NAME, span, format!("`{name}` has no value here")));

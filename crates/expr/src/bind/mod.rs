@@ -1,6 +1,6 @@
-//! Tree to meaning, in three passes. `names` finds what every name means. `types` finds which type everything has, and makes the
-//! typed tree. `lints` looks at what they found for what is allowed, but hardly ever meant. Each pass takes what the ones before it
-//! found as given; mistakes are reported where they are found, once.
+//! From syntax tree to typed program, in three passes. `names` resolves every name. `types` infers every type and builds
+//! the typed tree. `lints` uses both results to report code that is allowed but rarely intended. Each pass relies on the
+//! results of the earlier ones. A mistake is reported once, by the pass that finds it.
 
 mod compiler;
 mod lints;

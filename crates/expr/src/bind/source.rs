@@ -1,11 +1,11 @@
-//! A text that is read, its kind, and how deep it may be nested.
+//! A parsed source text, its kind, and the limit on its nesting.
 
 use crate::ast::{Expr, Stmt};
 use crate::rules;
 use labspec_finding::{Finding, Span};
 
-/// How deep expressions, statements and functions that name each other may stand inside one another: every pass walks them by
-/// recursion. Small functions keep its frames small: whatever builds a message is a function of its own, and not inlined.
+/// Limit on the nesting of expressions, statements and functions that name each other, because every pass visits them
+/// recursively. Stack frames must stay small: code that builds a message is in a separate function that is not inlined.
 pub(super) const MAX_LEVELS: usize = 200;
 
 /// The finding for a text beyond [`MAX_LEVELS`].
@@ -16,17 +16,17 @@ pub(super) fn too_deep(span: Span) -> Finding {
         .help("split the text, or the functions")
 }
 
-/// A text, read.
+/// A parsed source text.
 #[derive(Clone, Copy)]
 pub(super) enum SourceTree<'t> {
-    /// A value.
+    /// An expression.
     Expression(&'t Expr),
     Statements(&'t [Stmt]),
-    /// What a control sets.
+    /// The target of a control.
     Target(&'t Expr),
 }
 
-/// What kind of text is bound; decides what an assignment in it means.
+/// The kind of a source text, which decides whether and how it may assign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum TextKind {
     Expression,

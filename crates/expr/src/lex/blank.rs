@@ -1,4 +1,4 @@
-//! What stands between tokens: white space and comments.
+//! White space and comments between tokens.
 
 use nom::branch::alt;
 use nom::bytes::complete::{tag, take_until, take_while, take_while1};
@@ -13,9 +13,10 @@ pub(super) fn is_line_end(c: char) -> bool {
     matches!(c, '\n' | '\r' | '\u{2028}' | '\u{2029}')
 }
 
-/// Skips white space and comments: what is behind them, whether a line ends in them, and a comment that is never closed.
+/// Skips white space and comments. Returns the rest, whether a line ends in them, and the start of a
+/// comment that is not closed.
 pub(super) fn blank(input: &str) -> (&str, bool, Option<&str>) {
-    // Most tokens stand directly behind each other.
+    // Most tokens directly follow each other.
     if !input.starts_with(|c| c == '/' || number::is_space(c)) {
         return (input, false, None);
     }
@@ -32,7 +33,7 @@ pub(super) fn blank(input: &str) -> (&str, bool, Option<&str>) {
     (behind, gap.contains(is_line_end), open)
 }
 
-/// One step of a parser.
+/// Applies a nom parser once.
 fn nom_str<'a, P: Parser<&'a str, Error = nom::error::Error<&'a str>>>(
     parser: &mut P,
     input: &'a str,

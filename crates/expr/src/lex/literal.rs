@@ -1,4 +1,4 @@
-//! Literals: numbers, strings, template literals (their texts, and the places of the expressions in them).
+//! Literals: numbers, strings and template literals (their strings, and the positions of the expressions between them).
 
 use nom::branch::alt;
 use nom::bytes::complete::{tag, tag_no_case, take_while, take_while_m_n, take_while1};
@@ -14,8 +14,8 @@ use crate::number::from_digits;
 use crate::rules;
 use labspec_finding::{Finding, Span};
 
-/// What a number means that is followed directly by the letters `tail`. Also a bad number stands for a number, so that what
-/// follows is understood.
+/// The value of a number that is directly followed by the letters `tail`. An invalid number also gives a number token, so
+/// that parsing can continue.
 pub(super) fn number_of(
     text: &str,
     tail: &str,
@@ -27,7 +27,7 @@ pub(super) fn number_of(
     TokenKind::Number(value.unwrap_or(0.0))
 }
 
-/// A number, its separators included.
+/// A number, including separators.
 pub(super) fn number(input: &str) -> IResult<&str, &str> {
     alt((prefixed, decimal)).parse(input)
 }
@@ -64,7 +64,7 @@ fn plain(text: &str) -> Option<f64> {
     }
 }
 
-/// What is wrong with a number of this value that is followed directly by the letters `tail`.
+/// The finding about a number of this value that is directly followed by the letters `tail`.
 fn complaint(text: &str, tail: &str, value: Option<f64>, span: Span) -> Option<Finding> {
     let bad = |message: String| Finding::error(rules::BAD_NUMBER, span, message);
     if tail == "n" {
@@ -98,7 +98,7 @@ fn complaint(text: &str, tail: &str, value: Option<f64>, span: Span) -> Option<F
                 .guess(span, meant),
         );
     }
-    // A separator stands between two digits, one at a time.
+    // A separator must be between two digits.
     let chars: Vec<char> = text.chars().collect();
     let stray = chars.iter().enumerate().any(|(i, c)| {
         let digit = |j: Option<usize>| j.and_then(|j| chars.get(j)).is_some_and(char::is_ascii_hexdigit);
@@ -110,7 +110,7 @@ fn complaint(text: &str, tail: &str, value: Option<f64>, span: Span) -> Option<F
     })
 }
 
-/// A string with this quote, up to its end or the end of its line.
+/// A string with this quote, up to its end or the end of the line.
 pub(super) fn string<'a>(
     quote: char,
 ) -> impl Parser<&'a str, Output = RawToken<'a>, Error = nom::error::Error<&'a str>> {
@@ -121,10 +121,10 @@ pub(super) fn string<'a>(
     })
 }
 
-/// A template literal. One that is never closed, and an expression in it that is not, are failures.
+/// A template literal. If it, or an expression in it, is not closed, the parser fails.
 pub(super) fn template(input: &str) -> IResult<&str, RawToken<'_>> {
     let plain = take_while1(|c| !matches!(c, '`' | '$' | '\\' | '\r'));
-    // JavaScript reads every line end as a line feed.
+    // JavaScript reads every line end in a template as a line feed.
     let line_end = value(LiteralPart::Char('\n'), alt((tag("\r\n"), tag("\r"))));
     let code = preceded(tag("${"), cut(terminated(code, char('}'))));
     let part =
@@ -136,7 +136,7 @@ fn dollar(input: &str) -> IResult<&str, LiteralPart<'_>> {
     map(tag("$"), LiteralPart::Plain).parse(input)
 }
 
-/// A backslash with what follows it.
+/// An escape sequence.
 fn escape(input: &str) -> IResult<&str, LiteralPart<'_>> {
     let letter = map_opt(anychar, |c| {
         Some(match c {
@@ -152,7 +152,7 @@ fn escape(input: &str) -> IResult<&str, LiteralPart<'_>> {
     let zero = value('\0', terminated(char('0'), not(satisfy(|c| c.is_ascii_digit()))));
     let unit = |n| map_opt(take_while_m_n(n, n, |c: char| c.is_ascii_hexdigit()), hex);
     let point = map_opt(take_while1(|c: char| c.is_ascii_hexdigit()), hex);
-    // A code point beyond the basic plane: two halves.
+    // A surrogate pair: a code point beyond the basic multilingual plane.
     let pair = map_opt((unit(4), tag("\\u"), unit(4)), |(high, _, low)| {
         let pair = [u16::try_from(high).ok()?, u16::try_from(low).ok()?];
         char::decode_utf16(pair).next()?.ok().filter(|c| c.len_utf16() == 2)
@@ -178,7 +178,7 @@ fn hex(digits: &str) -> Option<u32> {
     u32::from_str_radix(digits, 16).ok()
 }
 
-/// The code of an expression in a template, up to the `}` that closes it; strings, comments and templates in it are skipped.
+/// The code of an expression in a template, up to the closing `}`. Strings, comments and templates in it are skipped.
 fn code(input: &str) -> IResult<&str, &str> {
     /// A piece of code.
     #[derive(Clone, Copy, PartialEq)]
@@ -187,7 +187,7 @@ fn code(input: &str) -> IResult<&str, &str> {
         Closes,
         Other,
     }
-    /// What the reader stands in.
+    /// The construct that contains the current position.
     #[derive(Clone, Copy, PartialEq)]
     enum Inside {
         Braces,
@@ -229,14 +229,14 @@ fn code(input: &str) -> IResult<&str, &str> {
     Ok((behind, code))
 }
 
-/// Comments, and white space around them.
+/// Comments and surrounding white space.
 fn comment(input: &str) -> IResult<&str, ()> {
     let (at, _) = alt((tag("//"), tag("/*"))).parse(input)?;
     let (behind, ..) = blank(input);
     Ok((if behind.len() < at.len() { behind } else { at }, ()))
 }
 
-/// What the parts of a string or a template stand for, added to a text.
+/// Appends the contents of the parts of a string or a template to a string.
 fn say<'a>(
     parts: &[LiteralPart<'a>],
     source: &str,
@@ -267,7 +267,7 @@ fn say<'a>(
     text
 }
 
-/// What a string means.
+/// The value of a string literal.
 pub(super) fn text_of(
     quote: char,
     parts: &[LiteralPart<'_>],
@@ -286,7 +286,7 @@ pub(super) fn text_of(
     TokenKind::Text(text)
 }
 
-/// What a template literal means: its texts, and the places of the expressions between them.
+/// The token of a template literal: its strings, and the positions of the expressions between them.
 pub(super) fn template_of(
     parts: Vec<LiteralPart<'_>>,
     source: &str,
@@ -302,7 +302,7 @@ pub(super) fn template_of(
     TokenKind::Template(texts, places)
 }
 
-/// A template literal that does not end, which takes the whole rest of the text.
+/// The token of a template literal without an end, which takes the rest of the text.
 pub(super) fn unclosed_template(start: usize, diagnostics: &mut Vec<Finding>) -> TokenKind<'static> {
     diagnostics.push(
         Finding::error(rules::BAD_STRING, Span::new(start, start + 1), "this backquote is not closed")

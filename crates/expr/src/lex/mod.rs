@@ -1,6 +1,6 @@
-//! Text to tokens, with nom: every token, and every blank between tokens, is read by a parser of its kind; what is wrong with one is
-//! said when it is read. Every token keeps its bytes and whether a line ends before it, which is all that automatic semicolons need.
-//! A character that starts no token is reported once and skipped.
+//! Lexer, with nom. A parser for each kind of token, and for blanks between tokens, reports what is wrong with it when it reads
+//! it. Every token stores its span and whether a line ends before it, which is all that automatic semicolons need. A character
+//! that starts no token is reported once and skipped.
 
 mod blank;
 mod literal;

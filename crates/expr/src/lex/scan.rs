@@ -1,4 +1,4 @@
-//! Text to tokens: every token, and every blank between tokens, is read by a parser of its kind.
+//! The lexer's main loop: reads every token, and every blank between tokens, with a parser of its kind.
 
 use labspec_finding::order;
 use std::collections::BTreeMap;
@@ -18,13 +18,13 @@ use crate::operators::{BinaryOp, LogicalOp};
 use crate::rules;
 use labspec_finding::{Finding, Span};
 
-/// Symbols that are no operators between two values.
+/// Symbols that are not binary operators.
 const MARKS: [&str; 21] = [
     "(", ")", "[", "]", "{", "}", ",", ";", ":", "?", ".", "...", "?.", "=", "=>", "++", "--", "!", "~", "@",
     "#",
 ];
 
-/// All symbols, by the character that they begin with, longer ones before their beginnings.
+/// All symbols by their first character, longer ones before their prefixes.
 static SYMBOLS: LazyLock<BTreeMap<char, Vec<String>>> = LazyLock::new(|| {
     let binary = BinaryOp::ALL.iter().map(|op| (op.symbol(), !op.is_comparison()));
     let operators = binary.chain(LogicalOp::ALL.iter().map(|op| (op.symbol(), true)));
@@ -41,15 +41,15 @@ static SYMBOLS: LazyLock<BTreeMap<char, Vec<String>>> = LazyLock::new(|| {
     all
 });
 
-/// All tokens of a text, the last one [`TokenKind::End`].
+/// All tokens of a source text; the last one is [`TokenKind::End`].
 pub(crate) fn tokens<'s>(source: &'s str, diagnostics: &mut Vec<Finding>) -> Vec<Token<'s>> {
     tokens_of(source, Span::new(0, source.len()), diagnostics)
 }
 
-/// All tokens of a part of a text, the last one [`TokenKind::End`].
+/// All tokens of a part of a source text; the last one is [`TokenKind::End`].
 pub(crate) fn tokens_of<'s>(source: &'s str, part: Span, diagnostics: &mut Vec<Finding>) -> Vec<Token<'s>> {
     let mut input = part.text(source);
-    // Three bytes a token are usual.
+    // On average, a token takes about three bytes.
     let mut tokens: Vec<Token<'s>> = Vec::with_capacity(input.len() / 3 + 1);
     let end = part.start + input.len();
     loop {
@@ -62,7 +62,7 @@ pub(crate) fn tokens_of<'s>(source: &'s str, part: Span, diagnostics: &mut Vec<F
             tokens.push(Token { kind: TokenKind::End, span: Span::new(start, start), newline, doubt: None });
             return tokens;
         }
-        // Only a template can fail: then it is never closed.
+        // Only a template can fail: then it is not closed.
         let (behind, raw) = raw(at).map_or(("", None), |(behind, raw)| (behind, Some(raw)));
         let span = Span::new(start, end - behind.len());
         let before = diagnostics.len();
@@ -79,7 +79,7 @@ pub(crate) fn tokens_of<'s>(source: &'s str, part: Span, diagnostics: &mut Vec<F
     }
 }
 
-/// Whether a number stands directly behind digits and a comma, as in `0,02`.
+/// Whether a number directly follows digits and a comma, as in `0,02`.
 fn is_fraction(tokens: &[Token<'_>], source: &str, span: Span) -> bool {
     let [.., whole, comma] = tokens else { return false };
     let digits = |span: Span| span.text(source).bytes().all(|b| b.is_ascii_digit());
@@ -91,7 +91,7 @@ fn is_fraction(tokens: &[Token<'_>], source: &str, span: Span) -> bool {
         && digits(span)
 }
 
-/// One token at the beginning of `input`.
+/// Reads one token at the beginning of `input`.
 fn raw(input: &str) -> IResult<&str, RawToken<'_>> {
     let mut chars = input.chars();
     let (first, second) = (chars.next().unwrap_or(' '), chars.next().unwrap_or(' '));
@@ -114,7 +114,7 @@ fn number(input: &str) -> IResult<&str, RawToken<'_>> {
     map((literal::number, take_while(is_word_part)), |(text, tail)| RawToken::Number(text, tail)).parse(input)
 }
 
-/// What a token means, and what is wrong with it.
+/// Returns the meaning of a token, and reports what is wrong with it.
 fn token<'s>(raw: RawToken<'s>, source: &str, span: Span, diagnostics: &mut Vec<Finding>) -> TokenKind<'s> {
     match raw {
         RawToken::Word(text) => TokenKind::Word(text),
@@ -135,7 +135,7 @@ fn token<'s>(raw: RawToken<'s>, source: &str, span: Span, diagnostics: &mut Vec<
         }
         RawToken::Odd(c) => {
             diagnostics.push(bad_character(c, span));
-            // A look-alike of an operator is read as that operator, so that what follows is still understood.
+            // A character that looks like an operator is read as that operator, so that parsing can continue.
             look_alike(c).map_or(TokenKind::Bad, TokenKind::Symbol)
         }
     }
@@ -153,12 +153,12 @@ fn word(input: &str) -> IResult<&str, &str> {
     recognize((satisfy(is_word_start), take_while(is_word_part))).parse(input)
 }
 
-/// A symbol that begins with this character.
+/// Reads a symbol that begins with the character `first`.
 fn symbol(first: char, input: &str) -> IResult<&str, &'static str> {
     let error = || nom::Err::Error(nom::error::Error::new(input, nom::error::ErrorKind::Tag));
     let read = |text: &'static String| {
         let behind = input.strip_prefix(text.as_str())?;
-        // `a?.5:1` is a choice between .5 and 1, not an optional member.
+        // In `a?.5:1`, `?` is the conditional operator followed by .5, not an optional member.
         (text != "?." || !behind.starts_with(|c: char| c.is_ascii_digit())).then_some((behind, text.as_str()))
     };
     SYMBOLS.get(&first).into_iter().flatten().find_map(read).ok_or_else(error)
@@ -168,13 +168,13 @@ fn is_typographic(c: char) -> bool {
     matches!(c, '“' | '”' | '„' | '‘' | '’' | '‚' | '«' | '»')
 }
 
-/// The text between two typographic quotes.
+/// Reads a string in typographic quotes.
 fn typographic(input: &str) -> IResult<&str, &str> {
     let inside = |c: char| !(is_typographic(c) || is_line_end(c) || matches!(c, '"' | '\\'));
     delimited(satisfy(is_typographic), take_while(inside), satisfy(is_typographic)).parse(input)
 }
 
-/// What people mean by signs that word processors and formula editors write.
+/// The operator that is intended by a character of a word processor or formula editor.
 fn look_alike(c: char) -> Option<&'static str> {
     Some(match c {
         '−' | '–' | '—' => "-",

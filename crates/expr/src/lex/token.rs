@@ -1,4 +1,4 @@
-//! Tokens, as they are written and as they are read.
+//! Tokens, in their source form and in their interpreted form.
 
 use labspec_finding::{Finding, Span};
 
@@ -7,38 +7,38 @@ use labspec_finding::{Finding, Span};
 pub(crate) struct Token<'s> {
     pub(crate) kind: TokenKind<'s>,
     pub(crate) span: Span,
-    /// A line ends between the token before and this one.
+    /// Whether a line ends between the previous token and this one.
     pub(crate) newline: bool,
-    /// What is wrong with it, unless it is not read by itself, as `02` in `0,02`, or the host tells of it, as of
-    /// typographic quotes.
+    /// A finding that is reported only under a condition: `02` in `0,02` unless the two numbers are read as one; typographic
+    /// quotes unless the host reports them.
     pub(crate) doubt: Option<Box<Finding>>,
 }
 
-/// What a token is.
+/// The kind of a token.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum TokenKind<'s> {
     Number(f64),
     Text(String),
     Word(&'s str),
     Symbol(&'static str),
-    /// A template literal: its texts, and where the expressions between them stand.
+    /// A template literal: its strings, and the spans of the expressions between them.
     Template(Vec<String>, Vec<Span>),
-    /// Could not be read; already reported.
+    /// An invalid token; the error has been reported.
     Bad,
-    /// Behind the last character.
+    /// The end of the text.
     End,
 }
 
-/// A token, as it is written.
+/// A token in its source form.
 pub(super) enum RawToken<'a> {
     Word(&'a str),
-    /// A number, and the letters that stand directly behind it.
+    /// A number, and the letters that directly follow it.
     Number(&'a str, &'a str),
     Symbol(&'static str),
     /// A string: its quote, its parts, and whether it is closed.
     Text(char, Vec<LiteralPart<'a>>, bool),
     Template(Vec<LiteralPart<'a>>),
-    /// What stands between two typographic quotes.
+    /// The string between two typographic quotes.
     Typographic(&'a str),
     /// Any other character.
     Odd(char),
@@ -48,11 +48,11 @@ pub(super) enum RawToken<'a> {
 #[derive(Clone)]
 pub(super) enum LiteralPart<'a> {
     Plain(&'a str),
-    /// What an escape stands for.
+    /// The character that an escape sequence denotes.
     Char(char),
-    /// A line that goes on.
+    /// A line continuation.
     Nothing,
-    /// An escape without a meaning.
+    /// An invalid escape sequence.
     Broken(&'a str),
     /// The expression between `${` and `}`.
     Code(&'a str),

@@ -1,5 +1,5 @@
-//! Typed tree to form, in one walk. Each node is computed in the way that its surroundings ask for: as a number, as a
-//! value of any type, or only for whether it is true. A numeric expression so never becomes a value.
+//! Typed tree to SSA form, in one walk. Each node is evaluated in the form that its context needs: as a number, as a value of
+//! any type, or only as a condition. Thus a numeric expression never becomes a boxed value.
 
 use super::builder::{EarlyExits, FunctionBuilder};
 use crate::ir::{Index, Ir, IrEntry, IrItem, IrKind, LocalId, UnitId};
@@ -10,7 +10,7 @@ use crate::value::{Value, View};
 use labspec_finding::Span;
 
 impl FunctionBuilder<'_> {
-    /// The node as a number (JavaScript's `Number(x)`).
+    /// Evaluates the node as a number (JavaScript's `Number(x)`).
     pub(super) fn number(&mut self, ir: &Ir) -> Num {
         let span = ir.span;
         match &ir.kind {
@@ -81,7 +81,7 @@ impl FunctionBuilder<'_> {
         self.write(place, Operand::Number(src));
     }
 
-    /// The node as a value of its own type.
+    /// Evaluates the node as a value of its type.
     pub(super) fn value(&mut self, ir: &Ir) -> Val {
         let span = ir.span;
         match (&ir.kind, ir.ty) {
@@ -117,7 +117,7 @@ impl FunctionBuilder<'_> {
         }
     }
 
-    /// Lists, records, their parts, calls of them, and texts.
+    /// Evaluates lists, records, their elements, calls of them, and strings.
     fn value_of_parts(&mut self, ir: &Ir) -> Val {
         let span = ir.span;
         match &ir.kind {
@@ -154,14 +154,14 @@ impl FunctionBuilder<'_> {
                 self.value_of(span, |dst| Op::GlobalNamed(dst, name))
             }
             IrKind::Chain(inner) => self.chain(inner, span),
-            // A number register cannot tell `undefined` from NaN.
+            // A number register cannot distinguish `undefined` from NaN.
             IrKind::Logical(op @ LogicalOp::Nullish, a, b) => self.logical_value(*op, a, b, span),
             IrKind::Present(object) => self.present(object, span),
             _ => self.value_by_type(ir),
         }
     }
 
-    /// What is a number or a truth value for sure is computed as one; all else as a value of any type.
+    /// Evaluates a node that is certainly a number or a boolean as a number, and all others as values of any type.
     fn value_by_type(&mut self, ir: &Ir) -> Val {
         let span = ir.span;
         match (&ir.kind, ir.ty) {
@@ -192,7 +192,7 @@ impl FunctionBuilder<'_> {
                 self.choice(test, span, |s| s.value_to(a, result), |s| s.value_to(b, result));
                 self.read_value(result)
             }
-            // All other kinds give numbers or booleans.
+            // All other kinds of nodes give numbers or booleans.
             _ => {
                 let src = self.number(ir);
                 self.boxed(src, Representation::Number, span)
@@ -200,7 +200,7 @@ impl FunctionBuilder<'_> {
         }
     }
 
-    /// Calls a function of the text; gives what it returns as a value.
+    /// Calls a function of the program, and returns its result as a value.
     fn invoked_value(&mut self, unit: UnitId, args: &[Ir], span: Span) -> Val {
         self.invoke(unit, args, span);
         match self.result_slot(unit) {
@@ -212,12 +212,12 @@ impl FunctionBuilder<'_> {
         }
     }
 
-    /// What stands before `?.`: where it is nothing, the chain around it ends.
+    /// Evaluates the operand of `?.`. If it is `null` or `undefined`, control leaves the enclosing chain.
     fn present(&mut self, object: &Ir, span: Span) -> Val {
         let value = self.value(object);
         let mark = self.chains.last().map_or(0, |chain| chain.mark);
         let edge = self.jump_if(Terminator::IfNothing(true, value, BlockEdge::default()), mark, span);
-        // A chain is around it.
+        // A chain always encloses it.
         if let Some(chain) = self.chains.last_mut() {
             chain.exits.extend(edge);
         }
@@ -232,7 +232,7 @@ impl FunctionBuilder<'_> {
         self.read_value(result)
     }
 
-    /// The end of a block where `value op …` is the value.
+    /// The terminator of a block for the case that the result of `value op …` is `value`.
     pub(super) fn keeps(&mut self, op: LogicalOp, value: Val, span: Span) -> Terminator {
         if op == LogicalOp::Nullish {
             return Terminator::IfNothing(false, value, BlockEdge::default());
@@ -246,10 +246,10 @@ impl FunctionBuilder<'_> {
         self.write(place, Operand::Value(src));
     }
 
-    /// A number that is true when the node is.
+    /// Evaluates the node as a number that is truthy exactly when the node is.
     pub(super) fn truth(&mut self, ir: &Ir) -> Num {
         match ir.as_constant() {
-            // A NaN is false, and stays one: a watched run sees that it decides.
+            // NaN is false, but stays NaN, so that a watched run records that it decides.
             Some(Value::Number(x)) if x.is_nan() => self.constant(*x),
             Some(value) => self.constant(f64::from(u8::from(value.truthy()))),
             None if ir.is_plain() && !matches!(ir.kind, IrKind::Logical(LogicalOp::Nullish, ..)) => {
@@ -295,7 +295,7 @@ impl FunctionBuilder<'_> {
         let span = ir.span;
         let plain = match op {
             BinaryOp::Add => ir.ty == Type::Number,
-            // Equality of one type needs no conversion; order does, unless both may be strings.
+            // Equality of operands of the same type needs no conversion. Ordering does, unless both may be strings.
             _ if op.power() == 8 => a.ty == b.ty && matches!(a.ty, Type::Number | Type::Boolean),
             _ if op.is_comparison() => a.is_plain() || b.is_plain(),
             _ => true,
@@ -312,14 +312,14 @@ impl FunctionBuilder<'_> {
         self.number_by(span, |dst| Op::Compare(dst, op, a, b))
     }
 
-    /// `a && b` or `a || b` as a number.
+    /// Evaluates `a && b` or `a || b` as a number.
     fn logical(&mut self, op: LogicalOp, a: &Ir, b: &Ir, span: Span) -> Num {
         let result = self.temporary();
         let (left, test) = if a.is_plain() {
             let left = self.number(a);
             (left, left)
         } else {
-            // The text "0" is true, although it is 0 as a number.
+            // The string "0" is truthy, although its number is 0.
             let value = self.value(a);
             let left = self.number_by(a.span, |dst| Op::ToNumber(dst, value));
             (left, self.number_by(a.span, |dst| Op::Truthy(dst, value)))

@@ -1,4 +1,4 @@
-//! The work on one function: its names, constants and operations so far, and what its variables hold.
+//! The builder for one function: its names, constants and operations so far, and the current values of its variables.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -8,66 +8,65 @@ use crate::ssa::{Args, BlockId, Num, Op, Operand, Representation, SsaFunction, S
 use crate::value::Value;
 use labspec_finding::Span;
 
-/// What variables hold now.
+/// The current values of the local variables.
 #[derive(Default)]
 pub(super) struct Variables {
-    /// What it holds, and in how many loops that was found.
+    /// The value of each variable, and the number of enclosing loops when it was determined.
     pub(super) now: Vec<Option<(Operand, u32)>>,
-    /// What was held before each change.
+    /// The previous value for each change.
     pub(super) log: Vec<(LocalId, Option<(Operand, u32)>)>,
 }
 
-/// A way whose end is not known yet: the block that it leaves, and what was stored since a place in the log.
+/// An edge with an unknown target: its source block, and the variables stored since a mark in the log.
 pub(super) struct PendingEdge {
     pub(super) from: BlockId,
     pub(super) stored: Vec<(LocalId, Operand)>,
 }
 
 impl PendingEdge {
-    /// What was stored in a variable on the way.
+    /// The value that was stored in a variable along the edge.
     pub(super) fn held(&self, local: LocalId) -> Option<Operand> {
         let at = self.stored.binary_search_by_key(&local, |s| s.0).ok()?;
         self.stored.get(at).map(|(_, at)| *at)
     }
 }
 
-/// A loop around the place of the work.
+/// A loop around the current position.
 pub(super) struct LoopContext {
     pub(super) header: BlockId,
-    /// What leads in.
+    /// The edge into the loop.
     pub(super) entry: Option<PendingEdge>,
     pub(super) mark: usize,
-    /// Variables that are read or stored in it: the parameter, and what was held before.
+    /// Variables that are read or stored in the loop, with their parameter and their value before the loop.
     pub(super) params: BTreeMap<LocalId, (Operand, Operand)>,
     pub(super) breaks: Vec<PendingEdge>,
     pub(super) continues: Vec<PendingEdge>,
-    /// Ways out of what is around it, when it began.
+    /// The number of early exits (of inlined calls and of chains) that already existed when the loop began.
     pub(super) returns: (usize, usize),
 }
 
-/// A part of the text that is left by more ways than its end, with a value: statements in the place of a call, or a
-/// chain with `?.`.
+/// A region with several exits and a result: the statements of an inlined call, or a chain with `?.`.
 pub(super) struct EarlyExits {
     pub(super) mark: usize,
     pub(super) result: LocalId,
     pub(super) exits: Vec<PendingEdge>,
 }
 
-/// The work on one function.
+/// The builder for one function.
 pub(super) struct FunctionBuilder<'t> {
     pub(super) tree: &'t IrProgram,
     pub(super) form: &'t mut SsaProgram,
     pub(super) unit: SsaFunction,
-    /// Nothing leads here.
+    /// Whether the current position is unreachable.
     pub(super) dead: bool,
-    /// Constants by their bits.
+    /// Constants, by their bits.
     pub(super) constants: BTreeMap<u64, Num>,
     pub(super) variables: Variables,
     pub(super) temporaries: u32,
     pub(super) loops: Vec<LoopContext>,
     pub(super) inlines: Vec<EarlyExits>,
     pub(super) chains: Vec<EarlyExits>,
-    /// Where all of it seems to stand.
+    /// The span that is reported for all operations, if they are part of an inlined call.
     pub(super) site: Option<Span>,
 }
 
@@ -90,12 +89,12 @@ impl<'t> FunctionBuilder<'t> {
             chains: Vec::new(),
             site: None,
         };
-        // Room for a text of usual length.
+        // Capacity for a source text of usual length.
         build.unit.ops.reserve(32);
         build.unit.spans.reserve(32);
         build.unit.same.numbers.reserve(64);
         build.unit.same.values.reserve(32);
-        // The first names are for what the function gives.
+        // The first names are those of the result.
         build.new_number();
         build.new_value();
         build.begin(0);
@@ -188,7 +187,7 @@ impl<'t> FunctionBuilder<'t> {
         (self.form.picks.len() - 1) as u32
     }
 
-    /// How a local of a type is handed over.
+    /// The representation in which a local variable is passed.
     pub(super) fn slot(&self, local: LocalId) -> Representation {
         match self.tree.locals.get(local as usize) {
             Some(local) if local.shared => Representation::Value,

@@ -1,4 +1,4 @@
-//! Calls of functions of the text, of methods, and functions as values.
+//! Calls of functions of the program, calls of methods, and functions as values.
 
 use super::builder::FunctionBuilder;
 use crate::ir::{FreeFunctionId, Ir, IrItem, LocalId, MethodId, UnitId};
@@ -7,7 +7,7 @@ use crate::value::Value;
 use labspec_finding::Span;
 
 impl FunctionBuilder<'_> {
-    /// How a function hands over what it returns.
+    /// The representation in which a function returns its result.
     pub(super) fn result_slot(&self, unit: UnitId) -> Representation {
         self.tree
             .units
@@ -25,9 +25,9 @@ impl FunctionBuilder<'_> {
         self.tree.units.get(unit as usize).map(|u| u.captures.clone()).unwrap_or_default()
     }
 
-    /// Calls a known function; what it returns is taken next.
+    /// Calls a known function. The next operation takes its result.
     pub(super) fn invoke(&mut self, unit: UnitId, args: &[Ir], span: Span) {
-        // All arguments first: computing one may call a function itself.
+        // All arguments are evaluated first, because the evaluation of one may call a function itself.
         let mut passed = Vec::new();
         for (i, slot) in self.params(unit).into_iter().enumerate() {
             passed.push(match (args.get(i), slot) {
@@ -41,7 +41,7 @@ impl FunctionBuilder<'_> {
         }
         for capture in self.captures(unit) {
             passed.push(match self.slot(capture) {
-                // The shared place itself, if it is one.
+                // A shared variable is passed as its cell.
                 Representation::Value => Operand::Value(self.read_value(capture)),
                 _ => Operand::Number(self.read_number(capture)),
             });
@@ -63,11 +63,11 @@ impl FunctionBuilder<'_> {
         self.emit(Op::Call(unit), span);
     }
 
-    /// A function as a value, with what it uses of the functions around it.
+    /// Creates a function value with its captured variables.
     pub(super) fn closure(&mut self, unit: UnitId, span: Span) -> Val {
         let mut names = Vec::new();
         for capture in self.captures(unit) {
-            // The shared place itself, if it is one.
+            // A shared variable is captured as its cell.
             let shared = self.is_shared(capture);
             let at = if shared { self.read_value(capture) } else { self.local_value(capture, span) };
             names.push(at.0);

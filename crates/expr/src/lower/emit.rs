@@ -1,5 +1,5 @@
-//! SsaProgram to code: names become registers, parameters of blocks become moves, and what nothing uses is left out. An
-//! operation whose result goes to a parameter puts it there itself where it can.
+//! SSA form to machine code: names become registers, block parameters become moves, and unused operations are removed. Where
+//! possible, an operation whose result is passed to a block parameter writes directly to the register of that parameter.
 
 use std::collections::BTreeMap;
 
@@ -14,18 +14,18 @@ use crate::ssa::{
 use crate::value::Value;
 use labspec_finding::Span;
 
-/// Numeric operations in a row from which on a formula is faster, as measured.
+/// The number of consecutive numeric operations from which a formula is faster, as measured.
 const WORTH: usize = 5;
-/// Most operations of one formula, so that a byte can name its registers.
+/// The maximum number of operations of a formula, so that its registers fit into one byte.
 const MOST: usize = 64;
 
-/// The code of a program. `often`: it will run often enough for formulas within it.
+/// Emits the code of a program. `often` states that it runs often enough to use formulas.
 pub(crate) fn emit(form: SsaProgram, often: bool) -> MachineCode {
     let units = form.units.iter().map(|function| emit_function(function, often)).collect();
     MachineCode { form, units }
 }
 
-/// The code of a function.
+/// Emits the code of a function.
 fn emit_function(form: &SsaFunction, often: bool) -> MachineFunction {
     let (numbers, values) =
         (RegisterFile::for_names(form.same.numbers.len()), RegisterFile::for_names(form.same.values.len()));
@@ -42,24 +42,25 @@ fn emit_function(form: &SsaFunction, often: bool) -> MachineFunction {
     emit.finish()
 }
 
-/// The work on one function.
+/// The state of the emission of one function.
 struct Emit<'f> {
-    /// Operations that make a formula.
+    /// The minimum number of operations of a formula.
     worth: usize,
     form: &'f SsaFunction,
     code: MachineFunction,
     numbers: RegisterFile,
     values: RegisterFile,
-    /// Operations that something needs.
+    /// Operations whose results are needed.
     live: Vec<bool>,
-    /// Where each block begins in the code, if anything leads to it.
+    /// The first instruction of each block, if the block is reachable.
     starts: Vec<Option<u32>>,
-    /// Jumps, and the blocks that they lead to.
+    /// Jumps, and their target blocks.
     jumps: Vec<(usize, BlockId)>,
 }
 
 impl<'f> Emit<'f> {
-    /// Counts how often each name is used, from the end on, so that what is needed by nothing needs nothing.
+    /// Counts the uses of every name, from the last operation to the first, so that operands of unused
+    /// operations are not counted.
     fn count_uses(&mut self) {
         let form = self.form;
         for (at, block) in form.blocks.iter().enumerate().rev() {
@@ -85,7 +86,8 @@ impl<'f> Emit<'f> {
         }
     }
 
-    /// What a block hands on. `back`: to the start of a loop, whose parameters may be needed by what was counted already.
+    /// Counts the values passed along an edge. `back` marks an edge to the start of a loop, whose parameters may be used by
+    /// operations that were counted already.
     fn count_edge_uses(&mut self, edge: &BlockEdge, back: bool) {
         let params = self.form.blocks.get(edge.to as usize).map_or(&[][..], |b| &b.params);
         for (param, arg) in params.iter().zip(&edge.args) {
@@ -99,7 +101,7 @@ impl<'f> Emit<'f> {
         }
     }
 
-    /// Whether an operation is needed, and what it then reads.
+    /// Determines whether an operation is needed, and counts its operands.
     fn count_operation_uses(&mut self, i: usize) {
         let Emit { form, numbers, values, live, .. } = self;
         let (Some(mut op), Some(keep)) = (form.ops.get(i).copied(), live.get_mut(i)) else { return };
@@ -126,7 +128,7 @@ impl<'f> Emit<'f> {
         });
     }
 
-    /// What is handed over.
+    /// Assigns the first registers to the parameters and captured variables.
     fn first_registers(&mut self) {
         for slot in self.form.params.iter().chain(&self.form.captures) {
             match slot {
@@ -152,7 +154,7 @@ impl<'f> Emit<'f> {
     fn block(&mut self, at: BlockId) {
         let form: &'f SsaFunction = self.form;
         let Some(BasicBlock { end, span, .. }) = form.blocks.get(at as usize) else { return };
-        // A block that nothing leads to is left out. Ways lead forward, so they were seen before.
+        // An unreachable block is removed. Edges lead forward, so all edges to this block have been seen.
         let reached = self.starts.get(at as usize).is_some_and(|s| at == 0 || s.is_some());
         if !reached {
             return;
@@ -175,7 +177,7 @@ impl<'f> Emit<'f> {
         self.end(at, end, *span);
     }
 
-    /// Numeric operations that follow each other, as one formula, where that is worth it; whether it was.
+    /// Emits consecutive numeric operations as one formula if that is faster, and returns whether it did.
     fn formula(&mut self, first: usize, stop: usize) -> bool {
         if stop - first.min(stop) < self.worth {
             return false;
@@ -194,7 +196,7 @@ impl<'f> Emit<'f> {
             register
         };
         let Some((mut formula, given)) = pure::stretch(form, &ops, &mut input) else { return false };
-        // What is used by more than the operations themselves.
+        // The remaining uses of each result, outside these operations.
         let mut left: BTreeMap<u32, u32> = given.iter().map(|(n, _)| (n.0, numbers.uses(n.0))).collect();
         for mut op in ops {
             let mut use_up = |n: Num| {
@@ -219,7 +221,7 @@ impl<'f> Emit<'f> {
             let at_once = !inputs.contains(&u32::from(register));
             wanted.push(WantedResult { step: *step, register, at_once });
         }
-        // What is kept only within the formula stands behind the registers that are known so far.
+        // Intermediate results of the formula use the registers after those assigned so far.
         let free =
             (numbers.count..numbers.count + formula.steps.len() as u32).map_while(|r| u8::try_from(r).ok());
         let Some(row) = Row::part(&formula, &wanted, free) else { return false };
@@ -231,7 +233,7 @@ impl<'f> Emit<'f> {
         true
     }
 
-    /// Lets operations of a block put their results where its end wants them.
+    /// Makes operations of a block write their results directly to the registers that its end requires.
     fn settle(&mut self, at: BlockId, end: &Terminator) {
         let mut wanted: Vec<(Operand, Operand)> = Vec::new();
         match end {
@@ -248,7 +250,7 @@ impl<'f> Emit<'f> {
             return;
         }
         let again = matches!(end, Terminator::Again(_));
-        // From the last operation on: what was read behind an operation must still stand where it stood.
+        // From the last operation to the first: a register that a later operation reads must not be overwritten.
         let mut read: Vec<Operand> =
             if again { wanted.iter().map(|(_, from)| *from).collect() } else { Vec::new() };
         for i in self.form.range(at).rev() {
@@ -283,7 +285,7 @@ impl<'f> Emit<'f> {
         }
     }
 
-    /// Parameters of the block that an edge leads to, with what they get; both as names.
+    /// The parameters of the target block of an edge with the values passed to them, both as names.
     fn moves(&self, edge: &BlockEdge) -> Vec<(Operand, Operand)> {
         let params = self.form.blocks.get(edge.to as usize).map_or(&[][..], |b| &b.params);
         let needed = |param: &Operand| match param {
@@ -294,7 +296,7 @@ impl<'f> Emit<'f> {
         pairs.map(|(param, from)| (*param, self.form.same.at(*from))).collect()
     }
 
-    /// Adds what an operation reads.
+    /// Adds the names that an operation reads.
     fn reads(&self, mut op: Op, read: &mut Vec<Operand>) {
         let (same, list) = (&self.form.same, &self.form.args);
         op.each(&mut |u| match u {
@@ -318,7 +320,7 @@ impl<'f> Emit<'f> {
             return;
         };
         let Emit { form, numbers, values, code, .. } = self;
-        // Operands first: the result may take the place of one.
+        // Operands come first, because the result may use the register of an operand.
         let mut list = |args: Args, name: &mut dyn FnMut(u32) -> u32| {
             let first = code.args.len() as u32;
             code.args.extend(args.operands(&form.args).iter().map(|a| name(*a)));
@@ -392,7 +394,7 @@ impl<'f> Emit<'f> {
         self.push(Op::Return, span);
     }
 
-    /// All parameters of a block get their values at once, whatever order the moves have.
+    /// Assigns all parameters of a block at once, independent of the order of the moves.
     fn move_all(&mut self, edge: &BlockEdge, span: Span) {
         let (mut numbers, mut values) = (Vec::new(), Vec::new());
         for (to, from) in self.moves(edge) {
@@ -403,7 +405,7 @@ impl<'f> Emit<'f> {
                 (Operand::Value(to), Operand::Value(from)) => {
                     values.push((self.value(to).0, self.value(from).0))
                 }
-                // A parameter and what it gets are of one kind.
+                // A parameter and its argument always have the same representation.
                 _ => {}
             }
         }
@@ -426,14 +428,14 @@ impl<'f> Emit<'f> {
             }
         }
         let Emit { form, mut code, numbers, values, .. } = self;
-        // Constants stand in registers where something else than a formula reads them.
+        // Constants that are used outside formulas are stored in registers.
         let register = |file: &RegisterFile, name: u32| file.registers.get(name as usize).copied().flatten();
         let constants = form.numbers.iter().filter_map(|(n, x)| Some((Num(register(&numbers, n.0)?), *x)));
         code.numbers.extend(constants);
         let constants =
             form.values.iter().filter_map(|(v, x)| Some((Val(register(&values, v.0)?), x.clone())));
         code.values.extend(constants);
-        // The cost of everything before each operation; a formula costs what is in it.
+        // The cumulative cost before each operation. A formula costs as much as its operations.
         let mut costs = vec![0];
         for op in &code.ops {
             let formula = |f: u32| code.formulas.get(f as usize).map_or(1, |(_, count)| u64::from(*count));

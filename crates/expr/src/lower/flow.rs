@@ -1,7 +1,8 @@
-//! Variables and the ways between blocks. While the tree is walked it is known what every variable holds; where ways
-//! come together, variables that differ become parameters. A loop is the only place whose ways are not all known when
-//! it begins: a variable that is read in it gets a parameter at its start, which is taken back at the end when nothing
-//! was stored (Braun et al., "Simple and efficient construction of static single assignment form", 2013).
+//! Local variables and edges between blocks. During the walk through the tree, the current value of every variable is
+//! known. Where edges join, variables with different values become block parameters. A loop is the only place where not all
+//! edges are known when the block begins: a variable that is read in the loop gets a parameter at the loop's start, which
+//! is removed at the end if the loop did not store the variable (Braun et al., "Simple and efficient construction of static
+//! single assignment form", 2013).
 
 use labspec_finding::order;
 use std::collections::BTreeMap;
@@ -13,7 +14,7 @@ use crate::ssa::{BasicBlock, BlockEdge, BlockId, Num, Op, Operand, Terminator, V
 use crate::value::Value;
 use labspec_finding::Span;
 
-/// The variables that ways store.
+/// The variables that are stored along edges.
 fn stored_on<'w>(edges: impl IntoIterator<Item = &'w PendingEdge>) -> Vec<LocalId> {
     let mut locals: Vec<LocalId> =
         edges.into_iter().flat_map(|w| &w.stored).map(|(local, _)| *local).collect();
@@ -22,10 +23,10 @@ fn stored_on<'w>(edges: impl IntoIterator<Item = &'w PendingEdge>) -> Vec<LocalI
     locals
 }
 
-/// Operations that cost no more than a question.
+/// Up to this number of operations, evaluating both branches costs no more than a branch.
 const LITTLE: usize = 4;
 
-/// A question about a number: the answer that leads further off.
+/// The condition of a branch on a number, and the outcome for which it jumps.
 fn question(end: &Terminator) -> Option<(bool, Num)> {
     if let Terminator::If(when, test, _) = end { Some((*when, *test)) } else { None }
 }
@@ -35,7 +36,7 @@ impl FunctionBuilder<'_> {
         self.variables.log.len()
     }
 
-    /// Forgets what was stored since.
+    /// Undoes all stores since a mark.
     pub(super) fn back_to(&mut self, mark: usize) {
         for (local, before) in self.variables.log.drain(mark..).rev() {
             if let Some(now) = self.variables.now.get_mut(local as usize) {
@@ -44,7 +45,7 @@ impl FunctionBuilder<'_> {
         }
     }
 
-    /// A variable of the work itself.
+    /// A new variable of the compiler.
     pub(super) fn temporary(&mut self) -> LocalId {
         self.temporaries += 1;
         self.tree.locals.len() as u32 + self.temporaries
@@ -60,7 +61,7 @@ impl FunctionBuilder<'_> {
         }
     }
 
-    /// What a variable holds; `None` when nothing was stored.
+    /// The current value of a variable, or `None` if nothing was stored.
     fn find(&mut self, local: LocalId) -> Option<Operand> {
         let (mut at, level) = self.variables.now.get(local as usize).copied().flatten()?;
         if (level as usize) < self.loops.len() {
@@ -96,12 +97,12 @@ impl FunctionBuilder<'_> {
         }
     }
 
-    /// Whether something was stored.
+    /// Whether a value was stored.
     pub(super) fn has(&self, local: LocalId) -> bool {
         self.variables.now.get(local as usize).is_some_and(Option::is_some)
     }
 
-    /// A new name of the same kind.
+    /// A new name with the same representation.
     fn like(&mut self, at: Operand) -> Operand {
         match at {
             Operand::Number(_) => Operand::Number(self.new_number()),
@@ -109,7 +110,7 @@ impl FunctionBuilder<'_> {
         }
     }
 
-    /// The block of the work.
+    /// The current block.
     fn here(&self) -> BlockId {
         (self.unit.blocks.len() as u32).saturating_sub(1)
     }
@@ -131,7 +132,7 @@ impl FunctionBuilder<'_> {
         locals.into_iter().filter_map(now).collect()
     }
 
-    /// Ends the block; nothing follows.
+    /// Ends the block; the code after it is unreachable.
     pub(super) fn end(&mut self, end: Terminator, span: Span) {
         let span = self.site.unwrap_or(span);
         if let Some(block) = self.unit.blocks.last_mut().filter(|_| !self.dead) {
@@ -140,7 +141,7 @@ impl FunctionBuilder<'_> {
         self.dead = true;
     }
 
-    /// Ends the block; on to a place that is not known yet. `mark`: what was stored since goes along.
+    /// Ends the block with a jump to a target that is not known yet. The edge contains the variables stored since `mark`.
     pub(super) fn jump(&mut self, mark: usize, span: Span) -> Option<PendingEdge> {
         let pending =
             (!self.dead).then(|| PendingEdge { from: self.here(), stored: self.stored_since(mark) });
@@ -148,7 +149,7 @@ impl FunctionBuilder<'_> {
         pending
     }
 
-    /// Ends the block with a question; the work goes on where the answer is the other one.
+    /// Ends the block with a conditional jump, and continues in the block for the other outcome.
     pub(super) fn jump_if(&mut self, end: Terminator, mark: usize, span: Span) -> Option<PendingEdge> {
         if self.dead {
             return None;
@@ -157,7 +158,7 @@ impl FunctionBuilder<'_> {
             && let Some(x) = self.unit.constant(test)
             && !x.is_nan()
         {
-            // The answer is known: there is one way.
+            // The condition is constant, so only one edge exists.
             return if truthy(x) == when { self.jump(mark, span) } else { None };
         }
         let pending = PendingEdge { from: self.here(), stored: self.stored_since(mark) };
@@ -177,8 +178,8 @@ impl FunctionBuilder<'_> {
         }
     }
 
-    /// The ways come together here. `after`: the block that all of them passed last. Variables hold what they held
-    /// there; what they hold now follows from the ways.
+    /// Joins edges in a new block. `after` is the last block that all of them passed. The current values of the variables are
+    /// those at the end of `after`; the values in the new block follow from the edges.
     fn land(&mut self, after: BlockId, edges: impl IntoIterator<Item = Option<PendingEdge>>) {
         let edges: Vec<PendingEdge> = edges.into_iter().flatten().collect();
         if edges.is_empty() {
@@ -196,7 +197,7 @@ impl FunctionBuilder<'_> {
             let held: Vec<Option<Operand>> = edges.iter().map(|pending| pending.held(local)).collect();
             let before = if held.contains(&None) { self.find(local) } else { None };
             let held: Option<Vec<Operand>> = held.into_iter().map(|at| at.or(before)).collect();
-            // What one of the ways does not know is not used any more.
+            // A variable without a value on one of the edges is not used any more.
             let Some(held) = held else { continue };
             let Some(&first) = held.first() else { continue };
             let same = |at: &Operand| self.unit.same.at(*at) == self.unit.same.at(first);
@@ -217,7 +218,7 @@ impl FunctionBuilder<'_> {
         }
     }
 
-    /// Where a question leads two ways that come together again.
+    /// Builds two branches that join again.
     pub(super) fn fork(
         &mut self,
         test: Terminator,
@@ -237,7 +238,7 @@ impl FunctionBuilder<'_> {
         self.meet(from, question, other, end);
     }
 
-    /// The same where the second way has nothing on it.
+    /// The same with an empty second branch.
     pub(super) fn skip(&mut self, test: Terminator, span: Span, next: impl FnOnce(&mut Self)) {
         let (mark, from, question) = (self.mark(), self.here(), question(&test));
         let pending = self.jump_if(test, mark, span);
@@ -247,8 +248,8 @@ impl FunctionBuilder<'_> {
         self.meet(from, question, pending, end);
     }
 
-    /// Two ways of a question come together. Where little was computed on them, and nothing else done, there is no
-    /// question any more: both are computed, and one is chosen.
+    /// Joins the two branches of a conditional. If both contain only a few numeric operations, the branch is removed: both
+    /// values are evaluated, and one is selected.
     fn meet(
         &mut self,
         from: BlockId,
@@ -274,7 +275,7 @@ impl FunctionBuilder<'_> {
         self.land(from, [there, next]);
     }
 
-    /// Whether the blocks since a question are its two ways alone, with few numeric operations on them.
+    /// Whether the blocks since a branch are only its two branches, with few numeric operations.
     fn is_little(&self, from: BlockId) -> bool {
         let branches = self.unit.blocks.get(from as usize + 1..).unwrap_or(&[]);
         let first = branches.first().map_or(self.unit.ops.len(), |b| b.first as usize);
@@ -283,7 +284,7 @@ impl FunctionBuilder<'_> {
         branches.len() <= 2 && plain && ops.len() <= LITTLE && ops.iter().all(Op::is_numeric)
     }
 
-    /// What variables that differ hold at the end of two ways; `None` when one holds something else than a number.
+    /// The different values of variables at the end of two branches, or `None` if one of them is not a number.
     fn numbers_of(&mut self, there: &PendingEdge, next: &PendingEdge) -> Option<Vec<(LocalId, Num, Num)>> {
         let mut all = Vec::new();
         for local in stored_on([there, next]) {
@@ -291,7 +292,7 @@ impl FunctionBuilder<'_> {
             let before = if there.is_none() || next.is_none() { self.find(local) } else { None };
             match (there.or(before), next.or(before)) {
                 (Some(Operand::Number(there)), Some(Operand::Number(next))) => all.push((local, there, next)),
-                // What one of the ways does not know is not used any more.
+                // A variable without a value on one of the edges is not used any more.
                 (None, _) | (_, None) => {}
                 _ => return None,
             }
@@ -299,7 +300,7 @@ impl FunctionBuilder<'_> {
         Some(all)
     }
 
-    /// Statements that other ways than their end may leave. The work adds these to the list that `exits` finds.
+    /// Builds a region with early exits. `work` adds these to the list that `exits` returns.
     pub(super) fn region(
         &mut self,
         span: Span,
@@ -314,7 +315,7 @@ impl FunctionBuilder<'_> {
         self.land(from, exits.into_iter().map(Some).chain([end]));
     }
 
-    /// A loop begins.
+    /// Begins a loop.
     pub(super) fn enter_loop(&mut self, span: Span) {
         let mark = self.mark();
         let from = self.here();
@@ -334,7 +335,7 @@ impl FunctionBuilder<'_> {
         self.loops.push(LoopContext { header, entry, mark, params, breaks, continues, returns });
     }
 
-    /// Leaves the innermost loop, or goes on to its next turn.
+    /// Leaves the innermost loop, or continues with its next iteration.
     pub(super) fn leave_turn(&mut self, leaves: bool) {
         let Some(mark) = self.loops.last().map(|l| l.mark) else { return };
         let pending = self.jump(mark, Span::default());
@@ -343,7 +344,7 @@ impl FunctionBuilder<'_> {
         }
     }
 
-    /// What `continue` leads to.
+    /// Joins the edges of `continue`.
     pub(super) fn land_continues(&mut self) {
         let Some(level) = self.loops.last_mut() else { return };
         let (mark, header, continues) = (level.mark, level.header, std::mem::take(&mut level.continues));
@@ -354,7 +355,7 @@ impl FunctionBuilder<'_> {
         }
     }
 
-    /// The question whether a loop goes on.
+    /// Leaves the loop unless the condition holds.
     pub(super) fn loop_test(&mut self, holds: Num, span: Span) {
         let Some(mark) = self.loops.last().map(|l| l.mark) else { return };
         let pending = self.jump_if(Terminator::If(false, holds, BlockEdge::default()), mark, span);
@@ -363,7 +364,7 @@ impl FunctionBuilder<'_> {
         }
     }
 
-    /// A loop ends: what was stored in it is what its parameters are in the next turn.
+    /// Ends a loop: values stored in it become the arguments of the parameters of the loop for the next iteration.
     pub(super) fn leave_loop(&mut self, span: Span) {
         let Some(mark) = self.loops.last().map(|l| l.mark) else { return };
         let back = self.jump(mark, span);
@@ -400,7 +401,7 @@ impl FunctionBuilder<'_> {
         }
         for (local, param, ..) in &changed {
             self.write(*local, *param);
-            // Ways that lead further out pass its start too.
+            // Edges that leave enclosing regions pass the start of this loop as well.
             let returns =
                 self.inlines.last_mut().into_iter().flat_map(|e| e.exits.iter_mut().skip(level.returns.0));
             let chains =

@@ -1,18 +1,18 @@
-//! Numbers that follow from known ones are known: they are computed here, and their operations left out. What the binder
-//! needs to know of a value while it looks for types, as an index or a name, it has found itself; here it is what comes
-//! together only in the form: arguments of functions, variables, and what a loop does not change.
+//! Constant folding: numbers that follow from constants are computed here, and their operations are removed. The binder folds
+//! the constants that it needs for type inference, such as indexes and names. This pass finds those that appear only in SSA
+//! form: arguments of functions, variables, and values that a loop does not change.
 
 use crate::operation::select;
 use crate::ssa::{Num, Op, Operand, SsaFunction};
 
-/// What an operation gives.
+/// The result of an operation.
 enum Folded {
     Known(f64),
-    /// The same as another number.
+    /// The same value as another name.
     Same(Num),
 }
 
-/// Computes what is known.
+/// Folds the constants of a function.
 pub(super) fn fold(unit: &mut SsaFunction) {
     let mut gone: Vec<u32> = Vec::new();
     for i in 0..unit.ops.len() {
@@ -39,7 +39,7 @@ pub(super) fn fold(unit: &mut SsaFunction) {
     unit.spans.retain(|_| places.next().is_none_or(left));
 }
 
-/// What a numeric operation gives, with its name, where that is known.
+/// The name and the result of a numeric operation, if the result is known.
 fn result(unit: &SsaFunction, op: &Op) -> Option<(Num, Folded)> {
     let constant = |n: Num| unit.constant(unit.same.number(n));
     Some(match *op {
@@ -55,7 +55,7 @@ fn result(unit: &SsaFunction, op: &Op) -> Option<(Num, Folded)> {
                 args.operands(&unit.args).iter().map(|n| constant(Num(*n))).collect();
             let numbers = numbers?;
             let x = function.apply(&numbers);
-            // The extreme of nothing is found while running, where it can be seen.
+            // The minimum or maximum of no arguments is evaluated at run time, where a watch records it.
             let some = !numbers.is_empty();
             (
                 name,
@@ -70,7 +70,7 @@ fn result(unit: &SsaFunction, op: &Op) -> Option<(Num, Folded)> {
     })
 }
 
-/// A known result, unless a NaN was lost on the way to it: a run shows where ([`crate::Watch`]).
+/// A known result, unless an operand is NaN and the result is not: a run records where NaN disappears ([`crate::Watch`]).
 fn unless_nan_lost(operands: &[f64], x: f64) -> Option<Folded> {
     let lost = operands.iter().any(|x| x.is_nan()) && !x.is_nan();
     (!lost).then_some(Folded::Known(x))

@@ -1,4 +1,4 @@
-//! Typed tree to form, function after function.
+//! Typed tree to SSA form, one function after the other.
 
 use super::builder::{FunctionBuilder, Variables};
 use super::fold::fold;
@@ -6,7 +6,7 @@ use crate::ir::{self, IrProgram, LocalId};
 use crate::ssa::{Op, Operand, Representation, SsaProgram, Terminator};
 use labspec_finding::Span;
 
-/// The form of a text.
+/// The SSA form of a program.
 pub(crate) fn lower(tree: &IrProgram) -> SsaProgram {
     let mut form = SsaProgram { views: tree.views.clone(), ..SsaProgram::default() };
     let mut variables = Variables::default();
@@ -32,7 +32,7 @@ impl FunctionBuilder<'_> {
             unit.params.iter().chain(&unit.captures).map(|&l| (l, self.given(l))).collect();
         for (i, (local, at)) in given.into_iter().enumerate() {
             let at = match at {
-                // What is captured is the shared place already.
+                // A captured variable is passed as its cell already.
                 Operand::Value(value) if self.is_shared(local) && i < unit.params.len() => {
                     Operand::Value(self.value_of(Span::default(), |dst| Op::NewCell(dst, value)))
                 }

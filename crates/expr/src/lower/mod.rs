@@ -1,4 +1,4 @@
-//! From the typed tree to what runs: operations in single-assignment form, formulas of them, and code.
+//! From the typed tree to executable code: operations in static single assignment form, formulas, and machine code.
 
 mod build;
 mod builder;

@@ -1,4 +1,4 @@
-//! Assignments: to elements of fields, to variables, and to parts of lists and records.
+//! Assignments to elements of fields, to variables, and to elements of lists and records.
 
 use super::builder::FunctionBuilder;
 use crate::ir::{AssignmentTarget, Index, Ir, LocalId, UpdateResult};
@@ -8,20 +8,20 @@ use crate::types::Type;
 use crate::value::View;
 use labspec_finding::Span;
 
-/// A place whose parts are computed, so that it can be read and then stored.
+/// A target whose operands have been evaluated, so that it can be read and then stored.
 enum ResolvedTarget {
     Element(View, Num),
     Fixed(View, u32),
     Global(u32),
     GlobalNamed(Val),
     Local(LocalId),
-    /// `true`: of a record for sure.
+    /// The flag is `true` if the object is certainly a record.
     Item(Val, Val, bool),
     Member(Val, u32, bool),
 }
 
 impl FunctionBuilder<'_> {
-    /// Whether a place holds numbers and nothing else.
+    /// Whether a target stores only numbers.
     pub(super) fn is_plain_place(&mut self, place: &AssignmentTarget) -> bool {
         match place {
             AssignmentTarget::Element(..) => true,
@@ -30,7 +30,7 @@ impl FunctionBuilder<'_> {
         }
     }
 
-    /// Whether what an assignment stores and gives is a number for sure, so that it needs no value register.
+    /// Whether the value that an assignment stores and returns is certainly a number, so that it needs no value register.
     pub(super) fn is_plain_store(
         &mut self,
         place: &AssignmentTarget,
@@ -51,7 +51,7 @@ impl FunctionBuilder<'_> {
                 ResolvedTarget::Fixed(*view, view.first.saturating_add(u32::try_from(*i).unwrap_or(u32::MAX)))
             }
             AssignmentTarget::Element(view, index) => {
-                // The index is computed before the value, and once.
+                // The index is evaluated once, before the value.
                 ResolvedTarget::Element(*view, self.index(index))
             }
             AssignmentTarget::Global(slot) => ResolvedTarget::Global(*slot),
@@ -131,7 +131,7 @@ impl FunctionBuilder<'_> {
         self.emit(op, span);
     }
 
-    /// Stores a number; gives the register of what was stored.
+    /// Stores a number, and returns the register of the stored number.
     pub(super) fn store(
         &mut self,
         place: &AssignmentTarget,
@@ -152,7 +152,7 @@ impl FunctionBuilder<'_> {
         new
     }
 
-    /// Stores a value of any type; gives the register of what was stored.
+    /// Stores a value of any type, and returns the register of the stored value.
     pub(super) fn store_value(
         &mut self,
         place: &AssignmentTarget,
@@ -179,7 +179,7 @@ impl FunctionBuilder<'_> {
         new
     }
 
-    /// `place ||= value` and its like.
+    /// Evaluates `place ||= value` and similar assignments.
     pub(super) fn store_if(
         &mut self,
         op: LogicalOp,
@@ -199,7 +199,7 @@ impl FunctionBuilder<'_> {
         self.read_value(result)
     }
 
-    /// `place++` of a number.
+    /// Evaluates `place++` for a number.
     pub(super) fn update(
         &mut self,
         place: &AssignmentTarget,
@@ -215,7 +215,7 @@ impl FunctionBuilder<'_> {
         if gives == UpdateResult::New { new } else { old }
     }
 
-    /// `place++` of a value of any type, which becomes a number.
+    /// Evaluates `place++` for a value of any type, which is converted to a number.
     pub(super) fn update_value(
         &mut self,
         place: &AssignmentTarget,

@@ -1,5 +1,5 @@
-//! Formulas from forms: of a whole text without effects, where every question becomes a choice between numbers that
-//! are both computed, and of a few numeric operations of a longer one.
+//! Formulas from SSA form: of a whole program without effects, where every branch becomes a selection between two evaluated
+//! numbers, and of consecutive numeric operations of a longer program.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,7 @@ use crate::formula::{Formula, FormulaStep, StepId};
 use crate::math::FEW;
 use crate::ssa::{BasicBlock, BlockEdge, BlockId, Num, Op, Operand, Representation, SsaFunction, Terminator};
 
-/// The formula of a text that gives a number or a truth value; `None` when its value depends on more than elements of
+/// The formula of a program with a numeric or boolean value, or `None` if its value depends on anything other than elements of
 /// fields at known indexes.
 pub(crate) fn whole(unit: &SsaFunction) -> Option<Formula> {
     let loads_and_numbers = |op: &Op| op.is_numeric() || matches!(op, Op::Load(..));
@@ -19,7 +19,7 @@ pub(crate) fn whole(unit: &SsaFunction) -> Option<Formula> {
         steps.params(at)?;
         unit.range(at).try_for_each(|i| steps.op(unit.ops.get(i)?).map(|_| ()))?;
     }
-    // What returns are the ways to the end.
+    // The blocks that return are the paths to the end.
     let mut output = steps.chosen(0, unit.blocks.len() as BlockId, 0)?;
     let mut formula = steps.formula;
     formula.finish(std::slice::from_mut(&mut output));
@@ -27,8 +27,8 @@ pub(crate) fn whole(unit: &SsaFunction) -> Option<Formula> {
     Some(formula)
 }
 
-/// The formula of numeric operations that follow each other, with the step of every number that they give. `input`: the
-/// register of a number that stands there before.
+/// The formula of consecutive numeric operations, with the step of every number that they define. `input` returns the register
+/// of a number that was defined before them.
 pub(crate) fn stretch(
     unit: &SsaFunction,
     ops: &[Op],
@@ -42,7 +42,7 @@ pub(crate) fn stretch(
     Some((steps.formula, given))
 }
 
-/// The work on one formula.
+/// The builder of one formula.
 struct Steps<'u> {
     unit: &'u SsaFunction,
     input: Option<&'u mut dyn FnMut(Num) -> u32>,
@@ -70,7 +70,7 @@ impl<'u> Steps<'u> {
         Some(at)
     }
 
-    /// The step of an operation, with its name.
+    /// The step of an operation, and the name of its result.
     fn op(&mut self, op: &Op) -> Option<(Num, StepId)> {
         let (name, at) = match *op {
             Op::Load(name, field, index) => (name, self.formula.step(FormulaStep::Load(field, index))),
@@ -86,7 +86,7 @@ impl<'u> Steps<'u> {
                 let (test, a, b) = (self.find(test)?, self.find(a)?, self.find(b)?);
                 (name, self.formula.select(test, a, b))
             }
-            // More arguments than a row takes are for the machine.
+            // A function with more arguments than a row supports is left to the virtual machine.
             Op::Math(_, _, args) if args.count as usize > FEW => return None,
             Op::Math(name, function, args) => {
                 let args = args
@@ -102,7 +102,7 @@ impl<'u> Steps<'u> {
         Some((name, at))
     }
 
-    /// The parameters of a block.
+    /// Determines the steps of the parameters of a block.
     fn params(&mut self, to: BlockId) -> Option<()> {
         let unit = self.unit;
         let BasicBlock { params, after, .. } = unit.blocks.get(to as usize)?;
@@ -114,8 +114,8 @@ impl<'u> Steps<'u> {
         Some(())
     }
 
-    /// What a parameter of a block is, by the questions since the block that all ways to it passed last. Ways lead
-    /// forward, so from the last block on it is known what follows.
+    /// The step of a parameter of block `to`, selected by the branches since block `after`, the last block that all paths to it
+    /// passed. Edges lead forward, so the blocks are visited from the last to the first.
     fn chosen(&mut self, after: BlockId, to: BlockId, param: usize) -> Option<StepId> {
         let unit = self.unit;
         let mut from: Vec<Option<StepId>> = vec![None; (to - after) as usize];

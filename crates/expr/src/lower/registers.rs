@@ -1,10 +1,10 @@
-//! Registers of one kind for the names of a function, and moves between them.
+//! The registers of one kind that hold the names of a function, and moves between them.
 
 use std::collections::BTreeMap;
 
 /// Registers of one kind.
 pub(super) struct RegisterFile {
-    /// By name: how often it is used, and its register.
+    /// For each name, its number of uses; `registers` is its register.
     uses: Vec<u32>,
     pub(super) registers: Vec<Option<u32>>,
     pub(super) count: u32,
@@ -25,7 +25,7 @@ impl RegisterFile {
         self.uses.get(name as usize).copied().unwrap_or(0)
     }
 
-    /// The register of a name.
+    /// The register of a name, assigned at the first request.
     pub(super) fn register(&mut self, name: u32) -> u32 {
         let Some(place) = self.registers.get_mut(name as usize) else { return 0 };
         *place.get_or_insert_with(|| {
@@ -41,8 +41,9 @@ impl RegisterFile {
     }
 }
 
-/// Moves, to and from, in an order in which none overwrites what another still reads. A circle is broken by one more
-/// register (Boissinot et al., "Revisiting out-of-SSA translation for correctness, code quality and efficiency", 2009).
+/// Orders moves (to, from) so that none overwrites a register that another one still reads. A cycle is broken
+/// with one additional register (Boissinot et al., "Revisiting out-of-SSA translation for correctness, code
+/// quality and efficiency", 2009).
 pub(super) fn order_moves(mut moves: Vec<(u32, u32)>, count: &mut u32) -> Vec<(u32, u32)> {
     moves.retain(|(to, from)| to != from);
     if moves.len() < 2 {
@@ -64,7 +65,7 @@ pub(super) fn order_moves(mut moves: Vec<(u32, u32)>, count: &mut u32) -> Vec<(u
                 }
             }
         }
-        // Only circles are left, in which each is read once.
+        // Only cycles remain, in which each register is read once.
         let Some((&to, _)) = left.first_key_value() else { return done };
         let spare = *count;
         *count += 1;

@@ -40,7 +40,7 @@ impl FunctionBuilder<'_> {
         }
     }
 
-    /// Computes the node and drops the result.
+    /// Evaluates the node and discards the result.
     pub(super) fn effect(&mut self, ir: &Ir) {
         match &ir.kind {
             IrKind::Fill(view, value) => {
@@ -48,7 +48,7 @@ impl FunctionBuilder<'_> {
                 self.emit(Op::Fill(*view, src), ir.span);
             }
             IrKind::StoreAll(view, offset, items) => {
-                // All values first: an item may read what an earlier one overwrites.
+                // All values are evaluated first, because an item may read an element that an earlier item overwrites.
                 let numbers: Vec<Num> = items.iter().map(|item| self.number(item)).collect();
                 for (i, src) in numbers.into_iter().enumerate() {
                     let index = self.constant(offset.saturating_add(i) as f64);
@@ -80,7 +80,7 @@ impl FunctionBuilder<'_> {
         }
         let src = self.value(value);
         if self.has(local) {
-            // Functions that were made before hold the place already.
+            // Functions that were created before already refer to this cell.
             let cell = self.read_value(local);
             return self.emit(Op::CellSet(cell, src, true), value.span);
         }
@@ -88,7 +88,7 @@ impl FunctionBuilder<'_> {
         self.write(local, Operand::Value(cell));
     }
 
-    /// A value in the way that a local is handed over.
+    /// Evaluates a value in the representation of a local variable.
     fn in_slot(&mut self, local: LocalId, value: &Ir) -> Operand {
         match self.slot(local) {
             Representation::Value => Operand::Value(self.value(value)),
@@ -130,7 +130,7 @@ impl FunctionBuilder<'_> {
         self.leave_loop(inner.span);
     }
 
-    /// Statements in the place of a call: what they return is the value of a local.
+    /// Emits the statements of an inlined call. Their result is the value of a local variable.
     fn inline(&mut self, result: LocalId, body: &[IrStatement], span: Span) {
         let outer = self.site.replace(self.site.unwrap_or(span));
         if self.slot(result) == Representation::Value {

@@ -1,4 +1,4 @@
-//! All rows, found by name, and how the machine calls them.
+//! The table of all methods and functions: lookup by name, and calls by the virtual machine.
 
 use labspec_finding::order;
 use std::sync::OnceLock;
@@ -13,7 +13,7 @@ use crate::parse::parse_expression;
 use crate::types::Type;
 use crate::value::Value;
 
-/// All rows, by their names.
+/// All rows, sorted by name.
 fn all() -> &'static [&'static Native] {
     static ALL: OnceLock<Vec<&'static Native>> = OnceLock::new();
     ALL.get_or_init(|| {
@@ -24,29 +24,29 @@ fn all() -> &'static [&'static Native] {
     })
 }
 
-/// Where the rows of a name begin.
+/// The first row of a name, and its index.
 fn first(text: &str) -> Option<(u8, &'static Native)> {
     let at = all().partition_point(|row| row.name < text);
     let row = all().get(at).filter(|row| row.name == text)?;
     Some((at as u8, row))
 }
 
-/// The rows that a person may use.
+/// The rows that authors may use.
 pub(crate) fn public_rows() -> impl Iterator<Item = &'static Native> {
     all().iter().copied().filter(|row| !row.name.starts_with('_'))
 }
 
-/// The method of this name, whatever it belongs to.
+/// The method with this name, for any receiver.
 pub(crate) fn find_method(text: &str) -> Option<MethodId> {
     first(text).filter(|(_, row)| row.on != ReceiverKind::Nothing).map(|(at, _)| MethodId(at))
 }
 
-/// The function of this name.
+/// The free function with this name.
 pub(crate) fn find_function(text: &str) -> Option<FreeFunctionId> {
     first(text).filter(|(_, row)| row.on == ReceiverKind::Nothing).map(|(at, _)| FreeFunctionId(at))
 }
 
-/// The rows that begin at a place and have one name.
+/// The rows from index `at` on that have the same name.
 fn of_one_name(at: u8) -> impl Iterator<Item = &'static Native> {
     let rows = all().get(usize::from(at)..).unwrap_or(&[]);
     rows.iter().copied().take_while(|row| row.name == rows[0].name)
@@ -57,7 +57,7 @@ impl FreeFunctionId {
         all()[usize::from(self.0)]
     }
 
-    /// The function of the language that computes it with so many arguments.
+    /// The definition in the language for this number of arguments, if there is one.
     pub(crate) fn source_function(self, arguments: usize) -> Option<&'static Function> {
         of_one_name(self.0).find_map(|row| row.source_function(arguments))
     }
@@ -68,19 +68,19 @@ impl MethodId {
         all()[usize::from(self.0)].name
     }
 
-    /// The rows of this name.
+    /// The rows with this name.
     pub(crate) fn rows(self) -> impl Iterator<Item = &'static Native> {
         of_one_name(self.0)
     }
 
-    /// The rows for a receiver of this type; all of them when the type is not known.
+    /// The rows for a receiver of this type; all rows if the type is unknown.
     pub(crate) fn rows_for(self, ty: Type) -> impl Iterator<Item = &'static Native> {
         self.rows().filter(move |row| row.is_of(ty))
     }
 }
 
 impl Native {
-    /// The function of the language that computes it with so many arguments.
+    /// The definition in the language for this number of arguments, if there is one.
     pub(crate) fn source_function(&self, arguments: usize) -> Option<&'static Function> {
         static READ: OnceLock<Vec<(&str, Function)>> = OnceLock::new();
         let Implementation::Source(texts) = self.body else { return None };
@@ -93,12 +93,12 @@ impl Native {
     }
 }
 
-/// All functions of the language that compute methods.
+/// All definitions of methods in the language.
 pub(crate) fn source_functions() -> impl Iterator<Item = &'static Function> {
     all().iter().flat_map(|row| row.texts().iter().filter_map(|(n, _)| row.source_function(*n)))
 }
 
-/// A function, read.
+/// Parses a function.
 fn function(text: &str) -> Option<Function> {
     match parse_expression(text).tree.kind {
         ExprKind::Function(function) => Some(*function),
@@ -106,10 +106,10 @@ fn function(text: &str) -> Option<Function> {
     }
 }
 
-/// The row by which the machine computes a method of a value, if it has it.
+/// The row by which the virtual machine evaluates a method of a value, if the value has the method.
 pub(crate) fn find_row(heap: &Heap, name: MethodId, receiver: &Value) -> Option<&'static Native> {
     let list = matches!(heap.object(receiver), HeapObject::List(_));
-    // A typed array alone has `set` and `subarray`.
+    // Only typed arrays have `set` and `subarray`.
     if list && matches!(name.text(), "set" | "subarray") {
         return None;
     }
@@ -130,11 +130,11 @@ pub(crate) fn call(env: &mut Env<'_>, name: MethodId, receiver: &Value, args: &[
     }
 }
 
-/// Calls a function.
+/// Calls a free function.
 pub(crate) fn call_free(env: &mut Env<'_>, function: FreeFunctionId, args: &[Value]) -> NativeOutcome {
     match function.row().body {
         Implementation::Run(run, ..) => run(env, &Value::Undefined, args),
-        Implementation::Source(_) => Ok(Value::Undefined), // not reached: the binder writes these out
+        Implementation::Source(_) => Ok(Value::Undefined), // unreachable: the binder inlines these
     }
 }
 
@@ -144,7 +144,7 @@ mod tests {
     use crate::mock::World;
     use crate::natives::native::NanBehaviour;
 
-    /// What a row makes of `[9, element, 7]` and these arguments, with `X` in the place of each `element` and `argument`.
+    /// The result of a row for `[9, element, 7]` and these arguments, with `X` in place of each `element` and `argument`.
     fn outcome(row: &Native, element: f64, argument: f64, args: &[f64]) -> String {
         fn show(heap: &Heap, value: &Value, unknown: [f64; 2]) -> String {
             match value {
@@ -187,9 +187,9 @@ mod tests {
         ];
         for row in all() {
             let lists = matches!(row.on, ReceiverKind::List | ReceiverKind::Growing | ReceiverKind::Untyped);
-            // Every function written in the language states it by its text, and those alone.
+            // Exactly the functions that are written in the language have this value.
             assert_eq!(row.nan == NanBehaviour::Source, row.calls(), "{}", row.name);
-            // Names with an underscore are called with what the texts of methods hand them: a list, and its length.
+            // Functions with an underscore are called only by definitions in the language, which pass a list and its length.
             if row.calls() || row.name.starts_with('_') || !(lists || row.on == ReceiverKind::Nothing) {
                 continue;
             }
@@ -203,7 +203,7 @@ mod tests {
             let asks = row.nan == NanBehaviour::Asks;
             assert!(row.nan.of_elements() || !moved || asks, "{} looks at elements", row.name);
             assert!(row.nan.of_arguments() || !arguments || asks, "{} looks at arguments", row.name);
-            // What is said to look does.
+            // A row that declares that it inspects elements must do so.
             assert!(!(lists && row.nan.of_elements()) || elements, "{} looks at no element", row.name);
         }
     }
@@ -218,7 +218,7 @@ mod tests {
 
     #[test]
     fn the_machine_has_the_first_row_of_a_name() {
-        // A function that the machine calls must not be one that is written out.
+        // A free function that the virtual machine calls must not be one that is inlined.
         for row in all().iter().filter(|row| row.on == ReceiverKind::Nothing) {
             assert!(!find_function(row.name).unwrap().row().calls(), "{}", row.name);
         }

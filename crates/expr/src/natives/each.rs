@@ -1,9 +1,10 @@
-//! The methods that call a function for every element, written in the language itself. `v` is what stands before the point,
-//! `f` the function. Names with an underscore are functions of the machine for these texts alone (`list.rs`).
+//! The methods that call a function for every element, written in the language itself. `v` is the receiver and `f` the
+//! function. Names with an underscore are functions of the virtual machine that only these definitions use (`list.rs`).
 
 use super::native::{Native, table};
 
-/// A merge sort, `undefined` last, of two copies, `a` and `b`: runs of `w` elements of one become runs of twice as many in the other.
+/// Merge sort with `undefined` last, on two copies `a` and `b`: runs of `w` elements in one become runs of `2
+/// w` elements in the other.
 macro_rules! merge_sort {
     ($end:literal) => {
         concat!(

@@ -1,4 +1,4 @@
-//! What methods work with: the lists of a run, its host, its budget, and JavaScript's conversions.
+//! The environment of methods: the heap, the host and the work budget of a run, and JavaScript's conversions.
 
 use crate::heap::{Full, Heap, HeapObject, MAX_TEXT};
 use crate::host::Host;
@@ -7,7 +7,7 @@ use crate::rules::{self, Rule};
 use crate::types::Elem;
 use crate::value::{Value, View};
 
-/// Why a method fails.
+/// The error of a method.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct NativeError {
     pub(crate) rule: &'static Rule,
@@ -26,22 +26,22 @@ impl From<Full> for NativeError {
     }
 }
 
-/// What a method works with.
+/// The environment of a method.
 pub(crate) struct Env<'a> {
     pub(crate) heap: &'a mut Heap,
     pub(crate) host: &'a mut dyn Host,
     pub(crate) views: &'a [ExposedView],
-    /// Work that the run may still do.
+    /// The remaining work budget of the run.
     pub(crate) budget: &'a mut u64,
 }
 
-/// Lists inside of each other whose text is made.
+/// Limit on the nesting of lists that are converted to a string.
 const MAX_DEPTH: usize = 200;
 
-/// What an element counts.
+/// The work per element.
 const ELEMENT: u64 = 10;
 
-/// Counts work. Where it is too much, nothing is left.
+/// Subtracts work from a budget. If the budget is too small, it becomes zero and the call fails.
 pub(crate) fn charge(budget: &mut u64, units: u64) -> Result<(), NativeError> {
     let rest = budget.checked_sub(units);
     *budget = rest.unwrap_or(0);
@@ -49,17 +49,17 @@ pub(crate) fn charge(budget: &mut u64, units: u64) -> Result<(), NativeError> {
 }
 
 impl Env<'_> {
-    /// Counts elements that are gone through.
+    /// Subtracts the work for iterating over elements.
     pub(crate) fn spend(&mut self, elements: usize) -> Result<(), NativeError> {
         charge(self.budget, ELEMENT * elements as u64)
     }
 
-    /// Number of elements of a view, now.
+    /// The current number of elements of a view.
     pub(crate) fn view_len(&self, view: View) -> usize {
         view.count().unwrap_or_else(|| self.host.len(view.field).saturating_sub(view.first as usize))
     }
 
-    /// Element of a view.
+    /// An element of a view.
     pub(crate) fn view_item(&self, view: View, index: usize) -> Value {
         if index >= self.view_len(view) {
             return Value::Undefined;
@@ -67,7 +67,7 @@ impl Env<'_> {
         self.host.get(view.field, view.first as usize + index).map_or(Value::Undefined, Value::Number)
     }
 
-    /// Stores an element of a view that became a value.
+    /// Stores an element of a view that is used as a value.
     pub(crate) fn view_store(&mut self, view: View, index: usize, x: f64) -> Result<(), NativeError> {
         let exposed = self.views.iter().find(|s| s.view.field == view.field);
         match exposed {
@@ -92,12 +92,12 @@ impl Env<'_> {
         Ok(())
     }
 
-    /// What the elements of an array are.
+    /// The element type of an array.
     pub(crate) fn elem(&self, view: View) -> Elem {
         self.views.iter().find(|s| s.view.field == view.field).map_or(Elem::Double, |s| s.elem)
     }
 
-    /// Number of elements of a list or array.
+    /// The number of elements of a list or an array.
     pub(crate) fn len(&self, value: &Value) -> usize {
         match value {
             Value::View(view) => self.view_len(*view),
@@ -105,7 +105,7 @@ impl Env<'_> {
         }
     }
 
-    /// All elements of a list or array, counted.
+    /// All elements of a list or an array; subtracts the work.
     pub(crate) fn items(&mut self, value: &Value) -> Result<Vec<Value>, NativeError> {
         let n = self.len(value);
         self.spend(n)?;
@@ -119,12 +119,12 @@ impl Env<'_> {
         })
     }
 
-    /// JavaScript's `String(v)`. A function has a text there, that of its source, and none here.
+    /// JavaScript's `String(v)`. For a function, JavaScript gives its source; here it is an error.
     pub(crate) fn text(&mut self, value: &Value) -> Result<String, NativeError> {
         self.text_within(value, &mut Vec::new())
     }
 
-    /// As [`Env::text`], inside of lists whose texts are being made: in their own text they are empty.
+    /// As [`Env::text`], inside the lists that are being converted: within its own string, such a list is empty.
     pub(crate) fn text_within(
         &mut self,
         value: &Value,
@@ -180,7 +180,7 @@ impl Env<'_> {
         match value {
             Value::List(_) | Value::View(_) => match self.text(value) {
                 Ok(text) => Ok(crate::number::from_text(&text)),
-                // The text of a function is never that of a number.
+                // A function in a list is never a number.
                 Err(trouble) if trouble.rule == rules::NOT_A_VALUE => Ok(f64::NAN),
                 Err(trouble) => Err(trouble),
             },
@@ -188,7 +188,7 @@ impl Env<'_> {
         }
     }
 
-    /// A text as a value, when it is not too long.
+    /// A string value, unless it is too long.
     pub(crate) fn string(&mut self, text: String) -> Result<Value, NativeError> {
         if text.len() > MAX_TEXT {
             return Err(too_long());
@@ -197,7 +197,7 @@ impl Env<'_> {
         Ok(Value::String(text.into()))
     }
 
-    /// What is spread: the elements of a list, the characters of a text.
+    /// The values of a spread: the elements of a list, or the characters of a string.
     pub(crate) fn spread(&mut self, value: &Value) -> Result<Vec<Value>, NativeError> {
         match value {
             Value::List(_) | Value::View(_) => self.items(value),
@@ -228,14 +228,14 @@ pub(super) fn integer(x: f64) -> f64 {
     if x.is_nan() { 0.0 } else { x.trunc() }
 }
 
-/// An index that counts from the end when negative, cut to `0..=n`.
+/// An index that counts from the end if negative, clamped to `0..=n`.
 pub(super) fn relative(x: f64, n: usize) -> usize {
     let x = integer(x);
     let at = if x < 0.0 { n as f64 + x } else { x };
     at.clamp(0.0, n as f64) as usize
 }
 
-/// An argument; `undefined` when it is left out.
+/// An argument, or `undefined` if it was omitted.
 pub(super) fn arg(args: &[Value], i: usize) -> &Value {
     const UNDEFINED: &Value = &Value::Undefined;
     args.get(i).unwrap_or(UNDEFINED)

@@ -59,7 +59,7 @@ pub(super) static ROWS: &[Native] = table! {
     "_parts" Nothing (1, 1) List Keeps parts: "" => "", "";
 };
 
-/// What the elements are when a value holds numbers only: a typed array, or an array of the host.
+/// The element type, if the value can only contain numbers: a typed array, or an array of the host.
 fn typed(env: &Env<'_>, value: &Value) -> Option<Elem> {
     match value {
         Value::View(view) => Some(env.elem(*view)),
@@ -70,7 +70,7 @@ fn typed(env: &Env<'_>, value: &Value) -> Option<Elem> {
     }
 }
 
-/// A new list of the same kind as another.
+/// Creates a list of the same kind as another.
 fn same_kind(env: &mut Env<'_>, as_in: &Value, items: Vec<Value>) -> NativeOutcome {
     match typed(env, as_in) {
         Some(elem) => {
@@ -84,7 +84,7 @@ fn same_kind(env: &mut Env<'_>, as_in: &Value, items: Vec<Value>) -> NativeOutco
     }
 }
 
-/// Replaces all elements; of arrays of fixed size the number stays.
+/// Replaces all elements, whose number must not change.
 fn replace(env: &mut Env<'_>, list: &Value, items: Vec<Value>) -> Result<(), NativeError> {
     for (i, item) in items.into_iter().enumerate() {
         store(env, list, i, &item)?;
@@ -131,7 +131,7 @@ fn at(env: &mut Env<'_>, list: &Value, args: &[Value]) -> NativeOutcome {
 fn concat(env: &mut Env<'_>, list: &Value, args: &[Value]) -> NativeOutcome {
     let mut items = env.items(list)?;
     for arg in args {
-        // JavaScript takes lists apart, typed arrays not.
+        // JavaScript flattens lists, but not typed arrays.
         if matches!(env.heap.object(arg), HeapObject::List(_)) {
             items.extend(env.items(arg)?);
         } else {
@@ -257,7 +257,7 @@ fn reverse(env: &mut Env<'_>, list: &Value, _: &[Value]) -> NativeOutcome {
     Ok(list.clone())
 }
 
-/// What is gone through, or taken apart by a list of names: a list as it is, a text as its characters.
+/// The values for iteration or for a list pattern: a list unchanged, a string as its characters.
 fn parts(env: &mut Env<'_>, _: &Value, args: &[Value]) -> NativeOutcome {
     match arg(args, 0) {
         list @ (Value::List(_) | Value::View(_)) => Ok(list.clone()),
@@ -298,14 +298,14 @@ fn slice(env: &mut Env<'_>, list: &Value, args: &[Value]) -> NativeOutcome {
     same_kind(env, list, part)
 }
 
-/// Orders numbers as typed arrays do: -0 before 0, NaN last.
+/// The order of numbers in typed arrays: -0 before 0, NaN last.
 fn order_numbers(a: &Value, b: &Value) -> std::cmp::Ordering {
     let (a, b) = (a.to_number(), b.to_number());
     let rank = |x: f64| if x.is_nan() { f64::INFINITY } else { x };
     a.is_nan().cmp(&b.is_nan()).then(rank(a).total_cmp(&rank(b)))
 }
 
-/// Orders elements of a list as texts, `undefined` last.
+/// Sorts the elements of a list as strings, `undefined` last; numbers of typed arrays by value.
 fn sorted(env: &mut Env<'_>, list: &Value) -> Result<Vec<Value>, NativeError> {
     let mut items = env.items(list)?;
     env.spend(8 * items.len())?;
@@ -365,7 +365,7 @@ fn subarray(env: &mut Env<'_>, list: &Value, args: &[Value]) -> NativeOutcome {
         Value::View(view) => {
             Ok(Value::View(View::new(view.field, view.first as usize + start, Some(end - start))))
         }
-        // A part of a copy is a copy: nothing else refers to the elements.
+        // A part of a copied list is a copy: nothing else refers to its elements.
         _ => slice(env, list, args),
     }
 }
@@ -398,7 +398,7 @@ fn with(env: &mut Env<'_>, list: &Value, args: &[Value]) -> NativeOutcome {
     same_kind(env, list, items)
 }
 
-/// A list of the same kind as another, with so many elements.
+/// Creates a list of the same kind as another, with `n` empty elements.
 fn like(env: &mut Env<'_>, _: &Value, args: &[Value]) -> NativeOutcome {
     let n = arg(args, 1).to_number() as usize;
     env.spend(n)?;
@@ -406,7 +406,7 @@ fn like(env: &mut Env<'_>, _: &Value, args: &[Value]) -> NativeOutcome {
     same_kind(env, arg(args, 0), vec![empty; n])
 }
 
-/// The elements of a list in a list of the same kind as another.
+/// Copies the elements of a list into a list of the same kind as another.
 fn kind(env: &mut Env<'_>, _: &Value, args: &[Value]) -> NativeOutcome {
     if typed(env, arg(args, 0)).is_none() {
         return Ok(arg(args, 1).clone());
@@ -415,12 +415,12 @@ fn kind(env: &mut Env<'_>, _: &Value, args: &[Value]) -> NativeOutcome {
     same_kind(env, arg(args, 0), items)
 }
 
-/// What `reduce` of nothing does.
+/// Fails: `reduce` was called on an empty list without an initial value.
 fn empty(_: &mut Env<'_>, _: &Value, _: &[Value]) -> NativeOutcome {
     Err(NativeError::new(rules::NO_PARTS, "`reduce` of an empty list needs an initial value"))
 }
 
-/// A list or an array, on which a method of this name is called.
+/// Returns a list or an array unchanged, and fails for other values: the method exists only on lists.
 fn only_list(_: &mut Env<'_>, _: &Value, args: &[Value]) -> NativeOutcome {
     match arg(args, 0) {
         list @ (Value::List(_) | Value::View(_)) => Ok(list.clone()),
@@ -428,7 +428,7 @@ fn only_list(_: &mut Env<'_>, _: &Value, args: &[Value]) -> NativeOutcome {
     }
 }
 
-/// Lists have `flatMap`, typed arrays not.
+/// Returns a list unchanged, and fails for typed arrays, which have no `flatMap`.
 fn untyped(env: &mut Env<'_>, _: &Value, args: &[Value]) -> NativeOutcome {
     let list = arg(args, 0);
     match env.heap.object(list) {

@@ -1,6 +1,6 @@
-//! The methods of lists, texts and numbers, and the functions of `Array`, `Number`, `String` and `Object`. Each is one row:
-//! what it is called, takes, gives and means, an example, and how it is computed. The binder, the machine, what was probably
-//! meant by a misspelt name, and the reference page all read the row.
+//! The methods of lists, strings and numbers, and the functions of `Array`, `Number`, `String` and `Object`. Each is one row:
+//! its name, receiver, arguments and result, its meaning, an example, and its implementation. The binder, the virtual machine,
+//! the suggestions for misspelt names, and the reference page use the row.
 
 mod catalog;
 mod each;

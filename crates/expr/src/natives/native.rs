@@ -1,26 +1,26 @@
-//! One row of the table of methods and functions: what it is called, takes, gives and means, and how it is computed.
+//! A row of the table of methods and functions: its name, receiver, arguments, result, meaning and implementation.
 
 use super::env::{Env, NativeError};
 use crate::rules;
 use crate::types::Type;
 use crate::value::Value;
 
-/// What a method belongs to.
+/// The receiver of a method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ReceiverKind {
     /// Lists, typed arrays and arrays of the host.
     List,
-    /// Lists alone: what changes the number of elements.
+    /// Only lists: methods that change the number of elements.
     Growing,
-    /// Lists alone: typed arrays do not have it.
+    /// Only lists: methods that typed arrays do not have.
     Untyped,
     Text,
     Number,
-    /// `Array.name`, `Number.name`; a name without a point stands alone.
+    /// No receiver: `Array.name`, `Number.name`, or a global function if the name has no point.
     Nothing,
 }
 
-/// What a method gives.
+/// The result of a method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum NativeResult {
     Any,
@@ -30,61 +30,61 @@ pub(crate) enum NativeResult {
     List,
     Undefined,
     Element,
-    /// What it was called on.
+    /// The receiver itself.
     Receiver,
-    /// An element of what it was called on.
+    /// An element of the receiver.
     Item,
 }
 
-/// What becomes of NaN, and of `undefined` where that counts, among the elements of what a method is called on and among its
-/// arguments ([`crate::Watch`]). What is looked at is lost, unless the result is NaN again.
+/// How a method treats NaN, and `undefined` where it is relevant, among the elements of its receiver and its arguments
+/// ([`crate::Watch`]). An inspected NaN counts as lost, unless the result is NaN again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum NanBehaviour {
-    /// Elements and arguments decide the result, as comparisons and texts do.
+    /// Elements and arguments determine the result, as in comparisons and conversions to strings.
     Looks,
-    /// Elements are moved and none is looked at; the arguments say where.
+    /// Elements are moved without being inspected; the arguments determine the positions.
     Moves,
-    /// Elements and arguments are handed on.
+    /// Elements and arguments are passed on.
     Keeps,
-    /// Whether something is a number is what is asked for.
+    /// The method tests for NaN.
     Asks,
-    /// It is lost where the text in the language loses it.
+    /// NaN is lost where the definition in the language loses it.
     Source,
 }
 
 impl NanBehaviour {
-    /// Whether the elements of what it is called on are looked at.
+    /// Whether the elements of the receiver are inspected.
     pub(crate) fn of_elements(self) -> bool {
         self == NanBehaviour::Looks
     }
 
-    /// Whether the arguments are looked at.
+    /// Whether the arguments are inspected.
     pub(crate) fn of_arguments(self) -> bool {
         matches!(self, NanBehaviour::Looks | NanBehaviour::Moves)
     }
 }
 
-/// How a method is computed.
+/// The implementation of a method.
 pub(crate) enum Implementation {
-    /// By the machine, with at least and at most so many arguments.
+    /// A function of the virtual machine, with its smallest and largest number of arguments.
     Run(NativeFunction, usize, usize),
-    /// By functions of the language itself, with how many arguments each of them is called: what stands before the point
-    /// is the first parameter. Where the method is called, the function is bound as if its text stood there, so that the
-    /// types of that place decide how it is computed: a sum over an array of numbers never leaves the number registers.
+    /// Functions in the language itself, each with its number of arguments; the receiver is the first parameter. The function
+    /// is bound as if its source were inlined at the call, so that the types at the call determine how it is evaluated: a sum
+    /// over an array of numbers uses only number registers.
     Source(&'static [(usize, &'static str)]),
 }
 
-/// A method, or a function.
+/// A method or a free function.
 pub(crate) struct Native {
     pub(crate) name: &'static str,
     pub(crate) on: ReceiverKind,
     pub(crate) gives: NativeResult,
-    /// It changes the elements of what it is called on.
+    /// Whether it changes the elements of its receiver.
     pub(crate) changes: bool,
-    /// What becomes of NaN.
+    /// How it treats NaN.
     pub(crate) nan: NanBehaviour,
     pub(crate) doc: &'static str,
-    /// An expression and its value, as text. `{array}` stands for an array of the host.
+    /// An expression and its value as text. `{array}` is replaced by an array of the host.
     pub(super) example: (&'static str, &'static str),
     pub(crate) body: Implementation,
 }
@@ -96,8 +96,8 @@ pub(super) type NativeOutcome = Result<Value, NativeError>;
 /// Any number of arguments.
 pub(super) const MANY: usize = usize::MAX;
 
-/// Rows, as they are written in the files beside this one: name, what it belongs to, the number of arguments, what it gives,
-/// what becomes of NaN, the function, an example with its value, the meaning. Of those that are written in the language the texts stand last,
+/// Rows as the files of this module write them: name, receiver, number of arguments, result, treatment of NaN,
+/// function, example with its value, meaning. For methods that are written in the language, the definitions come last,
 /// each with its number of arguments.
 macro_rules! table {
     ($($name:literal $on:ident $($changes:ident)? ($least:expr, $most:expr) $gives:ident $nan:ident $run:ident:
@@ -130,7 +130,7 @@ macro_rules! table {
 pub(super) use table;
 
 impl Native {
-    /// Whether a value of this type has it, as far as that is known.
+    /// Whether a value of this type may have it.
     pub(crate) fn is_of(&self, ty: Type) -> bool {
         matches!(ty, Type::Any | Type::Never)
             || match self.on {
@@ -142,7 +142,7 @@ impl Native {
             }
     }
 
-    /// The type of its result, called on something of a type.
+    /// The type of its result for a receiver of a type.
     pub(crate) fn returns(&self, receiver: Type) -> Type {
         match self.gives {
             NativeResult::Any => Type::Any,
@@ -158,13 +158,13 @@ impl Native {
         }
     }
 
-    /// How it is called, in short: `.map`, `Array.from`.
+    /// Its short form: `.map`, `Array.from`.
     pub(crate) fn title(&self) -> String {
         let point = if self.on == ReceiverKind::Nothing { "" } else { "." };
         format!("{point}{}", self.name)
     }
 
-    /// The least and the largest number of arguments.
+    /// The smallest and the largest number of arguments.
     pub(crate) fn arity(&self) -> (usize, usize) {
         match self.body {
             Implementation::Run(_, least, most) => (least, most),
@@ -179,18 +179,18 @@ impl Native {
         matches!(self.body, Implementation::Source(_))
     }
 
-    /// The example and its value, with an array of the host.
+    /// The example with an array of the host, and its value.
     pub(crate) fn example(&self, array: &str) -> (String, &'static str) {
         (self.example.0.replace("{array}", array), self.example.1)
     }
 
-    /// The texts of the functions that compute it.
+    /// The definitions in the language.
     pub(super) fn texts(&self) -> &'static [(usize, &'static str)] {
         if let Implementation::Source(texts) = self.body { texts } else { &[] }
     }
 }
 
-/// Why a method is not called.
+/// The error for a method that the receiver does not have.
 pub(super) fn no_method(receiver: &Value, name: &str) -> NativeError {
     let what = receiver.type_of().describe();
     let what = if receiver.is_nothing() { receiver.to_string() } else { what.to_owned() };

@@ -1,4 +1,5 @@
-//! Methods of numbers, and functions that make numbers, texts and truth values (ECMAScript, "Number Objects", "parseFloat", "parseInt").
+//! Methods of numbers, and functions that create numbers, strings and booleans (ECMAScript, "Number Objects",
+//! "parseFloat", "parseInt").
 
 use super::env::{Env, NativeError, arg, integer};
 use super::native::{Native, NativeOutcome, table};
@@ -49,12 +50,12 @@ pub(crate) const NUMBER_CONSTANTS: &[(&str, f64)] = &[
     ("POSITIVE_INFINITY", f64::INFINITY),
 ];
 
-/// The number a method is called on.
+/// The number on which a method is called.
 fn this_number(value: &Value) -> f64 {
     value.to_number()
 }
 
-/// An argument that counts digits, from `least` to 100.
+/// An argument that is a number of digits, from `least` to 100.
 fn digits(env: &mut Env<'_>, args: &[Value], least: f64) -> Result<Option<usize>, NativeError> {
     if *arg(args, 0) == Value::Undefined {
         return Ok(None);
@@ -67,7 +68,7 @@ fn digits(env: &mut Env<'_>, args: &[Value], least: f64) -> Result<Option<usize>
     Ok(Some(x as usize))
 }
 
-/// Binary places behind the point that a finite number needs.
+/// The number of binary places after the point of a finite number.
 fn fraction_bits(x: f64) -> i64 {
     let bits = x.to_bits();
     let exponent = (bits >> 52 & 0x7ff) as i64;
@@ -77,14 +78,14 @@ fn fraction_bits(x: f64) -> i64 {
     if mantissa == 0 { 0 } else { (-exponent - i64::from(mantissa.trailing_zeros())).max(0) }
 }
 
-/// JavaScript's `x.toFixed(digits)`: the exact value rounded, and a tie away from zero.
+/// JavaScript's `x.toFixed(digits)`: the exact value rounded, ties away from zero.
 pub fn to_fixed(x: f64, digits: usize) -> String {
     if !x.is_finite() || x.abs() >= 1e21 {
         return number::to_text(x);
     }
     let sign = if x < 0.0 { "-" } else { "" };
     let x = x.abs();
-    // A number with k binary places has k decimal places, and the last one is a 5: a tie for k - 1 digits.
+    // A number with k binary places has k decimal places, the last of which is 5. So rounding to k - 1 digits is a tie.
     if fraction_bits(x) != digits as i64 + 1 {
         return format!("{sign}{x:.digits$}");
     }
@@ -92,7 +93,7 @@ pub fn to_fixed(x: f64, digits: usize) -> String {
     format!("{sign}{}", without_last(&exact))
 }
 
-/// A decimal number without its last digit, a 5, which counts as more than half.
+/// A decimal number without its last digit 5, rounded up.
 fn without_last(exact: &str) -> String {
     let trimmed = exact.strip_suffix('5').unwrap_or(exact);
     let mut out: Vec<char> = trimmed.strip_suffix('.').unwrap_or(trimmed).chars().collect();
@@ -110,13 +111,13 @@ fn without_last(exact: &str) -> String {
     out.into_iter().collect()
 }
 
-/// Mantissa with so many decimals, and exponent; a tie goes away from zero.
+/// The mantissa with this number of decimals, and the exponent; ties are rounded away from zero.
 fn scientific(x: f64, digits: usize) -> (String, i32) {
     let x = x.abs();
     let longer = format!("{x:.*e}", digits + 1);
     let (mantissa, exponent) = longer.split_once('e').unwrap_or((&longer, "0"));
     let exponent = exponent.parse().unwrap_or(0);
-    // 800 digits show every double in full.
+    // 800 digits represent every double exactly.
     let tie = mantissa.ends_with('5')
         && format!("{x:.800e}")
             .split('e')
@@ -211,8 +212,8 @@ fn digit_in(digit: f64, radix: f64) -> char {
     char::from_digit(digit as u32, radix as u32).unwrap_or('0')
 }
 
-/// A whole number in another base. Places that a double does not tell apart are zeros; the standard leaves open which these
-/// are, and they are those of node.
+/// An integer in another base. Digits beyond the precision of a double are zeros. The standard leaves open which digits these
+/// are; they are the same as in node.
 fn whole_in(x: f64, radix: f64) -> String {
     let (mut rest, mut digits) = (x, Vec::new());
     while rest / radix >= 9007199254740992.0 {
@@ -229,8 +230,8 @@ fn whole_in(x: f64, radix: f64) -> String {
     }
 }
 
-/// The fraction of a number in another base, `.1`: the fewest digits that are nearer to it than to any other number
-/// (G. L. Steele and J. L. White 1990, fixed-point fractions); whether it rounds up to the next whole number.
+/// The fraction of a number in another base, such as `.1`: the fewest digits that identify the number (G. L. Steele and J. L.
+/// White 1990, fixed-point fractions). The flag states whether it rounds up to the next integer.
 fn fraction_in(x: f64, radix: f64) -> (String, bool) {
     let (mut rest, mut digits) = (x.fract(), Vec::new());
     let mut unsure = 0.5 * (x.next_up() - x);
@@ -244,7 +245,7 @@ fn fraction_in(x: f64, radix: f64) -> (String, bool) {
         digits.push(digit);
         rest -= digit;
         if (rest > 0.5 || rest == 0.5 && digit % 2.0 == 1.0) && rest + unsure > 1.0 {
-            // Up, and on to the left as long as a digit is full.
+            // Rounds up, with a carry to the left as long as a digit has the maximum value.
             while let Some(last) = digits.pop() {
                 if last + 1.0 < radix {
                     digits.push(last + 1.0);
@@ -301,7 +302,7 @@ fn parse_float(env: &mut Env<'_>, _: &Value, args: &[Value]) -> NativeOutcome {
     if unsigned.starts_with("Infinity") {
         return Ok(Value::Number(if text.starts_with('-') { f64::NEG_INFINITY } else { f64::INFINITY }));
     }
-    // The longest beginning that is a decimal number.
+    // The longest prefix that is a decimal number.
     let (mut point, mut exponent, mut digit) = (false, false, false);
     let mut end = 0;
     let mut before = ' ';

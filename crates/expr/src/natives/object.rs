@@ -56,7 +56,7 @@ fn ordered(env: &mut Env<'_>, value: &Value) -> Result<Vec<(Value, Value)>, Nati
     let entries = match env.heap.object(value) {
         HeapObject::Record(entries) => {
             let mut entries = entries.clone();
-            // Indexes in order of size, then the others as they came: the sort is stable.
+            // Indexes in numeric order, then the other keys in insertion order, because the sort is stable.
             entries.sort_by_key(|(k, _)| {
                 k.parse::<u32>().ok().filter(|i| i.to_string() == **k).map_or(u64::MAX, u64::from)
             });

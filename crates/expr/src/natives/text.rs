@@ -1,5 +1,4 @@
-//! Methods of texts (ECMAScript, "String Objects"). Indexes count UTF-16 code units, as JavaScript's do; half of a
-//! pair, cut off by an index, becomes the replacement character.
+//! Methods of strings (ECMAScript, "String Objects"). Indexes count UTF-16 code units, as in JavaScript.
 
 use super::env::{Env, NativeError, arg, integer, range};
 use super::native::{MANY, Native, NativeOutcome, table};
@@ -68,7 +67,7 @@ fn from_units(env: &mut Env<'_>, units: &[u16]) -> NativeOutcome {
     env.string(text)
 }
 
-/// The text of units. Texts hold whole characters: half of one has no text.
+/// The string of UTF-16 units. Strings contain only whole characters, so half of a surrogate pair is an error.
 pub(crate) fn whole(units: &[u16]) -> Result<String, NativeError> {
     String::from_utf16(units).map_err(|_| {
         let message = "an index selects half of a two-unit character, which a text cannot hold; `[...text]` has whole characters";
@@ -76,7 +75,7 @@ pub(crate) fn whole(units: &[u16]) -> Result<String, NativeError> {
     })
 }
 
-/// Units up to a byte of a text.
+/// The number of UTF-16 units before a byte of a string.
 fn units_before(text: &str, byte: usize) -> f64 {
     text.get(..byte).map_or(0, |before| before.encode_utf16().count()) as f64
 }
@@ -100,7 +99,7 @@ fn concat(env: &mut Env<'_>, text: &Value, args: &[Value]) -> NativeOutcome {
     env.string(all)
 }
 
-/// The text from a start index on, in bytes, and that text.
+/// The rest of a string from the start index, in UTF-16 units, on.
 fn from_index<'t>(env: &mut Env<'_>, text: &'t str, start: &Value) -> Result<&'t str, NativeError> {
     let start = integer(env.number(start)?).max(0.0);
     let mut seen = 0.0;
@@ -178,7 +177,7 @@ fn ends_with(env: &mut Env<'_>, text: &Value, args: &[Value]) -> NativeOutcome {
     Ok(Value::Boolean(str_of(text).ends_with(&wanted)))
 }
 
-/// What fills a text up to a length.
+/// The padding that extends a string to a length.
 fn padding(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Result<String, NativeError> {
     let filler = match arg(args, 1) {
         Value::Undefined => " ".to_owned(),
@@ -221,7 +220,7 @@ fn repeat(env: &mut Env<'_>, text: &Value, args: &[Value]) -> NativeOutcome {
     env.string(if text.is_empty() { String::new() } else { text.repeat(count as usize) })
 }
 
-/// What stands for a text that is found: `$$` is a dollar sign, `$&` the text itself, as in JavaScript.
+/// The replacement for a match: `$$` is a dollar sign, `$&` the matched string, as in JavaScript.
 fn replacement(pattern: &str, found: &str, before: &str, after: &str) -> String {
     let mut out = String::new();
     let mut rest = pattern;

@@ -1,4 +1,4 @@
-//! What stands in brackets, and what is reported where a bracket or a value is missing.
+//! Bracketed parts, and findings about missing brackets and values.
 
 use super::node::{ASSIGNMENT, ExprNode, error_node, infix};
 use super::parser::{Attempt, Parser, Reported};
@@ -8,7 +8,7 @@ use crate::rules;
 use labspec_finding::{Finding, Span};
 
 impl Parser<'_> {
-    /// One expression and its closing bracket; a mistake inside is skipped to the bracket.
+    /// Parses one expression and its closing bracket; after an error, skips to the bracket.
     pub(super) fn enclosed(&mut self, opener: Span, closer: &str, power: u8) -> Attempt<(ExprNode, Span)> {
         if self.is(closer) {
             let span = opener.to(self.bump());
@@ -41,13 +41,13 @@ impl Parser<'_> {
         if self.skip_to(&[closer]) { Ok((inner, self.bump())) } else { Err(Reported) }
     }
 
-    /// Expressions between commas and their closing bracket; a mistake in one is skipped to the next comma.
+    /// Parses comma-separated expressions and their closing bracket; after an error, skips to the next comma.
     pub(super) fn list(&mut self, opener: Span, closer: &str) -> Attempt<(Vec<Expr>, usize, Span)> {
         let mut items = Vec::new();
         let mut height = 0;
         loop {
             if let Some(end) = self.eat(closer) {
-                return Ok((items, height, end)); // also behind a comma at the end, as in JavaScript
+                return Ok((items, height, end)); // also after a trailing comma, as in JavaScript
             }
             let span = self.span();
             let item = match self.item() {
@@ -70,7 +70,7 @@ impl Parser<'_> {
         }
     }
 
-    /// An item or argument, possibly a spread.
+    /// Parses an item or an argument, possibly a spread.
     pub(super) fn item(&mut self) -> Attempt<ExprNode> {
         let Some(dots) = self.eat("...") else { return self.expression(ASSIGNMENT) };
         let value = self.expression(ASSIGNMENT)?;
@@ -78,9 +78,9 @@ impl Parser<'_> {
         self.node(ExprKind::Spread(Box::new(value.expr)), span, value.height)
     }
 
-    /// The finding when something else stands where a bracket must close.
+    /// The finding for another token where a bracket must close.
     pub(super) fn unclosed(&mut self, opener: Span, closer: &str, before: Span) -> Option<Finding> {
-        // An index holds no assignment, so `=` shows that its bracket should have been closed.
+        // An index contains no assignment, so `=` shows that the bracket should have been closed before it.
         let ends = self.ended() || matches!(self.peek(), TokenKind::Symbol(";" | ")" | "]" | "}" | "="));
         if !ends {
             return self.unexpected_behind(before);
@@ -104,7 +104,7 @@ impl Parser<'_> {
             report = report.why(format!("`{before}` needs a value after it"));
         }
         report = match self.peek() {
-            // `a = == b`, `a * * b`: two operators in a row.
+            // `a = == b`, `a * * b`: two consecutive operators.
             TokenKind::Symbol(symbol) if infix(symbol).is_some() && before.is_empty() => {
                 report.help(format!("write the value before `{symbol}`, or remove it"))
             }

@@ -8,7 +8,7 @@ use crate::rules;
 use labspec_finding::{Finding, Span};
 
 impl Parser<'_> {
-    /// The declaration that stands for `class name`, so that uses of the name are not mistakes of their own.
+    /// A declaration in place of `class name`, so that uses of the name are not reported as further errors.
     pub(super) fn class_name(&self) -> Option<StmtKind> {
         let (TokenKind::Word(text), true) = (self.peek_at(1), self.is_word("class")) else { return None };
         let span = self.tokens.get(self.at + 1)?.span;
@@ -17,12 +17,12 @@ impl Parser<'_> {
         Some(StmtKind::Declare { constant: true, declarators: vec![Declarator { target, value }] })
     }
 
-    /// `const a = 1, b = 2` with its end.
+    /// Parses `const a = 1, b = 2` and the end of the statement.
     pub(super) fn declaration(&mut self) -> Attempt<StmtKind> {
         let (first, opener) = (self.at, self.span());
         let (kind, failed) = self.declarators()?;
         if failed {
-            // The names are kept, so that their uses are not mistakes of their own.
+            // The names are declared nevertheless, so that their uses are not reported as further errors.
             if !self.at_boundary(first) {
                 self.skip_statement(first, "}");
             }
@@ -33,7 +33,7 @@ impl Parser<'_> {
         Ok(kind)
     }
 
-    /// `const a = 1, b = 2`, and whether the last value could not be read.
+    /// Parses `const a = 1, b = 2`, and returns whether the last value could not be parsed.
     pub(super) fn declarators(&mut self) -> Attempt<(StmtKind, bool)> {
         let constant = self.is_word("const");
         if self.is_word("var") {

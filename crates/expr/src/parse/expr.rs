@@ -1,7 +1,7 @@
-//! Expressions by binding power.
+//! Expressions, parsed by binding power.
 //!
-//! The height of every tree is counted while it is built, so that no later stage, which walks trees by
-//! recursion, can run out of stack.
+//! The height of every tree is counted during its construction, so that no later stage, all of which are
+//! recursive, can overflow the stack.
 
 use super::node::{ASSIGNMENT, CHOICE, ExprNode, Infix, infix};
 use super::parser::{Attempt, MAX_DEPTH, Parser, Reported};
@@ -11,7 +11,7 @@ use crate::lex::TokenKind;
 use crate::rules;
 use labspec_finding::{Finding, Span};
 
-/// The operator of `=` (none) or of a compound assignment.
+/// The operator of a compound assignment, or `Some(None)` for `=`.
 fn assignment_op(symbol: &str) -> Option<Option<BinaryOp>> {
     if symbol == "=" {
         return Some(None);
@@ -27,12 +27,12 @@ fn logical_assignment(symbol: &str) -> Option<LogicalOp> {
 }
 
 impl Parser<'_> {
-    /// An expression of any kind.
+    /// Parses an expression of any kind.
     pub(super) fn assignment(&mut self) -> Attempt<Expr> {
         Ok(self.expression(ASSIGNMENT)?.expr)
     }
 
-    /// An expression whose operators bind at least as tightly as `power`.
+    /// Parses an expression whose operators bind at least as tightly as `power`.
     pub(super) fn expression(&mut self, power: u8) -> Attempt<ExprNode> {
         if self.depth >= MAX_DEPTH {
             let span = self.span();
@@ -52,7 +52,7 @@ impl Parser<'_> {
         self.refuse(report)
     }
 
-    /// A node from its parts, if the tree does not become too high.
+    /// Builds a node, unless the tree becomes too high.
     pub(super) fn node(&mut self, kind: ExprKind, span: Span, below: usize) -> Attempt<ExprNode> {
         if below >= MAX_DEPTH {
             return self.too_deep(span);
@@ -61,7 +61,7 @@ impl Parser<'_> {
         Ok(ExprNode { expr: Expr { kind, span }, height: below + 1, closed: false, chain: false })
     }
 
-    /// What follows `left`, as long as it binds tightly enough.
+    /// Extends `left` by the operators that follow, as long as they bind tightly enough.
     fn continuation(&mut self, mut left: ExprNode, power: u8) -> Attempt<ExprNode> {
         loop {
             let TokenKind::Symbol(symbol) = *self.peek() else { return Ok(left) };
@@ -89,7 +89,7 @@ impl Parser<'_> {
         }
     }
 
-    /// `.name`, `[index]` or `(arguments)`, each with `?.` before it or not.
+    /// Parses `.name`, `[index]` or `(arguments)`, each possibly after `?.`.
     fn postfix(&mut self, left: ExprNode, symbol: &str) -> Attempt<ExprNode> {
         let mut opener = self.bump();
         let optional = symbol == "?.";
@@ -101,7 +101,7 @@ impl Parser<'_> {
             _ if optional => ".",
             _ => symbol,
         };
-        // In `(a?.b).c` the parentheses end the chain.
+        // In `(a?.b).c`, the parentheses end the chain.
         let chain = optional || left.chain;
         let left = if left.closed { left.whole_chain() } else { left };
         let start = left.expr.span;
@@ -156,7 +156,7 @@ impl Parser<'_> {
     fn binary(&mut self, left: ExprNode, operator: Infix, binds: u8) -> Attempt<ExprNode> {
         let power = matches!(operator, Infix::Binary(BinaryOp::Power));
         let op_span = self.bump();
-        // `**` groups from the right, all others from the left.
+        // `**` is right-associative, all others are left-associative.
         let right = self.expression(if power { binds } else { binds + 1 })?;
         if let (true, false, ExprKind::Unary { op, operand }) = (power, left.closed, &left.expr.kind) {
             let (sign, base) = (op.symbol(), operand.span.text(self.source));
@@ -170,7 +170,7 @@ impl Parser<'_> {
                 "it could mean the power of the negative or the negative of the power; JavaScript rejects it",
             )
             .help(format!("write `{sign}({base} ** {exponent})` or `({sign}{base}) ** {exponent}`"));
-            self.diagnostics.push(report); // and read on, as if it were the second
+            self.diagnostics.push(report); // parsing continues as if it were the second
         }
         if let Infix::Logical(op) = operator {
             let mixes = |side: &ExprNode| {

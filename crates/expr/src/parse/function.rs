@@ -1,4 +1,4 @@
-//! Functions of a text's own, and the patterns that take lists and records apart.
+//! Functions of a source text, and destructuring patterns.
 
 use super::node::{ASSIGNMENT, ExprNode};
 use super::parser::{Attempt, MAX_DEPTH, Parser, Reported};
@@ -8,19 +8,20 @@ use crate::lex::TokenKind;
 use crate::rules;
 use labspec_finding::{Finding, Span};
 
-/// Parameters that a function may have.
+/// The maximum number of parameters of a function.
 const MAX_PARAMS: usize = 16;
 
 impl Parser<'_> {
-    /// Whether the parenthesis ahead holds the parameters of an arrow function: `=>` stands behind it.
+    /// Whether the following parentheses contain the parameters of an arrow function: `=>` comes after them.
     pub(super) fn arrow_ahead(&self) -> bool {
         *self.peek_at(self.behind_group(0)) == TokenKind::Symbol("=>")
     }
 
-    /// How far ahead the token stands that follows the one at `n`, or the whole bracket that it opens.
+    /// The number of tokens up to the one that follows token `n`, or that follows the whole bracket that token `n` opens.
     pub(super) fn behind_group(&self, n: usize) -> usize {
         let mut open = 0usize;
-        // A search from every bracket of a hostile text would take forever; no list of parameters is this long.
+        // An unlimited search from every bracket of a malicious text would take quadratic time. No list of
+        // parameters is this long.
         for n in n..n + 200 {
             match self.peek_at(n) {
                 TokenKind::Symbol("(" | "[" | "{") => open += 1,
@@ -35,7 +36,7 @@ impl Parser<'_> {
         usize::MAX / 2
     }
 
-    /// `x => …` or `(x, y) => …`
+    /// Parses `x => …` or `(x, y) => …`.
     pub(super) fn arrow(&mut self) -> Attempt<ExprNode> {
         let start = self.span();
         let (function, height) = self.measured(|p| {
@@ -50,7 +51,7 @@ impl Parser<'_> {
         self.function_node(function?, height)
     }
 
-    /// `function (x) { … }` as a value.
+    /// Parses `function (x) { … }` as a value.
     pub(super) fn function_expression(&mut self) -> Attempt<ExprNode> {
         let (function, height) = self.measured(|p| {
             let (name, function) = p.function()?;
@@ -64,7 +65,7 @@ impl Parser<'_> {
         self.node(ExprKind::Function(Box::new(function)), span, height)
     }
 
-    /// `function name(x) { … }` as a declaration.
+    /// Parses `function name(x) { … }` as a declaration.
     pub(super) fn function_declaration(&mut self) -> Attempt<StmtKind> {
         let place = self.span();
         let (name, function) = self.function()?;
@@ -77,7 +78,7 @@ impl Parser<'_> {
         Ok(StmtKind::Function { name, function: Box::new(function) })
     }
 
-    /// From `function` to the end of its body.
+    /// Parses a function, from `function` to the end of its body.
     fn function(&mut self) -> Attempt<(Option<Name>, Function)> {
         let start = self.bump();
         if self.is("*") {
@@ -111,7 +112,7 @@ impl Parser<'_> {
         Ok((name, Function { name: None, params, body, span: start.to(self.last_span()) }))
     }
 
-    /// Parameters behind their opening parenthesis, with the closing one.
+    /// Parses parameters after their opening parenthesis, including the closing one.
     fn parameters(&mut self, opener: Span) -> Attempt<Vec<Element>> {
         let mut params = Vec::new();
         while self.eat(")").is_none() {
@@ -139,7 +140,7 @@ impl Parser<'_> {
         Ok(params)
     }
 
-    /// `name`, `[a, b]` or `{a, b}`, with or without `= default`.
+    /// Parses `name`, `[a, b]` or `{a, b}`, with or without `= default`.
     fn element(&mut self) -> Attempt<Element> {
         let target = self.pattern("a parameter")?;
         let default = match self.eat("=") {
@@ -149,7 +150,7 @@ impl Parser<'_> {
         Ok(Element { target, default })
     }
 
-    /// What a declaration names.
+    /// Parses the target of a declaration.
     pub(super) fn pattern(&mut self, what: &str) -> Attempt<Pattern> {
         if self.depth >= MAX_DEPTH {
             let span = self.span();
@@ -230,7 +231,7 @@ impl Parser<'_> {
         }
     }
 
-    /// A name that is being given.
+    /// Parses a name that is being declared.
     fn new_name(&mut self, what: &str) -> Attempt<Name> {
         let span = self.span();
         let text = match self.peek() {
@@ -256,7 +257,7 @@ impl Parser<'_> {
         Ok(Name { text, span })
     }
 
-    /// `{ … }` as statements.
+    /// Parses `{ … }` as statements.
     pub(super) fn block(&mut self) -> Attempt<Vec<Stmt>> {
         let opener = self.bump();
         let statements = self.statements_up_to("}");

@@ -1,8 +1,8 @@
-//! Tokens to tree. The grammar is JavaScript's for the part of the language that lessons use; operators are
-//! read by binding power (Pratt, "Top down operator precedence", 1973).
+//! Tokens to syntax tree. The grammar is that of JavaScript for the part of the language that lessons use. Operators are parsed
+//! by binding power (Pratt, "Top down operator precedence", 1973).
 //!
-//! One mistake does not hide the next: a mistake between brackets or commas is skipped to the bracket or
-//! comma, any other to the end of its statement, and reading goes on from there.
+//! One error does not hide the next: after an error between brackets or commas, the parser skips to the bracket or comma; after
+//! any other error, it skips to the end of the statement. Then it continues.
 
 mod brackets;
 mod declaration;

@@ -1,25 +1,25 @@
-//! An expression that is being read, and the binding powers beyond those of the operators.
+//! A partially parsed expression, and the binding powers that are not those of binary operators.
 
 use crate::ast::{BinaryOp, Expr, ExprKind, LogicalOp};
 use labspec_finding::Span;
 
-/// Binding powers that no operator table holds, see [`crate::ast::BinaryOp::power`].
+/// Binding powers that are not in the tables of operators, see [`crate::ast::BinaryOp::power`].
 pub(super) const ASSIGNMENT: u8 = 1;
 pub(super) const CHOICE: u8 = 2;
 pub(super) const SIGN: u8 = 15;
 
-/// An expression with what only the parser needs to know.
+/// An expression with properties that only the parser needs.
 pub(super) struct ExprNode {
     pub(super) expr: Expr,
     pub(super) height: usize,
-    /// It stands between parentheses.
+    /// Whether it is enclosed in parentheses.
     pub(super) closed: bool,
-    /// A `?.` stands in the chain of members that it ends.
+    /// Whether it ends a chain of members that contains `?.`.
     pub(super) chain: bool,
 }
 
 impl ExprNode {
-    /// Puts the mark of a chain around a finished one.
+    /// Wraps a completed chain in [`ExprKind::Chain`].
     pub(super) fn whole_chain(self) -> ExprNode {
         if !self.chain {
             return self;
@@ -34,7 +34,7 @@ pub(super) fn error_node(span: Span) -> ExprNode {
     ExprNode { expr: Expr { kind: ExprKind::Error, span }, height: 1, closed: true, chain: false }
 }
 
-/// What stands between two operands.
+/// An operator between two operands.
 pub(super) enum Infix {
     Binary(BinaryOp),
     Logical(LogicalOp),

@@ -1,4 +1,4 @@
-//! The reader of tokens: its place, what it found wrong, and how a whole text is read.
+//! The parser's state: its position, its findings, and the parsing of a whole text.
 
 use crate::ast::{Expr, ExprKind, Stmt};
 use crate::host_terms::HostTerms;
@@ -7,32 +7,32 @@ use crate::rules;
 use labspec_finding::order;
 use labspec_finding::{Finding, Span};
 
-/// What a parser understood, and what it could not read.
+/// The result of a parser: the tree and the findings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parsed<T> {
-    /// The tree; parts that could not be read are [`crate::ast::ExprKind::Error`].
+    /// The tree; invalid parts are [`crate::ast::ExprKind::Error`].
     pub tree: T,
     /// Findings in source order.
     pub diagnostics: Vec<Finding>,
-    /// There are typographic quotes, of which the host tells itself.
+    /// Whether there are typographic quotes that the host reports itself.
     pub quotes_left_to_host: bool,
 }
 
-/// Longest source text, in bytes. Real lessons stay below 2,000.
+/// The maximum length of a source text in bytes. Real lessons stay below 2,000.
 pub const MAX_SOURCE: usize = 32 * 1024;
 
-/// Deepest nesting of an expression: brackets, signs and chains like `a + b + c + …` each count one.
+/// The maximum nesting of an expression: brackets, unary operators and chains like `a + b + c + …` each count one level.
 pub const MAX_DEPTH: usize = 128;
 
-/// Findings reported for one text.
+/// The maximum number of findings for one text.
 pub(crate) const MAX_DIAGNOSTICS: usize = 40;
 
-/// Reads one expression. Never fails: what cannot be read becomes [`ExprKind::Error`] and a finding.
+/// Parses an expression. It never fails: an invalid part becomes [`ExprKind::Error`] and a finding.
 pub fn parse_expression(source: &str) -> Parsed<Expr> {
     expression(source, &HostTerms::PLAIN, false)
 }
 
-/// Reads one expression of a host with these words. `tells`: the host tells of typographic quotes itself.
+/// Parses an expression of a host with these terms. `tells` states that the host reports typographic quotes itself.
 pub(crate) fn expression(source: &str, host_terms: &'static HostTerms, tells: bool) -> Parsed<Expr> {
     let mut parser = Parser::new(source, host_terms, tells);
     let tree = parser.whole_expression();
@@ -43,12 +43,12 @@ pub(crate) fn expression(source: &str, host_terms: &'static HostTerms, tells: bo
     }
 }
 
-/// Reads statements separated by semicolons or line ends. Never fails, see [`parse_expression`].
+/// Parses statements separated by semicolons or line ends. It never fails, see [`parse_expression`].
 pub fn parse_statements(source: &str) -> Parsed<Vec<Stmt>> {
     statements(source, &HostTerms::PLAIN, false)
 }
 
-/// Reads statements of a host with these words, see [`expression`].
+/// Parses statements of a host with these terms, see [`expression`].
 pub(crate) fn statements(source: &str, host_terms: &'static HostTerms, tells: bool) -> Parsed<Vec<Stmt>> {
     let mut parser = Parser::new(source, host_terms, tells);
     let tree = parser.statements();
@@ -59,7 +59,7 @@ pub(crate) fn statements(source: &str, host_terms: &'static HostTerms, tells: bo
     }
 }
 
-/// Findings in source order, and not more than anyone reads.
+/// The findings in source order, limited in number.
 pub(crate) fn in_order(mut found: Vec<Finding>) -> Vec<Finding> {
     order::sort_by_key(&mut found, |d| (d.span.start, d.span.end));
     if found.len() > MAX_DIAGNOSTICS {
@@ -77,24 +77,24 @@ pub(crate) fn in_order(mut found: Vec<Finding>) -> Vec<Finding> {
     found
 }
 
-/// The marker of a mistake that has been reported; carried up to where reading can go on.
+/// Marks an error that has been reported; it is propagated to where parsing can continue.
 #[derive(Debug)]
 pub(crate) struct Reported;
 
 pub(crate) type Attempt<T> = Result<T, Reported>;
 
-/// The reader: a place in the tokens, and what was found.
+/// The parser: a position in the tokens, and the findings.
 pub(super) struct Parser<'s> {
     pub(super) source: &'s str,
     pub(super) host_terms: &'static HostTerms,
-    /// The host tells of typographic quotes, and whether there are any.
+    /// Whether the host reports typographic quotes, and whether there are any.
     pub(super) tells: bool,
     pub(super) quotes_left_to_host: bool,
     pub(super) tokens: Vec<Token<'s>>,
     pub(super) at: usize,
-    /// Expressions and statements that are being read, one inside the other.
+    /// The nesting depth of the expressions and statements that are being parsed.
     pub(super) depth: usize,
-    /// Height of the highest tree since [`Parser::measured`] began.
+    /// The height of the highest tree since [`Parser::measured`] began.
     pub(super) tallest: usize,
     pub(super) diagnostics: Vec<Finding>,
 }
@@ -126,7 +126,7 @@ impl<'s> Parser<'s> {
         parser
     }
 
-    /// What is wrong with typographic quotes is reported, here or by the host.
+    /// Reports findings about typographic quotes, or records that the host must.
     pub(super) fn look_at_quotes(&mut self) {
         for token in self.tokens.iter_mut().filter(|token| !matches!(token.kind, TokenKind::Number(_))) {
             match token.doubt.take() {
@@ -140,18 +140,18 @@ impl<'s> Parser<'s> {
         self.peek_at(0)
     }
 
-    /// The token `n` places ahead; [`TokenKind::End`] behind the last.
+    /// The token `n` positions ahead, or [`TokenKind::End`] after the last.
     pub(super) fn peek_at(&self, n: usize) -> &TokenKind<'s> {
         self.tokens.get(self.at + n).map_or(&TokenKind::End, |t| &t.kind)
     }
 
-    /// The place of the next token; the end of the text is where its last token ends.
+    /// The span of the next token. At the end of the text, it is the end of the last token.
     pub(super) fn span(&self) -> Span {
         let next = self.tokens.get(self.at).filter(|t| t.kind != TokenKind::End);
         next.map_or(self.last_span().after(), |t| t.span)
     }
 
-    /// The place of the token before.
+    /// The span of the previous token.
     pub(super) fn last_span(&self) -> Span {
         self.at.checked_sub(1).and_then(|i| self.tokens.get(i)).map_or(Span::default(), |t| t.span)
     }
@@ -179,18 +179,18 @@ impl<'s> Parser<'s> {
         matches!(self.peek(), TokenKind::Word(w) if *w == word)
     }
 
-    /// Takes the symbol if it is next.
+    /// Consumes the symbol if it is next.
     pub(super) fn eat(&mut self, symbol: &str) -> Option<Span> {
         self.is(symbol).then(|| self.bump())
     }
 
-    /// Reports and gives up this part.
+    /// Reports a finding, and abandons this part.
     pub(super) fn refuse<T>(&mut self, report: Finding) -> Attempt<T> {
         self.diagnostics.push(report);
         Err(Reported)
     }
 
-    /// The next token as an author sees it.
+    /// The next token as a message describes it.
     pub(super) fn describe_token(&self) -> String {
         match self.peek() {
             TokenKind::End => "the end of the text".into(),
@@ -199,8 +199,8 @@ impl<'s> Parser<'s> {
         }
     }
 
-    /// Skips to one of `stops` at this level of brackets; `false`, without moving past it, when the statement
-    /// or the surrounding bracket ends first.
+    /// Skips to one of `stops` at this level of brackets. Returns `false`, and stops in front of the end, if the statement or
+    /// the enclosing bracket ends first.
     pub(super) fn skip_to(&mut self, stops: &[&str]) -> bool {
         loop {
             match *self.peek() {
@@ -211,7 +211,7 @@ impl<'s> Parser<'s> {
         }
     }
 
-    /// Skips one token, or a whole bracket with what is in it.
+    /// Skips one token, or a whole bracket with its contents.
     pub(super) fn skip_group(&mut self) {
         let mut open = 0usize;
         loop {
@@ -228,7 +228,7 @@ impl<'s> Parser<'s> {
         }
     }
 
-    /// Reads with `work` and gives the height of the highest tree in it.
+    /// Runs `work`, and also returns the height of the highest tree that it builds.
     pub(super) fn measured<T>(&mut self, work: impl FnOnce(&mut Self) -> T) -> (T, usize) {
         let before = std::mem::take(&mut self.tallest);
         let result = work(self);
@@ -237,7 +237,7 @@ impl<'s> Parser<'s> {
         (result, height)
     }
 
-    /// The whole text as one expression.
+    /// Parses the whole text as one expression.
     fn whole_expression(&mut self) -> Expr {
         let nothing = Expr { kind: ExprKind::Error, span: self.span() };
         if self.ended() {
@@ -264,7 +264,7 @@ impl<'s> Parser<'s> {
         expr
     }
 
-    /// What is wrong with a text that goes on behind its expression.
+    /// The finding for a text that continues after its expression.
     pub(super) fn trailing(&mut self, expr: &Expr) -> Option<Finding> {
         let span = self.span();
         if !self.is(";") {

@@ -1,4 +1,4 @@
-//! What an expression starts with: literals, names, signs, parentheses, templates and records.
+//! Prefixes of expressions: literals, names, unary operators, parentheses, templates and records.
 
 use super::node::{ASSIGNMENT, ExprNode, SIGN, error_node};
 use super::parser::{Attempt, Parser, Reported};
@@ -9,7 +9,7 @@ use crate::rules;
 use labspec_finding::{Finding, Span};
 
 impl Parser<'_> {
-    /// What an expression starts with.
+    /// Parses the beginning of an expression.
     pub(super) fn prefix(&mut self) -> Attempt<ExprNode> {
         let span = self.span();
         let kind = match self.peek() {
@@ -34,7 +34,7 @@ impl Parser<'_> {
                 "true" => ExprKind::Boolean(true),
                 "false" => ExprKind::Boolean(false),
                 "null" => ExprKind::Null,
-                // A declaration in the middle of an expression.
+                // A declaration inside an expression.
                 "const" | "let" | "var" => return self.expected_value(),
                 "new" if *self.peek_at(1) == TokenKind::Word("Date") => {
                     return self.refuse(refuse::new_date(span, self.host_terms));
@@ -80,7 +80,7 @@ impl Parser<'_> {
         }
     }
 
-    /// An operator before its operand.
+    /// Parses a unary operator and its operand.
     pub(super) fn sign(&mut self, op: UnaryOp) -> Attempt<ExprNode> {
         let span = self.bump();
         let operand = self.expression(SIGN)?;
@@ -88,7 +88,7 @@ impl Parser<'_> {
         self.node(ExprKind::Unary { op, operand: Box::new(operand.expr) }, span, operand.height)
     }
 
-    /// `(expression)`, or an arrow function.
+    /// Parses `(expression)`, or an arrow function.
     pub(super) fn parenthesis(&mut self) -> Attempt<ExprNode> {
         if self.arrow_ahead() {
             return self.arrow();
@@ -99,7 +99,7 @@ impl Parser<'_> {
         Ok(ExprNode { expr: Expr { span, ..inner.expr }, closed: true, ..inner })
     }
 
-    /// The parts of a template literal, each read as a text of its own.
+    /// Parses the expressions of a template literal, each as a separate text.
     pub(super) fn template(&mut self, texts: Vec<String>, places: Vec<Span>) -> Attempt<ExprNode> {
         let span = self.bump();
         let mut values = Vec::new();
@@ -134,7 +134,7 @@ impl Parser<'_> {
         Ok(value)
     }
 
-    /// `{key: value, …}`
+    /// Parses `{key: value, …}`.
     pub(super) fn object(&mut self) -> Attempt<ExprNode> {
         let opener = self.bump();
         let mut properties = Vec::new();

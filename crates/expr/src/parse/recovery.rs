@@ -1,36 +1,36 @@
-//! Where reading goes on after a mistake.
+//! Recovery after errors.
 
 use super::parser::Parser;
 use crate::ast::{Stmt, StmtKind};
 use crate::lex::TokenKind;
 
 impl Parser<'_> {
-    /// A statement, or the mark of one that could not be read and has been skipped.
+    /// Parses a statement. An invalid statement is skipped, and [`StmtKind::Error`] takes its place.
     pub(super) fn recovered(&mut self, closer: &str) -> Stmt {
         let (first, span) = (self.at, self.span());
         let kind = self.statement().unwrap_or(StmtKind::Error);
         let failed = kind == StmtKind::Error;
         let stmt = Stmt { kind, span: span.to(self.last_span()) };
-        // An opening word that was reported has been skipped with all that belongs to it.
+        // If a keyword was refused, its whole construct has already been skipped.
         if failed && !self.at_boundary(first) {
             self.skip_statement(first, closer);
         }
         stmt
     }
 
-    /// Whether the reader stands where a statement ended.
+    /// Whether the parser is at the end of a statement.
     pub(super) fn at_boundary(&self, first: usize) -> bool {
         self.at > first && (self.ended() || self.newline() || self.at_behind(";") || self.at_behind("}"))
     }
 
-    /// Whether the token before is this symbol.
+    /// Whether the previous token is this symbol.
     fn at_behind(&self, symbol: &str) -> bool {
         let before = self.at.checked_sub(1).and_then(|i| self.tokens.get(i));
         before.is_some_and(|t| matches!(t.kind, TokenKind::Symbol(s) if s == symbol))
     }
 
-    /// Skips what is left of a statement that started at token `first`: to behind its semicolon, to the next
-    /// line, or to the end of the block. Takes at least one token, except there.
+    /// Skips the rest of a statement that started at token `first`: past its semicolon, to the next line, or to the end of the
+    /// block. Consumes at least one token, unless the block ends.
     pub(super) fn skip_statement(&mut self, first: usize, closer: &str) {
         while !self.ended() && !self.is(closer) {
             if self.at > first && self.newline() {
@@ -43,7 +43,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Skips a refused statement with its header, its body and what hangs on it (`else`, `catch`).
+    /// Skips a refused statement with its header, its body and its continuations (`else`, `catch`).
     pub(super) fn skip_construct(&mut self) {
         loop {
             let opener = match self.peek() {

@@ -1,10 +1,10 @@
-//! Constructs of JavaScript that lessons do not have, on purpose: each with its reason and what to write instead.
+//! Constructs of JavaScript that are deliberately not in the language, each with the reason and an alternative.
 
 use crate::host_terms::HostTerms;
 use crate::rules;
 use labspec_finding::{Finding, Span};
 
-/// The finding for a construct, in the plural.
+/// The finding for a construct, whose name is in the plural.
 fn never(span: Span, name: &str, why: &str, help: &str) -> Finding {
     Finding::error(rules::NOT_IN_LANGUAGE, span, format!("{name} are not in this language"))
         .why(why)
@@ -16,8 +16,8 @@ const NO_TIME: &str = "every text runs to its end at once and never waits";
 const NO_EXCEPTIONS: &str = "mistakes are found before the run, so there is nothing to catch";
 const STORE_HELP: &str = "store values in variables, as `ctx.peak`";
 
-/// The finding for a reserved word of JavaScript where it cannot stand; `None` for a word that is a name. One table, with a
-/// row for each construct.
+/// The finding for a reserved word of JavaScript where it is not allowed, or `None` for a word that is a name. One table, with
+/// a row for each construct.
 pub(super) fn word(word: &str, span: Span, host_terms: &HostTerms) -> Option<Finding> {
     let misplaced = |help: &str| {
         Finding::error(rules::MISPLACED, span, format!("`{word}` is not allowed here")).help(help)
@@ -94,13 +94,13 @@ pub(super) fn new_date(span: Span, host_terms: &HostTerms) -> Finding {
     )
 }
 
-/// Whether a word means something of its own, so that it cannot be the name of a variable.
+/// Whether a word is reserved, so that it cannot be the name of a variable.
 pub(super) fn is_reserved(text: &str) -> bool {
     let keywords = ["true", "false", "null", "const", "let", "var", "function", "typeof"];
     keywords.contains(&text) || word(text, Span::default(), &HostTerms::PLAIN).is_some()
 }
 
-/// The finding for a symbol that starts or continues a construct that is not read.
+/// The finding for a symbol that starts or continues an unsupported construct.
 pub(super) fn symbol(text: &str, span: Span, host_terms: &HostTerms) -> Option<Finding> {
     Some(match text {
         "/" | "/=" => never(
@@ -165,7 +165,7 @@ pub(super) fn comma(span: Span, decimal: Option<(Span, String)>) -> Finding {
     )
 }
 
-/// `var`, which is read as `let` after this.
+/// `var`, which is treated as `let` afterwards.
 pub(super) fn var(span: Span) -> Finding {
     never(
         span,

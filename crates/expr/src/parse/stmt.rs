@@ -1,4 +1,4 @@
-//! Statements, automatic semicolons, and where reading goes on after a mistake.
+//! Statements, automatic semicolons, and recovery after errors.
 
 use super::parser::{Attempt, MAX_DEPTH, Parser, Reported};
 use super::refuse;
@@ -8,17 +8,17 @@ use crate::rules;
 use labspec_finding::{Finding, Span};
 
 impl Parser<'_> {
-    /// All statements to the end of the text.
+    /// Parses all statements to the end of the text.
     pub(super) fn statements(&mut self) -> Vec<Stmt> {
         let mut statements = self.statements_up_to("");
         while !self.ended() {
-            // A closing bracket that nothing opened: reported, and passed over.
+            // An unmatched closing bracket is reported and skipped.
             statements.extend(self.statements_up_to(""));
         }
         statements
     }
 
-    /// Statements up to a closing symbol, which is left, or to the end of the text.
+    /// Parses statements up to a closing symbol, which is not consumed, or to the end of the text.
     pub(super) fn statements_up_to(&mut self, closer: &str) -> Vec<Stmt> {
         let mut statements = Vec::new();
         while !self.ended() && !self.is(closer) {
@@ -30,7 +30,7 @@ impl Parser<'_> {
         statements
     }
 
-    /// One statement with its end.
+    /// Parses one statement and its end.
     pub(super) fn statement(&mut self) -> Attempt<StmtKind> {
         if self.depth >= MAX_DEPTH {
             let span = self.span();
@@ -107,7 +107,7 @@ impl Parser<'_> {
         Ok(StmtKind::DoWhile { body, test })
     }
 
-    /// `break` or `continue`.
+    /// Parses `break` or `continue`.
     fn loop_exit(&mut self, breaks: bool) -> Attempt<StmtKind> {
         let span = self.bump();
         if !self.newline() && matches!(self.peek(), TokenKind::Word(_)) {
@@ -126,7 +126,7 @@ impl Parser<'_> {
         Ok(StmtKind::Return(value))
     }
 
-    /// An expression for its effect, or several joined by commas.
+    /// Parses an expression statement, or several expressions joined by commas.
     fn expression_statement(&mut self) -> Attempt<StmtKind> {
         let expr = self.sequence()?;
         self.end_of_statement(expr.span)?;
@@ -146,7 +146,7 @@ impl Parser<'_> {
         Ok(Expr { kind: ExprKind::Sequence(parts), span })
     }
 
-    /// `(test)` behind `if` or `while`.
+    /// Parses `(test)` after `if` or `while`.
     fn head(&mut self, word: &str) -> Attempt<Expr> {
         let Some(opener) = self.eat("(") else {
             let report = Finding::error(
@@ -163,7 +163,7 @@ impl Parser<'_> {
         Ok(self.enclosed(opener, ")", 1)?.0.expr)
     }
 
-    /// The statement that belongs to a condition or a loop.
+    /// Parses the body of a condition or a loop.
     fn body(&mut self, word: &str) -> Attempt<Stmt> {
         let span = self.span();
         if self.eat(";").is_some() {
@@ -254,7 +254,7 @@ impl Parser<'_> {
         Ok(StmtKind::For { init, test, update, body })
     }
 
-    /// `const name of`, when that is what stands behind `for (`.
+    /// Parses `const name of` if it follows `for (`.
     fn for_of_head(&mut self) -> Attempt<Option<(bool, Pattern)>> {
         let declares = ["const", "let", "var"].iter().any(|w| self.is_word(w));
         let constant = self.is_word("const");
@@ -286,7 +286,7 @@ impl Parser<'_> {
         Ok(Some((constant || !declares, target)))
     }
 
-    /// A `;` in the head of a `for`.
+    /// Parses a `;` in the head of a `for`.
     fn separator(&mut self) -> Attempt<()> {
         if self.eat(";").is_some() {
             return Ok(());
@@ -301,7 +301,7 @@ impl Parser<'_> {
         self.refuse(report)
     }
 
-    /// A semicolon, a line end or the end of the text.
+    /// Parses a semicolon, a line end or the end of the text.
     pub(super) fn end_of_statement(&mut self, statement: Span) -> Attempt<()> {
         if self.eat(";").is_some() || self.ended() || self.newline() || self.is("}") {
             return Ok(());

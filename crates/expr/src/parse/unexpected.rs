@@ -1,4 +1,4 @@
-//! What is reported of a token that cannot stand where it is.
+//! Findings about tokens that are not allowed where they are.
 
 use super::parser::Parser;
 use super::refuse;
@@ -7,7 +7,7 @@ use crate::rules;
 use labspec_finding::{Finding, Span};
 
 impl Parser<'_> {
-    /// The finding for a word that opens a statement, when an expression is wanted.
+    /// The finding for a keyword of a statement where an expression is expected.
     pub(super) fn statement_keyword(&self) -> Option<Finding> {
         let TokenKind::Word(word) = self.peek() else { return None };
         match *word {
@@ -43,7 +43,7 @@ impl Parser<'_> {
         }
     }
 
-    /// The finding for whatever stands behind something complete; `None` when it is already reported.
+    /// The finding for a token after something complete, or `None` if it is already reported.
     pub(super) fn unexpected_behind(&mut self, before: Span) -> Option<Finding> {
         let span = self.span();
         let token = self.describe_token();
@@ -86,7 +86,7 @@ impl Parser<'_> {
         }
     }
 
-    /// When the comma ahead stands between digits without a space, as in `0,5`: the place and the number meant.
+    /// If the next comma is between digits without a space, as in `0,5`: its span and the intended number.
     pub(super) fn decimal_comma(&self) -> Option<(Span, String)> {
         let before = self.at.checked_sub(1).and_then(|i| self.tokens.get(i))?;
         let behind = self.tokens.get(self.at + 1)?;

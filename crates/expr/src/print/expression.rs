@@ -1,11 +1,11 @@
-//! Expressions as text, with parentheses only where the tree needs them.
+//! Prints expressions, with parentheses only where the tree requires them.
 
 use super::literal::{is_word, number_text, quote, template_text};
 use super::printer::{ASSIGNMENT, ATOM, CHOICE, MEMBER, Printer, SIGN, UPDATE, power};
 use crate::ast::{BinaryOp, Expr, ExprKind, LogicalOp, Property, UnaryOp};
 
 impl Printer<'_> {
-    /// A tree where an operator around it needs at least `least`.
+    /// Prints a tree whose context requires a binding power of at least `least`.
     pub(super) fn expr(&mut self, expr: &Expr, least: u8) {
         let enclosed = power(expr) < least;
         if enclosed {
@@ -21,7 +21,7 @@ impl Printer<'_> {
         match &expr.kind {
             ExprKind::Number(x) => match expr.span.text(self.source) {
                 "" => self.put(&number_text(*x)),
-                // The place of what stood in parentheses holds these.
+                // The span of a parenthesized literal may include the parentheses.
                 written => {
                     self.put(written.trim_matches(|c: char| matches!(c, '(' | ')') || c.is_whitespace()))
                 }
@@ -52,11 +52,11 @@ impl Printer<'_> {
         }
     }
 
-    /// A member, an element or a call.
+    /// Prints a member, an element or a call.
     fn postfix(&mut self, expr: &Expr) {
         match &expr.kind {
             ExprKind::Member { object, name, optional } => {
-                // `1.x` would be read as the number `1.`
+                // `1.x` would be parsed as the number `1.`.
                 let digits = matches!(object.kind, ExprKind::Number(_));
                 self.expr(object, if digits { ATOM + 1 } else { MEMBER });
                 self.put(if *optional { "?." } else { "." });
@@ -65,7 +65,7 @@ impl Printer<'_> {
             ExprKind::Index { object, index, optional } => {
                 self.expr(object, MEMBER);
                 self.put(if *optional { "?.[" } else { "[" });
-                // An assignment in an index is read only in parentheses.
+                // An assignment in an index is valid only in parentheses.
                 self.expr(index, CHOICE);
                 self.put("]");
             }
@@ -79,12 +79,12 @@ impl Printer<'_> {
         }
     }
 
-    /// Operators, and expressions joined by commas.
+    /// Prints operators, and expressions joined by commas.
     fn operation(&mut self, expr: &Expr) {
         match &expr.kind {
             ExprKind::Unary { op, operand } => {
                 self.put(op.symbol());
-                // `- -x` and `+ ++x` must not run together, nor `typeof x`.
+                // A space keeps `- -x`, `+ ++x` and `typeof x` apart.
                 let runs = starts_with_sign(operand) && matches!(op, UnaryOp::Minus | UnaryOp::Plus);
                 if runs || *op == UnaryOp::TypeOf {
                     self.put(" ");
@@ -93,7 +93,7 @@ impl Printer<'_> {
             }
             ExprKind::Binary { op, left, right } => {
                 let p = op.power();
-                // `**` groups from the right and takes no sign on its left; all others group from the left.
+                // `**` is right-associative and allows no unary operator on its left; all others are left-associative.
                 let (l, r) = if *op == BinaryOp::Power { (UPDATE, p) } else { (p, p + 1) };
                 self.between(left, l, op.symbol(), right, r);
             }
@@ -123,7 +123,7 @@ impl Printer<'_> {
         }
     }
 
-    /// Assignments, `++` and `--`.
+    /// Prints assignments, `++` and `--`.
     fn change(&mut self, expr: &Expr) {
         match &expr.kind {
             ExprKind::Assign { target, op, value, .. } => {
@@ -202,7 +202,7 @@ impl Printer<'_> {
         self.expr(right, r);
     }
 
-    /// `??` mixes with `||` and `&&` only in parentheses.
+    /// `??` can be combined with `||` and `&&` only in parentheses.
     fn logical_operand(&mut self, op: LogicalOp, operand: &Expr, least: u8) {
         let mixes = matches!(&operand.kind, ExprKind::Logical { op: other, .. }
             if (*other == LogicalOp::Nullish) != (op == LogicalOp::Nullish));
@@ -219,7 +219,7 @@ impl Printer<'_> {
     }
 }
 
-/// Whether the text of an operand starts with `+` or `-`.
+/// Whether the printed operand starts with `+` or `-`.
 fn starts_with_sign(expr: &Expr) -> bool {
     matches!(
         &expr.kind,

@@ -1,4 +1,4 @@
-//! The printer for authors: numbers stay as they are written, and a text of one line stays on one.
+//! The formatter for authors: numbers keep their spelling, and a text of one line stays on one line.
 
 use super::printer::{ASSIGNMENT, Printer};
 use crate::ast::{Expr, Stmt, StmtKind};
@@ -6,21 +6,21 @@ use crate::lex::{TokenKind, tokens};
 use crate::parse::{parse_expression, parse_statements};
 use labspec_finding::Finding;
 
-/// The text of an expression. A part that could not be read prints as `<error>`.
+/// The text of an expression. An invalid part is printed as `<error>`.
 pub fn print(expr: &Expr) -> String {
     let mut printer = Printer::default();
     printer.expr(expr, ASSIGNMENT);
     printer.out
 }
 
-/// The text of statements, one a line, blocks indented by two spaces.
+/// The text of statements, one per line, with blocks indented by two spaces.
 pub fn print_statements(statements: &[Stmt]) -> String {
     let mut printer = Printer::default();
     printer.lines(statements);
     printer.out
 }
 
-/// An expression laid out anew. `None` when it has mistakes, or comments, which a tree does not hold.
+/// Formats an expression. Returns `None` if it has errors, or comments, which a tree does not contain.
 pub fn format_expression(source: &str) -> Option<String> {
     let parsed = parse_expression(source);
     if has_comments(source) || parsed.diagnostics.iter().any(Finding::is_error) {
@@ -32,7 +32,8 @@ pub fn format_expression(source: &str) -> Option<String> {
     (shape(&again.tree) == shape(&parsed.tree)).then_some(printer.out)
 }
 
-/// Statements laid out anew: one a line, or all on one line where the source is one line. `None` as above.
+/// Formats statements: one per line, or all on one line if the source is one line. Returns `None` as
+/// [`format_expression`] does.
 pub fn format_statements(source: &str) -> Option<String> {
     let parsed = parse_statements(source);
     if has_comments(source) || parsed.diagnostics.iter().any(Finding::is_error) {
@@ -49,8 +50,8 @@ pub fn format_statements(source: &str) -> Option<String> {
     (shape(&again.tree) == shape(&parsed.tree)).then_some(printer.out)
 }
 
-/// A tree without its places: two texts of one shape mean the same. Not the printed text, which cannot show what the
-/// printer itself has lost.
+/// A tree without its spans. Two texts with the same shape have the same meaning. Comparing printed texts instead would not
+/// reveal what the printer itself has lost.
 fn shape(tree: &impl std::fmt::Debug) -> String {
     let text = format!("{tree:?}");
     let mut parts = text.split("Span { start: ");
@@ -62,7 +63,7 @@ fn shape(tree: &impl std::fmt::Debug) -> String {
     bare
 }
 
-/// Whether a comment stands between the tokens, or may stand in a template.
+/// Whether there is a comment between the tokens, or possibly in a template.
 fn has_comments(source: &str) -> bool {
     let opens = |text: &str| text.contains("//") || text.contains("/*");
     let mut at = 0;

@@ -1,19 +1,19 @@
-//! Numbers and texts as they are written.
+//! Printing of numbers and strings.
 
 use crate::number;
 
-/// A literal never holds a sign; an infinite one is written so that it is read as infinite again.
+/// A number without a sign; an infinite one is printed so that it is parsed as infinite again.
 pub(super) fn number_text(x: f64) -> String {
     if x.is_infinite() { "1e999".into() } else { number::to_text(x) }
 }
 
-/// Whether a key can be written without quotes.
+/// Whether a key can be printed without quotes.
 pub(super) fn is_word(key: &str) -> bool {
     key.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_' || c == '$')
         && key.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '$')
 }
 
-/// In the quotes that need no escapes in JSON, unless the text holds them itself.
+/// Prints a string in single quotes, which need no escapes in JSON, unless it contains single quotes and no double quotes.
 pub(super) fn quote(text: &str, out: &mut String) {
     let mark = if text.contains('\'') && !text.contains('"') { '"' } else { '\'' };
     out.push(mark);

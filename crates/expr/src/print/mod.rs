@@ -1,5 +1,5 @@
-//! Tree to text: one layout, parentheses only where the tree needs them. Reading the result gives the tree back.
-//! The formatter is this with two wishes of authors: numbers stay as they are written, and a text of one line stays on one.
+//! Syntax tree to text: one layout, with parentheses only where the tree requires them. Parsing the result gives the same tree.
+//! The formatter adds two features for authors: numbers keep their spelling, and a text of one line stays on one line.
 
 mod expression;
 mod format;

@@ -1,4 +1,4 @@
-//! The text that is being made, and how tightly the parts of a tree bind.
+//! The output of the printer, and the binding powers of trees.
 
 use crate::ast::{Expr, ExprKind};
 
@@ -8,10 +8,10 @@ pub(super) const CHOICE: u8 = 2;
 pub(super) const SIGN: u8 = 15;
 pub(super) const UPDATE: u8 = 16;
 pub(super) const MEMBER: u8 = 17;
-/// Of a name or a literal, which nothing can take apart.
+/// The binding power of a name or a literal, which has no operands.
 pub(super) const ATOM: u8 = 18;
 
-/// How tightly the outermost operator of a tree binds.
+/// The binding power of the outermost operator of a tree.
 pub(super) fn power(expr: &Expr) -> u8 {
     match &expr.kind {
         ExprKind::Sequence(_) => 0,
@@ -21,7 +21,7 @@ pub(super) fn power(expr: &Expr) -> u8 {
         ExprKind::Binary { op, .. } => op.power(),
         ExprKind::Unary { .. } => SIGN,
         ExprKind::Update { .. } => UPDATE,
-        // A chain that goes on must not swallow what was outside of it.
+        // If a member follows a chain, the chain needs parentheses, so that the member does not become part of it.
         ExprKind::Chain(_) => MEMBER - 1,
         ExprKind::Member { .. } | ExprKind::Index { .. } | ExprKind::Call { .. } => MEMBER,
         _ => ATOM,
@@ -32,9 +32,9 @@ pub(super) fn power(expr: &Expr) -> u8 {
 pub(super) struct Printer<'s> {
     pub(super) out: String,
     pub(super) indent: usize,
-    /// All on one line.
+    /// Whether to print everything on one line.
     pub(super) line: bool,
-    /// Where the tree was read from, for numbers as they are written; empty when that does not matter.
+    /// The source of the tree, for the spelling of numbers; empty if that is irrelevant.
     pub(super) source: &'s str,
 }
 

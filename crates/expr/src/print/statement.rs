@@ -1,4 +1,4 @@
-//! Statements, declarations and functions as text.
+//! Prints statements, declarations and functions.
 
 use super::printer::{ASSIGNMENT, Printer};
 use crate::ast::{Body, Declarator, Element, Expr, Function, Pattern, Stmt, StmtKind};
@@ -26,7 +26,7 @@ impl Printer<'_> {
         self.put("}");
     }
 
-    /// The statement of a condition or a loop, behind its head.
+    /// Prints the body of a condition or a loop, after its head.
     pub(super) fn body(&mut self, statement: &Stmt) {
         self.put(" ");
         self.statement(statement);
@@ -46,7 +46,7 @@ impl Printer<'_> {
                 self.put(" ");
                 match &function.body {
                     Body::Block(statements) => self.block(statements),
-                    Body::Value(_) => self.put("{}"), // the parser makes none of these
+                    Body::Value(_) => self.put("{}"), // the parser never builds these
                 }
             }
             StmtKind::If { test, then, otherwise } => self.condition(test, then, otherwise.as_deref()),
@@ -87,9 +87,9 @@ impl Printer<'_> {
         }
     }
 
-    /// An expression for its effect.
+    /// Prints an expression statement.
     fn expression_statement(&mut self, expr: &Expr) {
-        // What starts like a block or a declaration of a function would be read as one.
+        // A statement that starts with `{` or `function` would be parsed as a block or a declaration.
         let start = self.out.len();
         self.expr(expr, 0);
         let text = self.out.get(start..).unwrap_or("");
@@ -100,13 +100,13 @@ impl Printer<'_> {
         self.put(";");
     }
 
-    /// `if`, and what its `else` is.
+    /// Prints `if` and its `else`.
     fn condition(&mut self, test: &Expr, then: &Stmt, otherwise: Option<&Stmt>) {
         self.head("if", test);
         match otherwise {
             None => self.body(then),
             Some(otherwise) => {
-                // Without braces the `else` could join an `if` inside.
+                // Without braces, the `else` could belong to an inner `if`.
                 if open_ended(then) {
                     self.put(" ");
                     self.block(std::slice::from_ref(then));
@@ -119,7 +119,7 @@ impl Printer<'_> {
         }
     }
 
-    /// `for (init; test; update)`
+    /// Prints `for (init; test; update)`.
     fn for_head(&mut self, init: Option<&Stmt>, test: Option<&Expr>, update: Option<&Expr>) {
         self.put("for (");
         match init.map(|s| &s.kind) {
@@ -174,7 +174,7 @@ impl Printer<'_> {
                     }
                     match item {
                         Some(item) => self.element(item),
-                        // A hole at the end needs a comma of its own.
+                        // A hole at the end needs an additional comma.
                         None if i + 1 == items.len() => self.put(","),
                         None => {}
                     }
@@ -218,7 +218,7 @@ impl Printer<'_> {
     }
 
     pub(super) fn function(&mut self, function: &Function) {
-        // What calls itself by its name needs the name.
+        // A function that calls itself by its name must keep the name.
         if let (Some(name), Body::Block(statements)) = (&function.name, &function.body) {
             self.put("function ");
             self.put(&name.text);
@@ -243,7 +243,7 @@ impl Printer<'_> {
     }
 }
 
-/// Whether an `else` behind this statement would belong to an `if` in it.
+/// Whether an `else` after this statement would belong to an `if` inside it.
 fn open_ended(statement: &Stmt) -> bool {
     match &statement.kind {
         StmtKind::If { otherwise: None, .. } => true,

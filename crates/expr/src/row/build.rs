@@ -1,4 +1,4 @@
-//! Formulas to rows: every step gets a register, and the number at hand goes on to the next operation where it can.
+//! Formulas to rows: every step gets a register, and where possible the accumulator is passed to the next operation.
 
 use super::operation::RowOp;
 use super::run::{FieldElement, REGISTERS, Row};
@@ -7,16 +7,16 @@ use crate::math::{FEW, MathEvaluation, MathFunction};
 use crate::operators::BinaryOp;
 use labspec_finding::order;
 
-/// A step whose result is wanted in a register.
+/// A step whose result is needed in a register.
 pub(crate) struct WantedResult {
     pub(crate) step: StepId,
     pub(crate) register: u8,
-    /// Nothing reads behind the step what stood in the register before.
+    /// Whether nothing after the step reads the previous value of the register.
     pub(crate) at_once: bool,
 }
 
 impl Row {
-    /// `None` when it needs too many registers.
+    /// Returns `None` if the formula needs too many registers.
     pub(crate) fn from_formula(formula: &Formula) -> Option<Row> {
         let load = |step: &FormulaStep| {
             if let FormulaStep::Load(field, index) = step { Some((*field, *index)) } else { None }
@@ -30,8 +30,8 @@ impl Row {
         Some(row)
     }
 
-    /// A part of a program, with the registers of its inputs. Results that are wanted go to registers of the program; what
-    /// else it keeps goes to free ones.
+    /// Builds the row of a part of a program, given the registers of its inputs. Requested results go to registers of the
+    /// program, intermediate results to free ones.
     pub(crate) fn part(
         formula: &Formula,
         wanted: &[WantedResult],
@@ -83,8 +83,8 @@ impl Row {
         Some(Row { elements: Vec::new(), start: 0, ops, args, truth: formula.truth, passes_nan })
     }
 
-    /// The register that the first operation on a number takes, if it does nothing else and the register holds something
-    /// already: that needs no operation.
+    /// The register that the accumulator contains initially. If the first operation only loads a register that is already set,
+    /// this replaces the operation.
     fn begin(&mut self) -> u8 {
         let first = self.ops.iter().position(|op| !matches!(op, RowOp::Put(..)));
         match first.and_then(|at| Some((at, *self.ops.get(at)?))) {
@@ -99,14 +99,14 @@ impl Row {
     }
 }
 
-/// The work on one formula.
+/// The builder of the row of one formula.
 struct RowBuilder<'f> {
     formula: &'f Formula,
     /// The register of each step.
     homes: Vec<u8>,
     ops: Vec<RowOp>,
     args: Vec<u8>,
-    /// The step whose result is the number at hand.
+    /// The step whose result is in the accumulator.
     at_hand: Option<StepId>,
 }
 
@@ -115,7 +115,7 @@ impl RowBuilder<'_> {
         self.homes.get(at as usize).copied()
     }
 
-    /// Makes a result the number at hand.
+    /// Loads a result into the accumulator.
     fn take(&mut self, at: StepId) -> Option<()> {
         if self.at_hand != Some(at) {
             self.ops.push(RowOp::Take(self.home(at)?));
@@ -123,7 +123,7 @@ impl RowBuilder<'_> {
         Some(())
     }
 
-    /// An operation of two operands: the second may be the number at hand when there is a way round for it.
+    /// Emits a binary operation. The second operand may be in the accumulator if the operation exists with swapped operands.
     fn two(
         &mut self,
         a: StepId,
@@ -138,7 +138,7 @@ impl RowBuilder<'_> {
         Some(op(self.home(b)?))
     }
 
-    /// An operation, kept for later in its register.
+    /// Emits an operation, and stores its result in its register for later use.
     fn step(&mut self, at: StepId, step: FormulaStep) -> Option<()> {
         let op = match step {
             FormulaStep::Load(..) | FormulaStep::Input(_) => return Some(()),
@@ -197,12 +197,12 @@ impl RowBuilder<'_> {
                 }
                 Some(RowOp::Many(f, u8::try_from(args.len()).ok()?, first))
             }
-            // Too many arguments, or one is missing: rare enough for the machine.
+            // A function with too many arguments, or a missing one, is rare, and left to the virtual machine.
             _ => None,
         }
     }
 
-    /// Leaves out what goes to registers that nothing reads.
+    /// Removes stores to registers that nothing reads.
     fn drop_unread(&mut self, wanted: &[WantedResult]) {
         let mut read = [false; REGISTERS];
         for r in wanted.iter().map(|w| w.register).chain(self.args.iter().copied()) {

@@ -1,6 +1,6 @@
-//! A formula for the state at hand: what it reads is fetched by one call of the host, then operations work on one
-//! number at hand, each with a register or a constant as its other operand. The number so stays in a register of the
-//! processor from operation to operation; only what is needed again later goes to memory.
+//! A row evaluates a formula for the current state. One call of the host reads all field elements. Then each operation combines
+//! an accumulator with a register or a constant. The accumulator stays in a processor register from operation to operation;
+//! only values that are used again later go to memory.
 
 mod build;
 mod operation;

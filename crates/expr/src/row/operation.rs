@@ -1,9 +1,9 @@
-//! Operations on the number at hand.
+//! Operations on the accumulator.
 
 use crate::operators::{BinaryOp, UnaryOp};
 
-/// One operation on the number at hand, `x`; `r` is a register and `k` a constant. The most frequent have a place of their
-/// own, and so does each order of their operands.
+/// An operation on the accumulator `x`; `r` is a register and `k` a constant. The most frequent operations have separate
+/// variants, and so does each order of their operands.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum RowOp {
     /// x = r
@@ -37,20 +37,20 @@ pub(super) enum RowOp {
     /// k of x
     Left(BinaryOp, f64),
     Unary(UnaryOp),
-    /// By the truth of x: the first or the second.
+    /// The first register if x is truthy, otherwise the second.
     Select(u8, u8),
     /// f(x)
     One(fn(f64) -> f64),
-    /// f(x), which says whether x is a number.
+    /// f(x), where f tests x for NaN.
     Asks(fn(f64) -> f64),
     /// f(x, r)
     Two(fn(f64, f64) -> f64, u8),
-    /// f of so many arguments, from a place in the list of arguments on.
+    /// f of several arguments: their number, and their start in the list of arguments.
     Many(fn(&[f64]) -> f64, u8, u16),
 }
 
 impl RowOp {
-    /// The registers that it reads, of those that it names itself.
+    /// The registers that it reads directly, not through the list of arguments.
     pub(super) fn reads(self) -> [Option<u8>; 2] {
         match self {
             RowOp::Take(r)
@@ -65,7 +65,7 @@ impl RowOp {
         }
     }
 
-    /// Whether the result is NaN wherever an operand is, as far as it is known.
+    /// Whether the result is known to be NaN whenever an operand is NaN.
     pub(super) fn passes_nan(self) -> bool {
         use BinaryOp::{Add, Divide, Multiply, Remainder, Subtract};
         match self {

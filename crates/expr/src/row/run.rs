@@ -1,4 +1,4 @@
-//! A formula that is ready to run, and its runs.
+//! A compiled formula and its evaluation.
 
 use super::operation::RowOp;
 use crate::math::FEW;
@@ -8,39 +8,39 @@ use crate::types::FieldKey;
 use crate::value::Value;
 use crate::watch::Watch;
 
-/// An element of a field, by its place in the whole field.
+/// An element of a field, by its index in the whole field.
 pub(crate) type FieldElement = (FieldKey, u32);
 
-/// Number of registers: a byte names each of them, so none can be out of range.
+/// The number of registers. Registers are identified by one byte, so none can be out of range.
 pub(crate) const REGISTERS: usize = 256;
 
-/// The registers of a run.
+/// The registers of one evaluation.
 pub(crate) type Registers = [f64; REGISTERS];
 
-/// A formula, ready to run.
+/// A compiled formula.
 #[derive(Clone, Debug)]
 pub(crate) struct Row {
-    /// What is read, in the order of the fields; it goes into the first registers.
+    /// The elements that are read, in the order of the fields; they go to the first registers.
     pub(super) elements: Vec<FieldElement>,
-    /// The register that is at hand first.
+    /// The register that is loaded into the accumulator first.
     pub(super) start: u8,
     pub(super) ops: Vec<RowOp>,
     pub(super) args: Vec<u8>,
-    /// It gives a truth value.
+    /// Whether the result is a boolean.
     pub(super) truth: bool,
-    /// No operation makes a number of what is none.
+    /// Whether no operation turns NaN into a number.
     pub(super) passes_nan: bool,
 }
 
 impl Row {
-    /// Registers up to the last that it changes.
+    /// The number of registers up to the last one that it changes.
     pub(crate) fn registers(&self) -> u32 {
         let registers_of =
             |op: &RowOp| if let RowOp::Keep(r) | RowOp::Put(r, _) = *op { u32::from(r) + 1 } else { 0 };
         self.ops.iter().map(registers_of).max().unwrap_or(0)
     }
 
-    /// The value now; `None` when an element does not exist. `read` fetches all elements at once.
+    /// Returns the current value, or `None` if an element does not exist. `read` reads all elements at once.
     #[inline]
     pub(crate) fn value(
         &self,
@@ -58,14 +58,14 @@ impl Row {
         Some(if self.truth { Value::Boolean(x != 0.0) } else { Value::Number(x) })
     }
 
-    /// The value now, as [`Row::value`]; the watch notes what happens on the way.
+    /// Returns the current value, as [`Row::value`]; the watch records lost NaN values and comparisons.
     pub(crate) fn watched_value(
         &self,
         read: impl FnOnce(&[FieldElement], &mut [f64]) -> bool,
         numbers: &mut Vec<f64>,
         watch: &mut Watch,
     ) -> Option<Value> {
-        // There is nothing to note.
+        // There is nothing to record.
         if self.passes_nan && !watch.notes_comparisons() {
             return self.value(read, numbers);
         }
@@ -95,7 +95,7 @@ impl Row {
                     r[usize::from(a)] = k;
                     x
                 }
-                // Arithmetic passes NaN on.
+                // Arithmetic propagates NaN.
                 RowOp::Add(a) => x + register(a),
                 RowOp::Subtract(a) => x - register(a),
                 RowOp::SubtractFrom(a) => register(a) - x,
@@ -136,7 +136,7 @@ impl Row {
         x
     }
 
-    /// The number that is at hand last.
+    /// Executes the operations, and returns the last value of the accumulator.
     #[inline]
     pub(crate) fn run(&self, r: &mut Registers) -> f64 {
         use BinaryOp::{Add, Divide, Multiply, Subtract};
@@ -185,7 +185,7 @@ impl Row {
     }
 }
 
-/// Once for all runs in a context.
+/// Called once for all evaluations in a context.
 #[cold]
 #[inline(never)]
 fn make_room(numbers: &mut Vec<f64>) {

@@ -1,4 +1,5 @@
-//! Operations on values that have one name and one definition each (static single assignment), and the blocks that hold them.
+//! Static single assignment form: operations on values that each have one name and one definition, and
+//! basic blocks of operations.
 
 mod op;
 mod program;

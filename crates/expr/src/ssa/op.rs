@@ -1,5 +1,5 @@
-//! The operations of a form, and of the machine: on numbers and on values of any type. In a form the first operand of
-//! each names the result, and no two have one name; in the machine all of them are registers.
+//! The operations of the SSA form and of the virtual machine, on numbers and on values of any type. In SSA form, the first
+//! operand of an operation is the unique name of its result; in machine code, all operands are registers.
 
 use crate::ir::{FreeFunctionId, MethodId, UnitId};
 use crate::math;
@@ -7,7 +7,7 @@ use crate::operators::{BinaryOp, UnaryOp};
 use crate::types::{FieldKey, FunctionId};
 use crate::value::View;
 
-/// A number, or a truth value as 1 or 0.
+/// A number, or a boolean as 1 or 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Num(pub(crate) u32);
 
@@ -15,7 +15,7 @@ pub(crate) struct Num(pub(crate) u32);
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Val(pub(crate) u32);
 
-/// Operands in a row: a part of the unit's list of them.
+/// A list of operands: a range in the unit's list of operands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Args {
     pub(crate) first: u32,
@@ -52,7 +52,7 @@ pub(crate) enum Op {
 
     Unary(Num, UnaryOp, Num),
     Binary(Num, BinaryOp, Num, Num),
-    /// By the truth of the first: the second or the third.
+    /// The second operand if the first is truthy, otherwise the third.
     Select(Num, Num, Num, Num),
     Math(Num, math::MathFunction, Args),
     MathOver(Num, math::MathFunction, Val),
@@ -68,10 +68,10 @@ pub(crate) enum Op {
     StoreGlobalNamed(Val, Val),
     Fill(View, Num),
 
-    /// Into a register of the function that is called next.
+    /// Passes an argument in a register of the function that is called next.
     PassNumber(u32, Num),
     PassValue(u32, Val),
-    /// A function of the same text.
+    /// Calls a function of the same program.
     Call(UnitId),
     TakeNumber(Num),
     TakeValue(Val),
@@ -81,11 +81,11 @@ pub(crate) enum Op {
     NewCell(Val, Val),
     EmptyCell(Val),
     CellGet(Val, Val),
-    /// `true`: its declaration runs.
+    /// Stores a variable in its cell; `true` if this executes its declaration.
     CellSet(Val, Val, bool),
 
     List(Val, Args),
-    /// `true`: its elements.
+    /// Appends a value, or its elements if `true`.
     Append(Val, Val, bool),
     NewRecord(Val),
     Put(Val, Val, Val),
@@ -93,10 +93,10 @@ pub(crate) enum Op {
     Element(Val, Val, Val),
     ElementAt(Val, Val, Num),
     Member(Val, Val, u32),
-    /// `true`: into what is a record for sure.
+    /// Stores an element; `true` if the object is certainly a record.
     StoreItem(Val, Val, Val, bool),
     StoreMember(Val, u32, Val, bool),
-    /// What it is called on comes first.
+    /// Calls a method; the receiver is the first argument.
     Method(Val, MethodId, Args),
     MethodList(Val, MethodId, Val, Val),
     Native(Val, FreeFunctionId, Args),
@@ -104,21 +104,21 @@ pub(crate) enum Op {
     Pick(Val, u32, Val),
     PickNumber(Num, u32, Val),
 
-    // Of the machine alone: ways between the operations.
+    // Only in machine code: control flow and moves.
     Move(Num, Num),
     MoveValue(Val, Val),
-    /// Several numbers at once.
+    /// Computes several numbers at once.
     Formula(u32),
     Jump(u32),
     JumpIf(bool, Num, u32),
-    /// When the value is `undefined` or `null`, or is not.
+    /// Jumps if the value is, or is not, `undefined` or `null`.
     JumpIfNothing(bool, Val, u32),
-    /// Back to the start of a loop, with what a turn costs.
+    /// Jumps back to the start of a loop; the second number is the cost of an iteration.
     Again(u32, u32),
     Return,
 }
 
-/// What an operation does with an operand.
+/// How an operation uses an operand.
 pub(crate) enum OperandUse<'o> {
     Gives(&'o mut Num),
     GivesValue(&'o mut Val),
@@ -134,7 +134,7 @@ fn each_use<const N: usize>(f: &mut impl FnMut(OperandUse<'_>), uses: [OperandUs
 }
 
 impl Op {
-    /// Every operand, with what is done to it. One table, complete, so that a new operation is not forgotten.
+    /// Calls `f` for every operand with its use. This complete table ensures that no operation is forgotten.
     pub(crate) fn each(&mut self, f: &mut impl FnMut(OperandUse<'_>)) {
         use OperandUse::{Gives, GivesValue, Reads, ReadsAll, ReadsValue, ReadsValues};
         match self {
@@ -199,12 +199,12 @@ impl Op {
         }
     }
 
-    /// Whether it computes a number from numbers, and does nothing else.
+    /// Whether it only computes a number from numbers.
     pub(crate) fn is_numeric(&self) -> bool {
         matches!(self, Op::Unary(..) | Op::Binary(..) | Op::Select(..) | Op::Math(..))
     }
 
-    /// Whether nothing is missed without it when nothing uses its result.
+    /// Whether it can be removed if its result is not used.
     pub(crate) fn is_pure(&self) -> bool {
         self.is_numeric()
             || matches!(self, Op::BoxNumber(..) | Op::BoxBoolean(..) | Op::Truthy(..) | Op::ToIndex(..))
@@ -212,7 +212,7 @@ impl Op {
             || matches!(self, Op::Aggregate(..) | Op::TakeNumber(_) | Op::TakeValue(_))
     }
 
-    /// Whether a run may end there.
+    /// Whether it may end the run with an error.
     pub(crate) fn may_fail(&self) -> bool {
         let loads = matches!(self, Op::Load(..) | Op::LoadAt(..) | Op::LoadValue(..) | Op::LoadValueAt(..));
         let passes = matches!(self, Op::PassNumber(..) | Op::PassValue(..) | Op::StoreGlobal(..));

@@ -1,9 +1,9 @@
-//! The one form between binder and machines: every value has one name and one definition (static single assignment;
-//! Cytron et al., "Efficiently computing static single assignment form and the control dependence graph", 1991).
+//! The intermediate form between the binder and the evaluators: every value has one name and one definition (static single
+//! assignment; Cytron et al., "Efficiently computing static single assignment form and the control dependence graph", 1991).
 //!
-//! A function is a list of blocks; what differs between the ways that lead to a block are its parameters, as in a call.
-//! Blocks stand in the order of the text, so all ways but those back to the start of a loop lead forward. The machine's
-//! code (`lower::emit`) and formulas (`lower::pure`) are made from here.
+//! A function is a list of basic blocks. Values that differ between the edges to a block are parameters of the block, as in a
+//! call. Blocks are in source order, so all edges lead forward, except those back to the start of a loop. Machine code
+//! (`lower::emit`) and formulas (`lower::pure`) are generated from this form.
 
 use std::sync::Arc;
 
@@ -14,39 +14,39 @@ use crate::value::Value;
 use super::op::{Num, Op, Val};
 use labspec_finding::Span;
 
-/// A text.
+/// A program in SSA form.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct SsaProgram {
-    /// The functions; the first is the text itself.
+    /// The functions; the first is the program itself.
     pub(crate) units: Vec<SsaFunction>,
     /// Names of members.
     pub(crate) texts: Vec<Arc<str>>,
     pub(crate) picks: Vec<Arc<MemberTable>>,
-    /// Arrays that become values.
+    /// Arrays used as values.
     pub(crate) views: Vec<ExposedView>,
 }
 
-/// A function. Its first names, from 1 on, are its parameters and what it uses of the functions around it.
+/// A function. Its first names, from 1 on, are its parameters and its captured variables.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct SsaFunction {
     pub(crate) blocks: Vec<BasicBlock>,
-    /// The operations of all blocks, one block after the other.
+    /// The operations of all blocks, block after block.
     pub(crate) ops: Vec<Op>,
-    /// Where each comes from.
+    /// The span of each operation.
     pub(crate) spans: Vec<Span>,
     /// Lists of operands.
     pub(crate) args: Vec<u32>,
     /// Constants and their names, in the order of the names.
     pub(crate) numbers: Vec<(Num, f64)>,
     pub(crate) values: Vec<(Val, Value)>,
-    /// What each name stands for: itself, or the name before it that turned out to be the same.
+    /// The alias of each name: itself, or an earlier name with the same value.
     pub(crate) same: Aliases,
     pub(crate) params: Vec<Representation>,
     pub(crate) captures: Vec<Representation>,
     pub(crate) result: Representation,
 }
 
-/// Names of numbers and of values, each with the name that it stands for.
+/// The names of numbers and of values, each with its alias.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Aliases {
     pub(crate) numbers: Vec<u32>,
@@ -62,40 +62,40 @@ pub(crate) enum Operand {
 
 pub(crate) type BlockId = u32;
 
-/// Operations that run one after the other.
+/// A basic block: operations that are executed in sequence.
 #[derive(Clone, Debug)]
 pub(crate) struct BasicBlock {
     /// Its first operation.
     pub(crate) first: u32,
     pub(crate) params: Vec<Operand>,
-    /// The last block that all ways to this one pass.
+    /// The last block through which all paths to this one pass.
     pub(crate) after: BlockId,
     pub(crate) end: Terminator,
-    /// Where its end stands.
+    /// The span of its terminator.
     pub(crate) span: Span,
 }
 
-/// A way to a block, with what its parameters are.
+/// An edge to a block, with the arguments of its parameters.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct BlockEdge {
     pub(crate) to: BlockId,
     pub(crate) args: Vec<Operand>,
 }
 
-/// Where a block leads.
+/// The end of a block.
 #[derive(Clone, Debug)]
 pub(crate) enum Terminator {
     Jump(BlockEdge),
-    /// When the truth is this one; else on to the next block.
+    /// Jumps if the condition has this truth value; otherwise continues with the next block.
     If(bool, Num, BlockEdge),
-    /// When the value is `undefined` or `null`, or is not; else on to the next block.
+    /// Jumps if the value is, or is not, `undefined` or `null`; otherwise continues with the next block.
     IfNothing(bool, Val, BlockEdge),
-    /// Back to the start of a loop.
+    /// Jumps back to the start of a loop.
     Again(BlockEdge),
     Return(Option<Operand>),
 }
 
-/// How a value is handed over.
+/// How a value is passed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Representation {
     Number,
@@ -116,19 +116,19 @@ impl Representation {
 }
 
 impl SsaFunction {
-    /// The places of the operations of a block.
+    /// The indexes of the operations of a block.
     pub(crate) fn range(&self, block: BlockId) -> std::ops::Range<usize> {
         let first = |b: BlockId| self.blocks.get(b as usize).map_or(self.ops.len(), |b| b.first as usize);
         first(block)..first(block + 1)
     }
 
-    /// The number, if it is known.
+    /// The value of a number, if it is constant.
     pub(crate) fn constant(&self, number: Num) -> Option<f64> {
         let at = self.numbers.binary_search_by_key(&number, |(n, _)| *n).ok()?;
         self.numbers.get(at).map(|(_, x)| *x)
     }
 
-    /// The value, if it is known.
+    /// The value, if it is constant.
     pub(crate) fn constant_value(&self, value: Val) -> Option<&Value> {
         let value = self.same.value(value);
         let at = self.values.binary_search_by_key(&value, |(v, _)| *v).ok()?;
@@ -152,11 +152,11 @@ impl Aliases {
         }
     }
 
-    /// Every name leads to where it stands for in one step.
+    /// Shortens all chains of aliases to one step.
     pub(crate) fn shorten(&mut self) {
         for list in [&mut self.numbers, &mut self.values] {
             for i in 0..list.len() {
-                // A name stands for one before it, which is short already, or for one of an outer loop.
+                // A name is an alias of an earlier one, which has been shortened already, or of one of an outer loop.
                 let end = last(list, i as u32);
                 if let Some(place) = list.get_mut(i) {
                     *place = end;
@@ -165,7 +165,7 @@ impl Aliases {
         }
     }
 
-    /// A name turned out to be another one.
+    /// Makes a name an alias of another one.
     pub(crate) fn join(&mut self, name: Operand, other: Operand) {
         match (name, other) {
             (Operand::Number(n), Operand::Number(other)) => {
@@ -180,13 +180,13 @@ impl Aliases {
                     *place = other;
                 }
             }
-            // A variable holds numbers or values, never both.
+            // A variable contains either numbers or values, never both.
             _ => {}
         }
     }
 }
 
-/// Follows names to the one that stands for itself.
+/// Follows a chain of aliases to its end.
 fn last(names: &[u32], mut at: u32) -> u32 {
     while let Some(&next) = names.get(at as usize) {
         if next == at {

@@ -1,12 +1,12 @@
-//! Random arithmetic against an evaluator that others wrote: `evalexpr`, with its own spellings (`^` for powers,
-//! integers that divide as integers, so every literal is written as a float).
+//! Random arithmetic compared with an independent evaluator, `evalexpr`. Its syntax differs: `^` is the power, and integers
+//! divide as integers, so every literal is written as a float.
 
 use proptest::prelude::*;
 
 use crate::Value;
 use crate::mock::evaluate;
 
-/// The same arithmetic in both languages, and what it uses.
+/// The same arithmetic in both languages.
 fn arithmetic() -> impl Strategy<Value = (String, String)> {
     let number = (-1000i32..1000).prop_map(|n| {
         let x = f64::from(n) / 8.0;
@@ -36,10 +36,12 @@ proptest! {
     #[test]
     fn agrees_with_evalexpr((ours, theirs) in arithmetic()) {
         let Ok(evalexpr::Value::Float(expected)) = evalexpr::eval(&theirs) else { return Ok(()) };
-        // Once folded while compiling, once computed by the machine: `data.time` is 0.
+        // The first source is folded at compile time; the second is evaluated by the virtual machine, because
+        // `data.time` is 0 at run time.
         for source in [ours.clone(), ours.replace("(-", "(data.time + -").replace("(1", "(data.time + 1")] {
             let Value::Number(got) = evaluate(&source) else { panic!("{source} is not a number") };
-            // Powers come from another library there, which may round otherwise; what follows may amplify it.
+            // `evalexpr` uses another library for powers, which may round differently, and later operations
+            // may amplify the difference.
             let close = got == expected || got.is_nan() && expected.is_nan();
             let powers = ours.contains("**");
             prop_assert!(close || powers, "{source}: {got} and {expected}");

@@ -1,4 +1,4 @@
-//! Random programs against JavaScript itself: the same text is evaluated by node, and every bit must agree.
+//! Random programs compared with JavaScript: node evaluates the same text, and all bits must agree.
 
 use std::io::Write;
 use std::process::{Command, Stdio};
@@ -13,7 +13,7 @@ use crate::needs::needs;
 
 const PROGRAMS: usize = 1500;
 
-/// Functions whose value the standard fixes to the last bit. The others may differ by a rounding.
+/// Functions whose result the standard defines exactly. Others may differ by a rounding.
 const EXACT: [&str; 13] = [
     "abs", "ceil", "floor", "fround", "max", "min", "round", "sign", "sqrt", "trunc", "clz32", "imul",
     "hypot",
@@ -73,7 +73,7 @@ fn program() -> impl Strategy<Value = String> {
     })
 }
 
-/// The value as text that shows every bit.
+/// The value as text that contains all bits.
 fn encode(value: &Value) -> String {
     match value {
         Value::Number(x) if x.is_nan() => "number NaN".into(),
@@ -95,7 +95,7 @@ function show(v) {
 }
 ";
 
-/// The values that node gives.
+/// The values that node computes.
 fn node(sources: &[String]) -> Vec<String> {
     let mut script = PRELUDE.to_owned();
     for source in sources {

@@ -1,4 +1,4 @@
-//! Statements, functions, lists, records, methods and limits, as tables: text, `ctx.out`.
+//! Statements, functions, lists, records, methods and limits, as tables of a source text and the value of `ctx.out`.
 
 use crate::mock::{Mock, World, execute};
 use crate::*;
@@ -116,8 +116,8 @@ fn lists_and_records() {
     ]);
 }
 
-/// A context may be made at any time: a text that is compiled later finds what earlier texts stored under names that they
-/// computed, and the other way round.
+/// A context can be created at any time: a program that is compiled later finds values that earlier programs stored under
+/// computed names, and the other way round.
 #[test]
 fn a_context_is_never_made_too_early() {
     let mut globals = Globals::new();
@@ -128,13 +128,13 @@ fn a_context_is_never_made_too_early() {
     let run =
         |program: &Program, context: &mut Context| program.run(&mut World::new(), context, None).unwrap();
     run(&store, &mut context);
-    // Compiled behind the context, and behind the first run in it.
+    // Compiled after the context was created, and after the first run in it.
     let late = Compiler::new(&Mock, &mut globals).statements("ctx.q2 = ctx.q1 + 1").program.unwrap();
     run(&late, &mut context);
     run(&load, &mut context);
     let out = globals.slot("out").unwrap();
     assert_eq!(context.get(out), &Value::Number(6.0));
-    // What the host stores has its name, too, although no program with that name has run.
+    // A value that the host stores can be found by name, although no program with that name has run.
     let (mut context, q2) = (Context::new(), globals.slot("q2").unwrap());
     context.store(&globals, q2, Value::Number(9.0));
     run(&load, &mut context);
@@ -161,7 +161,7 @@ fn limits_have_their_own_errors() {
     ] {
         assert_eq!(code(source), Err(expected.code), "{source}");
     }
-    // A ring of lists is collected, and garbage does not add up.
+    // Cyclic lists are collected, and garbage does not accumulate.
     let mut globals = Globals::new();
     let source = "for (let i = 0; i < 20000; i++) { const a = [i, 'some text']; a.push(a) }";
     let program = Compiler::new(&Mock, &mut globals).statements(source).program.unwrap();
@@ -205,8 +205,8 @@ fn help_says_what_stands_there() {
     assert_eq!(at("Math.sin(data.time)").unwrap().1.as_deref(), Some("sine of an angle in rad"));
 }
 
-/// A fixed number of texts, made of pieces near the language; or as many as LABSPEC_FUZZ_SECONDS give room for, from
-/// LABSPEC_SEED on.
+/// A fixed number of random texts that resemble the language, or as many as fit into LABSPEC_FUZZ_SECONDS, starting
+/// with the seed LABSPEC_SEED.
 #[test]
 fn fuzzing_finds_no_panic_and_no_hang() {
     const TEXTS: u64 = 5000;

@@ -1,6 +1,7 @@
-//! Functions of `Math` beside node's: how often the bits agree, and by how many units in the last place (ulp) they differ
-//! at most. `LABSPEC_BLESS=1 cargo test -p labspec-expr tests::math` asks node for 100,000 arguments of each function and
-//! writes `docs/measured/math.md`; a few of its answers are kept in `math.txt`, so that every machine holds ours to the table.
+//! Functions of `Math` compared with those of node: the fraction of results with the same bits, and the largest difference in
+//! units in the last place (ulp). `LABSPEC_BLESS=1 cargo test -p labspec-expr tests::math` evaluates 100,000 arguments of each
+//! function in node and writes `docs/measured/math.md`. A few results of node are stored in `math.txt`, so that our results are
+//! compared with the table on every machine.
 
 use std::fmt::Write as _;
 use std::io::Write as _;
@@ -10,14 +11,14 @@ use std::process::{Command, Stdio};
 use crate::math;
 use crate::needs::needs;
 
-/// Arguments of a function: evenly spread numbers, and as many with evenly spread exponents.
+/// The arguments of a function: half are evenly spaced numbers, half have evenly spaced exponents.
 struct Range {
     name: &'static str,
     least: f64,
     most: f64,
-    /// Of the exponent of 2.
+    /// The range of the exponent of 2.
     exponents: (f64, f64),
-    /// Of the second argument; both zero when there is none.
+    /// The range of the second argument; both zero if there is none.
     second: (f64, f64),
 }
 
@@ -25,7 +26,7 @@ const fn range(name: &'static str, least: f64, most: f64, exponents: (f64, f64))
     Range { name, least, most, exponents, second: (0.0, 0.0) }
 }
 
-/// Every function of `Math` that computes with one or two numbers.
+/// All functions of `Math` of one or two numbers.
 const RANGES: &[Range] = &[
     range("abs", -1e3, 1e3, (-40.0, 40.0)),
     range("acos", -1.0, 1.0, (-30.0, 0.0)),
@@ -66,13 +67,13 @@ const RANGES: &[Range] = &[
     range("trunc", -1e3, 1e3, (-10.0, 60.0)),
 ];
 
-/// Arguments of each function for the table, and those whose answers are kept.
+/// Arguments of each function for the table, and those whose results are stored.
 const MANY: usize = 100_000;
 const KEPT: usize = 60;
-/// No function may be further from node's, ulp: beyond this it is another function.
+/// The largest difference from node allowed for any function, in ulp. A larger one indicates a different function.
 const FARTHEST: u64 = 4;
 
-/// Steele, Lea and Flood 2014, SplitMix64: a number from 0 to 1.
+/// A uniform random number from 0 to 1 (SplitMix64; Steele, Lea and Flood 2014).
 fn uniform(state: &mut u64) -> f64 {
     *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
     let mut z = *state;
@@ -81,7 +82,7 @@ fn uniform(state: &mut u64) -> f64 {
     ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
 }
 
-/// Pairs of arguments, always the same; products and sums alone, so that every platform has the same.
+/// Pairs of arguments, always the same. They use only products and sums, so that they are equal on every platform.
 fn arguments(range: &Range, n: usize) -> Vec<[f64; 2]> {
     let mut state = range.name.bytes().fold(7, |s: u64, b| s.wrapping_mul(31).wrapping_add(u64::from(b)));
     let mut between = |(a, b): (f64, f64)| a + (b - a) * uniform(&mut state);
@@ -109,7 +110,7 @@ fn ours(range: &Range, [x, y]: [f64; 2]) -> f64 {
     if range.second == (0.0, 0.0) { function.apply(&[x]) } else { function.apply(&[x, y]) }
 }
 
-/// What node gives; it reads pairs and writes numbers, eight bytes each.
+/// The results of node, which reads pairs and writes numbers, eight bytes each.
 fn node(range: &Range, list: &[[f64; 2]]) -> Vec<f64> {
     let arguments = if range.second == (0.0, 0.0) { "v[2 * i]" } else { "v[2 * i], v[2 * i + 1]" };
     let script = format!(
@@ -136,18 +137,18 @@ fn node(range: &Range, list: &[[f64; 2]]) -> Vec<f64> {
     numbers.iter().map(|b| f64::from_le_bytes(*b)).collect()
 }
 
-/// Units in the last place between two numbers; as many as there are when only one is a number.
+/// The number of units in the last place between two numbers, or the maximum if exactly one is NaN.
 fn ulps(a: f64, b: f64) -> u64 {
     if a.is_nan() || b.is_nan() {
         return if a.is_nan() && b.is_nan() { 0 } else { u64::MAX };
     }
-    // Bits in the order of the numbers; 0 and -0 are neighbours.
+    // Maps bits to integers in the order of the numbers; 0 and -0 are neighbours.
     let order =
         |x: f64| if x.is_sign_negative() { -1 - (x.abs().to_bits() as i64) } else { x.to_bits() as i64 };
     order(a).abs_diff(order(b))
 }
 
-/// Arguments, how many give the same bits, the largest difference and where it is.
+/// The number of arguments, the number of results with the same bits, the largest difference and its arguments.
 struct Measured {
     cases: usize,
     same: usize,
@@ -183,7 +184,7 @@ fn place(file: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(file)
 }
 
-/// The largest difference of each function in the table.
+/// The largest difference of each function, from the table.
 fn limits() -> impl Fn(&str) -> u64 {
     let table = std::fs::read_to_string(place("../../docs/measured/math.md")).unwrap();
     let row = |line: &str| {
@@ -196,7 +197,7 @@ fn limits() -> impl Fn(&str) -> u64 {
     }
 }
 
-/// Held on every machine: what node gave for a few arguments is no further from ours than the table says.
+/// On every machine: stored results of node differ from ours by no more than the table states.
 #[test]
 fn functions_are_as_near_to_nodes_as_the_table_says() {
     let limit = limits();
@@ -216,7 +217,7 @@ fn functions_are_as_near_to_nodes_as_the_table_says() {
     }
 }
 
-/// Held beside node: the table is what is measured.
+/// With node: the table contains the measured values.
 #[test]
 fn the_table_is_what_node_and_we_give() {
     if !needs("node") {
@@ -230,7 +231,7 @@ fn the_table_is_what_node_and_we_give() {
         let theirs = node(range, &list);
         let found = measure(range, &list, &theirs);
         let share = 100.0 * found.same as f64 / found.cases as f64;
-        // Rounded down: 100 % means all.
+        // Rounded down, so that 100 % means all.
         let share = if found.same == found.cases {
             "100 %".into()
         } else {

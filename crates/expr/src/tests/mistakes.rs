@@ -1,9 +1,9 @@
-//! Mistakes as a person sees them. Each snapshot shows the text, the place, the reason and the next step.
+//! Errors as an author sees them. Each snapshot contains the source, the span, the reason and the help.
 
 use crate::mock::Mock;
 use crate::*;
 
-/// All findings of a text, with the line, carets under the span, and the fixed text.
+/// Renders all findings of a text: the line, carets under the span, and the fixed text.
 fn render(source: &str, found: &[Finding]) -> String {
     let mut out = String::new();
     for d in found {
@@ -44,7 +44,7 @@ fn target(source: &str) -> String {
     render(source, &Compiler::new(&Mock, &mut globals).assignment(source).diagnostics)
 }
 
-/// One snapshot for each mistake.
+/// One snapshot per mistake.
 macro_rules! mistakes {
     ($($name:ident: $kind:ident($source:expr);)*) => { $(
         #[test]
@@ -143,7 +143,7 @@ mistakes! {
     comparison_as_statement: statements("data.time == 0");
     unused_value: statements("data.qpos[2]; ctx.a = 1");
 
-    // Reading.
+    // Parsing.
     nothing: expression("  ");
     unclosed_bracket: statements("data.qpos[2 = 3; data.time = 0");
     unclosed_parenthesis: expression("1000 * (data.qpos[2] - 1");
@@ -179,7 +179,7 @@ mistakes! {
     nullish: expression("ctx.a ?? 0");
     array_method: expression("data.qpos.map(x => x)");
 
-    // What is written now and was refused before.
+    // Constructs that earlier versions refused.
     empty_body: statements("if (data.time > 1); data.qpos[0] = 1");
     else_alone: statements("data.time = 1; else data.time = 2");
     condition_without_parentheses: statements("if data.time > 1 { data.time = 0 }");
@@ -254,7 +254,7 @@ mistakes! {
     delete: statements("delete ctx.a");
     in_test: expression("'a' in ctx");
 
-    // Several at once.
+    // Several mistakes at once.
     several: statements("data.qpso[0] = 1; data.qpos[20] = unknown + Math.sine(1)\ndata.xpos[0] = ; model.nq = 'a'");
 }
 

@@ -1,7 +1,7 @@
-//! Random programs against JavaScript itself, bit for bit: generated, run here and in node, compared. Functions that
-//! the standard leaves to the implementation to the last digit (`sin`, `log`, `**` …) are left out.
+//! Random programs compared with JavaScript, bit for bit: generated, run here and in node. Functions whose last digit the
+//! standard leaves to the implementation (`sin`, `log`, `**` …) are not used.
 //!
-//! LABSPEC_NODE_PROGRAMS is the number of programs, LABSPEC_NODE_SEED where they start.
+//! LABSPEC_NODE_PROGRAMS is the number of programs, LABSPEC_NODE_SEED the first seed.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -13,7 +13,7 @@ use crate::mock::{Mock, World};
 use crate::needs::needs;
 use crate::*;
 
-/// A value as `node.js` shows it.
+/// Formats a value as `node.js` does.
 fn show(world: &World, heap: &Heap, value: &Value, depth: usize, out: &mut String) {
     if depth > 6 {
         out.push('…');
@@ -85,8 +85,8 @@ fn numbers(list: &[f64], out: &mut String) {
 /// The fields of the host that programs write.
 const WRITTEN: [usize; 5] = [1, 2, 13, 14, 15];
 
-/// What a program does here; or the rule by which the compiler refuses it, or by which it ends at a limit that JavaScript
-/// does not have.
+/// The result of a program here, or the rule by which the compiler refuses it, or the rule of a limit at which it stops and
+/// that JavaScript does not have.
 pub(super) fn here(source: &str) -> Result<String, &'static str> {
     if std::env::var("LABSPEC_NODE_SHOW").is_ok() {
         eprintln!("{source}");
@@ -102,7 +102,7 @@ pub(super) fn here(source: &str) -> Result<String, &'static str> {
     let mut out = String::new();
     match program.run(&mut world, &mut context, None) {
         Ok(_) => show(&world, &context.heap, context.get(slot), 0, &mut out),
-        // JavaScript has other limits, and a text for functions.
+        // JavaScript has other limits, and converts functions to strings.
         Err(e)
             if [
                 rules::TEXT_TOO_LONG,
@@ -124,7 +124,7 @@ pub(super) fn here(source: &str) -> Result<String, &'static str> {
     Ok(out)
 }
 
-/// What programs do in node.
+/// The results of programs in node.
 pub(super) fn there(sources: &[String]) -> Vec<String> {
     let script = concat!(env!("CARGO_MANIFEST_DIR"), "/src/tests/node.js");
     let mut child =

@@ -1,5 +1,5 @@
-//! Every operation on numbers means one thing, whoever computes it: the compiler at once, a row, a column, the machine, or
-//! a formula within the machine. Hard numbers, and every bit counts.
+//! Every numeric operation has one meaning in all evaluators: constant folding, rows, columns, the virtual machine, and
+//! formulas inside the virtual machine. The arguments include special values, and all bits must agree.
 
 use crate::mock::{Mock, World};
 use crate::operation::{select, truth, truthy};
@@ -32,7 +32,7 @@ const HARD: [(&str, f64); 20] = [
 type Write = Box<dyn Fn(&str, &str) -> String>;
 type Means = Box<dyn Fn(f64, f64) -> f64>;
 
-/// An operation on two numbers: how it is written, and what the table says.
+/// An operation on two numbers: its syntax, and its meaning by the table.
 struct Case {
     write: Write,
     means: Means,
@@ -49,7 +49,7 @@ fn cases() -> Vec<Case> {
             Box::new(move |a, b| op.on_numbers(a, b)),
         );
     }
-    // Operands that were computed just before: they stand elsewhere than those that were read.
+    // Operands that were just computed are in other registers than those that were read.
     for op in BinaryOp::ALL {
         add(
             Box::new(move |a, b| format!("+((+{a}) {} ({b} * 1))", op.symbol())),
@@ -108,7 +108,7 @@ fn expression(text: &str) -> Program {
 const A: &str = "data.qpos[0]";
 const B: &str = "data.qpos[1]";
 
-/// By row, by column and in the machine, over all pairs; `sides` says which of them are in the text already.
+/// Compares row, columns and virtual machine for all pairs, with operands that are literals and operands that are read.
 fn agree(case: &Case, text: &str, pairs: &[(f64, f64)]) {
     let program = expression(text);
     assert!(program.row.is_some(), "{text} is no row");
@@ -144,14 +144,15 @@ fn every_back_end_means_what_the_table_says() {
             agree(&case, &(case.write)(text, B), &left);
             agree(&case, &(case.write)(A, text), &right);
             for (other, y) in HARD {
-                // Nothing is left to compute.
+                // Everything is folded.
                 let folded = expression(&(case.write)(text, other));
                 assert!(folded.effects().constant());
                 let value = folded.run(&mut World::new(), &mut Context::new(), None).unwrap();
                 same(value.to_number(), (case.means)(x, y), &(case.write)(text, other));
             }
         }
-        // Within a longer program; `Math.max` of the same three times changes nothing and makes a formula.
+        // Within a longer program. `Math.max` of three equal values does not change the value, and makes the expression
+        // long enough for a formula.
         let part = (case.write)("a", "b");
         let text =
             format!("const a = {A}; const b = {B}; data.qpos[2] = Math.max({part}, {part}, {part}) * 1");

@@ -1,4 +1,4 @@
-//! Laws of text and tree: reading what was printed gives the tree back, and no text makes the compiler panic.
+//! Laws of source text and tree: parsing a printed tree gives the same tree, and no text makes the compiler panic.
 
 use proptest::prelude::*;
 
@@ -124,7 +124,7 @@ fn function(params: Vec<Element>, body: Body) -> Expr {
     bare(ExprKind::Function(Box::new(Function { name: None, params, body, span: Span::default() })))
 }
 
-/// Names, lists of names and records of names, with defaults.
+/// Names, list patterns and record patterns, with defaults.
 fn elements(value: impl Strategy<Value = Expr> + Clone + 'static) -> impl Strategy<Value = Vec<Element>> {
     let plain = (name(), prop::option::weighted(0.2, value))
         .prop_map(|(name, default)| Element { target: Pattern::Name(name), default });
@@ -179,7 +179,7 @@ fn statements(value: impl Strategy<Value = Expr> + Clone + 'static) -> impl Stra
         let w = &v;
         prop_oneof![
             (w(), body(), prop::option::of(body())).prop_map(|(test, then, otherwise)| {
-                // Without braces the `else` would belong to an `if` inside.
+                // Without braces, the `else` would belong to an inner `if`.
                 let then =
                     if otherwise.is_some() { Box::new(stmt(StmtKind::Block(vec![*then]))) } else { then };
                 stmt(StmtKind::If { test, then, otherwise })
@@ -201,7 +201,7 @@ fn statements(value: impl Strategy<Value = Expr> + Clone + 'static) -> impl Stra
     prop::collection::vec(nested, 0..3)
 }
 
-/// A declaration of a function alone behind a condition is none.
+/// A function declaration is not allowed as the only body of a condition.
 fn braced(s: Stmt) -> Stmt {
     match s.kind {
         StmtKind::Function { .. } => stmt(StmtKind::Block(vec![s])),
@@ -209,7 +209,7 @@ fn braced(s: Stmt) -> Stmt {
     }
 }
 
-/// The tree without its places.
+/// The tree without its spans.
 fn bones(tree: &impl std::fmt::Debug) -> String {
     let text = format!("{tree:?}");
     let mut out = String::new();
@@ -222,7 +222,7 @@ fn bones(tree: &impl std::fmt::Debug) -> String {
     out + rest
 }
 
-/// Pieces that make texts near the language.
+/// Fragments for texts that resemble the language.
 fn shards() -> impl Strategy<Value = String> {
     let piece = prop::sample::select(vec![
         "data",
@@ -332,7 +332,7 @@ proptest! {
         prop_assert_eq!(print(&parsed.tree), text.as_str());
         match format_expression(&text) {
             Some(again) => prop_assert_eq!(again, text),
-            // What looks like a comment in a template is left alone.
+            // A template that contains something like a comment is not formatted.
             None => prop_assert!(text.contains("//") || text.contains("/*"), "{}", text),
         }
     }
@@ -344,7 +344,7 @@ proptest! {
         prop_assert!(parsed.diagnostics.is_empty(), "{text}: {:?}", parsed.diagnostics);
         prop_assert_eq!(bones(&parsed.tree), bones(&tree), "{}", text);
         prop_assert_eq!(print_statements(&parsed.tree), text.as_str());
-        // On one line, the same statements.
+        // On one line, the statements are the same.
         let Some(line) = format_statements(&text.replace('\n', " ")) else { return Ok(()) };
         prop_assert_eq!(bones(&parse_statements(&line).tree), bones(&tree), "{}", line);
         prop_assert!(!line.contains('\n'));
@@ -382,7 +382,7 @@ fn formatting_keeps_what_an_author_chose() {
             "const f=(x)=>{return x*x}\nctx.a=f(2)",
             Some("const f = (x) => {\n  return x * x;\n};\nctx.a = f(2);"),
         ),
-        // A function that calls itself keeps the name by which it does; one without a name becomes an arrow.
+        // A function that calls itself by name keeps the name; a function without a name becomes an arrow function.
         (
             "const g=function f(x){return f(x-1)};const h=function(x){return x}",
             Some("const g = function f(x) { return f(x - 1); }; const h = (x) => { return x; }"),
@@ -438,6 +438,6 @@ fn long_hostile_texts_end_soon() {
         let argument = piece.trim_end_matches([';', '+', ',', '(']);
         compile_all(&format!("Math.max({argument}{})", format!(", {argument}").repeat(500)));
     }
-    // About a second; a quadratic search somewhere would take minutes.
+    // Usually about a second. A quadratic search would take minutes.
     assert!(started.elapsed().as_secs() < 60);
 }

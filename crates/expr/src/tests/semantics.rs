@@ -1,11 +1,11 @@
-//! JavaScript's meaning of expressions, as tables: text, value.
+//! The values of expressions as in JavaScript, as tables of a source text and a value.
 
 use crate::Value;
 use crate::mock::evaluate;
 use crate::mock::{Mock, World};
 use crate::{Compiler, Context, Globals};
 
-/// The same value; NaN is NaN, and zeros keep their sign.
+/// Whether two values are identical: NaN equals NaN, and zeros have the same sign.
 fn same(a: &Value, b: &Value) -> bool {
     match (a, b) {
         (Value::Number(x), Value::Number(y)) => x.to_bits() == y.to_bits() || x.is_nan() && y.is_nan(),
@@ -17,7 +17,7 @@ fn check_rows(rows: &[(&str, Value)]) {
     for (source, expected) in rows {
         let got = evaluate(source);
         assert!(same(&got, expected), "{source} is {got:?}, not {expected:?}");
-        // The same without constant folding: operands that are known only while running.
+        // The same without constant folding, with operands that are known only at run time.
         let hidden =
             source.replace("NaN", "(data.time / data.time)").replace("is(data.time / data.time)", "isNaN");
         if hidden != *source {
@@ -252,7 +252,7 @@ fn what_a_page_throws_is_thrown() {
     ]);
 }
 
-/// Texts hold whole characters: half of one is refused, and is not another one in silence.
+/// Strings contain only whole characters: selecting half of one is an error, not silently another character.
 #[test]
 fn half_a_character_is_refused() {
     for source in [

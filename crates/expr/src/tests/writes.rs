@@ -1,7 +1,7 @@
-//! Writes into arrays of numbers against JavaScript's typed arrays: every kind of value into doubles, integers and bytes,
-//! by every form of assignment, bit for bit.
+//! Writes into arrays of numbers compared with JavaScript's typed arrays, bit for bit: every kind of value into doubles,
+//! integers and bytes, by every form of assignment.
 //!
-//! Random programs of such writes are in `node.rs`.
+//! `node.rs` generates random programs with such writes.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use super::node::{here, there};
 use crate::natives::ReceiverKind;
 use crate::needs::needs;
 
-/// What is stored. `n` is the number of the statement's own, so that every type is also known at run time alone.
+/// The stored values. `n` is a number that depends on the statement, so that every type also occurs as known only at run time.
 const VALUES: &[&str] = &[
     "true",
     "false",
@@ -62,7 +62,7 @@ const VALUES: &[&str] = &[
     "1 < 2",
 ];
 
-/// Where it is stored: an expression that is an element, after what stands before it.
+/// The targets: statements that come first, and an expression for an element.
 const PLACES: &[(&str, &str)] = &[
     ("", "data.qpos[0]"),
     ("", "data.eq_active[1]"),
@@ -79,7 +79,7 @@ const PLACES: &[(&str, &str)] = &[
     ("const v = model.geom_contype.subarray(1, 3);", "v[1]"),
 ];
 
-/// How it is stored: `P` is the place, `X` the value.
+/// The forms of assignment: `P` is the target, `X` the value.
 const FORMS: &[&str] = &[
     "ctx.k = (P = X)",
     "P = X",
@@ -125,18 +125,18 @@ const WHOLE: &[&str] = &[
 
 const SHOWN: &str = "; ctx.out = [ctx.k, data.eq_active.slice(), model.geom_contype.slice()];";
 
-/// Refusals that are meant: what is stored in an element is one value, an index that is known is one of the array, and a
-/// function has no text.
+/// Refusals that are intended: an element stores a single value, a known index must be in range, and a function cannot
+/// be converted to a string.
 const MEANT: [&str; 4] = ["assign-array", "index-out-of-range", "not-a-value", "whole-array"];
 
-/// What programs came to.
+/// The results of programs.
 #[derive(Default, Debug)]
 struct Count {
     compared: usize,
     refused: BTreeMap<&'static str, usize>,
 }
 
-/// Compares programs.
+/// Compares programs with node.
 fn compare(sources: Vec<String>) -> Count {
     let mut count = Count::default();
     let mut ran = Vec::new();
@@ -180,7 +180,7 @@ fn every_value_into_every_kind_of_element() {
     assert!(count.refused.values().sum::<usize>() * 3 < count.compared, "{count:?}");
 }
 
-/// Lists, typed arrays and arrays of the host, for every method of lists.
+/// Lists, typed arrays, arrays of the host and other values, on which every method of lists is called.
 const RECEIVERS: [&str; 10] = [
     "5",
     "'ab'",
@@ -208,9 +208,9 @@ fn every_method_of_every_kind_of_list() {
     let mut sources = Vec::new();
     for name in names {
         for receiver in RECEIVERS {
-            // `ctx` keeps no array of the host.
+            // `ctx` cannot store an array of the host.
             let copy = if receiver.contains("qpos") { ".slice()" } else { "" };
-            // What `set` takes is a list here.
+            // The argument of `set` must be a list here.
             for arguments in ARGUMENTS.into_iter().filter(|a| name != "set" || a.starts_with('[')) {
                 sources.push(format!(
                     "const v = {receiver}; ctx.k = v.{name}({arguments}); ctx.out = [ctx.k, v];"
@@ -223,7 +223,7 @@ fn every_method_of_every_kind_of_list() {
     println!("{} programs compared, refused by the compiler: {:?}", count.compared, count.refused);
 }
 
-/// What differed once.
+/// Cases that once differed.
 const MENDED: [&str; 17] = [
     "let v = 3; ctx.k = -(data.eq_active[1] = v)",
     "let v = 3; ctx.k = [+(data.eq_active[1] += v), typeof (data.qpos[0] = v), +(ctx.x = v)]",

@@ -1,10 +1,10 @@
-//! Methods that are written in the language itself: a wrong call is reported at the call, in words.
+//! Methods that are written in the language itself: a wrong call is reported at the call, described in words.
 
 use crate::mock::Mock;
 use crate::natives;
 use crate::*;
 
-/// What may be called, and with what.
+/// Receivers of calls; the arguments follow.
 const RECEIVERS: [&str; 9] = [
     "[1, 2]",
     "[]",
@@ -76,7 +76,7 @@ fn no_message_about_a_call_shows_nothing() {
                     let fine =
                         text.matches('`').count() % 2 == 0 && quoted.iter().all(|s| !s.trim().is_empty());
                     assert!(fine, "{source}: {text}");
-                    // The texts of the methods are nobody's business.
+                    // The message must not show the source of the methods.
                     assert!(
                         !text.contains("v[") && !text.contains("v.length") && !text.contains(", v)"),
                         "{source}: {text}"

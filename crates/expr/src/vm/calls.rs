@@ -1,4 +1,4 @@
-//! Calls of methods and of functions that are values, and the variables that functions share.
+//! Calls of methods and of function values, and access to shared variables.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use crate::ssa::{Args, Representation, Val};
 use crate::value::Value;
 
 impl Machine<'_> {
-    /// Calls whatever function a value is.
+    /// Calls a function value.
     pub(super) fn invoke_with(
         &mut self,
         unit: &MachineFunction,
@@ -54,7 +54,7 @@ impl Machine<'_> {
         Ok(result_value(function.result, self.context.numbers.get(frame.n), self.context.values.get(frame.v)))
     }
 
-    /// `receiver.name(args)`: a method, or a function that a record holds.
+    /// Evaluates `receiver.name(args)`: a call of a method, or of a function in a record.
     pub(super) fn method(
         &mut self,
         code: &Arc<MachineCode>,
@@ -72,7 +72,7 @@ impl Machine<'_> {
         Ok(natives::call(&mut self.env(code), name, receiver, args)?)
     }
 
-    /// The value of a variable that functions share.
+    /// Reads a shared variable.
     #[inline]
     pub(super) fn read_cell(&mut self, dst: Val, cell: Val, f: RegisterFrame) -> Result<(), NativeError> {
         let value = match self.context.heap.object(self.val(f, cell)) {
@@ -83,7 +83,7 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// Stores into a variable that functions share.
+    /// Stores a shared variable.
     #[inline]
     pub(super) fn write_cell(
         &mut self,
@@ -100,7 +100,7 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// Calls a method; what it is called on comes first.
+    /// Calls a method; the receiver is the first argument.
     #[inline]
     pub(super) fn call_method(
         &mut self,
@@ -118,7 +118,7 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// Calls a method with the elements of a list.
+    /// Calls a method with the elements of a list as arguments.
     #[inline]
     pub(super) fn call_method_with_list(
         &mut self,
@@ -136,7 +136,7 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// Calls a function with the elements of a list.
+    /// Calls a free function with the elements of a list as arguments.
     #[inline]
     pub(super) fn call_free_with_list(
         &mut self,
@@ -154,7 +154,7 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// Calls whatever function a value is, with the elements of a list.
+    /// Calls a function value with the elements of a list as arguments.
     #[inline]
     pub(super) fn invoke_with_list(
         &mut self,

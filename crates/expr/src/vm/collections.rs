@@ -14,8 +14,8 @@ use crate::ssa::{Args, Num, Op, Val};
 use crate::value::{Value, View};
 
 impl Machine<'_> {
-    /// Operations on lists, records and functions. One `match`, so that each is found at once; what is longer than a few
-    /// lines is a function of its own.
+    /// Executes an operation on lists, records or functions. It is one `match`, so that the dispatch is a single jump; arms
+    /// longer than a few lines are separate functions.
     #[expect(
         clippy::too_many_lines,
         reason = "one match over the operations: a split costs a jump for each that runs"
@@ -87,12 +87,12 @@ impl Machine<'_> {
                 self.put_value(f, dst, value);
             }
             Op::PickNumber(dst, table, name) => self.pick_number(code, dst, table, name, f)?,
-            _ => {} // see `execute` and `step`
+            _ => {} // handled in `execute` and `step`
         }
         Ok(())
     }
 
-    /// Stores a member of a record that is being made.
+    /// Stores a member of a record that is being created.
     #[inline]
     fn put_entry(
         &mut self,
@@ -151,7 +151,7 @@ impl Machine<'_> {
         self.store_member(code, &object, name, value)
     }
 
-    /// A function of `Math` over all elements of a list.
+    /// Evaluates a function of `Math` over all elements of a list.
     #[inline]
     fn math_over(
         &mut self,
@@ -172,7 +172,7 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// Adds a value, or its elements, to a list that is being made.
+    /// Appends a value, or its elements, to a list that is being created.
     #[inline]
     fn append(
         &mut self,
@@ -219,7 +219,7 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// `object[index]` with a number as the index.
+    /// Evaluates `object[index]` with a numeric index.
     #[inline]
     fn element_at(
         &mut self,
@@ -250,7 +250,7 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// The number that belongs to the object of a computed name.
+    /// Reads the number that belongs to the object with a computed name.
     #[inline]
     fn pick_number(
         &mut self,
@@ -273,7 +273,7 @@ impl Machine<'_> {
         args.operands(&unit.args).iter().map(|a| self.val(f, Val(*a)).clone()).collect()
     }
 
-    /// What belongs to the object of a computed name.
+    /// Returns the member of the object with a computed name.
     fn pick(
         &mut self,
         code: &Arc<MachineCode>,
@@ -330,7 +330,7 @@ impl Machine<'_> {
         self.item_of(code, &object, &index)
     }
 
-    /// `object[index]`
+    /// Evaluates `object[index]`.
     fn item_of(
         &mut self,
         code: &Arc<MachineCode>,
@@ -365,7 +365,7 @@ impl Machine<'_> {
         }
     }
 
-    /// `object.name`
+    /// Evaluates `object.name`.
     fn member(&mut self, code: &Arc<MachineCode>, object: &Value, name: &str) -> Result<Value, NativeError> {
         match object {
             Value::Undefined | Value::Null => Err(NativeError::new(
@@ -381,7 +381,7 @@ impl Machine<'_> {
         }
     }
 
-    /// `object[index] = value`
+    /// Executes `object[index] = value`.
     fn store_item(
         &mut self,
         code: &Arc<MachineCode>,
@@ -400,7 +400,7 @@ impl Machine<'_> {
                 let x = if typed { self.env(code).number(&value)? } else { 0.0 };
                 let n = self.context.heap.len(object).unwrap_or(0);
                 if !typed && i >= n {
-                    // JavaScript lets a list grow by an assignment; holes become `undefined`.
+                    // As in JavaScript, an assignment can extend a list; holes become `undefined`.
                     if i - n > 1_000_000 {
                         return Err(NativeError::new(
                             rules::MEMORY,
@@ -451,7 +451,7 @@ impl Machine<'_> {
         }
     }
 
-    /// `object.name = value`
+    /// Executes `object.name = value`.
     fn store_member(
         &mut self,
         code: &Arc<MachineCode>,
@@ -464,7 +464,7 @@ impl Machine<'_> {
             Value::List(_) if *name == *"length" => {
                 let n = self.env(code).number(&value)?;
                 if let Some(HeapObject::List(items)) = self.context.heap.object_mut(object) {
-                    // Only shorter: a list of holes is of no use.
+                    // The length can only be reduced: a list of holes has no use.
                     items.truncate(n.clamp(0.0, 1e9) as usize);
                 }
                 Ok(())
@@ -480,7 +480,7 @@ impl Machine<'_> {
     }
 }
 
-/// What a value is, for a message.
+/// A description of a value for a message.
 pub(super) fn describe(value: &Value, object: &HeapObject) -> String {
     match (value, object) {
         (Value::Undefined | Value::Null, _) => value.to_string(),

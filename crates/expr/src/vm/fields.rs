@@ -1,4 +1,4 @@
-//! Elements of fields and views: where they are, reading and storing them.
+//! Reading and storing of elements of fields and views.
 
 use super::index::whole_index;
 use super::machine::{Machine, RegisterFrame, span_of};
@@ -11,7 +11,7 @@ use crate::types::FieldKey;
 use crate::value::{Value, View};
 
 impl Machine<'_> {
-    /// An element at a known place of a field.
+    /// Reads an element of a field at a constant index.
     #[inline(always)]
     pub(super) fn load(
         &mut self,
@@ -32,7 +32,7 @@ impl Machine<'_> {
         }
     }
 
-    /// An element at a known place of a view, as a value.
+    /// Reads an element of a view at a constant index, as a value.
     #[inline(always)]
     pub(super) fn load_value(
         &mut self,
@@ -53,7 +53,7 @@ impl Machine<'_> {
         }
     }
 
-    /// An element of a view, as a value.
+    /// Reads an element of a view, as a value.
     #[inline(always)]
     pub(super) fn load_value_at(
         &mut self,
@@ -70,12 +70,12 @@ impl Machine<'_> {
         }
     }
 
-    /// Number of elements of a view, now.
+    /// The current number of elements of a view.
     pub(super) fn length(&self, view: View) -> usize {
         view.count().unwrap_or_else(|| self.host.len(view.field).saturating_sub(view.first as usize))
     }
 
-    /// The element of the whole field at index `written` of a view, `None` when there is none.
+    /// The index in the whole field of the element at index `written` of a view, or `None` if it does not exist.
     pub(super) fn position(&self, view: View, written: f64) -> Option<usize> {
         let index = whole_index(written)?;
         if index < self.length(view) { (view.first as usize).checked_add(index) } else { None }
@@ -89,10 +89,10 @@ impl Machine<'_> {
         unit: &MachineFunction,
         at: usize,
     ) -> Option<f64> {
-        // No field has more elements than that. The comparison is false for NaN, and for what is not whole.
+        // No field has more than 2^32 elements. The comparison is false for NaN and for fractions.
         let index = written as u32;
         let found = if f64::from(index) == written && view.count().is_none_or(|n| (index as usize) < n) {
-            // Of a field without a known length the host knows where it ends.
+            // If the length of the field is unknown, the host determines whether the element exists.
             self.host.get(view.field, (view.first as usize).saturating_add(index as usize))
         } else {
             None

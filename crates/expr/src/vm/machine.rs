@@ -1,4 +1,4 @@
-//! The state of a run, and its loop over operations.
+//! The state of the virtual machine, and its main loop.
 
 use std::sync::Arc;
 
@@ -16,14 +16,14 @@ use crate::ssa::{Num, Op, Representation, Val};
 use crate::value::Value;
 use labspec_finding::Span;
 
-/// Work that a run may do. A unit is about a nanosecond of a fast machine.
+/// The work limit of a run. A unit is about a nanosecond on a fast machine.
 pub(crate) const MAX_WORK: u64 = 200_000_000;
-/// Functions that may call each other, one inside the other.
+/// Limit on the depth of nested calls.
 pub(super) const MAX_CALLS: usize = 200;
-/// Registers for what is handed to a function.
+/// Registers for the arguments of a call.
 pub(super) const HANDED: usize = 64;
 
-/// Runs a program once. Not inlined: the ways of a formula stay short.
+/// Runs a program once. Not inlined, so that the code paths of formulas stay short.
 #[inline(never)]
 pub(crate) fn run(
     code: &Arc<MachineCode>,
@@ -36,7 +36,7 @@ pub(crate) fn run(
         watch.begin();
     }
     if context.heap.wants_collection() {
-        // What the last run left in registers is of no use any more.
+        // The values that the last run left in registers are no longer needed.
         context.values.clear();
         context.collect(input);
     }
@@ -51,7 +51,7 @@ pub(crate) fn run(
     }
 }
 
-/// What a function left in its first registers as its result. Made where it is wanted: to hand a value on is slow.
+/// The result that a function left in its first registers. It is built by the caller, because returning a `Value` is slow.
 #[inline(always)]
 pub(super) fn result_value(slot: Representation, number: Option<&f64>, value: Option<&Value>) -> Value {
     let x = number.copied().unwrap_or(f64::NAN);
@@ -63,30 +63,30 @@ pub(super) fn result_value(slot: Representation, number: Option<&f64>, value: Op
     }
 }
 
-/// Where the registers of a function start.
+/// The first registers of a function.
 #[derive(Clone, Copy)]
 pub(super) struct RegisterFrame {
     pub(super) n: usize,
     pub(super) v: usize,
 }
 
-/// The state of a run. Registers and jump targets come from `emit`, which gives out only existing ones.
+/// The state of a run. Registers and jump targets come from `emit`, which only uses existing ones.
 pub(super) struct Machine<'a> {
     pub(super) host: &'a mut dyn Host,
     pub(super) context: &'a mut Context,
     pub(super) input: Option<&'a Value>,
-    /// Work that may still be done.
+    /// The remaining work budget.
     pub(super) budget: u64,
     pub(super) depth: usize,
-    /// Work that the host did.
+    /// The work of the host.
     pub(super) of_host: u64,
 }
 
-/// Where something went wrong.
+/// The result of an operation, or an error with its location.
 pub(super) type RunResult = Result<(), Box<RuntimeError>>;
 
 impl Machine<'_> {
-    /// Runs the text itself; gives how it left its result.
+    /// Runs the program itself, and returns the representation of its result.
     #[inline]
     pub(super) fn whole(&mut self, code: &Arc<MachineCode>) -> Result<Representation, Box<RuntimeError>> {
         let Some(unit) = code.units.first() else { return Ok(Representation::Value) };
@@ -128,7 +128,7 @@ impl Machine<'_> {
         self.context.values[f.v + register.0 as usize] = value;
     }
 
-    /// Runs a function whose parameters stand in their registers.
+    /// Runs a function whose arguments are in its registers.
     #[inline]
     pub(super) fn execute(
         &mut self,
@@ -142,8 +142,8 @@ impl Machine<'_> {
         }
     }
 
-    /// The same; `WATCHED`: the watch of the context notes what happens. One loop over one `match`: every split of it would
-    /// cost a jump for each operation that runs.
+    /// As [`Machine::execute`]; with `WATCHED`, the watch of the context records the run. One loop over one `match`: a split
+    /// would cost an additional jump for each operation.
     #[expect(
         clippy::too_many_lines,
         reason = "one loop over one match: a split costs a jump for each operation that runs"
@@ -237,7 +237,7 @@ impl Machine<'_> {
         }
     }
 
-    /// A function of `Math`. The arguments stand behind all registers, where there is room for them.
+    /// Applies a function of `Math`. The arguments are copied behind all registers, where there is free space.
     #[inline(always)]
     fn apply_math(&mut self, dst: Num, function: math::MathFunction, args: &[u32], f: RegisterFrame) {
         let numbers = &mut self.context.numbers;
@@ -250,7 +250,7 @@ impl Machine<'_> {
         self.put(f, dst, x);
     }
 
-    /// Several numbers at once. `emit` makes a formula only of registers that a byte can name, and there is room for them.
+    /// Evaluates a formula. `emit` uses only registers below 256 in formulas, and these exist.
     #[inline(always)]
     fn run_formula<const WATCHED: bool>(&mut self, formula: u32, unit: &MachineFunction, f: RegisterFrame) {
         let registers = self.context.numbers.get_mut(f.n..).and_then(<[f64]>::first_chunk_mut);
@@ -262,7 +262,7 @@ impl Machine<'_> {
         }
     }
 
-    /// Counts a turn of a loop.
+    /// Subtracts the cost of an iteration of a loop.
     #[inline(always)]
     fn count_turn(&mut self, turn: u64, unit: &MachineFunction, at: usize) -> RunResult {
         if self.budget < turn {
@@ -273,7 +273,7 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// Calls a function of the same text; what it gets is already in its registers.
+    /// Calls a function of the same program; its arguments are already in its registers.
     pub(super) fn call(
         &mut self,
         code: &Arc<MachineCode>,
@@ -293,7 +293,7 @@ impl Machine<'_> {
         result
     }
 
-    /// Counts a call.
+    /// Checks the depth of calls, and subtracts the cost of a call.
     pub(super) fn enter(&mut self, callee: &MachineFunction) -> Result<(), NativeError> {
         if self.depth >= MAX_CALLS {
             let message = format!("function calls are nested more than {MAX_CALLS} levels deep");
@@ -304,12 +304,12 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// Counts work.
+    /// Subtracts work from the budget.
     pub(super) fn charge(&mut self, units: u64) -> Result<(), NativeError> {
         natives::charge(&mut self.budget, units)
     }
 
-    /// What natives work with.
+    /// The environment for methods and free functions.
     pub(super) fn env<'e>(&'e mut self, code: &'e MachineCode) -> Env<'e> {
         Env {
             heap: &mut self.context.heap,
@@ -319,7 +319,7 @@ impl Machine<'_> {
         }
     }
 
-    /// Collects what no register and no variable refers to any more.
+    /// Frees objects to which no register and no variable refers, if enough memory was allocated.
     pub(super) fn tidy(&mut self) {
         if self.context.heap.wants_collection() {
             self.context.collect(self.input);
@@ -327,15 +327,15 @@ impl Machine<'_> {
     }
 }
 
-/// Why a step ends the run.
+/// The error of an operation.
 pub(super) enum StepError {
     Here(NativeError),
-    /// In a function that it called.
+    /// The error occurred inside a called function.
     Inside(Box<RuntimeError>),
 }
 
 impl StepError {
-    /// The error of an operation that stopped.
+    /// The error with the location of the operation.
     #[cold]
     fn at(self, unit: &MachineFunction, at: usize) -> Box<RuntimeError> {
         match self {

@@ -1,8 +1,8 @@
-//! The machine: flat operations on two files of registers, one of doubles and one of values of any type.
+//! The virtual machine: a flat list of operations on two register files, one for doubles and one for values of any type.
 //!
-//! A boolean lives in a number register as 1 or 0; `emit` knows which it is. Constants stand in registers
-//! before the first operation of a function. Every jump back counts the operations that it repeats, every call those of the
-//! function, so every run ends, and what it cost is known.
+//! A boolean is stored in a number register as 1 or 0; `emit` knows which registers contain booleans. Constants are written to
+//! their registers before the first operation of a function. Every backward jump charges the cost of the operations that it
+//! repeats, and every call that of the function, so that every run terminates with a known cost.
 
 mod calls;
 mod collections;

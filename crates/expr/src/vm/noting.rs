@@ -1,5 +1,5 @@
-//! What a watched run notes of each operation: whether an operand that is not a number became something else, and how
-//! comparisons of numbers came out ([`crate::Watch`]).
+//! What a watched run records for each operation: whether an operand that is NaN (or `undefined`) became an ordinary value, and
+//! the results of comparisons of numbers ([`crate::Watch`]).
 
 use super::machine::{Machine, RegisterFrame, span_of};
 use super::operands::Operands;
@@ -14,7 +14,7 @@ use crate::types::Elem;
 use crate::value::Value;
 
 impl Machine<'_> {
-    /// Looks at the operands of an operation. What decides a way or a place is lost here, whatever comes out.
+    /// Inspects the operands of an operation. A NaN that selects a branch or an element is lost here, whatever the result is.
     pub(super) fn before(&mut self, op: Op, unit: &MachineFunction, f: RegisterFrame) -> Operands {
         let sides = match op {
             Op::Binary(_, op, a, b) => Some((op, self.num(f, a), self.num(f, b))),
@@ -29,7 +29,7 @@ impl Machine<'_> {
             Op::Unary(_, _, a) => self.num(f, a).is_nan(),
             Op::Math(_, function, args) => {
                 let numbers = args.operands(&unit.args);
-                // The extreme of nothing is not a number that anything was measured of.
+                // The minimum or maximum of no arguments is not the value of any measurement.
                 (numbers.is_empty() || numbers.iter().any(|n| self.num(f, Num(*n)).is_nan()))
                     && !function.gives_boolean()
             }
@@ -58,7 +58,7 @@ impl Machine<'_> {
         Operands { nan, sides }
     }
 
-    /// Whether an operation takes a way, an element or a text by what is not a number.
+    /// Whether NaN selects a branch, an element or a string in this operation.
     fn decides_by_nothing(&self, op: Op, f: RegisterFrame) -> bool {
         match op {
             Op::JumpIf(_, test, _) | Op::Select(_, test, ..) => self.num(f, test).is_nan(),
@@ -79,7 +79,7 @@ impl Machine<'_> {
         }
     }
 
-    /// Looks at the result of an operation: NaN is passed on, everything else lost it.
+    /// Inspects the result of an operation: if an operand was NaN and the result is not, the NaN was lost.
     pub(super) fn after(&mut self, op: Op, operands: Operands, f: RegisterFrame) {
         let passed = match op {
             Op::Binary(d, ..)
@@ -88,7 +88,7 @@ impl Machine<'_> {
             | Op::MathOver(d, ..)
             | Op::Compare(d, ..) => self.num(f, d).is_nan(),
             Op::Plus(d, ..) | Op::CallHost(d, ..) => self.has_no_number(f, d),
-            // A list that still holds it may have been put in order by it.
+            // A list that still contains NaN may have been sorted by comparisons with it.
             Op::Method(d, ..) | Op::MethodList(d, ..) => self.is_no_number(f, d),
             Op::Native(d, ..) | Op::NativeList(d, ..) => self.is_no_number(f, d),
             _ => true,
@@ -123,13 +123,13 @@ impl Machine<'_> {
         }
     }
 
-    /// Whether a value is NaN, or nothing where that counts.
+    /// Whether a value is NaN, or `undefined` if the watch counts that.
     fn is_no_number(&self, f: RegisterFrame, value: Val) -> bool {
         let value = self.val(f, value);
         value.is_primitive() && self.without_number(value)
     }
 
-    /// Whether a value is NaN, or a list that holds one.
+    /// Whether a value is NaN, or a list that contains NaN.
     fn has_no_number(&self, f: RegisterFrame, value: Val) -> bool {
         self.without_number(self.val(f, value))
     }
@@ -157,7 +157,8 @@ impl Machine<'_> {
         }
     }
 
-    /// Whether a comparison of values has a side that is not a number. To compare with `undefined` is to ask for it.
+    /// Whether a comparison of values has an operand that is not a number. A comparison with `undefined` tests
+    /// for it, and loses nothing.
     fn compares_nothing(&self, f: RegisterFrame, op: BinaryOp, a: Val, b: Val) -> bool {
         let (a, b) = (self.val(f, a), self.val(f, b));
         let equality = op.power() == 8;
@@ -175,13 +176,13 @@ impl Machine<'_> {
             || nan.of_arguments() && args.iter().any(|a| self.has_no_number(f, Val(*a)))
     }
 
-    /// What becomes of NaN in a method of a value; a function that a record holds may do anything with it.
+    /// How a method of a value treats NaN. A function in a record may do anything with it.
     fn becomes(&self, name: MethodId, receiver: &Value) -> NanBehaviour {
         natives::find_row(&self.context.heap, name, receiver).map_or(NanBehaviour::Looks, |row| row.nan)
     }
 }
 
-/// Whether a value is, or holds down to a depth, what is not a number.
+/// Whether a value is NaN (or `undefined`), or contains one down to a depth.
 fn is_without_number(heap: &Heap, value: &Value, undefined: bool, depth: usize) -> bool {
     let inner = |value: &Value| is_without_number(heap, value, undefined, depth - 1);
     match value {

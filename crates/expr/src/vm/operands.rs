@@ -1,13 +1,13 @@
-//! The operands of an operation, as a watched run notes them before it runs.
+//! Properties of the operands of an operation, recorded by a watched run before the operation runs.
 
 use crate::operators::BinaryOp;
 
-/// What is known of an operation before it runs: its result may take the place of an operand.
+/// Recorded before the operation, because its result may overwrite an operand.
 #[derive(Clone, Copy)]
 pub(super) struct Operands {
-    /// An operand is not a number.
+    /// Whether an operand is NaN.
     pub(super) nan: bool,
-    /// The sides of a comparison of numbers, or of another operation on two.
+    /// The operands of a comparison of numbers or of another binary operation.
     pub(super) sides: Option<(BinaryOp, f64, f64)>,
 }
 

@@ -15,11 +15,12 @@ use crate::ssa::{Num, Op, Val};
 use crate::types::FunctionId;
 use crate::value::Value;
 
-/// What a call of the host counts besides the work of the host itself, in elements.
+/// The cost of a call of the host in addition to the work of the host itself, in elements.
 const HOST_CALL: usize = 10;
 
 impl Machine<'_> {
-    /// Everything but jumps, calls and plain arithmetic. One `match`, so that each operation is found at once.
+    /// Executes any operation except jumps, calls and plain arithmetic. It is one `match`, so that the
+    /// dispatch is a single jump.
     #[inline(never)]
     pub(super) fn step(
         &mut self,
@@ -191,7 +192,7 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// Refuses to keep an array of the simulation in `ctx`.
+    /// Refuses to store an array of the simulation in `ctx`.
     pub(super) fn check_kept(&self, value: &Value) -> Result<(), NativeError> {
         if matches!(value, Value::View(_)) {
             return Err(NativeError::new(
@@ -240,7 +241,7 @@ impl Machine<'_> {
         let strict = matches!(op, BinaryOp::StrictEqual | BinaryOp::StrictNotEqual);
         let plain = a.is_primitive() && b.is_primitive();
         let equality = op.power() == 8;
-        // Things are equal when they are the same thing, and never equal to nothing.
+        // Lists, records and functions are equal only if they are the same object, and never equal `null` or `undefined`.
         let things = equality && (!a.is_primitive() && !b.is_primitive() || a.is_nothing() || b.is_nothing());
         if plain || strict || things {
             return Ok(op.on_values(a, b).truthy());

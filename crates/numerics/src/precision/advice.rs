@@ -1,4 +1,4 @@
-//! What the numbers come to: which settings nobody should take, as another is both closer and cheaper, and which one to take.
+//! Recommendations: which settings are inferior, because another one is both more accurate and cheaper, and which one to use.
 
 use super::case::AGAIN;
 use super::case::LeftOut;
@@ -8,13 +8,13 @@ use super::report::{Advice, Kind, Report, Row};
 use super::run_record::RunStatus;
 use labspec::run::two_digits;
 
-/// Whether a row came to its end and is compared.
+/// Whether the run of a row reached its end and was compared.
 fn counts(row: &Row) -> bool {
     row.status == RunStatus::Good && row.score.is_finite()
 }
 
-/// The error that can be counted on, in times of what nobody sees: the largest of this step and all shorter ones of the same
-/// method. That a step happens to meet an impact well is no merit.
+/// The reliable error, in multiples of the smallest visible error: the largest error of this timestep and of all shorter ones
+/// of the same method. This way, a timestep that happens to hit an impact well gets no advantage.
 fn reliable(rows: &[Row], i: usize) -> f64 {
     let mine = rows[i].setting;
     let shorter = |r: &&Row| {
@@ -26,7 +26,7 @@ fn reliable(rows: &[Row], i: usize) -> f64 {
     if mine.solver.is_some() { rows[i].score } else { others.fold(rows[i].score, f64::max) }
 }
 
-/// The settings that no other beats in both, from the cheapest to the closest.
+/// The settings for which no other is better in both error and cost, from the cheapest to the most accurate.
 pub(super) fn front(rows: &[Row]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..rows.len()).filter(|&i| counts(&rows[i])).collect();
     order.sort_by(|&a, &b| {
@@ -43,11 +43,11 @@ pub(super) fn front(rows: &[Row]) -> Vec<usize> {
     order
 }
 
-/// Less is no difference.
+/// A ratio of work below this counts as equal.
 const NO_LONGER: f64 = 1.05;
 
-/// The error of the lab's own setting, a closer one for the same work, and the cheapest that shows every digit correctly. Only
-/// settings that a page can use are advised.
+/// Reports the error of the lab's own setting, a more accurate setting for the same work, and the cheapest one that displays
+/// every digit correctly. Only settings that a page can use are recommended.
 pub(super) fn advise(report: &Report) -> Vec<Advice> {
     let rows = &report.rows;
     let usable: Vec<usize> =
@@ -67,7 +67,7 @@ pub(super) fn advise(report: &Report) -> Vec<Advice> {
     list
 }
 
-/// The closest setting that takes no more work than the lab's own, if it is much closer.
+/// The most accurate setting that needs no more work than the lab's own, if it is much more accurate.
 fn closer_for_same_work(rows: &[Row], usable: &[usize], own_row: usize) -> Option<Advice> {
     let affordable =
         usable.iter().copied().filter(|&i| rows[i].cost.work <= NO_LONGER * rows[own_row].cost.work);
@@ -85,7 +85,7 @@ fn closer_for_same_work(rows: &[Row], usable: &[usize], own_row: usize) -> Optio
     Some(Advice { kind: Kind::Closer, row: i, text })
 }
 
-/// The cheapest setting that shows every number correctly.
+/// The cheapest setting that displays every number correctly.
 fn cheapest_correct(report: &Report, own_row: Option<usize>, i: usize) -> Advice {
     let (rows, every) = (&report.rows, every(report));
     let text = match own_row {
@@ -101,11 +101,11 @@ fn cheapest_correct(report: &Report, own_row: Option<usize>, i: usize) -> Advice
     Advice { kind: Kind::Right, row: i, text }
 }
 
-/// The closest setting, where none shows every number correctly or that is unknown.
+/// The most accurate setting, if none displays every number correctly, or if that is unknown.
 fn closest(report: &Report, usable: &[usize]) -> Option<Advice> {
     let (rows, every) = (&report.rows, every(report));
     let i = usable.iter().copied().min_by(|&a, &b| rows[a].score.total_cmp(&rows[b].score))?;
-    // Wrong whatever the error of the reference.
+    // Wrong, even if the error of the reference is taken into account.
     let wrong =
         |row: &Row| report.targets.iter().zip(&row.errors).any(|(t, e)| t.is_compared() && e.seen[1] > 1.0);
     let doubtful = report.targets.iter().zip(&rows[i].errors).find(|(t, e)| {
@@ -125,7 +125,7 @@ fn closest(report: &Report, usable: &[usize]) -> Option<Advice> {
     Some(Advice { kind: Kind::Closest, row: i, text })
 }
 
-/// What "every number" means in this comparison.
+/// The meaning of "every number" in this comparison.
 fn every(report: &Report) -> String {
     let again = |o: &&LeftOut| o.reason != AGAIN;
     let compared = report.targets.iter().filter(|t| t.is_compared());
@@ -143,7 +143,7 @@ fn name(row: &Row) -> String {
     format!("{} at {} ms{solver}", row.setting.integrator.name, milliseconds(row.setting.timestep))
 }
 
-/// The work of a run beside another's.
+/// The work of a run relative to that of the lab's own setting.
 fn beside(row: &Row, own_row: &Row) -> String {
     let ratio = row.cost.work / own_row.cost.work;
     match ratio {
@@ -153,7 +153,7 @@ fn beside(row: &Row, own_row: &Row) -> String {
     }
 }
 
-/// What the lab's own setting is off by.
+/// The error of the lab's own setting.
 fn about_own(report: &Report, own_row: usize) -> String {
     let row = &report.rows[own_row];
     let name = name(row);
@@ -194,7 +194,7 @@ fn about_own(report: &Report, own_row: usize) -> String {
     format!("With the settings of the lab, {name}, \"{}\" is off by {how}, {seen}.", target.label)
 }
 
-/// A number with the unit of what is compared.
+/// A number with the unit of the compared quantity.
 fn with_unit(x: f64, target: &Compared) -> String {
     match &target.unit {
         Some(unit) => format!("{} {unit}", two_digits(x)),

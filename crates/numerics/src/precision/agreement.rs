@@ -1,4 +1,4 @@
-//! A reference as far as two runs of different methods agree on it.
+//! The reference solution, as far as two runs with different methods agree on it.
 
 use super::case::PrecisionCase;
 use super::event_finder::EventThresholds;
@@ -9,50 +9,50 @@ use super::setting::Setting;
 use labspec::run::RunError;
 use labspec::run::{INTEGRATORS, Integrator};
 
-/// The truth as far as it is known.
+/// The reference solution, as far as it is known.
 pub(super) struct Reference {
-    /// Values of each target at the samples.
+    /// The values of each target at the samples.
     pub(super) values: Vec<Vec<f64>>,
-    /// How far each may be off, by what the two families have differed by at most so far.
+    /// The uncertainty of each value, from the largest difference of the two families so far.
     pub(super) uncertain: Vec<Vec<f64>>,
-    /// The run whose energy and depth are believed.
+    /// The run from which energy and penetration depth are taken.
     pub(super) run: Run,
-    /// The same of the depth, m.
+    /// The uncertainty of the penetration depth, m.
     pub(super) depth_doubt: f64,
-    /// First contact, passages and turning points.
+    /// The times of the first contact, of zero crossings and of turning points.
     pub(super) moments: Vec<KnownEvent>,
-    /// What is looked for in other runs.
+    /// The thresholds of the events to find in other runs.
     pub(super) sought: EventThresholds,
-    /// Whether a force could jump in one of the runs.
+    /// Whether a force could be discontinuous in one of the runs.
     pub(super) jumps: bool,
-    /// What the two families are, in words.
+    /// The two families in words.
     pub(super) how: String,
 }
 
-/// A moment of the truth.
+/// An event of the reference solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct KnownEvent {
-    /// The time, s; NaN where it does not happen, or is not known.
+    /// The time, s; NaN if the event does not happen or its time is unknown.
     pub(super) at: f64,
-    /// How far that may be off, s.
+    /// The uncertainty of the time, s.
     pub(super) doubt: f64,
     /// Whether a turning point is a maximum.
     pub(super) top: bool,
 }
 
-/// How many times their difference a number may be off: both may be off to the same side, as what rounding does to the scene's own
-/// numbers moves both.
+/// The uncertainty of a number as a multiple of the difference between the families. The errors of both may have the same sign,
+/// for example because rounding the parameters of the scene shifts both.
 const SAME_SIDE: f64 = 2.0;
-/// Steps that the second family may take at most.
+/// The maximum number of steps of the second family.
 pub(super) const MOST_STEPS: usize = 2_000_000;
-/// A moment that may be off by this part of the run is not known.
+/// The time of an event counts as unknown if its uncertainty exceeds this part of the run.
 pub(super) const UNKNOWN: f64 = 0.02;
 
 pub(super) fn method(id: i32) -> Integrator {
     INTEGRATORS.into_iter().find(|i| i.id == id).unwrap_or(INTEGRATORS[0])
 }
 
-/// A run that came to its end.
+/// Performs a run, and returns it if it reaches its end.
 pub(super) fn run(
     case: &PrecisionCase<'_>,
     id: i32,
@@ -67,8 +67,8 @@ pub(super) fn too_long(case: &PrecisionCase<'_>, timestep: f64) -> bool {
     case.count as f64 * (case.interval / timestep) > MOST_STEPS as f64
 }
 
-/// The moments of two runs, as far as they agree. A passage is as uncertain as the number that passes, too, and all times are as
-/// uncertain as a sum of so many steps.
+/// The event times of two runs, as far as they agree. The time of a zero crossing inherits the uncertainty of the number. All
+/// times have the rounding error of a sum of this many steps.
 pub(super) fn agreed(
     case: &PrecisionCase<'_>,
     uncertain: &[Vec<f64>],
@@ -81,11 +81,11 @@ pub(super) fn agreed(
         let sample = (a.at / case.interval).ceil() as usize;
         let value = target.and_then(|list| list.get(sample.min(list.len().saturating_sub(1))));
         let moved = value.map_or(0.0, |u| u / a.slope.min(b.slope).max(f64::MIN_POSITIVE));
-        // What moves a turning point is seen in the difference alone.
+        // The shift of a turning point shows only in the difference.
         let apart = if i > n { 4.0 } else { 2.0 } * (a.at - b.at).abs();
         let rounding = f64::EPSILON * (8.0 + steps.sqrt()) * a.at;
         let doubt = apart + a.doubt + b.doubt + moved + rounding;
-        // A difference that is no number is no moment either.
+        // If the difference is NaN, the event is unknown.
         match doubt <= UNKNOWN * case.length() && a.top == b.top {
             true => KnownEvent { at: a.at, doubt, top: a.top },
             false => KnownEvent { at: f64::NAN, doubt: f64::NAN, top: false },
@@ -94,7 +94,7 @@ pub(super) fn agreed(
     a.iter().zip(b).enumerate().map(one).collect()
 }
 
-/// How far one of two lists may be off, by their largest difference so far; infinite from where one is no number.
+/// The uncertainty of a list: the largest difference so far to another one; infinite from the first NaN on.
 pub(super) fn so_far<'a>(pairs: impl Iterator<Item = (&'a Vec<f64>, &'a Vec<f64>)>) -> Vec<Vec<f64>> {
     let differ = |a: f64, b: f64| if (a - b).is_nan() { f64::INFINITY } else { SAME_SIDE * (a - b).abs() };
     let each = |(a, b): (&Vec<f64>, &Vec<f64>)| {
@@ -108,7 +108,7 @@ pub(super) fn so_far<'a>(pairs: impl Iterator<Item = (&'a Vec<f64>, &'a Vec<f64>
     pairs.map(each).collect()
 }
 
-/// The largest difference of the two families, as a part of the range of what it is about.
+/// The largest difference of the two families, relative to the range of the quantity.
 pub(super) fn worst_part(values: &[Vec<f64>], uncertain: &[Vec<f64>]) -> f64 {
     let of = |(values, uncertain): (&Vec<f64>, &Vec<f64>)| {
         uncertain.last().copied().unwrap_or(0.0) / range(values).max(f64::MIN_POSITIVE)
@@ -116,7 +116,7 @@ pub(super) fn worst_part(values: &[Vec<f64>], uncertain: &[Vec<f64>]) -> f64 {
     values.iter().zip(uncertain).map(of).fold(0.0, f64::max)
 }
 
-/// Whether two families agree to a part of the range, or to rounding.
+/// Whether two families agree up to a part of the range, or up to rounding.
 pub(super) fn agree(values: &[Vec<f64>], uncertain: &[Vec<f64>], part: f64) -> bool {
     values.iter().zip(uncertain).all(|(values, uncertain)| {
         let size = values.iter().fold(0.0f64, |a, x| a.max(x.abs()));

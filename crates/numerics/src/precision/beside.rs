@@ -1,4 +1,4 @@
-//! Another program's runs of the same lab, as it recorded them: its errors and times stand beside ours, and never enter them.
+//! Recorded runs of the same lab by another program. Its errors and times are listed next to ours, but do not influence them.
 
 use super::agreement::Reference;
 use super::case::PrecisionCase;
@@ -7,7 +7,7 @@ use super::run_record::Run;
 use labspec::run::RunError;
 use serde_json::Value;
 
-/// What another program recorded.
+/// The recording of another program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recording {
     /// The program and its version.
@@ -22,24 +22,24 @@ struct Recorded {
     integrator: String,
     timestep: f64,
     cost: f64,
-    /// Of each trace, at each time that its steps meet; NaN where it was no number.
+    /// The values of each trace at each time that its steps meet; NaN if the value was not a number.
     values: Vec<Vec<f64>>,
 }
 
-/// Another program's run, judged.
+/// The errors of a run of another program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BesideRow {
     /// Its integrator.
     pub integrator: String,
     /// Timestep, s.
     pub timestep: f64,
-    /// How far each number is from the truth.
+    /// The errors of each number.
     pub errors: Vec<Errors>,
-    /// Microseconds per simulated second, as that program measured it.
+    /// Microseconds per simulated second, as measured by that program.
     pub cost: f64,
 }
 
-/// All of them.
+/// All runs of another program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Beside {
     /// The program and its version.
@@ -50,11 +50,11 @@ pub struct Beside {
 
 impl Recording {
     /// Reads a recording: `{"engine", "traces": [labels], "times": [s], "rows": [{"integrator", "timestep",
-    /// "microsecondsPerSecond", "values": [[number of each time] of each trace]}]}`. Of a run whose timestep is longer than the times are
-    /// apart, the values at those times that its steps meet.
+    /// "microsecondsPerSecond", "values": [[number of each time] of each trace]}]}`. A run whose timestep exceeds the spacing
+    /// of the times has only the values at times that its steps meet.
     ///
     /// # Errors
-    /// What is missing or of another kind, in words.
+    /// States in words what is missing or has the wrong type.
     pub fn read(text: &str) -> Result<Recording, String> {
         let value: Value = serde_json::from_str(text).map_err(|e| format!("it is not JSON: {e}"))?;
         let list = |value: &Value, key: &str| {
@@ -83,7 +83,7 @@ impl Recording {
         Ok(Recording { engine, traces, times, runs })
     }
 
-    /// Its runs against the same truth as ours.
+    /// Compares its runs with the same reference solution as ours.
     ///
     /// # Errors
     /// It lacks a trace of the lab, or was recorded at other times.
@@ -108,7 +108,7 @@ impl Recording {
         }
         let rows = self.runs.iter().map(|run| {
             let values = places.iter().map(|&i| run.values[i].clone()).collect();
-            // A closed form is that of the truth's own states: time.
+            // A closed form is evaluated with the reference run, because it depends only on time.
             let apart = case.rhythm(run.timestep).stride;
             let met = |list: &Vec<f64>| list.iter().step_by(apart).copied().collect();
             let exact = truth.run.exact.iter().map(met).collect();

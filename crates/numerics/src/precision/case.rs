@@ -1,4 +1,4 @@
-//! A lab whose settings are compared: the numbers that it displays, and a run of it under a setting.
+//! A lab whose settings are compared: the displayed numbers, and its run with a setting.
 
 use super::event_finder::EventFinder;
 use super::integrator_work::integrator_work;
@@ -19,28 +19,28 @@ use labspec_expr::{Compiler, Type, Value};
 use serde::Serialize;
 use std::ops::ControlFlow;
 
-/// A number that the lab shows.
+/// A number that the lab displays.
 pub(super) struct ComparedNumber<'a> {
     pub(super) label: String,
-    /// Its unit, where it is known.
+    /// Its unit, if known.
     pub(super) unit: Option<String>,
     pub(super) bound: &'a Bound,
-    /// Its closed form.
+    /// Its closed form, if it has one.
     pub(super) exact: Option<Bound>,
     pub(super) display: DisplayPrecision,
 }
 
-/// How exactly a number is shown.
+/// The precision with which a number is displayed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum DisplayPrecision {
-    /// With so many decimals.
+    /// With this number of decimals.
     Decimals(u32),
-    /// As a curve: the ends of its axis, where they are fixed, and its height in pixels.
+    /// As a curve: the limits of its axis, if they are fixed, and its height in pixels.
     Curve { ends: [Option<f64>; 2], height: f64 },
 }
 
 impl DisplayPrecision {
-    /// The largest error that nobody sees, for values of some range: half a unit of the last digit, half a pixel.
+    /// The largest invisible error for values with some range: half a unit of the last digit, or half a pixel.
     pub(super) fn unseen(self, range: f64) -> f64 {
         match self {
             DisplayPrecision::Decimals(digits) => 0.5 * 0.1f64.powi(digits as i32),
@@ -55,7 +55,7 @@ impl DisplayPrecision {
     }
 }
 
-/// Something that is not compared, and why.
+/// Something that is not compared, with the reason.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct LeftOut {
     /// Its label.
@@ -64,10 +64,10 @@ pub struct LeftOut {
     pub reason: &'static str,
 }
 
-/// Left out, yet compared: under another label.
+/// The reason for a number that is compared under another label.
 pub(super) const AGAIN: &str = "it repeats another one";
 
-/// What all runs of a comparison share.
+/// The data that all runs of a comparison share.
 pub(super) struct PrecisionCase<'a> {
     pub(super) lab: &'a Lab,
     pub(super) model: &'a Model,
@@ -75,18 +75,18 @@ pub(super) struct PrecisionCase<'a> {
     pub(super) targets: Vec<ComparedNumber<'a>>,
     pub(super) left_out: Vec<LeftOut>,
     pub(super) set: &'a [(String, Value)],
-    /// Buttons and the times of their presses, s.
+    /// Buttons and the times at which they are pressed, s.
     pub(super) presses: Vec<(usize, f64)>,
     pub(super) access: AccessSet,
-    /// Time between samples of the truth, s, and their number, the start not counted.
+    /// The time between samples of the reference, s, and their number without the start.
     pub(super) interval: f64,
     pub(super) count: usize,
 }
 
-/// Samples in which energy and momentum are looked at.
+/// The number of samples at which energy and momentum are evaluated.
 const LOOKS: usize = 100;
 
-/// The unit that a label states, or else that of what is measured; a plain number has none.
+/// The unit that a label states, otherwise the unit of the dimension; `None` for a dimensionless number.
 fn unit_of(label: &str, measured: Option<Measure>) -> Option<String> {
     let stated = of_label(label).map(|(text, _)| text.to_string());
     let computed = || match measured? {
@@ -98,7 +98,8 @@ fn unit_of(label: &str, measured: Option<Measure>) -> Option<String> {
 }
 
 impl<'a> PrecisionCase<'a> {
-    /// The numbers that a lab shows, with their closed forms. Mistakes in these go to `findings`. Times are still missing.
+    /// The numbers that a lab displays, with their closed forms. Errors in these are added to `findings`.
+    /// The times are not set yet.
     pub(super) fn new(
         lab: &'a Lab,
         model: &'a Model,
@@ -172,12 +173,13 @@ impl<'a> PrecisionCase<'a> {
         self.left_out.push(LeftOut { label: label.to_string(), reason });
     }
 
-    /// Whether a program runs at every step: its controls are held for a step, so that the step is part of what the lab does.
+    /// Whether a program runs at every step. Its controls are constant during a step, so that the timestep is
+    /// part of the lab's behaviour.
     pub(super) fn controlled(&self) -> bool {
         self.programs.controller.is_some()
     }
 
-    /// What sets the timestep while the lab runs, so that no other can be tried.
+    /// The program that sets the timestep during the run, in which case no other timestep can be tested.
     pub(super) fn steps_itself(&self) -> Option<String> {
         let timestep = Some(option::timestep);
         let writes = |bound: &Bound| {
@@ -195,10 +197,10 @@ impl<'a> PrecisionCase<'a> {
         })
     }
 
-    /// The lab as it starts, with its controls set; under a setting, or as it stands.
+    /// Starts the lab with its controls set, with a setting or with its own.
     ///
     /// # Errors
-    /// A control that cannot be set so.
+    /// A control cannot be set to its value.
     pub(super) fn start(&self, setting: Option<&Setting>) -> Result<Session<'a>, RunError> {
         let mut model = self.model.clone();
         if let Some(s) = setting {
@@ -209,26 +211,25 @@ impl<'a> PrecisionCase<'a> {
         let mut session = Session::start(self.programs, &model, start);
         run::set_controls(&mut session, self.lab, self.programs, self.set)?;
         if let Some(s) = setting {
-            // The lab's own code may have set others.
+            // The lab's own code may have changed the setting.
             s.apply(&mut session.world.model);
         }
         Ok(session)
     }
 
-    /// Length of the runs, s.
+    /// The length of the runs, s.
     pub(super) fn length(&self) -> f64 {
         self.count as f64 * self.interval
     }
 
-    /// When a run with some timestep is looked at: after each of its own steps, as a page shows them, where the truth is known
-    /// as often.
+    /// The sampling of a run with some timestep: after each step, as a page displays it, if the reference has samples as often.
     pub(super) fn rhythm(&self, timestep: f64) -> Rhythm {
         let whole = |x: f64| x.round().max(1.0) as usize;
         let stride = whole(timestep / self.interval);
         Rhythm { steps: whole(self.interval / timestep), stride, count: self.count / stride }
     }
 
-    /// A run under a setting.
+    /// Runs the lab with a setting.
     pub(super) fn run(&self, setting: &Setting, request: RunRequest<'_>) -> Result<Run, RunError> {
         let mut session = self.start(Some(setting))?;
         if request.perturbation != 0.0 {
@@ -284,7 +285,7 @@ impl<'a> PrecisionCase<'a> {
         Ok(record)
     }
 
-    /// The values of all targets now; at a sample they are recorded, with those of the closed forms.
+    /// Evaluates all targets. At a sample, the values are recorded, together with those of the closed forms.
     fn sample_targets(&self, session: &mut Session<'_>, now: &mut [f64], mut record: Option<&mut Run>) {
         for (i, target) in self.targets.iter().enumerate() {
             now[i] = self.value(session, i);

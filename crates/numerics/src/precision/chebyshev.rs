@@ -1,17 +1,17 @@
-//! Turning points, from the values of a number at Chebyshev's points of two steps.
+//! Turning points, computed from the values of a number at the Chebyshev points of an interval of two steps.
 
 use super::event_time::EventTime;
 use super::step_replay::{Evaluate, StepReplay};
 use std::f64::consts::PI;
 
-/// Degree of the polynomial.
+/// The degree of the polynomial.
 const DEGREE: usize = 12;
-/// Parts of the interval in which its turning points are looked for, and halvings of one.
+/// The number of parts of the interval that are searched for turning points, and the bisections in one part.
 const PARTS: usize = 48;
 const HALVINGS: usize = 60;
 
-/// The turning point of a target around the second last state, upwards or downwards: of a method of high order by its steps made
-/// again, of others by the parabola through three states.
+/// The turning point of a target near the second last state, a maximum or a minimum. For a method of high order, the steps are
+/// repeated with other lengths; for others, the parabola through three states is used.
 pub(super) fn turning_point(
     bench: &mut StepReplay<'_>,
     target: usize,
@@ -24,14 +24,14 @@ pub(super) fn turning_point(
         return None;
     }
     let at: Vec<f64> = (0..count).map(|j| direction * bench.value(j, 0.0, target, evaluate)).collect();
-    // What a page shows may be of the state before.
+    // A displayed value may belong to the previous state.
     let middle = (1..count - 1).max_by(|&a, &b| at[a].total_cmp(&at[b]))?;
     let [before, now, after] = [at.get(middle + 1)?, at.get(middle)?, at.get(middle - 1)?];
     let (h, next) = (bench.past.step(middle + 1), bench.past.step(middle));
     let start = bench.past.time(middle + 1);
     let top = direction > 0.0;
     let parabola = || {
-        // Divided differences; steps of a run are of one length but for rounding.
+        // Divided differences. The steps of a run have equal lengths up to rounding.
         let (rise, fall) = ((now - before) / h, (after - now) / next);
         let curvature = (fall - rise) / (0.5 * (h + next));
         let x = 0.5 * h - rise / curvature;
@@ -51,7 +51,7 @@ pub(super) fn turning_point(
                 x => bench.value(middle, x - h, target, evaluate),
             }
     };
-    // From the end of the interval to its start, as the points are.
+    // From the end of the interval to its start, in the order of the points.
     let values: Vec<f64> = (0..=DEGREE).rev().map(&mut node).collect();
     let every_second: Vec<f64> = values.iter().copied().step_by(2).collect();
     let Some((x, doubt)) = turn(&values) else { return parabola() };
@@ -60,8 +60,8 @@ pub(super) fn turning_point(
     Some(EventTime { at: start + half * (1.0 + x), doubt, slope: f64::INFINITY, top })
 }
 
-/// Where a number is largest inside [-1, 1], by its values at Chebyshev's points from 1 down to -1; with how far rounding may have
-/// moved that.
+/// The position of the maximum inside [-1, 1], from the values at the Chebyshev points from 1 down to -1,
+/// and its shift by rounding.
 fn turn(values: &[f64]) -> Option<(f64, f64)> {
     if values.iter().any(|v| !v.is_finite()) {
         return None;
@@ -87,7 +87,7 @@ fn turn(values: &[f64]) -> Option<(f64, f64)> {
     Some((x, noise / sum(&curve, x).abs().max(f64::MIN_POSITIVE)))
 }
 
-/// The coefficients of Chebyshev's polynomials.
+/// The coefficients of the Chebyshev polynomials.
 fn coefficients(values: &[f64]) -> Vec<f64> {
     let n = values.len() - 1;
     let weight = |i: usize| if i == 0 || i == n { 0.5 } else { 1.0 };
@@ -110,7 +110,7 @@ fn derivative(series: &[f64]) -> Vec<f64> {
     slope
 }
 
-/// A series at a point, by Clenshaw's recurrence.
+/// The value of a series at a point, by Clenshaw's recurrence.
 fn sum(series: &[f64], x: f64) -> f64 {
     let (mut one, mut two) = (0.0, 0.0);
     for c in series.iter().skip(1).rev() {

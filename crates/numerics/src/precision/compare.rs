@@ -20,11 +20,11 @@ use labspec::spec::Lab;
 use labspec::spec::format::RUN_LENGTH;
 use labspec_core::Model;
 
-/// Runs the lab with every setting. `report_progress` hears what is being done.
+/// Runs the lab with every setting. `report_progress` receives descriptions of the current activity.
 ///
 /// # Errors
-/// The lab shows no numbers to compare, sets its timestep itself while it runs, cannot be handled as asked, or the runs would take
-/// too many steps. Mistakes in closed forms go to `findings`.
+/// The lab displays no numbers that can be compared, it sets its timestep itself during the run, a requested interaction is
+/// impossible, or the runs would need too many steps. Errors in closed forms are added to `findings`.
 pub fn compare(
     lab: &Lab,
     model: &Model,
@@ -84,7 +84,7 @@ pub fn compare(
     Ok(report)
 }
 
-/// The reference at the closest samples for which there is one.
+/// The reference with the densest samples for which it can be computed.
 fn find_reference(case: &mut PrecisionCase<'_>, ladder: &Ladder) -> Result<Option<Reference>, RunError> {
     for samples in ladder.samplings() {
         (case.interval, case.count) = samples;
@@ -96,7 +96,7 @@ fn find_reference(case: &mut PrecisionCase<'_>, ladder: &Ladder) -> Result<Optio
     Ok(None)
 }
 
-/// Measures the run time of every setting that came to its end.
+/// Measures the run time of every setting that reached its end.
 fn measure_run_times(case: &PrecisionCase<'_>, rows: &mut [Row]) {
     let timed: Vec<Option<Setting>> =
         rows.iter().map(|r| (r.status != RunStatus::Stopped).then_some(r.setting)).collect();
@@ -105,7 +105,7 @@ fn measure_run_times(case: &PrecisionCase<'_>, rows: &mut [Row]) {
     }
 }
 
-/// Checks that the lab can be compared; presses come where all timesteps meet.
+/// Checks that the lab can be compared, and moves presses to times at which the steps of all settings meet.
 fn prepare(case: &mut PrecisionCase<'_>, options: &Options) -> Result<Ladder, RunError> {
     if case.targets.is_empty() {
         let why = match case.left_out.first() {
@@ -129,7 +129,7 @@ fn prepare(case: &mut PrecisionCase<'_>, options: &Options) -> Result<Ladder, Ru
     };
     let length = options.until.or(case.lab.stop_at.as_ref().map(|s| s.value)).unwrap_or(RUN_LENGTH);
     let ladder = Ladder::new(case.lab, timestep, integrator, length)?;
-    // A press between would come at another time in each run.
+    // Between such times, a press would occur at a different time in each run.
     let coarse = ladder.coarse();
     for (_, time) in &mut case.presses {
         *time = (*time / coarse - 1e-9).ceil().max(0.0) * coarse;
@@ -138,7 +138,7 @@ fn prepare(case: &mut PrecisionCase<'_>, options: &Options) -> Result<Ladder, Ru
     Ok(ladder)
 }
 
-/// What runs are held against.
+/// The data with which runs are compared.
 struct Comparison<'j, 'a> {
     case: &'j PrecisionCase<'a>,
     ladder: &'j Ladder,
@@ -146,12 +146,12 @@ struct Comparison<'j, 'a> {
     targets: Vec<Compared>,
     events: Vec<Event>,
     conserved: Conserved,
-    /// The part of the run before the horizon of the truth.
+    /// The part of the run before the horizon of the reference.
     part: f64,
 }
 
 impl Comparison<'_, '_> {
-    /// All settings; of each method also longer steps, until something changes that a student sees.
+    /// Runs all settings, and for each method also longer timesteps, until a visible error appears.
     fn rows(
         &self,
         settings: &[Setting],
@@ -207,7 +207,7 @@ fn score(targets: &[Compared], errors: &[Errors]) -> f64 {
     compared.map(|(_, e)| e.seen[0]).reduce(f64::max).unwrap_or(f64::NAN)
 }
 
-/// The report of a lab that no method comes through: what became of each setting, and nothing else.
+/// The report of a lab that no method can simulate: it contains only the outcome of each setting.
 fn without_reference(
     case: PrecisionCase<'_>,
     settings: &[Setting],

@@ -1,11 +1,11 @@
-//! Energy and momentum that a scene keeps, and how much of them a run loses or gains.
+//! The conserved energy and momentum of a scene, and how much of them a run loses or gains.
 
 use super::run_record::Run;
 
-/// A scene keeps energy or momentum where the reference changes it by less than this part of its size.
+/// A quantity counts as conserved if the reference changes it by less than this part of its size.
 const CONSERVED: f64 = 1e-7;
 
-/// What the scene keeps, as the reference shows it, with its size.
+/// The quantities that the reference conserves, with their sizes.
 pub(super) struct Conserved {
     pub(super) energy: Option<f64>,
     pub(super) momentum: [Option<f64>; 2],
@@ -23,7 +23,7 @@ impl Conserved {
         Conserved { energy, momentum }
     }
 
-    /// The largest change of momentum from the start on: of motion (0) or of turning (1).
+    /// The largest change of momentum since the start: linear (0) or angular (1).
     pub(super) fn change(&self, run: &Run, k: usize, part: f64) -> f64 {
         let Some(start) = run.momentum.first() else { return f64::NAN };
         let apart = |p: &[f64; 6]| {
@@ -38,18 +38,18 @@ fn length(v: &[f64]) -> f64 {
     v.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
-/// The largest change of a quantity from the start on; NaN where it is not known.
+/// The largest change of a quantity since the start; NaN if it is unknown.
 pub(super) fn change(values: &[f64], part: f64) -> f64 {
     let early = values.iter().take(looks(values.len(), part));
     values.first().map_or(f64::NAN, |start| largest(early.map(|x| (x - start).abs())))
 }
 
-/// The largest; NaN where one is.
+/// The maximum; NaN if any value is NaN.
 fn largest(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(0.0, |a: f64, x| if x.is_nan() || a.is_nan() { f64::NAN } else { a.max(x) })
 }
 
-/// How many of the looks at a run are in its first part.
+/// The number of samples in the first part of a run.
 fn looks(all: usize, part: f64) -> usize {
     (all.saturating_sub(1) as f64 * part) as usize + 1
 }

@@ -1,9 +1,9 @@
-//! When something happens in a run: bodies touch, a number passes through zero, a number turns back.
+//! Event times of a run: first contact, zero crossings and turning points of numbers.
 //!
-//! What happens between two steps is found by stepping again from the state before it, with shorter steps of the same method: a
-//! one-step method gives the state at any time in its step as exactly as at its end (dense output by repeated steps). A turning
-//! point is where the derivative of the interpolating polynomial at Chebyshev's points vanishes (Trefethen 2013, *Approximation
-//! Theory and Approximation Practice*, chapters 3 and 21).
+//! An event between two steps is located by repeating the step from the state before it with shorter lengths. A one-step method
+//! gives the state at any time inside a step as accurately as at its end (dense output by repeated steps). A turning point is a
+//! zero of the derivative of the interpolating polynomial at Chebyshev points (Trefethen 2013, *Approximation Theory and
+//! Approximation Practice*, chapters 3 and 21).
 
 use super::chebyshev::turning_point;
 use super::event_time::EventTime;
@@ -13,27 +13,27 @@ use super::step_replay::{Evaluate, StepHistory, StepReplay};
 use labspec::run::Session;
 use labspec_core::Model;
 
-/// By how much a number must leave zero on both sides to pass through it, and must turn back at a turning point, as parts of its
-/// range: less is rounding, or a scene that settles.
+/// The thresholds for a zero crossing (distance from zero on both sides) and for a turning point, as parts of the range.
+/// Smaller changes are rounding, or a scene that settles.
 const PASSES: f64 = 1e-5;
 const TURNS: f64 = 1e-3;
 /// A number that changes by less than this part of its size has no events.
 const CONSTANT: f64 = 1e-9;
-/// Bodies that are this close at the start touch, m.
+/// Bodies within this distance at the start are in contact, m.
 const TOUCHING: f64 = 1e-9;
-/// Turning points of one number that are looked at closely.
+/// The maximum number of turning points of one number that are located.
 const MOST_TURNS: usize = 100;
-/// Halvings of an interval that find a time to rounding.
+/// The number of bisections that locate a time up to rounding.
 const HALVINGS: usize = 80;
 
-/// What is looked for: of each target, what it must pass by and turn by.
+/// The thresholds of the events of each target: for zero crossings and for turning points.
 #[derive(Clone, Debug)]
 pub(super) struct EventThresholds {
     least: Vec<[f64; 2]>,
 }
 
 impl EventThresholds {
-    /// For numbers with such values. What does not change has no events.
+    /// Computes the thresholds for numbers with such values. A constant number has no events.
     pub(super) fn for_values(values: &[Vec<f64>]) -> EventThresholds {
         let least = |values: &Vec<f64>| {
             let size = values.iter().fold(0.0f64, |a, x| a.max(x.abs()));
@@ -45,7 +45,7 @@ impl EventThresholds {
     }
 }
 
-/// Follows a number to its first passage through zero.
+/// The search for the first zero crossing of a number.
 #[derive(Clone, Debug)]
 struct Passage {
     side: f64,
@@ -54,12 +54,12 @@ struct Passage {
     done: bool,
 }
 
-/// Follows a number to its first turning point.
+/// The search for the first turning point of a number.
 #[derive(Clone, Debug)]
 struct Turn {
     low: f64,
     high: f64,
-    /// Up, down, or not known yet.
+    /// 1 for upwards, -1 for downwards, 0 while unknown.
     direction: f64,
     last: f64,
     candidate: EventTime,
@@ -67,23 +67,23 @@ struct Turn {
     done: bool,
 }
 
-/// Looks for the moments of a run.
+/// Finds the events of a run.
 pub(super) struct EventFinder<'s> {
     sought: &'s EventThresholds,
-    /// The method is of high order, so that its steps can be made again with any length.
+    /// Whether the method has a high order, so that its steps can be repeated with any length.
     dense: bool,
     past: StepHistory,
-    /// The length of a step, the time at the start, s, and the number of steps since: the engine's own time is a sum of that many
-    /// steps, each rounded.
+    /// The length of a step, the start time, s, and the number of steps since. The engine's own time is a sum of that
+    /// many steps, each rounded.
     step: f64,
     start: f64,
     made: usize,
-    /// Pairs of geoms that touch at the start.
+    /// Pairs of geoms that are in contact at the start.
     touching: Vec<[usize; 2]>,
     contact: Option<EventTime>,
     passages: Vec<Passage>,
     turns: Vec<Turn>,
-    /// When the last of them was sure to be one, s.
+    /// The time at which the last event was confirmed, s.
     settled: f64,
 }
 
@@ -108,17 +108,17 @@ impl<'s> EventFinder<'s> {
         }
     }
 
-    /// When the last moment so far was sure to be one, s.
+    /// The time at which the last event so far was confirmed, s.
     pub(super) fn settled(&self) -> f64 {
         self.settled
     }
 
-    /// Whether all is found that is looked for.
+    /// Whether all events have been found.
     pub(super) fn is_complete(&self) -> bool {
         self.contact.is_some() && self.passages.iter().all(|p| p.done) && self.turns.iter().all(|t| t.done)
     }
 
-    /// The run after a step, with the values that it shows there.
+    /// Processes the state of the run after a step, with the displayed values.
     pub(super) fn see(&mut self, session: &Session<'_>, values: &[f64], evaluate: &Evaluate<'_>) {
         let time = self.time(session);
         self.past.keep(session, time);
@@ -156,7 +156,7 @@ impl<'s> EventFinder<'s> {
         passages + self.turns.iter().filter(|t| t.done).count() + usize::from(self.contact.is_some())
     }
 
-    /// The first contact, then all passages, then all turning points.
+    /// Returns the first contact, then all zero crossings, then all turning points.
     pub(super) fn finish(self) -> Vec<EventTime> {
         let found = |done: bool, candidate: EventTime| if done { candidate } else { EventTime::NONE };
         let contact = std::iter::once(self.contact.unwrap_or(EventTime::NONE));
@@ -165,7 +165,7 @@ impl<'s> EventFinder<'s> {
         contact.chain(passages).chain(turns).collect()
     }
 
-    /// Whether bodies touch at the start: those that do are no first contact.
+    /// Whether bodies are in contact at the start. Such contacts are not a first contact.
     pub(super) fn touches_at_start(&self) -> bool {
         !self.touching.is_empty()
     }
@@ -202,7 +202,7 @@ impl<'s> EventFinder<'s> {
         if t.done || !now.is_finite() {
             return;
         }
-        // The extreme so far was the last sample, and the way back begins.
+        // The last sample was the extreme value so far, and the number has turned back.
         let extreme = if t.direction > 0.0 { t.high } else { t.low };
         let begins = t.direction != 0.0 && last == extreme && (now - last) * t.direction < 0.0;
         (t.low, t.high) = (t.low.min(now), t.high.max(now));
@@ -230,10 +230,10 @@ impl<'s> EventFinder<'s> {
         t.done = back > *least;
     }
 
-    /// When bodies that did not touch at the start touch: the shortest step that ends with a contact.
+    /// The time of the first contact of bodies that were apart at the start: the shortest step that ends with a contact.
     fn first_contact(&self, session: &Session<'_>) -> EventTime {
         let mut bench = StepReplay::new(session, &self.past);
-        // What a page shows of contacts is of the step before.
+        // A displayed contact belongs to the previous step.
         let oldest = self.past.count().min(3) - 1;
         let touches = |bench: &mut StepReplay<'_>, from: usize, x: f64| {
             bench.place(from, x);
@@ -272,21 +272,21 @@ fn length(v: [f64; 3]) -> f64 {
     v.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
-/// How deep bodies are in each other that did not touch at the start, m; NaN where none are near.
+/// The penetration depth of bodies that were apart at the start, m; NaN if none are near each other.
 fn depth(session: &Session<'_>, apart: &[[usize; 2]]) -> f64 {
     let contacts = session.world.data.fields().contact.iter();
     let others = contacts.filter(|c| !apart.contains(&[c.geom1, c.geom2]));
     others.map(|c| -c.dist).fold(f64::NAN, f64::max)
 }
 
-/// A passage between the last two samples, as a straight line has it.
+/// A zero crossing between the last two samples, by linear interpolation.
 fn between(past: &StepHistory, last: f64, now: f64) -> EventTime {
     let h = past.step(1);
     let part = (last / (last - now)).clamp(0.0, 1.0);
     EventTime { at: past.time(1) + part * h, doubt: 2.0 * h, slope: (now - last).abs() / h, top: false }
 }
 
-/// When a target leaves its side of zero, in the last step or in that before.
+/// The time at which a target crosses zero in the last step or in the one before.
 fn passage(bench: &mut StepReplay<'_>, i: usize, side: f64, evaluate: &Evaluate<'_>) -> Option<EventTime> {
     let oldest = bench.past.count().min(3) - 1;
     let leaves = |bench: &mut StepReplay<'_>, j: usize| {
@@ -297,7 +297,7 @@ fn passage(bench: &mut StepReplay<'_>, i: usize, side: f64, evaluate: &Evaluate<
     let (mut low, mut high) = (0.0, h);
     let mut at_low = bench.value(from, 0.0, i, evaluate) * side;
     let mut at_high = bench.value(from - 1, 0.0, i, evaluate) * side;
-    // The step made again has to end where it did.
+    // The repeated step must end at the same value.
     let again = bench.value(from, h, i, evaluate) * side;
     let residual = (again - at_high).abs();
     if again > 0.0 {
@@ -305,7 +305,7 @@ fn passage(bench: &mut StepReplay<'_>, i: usize, side: f64, evaluate: &Evaluate<
     }
     let mut moved = 0.0;
     for k in 0..HALVINGS {
-        // The method of Illinois, and halving where it does not get on.
+        // The Illinois method, with bisection if it does not progress.
         let line = low + (high - low) * at_low / (at_low - at_high);
         let inside = line > low && line < high && k % 3 != 2;
         let x = if inside { line } else { 0.5 * (low + high) };

@@ -1,13 +1,14 @@
 //! The time of an event of a run.
 
-/// When something happens in a run.
+/// The time of an event of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct EventTime {
-    /// The time, s; NaN where it does not happen.
+    /// The time, s; NaN if the event does not happen.
     pub(super) at: f64,
-    /// How far the search may be off, s.
+    /// The error of the search, s.
     pub(super) doubt: f64,
-    /// How fast the number passes, in its unit per s; infinite where another number does not move the time.
+    /// The rate of change of the number at the event, in its unit per s; infinite if an error of the number
+    /// does not shift the time.
     pub(super) slope: f64,
     /// Whether a turning point is a maximum.
     pub(super) top: bool,

@@ -1,4 +1,4 @@
-//! What happens in the reference, how far other runs are from it, and how long nearby starts stay together.
+//! The events of the reference, the timing errors of other runs, and how long runs with nearby starts stay together.
 
 use super::agreement::{KnownEvent, Reference, method};
 use super::case::PrecisionCase;
@@ -9,31 +9,31 @@ use labspec::run::RunError;
 use labspec_core::integrator;
 use serde::Serialize;
 
-/// How far apart nearby starts are, and the part of its range by which a number has left the other.
+/// The distance of nearby starts, and the part of its range by which a number counts as different.
 const PERTURBATION: f64 = 1e-9;
 const LEFT: f64 = 0.01;
 
-/// Something that happens in a run.
+/// An event of the reference.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Event {
-    /// In words.
+    /// The event in words.
     pub name: String,
-    /// When, s.
+    /// The time, s.
     pub time: f64,
-    /// How far that may be off, s.
+    /// The uncertainty of the time, s.
     pub uncertain: f64,
 }
 
-/// Two starts that nobody could tell apart.
+/// Two runs with indistinguishable starts.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Nearby {
-    /// How far apart they are, in the unit of each coordinate.
+    /// The distance of the starts, in the unit of each coordinate.
     pub apart: f64,
-    /// Until when they show the same to a hundredth of every range, s; `None` where they do to the end.
+    /// The time until which all numbers agree within a hundredth of their ranges, s; `None` if they agree to the end.
     pub until: Option<f64>,
 }
 
-/// What happens in the reference before its horizon.
+/// The events of the reference before its horizon.
 pub(super) fn events(case: &PrecisionCase<'_>, truth: &Reference, targets: &[Compared]) -> Vec<Event> {
     let n = case.targets.len();
     let all = targets.iter().filter_map(|t| t.until).reduce(f64::min);
@@ -48,7 +48,7 @@ pub(super) fn events(case: &PrecisionCase<'_>, truth: &Reference, targets: &[Com
                 format!("first {which} of \"{}\"", t.label)
             }
         };
-        // A number that is compared twice, with a plot and with digits, has its events once.
+        // A number that is both plotted and displayed with digits has its events only once.
         let text = |k: usize| case.targets.get(k).map(|t| t.bound.text.value.as_str());
         let again =
             i.checked_sub(1).map(|k| k % n.max(1)).is_some_and(|k| (0..k).any(|j| text(j) == text(k)));
@@ -61,7 +61,7 @@ pub(super) fn events(case: &PrecisionCase<'_>, truth: &Reference, targets: &[Com
     truth.moments.iter().enumerate().map(event).collect()
 }
 
-/// How far a run's events are from their times, s; never below what these may be off.
+/// The timing errors of a run's events, s; never smaller than the uncertainty of the event.
 pub(super) fn offs(run: &Run, events: &[Event]) -> Vec<f64> {
     let off = |(i, event): (usize, &Event)| {
         let found = run.moments.get(i).map_or(f64::NAN, |m| m.at);
@@ -71,7 +71,7 @@ pub(super) fn offs(run: &Run, events: &[Event]) -> Vec<f64> {
     events.iter().enumerate().map(off).collect()
 }
 
-/// How long two starts that nobody could tell apart show the same.
+/// Determines how long two runs with indistinguishable starts agree.
 pub(super) fn nearby(
     case: &PrecisionCase<'_>,
     targets: &[Compared],
@@ -84,7 +84,7 @@ pub(super) fn nearby(
     );
     let leaves = |((a, b), target): ((&Vec<f64>, &Vec<f64>), &Compared)| {
         let far = LEFT * target.range;
-        // Indistinguishable is less than the part, and no number is far from every other.
+        // Equal means a smaller difference than `far`; NaN always counts as different.
         a.iter().zip(b).position(|(a, b)| (a - b).abs() > far || (a - b).is_nan())
     };
     let first = one.values.iter().zip(&other.values).zip(targets).filter_map(leaves).min();

@@ -1,6 +1,7 @@
-//! The reference of a lab with a controller. Its controls are held for a step: what a run shows has an expansion in powers of the
-//! step, and a table of runs with halved steps is extrapolated to a step of nothing (Aitken and Neville; Hairer, Nørsett and Wanner
-//! 1993, *Solving Ordinary Differential Equations I*, section II.9). Steps in which controls jump are cut at the jump.
+//! The reference of a lab with a controller. Its controls are constant during a step, so the results have an expansion in
+//! powers of the timestep. A table of runs with halved timesteps is extrapolated to a timestep of zero (Aitken and Neville;
+//! Hairer, Nørsett and Wanner 1993, *Solving Ordinary Differential Equations I*, section II.9). Steps in which controls
+//! jump are split at the jump.
 
 use super::agreement::{Reference, agree, agreed, run, so_far, too_long, worst_part};
 use super::case::PrecisionCase;
@@ -11,12 +12,12 @@ use super::run_record::{Run, RunRequest};
 use labspec::run::RunError;
 use labspec_core::integrator;
 
-/// Steps that are tried, each half of the one before.
+/// The number of timesteps, each half of the previous one.
 const LEVELS: usize = 8;
-/// Part of its range by which two entries may differ: a level more costs little, and gives much.
+/// The part of its range by which two entries may differ. A further level costs little and improves the result considerably.
 const AGREE: f64 = 1e-11;
 
-/// An entry of the table.
+/// An entry of the extrapolation table.
 #[derive(Clone)]
 struct TableEntry {
     values: Vec<Vec<f64>>,
@@ -28,7 +29,7 @@ impl TableEntry {
         TableEntry { values: run.values.clone(), moments: run.moments.iter().map(|m| m.at).collect() }
     }
 
-    /// What this one and one of twice the step come to, where the lowest power of the error is the `power`th.
+    /// Extrapolates this entry and the one with twice the step, if the lowest power of the error is `power`.
     fn toward(&self, coarse: &TableEntry, power: i32) -> TableEntry {
         let weight = 1.0 / (2f64.powi(power) - 1.0);
         let list = |(fine, coarse): (&Vec<f64>, &Vec<f64>)| {
@@ -41,7 +42,7 @@ impl TableEntry {
     }
 }
 
-/// The best entry so far, with that of twice its step in the same column.
+/// The best entry so far, with the one of twice its step in the same column.
 struct BestEntry {
     entry: TableEntry,
     coarse: TableEntry,
@@ -56,7 +57,7 @@ impl BestEntry {
     }
 }
 
-/// The reference of a lab with a controller.
+/// Computes the reference of a lab with a controller.
 pub(super) fn extrapolated(case: &PrecisionCase<'_>, timestep: f64) -> Result<Option<Reference>, RunError> {
     let first = (timestep / 2.0).min(case.interval);
     let ask = RunRequest { cut: true, ..RunRequest::FRESH };
@@ -90,7 +91,7 @@ pub(super) fn extrapolated(case: &PrecisionCase<'_>, timestep: f64) -> Result<Op
     finish(case, best, sought.clone(), first).map(Some)
 }
 
-/// The next row of the table, below that of twice the step.
+/// The next row of the table, from the row with twice the step.
 fn next_row(run: &Run, before: &[TableEntry]) -> Vec<TableEntry> {
     let mut row = vec![TableEntry::from_run(run)];
     for (coarse, power) in before.iter().zip(1..) {
@@ -101,7 +102,7 @@ fn next_row(run: &Run, before: &[TableEntry]) -> Vec<TableEntry> {
     row
 }
 
-/// Holds the steps between controls against another family's.
+/// Compares the integration between controls with that of another family of methods, and builds the reference.
 fn finish(
     case: &PrecisionCase<'_>,
     best: BestEntry,

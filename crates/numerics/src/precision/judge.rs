@@ -1,4 +1,4 @@
-//! Errors of a run against the reference.
+//! The errors of a run relative to the reference.
 
 use super::agreement::Reference;
 use super::case::{ComparedNumber, DisplayPrecision, PrecisionCase};
@@ -6,32 +6,32 @@ use super::numbers::range;
 use super::run_record::{Run, RunStatus};
 use labspec::run::printed;
 
-/// How far a run is from the truth, in the unit of the trace.
+/// The errors of a number in a run, in the unit of the trace.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Errors {
-    /// The largest error, and when, s.
+    /// The largest error.
     pub largest: f64,
-    /// When that was.
+    /// The time of the largest error, s.
     pub at: f64,
-    /// Root of the mean square.
+    /// The root mean square error.
     pub rms: f64,
-    /// At the last sample that is compared.
+    /// The error at the last sample that is compared.
     pub end: f64,
-    /// It is not above what the reference itself may be off: nothing more is known of it.
+    /// Whether the error is not larger than the uncertainty of the reference, so that nothing more is known about it.
     pub below: bool,
-    /// Observed order: how many times the error halves when the timestep halves.
+    /// The observed order: the number of times the error halves when the timestep is halved.
     pub order: Option<f64>,
-    /// The most and the least that a student may see of it at any sample, as the reference itself is in doubt; in times of what nobody
-    /// sees. A readout that shows other digits than the truth is above one.
+    /// The largest and the smallest error that a student may see at any sample, given the uncertainty of the reference, in
+    /// multiples of the smallest visible error. The value is above one if a readout displays other digits than the truth.
     pub seen: [f64; 2],
-    /// Samples that are compared, and those of them at which a student sees the error.
+    /// The number of samples that are compared.
     pub samples: usize,
-    /// Those at which a student sees it.
+    /// The number of samples at which the error is visible.
     pub wrong: usize,
 }
 
 impl Errors {
-    /// Nothing is known.
+    /// No information.
     const NONE: Errors = Errors {
         largest: f64::NAN,
         at: f64::NAN,
@@ -45,34 +45,35 @@ impl Errors {
     };
 }
 
-/// What one of the lab's numbers is held against.
+/// The truth of one of the lab's numbers, and what is visible of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Compared {
     /// Its label.
     pub label: String,
-    /// Its unit, where it is known.
+    /// Its unit, if known.
     pub unit: Option<String>,
-    /// It has a closed form.
+    /// Whether it has a closed form.
     pub closed: bool,
-    /// How far the reference may be off, where it is used.
+    /// The uncertainty of the reference, where it is used.
     pub uncertain: f64,
-    /// The same without what rounding leaves.
+    /// The same without rounding errors.
     pub doubt: f64,
-    /// Largest value less smallest, in the reference; as the lab has it, where it does not change there.
+    /// The largest minus the smallest value in the reference; in the lab's own run if the reference is constant.
     pub range: f64,
-    /// The largest error that nobody sees: half a unit of the last digit, half a pixel of the plot.
+    /// The largest invisible error: half a unit of the last digit, or half a pixel of the plot.
     pub unseen: f64,
     /// Whether it is a readout.
     pub readout: bool,
-    /// Its decimals, then.
+    /// The number of decimals of a readout.
     pub(super) digits: u32,
-    /// Until when the two families of the reference agree to a hundredth of the range, s, where that is not the end.
+    /// The time until which the two families of the reference agree within a hundredth of the range, s,
+    /// if that is before the end.
     pub until: Option<f64>,
-    /// The largest value.
+    /// The largest magnitude.
     pub(super) size: f64,
-    /// It is no number at the start, nor anywhere: nothing is compared.
+    /// Whether it is NaN from the start to the end, so that nothing is compared.
     pub blank: bool,
-    /// The samples of the truth that are compared.
+    /// The number of samples of the reference that are compared.
     pub(super) samples: usize,
 }
 
@@ -82,8 +83,8 @@ impl Compared {
         self.samples > 1
     }
 
-    /// The most and the least that a student may see of an error at one sample, where the truth is `exact` to within `doubt`; in
-    /// times of what nobody sees.
+    /// The largest and the smallest visible error at one sample, if the truth is within `doubt` of `exact`, in multiples of
+    /// the smallest visible error.
     fn in_sight(&self, displayed: f64, exact: f64, doubt: f64) -> [f64; 2] {
         let error = (displayed - exact).abs();
         let parts = |unit: f64| {
@@ -93,7 +94,7 @@ impl Compared {
         if !self.readout {
             return parts(self.unseen);
         }
-        // Digits: a number that is within its doubt of the next one may show as either.
+        // Digits: a number within its uncertainty of a rounding boundary may be displayed as either neighbour.
         let slack = doubt + DIGITS_ROUND * self.size;
         let print = |x: f64| printed(x, self.digits);
         let (low, now, high) = (print(exact - slack), print(displayed), print(exact + slack));
@@ -106,26 +107,27 @@ impl Compared {
     }
 }
 
-/// A reference is known where its doubt, which is twice the difference of its families, is below this part of the range, or of what
-/// nobody sees.
+/// A reference counts as known while its uncertainty, which is twice the difference of its families, is below this part of the
+/// range, or below `UNSEEN` times the smallest visible error.
 const KNOWN: f64 = 0.02;
 const UNSEEN: f64 = 0.2;
-/// A reference that is known to this part of what nobody sees is not in doubt.
+/// A reference with an uncertainty below this part of the smallest visible error counts as exact.
 const DOUBTFUL: f64 = 0.2;
-/// What rounding leaves of a number in a run of many steps; and of one that is rounded once more to be shown.
+/// The relative rounding error of a number after a run of many steps, and of one that is rounded again for display.
 const ROUNDING: f64 = 1e-13;
 const DIGITS_ROUND: f64 = 1e-12;
-/// A number that changes by less than this part of its size does not change.
+/// A number that changes by less than this part of its size counts as constant.
 const CONSTANT: f64 = 1e-6;
 
-/// What the targets of a case are held against; `own` is the run as the lab has it.
+/// Determines the truth of all targets of a case; `own_run` is the run with the lab's own setting.
 pub(super) fn compared(case: &PrecisionCase<'_>, reference: &Reference, own_run: &Run) -> Vec<Compared> {
     let one = |(i, target): (usize, &ComparedNumber<'_>)| {
         let closed = target.exact.is_some();
         let values = if closed { &reference.run.exact[i] } else { &reference.values[i] };
         let uncertain = &reference.uncertain[i];
         let whole = values.iter().filter(|x| x.is_finite()).fold(0.0f64, |a, x| a.max(x.abs()));
-        // A run that breaks is no measure of what a plot hides; one of a number that should not change is.
+        // The range of a run that fails is no measure of what is visible in a plot; the range of a run whose
+        // number should be constant is.
         let mut range_of = range(values);
         if range_of <= CONSTANT * whole {
             let mine = if own_run.status == RunStatus::Good { range(&own_run.values[i]) } else { 0.0 };
@@ -164,7 +166,7 @@ pub(super) fn compared(case: &PrecisionCase<'_>, reference: &Reference, own_run:
     case.targets.iter().enumerate().map(one).collect()
 }
 
-/// The errors of a run with some timestep, target by target.
+/// The errors of a run with some timestep, for each target.
 pub(super) fn errors(
     case: &PrecisionCase<'_>,
     reference: &Reference,
@@ -172,7 +174,7 @@ pub(super) fn errors(
     run: &Run,
     timestep: f64,
 ) -> Vec<Errors> {
-    // Time itself is a sum of so many steps, each rounded.
+    // The time is a sum of this many steps, each of which is rounded.
     let rounding = f64::EPSILON * case.count as f64 * case.interval / timestep;
     let stride = case.rhythm(timestep).stride;
     let one = |(i, target): (usize, &Compared)| {
@@ -201,7 +203,7 @@ pub(super) fn errors(
         }
         e.rms = (e.rms / compared.max(1) as f64).sqrt();
         e.below = e.largest <= target.uncertain.max(rounding * target.size);
-        // Of a run that is looked at only after that nothing is known.
+        // If there is no sample after the start, nothing is known.
         if compared > 1 { e } else { Errors::NONE }
     };
     targets.iter().enumerate().map(one).collect()
@@ -232,13 +234,13 @@ mod tests {
     #[test]
     fn digits_decide_at_every_sample() {
         let x = readout(1, 20.0);
-        // Closer than half a unit, and another digit.
+        // A difference below half a unit, but other digits.
         assert!(x.in_sight(16.051, 16.049, 1e-9)[1] > 1.0);
-        // Farther, and the same.
+        // A larger difference, but the same digits.
         assert!(x.in_sight(16.149, 16.051, 1e-9)[0] <= 1.0);
-        // Next to a tie, nobody can tell.
+        // Next to a rounding boundary, the digits cannot be distinguished.
         assert!(x.in_sight(16.05 + 1e-12, 16.05 - 1e-12, 1e-9)[0] <= 1.0);
-        // A reference that is in doubt by more than a digit.
+        // The uncertainty of the reference is larger than one digit.
         let [most, least] = x.in_sight(16.2, 16.0, 0.3);
         assert!(most > 1.0 && least <= 1.0, "{most} {least}");
     }

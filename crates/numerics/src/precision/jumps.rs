@@ -1,21 +1,21 @@
-//! Runs of a reference with a controller whose controls jump between two steps, as those of a square wave do: the step is cut in two
-//! at the time of the jump, so that the controls are held from there on.
+//! Runs of the reference of a lab whose controls jump between two steps, such as those of a square wave. The step is split at
+//! the time of the jump, so that the new controls apply from there on.
 
 use labspec::run::{Play, Session};
 use labspec_core::state;
 use labspec_expr::Context;
 use std::ops::ControlFlow;
 
-/// What controllers write.
+/// The parts of the state that controllers write.
 const WRITTEN: i32 = state::CTRL | state::QFRC_APPLIED | state::XFRC_APPLIED;
-/// Halvings of a step that find a jump to rounding.
+/// The number of bisections that locate a jump up to rounding.
 const HALVINGS: usize = 60;
-/// A half of an interval in which this part of a change happens may hold a jump.
+/// A half of an interval that contains this part of a change may contain a jump.
 const MOST_OF_IT: f64 = 0.8;
-/// A change that is this many times the one before may be a jump.
+/// A change that is larger than the previous one by this factor may be a jump.
 const SUDDEN: f64 = 3.0;
 
-/// All that a step depends on.
+/// Everything on which a step depends.
 struct SavedStart {
     state: Vec<f64>,
     context: Context,
@@ -28,7 +28,7 @@ impl SavedStart {
 
     fn restore(&self, session: &mut Session<'_>) {
         let world = &mut session.world;
-        // Of the model that it was taken from: nothing can be refused.
+        // The state belongs to the same model, so this cannot fail.
         let _ = state::set(&world.model, &mut world.data, &self.state, state::INTEGRATION);
         session.context.clone_from(&self.context);
         session.refresh();
@@ -47,7 +47,7 @@ fn apart(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
-/// What the controller would write now. Nothing is left of it but the work.
+/// The values that the controller would write now. The session is unchanged afterwards, except for the counted work.
 fn peek(session: &mut Session<'_>) -> Vec<f64> {
     let (start, context) = (numbers(session, WRITTEN), session.context.clone());
     session.step_by(|_, _| Ok(()));
@@ -62,7 +62,7 @@ fn set_timestep(session: &mut Session<'_>, h: f64) {
     *session.world.model.edit().opt.timestep = h;
 }
 
-/// Goes on from a start for some time.
+/// Restores a start, and advances by some time.
 fn advance(session: &mut Session<'_>, start: &SavedStart, x: f64) {
     start.restore(session);
     set_timestep(session, x);
@@ -70,7 +70,7 @@ fn advance(session: &mut Session<'_>, start: &SavedStart, x: f64) {
     session.refresh();
 }
 
-/// The part of a step before its controls jump from what they were to what they become; `None` where they do not jump.
+/// The part of a step before the controls jump, or `None` if they do not jump.
 fn before_the_jump(
     session: &mut Session<'_>,
     start: &SavedStart,
@@ -102,7 +102,7 @@ fn before_the_jump(
     (high < h && low > 0.0).then_some(high)
 }
 
-/// Plays a run as [`labspec::run::play`] does, with steps of one length that are cut where controls jump.
+/// Performs a run as [`labspec::run::play`] does, with steps of constant length that are split where controls jump.
 pub(super) fn play(
     session: &mut Session<'_>,
     play: &Play<'_>,

@@ -1,4 +1,4 @@
-//! The timesteps of a comparison, and the samples at which their runs meet the truth.
+//! The timesteps of a comparison, and the samples at which their runs are compared with the reference.
 
 use super::case::PrecisionCase;
 use super::report::Options;
@@ -7,11 +7,11 @@ use labspec::run::{self, RunError};
 use labspec::run::{INTEGRATORS, Integrator};
 use labspec::spec::Lab;
 
-/// Timesteps, as multiples of the lab's own; each divides the first. Longer ones are tried while nothing visible changes.
+/// The timesteps as multiples of the lab's own; each divides the first. Longer ones are tried while no visible error appears.
 const STEPS: [f64; 6] = [4.0, 2.0, 1.0, 0.5, 0.25, 0.125];
-/// Samples at which the truth is known, at most.
+/// The maximum number of samples of the reference.
 const MOST_SAMPLES: usize = 40_000;
-/// Steps of a run, at least.
+/// The minimum number of steps of a run.
 const FEWEST: f64 = 8.0;
 
 /// The timesteps of a lab.
@@ -20,14 +20,15 @@ pub(super) struct Ladder {
     /// The lab's own timestep and integrator.
     pub(super) timestep: f64,
     pub(super) integrator: Integrator,
-    /// The longest of the steps that are always tried, as a multiple of the lab's own; and how many of them the run has.
+    /// The longest of the steps that are always tried, as a multiple of the lab's own, and the number of such steps in the run.
     longest: f64,
     pub(super) count: usize,
     length: f64,
 }
 
 impl Ladder {
-    /// The steps for a run of some length, s, which all of them divide; a short run begins with shorter ones.
+    /// Creates the timesteps for a run of some length, s, all of which divide the length. A short run
+    /// begins with shorter steps.
     ///
     /// # Errors
     /// The run is too long, or the runs together are.
@@ -52,12 +53,12 @@ impl Ladder {
         self.timestep * self.longest
     }
 
-    /// Times between samples of the truth, and their numbers.
+    /// The times between samples of the reference, and the numbers of samples.
     pub(super) fn samplings(&self) -> impl Iterator<Item = (f64, usize)> + use<> {
         samplings(self.count, self.longest, self.timestep)
     }
 
-    /// The step of twice the length, where a run has enough of them and every press is between two of them.
+    /// Twice the step, if the run has enough of these steps and every press is between two of them.
     pub(super) fn longer(&self, step: f64, case: &PrecisionCase<'_>) -> Option<f64> {
         let next = 2.0 * step;
         let meets = |(_, time): &(usize, f64)| (time / next - (time / next).round()).abs() < 1e-6;
@@ -69,7 +70,7 @@ impl Ladder {
         setting.solver.is_none() && setting.integrator == self.integrator && setting.timestep == self.timestep
     }
 
-    /// The settings that are compared: each integrator over the ladder, then the solver at the lab's own.
+    /// The settings to compare: each integrator with all timesteps, then the solver settings at the lab's own timestep.
     pub(super) fn settings(&self, options: &Options) -> Vec<Setting> {
         let named = match options.integrators.as_slice() {
             [] => INTEGRATORS.into_iter().filter(|i| i.shared).collect(),
@@ -91,13 +92,13 @@ impl Ladder {
     }
 }
 
-/// Times between samples of the truth, s, and their numbers. First as short as the shortest step, so that each run is compared after
-/// every step of its own; longer ones follow, for labs that last too long for that or whose truth takes too much work.
+/// The times between samples of the reference, s, and the numbers of samples. The first is the shortest timestep, so that each
+/// run is compared after every step; longer ones follow, for labs that are too long, or whose reference needs too much work.
 fn samplings(count: usize, longest: f64, timestep: f64) -> impl Iterator<Item = (f64, usize)> {
     let number = move |step: f64| count * (longest / step) as usize;
     let few = move |step: &f64| number(*step) <= MOST_SAMPLES || *step == longest;
     let mut steps: Vec<f64> = STEPS.into_iter().rev().filter(|s| *s <= longest).filter(few).collect();
-    // The truth takes no longer steps than the lab.
+    // The samples of the reference are not further apart than the steps of the lab.
     let useful = steps.iter().filter(|s| **s <= 1.0).count().max(1);
     steps.truncate(useful);
     steps.into_iter().map(move |step| {
@@ -112,7 +113,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// All steps of a comparison meet all samples of its truth, or all of its samples.
+        /// All steps of a comparison meet all samples of its reference, or all of their own samples.
         #[test]
         fn steps_meet_the_samples(count in 1usize..3_000_000, longest in prop::sample::select(&STEPS[..3]), timestep in 1e-5..0.1f64) {
             let mut before = 0.0;

@@ -1,8 +1,8 @@
-//! Work and precision: how far each integrator and timestep is from the truth, and what it costs.
+//! Work-precision comparison: the error of each integrator and timestep, and its cost.
 //!
-//! The truth is the closed form that the author gives (`exact` in the lab's `verify`), otherwise what two families of methods
-//! agree on (`reference.rs`). Reporting error against cost, not against the step, is the method of Hairer, Nørsett
-//! and Wanner 1993, *Solving Ordinary Differential Equations I*, section II.10.
+//! The truth is the closed form that the author gives (`exact` in the lab's `verify`), otherwise the solution on which two
+//! families of methods agree (`reference.rs`). Reporting error against cost instead of timestep is the method of Hairer,
+//! Nørsett and Wanner 1993, *Solving Ordinary Differential Equations I*, section II.10.
 
 mod advice;
 mod agreement;

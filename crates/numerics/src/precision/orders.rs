@@ -1,21 +1,21 @@
-//! Orders that errors show: how many times an error halves when the timestep halves.
+//! Observed orders of convergence: how many times an error halves when the timestep is halved.
 
 use super::judge::Compared;
 use super::report::Row;
 use super::run_record::RunStatus;
 
-/// An order is one where the error is below this part of the range, so that its first term leads,
+/// An order is determined only if the error is below this part of the range, so that the leading term dominates,
 const SMALL: f64 = 0.1;
-/// and where the next pair of steps shows the same to this part of it, with errors below that part. With one pair alone, the error is
-/// below this part.
+/// and if the next pair of timesteps gives the same order within `SAME`, with errors below `LARGE`. With only one pair, the
+/// error must be below `SMALL_ALONE`.
 const SAME: f64 = 0.06;
 const LARGE: f64 = 0.5;
 const SMALL_ALONE: f64 = 0.01;
-/// Less is no order of a method that converges.
+/// A smaller order is not that of a convergent method.
 const LEAST: f64 = 0.5;
 
-/// Writes the orders from each run to the one with the next shorter timestep, where there is one: `smooth` scenes, in which no
-/// force jumps, and numbers whose truth is known to the end.
+/// Determines the order between each run and the one with the next shorter timestep. Only for `smooth` scenes, in which no
+/// force jumps, and for numbers whose truth is known to the end.
 pub(super) fn observe_orders(rows: &mut [Row], targets: &[Compared], smooth: bool) {
     if !smooth {
         return;
@@ -51,7 +51,8 @@ fn same_method(rows: &[Row], a: usize, b: usize) -> bool {
     a.setting.integrator == b.setting.integrator && a.setting.solver.is_none() && b.setting.solver.is_none()
 }
 
-/// From the run before to this one: both errors are above the doubt of the reference, and below a part of the range.
+/// The order between the previous run and this one, if both errors are above the uncertainty of the reference and
+/// below a part of the range.
 fn observed(rows: &[Row], k: usize, i: usize, target: &Compared) -> Option<f64> {
     let (coarse, fine) = (rows.get(k.checked_sub(1)?)?, rows.get(k)?);
     let longer = coarse.setting.timestep / fine.setting.timestep;

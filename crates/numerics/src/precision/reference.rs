@@ -1,9 +1,9 @@
-//! What runs are held against: the closed form, else two families of methods that owe each other nothing, as far as they agree.
+//! The truth for the comparison: the closed form, otherwise two independent families of methods, as far as they agree.
 //!
-//! The first is extrapolation of the midpoint rule, which chooses its own steps; the second a Runge–Kutta method of eighth order
-//! with ever shorter ones. Where a program computes controls at every step, which are held until the next, the runs approach the
-//! continuous controller with the powers of the step: a table of ever shorter steps is extrapolated to a step of nothing
-//! (`extrapolation.rs`).
+//! The first family is the extrapolated midpoint rule, which chooses its own steps; the second is a Runge–Kutta method of order
+//! eight with decreasing timesteps. If a program computes controls that are constant during each step, the runs converge to the
+//! continuous controller with powers of the timestep: a table of runs with decreasing timesteps is extrapolated to a timestep
+//! of zero (`extrapolation.rs`).
 
 use super::agreement::{Reference, UNKNOWN, agree, agreed, method, run, so_far, too_long, worst_part};
 use super::case::PrecisionCase;
@@ -15,23 +15,22 @@ use super::setting::Setting;
 use labspec::run::RunError;
 use labspec_core::integrator;
 
-/// Part of its range by which the two families may differ.
+/// The part of its range by which the two families may differ.
 const AGREE: f64 = 1e-9;
-/// Steps of the second family that are tried, each a quarter of the one before.
+/// The number of timesteps of the second family, each a quarter of the previous one.
 const TRIES: usize = 5;
-/// The reference; `None` when no method comes through the lab, or none within the work
-/// that a run may do.
+/// Returns the reference, or `None` if no method can simulate the lab within the work limit of a run.
 ///
 /// # Errors
-/// A control that cannot be set so.
+/// A control cannot be set to its value.
 pub(super) fn reference(case: &PrecisionCase<'_>, timestep: f64) -> Result<Option<Reference>, RunError> {
     if case.controlled() { extrapolated(case, timestep) } else { direct(case, timestep) }
 }
 
-/// A method and a step.
+/// An integrator id and a timestep.
 type MethodStep = (i32, f64);
 
-/// Two runs beside each other.
+/// Two runs that agree.
 struct AgreeingRuns {
     reference: Reference,
     methods: [MethodStep; 2],
@@ -51,7 +50,7 @@ fn direct(case: &PrecisionCase<'_>, timestep: f64) -> Result<Option<Reference>, 
             break;
         }
         let Some(second) = run(case, integrator::RKMK8, step, RunRequest::FRESH)? else {
-            // A step that is too long for it may only be too long.
+            // The method may fail only because the step is too long.
             if best.is_some() {
                 break;
             }
@@ -64,7 +63,7 @@ fn direct(case: &PrecisionCase<'_>, timestep: f64) -> Result<Option<Reference>, 
                 let how = format!("{} and {}", in_words(*method_step), in_words(mine));
                 AgreeingRuns { reference: compare(seen.clone(), &second, how), methods: [*method_step, mine] }
             }
-            // One family alone: a run of half the step judges it.
+            // Only one family succeeds: a run with half the step serves for comparison.
             None => {
                 let half = (integrator::RKMK8, step / 2.0);
                 let Some(finer) = run(case, half.0, half.1, RunRequest::FRESH)? else { break };
@@ -90,12 +89,12 @@ fn in_words((id, timestep): MethodStep) -> String {
     format!("{} at {} ms", method(id).name, milliseconds(timestep))
 }
 
-/// Runs both once more, for what happens in them.
+/// Repeats both runs to find their events.
 fn find_moments(case: &PrecisionCase<'_>, pair: &mut AgreeingRuns) -> Result<(), RunError> {
     let r = &mut pair.reference;
     let mut found: Vec<Run> = Vec::new();
     for (id, timestep) in pair.methods {
-        // The other one finds the same, or nothing.
+        // The other run finds the same events by then, or none.
         let late = |run: &Run| run.settled + UNKNOWN * case.length() + 8.0 * timestep;
         let stop = found.first().map_or(f64::INFINITY, late);
         let ask = RunRequest { sought: Some(&r.sought), stop: Some(stop), ..RunRequest::FRESH };
@@ -110,7 +109,7 @@ fn find_moments(case: &PrecisionCase<'_>, pair: &mut AgreeingRuns) -> Result<(),
     Ok(())
 }
 
-/// The first as far as the second agrees.
+/// The reference from the first run, with the uncertainty given by the second.
 fn compare(mut first: Run, second: &Run, how: String) -> Reference {
     let uncertain = so_far(first.values.iter().zip(&second.values));
     let depth_doubt = (first.penetration - second.penetration).abs();

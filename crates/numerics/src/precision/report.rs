@@ -1,4 +1,4 @@
-//! What is compared, and the results.
+//! The options and the results of a comparison.
 
 use super::beside::{Beside, Recording};
 use super::case::LeftOut;
@@ -11,91 +11,91 @@ use labspec::run::Integrator;
 use labspec_expr::Value;
 use serde::Serialize;
 
-/// What is compared, and how the lab is handled meanwhile.
+/// The settings to compare, and the interactions during the runs.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// Length in s; the lab's `stopAt`, or 2, without it.
+    /// The length in s; the lab's `stopAt`, or 2, if `None`.
     pub until: Option<f64>,
-    /// Controls by label, and what they are set to before the first step.
+    /// Controls by label, with the values that they get before the first step.
     pub set: Vec<(String, Value)>,
-    /// Buttons by label, and the times of their presses, s.
+    /// Buttons by label, with the times at which they are pressed, s.
     pub press: Vec<(String, f64)>,
-    /// The integrators; MuJoCo's, where none is named.
+    /// The integrators; those of MuJoCo if empty.
     pub integrators: Vec<Integrator>,
-    /// Settings of the solver that are varied, at the lab's own integrator and timestep.
+    /// Solver settings that are varied, at the lab's own integrator and timestep.
     pub axes: Vec<Axis>,
     /// Another program's runs of the same lab.
     pub beside: Option<Recording>,
 }
 
-/// One setting.
+/// The results of one setting.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
-    /// What was run.
+    /// The setting.
     pub setting: Setting,
     /// Whether it is the lab's own.
     pub is_own: bool,
-    /// How far each number is from the truth.
+    /// The errors of each number.
     pub errors: Vec<Errors>,
-    /// How far each event is from its time, s: never below what that may be off; NaN where it is not known.
+    /// The timing error of each event, s: never smaller than the uncertainty of the event; NaN if it is unknown.
     pub events: Vec<f64>,
-    /// The largest change of energy, J, where the scene keeps it.
+    /// The largest change of energy, J, if the scene conserves it.
     pub energy: Option<f64>,
-    /// The largest change of momentum, where the scene keeps it: of motion, kg m/s, and of turning, kg m²/s.
+    /// The largest change of momentum, if the scene conserves it: linear, kg m/s, and angular, kg m²/s.
     pub momentum: [Option<f64>; 2],
-    /// How deep bodies were in each other at most, m; NaN where the truth is not known to the end.
+    /// The largest penetration depth, m; NaN if the truth is not known to the end.
     pub penetration: f64,
-    /// What it costs.
+    /// The cost.
     pub cost: RunCost,
-    /// What became of the run.
+    /// The outcome of the run.
     pub status: RunStatus,
-    /// What was reported about it.
+    /// The messages about the run.
     pub reported: Vec<String>,
-    /// The largest error that is possible, as the reference is in doubt, too; in times of what nobody sees. NaN where nothing is
-    /// known.
+    /// The largest possible error, including the uncertainty of the reference, in multiples of the smallest
+    /// visible error; NaN if unknown.
     pub score: f64,
 }
 
 /// All runs of a lab.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
-    /// What is compared.
+    /// The compared numbers.
     pub targets: Vec<Compared>,
-    /// What is not, and why.
+    /// The numbers that are not compared, with the reasons.
     pub left_out: Vec<LeftOut>,
-    /// The reference, in words; `None` where no method comes through the lab.
+    /// The reference in words; `None` if no method can simulate the lab.
     pub reference: Option<String>,
-    /// Length of the runs, s.
+    /// The length of the runs, s.
     pub length: f64,
-    /// Number of samples of the reference, without that of the start. A run is compared at those that its steps meet: after each of
-    /// its steps, unless these are shorter.
+    /// The number of samples of the reference, without the start. A run is compared at those samples that its steps meet: after
+    /// each of its steps, unless the steps are shorter than the sample interval.
     pub samples: usize,
-    /// The runs: by integrator, from large to small timesteps; then the solver's.
+    /// The runs: by integrator, from large to small timesteps; then the solver settings.
     pub rows: Vec<Row>,
-    /// What happens in the reference, in the order of the rows' `events`.
+    /// The events of the reference, in the order of the rows' `events`.
     pub events: Vec<Event>,
-    /// Energy that the scene keeps, with the size of what moves, J.
+    /// The energy that the scene conserves: the size of the moving part, J.
     pub energy: Option<f64>,
-    /// Momentum that it keeps, with its size: of motion, and of turning.
+    /// The momentum that it conserves, with its size: linear and angular.
     pub momentum: [Option<f64>; 2],
-    /// How deep bodies are in each other in the reference, m, and how far that may be off; NaN where it is not known to the end.
+    /// The largest penetration depth in the reference, m; NaN if it is not known to the end.
     pub penetration: f64,
-    /// How far that may be off, m.
+    /// The uncertainty of the penetration depth, m.
     pub penetration_doubt: f64,
-    /// How long nearby starts stay together, where the reference is lost before the end.
+    /// How long runs with nearby starts agree, if the reference is lost before the end.
     pub nearby: Option<Nearby>,
-    /// Rows that no other beats in both, from the cheapest to the closest.
+    /// The rows for which no other is better in both error and cost, from the cheapest to the most accurate.
     pub front: Vec<usize>,
-    /// What to take.
+    /// The recommendations.
     pub advice: Vec<Advice>,
-    /// Another program's runs, where they were given.
+    /// Runs of another program, if given.
     pub beside: Option<Beside>,
 }
 
-/// A sentence about what to take, with the row that it is about.
+/// A recommendation in one sentence, with the row to which it refers.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Advice {
-    /// What it says.
+    /// The kind of recommendation.
     #[serde(skip)]
     pub kind: Kind,
     /// The row.
@@ -104,15 +104,15 @@ pub struct Advice {
     pub text: String,
 }
 
-/// What an advice says of its row.
+/// The kind of a recommendation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// What the lab's own setting is off by.
+    /// The error of the lab's own setting.
     LabSetting,
-    /// It is closer than the lab's own for the same work.
+    /// The row is more accurate than the lab's own setting for the same work.
     Closer,
-    /// It is the cheapest that shows every number rightly.
+    /// The row is the cheapest one that displays every number correctly.
     Right,
-    /// It is the closest; none shows every number rightly, or nobody knows.
+    /// The row is the most accurate one; none displays every number correctly, or that is unknown.
     Closest,
 }

@@ -1,43 +1,46 @@
-//! What a setting costs: the work of its whole run as the engine counts it, which is the same everywhere and decides; and the time of
-//! its steps, measured again and again in turn with all others, so that what else the machine does meets them all.
+//! The cost of a setting: the work of its whole run as counted by the engine, which is the same on every machine and
+//! decides; and the time of its steps, measured repeatedly in alternation with all other settings, so that disturbances of
+//! the machine affect all of them.
 
 use super::case::PrecisionCase;
 use super::setting::Setting;
 use labspec::interrupt;
 use std::time::{Duration, Instant};
 
-/// What a simulated second costs.
+/// The cost of a simulated second.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RunCost {
-    /// The middle of the repeats, µs of run time; NaN where nothing was measured.
+    /// The median of the repetitions, µs of run time; NaN if nothing was measured.
     pub median: f64,
-    /// A quarter of the repeats is quicker than this,
+    /// The first quartile of the repetitions.
     pub low: f64,
-    /// and a quarter slower than this.
+    /// The third quartile of the repetitions.
     pub high: f64,
-    /// The work of the whole run as the engine counts it, with what its integrator adds, in units of about a nanosecond: the same on
-    /// every machine. It decides.
+    /// The work of the whole run as counted by the engine, including that of its integrator, in units of about a nanosecond. It
+    /// is the same on every machine, and decides.
     pub work: f64,
 }
 
 impl RunCost {
-    /// Work whose time is not measured.
+    /// The cost with this work and without a measured time.
     pub(super) fn of_work(work: f64) -> RunCost {
         RunCost { median: f64::NAN, low: f64::NAN, high: f64::NAN, work }
     }
 }
 
-/// Repeats of the whole run: so many, fewer where they take longer than this in all, and not another one where they took that long.
+/// Limits on the repetitions of the whole run: the largest number, the smallest number if they take longer than `LONG` in
+/// total, and the time after which there are no more repetitions.
 const MOST_REPEATS: usize = 5;
 const FEWEST_REPEATS: usize = 3;
 const LONG: Duration = Duration::from_millis(100);
 const TOO_LONG: Duration = Duration::from_secs(1);
-/// A short run is made again until the runs of a repeat took this time; the first, in which nothing is at hand yet, does not count.
+/// A short run is repeated until one repetition takes this time. The first run warms the caches and does not count.
 const LONG_ENOUGH: Duration = Duration::from_millis(2);
-/// With the starts of these runs, which are not measured, a repeat takes no longer than this.
+/// The maximum time of a repetition including the starts of its runs, which are not measured.
 const WITH_STARTS: Duration = Duration::from_millis(10);
 
-/// Median and quartiles of the time of each setting's whole run, µs per simulated second; NaN where a setting is not to be measured.
+/// The median and the quartiles of the time of each setting's whole run, µs per simulated second; NaN if a
+/// setting is not measured.
 pub(super) fn measure(case: &PrecisionCase<'_>, settings: &[Option<Setting>]) -> Vec<[f64; 3]> {
     let mut times: Vec<Vec<f64>> = vec![Vec::new(); settings.len()];
     let mut spent = vec![Duration::ZERO; settings.len()];
@@ -65,7 +68,7 @@ pub(super) fn measure(case: &PrecisionCase<'_>, settings: &[Option<Setting>]) ->
     times.into_iter().map(middle).collect()
 }
 
-/// One repeat.
+/// Performs one repetition.
 fn repeat(case: &PrecisionCase<'_>, setting: &Setting) -> Option<f64> {
     let (first, steps) = whole_run(case, setting)?;
     let (mut time, mut made) = (first, steps);

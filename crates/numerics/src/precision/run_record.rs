@@ -1,90 +1,91 @@
-//! One run of a comparison: how it is made, what it showed, and how it ended.
+//! One run of a comparison: how it is performed, its results, and its outcome.
 
 use super::event_finder::{EventFinder, EventThresholds};
 use super::event_time::EventTime;
 use labspec::run::{self, End, Session};
 use labspec_core::{self as core, Data, Full, Model, Warning, state};
 
-/// The samples of a run: after every step, or after so many as the truth is known at.
+/// The samples of a run: after every step, or after as many steps as there are between samples of the reference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Rhythm {
-    /// Steps from one sample to the next.
+    /// The number of steps from one sample to the next.
     pub(super) steps: usize,
-    /// Samples of the truth from one to the next.
+    /// The number of samples of the reference from one sample to the next.
     pub(super) stride: usize,
-    /// Their number, the start not counted.
+    /// The number of samples, without the start.
     pub(super) count: usize,
 }
 
-/// How a run is made, and what is looked for in it.
+/// How a run is performed, and which events are located.
 #[derive(Clone, Copy, Default)]
 pub(super) struct RunRequest<'s> {
-    /// Every coordinate of the start is moved by this.
+    /// Every coordinate of the start is shifted by this.
     pub(super) perturbation: f64,
-    /// All that is shown is of the current state, as in the truth; else what a page shows after a step is partly of the state before
-    /// it: forces, energies, contacts. A fresh run is not watched for growth of energy, as every look begins that watch anew.
+    /// Whether all displayed values belong to the current state, as in the reference. Otherwise, as on a page, values such as
+    /// forces, energies and contacts may belong to the state before the last step. A fresh run is not monitored for growing
+    /// energy, because every refresh restarts that monitor.
     pub(super) fresh: bool,
-    /// Steps are cut where controls jump.
+    /// Whether steps are split where controls jump.
     pub(super) cut: bool,
-    /// The moments that are looked for.
+    /// The events to locate.
     pub(super) sought: Option<&'s EventThresholds>,
-    /// The run is made for its moments alone: it is of no more use after this time, s, or when all are found.
+    /// The run is performed only for its events: it stops after this time, s, or when all are found.
     pub(super) stop: Option<f64>,
 }
 
 impl RunRequest<'_> {
-    /// As a reference is run.
+    /// The request for a run of the reference.
     pub(super) const FRESH: RunRequest<'static> =
         RunRequest { perturbation: 0.0, fresh: true, cut: false, sought: None, stop: None };
 }
 
-/// What a run showed.
+/// The results of a run.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Run {
-    /// Values of each target at the run's samples, and of its closed form (NaN without one).
+    /// The values of each target at the samples; `exact` are those of its closed form (NaN if there is none).
     pub(super) values: Vec<Vec<f64>>,
     pub(super) exact: Vec<Vec<f64>>,
-    /// When bodies first touch, when each target first passes through zero, when each first turns back; empty where nobody asked.
+    /// The first contact, the first zero crossing and the first turning point of each target; empty if not requested.
     pub(super) moments: Vec<EventTime>,
-    /// When the last of them was sure to be one, s.
+    /// The time at which the last event was confirmed, s.
     pub(super) settled: f64,
-    /// Whether bodies touch at the start.
+    /// Whether bodies are in contact at the start.
     pub(super) touching: bool,
-    /// Whether a force could jump: dry friction, a limit or a contact pushed.
+    /// Whether a force could jump: dry friction, a limit or a contact was active.
     pub(super) jumps: bool,
-    /// Energy, J, and momentum (three of motion, three of turning), where they were looked at.
+    /// Energy, J, and momentum (three linear and three angular components), if they were evaluated.
     pub(super) energy: Vec<f64>,
     pub(super) momentum: Vec<[f64; 6]>,
-    /// The largest kinetic energy among them, J.
+    /// The largest kinetic energy among these samples, J.
     pub(super) kinetic: f64,
-    /// How deep bodies were in each other at most, m.
+    /// The largest penetration depth, m.
     pub(super) penetration: f64,
-    /// What became of it.
+    /// The outcome.
     pub(super) status: RunStatus,
-    /// Everything that was reported about it.
+    /// All messages about the run.
     pub(super) reported: Vec<String>,
-    /// Work, in the engine's own units, per simulated second.
+    /// The work per simulated second, in units of the engine.
     pub(super) work: f64,
 }
 
-/// What became of a run.
+/// The outcome of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RunStatus {
-    /// It came to its end.
+    /// The run reached its end.
     #[default]
     Good,
     /// A number was not finite, or too large, and the engine reset the scene.
     Diverged,
-    /// It gained energy that nothing gave.
+    /// The energy increased without a source.
     Grows,
-    /// The engine warned of something else: full buffers, bodies without inertia, a control that is no number.
+    /// The engine reported another warning: full buffers, bodies without inertia, a control that is NaN.
     Warned,
-    /// It threw, or took more work than a run may.
+    /// A program failed, or the run exceeded its work limit.
     Stopped,
 }
 
 impl RunStatus {
-    /// In one word.
+    /// The status in words.
     pub fn word(self) -> &'static str {
         match self {
             RunStatus::Good => "good",
@@ -97,24 +98,24 @@ impl RunStatus {
 }
 
 impl Run {
-    /// A run of so many targets and samples, before its start.
+    /// A run with capacity for this many targets and samples, before its start.
     pub(super) fn with_capacity(targets: usize, samples: usize) -> Run {
         let lists = || vec![Vec::with_capacity(samples); targets];
         Run { values: lists(), exact: lists(), ..Run::default() }
     }
 
-    /// Takes over the moments that were found.
+    /// Stores the events that were found.
     pub(super) fn take_moments(&mut self, finder: EventFinder<'_>) {
         (self.touching, self.settled) = (finder.touches_at_start(), finder.settled());
         self.moments = finder.finish();
     }
 
-    /// Fills up the samples of a run that ended before its time: their values are unknown.
+    /// Fills the remaining samples of a run that ended early with NaN.
     pub(super) fn fill_up(&mut self, samples: usize) {
         self.values.iter_mut().chain(&mut self.exact).for_each(|list| list.resize(samples, f64::NAN));
     }
 
-    /// Looks at contacts and constraints after a step.
+    /// Evaluates contacts and constraints after a step.
     pub(super) fn observe(&mut self, session: &Session<'_>) {
         let d = session.world.data.fields();
         self.jumps |= d.nefc > d.ne;
@@ -124,7 +125,7 @@ impl Run {
         }
     }
 
-    /// Sets the fate of a run that ends here.
+    /// Sets the status of a run at its end.
     pub(super) fn set_fate(&mut self, session: &Session<'_>) {
         let bad = [Warning::BadQpos, Warning::BadQvel, Warning::BadQacc, Warning::BadCtrl];
         self.reported = run::breakdowns_of(session).into_iter().map(|b| b.what).collect();
@@ -145,7 +146,7 @@ impl Run {
     }
 }
 
-/// Computes energy and momentum in data of its own, so that the run stays as it is.
+/// Computes energy and momentum in separate data, so that the run is not changed.
 pub(super) struct EnergySampler {
     data: Data<Full>,
 }
@@ -157,7 +158,7 @@ impl EnergySampler {
 
     pub(super) fn sample(&mut self, session: &Session<'_>, seen: &mut Run) {
         let m = &session.world.model;
-        // Of one model: nothing can be refused.
+        // Both data belong to the same model, so this cannot fail.
         let _ = state::copy(m, &session.world.data, &mut self.data, state::INTEGRATION);
         let energy = core::mechanical_energy(m, &mut self.data).ok().flatten();
         seen.energy.push(energy.map_or(f64::NAN, |e| e.kinetic + e.potential()));

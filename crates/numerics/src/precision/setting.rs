@@ -1,9 +1,9 @@
-//! What is compared: integrators over a ladder of timesteps and, on request, settings of the constraint solver.
+//! The settings to compare: integrators with several timesteps and, on request, settings of the constraint solver.
 
 use labspec::run::Integrator;
 use labspec_core::Model;
 
-/// A setting of the solver that is varied, all else being the lab's own.
+/// A solver setting that is varied; all other settings are the lab's own.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Solver {
     /// `opt.iterations`.
@@ -14,7 +14,7 @@ pub enum Solver {
     Cone(i32),
 }
 
-/// Which setting of the solver is varied.
+/// Which solver setting is varied.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Axis {
     /// `opt.iterations`.
@@ -37,7 +37,7 @@ impl Axis {
 }
 
 impl Solver {
-    /// In words.
+    /// The setting in words.
     pub fn name(self) -> String {
         match self {
             Solver::Iterations(n) => format!("iterations {n}"),
@@ -48,19 +48,19 @@ impl Solver {
     }
 }
 
-/// How a lab is run.
+/// The setting of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Setting {
     /// The integrator.
     pub integrator: Integrator,
     /// Timestep, s.
     pub timestep: f64,
-    /// What differs from the lab's own solver.
+    /// The difference from the lab's own solver settings.
     pub solver: Option<Solver>,
 }
 
 impl Setting {
-    /// Writes it into the options of a model.
+    /// Writes the setting into the options of a model.
     pub(super) fn apply(&self, model: &mut Model) {
         let opt = model.edit().opt;
         (*opt.timestep, *opt.integrator) = (self.timestep, self.integrator.id);

@@ -1,15 +1,15 @@
-//! The last steps of a run, to be made again with other lengths.
+//! The last steps of a run, which can be repeated with other lengths.
 
 use labspec::run::Session;
 use labspec_core::{self as core, Model, state};
 
-/// What moves by itself in a step, and what is held during it.
+/// The part of the state that evolves in a step, and the part that is constant during it.
 const MOTION: i32 = state::FULLPHYSICS | state::WARMSTART;
 const HELD: i32 = state::USER;
 /// The number of stored states.
 const MOST_STATES: usize = 4;
 
-/// A state at the end of a step, with what was held in that step.
+/// A state at the end of a step, with the values that were constant in that step.
 #[derive(Clone, Debug, Default)]
 struct PastState {
     time: f64,
@@ -17,7 +17,7 @@ struct PastState {
     held: Vec<f64>,
 }
 
-/// The last states of a run, from the newest on.
+/// The last states of a run, the newest first.
 #[derive(Clone, Debug)]
 pub(super) struct StepHistory {
     states: [PastState; MOST_STATES],
@@ -31,24 +31,24 @@ impl StepHistory {
         StepHistory { states: std::array::from_fn(|_| empty.clone()), count: 0 }
     }
 
-    /// Keeps the state at a time.
+    /// Stores the current state with its time.
     pub(super) fn keep(&mut self, session: &Session<'_>, time: f64) {
         self.states.rotate_right(1);
         let (m, d) = (&session.world.model, &session.world.data);
         let [now, ..] = &mut self.states;
         now.time = time;
-        // Of the model that it was made for: nothing can be refused.
+        // The state belongs to the same model, so this cannot fail.
         let _ = state::get(m, d, &mut now.motion, MOTION);
         let _ = state::get(m, d, &mut now.held, HELD);
         self.count = (self.count + 1).min(MOST_STATES);
     }
 
-    /// States that are known.
+    /// The number of stored states.
     pub(super) fn count(&self) -> usize {
         self.count
     }
 
-    /// When a state was, s.
+    /// The time of a state, s.
     pub(super) fn time(&self, j: usize) -> f64 {
         self.states.get(j).map_or(f64::NAN, |s| s.time)
     }
@@ -62,11 +62,11 @@ impl StepHistory {
 /// Evaluates a target in a session.
 pub(super) type Evaluate<'e> = dyn Fn(&mut Session<'_>, usize) -> f64 + 'e;
 
-/// A copy of a run in which its last steps are made again.
+/// A copy of a run in which its last steps are repeated.
 pub(super) struct StepReplay<'b> {
     pub(super) session: Session<'b>,
     pub(super) past: &'b StepHistory,
-    /// The largest value that was seen.
+    /// The largest magnitude of the evaluated values.
     pub(super) size: f64,
 }
 
@@ -75,10 +75,10 @@ impl<'b> StepReplay<'b> {
         StepReplay { session: session.clone(), past, size: 0.0 }
     }
 
-    /// Goes to a time after a state, with a step of that length; everything is computed there.
+    /// Advances from a state by a step of this length, and computes all fields there.
     pub(super) fn place(&mut self, from: usize, x: f64) {
         let Some(start) = self.past.states.get(from) else { return };
-        // What was held in the step is known at its end.
+        // The values that were constant in the step are stored with its end.
         let Some(end) = self.past.states.get(from.saturating_sub(1)) else { return };
         let world = &mut self.session.world;
         if x > 0.0 {
@@ -93,7 +93,7 @@ impl<'b> StepReplay<'b> {
         let _ = core::forward(m, d);
     }
 
-    /// A target's value at a time after a state.
+    /// The value of a target at a time after a state.
     pub(super) fn value(&mut self, from: usize, x: f64, target: usize, evaluate: &Evaluate<'_>) -> f64 {
         self.place(from, x);
         let value = evaluate(&mut self.session, target);

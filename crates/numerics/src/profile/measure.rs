@@ -1,10 +1,10 @@
-//! What a step of a lab costs, stage by stage, and what one with more stages would: the lab's own run, again and again, all
-//! variants in turn, so that what else the machine does meets them all.
+//! The cost of a step of a lab, stage by stage, and the cost with further stages. The lab's own run is repeated, with all
+//! variants in alternation, so that disturbances of the machine affect all of them.
 //!
-//! The run is cut into chunks of steps, the same in every run, and of each chunk the middle of its times counts: what interrupts the
-//! program now and then meets a chunk now and then. Stages are measured by a clock between them; what looking at it takes is
-//! measured as well, and taken off. A stage of a few nanoseconds is known to a few nanoseconds. What a stage would cost that does
-//! not run is the difference of two runs, and nothing where the clock shows no difference.
+//! The run is divided into chunks of steps, the same in every repetition, and the median time of each chunk is used, because an
+//! interruption affects only some of the repetitions of a chunk. Stages are timed by reading a clock between them; the time of
+//! reading the clock is measured as well and subtracted. The time of a stage is accurate to a few nanoseconds. The cost of a
+//! stage that does not run is the difference between two runs, or zero if the clock shows no difference.
 
 use super::parts::ConstraintCounts;
 use super::reader::ExtraReader;
@@ -18,48 +18,48 @@ use labspec_core::{self as core, AccessSet, Model, Plan};
 use std::sync::OnceLock;
 use std::time::Instant;
 
-/// How often everything is measured.
+/// The number of repetitions of each measurement.
 pub const REPEATS: usize = 7;
-/// A run is cut off after so much work, which is about nanoseconds, and repeated until it took so many nanoseconds.
+/// A run is cut after this much work, in units of about a nanosecond, and repeated until it takes this many nanoseconds.
 const MOST_WORK: u64 = 10_000_000;
 const LONG_ENOUGH: f64 = 1e6;
-/// Nanoseconds between two looks at the clock: what interrupts a run spoils that much of it, and the same steps were measured before.
+/// The nanoseconds between two readings of the clock: an interruption invalidates only that much of a run.
 const LOOK_EVERY: f64 = 5e4;
 
-/// What a stage costs.
+/// The cost of a stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StageCost {
-    /// Nanoseconds of a step.
+    /// Nanoseconds per step.
     pub ns: f64,
-    /// The part of a step.
+    /// The share of a step.
     pub share: f64,
-    /// Work of a step, as the engine counts it: the same on every machine. It counts what loops add; the rest is a number for the
-    /// whole step.
+    /// Work per step as counted by the engine, the same on every machine. It includes what loops add; the
+    /// rest is a constant per step.
     pub work: f64,
 }
 
-/// What a step costs.
+/// The cost of a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StepCost {
-    /// Steps of the run that was measured.
+    /// The number of steps of the measured run.
     pub steps: usize,
-    /// A step with the lab's controller, in the middle of the repeats, ns; a quarter of them is quicker, a quarter slower.
+    /// The median time of a step including the lab's controller, ns.
     pub ns: f64,
-    /// The quarters.
+    /// The first and the third quartile.
     pub quarters: [f64; 2],
-    /// The same where every stage runs.
+    /// The time if every stage runs.
     pub full: f64,
-    /// What all stages leave: the integrator, and the look for numbers that are none.
+    /// The time outside all stages: the integrator, and the check for non-finite numbers.
     pub integrator: StageCost,
-    /// The lab's controller, where it has one.
+    /// The lab's controller, if it has one.
     pub controller: Option<StageCost>,
-    /// All work of a step, as the engine counts it.
+    /// The total work per step as counted by the engine.
     pub work: f64,
-    /// What was seen.
+    /// The constraints that occurred.
     pub seen: ConstraintCounts,
 }
 
-/// All that was measured, stages in the order of the plan.
+/// All measurements, with the stages in the order of the plan.
 pub(super) struct Measured {
     pub(super) step: StepCost,
     pub(super) seen: ConstraintCounts,
@@ -68,13 +68,13 @@ pub(super) struct Measured {
     pub(super) readers: Vec<f64>,
 }
 
-/// Nanoseconds since somebody asked first.
+/// Nanoseconds since the first call.
 fn nanoseconds() -> u64 {
     static START: OnceLock<Instant> = OnceLock::new();
     START.get_or_init(Instant::now).elapsed().as_nanos() as u64
 }
 
-/// What a look at the clock takes, ns.
+/// The time of reading the clock, ns.
 fn clock_cost() -> f64 {
     let mut times: Vec<f64> = Vec::new();
     for _ in 0..9 {
@@ -85,14 +85,14 @@ fn clock_cost() -> f64 {
     quarters(&mut times)[1]
 }
 
-/// A quarter of the way, the middle, and three quarters.
+/// The first quartile, the median and the third quartile.
 fn quarters(times: &mut [f64]) -> [f64; 3] {
     times.sort_by(f64::total_cmp);
     let n = times.len();
     [n / 4, n / 2, (3 * n) / 4].map(|i| times.get(i).copied().unwrap_or(0.0))
 }
 
-/// What the chunks of a run took, each as often as it was measured: `chunks[i]` are the times of the same steps.
+/// The times of the chunks of a run: `chunks[i]` are the repeated measurements of the same steps.
 #[derive(Clone, Debug, Default)]
 struct Times {
     chunks: Vec<Vec<f64>>,
@@ -108,7 +108,8 @@ impl Times {
         }
     }
 
-    /// The sums of the quarters and of the middle of each chunk: what interrupts some of its runs is not in them.
+    /// The sums of the quartiles and of the median of each chunk; interruptions of some repetitions
+    /// have no effect on the median.
     fn sums(&self) -> [f64; 3] {
         let all = self.chunks.iter().map(|times| quarters(&mut times.clone()));
         all.fold([0.0; 3], |sum, now| [sum[0] + now[0], sum[1] + now[1], sum[2] + now[2]])
@@ -121,7 +122,7 @@ struct MeasuredLab<'a> {
     model: &'a Model,
     programs: &'a Programs,
     steps: usize,
-    /// How often the run is made in a repeat, and steps between two looks at the clock.
+    /// The number of runs per repetition, and the steps between two readings of the clock.
     runs: usize,
     chunk: usize,
 }
@@ -132,7 +133,7 @@ impl<'a> MeasuredLab<'a> {
         Session::start(self.programs, self.model, start)
     }
 
-    /// Steps of the run, chunk by chunk.
+    /// The steps of the run, chunk by chunk.
     fn chunks(&self) -> impl Iterator<Item = (usize, usize)> + use<> {
         let (steps, chunk) = (self.steps, self.chunk);
         (0..steps).step_by(chunk).map(move |first| chunk.min(steps - first)).enumerate()
@@ -149,7 +150,7 @@ impl<'a> MeasuredLab<'a> {
         }
     }
 
-    /// Each stage; then what is between them, without the controller; then the controller.
+    /// Measures each stage, then the time between stages without the controller, then the controller.
     fn laps(&self, plan: &Plan, times: &mut [Times]) {
         let (look, controlled) = (clock_cost(), self.programs.controller.is_some());
         for _ in 0..self.runs {
@@ -173,7 +174,7 @@ impl<'a> MeasuredLab<'a> {
                 let looking = laps.nothing.time as f64 / laps.nothing.runs.max(1) as f64;
                 let net = |lap: core::StageTime| (lap.time as f64 - lap.runs as f64 * looking).max(0.0);
                 let stages = plan.decisions().iter().map(|d| net(laps.stage_time(d.stage)));
-                // The clock was looked at for the controller, too.
+                // The clock was read for the controller as well.
                 let clock = if controlled { programs + 2.0 * look * steps as f64 } else { 0.0 };
                 let between = (net(laps.between) - clock).max(0.0);
                 for (times, time) in times.iter_mut().zip(stages.chain([between, programs])) {
@@ -184,10 +185,10 @@ impl<'a> MeasuredLab<'a> {
     }
 }
 
-/// Measures a lab; `None` where it does not come through one step.
+/// Measures a lab. Returns `None` if it cannot perform one step.
 ///
 /// # Errors
-/// A run that is too long.
+/// The run is too long.
 pub(super) fn measure(
     lab: &Lab,
     model: &Model,
@@ -212,9 +213,9 @@ pub(super) fn measure(
     let sums: Vec<[f64; 3]> = times.iter().map(|t| t.sums().map(per_step)).collect();
     let of = |i: usize| sums.get(i).copied().unwrap_or_default();
     let [low, ns, high] = of(0);
-    // A variant that runs more is not faster: a difference below zero is noise of the clock.
+    // A variant that runs more stages is not faster; a negative difference is noise.
     let more = |i: usize| (of(i)[1] - ns).max(0.0);
-    // A stage that is measured alone is a little slower than in a row: its share of all laps is what counts.
+    // A stage takes slightly longer when timed separately, so only its share of the total is used.
     let laps: Vec<f64> = laps.iter().map(|t| per_step(t.sums()[1])).collect();
     let all: f64 = laps.iter().sum();
     let cost = |i: usize, work: f64| {
@@ -239,7 +240,7 @@ pub(super) fn measure(
     Ok(Some(Measured { seen: step.seen, step, stages: costs, forced, readers }))
 }
 
-/// The plans that are measured: the lab's own, one that reads everything, one with each stage that is left out, one with each reader.
+/// The plans that are measured: the lab's own, one that reads everything, one with each omitted stage, one with each reader.
 fn variants(case: &MeasuredLab<'_>, plan: &Plan, readers: &[ExtraReader]) -> Vec<Plan> {
     let access = case.programs.access;
     let full = Plan::new(case.model, &AccessSet { reads: FieldSet::ALL, ..access });
@@ -250,7 +251,7 @@ fn variants(case: &MeasuredLab<'_>, plan: &Plan, readers: &[ExtraReader]) -> Vec
     variants
 }
 
-/// Measures all variants in turn, again and again: the times of each variant, and those of each stage of the plan.
+/// Measures all variants in alternation: returns the times of each variant, and those of each stage of the plan.
 fn measure_in_turn(case: &MeasuredLab<'_>, plan: &Plan, variants: &[Plan]) -> (Vec<Times>, Vec<Times>) {
     let mut times = vec![Times::default(); variants.len()];
     let mut laps = vec![Times::default(); plan.decisions().len() + 2];
@@ -266,7 +267,7 @@ fn measure_in_turn(case: &MeasuredLab<'_>, plan: &Plan, variants: &[Plan]) -> (V
     (times, laps)
 }
 
-/// Runs the lab once, to see how many steps are measured and what happens in them. The work of each stage comes with it.
+/// Runs the lab once to determine the number of steps to measure, what happens in them, and the work of each stage.
 fn look_at(case: &mut MeasuredLab<'_>, plan: &Plan) -> Result<(StepCost, Vec<f64>), RunError> {
     let mut session = case.start(plan);
     let most = count_steps(case.lab, None, None, session.world.model.opt.timestep)?;

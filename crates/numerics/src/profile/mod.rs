@@ -1,5 +1,5 @@
-//! The plan of a lab as a report: what runs in a step and what is left out, each with its reason, what it costs, and what more
-//! it would cost.
+//! The plan of a lab as a report: which stages run in a step and which are left out, with the reasons, their cost, and
+//! the cost of further stages.
 
 mod measure;
 mod parts;

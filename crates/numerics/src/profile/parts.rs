@@ -1,70 +1,70 @@
-//! What of the engine a lab uses besides its stages: pairs of geoms, the solver, the integrator, algorithms of trees.
+//! The parts of the engine that a lab uses in addition to its stages: pairs of geoms, the solver, the
+//! integrator, tree algorithms.
 
 use labspec::run::INTEGRATORS;
 use labspec_core::reflect::{Stage, data, option};
 use labspec_core::{self as core, AccessSet, Model, PairFilterReason, Plan, geom, solver};
 use serde::Serialize;
 
-/// A piece of code of which a lab uses one or none.
+/// An algorithm of which a lab uses one or none.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct EngineOption {
     /// Its name.
     pub name: &'static str,
     /// Whether it is used.
     pub keep: bool,
-    /// Why, or why not.
+    /// The reason for or against its use.
     pub reason: String,
 }
 
-/// What happens where a program may write an option.
+/// The consequence if a program writes an option.
 const WHEN_WRITTEN: &str = "a program that changes it triggers a new plan";
 
-/// A way of computing trees, and how many take it: for where their bodies are, for their inertia and forces, and for their
-/// accelerations.
+/// A tree algorithm, and the number of trees that use it: for kinematics, for inertia and bias forces, and for accelerations.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TreeAlgorithmUse {
     /// Its name.
     pub name: &'static str,
-    /// Trees.
+    /// The numbers of trees.
     pub trees: [usize; 3],
 }
 
 /// A sensor.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct SensorRow {
-    /// Its name; its number where it has none.
+    /// Its name, or its index if it has none.
     pub name: String,
     /// Whether its values are computed.
     pub keep: bool,
-    /// Why, or why not.
+    /// The reason for or against the evaluation.
     pub reason: &'static str,
 }
 
-/// What was seen in the steps that were run.
+/// Counts of the steps that were run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ConstraintCounts {
-    /// Pairs within reach of each other, in the mean and at most.
+    /// Pairs within reach of each other: the mean and the maximum.
     pub in_reach: [f64; 2],
-    /// Contacts, likewise,
+    /// Contacts: the mean and the maximum.
     pub contacts: [f64; 2],
-    /// rows of constraints,
+    /// Constraint rows: the mean and the maximum.
     pub rows: [f64; 2],
-    /// iterations of the solver.
+    /// Iterations of the solver: the mean and the maximum.
     pub iterations: [f64; 2],
 }
 
 /// The pairs of geoms.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PairSummary {
-    /// All there are.
+    /// The number of all pairs.
     pub all: usize,
-    /// Those that can ever touch. With contacts switched off there are none.
+    /// The number of pairs that can touch; zero if contacts are disabled.
     pub can_touch: usize,
-    /// The others by reason.
+    /// The other pairs by reason.
     pub left_out: Vec<(&'static str, usize)>,
-    /// How those that can touch are tested: the shapes, how many, and whether by the general search.
+    /// The tests of the pairs that can touch: the shapes, the number, and whether the general search is used.
     pub tests: Vec<([&'static str; 2], usize, bool)>,
-    /// What was seen of them.
+    /// The counts of the measured run.
     pub seen: Option<ConstraintCounts>,
 }
 
@@ -167,7 +167,7 @@ pub(super) fn integrators(model: &Model, access: &AccessSet) -> Vec<EngineOption
     INTEGRATORS.into_iter().map(code).collect()
 }
 
-/// The algorithms, in their order.
+/// The tree algorithms in their order.
 pub(super) fn tree_algorithms(model: &Model, plan: &Plan) -> Vec<TreeAlgorithmUse> {
     let trees = plan.tree_algorithms(model);
     let count = |algorithm: core::TreeAlgorithm| {

@@ -10,61 +10,61 @@ use labspec::spec::Lab;
 use labspec_core::reflect::Stage;
 use labspec_core::{AccessSet, Model};
 
-/// A stage.
+/// A stage of the plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StageRow {
-    /// Which.
+    /// The stage.
     pub stage: Stage,
     /// Whether it runs in every step.
     pub keep: bool,
-    /// Why, or why not.
+    /// The reason for or against it.
     pub reason: String,
-    /// What it costs; `None` where nothing was run, or it does not run.
+    /// Its cost; `None` if nothing was measured or it does not run.
     pub cost: Option<StageCost>,
-    /// What a step would take longer, ns, if it ran, with all that it uses; `None` where nothing was run, or it runs.
+    /// The additional time of a step, ns, if it ran with all stages that it needs; `None` if nothing was measured or it runs.
     pub forced: Option<f64>,
 }
 
 /// The plan of a lab.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlanReport {
-    /// What its programs read and write.
+    /// The fields that its programs read and write.
     pub access: AccessSet,
     /// The stages, in the order of a step.
     pub rows: Vec<StageRow>,
-    /// When the lab's controller runs, where it has one.
+    /// When the lab's controller runs, if it has one.
     pub controller: Option<&'static str>,
-    /// What a step costs; `None` where nothing was run.
+    /// The cost of a step; `None` if nothing was measured.
     pub step: Option<StepCost>,
     /// The pairs of geoms.
     pub pairs: PairSummary,
-    /// The cone of friction.
+    /// The friction cone.
     pub cone: &'static str,
-    /// Methods of the constraint solver, integrators, and algorithms of trees.
+    /// The methods of the constraint solver.
     pub solvers: Vec<EngineOption>,
-    /// Likewise.
+    /// The integrators.
     pub integrators: Vec<EngineOption>,
-    /// Likewise.
+    /// The tree algorithms.
     pub tree_algorithms: Vec<TreeAlgorithmUse>,
     /// The sensors, one by one.
     pub sensors: Vec<SensorRow>,
-    /// What more readers would cost.
+    /// The cost of additional readers.
     pub readers: Vec<ExtraReader>,
 }
 
-/// What is asked of a plan.
+/// The options of a plan report.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// More readers: fields, sensors, or expressions.
+    /// Additional readers: fields, sensors, or expressions.
     pub read: Vec<String>,
-    /// Runs the lab, to measure.
+    /// Whether the lab is run to measure it.
     pub run: bool,
 }
 
-/// The plan of a lab.
+/// Makes the plan report of a lab.
 ///
 /// # Errors
-/// A reader that is not to be found, or a lab that cannot run.
+/// A reader does not exist, or the lab cannot run.
 pub fn plan(
     lab: &Lab,
     model: &Model,

@@ -1,4 +1,4 @@
-//! One more reader: which stages it makes run.
+//! An additional reader, and the stages that it requires.
 
 use labspec::bind::{ModelNames, Programs, Scope, include};
 use labspec::run::RunError;
@@ -6,23 +6,23 @@ use labspec_core::reflect::{Object, Stage, data, field};
 use labspec_core::{AccessSet, Model, Plan};
 use labspec_expr::Compiler;
 
-/// Something that would be read besides what the lab reads.
+/// The cost of an additional reader: the stages and the time that it adds to those of the lab.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExtraReader {
-    /// As it was asked for.
+    /// The text of the request.
     pub text: String,
-    /// What programs read and write with it.
+    /// The fields that programs read and write with it.
     pub access: AccessSet,
-    /// The stages that run with it and not without.
+    /// The stages that run only with it.
     pub joins: Vec<Stage>,
-    /// What a step takes longer, ns; `None` where nothing was run.
+    /// The additional time of a step, ns; `None` if nothing was measured.
     pub cost: Option<f64>,
 }
 
-/// The readers one by one and, where there are several, all of them together.
+/// The readers separately and, if there are several, all of them together.
 ///
 /// # Errors
-/// A text that names no field and no sensor and is no expression.
+/// A text is not a field, a sensor or a valid expression.
 pub(super) fn readers(
     model: &Model,
     programs: &Programs,
@@ -48,7 +48,7 @@ fn reader(model: &Model, programs: &Programs, text: &str, access: AccessSet) -> 
     ExtraReader { text: text.to_string(), access, joins: joins.collect(), cost: None }
 }
 
-/// Adds what a field, a sensor by its name, or an expression reads.
+/// Adds the fields that a field name, a sensor name or an expression reads.
 fn read(model: &Model, programs: &Programs, text: &str, access: &mut AccessSet) -> Result<(), RunError> {
     if let Some(field) = field(Object::Data, text.strip_prefix("data.").unwrap_or(text)) {
         access.reads.insert(field);

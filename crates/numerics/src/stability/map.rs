@@ -1,4 +1,4 @@
-//! The stable region over two controls: a grid of runs.
+//! The stable region over two controls, from a grid of runs.
 
 use labspec::bind::scalar;
 use labspec::interrupt;
@@ -7,38 +7,38 @@ use labspec::spec::ControlKind;
 use labspec::stress::{Action, FaultKind, Kind, StressCase};
 use labspec_expr::Value;
 
-/// Values of a slider, and of a select at most.
+/// The number of values of a slider, and the maximum for a select.
 const VALUES: usize = 21;
 const MOST: usize = 60;
-/// Work for all runs of a map.
+/// The work limit for all runs of a map.
 const WORK: u64 = 40_000_000_000;
 
-/// What became of the run at a cell.
+/// The outcome of the run at a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MapCell {
-    /// Nothing goes wrong.
+    /// No fault.
     Fine,
-    /// The worst that goes wrong.
+    /// The worst fault.
     Broken(FaultKind),
-    /// It was not run, or not to its end.
+    /// The run was not performed, or not completed.
     Unknown,
 }
 
 /// The stable region over two controls.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StabilityMap {
-    /// Their labels: to the right, and upwards.
+    /// The labels: horizontal, and vertical.
     pub labels: [String; 2],
-    /// Their values.
+    /// The values of the two controls.
     pub values: [Vec<Value>; 2],
-    /// A row for each value of the second, a cell for each of the first.
+    /// A row for each value of the second control, with a cell for each value of the first.
     pub cells: Vec<Vec<MapCell>>,
 }
 
-/// Runs the lab at every cell. Work is added to `work`.
+/// Runs the lab at every cell. The work is added to `work`.
 ///
 /// # Errors
-/// There is no such control, or it has no values to choose from.
+/// A control does not exist, or has no values to choose from.
 pub(super) fn map(
     case: &StressCase<'_>,
     labels: &[String; 2],
@@ -77,7 +77,7 @@ pub(super) fn map(
     Ok(StabilityMap { labels: labels.clone(), values: [across, up], cells })
 }
 
-/// A control and the values that a map takes: of a slider evenly over its grid.
+/// A control and the values of a map; those of a slider are evenly spaced on its grid.
 fn values(case: &StressCase<'_>, label: &str) -> Result<(usize, Vec<Value>), RunError> {
     let found = case.lab.controls.iter().position(|c| c.label.value == label);
     let Some((i, control)) = found.and_then(|i| Some((i, case.lab.controls.get(i)?))) else {

@@ -1,9 +1,9 @@
-//! How far a lab is from breaking: the largest timestep, gains, stiffnesses and mass ratios with which it still runs as it stands.
+//! Stability margins: the largest timestep, gains, stiffnesses and mass ratios with which the lab still runs without a fault.
 //!
-//! Each is found by running: raised until it breaks, then by bisection. The model is changed before the lab is loaded, so keyframe,
-//! `setup` and controls act on it as they do on a page, and the runs are those of a check: as the lab stands, and with a touch that
-//! nobody sees. Where a program of the lab sets the number itself, it is changed after that. Beside it stands the bound that
-//! `monitors::stability` derives for one degree of freedom, where there is one.
+//! Each margin is found by runs: the parameter is raised until a fault occurs, then bisected. The model is changed before the
+//! lab is loaded, so that keyframe, `setup` and controls act on it as on a page. The runs are those of a check: the unchanged
+//! interaction, and one with an invisible perturbation. If a program of the lab sets the parameter itself, it is changed after
+//! that. Each margin is listed with the bound that `monitors::stability` derives for one degree of freedom, if there is one.
 
 use super::search::{self, SearchLimit};
 use labspec::interrupt;
@@ -15,7 +15,7 @@ use labspec::stress::{
 use labspec_core::math::{rows, rows_mut};
 use labspec_core::{Data, Model, Obj, disable, servo_gains, set_const};
 
-/// What is made larger.
+/// The kind of parameter that is raised.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Knob {
     /// The timestep, s.
@@ -24,12 +24,12 @@ pub enum Knob {
     Gain,
     /// The stiffness of a joint or a tendon, or of all contacts together.
     Stiffness,
-    /// The mass of a body beside that of another one that it touches.
+    /// The ratio of the masses of two bodies that touch.
     MassRatio,
 }
 
 impl Knob {
-    /// In words.
+    /// The parameter in words.
     pub fn description(self) -> &'static str {
         match self {
             Knob::Timestep => "timestep",
@@ -40,63 +40,64 @@ impl Knob {
     }
 }
 
-/// How far something may be raised.
+/// How far a parameter can be raised.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Margin {
-    /// What is raised.
+    /// The kind of parameter.
     pub knob: Knob,
-    /// Of what.
+    /// The object to which it belongs.
     pub who: String,
-    /// Its unit; empty where it differs from joint to joint, or for a ratio.
+    /// Its unit; empty for a ratio, or if the unit depends on the joint.
     pub unit: &'static str,
-    /// The value that the lab has.
+    /// The current value in the lab.
     pub now: f64,
-    /// The largest value that was fine; `None` where even the smallest one tried breaks.
+    /// The largest value without a fault; `None` if even the smallest one that was tried fails.
     pub largest: Option<f64>,
-    /// The smallest value above it that breaks; `None` where nothing did.
+    /// The smallest value above it that fails; `None` if none failed.
     pub breaks: Option<f64>,
-    /// What goes wrong there, and with whom.
+    /// The fault at that value, and the object that has it.
     pub how: Option<(FaultKind, String)>,
-    /// The bound that theory gives for one degree of freedom.
+    /// The theoretical bound for one degree of freedom.
     pub bound: Option<f64>,
-    /// How many runs it took.
+    /// The number of runs.
     pub runs: usize,
-    /// The geoms whose contacts are meant, of the stiffness of all contacts.
+    /// For the stiffness of all contacts: the geoms of these contacts.
     pub geoms: Vec<usize>,
 }
 
-/// Work for one margin, and for one run of it.
+/// The work limits for one margin, and for one run.
 const WORK: u64 = 4_000_000_000;
 const RUN: u64 = 1_000_000_000;
-/// No lab has longer steps, s, nor fewer in a run.
+/// The longest timestep that is tried, s, and the smallest number of steps of a run.
 const LONGEST: f64 = 1.0;
 const STEPS: f64 = 10.0;
-/// Factors between what is tried: a lab may hold again with steps beyond those with which it breaks first.
+/// The factors between the values that are tried. Small steps are needed for a timestep, because a lab may work again
+/// beyond the first failure.
 const STEPWISE: f64 = 1.2;
 const DOUBLING: f64 = 2.0;
-/// Servos, springs and pairs of bodies that are looked at, at most of each.
+/// The maximum number of servos, of springs and of pairs of bodies that are tested.
 const MOST: usize = 12;
 
-/// Multiplies something of a model.
+/// Multiplies a parameter of a model by a factor.
 type Apply = dyn Fn(&mut Model, f64);
-/// What it is there.
+/// Reads the parameter.
 type Read = dyn Fn(&Model) -> f64;
 
-/// Something that is multiplied.
+/// A parameter that is raised.
 struct RaisedParameter {
     knob: Knob,
     who: String,
     unit: &'static str,
     now: f64,
     most: f64,
-    /// Whose bounds count; all for the timestep.
+    /// The object whose theoretical bounds apply; `None` means all, for the timestep.
     object: Option<(Obj, Option<usize>)>,
     apply: Box<Apply>,
     read: Box<Read>,
     geoms: Vec<usize>,
 }
 
-/// All margins of a lab as it stands, for runs of so many seconds; and what was left out. Work is added to `work`.
+/// All margins of a lab for runs of this length, s, and what was left out. The work is added to `work`.
 pub(super) fn margins(
     case: &StressCase<'_>,
     length: f64,
@@ -135,7 +136,7 @@ pub(super) fn margins(
 }
 
 /// # Errors
-/// Why nothing is known.
+/// The reason why nothing is known.
 fn search(
     case: &StressCase<'_>,
     raised: &RaisedParameter,
@@ -191,14 +192,14 @@ fn search(
     })
 }
 
-/// Whether theory says that something is too stiff.
+/// Whether the theoretical bound states that an object is too stiff.
 fn stiff(m: &Model, object: Option<(Obj, Option<usize>)>) -> bool {
     stability::suspects(m)
         .iter()
         .any(|s| object.is_none_or(|(kind, id)| kind == s.object && id.is_none_or(|id| id == s.id)))
 }
 
-/// A run with something raised; `None` where a program of the lab sets it and it cannot be set after that.
+/// A run with a raised parameter, or `None` if a program of the lab sets it and it cannot be changed after that.
 fn run(
     case: &StressCase<'_>,
     interaction: &Interaction,
@@ -210,11 +211,11 @@ fn run(
     let wanted = x * raised.now;
     let same = |m: &Model| ((raised.read)(m) - wanted).abs() <= 1e-9 * wanted.abs();
     let mut model = case.model.clone();
-    // By what the lab itself makes of it when it is loaded.
+    // The factor is relative to the value after the lab is loaded.
     let now = (raised.read)(&model);
     (raised.apply)(&mut model, if now > 0.0 { wanted / now } else { x });
     if raised.knob == Knob::MassRatio {
-        // What follows from masses; without an inertia above zero it stays as it was.
+        // Recomputes the fields that depend on masses; if an inertia is not positive, they remain unchanged.
         let mut data = Data::new(&model);
         let _ = set_const(&mut model, &mut data);
     }
@@ -246,7 +247,7 @@ fn timestep(m: &Model, length: f64) -> RaisedParameter {
     }
 }
 
-/// Numbers of a gain or a bias for each actuator.
+/// The numbers per actuator for its gain and bias parameters.
 const WIDTH: usize = 10;
 
 fn gains(m: &Model) -> Vec<RaisedParameter> {
@@ -320,8 +321,8 @@ fn stiffnesses(m: &Model) -> Vec<RaisedParameter> {
     list
 }
 
-/// The stiffness of all contacts together: one over the square of the shortest time constant. The engine keeps that above two steps;
-/// here it does not, so that the limit shows.
+/// The stiffness of all contacts together: the inverse square of the shortest time constant. The engine keeps the time constant
+/// above two steps; here this is disabled to find the limit.
 fn contacts(m: &Model, touching: &[[usize; 2]]) -> Option<RaisedParameter> {
     let mut geoms: Vec<usize> = touching.iter().flatten().copied().collect();
     geoms.sort_unstable();
@@ -355,7 +356,8 @@ fn contacts(m: &Model, touching: &[[usize; 2]]) -> Option<RaisedParameter> {
     })
 }
 
-/// The ratio of masses of bodies that touch, hang on each other or are tied together, with one of them heavier and lighter.
+/// The mass ratios of bodies that touch, are connected by a joint or are tied together. Of each pair, each body
+/// in turn is made heavier.
 fn ratios(m: &Model, touching: &[[usize; 2]]) -> Vec<RaisedParameter> {
     let mut list: Vec<RaisedParameter> = Vec::new();
     let mut pairs: Vec<[usize; 2]> = touching.iter().map(|gs| gs.map(|g| body_of(m, g))).collect();
@@ -389,7 +391,7 @@ fn ratios(m: &Model, touching: &[[usize; 2]]) -> Vec<RaisedParameter> {
     list
 }
 
-/// Bodies that an equality ties together.
+/// Pairs of bodies that an equality constraint ties together.
 fn tied(m: &Model) -> Vec<[usize; 2]> {
     let bodies = |e: &usize| {
         m.eq_objtype.get(*e) == Some(&(Obj::Body as i32)) && m.eq_active0.get(*e).copied().unwrap_or(false)

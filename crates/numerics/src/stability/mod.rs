@@ -1,10 +1,10 @@
-//! How far a lab is from its faults: all runs that a student can make, remedies that were tried, and how far everything may be
-//! raised. What a student can do, and the faults of one run, are in [`labspec::stress`].
+//! How far a lab is from its faults: all possible runs of a student, remedies, and stability margins. What a student can do,
+//! and the faults of one run, are in [`labspec::stress`].
 //!
 //! From low to high; each module uses only those before it:
 //!
 //! * `truth`, `remedy`: remedies and their errors
-//! * `search`, `margins`, `sensitivity`, `map`: how far a lab is from its faults
+//! * `search`, `margins`, `sensitivity`, `map`: the distance of a lab from its faults
 //! * `probe`: all runs of a lab, and the report
 
 mod map;

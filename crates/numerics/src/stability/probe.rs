@@ -1,4 +1,4 @@
-//! Runs of a lab under every listed interaction, and the report of everything that goes wrong in them.
+//! Runs a lab with every listed interaction, and reports all faults.
 
 use super::map::{self, StabilityMap};
 use super::margins::{self, Margin};
@@ -15,107 +15,107 @@ use labspec::stress::{
 use labspec_core::Model;
 use labspec_expr::Value;
 
-/// How many times longer than anybody looks a run is.
+/// The length of a run relative to the time that a student watches.
 const LONGER: f64 = 10.0;
-/// Work for all runs of a lab, in units of about a nanosecond.
+/// The work limit for all runs of a lab, in units of about a nanosecond.
 const WORK: u64 = 30_000_000_000;
-/// Work for remedies, and how many findings they are tried for.
+/// The work limit for remedies, and the maximum number of findings for which they are tried.
 const WORK_OF_REMEDIES: u64 = 10_000_000_000;
 const MOST_REMEDIED: usize = 6;
 
-/// What is tried.
+/// The options of the runs.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// Length of each run in s; ten times as long as a student looks, without it.
+    /// The length of each run in s; ten times the time that a student watches if `None`.
     pub until: Option<f64>,
-    /// Also how far everything may be raised before the lab breaks.
+    /// Whether stability margins are computed.
     pub margins: bool,
-    /// Also the stable region over two controls, by label.
+    /// The labels of the two controls of a map, if one is requested.
     pub map: Option<[String; 2]>,
-    /// Controls by label, and the values that they have before anything else is done.
+    /// Controls by label, with the values that they get before all other actions.
     pub set: Vec<(String, Value)>,
-    /// Buttons by label, and the times in s at which they are pressed in every run.
+    /// Buttons by label, with the times in s at which they are pressed in every run.
     pub press: Vec<(String, f64)>,
 }
 
-/// A run that was made.
+/// The results of one run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StressRun {
-    /// What was done.
+    /// The interaction.
     pub interaction: Interaction,
-    /// How much of it was made, s.
+    /// The simulated time, s.
     pub covered: f64,
-    /// It took more work than it may.
+    /// Whether it exceeded its work limit.
     pub cut: bool,
-    /// What went wrong, each kind once.
+    /// The kinds of faults, each once.
     pub wrong: Vec<FaultKind>,
 }
 
-/// A fault, and what helps against it.
+/// A fault, and the remedies for it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StabilityFinding {
     /// The fault, and the settings that show it.
     pub group: FaultGroup,
-    /// The lab says itself that it breaks.
+    /// Whether the lab declares that it fails.
     pub expected: bool,
-    /// What was tried and helps in the simplest setting.
+    /// The tested remedies that work in the simplest setting.
     pub remedies: Vec<Remedy>,
 }
 
-/// How many runs of a kind there are.
+/// The number of runs of a kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RunCount {
     /// The kind.
     pub kind: Kind,
-    /// Runs that were made to their end, or until they broke.
+    /// Runs that were completed, or stopped at a fault.
     pub made: usize,
-    /// Runs that were started and took more work than they may.
+    /// Runs that exceeded their work limit.
     pub cut: usize,
     /// Runs that were not started.
     pub left_out: usize,
 }
 
-/// All runs of a lab.
+/// All results for a lab.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StressReport {
-    /// How long a run is, s.
+    /// The length of a run, s.
     pub length: f64,
-    /// What was tried, kind by kind.
+    /// The performed runs by kind.
     pub tried: Vec<RunCount>,
     /// The runs.
     pub runs: Vec<StressRun>,
-    /// How long the shortest of those runs was that were cut, s.
+    /// The simulated time of the shortest run that was cut, s.
     pub shortest: Option<f64>,
-    /// Pairs of settings that meet in no run, as there are too many.
+    /// The number of pairs of settings that occur in no run, because there are too many.
     pub pairs_left_out: usize,
-    /// What was not looked at, and why.
+    /// What was not tested, with the reasons.
     pub left_out: Vec<String>,
-    /// What goes wrong, the simplest setting first.
+    /// The faults, the simplest setting first.
     pub found: Vec<StabilityFinding>,
-    /// How long a student looks, s: margins and sensitivity are of runs of this length.
+    /// The time that a student watches, s: the length of the runs for margins and sensitivity.
     pub window: f64,
-    /// How far everything may be raised, where that was asked for.
+    /// The stability margins, if requested.
     pub margins: Vec<Margin>,
-    /// How much the lab depends on its start.
+    /// The sensitivity to the initial state.
     pub sensitivity: Sensitivity,
-    /// The stable region over two controls, where that was asked for.
+    /// The stable region over two controls, if requested.
     pub map: Option<StabilityMap>,
-    /// Work that all of it took.
+    /// The total work.
     pub work: u64,
 }
 
 impl StressReport {
-    /// Whether everything that was to be tried was tried and is fine.
+    /// Whether everything was tested and no unexpected fault was found.
     pub fn fine(&self) -> bool {
         let whole = self.tried.iter().all(|t| t.cut == 0 && t.left_out == 0);
         whole && self.pairs_left_out == 0 && self.left_out.is_empty() && self.found.iter().all(|f| f.expected)
     }
 }
 
-/// Runs the lab in every way that is tried. `report_progress` hears what is being done.
+/// Runs the lab with all interactions. `report_progress` receives descriptions of the current activity.
 ///
 /// # Errors
-/// The length is none that a run can have, or no student can set or press what the options say.
+/// The length is invalid, or a student cannot perform the actions in the options.
 pub fn probe(
     lab: &Lab,
     model: &Model,
@@ -159,7 +159,7 @@ pub fn probe(
     Ok(report)
 }
 
-/// A report of runs of this length, before the first of them.
+/// A report for runs of this length, before the first run.
 fn empty_report(length: f64, window: f64, pairs_left_out: usize) -> StressReport {
     StressReport {
         length,
@@ -183,7 +183,7 @@ fn empty_report(length: f64, window: f64, pairs_left_out: usize) -> StressReport
     }
 }
 
-/// Runs each interaction. Returns the faults in groups, and the work of a simulated second of the lab as it stands.
+/// Runs each interaction. Returns the faults in groups, and the work per simulated second of the unchanged lab.
 fn run_interactions(
     case: &StressCase<'_>,
     interactions: &[Interaction],
@@ -201,7 +201,7 @@ fn run_interactions(
             interactions.len(),
             interaction.kind.description()
         ));
-        // Work that earlier runs did not use is available to later ones.
+        // Later runs can use the work that earlier ones did not need.
         let share = left / (interactions.len() - i) as u64;
         let Some(tried) = report.tried.iter_mut().find(|t| t.kind == interaction.kind) else { continue };
         if interrupt::requested() {
@@ -233,7 +233,7 @@ fn run_interactions(
     (groups, work_per_second)
 }
 
-/// Tries remedies for the faults, the simplest first.
+/// Tries remedies for the faults, starting with the simplest fault.
 fn try_remedies(
     case: &StressCase<'_>,
     report: &mut StressReport,

@@ -1,4 +1,4 @@
-//! Remedies: each change of the model is tried by running, and only those are reported with which the run has no fault.
+//! Remedies: each change of the model is tested in a run, and reported only if the run has no fault.
 
 use super::truth;
 use labspec::interrupt;
@@ -11,57 +11,58 @@ use labspec_core::math::rows_mut;
 use labspec_core::{Model, integrator};
 use labspec_expr::Value;
 
-/// Something that helps.
+/// A change that removes a fault.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Remedy {
-    /// What to change, in words.
+    /// The change in words.
     pub change: String,
-    /// What a second of simulation costs with it, in times of what it costs in the lab as it stands.
+    /// The work per simulated second with the change, relative to that of the unchanged lab.
     pub work: f64,
-    /// The same as measured by a clock.
+    /// The same as measured with a clock.
     pub time: f64,
-    /// The largest error of any number that the lab shows with it, as a part of that number's range: against the motion that the
-    /// model describes, found with much shorter steps. `None` where that is not known.
+    /// The largest error of any displayed number with the change, relative to the range of the number: compared with the motion
+    /// that the model describes, computed with much shorter steps. `None` if that is unknown.
     pub error: Option<f64>,
 }
 
-/// A change that helps, with its work, and how a run is made with it.
+/// A change that works, with its work, and how to perform a run with it.
 struct WorkingRemedy {
     change: String,
-    /// A shorter timestep: of several one is enough.
+    /// Whether it is a shorter timestep, of which only one needs to be reported.
     timestep: bool,
     work: f64,
     interaction: Interaction,
     apply: Box<dyn Fn(&mut Model)>,
 }
 
-/// Halvings of the timestep that are tried where it may be the cause, and the part of the work that one run may take.
+/// The number of halvings of the timestep that are tried if it may be the cause, and the divisor of the work for one run.
 const HALVINGS: i32 = 6;
 const PART: u64 = 4;
-/// How many timesteps that help are looked at, and the error above which what a lab shows is of no use, in parts of its range.
+/// The maximum number of working timesteps that are examined, and the error, relative to the range,
+/// above which a lab is useless.
 const TIMESTEPS: usize = 3;
 const USELESS: f64 = 0.5;
-/// What creeps no faster than this part of before has stopped.
+/// A slow drift counts as stopped if its speed falls below this part of the speed before.
 const STOPPED: f64 = 0.1;
 
-/// A change of the model, in words.
+/// A change of the model, and its description.
 type ModelChange = (String, Box<dyn Fn(&mut Model)>);
 
-/// The tries for one finding.
+/// The tests of remedies for one finding.
 pub(super) struct RemedyTests<'c, 'a> {
     pub(super) case: &'c StressCase<'a>,
     pub(super) length: f64,
-    /// How long a student looks, s: errors are those that are seen.
+    /// The time that a student watches, s: only visible errors count.
     pub(super) window: f64,
-    /// Work of a second of the lab as it stands.
+    /// The work per simulated second of the unchanged lab.
     pub(super) work_per_second: f64,
-    /// Work that may still be done.
+    /// The remaining work.
     pub(super) left: u64,
     pub(super) work: u64,
 }
 
 impl RemedyTests<'_, '_> {
-    /// What helps against a finding; `None` when nothing more can be tried.
+    /// Returns the remedies for a finding, or `None` if the work limit is reached.
     pub(super) fn remedies(&mut self, found: &FaultGroup) -> Option<Vec<Remedy>> {
         let before = self.run(&found.interaction, None)?;
         let model = self.case.start(&found.interaction, self.left).world.model;
@@ -98,7 +99,7 @@ impl RemedyTests<'_, '_> {
         Some(self.costs(found, list))
     }
 
-    /// Each with its cost: in error against the truth of what the student does, and in time.
+    /// Determines the cost of each remedy: its error relative to the exact motion, and its run time.
     fn costs(&mut self, found: &FaultGroup, list: Vec<WorkingRemedy>) -> Vec<Remedy> {
         if list.is_empty() {
             return Vec::new();
@@ -113,7 +114,7 @@ impl RemedyTests<'_, '_> {
             }
             let change_of = move |session: &mut Session<'_>| apply(&mut session.world.model);
             let apply: Change<'_> = &change_of;
-            // Another setting of a slider is another motion: its own truth counts.
+            // Another value of a slider gives another motion, with its own exact solution.
             let error = if interaction == found.interaction {
                 truth.as_ref().and_then(|t| truth::error(self.case, t, apply, &mut work))
             } else {
@@ -145,7 +146,7 @@ impl RemedyTests<'_, '_> {
         Some(outcome)
     }
 
-    /// What a second costs with a change, if it helps.
+    /// The work per simulated second with a change, if the change removes the fault.
     fn helps(
         &mut self,
         found: &FaultGroup,
@@ -158,7 +159,8 @@ impl RemedyTests<'_, '_> {
         Some((!outcome.cut && is_well(found, before, &outcome)).then_some(cost))
     }
 
-    /// A slider that goes less far, where it alone does the harm: the farthest value that does none, by bisection on its grid.
+    /// A smaller range of a slider, if the slider alone causes the fault: the largest value without a
+    /// fault, by bisection on its grid.
     fn shorter_slider(&mut self, found: &FaultGroup, before: &RunOutcome) -> Option<Option<WorkingRemedy>> {
         let base = &self.case.base.actions;
         let mut added = found.interaction.actions.iter().filter(|a| !base.contains(a));
@@ -172,7 +174,7 @@ impl RemedyTests<'_, '_> {
         let Some(step) = control.step().filter(|s| *s > 0.0) else { return Some(None) };
         let (min, end) = (min.value, *end);
         let place = |x: f64| (x - min) / step;
-        // The last of the grid that is well, and the first that is not.
+        // The last value of the grid without a fault, and the first one with a fault.
         let up = end > value.value;
         let (mut good, mut bad) = match up {
             true => (place(value.value).floor(), place(end).ceil()),
@@ -196,7 +198,7 @@ impl RemedyTests<'_, '_> {
     }
 }
 
-/// The setting of a finding, one of its sliders at another value.
+/// The setting of a finding, with one slider at another value.
 fn with(found: &FaultGroup, action: &Action, value: f64) -> Interaction {
     let mut interaction = found.interaction.clone();
     let same = interaction.actions.iter_mut().filter(|a| *a == action);
@@ -205,7 +207,7 @@ fn with(found: &FaultGroup, action: &Action, value: f64) -> Interaction {
 }
 
 fn on_grid(min: f64, step: f64, k: f64) -> f64 {
-    // Without the last digits that rounding leaves.
+    // Rounded, to remove the last digits of rounding errors.
     let x = min + k * step;
     format!("{x:.11e}").parse().unwrap_or(x)
 }
@@ -214,7 +216,7 @@ fn ends(control: &Control, last: f64) -> String {
     format!("a smaller range of \"{}\", up to {}", control.label.value, Value::Number(last))
 }
 
-/// Whether a run shows nothing that breaks but what was there before besides the finding.
+/// Whether a run has no faults except those that existed before besides the finding.
 fn is_well(found: &FaultGroup, before: &RunOutcome, after: &RunOutcome) -> bool {
     let FaultGroup { fault, .. } = found;
     if fault.kind == FaultKind::Drifts {
@@ -226,7 +228,7 @@ fn is_well(found: &FaultGroup, before: &RunOutcome, after: &RunOutcome) -> bool 
     worst_fault(&after.faults, &others).is_none()
 }
 
-/// What may help against a fault of this kind.
+/// Possible remedies for a fault of this kind.
 fn candidates(model: &Model, kind: FaultKind) -> Vec<ModelChange> {
     let mut list: Vec<ModelChange> = Vec::new();
     let steps = [
@@ -273,7 +275,7 @@ fn candidates(model: &Model, kind: FaultKind) -> Vec<ModelChange> {
     list
 }
 
-/// Contacts whose time constant is so many times as long.
+/// Multiplies the time constants of contacts.
 fn soften(m: &mut Model, times: f64) {
     let edit = m.edit();
     for list in [edit.geom_solref, edit.pair_solref] {

@@ -1,21 +1,21 @@
-//! The largest value at which something is still fine: raised by a factor until it breaks, then bisection.
+//! Search for the largest value without a fault: raises it by a factor until a fault occurs, then bisects.
 
-/// How many times as much is tried at most, and how little where it is broken from the start.
+/// The largest multiple that is tried; its inverse is the smallest one if the current value already fails.
 const MOST: f64 = 1_048_576.0;
-/// How closely the limit is found, as a part of itself.
+/// The relative accuracy of the limit.
 const CLOSE: f64 = 0.01;
 
-/// What a search came to, as multiples of what there is now.
+/// The result of a search, as multiples of the current value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct SearchLimit {
-    /// The largest that was fine; `None` where even the smallest is broken.
+    /// The largest multiple without a fault; `None` if even the smallest one fails.
     pub(super) fine: Option<f64>,
-    /// The smallest above it that was broken; `None` where nothing was.
+    /// The smallest multiple above it with a fault; `None` if there is none.
     pub(super) broken: Option<f64>,
 }
 
-/// Searches from 1 up to `most`, by steps of a factor, as what breaks may hold again beyond. `fine` says whether a multiple is
-/// fine; `None` when nothing more can be tried, which ends the search without a result.
+/// Searches from 1 up to `most` in steps of a factor, because a lab that fails may work again beyond. `fine` states whether a
+/// multiple works, or returns `None` if the work limit is reached, which ends the search without a result.
 pub(super) fn largest(
     most: f64,
     factor: f64,
@@ -47,7 +47,7 @@ pub(super) fn largest(
     while let (Some(low), Some(high)) = (good, bad)
         && high > low * (1.0 + CLOSE)
     {
-        // In the middle of their logarithms: both ends may be far apart.
+        // The geometric mean, because both ends may differ by orders of magnitude.
         let middle = (low * high).sqrt();
         if fine(middle)? {
             good = Some(middle);

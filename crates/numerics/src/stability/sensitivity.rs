@@ -1,10 +1,10 @@
-//! How much a lab depends on its start: how many times as large a small difference becomes until the end of the window, whether it
-//! grows exponentially, and until when the digits that are shown would be the same for a start that nobody could tell apart.
+//! Sensitivity to the initial state: the growth factor of a small difference until the end of the window, whether it grows
+//! exponentially, and how long the displayed digits remain the same for an indistinguishable start.
 //!
-//! A second run beside the first is brought back to its distance again and again, and the logarithms by which they part are added up
-//! from the start on (G. Benettin and others 1980, "Lyapunov characteristic exponents …", Meccanica 15): so the difference stays
-//! small, and what is measured is what a difference without size does. Several directions give the spread. There is an exponent
-//! where the sum grows along a line: in both halves of the time alike, and in every direction.
+//! A second run next to the first is repeatedly rescaled to its original distance, and the logarithms of the growth factors are
+//! added up from the start (G. Benettin and others 1980, "Lyapunov characteristic exponents …", Meccanica 15). So the
+//! difference stays small, and the result is that of an infinitesimal difference. Several directions give the spread. An
+//! exponent is reported if the sum grows linearly: equally in both halves of the time, and in every direction.
 
 use labspec::bind::Bound;
 use labspec::run::{self, Play, Session, StepVariant};
@@ -13,69 +13,70 @@ use labspec::stress::StressCase;
 use labspec_core::{differentiate_pos, integrate_pos};
 use std::ops::ControlFlow;
 
-/// How far the second run is from the first, in the units of the coordinates; how often it is brought back; directions.
+/// The distance of the second run from the first, in the units of the coordinates; the number of rescalings;
+/// the number of directions.
 const APART: f64 = 1e-7;
 const TIMES: usize = 100;
 const DIRECTIONS: u64 = 3;
-/// What grows exponentially becomes so many times as large at least, its logarithm is a line to this part of its variance, and grows by
-/// this part of the whole in each half of the time.
+/// Growth counts as exponential if the factor is at least `GROWS`, a straight line explains at least `STRAIGHT` of the variance
+/// of its logarithm, and the logarithm grows by at least `HALF` of its total in each half of the time.
 const GROWS: f64 = 100.0;
 const STRAIGHT: f64 = 0.9;
 const HALF: f64 = 0.3;
-/// The start that nobody could tell apart.
+/// The distance of the indistinguishable start.
 const PERTURBATION: f64 = 1e-9;
-/// Samples of what is shown, at most.
+/// The maximum number of samples of displayed values.
 const SAMPLES: usize = 4000;
-/// Work for all of it.
+/// The work limit.
 const WORK: u64 = 3_000_000_000;
 
 /// The largest Lyapunov exponent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Exponent {
-    /// The mean of the directions, 1/s.
+    /// The mean over the directions, 1/s.
     pub mean: f64,
-    /// The smallest of them.
+    /// The smallest exponent.
     pub low: f64,
-    /// The largest.
+    /// The largest exponent.
     pub high: f64,
-    /// How many there are.
+    /// The number of directions.
     pub directions: usize,
 }
 
-/// How many times as large a small difference at the start becomes, along the directions that were tried.
+/// The growth factor of a small initial difference, over the tested directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parting {
-    /// Along the one that grows least.
+    /// The smallest growth factor.
     pub low: f64,
-    /// Along the one that grows most.
+    /// The largest growth factor.
     pub high: f64,
 }
 
-/// Until when a readout shows the same.
+/// How long the displayed value of a readout is reliable.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Horizon {
     /// Its label.
     pub label: String,
-    /// When its digits are lost, s; `None` where they are not.
+    /// The time at which its digits change, s; `None` if they do not.
     pub until: Option<f64>,
 }
 
-/// How much a lab depends on its start.
+/// The sensitivity of a lab to its initial state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sensitivity {
-    /// Over how long, s.
+    /// The length of the runs, s.
     pub length: f64,
-    /// How far the other start is off.
+    /// The distance of the other start.
     pub apart: f64,
-    /// What becomes of a small difference; `None` where the lab has no degrees of freedom or does not come to its end.
+    /// The growth factor; `None` if the lab has no degrees of freedom or a run does not reach its end.
     pub parting: Option<Parting>,
-    /// The exponent; `None` where the difference does not grow exponentially.
+    /// The exponent; `None` if the difference does not grow exponentially.
     pub exponent: Option<Exponent>,
     /// The readouts.
     pub horizons: Vec<Horizon>,
 }
 
-/// The sensitivity of a lab as it stands. Work is added to `work`.
+/// Computes the sensitivity of a lab. The work is added to `work`.
 pub(super) fn sensitivity(case: &StressCase<'_>, length: f64, work: &mut u64) -> Sensitivity {
     let all: Vec<Vec<(f64, f64)>> =
         (1..=DIRECTIONS).filter_map(|k| logarithms(case, length, k, work)).collect();
@@ -95,7 +96,7 @@ pub(super) fn sensitivity(case: &StressCase<'_>, length: f64, work: &mut u64) ->
     Sensitivity { length, apart: PERTURBATION, parting, exponent, horizons: horizons(case, length, work) }
 }
 
-/// The slope of a logarithm that grows along a line from the start, 1/s.
+/// The slope of a logarithm that grows linearly from the start, 1/s.
 fn slope(list: &[(f64, f64)]) -> Option<f64> {
     let (end, whole) = *list.last()?;
     let half = list.iter().find(|(t, _)| *t >= 0.5 * end).map(|(_, sum)| *sum)?;
@@ -113,7 +114,7 @@ fn slope(list: &[(f64, f64)]) -> Option<f64> {
     (ty > 0.0 && ty * ty >= STRAIGHT * tt * yy).then(|| ty / tt)
 }
 
-/// Times, s, and the logarithm of how many times as large a difference along one direction is by then.
+/// Times, s, with the logarithm of the growth factor of a difference along one direction.
 fn logarithms(case: &StressCase<'_>, length: f64, seed: u64, work: &mut u64) -> Option<Vec<(f64, f64)>> {
     let mut first = case.start(&case.base, WORK / 8);
     let nv = first.world.model.nv;
@@ -154,7 +155,7 @@ fn warned(session: &Session<'_>) -> bool {
     session.warnings.iter().any(|w| w.number > 0)
 }
 
-/// A direction of length 1, the same for the same seed.
+/// A direction of length 1, reproducible for a seed.
 fn direction(seed: u64, n: usize) -> Vec<f64> {
     let mut bits = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
     let mut next = || {
@@ -169,7 +170,7 @@ fn direction(seed: u64, n: usize) -> Vec<f64> {
     list.into_iter().map(|x| x / size).collect()
 }
 
-/// From the state of the first to that of the second: of places, then of speeds.
+/// The difference from the first state to the second: positions, then velocities.
 fn difference(first: &Session<'_>, second: &Session<'_>) -> Option<Vec<f64>> {
     let m = &first.world.model;
     let [a, b] = [first, second].map(|s| s.world.data.fields());
@@ -178,7 +179,7 @@ fn difference(first: &Session<'_>, second: &Session<'_>) -> Option<Vec<f64>> {
     Some(list)
 }
 
-/// Puts the second at some distance from the first.
+/// Moves the second run to some distance from the first.
 fn move_apart(first: &Session<'_>, second: &mut Session<'_>, along: &[f64], apart: f64) -> Option<()> {
     let from = first.world.data.fields();
     let nv = first.world.model.nv;
@@ -195,7 +196,7 @@ fn move_apart(first: &Session<'_>, second: &mut Session<'_>, along: &[f64], apar
     Some(())
 }
 
-/// When each readout of a run that begins a little off shows something else.
+/// The time at which each readout of a run with a perturbed start differs.
 fn horizons(case: &StressCase<'_>, length: f64, work: &mut u64) -> Vec<Horizon> {
     let skipped: usize = case.lab.plots.iter().map(|p| p.traces.len()).sum();
     let readouts: Vec<_> = case
@@ -236,7 +237,7 @@ fn horizons(case: &StressCase<'_>, length: f64, work: &mut u64) -> Vec<Horizon> 
     readouts.iter().enumerate().map(horizon).collect()
 }
 
-/// One unit of the last digit that is shown.
+/// One unit of the last displayed digit.
 fn unit(x: f64, digits: u32) -> f64 {
     let size = x.abs();
     if size > 0.0 && !(1e-3..1e5).contains(&size) {

@@ -1,7 +1,7 @@
-//! What a remedy costs: how far what the lab shows then is from the motion that its model describes, and how long a second takes.
+//! The cost of a remedy: the error of the displayed values relative to the motion that the model describes, and the run time.
 //!
-//! The motion is found by steps of the fourth order that become shorter until two runs agree. Where motions part from each other
-//! exponentially they agree only for a while, and errors are counted up to there.
+//! The motion is computed by a method of order four with decreasing timesteps, until two runs agree. If nearby motions diverge
+//! exponentially, the runs agree only up to some time, and errors are evaluated up to that time.
 
 use labspec::interrupt;
 use labspec::run::{self, Play, Session};
@@ -10,36 +10,37 @@ use labspec_core::integrator;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-/// Samples of a run.
+/// The number of samples of a run.
 const SAMPLES: usize = 100;
-/// Two runs agree while they differ by this part of a range at most.
+/// Two runs agree if they differ by at most this part of a range.
 const AGREE: f64 = 1e-3;
-/// The first of the shorter steps, and how many times they become shorter, each time by [`SHORTER`].
+/// The divisor of the first shorter timestep, and the number of further reductions, each by [`SHORTER`].
 const FIRST: usize = 4;
 const SHORTER: usize = 4;
 const TRIES: usize = 3;
-/// Work for one run.
+/// The work limit for one run.
 const WORK: u64 = 500_000_000;
-/// Repeats of a measurement of time, how long each lasts, and steps between two looks at the clock.
+/// The number of repetitions of a time measurement, their minimum length, and the steps between two readings of the clock.
 const REPEATS: usize = 5;
 const LONG_ENOUGH: Duration = Duration::from_millis(3);
 const CHUNK: usize = 32;
 
-/// Numbers that a lab shows, at each sample.
+/// The displayed numbers of a lab at each sample.
 type SampledRows = Vec<Vec<f64>>;
 
-/// The motion that a model describes, under an interaction.
+/// The motion that a model describes, for an interaction.
 pub(super) struct Truth<'h> {
     interaction: &'h Interaction,
-    /// The timestep of the lab, s, and how many of it are between samples.
+    /// The timestep of the lab, s, and the number of steps between samples.
     timestep: f64,
     every: usize,
     rows: SampledRows,
-    /// The largest value of each number less its smallest.
+    /// The largest minus the smallest value of each number.
     ranges: Vec<f64>,
 }
 
-/// The truth over so many seconds, as far as it is known; `None` where two runs do not even begin alike. Work is added to `work`.
+/// The exact motion over this time, as far as it is known, or `None` if two runs differ from the start. The
+/// work is added to `work`.
 pub(super) fn truth<'h>(
     case: &StressCase<'_>,
     interaction: &'h Interaction,
@@ -81,7 +82,7 @@ pub(super) fn truth<'h>(
     (agreeing > 1).then(|| Truth { interaction, timestep, every, ranges: ranges(&rows), rows })
 }
 
-/// The largest error of any number that the lab shows with a change, as a part of its range; `None` where a number is none.
+/// The largest error of any displayed number with a change, relative to its range, or `None` if a number is NaN.
 pub(super) fn error(
     case: &StressCase<'_>,
     truth: &Truth<'_>,
@@ -96,8 +97,8 @@ pub(super) fn error(
     all.filter(|_| seen.len() >= truth.rows.len()).map(|list| list.into_iter().fold(0.0, f64::max))
 }
 
-/// What the lab shows, or where its joints are when it shows no number, at the start and after each `between` seconds; up to where it
-/// breaks.
+/// The displayed numbers, or the joint positions if none are displayed, at the start and after each
+/// `between` seconds, up to a fault.
 fn rows(
     case: &StressCase<'_>,
     interaction: &Interaction,
@@ -142,7 +143,7 @@ fn displayed_numbers(case: &StressCase<'_>, session: &mut Session<'_>) -> Vec<f6
     if numbers.is_empty() { session.world.data.fields().qpos.to_vec() } else { numbers }
 }
 
-/// The largest value of each number less its smallest.
+/// The largest minus the smallest value of each number.
 fn ranges(rows: &SampledRows) -> Vec<f64> {
     let width = rows.first().map_or(0, Vec::len);
     let of = |k: usize| {
@@ -152,14 +153,14 @@ fn ranges(rows: &SampledRows) -> Vec<f64> {
     (0..width).map(of).collect()
 }
 
-/// The largest difference of two rows in parts of the ranges; `None` where one has a number that the other has not.
+/// The largest difference of two rows relative to the ranges, or `None` if the rows have different lengths.
 fn largest(a: &[f64], b: &[f64], ranges: &[f64]) -> Option<f64> {
     let part = |((a, b), range): ((&f64, &f64), &f64)| if *range > 0.0 { (a - b).abs() / range } else { 0.0 };
     let most = a.iter().zip(b).zip(ranges).map(part).fold(0.0, f64::max);
     (a.len() == ranges.len() && b.len() == ranges.len()).then_some(most)
 }
 
-/// How many times as long a second of simulation takes with a change as in the lab as it stands, measured in turn.
+/// The run time of a simulated second with a change, relative to that of the unchanged lab, measured in alternation.
 pub(super) fn time(case: &StressCase<'_>, interaction: &Interaction, change: Change<'_>, length: f64) -> f64 {
     let mut ratios = Vec::new();
     while ratios.len() < REPEATS && !interrupt::requested() {
@@ -170,7 +171,7 @@ pub(super) fn time(case: &StressCase<'_>, interaction: &Interaction, change: Cha
     ratios.get(ratios.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
-/// Seconds for a second of simulation.
+/// The run time of one simulated second in seconds.
 fn seconds(case: &StressCase<'_>, interaction: &Interaction, change: Change<'_>, length: f64) -> f64 {
     let mut session = case.start(interaction, WORK);
     change(&mut session);

@@ -1,4 +1,4 @@
-//! Which measure tells the options of a question apart.
+//! Selection of the measure that distinguishes the options of a question.
 
 use super::pairs;
 use super::relation::{Relation, says};
@@ -9,13 +9,13 @@ use labspec::spec::Question;
 use labspec::verify::{Stage, Stated, plain};
 use std::collections::BTreeSet;
 
-/// What a word that the question and the measure share is worth, and how many count.
+/// The reward for a word that the question and the measure share, and the maximum number of rewarded words.
 const WORD: f64 = 0.6;
 const MOST_WORDS: usize = 4;
-/// A pair of runs of which one is not named.
+/// The cost of a pair of runs of which one is not named.
 const UNNAMED: f64 = 0.3;
 
-/// What was chosen: two numbers, and what each option says of them.
+/// A selection: two numbers, and the relation between them that each option states.
 pub(super) struct MeasureChoice<'t, 'l> {
     pub(super) tried: &'t TracedLab<'l>,
     trials: Vec<Trial>,
@@ -26,13 +26,13 @@ pub(super) struct MeasureChoice<'t, 'l> {
     broke: bool,
     /// The option that holds, from 0.
     pub(super) option: usize,
-    /// The numbers, in words.
+    /// The numbers with their names.
     pub(super) values: Vec<(String, f64)>,
     cost: f64,
 }
 
 impl MeasureChoice<'_, '_> {
-    /// A condition for each option; measures go to the block, and their values to the list.
+    /// Returns a condition for each option; adds measures to the block, and their values to the list.
     pub(super) fn conditions(
         &self,
         block: &mut ProposedVerify,
@@ -55,10 +55,10 @@ impl MeasureChoice<'_, '_> {
     }
 }
 
-/// The best choice: that of which exactly one option is true, and whose measure has most words of the question.
+/// Returns the best selection: exactly one option must be true, and the measure should share most words with the question.
 ///
 /// # Errors
-/// Why nothing can be proposed.
+/// The reason why nothing can be proposed.
 pub(super) fn choose<'t, 'l>(
     question: &Question,
     options: &[Text],
@@ -83,7 +83,7 @@ pub(super) fn choose<'t, 'l>(
             choices.extend(comparisons(tried, &runs, &relations, &spoken, stage));
         }
     }
-    // The first of those that cost least.
+    // The first of those with the lowest cost.
     let cheaper = |best: MeasureChoice<'t, 'l>, other: MeasureChoice<'t, 'l>| {
         if other.cost < best.cost { other } else { best }
     };
@@ -97,7 +97,7 @@ pub(super) fn choose<'t, 'l>(
     })
 }
 
-/// The measures of a lab that make exactly one option true in a pair of runs.
+/// The measures of a lab for which exactly one option is true in a pair of runs.
 fn comparisons<'t, 'l>(
     tried: &'t TracedLab<'l>,
     runs: &pairs::Runs,
@@ -137,7 +137,7 @@ fn comparisons<'t, 'l>(
     choices
 }
 
-/// What says the same in every run: times at which it ends, constants.
+/// Whether a measure has the same value in every run: end times, constants.
 fn dull(c: &Candidate) -> bool {
     c.constant || c.time.is_some() || c.text.ends_with("(data.time)")
 }
@@ -146,7 +146,7 @@ fn worth(c: &Candidate, spoken: &BTreeSet<String>) -> f64 {
     WORD * c.words.intersection(spoken).count().min(MOST_WORDS) as f64
 }
 
-/// Which is the only one that is true.
+/// The index of the only true element, if there is exactly one.
 fn only(list: impl Iterator<Item = bool>) -> Option<usize> {
     let mut holding = list.enumerate().filter(|(_, holds)| *holds).map(|(i, _)| i);
     let first = holding.next()?;
@@ -161,7 +161,7 @@ fn named(trials: &[Trial], runs: [usize; 2], measures: [&String; 2], values: [f6
     runs.into_iter().zip(measures).zip(values).map(one).collect()
 }
 
-/// What happens first: contacts of two geoms with a third, and options that name one of the two, or both.
+/// Which event is first: contacts of two geoms with a third one, and options that name one of the two, or both.
 fn orders<'t, 'l>(tried: &'t TracedLab<'l>, options: &[String]) -> Vec<MeasureChoice<'t, 'l>> {
     let meets: Vec<(usize, Vec<&str>)> = tried
         .candidates
@@ -213,7 +213,7 @@ fn orders<'t, 'l>(tried: &'t TracedLab<'l>, options: &[String]) -> Vec<MeasureCh
                 broke: false,
                 option,
                 values,
-                // Both are named: nothing says it better.
+                // Both geoms are named, which is the best possible match.
                 cost: -WORD * MOST_WORDS as f64,
             });
         }

@@ -1,14 +1,14 @@
-//! A first `verify` object for questions and labs that have none: `labspec scaffold`.
+//! Proposes a first `verify` object for questions and labs that have none: `labspec scaffold`.
 //!
 //! | stage | module |
 //! |---|---|
-//! | what the words of an option say: same, more, twice, gone | `relation` |
+//! | the relation that the words of an option state: same, more, twice, gone | `relation` |
 //! | the two runs that a question compares | `pairs` |
-//! | which measure tells the options apart, and what it says | `choose` |
-//! | the objects, put into the lesson | here |
+//! | the measure that distinguishes the options, and its values | `choose` |
+//! | the objects, inserted into the lesson | this module |
 //!
-//! What is proposed was run, and is checked once more as it would stand in the lesson. The measure is chosen by the words of the
-//! question before anybody looks at its key: where the runs speak for another option, that is said, and nothing is proposed.
+//! Every proposal was run, and is checked again as part of the lesson. The measure is selected by the words of the question,
+//! independent of its key. If the runs support another option, this is reported, and nothing is proposed.
 
 mod choose;
 mod pairs;
@@ -23,43 +23,44 @@ use labspec::spec::{LabAddress, Lesson, Question, QuestionKind};
 use labspec::verify::{Stage, Verdict};
 use std::ops::Range;
 
-/// A question or a lab without a claim, and what came of it.
+/// A question or a lab without a claim, and the result.
 #[derive(Clone, Debug)]
 pub struct Scaffold {
     /// `quiz drop, question 2`, `lab #1`.
     pub name: String,
-    /// Its object in the file, braces included.
+    /// The span of its object in the file, including braces.
     pub span: Range<usize>,
-    /// What came of it.
+    /// The result.
     pub found: ScaffoldOutcome,
 }
 
-/// What came of a question or a lab.
+/// The result for a question or a lab.
 #[derive(Clone, Debug)]
 pub enum ScaffoldOutcome {
-    /// An object to accept.
+    /// A proposed object.
     Proposed {
         /// The object.
         verify: ProposedVerify,
-        /// Measures by their names in the object, and their values.
+        /// The names of the measures in the object, and their values.
         values: Vec<(String, f64)>,
-        /// Options, counted from 1, of which the runs say nothing.
+        /// Options, counted from 1, that the runs do not decide.
         undecided: Vec<usize>,
-        /// What a check says of it; `None` for a lab, whose object holds quotes alone.
+        /// The verdict of a check; `None` for a lab, whose object contains only quotes.
         verdict: Option<(Verdict, String)>,
     },
-    /// The runs speak for another option than the key.
+    /// The runs support another option than the key.
     Contradicted {
         /// The option, from 0.
         option: usize,
-        /// Measures and their values.
+        /// The measures and their values.
         values: Vec<(String, f64)>,
     },
-    /// Nothing could be proposed, and why.
+    /// Nothing could be proposed, for this reason.
     Open(String),
 }
 
-/// Looks at every question and lab of a lesson that claims nothing. `report_progress` hears what is being done.
+/// Processes every question and lab of a lesson without claims. `report_progress` receives descriptions
+/// of the current activity.
 pub fn scaffold(lesson: &Lesson, models: &Models, report_progress: &mut dyn FnMut(&str)) -> Vec<Scaffold> {
     let found = trace(lesson, models, report_progress);
     let stage = Stage::new(models);
@@ -102,7 +103,7 @@ pub fn scaffold(lesson: &Lesson, models: &Models, report_progress: &mut dyn FnMu
     all
 }
 
-/// What is proposed for a question.
+/// The proposal for a question.
 fn propose(lesson: &Lesson, question: &Question, found: &Traces<'_>, stage: &Stage<'_>) -> ScaffoldOutcome {
     match &question.kind {
         QuestionKind::Choice { options, answer, .. } => {
@@ -129,7 +130,7 @@ fn propose(lesson: &Lesson, question: &Question, found: &Traces<'_>, stage: &Sta
     }
 }
 
-/// The labs that a question is about: its own, or those of the lesson.
+/// The labs of a question: its own, otherwise those of the lesson.
 fn labs<'t, 'l>(question: &Question, found: &'t Traces<'l>) -> Vec<&'t TracedLab<'l>> {
     let of_question: Vec<&TracedLab<'_>> =
         found.labs.iter().filter(|t| t.owner.as_ref().is_some_and(|o| *o == question.span)).collect();
@@ -149,7 +150,7 @@ fn proposed(
     let mut block = ProposedVerify::default();
     let mut values = Vec::new();
     let conditions = choice.conditions(&mut block, &mut values);
-    // Numbers of the question that come from the same lab.
+    // Numbers of the question that originate from the same lab.
     for n in found.numbers.iter().filter(|n| question.span.contains(&n.stated.span.start) && !n.stated.answer)
     {
         let Origin::From(hit) = &n.origin else { continue };
@@ -169,13 +170,13 @@ fn proposed(
     ScaffoldOutcome::Proposed { verify: block, values, undecided, verdict: None }
 }
 
-/// The object of a question whose answer is a number.
+/// The object of a question with a numeric answer.
 fn numeric(question: &Question, found: &Traces<'_>) -> ScaffoldOutcome {
     let QuestionKind::Numeric { answer: Some(answer), .. } = &question.kind else {
         return ScaffoldOutcome::Open("it has no answer".into());
     };
     let tol = question.numeric().map_or(0.0, |(_, tol)| tol);
-    // The answer itself, else a number of the text that is the answer.
+    // The answer itself, otherwise a number in the text that equals the answer.
     let inside = found.numbers.iter().filter(|n| question.span.contains(&n.stated.span.start));
     let mut near: Vec<_> =
         inside.filter(|n| n.stated.answer || (n.stated.read.value - answer.value).abs() <= tol).collect();
@@ -201,7 +202,7 @@ fn numeric(question: &Question, found: &Traces<'_>) -> ScaffoldOutcome {
     )
 }
 
-/// The lesson with everything that is proposed.
+/// The lesson with all proposals inserted.
 pub fn written(lesson: &Lesson, all: &[Scaffold]) -> String {
     let mut text = lesson.file.text().to_string();
     let mut places: Vec<(usize, String)> = Vec::new();
@@ -223,7 +224,7 @@ pub fn written(lesson: &Lesson, all: &[Scaffold]) -> String {
     text
 }
 
-/// Checks what is proposed, as it would stand in the lesson.
+/// Checks the proposals as parts of the lesson.
 fn judge(lesson: &Lesson, models: &Models, all: &mut [Scaffold]) {
     let text = written(lesson, all);
     let level = CheckLevel { labs: false, ..CheckLevel::FULL };

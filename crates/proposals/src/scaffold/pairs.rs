@@ -1,4 +1,4 @@
-//! The runs that a question compares: those of its words, in the order of its words.
+//! The runs that a question compares, in the order in which the question names them.
 
 use crate::trace::{Trial, si, trials};
 use labspec::json::{Number, Scalar};
@@ -7,9 +7,9 @@ use labspec::spec::{Control, ControlKind, Lab, Question};
 use labspec::verify::Stated;
 use labspec_expr::Value;
 
-/// How long a run is after a button is pressed, s.
+/// The length of a run after a button is pressed, s.
 const ROUTINE: f64 = 10.0;
-/// Words that change a quantity, and by how much.
+/// Words that state a change of a quantity, with the factor.
 const CHANGES: [(&str, f64); 12] = [
     ("doubled", 2.0),
     ("double", 2.0),
@@ -25,19 +25,19 @@ const CHANGES: [(&str, f64); 12] = [
     ("tenfold", 10.0),
 ];
 
-/// Runs, and pairs of them: what was before, and what is after.
+/// Runs, and pairs of them: before and after a change.
 pub(super) struct Runs {
     pub(super) trials: Vec<Trial>,
     pub(super) pairs: Vec<(usize, usize)>,
 }
 
-/// The runs of a lab that a question speaks of. The first is the lab as it stands.
+/// The runs of a lab that a question names. The first is the unchanged lab.
 pub(super) fn runs(question: &Question, asked: &str, lab: &Lab, numbers: &[Stated]) -> Runs {
     let of_question: Vec<Stated> =
         numbers.iter().filter(|n| question.span.contains(&n.span.start) && !n.answer).cloned().collect();
     let stated: Vec<Stated> =
         of_question.iter().filter(|n| n.span.end <= question.q.span().end).cloned().collect();
-    // What the question itself names; what only its options and explanation name says what comes of it.
+    // Only numbers in the question itself are settings; numbers only in its options and explanation are results.
     let mut all = trials(lab, &stated);
     let base = all.first().cloned();
     for control in &lab.controls {
@@ -45,7 +45,7 @@ pub(super) fn runs(question: &Question, asked: &str, lab: &Lab, numbers: &[State
             all.extend(changed(control, asked, base));
         }
     }
-    // Buttons that the question speaks of are pressed in every run.
+    // Buttons that the question names are pressed in every run.
     let named = |label: &str| asked.contains(&label.to_lowercase());
     let buttons = lab.controls.iter().filter(|c| matches!(c.kind, ControlKind::Button { .. }));
     let pressed: Vec<String> = buttons.map(|c| c.label.value.clone()).filter(|label| named(label)).collect();
@@ -53,7 +53,7 @@ pub(super) fn runs(question: &Question, asked: &str, lab: &Lab, numbers: &[State
         all.retain(|t| t.press.is_empty());
         for t in &mut all {
             t.press = pressed.clone();
-            // What a button begins takes its time.
+            // The process that a button starts takes some time.
             t.until = t.until.or(lab.stop_at.is_none().then_some(ROUTINE));
         }
     }
@@ -61,7 +61,7 @@ pub(super) fn runs(question: &Question, asked: &str, lab: &Lab, numbers: &[State
     Runs { trials: all, pairs }
 }
 
-/// A control whose label the question names beside a word of change.
+/// A run with a changed control, if the question names the label of the control together with a word for a change.
 fn changed(control: &Control, asked: &str, base: &Trial) -> Option<Trial> {
     let label = control.label.as_str();
     let ControlKind::Slider { value: start, min, .. } = &control.kind else { return None };
@@ -86,7 +86,8 @@ fn changed(control: &Control, asked: &str, base: &Trial) -> Option<Trial> {
     })
 }
 
-/// Before and after, in the order in which the question names them; what it does not name is as it stands, before.
+/// Pairs of before and after, in the order in which the question names the runs. A run that it does not name is the
+/// unchanged lab, which comes first.
 fn pairs(all: &[Trial], asked: &str, lab: &Lab, stated: &[Stated]) -> Vec<(usize, usize)> {
     let place = |t: &Trial| {
         let (x, unit) = t.named?;
@@ -108,7 +109,7 @@ fn pairs(all: &[Trial], asked: &str, lab: &Lab, stated: &[Stated]) -> Vec<(usize
     list
 }
 
-/// Whether the question goes from this run to the lab as it stands: "from 10 to 1", where 1 is the start.
+/// Whether the question goes from this run to the unchanged lab: "from 10 to 1", where 1 is the initial value.
 fn comes_first(t: &Trial, asked: &str, lab: &Lab) -> bool {
     let [(label, value)] = t.set.as_slice() else { return false };
     let Some(control) = lab.control(label) else { return false };

@@ -1,33 +1,33 @@
-//! What the words of an option say of a number: how it is after a change, beside what it was before.
+//! The relation that the words of an option state: how a number after a change compares with its value before.
 
 use std::fmt::Write;
 
-/// How a number `b` is to a number `a`.
+/// The relation of a number `b` to a number `a`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Relation {
-    /// The same, to [`SAME`].
+    /// Equal, within [`SAME`].
     Same,
-    /// Larger, by no more than this share where one is said.
+    /// Larger, by at most this share if given.
     More(Option<f64>),
-    /// Smaller, by no more than this share.
+    /// Smaller, to at most this share if given.
     Less(Option<f64>),
-    /// This many times as large.
+    /// Larger by this factor.
     Times(f64),
     /// It changes by more than half: something falls, slips or flies away.
     Gone,
-    /// Nothing is left of it.
+    /// Approximately zero.
     Nothing,
-    /// The simulation breaks.
+    /// The simulation fails.
     Breaks,
 }
 
-/// What counts as the same, as a share.
+/// The relative tolerance for equality.
 const SAME: f64 = 0.02;
-/// How far from the factor that is said, as a share of it.
+/// The relative tolerance of a stated factor.
 const ABOUT: f64 = 0.1;
-/// "A little".
+/// The share for "a little".
 const LITTLE: f64 = 0.2;
-/// "Much less than": this share of it at most.
+/// The share for "much less than".
 const MUCH: f64 = 0.7;
 
 const SAMENESS: [&str; 14] = [
@@ -124,7 +124,7 @@ const FACTORS: [(&str, f64); 12] = [
     ("by half", 0.5),
 ];
 
-/// Whether words stand in a text, as words.
+/// Whether a text contains words, as whole words.
 pub(super) fn says(text: &str, words: &str) -> bool {
     let part = |c: char| c.is_alphanumeric();
     text.match_indices(words).any(|(at, _)| {
@@ -135,10 +135,10 @@ pub(super) fn says(text: &str, words: &str) -> bool {
 }
 
 impl Relation {
-    /// What an option says; `None` when its words are none that are known.
+    /// Reads the relation that an option states, or `None` if its words are unknown.
     pub(super) fn read(option: &str) -> Option<Relation> {
         let text = option.to_lowercase();
-        // What comes first is what is said; the rest are reasons and reservations.
+        // The first statement counts; the rest are reasons and reservations.
         let first = |list: &[&str]| {
             let found = list.iter().filter(|w| says(&text, w)).filter_map(|w| text.find(w));
             found.min().unwrap_or(usize::MAX)
@@ -159,7 +159,7 @@ impl Relation {
             _ if says(&text, "a little") || says(&text, "slightly") => Some(LITTLE),
             _ => None,
         };
-        // In "much less than 60 %" nothing becomes less.
+        // In "much less than 60 %", "less" does not state a decrease.
         let less = if percent.is_some() && says(&text, "less than") { usize::MAX } else { less };
         let earliest = same.min(more).min(less).min(gone).min(nothing);
         match (earliest, percent) {
@@ -174,7 +174,7 @@ impl Relation {
         }
     }
 
-    /// Whether it is so.
+    /// Whether the relation holds.
     pub(super) fn holds(self, a: f64, b: f64, broke: bool) -> bool {
         let (low, high) = (a.abs(), b.abs());
         match self {
@@ -189,7 +189,7 @@ impl Relation {
         }
     }
 
-    /// The condition, over the names of both numbers and the run of the second. Numbers below zero are compared by their size.
+    /// The condition, with the names of both numbers and of the run of the second. Negative numbers are compared by magnitude.
     pub(super) fn condition(self, a: &str, b: &str, run: &str, below: bool) -> String {
         let size = |x: &str| if below { format!("abs({x})") } else { x.to_string() };
         let [low, high] = [size(a), size(b)];
@@ -220,7 +220,7 @@ fn percent(text: &str) -> Option<f64> {
     digits.parse::<f64>().ok().map(|p| p / 100.0)
 }
 
-/// A number of a condition: no more digits than anybody reads.
+/// A number for a condition, rounded to four decimals.
 fn short(x: f64) -> f64 {
     (x * 1e4).round() / 1e4
 }

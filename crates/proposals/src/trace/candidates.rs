@@ -1,5 +1,5 @@
-//! What could be measured in a lab: what it shows, at the start, at the end, at named times and at contacts; how fast its bodies
-//! move; constants of its model. The simplest come first.
+//! Candidate measures of a lab: displayed values at the start, at the end, at named times and at contacts; velocities of
+//! bodies; constants of the model. The simplest come first.
 
 use super::units::{LONGEST_TIMESTEP, second, si};
 use super::words::split_words;
@@ -16,44 +16,44 @@ use labspec_expr::dimension::{Dimension, Measure};
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
-/// Something that can be measured in a run.
+/// A quantity that can be measured in a run.
 #[derive(Clone, Debug)]
 pub(crate) struct Candidate {
-    /// The measure.
+    /// The expression of the measure.
     pub(crate) text: String,
-    /// What its numbers measure.
+    /// The dimension of its values.
     pub(crate) dimension: Dimension,
-    /// How far-fetched it is.
+    /// The penalty for complexity.
     pub(crate) cost: f64,
-    /// Words of its label and of the names in it.
+    /// The words of its label and of the names in it.
     pub(crate) words: BTreeSet<String>,
-    /// It is a constant of the model: no run says it.
+    /// Whether it is a constant of the model, independent of runs.
     pub(crate) constant: bool,
-    /// A time, s, that has to be named beside the number.
+    /// A time, s, that the text must name near the number.
     pub(crate) time: Option<f64>,
 }
 
-/// Most pairs of geoms, named times, joints and constants of one kind.
+/// The maximum numbers of pairs of geoms, named times, joints and constants of one kind.
 const PAIRS: usize = 4;
 const TIMES: usize = 24;
 const JOINTS: usize = 6;
 const CONSTANTS: usize = 12;
-/// Steps of the run in which contacts are looked for, at most.
+/// The maximum number of steps of the run in which contacts are searched.
 const STEPS: usize = 20_000;
 
-/// Words of a moment in which two geoms meet.
+/// Words for the contact of two geoms.
 const MEETING: &str = "contact touch touches touchdown impact lands landing hits first";
 
-/// What is shown, or follows from it: an expression, what it measures, its words.
+/// A displayed value, or a quantity derived from it: an expression, its dimension, its words.
 struct DisplayedNumber {
     text: String,
     dimension: Dimension,
     words: String,
-    /// What it costs more than what is shown.
+    /// Its cost in addition to that of a displayed value.
     more: f64,
 }
 
-/// Everything that could be measured in a lab, with texts that compile.
+/// All candidate measures of a lab whose expressions compile.
 pub(super) fn candidates(
     lab: &Lab,
     model: &Model,
@@ -120,7 +120,7 @@ fn add(all: &mut Vec<Candidate>, text: String, dimension: Dimension, cost: f64, 
     all.push(Candidate { text, dimension, cost, words, constant: false, time: None });
 }
 
-/// Traces and readouts, each text once.
+/// The traces and readouts, without duplicates of the same expression.
 fn displayed_numbers(lab: &Lab, model: &Model, programs: &Programs) -> Vec<DisplayedNumber> {
     let found = dimensions(lab, model, programs);
     let mut all: Vec<DisplayedNumber> = Vec::new();
@@ -145,7 +145,7 @@ fn displayed_numbers(lab: &Lab, model: &Model, programs: &Programs) -> Vec<Displ
     all
 }
 
-/// Coordinates and speeds of the joints that have names.
+/// The coordinates and velocities of named joints.
 fn motions(m: &Model) -> Vec<DisplayedNumber> {
     let [metre, radian] = ["m", "rad"].map(|u| labspec_bind::units::parse(u).unwrap_or(Dimension::NUMBER));
     let per = |d: Dimension| second().power(-1.0).and_then(|s| d.product(s)).unwrap_or(d);
@@ -179,7 +179,7 @@ fn motions(m: &Model) -> Vec<DisplayedNumber> {
     all
 }
 
-/// Forces that a lab has and need not show: of actuators, of weight and limits on joints, of contacts on geoms.
+/// Forces that a lab may not display: of actuators, of gravity and limits on joints, of contacts on geoms.
 fn forces(m: &Model) -> Vec<DisplayedNumber> {
     let [newton, torque] = ["N", "N m"].map(|u| labspec_bind::units::parse(u).unwrap_or(Dimension::NUMBER));
     let mut all = Vec::new();
@@ -215,13 +215,13 @@ fn forces(m: &Model) -> Vec<DisplayedNumber> {
     all
 }
 
-/// Whether an actuator turns a hinge, so that its force is a torque; `None` where that is nothing simple.
+/// Whether an actuator drives a hinge, so that its force is a torque; `None` if this is not simple.
 fn rotates(m: &Model, actuator: usize) -> Option<bool> {
     let index = |list: &[i32], i: usize| list.get(i).and_then(|x| usize::try_from(*x).ok());
     let moved = index(&m.actuator_trnid, 2 * actuator)?;
     let kind = match *m.actuator_trntype.get(actuator)? {
         trntype::JOINT | trntype::JOINTINPARENT => *m.jnt_type.get(moved)?,
-        // A tendon is a sum of joints, or a way along sites: a force then.
+        // A tendon is a sum of joints, or a path along sites, which has a force.
         trntype::TENDON => {
             let first = index(&m.tendon_adr, moved)?;
             if m.wrap_type.get(first) != Some(&wraptype::JOINT) {
@@ -238,12 +238,12 @@ fn rotates(m: &Model, actuator: usize) -> Option<bool> {
     }
 }
 
-/// A name that needs no care in a text.
+/// Whether a name needs no escapes in an expression.
 fn simple(name: &str) -> bool {
     !name.is_empty() && name.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | ' ' | '.' | '/'))
 }
 
-/// Constants of the model that a text may state.
+/// Adds the constants of the model that a text may state.
 fn constants(m: &Model, all: &mut Vec<Candidate>) {
     let unit = |text: &str| labspec_bind::units::parse(text).unwrap_or(Dimension::NUMBER);
     let mut add = |text: String, dimension, cost, named: &str| {
@@ -284,7 +284,7 @@ fn constants(m: &Model, all: &mut Vec<Candidate>) {
     }
 }
 
-/// How deep something lies in the ground at its coordinate 0: a size less a height.
+/// The depth of a sphere in the ground at its coordinate 0: its radius minus its height.
 fn depths(m: &Model, displayed: &[DisplayedNumber], all: &mut Vec<Candidate>) {
     let Some(metre) = labspec_bind::units::parse("m") else { return };
     let geoms =
@@ -308,7 +308,7 @@ fn depths(m: &Model, displayed: &[DisplayedNumber], all: &mut Vec<Candidate>) {
     }
 }
 
-/// Times that the text names, s: those that many numbers stand beside first.
+/// Times that the text names, s; those next to many numbers come first.
 fn times(numbers: &[Stated]) -> Vec<f64> {
     let mut all: Vec<f64> = Vec::new();
     for s in numbers {
@@ -321,7 +321,7 @@ fn times(numbers: &[Stated]) -> Vec<f64> {
     all
 }
 
-/// Pairs of named geoms that touch in a run of the lab as it stands.
+/// The pairs of named geoms that touch in a run of the unchanged lab.
 fn touching(lab: &Lab, model: &Model, programs: &Programs) -> Vec<(String, String)> {
     let plan = Some(Plan::new(model, &AccessSet::ANY));
     let mut session = Session::start(programs, model, Start { plan, ..Start::of_lab(lab) });

@@ -1,32 +1,32 @@
-//! Formulas that stand before a number: `t = \sqrt{2d/g} = 0.4401 s`, worked out with the numbers that the text gives to d and g.
+//! Formulas before a number: `t = \sqrt{2d/g} = 0.4401 s`, evaluated with the values that the text gives for d and g.
 
 use super::units::si;
 use labspec::verify::Stated;
 
-/// A symbol that the text gives a number to.
+/// A symbol with a value in the text.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Binding {
     name: String,
     /// In SI units.
     value: f64,
-    /// Where that stands in the file.
+    /// The position in the file.
     at: usize,
 }
 
-/// A formula, in the language of labs, with its value in SI units.
+/// A formula in the language of labs, with its value in SI units.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Worked {
     pub(super) code: String,
     pub(super) value: f64,
 }
 
-/// Bytes before a number that may be its formula.
+/// The maximum number of bytes before a number that are searched for a formula.
 const LONG: usize = 300;
-/// Tokens of a formula, and how deep it may nest.
+/// The maximum number of tokens of a formula, and its maximum nesting.
 const TOKENS: usize = 60;
 const DEEP: usize = 12;
 
-/// The symbols that a text gives numbers to.
+/// The symbols with values in a text.
 pub(super) fn bindings(numbers: &[Stated]) -> Vec<Binding> {
     let one = |s: &Stated| {
         // The formula ends where words begin.
@@ -38,11 +38,11 @@ pub(super) fn bindings(numbers: &[Stated]) -> Vec<Binding> {
     numbers.iter().filter_map(one).collect()
 }
 
-/// The formula before a number, worked out.
+/// The formula before a number, evaluated.
 pub(super) fn before(s: &Stated, bindings: &[Binding]) -> Option<Worked> {
     for part in chain(s)? {
         let all = tokens(&part);
-        // Words stand before the formula: the longest end of the text that is one.
+        // Words may precede the formula: the longest suffix that is a formula is used.
         let found = (0..all.len()).find_map(|from| {
             let mut parser = Parser { tokens: all.get(from..)?, at: 0, deep: 0, operations: 0, s, bindings };
             let worked = parser.sum()?;
@@ -59,13 +59,13 @@ pub(super) fn before(s: &Stated, bindings: &[Binding]) -> Option<Worked> {
     None
 }
 
-/// Whether there is more than a formula.
+/// Whether there are words in addition to a formula.
 fn has_words(all: &[Token]) -> bool {
     all.iter()
         .any(|t| matches!(t, Token::Symbol(name) if name.len() > 3 && name.chars().all(char::is_alphabetic)))
 }
 
-/// What stands before a number, between the signs of equality, the nearest first; `None` where no such sign is before it.
+/// The parts between the equality signs before a number, the nearest first, or `None` if there is no such sign.
 fn chain(s: &Stated) -> Option<Vec<String>> {
     let text = s.paragraph.get(..s.at)?;
     let mut from = text.len().saturating_sub(LONG);
@@ -134,7 +134,7 @@ fn tokens(text: &str) -> Vec<Token> {
                 if length == 1 {
                     symbol(&chars, &mut i, c.to_string(), 1, &mut all);
                 } else {
-                    // Letters side by side are a product in a formula, and a word in a sentence.
+                    // Adjacent letters are a product in a formula, and a word in a sentence.
                     let word: String = chars.iter().skip(i).take(length).collect();
                     all.push(Token::Symbol(word));
                     i += length - 1;
@@ -149,7 +149,7 @@ fn tokens(text: &str) -> Vec<Token> {
     all.split_off(from)
 }
 
-/// Whether the next digit is a number by itself: of `\tfrac12` each digit is one.
+/// Whether the next digit is a separate number: in `\tfrac12`, each digit is one.
 fn is_digit_of_fraction(before: &[Token]) -> bool {
     match before {
         [.., Token::Command(c)] | [.., Token::Command(c), Token::Number(..)] => c.ends_with("frac"),
@@ -157,10 +157,10 @@ fn is_digit_of_fraction(before: &[Token]) -> bool {
     }
 }
 
-/// The token of a command of TeX with a name of this length.
+/// Adds the token of a TeX command with a name of this length.
 fn command(chars: &[char], i: &mut usize, name: String, length: usize, all: &mut Vec<Token>) {
     match name.as_str() {
-        // Spaces, and marks of size.
+        // Spaces and size commands are ignored.
         "" => *i += 1,
         "left" | "right" | "displaystyle" | "mathrm" | "text" | "ast" | "dot" => {}
         "times" | "cdot" => all.push(Token::Sign('*')),
@@ -171,7 +171,7 @@ fn command(chars: &[char], i: &mut usize, name: String, length: usize, all: &mut
     }
 }
 
-/// A symbol with what stands below it and its star: `t^\ast`, `z_{k+1}`.
+/// Adds a symbol with its subscript and star: `t^\ast`, `z_{k+1}`.
 fn symbol(chars: &[char], i: &mut usize, mut name: String, length: usize, all: &mut Vec<Token>) {
     let mut end = *i + length;
     if chars.get(end) == Some(&'_') {
@@ -319,7 +319,7 @@ impl Parser<'_> {
         }
     }
 
-    /// What a symbol is: what the text last said before the number, else what it says behind it.
+    /// The value of a symbol: the last one in the text before the number, otherwise the first one after it.
     fn bound(&self, name: &str) -> Option<Worked> {
         let here = self.s.span.start;
         let bound = || self.bindings.iter().filter(|b| b.name == name && b.at != here);
@@ -336,7 +336,7 @@ impl Parser<'_> {
         if let Some((code, value)) = constant {
             return Some(Worked { code, value });
         }
-        // Letters side by side: `gd`.
+        // Adjacent letters: `gd`.
         let letters: Vec<char> = name.chars().collect();
         if !(2..=3).contains(&letters.len()) || !letters.iter().all(|c| c.is_ascii_lowercase()) {
             return None;

@@ -1,4 +1,4 @@
-//! A lab with everything that was measured in it.
+//! A lab with the values of all measures.
 
 use super::candidates::{Candidate, candidates};
 use super::restored;
@@ -14,22 +14,22 @@ use labspec_core::Model;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// A lab with everything that was measured in it.
+/// A lab with the values of all measures.
 pub(crate) struct TracedLab<'l> {
     pub(crate) address: LabAddress,
     pub(crate) lab: &'l Lab,
-    /// The question that it belongs to.
+    /// The question to which it belongs.
     pub(crate) owner: Option<Range<usize>>,
     model: Arc<Model>,
     programs: Programs,
     pub(crate) trials: Vec<Trial>,
     pub(crate) candidates: Vec<Candidate>,
-    /// Value of every candidate in every trial; NaN where there is none.
+    /// The value of every candidate in every trial; NaN if there is none.
     pub(crate) values: Vec<Vec<f64>>,
 }
 
 impl<'l> TracedLab<'l> {
-    /// Makes the runs of a lab that the text names, and takes every measure; `None` where the lab cannot run.
+    /// Performs the runs of a lab that the text names, and evaluates all measures; `None` if the lab cannot run.
     pub(super) fn measure(
         lesson: &Lesson,
         (address, lab): (LabAddress, &'l Lab),
@@ -49,7 +49,7 @@ impl<'l> TracedLab<'l> {
         Some(traced)
     }
 
-    /// Makes a run of the lab, and takes every measure. A run that breaks has no values.
+    /// Performs a run of the lab, and evaluates all measures. A run that fails has no values.
     pub(crate) fn values_of(&self, trial: &Trial, stage: &Stage<'_>, numerics: StepVariant) -> Vec<f64> {
         let TracedLab { lab, model, programs, candidates, .. } = self;
         let none = || vec![f64::NAN; candidates.len()];

@@ -10,23 +10,24 @@ use labspec::verify::{PERTURBED_BACK, PERTURBED_START, Stage, Stated, answered, 
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// A number, and where it comes from.
+/// A number and its origin.
 #[derive(Clone, Debug)]
 pub struct Traced {
     /// The number.
     pub stated: Stated,
-    /// Where it comes from.
+    /// The origin.
     pub origin: Origin,
 }
 
-/// What was found in a lesson.
+/// The results for a lesson.
 pub struct Traces<'l> {
-    /// Every number with a unit, in the order of the text.
+    /// All numbers with a unit, in the order of the text.
     pub numbers: Vec<Traced>,
     pub(crate) labs: Vec<TracedLab<'l>>,
 }
 
-/// Finds where every number of a lesson comes from. Labs that cannot run are left out. `report_progress` receives each step.
+/// Finds the origin of every number of a lesson. Labs that cannot run are left out. `report_progress` receives descriptions
+/// of the current activity.
 pub fn trace<'l>(lesson: &'l Lesson, models: &Models, report_progress: &mut dyn FnMut(&str)) -> Traces<'l> {
     let numbers = stated(lesson);
     let stage = Stage::new(models);
@@ -50,7 +51,7 @@ pub fn trace<'l>(lesson: &'l Lesson, models: &Models, report_progress: &mut dyn 
     Traces { numbers, labs }
 }
 
-/// Makes the runs of the origins again from perturbed starts: an origin whose digits change is unsteady.
+/// Repeats the runs of the origins with perturbed starts: an origin whose digits change is unsteady.
 fn mark_unsteady(numbers: &[Stated], origins: &mut [Origin], labs: &[TracedLab<'_>], stage: &Stage<'_>) {
     let mut again: BTreeMap<(usize, usize), [Vec<f64>; 2]> = BTreeMap::new();
     for (s, origin) in numbers.iter().zip(origins) {
@@ -74,7 +75,7 @@ fn mark_unsteady(numbers: &[Stated], origins: &mut [Origin], labs: &[TracedLab<'
 }
 
 impl Traces<'_> {
-    /// The address of a lab, and what is done in one of its runs.
+    /// The address of a lab, and the description of one of its runs.
     pub fn run(&self, lab: usize, trial: usize) -> Option<(&LabAddress, &str)> {
         let tried = self.labs.get(lab)?;
         Some((&tried.address, &tried.trials.get(trial)?.words))

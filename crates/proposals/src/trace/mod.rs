@@ -1,18 +1,18 @@
-//! Where the numbers of a lesson come from: `labspec trace`.
+//! The origins of the numbers of a lesson: `labspec trace`.
 //!
 //! | stage | module |
 //! |---|---|
 //! | the numbers that a reader sees | `verify::stated` |
-//! | what the lesson claims already | `verify::claimed`, `verify::answered` |
+//! | the existing claims of the lesson | `verify::claimed`, `verify::answered` |
 //! | runs that the text names: settings of controls, presses, timesteps | `trials` |
-//! | the same with what the lab's setup changed of the model put back | `restored` |
-//! | what could be measured in each: readouts, traces, contacts, constants of the model | `candidates` |
-//! | formulas that stand before the number itself | `formula` |
-//! | which of all that is simplest, and whether chance explains it | `rank` |
-//! | what an author takes over | `propose` |
+//! | the same runs without the changes that the lab's setup makes to the model | `restored` |
+//! | possible measures of each run: readouts, traces, contacts, constants of the model | `candidates` |
+//! | formulas before the number itself | `formula` |
+//! | the simplest of these, and whether chance explains it | `rank` |
+//! | the proposal for the author | `propose` |
 //!
-//! A number is traced when a simple measure of a run that the text speaks of has the digits that are printed, and when so few
-//! things were tried before it that chance does not explain it.
+//! A number is traced if a simple measure of a run that the text names has the printed digits, and if so few candidates are
+//! simpler that chance does not explain the match.
 
 mod candidates;
 mod formula;

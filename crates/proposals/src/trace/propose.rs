@@ -1,4 +1,4 @@
-//! What was found, as an author takes it over: a `verify` object for each lab.
+//! The results as proposals for the author: a `verify` object for each lab.
 
 use super::lesson::Traces;
 use super::rank::{Hit, Origin};
@@ -10,7 +10,7 @@ use serde::{Serialize, Serializer};
 use serde_json::Value;
 use std::collections::BTreeMap;
 
-/// A `verify` object for each lab that numbers come from. What is worked out goes to the first one.
+/// A `verify` object for each lab from which numbers originate. Evaluated formulas are added to the first one.
 pub fn blocks(found: &Traces<'_>) -> Vec<(LabAddress, ProposedVerify)> {
     let mut all = Vec::new();
     let mut quoted: Vec<&str> = Vec::new();
@@ -61,7 +61,7 @@ pub fn blocks(found: &Traces<'_>) -> Vec<(LabAddress, ProposedVerify)> {
 pub fn laid_out(verify: &ProposedVerify) -> String {
     let line = |value: &Value| {
         let text = value.to_string();
-        // JSON without the spaces that a reader wants: outside of texts.
+        // JSON without spaces; spaces for readability are added outside of strings.
         let (mut out, mut inside, mut escaped) = (String::new(), false, false);
         for c in text.chars() {
             inside ^= c == '"' && !escaped;
@@ -95,13 +95,13 @@ fn quoted(text: &str) -> Value {
     Value::from(text)
 }
 
-/// A `verify` object that grows.
+/// A `verify` object under construction.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct ProposedVerify {
-    /// The address of the lab, where that is not plain.
+    /// The address of the lab, if it is not obvious.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) lab: Option<String>,
-    /// By the place of the trial: a name, and how it is run.
+    /// By index of the trial: a name, and the settings of the run.
     #[serde(skip_serializing_if = "BTreeMap::is_empty", serialize_with = "runs_by_name")]
     runs: BTreeMap<usize, (String, ProposedRun)>,
     /// Names and expressions.
@@ -113,18 +113,18 @@ pub struct ProposedVerify {
     /// The value of a numeric question.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) value: Option<String>,
-    /// Quotes and the expressions that give them.
+    /// Quotes and their expressions.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(crate) says: Vec<(String, String)>,
 }
 
-/// How a run is made, where it differs from the lab as it stands.
+/// The settings of a run that differ from those of the unchanged lab.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 struct ProposedRun {
     /// Controls and their values.
     #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "by_name")]
     set: Vec<(String, Value)>,
-    /// Buttons and when they are pressed, s.
+    /// Buttons and the times at which they are pressed, s.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     press: Vec<(String, u8)>,
     /// Statements before the first step.
@@ -147,7 +147,7 @@ fn runs_by_name<S: Serializer>(
 }
 
 impl ProposedVerify {
-    /// The name of a measure in a run.
+    /// Adds a measure in a run, and returns its name.
     pub(crate) fn measured(&mut self, place: usize, trial: Option<&Trial>, text: &str) -> String {
         let used: Vec<&str> = self.runs.values().map(|(name, _)| name.as_str()).collect();
         let run = match (self.runs.get(&place), trial) {
@@ -179,12 +179,12 @@ impl ProposedVerify {
     }
 }
 
-/// Most words of a name.
+/// The maximum number of words of a name.
 const WORDS: usize = 4;
-/// Words that say nothing in one.
+/// Words that carry no information in a name.
 const EMPTY: [&str; 9] = ["data", "model", "with", "contact", "joint", "math", "time", "opt", "1000"];
 
-/// A name that the language knows as one: the words of a text.
+/// A valid name in the language, made of the words of a text.
 fn name_of(text: &str, otherwise: &str) -> String {
     let words: Vec<String> = split_words(text).filter(|w| !EMPTY.contains(&w.as_str())).take(WORDS).collect();
     let name: String = words.join("_").chars().filter(|c| c.is_ascii_alphanumeric() || *c == '_').collect();
@@ -203,7 +203,7 @@ fn free(name: String, used: &[&str]) -> String {
     numbered.unwrap_or(name)
 }
 
-/// How a run is made.
+/// The settings of a run.
 fn run(trial: &Trial) -> ProposedRun {
     let scalar = |value: &Scalar| match value {
         Scalar::Number(n) => n.value.into(),

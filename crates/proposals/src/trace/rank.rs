@@ -1,4 +1,4 @@
-//! Which of all that was measured a number is: the simplest that has its digits, if chance does not explain it.
+//! Selection of the origin of a number: the simplest measure with its digits, unless chance explains the match.
 
 use super::candidates::Candidate;
 use super::formula::{self, Binding};
@@ -9,40 +9,40 @@ use super::words::split_words;
 use labspec::verify::Stated;
 use std::collections::BTreeSet;
 
-/// Where a number comes from.
+/// The origin of a number.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Origin {
-    /// The lesson claims it already: a check computes it.
+    /// The lesson already claims it, so a check computes it.
     Claimed,
-    /// This gives its digits.
+    /// This measure has its digits.
     From(Hit),
-    /// This gives its digits, and others where the start is moved by a hair: no reader can reproduce them.
+    /// This measure has its digits, but other digits if the start is perturbed slightly, so that no reader can reproduce them.
     Unsteady(Hit),
-    /// The text sets something to it: no run can say it.
+    /// The text uses the number as a setting, so it is not the result of a run.
     Setting(String),
-    /// Something gives its digits, and so does chance.
+    /// A measure has its digits, but chance explains the match.
     Chance(Hit),
-    /// Nothing that was tried gives its digits.
+    /// No candidate has its digits.
     Unknown,
 }
 
-/// Something that gives the digits of a number.
+/// A measure that has the digits of a number.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Hit {
-    /// The lab and the run, by their places; `None` for what is worked out.
+    /// The indexes of the lab and the run; `None` for an evaluated formula.
     pub place: Option<(usize, usize)>,
-    /// The measure, or the formula.
+    /// The measure or the formula.
     pub measure: String,
-    /// What makes its value the number of the text: `1000 * `, `-`, or nothing.
+    /// The factor from its value to the number in the text: `1000 * `, `-`, or nothing.
     pub factor: String,
-    /// The value, in the unit of the text.
+    /// The value in the unit of the text.
     pub value: f64,
-    /// How likely it is that something as simple as this has these digits by chance.
+    /// The probability that something as simple as this has these digits by chance.
     pub chance: f64,
 }
 
 impl Hit {
-    /// What gives the number of the text: `1000 * (a - b)`.
+    /// The expression for the number in the text: `1000 * (a - b)`.
     pub fn description(&self) -> String {
         let Hit { factor, measure, .. } = self;
         let mut deep = 0;
@@ -55,45 +55,45 @@ impl Hit {
     }
 }
 
-/// What is less likely than this is no chance.
+/// A match with a lower probability than this is not explained by chance.
 const CHANCE: f64 = 0.05;
-/// Numbers of one kind lie anywhere in three decades.
+/// Numbers of one kind are assumed to be distributed over three decades.
 const DECADES: f64 = 3.0;
-/// What a number costs that stands on the wrong side of zero.
+/// The cost of a number with the opposite sign.
 const OTHER_SIDE: f64 = 0.3;
-/// What a run costs whose setting the text does not name beside the number, and what one that it names does.
+/// The cost of a run whose setting the text does not name near the number, and of one whose setting the paragraph names.
 const FAR: f64 = 1.5;
 const IN_PARAGRAPH: f64 = 0.7;
-/// What a run costs in which the lab's setup is partly undone.
+/// The cost of a run without some changes of the lab's setup.
 const RESTORED: f64 = 1.0;
-/// A time that is named within so many bytes.
+/// A time counts as near if it is named within this many bytes; its cost is `NEARBY`.
 const NEAR: usize = 2500;
 const NEARBY: f64 = 0.4;
-/// A word that the sentence has, too, and so many at most.
+/// The reward for a word that also occurs in the sentence, and the maximum number of rewarded words.
 const WORD: f64 = 0.4;
 const MOST_WORDS: usize = 3;
-/// A word that only the paragraph has.
+/// The reward for a word that occurs only in the paragraph.
 const WIDE: f64 = 0.25;
-/// Labs of other models between a number and the lab, and a lab of another question.
+/// The cost of each lab of another model between a number and the lab, and of a lab of another question.
 const LAB: f64 = 0.3;
 const OTHER_QUESTION: f64 = 0.8;
-/// A constant that neither the sentence nor the paragraph speaks of, and one that the paragraph speaks of.
+/// The cost of a constant that neither the sentence nor the paragraph mentions, and of one that the paragraph mentions.
 const UNNAMED: f64 = 1.5;
 const NAMED_NEAR: f64 = 0.4;
-/// What is exactly the number that is printed.
+/// The cost of a value that equals the printed number exactly.
 const EXACT: f64 = 0.5;
-/// Two constants of different kinds that are so close are two readings.
+/// Two constants of different kinds whose costs differ by less than this are ambiguous.
 const APART: f64 = 1.2;
 
-/// Something that has the digits of a number, and how far-fetched it is.
+/// A candidate with the digits of a number, and its cost.
 struct Match {
     cost: f64,
-    /// It is a constant of the model.
+    /// Whether it is a constant of the model.
     constant: bool,
     hit: Hit,
 }
 
-/// Where a number comes from.
+/// Determines the origin of a number.
 pub(super) fn origin(s: &Stated, numbers: &[Stated], labs: &[TracedLab<'_>], bindings: &[Binding]) -> Origin {
     let around = NumberContext::new(s, numbers);
     if si(s) == 0.0 || s.bound {
@@ -110,7 +110,7 @@ pub(super) fn origin(s: &Stated, numbers: &[Stated], labs: &[TracedLab<'_>], bin
     let Some(Match { cost, mut hit, .. }) = matches.into_iter().next() else {
         return around.setting(s, labs).map_or(Origin::Unknown, Origin::Setting);
     };
-    // A constant is a round number, and so is what a text rounds to: that they are equal says more.
+    // Both constants and rounded numbers have few digits, so exact equality of a constant is weaker evidence.
     let exact = close(hit.value, s.read.value);
     let cost = if exact { cost + EXACT } else { cost };
     let mut simpler: Vec<f64> = tried.iter().filter(|(c, _)| *c <= cost).map(|(_, x)| *x).collect();
@@ -124,7 +124,7 @@ pub(super) fn origin(s: &Stated, numbers: &[Stated], labs: &[TracedLab<'_>], bin
     around.setting(s, labs).map_or(Origin::Chance(hit), Origin::Setting)
 }
 
-/// Compares a number with every value of its dimension: the cost and the size of each value, and those with its digits.
+/// Compares a number with every value of its dimension: returns the cost and the size of each value, and those with its digits.
 fn compare_values(
     s: &Stated,
     around: &NumberContext<'_>,
@@ -142,7 +142,7 @@ fn compare_values(
                 if !c.dimension.agrees(&s.dimension) || !value.is_finite() || value == 0.0 {
                     continue;
                 }
-                // A value that the text itself sets is no result of the run.
+                // A value that the text itself sets is not a result of the run.
                 if (sets_it || t > 0) && c.constant || c.time.is_some_and(|x| close(x, si(s))) && sets_it {
                     continue;
                 }
@@ -177,10 +177,10 @@ fn is_ambiguous(matches: &[Match]) -> bool {
     best.constant && others.iter().any(rivals)
 }
 
-/// Digits of a number that is known again.
+/// The number of digits from which a repeated number is recognized.
 const KNOWN: f64 = 3.0;
 
-/// A number that stands again is what it was, and a time at which something was measured is set.
+/// A repeated number has the same origin, and a time at which something was measured is a setting.
 pub(super) fn share(numbers: &[Stated], origins: &mut [Origin]) {
     let open = |o: &Origin| matches!(o, Origin::Unknown | Origin::Chance(_));
     let traced: Vec<(usize, Origin)> =
@@ -190,7 +190,7 @@ pub(super) fn share(numbers: &[Stated], origins: &mut [Origin]) {
         let again = traced.iter().find(|(i, o)| {
             matches!(o, Origin::From(_)) && numbers.get(*i).is_some_and(|n| n.quote == s.quote)
         });
-        // What explains it there explains it here best, too: fewer digits are enough.
+        // A measure that explains the number there and is the best candidate here needs fewer digits.
         let same = |from: &Origin| match (from, &*origin) {
             (Origin::From(a), Origin::Chance(b)) => (a.place, &a.measure) == (b.place, &b.measure),
             _ => false,
@@ -210,7 +210,7 @@ fn close(a: f64, b: f64) -> bool {
     (a - b).abs() <= 1e-9 * b.abs()
 }
 
-/// The formula that stands before a number, if it has its digits. `window` is the share of numbers that have them.
+/// The formula before a number, if it has its digits. `window` is the share of numbers that have them.
 fn worked(s: &Stated, bindings: &[Binding], window: f64) -> Option<Hit> {
     let found = formula::before(s, bindings)?;
     let hit = |factor: String, value: f64| Hit {
@@ -227,7 +227,7 @@ fn worked(s: &Stated, bindings: &[Binding], window: f64) -> Option<Hit> {
     all.into_iter().find(|hit| s.read.is(hit.value))
 }
 
-/// What makes a value of one unit that of another.
+/// The factor from one unit to another.
 fn factor(sign: &str, ratio: f64) -> String {
     if close(ratio, 1.0) {
         return sign.to_string();
@@ -240,7 +240,7 @@ fn factor(sign: &str, ratio: f64) -> String {
     }
 }
 
-/// How far away each lab is: by the labs of other models between, and whether it belongs to another question.
+/// The distance of each lab: the number of labs of other models in between, and whether it belongs to another question.
 fn distances(s: &Stated, labs: &[TracedLab<'_>]) -> Vec<f64> {
     let away = |tried: &TracedLab<'_>| {
         let span = &tried.lab.span;
@@ -266,10 +266,10 @@ fn distances(s: &Stated, labs: &[TracedLab<'_>]) -> Vec<f64> {
     all
 }
 
-/// What stands around a number.
+/// The text around a number.
 struct NumberContext<'n> {
     words: BTreeSet<String>,
-    /// Those of the whole paragraph.
+    /// The words of the whole paragraph.
     wide: BTreeSet<String>,
     text: String,
     beside: Vec<&'n Stated>,
@@ -288,7 +288,7 @@ impl<'n> NumberContext<'n> {
         NumberContext { words: split_words(&text).collect(), wide, text, beside, paragraph, near }
     }
 
-    /// How far-fetched a time is here.
+    /// The cost of a time for this number.
     fn time(&self, t: f64) -> f64 {
         let among = |list: &[&Stated]| list.iter().any(|n| close(si(n), t));
         match () {
@@ -298,13 +298,13 @@ impl<'n> NumberContext<'n> {
         }
     }
 
-    /// How far-fetched a run is here.
+    /// The cost of a run for this number.
     fn cost(&self, trial: &Trial, all: &[Trial]) -> f64 {
         let restored = if trial.restored.is_some() { RESTORED } else { 0.0 };
         restored + self.cost_of_setting(trial, all)
     }
 
-    /// How far-fetched a measure is here, in a run and a lab that cost so much themselves.
+    /// The cost of a measure for this number, given the costs of the run and the lab.
     fn cost_of_candidate(&self, c: &Candidate, run: f64, far: f64) -> f64 {
         let shared = c.words.intersection(&self.words).count().min(MOST_WORDS);
         let named = c.time.map_or(0.0, |x| self.time(x));
@@ -320,7 +320,7 @@ impl<'n> NumberContext<'n> {
     fn cost_of_setting(&self, trial: &Trial, all: &[Trial]) -> f64 {
         if let Some((x, unit)) = trial.named {
             let is = |n: &&&Stated| n.dimension.agrees(&unit) && close(si(n), x);
-            // "29 mm at h = 2 ms" is no number of a run at 10 ms.
+            // "29 mm at h = 2 ms" is not a number of a run at 10 ms.
             let others = || all.iter().filter(|t| t.sets_what(trial)).filter_map(|t| Some(t.named?.0));
             let another = |n: &&Stated| {
                 n.dimension.agrees(&unit) && others().chain(trial.nominal).any(|other| close(si(n), other))
@@ -339,7 +339,7 @@ impl<'n> NumberContext<'n> {
         if self.text.contains(&trial.label.to_lowercase()) { 0.0 } else { FAR }
     }
 
-    /// What the number is a setting of.
+    /// The setting that has this number as its value, if there is one.
     fn setting(&self, s: &Stated, labs: &[TracedLab<'_>]) -> Option<String> {
         let of =
             |trial: &Trial| trial.named.is_some_and(|(x, unit)| unit.agrees(&s.dimension) && close(x, si(s)));

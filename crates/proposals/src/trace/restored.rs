@@ -1,5 +1,5 @@
-//! Runs with the model as its file has it. The setup of a lab, of a question above all, may change its model ("the cube weighs
-//! 1.2 kg"), while the text goes on to speak of the one that the course has shown so far.
+//! Runs with the model as in its file. The setup of a lab, especially of a question, may change its model ("the cube weighs 1.2
+//! kg"), while the text still refers to the model that the course has used so far.
 
 use super::trials::{MOST, Trial};
 use labspec::bind::{ControlProgram, Programs, functions};
@@ -8,10 +8,10 @@ use labspec::spec::Lab;
 use labspec_core::Model;
 use labspec_core::reflect::{FieldId, Object};
 
-/// A setup that changes more than this makes another model.
+/// A setup with more changes than this makes another model.
 const CHANGED: usize = 8;
 
-/// The runs of a lab; behind them the first one, and those with a button, with the model as its file has it.
+/// The runs of a lab, followed by the first one and those with a button, with the model as in its file.
 pub(super) fn with(mut all: Vec<Trial>, lab: &Lab, model: &Model, programs: &Programs) -> Vec<Trial> {
     let Some(statements) = statements(lab, model, programs) else { return all };
     let again = |(at, trial): (usize, &Trial)| {
@@ -27,8 +27,8 @@ pub(super) fn with(mut all: Vec<Trial>, lab: &Lab, model: &Model, programs: &Pro
     all
 }
 
-/// Statements that put back what the setup of a lab changes of its model; `None` where that is nothing, or too much, or where a
-/// control sets it, too.
+/// Statements that undo the changes that the setup of a lab makes to its model; `None` if there are no changes, or too many, or
+/// if a control sets the same field.
 fn statements(lab: &Lab, model: &Model, programs: &Programs) -> Option<String> {
     let setup = programs.setup.as_ref()?;
     let set = programs.controls.iter().filter_map(|(_, control)| match control {
@@ -59,7 +59,7 @@ fn statements(lab: &Lab, model: &Model, programs: &Programs) -> Option<String> {
     if all.is_empty() || all.len() > CHANGED {
         return None;
     }
-    // What follows from masses is computed again where the setup does so.
+    // Fields that depend on masses are recomputed if the setup does so.
     let calls = &setup.program.effects().calls;
     if calls.iter().any(|&f| functions::name(f) == Some("mj_setConst")) {
         all.push("mj.mj_setConst(model, data)".into());
@@ -71,7 +71,7 @@ fn of_model(field: Option<FieldId>) -> bool {
     field.is_some_and(|f| matches!(f.info().object, Object::Model | Object::Option))
 }
 
-/// An element as a lab writes it.
+/// An element as a lab refers to it.
 fn element(field: FieldId, index: usize) -> String {
     let info = field.info();
     let object = if info.object == Object::Option { "model.opt" } else { "model" };

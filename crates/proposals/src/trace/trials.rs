@@ -1,4 +1,4 @@
-//! The runs that a text speaks of: the lab as it stands, a control at a value that is named, a button, a timestep.
+//! The runs that a text names: the unchanged lab, a control at a named value, a button, a timestep.
 
 use super::units::{LONGEST_TIMESTEP, round, second, si};
 use super::words::text;
@@ -14,30 +14,30 @@ use labspec_expr::dimension::{Dimension, Measure};
 /// A run.
 #[derive(Clone, Debug)]
 pub(crate) struct Trial {
-    /// What is done: "as it stands", "\"mass\" at 5".
+    /// A description: "as it stands", "\"mass\" at 5".
     pub(crate) words: String,
-    /// Labels of controls and their values.
+    /// The labels of controls, and their values.
     pub(crate) set: Vec<(String, Scalar)>,
-    /// Buttons that are pressed at the start.
+    /// The buttons that are pressed at the start.
     pub(crate) press: Vec<String>,
-    /// The timestep, where no control sets it, s.
+    /// The timestep, s, if no control sets it.
     pub(crate) timestep: Option<f64>,
-    /// Statements that put back what the lab's setup has changed of the model.
+    /// Statements that undo the changes of the lab's setup to the model.
     pub(crate) restored: Option<String>,
-    /// Its length, s, where it is not the lab's own.
+    /// The length, s, if it is not the lab's own.
     pub(crate) until: Option<f64>,
-    /// What is set, in SI units, to be found in the text.
+    /// The value that is set, in SI units, to find it in the text.
     pub(crate) named: Option<(f64, Dimension)>,
-    /// What the lab has there itself, in SI units.
+    /// The value in the unchanged lab, in SI units.
     pub(crate) nominal: Option<f64>,
-    /// The words of an option or a button, to be found in the text.
+    /// The words of an option or a button, to find them in the text.
     pub(crate) label: String,
 }
 
-/// Most values of one control, and most runs of one lab.
+/// The maximum number of values of one control, and of runs of one lab.
 const VALUES: usize = 8;
 pub(super) const MOST: usize = 40;
-/// The length of a run is that of the longest plot, up to this, s.
+/// A run is as long as the longest plot, up to this limit, s.
 const LENGTH: f64 = 10.0;
 
 /// The runs of a lab.
@@ -85,7 +85,7 @@ pub(crate) fn trials(lab: &Lab, numbers: &[Stated]) -> Vec<Trial> {
     all
 }
 
-/// The runs in which a control has a value that the text names.
+/// Adds the runs in which a control has a value that the text names.
 fn add_control_trials(control: &Control, numbers: &[Stated], base: &Trial, all: &mut Vec<Trial>) {
     let label = control.label.as_str();
     match &control.kind {
@@ -129,20 +129,20 @@ fn add_control_trials(control: &Control, numbers: &[Stated], base: &Trial, all: 
 }
 
 impl Trial {
-    /// Whether both give a value to the same thing.
+    /// Whether both runs set the same controls.
     pub(super) fn sets_what(&self, other: &Trial) -> bool {
         let labels = |t: &Trial| t.set.iter().map(|(label, _)| label.clone()).collect::<Vec<_>>();
         self.timestep.is_some() == other.timestep.is_some() && labels(self) == labels(other)
     }
 
-    /// The statements after those of the lab.
+    /// The statements that run after the setup of the lab.
     pub(super) fn setup(&self) -> Option<String> {
         let timestep = self.timestep.map(|h| format!("model.opt.timestep = {h}"));
         let all: Vec<String> = self.restored.iter().cloned().chain(timestep).collect();
         (!all.is_empty()).then(|| all.join("; "))
     }
 
-    /// The run as a `verify` object has it.
+    /// The run in the form of a `verify` object.
     pub(super) fn run(&self, name: &str) -> Run {
         let number = |value: f64| Number { value, span: 0..0 };
         Run {

@@ -1,4 +1,4 @@
-//! The chart of two falling balls (`fall` in crates/plot/src/tests.rs), drawn by plotters.
+//! Draws the chart of two falling balls (`fall` in crates/plot/src/tests.rs) with plotters.
 
 use plotters::prelude::*;
 fn main() {

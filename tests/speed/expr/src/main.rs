@@ -1,5 +1,5 @@
-//! The speed of the language beside other evaluators, in one table: `cargo run --release -- ../../../docs/measured/speed-language.md`
-//! in this folder. Real labs are those of `../shared/corpus`.
+//! The speed of the language and of other evaluators, in one table. To run it in this folder: `cargo run --release --
+//! ../../../docs/measured/speed-language.md`. The labs are those of `../shared/corpus`.
 
 use fasteval::{Compiler as _, Evaler};
 use labspec::bind::scene::Models;
@@ -21,10 +21,10 @@ const ERROR: &str = "1000 * (data.qpos[2] - (1 - 0.5 * 9.81 * data.time * data.t
 const OTHERS: &str = "1000.0 * (q - (1.0 - 0.5 * 9.81 * t * t))";
 const MODEL: &str =
     "<mujoco><worldbody><body pos='0 0 1'><freejoint/><geom size='0.1'/></body></worldbody></mujoco>";
-/// Samples of a column.
+/// The number of samples of a column.
 const SAMPLES: usize = 4096;
 
-/// Time of one of `times` calls in ns: the best of 25 rounds, so that other programs on the machine do not count.
+/// The time of one of `times` calls, ns: the best of 25 rounds, which reduces the effect of other programs on the machine.
 fn time(times: usize, mut call: impl FnMut(usize)) -> f64 {
     let round = |_| {
         let clock = Instant::now();
@@ -34,7 +34,7 @@ fn time(times: usize, mut call: impl FnMut(usize)) -> f64 {
     (0..25).map(round).fold(f64::INFINITY, f64::min)
 }
 
-/// A host of two fields, as small as a host can be.
+/// A minimal host with two fields.
 struct Small {
     time: f64,
     qpos: [f64; 7],
@@ -66,7 +66,7 @@ fn program(model: &Model, text: &str) -> Program {
     Compiler::new(&names, &mut globals).expression(text).program.expect("the expression is right")
 }
 
-/// The error expression, evaluated in every way: name and ns.
+/// The time of the error expression with each evaluator: name and ns.
 fn error_expression() -> Vec<(&'static str, f64)> {
     let model = xml::compile(MODEL).expect("the model is right");
     let program = program(&model, ERROR);
@@ -122,7 +122,7 @@ fn error_expression() -> Vec<(&'static str, f64)> {
         }),
     ));
 
-    // An array whose length changes while running is not for formulas.
+    // Formulas cannot read an array whose length changes at run time.
     let load = self::program(&model, "data.efc_force[0]");
     let mut context = Context::new();
     rows.push((
@@ -181,7 +181,7 @@ fn error_expression() -> Vec<(&'static str, f64)> {
     rows
 }
 
-/// Every lab of the corpus with its model.
+/// All labs of the corpus, each with its model.
 fn corpus() -> Vec<(String, Lab, Arc<Model>)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../../shared/corpus");
     let Ok(folder) = ModelFolder::open(&root.join("models")) else { return Vec::new() };

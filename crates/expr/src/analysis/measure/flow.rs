@@ -1,5 +1,6 @@
-//! One function of a text: its blocks in the order of the text, again where a loop hands something on, and the functions that it calls
-//! with what they are given there. What a name measures only ever becomes less certain, so the rounds end.
+//! Dimension analysis of one function: its blocks in source order, repeated while a loop changes a measure, and the
+//! functions that it calls, analysed with the measures of the arguments. The measure of a name only becomes less certain,
+//! so the iteration terminates.
 
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -14,13 +15,13 @@ use crate::ssa::{Num, Operand, SsaFunction, SsaProgram, Terminator, Val};
 use crate::value::{Value, View};
 use labspec_finding::Span;
 
-/// Operations that are looked at for one text; calls within calls and loops within loops would be many.
+/// Operations analysed for one program. Without the limit, nested calls and loops would multiply.
 const MOST: usize = 100_000;
-/// Rounds through a function with loops, and functions that call each other.
+/// Iterations over a function with loops. `DEEP` limits the nesting of function calls.
 const ROUNDS: usize = 8;
 const DEEP: usize = 8;
 
-/// The dimensions in a text.
+/// Returns the dimensions in a program.
 pub(crate) fn measured(
     form: &SsaProgram,
     schema: &dyn Schema,
@@ -46,30 +47,30 @@ pub(crate) fn measured(
     all
 }
 
-/// What a text is looked at with.
+/// The inputs of the analysis of a program.
 pub(super) struct MeasureContext<'f> {
     pub(super) form: &'f SsaProgram,
     pub(super) schema: &'f dyn Schema,
     pub(super) given: &'f KnownDimensions,
     pub(super) aggregates: &'f Aggregates,
-    /// Operations that may still be looked at.
+    /// Operations that may still be analysed.
     pub(super) left: Cell<usize>,
 }
 
-/// The work on one function of a text.
+/// The analysis of one function of a program.
 pub(super) struct MeasureWalk<'f> {
     pub(super) around: &'f MeasureContext<'f>,
     pub(super) unit: &'f SsaFunction,
-    /// The function, behind those that called it; of one that is looked at for itself it stands alone.
+    /// The function and those that called it, outermost first. A function that is analysed alone is the only entry.
     stack: Vec<UnitId>,
     pub(super) numbers: BTreeMap<u32, Measure>,
     pub(super) values: BTreeMap<u32, Measure>,
-    /// Values that are functions of the text, with the names of what these use of this one.
+    /// Values that are functions of the program, each with the captured values that it uses.
     pub(super) closures: BTreeMap<u32, (UnitId, Vec<Val>)>,
-    /// What is passed to the function that is called next, by its registers, and what the last one gave.
+    /// The arguments of the next call, by register, and the results of the last call.
     pub(super) passed: [BTreeMap<u32, Operand>; 2],
     pub(super) result_measure: Measure,
-    /// A function that is not known was called: it may have changed whatever is shared.
+    /// An unknown function was called: it may have changed every shared variable.
     pub(super) wild: bool,
     pub(super) found: TextDimensions,
 }
@@ -90,7 +91,7 @@ impl<'f> MeasureWalk<'f> {
         }
     }
 
-    /// Looks at everything until nothing changes.
+    /// Repeats the analysis until nothing changes.
     fn iterate_to_fixpoint(&mut self) {
         if !self.unit.blocks.iter().any(|b| matches!(b.end, Terminator::Again(_))) {
             return self.round();
@@ -106,7 +107,7 @@ impl<'f> MeasureWalk<'f> {
         self.found = TextDimensions { variables, ..TextDimensions::default() };
     }
 
-    /// One look at everything, in the order of the text.
+    /// Analyses all operations once, in source order.
     fn round(&mut self) {
         self.found = TextDimensions { value: Measure::Anything, ..TextDimensions::default() };
         let unit = self.unit;
@@ -134,7 +135,8 @@ impl<'f> MeasureWalk<'f> {
         self.around.left.set(self.around.left.get().saturating_sub(unit.ops.len()));
     }
 
-    /// What a function of the text gives, and what its parameters, and what it uses of the functions around it, measure afterwards.
+    /// Returns the measure of the result of a function, and the measures of its parameters and captured variables after the
+    /// call.
     pub(super) fn call(&mut self, id: UnitId, given: &[Measure]) -> (Measure, Vec<Measure>) {
         let unknown = || (Measure::Unknown, vec![Measure::Unknown; given.len()]);
         let around = self.around;
@@ -154,7 +156,7 @@ impl<'f> MeasureWalk<'f> {
         (work.found.value, places.iter().map(|at| work.at(*at)).collect())
     }
 
-    /// A name measures one thing more.
+    /// Adds a possible measure to an operand.
     pub(super) fn join(&mut self, at: Operand, measure: Measure) {
         let before = self.slot(at).copied().unwrap_or(Measure::Anything);
         self.set(at, before.or(measure));
@@ -198,7 +200,7 @@ impl<'f> MeasureWalk<'f> {
         }
     }
 
-    /// The number that stands for itself.
+    /// The constant value of a number, if it has one.
     pub(super) fn literal(&self, n: Num) -> Option<f64> {
         self.unit.constant(self.unit.same.number(n))
     }
@@ -212,7 +214,7 @@ impl<'f> MeasureWalk<'f> {
     }
 
     pub(super) fn variable(&self, slot: u32) -> Measure {
-        // A function of the text may run at any time.
+        // A function of the program may run at any time, so the measure from before the program remains possible.
         let before = self.around.given.variables.get(&slot).copied().unwrap_or(Measure::Anything);
         let stored = self.found.variables.get(&slot).filter(|_| self.stack == [0]);
         stored.map_or(before, |stored| before.or(*stored))
@@ -227,7 +229,7 @@ impl<'f> MeasureWalk<'f> {
     }
 }
 
-/// The names of the parameters of a function, and then of what it uses of the functions around it.
+/// The operands of the parameters of a function, followed by those of its captured variables.
 fn places(unit: &SsaFunction) -> impl Iterator<Item = Operand> {
     use crate::ssa::Representation;
     let (mut numbers, mut values) = (0, 0);

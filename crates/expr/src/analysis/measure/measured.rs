@@ -1,4 +1,4 @@
-//! What is known of the dimensions in a text, and what its surroundings are known to measure.
+//! The results of the dimension analysis, and its inputs from outside the program.
 
 use std::collections::BTreeMap;
 
@@ -8,55 +8,56 @@ use crate::types::Type;
 
 use labspec_finding::Span;
 
-/// What is known of the surroundings of a text.
+/// Known measures of names that are defined outside the program.
 #[derive(Clone, Debug, Default)]
 pub struct KnownDimensions {
-    /// The variables, by their slots. What is not here was never stored.
+    /// Measures of the variables, by slot. A variable that is missing here was never stored.
     pub variables: BTreeMap<u32, Measure>,
-    /// What a control gives.
+    /// The measure of `value`, which a control supplies.
     pub value: Measure,
 }
 
-/// The dimensions in a text.
+/// The dimensions in a program.
 #[derive(Clone, Debug, Default)]
 pub struct TextDimensions {
-    /// Of its value.
+    /// The measure of the result.
     pub value: Measure,
-    /// Of every variable that it stores.
+    /// The measures of all variables that the program stores.
     pub variables: BTreeMap<u32, Measure>,
-    /// Of what it stores in fields.
+    /// The measures of the numbers that the program stores in fields.
     pub stores: Vec<DimensionStore>,
-    /// Sums and comparisons of what cannot be added or compared.
+    /// Additions and comparisons of quantities with different dimensions.
     pub clashes: Vec<DimensionClash>,
 }
 
-/// A number that is stored.
+/// A number that is stored in a field.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DimensionStore {
-    /// Where to.
+    /// The elements that are written.
     pub access: Access,
-    /// What it is.
+    /// The measure of the number.
     pub measure: Measure,
-    /// Where this stands.
+    /// The location of the assignment.
     pub span: Span,
 }
 
 /// Two quantities of different dimensions that are added or compared.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DimensionClash {
-    /// Where.
+    /// The location of the operation.
     pub span: Span,
-    /// The one.
+    /// The dimension of the left operand.
     pub left: Dimension,
-    /// The other.
+    /// The dimension of the right operand.
     pub right: Dimension,
 }
 
-/// What the aggregates of a text give, by their slots.
+/// The measures of the aggregates of a program, by slot.
 pub(crate) type Aggregates = BTreeMap<usize, Measure>;
 
 impl TextDimensions {
-    /// A text whose value is a truth value measures nothing.
+    /// The same dimensions for a result of type `result`: a boolean is dimensionless, and the measure of a string is
+    /// unknown.
     pub(crate) fn of_type(self, result: Type) -> TextDimensions {
         match result {
             Type::Boolean | Type::Void => TextDimensions { value: Measure::NUMBER, ..self },

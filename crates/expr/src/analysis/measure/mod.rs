@@ -1,13 +1,13 @@
-//! Which dimension every number of a text has, as far as it is certain, read off its form.
+//! Dimension analysis: the dimension of every number of a program, as far as it is certain, derived from the SSA form.
 //!
-//! Numbers of the text may stand for quantities of any dimension; what cannot be known is unknown. A list and a record have the
-//! dimension that all of their elements have, a text that of the number which it was made from.
+//! A literal number may be a quantity of any dimension. What cannot be determined is unknown. The dimension of a list or a
+//! record is the one that all elements have; that of a string is the dimension of the number from which it was made.
 //!
 //! | piece | module |
 //! |---|---|
-//! | one function: its blocks again and again, until nothing changes; calls of others | `flow` |
+//! | one function: its blocks, repeated until nothing changes; calls of other functions | `flow` |
 //! | one operation | `operation` |
-//! | what methods and free functions hand on | `natives` |
+//! | results of methods and free functions | `natives` |
 
 mod flow;
 mod measured;

@@ -1,10 +1,11 @@
-//! What methods and free functions hand on: elements of what they are called on, or numbers of their own.
+//! The measures of the results of methods and free functions: elements of the receiver, or dimensionless numbers.
 
 use crate::dimension::Measure;
 use crate::ir::{FreeFunctionId, MethodId};
 use crate::natives::{Native, NativeResult, ReceiverKind};
 
-/// What a method gives; what it is called on comes first. Where lists and texts have one of the same name, it may be either.
+/// The measure of a method's result; the receiver is the first argument. Where lists and strings have methods of the same
+/// name, the result joins the measures of both.
 pub(super) fn method(name: MethodId, args: &[Measure]) -> Measure {
     name.rows().map(|row| of_row(row, args)).reduce(Measure::or).unwrap_or_default()
 }
@@ -14,7 +15,7 @@ fn of_row(row: &Native, args: &[Measure]) -> Measure {
     match (row.gives, row.on, row.name) {
         (NativeResult::Boolean | NativeResult::Number, ..) => Measure::NUMBER,
         (.., "concat" | "with") => args.iter().copied().reduce(Measure::or).unwrap_or_default(),
-        // Digits of another base, and texts that are put together, are other numbers.
+        // Digits in another base and assembled strings represent other numbers.
         (.., "toString") if args.len() > 1 => Measure::Unknown,
         (_, ReceiverKind::Text, "repeat" | "padEnd" | "padStart" | "replace" | "replaceAll") => {
             Measure::Unknown
@@ -32,7 +33,7 @@ fn of_row(row: &Native, args: &[Measure]) -> Measure {
     }
 }
 
-/// What a free function gives.
+/// The measure of the result of a free function.
 pub(super) fn free(function: FreeFunctionId, args: &[Measure]) -> Measure {
     let arg = |i: usize| args.get(i).copied().unwrap_or_default();
     match (function.row().gives, function.row().name) {

@@ -1,4 +1,4 @@
-//! What one operation gives, by what its operands are.
+//! The measure of the result of one operation, given the measures of its operands.
 
 use super::flow::MeasureWalk;
 use super::measured::DimensionStore;
@@ -14,7 +14,7 @@ use crate::value::Value;
 use labspec_finding::Span;
 
 impl MeasureWalk<'_> {
-    /// What an operation on numbers and variables gives.
+    /// Analyses an operation on numbers and variables.
     pub(super) fn op(&mut self, op: &Op, span: &Span) {
         let (number, value) = (Operand::Number, Operand::Value);
         match *op {
@@ -66,7 +66,7 @@ impl MeasureWalk<'_> {
         }
     }
 
-    /// Operations that reach out of the text: calls of the host, and what it stores.
+    /// Analyses operations with effects outside the program: calls of the host, and stores.
     fn host_op(&mut self, op: &Op, span: &Span) {
         let (number, value) = (Operand::Number, Operand::Value);
         match *op {
@@ -99,7 +99,7 @@ impl MeasureWalk<'_> {
         }
     }
 
-    /// Operations on lists, records and texts.
+    /// Analyses operations on lists, records and strings.
     fn collection_op(&mut self, op: &Op) {
         let value = Operand::Value;
         match *op {
@@ -152,7 +152,7 @@ impl MeasureWalk<'_> {
         }
     }
 
-    /// Functions of the text, and their calls.
+    /// Analyses functions of the program and their calls.
     fn call_op(&mut self, op: &Op) {
         let (number, value) = (Operand::Number, Operand::Value);
         match *op {
@@ -183,7 +183,7 @@ impl MeasureWalk<'_> {
                 self.passed[1].insert(register, value(a));
             }
             Op::Call(unit) => {
-                // Numbers and values are counted apart, each in the order of the parameters.
+                // Numbers and values are numbered separately, each in the order of the parameters.
                 let [numbers, values] = std::mem::take(&mut self.passed);
                 let (mut numbers, mut values) = (numbers.into_values(), values.into_values());
                 let slots = self.around.form.units.get(unit as usize);
@@ -200,8 +200,8 @@ impl MeasureWalk<'_> {
         }
     }
 
-    /// Calls a function of the text; what it may have put into lists and shared places is known afterwards. As in JavaScript, an
-    /// argument too few is `undefined`, and one too many is ignored.
+    /// Analyses a call of a function of the program. Afterwards, the measures of the lists and shared variables that it may
+    /// have changed are updated. As in JavaScript, a missing argument is `undefined` and an extra argument is ignored.
     fn invoke(&mut self, unit: UnitId, args: Vec<Operand>, used: Vec<Operand>) {
         let wanted = self.around.form.units.get(unit as usize).map_or(0, |u| u.params.len());
         let mut given: Vec<Option<Operand>> = args.into_iter().map(Some).collect();
@@ -220,7 +220,7 @@ impl MeasureWalk<'_> {
         self.result_measure = result;
     }
 
-    /// What is in a list, a record or a shared place.
+    /// The measure of the elements of a list or a record, or of the value of a shared variable.
     fn held_by(&self, of: Val) -> Measure {
         if self.wild && self.unit.constant_value(of).is_none() { Measure::Unknown } else { self.value(of) }
     }
@@ -232,7 +232,7 @@ impl MeasureWalk<'_> {
         }
     }
 
-    /// The results of everything else are unknown.
+    /// Marks the results of all other operations as unknown.
     fn unknown(&mut self, op: &Op) {
         let (mut given, mut op) = (Vec::new(), *op);
         op.each(&mut |u| match u {
@@ -247,7 +247,7 @@ impl MeasureWalk<'_> {
         self.found.stores.push(DimensionStore { access, measure, span: *span });
     }
 
-    /// What every member of a table is.
+    /// The measure that every member of a table has.
     fn picked(&self, table: u32) -> Measure {
         let picks = self.around.form.picks.get(table as usize);
         let of = picks.iter().flat_map(|picks| &picks.of).map(|(_, value)| match value {
@@ -287,7 +287,7 @@ impl MeasureWalk<'_> {
         }
     }
 
-    /// What a function of `Math` gives.
+    /// The measure of the result of a function of `Math`.
     fn math(&mut self, function: math::MathFunction, args: Args, span: &Span) -> Measure {
         let args: Vec<Num> = args.operands(&self.unit.args).iter().map(|n| Num(*n)).collect();
         let measures: Vec<Measure> = args.iter().map(|n| self.number(*n)).collect();
@@ -315,18 +315,18 @@ impl MeasureWalk<'_> {
             "acos" | "asin" | "atan" => Measure::Known(Dimension::RADIAN),
             "isFinite" | "isNaN" => Measure::NUMBER,
             "clz32" | "imul" => Measure::Unknown,
-            // Of a number without a unit.
+            // The other functions return a number without a unit.
             _ => Measure::LOOSE,
         }
     }
 }
 
-/// Whether a method changes the elements of what it is called on.
+/// Whether a method changes the elements of its receiver.
 fn changes(name: MethodId) -> bool {
     name.rows().any(|row| row.changes)
 }
 
-/// Whether a function of several numbers gives one of their dimension.
+/// Whether the result of a function of several numbers has their dimension.
 fn keeps(name: &str) -> bool {
     matches!(name, "min" | "max" | "hypot")
 }

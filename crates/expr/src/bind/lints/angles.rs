@@ -1,4 +1,4 @@
-//! Angles: degrees written for radians, and numbers taken for angles that are none.
+//! Lints about angles: degrees where radians are expected, and numbers used as angles that are not angles.
 
 use super::pass::LintPass;
 use crate::ast::{BinaryOp, Expr};
@@ -10,7 +10,7 @@ use crate::types::FieldKey;
 use labspec_finding::{Finding, Span};
 
 impl LintPass<'_> {
-    /// What a function of angles gets.
+    /// Checks the argument of a trigonometric function.
     pub(super) fn angle(&mut self, span: Span, by: &str, shape: &ExpressionShape) {
         if let Some(x) = shape.number()
             && in_degrees(x)
@@ -21,7 +21,7 @@ impl LintPass<'_> {
         self.no_angle(span, shape, &format!("`{by}` needs an angle"));
     }
 
-    /// `x * 180` and its like, which make degrees of radians.
+    /// Checks `x * 180` and similar conversions of radians to degrees.
     #[inline(never)]
     pub(super) fn converted(&mut self, op: BinaryOp, left: &Expr, right: &Expr) {
         if op != BinaryOp::Multiply {
@@ -40,7 +40,7 @@ impl LintPass<'_> {
         }
     }
 
-    /// Warns where an angle is needed, of a number that the host knows to be none.
+    /// Warns if an angle is needed and the host knows that the number is not one.
     fn no_angle(&mut self, span: Span, shape: &ExpressionShape, needs: &str) {
         let Some((field, at)) = shape.element else { return };
         let Role::NoAngle(advice) = self.schema.role(field, at) else { return };
@@ -56,7 +56,7 @@ impl LintPass<'_> {
         );
     }
 
-    /// Degrees that are stored in an angle.
+    /// Warns if a number of degrees is stored in an angle.
     pub(super) fn degrees_stored(
         &mut self,
         span: Span,
@@ -80,7 +80,7 @@ impl LintPass<'_> {
     }
 }
 
-/// Whether a number looks like degrees: whole, a multiple of 5, and more than a full turn in radians.
+/// Whether a number looks like degrees: a multiple of 5, at least 10 (more than a full turn in radians) and at most 720.
 fn in_degrees(x: f64) -> bool {
     x.abs() >= 10.0 && x % 5.0 == 0.0 && x.abs() <= 720.0
 }

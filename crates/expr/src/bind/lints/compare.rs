@@ -1,4 +1,4 @@
-//! Comparisons that do not say what they seem to say, and `^`.
+//! Lints about comparisons that do not mean what they appear to mean, and about `^`.
 
 use super::pass::LintPass;
 use crate::ast::{BinaryOp, Expr, ExprKind};
@@ -6,7 +6,7 @@ use crate::rules;
 use labspec_finding::{Finding, Span};
 
 impl LintPass<'_> {
-    /// A comparison with the literal NaN.
+    /// Warns about a comparison with the literal NaN.
     #[inline(never)]
     pub(super) fn compared_with_nan(&mut self, op: BinaryOp, left: &Expr, right: &Expr, span: Span) {
         let is_nan = |e: &Expr| matches!(&e.kind, ExprKind::Name(n) if n == "NaN");
@@ -26,13 +26,13 @@ impl LintPass<'_> {
         });
     }
 
-    /// `a < b < c`
+    /// Warns about `a < b < c`.
     #[inline(never)]
     pub(super) fn chained(&mut self, op: BinaryOp, left: &Expr, span: Span) {
         let ExprKind::Binary { op: inner, right: middle, left: first } = &left.kind else { return };
         let orders = |op: BinaryOp| op.power() == 9;
         let text = self.text(left.span);
-        // In `(a < b) < c` the parenthesis says that it is meant.
+        // The parentheses of `(a < b) < c` show that it is intended.
         let enclosed =
             left.span.start < first.span.start && text.starts_with('(') && left.span.end > middle.span.end;
         if !(orders(op) && orders(*inner)) || enclosed {
@@ -49,7 +49,7 @@ impl LintPass<'_> {
         );
     }
 
-    /// `^`
+    /// Warns about `^`.
     #[inline(never)]
     pub(super) fn power(&mut self, left: &Expr, right: &Expr, span: Span) {
         let meant = format!("{} ** {}", self.text(left.span), self.text(right.span));

@@ -1,4 +1,4 @@
-//! What is computed or written for nothing.
+//! Lints about results that are not used, fallbacks that are never taken and statements that are never executed.
 
 use super::pass::LintPass;
 use crate::ast::{BinaryOp, Expr, ExprKind, LogicalOp, Stmt, StmtKind};
@@ -8,7 +8,7 @@ use crate::value::Value;
 use labspec_finding::{Finding, Span};
 
 impl LintPass<'_> {
-    /// A statement that changes nothing.
+    /// Warns about a statement without an effect.
     #[inline(never)]
     pub(super) fn unused(&mut self, expr: &Expr) {
         match &expr.kind {
@@ -18,7 +18,7 @@ impl LintPass<'_> {
                 self.unused(then);
                 return self.unused(otherwise);
             }
-            // What its parts do, they do; the number is nobody's.
+            // The operands may have effects, but the result of the operator is not used.
             ExprKind::Binary { .. } if !self.typed.is_idle(expr.span) => {
                 self.found.push(
                     Finding::warning(
@@ -46,7 +46,7 @@ impl LintPass<'_> {
         });
     }
 
-    /// A fallback that can never be taken.
+    /// Warns about a fallback that can never be taken.
     #[inline(never)]
     pub(super) fn fallback(&mut self, op: LogicalOp, left: &Expr, span: Span) {
         let Some(shape) = self.typed.shape(left.span).filter(|shape| shape.constant.is_none()) else {
@@ -63,7 +63,7 @@ impl LintPass<'_> {
         );
     }
 
-    /// The first statement behind a `return` or a jump.
+    /// Warns about the first statement after a `return` or a jump.
     pub(super) fn never_reached(&mut self, statements: &[Stmt]) {
         let runs = |s: &&Stmt| !matches!(s.kind, StmtKind::Function { .. } | StmtKind::Empty);
         let Some(at) = statements.iter().position(|statement| self.leaves(statement)) else { return };
@@ -76,7 +76,7 @@ impl LintPass<'_> {
         }
     }
 
-    /// Whether nothing that stands behind a statement is run.
+    /// Whether no statement after this one is executed.
     fn leaves(&self, statement: &Stmt) -> bool {
         match &statement.kind {
             StmtKind::Return(_) | StmtKind::Break | StmtKind::Continue => true,

@@ -1,5 +1,5 @@
-//! The third pass: what is allowed, but hardly ever meant. It looks at the text and at what is known of its parts, and changes
-//! nothing.
+//! The third pass: lints, which report code that is allowed but rarely intended. They read the source text and the results
+//! of the other passes, and change nothing.
 
 mod angles;
 mod compare;

@@ -1,4 +1,4 @@
-//! Texts where numbers belong.
+//! Lints about strings in places where numbers are expected.
 
 use super::pass::LintPass;
 use crate::ast::{BinaryOp, Expr, ExprKind, UnaryOp};
@@ -9,7 +9,7 @@ use crate::value::Value;
 use labspec_finding::{Finding, Span};
 
 impl LintPass<'_> {
-    /// `-text`
+    /// Checks the operand of `-` and `~`.
     #[inline(never)]
     pub(super) fn text_operand(&mut self, op: UnaryOp, expr: &Expr) {
         let ExprKind::Unary { operand, .. } = &expr.kind else { return };
@@ -18,7 +18,7 @@ impl LintPass<'_> {
         }
     }
 
-    /// `text * 2`
+    /// Checks the operands of arithmetic operators such as `*`.
     #[inline(never)]
     pub(super) fn text_operands(&mut self, op: BinaryOp, left: &Expr, right: &Expr) {
         if !op.is_comparison() && op != BinaryOp::Add {
@@ -43,7 +43,7 @@ impl LintPass<'_> {
         ));
     }
 
-    /// A text that is stored where numbers live.
+    /// Warns about a string that is stored where numbers are expected.
     pub(super) fn text_stored(&mut self, span: Span, shape: &ExpressionShape) {
         if shape.ty != Type::String {
             return;
@@ -60,7 +60,7 @@ impl LintPass<'_> {
         ));
     }
 
-    /// A text that a function of numbers gets.
+    /// Warns about a string that is passed to a function of numbers.
     pub(super) fn text_for_number(&mut self, span: Span, by: &str, shape: &ExpressionShape) {
         if shape.ty == Type::String {
             let message = format!("`{by}` needs a number, but this is a string");
@@ -73,7 +73,8 @@ impl LintPass<'_> {
     }
 }
 
-/// What to write in place of a text, with the reasons for one without a number, one with a number, and an unknown one.
+/// Adds to the finding what to write instead of a string; the reasons apply to a string without a number, one with a
+/// number, and an unknown string.
 fn instead(report: Finding, shape: &ExpressionShape, [none, number, unknown]: [&str; 3]) -> Finding {
     let span = Span::from(report.span.clone());
     match shape.constant.as_ref().map(Value::to_number) {

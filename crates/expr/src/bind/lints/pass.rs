@@ -1,4 +1,4 @@
-//! The walk of the lints through a text.
+//! The traversal of a source text by the lints.
 
 use crate::ast::{BinaryOp, Body, Element, Expr, ExprKind, Pattern, Property, Stmt, StmtKind};
 use crate::bind::source::SourceTree;
@@ -6,7 +6,7 @@ use crate::bind::types::{Expectation, TypedText};
 use crate::schema::Schema;
 use labspec_finding::{Finding, Span};
 
-/// What the lints pass at.
+/// The state of the traversal.
 pub(super) struct LintPass<'l> {
     pub(super) schema: &'l dyn Schema,
     pub(super) source: &'l str,
@@ -14,7 +14,7 @@ pub(super) struct LintPass<'l> {
     pub(super) found: Vec<Finding>,
 }
 
-/// Looks through a text.
+/// Runs the lints on a source text.
 pub(in crate::bind) fn lint(
     schema: &dyn Schema,
     source: &str,
@@ -62,7 +62,7 @@ impl LintPass<'_> {
         self.inside(expr);
     }
 
-    /// The parts of an expression.
+    /// Visits the parts of an expression.
     #[inline(never)]
     pub(super) fn inside(&mut self, expr: &Expr) {
         let mut all = |items: &[Expr]| items.iter().for_each(|item| self.expr(item));
@@ -177,7 +177,7 @@ impl LintPass<'_> {
         element.default.iter().for_each(|default| self.expr(default));
     }
 
-    /// The defaults of a pattern.
+    /// Visits the defaults of a pattern.
     pub(super) fn pattern(&mut self, pattern: &Pattern) {
         match pattern {
             Pattern::Name(_) => {}

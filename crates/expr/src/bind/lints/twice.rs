@@ -1,14 +1,14 @@
-//! What stands twice where it is meant once: an element that is stored and at once stored again, an argument beside itself.
+//! Lints about duplicates: an element that is stored twice in succession, and an argument that is passed twice.
 
 use super::pass::LintPass;
 use crate::ast::{Expr, ExprKind, Stmt, StmtKind};
 use crate::rules;
 use labspec_finding::{Finding, Span};
 
-/// Functions that a second argument of the same value says nothing to, or says wrongly.
+/// Functions for which a repeated argument is redundant (`Math.max`, `Math.min`) or a mistake (`Math.hypot`).
 const FUNCTIONS: [&str; 3] = ["Math.hypot", "Math.max", "Math.min"];
 
-/// What a statement stores, and what it stores there: a plain assignment to an element.
+/// The target and the value of a plain assignment to an element.
 fn stored(statement: &Stmt) -> Option<(&Expr, &Expr)> {
     let StmtKind::Expr(Expr { kind: ExprKind::Assign { op: None, target, value, .. }, .. }) = &statement.kind
     else {
@@ -17,18 +17,18 @@ fn stored(statement: &Stmt) -> Option<(&Expr, &Expr)> {
     matches!(target.kind, ExprKind::Index { .. }).then_some((target, value))
 }
 
-/// Most bytes of a text that is compared, and most arguments of a call: what is longer was not copied by hand.
+/// Limits on the bytes of a compared text and on the arguments of a call. Longer code was not copied by hand.
 const LONG: usize = 400;
 const MANY: usize = 8;
 
 impl LintPass<'_> {
-    /// A text without its spaces; `None` where it is long.
+    /// A text without its whitespace, or `None` if it is too long.
     fn bare(&self, span: Span) -> Option<String> {
         let text = self.text(span);
         (text.len() <= LONG).then(|| text.chars().filter(|c| !c.is_whitespace()).collect())
     }
 
-    /// Two statements, one behind the other, that store the same element: the first is lost.
+    /// Warns about two consecutive statements that store the same element: the first value is lost.
     pub(super) fn stored_twice(&mut self, statements: &[Stmt]) {
         for pair in statements.windows(2) {
             let [Some((first, _)), Some((second, value))] = [0, 1].map(|i| pair.get(i).and_then(stored))
@@ -37,7 +37,7 @@ impl LintPass<'_> {
             };
             let texts = [first.span, second.span, value.span].map(|span| self.bare(span));
             let [Some(one), Some(two), Some(used)] = texts else { continue };
-            // What the second computes may use the first.
+            // The second value may use the first.
             if one == two && !used.contains(&one) && !used.contains("=>") && !one.contains("++") {
                 self.found.push(
                     Finding::warning(
@@ -48,13 +48,13 @@ impl LintPass<'_> {
                     .why("the value of the first statement is lost before anything reads it")
                     .help("check the index: one of the two probably belongs to another element"),
                 );
-                // The first says it; the others may follow from it.
+                // One finding is enough: further duplicates may follow from it.
                 return;
             }
         }
     }
 
-    /// One argument twice, where two are meant.
+    /// Warns about an argument that is passed twice where two different ones are intended.
     pub(super) fn same_argument(&mut self, callee: &Expr, args: &[Expr]) {
         if args.len() > MANY || !self.bare(callee.span).is_some_and(|name| FUNCTIONS.contains(&name.as_str()))
         {

@@ -1,16 +1,17 @@
-//! What the names of a text mean, as the first pass finds it.
+//! The result of the first pass: the meaning of every name of a source text.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What the names of a text mean. Places are bytes: that of a name, of its declaration, of a function.
+/// The meanings of the names of a source text. Names, declarations and functions are identified by their byte offsets.
 #[derive(Clone, Debug, Default)]
 pub(in crate::bind) struct NameTable {
-    /// Names that the text declares, and those that are mistakes; all others belong to the language or the host.
+    /// Names that the text declares, and names with errors. All others belong to the language or the host.
     pub(super) uses: BTreeMap<usize, NameMeaning>,
     pub(super) declared: BTreeMap<usize, Declaration>,
-    /// Variables of other functions that a function uses, itself or through functions that it names.
+    /// For each function, the variables of enclosing functions that it captures, directly or through functions that it
+    /// names.
     pub(super) captured: BTreeMap<usize, BTreeSet<usize>>,
-    /// There are so many functions, or they name each other so deeply, that the text is not looked at any further.
+    /// There are too many functions, or their references are nested too deeply, so that the analysis stopped.
     pub(in crate::bind) stopped: bool,
 }
 
@@ -19,9 +20,9 @@ pub(in crate::bind) struct NameTable {
 pub(in crate::bind) enum NameMeaning {
     /// The declaration at this byte.
     Declared(usize),
-    /// It is a mistake, which has been reported.
+    /// The name has an error, which has been reported.
     Wrong,
-    /// Nothing of this text.
+    /// The text does not declare the name.
     Outside,
 }
 
@@ -30,45 +31,45 @@ pub(in crate::bind) enum NameMeaning {
 pub(in crate::bind) struct Declaration {
     pub(super) name: String,
     pub(super) constant: bool,
-    /// The function that it stands in.
+    /// The function that contains the declaration.
     pub(super) function: usize,
-    /// In how many places it is assigned after its declaration.
+    /// The number of assignments after the declaration.
     pub(in crate::bind) assigned: usize,
-    /// A function uses it that it does not stand in.
+    /// Whether another function uses the variable.
     pub(super) captured: bool,
-    /// A function uses it before its declaration has run.
+    /// Whether a function uses the variable before its declaration has been executed.
     pub(super) early: bool,
     pub(in crate::bind) parameter: bool,
-    /// The declaration has run.
+    /// Whether the declaration has been executed at this point of the walk.
     pub(super) ready: bool,
-    /// The function that it names, while nothing has named that.
+    /// The function to which the name is bound, until the first use of the name.
     pub(super) holds: Option<usize>,
 }
 
 impl Declaration {
-    /// Whether functions share one place of the variable.
+    /// Whether several functions share the storage of the variable.
     pub(in crate::bind) fn is_shared(&self) -> bool {
         self.early || self.captured && self.assigned > 0
     }
 
-    /// Whether its type may come from a place that is bound later: every circle of types goes through such a variable.
+    /// Whether the type may come from code that is bound later. Every cycle of types passes through such a variable.
     pub(in crate::bind) fn joins(&self) -> bool {
         self.parameter || self.early || self.assigned > 0
     }
 }
 
 impl NameTable {
-    /// What the name at a byte means.
+    /// The meaning of the name at a byte.
     pub(in crate::bind) fn at(&self, byte: usize) -> NameMeaning {
         self.uses.get(&byte).copied().unwrap_or(NameMeaning::Outside)
     }
 
-    /// The declaration at a byte; none when the name could not be declared.
+    /// The declaration at a byte, or `None` if the name could not be declared.
     pub(in crate::bind) fn declared(&self, byte: usize) -> Option<&Declaration> {
         self.declared.get(&byte)
     }
 
-    /// The variables of other functions that the function at a byte uses.
+    /// The variables of enclosing functions that the function at a byte captures.
     pub(in crate::bind) fn captured(&self, function: usize) -> impl Iterator<Item = usize> + '_ {
         self.captured.get(&function).into_iter().flatten().copied()
     }

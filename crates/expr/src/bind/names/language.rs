@@ -1,4 +1,4 @@
-//! The names of the language itself, and what is reported of a name that is used against its meaning.
+//! The names of the language itself, and the findings about names that are used against their meaning.
 
 use crate::ast::Name;
 use crate::rules;
@@ -22,14 +22,14 @@ pub(super) const LANGUAGE: [&str; 14] = [
     "parseInt",
 ];
 
-/// Names that hold functions of the language.
+/// Names that contain functions of the language.
 pub(in crate::bind) const NAMESPACES: [&str; 4] = ["Array", "Number", "String", "Object"];
 
-/// Members through which JavaScript reaches the machinery behind a value.
+/// Members through which JavaScript exposes the internals of a value.
 pub(in crate::bind) const MACHINERY: [&str; 5] =
     ["constructor", "prototype", "__proto__", "hasOwnProperty", "valueOf"];
 
-/// The finding for a second declaration, or one of a name that means something already.
+/// The finding for a second declaration, or for a declaration of a name that already has a meaning.
 pub(super) fn report_taken(name: &Name, here: bool) -> Finding {
     let why = if here { "it is declared above" } else { "it already has a meaning in every text" };
     Finding::error(rules::NAME_TAKEN, name.span, format!("`{}` cannot be declared here", name.text))
@@ -48,14 +48,14 @@ pub(super) fn report_too_early(name: &str, span: Span) -> Finding {
         .help(format!("move the declaration of `{name}` up"))
 }
 
-/// The finding for a `const` that is assigned.
+/// The finding for an assignment to a `const`.
 pub(super) fn report_constant(name: &str, span: Span) -> Finding {
     Finding::error(rules::ASSIGN_CONST, span, format!("`{name}` is declared with `const`"))
         .why("a `const` name keeps its first value; JavaScript stops the program here")
         .help(format!("declare it with `let {name}`, or use another name"))
 }
 
-/// The finding for a name of the language that is assigned.
+/// The finding for an assignment to a name of the language.
 pub(super) fn report_not_assignable(name: &str, span: Span) -> Finding {
     let report = Finding::error(rules::NOT_ASSIGNABLE, span, format!("`{name}` cannot be assigned"));
     match name {
@@ -65,12 +65,12 @@ pub(super) fn report_not_assignable(name: &str, span: Span) -> Finding {
     }
 }
 
-/// Whether the language itself gives a meaning to a name.
+/// Whether the language itself defines a name.
 pub(in crate::bind) fn is_language(name: &str) -> bool {
     LANGUAGE.contains(&name) || name == "value"
 }
 
-/// A list of names for a message, cut when it is long.
+/// A list of names for a message, truncated if it is long.
 pub(in crate::bind) fn list_names(names: &[String]) -> String {
     const SHOWN: usize = 8;
     let listed: Vec<String> = names.iter().take(SHOWN).map(|n| format!("`{n}`")).collect();

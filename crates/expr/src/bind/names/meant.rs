@@ -1,4 +1,4 @@
-//! What was probably meant by a name that means nothing.
+//! Suggestions for unknown names.
 
 use super::language::LANGUAGE;
 use super::walk::{NameUse, NameWalk};
@@ -8,7 +8,7 @@ use crate::types::ObjectId;
 use labspec_finding::{nearest, ranked};
 
 impl NameUse {
-    /// Whether something of the host can be used like this.
+    /// Whether an entry of the host can be used in this way.
     fn fits(self, entry: &Entry) -> bool {
         match (self, entry) {
             (NameUse::Callee, Entry::Function(_) | Entry::Collection(_)) => true,
@@ -18,7 +18,7 @@ impl NameUse {
         }
     }
 
-    /// Whether a word of the language can.
+    /// Whether a name of the language can be used in this way.
     fn fits_word(self, word: &str) -> bool {
         match word {
             "Math" | "ctx" => self == NameUse::Holder,
@@ -31,12 +31,12 @@ impl NameUse {
 }
 
 impl NameWalk<'_, '_> {
-    /// What a misspelt name, or one whose object was left out, probably means.
+    /// The probable meaning of a misspelt name, or of a name whose object was left out.
     pub(super) fn meant(&self, name: &str, used: NameUse) -> Option<String> {
         let schema = self.around.schema?;
         let fits = |entry: Option<Entry>| entry.is_some_and(|e| used.fits(&e));
         for (path, object) in objects(schema) {
-            // A choice by name has no members: behind a point something else was probably meant.
+            // A collection has no members, so a name followed by a point probably means something else.
             let entry = schema.member(object, name);
             let entry = entry.filter(|e| used == NameUse::Callee || !matches!(e, Entry::Collection(_)));
             if fits(entry) {
@@ -60,14 +60,14 @@ impl NameWalk<'_, '_> {
         if self.lab_variables.contains(name) || self.around.globals.slot(name).is_some() {
             return Some(format!("ctx.{name}"));
         }
-        // On an object that was not even written, only a name that is nearly the same was meant.
+        // The object was not written at all, so only a nearly identical name is suggested.
         let near = if name.len() < 8 { 10 } else { 20 };
         let elsewhere = meant_elsewhere(schema, name, None, &|entry| used.fits(entry));
         elsewhere.filter(|(cost, _)| *cost <= near).map(|(_, path)| path)
     }
 }
 
-/// The objects that a name leads to, and their objects, each with its path.
+/// The objects that a name denotes, and their objects, each with its path.
 fn objects(schema: &dyn Schema) -> Vec<(String, ObjectId)> {
     let mut found = Vec::new();
     for root in schema.root_names() {
@@ -85,7 +85,7 @@ fn objects(schema: &dyn Schema) -> Vec<(String, ObjectId)> {
     found
 }
 
-/// The member of any object, except `but`, whose name is nearest to what was written, with its distance.
+/// The path of the member, of any object except `but`, whose name is nearest to `name`, with its edit distance.
 pub(in crate::bind) fn meant_elsewhere(
     schema: &dyn Schema,
     name: &str,

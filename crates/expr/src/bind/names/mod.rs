@@ -1,9 +1,9 @@
-//! The first pass: what every name of a text means. A name is either declared in the text, or it belongs to the language or
-//! the host; anything else is a mistake, and is reported here.
+//! The first pass: resolves every name of a source text. A name is declared in the text, or belongs to the language or the
+//! host. Anything else is an error and is reported here.
 //!
-//! The walk goes through a text as it runs: a function is looked into where it is first named, so that a variable it uses is
-//! known to have a value by then, or not. What the walk finds of a variable (is it assigned again? do functions share it?) the
-//! next pass takes as given.
+//! The walk follows the order of execution. It visits a function where the function is first named, to determine whether
+//! the variables that the function uses have a value by then. The next pass relies on the properties of variables that the
+//! walk finds: whether a variable is reassigned, and whether functions share it.
 
 mod declared;
 mod language;

@@ -1,4 +1,4 @@
-//! Statements: which names they declare, and in which order these get their values.
+//! Name resolution in statements: which names they declare, and in which order these names get their values.
 
 use super::language::{is_language, report_taken};
 use super::walk::{NameWalk, WHOLE};
@@ -6,7 +6,7 @@ use crate::ast::{Declarator, Element, Expr, ExprKind, Name, Pattern, Stmt, StmtK
 use crate::schema::Schema;
 
 impl<'a> NameWalk<'a, '_> {
-    /// Statements with names of their own.
+    /// Statements with their own scope.
     pub(in crate::bind) fn block(&mut self, statements: &'a [Stmt]) {
         let reach = self.reach.len();
         self.hoist(statements);
@@ -16,7 +16,7 @@ impl<'a> NameWalk<'a, '_> {
         self.leave(reach);
     }
 
-    /// Forgets the names of a block, after a look into the functions that nothing named.
+    /// Closes the scope of a block, after visiting the functions that no name referred to.
     pub(super) fn leave(&mut self, reach: usize) {
         let block = self.reach.get(reach..).unwrap_or(&[]);
         let held: Vec<usize> = block.iter().filter_map(|byte| self.names.declared.get(byte)?.holds).collect();
@@ -24,7 +24,8 @@ impl<'a> NameWalk<'a, '_> {
         self.reach.truncate(reach);
     }
 
-    /// Names that a block declares mean nothing else in all of it; functions can be called from its start.
+    /// Declares the names of a block before its statements: they are in scope in the whole block, and functions can be
+    /// called from its start.
     fn hoist(&mut self, statements: &'a [Stmt]) {
         let first = self.reach.len();
         for statement in statements {
@@ -56,7 +57,8 @@ impl<'a> NameWalk<'a, '_> {
     fn hoist_name(&mut self, name: &Name, constant: bool, first: usize) {
         let is = |byte: &usize| self.names.declared.get(byte).is_some_and(|d| d.name == name.text);
         let is_declared = self.reach.iter().skip(first).any(is);
-        // At the top of a text the names of the lab are parameters of the same function, in JavaScript.
+        // In JavaScript, the names of the lab are parameters of the function whose body is the text, so the top level
+        // cannot redeclare them.
         let top = first == 0 && self.function == WHOLE;
         let host = |schema: &dyn Schema| schema.root(&name.text).is_some();
         let outer = top && (is_language(&name.text) || self.around.schema.is_some_and(host));
@@ -67,7 +69,7 @@ impl<'a> NameWalk<'a, '_> {
         self.declare(name, constant, false);
     }
 
-    /// The names of a parameter.
+    /// Declares the names of a parameter.
     pub(super) fn parameter(&mut self, target: &'a Pattern, first: usize) {
         match target {
             Pattern::Name(name) => self.declare(name, false, true),
@@ -75,7 +77,7 @@ impl<'a> NameWalk<'a, '_> {
         }
     }
 
-    /// A part of a pattern gets its value, after its default.
+    /// Resolves an element of a pattern: its default first, then its target.
     pub(super) fn element(&mut self, element: &'a Element) {
         if let Some(default) = &element.default {
             self.value(default);
@@ -83,7 +85,7 @@ impl<'a> NameWalk<'a, '_> {
         self.give(&element.target);
     }
 
-    /// The names of a pattern have their values from here on.
+    /// Marks the names of a pattern as initialized.
     fn give(&mut self, pattern: &'a Pattern) {
         match pattern {
             Pattern::Name(name) => {
@@ -151,7 +153,7 @@ impl<'a> NameWalk<'a, '_> {
         self.levels -= 1;
     }
 
-    /// A statement with names of its own.
+    /// A statement with its own scope.
     fn scoped(&mut self, statement: &'a Stmt) {
         match &statement.kind {
             StmtKind::Block(statements) => self.block(statements),
@@ -161,7 +163,7 @@ impl<'a> NameWalk<'a, '_> {
 
     fn declarator(&mut self, constant: bool, declarator: &'a Declarator) {
         match (&declarator.target, &declarator.value) {
-            // A function with a name is looked into where it is first used.
+            // A named function is visited where it is first used.
             (Pattern::Name(name), Some(Expr { kind: ExprKind::Function(function), .. })) if constant => {
                 self.define(function);
                 match self.names.declared.get_mut(&name.span.start) {
@@ -176,7 +178,7 @@ impl<'a> NameWalk<'a, '_> {
         self.give(&declarator.target);
     }
 
-    /// An expression as a statement.
+    /// An expression used as a statement.
     fn effect(&mut self, expr: &'a Expr) {
         match &expr.kind {
             ExprKind::Sequence(parts) => parts.iter().for_each(|part| self.effect(part)),

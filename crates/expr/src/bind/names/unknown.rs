@@ -1,4 +1,4 @@
-//! The messages about a name that means nothing, or that cannot be used like this.
+//! Messages about names that are unknown or cannot be used in this way.
 
 use super::language::list_names;
 use super::walk::{NameUse, NameWalk};
@@ -17,7 +17,7 @@ const CLOCK: [&str; 5] = ["Date", "performance", "setTimeout", "setInterval", "r
 const MORE: [&str; 10] =
     ["Promise", "Symbol", "Reflect", "Proxy", "RegExp", "Map", "Set", "JSON", "Intl", "arguments"];
 
-/// Why the language does not have such a name, and what to do instead.
+/// Why the language does not have such a name, and what to use instead.
 fn absent(name: &str, host_terms: &HostTerms) -> Option<(String, String)> {
     let HostTerms { lab, lesson, .. } = host_terms;
     let (why, help) = match name {
@@ -70,7 +70,7 @@ impl NameWalk<'_, '_> {
             _ => Finding::error(rules::UNKNOWN_NAME, span, format!("unknown name `{name}`")),
         };
         if self.found.len() > MAX_DIAGNOSTICS {
-            return report; // nobody will read it: not worth a search for what was meant
+            return report; // the message is not displayed, so the search for a suggestion is skipped
         }
         match self.meant(name, used) {
             Some(meant) => report.help(format!("did you mean `{meant}`?")).guess(span, meant),
@@ -90,7 +90,7 @@ impl NameWalk<'_, '_> {
         }
     }
 
-    /// What the host calls its things.
+    /// The terms of the host.
     fn host_terms(&self) -> &'static HostTerms {
         self.around.schema.map_or(&HostTerms::PLAIN, |schema| schema.host_terms())
     }
@@ -111,13 +111,13 @@ impl NameWalk<'_, '_> {
         }
     }
 
-    /// The name that is probably meant by a misspelt one on the left of `=`.
+    /// A suggestion for a misspelt name on the left of `=`.
     fn nearest(&self, name: &str) -> Option<String> {
         let roots = self.root_names();
         nearest(name, self.text_names().chain(roots.iter().map(String::as_str))).map(str::to_owned)
     }
 
-    /// The names in reach that the text declares.
+    /// The names in scope that the text declares.
     pub(super) fn text_names(&self) -> impl Iterator<Item = &str> {
         self.reach.iter().filter_map(|byte| Some(self.names.declared.get(byte)?.name.as_str()))
     }

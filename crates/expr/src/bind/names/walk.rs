@@ -1,4 +1,4 @@
-//! The walk of the first pass through a text.
+//! The walk of the first pass through a source text.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,35 +12,35 @@ use crate::schema::{Entry, FunctionInfo, Param, Schema};
 use crate::types::CollectionId;
 use labspec_finding::{Finding, Span};
 
-/// What is done with a name: what may have been meant by an unknown one depends on it.
+/// How a name is used. The suggestions for an unknown name depend on it.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(in crate::bind) enum NameUse {
-    /// Its value is taken, or it is handed to a function.
+    /// Its value is read, or it is passed to a function.
     Value,
-    /// A member or an element of it is.
+    /// A member or an element of it is read.
     Holder,
     /// It is called.
     Callee,
 }
 
-/// What a text is resolved against.
+/// The context in which the names of a text are resolved.
 #[derive(Clone, Copy)]
 pub(in crate::bind) struct Surroundings<'s> {
-    /// None for the texts of the language itself.
+    /// `None` for functions that are written in the language itself.
     pub(in crate::bind) schema: Option<&'s dyn Schema>,
     pub(in crate::bind) globals: &'s Globals,
     pub(in crate::bind) mode: TextKind,
-    /// Whether a control gives `value`.
+    /// Whether a control supplies `value`.
     pub(in crate::bind) has_value: bool,
 }
 
-/// Functions of one text.
+/// The maximum number of functions in one text.
 pub(super) const MAX_FUNCTIONS: usize = 200;
 
-/// The text itself, as the function that is not inside of another.
+/// The text itself, as the outermost function.
 pub(super) const WHOLE: usize = usize::MAX;
 
-/// A function that is known, and how far its names reach.
+/// A function, the function around it, and the extent of its scope.
 pub(super) struct FunctionScope<'a> {
     pub(super) function: &'a Function,
     pub(super) around: usize,
@@ -52,14 +52,14 @@ pub(in crate::bind) struct NameWalk<'a, 's> {
     pub(super) around: Surroundings<'s>,
     pub(super) names: NameTable,
     pub(super) found: Vec<Finding>,
-    /// Declarations in reach, inner ones last.
+    /// Declarations in scope, inner ones last.
     pub(super) reach: Vec<usize>,
     pub(super) functions: BTreeMap<usize, FunctionScope<'a>>,
-    /// The function that is looked through.
+    /// The function that is being visited.
     pub(super) function: usize,
-    /// Which functions are named by which others.
+    /// Pairs of functions: the second names the first.
     pub(super) calls: BTreeSet<(usize, usize)>,
-    /// Variables of the lab that the text named so far.
+    /// Variables of the lab that the text has named so far.
     pub(super) lab_variables: BTreeSet<&'a str>,
     pub(super) levels: usize,
 }
@@ -86,13 +86,13 @@ pub(in crate::bind) fn resolve<'a>(
 }
 
 impl<'a> NameWalk<'a, '_> {
-    /// A function by itself.
+    /// Resolves a single function.
     pub(in crate::bind) fn inside(&mut self, function: &'a Function) {
         self.define(function);
         self.visit(function.span.start);
     }
 
-    /// An expression whose value is taken.
+    /// Resolves an expression whose value is read.
     pub(in crate::bind) fn value(&mut self, expr: &'a Expr) {
         self.expr(expr, NameUse::Value);
     }
@@ -140,7 +140,7 @@ impl<'a> NameWalk<'a, '_> {
             ExprKind::Object(properties) => properties.iter().for_each(|property| self.property(property)),
             ExprKind::Chain(inner) => self.expr(inner, used),
             ExprKind::Spread(inner) => self.value(inner),
-            // A text that only reads is refused an assignment as a whole.
+            // Assignments in a text that only reads are refused as a whole, later.
             ExprKind::Assign { .. } | ExprKind::AssignLogical { .. } | ExprKind::Update { .. } => {
                 if self.around.mode == TextKind::Statements {
                     self.change(expr);
@@ -166,14 +166,14 @@ impl<'a> NameWalk<'a, '_> {
         }
     }
 
-    /// A condition; an assignment in its place is refused as a whole.
+    /// Resolves a condition. An assignment in its place is refused as a whole, later.
     pub(super) fn test(&mut self, test: &'a Expr) {
         if !matches!(test.kind, ExprKind::Assign { .. }) {
             self.value(test);
         }
     }
 
-    /// An assignment, `++`, or one of their like.
+    /// Resolves an assignment, `++` or `--`.
     pub(super) fn change(&mut self, expr: &'a Expr) {
         match &expr.kind {
             ExprKind::Assign { target, value, .. } | ExprKind::AssignLogical { target, value, .. } => {
@@ -185,12 +185,12 @@ impl<'a> NameWalk<'a, '_> {
         }
     }
 
-    /// What is assigned.
+    /// Resolves the target of an assignment.
     pub(in crate::bind) fn place(&mut self, target: &'a Expr) {
         match &target.kind {
             ExprKind::Name(name) => self.assigned(name, target.span),
             ExprKind::Member { .. } | ExprKind::Index { .. } => self.value(target),
-            _ => {} // no place: refused as a whole
+            _ => {} // not a valid target: refused as a whole, later
         }
     }
 
@@ -202,7 +202,7 @@ impl<'a> NameWalk<'a, '_> {
             (Some(Entry::Function(id)), Some(schema)) => Some(schema.function(*id)),
             _ => None,
         };
-        // What is computed over a whole run knows nothing of the names around it.
+        // The arguments of an aggregate are evaluated over a whole run, where the local names have no value.
         let hidden = match &info {
             Some(FunctionInfo { aggregate: true, .. }) => std::mem::take(&mut self.reach),
             _ => Vec::new(),
@@ -221,7 +221,7 @@ impl<'a> NameWalk<'a, '_> {
         }
     }
 
-    /// What of the host a path of plain names leads to.
+    /// The entry of the host that a path of plain names denotes.
     pub(super) fn entry(&self, path: &Expr) -> Option<Entry> {
         let schema = self.around.schema?;
         match &path.kind {
@@ -236,7 +236,7 @@ impl<'a> NameWalk<'a, '_> {
         }
     }
 
-    /// Refuses the name of an object without its quotes.
+    /// Refuses the name of an object that is not in quotes.
     #[inline(never)]
     fn lacks_quotes(&mut self, collection: Option<CollectionId>, arg: &Expr) -> bool {
         let (Some(id), Some(schema), ExprKind::Name(word)) = (collection, self.around.schema, &arg.kind)
@@ -260,13 +260,13 @@ impl<'a> NameWalk<'a, '_> {
         true
     }
 
-    /// The declaration that a name means here.
+    /// The declaration to which a name refers here.
     pub(super) fn lookup(&self, name: &str) -> Option<usize> {
         let is = |byte: &usize| self.names.declared.get(byte).is_some_and(|d| d.name == name);
         self.reach.iter().rev().copied().find(is)
     }
 
-    /// A name that is read.
+    /// Resolves a name that is read.
     #[inline(never)]
     pub(super) fn name(&mut self, name: &'a str, span: Span, used: NameUse) {
         let meaning = match self.lookup(name) {
@@ -281,7 +281,7 @@ impl<'a> NameWalk<'a, '_> {
         self.names.uses.insert(span.start, meaning);
     }
 
-    /// Whether the language or the host gives a meaning to a name.
+    /// Whether the language or the host defines a name.
     fn is_outside(&self, name: &str) -> bool {
         let Some(schema) = self.around.schema else { return true };
         match name {
@@ -290,7 +290,7 @@ impl<'a> NameWalk<'a, '_> {
         }
     }
 
-    /// A name that is assigned.
+    /// Resolves a name that is assigned.
     #[inline(never)]
     pub(super) fn assigned(&mut self, name: &'a str, span: Span) {
         let refusal = match self.lookup(name) {
@@ -315,7 +315,7 @@ impl<'a> NameWalk<'a, '_> {
         self.names.uses.insert(span.start, NameMeaning::Wrong);
     }
 
-    /// A use of a declaration: the functions between them take the variable along.
+    /// Records a use of a declaration: the functions between the use and the declaration capture the variable.
     fn use_of(&mut self, byte: usize, span: Span) -> NameMeaning {
         let function = self.function;
         let Some(declared) = self.names.declared.get_mut(&byte) else { return NameMeaning::Wrong };
@@ -325,7 +325,7 @@ impl<'a> NameWalk<'a, '_> {
                 self.found.push(report_too_early(&declared.name, span));
                 return NameMeaning::Wrong;
             }
-            // The function may run later, when there is a value.
+            // The function may run later, when the variable has a value.
             declared.early = true;
         }
         declared.captured |= home != function;
@@ -338,7 +338,7 @@ impl<'a> NameWalk<'a, '_> {
         NameMeaning::Declared(byte)
     }
 
-    /// Notes a variable for the functions up to the one that it stands in.
+    /// Records that the functions from the current one up to `home` capture a variable.
     pub(super) fn take(&mut self, byte: usize, home: usize) {
         let mut function = self.function;
         while function != home {
@@ -348,7 +348,8 @@ impl<'a> NameWalk<'a, '_> {
         }
     }
 
-    /// What a function takes, those take that name it and do not hold it.
+    /// Propagates captures to callers: a function that names another one captures what that one captures, except its own
+    /// variables.
     fn hand_on(&mut self) {
         let mut changed: BTreeSet<usize> = self.names.captured.keys().copied().collect();
         while let Some(callee) = changed.pop_last() {
@@ -369,7 +370,7 @@ impl<'a> NameWalk<'a, '_> {
         }
     }
 
-    /// A function that the text gives at this place.
+    /// Registers a function that the text defines here.
     pub(super) fn define(&mut self, function: &'a Function) {
         if self.functions.len() >= MAX_FUNCTIONS && !std::mem::replace(&mut self.names.stopped, true) {
             self.found.push(
@@ -386,7 +387,7 @@ impl<'a> NameWalk<'a, '_> {
         self.functions.insert(function.span.start, scope);
     }
 
-    /// Looks through a function, once.
+    /// Visits a function, at most once.
     #[inline(never)]
     pub(super) fn visit(&mut self, byte: usize) {
         if self.names.stopped {
@@ -398,7 +399,7 @@ impl<'a> NameWalk<'a, '_> {
         if self.levels >= MAX_LEVELS {
             return self.too_deep(function.span);
         }
-        // The body sees the names around its definition, not those around its use.
+        // The body sees the names in scope at its definition, not those at its use.
         let hidden = self.reach.split_off(reach);
         let outer = std::mem::replace(&mut self.function, byte);
         self.levels += 1;
@@ -424,7 +425,7 @@ impl<'a> NameWalk<'a, '_> {
         }
     }
 
-    /// A name that is declared here; its declaration has not run yet.
+    /// Declares a name; its declaration has not been executed yet.
     pub(super) fn declare(&mut self, name: &Name, constant: bool, parameter: bool) {
         let byte = name.span.start;
         let declared = Declaration {

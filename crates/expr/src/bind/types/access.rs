@@ -1,4 +1,4 @@
-//! Elements: indexes of fields, `ctx['name']`, named objects, and the messages about arrays used whole.
+//! Elements: indexes of fields, `ctx['name']`, named objects, and the messages about arrays used as a whole.
 
 use super::binder::{Binder, Entity};
 use super::member::{quoted, view_of};
@@ -14,14 +14,14 @@ use crate::types::{CollectionId, ObjectId, Type};
 use crate::value::Value;
 use labspec_finding::{Finding, Fix, Span, nearest};
 
-/// What chooses a `ctx` variable.
+/// The name of a `ctx` variable.
 pub(super) enum GlobalName {
     Known(String),
     Computed(Ir),
 }
 
 impl<'a> Binder<'a> {
-    /// `object[index]`, read.
+    /// Binds `object[index]` that is read.
     #[inline(never)]
     pub(super) fn element(
         &mut self,
@@ -53,21 +53,21 @@ impl<'a> Binder<'a> {
                 self.refuse(report)
             }
             Err(Reported) => {
-                // The index may hold a mistake of its own.
+                // The index may contain an error that must be reported as well.
                 let _ = self.value(index);
                 Err(Reported)
             }
         }
     }
 
-    /// Notes what an element is and how it is written by name, when its index is known.
+    /// If the index is known, records the description of an element and its spelling by object name.
     pub(super) fn name_element(&mut self, field: &Field, index: &Index, span: Span) {
         let Index::At(i) = index else { return };
         if self.site.is_some() || !self.explains {
             return;
         }
         self.explain_element(field, *i, span);
-        // Only an index of the whole array is worth a name.
+        // Only an index of a whole array is replaced by a name.
         let whole = field.first == 0 && field.path.split('.').count() == 2 && !field.path.contains('(');
         let constant = self.text(span).ends_with(&format!("[{i}]"));
         if whole
@@ -78,7 +78,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// Notes what an element of a field is: `joint light_free (free): z position, m`.
+    /// Records the description of an element of a field: `joint light_free (free): z position, m`.
     fn explain_element(&mut self, field: &Field, index: usize, span: Span) {
         let (schema, key, first) = (self.schema, field.key, field.first);
         self.explain(span, || {
@@ -89,7 +89,7 @@ impl<'a> Binder<'a> {
         });
     }
 
-    /// An element of a list or a text.
+    /// Binds an element of a list or a string.
     fn value_element(&mut self, object: Ir, index: &'a Expr, span: Span) -> Attempt<Ir> {
         let index = self.value(index)?;
         if let Some(n) = self.known_length(&object)
@@ -113,10 +113,10 @@ impl<'a> Binder<'a> {
         Ok(Ir::new(IrKind::Element(Box::new(object), Box::new(index)), ty, span))
     }
 
-    /// An element of a field, read.
+    /// Binds an element of a field that is read.
     pub(super) fn load(&mut self, field: &Field, index: Index, span: Span) -> Ir {
         let view = view_of(field);
-        // An index that is known to exist gives a number, any other a number or `undefined`.
+        // An index that is known to be valid gives a number; any other index gives a number or `undefined`.
         let certain = match (&index, view.count()) {
             (Index::At(_), Some(_)) => true,
             (Index::Computed(ir), Some(n)) => {
@@ -128,13 +128,13 @@ impl<'a> Binder<'a> {
         Ir::new(IrKind::Load(view, index), ty, span)
     }
 
-    /// The name in `ctx['name']`.
+    /// Binds the name in `ctx['name']`.
     pub(super) fn global_name(&mut self, index: &'a Expr) -> Attempt<GlobalName> {
         let ir = self.value(index)?;
         match ir.as_constant() {
             Some(name @ (Value::String(_) | Value::Number(_))) => Ok(GlobalName::Known(name.to_string())),
             _ => {
-                // `'q' + i` names only what begins with `q`.
+                // `'q' + i` names only variables that begin with `q`.
                 let begins = match &ir.kind {
                     IrKind::Binary(crate::ast::BinaryOp::Add, left, _) => {
                         left.as_constant().map(Value::to_string)
@@ -154,7 +154,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// The index of an element of a field, checked as far as it is known.
+    /// Binds the index of an element of a field, and checks it as far as it is known.
     pub(super) fn index(&mut self, field: &Field, index: &'a Expr, span: Span) -> Attempt<Index> {
         let ir = self.operand(index)?;
         if field.is_scalar() {
@@ -203,7 +203,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// Checks an index whose value is known.
+    /// Checks an index with a known value.
     fn known_index(&mut self, field: &Field, x: f64, span: Span) -> Attempt<usize> {
         let text = number::to_text(x);
         if x < 0.0 {
@@ -224,7 +224,7 @@ impl<'a> Binder<'a> {
                     .help("round it, as `Math.floor(x)`, or write an integer"),
             );
         }
-        // Whole numbers beyond usize become usize::MAX, which is out of every range.
+        // Whole numbers beyond the range of usize become usize::MAX, which is always out of range.
         let at = x as usize;
         if field.len().is_some_and(|n| at >= n) {
             let report = out_of_range(field, &text, span, self.host_terms());
@@ -278,7 +278,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// The finding for a whole array where one number must stand.
+    /// The finding for a whole array where a single number is required.
     #[inline(never)]
     pub(super) fn whole_array(&self, field: &Field, span: Span) -> Finding {
         let text = self.text(span);
@@ -301,7 +301,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// The finding for `data.joint` that is not called with a name.
+    /// The finding for a collection such as `data.joint` that is not called with a name.
     pub(super) fn collection_needs_call(
         &self,
         id: CollectionId,
@@ -326,7 +326,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// `data.joint("name")`
+    /// Binds `data.joint("name")`.
     pub(super) fn named(
         &mut self,
         id: CollectionId,
@@ -349,7 +349,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// The object that a name means.
+    /// Binds the name of an object of a collection.
     pub(super) fn object_name(&mut self, id: CollectionId, arg: &'a Expr) -> Attempt<Chosen> {
         let noun = self.schema.noun(id).to_owned();
         let names = self.schema.names(id);
@@ -406,14 +406,14 @@ impl<'a> Binder<'a> {
     }
 }
 
-/// The object that a name means.
+/// The object to which a name refers.
 pub(super) enum Chosen {
     Known(ObjectId),
-    /// Known only while running.
+    /// Known only at run time.
     Computed(Ir),
 }
 
-/// ` 0 to 13`, for the end of a sentence on indexes.
+/// ` 0 to 13`, for the end of a sentence about indexes.
 pub(super) fn range(field: &Field) -> String {
     match field.len() {
         Some(0) => ", but there are none".into(),
@@ -423,7 +423,7 @@ pub(super) fn range(field: &Field) -> String {
     }
 }
 
-/// `the model has 14 coordinates; `, or the size when the host says nothing.
+/// `the model has 14 coordinates; `, or the size if the host gives no description.
 fn owner(field: &Field, n: usize) -> String {
     if field.owner.is_empty() { format!("it has {n} elements; ") } else { format!("{}; ", field.owner) }
 }
@@ -437,7 +437,7 @@ fn out_of_range(field: &Field, text: &str, span: Span, host_terms: &HostTerms) -
     past_the_end(field, span, what, host_terms)
 }
 
-/// The finding for elements that a field does not have.
+/// The finding for an access to elements that do not exist.
 pub(super) fn past_the_end(field: &Field, span: Span, what: String, host_terms: &HostTerms) -> Finding {
     let n = field.len().unwrap_or(0);
     let report = Finding::error(rules::INDEX_RANGE, span, what);
@@ -461,7 +461,7 @@ pub(super) fn past_the_end(field: &Field, span: Span, what: String, host_terms: 
     }
 }
 
-/// Numbers in a row of a field with several dimensions.
+/// The number of elements in a row of a multidimensional field.
 fn row(field: &Field) -> usize {
     field.shape.iter().skip(1).map(|n| n.unwrap_or(1)).product()
 }

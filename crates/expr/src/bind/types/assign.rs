@@ -1,4 +1,4 @@
-//! Assignments: what may stand on the left, and why not what may not.
+//! Assignments: which targets are valid, and why others are not.
 
 use super::access::GlobalName;
 use super::binder::{Binder, Entity, VariableMeaning};
@@ -14,14 +14,14 @@ use crate::types::Type;
 use labspec_finding::{Finding, Span};
 
 impl<'a> Binder<'a> {
-    /// `target = value` of a control that sets.
+    /// Binds `target = value` of a control with `set`.
     pub(super) fn set(&mut self, target: &'a Expr, given: Type) -> Attempt<Ir> {
         let place = self.place(target)?;
         let value = Ir::new(IrKind::Input, given, target.span);
         Ok(Ir::new(IrKind::Store(Box::new(place), None, Box::new(value)), given, target.span))
     }
 
-    /// An expression that changes something: an assignment, `++`, or one of their like.
+    /// Binds an expression that changes something: an assignment, `++` or `--`.
     #[inline(never)]
     pub(super) fn changing(&mut self, expr: &'a Expr) -> Attempt<Ir> {
         let span = expr.span;
@@ -33,7 +33,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// `target = value` or `target op= value`; its value may be assigned further.
+    /// Binds `target = value` or `target op= value`. The result may be assigned again.
     pub(super) fn assign(
         &mut self,
         target: &'a Expr,
@@ -67,7 +67,7 @@ impl<'a> Binder<'a> {
         Ok(Ir::new(IrKind::Store(Box::new(place), op, Box::new(value)), ty, span))
     }
 
-    /// `target ||= value` and its like.
+    /// Binds `target ||= value`, `target &&= value` and `target ??= value`.
     fn assign_if(&mut self, target: &'a Expr, op: LogicalOp, value: &'a Expr, span: Span) -> Attempt<Ir> {
         let place = self.place(target);
         let value = if matches!(place, Ok(AssignmentTarget::Element(..))) {
@@ -83,7 +83,7 @@ impl<'a> Binder<'a> {
         Ok(Ir::new(IrKind::StoreIf(op, Box::new(place), Box::new(value)), ty, span))
     }
 
-    /// `target++` and its like.
+    /// Binds `target++` and its variants.
     fn update(&mut self, target: &'a Expr, increment: bool, prefix: bool, span: Span) -> Attempt<Ir> {
         let place = self.place(target)?;
         self.stored(target, &place, Type::Number);
@@ -92,7 +92,7 @@ impl<'a> Binder<'a> {
         Ok(Ir::new(IrKind::Update(Box::new(place), step, gives), Type::Number, span))
     }
 
-    /// The type of what a place holds.
+    /// The type of the value that is stored in a target.
     fn type_of_place(&mut self, place: &AssignmentTarget) -> Type {
         match place {
             AssignmentTarget::Element(..) => Type::Element,
@@ -104,7 +104,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// Notes what is stored in a variable of the text.
+    /// Records the type that is stored in a variable of the text.
     fn stored(&mut self, target: &Expr, place: &AssignmentTarget, ty: Type) {
         let (AssignmentTarget::Local(id), ExprKind::Name(_)) = (place, &target.kind) else { return };
         if let Some(key) = self.keys.get(*id as usize) {
@@ -112,7 +112,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// Refuses to keep an array of the simulation in `ctx`: it would still change there.
+    /// Refuses to store an array of the simulation in `ctx`: it would continue to change there.
     fn check_kept(&mut self, place: &AssignmentTarget, value: &Ir) -> Attempt<()> {
         let is_global = matches!(place, AssignmentTarget::Global(_) | AssignmentTarget::GlobalNamed(_));
         if !(is_global && value.ty == Type::View) {
@@ -131,7 +131,7 @@ impl<'a> Binder<'a> {
         )
     }
 
-    /// What can be assigned to.
+    /// Binds the target of an assignment.
     fn place(&mut self, target: &'a Expr) -> Attempt<AssignmentTarget> {
         match &target.kind {
             ExprKind::Name(name) => self.named_place(name, target.span),
@@ -181,7 +181,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// `value.name` on the left.
+    /// Binds the target `value.name`.
     fn member_place(&mut self, ir: Ir, name: &crate::ast::Name, span: Span) -> Attempt<AssignmentTarget> {
         if MACHINERY.contains(&name.text.as_str()) {
             return self.refuse(machinery(&name.text, name.span));
@@ -203,7 +203,7 @@ impl<'a> Binder<'a> {
         Ok(AssignmentTarget::Global(slot))
     }
 
-    /// A plain name on the left.
+    /// Binds a plain name as a target.
     fn named_place(&mut self, name: &str, span: Span) -> Attempt<AssignmentTarget> {
         if let Some(variable) = self.variable(name, span)? {
             return match variable.meaning {
@@ -219,7 +219,7 @@ impl<'a> Binder<'a> {
         self.place_of(thing, &expr)
     }
 
-    /// A thing behind a name or a point on the left.
+    /// Binds an entity, named directly or as a member, as a target.
     fn place_of(&mut self, thing: Entity, target: &Expr) -> Attempt<AssignmentTarget> {
         match thing {
             Entity::Field(field) => {
@@ -267,7 +267,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// Whether the kind of a field allows assigning.
+    /// Checks whether the kind of a field allows assignment.
     pub(super) fn check_assignable(&mut self, field: &Field, span: Span) -> Attempt<()> {
         match &field.kind {
             FieldKind::State | FieldKind::Input | FieldKind::Constant | FieldKind::Inertial => Ok(()),
@@ -299,7 +299,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// Notes where a number belongs.
+    /// Records for the lints that a number is expected here.
     fn want_stored(&mut self, place: &AssignmentTarget, op: Option<BinaryOp>, value: &Ir) {
         let at = match (place, op) {
             (AssignmentTarget::Element(view, Index::At(i)), None) => {
@@ -319,7 +319,7 @@ fn array_in_element(span: Span) -> Finding {
         .help("store several numbers with `.set([…], offset)`")
 }
 
-/// What a field is, for the middle of a sentence.
+/// The description of a field, for use inside a sentence.
 fn doc(field: &Field) -> &str {
     if field.doc.is_empty() { "a size, a type or an address" } else { &field.doc }
 }

@@ -1,4 +1,4 @@
-//! The work on one text, and what it knows of the variables and functions in it.
+//! The binder of one source text, and its knowledge of the variables and functions.
 
 use std::collections::BTreeMap;
 
@@ -19,39 +19,39 @@ use crate::schema::{Field, Help, Schema};
 use crate::types::{CollectionId, FunctionId, ObjectId, Type};
 use labspec_finding::{Finding, Fix, Span};
 
-/// What the pass found of a text.
+/// The result of the types pass for one source text.
 pub(in crate::bind) struct BoundText {
-    /// The program, when nothing was in the way.
+    /// The program, if there are no errors.
     pub(in crate::bind) program: Option<BoundProgram>,
     pub(in crate::bind) found: Vec<Finding>,
-    /// The first name that means nothing.
+    /// The first unresolved name.
     pub(in crate::bind) unresolved: Option<Span>,
     pub(in crate::bind) typed: TypedText,
     pub(in crate::bind) help: Vec<(Span, Help)>,
     pub(in crate::bind) named: Vec<Fix>,
-    /// Rounds that it took.
+    /// The number of rounds.
     #[cfg(test)]
     pub(super) rounds: usize,
 }
 
-/// What a program is made of.
+/// The parts of a bound program.
 pub(in crate::bind) struct BoundProgram {
     pub(in crate::bind) tree: IrProgram,
     pub(in crate::bind) result: Type,
     pub(in crate::bind) aggregates: Vec<Aggregate>,
 }
 
-/// What a text is bound to.
+/// The context in which a text is bound.
 pub(in crate::bind) struct BindContext<'c, 's> {
     pub(in crate::bind) schema: &'s dyn Schema,
     pub(in crate::bind) globals: &'c mut Globals,
-    /// The type of `value`, where a control gives one.
+    /// The type of `value`, if a control supplies one.
     pub(in crate::bind) value: Option<Type>,
-    /// Whether [`BoundText::help`] and [`BoundText::named`] are wanted.
+    /// Whether [`BoundText::help`] and [`BoundText::named`] are requested.
     pub(in crate::bind) explains: bool,
 }
 
-/// Finds the types of a text whose names are known.
+/// Infers the types of a text whose names are resolved.
 pub(in crate::bind) fn bind(
     context: &mut BindContext<'_, '_>,
     source: &str,
@@ -87,18 +87,18 @@ pub(in crate::bind) fn bind(
     }
 }
 
-/// What a part of the source stands for.
+/// The meaning of a part of the source.
 #[derive(Clone, Debug)]
 pub(super) enum Entity {
     /// A value.
     Value(Ir),
     /// An object of the host.
     Object(ObjectId),
-    /// Numbers of the host.
+    /// A field of the host, or a part of one.
     Field(Field),
-    /// A choice by name, not yet called.
+    /// A collection of named objects, not yet called.
     Collection(CollectionId),
-    /// An object of a collection whose name is computed while running.
+    /// An object of a collection whose name is computed at run time.
     Picked(CollectionId, Ir),
     /// A function of the host, not yet called.
     Function(FunctionId),
@@ -108,45 +108,45 @@ pub(super) enum Entity {
     MathFunction(math::MathFunction),
     /// `ctx`
     Globals,
-    /// `Array`, `Number`, `String`, `Object`: a holder of functions.
+    /// `Array`, `Number`, `String`, `Object`: namespaces of functions.
     Namespace(&'static str),
     /// A function of the language, not yet called.
     Native(FreeFunctionId),
-    /// A method, not yet called, with what it is called on.
+    /// A method, not yet called, with its receiver.
     Method(Box<MethodReceiver>, MethodId),
-    /// A function of the text: its place among the known ones.
+    /// A function of the text: its index in the list of known functions.
     Closure(usize),
 }
 
-/// What a method is called on.
+/// The receiver of a method.
 #[derive(Clone, Debug)]
 pub(super) enum MethodReceiver {
     Field(Field),
     Value(Ir),
 }
 
-/// A name that the text gives.
+/// A variable that the text declares.
 #[derive(Clone, Debug)]
 pub(super) struct Variable {
     pub(super) key: FactKey,
     pub(super) id: LocalId,
-    /// The function that it belongs to.
+    /// The function to which it belongs.
     pub(super) unit: UnitId,
-    /// Its declaration has run.
+    /// Whether its declaration has been executed.
     pub(super) ready: bool,
     pub(super) meaning: VariableMeaning,
-    /// Smallest and largest value, of a loop that counts between known bounds.
+    /// The smallest and the largest value, for a loop counter with known bounds.
     pub(super) range: Option<(f64, f64)>,
 }
 
-/// What a name stands for.
+/// The meaning of a variable.
 #[derive(Clone, Debug)]
 pub(super) enum VariableMeaning {
-    /// A value, kept in a place of its own.
+    /// A value with its own storage.
     Slot,
-    /// Another word for a thing: `const v = list`.
+    /// Another name for an entity: `const v = list`.
     Alias(Entity),
-    /// Its declaration has a mistake, reported there.
+    /// Its declaration has an error, which is reported there.
     Unknown,
 }
 
@@ -154,72 +154,71 @@ pub(super) enum VariableMeaning {
 #[derive(Clone)]
 pub(super) struct KnownFunction<'a> {
     pub(super) function: &'a Function,
-    /// What it gives.
+    /// The key of its result.
     pub(super) key: FactKey,
-    /// The function around it.
+    /// The enclosing function.
     pub(super) around: UnitId,
-    /// What it was bound as.
+    /// The unit as which it was bound.
     pub(super) unit: Option<UnitId>,
-    /// The call whose written method it stands in.
+    /// If the function is part of a method that is written in the language, the call of that method.
     pub(super) site: Option<InlineSite>,
 }
 
-/// The call of a written method.
+/// A call of a method that is written in the language.
 #[derive(Clone, Copy)]
 pub(super) struct InlineSite {
-    /// Tells its variables from those of other calls.
+    /// Distinguishes its variables from those of other calls.
     pub(super) id: usize,
-    /// Where the text calls it.
+    /// The location of the call in the text.
     pub(super) call: Span,
     pub(super) row: &'static Native,
     pub(super) names: &'static NameTable,
 }
 
 impl InlineSite {
-    /// The method as it is called: `.map`.
+    /// The method as it appears in a call: `.map`.
     pub(super) fn called(&self) -> String {
         self.row.title()
     }
 }
 
-/// The work on one text, in one round.
+/// The state of one round over one source text.
 pub(super) struct Binder<'a> {
     pub(super) schema: &'a dyn Schema,
     pub(super) globals: Globals,
     pub(super) value: Option<Type>,
-    /// What variables measure, where that is asked for.
     pub(super) source: &'a str,
     pub(super) mode: TextKind,
     pub(super) names: &'a NameTable,
     pub(super) program: ProgramId,
     pub(super) diagnostics: Vec<Finding>,
-    /// A name that means nothing; the first pass has reported it.
+    /// An unresolved name; the first pass has reported it.
     pub(super) unresolved: Option<Span>,
     pub(super) aggregates: Vec<Aggregate>,
     pub(super) next_aggregate: usize,
-    /// Whether the next two are wanted.
+    /// Whether `help` and `named` are requested.
     pub(super) explains: bool,
     pub(super) help: Vec<(Span, Help)>,
     pub(super) named: Vec<Fix>,
     pub(super) typed: TypedText,
     pub(super) facts: TypeFacts,
     pub(super) tree: IrProgram,
-    /// The place that each variable of the tree is.
+    /// The key of each local variable of the tree.
     pub(super) keys: Vec<FactKey>,
     pub(super) variables: BTreeMap<FactKey, Variable>,
-    /// Functions of the text.
+    /// The functions of the text.
     pub(super) functions: Vec<KnownFunction<'a>>,
-    /// The function that is bound.
+    /// The function that is being bound.
     pub(super) unit: UnitId,
-    /// The call whose method, written in the language, is bound.
+    /// The call whose method, written in the language, is being bound.
     pub(super) site: Option<InlineSite>,
-    /// Where the results of the functions around go.
+    /// The keys of the results of the enclosing functions.
     pub(super) returns: Vec<FactKey>,
-    /// Loops around the statement, in this function.
+    /// The number of loops around the statement, within this function.
     pub(super) loops: usize,
-    /// Conditions and jumps since the innermost counted loop began: what stands behind one may never run.
+    /// Conditions and jumps since the innermost counted loop began. Code after one of them may never be executed.
     pub(super) guards: usize,
-    /// Expressions that are being bound, one inside the other.
+    /// The nesting depth of the expression that is being bound.
     pub(super) levels: usize,
 }
 
@@ -262,7 +261,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// Binds the text; gives the type of its result.
+    /// Binds the text and returns the type of its result.
     pub(super) fn whole(&mut self, tree: SourceTree<'a>) -> Attempt<Type> {
         match tree {
             SourceTree::Expression(expr) => {
@@ -285,7 +284,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// The text itself is the first function.
+    /// Stores the text itself as the first function.
     pub(super) fn finish(&mut self, body: Vec<IrStatement>, result: Option<Type>) {
         if let Some(unit) = self.tree.units.first_mut() {
             unit.body = body;
@@ -293,20 +292,20 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// The variables of the tree get the types that were found of them.
+    /// Gives the variables of the tree their inferred types.
     pub(super) fn settle(&mut self) {
         for (local, key) in self.tree.locals.iter_mut().zip(&self.keys) {
             local.ty = self.facts.found(*key);
         }
     }
 
-    /// What the host calls its things.
+    /// The terms of the host.
     pub(super) fn host_terms(&self) -> &'static HostTerms {
         self.schema.host_terms()
     }
 
     pub(super) fn report(&mut self, diagnostic: Finding) {
-        // In a method that is written in the language, the call is the place.
+        // In a method that is written in the language, the finding is reported at the call.
         self.diagnostics.push(match self.site {
             Some(site) => Finding { span: site.call.into(), fix: None, ..diagnostic },
             None => diagnostic,
@@ -318,12 +317,13 @@ impl<'a> Binder<'a> {
         Err(Reported)
     }
 
-    /// The source of a part; in a method that is written in the language, whose text nobody wrote here, that of the call.
+    /// The source of a part. In a method that is written in the language, whose text the author does not see, it is that of
+    /// the call.
     pub(super) fn text(&self, span: Span) -> &'a str {
         self.site.map_or(span, |site| site.call).text(self.source)
     }
 
-    /// A part as it is called in a message.
+    /// A part as a message refers to it.
     pub(super) fn describe_span(&self, span: Span) -> String {
         match self.site {
             Some(site) => format!("the result of the function of `{}`", site.called()),
@@ -331,7 +331,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// Notes what a part of the text is.
+    /// Records the help for a part of the text.
     pub(super) fn explain(&mut self, span: Span, help: impl FnOnce() -> Help) {
         const MOST: usize = 1000;
         if self.explains && self.site.is_none() && self.help.len() < MOST {
@@ -339,7 +339,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// What a part of the source stands for.
+    /// Binds a part of the source to its meaning.
     pub(super) fn entity(&mut self, expr: &'a Expr) -> Attempt<Entity> {
         if self.levels >= MAX_LEVELS {
             return self.refuse_deep(expr.span);
@@ -355,7 +355,7 @@ impl<'a> Binder<'a> {
         self.refuse(too_deep(span))
     }
 
-    /// The finding for a function without a result where a value must stand.
+    /// The finding for a function without a result where a value is required.
     pub(super) fn no_result(&self, span: Span) -> Finding {
         let name = self.text(span).split('(').next().unwrap_or("");
         Finding::error(rules::NO_RESULT, span, format!("`{name}` returns nothing"))
@@ -363,21 +363,21 @@ impl<'a> Binder<'a> {
             .help(format!("call it as a statement, in {}", self.host_terms().statements))
     }
 
-    /// Notes what an expression is.
+    /// Records the type of an expression for the lints.
     pub(super) fn note(&mut self, span: Span, ir: &Ir) {
         if self.site.is_none() {
             self.typed.shapes.push((span, ExpressionShape::of_ir(ir)));
         }
     }
 
-    /// Notes that a statement does nothing.
+    /// Records that a statement has no effect.
     pub(super) fn idle(&mut self, span: Span) {
         if self.site.is_none() {
             self.typed.idle.insert(span);
         }
     }
 
-    /// Notes what a value is needed for.
+    /// Records for the lints what is expected of a value.
     pub(super) fn want(&mut self, ir: &Ir, span: Span, want: Expectation) {
         if self.site.is_none() {
             self.typed.wants.push((span, want, ExpressionShape::of_ir(ir)));

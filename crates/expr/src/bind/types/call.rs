@@ -1,4 +1,4 @@
-//! Calls: signatures of the host's functions, `Math`, named objects, functions of the text, and aggregates.
+//! Calls: functions of the host, `Math`, named objects, functions of the text, and aggregates.
 
 use super::access::Chosen;
 use super::binder::{Binder, Entity};
@@ -17,11 +17,11 @@ use crate::value::Value;
 use labspec_finding::order;
 use labspec_finding::{Finding, Span};
 
-/// Functions of an angle.
+/// Functions whose argument is an angle.
 const OF_ANGLES: [&str; 3] = ["Math.sin", "Math.cos", "Math.tan"];
 
 impl<'a> Binder<'a> {
-    /// `callee(args)`, or `callee?.(args)`
+    /// Binds `callee(args)` or `callee?.(args)`.
     pub(super) fn call(
         &mut self,
         callee: &'a Expr,
@@ -71,7 +71,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// A function of the language: `Number(x)`, `Array.from(v, f)`.
+    /// Binds a call of a function of the language: `Number(x)`, `Array.from(v, f)`.
     #[inline(never)]
     fn native_call(&mut self, function: FreeFunctionId, args: &'a [Expr], span: Span) -> Attempt<Ir> {
         let row = function.row();
@@ -93,12 +93,12 @@ impl<'a> Binder<'a> {
         Ok(Ir::new(IrKind::Native(function, items), row.returns(Type::Any), span))
     }
 
-    /// The arguments that a function accepts of those that a prelude method passes: element, index and list.
+    /// The arguments that a function accepts, of those that an inlined method passes: element, index and list.
     fn accepted_args(&self, args: &'a [Expr], most: usize) -> &'a [Expr] {
         if self.site.is_some() { args.get(..most).unwrap_or(args) } else { args }
     }
 
-    /// Looks for mistakes in arguments that will not be used.
+    /// Binds arguments only to report their errors; the results are discarded.
     pub(super) fn only_check(&mut self, args: &'a [Expr]) {
         for arg in args {
             let _ = match &arg.kind {
@@ -150,7 +150,7 @@ impl<'a> Binder<'a> {
         let path = function.path();
         let title = path.clone();
         let args = self.accepted_args(args, function.arity().1.unwrap_or(usize::MAX));
-        // A method that calls a function for every element hands over the index and the list as well.
+        // A method that calls a function for every element also passes the index and the list.
         if let Some(site) = self.site.filter(|_| args.len() > 2 && function.arity().1.is_none()) {
             return self.refuse(report_extra_arguments(&path, &site.called(), span));
         }
@@ -200,7 +200,7 @@ impl<'a> Binder<'a> {
         if failed { Err(Reported) } else { Ok(Ir::math(function, numbers, span)) }
     }
 
-    /// An argument of a function of `Math`: `Math.max([1, 2])` wants to be `Math.max(...[1, 2])`.
+    /// Binds an argument of a function of `Math`. A list is an error: `Math.max([1, 2])` should be `Math.max(...[1, 2])`.
     fn math_argument(&mut self, path: &str, function: math::MathFunction, arg: &'a Expr) -> Attempt<Ir> {
         let thing = self.entity(arg)?;
         let report = match &thing {
@@ -218,7 +218,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// A function of `Math` over lists: written out where their length is known.
+    /// Binds a call of a function of `Math` with spread arguments; lists of known length are expanded.
     #[inline(never)]
     fn math_over(&mut self, function: math::MathFunction, args: &'a [Expr], span: Span) -> Attempt<Ir> {
         let items = self.items(args)?;
@@ -234,7 +234,7 @@ impl<'a> Binder<'a> {
         Ok(Ir::new(IrKind::MathOver(function, Box::new(list)), ty, span))
     }
 
-    /// A call of a function of the host.
+    /// Binds a call of a function of the host.
     #[inline(never)]
     pub(super) fn host_call(
         &mut self,
@@ -267,7 +267,7 @@ impl<'a> Binder<'a> {
         let mut passed = Vec::new();
         let mut failed = false;
         for (i, (param, arg)) in info.params.iter().zip(args).enumerate() {
-            // `f(data, model)` is one mistake, not two.
+            // `f(data, model)` is one mistake, not two: after a wrong argument, objects are not checked.
             if failed && matches!(param, Param::Object(_)) {
                 continue;
             }
@@ -308,7 +308,7 @@ impl<'a> Binder<'a> {
         signature(self.schema, info)
     }
 
-    /// An argument, checked; nothing for an object, which is not passed.
+    /// Binds and checks an argument. Returns `None` for an object, which is not passed.
     fn argument(
         &mut self,
         info: &FunctionInfo,
@@ -346,7 +346,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// An argument that must be an object of the host.
+    /// Checks an argument that must be an object of the host.
     fn object_argument(
         &mut self,
         info: &FunctionInfo,
@@ -366,11 +366,11 @@ impl<'a> Binder<'a> {
         )
     }
 
-    /// The name of an object of a collection, as its number.
+    /// Binds the name of an object of a collection as its id.
     fn name_argument(&mut self, collection: CollectionId, arg: &'a Expr) -> Attempt<Ir> {
         match self.object_name(collection, arg)? {
             Chosen::Known(object) => Ok(Ir::number(f64::from(object.0), arg.span)),
-            // By name while running: the numbers of all objects of the collection.
+            // The name is known only at run time: a table with the ids of all objects of the collection.
             Chosen::Computed(name) => {
                 let noun = self.schema.noun(collection).to_owned();
                 let names = self.schema.names(collection);
@@ -385,14 +385,14 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// A list of numbers.
+    /// Binds a list of numbers.
     fn numbers_argument(&mut self, info: &FunctionInfo, i: usize, arg: &'a Expr) -> Attempt<Ir> {
         let ir = self.value(arg)?;
         match ir.ty {
             Type::List | Type::View | Type::Any | Type::Never => {}
             _ => return self.wrong_type(info, i, &ir, "a list of numbers"),
         }
-        // A copy, so that the function sees one kind of list only.
+        // The list is copied, so that the function receives only one kind of list.
         let copy = natives::find_function("Array.from").filter(|_| ir.ty != Type::List);
         Ok(match copy {
             Some(copy) => {
@@ -417,7 +417,7 @@ impl<'a> Binder<'a> {
         })
     }
 
-    /// A call whose arguments are programs of their own.
+    /// Binds a call whose arguments are separate programs.
     #[inline(never)]
     fn aggregate(
         &mut self,
@@ -434,7 +434,7 @@ impl<'a> Binder<'a> {
         let mut programs = Vec::new();
         let mut failed = false;
         for (i, (param, arg)) in info.params.iter().zip(args).enumerate() {
-            // Each argument reads and writes on its own account.
+            // Each argument has its own reads and writes.
             let aggregates = std::mem::take(&mut self.aggregates);
             let variables = std::mem::take(&mut self.variables);
             let functions = std::mem::take(&mut self.functions);
@@ -480,7 +480,7 @@ pub(super) fn count(n: usize, what: &str) -> String {
     if n == 1 { format!("1 {what}") } else { format!("{n} {what}s") }
 }
 
-/// The finding for a function of `Math` that a method would call with the index and the list.
+/// The finding for a function of `Math` that a method would call with the index and the list as well.
 fn report_extra_arguments(path: &str, called: &str, span: Span) -> Finding {
     Finding::error(
         rules::ARGUMENT_TYPE,

@@ -1,11 +1,11 @@
-//! What the rounds find out about types.
+//! The types found in the rounds of type inference.
 
 use std::collections::BTreeMap;
 
 use crate::types::Type;
 
-/// A place whose type is looked for: the call whose written method declares it (0 for the text itself), the byte of what
-/// declares it, and what it is there.
+/// The key of a type that is inferred: the call of the inlined method that declares it (0 for the text itself), the byte of
+/// the declaration, and its kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct FactKey {
     pub(super) site: usize,
@@ -13,35 +13,35 @@ pub(super) struct FactKey {
     pub(super) what: FactKind,
 }
 
-/// What is declared at a byte.
+/// The kind of a declaration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum FactKind {
     /// A variable.
     Name,
-    /// A parameter that is taken apart at once.
+    /// A parameter that is destructured.
     Parameter,
-    /// What a function gives.
+    /// The result of a function.
     Result,
-    /// A value that is kept without a name, to be taken apart.
+    /// An unnamed value that is destructured.
     Part,
-    /// The counter and the list of a loop over elements.
+    /// The counter of a loop over elements; `List` is its list.
     Counter,
     List,
 }
 
-/// Rounds in which types grow as far as they must. Lessons take three at most.
+/// Rounds in which types may widen freely. Lessons need at most three.
 const ROUNDS: usize = 6;
 
 /// The types found so far.
 ///
-/// Why the rounds end, and soon: a variable that is declared, never assigned again and not used before its declaration gets its
-/// type before anything reads it. So every circle, in which a type follows from itself, goes through a *join*: a variable that is
-/// assigned again or used early, a parameter, or what a function gives. After [`ROUNDS`] rounds all joins are taken to hold
-/// anything. In the round after that no type depends on an earlier round any more, and the one after it finds nothing new.
+/// Why the rounds terminate quickly: a variable that is declared, never reassigned and not used before its declaration gets
+/// its type before it is read. Hence every cycle of dependent types passes through a *join*: a variable that is reassigned
+/// or used early, a parameter, or the result of a function. After [`ROUNDS`] rounds all joins have the type any. In the
+/// round after that, no type depends on an earlier round any more, and the next round finds nothing new.
 #[derive(Clone, Debug, Default)]
 pub(super) struct TypeFacts {
     types: BTreeMap<FactKey, Fact>,
-    /// A type has grown after it was read in this round.
+    /// A type has widened after it was read in this round.
     stale: bool,
     rounds: usize,
 }
@@ -49,7 +49,7 @@ pub(super) struct TypeFacts {
 #[derive(Clone, Copy, Debug)]
 struct Fact {
     ty: Type,
-    /// It has been read in this round.
+    /// The type has been read in this round.
     read: bool,
     join: bool,
 }
@@ -59,12 +59,12 @@ impl TypeFacts {
         self.types.entry(key).or_insert(Fact { ty: Type::Never, read: false, join: false })
     }
 
-    /// The place is a join.
+    /// Marks a key as a join.
     pub(super) fn join(&mut self, key: FactKey) {
         self.at(key).join = true;
     }
 
-    /// What is known of the type at a place.
+    /// Returns the current type of a key and marks it as read.
     pub(super) fn ty(&mut self, key: FactKey) -> Type {
         let wide = self.rounds >= ROUNDS;
         let fact = self.at(key);
@@ -72,7 +72,7 @@ impl TypeFacts {
         if wide && fact.join { Type::Any } else { fact.ty }
     }
 
-    /// What was found at a place in this round and before.
+    /// The type of a key found in this round and before.
     pub(super) fn found(&self, key: FactKey) -> Type {
         match self.types.get(&key) {
             Some(fact) if fact.join && self.rounds >= ROUNDS => Type::Any,
@@ -81,7 +81,7 @@ impl TypeFacts {
         }
     }
 
-    /// One more type at a place.
+    /// Widens the type of a key by `ty`.
     pub(super) fn see(&mut self, key: FactKey, ty: Type) {
         let wide = self.rounds >= ROUNDS;
         let fact = self.at(key);
@@ -93,7 +93,7 @@ impl TypeFacts {
         }
     }
 
-    /// Ends a round: whether another one must follow.
+    /// Ends a round, and returns whether another one must follow.
     pub(super) fn next_round(&mut self) -> bool {
         if !std::mem::take(&mut self.stale) {
             return false;
@@ -103,7 +103,7 @@ impl TypeFacts {
         true
     }
 
-    /// Rounds until now.
+    /// The number of rounds so far.
     #[cfg(test)]
     pub(super) fn rounds(&self) -> usize {
         self.rounds + 1

@@ -1,4 +1,4 @@
-//! Functions of a text: bound when they are first called, with the types that they are called with.
+//! Functions of a text. Each is bound when it is first called, for the argument types of its calls.
 
 use super::binder::{Binder, Entity, KnownFunction, VariableMeaning};
 use super::facts::{FactKey, FactKind};
@@ -11,7 +11,7 @@ use crate::types::Type;
 use labspec_finding::{Finding, Span};
 
 impl<'a> Binder<'a> {
-    /// A function that the text gives at this place.
+    /// Registers a function that the text defines here.
     pub(super) fn new_function(&mut self, function: &'a Function) -> Entity {
         self.functions.push(KnownFunction {
             function,
@@ -23,14 +23,14 @@ impl<'a> Binder<'a> {
         Entity::Closure(self.functions.len() - 1)
     }
 
-    /// The place of a parameter, by which its type is kept.
+    /// The key of the type of a parameter.
     fn param_key(&self, param: &Element) -> FactKey {
         let what =
             if matches!(param.target, Pattern::Name(_)) { FactKind::Name } else { FactKind::Parameter };
         self.key(param.target.span().start, what)
     }
 
-    /// The function as code, called with these types.
+    /// Binds the function for a call with these argument types, and returns its unit.
     fn unit_of(&mut self, at: usize, types: &[Type]) -> Attempt<UnitId> {
         let Some(called) = self.functions.get(at).cloned() else { return Err(Reported) };
         let site = std::mem::replace(&mut self.site, called.site);
@@ -106,7 +106,7 @@ impl<'a> Binder<'a> {
         (places, steps)
     }
 
-    /// What an arrow without braces gives: a value, or what a statement like `x = 1` leaves.
+    /// Binds the result of an arrow function without braces: a value, or the result of an assignment such as `x = 1`.
     fn body_value(&mut self, expr: &'a Expr) -> Attempt<Ir> {
         match &expr.kind {
             ExprKind::Assign { .. } | ExprKind::AssignLogical { .. } | ExprKind::Update { .. } => {
@@ -115,7 +115,7 @@ impl<'a> Binder<'a> {
             ExprKind::Call { .. } => {
                 let thing = self.entity(expr)?;
                 match thing {
-                    // A function without a result gives `undefined`.
+                    // The call of a function without a result gives `undefined`.
                     Entity::Value(ir) if ir.ty == Type::Void => Ok(Ir { ty: Type::Undefined, ..ir }),
                     other => self.value_of(other, expr.span),
                 }
@@ -124,7 +124,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// A parameter gets its default, and is taken apart.
+    /// Binds a parameter: applies its default and destructures it.
     fn param(&mut self, param: &'a Element, place: LocalId, steps: &mut Vec<IrStatement>) {
         let span = param.target.span();
         let key = self.param_key(param);
@@ -150,13 +150,13 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// A function that nothing has called yet, as if it were called with anything.
+    /// Binds a function that nothing has called yet, with parameters of type any.
     pub(super) fn bind_with_anything(&mut self, at: usize) {
         let n = self.functions.get(at).map_or(0, |k| k.function.params.len());
         let _ = self.unit_of(at, &vec![Type::Any; n]);
     }
 
-    /// A function as a value: it may be called from anywhere, with anything.
+    /// Binds a function as a value: it may be called from anywhere, with any arguments.
     pub(super) fn closure_value(&mut self, at: usize, span: Span) -> Attempt<Ir> {
         let n = self.functions.get(at).map_or(0, |k| k.function.params.len());
         let unit = self.unit_of(at, &vec![Type::Any; n])?;
@@ -164,7 +164,7 @@ impl<'a> Binder<'a> {
         Ok(Ir::new(IrKind::Closure(unit), Type::Function, span))
     }
 
-    /// What a called function uses, its caller must hand in.
+    /// Records the variables that a called function captures: its caller must pass them.
     fn capture_for(&mut self, at: usize) {
         let Some(called) = self.functions.get(at) else { return };
         let (FactKey { site, at, .. }, names) =
@@ -177,7 +177,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// A call of a function that is known by its place.
+    /// Binds a call of a function that is known by its index.
     pub(super) fn call_known(&mut self, at: usize, args: &'a [Expr], span: Span) -> Attempt<Ir> {
         if args.iter().any(|a| matches!(a.kind, ExprKind::Spread(_))) {
             let callee = self.closure_value(at, span)?;
@@ -193,7 +193,7 @@ impl<'a> Binder<'a> {
         let mut extra = Vec::new();
         let mut failed = false;
         for (i, arg) in args.iter().enumerate() {
-            // What a function has no parameter for is not even looked at, if that can have no effect.
+            // An extra argument is skipped if its evaluation can have no effect.
             if i >= wanted && matches!(arg.kind, ExprKind::Name(_) | ExprKind::Number(_)) {
                 continue;
             }
@@ -231,7 +231,7 @@ impl<'a> Binder<'a> {
         Ok(Ir::new(IrKind::Block(extra, Box::new(call)), ty, span))
     }
 
-    /// A call of a function that is known only while running.
+    /// Binds a call of a function that is known only at run time.
     pub(super) fn call_value(&mut self, callee: Ir, args: Vec<IrItem>, span: Span) -> Ir {
         Ir::new(IrKind::InvokeValue(Box::new(callee), args), Type::Any, span)
     }

@@ -1,5 +1,6 @@
-//! Calls of methods that are written in the language: bound as if their text stood where they are called. Their texts have names
-//! and places of their own; a mistake there is reported in words, at the call.
+//! Calls of methods that are written in the language itself: they are bound as if their source text were inlined at the
+//! call. Their variables are separate from those of the caller. A mistake inside is reported at the call, described in
+//! words.
 
 use std::sync::OnceLock;
 
@@ -15,7 +16,7 @@ use crate::parse::{Attempt, Reported};
 use crate::types::Type;
 use labspec_finding::Span;
 
-/// What the names of a written function mean.
+/// The resolved names of a function that is written in the language.
 fn names_of(function: &Function) -> &'static NameTable {
     static NAMES: OnceLock<Vec<(&'static Function, NameTable)>> = OnceLock::new();
     static NONE: OnceLock<NameTable> = OnceLock::new();
@@ -32,7 +33,7 @@ fn resolved(function: &'static Function) -> NameTable {
 }
 
 impl<'a> Binder<'a> {
-    /// A method that is written in the language, as if its text stood here.
+    /// Binds a method that is written in the language as if its text were here.
     pub(super) fn inline_method(
         &mut self,
         function: &'a Function,
@@ -44,7 +45,7 @@ impl<'a> Binder<'a> {
         let mut things = vec![Ok(first)];
         for (i, arg) in args.iter().enumerate() {
             let thing = self.argument_entity(arg);
-            // The function stands first among the arguments.
+            // The function comes first among the arguments.
             let calls = match &thing {
                 Ok(Entity::Value(ir)) => matches!(ir.ty, Type::Function | Type::Any | Type::Never),
                 _ => true,
@@ -58,7 +59,8 @@ impl<'a> Binder<'a> {
         let things = things.into_iter().collect::<Attempt<Vec<Entity>>>()?;
         let Body::Block(statements) = &function.body else { return Err(Reported) };
         let functions = self.functions.len();
-        // A text has fewer than 65,536 bytes: a call inside a written method keeps the call around it apart.
+        // A text has fewer than 65,536 bytes, so that the id of a call inside a written method includes that of the call
+        // around it.
         let (id, call) = match self.site {
             Some(outer) => (outer.id << 16 | span.end, outer.call),
             None => (span.end, span),
@@ -90,12 +92,12 @@ impl<'a> Binder<'a> {
         Ok(Ir::new(IrKind::Block(steps, Box::new(value)), ty, span))
     }
 
-    /// An argument of such a method: a function stays known.
+    /// Binds an argument of such a method; a function remains statically known.
     fn argument_entity(&mut self, arg: &'a Expr) -> Attempt<Entity> {
         match self.entity(arg)? {
             closure @ Entity::Closure(_) => Ok(closure),
             function @ (Entity::MathFunction(_) | Entity::Native(_)) => Ok(function),
-            // `Number`, which is a function and holds some.
+            // `Number` is both a function and a namespace.
             Entity::Namespace(name) => match natives::find_function(name) {
                 Some(function) => Ok(Entity::Native(function)),
                 None => self.value_of(Entity::Namespace(name), arg.span).map(Entity::Value),
@@ -104,7 +106,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// A parameter of a written method: what needs no place of its own is only another word.
+    /// Binds a parameter of a written method: an entity that needs no storage becomes an alias.
     fn give_entity(&mut self, name: &Name, thing: Entity, steps: &mut Vec<IrStatement>) {
         match thing {
             Entity::Value(ir) => self.give_value(name, ir, steps),

@@ -1,4 +1,4 @@
-//! Lists, records, templates, and declarations that take lists and records apart.
+//! Lists, records, templates, and destructuring declarations.
 
 use super::binder::{Binder, Entity, VariableMeaning};
 use super::facts::FactKind;
@@ -12,7 +12,7 @@ use crate::types::Type;
 use labspec_finding::{Finding, Span};
 
 impl<'a> Binder<'a> {
-    /// Items of a list, or arguments, with their spreads.
+    /// Binds the items of a list, or arguments, with their spreads.
     pub(super) fn items(&mut self, items: &'a [Expr]) -> Attempt<Vec<IrItem>> {
         let mut bound = Vec::new();
         let mut failed = false;
@@ -29,7 +29,7 @@ impl<'a> Binder<'a> {
         if failed { Err(Reported) } else { Ok(bound) }
     }
 
-    /// `...list`: written out when it is a short array of known size.
+    /// Binds `...list`. A short array of known size is expanded.
     fn spread(&mut self, inner: &'a Expr) -> Attempt<Vec<IrItem>> {
         let thing = self.entity(inner)?;
         if let Entity::Field(field) = &thing
@@ -43,7 +43,7 @@ impl<'a> Binder<'a> {
         Ok(vec![IrItem { value, spread: true }])
     }
 
-    /// Refuses what has no elements to go through.
+    /// Refuses a value that is not iterable.
     pub(super) fn expect_elements(&mut self, value: &Ir) -> Attempt<()> {
         if matches!(value.ty, Type::List | Type::View | Type::String | Type::Any | Type::Never) {
             return Ok(());
@@ -63,14 +63,14 @@ impl<'a> Binder<'a> {
         })
     }
 
-    /// `[a, b]`
+    /// Binds `[a, b]`.
     #[inline(never)]
     pub(super) fn list(&mut self, items: &'a [Expr], span: Span) -> Attempt<Ir> {
         let items = self.items(items)?;
         Ok(Ir::new(IrKind::List(items), Type::List, span))
     }
 
-    /// `{a: 1}`
+    /// Binds `{a: 1}`.
     #[inline(never)]
     pub(super) fn record(&mut self, properties: &'a [Property], span: Span) -> Attempt<Ir> {
         let mut entries = Vec::new();
@@ -95,7 +95,7 @@ impl<'a> Binder<'a> {
         if failed { Err(Reported) } else { Ok(Ir::new(IrKind::Record(entries), Type::Record, span)) }
     }
 
-    /// `` `text ${value}` ``
+    /// Binds `` `text ${value}` ``.
     #[inline(never)]
     pub(super) fn template(&mut self, texts: &'a [String], values: &'a [Expr], span: Span) -> Attempt<Ir> {
         let text = |i: usize| texts.get(i).map_or("", String::as_str);
@@ -117,7 +117,7 @@ impl<'a> Binder<'a> {
         if failed { Err(Reported) } else { Ok(whole) }
     }
 
-    /// Names parts of a value that is kept in a place of its own, so that it can be read again and again.
+    /// Destructures a value. The value has its own storage, so that it can be read repeatedly.
     pub(super) fn take_apart(&mut self, pattern: &'a Pattern, whole: Ir, steps: &mut Vec<IrStatement>) {
         match pattern {
             Pattern::Name(name) => self.give_value(name, whole, steps),
@@ -125,7 +125,7 @@ impl<'a> Binder<'a> {
                 if self.expect_elements(&whole).is_err() {
                     return self.forget(pattern);
                 }
-                // What is not known to be a list is made one, or refused, as in JavaScript.
+                // A value that is not known to be a list is converted to one, or refused, as in JavaScript.
                 let whole = match (whole.ty, crate::natives::find_function("_parts")) {
                     (Type::List | Type::View, _) | (_, None) => whole,
                     (_, Some(function)) => {
@@ -157,7 +157,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// One part, with its default.
+    /// Binds one element of a pattern, with its default.
     fn part(&mut self, element: &'a Element, part: Ir, steps: &mut Vec<IrStatement>) {
         let span = element.target.span();
         let mut value = part;
@@ -176,7 +176,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// Puts a value into a place without a name.
+    /// Stores a value in an unnamed local variable.
     pub(super) fn keep(&mut self, value: Ir, span: Span, steps: &mut Vec<IrStatement>) -> Ir {
         let key = self.key(span.start, FactKind::Part);
         self.facts.see(key, value.ty);
@@ -185,12 +185,12 @@ impl<'a> Binder<'a> {
         Ir::new(IrKind::Local(place), ty, span)
     }
 
-    /// The names of a pattern that could not be bound: their uses are no mistakes of their own.
+    /// Marks the names of a pattern that could not be bound, so that their uses are not reported as further errors.
     pub(super) fn forget(&mut self, pattern: &'a Pattern) {
         names_of(pattern, &mut |name| self.give(name, VariableMeaning::Unknown));
     }
 
-    /// `const {kinetic, total} = lib.energy()` checks the names against what the function gives.
+    /// Binds `const {kinetic, total} = lib.energy()`. The names are checked against the members of the function's result.
     pub(super) fn destructure(
         &mut self,
         pattern: &'a Pattern,
@@ -198,7 +198,7 @@ impl<'a> Binder<'a> {
         steps: &mut Vec<IrStatement>,
     ) {
         let Ok(thing) = self.entity(value) else { return self.forget(pattern) };
-        // Parts of `model`, `data` or `Math` are other words for them.
+        // Parts of `model`, `data`, `ctx` or `Math` become aliases.
         if let (Pattern::Record { entries, .. }, Entity::Object(_) | Entity::Math | Entity::Globals) =
             (pattern, &thing)
         {

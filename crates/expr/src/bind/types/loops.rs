@@ -1,4 +1,4 @@
-//! Loops, and what is known of the numbers that count them.
+//! Loops, and the known ranges of their counters.
 
 use super::access::{past_the_end, range};
 use super::binder::{Binder, Entity};
@@ -16,7 +16,7 @@ use crate::{natives, number};
 use labspec_finding::{Finding, Span};
 
 impl<'a> Binder<'a> {
-    /// `for (init; test; update) body`
+    /// Binds `for (init; test; update) body`.
     pub(super) fn for_loop(
         &mut self,
         init: Option<&'a Stmt>,
@@ -99,7 +99,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// `for (const target of items) body`
+    /// Binds `for (const target of items) body`.
     pub(super) fn for_of(
         &mut self,
         target: &'a Pattern,
@@ -110,7 +110,7 @@ impl<'a> Binder<'a> {
     ) {
         let list = self.entity(items);
         let functions = self.functions.len();
-        // The list, how long it is and where the loop stands are kept in places without names.
+        // The list and the counter of the loop are stored in unnamed local variables.
         let counter = self.unnamed_local(span, FactKind::Counter, Type::Number);
         let read_counter = Ir::new(IrKind::Local(counter), Type::Number, items.span);
         let elements = match list {
@@ -147,14 +147,14 @@ impl<'a> Binder<'a> {
         self.leave(functions);
     }
 
-    /// A place that has no name in the text.
+    /// A local variable without a name in the source text.
     fn unnamed_local(&mut self, span: Span, what: FactKind, ty: Type) -> LocalId {
         let key = self.key(span.start, what);
         self.facts.see(key, ty);
         self.new_local(key, false)
     }
 
-    /// The number of elements of an array of the host, and the element at the counter of a loop.
+    /// The number of elements of an array of the host, and its element at the counter of a loop.
     fn elements_of_field(&mut self, field: &Field, counter: &Ir, span: Span) -> (Ir, Ir) {
         let length = match field.len() {
             Some(n) => Ir::number(n as f64, span),
@@ -163,12 +163,12 @@ impl<'a> Binder<'a> {
         let index = Index::Computed(Box::new(counter.clone()));
         let fixed = field.len().is_some();
         let mut item = self.load(field, index, span);
-        // The counter stays below the length.
+        // The counter stays below the length, so the element exists.
         item.ty = if fixed { Type::Number } else { item.ty };
         (length, item)
     }
 
-    /// The same of any other list, which is kept in a place of its own.
+    /// The same for any other list, which is stored in a local variable.
     fn elements_of_value(
         &mut self,
         list: Entity,
@@ -179,7 +179,7 @@ impl<'a> Binder<'a> {
     ) -> Attempt<(Ir, Ir)> {
         let value = self.value_of(list, span)?;
         self.expect_elements(&value)?;
-        // A text is taken apart into its characters, of which some take two units.
+        // A string is split into its characters, some of which take two UTF-16 units.
         let function = natives::find_function("_parts");
         let value = match (value.ty, function) {
             (Type::List | Type::View, _) | (_, None) => value,
@@ -198,7 +198,7 @@ impl<'a> Binder<'a> {
         Ok((length, Ir::new(item, element, span)))
     }
 
-    /// A loop over something that is a mistake: its body may hold more of them.
+    /// Binds a loop over an invalid value: its body may contain further errors.
     fn dead_loop(&mut self, target: &'a Pattern, body: &'a Stmt, functions: usize) {
         self.hoist_pattern(target, &mut Vec::new());
         self.forget(target);
@@ -213,7 +213,7 @@ impl<'a> Binder<'a> {
         steps
     }
 
-    /// A statement with names of its own.
+    /// Binds a statement with its own scope.
     pub(super) fn scoped(&mut self, statement: &'a Stmt) -> Vec<IrStatement> {
         match &statement.kind {
             StmtKind::Block(statements) => self.block(statements),
@@ -221,7 +221,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// Whether the loop counts a variable of its own up to a bound that is known: then its range is noted.
+    /// Whether the loop counts its own variable up to a known bound. If so, the range of the variable is recorded.
     fn counted(
         &mut self,
         names: &[&Name],
@@ -245,7 +245,7 @@ impl<'a> Binder<'a> {
         else {
             return false;
         };
-        // Assigned by the update alone: an assignment in the body is one more.
+        // Only the update assigns the counter: an assignment in the body would be a second one.
         let key = self.key_of(name);
         if !matches!(left.kind, IrKind::Local(counter) if counter == *id) || self.assignments(key) > 1 {
             return false;
@@ -258,11 +258,11 @@ impl<'a> Binder<'a> {
         if whole && let Some(variable) = self.variables.get_mut(&key) {
             variable.range = Some((least, most.max(least)));
         }
-        // A larger step may pass over the last one; an empty loop runs nothing.
+        // A step larger than 1 may skip the last value; an empty loop executes nothing.
         whole && single && most >= least
     }
 
-    /// Smallest and largest value of a number, as far as known.
+    /// The smallest and the largest value of a number, if known.
     pub(super) fn range_of(&self, ir: &Ir) -> Option<(f64, f64)> {
         match &ir.kind {
             IrKind::Constant(Value::Number(x)) => Some((*x, *x)),
@@ -285,7 +285,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// Refuses an index that leaves the field in the last turn of a loop, when nothing in the loop prevents it.
+    /// Refuses an index that is out of range in the last iteration of a loop, if nothing in the loop prevents this.
     pub(super) fn check_range(&mut self, field: &Field, index: &Ir) -> Attempt<()> {
         let (Some((least, most)), Some(n)) = (self.range_of(index), field.len()) else { return Ok(()) };
         if self.guards > 0 || self.site.is_some() {
@@ -319,7 +319,7 @@ impl<'a> Binder<'a> {
     }
 }
 
-/// Whether statements may leave the loop that they stand in.
+/// Whether statements may leave the loop that contains them.
 fn leaves(steps: &[IrStatement]) -> bool {
     steps.iter().any(|step| match step {
         IrStatement::Break | IrStatement::Return(_) => true,

@@ -1,4 +1,4 @@
-//! What names stand for: those at the start of an expression, and those behind a point.
+//! Meanings of names: at the start of an expression, and after a point.
 
 use super::binder::{Binder, Entity, MethodReceiver};
 use crate::ast::{Expr, ExprKind, Name};
@@ -26,7 +26,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// A name at the start of an expression.
+    /// Binds a name at the start of an expression.
     #[inline(never)]
     pub(super) fn root(&mut self, name: &str, span: Span) -> Attempt<Entity> {
         if let Some(variable) = self.variable(name, span)? {
@@ -45,7 +45,7 @@ impl<'a> Binder<'a> {
         if let (true, Some(ty)) = (name == "value", self.value) {
             return Ok(Entity::Value(Ir::new(IrKind::Input, ty, span)));
         }
-        // The first pass has reported names without a meaning.
+        // The first pass has already reported an unknown name.
         let Some(entry) = self.schema.root(name) else {
             self.unresolved.get_or_insert(span);
             return Err(Reported);
@@ -55,7 +55,7 @@ impl<'a> Binder<'a> {
         Ok(thing)
     }
 
-    /// Notes what a name or a member is.
+    /// Records the help for a name or a member.
     #[inline(never)]
     fn explain_thing(&mut self, thing: &Entity, text: &str, span: Span) {
         let schema = self.schema;
@@ -77,7 +77,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// `object.name`, or `object?.name`
+    /// Binds `object.name` or `object?.name`.
     #[inline(never)]
     fn member(&mut self, object: &'a Expr, name: &Name, optional: bool, span: Span) -> Attempt<Entity> {
         let thing = self.entity(object)?;
@@ -86,7 +86,7 @@ impl<'a> Binder<'a> {
         Ok(found)
     }
 
-    /// A member of what stands before the point.
+    /// Binds a member of an entity.
     #[inline(never)]
     pub(super) fn member_of(
         &mut self,
@@ -129,7 +129,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// `Array.from` and its like.
+    /// Binds a member of a namespace, such as `Array.from`.
     #[inline(never)]
     fn namespace_member(&mut self, holder: &'static str, name: &Name, span: Span) -> Attempt<Entity> {
         let path = format!("{holder}.{}", name.text);
@@ -158,7 +158,7 @@ impl<'a> Binder<'a> {
         })
     }
 
-    /// A variable of the lab, read.
+    /// Binds a variable of the lab that is read.
     pub(super) fn global(&mut self, name: &str, span: Span) -> Attempt<Ir> {
         self.check_machinery(name, span)?;
         let slot = self.globals.mention(name, self.program, span, false);
@@ -201,7 +201,7 @@ impl<'a> Binder<'a> {
         self.refuse(report)
     }
 
-    /// `.length` and the methods of an array.
+    /// Binds `.length` or a method of an array.
     #[inline(never)]
     fn field_member(&mut self, field: Field, object: Span, name: &Name, span: Span) -> Attempt<Entity> {
         let array = !field.is_scalar();
@@ -281,7 +281,7 @@ impl<'a> Binder<'a> {
         let here = ranked(&name.text, names.iter().map(String::as_str));
         let elsewhere = meant_elsewhere(self.schema, &name.text, Some(id), &|_| true);
         match (here, elsewhere) {
-            // The right name on the wrong object is nearer than another name on this one.
+            // The exact name on another object is a better suggestion than a similar name on this one.
             (here, Some((cost, path))) if here.is_none_or(|(c, _)| cost < c) => {
                 let (holder, meant) = path.rsplit_once('.').unwrap_or(("", &path));
                 let how =
@@ -298,7 +298,7 @@ impl<'a> Binder<'a> {
     }
 }
 
-/// Names that mean the same in every lab.
+/// The names that have the same meaning in every lab.
 fn language(name: &str, span: Span) -> Option<Entity> {
     let constant = |value| Some(Entity::Value(Ir::constant(value, span)));
     match name {
@@ -307,7 +307,7 @@ fn language(name: &str, span: Span) -> Option<Entity> {
         "Infinity" => constant(Value::Number(f64::INFINITY)),
         "Math" => Some(Entity::Math),
         "ctx" => Some(Entity::Globals),
-        // `String(x)` is a function and `String` a holder of others: which is meant shows behind the name.
+        // `String(x)` is a call, and `String.fromCharCode` a member of a namespace: what follows the name decides.
         _ => match NAMESPACES.iter().find(|n| **n == name) {
             Some(holder) => Some(Entity::Namespace(holder)),
             None if name.starts_with('_') || name.contains('.') => None,
@@ -318,7 +318,7 @@ fn language(name: &str, span: Span) -> Option<Entity> {
     }
 }
 
-/// What a field is, in the words of its table.
+/// The help for a field, from the table of fields.
 pub(super) fn field_help(field: &Field, host_terms: &HostTerms) -> Help {
     let mut lines = Vec::new();
     if !field.doc.is_empty() {
@@ -336,7 +336,7 @@ pub(super) fn field_help(field: &Field, host_terms: &HostTerms) -> Help {
     Help { title: field.path.clone(), lines }
 }
 
-/// What assigning means.
+/// The effect of an assignment, by the kind of the field.
 fn kind_in_words(kind: &FieldKind, host_terms: &HostTerms) -> String {
     match kind {
         FieldKind::State => "state: evolves in time, can be set".into(),
@@ -365,12 +365,12 @@ pub(super) fn machinery(name: &str, span: Span) -> Finding {
         .help("use another name")
 }
 
-/// The elements of a field.
+/// The view of all elements of a field.
 pub(super) fn view_of(field: &Field) -> View {
     View::new(field.key, field.first, field.len())
 }
 
-/// `model.opt` in backquotes; `the joint "a"` as it is.
+/// `model.opt` in backquotes; `the joint "a"` unchanged.
 pub(super) fn quoted(description: &str) -> String {
     if description.contains(' ') { description.to_owned() } else { format!("`{description}`") }
 }

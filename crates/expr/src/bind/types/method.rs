@@ -1,4 +1,4 @@
-//! Calls of methods: of arrays of the simulation, lists, texts and numbers.
+//! Calls of methods: of arrays of the simulation, lists, strings and numbers.
 
 use super::binder::{Binder, Entity, MethodReceiver};
 use super::member::view_of;
@@ -13,7 +13,7 @@ use crate::types::Type;
 use crate::value::Value;
 use labspec_finding::{Finding, Span};
 
-/// A value that is a list when it is computed, or the run ends: what is called on it is a method of lists.
+/// A conversion of `ir` to a list, which is a run-time error if the value is not a list: `method` is a method of lists only.
 fn listed(ir: Ir, method: &str) -> Ir {
     let Some(function) = natives::find_function("_list") else { return ir };
     let span = ir.span;
@@ -22,18 +22,18 @@ fn listed(ir: Ir, method: &str) -> Ir {
 }
 
 impl<'a> Binder<'a> {
-    /// Whether values of a type have a method.
+    /// Whether values of a type have the method.
     pub(super) fn is_method(&self, text: &str, ty: Type) -> bool {
         natives::find_method(text).is_some_and(|n| n.rows_for(ty).next().is_some())
     }
 
-    /// The methods of values of a type.
+    /// The names of the methods of a type.
     pub(super) fn method_names(&self, ty: Type) -> Vec<&'static str> {
         let names = natives::public_rows().map(|row| row.name).filter(|name| self.is_method(name, ty));
         names.chain(["length"]).collect()
     }
 
-    /// `receiver.name(args)`
+    /// Binds `receiver.name(args)`.
     pub(super) fn method(
         &mut self,
         receiver: MethodReceiver,
@@ -76,7 +76,7 @@ impl<'a> Binder<'a> {
         Ok(Ir::new(IrKind::Method(name, Box::new(receiver), items), ty, span))
     }
 
-    /// The function of the language that computes a method with these arguments.
+    /// The method's definition in the language, if it has one for these arguments.
     fn source_function(
         &mut self,
         row: &'static Native,
@@ -119,7 +119,7 @@ impl<'a> Binder<'a> {
         if row.on == ReceiverKind::Nothing { from.to_owned() } else { format!(".{from}") }
     }
 
-    /// The finding for something else where a method takes a function.
+    /// The finding for an argument that is not a function where a method requires one.
     pub(super) fn needs_function(&self, row: &Native, span: Span) -> Finding {
         let point = if row.on == ReceiverKind::Nothing { "" } else { "." };
         Finding::error(rules::ARGUMENT_TYPE, span, format!("`{point}{}` needs a function", row.name))
@@ -127,7 +127,7 @@ impl<'a> Binder<'a> {
             .help(format!("write `{}`", self.call_of(row)))
     }
 
-    /// Checks how many arguments a function of the language gets, which one of these rows computes.
+    /// Checks the number of arguments of a function of the language that one of these rows implements.
     pub(super) fn check_arity(
         &mut self,
         rows: &[&'static Native],
@@ -160,7 +160,7 @@ impl<'a> Binder<'a> {
         )
     }
 
-    /// `.fill` and `.set` of an array of the simulation, as far as they need no list.
+    /// Binds `.fill` and `.set` of an array of the simulation, if they need no list.
     fn field_method(
         &mut self,
         field: &Field,
@@ -181,7 +181,7 @@ impl<'a> Binder<'a> {
                 if rest.len() < 2 && !items.iter().any(|i| matches!(i.kind, ExprKind::Spread(_))) =>
             {
                 let assignable = self.check_assignable(field, span);
-                // Known only while running: the general method.
+                // The offset is known only at run time: the general method handles it.
                 let Some(offset) = rest.first().map_or(Ok(Some(0)), |offset| self.known_offset(offset))?
                 else {
                     return Ok(None);
@@ -212,7 +212,7 @@ impl<'a> Binder<'a> {
         Ok(Some(Ir::new(kind, Type::Void, span)))
     }
 
-    /// The second argument of `.set`, where it is known.
+    /// The second argument of `.set`, if it is known.
     fn known_offset(&mut self, offset: &'a Expr) -> Attempt<Option<usize>> {
         let ir = self.operand(offset)?;
         match ir.as_constant() {

@@ -1,10 +1,10 @@
-//! The second pass: which type everything has, and the typed tree.
+//! The second pass: infers all types and builds the typed tree.
 //!
-//! A round binds the whole text with the types that are known of its variables and functions. Where a type grows after it was read,
-//! another round follows (a fixed point over a lattice; Kildall, "A unified approach to global program optimization", 1973). Types
-//! only grow, at most three times each, so the rounds end. After a few of them the places through which every circle of types goes
-//! are taken to hold anything (widening; Cousot and Cousot, "Abstract interpretation", 1977), and two more rounds are the last:
-//! see `facts::TypeFacts`.
+//! A round binds the whole text with the types that are known of its variables and functions. If a type widens after it was
+//! read, another round follows (a fixed point over a lattice; Kildall, "A unified approach to global program optimization",
+//! 1973). Types only widen, at most three times each, so the rounds terminate. After a few rounds, the places through which
+//! every cycle of types passes get the type any (widening; Cousot and Cousot, "Abstract interpretation", 1977), and at most two
+//! more rounds follow: see `facts::TypeFacts`.
 
 mod access;
 mod assign;

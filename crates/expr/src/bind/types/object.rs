@@ -1,4 +1,4 @@
-//! Members of values, and of objects whose name is computed while running.
+//! Members of values, and of objects whose name is computed at run time.
 
 use labspec_finding::order;
 use std::sync::Arc;
@@ -16,11 +16,11 @@ use crate::types::{CollectionId, Type};
 use crate::value::{Value, View};
 use labspec_finding::{Finding, Span, nearest};
 
-/// The most elements that a literal spread of an array of the simulation writes out.
+/// The maximum number of elements to which the spread of an array of the simulation is expanded.
 const MAX_WRITTEN_OUT: usize = 64;
 
 impl<'a> Binder<'a> {
-    /// `value.name`
+    /// Binds `value.name`.
     pub(super) fn value_member(
         &mut self,
         ir: Ir,
@@ -57,7 +57,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// A member of a record, checked when it is known what makes the record.
+    /// Binds a member of a record. The name is checked if the function that creates the record is known.
     pub(super) fn record_member(&mut self, ir: Ir, name: &Name, span: Span) -> Attempt<Ir> {
         let mut ty = Type::Any;
         if let IrKind::Call(id, _) = &ir.kind {
@@ -85,7 +85,7 @@ impl<'a> Binder<'a> {
         Ok(Ir::new(IrKind::Member(Box::new(ir), name.text.as_str().into()), ty, span))
     }
 
-    /// The finding for a member of something that has none of this name.
+    /// The finding for a member that the value does not have.
     fn no_member(&self, ty: Type, name: &Name, span: Span, object: Span) -> Finding {
         let text = name.text.as_str();
         let what = self.text(object);
@@ -111,14 +111,14 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// What stands before `?.`.
+    /// Binds the operand of `?.`.
     pub(super) fn present(&mut self, ir: Ir) -> Ir {
         let (ty, span) = (ir.ty, ir.span);
         let ty = if ty == Type::Element { Type::Number } else { ty };
         Ir::new(IrKind::Present(Box::new(ir)), ty, span)
     }
 
-    /// The number of elements of a list that is written out or that a function of known size gives.
+    /// The number of elements of a list literal, or of the result of a function with a known size.
     pub(super) fn known_length(&self, ir: &Ir) -> Option<usize> {
         match &ir.kind {
             IrKind::List(items) if items.iter().all(|i| !i.spread) => Some(items.len()),
@@ -129,7 +129,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// A call like `lib.bodyPos('cube')` whose elements are those of a field, when one element is all that is asked.
+    /// The field whose elements a call such as `lib.bodyPos('cube')` returns, used when only one element is read.
     pub(super) fn call_as_field(&mut self, object: &'a Expr) -> Option<Field> {
         let ExprKind::Call { callee, args, optional: false } = &object.kind else { return None };
         let ExprKind::Member { object: holder, name, .. } = &callee.kind else { return None };
@@ -146,7 +146,7 @@ impl<'a> Binder<'a> {
         self.schema.result_field(id, object)
     }
 
-    /// A member of an object whose name is known only while running: the same member of all of them, by name.
+    /// Binds a member of an object whose name is known only at run time: a table with that member of all objects, by name.
     pub(super) fn picked_member(
         &mut self,
         id: CollectionId,
@@ -172,7 +172,7 @@ impl<'a> Binder<'a> {
             }
         }
         if of.is_empty() {
-            // Any of the objects shows what members there are.
+            // All objects of a collection have the same members, so the first one is used for the message.
             let object = names.first().and_then(|n| self.schema.lookup(id, n));
             let report = match object {
                 Some(object) => self.unknown_member(object, name, span),
@@ -206,7 +206,7 @@ impl<'a> Binder<'a> {
         Ir::constant(Value::View(view), span)
     }
 
-    /// Notes that an array becomes a value.
+    /// Records that an array is used as a value.
     pub(super) fn show(&mut self, field: &Field) -> View {
         let view = view_of(field);
         let exposed = crate::ir::ExposedView { view, elem: field.elem, assignable: field.is_assignable() };
@@ -216,14 +216,14 @@ impl<'a> Binder<'a> {
         view
     }
 
-    /// All elements of an array of known size, as values; `None` when there are too many to write out.
+    /// All elements of an array of known size as separate values, or `None` if there are too many.
     pub(super) fn elements(&mut self, field: &Field, span: Span) -> Option<Vec<Ir>> {
         let n = field.len().filter(|n| *n <= MAX_WRITTEN_OUT)?;
         Some((0..n).map(|i| self.load(field, Index::At(i), span)).collect())
     }
 }
 
-/// Whether computing a value does nothing else, so that it can be left out.
+/// Whether evaluating the expression has no effect, so that it can be removed.
 fn is_still(ir: &Ir) -> bool {
     match &ir.kind {
         IrKind::Constant(_) | IrKind::Global(_) => true,

@@ -1,4 +1,4 @@
-//! Variables: their places, the functions that use them, and what they stand for.
+//! Variables: their storage, the functions that capture them, and their meanings.
 
 use super::binder::{Binder, Entity, Variable, VariableMeaning};
 use super::facts::{FactKey, FactKind};
@@ -11,7 +11,7 @@ use crate::types::Type;
 use labspec_finding::{Finding, Span};
 
 impl<'a> Binder<'a> {
-    /// The key of something declared at a byte.
+    /// The key of a declaration at a byte.
     pub(super) fn key(&self, at: usize, what: FactKind) -> FactKey {
         FactKey { site: self.site.map_or(0, |site| site.id), at, what }
     }
@@ -21,17 +21,17 @@ impl<'a> Binder<'a> {
         self.key(name.span.start, FactKind::Name)
     }
 
-    /// What the first pass found of a declaration.
+    /// The result of the first pass for a declaration.
     pub(super) fn declaration(&self, key: FactKey) -> Option<&'a Declaration> {
         self.site.map_or(self.names, |site| site.names).declared(key.at)
     }
 
-    /// In how many places a variable is assigned after its declaration.
+    /// The number of assignments to a variable after its declaration.
     pub(super) fn assignments(&self, key: FactKey) -> usize {
         self.declaration(key).map_or(0, |declared| declared.assigned)
     }
 
-    /// Statements with names of their own.
+    /// Binds statements with their own scope.
     pub(super) fn block(&mut self, statements: &'a [Stmt]) -> Vec<IrStatement> {
         let functions = self.functions.len();
         let mut steps = Vec::new();
@@ -43,7 +43,7 @@ impl<'a> Binder<'a> {
         steps
     }
 
-    /// The end of a block: functions that nothing called are looked through for mistakes.
+    /// Closes a block. Functions that were never called are bound to report their errors.
     pub(super) fn leave(&mut self, functions: usize) {
         for i in functions..self.functions.len() {
             if self.functions.get(i).is_some_and(|k| k.unit.is_none()) {
@@ -52,7 +52,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// Names that a block declares get their places; functions can be called from its start.
+    /// Gives the names of a block their storage; functions can be called from the start of the block.
     fn hoist(&mut self, statements: &'a [Stmt], steps: &mut Vec<IrStatement>) {
         for statement in statements {
             match &statement.kind {
@@ -87,7 +87,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// A new name, whose declaration has not run yet.
+    /// Declares a name; its declaration has not been executed yet.
     pub(super) fn declare_variable(&mut self, name: &Name) -> LocalId {
         let key = self.key_of(name);
         let declared = self.declaration(key);
@@ -107,14 +107,14 @@ impl<'a> Binder<'a> {
         id
     }
 
-    /// A place for values. Its type is known at the end of the round.
+    /// Adds a local variable. Its type is known at the end of the round.
     pub(super) fn new_local(&mut self, key: FactKey, shared: bool) -> LocalId {
         self.tree.locals.push(Local { ty: Type::Never, shared });
         self.keys.push(key);
         (self.tree.locals.len() - 1) as LocalId
     }
 
-    /// The declaration of a name has run.
+    /// Records that the declaration of a name has been executed.
     pub(super) fn give(&mut self, name: &Name, meaning: VariableMeaning) {
         let key = self.key_of(name);
         if let Some(variable) = self.variables.get_mut(&key) {
@@ -123,7 +123,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// A declared name that holds a value: the step that stores it.
+    /// Gives a declared name its value, and adds the step that stores it.
     pub(super) fn give_value(&mut self, name: &Name, value: Ir, steps: &mut Vec<IrStatement>) {
         let key = self.key_of(name);
         let changes = self.assignments(key) > 0;
@@ -133,7 +133,7 @@ impl<'a> Binder<'a> {
             return;
         };
         variable.ready = true;
-        // A name for a known value that never changes is that value.
+        // A name for a constant that is never reassigned becomes an alias for the constant.
         if value.as_constant().is_some() && !changes {
             variable.meaning = VariableMeaning::Alias(Entity::Value(value));
             return;
@@ -142,7 +142,7 @@ impl<'a> Binder<'a> {
         steps.push(IrStatement::Declare(variable.id, value));
     }
 
-    /// What the first pass found of a name, and the variable that it means.
+    /// The variable to which a name refers, as resolved by the first pass.
     pub(super) fn variable(&mut self, name: &str, span: Span) -> Attempt<Option<Variable>> {
         match self.site.map_or(self.names, |site| site.names).at(span.start) {
             NameMeaning::Outside => Ok(None),
@@ -158,7 +158,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// What a variable stands for where it is read.
+    /// The meaning of a variable where it is read.
     pub(super) fn read_variable(&mut self, variable: &Variable, span: Span) -> Attempt<Entity> {
         match &variable.meaning {
             VariableMeaning::Alias(thing) => Ok(thing.clone()),
@@ -171,7 +171,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// A variable of another function is used: that function, and all between, hand it in.
+    /// Records that the functions from the current one up to the owner of the variable capture it.
     pub(super) fn capture(&mut self, variable: &Variable) {
         let mut unit = self.unit;
         while unit != variable.unit {

@@ -1,4 +1,4 @@
-//! Statements: declarations, effects, choices, and expressions that change nothing.
+//! Statements: declarations, effects, conditionals, and expressions without an effect.
 
 use super::binder::{Binder, Entity, VariableMeaning};
 use crate::ast::{Declarator, Expr, ExprKind, Name, Pattern, Stmt, StmtKind};
@@ -27,7 +27,7 @@ impl<'a> Binder<'a> {
                 let then = self.scoped(then);
                 let otherwise = otherwise.as_ref().map(|s| self.scoped(s)).unwrap_or_default();
                 self.guards -= 1;
-                // A jump in one branch makes what follows conditional.
+                // A jump in one branch makes the following statements conditional.
                 if jumps(&then) || jumps(&otherwise) {
                     self.guards += 1;
                 }
@@ -80,7 +80,7 @@ impl<'a> Binder<'a> {
         steps.push(IrStatement::Return(ir));
     }
 
-    /// A condition.
+    /// Binds a condition.
     pub(super) fn test(&mut self, test: &'a Expr) -> Attempt<Ir> {
         if let ExprKind::Assign { op, op_span, .. } = &test.kind {
             let report = self.assignment_inside(*op, *op_span, test.span);
@@ -96,7 +96,7 @@ impl<'a> Binder<'a> {
         self.value_of(thing, test.span)
     }
 
-    /// An expression as a statement; nothing to run when it has no effect.
+    /// Binds an expression used as a statement. An expression without an effect adds no step.
     pub(super) fn effect_into(&mut self, expr: &'a Expr, steps: &mut Vec<IrStatement>) {
         if let ExprKind::Sequence(parts) = &expr.kind {
             return parts.iter().for_each(|part| self.effect_into(part, steps));
@@ -113,7 +113,7 @@ impl<'a> Binder<'a> {
             }
             ExprKind::Call { .. } | ExprKind::Name(_) | ExprKind::Member { .. } => {
                 let ir = match self.entity(expr)? {
-                    // The bare name of a function whose arguments are implied.
+                    // The name alone of a function whose arguments are implied is a call.
                     Entity::Function(id) if self.schema.function(id).implied => {
                         self.host_call(id, &[], expr.span, expr.span)?
                     }
@@ -132,7 +132,7 @@ impl<'a> Binder<'a> {
                 };
                 Ok(Some(ir))
             }
-            // `test && call()` and `test ? call() : call()`: the last parts are statements of their own.
+            // In `test && call()` and `test ? call() : call()`, the last operands are treated as statements.
             ExprKind::Logical { op, left, right } => {
                 let (test, act) = (self.value(left), self.effect(right));
                 let test = test?;
@@ -150,7 +150,7 @@ impl<'a> Binder<'a> {
             }
             _ => {
                 let ir = self.value(expr)?;
-                // A call in the middle of a computation acts all the same.
+                // A call inside a computation still has an effect.
                 if acts(&ir) {
                     return Ok(Some(ir));
                 }
@@ -160,7 +160,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// `name = value`, or a pattern, of a declaration.
+    /// Binds `name = value` of a declaration, or a pattern.
     fn declare(&mut self, constant: bool, declarator: &'a Declarator, steps: &mut Vec<IrStatement>) {
         match (&declarator.target, &declarator.value) {
             (Pattern::Name(name), Some(value)) => match self.declared(name, constant, value, steps) {
@@ -177,7 +177,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// The thing that a declared name stands for; nothing when it holds a value.
+    /// Returns the entity for which a declared name is an alias, or `None` if the name stores a value.
     fn declared(
         &mut self,
         name: &'a Name,
@@ -222,18 +222,18 @@ impl<'a> Binder<'a> {
         Ok(Some(thing))
     }
 
-    /// Whether the text only reads values.
+    /// Whether the program only reads values.
     pub(super) fn only_reads(&self) -> bool {
         self.mode != TextKind::Statements
     }
 }
 
-/// What a call for its effect leaves.
+/// The value of a call that is evaluated for its effect.
 fn as_value(ir: Ir) -> Ir {
     if ir.ty == Type::Void { Ir { ty: Type::Undefined, ..ir } } else { ir }
 }
 
-/// Whether statements jump out of where they stand.
+/// Whether statements may jump out of their block.
 fn jumps(steps: &[IrStatement]) -> bool {
     steps.iter().any(|step| match step {
         IrStatement::Return(_) | IrStatement::Break | IrStatement::Continue => true,
@@ -242,7 +242,7 @@ fn jumps(steps: &[IrStatement]) -> bool {
     })
 }
 
-/// Whether computing this does something, or may.
+/// Whether evaluating the expression has, or may have, an effect.
 fn acts(ir: &Ir) -> bool {
     let any = |items: &[IrItem]| items.iter().any(|i| acts(&i.value));
     match &ir.kind {

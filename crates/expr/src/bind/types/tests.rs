@@ -1,4 +1,4 @@
-//! The rounds end, soon, and with an answer that holds, whatever they are given.
+//! Type inference terminates after few rounds with a valid result, for any input.
 
 use super::binder::{BindContext, BoundText, bind};
 use super::facts::{FactKey, FactKind, TypeFacts};
@@ -49,7 +49,8 @@ fn types_join_in_a_lattice_of_four_levels() {
             assert_eq!(a.or(b), b.or(a));
             for c in TYPES {
                 assert_eq!(a.or(b).or(c), a.or(b.or(c)), "{a:?} {b:?} {c:?}");
-                // Nothing, something, a number or nothing, anything: whatever is joined to a type, it grows three times at most.
+                // No value, a value, a number or undefined, any: a type that is joined with other types
+                // widens at most three times.
                 let steps = [Type::Never, a, a.or(b), a.or(b).or(c)];
                 assert!(steps.windows(2).filter(|w| w[0] != w[1]).count() <= 3);
             }
@@ -63,7 +64,7 @@ fn types_join_in_a_lattice_of_four_levels() {
     assert_eq!(facts.found(key), Type::Any);
 }
 
-/// What is known goes from the last statement to the first, one statement a round.
+/// A program in which type information flows from the last statement to the first, by one statement per round.
 fn backwards(n: usize, first: &str, step: impl Fn(usize) -> String) -> String {
     let declared: String = (0..=n).map(|i| format!("let a{i} = {first};")).collect();
     let steps: String = (0..n).map(step).collect();
@@ -106,7 +107,7 @@ fn a_text_without_circles_takes_one_round() {
 
 #[test]
 fn what_the_last_round_says_is_what_runs() {
-    // Numbers, until a text goes through all variables.
+    // All variables are numbers, until a string is assigned through all of them.
     let n = 40;
     let steps: String = (0..n).map(|i| format!("a{i} = a{};", i + 1)).collect();
     let handed = format!(" a{n} = 'x'; for (let k = 0; k < {n}; k++) {{ {steps} }} ctx.out");

@@ -1,5 +1,5 @@
-//! What the types pass knows of the parts of a text when it is done: what the lints look at. Parts of written methods, which
-//! nobody wrote here, are left out.
+//! The types of the parts of a text, as the lints need them. Parts of methods that are written in the language are not
+//! included, because the author did not write them.
 
 use labspec_finding::order;
 use std::collections::BTreeSet;
@@ -10,33 +10,33 @@ use crate::types::{FieldKey, Type};
 use crate::value::Value;
 use labspec_finding::Span;
 
-/// What is known of a text, part by part.
+/// The types of the parts of a text.
 #[derive(Default)]
 pub(in crate::bind) struct TypedText {
-    /// In the order of their places, once all are known; the last one of a place counts.
+    /// Sorted by span when complete. If a span occurs several times, the last entry counts.
     pub(super) shapes: Vec<(Span, ExpressionShape)>,
     pub(super) idle: BTreeSet<Span>,
-    /// Values that are needed for something.
+    /// Values of which something is expected.
     pub(in crate::bind) wants: Vec<(Span, Expectation, ExpressionShape)>,
 }
 
-/// What is known of a value.
+/// The known properties of a value.
 #[derive(Clone)]
 pub(in crate::bind) struct ExpressionShape {
     pub(in crate::bind) ty: Type,
-    /// The value, where it is known.
+    /// The value, if it is constant.
     pub(in crate::bind) constant: Option<Value>,
-    /// The element of a field of the host that it is.
+    /// The element of a field of the host, if the value is one.
     pub(in crate::bind) element: Option<(FieldKey, usize)>,
 }
 
-/// What a value is needed for.
+/// What is expected of a value.
 pub(in crate::bind) enum Expectation {
-    /// A number, by a function.
+    /// A number, expected by a function.
     Number(String),
-    /// An angle, by a function.
+    /// An angle, expected by a function.
     Angle(String),
-    /// To be stored in an element of a field.
+    /// A number to be stored in an element of a field.
     Element(Option<(FieldKey, usize)>),
 }
 
@@ -45,7 +45,7 @@ impl ExpressionShape {
         ExpressionShape { ty: ir.ty, constant: ir.as_constant().cloned(), element: element(ir) }
     }
 
-    /// The value, where it is a known number.
+    /// The value, if it is a constant number.
     pub(in crate::bind) fn number(&self) -> Option<f64> {
         match self.constant {
             Some(Value::Number(x)) => Some(x),
@@ -54,7 +54,7 @@ impl ExpressionShape {
     }
 }
 
-/// The element that a number is.
+/// The element of a field that a number is loaded from.
 fn element(ir: &Ir) -> Option<(FieldKey, usize)> {
     match &ir.kind {
         IrKind::Load(view, Index::At(i)) => Some((view.field, view.first as usize + i)),
@@ -64,19 +64,19 @@ fn element(ir: &Ir) -> Option<(FieldKey, usize)> {
 }
 
 impl TypedText {
-    /// All is known.
+    /// Sorts the entries, when all are known.
     pub(super) fn sort(&mut self) {
         order::sort_by_key(&mut self.shapes, |(span, _)| *span);
     }
 
-    /// What is known of the expression at a place.
+    /// The properties of the expression with a span.
     pub(in crate::bind) fn shape(&self, span: Span) -> Option<&ExpressionShape> {
         let behind = self.shapes.partition_point(|(at, _)| *at <= span);
         let (at, shape) = self.shapes.get(behind.checked_sub(1)?)?;
         (*at == span).then_some(shape)
     }
 
-    /// Whether the statement at a place does nothing.
+    /// Whether the statement with a span has no effect.
     pub(in crate::bind) fn is_idle(&self, span: Span) -> bool {
         self.idle.contains(&span)
     }

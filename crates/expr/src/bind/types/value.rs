@@ -1,4 +1,4 @@
-//! Values: operators, their types, and the mistakes that JavaScript turns into NaN without a word.
+//! Values: operators, their types, and mistakes that JavaScript silently turns into NaN.
 
 use super::binder::{Binder, Entity};
 use super::member::quoted;
@@ -12,13 +12,13 @@ use crate::value::Value;
 use labspec_finding::{Finding, Span};
 
 impl<'a> Binder<'a> {
-    /// A part of the source as a value of any kind.
+    /// Binds a part of the source as a value of any type.
     pub(super) fn value(&mut self, expr: &'a Expr) -> Attempt<Ir> {
         let thing = self.entity(expr)?;
         self.value_of(thing, expr.span)
     }
 
-    /// The value that a thing is.
+    /// The value of an entity.
     #[inline(never)]
     pub(super) fn value_of(&mut self, thing: Entity, span: Span) -> Attempt<Ir> {
         let report = match thing {
@@ -39,7 +39,7 @@ impl<'a> Binder<'a> {
         self.refuse(report)
     }
 
-    /// A part of the source as a single value: a number, a text, a truth value.
+    /// Binds a part of the source as a single value: a number, a string or a boolean.
     pub(super) fn operand(&mut self, expr: &'a Expr) -> Attempt<Ir> {
         let thing = self.entity(expr)?;
         self.operand_of(thing, expr.span)
@@ -57,7 +57,7 @@ impl<'a> Binder<'a> {
         Ok(ir)
     }
 
-    /// Refuses lists, records and functions where a single value must stand.
+    /// Refuses lists, records and functions where a single value is required.
     fn expect_single(&mut self, ir: &Ir) -> Attempt<()> {
         if !matches!(ir.ty, Type::List | Type::Record | Type::Function | Type::View) {
             return Ok(());
@@ -66,7 +66,7 @@ impl<'a> Binder<'a> {
         self.refuse(report)
     }
 
-    /// The finding for a list, a record or a function where a single value must stand.
+    /// The finding for a list, a record or a function where a single value is required.
     #[inline(never)]
     pub(super) fn not_single(&self, ir: &Ir) -> Finding {
         let text = self.text(ir.span);
@@ -132,7 +132,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// A literal or an operator.
+    /// Binds a literal or an operator.
     pub(super) fn operation(&mut self, expr: &'a Expr) -> Attempt<Ir> {
         let span = expr.span;
         match &expr.kind {
@@ -161,7 +161,7 @@ impl<'a> Binder<'a> {
                 let report = self.not_here(expr);
                 self.refuse(report)
             }
-            // Names, members, indexes, calls and functions are things; an error node is already reported.
+            // Names, members, indexes, calls and functions are handled as entities; an error node is already reported.
             _ => Err(Reported),
         }
     }
@@ -184,7 +184,7 @@ impl<'a> Binder<'a> {
         Ok(Ir::choice(test?, then?, otherwise?, span))
     }
 
-    /// The end of a chain with `?.` in it.
+    /// Binds a whole chain that contains `?.`.
     #[inline(never)]
     fn chain(&mut self, inner: &'a Expr, span: Span) -> Attempt<Ir> {
         let thing = self.entity(inner)?;
@@ -193,7 +193,7 @@ impl<'a> Binder<'a> {
         Ok(Ir::new(IrKind::Chain(Box::new(ir)), ty, span))
     }
 
-    /// The finding for what has no place inside an expression.
+    /// The finding for an expression that is not allowed here.
     #[inline(never)]
     fn not_here(&self, expr: &Expr) -> Finding {
         let span = expr.span;
@@ -213,7 +213,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// Both operands, so that a mistake in one does not hide one in the other.
+    /// Binds both operands before it returns, so that an error in one does not hide an error in the other.
     #[inline(never)]
     fn both(&mut self, left: &'a Expr, right: &'a Expr) -> Attempt<(Ir, Ir)> {
         let left = self.operand(left);
@@ -257,8 +257,8 @@ impl<'a> Binder<'a> {
         Ok(Ir::sign(op, ir, span))
     }
 
-    /// The operands of `==` and its like: lists and records may be compared with nothing and with each other, and
-    /// `+` joins them to a text.
+    /// Binds the operands of `==`, `+` and similar operators. Lists and records may be compared with `null`, with `undefined`
+    /// and with each other, and `+` may join them with a string.
     #[inline(never)]
     fn comparable(&mut self, op: BinaryOp, left: &'a Expr, right: &'a Expr) -> Attempt<(Ir, Ir)> {
         let things = (self.entity(left), self.entity(right));

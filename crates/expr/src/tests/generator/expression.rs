@@ -179,7 +179,8 @@ impl Generator {
             ),
             2 => format!("{}.slice({})", self.numbers(d), self.next(3)),
             3 => format!("{}.filter(x => x > {})", self.numbers(d), self.number(0)),
-            // An order in which NaN equals everything is none: the standard leaves open what such a sort gives.
+            // A comparison in which NaN equals every number is not a valid order: the standard leaves the
+            // result of such a sort open.
             4 => format!(
                 "[...{}].sort((a, b) => a !== a ? (b !== b ? 0 : 1) : b !== b ? -1 : a - b)",
                 self.numbers(d)
@@ -201,7 +202,7 @@ impl Generator {
             }
             7 => {
                 let (a, b) = (self.anything(d), self.anything(d));
-                // What orders differently in two comparisons is no order, see `numbers`.
+                // A comparison that gives different results for the same values is not a valid order, see `numbers`.
                 let order = self.random.pick(&[
                     "",
                     "",

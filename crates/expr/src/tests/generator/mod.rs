@@ -1,5 +1,5 @@
-//! Random programs: declarations, assignments, loops, functions, and expressions of every kind, in which names are of the types
-//! that they are used as.
+//! Random programs: declarations, assignments, loops, functions, and expressions of every kind. Names are used
+//! according to their types.
 
 mod expression;
 mod statement;
@@ -20,7 +20,7 @@ impl Random {
     }
 }
 
-/// What a variable of the program holds.
+/// The type of a variable of the program.
 #[derive(Clone, Copy, PartialEq)]
 enum Holds {
     Number,
@@ -31,7 +31,7 @@ enum Holds {
     Record,
     /// An array of integers, bytes or doubles.
     Typed,
-    /// Takes so many numbers, gives a number.
+    /// A function of this many numbers that returns a number.
     Function(usize),
 }
 
@@ -43,7 +43,7 @@ pub(super) struct Generator {
     random: Random,
     names: Vec<(String, Holds, bool)>,
     count: usize,
-    /// Inside of a function: no changes of what is outside, so that folding stays visible.
+    /// The number of enclosing loops within the current function; `functions` is the number of enclosing functions.
     loops: usize,
     functions: usize,
 }
@@ -60,7 +60,7 @@ impl Generator {
         if n == 0 { None } else { Some(fitting[self.random.next(n)].clone()) }
     }
 
-    /// An element of an array of the host that can be set.
+    /// An assignable element of an array of the host.
     fn element(&mut self) -> String {
         match self.next(5) {
             0 => format!("data.qpos[{}]", self.next(14)),
@@ -83,11 +83,12 @@ impl Generator {
             4 => odd * 2f64.powi(self.next(900) as i32),
             _ => odd * 2f64.powi(-1074 + self.next(200) as i32),
         };
-        // The shortest text that reads back as this number.
+        // The shortest text that parses to this number.
         format!("{x:e}")
     }
 
-    /// A number in so many digits that what is left out is exactly half of the last one, or one digit beside it.
+    /// A number with so many digits that the dropped part is exactly half a unit of the last digit, or
+    /// differs from half by one digit.
     fn at_tie(&mut self) -> String {
         let places = 1 + self.next(50);
         let size = 1 << (1 + self.next(20));
@@ -107,7 +108,7 @@ impl Generator {
         format!("({sign}{x:e}).{last}")
     }
 
-    /// An array of numbers whose elements are of a fixed type.
+    /// An array of numbers with a fixed element type.
     fn typed(&mut self) -> String {
         match self.next(7) {
             0 => "data.eq_active".into(),
@@ -120,13 +121,13 @@ impl Generator {
         }
     }
 
-    /// The generator that begins with a seed.
+    /// The generator for a seed.
     pub(super) fn new(seed: u64) -> Generator {
         let random = Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
         Generator { random, names: Vec::new(), count: 0, loops: 0, functions: 0 }
     }
 
-    /// The next program.
+    /// Generates the next program.
     pub(super) fn program(&mut self) -> String {
         self.names.clear();
         (self.count, self.loops, self.functions) = (0, 0, 0);

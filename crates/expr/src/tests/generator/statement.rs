@@ -90,7 +90,7 @@ impl Generator {
             9 => match self.name(Holds::List, false) {
                 Some(name) => match self.next(4) {
                     0 => format!("{name}.push({}); ", self.anything(1)),
-                    // Never beyond the end: a list has no holes here.
+                    // Never past the end: lists have no holes here.
                     1 => format!("if ({name}.length > 3) {name}[{}] = {}; ", self.next(4), self.anything(1)),
                     2 => format!("{name}.reverse(); "),
                     _ => format!("{name}.pop(); "),
@@ -156,7 +156,7 @@ impl Generator {
         }
     }
 
-    /// Names for the parts of what may be no list, or no record.
+    /// Destructures a value that may not be a list or a record.
     pub(super) fn destructuring(&mut self) -> String {
         let whole = match self.next(6) {
             0 => self.numbers(1),
