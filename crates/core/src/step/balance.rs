@@ -46,19 +46,22 @@ pub(crate) fn mechanical_energy(m: &Model, d: &mut Fields, s: &mut Scratch) -> O
 
 /// ½ vᵀ M v, J.
 ///
-/// Without inertia of tendons it is ½ Σ Vᵀ I V + ½ Σ a v², with the spatial velocity V and inertia I of each body and the armature a of
-/// each degree of freedom: the time grows with the number of bodies, while M has up to nv² numbers. M contains the inertia of
-/// a tendon only where its sparsity has an entry, so that with such tendons M itself decides.
+/// For bodies, it is ½ Σ Vᵀ I V + ½ Σ a v², with the spatial velocity V and inertia I of each body and the armature a of each degree of
+/// freedom. The time grows with the number of bodies, while M has up to nv² elements. Two cases need M itself. M of simple bodies is
+/// constant: it does not follow `body_mass` until constants are recomputed. M contains the inertia of a tendon only where its
+/// sparsity pattern has an element.
 fn kinetic(m: &Model, d: &mut Fields, s: &mut Scratch) -> f64 {
     if tendons_have_inertia(m) {
         forward::mass_matrix(m, d, s);
         return 0.5 * mass::quadratic(m, &d.M, &d.qvel);
     }
     com::com_vel(m, d);
-    let bodies = rows::<10>(&d.cinert).iter().zip(rows::<6>(&d.cvel)).skip(1);
-    let of_bodies: f64 = bodies.map(|(inertia, v)| dot(inertia_mul(inertia, v), *v)).sum();
-    let of_armature: f64 = d.qvel.iter().enumerate().map(|(k, v)| mass::armature(m, k) * v * v).sum();
-    0.5 * (of_bodies + of_armature)
+    let bodies = rows::<10>(&d.cinert).iter().zip(rows::<6>(&d.cvel)).zip(&m.body_simple);
+    let bodies = bodies.filter(|&(_, &simple)| simple == 0);
+    let of_bodies: f64 = bodies.map(|((inertia, v), _)| dot(inertia_mul(inertia, v), *v)).sum();
+    let of_dof = |k: usize| if m.dof_simplenum[k] > 0 { m.dof_M0[k] } else { mass::armature(m, k) };
+    let of_dofs: f64 = d.qvel.iter().enumerate().map(|(k, v)| of_dof(k) * v * v).sum();
+    0.5 * (of_bodies + of_dofs)
 }
 
 /// The potential energy of all actuators, or `None` if one of them has none.
@@ -90,16 +93,18 @@ mod tests {
     use crate::mjcf::compile;
     use crate::step::workspace::Workspace;
 
-    /// The kinetic energy of bodies, armatures and tendons is ½ vᵀ M v.
+    /// The kinetic energy of bodies, armatures and tendons is ½ vᵀ M v, also if masses are written without recomputing constants.
     #[test]
     fn kinetic_energy_is_that_of_the_mass_matrix() {
         for inertia in [0.0, 0.3] {
-            kinetic_energy_of_scene(inertia);
+            for factor in [1.0, 2.5] {
+                compare_kinetic_energy(inertia, factor);
+            }
         }
     }
 
-    fn kinetic_energy_of_scene(inertia: f64) {
-        let m = compile(&format!(
+    fn compare_kinetic_energy(inertia: f64, factor: f64) {
+        let mut m = compile(&format!(
             "<mujoco><worldbody><site name='anchor' pos='0 0 2'/>\
             <body name='a'><freejoint/><geom type='box' size='.1 .2 .3' mass='2' pos='.1 0 .05'/><site name='s' pos='.1 .1 0'/>\
               <body pos='.3 0 0'><joint type='ball' armature='.2'/><geom type='capsule' size='.05' fromto='0 0 0 .2 .1 .3'/>\
@@ -110,6 +115,7 @@ mod tests {
             <actuator><motor joint='h' gear='3'/><motor tendon='f' gear='2'/></actuator></mujoco>"
         ))
         .unwrap();
+        m.body_mass.iter_mut().for_each(|mass| *mass *= factor);
         let Workspace { fields: mut d, scratch: mut s } = Workspace::new(&m);
         for (k, q) in d.qpos.iter_mut().enumerate() {
             *q += 0.1 * (k as f64 + 1.0).sin();
