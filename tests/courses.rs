@@ -31,21 +31,20 @@ fn all_lessons() -> Vec<&'static str> {
 fn threads_and_the_cache_change_no_byte() {
     let cache_folder = tempfile::tempdir().unwrap();
     for folder in all_lessons() {
-        for format in ["human", "json"] {
-            let of = |cache: Option<&Path>, more: &[&str]| {
-                let all = [&["check", folder, "--format", format], more].concat();
-                stdout_and_code(&workspace(), cache, &all)
-            };
-            let alone = of(None, &["--jobs", "1"]);
+        let check = |format: &str, cache: Option<&Path>, more: &[&str]| {
+            let all = [&["check", folder, "--format", format], more].concat();
+            stdout_and_code(&workspace(), cache, &all)
+        };
+        let cache = Some(cache_folder.path());
+        // The second run fills the cache. The cached results serve both formats.
+        let human = [(None, "8"), (cache, "2"), (cache, "1")];
+        let json = [(cache, "2")];
+        for (format, others) in [("human", &human[..]), ("json", &json[..])] {
+            let alone = check(format, None, &["--jobs", "1"]);
             assert!(alone.0.len() > 1000 && alone.1.is_some_and(|code| code < 2), "{folder}: {}", alone.0);
-            for (cache, more) in [
-                (None, &["--jobs", "2"][..]),
-                (None, &["--jobs", "8"]),
-                // The first run fills the cache for the second; the other format reads the results of both.
-                (Some(cache_folder.path()), &["--jobs", "2"]),
-                (Some(cache_folder.path()), &[]),
-            ] {
-                assert!(of(cache, more) == alone, "{folder} {format} {more:?}");
+            for &(cache, jobs) in others {
+                let other = check(format, cache, &["--jobs", jobs]);
+                assert!(other == alone, "{folder} {format} --jobs {jobs}, cached: {}", cache.is_some());
             }
         }
     }
