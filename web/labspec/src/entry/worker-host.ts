@@ -1,5 +1,6 @@
-import { load } from "./load-browser.js";
+import { start } from "../glue.js";
 import { serve } from "../worker-host.js";
+import { fetched } from "./load-browser.js";
 
 const scope = globalThis as unknown as {
   postMessage(message: unknown, transfer: ArrayBuffer[]): void;
@@ -11,4 +12,7 @@ const port = {
     scope.onmessage = (e) => listener(e.data);
   },
 };
-serve(port, load());
+serve(port, fetched().then((module) => {
+  if (module === undefined) throw new Error("labspec.wasm is not beside the script of the worker: copy it there");
+  start(module);
+}));
