@@ -9,11 +9,17 @@ pub(crate) struct Watched {
     touching: Vec<(usize, usize)>,
     /// How often each warning was raised since the data were reset.
     warnings: [usize; Warning::COUNT],
-    /// Time, s.
+    /// Time after the last step and before it, s.
     time: f64,
+    pub(crate) before: f64,
 }
 
 impl Watched {
+    /// Takes what is so before a step.
+    pub(crate) fn start(&mut self, fields: &Fields) {
+        (self.warnings, self.time) = (fields.warning.map(|w| w.number), fields.time);
+    }
+
     /// Whether other geoms touch now.
     pub(crate) fn touches_otherwise(&mut self, fields: &Fields) -> bool {
         let now = touching_pairs(fields);
@@ -24,10 +30,10 @@ impl Watched {
 
     /// Whether the engine warned in this step. A bad number resets the data and their counts, and is counted then.
     pub(crate) fn warns(&mut self, fields: &Fields) -> bool {
-        let now = fields.warning.map(|w| w.number);
-        let before = if fields.time < self.time { [0; Warning::COUNT] } else { self.warnings };
-        (self.warnings, self.time) = (now, fields.time);
-        now.iter().zip(&before).any(|(now, before)| now > before)
+        self.before = self.time;
+        let counted = if fields.time < self.time { [0; Warning::COUNT] } else { self.warnings };
+        self.start(fields);
+        self.warnings.iter().zip(&counted).any(|(now, before)| now > before)
     }
 }
 

@@ -219,7 +219,10 @@ impl Lab {
 
     /// One step.
     pub fn step(&mut self) -> Result<(), JsValue> {
-        self.player.step().map_err(|e| thrown(&e))
+        self.watched.start(self.player.data().fields());
+        let done = self.player.step().map_err(|e| thrown(&e));
+        self.watched.warns(self.player.data().fields());
+        done
     }
 
     /// Plays to a time, s; returns the number of steps.
@@ -248,6 +251,7 @@ impl Lab {
         before
             .extend(levels.chunks(2).map(|pair| over(&|at| now.get(at).copied().unwrap_or(f64::NAN), pair)));
         let watched = &mut self.watched;
+        watched.start(self.player.data().fields());
         let done = self.player.play_while(time, most, |data, cells| {
             let number = |at: usize| cells.get(at).map_or(f64::NAN, labspec::run::Cell::number);
             let crossed = levels.chunks(2).zip(&before).any(|(pair, was)| over(&number, pair) != *was);
@@ -272,11 +276,12 @@ impl Lab {
         pairs.into_iter().flat_map(|(a, b)| [a as u32, b as u32]).collect()
     }
 
-    /// For each warning of the engine: how often it was raised since the data were reset, the coordinate, degree of freedom or
-    /// actuator that caused it last, and the time of the first one, s.
+    /// The time before the last step of `step` or `advance`, s; then for each warning of the engine how often it was raised since
+    /// the data were reset, and the coordinate, degree of freedom or actuator that caused it last.
     pub fn warnings(&self) -> Vec<f64> {
         let all = self.player.data().fields().warning.iter();
-        all.flat_map(|w| [w.number as f64, w.lastinfo as f64, w.first_time]).collect()
+        let each = all.flat_map(|w| [w.number as f64, w.lastinfo as f64]);
+        std::iter::once(self.watched.before).chain(each).collect()
     }
 
     /// The contacts with their forces: see [`data::contacts`].

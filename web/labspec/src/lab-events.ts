@@ -11,7 +11,7 @@ export interface Watched {
   readonly findings: readonly Finding[];
   /** Pairs of geoms that touch, one after the other. */
   touching(): Uint32Array;
-  /** Count, index and first time of each warning. */
+  /** The time before the last step, then count and index of each warning. */
   warnings(): Float64Array;
 }
 
@@ -143,11 +143,12 @@ export class Events {
     const [before, now] = [this.#warned, this.#warnings()];
     this.#warned = now;
     const list = this.#lab.warnings();
+    // A bad number resets the data and the counts.
+    const isReset = now.time < before.time;
     WARNINGS.forEach((kind, i) => {
       const count = now.counts[i] ?? 0;
-      // A bad number resets the data and the counts.
-      if (count <= (now.time < before.time ? 0 : (before.counts[i] ?? 0))) return;
-      this.#emit("warning", { time: count > 1 ? now.time : (list[3 * i + 2] ?? NaN), kind, index: list[3 * i + 1] ?? -1, count });
+      if (count <= (isReset ? 0 : (before.counts[i] ?? 0))) return;
+      this.#emit("warning", { time: isReset ? (list[0] ?? NaN) : now.time, kind, index: list[2 + 2 * i] ?? -1, count });
     });
   }
 
@@ -158,6 +159,6 @@ export class Events {
 
   #warnings(): { time: number; counts: number[] } {
     const list = this.#lab.warnings();
-    return { time: this.#lab.time, counts: WARNINGS.map((_, i) => list[3 * i] ?? 0) };
+    return { time: this.#lab.time, counts: WARNINGS.map((_, i) => list[1 + 2 * i] ?? 0) };
   }
 }

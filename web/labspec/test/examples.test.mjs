@@ -28,3 +28,8 @@ for (const name of names) {
     assert.ok(guide.includes(`\`\`\`text\n${printed}\`\`\``), `docs/embedding.md shows another output:\n${printed}`);
   });
 }
+
+test("the entry of browsers has what the others have", async () => {
+  const [browser, node] = await Promise.all([import("../dist/browser.js"), import("labspec")]);
+  assert.deepEqual(Object.keys(browser).sort(), Object.keys(node).sort());
+});

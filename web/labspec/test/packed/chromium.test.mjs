@@ -1,15 +1,10 @@
 // A page that is used for long: memory stays flat, and input gets its turn.
 import assert from "node:assert/strict";
-import { mkdtempSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { join } from "node:path";
 import test, { after } from "node:test";
 import { drop, lab } from "../common.mjs";
-import { chromium, root, serve } from "./server.mjs";
+import { chromiumPage } from "../page.mjs";
 
-const site = mkdtempSync(join(tmpdir(), "labspec-page-"));
-symlinkSync(join(root, "dist"), join(site, "dist"));
-writeFileSync(join(site, "index.html"), `<!doctype html><link rel="icon" href="data:,"><script type="module">
+const { page, close } = await chromiumPage(`
 const Instance = WebAssembly.Instance;
 WebAssembly.Instance = class extends Instance { constructor(...args) { super(...args); globalThis.memory = this.exports.memory; } };
 const begun = performance.now();
@@ -17,18 +12,8 @@ const labspec = await import("/dist/browser.js");
 const first = new labspec.Lab(${JSON.stringify(lab)}, { drop: ${JSON.stringify(drop)} });
 first.step();
 globalThis.ready = performance.now() - begun;
-globalThis.labspec = labspec;
-</script>`);
-const server = await serve(site);
-const browser = await chromium();
-const page = await browser.newPage();
-await page.goto(`${server.url}/index.html`);
-await page.waitForFunction("globalThis.labspec !== undefined");
-after(async () => {
-  await browser.close();
-  server.close();
-  rmSync(site, { recursive: true, force: true });
-});
+globalThis.labspec = labspec;`);
+after(close);
 
 test("the first step after the import", async () => {
   console.log(`first step ${(await page.evaluate("globalThis.ready")).toFixed(0)} ms after import`);
