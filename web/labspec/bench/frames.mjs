@@ -4,11 +4,11 @@
 //   node bench/frames.mjs SHARED [--out ../../docs/measured/web.md]
 //
 // SHARED is the folder with `corpus`. The package must be built (`npm run build`).
-import { mkdtempSync, readFileSync, readdirSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { readFileSync, readdirSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
-import { chromium, root, serve, web } from "../test/packed/server.mjs";
+import { root, web } from "../test/packed/server.mjs";
+import { chromiumPage } from "../test/page.mjs";
 import { measureFrames } from "./frame.mjs";
 import { writeSection } from "./section.mjs";
 
@@ -30,30 +30,18 @@ async function inNode() {
 }
 
 async function inChromium() {
-  const site = mkdtempSync(join(tmpdir(), "labspec-frames-"));
-  symlinkSync(join(root, "dist"), join(site, "dist"));
-  symlinkSync(join(root, "bench"), join(site, "bench"));
-  symlinkSync(official, join(site, "official"));
-  writeFileSync(join(site, "index.html"), `<!doctype html><link rel="icon" href="data:,"><script type="module">
+  const { evaluate, close } = await chromiumPage(`
 import { Lab } from "/dist/browser.js";
 import { measureFrames } from "/bench/frame.mjs";
 const mj = await (await import("/official/mujoco.js")).default();
 (${mount})(mj, ${JSON.stringify(models)});
-globalThis.measure = (text) => measureFrames(Lab, mj, text, ${JSON.stringify(models)});
-</script>`);
-  const server = await serve(site);
-  const browser = await chromium();
+globalThis.measure = (text) => measureFrames(Lab, mj, text, ${JSON.stringify(models)});`, { links: { bench: join(root, "bench"), official } });
   try {
-    const page = await browser.newPage();
-    await page.goto(`${server.url}/index.html`);
-    await page.waitForFunction("globalThis.measure !== undefined");
     const rows = [];
-    for (const text of texts) rows.push(await page.evaluate((t) => globalThis.measure(t), text));
+    for (const text of texts) rows.push(await evaluate((t) => globalThis.measure(t), text));
     return rows;
   } finally {
-    await browser.close();
-    server.close();
-    rmSync(site, { recursive: true, force: true });
+    await close();
   }
 }
 

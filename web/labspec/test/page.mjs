@@ -21,6 +21,15 @@ export async function chromiumPage(script, { links = {}, headers = {} } = {}) {
   return { page, browser, server, evaluate: (f, argument) => page.evaluate(f, argument), close };
 }
 
+/** Gives a page of Chromium `heapSize()`: bytes of objects of JavaScript after the garbage is collected. */
+export async function exposeHeap(page) {
+  const protocol = await page.context().newCDPSession(page);
+  await page.exposeFunction("heapSize", async () => {
+    await protocol.send("HeapProfiler.collectGarbage");
+    return (await protocol.send("Runtime.getHeapUsage")).usedSize;
+  });
+}
+
 /** Where Firefox is; `undefined` where it is not installed. */
 export function firefoxPath() {
   return process.env.FIREFOX ?? ["/usr/bin/firefox-esr", "/usr/bin/firefox"].find(existsSync);
