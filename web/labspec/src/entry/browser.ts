@@ -5,7 +5,8 @@ import { fetched } from "./load-browser.js";
 const control = new AbortController();
 const module = fetched(control.signal).then((found) => found ?? (control.signal.aborted ? undefined : inlined()));
 module.catch(() => undefined);
-const core = await import("../core.js");
+// The second one is imported by the first: it need not wait for it.
+const [core] = await Promise.all([import("../core.js"), import("../error.js")]);
 // Another entry has made it ready.
 if (core.isReady()) control.abort();
 else {
