@@ -114,6 +114,13 @@ test("a page without a bundler: an import map", async () => {
   assert.equal(result, expected);
   assert.deepEqual(problems, []);
   assert.deepEqual(requests.filter((r) => /inline/.test(r)), [], "the inlined module is fetched only where it is needed");
+  // What the page has asked for already is not fetched again.
+  const dist = "/node_modules/labspec/dist";
+  const early = `<link rel="modulepreload" href="${dist}/core.js"><link rel="preload" as="fetch" crossorigin href="${dist}/labspec.wasm">`;
+  write(folder, { "early.html": page("/app.js", `${early}<script type="importmap">${map}</script>`) });
+  const ahead = await inChromium("early.html");
+  assert.deepEqual([ahead.result, ahead.problems], [expected, []]);
+  assert.deepEqual(ahead.requests.filter((r) => r.startsWith(dist)).sort(), ["browser.js", "core.js", "error.js", "labspec.wasm"].map((file) => `${dist}/${file}`));
   const inline = JSON.stringify({ imports: { labspec: "/node_modules/labspec/dist/inline.js" } });
   write(folder, { "inline.html": page("/app.js", `<script type="importmap">${inline}</script>`) });
   const other = await inChromium("inline.html");
