@@ -59,6 +59,7 @@ export class Events {
     check.callback(listener, "a listener");
     if (type === "crossing") return this.#watch(listener as Watch["listener"], crossing);
     if (!TYPES.includes(type)) throw new LabspecError("unknown-name", `the types of events are crossing, ${TYPES.join(", ")}`);
+    if (type === "finding" && !this.has("finding")) this.#reported = this.#lab.findings.length;
     const list = this.#listeners.get(type) ?? new Set();
     this.#listeners.set(type, list.add(listener));
     if (type === "contact") this.#touching = this.#pairs();
@@ -91,7 +92,7 @@ export class Events {
   /** The lab is in another state, with what was found before it. */
   moved(): void {
     this.#ended = false;
-    this.#reported = this.#lab.findings.length;
+    if (this.has("finding")) this.#reported = this.#lab.findings.length;
     if (this.has("warning")) this.#warned = this.#warnings();
   }
 

@@ -333,7 +333,7 @@ export class Lab {
   /** What events are found in. */
   #watched(): Events {
     const lab = this;
-    const events = new Events({
+    return new Events({
       get time() { return lab.time; },
       get isOver() { return lab.isOver; },
       get shown() { return lab.shown; },
@@ -342,8 +342,6 @@ export class Lab {
       touching: () => call(() => lab.#lab().touching()),
       warnings: () => call(() => lab.#lab().warnings()),
     });
-    events.moved();
-    return events;
   }
 
   #do(action: Action, what: (raw: RawLab) => void): void {
