@@ -17,8 +17,8 @@ const web = join(here, "../../web");
 const target = process.env.CARGO_TARGET_DIR ?? join(here, "../../target/size");
 // What rustc lets the compiler use, and no more.
 const USED = ["bulk-memory", "mutable-globals", "multivalue", "nontrapping-float-to-int", "reference-types", "sign-ext", "simd"].map((name) => `--enable-${name}`);
-/** As `bindings/xtask` optimizes the modules of the package, and the smallest. */
-const OPTIONS = { speed: ["-O3", "--one-caller-inline-max-function-size=200"], release: ["-Oz", "--converge"] };
+/** As `bindings/xtask` optimizes the modules of the package. */
+const OPTIONS = ["-O3", "--one-caller-inline-max-function-size=200", "--strip-producers"];
 
 /** Name, features. */
 const BUILDS = [
@@ -30,13 +30,11 @@ const BUILDS = [
   ["engine and language, without MJCF and convex shapes", ["language"]],
 ];
 
-function built(features, profile) {
-  const small = profile === "release" ? ["small"] : [];
-  const flags = profile === "speed" ? { RUSTFLAGS: "-C target-feature=+simd128" } : {};
-  const args = ["build", "--quiet", "--profile", profile, "--target", "wasm32-unknown-unknown", "--target-dir", join(target, profile), "--no-default-features", "--features", [...features, ...small].join()];
-  execFileSync("cargo", args, { cwd: here, stdio: "inherit", env: { ...process.env, ...flags } });
-  const file = join(target, profile, "wasm32-unknown-unknown", profile, "labspec_size.wasm");
-  execFileSync(join(web, "node_modules/.bin/wasm-opt"), [...OPTIONS[profile], "--strip-producers", ...USED, file, "-o", `${file}.opt`]);
+function built(features) {
+  const args = ["build", "--quiet", "--profile", "speed", "--target", "wasm32-unknown-unknown", "--target-dir", target, "--no-default-features", "--features", features.join()];
+  execFileSync("cargo", args, { cwd: here, stdio: "inherit", env: { ...process.env, RUSTFLAGS: "-C target-feature=+simd128" } });
+  const file = join(target, "wasm32-unknown-unknown/speed/labspec_size.wasm");
+  execFileSync(join(web, "node_modules/.bin/wasm-opt"), [...OPTIONS, ...USED, file, "-o", `${file}.opt`]);
   return `${file}.opt`;
 }
 
@@ -46,12 +44,18 @@ function cells(file) {
   return [bytes.length, gzipSync(bytes, { level: 9 }).length, brotli.length].map((n) => n.toLocaleString("en"));
 }
 
-const lines = ["| module | bytes | `gzip -9` | brotli 11 | built for size: bytes | `gzip -9` | brotli 11 |", "|---|---:|---:|---:|---:|---:|---:|"];
-for (const [name, features] of BUILDS) lines.push(`| ${[name, ...cells(built(features, "speed")), ...cells(built(features, "release"))].join(" | ")} |`);
+const lines = [];
+/** A build takes minutes: each row is shown when it is there. */
+const add = (line) => {
+  console.log(line);
+  lines.push(line);
+};
+const head = ["| module | bytes | `gzip -9` | brotli 11 |", "|---|---:|---:|---:|"];
+head.forEach(add);
+for (const [name, features] of BUILDS) add(`| ${[name, ...cells(built(features))].join(" | ")} |`);
 for (const [name, module] of [["player: the same and labs", "player"], ["checker: the same and lessons, lint, verification", "checker"]]) {
   const file = join(web, "labspec/generated", module, "labspec_bg.wasm");
-  if (existsSync(file)) lines.push(`| ${[name, ...cells(file), "", "", ""].join(" | ")} |`);
+  if (existsSync(file)) add(`| ${[name, ...cells(file)].join(" | ")} |`);
 }
-console.log(lines.join("\n"));
 const at = process.argv.indexOf("--out");
 if (at > 0) writeSection(process.argv[at + 1], "weigh.mjs", lines);

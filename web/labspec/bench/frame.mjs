@@ -2,9 +2,9 @@
 import { openPage } from "./incumbent.mjs";
 
 const middle = (list) => list.sort((a, b) => a - b)[list.length >> 1];
-const ROUNDS = 5;
-const FRAMES = 60;
-const SAMPLES = 1000;
+const ROUNDS = 9;
+const FRAMES = 300;
+const SAMPLES = 3000;
 
 /** Microseconds of both, medians of rounds in turn: a frame with its steps, and without them. */
 export function measureFrames(Lab, mj, text, models) {
