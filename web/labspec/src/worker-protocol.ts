@@ -22,6 +22,12 @@ export interface OpenedLab {
   readonly memory: FrameMemory | undefined;
 }
 
+/** The module, which the page fetches and compiles while the worker starts; or why there is none. */
+export interface GivenModule {
+  readonly module: WebAssembly.Module | undefined;
+  readonly why?: string;
+}
+
 /** Either end. */
 export interface Port {
   post(message: unknown, transfer: readonly ArrayBuffer[]): void;
