@@ -29,7 +29,8 @@ for (const name of names) {
   });
 }
 
-test("the entry of browsers has what the others have", async () => {
-  const [browser, node] = await Promise.all([import("../dist/browser.js"), import("labspec")]);
+test("the entry of browsers has what the others have, and shares it with them", async () => {
+  const [browser, node, slim] = await Promise.all([import("../dist/browser.js"), import("labspec"), import("labspec/slim")]);
   assert.deepEqual(Object.keys(browser).sort(), Object.keys(node).sort());
+  for (const name of Object.keys(node)) assert.ok(browser[name] === node[name] && slim[name] === node[name], name);
 });
