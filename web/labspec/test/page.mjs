@@ -35,6 +35,9 @@ export function firefoxPath() {
   return process.env.FIREFOX ?? ["/usr/bin/firefox-esr", "/usr/bin/firefox"].find(existsSync);
 }
 
+/** Milliseconds that a page may take to answer. */
+const LONGEST = 120_000;
+
 /** What a page of `firefoxPage` does: it asks its server what to run. */
 const ASK = `for (;;) {
   const { f, argument } = await (await fetch("/ask")).json();
@@ -48,6 +51,7 @@ export function startFirefox(url) {
   const profile = mkdtempSync(join(tmpdir(), "labspec-firefox-"));
   const program = spawn(firefoxPath(), ["--headless", "--no-remote", "--profile", profile, url], { stdio: "ignore" });
   const ended = new Promise((resolve) => program.on("exit", resolve));
+  process.on("exit", () => program.kill());
   return async () => {
     program.kill();
     await ended;
@@ -82,7 +86,8 @@ export async function firefoxPage(script, { links = {}, headers = {} } = {}) {
   });
   const stop = startFirefox(`${server.url}/index.html`);
   const evaluate = async (f, argument) => {
-    const answer = await new Promise((resolve) => {
+    const answer = await new Promise((resolve, reject) => {
+      setTimeout(() => reject(new Error("Firefox does not answer")), LONGEST).unref();
       waiting.push({ question: { f: String(f), argument }, resolve });
       send();
     });

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { execFileSync, spawn, spawnSync } from "node:child_process";
 import { copyFileSync, cpSync, existsSync, mkdtempSync, rmSync, symlinkSync } from "node:fs";
 import { createServer } from "node:net";
-import { join } from "node:path";
+import { join, resolve } from "node:path";
 import test, { after } from "node:test";
 import { firefoxPath, startFirefox } from "../page.mjs";
 import { REPORT, chromium, expected, installed, program, resultOf, root, serve, web, write } from "./server.mjs";
@@ -41,7 +41,7 @@ test("node: ESM and CommonJS", () => {
 });
 
 /** The folder in which npm has installed other hosts: `npm i deno bun workerd`. */
-const hosts = process.env.LABSPEC_HOSTS ?? "";
+const hosts = process.env.LABSPEC_HOSTS === undefined ? "" : resolve(process.env.LABSPEC_HOSTS);
 // In CI a test that would be skipped fails.
 const skipped = (found) => found === undefined && process.env.LABSPEC_REQUIRE !== "all" ? "LABSPEC_HOSTS is not set" : false;
 const hostAt = (name) => [join(hosts, "node_modules/.bin", name)].find((path) => hosts !== "" && existsSync(path));
@@ -130,10 +130,13 @@ test("a page without a bundler: an import map", async () => {
 
 const firefox = firefoxPath();
 test("Firefox: the same page", { skip: firefox === undefined && process.env.LABSPEC_REQUIRE !== "all" ? "Firefox is not installed" : false }, async () => {
+  const map = JSON.stringify({ imports: { labspec: "/node_modules/labspec/dist/browser.js" } });
+  write(folder, { "app.js": program(), "firefox.html": page("/app.js", `<script type="importmap">${map}</script>`) });
   const server = await serve(folder, { "content-security-policy": CSP.replace("script-src", "script-src 'unsafe-inline'") });
-  const stop = startFirefox(`${server.url}/map.html`);
+  const stop = startFirefox(`${server.url}/firefox.html`);
   try {
-    assert.deepEqual(await server.result, { result: expected, origin: server.url, isolated: "false" });
+    const late = new Promise((_, reject) => setTimeout(() => reject(new Error("no result")), 60_000).unref());
+    assert.deepEqual(await Promise.race([server.result, late]), { result: expected, origin: server.url, isolated: "false" });
   } finally {
     await stop();
     server.close();
