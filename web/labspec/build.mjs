@@ -2,7 +2,7 @@
 import { build } from "esbuild";
 import { execFileSync } from "node:child_process";
 import { copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
-import { dirname, join } from "node:path";
+import { dirname, join, relative } from "node:path";
 import { fileURLToPath } from "node:url";
 import { gzipSync } from "node:zlib";
 
@@ -42,6 +42,25 @@ async function fieldTypes() {
 
 const conditions = ["browser", "inline", "node", "workerd"];
 const modules = { "": "player", checker: "checker" };
+/** What the entries share, in one file: see `core.ts`. */
+const CORE = ["core", ...readFileSync(at("src/core.ts"), "utf8").matchAll(/export \* from "\.\/([\w-]+)\.js"/g)].map((found) => typeof found === "string" ? found : found[1]);
+/** What entries share that do not need the module. */
+const ALONE = ["error"];
+
+/** Imports of what is shared become imports of its file; so does the import of an entry by another one, if that is built as well. */
+const shared = (names) => ({
+  name: "shared",
+  setup: (b) => b.onResolve({ filter: /^\.\.?\// }, ({ path, resolveDir }) => {
+    const name = relative(at("src"), join(resolveDir, path)).replace(/\.js$/, "");
+    const entry = name.replace(/^entry\//, "");
+    if (ALONE.includes(name) || (entry !== name && names.includes(entry))) return { path: `./${entry}.js`, external: true };
+    return CORE.includes(name) ? { path: "./core.js", external: true } : undefined;
+  }),
+});
+const alone = {
+  name: "alone",
+  setup: (b) => b.onResolve({ filter: /\/error\.js$/ }, () => ({ path: "./error.js", external: true })),
+};
 
 /** One module with its entries. */
 async function bundle(folder, module) {
@@ -53,12 +72,14 @@ async function bundle(folder, module) {
   writeFileSync(join(out, "inline-module.js"), `export default "${text}";\n`);
   const glue = { name: "glue", setup: (b) => b.onResolve({ filter: /^#glue$/ }, () => ({ path: at("generated", module, "labspec.js") })) };
   const outside = ["./labspec.wasm", "./inline-module.js", "node:*"];
-  const common = { bundle: true, outdir: out, target: "es2022", legalComments: "none", plugins: [glue], external: outside, logLevel: "warning" };
+  const common = { bundle: true, outdir: out, target: "es2022", legalComments: "none", external: outside, logLevel: "warning" };
   const names = folder === "" ? [...conditions, "slim", ...conditions.map((c) => `mujoco-${c}`), "worker-browser", "worker-node", "worker-host", "worker-host-node"] : conditions.map((c) => `checker-${c}`);
-  await build({ ...common, entryPoints: names.map((name) => at("src/entry", `${name}.ts`)), format: "esm", splitting: true, chunkNames: "shared-[hash]" });
+  await build({ ...common, entryPoints: [at("src/core.ts")], format: "esm", plugins: [glue, alone] });
+  await build({ ...common, entryPoints: ALONE.map((name) => at("src", `${name}.ts`)), format: "esm" });
+  await build({ ...common, entryPoints: names.map((name) => at("src/entry", `${name}.ts`)), format: "esm", plugins: [glue, shared(names)] });
   const required = folder === "" ? ["node", "slim", "mujoco-node", "worker-node"] : ["checker-node"];
   await build({
-    ...common, entryPoints: required.map((name) => at("src/entry", `${name}.ts`)), format: "cjs", outExtension: { ".js": ".cjs" },
+    ...common, entryPoints: required.map((name) => at("src/entry", `${name}.ts`)), format: "cjs", outExtension: { ".js": ".cjs" }, plugins: [glue],
     define: { "import.meta.url": "importMetaUrl" },
     banner: { js: 'const importMetaUrl = typeof __filename === "string" ? require("node:url").pathToFileURL(__filename).href : "";' },
   });
@@ -84,5 +105,5 @@ await fieldTypes();
 for (const [folder, module] of Object.entries(modules)) await bundle(folder, module);
 execFileSync(process.execPath, [at("../node_modules/typescript/bin/tsc"), "-p", at("tsconfig.json")], { stdio: "inherit" });
 // Nothing that is exported names the module's own types.
-for (const file of ["glue.d.ts", "worker-host.d.ts", "entry/inline-module.d.ts"]) rmSync(at("dist/types", file), { force: true });
+for (const file of ["glue.d.ts", "core.d.ts", "worker-host.d.ts", "entry/browser.d.ts", "entry/inline-module.d.ts"]) rmSync(at("dist/types", file), { force: true });
 requiredTypes();

@@ -1,5 +1,4 @@
-//! Exports what a page needs from the engine: a model, its data, steps, coordinates. `weigh.sh` reports
-//! the size of this module.
+//! What a page needs of the engine, exported: a model, its data, steps, coordinates. `weigh.mjs` says what that weighs.
 
 use labspec_core::{Data, Model, contact_force, forward, inverse, reset_data, save, step};
 
@@ -61,4 +60,21 @@ pub unsafe extern "C" fn call(s: *mut Simulation, which: u32) -> i32 {
 pub unsafe extern "C" fn qpos(s: *mut Simulation) -> *mut f64 {
     // SAFETY: guaranteed by the caller.
     unsafe { (*s).data.edit().qpos.as_mut_ptr() }
+}
+
+/// The value of an expression over the model of a simulation, at its start; NaN where it is refused.
+///
+/// # Safety
+///
+/// `s` comes from `from_xml` or `from_bytes`, and is not null; `text` points at `length` bytes.
+#[cfg(feature = "language")]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn evaluate(s: *mut Simulation, text: *const u8, length: usize) -> f64 {
+    // SAFETY: as the caller promises.
+    let (model, bytes) = unsafe { (&(*s).model, std::slice::from_raw_parts(text, length)) };
+    let value = std::str::from_utf8(bytes).ok().and_then(|text| {
+        let mut engine = labspec_bind::Engine::with_model(model.clone()).ok()?;
+        engine.expression(text).ok()?.number(&mut engine).ok()
+    });
+    value.unwrap_or(f64::NAN)
 }

@@ -5,7 +5,9 @@ use crate::fields::{by_index, copied, is_live, place};
 use crate::model::{RawModel, kind, nothing, past_the_end, store};
 use labspec::Functions;
 use labspec::bind::World;
+use labspec::run::Budget;
 use labspec_core::reflect::{self, Object};
+use labspec_core::state::INTEGRATION;
 use labspec_core::{self as core, AccessSet, Contact, Data, Error, Model, Plan, Scope};
 use wasm_bindgen::prelude::*;
 
@@ -14,6 +16,8 @@ use wasm_bindgen::prelude::*;
 pub struct RawData {
     world: World,
     poses: Vec<f32>,
+    /// The state before a call that is undone when its work is spent.
+    before: Vec<f64>,
 }
 
 impl RawData {
@@ -27,7 +31,35 @@ impl RawData {
 
     /// Performs one step with a model whose views have been synchronized.
     pub(crate) fn step_once(&mut self, model: &RawModel) -> Result<(), JsValue> {
-        core::step(&model.model, &mut self.world.data).map_err(|e| refused(&e))
+        self.within(model, MOST_WORK, |m, d| core::step(m, d))
+    }
+
+    /// Runs a call with a limit of work. What needs more is undone: the state is the one before the call.
+    fn within(
+        &mut self,
+        model: &RawModel,
+        work: u64,
+        what: impl FnOnce(&Model, &mut Data<core::Planned>) -> Result<(), Error>,
+    ) -> Result<(), JsValue> {
+        let (m, d) = (&model.model, &mut self.world.data);
+        let size = core::state::size(m, INTEGRATION).map_err(|e| refused(&e))?;
+        self.before.resize(size, 0.0);
+        core::state::get(m, d, &mut self.before, INTEGRATION).map_err(|e| refused(&e))?;
+        core::limit(d, work);
+        let done = what(m, d);
+        let spent = core::exhausted(d);
+        core::limit(d, u64::MAX);
+        done.map_err(|e| refused(&e))?;
+        if !spent {
+            return Ok(());
+        }
+        core::state::set(m, d, &self.before, INTEGRATION).map_err(|e| refused(&e))?;
+        Err(call_error(
+            "too-much-work",
+            &format!(
+                "this call needs more than {work} units of work, each about a nanosecond, and was undone: make fewer steps, simplify the model, or allow more work"
+            ),
+        ))
     }
 
     fn data(&self) -> &Data<core::Planned> {
@@ -55,6 +87,8 @@ const PASSES: [(&str, Pass); 13] = [
 
 /// The maximum number of steps of one call.
 const MAX_STEPS: usize = 100_000_000;
+/// Work of one call, where the page sets no limit: as for a lab that is played.
+const MOST_WORK: u64 = Budget::ASKED.left;
 
 #[wasm_bindgen]
 impl RawData {
@@ -70,11 +104,11 @@ impl RawData {
             displayed: Vec::new(),
             numbers: Vec::new(),
         };
-        Ok(RawData { world, poses: Vec::new() })
+        Ok(RawData { world, poses: Vec::new(), before: Vec::new() })
     }
 
-    /// Performs `steps` steps.
-    pub fn step(&mut self, model: &mut RawModel, steps: usize) -> Result<(), JsValue> {
+    /// Makes so many steps, with at most so much work.
+    pub fn step(&mut self, model: &mut RawModel, steps: usize, work: Option<f64>) -> Result<(), JsValue> {
         if steps > MAX_STEPS {
             return Err(call_error(
                 "too-long",
@@ -82,10 +116,15 @@ impl RawData {
             ));
         }
         model.sync();
-        for _ in 0..steps {
-            core::step(&model.model, &mut self.world.data).map_err(|e| refused(&e))?;
-        }
-        Ok(())
+        self.within(model, work.map_or(MOST_WORK, |work| work as u64), |m, d| {
+            for _ in 0..steps {
+                core::step(m, d)?;
+                if core::exhausted(d) {
+                    break;
+                }
+            }
+            Ok(())
+        })
     }
 
     /// Calls a function by its name in MuJoCo.
@@ -94,7 +133,7 @@ impl RawData {
         let (_, pass) =
             found.ok_or_else(|| call_error("unknown-function", &format!("there is no function `{name}`")))?;
         model.sync();
-        pass(&model.model, &mut self.world.data).map_err(|e| refused(&e))
+        self.within(model, MOST_WORK, |m, d| pass(m, d))
     }
 
     /// Resets the simulation to a keyframe.

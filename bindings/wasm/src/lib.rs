@@ -5,12 +5,14 @@
 
 mod data;
 mod error;
+mod events;
 mod expression;
 mod fields;
 mod files;
 mod model;
 
 use error::{call_error, thrown};
+use events::Watched;
 use files::PageModels;
 #[cfg(feature = "checker")]
 use js_sys::{Array, Object};
@@ -115,8 +117,8 @@ pub struct Lab {
     rows: Vec<f64>,
     /// The poses of geoms at the last request.
     poses: Vec<f32>,
-    /// Pairs of geoms that touched after the last step of [`Lab::advance`].
-    touching: Vec<(usize, usize)>,
+    /// What [`Lab::advance`] saw after its last step.
+    watched: Watched,
 }
 
 /// A state that a lab can restore.
@@ -133,7 +135,7 @@ impl Lab {
     }
 
     fn from_player(player: Player) -> Lab {
-        Lab { player, rows: Vec::new(), poses: Vec::new(), touching: Vec::new() }
+        Lab { player, rows: Vec::new(), poses: Vec::new(), watched: Watched::default() }
     }
 
     /// The sliders, selects and buttons.
@@ -217,7 +219,10 @@ impl Lab {
 
     /// Performs one step.
     pub fn step(&mut self) -> Result<(), JsValue> {
-        self.player.step().map_err(|e| thrown(&e))
+        self.watched.start(self.player.data().fields());
+        let done = self.player.step().map_err(|e| thrown(&e));
+        self.watched.warns(self.player.data().fields());
+        done
     }
 
     /// Plays to a time, s; returns the number of steps.
@@ -226,14 +231,16 @@ impl Lab {
         self.player.play_to(time).map_err(|e| thrown(&e))
     }
 
-    /// Plays at most `most` steps towards a time. `levels` are pairs of the index of a number and a level. The call ends after
-    /// a step in which a number crosses its level or, with `contacts`, in which the set of touching geoms changes.
+    /// Plays at most `most` steps towards a time. `levels` are pairs: the place of a number, and a level; the call ends after a
+    /// step in which a number crosses its level, or, with `contacts`, in which other geoms touch than before, or, with `warnings`, in
+    /// which the engine warns.
     pub fn advance(
         &mut self,
         time: f64,
         most: usize,
         levels: &[f64],
         contacts: bool,
+        warnings: bool,
     ) -> Result<usize, JsValue> {
         let mut before: Vec<bool> = Vec::with_capacity(levels.len() / 2);
         let over = |numbers: &dyn Fn(usize) -> f64, pair: &[f64]| match pair {
@@ -243,12 +250,14 @@ impl Lab {
         let now = self.player.numbers();
         before
             .extend(levels.chunks(2).map(|pair| over(&|at| now.get(at).copied().unwrap_or(f64::NAN), pair)));
-        let touching = &mut self.touching;
+        let watched = &mut self.watched;
+        watched.start(self.player.data().fields());
         let done = self.player.play_while(time, most, |data, cells| {
             let number = |at: usize| cells.get(at).map_or(f64::NAN, labspec::run::Cell::number);
             let crossed = levels.chunks(2).zip(&before).any(|(pair, was)| over(&number, pair) != *was);
-            let moved = contacts && changed(touching, data.fields());
-            if crossed || moved { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            let moved = contacts && watched.touches_otherwise(data.fields());
+            let warned = warnings && watched.warns(data.fields());
+            if crossed || moved || warned { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
         done.map_err(|e| thrown(&e))
     }
@@ -263,8 +272,16 @@ impl Lab {
 
     /// The pairs of geoms that touched in the last step, in sequence: the criterion at which `advance` stops.
     pub fn touching(&self) -> Vec<u32> {
-        let pairs = touching_pairs(self.player.data().fields());
+        let pairs = events::touching_pairs(self.player.data().fields());
         pairs.into_iter().flat_map(|(a, b)| [a as u32, b as u32]).collect()
+    }
+
+    /// The time before the last step of `step` or `advance`, s; then for each warning of the engine how often it was raised since
+    /// the data were reset, and the coordinate, degree of freedom or actuator that caused it last.
+    pub fn warnings(&self) -> Vec<f64> {
+        let all = self.player.data().fields().warning.iter();
+        let each = all.flat_map(|w| [w.number as f64, w.lastinfo as f64]);
+        std::iter::once(self.watched.before).chain(each).collect()
     }
 
     /// The contacts with their forces, see [`data::contacts`].
@@ -391,23 +408,6 @@ pub fn check(
 
 /// The maximum number of values of one recording.
 const MAX_RECORDED: usize = 1 << 24;
-
-/// The pairs of geoms that touched in the last step.
-fn touching_pairs(fields: &labspec_core::Fields) -> Vec<(usize, usize)> {
-    let pairs = fields.contact.iter().filter(|c| c.exclude == 0).map(|c| (c.geom1, c.geom2));
-    let mut pairs: Vec<(usize, usize)> = pairs.collect();
-    pairs.sort_unstable();
-    pairs.dedup();
-    pairs
-}
-
-/// Stores the pairs of geoms that touch now; returns whether they changed.
-fn changed(touching: &mut Vec<(usize, usize)>, fields: &labspec_core::Fields) -> bool {
-    let now = touching_pairs(fields);
-    let other = now != *touching;
-    *touching = now;
-    other
-}
 
 /// A map of texts by name from a JavaScript object; `expected` is the message if it is not one.
 #[cfg(feature = "checker")]

@@ -52,6 +52,9 @@ const FEATURES: [&str; 7] = [
     "--enable-multivalue",
 ];
 
+/// How `wasm-opt` optimizes. A function is compiled when it is first called: large functions do not swallow others that run rarely.
+const OPTIONS: [&str; 2] = ["-O3", "--one-caller-inline-max-function-size=200"];
+
 fn build(folder: Option<PathBuf>) -> Result<PathBuf, String> {
     let crates = Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("wasm");
     let web = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../web");
@@ -109,7 +112,7 @@ fn optimize(web: &Path, module: &Path) -> Result<(), String> {
     if !program.exists() {
         return Ok(());
     }
-    let done = Command::new(program).arg("-O3").args(FEATURES).arg(module).arg("-o").arg(module).status();
+    let done = Command::new(program).args(OPTIONS).args(FEATURES).arg(module).arg("-o").arg(module).status();
     match done.map_err(|e| format!("cannot run wasm-opt: {e}"))?.success() {
         true => Ok(()),
         false => Err(format!("wasm-opt refuses {}", module.display())),

@@ -1,15 +1,16 @@
-// Steps of labs beside those of @mujoco/mujoco, in one run in node and one in Chromium; time to the first step; sizes of the modules.
+// Steps of labs beside those of @mujoco/mujoco, in one run in node and one in Chromium; sizes of the modules.
 //
 //   node bench/steps.mjs SHARED [--out ../../docs/measured/web.md]
 //
 // SHARED is the folder with `corpus`, `bench` and `conformance`. The package must be built (`npm run build`). With `--out`, the tables
 // between the marks of that page are written anew.
-import { mkdtempSync, readFileSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { brotliCompressSync, constants, gzipSync } from "node:zlib";
-import { chromium, root, serve, web } from "../test/packed/server.mjs";
+import { root, web } from "../test/packed/server.mjs";
+import { chromiumPage } from "../test/page.mjs";
+import { writeSection } from "./section.mjs";
 
 const [shared, , out] = process.argv.slice(2);
 if (shared === undefined) throw new Error("SHARED is missing: node bench/steps.mjs SHARED [--out PAGE.md]");
@@ -61,50 +62,19 @@ async function inNode() {
 }
 
 async function inChromium() {
-  const site = mkdtempSync(join(tmpdir(), "labspec-bench-"));
-  symlinkSync(join(root, "dist"), join(site, "dist"));
-  symlinkSync(official, join(site, "official"));
-  const first = (what) => `<!doctype html><link rel="icon" href="data:,"><script type="module">
-const begun = performance.now();
-${what}
-globalThis.first = performance.now() - begun;
-</script>`;
-  const fall = JSON.stringify(scenes[0].xml);
-  writeFileSync(join(site, "ours.html"), first(`const labspec = await import("/dist/browser.js");
-new labspec.Lab({ model: "m" }, { m: ${fall} }).step();
-globalThis.Lab = labspec.Lab;`));
-  writeFileSync(join(site, "theirs.html"), first(`const mj = await (await import("/official/mujoco.js")).default();
-const model = mj.MjModel.from_xml_string(${fall});
-mj.mj_step(model, new mj.MjData(model));
-globalThis.mj = mj;`));
-  const server = await serve(site);
-  const browser = await chromium();
-  const opened = async (path) => {
-    const page = await browser.newPage();
-    await page.goto(`${server.url}/${path}`);
-    await page.waitForFunction("globalThis.first !== undefined");
-    return page;
-  };
-  const middle = (list) => list.sort((a, b) => a - b)[list.length >> 1];
-  const times = { "ours.html": [], "theirs.html": [] };
-  for (let round = 0; round < 5; round++) {
-    for (const path of Object.keys(times)) {
-      const page = await opened(path);
-      times[path].push(await page.evaluate("globalThis.first"));
-      await page.close();
+  const { evaluate, close } = await chromiumPage(`
+globalThis.Lab = (await import("/dist/browser.js")).Lab;
+globalThis.mj = await (await import("/official/mujoco.js")).default();
+globalThis.measure = ${measure}`, { links: { official } });
+  try {
+    const rows = [];
+    for (const { xml, before, steps } of scenes) {
+      rows.push(await evaluate(([a, b, c]) => globalThis.measure(globalThis.Lab, globalThis.mj, a, b, c), [xml, before, steps]));
     }
+    return rows;
+  } finally {
+    await close();
   }
-  const page = await opened("ours.html");
-  await page.evaluate(`import("/official/mujoco.js").then((m) => m.default()).then((mj) => { globalThis.mj = mj; })`);
-  await page.evaluate(`globalThis.measure = ${measure.toString()}`);
-  const rows = [];
-  for (const { xml, before, steps } of scenes) {
-    rows.push(await page.evaluate(([a, b, c]) => globalThis.measure(globalThis.Lab, globalThis.mj, a, b, c), [xml, before, steps]));
-  }
-  await browser.close();
-  server.close();
-  rmSync(site, { recursive: true, force: true });
-  return { rows, first: [middle(times["ours.html"]), middle(times["theirs.html"])] };
 }
 
 const size = (path) => {
@@ -114,14 +84,12 @@ const size = (path) => {
 };
 
 const node = await inNode();
-const { rows: page, first } = await inChromium();
+const page = await inChromium();
 const cells = ([ours, theirs]) => [`1/${(theirs / ours).toFixed(2)}`, ours.toFixed(2)];
 const lines = [
   "| scene | node | µs | Chromium | µs | aim |",
   "|---|---:|---:|---:|---:|---:|",
   ...scenes.map(({ name, aim }, i) => `| ${[name, ...cells(node[i]), ...cells(page[i]), `1/${aim}`].join(" | ")} |`),
-  "",
-  `The first step is ${first[0].toFixed(0)} ms after the import in Chromium, and ${first[1].toFixed(0)} ms with the official package (medians of five pages).`,
   "",
   "| module | bytes | `gzip -9` | brotli 11 | aim, gzip |",
   "|---|---:|---:|---:|---:|",
@@ -130,10 +98,4 @@ const lines = [
   `| official | ${size(join(official, "mujoco.wasm")).join(" | ")} | |`,
 ];
 console.log(lines.join("\n"));
-if (out !== undefined) {
-  const text = readFileSync(out, "utf8");
-  const [begin, end] = ["<!-- steps.mjs -->\n", "<!-- end -->"];
-  const at = text.indexOf(begin) + begin.length;
-  if (at < begin.length || !text.includes(end)) throw new Error(`${out} has no ${begin.trim()} … ${end}`);
-  writeFileSync(out, text.slice(0, at) + lines.join("\n") + "\n" + text.slice(text.indexOf(end)));
-}
+if (out !== undefined) writeSection(out, "steps.mjs", lines);

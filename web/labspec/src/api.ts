@@ -1,7 +1,8 @@
 export { LabspecError, type Finding } from "./error.js";
-export {
-  Lab, LabState, type Control, type ControlValue, type Crossing, type LabData, type LabEvents, type LabModel, type Models, type PlayOptions, type Shown,
-} from "./lab.js";
+export { Lab } from "./lab.js";
+export type { LabData, LabModel } from "./lab-fields.js";
+export { LabState } from "./lab-state.js";
+export type { Control, ControlValue, Crossing, LabEvents, Models, PlayOptions, Shown, WarningKind } from "./lab-types.js";
 export { Data, Model, type ObjectKind, type RayHit, type Which } from "./model.js";
 export { Expression, type ExpressionValue } from "./expression.js";
 export type { ContactInfo } from "./contact.js";

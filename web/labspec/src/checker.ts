@@ -1,7 +1,7 @@
 import * as check from "./arguments.js";
 import { call, locate, type Finding } from "./error.js";
 import { ready } from "./glue.js";
-import type { Models } from "./lab.js";
+import type { Models } from "./lab-types.js";
 
 /** A claim of a lesson, and what became of it. */
 export interface Entry {

@@ -73,13 +73,3 @@ export function limited(bytes: Uint8Array, maximum: number): Uint8Array {
   }
   return bytes;
 }
-
-/** Bytes of base64, without a loop over characters where the engine has one. */
-export function fromBase64(text: string): Uint8Array {
-  const native = (Uint8Array as unknown as { fromBase64?: (text: string) => Uint8Array }).fromBase64;
-  if (native !== undefined) return native.call(Uint8Array, text);
-  const binary = atob(text);
-  const out = new Uint8Array(binary.length);
-  for (let i = 0; i < binary.length; i++) out[i] = binary.charCodeAt(i);
-  return out;
-}

@@ -1,157 +1,17 @@
 import * as check from "./arguments.js";
 import { contactsOf, type ContactInfo } from "./contact.js";
 import { LabspecError, asLabspecError, call, locate, type Finding } from "./error.js";
-import type { DataFields, ModelFields, OptionFields, StatisticFields } from "./field-types.js";
-import { FieldCache, defineFields, type FieldSource, fields } from "./fields.js";
 import { ready } from "./glue.js";
+import { Events } from "./lab-events.js";
+import { dataOfLab, modelOfLab, type LabData, type LabModel } from "./lab-fields.js";
+import { FORMAT, LabState, fingerprint, type Action } from "./lab-state.js";
+import type { Control, ControlValue, Crossing, LabEvents, Models, PlayOptions, Shown } from "./lab-types.js";
 import { Model, type ObjectKind } from "./model.js";
-import { LAB, STATE, weight } from "./weight.js";
-import type { Lab as RawLab, State as RawState } from "#glue";
-
-/** Models by name (MJCF), and files that they name, by path. */
-export type Models = Readonly<Record<string, string | Uint8Array>>;
-
-/** What a control can be set to. */
-export type ControlValue = number | string | boolean;
-
-/** A slider, a select or a button. */
-export interface Control {
-  readonly kind: "slider" | "select" | "button";
-  readonly label: string;
-  readonly start: ControlValue | null;
-  readonly min?: number;
-  readonly max?: number;
-  readonly step?: number;
-  readonly unit?: string;
-  readonly digits?: number;
-  /** Text and value of each option. */
-  readonly options?: readonly (readonly [string, ControlValue | null])[];
-}
-
-/** A trace of a plot, or a readout. */
-export interface Shown {
-  readonly label: string;
-  readonly unit: string;
-  /** The plot of a trace, from 0. */
-  readonly plot?: number;
-  /** The decimals of a readout. */
-  readonly digits?: number;
-}
-
-/** What `lab.on` reports, by type. */
-export interface LabEvents {
-  /** Two geoms begin or cease to touch. */
-  contact: { readonly time: number; readonly geom1: number; readonly geom2: number; readonly touching: boolean };
-  /** A shown number crosses a level. */
-  crossing: { readonly time: number; readonly index: number; readonly level: number; readonly value: number; readonly rising: boolean };
-  /** Something broke. */
-  finding: Finding;
-  /** The lab has stopped by itself. */
-  end: { readonly time: number };
-}
-
-/** The number and level of a crossing: the number by its place in `shown`, or by its label. */
-export interface Crossing {
-  readonly number: number | string;
-  readonly level: number;
-}
-
-/** Options of `play`. */
-export interface PlayOptions {
-  /** Cancels: the lab then stands where it got to. */
-  readonly signal?: AbortSignal;
-  /** Milliseconds of work before the page gets its turn; 8 when not given. */
-  readonly budget?: number;
-  /** Called after each piece of work. */
-  readonly onProgress?: (time: number) => void;
-}
-
-/** What a student did, so that it can be done again. */
-type Action = readonly ["play", number] | readonly ["set", string, ControlValue] | readonly ["press", string] | readonly ["reset"];
-
-interface Watch {
-  readonly index: number;
-  readonly level: number;
-  readonly listener: (event: LabEvents["crossing"]) => void;
-  over: boolean;
-}
+import { LAB, weight } from "./weight.js";
+import type { Lab as RawLab } from "#glue";
 
 /** Most steps of one call of the module in a loop. */
 const PIECE = 100_000;
-const FORMAT = 1;
-
-/** A state of a lab, to come back to. */
-export class LabState {
-  readonly #raw: RawState;
-  readonly #actions: readonly Action[];
-  readonly #lab: string;
-  readonly #weight = weight(STATE);
-
-  /** @internal */
-  constructor(raw: RawState, actions: readonly Action[], lab: string) {
-    [this.#raw, this.#actions, this.#lab] = [raw, actions, lab];
-  }
-
-  /** @internal */
-  static parts(state: LabState): { raw: RawState; actions: readonly Action[] } {
-    return { raw: state.#raw, actions: state.#actions };
-  }
-
-  /** The state as bytes, for `Lab.resume`: what was done to the lab since it was opened. */
-  toBytes(): Uint8Array {
-    const content = { format: FORMAT, lab: this.#lab, actions: this.#actions };
-    void this.#weight;
-    return new TextEncoder().encode(JSON.stringify({ labspec: content }));
-  }
-}
-
-/** A number for the texts of a lab. */
-function fingerprint(json: string, models: Models): string {
-  let [a, b] = [0x811c9dc5, 0x1b873593];
-  const take = (code: number): void => {
-    a = Math.imul(a ^ code, 0x01000193);
-    b = Math.imul(b + code, 0x85ebca6b) ^ (b >>> 13);
-  };
-  const feed = (part: string | Uint8Array): void => {
-    if (typeof part === "string") for (let i = 0; i < part.length; i++) take(part.charCodeAt(i));
-    else part.forEach(take);
-    take(0x10000);
-  };
-  feed(json);
-  Object.keys(models).sort().forEach((name) => {
-    feed(name);
-    feed(models[name] ?? "");
-  });
-  return (a >>> 0).toString(16).padStart(8, "0") + (b >>> 0).toString(16).padStart(8, "0");
-}
-
-/** The fields of the data of a lab, as copies. */
-export interface LabData extends Readonly<DataFields> {}
-/** The fields of the model of a lab, as copies. */
-export interface LabModel extends Readonly<ModelFields> {
-  readonly opt: Readonly<OptionFields>;
-  readonly stat: Readonly<StatisticFields>;
-}
-
-class LabFields {
-  readonly cache: FieldCache;
-
-  constructor(cache: FieldCache) {
-    this.cache = cache;
-  }
-}
-class DataOfLab extends LabFields {}
-class OptionsOfLab extends LabFields {}
-class StatisticOfLab extends LabFields {}
-class ModelOfLab extends LabFields {
-  readonly opt: OptionsOfLab;
-  readonly stat: StatisticOfLab;
-
-  constructor(cache: FieldCache) {
-    super(cache);
-    [this.opt, this.stat] = [new OptionsOfLab(cache), new StatisticOfLab(cache)];
-  }
-}
 
 /** Gives the event loop its turn: timers and input alike, which `scheduler.yield` lets wait. */
 function turn(): Promise<void> {
@@ -184,11 +44,7 @@ export class Lab {
   readonly #models: Models;
   readonly #texts: ReadonlyMap<string, string>;
   #actions: Action[] = [];
-  readonly #listeners = new Map<string, Set<(event: never) => void>>();
-  readonly #watches = new Set<Watch>();
-  #touching = new Set<string>();
-  #reported = 0;
-  #ended = false;
+  readonly #events: Events;
   #poses: Float32Array | undefined;
   #data: LabData | undefined;
   #model: LabModel | undefined;
@@ -198,7 +54,7 @@ export class Lab {
   constructor(json: string | object, models: Models = {}) {
     if (json instanceof Opened) {
       [this.#json, this.#models, this.#texts, this.#raw] = [json.text, json.models, json.texts, json.raw];
-      this.#reported = this.findings.length;
+      this.#events = this.#watched();
       return;
     }
     const text = typeof json === "object" && json !== null ? call(() => JSON.stringify(json)) : check.text(json, "a lab");
@@ -208,7 +64,7 @@ export class Lab {
     [this.#json, this.#models, this.#texts] = [text, own, texts];
     const glue = ready();
     this.#raw = call(() => new glue.Lab(text, own), texts);
-    this.#reported = this.findings.length;
+    this.#events = this.#watched();
   }
 
   /**
@@ -285,7 +141,7 @@ export class Lab {
 
   /** Back to the start, as the page's button does it: controls and model keep what they hold. */
   reset(): void {
-    this.#ended = false;
+    this.#events.restarted();
     this.#do(["reset"], (raw) => raw.reset());
   }
 
@@ -298,7 +154,7 @@ export class Lab {
   /** Plays until a time (s), or until the lab stops by itself; returns the number of steps. */
   playTo(time: number): number {
     const until = check.number(time, "a time");
-    if (this.#listeners.size === 0 && this.#watches.size === 0) {
+    if (this.#events.isEmpty) {
       return this.#played(() => call(() => this.#lab().playTo(until)));
     }
     let made = 0;
@@ -348,7 +204,7 @@ export class Lab {
       rows = call(() => this.#lab().record(most).slice());
       return rows.length / width - 1;
     });
-    this.#report();
+    this.#events.report();
     return rows;
   }
 
@@ -363,8 +219,7 @@ export class Lab {
     const { raw, actions } = LabState.parts(state);
     call(() => this.#lab().restore(raw));
     this.#actions = actions.slice();
-    this.#ended = false;
-    this.#reported = this.findings.length;
+    this.#events.moved();
   }
 
   /** Opens a lab in a state that was saved as bytes: all that was done to it is done again. */
@@ -422,17 +277,13 @@ export class Lab {
    */
   get data(): LabData {
     this.#lab();
-    defineFields(DataOfLab.prototype, "data", (of: DataOfLab) => of.cache);
-    return (this.#data ??= new DataOfLab(new FieldCache(this.#source())) as unknown as LabData);
+    return (this.#data ??= dataOfLab(() => this.#lab()));
   }
 
   /** The fields of the model as controls and programs left it, as copies: `lab.model.geom_size`. */
   get model(): LabModel {
     this.#lab();
-    defineFields(ModelOfLab.prototype, "model", (of: ModelOfLab) => of.cache);
-    defineFields(OptionsOfLab.prototype, "opt", (of: OptionsOfLab) => of.cache);
-    defineFields(StatisticOfLab.prototype, "stat", (of: StatisticOfLab) => of.cache);
-    return (this.#model ??= new ModelOfLab(new FieldCache(this.#source())) as unknown as LabModel);
+    return (this.#model ??= modelOfLab(() => this.#lab()));
   }
 
   /** The model as it is now, as one of its own. */
@@ -460,31 +311,8 @@ export class Lab {
   on<T extends Exclude<keyof LabEvents, "crossing">>(type: T, listener: (event: LabEvents[T]) => void): () => void;
   on(type: "crossing", listener: (event: LabEvents["crossing"]) => void, crossing: Crossing): () => void;
   on(type: keyof LabEvents, listener: (event: never) => void, crossing?: Crossing): () => void {
-    check.callback(listener, "a listener");
     this.#lab();
-    if (type === "crossing") {
-      const shown = this.shown;
-      const number = crossing?.number;
-      const index = typeof number === "string" ? shown.findIndex((s) => s.label === number) : number;
-      if (index === undefined || !Number.isInteger(index) || index < 0 || index >= shown.length) {
-        const labels = shown.map((s) => `"${s.label}"`).join(", ");
-        throw new LabspecError("unknown-name", `a crossing is of a number that the lab shows: ${labels === "" ? "it shows none" : labels}`);
-      }
-      const level = check.number(crossing?.level, "a level");
-      const watch: Watch = { index, level, listener: listener as Watch["listener"], over: (this.numbers[index] ?? NaN) > level };
-      this.#watches.add(watch);
-      return () => void this.#watches.delete(watch);
-    }
-    if (type !== "contact" && type !== "finding" && type !== "end") {
-      throw new LabspecError("unknown-name", "the types of events are contact, crossing, finding and end");
-    }
-    const list = this.#listeners.get(type) ?? new Set();
-    this.#listeners.set(type, list.add(listener));
-    if (type === "contact") this.#touching = this.#pairs();
-    return () => {
-      list.delete(listener);
-      if (list.size === 0) this.#listeners.delete(type);
-    };
+    return this.#events.add(type, listener, crossing);
   }
 
   /** Gives the memory back. Without it, the garbage collector does, later. */
@@ -502,29 +330,25 @@ export class Lab {
     return this.#raw;
   }
 
-  #source(): FieldSource {
-    const fail = (): never => {
-      throw new LabspecError("read-only", "the fields of a lab are read here; controls write them, or a model of one's own (`toModel`)");
-    };
-    const copy = (index: number): unknown => call(() => this.#lab().field(index));
-    const number = (index: number): number => (copy(index) as ArrayLike<number>)[0] ?? NaN;
-    return {
-      copy,
-      number,
-      write: fail,
-      size: (name) => {
-        const size = fields().find((f) => f.elem === "size" && f.name === name);
-        return size === undefined ? undefined : number(size.index);
-      },
-      keep: () => undefined,
-    };
+  /** What events are found in. */
+  #watched(): Events {
+    const lab = this;
+    return new Events({
+      get time() { return lab.time; },
+      get isOver() { return lab.isOver; },
+      get shown() { return lab.shown; },
+      get numbers() { return lab.numbers; },
+      get findings() { return lab.findings; },
+      touching: () => call(() => lab.#lab().touching()),
+      warnings: () => call(() => lab.#lab().warnings()),
+    });
   }
 
   #do(action: Action, what: (raw: RawLab) => void): void {
     const raw = this.#lab();
     call(() => what(raw), this.#texts);
     this.#note(action);
-    this.#report();
+    this.#events.report();
   }
 
   #note(action: Action): void {
@@ -544,60 +368,14 @@ export class Lab {
       this.#note(["play", Math.max(0, Math.round((this.time - before) / this.timestep))]);
       throw asLabspecError(e, this.#texts);
     } finally {
-      this.#report();
+      this.#events.report();
     }
   }
 
   #advance(until: number, most: number): [made: number, done: boolean] {
-    const levels = Float64Array.from([...this.#watches].flatMap(({ index, level }) => [index, level]));
-    const contacts = this.#listeners.has("contact");
-    const made = this.#played(() => this.#lab().advance(until, most, levels, contacts));
+    const events = this.#events;
+    const made = this.#played(() => this.#lab().advance(until, most, events.levels, events.has("contact"), events.has("warning")));
     const done = made === 0 || this.isOver || this.time >= until;
     return [made, done];
-  }
-
-  #pairs(): Set<string> {
-    const list = call(() => this.#lab().touching());
-    return new Set(Array.from({ length: list.length / 2 }, (_, i) => `${list[2 * i]} ${list[2 * i + 1]}`));
-  }
-
-  #emit<T extends keyof LabEvents>(type: T, event: LabEvents[T]): void {
-    for (const listener of this.#listeners.get(type) ?? []) (listener as (event: LabEvents[T]) => void)(event);
-  }
-
-  /** Reports what is different since the last report. */
-  #report(): void {
-    if (this.#listeners.size === 0 && this.#watches.size === 0) return;
-    const time = this.time;
-    if (this.#watches.size > 0) {
-      const now = this.numbers;
-      for (const watch of this.#watches) {
-        const value = now[watch.index] ?? NaN;
-        const over = value > watch.level;
-        if (over === watch.over) continue;
-        watch.over = over;
-        watch.listener({ time, index: watch.index, level: watch.level, value, rising: over });
-      }
-    }
-    if (this.#listeners.has("contact")) {
-      const [before, now] = [this.#touching, this.#pairs()];
-      this.#touching = now;
-      const report = (pair: string, touching: boolean): void => {
-        const [geom1 = -1, geom2 = -1] = pair.split(" ").map(Number);
-        this.#emit("contact", { time, geom1, geom2, touching });
-      };
-      for (const pair of now) if (!before.has(pair)) report(pair, true);
-      for (const pair of before) if (!now.has(pair)) report(pair, false);
-    }
-    if (this.#listeners.has("finding")) {
-      const found = this.findings;
-      const fresh = found.slice(this.#reported);
-      this.#reported = found.length;
-      for (const finding of fresh) this.#emit("finding", finding);
-    }
-    if (this.#listeners.has("end") && this.isOver && !this.#ended) {
-      this.#ended = true;
-      this.#emit("end", { time });
-    }
   }
 }

@@ -203,10 +203,15 @@ export class Data {
     return data.#with(what);
   }
 
-  /** One step, or several (`mj_step`). */
-  step(steps = 1): void {
+  /**
+   * One step, or several (`mj_step`). `work` is the most work of the call, in units of about a nanosecond that are the same on every
+   * machine; 100,000,000,000 when not given. What needs more throws `too-much-work`, and the state is the one before the call.
+   */
+  step(steps = 1, options: { readonly work?: number } = {}): void {
     const most = check.count(steps, "the number of steps", 100_000_000);
-    this.#with((raw, model) => raw.step(model, most));
+    if (typeof options !== "object" || options === null) throw new LabspecError("wrong-type", "options are an object");
+    const work = options.work === undefined ? undefined : check.count(options.work, "the work of a call", Number.MAX_SAFE_INTEGER);
+    this.#with((raw, model) => raw.step(model, most, work));
   }
 
   /** Computes everything that follows from the state (`mj_forward`). */

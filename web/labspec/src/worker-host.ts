@@ -1,14 +1,24 @@
 import { asLabspecError, LabspecError } from "./error.js";
-import { Lab, LabState, type Models } from "./lab.js";
-import type { Port, Reply, Request } from "./worker-protocol.js";
+import { Lab } from "./lab.js";
+import type { LabState } from "./lab-state.js";
+import type { Models } from "./lab-types.js";
+import { SharedFrames, canShare, type Frame } from "./shared-frame.js";
+import type { OpenedLab, Port, Reply, Request } from "./worker-protocol.js";
 
 /** What can be asked of a lab, beyond its own methods. */
 const READS = ["controls", "shown", "time", "timestep", "isOver", "numbers", "findings", "contacts", "reads", "writes"] as const;
 const CALLS = ["value", "set", "press", "reset", "step", "playTo", "record", "names"] as const;
 
+/** The memory of numbers in a result, at any depth: it is handed over. */
+function buffersOf(result: unknown): ArrayBuffer[] {
+  if (result instanceof Float64Array || result instanceof Float32Array) return result.buffer instanceof ArrayBuffer ? [result.buffer] : [];
+  return typeof result === "object" && result !== null && !ArrayBuffer.isView(result) ? Object.values(result).flatMap(buffersOf) : [];
+}
+
 /** Serves labs to the other end of a port. */
 export function serve(port: Port, ready: Promise<void>): void {
   const labs = new Map<number, Lab>();
+  const frames = new WeakMap<Lab, SharedFrames>();
   const states = new Map<number, LabState>();
   const runs = new Map<number, AbortController>();
   let next = 1;
@@ -18,17 +28,25 @@ export function serve(port: Port, ready: Promise<void>): void {
     if (found === undefined) throw new LabspecError("freed", "this lab was freed");
     return found;
   };
-  /** Copies of what a page draws, to be handed over. */
-  const frame = (of: Lab): { time: number; numbers: Float64Array; poses: Float32Array } => ({
-    time: of.time, numbers: of.numbers, poses: of.poses.slice(),
-  });
+  /** What a page draws: copies that are handed over, or nothing where shared memory holds it. */
+  const frame = (of: Lab): Frame | null => {
+    const shared = frames.get(of);
+    if (shared === undefined) return { time: of.time, numbers: of.numbers, poses: of.poses.slice() };
+    shared.write(of);
+    return null;
+  };
+  const open = (args: readonly unknown[]): OpenedLab => {
+    const [first, second, address, models] = args as [string, string & Models, string | undefined, Models];
+    const opened = typeof address === "string" ? Lab.ofLesson(first, second, address, models) : new Lab(first, second);
+    const shared = canShare() ? SharedFrames.like(opened) : undefined;
+    if (shared !== undefined) frames.set(opened, shared);
+    labs.set(next, opened);
+    return { id: next++, memory: shared?.memory };
+  };
 
   const answer = async ({ lab: id, call, args }: Request): Promise<unknown> => {
     await ready;
-    if (call === "open") {
-      labs.set(next, args.length > 2 && typeof args[2] === "string" ? Lab.ofLesson(args[0] as string, args[1] as string, args[2], args[3] as Models) : new Lab(args[0] as string, args[1] as Models));
-      return next++;
-    }
+    if (call === "open") return open(args);
     if (call === "cancel") return runs.get(args[0] as number)?.abort();
     const own = lab(id);
     if (call === "free") {
@@ -42,7 +60,7 @@ export function serve(port: Port, ready: Promise<void>): void {
       runs.set(run, control);
       try {
         const steps = await own.play(time, { signal: control.signal, ...(budget === undefined ? {} : { budget }) });
-        return { steps, ...frame(own) };
+        return { steps, frame: frame(own) };
       } finally {
         runs.delete(run);
       }
@@ -67,9 +85,7 @@ export function serve(port: Port, ready: Promise<void>): void {
     const request = message as Request;
     answer(request).then(
       (result) => {
-        const parts = typeof result === "object" && result !== null ? [result, ...Object.values(result as object)] : [];
-        const buffers = parts.filter((p) => p instanceof Float64Array || p instanceof Float32Array).map((p) => p.buffer as ArrayBuffer);
-        port.post({ id: request.id, result } satisfies Reply, [...new Set(buffers)]);
+        port.post({ id: request.id, result } satisfies Reply, [...new Set(buffersOf(result))]);
       },
       (e: unknown) => {
         const { code, message: why, findings } = asLabspecError(e);

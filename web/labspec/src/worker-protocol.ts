@@ -1,3 +1,5 @@
+import type { FrameMemory } from "./shared-frame.js";
+
 /** What a page asks of the worker. */
 export interface Request {
   readonly id: number;
@@ -12,6 +14,18 @@ export interface Reply {
   readonly id: number;
   readonly result?: unknown;
   readonly error?: { readonly code: string; readonly message: string; readonly findings: readonly unknown[] };
+}
+
+/** A lab that the worker has opened; with memory for its frames where that can be shared. */
+export interface OpenedLab {
+  readonly id: number;
+  readonly memory: FrameMemory | undefined;
+}
+
+/** The module, which the page fetches and compiles while the worker starts; or why there is none. */
+export interface GivenModule {
+  readonly module: WebAssembly.Module | undefined;
+  readonly why?: string;
 }
 
 /** Either end. */

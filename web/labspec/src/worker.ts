@@ -1,15 +1,11 @@
 import { LabspecError, type Finding } from "./error.js";
 import type { ContactInfo } from "./contact.js";
-import type { Control, ControlValue, Models, Shown } from "./lab.js";
+import type { Control, ControlValue, Models, Shown } from "./lab-types.js";
 import type { ObjectKind } from "./model.js";
-import type { Port, Reply } from "./worker-protocol.js";
+import { SharedFrames, type Frame } from "./shared-frame.js";
+import type { OpenedLab, Port, Reply } from "./worker-protocol.js";
 
-/** What a page draws. The arrays are handed over: they belong to the page. */
-export interface Frame {
-  readonly time: number;
-  readonly numbers: Float64Array;
-  readonly poses: Float32Array;
-}
+export type { Frame } from "./shared-frame.js";
 
 /** A state that is kept in the worker. */
 export interface WorkerState {
@@ -26,15 +22,28 @@ export class Lab {
   readonly #ask: Ask;
   readonly #cancel: (run: number) => void;
   readonly #states = new WeakMap<WorkerState, number>();
+  readonly #frames: SharedFrames | undefined;
   static #runs = 0;
 
   /** @internal */
-  constructor(ask: Ask, cancel: (run: number) => void) {
-    [this.#ask, this.#cancel] = [ask, cancel];
+  constructor(ask: Ask, cancel: (run: number) => void, frames: SharedFrames | undefined) {
+    [this.#ask, this.#cancel, this.#frames] = [ask, cancel, frames];
+  }
+
+  /** Whether frames come through shared memory: where the page is isolated from other origins, and in node. */
+  get isShared(): boolean {
+    return this.#frames !== undefined;
   }
 
   #get<T>(call: string, ...args: readonly unknown[]): Promise<T> {
     return this.#ask(call, ...args) as Promise<T>;
+  }
+
+  /** A frame that was sent, or the one in shared memory. */
+  #framed(sent: Frame | null): Frame {
+    const frame = sent ?? this.#frames?.read();
+    if (frame === undefined) throw new LabspecError("internal", "the worker sent no frame");
+    return frame;
   }
 
   get controls(): Promise<readonly Control[]> { return this.#get("controls"); }
@@ -48,7 +57,7 @@ export class Lab {
   get reads(): Promise<readonly string[]> { return this.#get("reads"); }
   get writes(): Promise<readonly string[]> { return this.#get("writes"); }
   /** Time, numbers and poses at once. */
-  get frame(): Promise<Frame> { return this.#get("frame"); }
+  get frame(): Promise<Frame> { return this.#get<Frame | null>("frame").then((frame) => this.#framed(frame)); }
 
   value(label: string): Promise<ControlValue | null> { return this.#get("value", label); }
   set(label: string, value: ControlValue): Promise<void> { return this.#get("set", label, value); }
@@ -67,7 +76,8 @@ export class Lab {
     if (options.signal?.aborted === true) throw new LabspecError("aborted", "the run was cancelled before it began");
     options.signal?.addEventListener("abort", cancel, { once: true });
     try {
-      return await this.#get("play", time, run, options.budget);
+      const { steps, frame } = await this.#get<{ steps: number; frame: Frame | null }>("play", time, run, options.budget);
+      return { steps, ...this.#framed(frame) };
     } finally {
       options.signal?.removeEventListener("abort", cancel);
     }
@@ -131,9 +141,10 @@ export class LabWorker {
     this.#end();
   }
 
-  #opened(id: unknown): Lab {
+  #opened(opened: unknown): Lab {
+    const { id, memory } = opened as OpenedLab;
     const cancel = (run: number): void => void this.#ask(0, "cancel", run).catch(() => undefined);
-    return new Lab((call, ...args) => this.#ask(id as number, call, ...args), cancel);
+    return new Lab((call, ...args) => this.#ask(id, call, ...args), cancel, memory && new SharedFrames(memory));
   }
 
   #ask(lab: number, call: string, ...args: readonly unknown[]): Promise<unknown> {

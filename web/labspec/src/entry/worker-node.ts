@@ -3,7 +3,8 @@ import { LabWorker } from "../worker.js";
 
 /** Starts a worker. */
 export function startWorker(): LabWorker {
-  const worker = new Worker(new URL("./worker-host-node.js", import.meta.url));
+  // Options of the program itself, such as `--eval`, are not for the worker.
+  const worker = new Worker(new URL("./worker-host-node.js", import.meta.url), { execArgv: [] });
   // A program ends when nothing else is left to do.
   worker.unref();
   let open = 0;

@@ -1,15 +1,16 @@
-// Every lab of the corpus and of the example lessons gives the same bits over 10 s in the native program, in node and in Chromium.
+// Every lab of the corpus and of the example lessons gives the same bits over 10 s in the native program, in node, in Chromium, and in
+// Firefox where it is installed.
 //
 //   LABSPEC=target/debug/labspec CORPUS=../shared/corpus node --test test/bits/bits.test.mjs
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { createHash } from "node:crypto";
-import { mkdtempSync, readFileSync, readdirSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { readFileSync, readdirSync } from "node:fs";
 import { join } from "node:path";
 import test, { after } from "node:test";
 import { Lab } from "labspec";
-import { chromium, root, serve } from "../packed/server.mjs";
+import { root } from "../packed/server.mjs";
+import { chromiumPage, firefoxPage, firefoxPath } from "../page.mjs";
 
 const { LABSPEC: program, CORPUS: corpus } = process.env;
 assert.ok(program !== undefined && corpus !== undefined, "LABSPEC is the program, CORPUS the folder with `labs` and `models`");
@@ -53,19 +54,12 @@ function native(address, folder) {
   return { steps: rows.length - 1, texts, rows };
 }
 
-const site = mkdtempSync(join(tmpdir(), "labspec-bits-"));
-symlinkSync(join(root, "dist"), join(site, "dist"));
-writeFileSync(join(site, "index.html"), `<!doctype html><link rel="icon" href="data:,"><script type="module">import * as labspec from "/dist/browser.js"; globalThis.labspec = labspec;</script>`);
-const server = await serve(site);
-const browser = await chromium();
-const page = await browser.newPage();
-await page.goto(`${server.url}/index.html`);
-await page.waitForFunction("globalThis.labspec !== undefined");
-after(async () => {
-  await browser.close();
-  server.close();
-  rmSync(site, { recursive: true, force: true });
-});
+const script = `import * as labspec from "/dist/browser.js"; globalThis.labspec = labspec;`;
+const hasFirefox = firefoxPath() !== undefined;
+assert.ok(hasFirefox || process.env.LABSPEC_REQUIRE !== "all", "Firefox is not installed");
+const pages = { Chromium: await chromiumPage(script), ...(hasFirefox ? { Firefox: await firefoxPage(script) } : {}) };
+after(() => Promise.all(Object.values(pages).map((page) => page.close())));
+const inPage = ([json, all, n]) => Array.from(new globalThis.labspec.Lab(json, all).record(n), (x) => String(Object.is(x, -0) ? "-0" : x));
 
 let count = 0;
 for (const { name, address, text, folder } of labs()) {
@@ -76,16 +70,18 @@ for (const { name, address, text, folder } of labs()) {
     const masked = (list) => Array.from(list, (x, i) => (texts[i % width] ? 0 : x));
     const lab = new Lab(text, models);
     const here = masked(lab.record(steps));
-    const there = await page.evaluate(([json, all, n]) => Array.from(new globalThis.labspec.Lab(json, all).record(n), (x) => String(Object.is(x, -0) ? "-0" : x)), [text, models, steps]);
     // `--until` goes on where a page stops.
     const expected = masked(rows.flat()).slice(0, lab.isOver ? here.length : undefined);
     assert.equal(here.length, expected.length);
     assert.equal(hash(here), hash(expected), "node");
-    assert.equal(hash(masked(there.map(Number))), hash(expected), "Chromium");
+    for (const [browser, page] of Object.entries(pages)) {
+      const there = await page.evaluate(inPage, [text, models, steps]);
+      assert.equal(hash(masked(there.map(Number))), hash(expected), browser);
+    }
     count += expected.length;
   });
 }
 test("there are labs", () => {
   assert.ok(count > 100_000);
-  console.log(`${count} numbers with the same bits natively, in node and in Chromium`);
+  console.log(`${count} numbers with the same bits natively, in node, ${Object.keys(pages).join(" and ")}`);
 });

@@ -1,9 +1,11 @@
 // The tarball as others use it: node, bundlers, other hosts, pages.
 import assert from "node:assert/strict";
-import { execFileSync, spawnSync } from "node:child_process";
-import { copyFileSync, existsSync, symlinkSync } from "node:fs";
-import { join } from "node:path";
+import { execFileSync, spawn, spawnSync } from "node:child_process";
+import { copyFileSync, cpSync, existsSync, mkdtempSync, rmSync, symlinkSync } from "node:fs";
+import { createServer } from "node:net";
+import { join, resolve } from "node:path";
 import test, { after } from "node:test";
+import { firefoxPath, startFirefox } from "../page.mjs";
 import { REPORT, chromium, expected, installed, program, resultOf, root, serve, web, write } from "./server.mjs";
 
 const { folder, tarball } = installed();
@@ -11,6 +13,8 @@ const browser = await chromium();
 after(() => browser.close());
 const run = (command, args, options = {}) => execFileSync(command, args, { cwd: folder, encoding: "utf8", ...options }).trim();
 const page = (script, more = "") => `<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,">${more}<script type="module" src="${script}"></script>`;
+
+const CSP = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; connect-src 'self'; worker-src 'self'; img-src data:";
 
 /** Runs a page of a folder in Chromium. */
 async function inChromium(path, { headers = {}, at = folder } = {}) {
@@ -37,7 +41,7 @@ test("node: ESM and CommonJS", () => {
 });
 
 /** The folder in which npm has installed other hosts: `npm i deno bun workerd`. */
-const hosts = process.env.LABSPEC_HOSTS ?? "";
+const hosts = process.env.LABSPEC_HOSTS === undefined ? "" : resolve(process.env.LABSPEC_HOSTS);
 // In CI a test that would be skipped fails.
 const skipped = (found) => found === undefined && process.env.LABSPEC_REQUIRE !== "all" ? "LABSPEC_HOSTS is not set" : false;
 const hostAt = (name) => [join(hosts, "node_modules/.bin", name)].find((path) => hosts !== "" && existsSync(path));
@@ -65,6 +69,44 @@ const unitTests :Workerd.Config = (services = [(name = "main", worker = (modules
   assert.equal(done.status, 0, done.stderr);
 });
 
+const next = hostAt("next");
+test("next: a component and a route on the server", { skip: skipped(next) }, async () => {
+  // The app lies in the folder of `next`, so that it finds it; the package is the installed one.
+  const app = mkdtempSync(join(hosts, "next-app-"));
+  const port = await freePort();
+  const body = program().replace("export const", "const").replace(/globalThis.result = result;[^]*/, "");
+  write(app, {
+    "package.json": JSON.stringify({ private: true, type: "module" }),
+    "next.config.mjs": `export default { turbopack: { root: ${JSON.stringify(hosts)} } };`,
+    "app/layout.js": "export default function Layout({ children }) { return <html><body>{children}</body></html>; }",
+    "app/page.js": `${body}\nexport const dynamic = "force-dynamic";\nexport default function Page() { return <p>{result}</p>; }`,
+    "app/lab/route.js": `${body}\nexport const dynamic = "force-dynamic";\nexport function GET() { return Response.json({ result }); }`,
+  });
+  cpSync(join(folder, "node_modules/labspec"), join(app, "node_modules/labspec"), { recursive: true });
+  const env = { ...process.env, NEXT_TELEMETRY_DISABLED: "1" };
+  const built = spawnSync(next, ["build"], { cwd: app, env, encoding: "utf8" });
+  assert.equal(built.status, 0, built.stdout + built.stderr);
+  const server = spawn(process.execPath, [join(hosts, "node_modules/next/dist/bin/next"), "start", "-p", String(port)], { cwd: app, env });
+  try {
+    await new Promise((resolve) => server.stdout.on("data", (text) => /Ready/.test(String(text)) && resolve()));
+    const got = (path) => fetch(`http://localhost:${port}/${path}`);
+    assert.deepEqual(await (await got("lab")).json(), { result: expected });
+    assert.match(await (await got("")).text(), new RegExp(`<p>${expected}</p>`));
+  } finally {
+    server.kill();
+    rmSync(app, { recursive: true, force: true });
+  }
+});
+
+/** A port that nobody uses. */
+async function freePort() {
+  const server = createServer();
+  await new Promise((resolve) => server.listen(0, resolve));
+  const { port } = server.address();
+  await new Promise((resolve) => server.close(resolve));
+  return port;
+}
+
 test("a page without a bundler: an import map", async () => {
   const map = JSON.stringify({ imports: { labspec: "/node_modules/labspec/dist/browser.js" } });
   write(folder, { "app.js": program(), "map.html": page("/app.js", `<script type="importmap">${map}</script>`) });
@@ -72,11 +114,33 @@ test("a page without a bundler: an import map", async () => {
   assert.equal(result, expected);
   assert.deepEqual(problems, []);
   assert.deepEqual(requests.filter((r) => /inline/.test(r)), [], "the inlined module is fetched only where it is needed");
+  // What the page has asked for already is not fetched again.
+  const dist = "/node_modules/labspec/dist";
+  const early = `<link rel="modulepreload" href="${dist}/core.js"><link rel="preload" as="fetch" crossorigin href="${dist}/labspec.wasm">`;
+  write(folder, { "early.html": page("/app.js", `${early}<script type="importmap">${map}</script>`) });
+  const ahead = await inChromium("early.html");
+  assert.deepEqual([ahead.result, ahead.problems], [expected, []]);
+  assert.deepEqual(ahead.requests.filter((r) => r.startsWith(dist)).sort(), ["browser.js", "core.js", "error.js", "labspec.wasm"].map((file) => `${dist}/${file}`));
   const inline = JSON.stringify({ imports: { labspec: "/node_modules/labspec/dist/inline.js" } });
   write(folder, { "inline.html": page("/app.js", `<script type="importmap">${inline}</script>`) });
   const other = await inChromium("inline.html");
   assert.equal(other.result, expected);
   assert.deepEqual(other.requests.filter((r) => r.endsWith(".wasm")), []);
+});
+
+const firefox = firefoxPath();
+test("Firefox: the same page", { skip: firefox === undefined && process.env.LABSPEC_REQUIRE !== "all" ? "Firefox is not installed" : false }, async () => {
+  const map = JSON.stringify({ imports: { labspec: "/node_modules/labspec/dist/browser.js" } });
+  write(folder, { "app.js": program(), "firefox.html": page("/app.js", `<script type="importmap">${map}</script>`) });
+  const server = await serve(folder, { "content-security-policy": CSP.replace("script-src", "script-src 'unsafe-inline'") });
+  const stop = startFirefox(`${server.url}/firefox.html`);
+  try {
+    const late = new Promise((_, reject) => setTimeout(() => reject(new Error("no result")), 60_000).unref());
+    assert.deepEqual(await Promise.race([server.result, late]), { result: expected, origin: server.url, isolated: "false" });
+  } finally {
+    await stop();
+    server.close();
+  }
 });
 
 test("esbuild", async () => {
@@ -105,6 +169,26 @@ ${REPORT}`,
   assert.deepEqual(problems, []);
 });
 
+test("a worker shares its memory with a page that is isolated from other origins, and only with such a page", async () => {
+  const map = JSON.stringify({ imports: { labspec: "/node_modules/labspec/dist/browser.js", "labspec/worker": "/node_modules/labspec/dist/worker-browser.js" } });
+  write(folder, {
+    "worker.js": program().replace(/globalThis.result = result;[^]*/, "") + `
+import { startWorker } from "labspec/worker";
+const far = await startWorker().open({ model: "drop", readouts: [{ label: "height (m)", expr: "data.body('bob').xpos[2]" }] }, { drop });
+const first = await far.frame;
+const same = (frame) => frame.time === lab.time && frame.numbers[0] === lab.numbers[0] && lab.poses.every((x, i) => frame.poses[i] === x);
+const { steps, ...played } = await far.play(0.2);
+globalThis.result = [result, far.isShared, steps, same(played), same(await far.frame), first.time].join();
+${REPORT}`,
+    "worker.html": page("/worker.js", `<script type="importmap">${map}</script>`),
+  });
+  const plain = await inChromium("worker.html");
+  assert.deepEqual([plain.result, plain.isolated, plain.problems], [`${expected},false,100,true,true,0`, "false", []]);
+  const headers = { "cross-origin-opener-policy": "same-origin", "cross-origin-embedder-policy": "require-corp" };
+  const isolated = await inChromium("worker.html", { headers });
+  assert.deepEqual([isolated.result, isolated.isolated, isolated.problems], [`${expected},true,100,true,true,0`, "true", []]);
+});
+
 test("webpack", async () => {
   const { default: webpack } = await import("webpack");
   const stats = await new Promise((resolve, reject) => webpack({
@@ -126,7 +210,6 @@ test("rolldown", async () => {
   assert.equal((await inChromium("dist-rolldown/index.html")).result, expected);
 });
 
-const CSP = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; connect-src 'self'; worker-src 'self'; img-src data:";
 test("a strict policy: 'self' and 'wasm-unsafe-eval' are enough", async () => {
   const { result, problems } = await inChromium("dist-vite/index.html", { headers: { "content-security-policy": CSP } });
   assert.equal(result, expected);

@@ -38,8 +38,8 @@ export const expected = "height 0.8057620000000003";
 
 const TYPES = { ".html": "text/html", ".js": "text/javascript", ".mjs": "text/javascript", ".wasm": "application/wasm", ".json": "application/json", ".xml": "text/xml" };
 
-/** Serves a folder; `headers` are added to all answers. */
-export async function serve(folder, headers = {}) {
+/** Serves a folder; `headers` are added to all answers. `answers` are functions of request and response, by path. */
+export async function serve(folder, headers = {}, answers = {}) {
   const requests = [];
   let report;
   const result = new Promise((resolve) => { report = resolve; });
@@ -50,6 +50,7 @@ export async function serve(folder, headers = {}) {
       response.writeHead(204, headers).end();
       return report(Object.fromEntries(searchParams));
     }
+    if (Object.hasOwn(answers, path)) return answers[path](request, response);
     requests.push(path);
     const file = join(folder, path);
     if (!existsSync(file) || path.endsWith("/")) {

@@ -1,0 +1,71 @@
+import type { Finding } from "./error.js";
+
+/** Models by name (MJCF), and files that they name, by path. */
+export type Models = Readonly<Record<string, string | Uint8Array>>;
+
+/** What a control can be set to. */
+export type ControlValue = number | string | boolean;
+
+/** A slider, a select or a button. */
+export interface Control {
+  readonly kind: "slider" | "select" | "button";
+  readonly label: string;
+  readonly start: ControlValue | null;
+  readonly min?: number;
+  readonly max?: number;
+  readonly step?: number;
+  readonly unit?: string;
+  readonly digits?: number;
+  /** Text and value of each option. */
+  readonly options?: readonly (readonly [string, ControlValue | null])[];
+}
+
+/** A trace of a plot, or a readout. */
+export interface Shown {
+  readonly label: string;
+  readonly unit: string;
+  /** The plot of a trace, from 0. */
+  readonly plot?: number;
+  /** The decimals of a readout. */
+  readonly digits?: number;
+}
+
+/** Warnings of the engine, by MuJoCo's names: an inertia matrix that is near singular, more contacts or constraints than there is room for, and bad numbers. */
+export type WarningKind = "inertia" | "contactfull" | "cnstrfull" | "badqpos" | "badqvel" | "badqacc" | "badctrl";
+
+/** What `lab.on` reports, by type. */
+export interface LabEvents {
+  /** Two geoms begin or cease to touch. */
+  contact: { readonly time: number; readonly geom1: number; readonly geom2: number; readonly touching: boolean };
+  /** A shown number crosses a level. */
+  crossing: { readonly time: number; readonly index: number; readonly level: number; readonly value: number; readonly rising: boolean };
+  /** Something broke. */
+  finding: Finding;
+  /** The engine warns. A bad number resets the lab: `time` is then the one before. */
+  warning: {
+    readonly time: number;
+    readonly kind: WarningKind;
+    /** The coordinate, degree of freedom or actuator that causes it. */
+    readonly index: number;
+    /** How often since the data were reset. */
+    readonly count: number;
+  };
+  /** The lab has stopped by itself. */
+  end: { readonly time: number };
+}
+
+/** The number and level of a crossing: the number by its place in `shown`, or by its label. */
+export interface Crossing {
+  readonly number: number | string;
+  readonly level: number;
+}
+
+/** Options of `play`. */
+export interface PlayOptions {
+  /** Cancels: the lab then stands where it got to. */
+  readonly signal?: AbortSignal;
+  /** Milliseconds of work before the page gets its turn; 8 when not given. */
+  readonly budget?: number;
+  /** Called after each piece of work. */
+  readonly onProgress?: (time: number) => void;
+}
