@@ -1,0 +1,25 @@
+//! Forces of constraints, as those who look at them want them.
+
+use crate::kinds::cone;
+use crate::model::{Contact, Fields, Model};
+
+/// Force and torque of a contact in the contact's frame: normal, two tangents, then three torques
+/// (`mj_contactForce`), N and N m. Zero when the contact has no constraint.
+pub fn contact_force(m: &Model, d: &Fields, contact: &Contact) -> [f64; 6] {
+    let mut out = [0.0; 6];
+    let Some(force) = contact.efc_address.and_then(|row| d.efc_force.get(row..)) else { return out };
+    if contact.dim == 1 || m.opt.cone != cone::PYRAMIDAL {
+        for (out, f) in out.iter_mut().zip(force).take(contact.dim) {
+            *out = *f;
+        }
+    } else {
+        // Pyramid: each edge pushes along n ± μ t.
+        for (k, edges) in force.chunks_exact(2).take(contact.dim.saturating_sub(1).min(5)).enumerate() {
+            out[0] += edges[0] + edges[1];
+            out[1 + k] = (edges[0] - edges[1]) * contact.friction[k];
+        }
+    }
+    // What sticks presses with that much less.
+    out[0] -= contact.adhesion;
+    out
+}

@@ -1,0 +1,58 @@
+//! What a scene has and does not use: actuators whose controls are zero, equality constraints that are off.
+//!
+//! Both follow from inputs of the data. A plan takes them as they are after a reset, where nobody writes them; data that hold something
+//! else are planned again (`api/data`).
+
+use crate::forces::tendon;
+use crate::kinds::{biastype, dyntype, trntype};
+use crate::math::rows;
+use crate::model::Model;
+use crate::model::reflect::{FieldId, model};
+
+/// What the force of an actuator without a control follows from.
+pub(super) const ACTUATORS: [FieldId; 12] = [
+    model::actuator_gainprm,
+    model::actuator_gear,
+    model::actuator_ctrllimited,
+    model::actuator_ctrlrange,
+    model::actuator_forcelimited,
+    model::actuator_forcerange,
+    model::jnt_actfrclimited,
+    model::jnt_actfrcrange,
+    model::jnt_actgravcomp,
+    model::tendon_actfrclimited,
+    model::tendon_actfrcrange,
+    model::wrap_prm,
+];
+/// Whether equality constraints act after a reset.
+pub(super) const EQUALITIES: [FieldId; 1] = [model::eq_active0];
+
+/// Whether a force or a control of nothing is within these ranges, where they are limited.
+fn holds_zero(limited: &[bool], ranges: &[f64]) -> bool {
+    limited
+        .iter()
+        .zip(rows::<2>(ranges))
+        .all(|(limited, range)| !limited || range[0] <= 0.0 && range[1] >= 0.0)
+}
+
+/// Whether no actuator makes a force: their controls are zero and stay so, and with them their forces, whatever the state. `linear`
+/// says of an actuator whether its force is linear in its control, its length and its velocity.
+pub(super) fn actuators_are_idle(m: &Model, linear: impl Fn(usize) -> bool) -> bool {
+    let makes_none = |i: usize| {
+        let fixed = |t: i32| usize::try_from(t).is_ok_and(|t| t < m.ntendon && tendon::is_fixed(m, t));
+        let numbers = [m.actuator_gainprm[10 * i], m.actuator_gear[6 * i]];
+        // The moment of a joint is its gear, that of a fixed tendon its coefficients: numbers, whatever the state.
+        linear(i)
+            && m.actuator_biastype[i] == biastype::NONE
+            && m.actuator_dyntype[i] == dyntype::NONE
+            && (m.actuator_trntype[i] != trntype::TENDON || fixed(m.actuator_trnid[2 * i]))
+            && numbers.iter().all(|x| x.is_finite())
+    };
+    (m.nhistory, m.nout) == (0, m.nactuator)
+        && !m.jnt_actgravcomp.contains(&true)
+        && m.wrap_prm.iter().all(|x| x.is_finite())
+        && holds_zero(&m.actuator_ctrllimited, &m.actuator_ctrlrange)
+        && holds_zero(&m.actuator_forcelimited, &m.actuator_forcerange)
+        && holds_zero(&m.jnt_actfrclimited, &m.jnt_actfrcrange)
+        && (0..m.nactuator).all(makes_none)
+}
