@@ -11,6 +11,7 @@
 //! same bytes.
 
 mod archive;
+mod panics;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
@@ -75,7 +76,11 @@ fn build(folder: Option<PathBuf>) -> Result<PathBuf, String> {
         let mut optimized: Option<[Vec<u8>; 2]> = None;
         for (form, out) in std::iter::once(("web", inside.clone())).chain(forms) {
             let mut bindgen = wasm_bindgen_cli_support::Bindgen::new();
-            bindgen.input_path(&module).typescript(true).remove_name_section(true).out_name("labspec");
+            bindgen
+                .input_path(&module)
+                .typescript(true)
+                .remove_name_section(profile != "release")
+                .out_name("labspec");
             // The package says itself where its module lies.
             bindgen.omit_default_module_path(out == inside);
             let chosen = match form {
@@ -92,6 +97,9 @@ fn build(folder: Option<PathBuf>) -> Result<PathBuf, String> {
                         std::fs::write(&file, after).map_err(|e| format!("{}: {e}", file.display()))?;
                     }
                     _ => {
+                        if panics::to_traps(&file)? == 0 {
+                            return Err(format!("{}: no function that panics was found", file.display()));
+                        }
                         optimize(&web, &file)?;
                         optimized = Some([before, read()?]);
                     }

@@ -299,12 +299,17 @@ fn ties(m: &Model) -> bool {
             && kinds.windows(2).all(|two| two.iter().any(is_site))
             && kinds.iter().all(|k| matches!(*k, wraptype::SITE | wraptype::SPHERE | wraptype::CYLINDER))
     };
+    // A path may begin with a pulley: no branch is before it.
+    let branches = |kinds: &[i32]| {
+        let first = usize::from(kinds.first() == Some(&wraptype::PULLEY));
+        kinds.split(|&kind| kind == wraptype::PULLEY).skip(first).all(branch)
+    };
     let tendon = |t: usize| {
         let path = element_range(m.tendon_adr[t], m.tendon_num[t]);
         let fixed = m.wrap_type.get(path.start) == Some(&wraptype::JOINT);
         !path.is_empty()
             && path.clone().all(|w| (m.wrap_type[w] == wraptype::JOINT) == fixed)
-            && (fixed || m.wrap_type[path].split(|&kind| kind == wraptype::PULLEY).all(branch))
+            && (fixed || branches(&m.wrap_type[path]))
     };
     let wrap = |w: usize| match m.wrap_type[w] {
         wraptype::JOINT => {

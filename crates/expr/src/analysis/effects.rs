@@ -1,9 +1,9 @@
 //! What a text touches, read off its form.
 
 use crate::effects::{Access, Effects};
-use crate::ir::UnitId;
 use crate::schema::Schema;
 use crate::ssa::{Args, Op, SsaFunction, SsaProgram, Terminator, Val};
+use crate::tables::UnitId;
 use crate::value::{Value, View};
 
 /// The effects of a text: of everything that it may come to, in the order in which it comes there first.

@@ -1,8 +1,8 @@
 //! What methods and free functions hand on: elements of what they are called on, or numbers of their own.
 
 use crate::dimension::Measure;
-use crate::ir::{FreeFunctionId, MethodId};
 use crate::natives::{Native, NativeResult, ReceiverKind};
+use crate::tables::{FreeFunctionId, MethodId};
 
 /// What a method gives; what it is called on comes first. Where lists and texts have one of the same name, it may be either.
 pub(super) fn method(name: MethodId, args: &[Measure]) -> Measure {
