@@ -22,6 +22,7 @@ use labspec::finding::Finding;
 use labspec::player::{ControlKind, DisplayedIn, Saved};
 use serde_json::{Value as Json, json};
 #[cfg(feature = "checker")]
+use labspec_finding::order;
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use wasm_bindgen::prelude::*;
@@ -396,7 +397,7 @@ const MAX_RECORDED: usize = 1 << 24;
 fn touching_pairs(fields: &labspec_core::Fields) -> Vec<(usize, usize)> {
     let pairs = fields.contact.iter().filter(|c| c.exclude == 0).map(|c| (c.geom1, c.geom2));
     let mut pairs: Vec<(usize, usize)> = pairs.collect();
-    pairs.sort_unstable();
+    order::sort_by(&mut pairs, Ord::cmp);
     pairs.dedup();
     pairs
 }

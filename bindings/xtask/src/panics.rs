@@ -9,7 +9,7 @@ use walrus::ir::Unreachable;
 use walrus::{FunctionBuilder, FunctionKind, ModuleConfig};
 
 /// Functions of Rust's libraries that never return: the ends of their paths.
-const ENDS: [&str; 9] = [
+const ENDS: [&str; 10] = [
     "option::unwrap_failed",
     "option::expect_failed",
     "result::unwrap_failed",
@@ -18,6 +18,7 @@ const ENDS: [&str; 9] = [
     "::assert_failed",
     "::len_mismatch_fail",
     "raw_vec::capacity_overflow",
+    "raw_vec::handle_error",
     "alloc::handle_alloc_error",
 ];
 

@@ -3,9 +3,9 @@
 use super::extent::Extents;
 use super::filter::{Pair, bodies_may_touch, dynamic_pair, explicit_pairs};
 use super::params;
-use crate::math::sort::sort_by;
 use crate::model::Model;
 use crate::model::index::element_range;
+use labspec_finding::order;
 
 /// Most pairs in the list of a scene; scenes with more search for the near ones at every step.
 pub(crate) const MOST_LISTED: usize = 4096;
@@ -42,6 +42,6 @@ pub(crate) fn candidate_pairs(m: &Model, change: Changes) -> Vec<Pair> {
             }
         }
     }
-    sort_by(&mut out, |p, q| p.order(m).cmp(&q.order(m)));
+    order::sort_by(&mut out, |p, q| p.order(m).cmp(&q.order(m)));
     out
 }

@@ -1,7 +1,6 @@
 //! SsaProgram to code: names become registers, parameters of blocks become moves, and what nothing uses is left out. An
 //! operation whose result goes to a parameter puts it there itself where it can.
 
-use std::collections::BTreeMap;
 
 use super::pure;
 use super::registers::{RegisterFile, order_moves};
@@ -12,7 +11,7 @@ use crate::ssa::{
     SsaProgram, Terminator, Val,
 };
 use crate::value::Value;
-use labspec_finding::Span;
+use labspec_finding::{Span, order};
 
 /// Numeric operations in a row from which on a formula is faster, as measured.
 const WORTH: usize = 5;
@@ -195,7 +194,7 @@ impl<'f> Emit<'f> {
         };
         let Some((mut formula, given)) = pure::stretch(form, &ops, &mut input) else { return false };
         // What is used by more than the operations themselves.
-        let mut left: BTreeMap<u32, u32> = given.iter().map(|(n, _)| (n.0, numbers.uses(n.0))).collect();
+        let mut left = order::map(given.iter().map(|(n, _)| (n.0, numbers.uses(n.0))));
         for mut op in ops {
             let mut use_up = |n: Num| {
                 if let Some(left) = left.get_mut(&form.same.number(n).0) {

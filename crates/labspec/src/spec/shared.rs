@@ -4,7 +4,7 @@ use super::address::LabAddress;
 use super::lab::{Verify, VerifyLab};
 use super::lesson::Lesson;
 use crate::source::Text;
-use std::collections::BTreeSet;
+use labspec_finding::order;
 
 /// Longest chain of objects that use each other.
 const LONGEST: usize = 8;
@@ -69,7 +69,7 @@ fn whole(lesson: &Lesson, verify: &Verify, depth: usize, left: &mut usize) -> Op
 
 /// Puts what is used before what is there, but for what is there by its name.
 fn add<T>(entries: &mut Vec<T>, used: Vec<T>, name: impl Fn(&T) -> &Text) {
-    let there: BTreeSet<String> = entries.iter().map(|one| name(one).value.clone()).collect();
+    let there = order::set(entries.iter().map(|one| name(one).value.clone()));
     let mut all: Vec<T> = used.into_iter().filter(|one| !there.contains(&name(one).value)).collect();
     all.append(entries);
     *entries = all;

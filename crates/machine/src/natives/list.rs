@@ -6,6 +6,7 @@ use crate::heap::HeapObject;
 use crate::rules;
 use crate::types::Elem;
 use crate::value::{Value, View};
+use labspec_finding::order;
 
 pub(super) static ROWS: &[Native] = table! {
     "at" List (1, 1) Item Moves at: "[1, 2, 3].at(-1)" => "3",
@@ -310,7 +311,7 @@ fn sorted(env: &mut Env<'_>, list: &Value) -> Result<Vec<Value>, NativeError> {
     let mut items = env.items(list)?;
     env.spend(8 * items.len())?;
     if typed(env, list).is_some() {
-        items.sort_by(order_numbers);
+        order::sort_by(&mut items, order_numbers);
         return Ok(items);
     }
     let mut keyed = Vec::with_capacity(items.len());
@@ -318,7 +319,7 @@ fn sorted(env: &mut Env<'_>, list: &Value) -> Result<Vec<Value>, NativeError> {
         let key: Vec<u16> = env.text(&item)?.encode_utf16().collect();
         keyed.push((item == Value::Undefined, key, item));
     }
-    keyed.sort_by(|a, b| (a.0, &a.1).cmp(&(b.0, &b.1)));
+    order::sort_by(&mut keyed, |a, b| (a.0, &a.1).cmp(&(b.0, &b.1)));
     Ok(keyed.into_iter().map(|(_, _, item)| item).collect())
 }
 

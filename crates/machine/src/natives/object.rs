@@ -5,6 +5,7 @@ use super::native::{MANY, Native, NativeOutcome, table};
 use crate::heap::HeapObject;
 use crate::rules;
 use crate::value::Value;
+use labspec_finding::order;
 
 pub(super) static ROWS: &[Native] = table! {
     "Array.isArray" Nothing (1, 1) Boolean Asks is_array: "Array.isArray([1])" => "true",
@@ -57,7 +58,7 @@ fn ordered(env: &mut Env<'_>, value: &Value) -> Result<Vec<(Value, Value)>, Nati
         HeapObject::Record(entries) => {
             let mut entries = entries.clone();
             // Indexes in order of size, then the others as they came: the sort is stable.
-            entries.sort_by_key(|(k, _)| {
+            order::sort_by_key(&mut entries, |(k, _)| {
                 k.parse::<u32>().ok().filter(|i| i.to_string() == **k).map_or(u64::MAX, u64::from)
             });
             entries.into_iter().map(|(k, v)| (Value::String(k), v)).collect()

@@ -10,7 +10,7 @@ use crate::globals::Globals;
 use crate::rules;
 use crate::schema::{Entry, FunctionInfo, Param, Schema};
 use crate::types::CollectionId;
-use labspec_finding::{Finding, Span};
+use labspec_finding::{Finding, Span, order};
 
 /// What is done with a name: what may have been meant by an unknown one depends on it.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -350,7 +350,7 @@ impl<'a> NameWalk<'a, '_> {
 
     /// What a function takes, those take that name it and do not hold it.
     fn hand_on(&mut self) {
-        let mut changed: BTreeSet<usize> = self.names.captured.keys().copied().collect();
+        let mut changed = order::set(self.names.captured.keys().copied());
         while let Some(callee) = changed.pop_last() {
             let captured: Vec<usize> = self.names.captured(callee).collect();
             let callers = self.calls.range((callee, 0)..=(callee, usize::MAX));
