@@ -21,8 +21,8 @@ use labspec::Player;
 use labspec::finding::Finding;
 use labspec::player::{ControlKind, DisplayedIn, Saved};
 use serde_json::{Value as Json, json};
-#[cfg(feature = "checker")]
 use labspec_finding::order;
+#[cfg(feature = "checker")]
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use wasm_bindgen::prelude::*;

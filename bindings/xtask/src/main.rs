@@ -110,13 +110,20 @@ fn build(folder: Option<PathBuf>) -> Result<PathBuf, String> {
     Ok(folder)
 }
 
-/// Makes a module smaller, where `wasm-opt` is installed.
+/// Makes a module smaller, where `wasm-opt` is installed. Below address 1024 is the end of the stack, which nothing addresses by
+/// arithmetic: offsets can go into loads and stores.
 fn optimize(web: &Path, module: &Path) -> Result<(), String> {
     let program = web.join("node_modules/.bin/wasm-opt");
     if !program.exists() {
         return Ok(());
     }
-    let done = Command::new(program).arg("-O3").args(FEATURES).arg(module).arg("-o").arg(module).status();
+    let done = Command::new(program)
+        .args(["-O3", "--low-memory-unused"])
+        .args(FEATURES)
+        .arg(module)
+        .arg("-o")
+        .arg(module)
+        .status();
     match done.map_err(|e| format!("cannot run wasm-opt: {e}"))?.success() {
         true => Ok(()),
         false => Err(format!("wasm-opt refuses {}", module.display())),

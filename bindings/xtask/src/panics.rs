@@ -2,11 +2,12 @@
 //!
 //! A panic of the module ends as a trap, and what it says reaches nobody: there is no hook, and a page has no error output. Where code may
 //! panic, the place and the numbers for the message are handed over nevertheless. Here the functions that would make the message become the
-//! trap itself; `wasm-opt` then removes what was handed to them.
+//! trap itself; `wasm-opt` then removes what was handed to them. The places (a file, a line and a column each) become zeros, which compress.
 
+use std::collections::{BTreeSet, HashSet};
 use std::path::Path;
-use walrus::ir::Unreachable;
-use walrus::{FunctionBuilder, FunctionKind, ModuleConfig};
+use walrus::ir::{Const, Instr, InstrLocId, Unreachable, Value, Visitor, dfs_in_order};
+use walrus::{ConstExpr, DataId, DataKind, FunctionBuilder, FunctionId, FunctionKind, Module, ModuleConfig};
 
 /// Functions of Rust's libraries that never return: the ends of their paths.
 const ENDS: [&str; 10] = [
@@ -43,6 +44,67 @@ fn never_returns(name: &str) -> bool {
     MODULES.iter().any(|module| path.starts_with(module)) || ENDS.iter().any(|end| path.ends_with(end))
 }
 
+/// The constants that are handed last to functions that stop the module: addresses of places, as a rule.
+struct LastConstants<'a> {
+    stopping: &'a HashSet<FunctionId>,
+    before: Option<i32>,
+    found: BTreeSet<usize>,
+}
+
+impl<'i> Visitor<'i> for LastConstants<'_> {
+    fn visit_instr(&mut self, instr: &'i Instr, _: &'i InstrLocId) {
+        match instr {
+            Instr::Call(call) if self.stopping.contains(&call.func) => {
+                self.found.extend(self.before.and_then(|at| usize::try_from(at).ok()));
+                self.before = None;
+            }
+            Instr::Const(Const { value: Value::I32(x) }) => self.before = Some(*x),
+            _ => self.before = None,
+        }
+    }
+}
+
+/// Bytes of a place in the source: address and length of the file's name, line and column.
+const PLACE: usize = 16;
+
+/// The segment that has some bytes, and where they begin in it.
+fn segment(module: &Module, address: usize, length: usize) -> Option<(DataId, usize)> {
+    module.data.iter().find_map(|data| {
+        let DataKind::Active { offset: ConstExpr::Value(Value::I32(start)), .. } = data.kind else {
+            return None;
+        };
+        let at = address.checked_sub(usize::try_from(start).ok()?)?;
+        (at.checked_add(length)? <= data.value.len()).then(|| (data.id(), at))
+    })
+}
+
+fn bytes(module: &Module, address: usize, length: usize) -> Option<&[u8]> {
+    let (id, at) = segment(module, address, length)?;
+    module.data.get(id).value.get(at..at + length)
+}
+
+/// Whether a place of a file of Rust is at an address.
+fn is_place(module: &Module, address: usize) -> bool {
+    let number = |k: usize| {
+        let four = bytes(module, address + 4 * k, 4)?.try_into().ok()?;
+        usize::try_from(u32::from_le_bytes(four)).ok()
+    };
+    let file = || bytes(module, number(0)?, number(1)?);
+    file().is_some_and(|name| name.ends_with(b".rs"))
+}
+
+/// Makes zeros of the places that are handed to functions that stop the module.
+fn clear_places(module: &mut Module, stopping: &HashSet<FunctionId>) {
+    let mut constants = LastConstants { stopping, before: None, found: BTreeSet::new() };
+    for (_, local) in module.funcs.iter_local() {
+        dfs_in_order(&mut constants, local, local.entry_block());
+    }
+    let places: Vec<usize> = constants.found.into_iter().filter(|at| is_place(module, *at)).collect();
+    for (id, at) in places.iter().filter_map(|at| segment(module, *at, PLACE)).collect::<Vec<_>>() {
+        module.data.get_mut(id).value[at..at + PLACE].fill(0);
+    }
+}
+
 /// Makes traps of the functions of a module that only say why it stops; their number.
 pub(crate) fn to_traps(file: &Path) -> Result<usize, String> {
     let error = |e: &dyn std::fmt::Display| format!("{}: {e:#}", file.display());
@@ -58,6 +120,7 @@ pub(crate) fn to_traps(file: &Path) -> Result<usize, String> {
         })
         .map(|(id, local)| (id, local.ty(), local.args.clone()))
         .collect();
+    clear_places(&mut module, &stopping.iter().map(|(id, ..)| *id).collect());
     for (id, ty, arguments) in &stopping {
         let parameters = module.types.get(*ty).params().to_vec();
         let mut builder = FunctionBuilder::new(&mut module.types, &parameters, &[]);
