@@ -55,7 +55,7 @@ fn allocates_nothing(name: &str, m: &Model, steps: usize) {
 #[test]
 fn sensors() {
     for name in ["frames", "contacts", "cameras", "limits", "delays", "delays_rk4"] {
-        let file = workspace().join(format!("crates/core/src/sensor/golden/{name}.xml"));
+        let file = workspace().join(format!("crates/core/src/api/golden/{name}.xml"));
         allocates_nothing(name, &compile(&std::fs::read_to_string(file).unwrap()), 100);
     }
 }

@@ -1,4 +1,4 @@
-//! A rule is a file: the list of them is made from the folder.
+//! Generates the list of lint rules from the files of a folder: each file is one rule.
 
 fn main() -> std::io::Result<()> {
     labspec_finding::list_rules("src/mjcf/rules", "ALL")

@@ -70,7 +70,7 @@ pub unsafe extern "C" fn qpos(s: *mut Simulation) -> *mut f64 {
 #[cfg(feature = "language")]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn evaluate(s: *mut Simulation, text: *const u8, length: usize) -> f64 {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     let (model, bytes) = unsafe { (&(*s).model, std::slice::from_raw_parts(text, length)) };
     let value = std::str::from_utf8(bytes).ok().and_then(|text| {
         let mut engine = labspec_bind::Engine::with_model(model.clone()).ok()?;

@@ -1,6 +1,7 @@
 //! What a page is told at the step at which it happens: contacts that begin or end, and warnings of the engine.
 
 use labspec_core::{Fields, Warning};
+use labspec_finding::order;
 
 /// What was seen after the last step.
 #[derive(Default)]
@@ -41,7 +42,7 @@ impl Watched {
 pub(crate) fn touching_pairs(fields: &Fields) -> Vec<(usize, usize)> {
     let pairs = fields.contact.iter().filter(|c| c.exclude == 0).map(|c| (c.geom1, c.geom2));
     let mut pairs: Vec<(usize, usize)> = pairs.collect();
-    pairs.sort_unstable();
+    order::sort_by(&mut pairs, Ord::cmp);
     pairs.dedup();
     pairs
 }

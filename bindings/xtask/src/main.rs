@@ -11,6 +11,7 @@
 //! program gives the same bytes.
 
 mod archive;
+mod panics;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
@@ -52,8 +53,10 @@ const FEATURES: [&str; 7] = [
     "--enable-multivalue",
 ];
 
-/// How `wasm-opt` optimizes. A function is compiled when it is first called: large functions do not swallow others that run rarely.
-const OPTIONS: [&str; 2] = ["-O3", "--one-caller-inline-max-function-size=200"];
+/// How `wasm-opt` optimizes. A function is compiled when it is first called, so that large functions should not contain others that
+/// run rarely. No pointer that is computed by arithmetic is below address 1024, which is the end of the stack: offsets can be part of
+/// loads and stores.
+const OPTIONS: [&str; 3] = ["-O3", "--low-memory-unused", "--one-caller-inline-max-function-size=200"];
 
 fn build(folder: Option<PathBuf>) -> Result<PathBuf, String> {
     let crates = Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("wasm");
@@ -79,7 +82,11 @@ fn build(folder: Option<PathBuf>) -> Result<PathBuf, String> {
         let mut optimized: Option<[Vec<u8>; 2]> = None;
         for (form, out) in std::iter::once(("web", inside.clone())).chain(forms) {
             let mut bindgen = wasm_bindgen_cli_support::Bindgen::new();
-            bindgen.input_path(&module).typescript(true).remove_name_section(true).out_name("labspec");
+            bindgen
+                .input_path(&module)
+                .typescript(true)
+                .remove_name_section(profile != "release")
+                .out_name("labspec");
             // The package determines the location of its module itself.
             bindgen.omit_default_module_path(out == inside);
             let chosen = match form {
@@ -96,6 +103,9 @@ fn build(folder: Option<PathBuf>) -> Result<PathBuf, String> {
                         std::fs::write(&file, after).map_err(|e| format!("{}: {e}", file.display()))?;
                     }
                     _ => {
+                        if panics::to_traps(&file)? == 0 {
+                            return Err(format!("{}: no function that panics was found", file.display()));
+                        }
                         optimize(&web, &file)?;
                         optimized = Some([before, read()?]);
                     }
@@ -106,7 +116,8 @@ fn build(folder: Option<PathBuf>) -> Result<PathBuf, String> {
     Ok(folder)
 }
 
-/// Reduces the size of a module if `wasm-opt` is installed.
+/// Makes a module smaller, where `wasm-opt` is installed. Below address 1024 is the end of the stack, which nothing addresses by
+/// arithmetic: offsets can go into loads and stores.
 fn optimize(web: &Path, module: &Path) -> Result<(), String> {
     let program = web.join("node_modules/.bin/wasm-opt");
     if !program.exists() {

@@ -92,7 +92,7 @@ impl Functions {
         })
     }
 
-    /// Calls a function.
+    /// Calls a free function.
     pub(crate) fn call(&self, at: usize, args: &[Value]) -> Option<Result<Value, String>> {
         let function = self.0.get(at)?;
         let numbers: Vec<f64> = args.iter().map(Value::to_number).collect();

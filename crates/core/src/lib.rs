@@ -26,20 +26,13 @@
 #![recursion_limit = "256"]
 
 mod api;
-mod collision;
-mod constraint;
-mod dynamics;
-mod forces;
-mod geometry;
-pub(crate) mod kinds;
-pub mod math;
 #[cfg(feature = "mjcf")]
 mod mjcf;
-mod model;
-mod query;
-mod sensor;
 mod setup;
-mod step;
+
+use labspec_engine::{collision, constraint, dynamics, forces, geometry, kinds, model, query, sensor, step};
+
+pub use labspec_engine::math;
 
 pub use api::call::*;
 pub use api::data::{Data, Edit, Full, Planned, Scope};

@@ -32,7 +32,7 @@ pub enum Measure {
     Anything,
     /// This dimension.
     Known(Dimension),
-    /// Nothing is known.
+    /// No information.
     #[default]
     Unknown,
 }

@@ -1,9 +1,8 @@
 //! The effects of a program. They are known before it runs, and plans and lints depend on them alone.
 
-use std::collections::BTreeSet;
-
 use crate::schema::AccessedFields;
 use crate::types::{FieldKey, FunctionId};
+use labspec_finding::order;
 
 /// Elements of a field that a program reads or writes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -105,7 +104,7 @@ fn add_accessed(accessed: &AccessedFields, list: &mut Vec<Access>, everything: &
         AccessedFields::Everything => *everything = true,
         AccessedFields::Fields(fields) => {
             let whole = |a: &&Access| a.first == 0 && a.count.is_none();
-            let whole_fields: BTreeSet<FieldKey> = list.iter().filter(whole).map(|a| a.field).collect();
+            let whole_fields = order::set(list.iter().filter(whole).map(|a| a.field));
             let new = fields.iter().filter(|f| !whole_fields.contains(f));
             list.extend(new.map(|&field| Access { field, first: 0, count: None }));
         }

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use crate::math;
 use crate::operators::{BinaryOp, LogicalOp, UnaryOp};
-use crate::types::{Elem, FunctionId, Type};
+use crate::tables::{ExposedView, FreeFunctionId, MemberTable, MethodId, UnitId};
+use crate::types::{FunctionId, Type};
 use crate::value::{Value, View};
 use labspec_finding::Span;
 
@@ -91,17 +92,6 @@ pub(crate) enum UpdateResult {
     Old,
 }
 
-/// The index of a function of the program.
-pub(crate) type UnitId = u32;
-
-/// The name of a method: the index of its first row in the table of `natives`. Rows with the same name are adjacent.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct MethodId(pub(crate) u8);
-
-/// The index of a free function in that table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct FreeFunctionId(pub(crate) u8);
-
 /// An item of a list or an argument.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct IrItem {
@@ -116,17 +106,6 @@ pub(crate) enum IrEntry {
     Named(Arc<str>, Ir),
     Computed(Ir, Ir),
     Spread(Ir),
-}
-
-/// One member of every object of a collection, by the name of the object.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct MemberTable {
-    /// The noun for the objects: `joint`.
-    pub(crate) noun: String,
-    /// Sorted by name.
-    pub(crate) of: Vec<(Arc<str>, Value)>,
-    /// Whether the members are numbers: then the first element of each view is loaded.
-    pub(crate) scalar: bool,
 }
 
 /// An element of a view.
@@ -206,14 +185,6 @@ pub(crate) struct IrProgram {
     pub(crate) locals: Vec<Local>,
     /// Arrays used as values, with the types of their elements.
     pub(crate) views: Vec<ExposedView>,
-}
-
-/// An array of the simulation that is used as a value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct ExposedView {
-    pub(crate) view: View,
-    pub(crate) elem: Elem,
-    pub(crate) assignable: bool,
 }
 
 impl Ir {

@@ -22,42 +22,29 @@
 
 pub mod ast;
 pub mod dimension;
-pub mod rules;
 
 mod analysis;
 mod bind;
 mod chain;
-mod code;
 mod columnar;
 mod complete;
-mod context;
 mod effects;
-mod formula;
-mod global_names;
-mod globals;
-mod heap;
-mod host;
-mod host_terms;
 mod ir;
 mod lex;
 mod lower;
-mod math;
-mod natives;
-mod number;
-mod operation;
-mod operators;
 mod parse;
 mod print;
 mod program;
 mod reference;
-mod row;
-mod runtime_event;
 mod schema;
-mod ssa;
-mod types;
-mod value;
-mod vm;
-mod watch;
+mod source_functions;
+
+use labspec_machine::{
+    code, context, formula, global_names, globals, heap, host, host_terms, math, natives, number, operation,
+    operators, row, runtime_event, ssa, tables, types, value, vm, watch,
+};
+
+pub use labspec_machine::rules;
 
 #[cfg(test)]
 mod mock;

@@ -6,6 +6,9 @@ pub(crate) mod call;
 mod contents;
 pub(crate) mod data;
 pub(crate) mod error;
+#[cfg(test)]
+#[allow(clippy::unwrap_used)] // a test that fails says why
+mod idle_actuators;
 pub(crate) mod model;
 #[cfg(feature = "nalgebra")]
 pub mod nalgebra;
@@ -13,6 +16,9 @@ pub mod nalgebra;
 #[allow(clippy::unwrap_used)] // a panic is the report of a failed test
 mod planar_chains;
 pub(crate) mod planning;
+#[cfg(test)]
+#[allow(clippy::unwrap_used, clippy::panic)] // a test that fails says why
+mod recorded_sensors;
 #[cfg(test)]
 #[allow(clippy::unwrap_used)] // a panic is the report of a failed test
 mod scaled_scenes;

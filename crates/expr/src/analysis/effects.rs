@@ -1,9 +1,9 @@
 //! Which fields, variables and functions a program reads, writes and calls, derived from its SSA form.
 
 use crate::effects::{Access, Effects};
-use crate::ir::UnitId;
 use crate::schema::Schema;
 use crate::ssa::{Args, Op, SsaFunction, SsaProgram, Terminator, Val};
+use crate::tables::UnitId;
 use crate::value::{Value, View};
 
 /// Returns the effects of a program, including all functions that it may call, in the order of their first occurrence.

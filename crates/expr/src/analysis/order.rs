@@ -4,8 +4,8 @@
 
 use super::effects::{receiver, stores_items, whole, written};
 use crate::effects::{Access, Effects};
-use crate::ir::UnitId;
 use crate::ssa::{Op, SsaFunction, SsaProgram, Terminator};
+use crate::tables::UnitId;
 use crate::types::FunctionId;
 use crate::value::View;
 

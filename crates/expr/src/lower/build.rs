@@ -2,9 +2,10 @@
 //! any type, or only as a condition. Thus a numeric expression never becomes a boxed value.
 
 use super::builder::{EarlyExits, FunctionBuilder};
-use crate::ir::{Index, Ir, IrEntry, IrItem, IrKind, LocalId, UnitId};
+use crate::ir::{Index, Ir, IrEntry, IrItem, IrKind, LocalId};
 use crate::operators::{BinaryOp, LogicalOp, UnaryOp};
 use crate::ssa::{Args, BlockEdge, Num, Op, Operand, Representation, Terminator, Val};
+use crate::tables::UnitId;
 use crate::types::Type;
 use crate::value::{Value, View};
 use labspec_finding::Span;

@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use crate::ir::{IrProgram, LocalId, MemberTable};
+use crate::ir::{IrProgram, LocalId};
 use crate::ssa::{Args, BlockId, Num, Op, Operand, Representation, SsaFunction, SsaProgram, Val};
+use crate::tables::MemberTable;
 use crate::value::Value;
 use labspec_finding::Span;
 

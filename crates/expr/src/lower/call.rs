@@ -1,8 +1,9 @@
 //! Calls of functions of the program, calls of methods, and functions as values.
 
 use super::builder::FunctionBuilder;
-use crate::ir::{FreeFunctionId, Ir, IrItem, LocalId, MethodId, UnitId};
+use crate::ir::{Ir, IrItem, LocalId};
 use crate::ssa::{Op, Operand, Representation, Val};
+use crate::tables::{FreeFunctionId, MethodId, UnitId};
 use crate::value::Value;
 use labspec_finding::Span;
 

@@ -1,8 +1,6 @@
 //! SSA form to machine code: names become registers, block parameters become moves, and unused operations are removed. Where
 //! possible, an operation whose result is passed to a block parameter writes directly to the register of that parameter.
 
-use std::collections::BTreeMap;
-
 use super::pure;
 use super::registers::{RegisterFile, order_moves};
 use crate::code::{MachineCode, MachineFunction, OPERATION};
@@ -12,7 +10,7 @@ use crate::ssa::{
     SsaProgram, Terminator, Val,
 };
 use crate::value::Value;
-use labspec_finding::Span;
+use labspec_finding::{Span, order};
 
 /// The number of consecutive numeric operations from which a formula is faster, as measured.
 const WORTH: usize = 5;
@@ -197,7 +195,7 @@ impl<'f> Emit<'f> {
         };
         let Some((mut formula, given)) = pure::stretch(form, &ops, &mut input) else { return false };
         // The remaining uses of each result, outside these operations.
-        let mut left: BTreeMap<u32, u32> = given.iter().map(|(n, _)| (n.0, numbers.uses(n.0))).collect();
+        let mut left = order::map(given.iter().map(|(n, _)| (n.0, numbers.uses(n.0))));
         for mut op in ops {
             let mut use_up = |n: Num| {
                 if let Some(left) = left.get_mut(&form.same.number(n).0) {

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use labspec_finding::order;
+
 /// Registers of one kind.
 pub(super) struct RegisterFile {
     /// For each name, its number of uses; `registers` is its register.
@@ -49,7 +51,7 @@ pub(super) fn order_moves(mut moves: Vec<(u32, u32)>, count: &mut u32) -> Vec<(u
     if moves.len() < 2 {
         return moves;
     }
-    let mut left: BTreeMap<u32, u32> = moves.iter().copied().collect();
+    let mut left = order::map(moves.iter().copied());
     let mut readers = BTreeMap::new();
     moves.iter().for_each(|(_, from)| *readers.entry(*from).or_insert(0u32) += 1);
     let mut free: Vec<u32> = moves.iter().map(|(to, _)| *to).filter(|to| !readers.contains_key(to)).collect();

@@ -27,7 +27,7 @@ impl Default for Budget {
     }
 }
 
-/// Why a run ended early.
+/// The error that ended a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum End {
     /// `setup` or `controller` threw. The page freezes the lab at this time.

@@ -54,7 +54,7 @@ pub struct RunOptions {
     pub every: usize,
     /// Controls by label, and their values before the first step.
     pub set: Vec<(String, Value)>,
-    /// Buttons by label, and the times of their presses, s.
+    /// Buttons by label, with the times at which they are pressed, s.
     pub press: Vec<(String, f64)>,
     /// Computes every field in every step, read or not.
     pub full: bool,

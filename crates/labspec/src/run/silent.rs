@@ -147,7 +147,7 @@ fn unsolved(model: &Model, u: Unsolved) -> Breakdown {
     BreakdownAdvice::only(help).breakdown(rules::SOLVER_STOPS_EARLY, what, why)
 }
 
-/// The name of a geom, or of its body.
+/// The name of a geom, or of its body if the geom has none.
 fn geom(model: &Model, g: usize) -> String {
     if let Some(geom_name) = model.names.geom.get(g).filter(|n| !n.is_empty()) {
         return format!("geom \"{geom_name}\"");

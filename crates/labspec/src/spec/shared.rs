@@ -4,7 +4,7 @@ use super::address::LabAddress;
 use super::lab::{Verify, VerifyLab};
 use super::lesson::Lesson;
 use crate::source::Text;
-use std::collections::BTreeSet;
+use labspec_finding::order;
 
 /// The maximum length of a chain of objects that use each other.
 const LONGEST: usize = 8;
@@ -70,7 +70,7 @@ fn whole(lesson: &Lesson, verify: &Verify, depth: usize, left: &mut usize) -> Op
 
 /// Puts the used entries before the own entries, except those with the name of an own entry.
 fn add<T>(entries: &mut Vec<T>, used: Vec<T>, name: impl Fn(&T) -> &Text) {
-    let there: BTreeSet<String> = entries.iter().map(|one| name(one).value.clone()).collect();
+    let there = order::set(entries.iter().map(|one| name(one).value.clone()));
     let mut all: Vec<T> = used.into_iter().filter(|one| !there.contains(&name(one).value)).collect();
     all.append(entries);
     *entries = all;

@@ -6,7 +6,7 @@
 //! * Columns of Jacobians and of M are degrees of freedom, in the order of `qvel`; rows of Jacobians are the world axes x, y, z.
 //! * Derived fields belong to the last call that computed them. After [`step`](crate::step), they belong to the state before that
 //!   step.
-//!     [`forward`](crate::forward) computes them for the current state.
+//!   [`forward`](crate::forward) computes them for the current state.
 //! * A result that the plan of the data left out is [`Error::LeftOut`](crate::Error::LeftOut), which names the stage.
 //!
 //! The engine does not compute with nalgebra. All numbers have the same bits with and without the feature.

@@ -9,9 +9,9 @@ use super::measured::{Aggregates, DimensionClash, KnownDimensions, TextDimension
 use crate::analysis::effects::{element, whole};
 use crate::dimension::Measure;
 use crate::effects::Access;
-use crate::ir::UnitId;
 use crate::schema::Schema;
 use crate::ssa::{Num, Operand, SsaFunction, SsaProgram, Terminator, Val};
+use crate::tables::UnitId;
 use crate::value::{Value, View};
 use labspec_finding::Span;
 

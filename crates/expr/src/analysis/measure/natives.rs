@@ -1,8 +1,8 @@
 //! The measures of the results of methods and free functions: elements of the receiver, or dimensionless numbers.
 
 use crate::dimension::Measure;
-use crate::ir::{FreeFunctionId, MethodId};
 use crate::natives::{Native, NativeResult, ReceiverKind};
+use crate::tables::{FreeFunctionId, MethodId};
 
 /// The measure of a method's result; the receiver is the first argument. Where lists and strings have methods of the same
 /// name, the result joins the measures of both.

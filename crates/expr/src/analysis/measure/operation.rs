@@ -6,10 +6,10 @@ use super::natives as handed;
 use crate::analysis::effects::{element, whole};
 use crate::dimension::{Dimension, Measure};
 use crate::effects::Access;
-use crate::ir::{MethodId, UnitId};
 use crate::math;
 use crate::operators::{BinaryOp, UnaryOp};
 use crate::ssa::{Args, Num, Op, Operand, OperandUse, Representation, Val};
+use crate::tables::{MethodId, UnitId};
 use crate::value::Value;
 use labspec_finding::Span;
 

@@ -10,7 +10,7 @@ use crate::globals::Globals;
 use crate::rules;
 use crate::schema::{Entry, FunctionInfo, Param, Schema};
 use crate::types::CollectionId;
-use labspec_finding::{Finding, Span};
+use labspec_finding::{Finding, Span, order};
 
 /// How a name is used. The suggestions for an unknown name depend on it.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -351,7 +351,7 @@ impl<'a> NameWalk<'a, '_> {
     /// Propagates captures to callers: a function that names another one captures what that one captures, except its own
     /// variables.
     fn hand_on(&mut self) {
-        let mut changed: BTreeSet<usize> = self.names.captured.keys().copied().collect();
+        let mut changed = order::set(self.names.captured.keys().copied());
         while let Some(callee) = changed.pop_last() {
             let captured: Vec<usize> = self.names.captured(callee).collect();
             let callers = self.calls.range((callee, 0)..=(callee, usize::MAX));

@@ -9,13 +9,14 @@ use crate::bind::names::NameTable;
 use crate::bind::source::{MAX_LEVELS, SourceTree, TextKind, too_deep};
 use crate::globals::{Globals, ProgramId};
 use crate::host_terms::HostTerms;
-use crate::ir::{FreeFunctionId, Ir, IrFunction, IrProgram, IrStatement, LocalId, MethodId, UnitId};
+use crate::ir::{Ir, IrFunction, IrProgram, IrStatement, LocalId};
 use crate::math;
 use crate::natives::Native;
 use crate::parse::{Attempt, Reported};
 use crate::program::Aggregate;
 use crate::rules;
 use crate::schema::{Field, Help, Schema};
+use crate::tables::{FreeFunctionId, MethodId, UnitId};
 use crate::types::{CollectionId, FunctionId, ObjectId, Type};
 use labspec_finding::{Finding, Fix, Span};
 

@@ -5,13 +5,15 @@ use super::binder::{Binder, Entity};
 use super::member::quoted;
 use super::typed::Expectation;
 use crate::ast::{Expr, ExprKind};
-use crate::ir::{FreeFunctionId, Ir, IrFunction, IrItem, IrKind, IrProgram, IrStatement, MemberTable};
+use crate::ir::{Ir, IrFunction, IrItem, IrKind, IrProgram, IrStatement};
 use crate::math;
 use crate::natives;
 use crate::parse::{Attempt, Reported};
 use crate::program::{Aggregate, Program};
 use crate::rules;
 use crate::schema::{FunctionInfo, Help, Param, signature};
+use crate::source_functions::source_function;
+use crate::tables::{FreeFunctionId, MemberTable};
 use crate::types::{CollectionId, FunctionId, ObjectId, Type};
 use crate::value::Value;
 use labspec_finding::order;
@@ -76,7 +78,9 @@ impl<'a> Binder<'a> {
     fn native_call(&mut self, function: FreeFunctionId, args: &'a [Expr], span: Span) -> Attempt<Ir> {
         let row = function.row();
         let args = self.accepted_args(args, row.arity().1);
-        if let (Some(method), [first, rest @ ..]) = (function.source_function(args.len()), args) {
+        if let (Some(method), [first, rest @ ..]) =
+            (function.rows().find_map(|row| source_function(row, args.len())), args)
+        {
             let first = self.value(first).map(Entity::Value)?;
             return self.inline_method(method, row, first, rest, span);
         }

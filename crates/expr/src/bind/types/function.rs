@@ -3,10 +3,11 @@
 use super::binder::{Binder, Entity, KnownFunction, VariableMeaning};
 use super::facts::{FactKey, FactKind};
 use crate::ast::{Body, Element, Expr, ExprKind, Function, Pattern};
-use crate::ir::{Ir, IrFunction, IrItem, IrKind, IrStatement, LocalId, UnitId, always_return};
+use crate::ir::{Ir, IrFunction, IrItem, IrKind, IrStatement, LocalId, always_return};
 use crate::operators::BinaryOp;
 use crate::parse::{Attempt, Reported};
 use crate::rules;
+use crate::tables::UnitId;
 use crate::types::Type;
 use labspec_finding::{Finding, Span};
 

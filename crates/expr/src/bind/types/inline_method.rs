@@ -13,6 +13,7 @@ use crate::globals::Globals;
 use crate::ir::{Ir, IrKind, IrStatement, always_return};
 use crate::natives::{self, Native};
 use crate::parse::{Attempt, Reported};
+use crate::source_functions::source_functions;
 use crate::types::Type;
 use labspec_finding::Span;
 
@@ -20,7 +21,7 @@ use labspec_finding::Span;
 fn names_of(function: &Function) -> &'static NameTable {
     static NAMES: OnceLock<Vec<(&'static Function, NameTable)>> = OnceLock::new();
     static NONE: OnceLock<NameTable> = OnceLock::new();
-    let all = NAMES.get_or_init(|| natives::source_functions().map(|f| (f, resolved(f))).collect());
+    let all = NAMES.get_or_init(|| source_functions().map(|f| (f, resolved(f))).collect());
     let found = all.iter().find(|(f, _)| std::ptr::eq(*f, function));
     found.map_or_else(|| NONE.get_or_init(NameTable::default), |(_, names)| names)
 }

@@ -4,11 +4,13 @@ use super::binder::{Binder, Entity, MethodReceiver};
 use super::member::view_of;
 use super::typed::Expectation;
 use crate::ast::{Expr, ExprKind};
-use crate::ir::{Ir, IrItem, IrKind, MethodId};
+use crate::ir::{Ir, IrItem, IrKind};
 use crate::natives::{self, Native, ReceiverKind};
 use crate::parse::Attempt;
 use crate::rules;
 use crate::schema::Field;
+use crate::source_functions::source_function;
+use crate::tables::MethodId;
 use crate::types::Type;
 use crate::value::Value;
 use labspec_finding::{Finding, Span};
@@ -94,7 +96,7 @@ impl<'a> Binder<'a> {
                 .help(format!("write them out, as `{example}`")),
             );
         }
-        match row.source_function(args.len()) {
+        match source_function(row, args.len()) {
             Some(function) => Ok(function),
             None => self.refuse(
                 Finding::error(

@@ -7,11 +7,12 @@ use super::binder::{Binder, Entity, MethodReceiver};
 use super::member::{machinery, view_of};
 use crate::ast::{Expr, ExprKind, Name};
 use crate::bind::names::{MACHINERY, NameMeaning, list_names};
-use crate::ir::{Index, Ir, IrKind, MemberTable};
+use crate::ir::{Index, Ir, IrKind};
 use crate::natives;
 use crate::parse::Attempt;
 use crate::rules;
 use crate::schema::{Entry, Field, Param};
+use crate::tables::MemberTable;
 use crate::types::{CollectionId, Type};
 use crate::value::{Value, View};
 use labspec_finding::{Finding, Span, nearest};
@@ -209,7 +210,8 @@ impl<'a> Binder<'a> {
     /// Records that an array is used as a value.
     pub(super) fn show(&mut self, field: &Field) -> View {
         let view = view_of(field);
-        let exposed = crate::ir::ExposedView { view, elem: field.elem, assignable: field.is_assignable() };
+        let exposed =
+            crate::tables::ExposedView { view, elem: field.elem, assignable: field.is_assignable() };
         if !self.tree.views.contains(&exposed) {
             self.tree.views.push(exposed);
         }

@@ -17,7 +17,7 @@ const SAMPLES: usize = 200;
 /// Work budget for testing remedies for the breakdowns of a run.
 const TRIES: u64 = 1_000_000_000;
 
-/// Why a run ended early.
+/// The error that ended a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Ended {
     /// A program of the lab threw.

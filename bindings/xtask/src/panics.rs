@@ -1,0 +1,158 @@
+//! Panics of a module as plain traps.
+//!
+//! A panic of the module ends as a trap, and what it says reaches nobody: there is no hook, and a page has no error output. Where code may
+//! panic, the place and the numbers for the message are handed over nevertheless. Here the functions that would make the message become the
+//! trap itself; `wasm-opt` then removes what was handed to them. The places (a file, a line and a column each) become zeros, which compress.
+
+use std::collections::{BTreeSet, HashSet};
+use std::path::Path;
+use walrus::ir::{Const, Instr, InstrLocId, Unreachable, Value, Visitor, dfs_in_order};
+use walrus::{ConstExpr, DataId, DataKind, FunctionBuilder, FunctionId, FunctionKind, Module, ModuleConfig};
+
+/// Functions of Rust's libraries that never return: the ends of their paths.
+const ENDS: [&str; 10] = [
+    "option::unwrap_failed",
+    "option::expect_failed",
+    "result::unwrap_failed",
+    "slice::index::slice_index_fail",
+    "str::slice_error_fail",
+    "::assert_failed",
+    "::len_mismatch_fail",
+    "raw_vec::capacity_overflow",
+    "raw_vec::handle_error",
+    "alloc::handle_alloc_error",
+];
+
+/// Where all functions but formatting never return.
+const MODULES: [&str; 2] = ["core::panicking::", "core::cell::panic_already_"];
+
+/// The path of a function, without the numbers that tell versions of a crate and copies of a function apart.
+fn path(name: &str) -> String {
+    let mut depth = 0_u32;
+    let kept = name.chars().filter(|c| {
+        depth += u32::from(*c == '[');
+        let keep = depth == 0;
+        depth -= u32::from(*c == ']' && depth > 0);
+        keep
+    });
+    kept.collect()
+}
+
+fn never_returns(name: &str) -> bool {
+    let path = path(name);
+    let path = path.split_once("::<").map_or(path.as_str(), |(before, _)| before);
+    MODULES.iter().any(|module| path.starts_with(module)) || ENDS.iter().any(|end| path.ends_with(end))
+}
+
+/// The constants that are handed last to functions that stop the module: addresses of places, as a rule.
+struct LastConstants<'a> {
+    stopping: &'a HashSet<FunctionId>,
+    before: Option<i32>,
+    found: BTreeSet<usize>,
+}
+
+impl<'i> Visitor<'i> for LastConstants<'_> {
+    fn visit_instr(&mut self, instr: &'i Instr, _: &'i InstrLocId) {
+        match instr {
+            Instr::Call(call) if self.stopping.contains(&call.func) => {
+                self.found.extend(self.before.and_then(|at| usize::try_from(at).ok()));
+                self.before = None;
+            }
+            Instr::Const(Const { value: Value::I32(x) }) => self.before = Some(*x),
+            _ => self.before = None,
+        }
+    }
+}
+
+/// Bytes of a place in the source: address and length of the file's name, line and column.
+const PLACE: usize = 16;
+
+/// The segment that has some bytes, and where they begin in it.
+fn segment(module: &Module, address: usize, length: usize) -> Option<(DataId, usize)> {
+    module.data.iter().find_map(|data| {
+        let DataKind::Active { offset: ConstExpr::Value(Value::I32(start)), .. } = data.kind else {
+            return None;
+        };
+        let at = address.checked_sub(usize::try_from(start).ok()?)?;
+        (at.checked_add(length)? <= data.value.len()).then(|| (data.id(), at))
+    })
+}
+
+fn bytes(module: &Module, address: usize, length: usize) -> Option<&[u8]> {
+    let (id, at) = segment(module, address, length)?;
+    module.data.get(id).value.get(at..at + length)
+}
+
+/// Whether a place of a file of Rust is at an address.
+fn is_place(module: &Module, address: usize) -> bool {
+    let number = |k: usize| {
+        let four = bytes(module, address + 4 * k, 4)?.try_into().ok()?;
+        usize::try_from(u32::from_le_bytes(four)).ok()
+    };
+    let file = || bytes(module, number(0)?, number(1)?);
+    file().is_some_and(|name| name.ends_with(b".rs"))
+}
+
+/// Makes zeros of the places that are handed to functions that stop the module.
+fn clear_places(module: &mut Module, stopping: &HashSet<FunctionId>) {
+    let mut constants = LastConstants { stopping, before: None, found: BTreeSet::new() };
+    for (_, local) in module.funcs.iter_local() {
+        dfs_in_order(&mut constants, local, local.entry_block());
+    }
+    let places: Vec<usize> = constants.found.into_iter().filter(|at| is_place(module, *at)).collect();
+    for (id, at) in places.iter().filter_map(|at| segment(module, *at, PLACE)).collect::<Vec<_>>() {
+        module.data.get_mut(id).value[at..at + PLACE].fill(0);
+    }
+}
+
+/// Makes traps of the functions of a module that only say why it stops; their number.
+pub(crate) fn to_traps(file: &Path) -> Result<usize, String> {
+    let error = |e: &dyn std::fmt::Display| format!("{}: {e:#}", file.display());
+    let mut config = ModuleConfig::new();
+    config.generate_name_section(false).generate_producers_section(false);
+    let mut module = config.parse_file(file).map_err(|e| error(&e))?;
+    let stopping: Vec<_> = module
+        .funcs
+        .iter_local()
+        .filter(|(id, local)| {
+            let name = module.funcs.get(*id).name.as_deref().unwrap_or_default();
+            never_returns(name) && module.types.get(local.ty()).results().is_empty()
+        })
+        .map(|(id, local)| (id, local.ty(), local.args.clone()))
+        .collect();
+    clear_places(&mut module, &stopping.iter().map(|(id, ..)| *id).collect());
+    for (id, ty, arguments) in &stopping {
+        let parameters = module.types.get(*ty).params().to_vec();
+        let mut builder = FunctionBuilder::new(&mut module.types, &parameters, &[]);
+        builder.func_body().instr(Unreachable {});
+        module.funcs.get_mut(*id).kind = FunctionKind::Local(builder.local_func(arguments.clone()));
+    }
+    module.emit_wasm_file(file).map_err(|e| error(&e))?;
+    Ok(stopping.len())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::never_returns;
+
+    #[test]
+    fn only_functions_that_never_return_become_traps() {
+        for name in [
+            "core[4a1f]::panicking::panic_bounds_check",
+            "core[4a1f]::panicking::assert_failed::<usize, usize>",
+            "core[4a1f]::option::unwrap_failed[1]",
+            "<alloc[9]::vec::Vec<_>>::remove::assert_failed",
+            "core[4a1f]::slice::copy_from_slice_impl::len_mismatch_fail",
+            "core::cell::panic_already_borrowed",
+        ] {
+            assert!(never_returns(name), "{name}");
+        }
+        for name in [
+            "std[1]::panicking::panic_count::is_zero_slow_path",
+            "labspec_core::step::fail",
+            "<core[4a1f]::panicking::AssertKind as core[4a1f]::fmt::Debug>::fmt",
+        ] {
+            assert!(!never_returns(name), "{name}");
+        }
+    }
+}

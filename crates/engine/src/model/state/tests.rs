@@ -1,0 +1,114 @@
+//! Compares states with those of MuJoCo 3.14.0, recorded by `golden/record.py`.
+
+use super::*;
+use crate::compiled::compile;
+use crate::model::reflect::Object;
+use crate::step::reset::{reset_data_keyframe, set_keyframe};
+use crate::step::step;
+use crate::step::workspace::Workspace;
+
+const MODEL: &str = include_str!("golden/everything.xml");
+
+fn model() -> Model {
+    compile(MODEL).unwrap()
+}
+
+/// The name and the numbers of each recorded line.
+fn recorded() -> Vec<(&'static str, Vec<f64>)> {
+    let line = |line: &'static str| {
+        let mut words = line.split(' ');
+        (words.next().unwrap(), words.map(|w| w.parse().unwrap()).collect())
+    };
+    include_str!("golden/everything.txt").lines().map(line).collect()
+}
+
+fn state(m: &Model, d: &Fields, sig: i32) -> Vec<f64> {
+    let mut out = vec![f64::NAN; size(m, sig).unwrap()];
+    get(m, d, &mut out, sig).unwrap();
+    out
+}
+
+#[test]
+fn states_are_those_of_mujoco() {
+    let mut m = model();
+    let Workspace { fields: mut d, scratch: mut s } = Workspace::new(&m);
+    let mut compared = 0;
+    for (name, want) in recorded() {
+        let close = |got: &[f64]| {
+            assert_eq!(got.len(), want.len(), "{name}");
+            let apart =
+                got.iter().zip(&want).fold(0.0f64, |s, (a, b)| s.max((a - b).abs() / (1.0 + b.abs())));
+            assert!(apart < 1e-12, "{name}: {apart:e}");
+        };
+        match name {
+            "set" => set(&m, &mut d, &want, INTEGRATION).unwrap(),
+            "step" => {
+                (0..10).for_each(|_| step(&m, &mut d, &mut s));
+                close(&state(&m, &d, INTEGRATION));
+                assert!(set_keyframe(&mut m, &d, 1) && !set_keyframe(&mut m, &d, 2));
+            }
+            "reset" => {
+                reset_data_keyframe(&m, &mut d, &mut s, 0);
+                close(&state(&m, &d, INTEGRATION));
+            }
+            field if field.starts_with("key_") => {
+                let field = reflect::field(Object::Model, field).unwrap();
+                let view = reflect::view(&m, &d, field);
+                close(&(0..view.len()).map(|i| view.get(i).unwrap()).collect::<Vec<_>>());
+            }
+            signature => assert_eq!(state(&m, &d, signature.parse().unwrap()), want, "{signature}"),
+        }
+        compared += 1;
+    }
+    assert!(compared > 40);
+}
+
+#[test]
+fn parts_of_a_state_are_extracted_and_copied() {
+    let m = model();
+    let mut d = Workspace::new(&m).fields;
+    let (_, wild) = recorded().swap_remove(0);
+    set(&m, &mut d, &wild, INTEGRATION).unwrap();
+    for to in [0, TIME, QVEL, PHYSICS, USER, EQ_ACTIVE | CTRL, INTEGRATION] {
+        let mut part = vec![f64::NAN; size(&m, to).unwrap()];
+        extract(&m, &wild, INTEGRATION, &mut part, to).unwrap();
+        assert_eq!(part, state(&m, &d, to));
+        let mut other = Workspace::new(&m).fields;
+        copy(&m, &d, &mut other, to).unwrap();
+        assert_eq!(state(&m, &other, to), part);
+        let rest = INTEGRATION & !to;
+        assert_eq!(state(&m, &other, rest), state(&m, &Workspace::new(&m).fields, rest));
+    }
+}
+
+#[test]
+fn what_is_not_zero_is_true() {
+    let m = model();
+    let mut d = Workspace::new(&m).fields;
+    for (values, want) in
+        [([0.5, 0.0], [true, false]), ([f64::NAN, -0.0], [true, false]), ([0.0, 256.0], [false, true])]
+    {
+        set(&m, &mut d, &values, EQ_ACTIVE).unwrap();
+        assert_eq!(d.eq_active, want);
+    }
+}
+
+#[test]
+fn wrong_lists_change_nothing() {
+    let m = model();
+    let mut d = Workspace::new(&m).fields;
+    let before = d.clone();
+    for sig in [-1, 1 << COUNT, i32::MAX, i32::MIN] {
+        assert_eq!(size(&m, sig), Err(StateError::Signature(sig)));
+        assert_eq!(set(&m, &mut d, &[], sig), Err(StateError::Signature(sig)));
+    }
+    let length = StateError::Length { wanted: m.nq, found: 3 };
+    assert_eq!(set(&m, &mut d, &[1.0; 3], QPOS), Err(length));
+    assert_eq!(get(&m, &d, &mut [0.0; 3], QPOS), Err(length));
+    let missing = extract(&m, &[1.0], TIME, &mut vec![0.0; m.nq], QPOS);
+    assert_eq!(missing, Err(StateError::Missing(QPOS)));
+    assert!(d == before);
+    let other =
+        compile("<mujoco><worldbody><body><joint/><geom size='1'/></body></worldbody></mujoco>").unwrap();
+    assert!(copy(&other, &Workspace::new(&other).fields, &mut d, QPOS).is_err() && d == before);
+}

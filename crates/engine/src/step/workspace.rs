@@ -1,0 +1,61 @@
+//! `Workspace`: the fields of a simulation, and the scratch of the stages.
+
+use super::factored::Factored;
+use super::metric::Metric;
+use super::sleep;
+use super::stages::{Damping, Flow, RungeKutta};
+use crate::forces::{self, derivative};
+use crate::model::stopwatch::Stopwatch;
+use crate::model::tree_algorithm::TreeAlgorithms;
+use crate::model::{Fields, Model};
+use crate::{collision, constraint, dynamics, sensor};
+
+/// State, inputs and results of a simulation of one model.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Workspace {
+    /// The state, the inputs and the results of the stages.
+    pub fields: Fields,
+    /// The memory of the stages, reused so that steps do not allocate.
+    pub scratch: Scratch,
+}
+
+/// The scratch of the stages, by module.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Scratch {
+    /// That of poses, inertias and the algorithms of trees.
+    pub dynamics: dynamics::Scratch,
+    /// That of tendons, transmissions and actuators.
+    pub forces: forces::Scratch,
+    /// That of pairs of geoms and their contacts.
+    pub collision: collision::Scratch,
+    /// That of constraint rows and solvers.
+    pub constraint: constraint::Scratch,
+    /// That of sensors.
+    pub sensor: sensor::Scratch,
+    pub(crate) sleep: sleep::Scratch,
+    /// Derivatives of forces with respect to velocities.
+    pub(crate) derivative: derivative::Work,
+    pub(crate) damping: Damping,
+    /// The matrix of the fast implicit integrator.
+    pub(crate) factored: Factored,
+    /// The metric of the discrete integrator.
+    pub(crate) metric: Metric,
+    pub(crate) rk: RungeKutta,
+    pub(crate) flow: Flow,
+    /// Whether the current state is an intermediate state within a step, which users do not see.
+    pub(crate) unseen: bool,
+    /// The measurement of stage times, if it was requested.
+    pub watch: Option<Box<Stopwatch>>,
+}
+
+impl Scratch {
+    /// Allocates the parts that depend on the sizes of the model.
+    pub(super) fn resize(&mut self, m: &Model, algorithms: TreeAlgorithms) {
+        self.dynamics = dynamics::Scratch::new(m, algorithms);
+        self.forces = forces::Scratch::new(m);
+        self.constraint = constraint::Scratch::new(m);
+        self.sleep = sleep::Scratch::new(m);
+        self.damping = Damping::new(m);
+        self.rk = RungeKutta::new(m);
+    }
+}
