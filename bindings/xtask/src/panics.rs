@@ -29,13 +29,13 @@ const MODULES: [&str; 2] = ["core::panicking::", "core::cell::panic_already_"];
 /// The path of a function, without the numbers that tell versions of a crate and copies of a function apart.
 fn path(name: &str) -> String {
     let mut depth = 0_u32;
-    let kept = name.chars().filter(|c| {
+    let outside = name.chars().filter(|c| {
         depth += u32::from(*c == '[');
         let keep = depth == 0;
         depth -= u32::from(*c == ']' && depth > 0);
         keep
     });
-    kept.collect()
+    outside.collect()
 }
 
 fn never_returns(name: &str) -> bool {

@@ -1,12 +1,15 @@
-//! The step of a rigid-body simulation with MuJoCo 3.14.0's semantics: what runs all the time.
+//! The step of a rigid-body simulation with the semantics of MuJoCo 3.14.0.
 //!
-//! A stage takes the model, the fields and the scratch of its module. The table of fields, reflection and the algorithms
-//! that models are compiled with are here, too. Reading MJCF and the interface for embedders, which check what callers
-//! pass, are `labspec-core`: functions here take a model that it has compiled, and data of that model.
+//! Each stage takes the model, the fields and the scratch of its module. The crate also contains the table of fields, reflection,
+//! and the algorithms that compile models. `labspec-core` reads MJCF, provides the interface for embedders, and checks the arguments
+//! of callers. Functions of this crate expect a model that `labspec-core` compiled, and data of that model.
 //!
-//! The crates are two because a page's module is built for speed only where it runs in every step.
+//! The two crates are separate because a profile of Cargo applies to a whole crate: the WebAssembly modules optimize this crate for speed,
+//! and `labspec-core` for size.
 #![forbid(unsafe_code)]
 #![recursion_limit = "256"]
+// Modules are public for `labspec-core` alone; readers of these pages work on the engine.
+#![allow(rustdoc::private_intra_doc_links)]
 
 pub mod collision;
 #[cfg(test)]

@@ -4,7 +4,7 @@ use crate::heap::Heap;
 use crate::types::{FieldKey, FunctionId};
 use crate::value::Value;
 
-/// The host of running programs. Indexes count from the start of the whole field, as in [`crate::Field::first`].
+/// The host of running programs. Indexes count from the start of the whole field, as in `Field::first`.
 pub trait Host {
     /// Returns element `index`, or `None` past the end.
     fn get(&self, field: FieldKey, index: usize) -> Option<f64>;
@@ -24,20 +24,20 @@ pub trait Host {
     /// Stores an element that exists.
     ///
     /// # Errors
-    /// The host refuses. The string becomes the message of a [`crate::RuntimeError`].
+    /// The host refuses. The string becomes the message of a `RuntimeError`.
     fn set(&mut self, field: FieldKey, index: usize, value: f64) -> Result<(), String>;
 
     /// Returns the current number of elements of the whole field.
     fn len(&self, field: FieldKey) -> usize;
 
     /// Calls a function. Lists and records among the arguments and in the result are objects of `heap`. Arguments for
-    /// [`crate::Param::Object`] are not passed. If optional arguments are omitted, `args` is shorter.
+    /// `Param::Object` are not passed. If optional arguments are omitted, `args` is shorter.
     ///
     /// # Errors
-    /// The call fails. The string becomes the message of a [`crate::RuntimeError`].
+    /// The call fails. The string becomes the message of a `RuntimeError`.
     fn call(&mut self, heap: &mut Heap, function: FunctionId, args: &[Value]) -> Result<Value, String>;
 
-    /// Identifies the model to which field numbers and element indexes refer, as [`crate::Schema::identity`] does for programs.
+    /// Identifies the model to which field numbers and element indexes refer, as `Schema::identity` does for programs.
     /// Hosts of which there is only one kind may return 0.
     fn identity(&self) -> u64 {
         0

@@ -1,5 +1,5 @@
 //! The values of programs: JavaScript's primitive values and their conversions (ECMAScript, "Type Conversion" and "Testing and
-//! Comparison Operations"), the operators on values, and references to lists, records and functions in a [`crate::Heap`].
+//! Comparison Operations"), the operators on values, and references to lists, records and functions in a `Heap`.
 
 use std::fmt;
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use crate::operation::truthy;
 use crate::operators::{BinaryOp, LogicalOp, UnaryOp};
 use crate::types::{FieldKey, Type};
 
-/// The index of a list, record or function in its [`crate::Heap`].
+/// The index of a list, record or function in its `Heap`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Ref(pub(crate) u32);
 
@@ -98,7 +98,7 @@ impl Value {
         !matches!(self, Value::List(_) | Value::Record(_) | Value::Function(_) | Value::View(_))
     }
 
-    /// JavaScript's `Number(v)` of a primitive value. NaN for other values, see [`crate::Heap::number`].
+    /// JavaScript's `Number(v)` of a primitive value. NaN for other values, see `Heap::number`.
     pub fn to_number(&self) -> f64 {
         match self {
             Value::Undefined => f64::NAN,
@@ -157,7 +157,7 @@ impl Value {
     }
 }
 
-/// JavaScript's `String(v)` of a primitive value. Only a description of other values, see [`crate::Heap::text`].
+/// JavaScript's `String(v)` of a primitive value. Only a description of other values, see `Heap::text`.
 impl fmt::Display for Value {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -23,7 +23,7 @@ pub struct Comparison {
     pub holds: bool,
 }
 
-/// The records of the runs in a [`crate::Context`], after it was passed to [`crate::Context::watch`].
+/// The records of the runs in a `Context`, after it was passed to `Context::watch`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Watch {
     /// The index of the comparison, in the order of evaluation, whose result is inverted.

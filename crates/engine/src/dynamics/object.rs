@@ -54,7 +54,7 @@ pub fn object_velocity(m: &Model, d: &Fields, kind: Obj, id: usize, local: bool)
 
 /// Angular and linear acceleration of an object (`mj_objectAcceleration`), rad/s² and m/s², as measured by an
 /// accelerometer: for an object at rest it is the acceleration of gravity, directed upwards. The axes are those of
-/// [`object_velocity`]. Requires [`rne_post_constraint`](crate::rne_post_constraint). Zero for objects that cannot
+/// [`object_velocity`]. Requires `rne_post_constraint`. Zero for objects that cannot
 /// move.
 pub fn object_acceleration(m: &Model, d: &Fields, kind: Obj, id: usize, local: bool) -> Spatial {
     let Some(f) = frame(m, d, kind as i32, id) else { return [0.0; 6] };

@@ -128,12 +128,12 @@ impl Default for Options {
 }
 
 impl Options {
-    /// Whether a part of the simulation is disabled; `bit` is one of [`crate::disable`].
+    /// Whether a part of the simulation is disabled; `bit` is one of `disable`.
     pub fn disabled(&self, bit: i32) -> bool {
         self.disableflags & bit != 0
     }
 
-    /// Whether an optional part is enabled; `bit` is one of [`crate::enable`].
+    /// Whether an optional part is enabled; `bit` is one of `enable`.
     pub fn enabled(&self, bit: i32) -> bool {
         self.enableflags & bit != 0
     }

@@ -74,7 +74,7 @@ pub fn write(m: &Model) -> Vec<u8> {
     out
 }
 
-/// Reads the bytes of [`write`]. `None` for any other bytes.
+/// Reads the bytes of [`write`](fn@write). `None` for any other bytes.
 pub fn read(bytes: &[u8]) -> Option<Model> {
     let (body, end) = bytes.split_last_chunk::<8>()?;
     if fingerprint(body) != u64::from_le_bytes(*end) {

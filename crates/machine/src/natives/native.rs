@@ -46,7 +46,7 @@ pub enum NativeResult {
 }
 
 /// How a method treats NaN, and `undefined` where it is relevant, among the elements of its receiver and its arguments
-/// ([`crate::Watch`]). An inspected NaN counts as lost, unless the result is NaN again.
+/// (`Watch`). An inspected NaN counts as lost, unless the result is NaN again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NanBehaviour {
     /// Elements and arguments determine the result, as in comparisons and conversions to strings.

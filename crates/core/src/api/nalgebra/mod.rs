@@ -4,7 +4,7 @@
 //!
 //! * Positions are in metres, in world axes. A rotation maps vectors from the axes of the object to those of the world.
 //! * Columns of Jacobians and of M are degrees of freedom, in the order of `qvel`; rows of Jacobians are the world axes x, y, z.
-//! * Derived fields belong to the last call that computed them. After [`step`](crate::step), they belong to the state before that
+//! * Derived fields belong to the last call that computed them. After [`step`](fn@crate::step), they belong to the state before that
 //!   step.
 //!   [`forward`](crate::forward) computes them for the current state.
 //! * A result that the plan of the data left out is [`Error::LeftOut`](crate::Error::LeftOut), which names the stage.
