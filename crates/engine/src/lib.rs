@@ -9,8 +9,6 @@
 #![recursion_limit = "256"]
 
 pub mod collision;
-#[cfg(test)]
-mod compiled;
 pub mod constraint;
 pub mod dynamics;
 pub mod forces;
@@ -21,3 +19,5 @@ pub mod model;
 pub mod query;
 pub mod sensor;
 pub mod step;
+#[cfg(test)]
+mod tests;

@@ -1,11 +1,11 @@
 //! Laws of the broad phase: what it finds does not depend on how it looks.
 
 use super::*;
-use crate::compiled::compile;
 use crate::dynamics::kinematics;
 use crate::model::Contact;
 use crate::step::reset::reset_data;
 use crate::step::workspace::Workspace;
+use crate::tests::compile;
 
 /// Free bodies of random shapes in a cube, on a plane. The shapes are written over compiled spheres.
 fn pile(bodies: usize, side: f64) -> Model {

@@ -188,9 +188,9 @@ impl Order {
 #[allow(clippy::unwrap_used)] // a test that fails says why
 mod tests {
     use super::{Order, RowGroup};
-    use crate::compiled::compile;
     use crate::step::step;
     use crate::step::workspace::Workspace;
+    use crate::tests::compile;
 
     /// Balls above each other on vertical slides have elliptic cones and no friction at all: extrapolated forces may lie below the apex, with
     /// no direction along the boundary. Sweeps find the same motion as Newton's method.

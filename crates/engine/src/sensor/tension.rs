@@ -49,9 +49,9 @@ fn inertial(m: &Model, d: &Fields, t: usize) -> f64 {
 #[allow(clippy::unwrap_used)] // a test that fails says why
 mod tests {
     use super::*;
-    use crate::compiled::compile;
     use crate::step::workspace::Workspace;
     use crate::step::{forward, step};
+    use crate::tests::compile;
 
     /// The second tendon, whose path begins with a pulley, has written its points over those of the first one, which sleeps.
     #[test]

@@ -1,8 +1,8 @@
 //! Bad numbers: what MuJoCo 3.14.0 counts, resets and goes on from, measured step by step.
 
 use super::*;
-use crate::compiled::compile;
 use crate::step::workspace::Workspace;
+use crate::tests::compile;
 
 /// A slide and a hinge with a motor each, after three steps.
 fn started(flag: &str) -> (Model, Workspace) {

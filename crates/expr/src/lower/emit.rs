@@ -1,7 +1,6 @@
 //! SsaProgram to code: names become registers, parameters of blocks become moves, and what nothing uses is left out. An
 //! operation whose result goes to a parameter puts it there itself where it can.
 
-
 use super::pure;
 use super::registers::{RegisterFile, order_moves};
 use crate::code::{MachineCode, MachineFunction, OPERATION};
