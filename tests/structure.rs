@@ -83,7 +83,7 @@ impl ModuleGraph {
                 if path.is_dir() {
                     folders.push((path, format!("{prefix}{name}::")));
                 } else if path.extension().is_some_and(|e| e == "rs") {
-                    let module = if name == "mod" || name == "lib" {
+                    let module = if name == "mod" || name == "lib" && prefix.is_empty() {
                         prefix.trim_end_matches("::").into()
                     } else {
                         format!("{prefix}{name}")

@@ -23,6 +23,8 @@ const ENDS: [&str; 10] = [
     "alloc::handle_alloc_error",
 ];
 
+const LIBRARIES: [&str; 3] = ["core::", "alloc::", "hashbrown::"];
+
 /// Where all functions but formatting never return.
 const MODULES: [&str; 2] = ["core::panicking::", "core::cell::panic_already_"];
 
@@ -41,7 +43,9 @@ fn path(name: &str) -> String {
 fn never_returns(name: &str) -> bool {
     let path = path(name);
     let path = path.split_once("::<").map_or(path.as_str(), |(before, _)| before);
-    MODULES.iter().any(|module| path.starts_with(module)) || ENDS.iter().any(|end| path.ends_with(end))
+    let library = LIBRARIES.iter().any(|library| path.trim_start_matches('<').starts_with(library));
+    MODULES.iter().any(|module| path.starts_with(module))
+        || library && ENDS.iter().any(|end| path.ends_with(end))
 }
 
 /// The constants that are handed last to functions that stop the module: addresses of places, as a rule.
@@ -150,6 +154,7 @@ mod tests {
         for name in [
             "std[1]::panicking::panic_count::is_zero_slow_path",
             "labspec_core::step::fail",
+            "labspec_core::assert_failed",
             "<core[4a1f]::panicking::AssertKind as core[4a1f]::fmt::Debug>::fmt",
         ] {
             assert!(!never_returns(name), "{name}");

@@ -12,8 +12,6 @@
 #![allow(rustdoc::private_intra_doc_links)]
 
 pub mod collision;
-#[cfg(test)]
-mod compiled;
 pub mod constraint;
 pub mod dynamics;
 pub mod forces;
@@ -24,3 +22,5 @@ pub mod model;
 pub mod query;
 pub mod sensor;
 pub mod step;
+#[cfg(test)]
+mod tests;

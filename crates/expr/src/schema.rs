@@ -90,7 +90,7 @@ pub enum FieldKind {
 /// The fields that a function of the host reads or writes.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum AccessedFields {
-    /// Nothing is known.
+    /// No information.
     #[default]
     Nothing,
     /// These fields.

@@ -177,7 +177,7 @@ fn above(plane: &Extent, other: &Extent, between: Vec3) -> f64 {
 #[allow(clippy::unwrap_used)] // a failing test prints the reason
 mod tests {
     use super::super::candidates::{Changes, candidate_pairs};
-    use crate::compiled::compile;
+    use crate::tests::compile;
 
     fn left(world: &str) -> usize {
         let m = compile(&format!("<mujoco><worldbody>{world}</worldbody></mujoco>")).unwrap();

@@ -1,11 +1,11 @@
 //! Properties of the broad phase: its result does not depend on the method.
 
 use super::*;
-use crate::compiled::compile;
 use crate::dynamics::kinematics;
 use crate::model::Contact;
 use crate::step::reset::reset_data;
 use crate::step::workspace::Workspace;
+use crate::tests::compile;
 
 /// Free bodies of random shapes in a cube, above a plane. The shapes replace compiled spheres.
 fn pile(bodies: usize, side: f64) -> Model {

@@ -192,9 +192,9 @@ impl Order {
 #[allow(clippy::unwrap_used)] // a failing test prints the reason
 mod tests {
     use super::{Order, RowGroup};
-    use crate::compiled::compile;
     use crate::step::step;
     use crate::step::workspace::Workspace;
+    use crate::tests::compile;
 
     /// Balls above each other on vertical slides have elliptic cones without any friction. Extrapolated forces can
     /// lie below the apex, where they have no direction along the boundary. The sweeps must find the same motion as

@@ -51,10 +51,10 @@ fn inertial(m: &Model, d: &Fields, t: usize) -> f64 {
 #[allow(clippy::unwrap_used)] // a failing test prints the reason
 mod tests {
     use super::*;
-    use crate::compiled::compile;
     use crate::model::asleep;
     use crate::step::workspace::Workspace;
     use crate::step::{forward, step};
+    use crate::tests::compile;
 
     /// The path of the second tendon begins with a pulley, and its points have overwritten those of the first tendon,
     /// which sleeps.

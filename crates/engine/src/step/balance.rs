@@ -90,8 +90,8 @@ fn servos(m: &Model, d: &mut Fields) -> Option<f64> {
 #[allow(clippy::unwrap_used)] // a test that fails says why
 mod tests {
     use super::*;
-    use crate::compiled::compile;
     use crate::step::workspace::Workspace;
+    use crate::tests::compile;
 
     /// The kinetic energy of bodies, armatures and tendons is ½ vᵀ M v, also if masses are written without recomputing constants.
     #[test]

@@ -116,9 +116,9 @@ pub fn read(bytes: &[u8]) -> Option<Model> {
 
 #[cfg(test)]
 mod tests {
-    use crate::compiled::compile;
     use crate::model::reflect::{self, Elem, Object};
     use crate::step::validate::validate;
+    use crate::tests::compile;
 
     const EVERYTHING: &str = "<mujoco>
         <asset><mesh name='m' vertex='0 0 0 1 0 0 0 1 0 0 0 1'/><hfield name='h' nrow='2' ncol='2' size='1 1 1 1'/></asset>

@@ -1,8 +1,8 @@
 //! Bad numbers: which warnings MuJoCo 3.14.0 counts, when it resets, and from which state it continues, measured step by step.
 
 use super::*;
-use crate::compiled::compile;
 use crate::step::workspace::Workspace;
+use crate::tests::compile;
 
 /// A model with a slide and a hinge, each with a motor, after three steps.
 fn started(flag: &str) -> (Model, Workspace) {

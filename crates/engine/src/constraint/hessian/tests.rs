@@ -1,6 +1,5 @@
 //! The layout of the Hessian, and its sums and solutions compared with computations entry by entry.
 
-use crate::compiled;
 use crate::constraint::jacobian::{HessianAccumulator, add_entries};
 use crate::constraint::six::Six;
 use crate::math::dot;
@@ -8,6 +7,7 @@ use crate::model::Model;
 use crate::step::forward::forward;
 use crate::step::step;
 use crate::step::workspace::Workspace;
+use crate::tests;
 use std::array::from_fn;
 use std::fmt::Write;
 
@@ -20,7 +20,7 @@ fn an_island_that_is_too_large_is_solved_without_its_hessian() {
         format!("<body pos='{at} {} 0'><freejoint/><geom size='0.3'/></body>", at * at)
     };
     let text: String = (0..200).map(ball).collect();
-    let m = compiled::compile(&format!("<mujoco><worldbody>{text}</worldbody></mujoco>")).unwrap();
+    let m = tests::compile(&format!("<mujoco><worldbody>{text}</worldbody></mujoco>")).unwrap();
     let Workspace { fields: mut d, scratch: mut s } = Workspace::new(&m);
     step(&m, &mut d, &mut s);
     assert_eq!((d.ncon, d.nisland), (200 * 199 / 2, 1));
@@ -37,7 +37,7 @@ fn boxes(list: impl Iterator<Item = (usize, [f64; 3], [f64; 3])>) -> Model {
             "<body name=\"b{i}\" pos=\"{x} {y} {z}\"><freejoint/><geom type=\"box\" size=\"{a} {b} {c}\"/></body>"
         );
     }
-    compiled::compile(&(text + "</worldbody></mujoco>")).unwrap()
+    tests::compile(&(text + "</worldbody></mujoco>")).unwrap()
 }
 
 fn blocks(m: &Model) -> (usize, Workspace) {
@@ -62,9 +62,8 @@ fn products_are_the_same_entry_by_entry() {
     fours.clear();
     let mut entries = fours.clone();
     let none = vec![0.0; d.M.len()];
-    let free = compiled::compile(
-        "<mujoco><worldbody><body><freejoint/><geom size='1'/></body></worldbody></mujoco>",
-    );
+    let free =
+        tests::compile("<mujoco><worldbody><body><freejoint/><geom size='1'/></body></worldbody></mujoco>");
     let six = || Six::new(free.as_ref().unwrap(), &none, 0);
     let (mut six_fours, mut six_entries) = (six(), six());
     // A weight matrix that is not symmetric.
@@ -118,7 +117,7 @@ fn a_plate_under_all_others_does_not_fill_the_matrix() {
 #[test]
 fn branches_meet_in_the_body_that_carries_them() {
     let twigs = "<body><joint/><geom size='0.1'/></body>".repeat(400);
-    let m = compiled::compile(&format!(
+    let m = tests::compile(&format!(
         "<mujoco><option><flag contact='disable'/></option><worldbody><body name='stem'><freejoint/><geom size='1'/>{twigs}</body>\
          </worldbody><equality><weld body1='stem'/></equality></mujoco>"
     ));

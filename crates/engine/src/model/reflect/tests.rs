@@ -5,7 +5,7 @@ use crate::step::workspace::Workspace;
 
 #[test]
 fn elements_are_those_of_views() {
-    let model = crate::compiled::compile(
+    let model = crate::tests::compile(
         "<mujoco><option timestep='0.003'/><statistic extent='4'/>
          <worldbody><body pos='0 0 1'><freejoint/><geom size='0.1'/></body></worldbody></mujoco>",
     );

@@ -1,11 +1,11 @@
 //! Compares states with those of MuJoCo 3.14.0, recorded by `golden/record.py`.
 
 use super::*;
-use crate::compiled::compile;
 use crate::model::reflect::Object;
 use crate::step::reset::{reset_data_keyframe, set_keyframe};
 use crate::step::step;
 use crate::step::workspace::Workspace;
+use crate::tests::compile;
 
 const MODEL: &str = include_str!("golden/everything.xml");
 

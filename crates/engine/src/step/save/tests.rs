@@ -1,7 +1,6 @@
 //! Saved data are restored completely or not at all.
 
 use super::*;
-use crate::compiled::compile;
 use crate::constraint::contact_force;
 use crate::dynamics::subtree::subtree_vel;
 use crate::model::plan::PlanTable;
@@ -10,6 +9,7 @@ use crate::step::analysis::AccessSet;
 use crate::step::forward::forward;
 use crate::step::inverse::inverse;
 use crate::step::{step, step1, step2};
+use crate::tests::compile;
 
 const PILE: &str = "<mujoco><option integrator='INTEGRATOR'/><worldbody><geom type='plane' size='1 1 1'/>
     <body pos='0 0 .1'><freejoint/><geom size='.1'/></body>

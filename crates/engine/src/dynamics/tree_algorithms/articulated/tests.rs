@@ -3,11 +3,11 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use super::*;
-use crate::compiled::compile;
 use crate::dynamics::tree_algorithms::{solve, solve_with};
 use crate::kinds::joint;
 use crate::step::forward::forward;
 use crate::step::workspace::Workspace;
+use crate::tests::compile;
 use proptest::prelude::*;
 
 /// A tree as MJCF. Each body is given by its parent, its joints (-1 for none, at most three hinges), and three

@@ -2,10 +2,10 @@
 
 use proptest::prelude::*;
 
-use crate::compiled::compile;
 use crate::dynamics::{mass, rne};
 use crate::step::forward::forward;
 use crate::step::workspace::Workspace;
+use crate::tests::compile;
 
 /// A link: whether it is a slide, axis, anchor, position and orientation of its body, whether a body is welded to it,
 /// whether the joint is an additional one of the previous body.
