@@ -22,6 +22,8 @@ export type SceneModel = Fields<
   /** Centre (3) and extent of the scene, m (`stat.center`, `stat.extent`). */
   readonly center: ArrayLike<number>;
   readonly extent: number;
+  /** Field of view of the free camera, degrees (`vis.global.fovy`); 45 when not given. */
+  readonly fovy?: number;
   /** Names of cameras, by id; empty where a camera has none. */
   readonly cameras: readonly string[];
   /** Textures, by id, where the model has them. */
