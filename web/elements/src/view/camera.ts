@@ -1,6 +1,6 @@
 /** Cameras, as MuJoCo's: the free camera, cameras of the model, a camera whose target follows a body. */
 import {
-  addScaled, at, dot, length, multiply, normalize, orthographic, perspective, rotationAt, row3, scale, sub, viewMatrix, type Mat4, type Vec3,
+  addScaled, at, dot, multiply, normalize, orthographic, perspective, rotationAt, row3, sub, viewMatrix, type Mat4, type Vec3,
 } from "./matrix.js";
 import type { CameraPose, SceneFrame, SceneModel } from "./types.js";
 
@@ -83,14 +83,6 @@ export function rayThrough(eye: Eye, aspect: number, u: number, v: number): Ray 
   return { from: eye.position, direction: normalize(addScaled(addScaled(eye.forward, eye.right, side), eye.up, height)) };
 }
 
-/** Where a point of the world appears: `u`, `v` as for `rayThrough`, and its distance in front of the camera. */
-export function project(eye: Eye, aspect: number, point: Vec3): [u: number, v: number, depth: number] {
-  const d = sub(point, eye.position);
-  const depth = dot(d, eye.forward);
-  const half = eye.halfHeight * (eye.isOrthographic ? 1 : depth);
-  return [dot(d, eye.right) / (half * aspect), dot(d, eye.up) / half, depth];
-}
-
 /** The point of a ray in the plane through `through` that faces the camera. */
 export function pointFacing(eye: Eye, ray: Ray, through: Vec3): [number, number, number] {
   const t = dot(sub(through, ray.from), eye.forward) / dot(ray.direction, eye.forward);
@@ -100,14 +92,3 @@ export function pointFacing(eye: Eye, ray: Ray, through: Vec3): [number, number,
 
 /** Distance from the eye to a point along the view, for sorting. */
 export const depthOf = (eye: Eye, point: Vec3): number => dot(sub(point, eye.position), eye.forward);
-
-/** Metres per pixel at a point of a picture of this height. */
-export function metresPerPixel(eye: Eye, point: Vec3, height: number): number {
-  return (2 * eye.halfHeight * (eye.isOrthographic ? 1 : Math.max(eye.near, depthOf(eye, point)))) / height;
-}
-
-/** Distance of the eye from the middle of the scene. */
-export const distanceTo = (eye: Eye, point: Vec3): number => length(sub(point, eye.position));
-
-/** Opposite of the direction of view. */
-export const backward = (eye: Eye): Vec3 => scale(eye.forward, -1);

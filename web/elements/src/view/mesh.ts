@@ -64,7 +64,7 @@ export function hfieldShape(m: SceneModel, id: number): Shape {
   for (let r = 0; r + 1 < rows; r++) {
     for (let c = 0; c + 1 < columns; c++) {
       const a = r * columns + c, b = a + columns;
-      indices.push(a, a + 1, b, b, a + 1, b + 1);
+      indices.push(a, a + 1, b + 1, a, b + 1, b);
     }
   }
   const wall = (n: Vec3, points: Vec3[]): void => {

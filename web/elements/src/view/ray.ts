@@ -103,7 +103,7 @@ function rayHfield(ray: Ray, m: SceneModel, id: number): number {
   for (let r = 0; r + 1 < rows; r++) {
     for (let c = 0; c + 1 < columns; c++) {
       const [p, q, s, t] = [point(r, c), point(r, c + 1), point(r + 1, c), point(r + 1, c + 1)];
-      best = Math.min(best, rayTriangle(ray, p, q, s), rayTriangle(ray, s, q, t));
+      best = Math.min(best, rayTriangle(ray, p, q, t), rayTriangle(ray, p, t, s));
     }
     wall(point(r, 0), point(r + 1, 0));
     wall(point(r, columns - 1), point(r + 1, columns - 1));
