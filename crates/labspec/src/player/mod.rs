@@ -3,6 +3,7 @@
 //! The order of events is that of [`Session`]; a call does what a student can do on the page, and nothing else. No call panics,
 //! whatever it is given: what cannot be done is an [`Error`], and what breaks while the lab plays is a [`Finding`].
 
+mod applied_force;
 mod control;
 mod displayed;
 mod load;
@@ -70,6 +71,16 @@ impl Player {
     /// The same as numbers; NaN for what is none.
     pub fn numbers(&self) -> &[f64] {
         &self.now.numbers
+    }
+
+    /// What each readout shows now, as the page prints it.
+    pub fn readout_texts(&self) -> Vec<String> {
+        let all = self.displayed.iter().zip(&self.now.cells);
+        let text = |(shown, cell): (&DisplayedValue, &Cell)| match shown.place {
+            DisplayedIn::Readout(digits) => Some(cell.rounded(digits)),
+            DisplayedIn::Plot(_) => None,
+        };
+        all.filter_map(text).collect()
     }
 
     /// Where a control stands; `None` when there is no such control, `undefined` for a button.
