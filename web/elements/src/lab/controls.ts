@@ -1,7 +1,7 @@
 /** Sliders, selects and buttons of a lab, as native controls. */
 import type { Control, ControlValue } from "labspec/slim";
 import { h, setText, uniqueId } from "../dom.js";
-import { formatNumber } from "../text/numbers.js";
+import { formatNumber, formatUnit } from "../text/numbers.js";
 
 export interface ControlPanel {
   readonly elements: readonly HTMLElement[];
@@ -42,7 +42,7 @@ function createControl(control: Control, actions: ControlActions): Part {
 
 /** A value with its unit. */
 export function formatControl(control: Control, value: number): string {
-  const unit = control.unit ?? "";
+  const unit = formatUnit(control.unit ?? "");
   return `${formatNumber(value, control.digits ?? 3).replace("-", "−")}${unit === "" ? "" : `\u202f${unit}`}`;
 }
 

@@ -29,7 +29,7 @@ export function layOut(parts: LabParts): HTMLElement {
   const controls = hasControls ? h("div", { class: "controls", part: "controls", role: "group", "aria-label": say("controls") }, ...parts.controls, buttons) : null;
   const side = controls !== null || parts.readouts !== null ? h("div", { class: "side" }, controls, parts.readouts) : null;
   const plots = parts.plots.length > 0 ? h("div", { class: "plots", part: "plots" }, ...parts.plots) : null;
-  const stage = h("div", { class: "stage" }, parts.view, parts.viewBar, parts.toolbar);
+  const stage = h("div", { class: "stage" }, parts.view, parts.toolbar, parts.viewBar);
   const wrong = parts.findings.filter((finding) => finding.severity === "error");
   return h("article", { class: spec.dock ? "lab dock" : "lab", part: "lab", "aria-label": parts.title },
     head, h("div", { class: "body" }, stage, side), plots, parts.note, ...parts.spoken, wrong.length > 0 && findingsList(wrong, say));

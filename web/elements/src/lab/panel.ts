@@ -104,7 +104,7 @@ export async function openPanel(spec: LabSpec, models: Models, state: Uint8Array
   };
   const save = (): Promise<Uint8Array> => remote.ask("save");
   const toolbar = createToolbar(
-    { speeds: spec.speeds, timestep: opened.timestep, hasLargeSteps: wantsNoMotion, hasPicture: viewport.isDrawn }, say, {
+    { speeds: spec.speeds, timestep: opened.timestep, hasLargeSteps: wantsNoMotion, hasPicture: viewport.isDrawn, first: viewBar.bodies }, say, {
       toggle: () => (player.isPlaying ? player.pause() : player.play()),
       step: () => {
         player.pause();

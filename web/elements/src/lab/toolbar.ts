@@ -30,6 +30,8 @@ export interface ToolbarOptions {
   /** Whether larger steps get a button: for readers who want no motion. */
   readonly hasLargeSteps: boolean;
   readonly hasPicture: boolean;
+  /** What stands first in the menu. */
+  readonly first: HTMLElement | null;
 }
 
 export function createToolbar(options: ToolbarOptions, say: Say, actions: ToolbarActions): Toolbar {
@@ -52,7 +54,7 @@ export function createToolbar(options: ToolbarOptions, say: Say, actions: Toolba
     button("reset", say("reset"), actions.reset),
     createSpeeds(options.speeds, say, actions),
     time,
-    createMenu(options.hasPicture, say, actions),
+    createMenu(options, say, actions),
     slow,
   );
   return {
@@ -82,7 +84,7 @@ function createSpeeds(speeds: readonly number[], say: Say, actions: ToolbarActio
   return h("span", { class: "speeds" }, h("label", { for: id, class: "hidden" }, say("speed")), select);
 }
 
-function createMenu(hasPicture: boolean, say: Say, actions: ToolbarActions): HTMLElement {
+function createMenu({ hasPicture, first }: ToolbarOptions, say: Say, actions: ToolbarActions): HTMLElement {
   const details = h("details", { class: "menu" }, h("summary", { "aria-label": say("more"), title: say("more") }, icon("more")));
   const file = h("input", { type: "file", accept: ".json,application/json", hidden: true, tabindex: -1, "aria-label": say("openState") });
   const item = (text: string, act: () => void): HTMLElement => {
@@ -106,7 +108,7 @@ function createMenu(hasPicture: boolean, say: Say, actions: ToolbarActions): HTM
   details.addEventListener("focusout", (event) => {
     if (event.relatedTarget instanceof Node && !details.contains(event.relatedTarget)) details.open = false;
   });
-  details.append(h("div", { class: "menu-list" },
+  details.append(h("div", { class: "menu-list" }, first,
     item(say("copyLink"), actions.copyLink), item(say("saveState"), actions.saveState), item(say("openState"), () => file.click()),
     hasPicture && item(say("savePicture"), actions.savePicture)), file);
   return details;

@@ -1,4 +1,4 @@
-/** Below the picture: what is drawn over the scene, through which camera, and a body to drag by keys. */
+/** What is drawn over the scene and through which camera, below the picture; a body to drag by keys, in the menu. */
 import { h, uniqueId } from "../dom.js";
 import type { Opened } from "../engine/messages.js";
 import type { LabSpec } from "../spec.js";
@@ -7,11 +7,14 @@ import type { Viewport } from "./viewport.js";
 
 export interface ViewBar {
   readonly element: HTMLElement | null;
+  /** The choice of a body to drag. */
+  readonly bodies: HTMLElement | null;
   /** No body is held by keys any more. */
   showReleased(): void;
 }
 
 export function createViewBar(opened: Opened, spec: LabSpec, viewport: Viewport, say: Say): ViewBar {
+  if (!viewport.isDrawn) return { element: null, bodies: null, showReleased: () => undefined };
   const toggles = spec.toggles.map((overlay) => {
     const box = h("input", { type: "checkbox" });
     box.checked = viewport.overlay(overlay);
@@ -21,9 +24,9 @@ export function createViewBar(opened: Opened, spec: LabSpec, viewport: Viewport,
   const group = toggles.length > 0 ? h("fieldset", { class: "toggles" }, h("legend", { class: "hidden" }, say("overlays")), ...toggles) : null;
   const camera = createCameras(opened, viewport, say);
   const bodies = createBodies(opened, viewport, say);
-  const parts = [group, camera, bodies?.element ?? null].filter((part) => part !== null);
   return {
-    element: parts.length > 0 && viewport.isDrawn ? h("div", { class: "view-bar", part: "view-bar" }, ...parts) : null,
+    element: group !== null || camera !== null ? h("div", { class: "view-bar", part: "view-bar" }, group, camera) : null,
+    bodies: bodies?.element ?? null,
     showReleased: () => bodies?.clear(),
   };
 }

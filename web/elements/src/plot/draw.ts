@@ -42,7 +42,7 @@ export function drawPlot(
   context.font = `${FONT_SIZE}px ${look.font}`;
   const times = timeRange(series, spec.window);
   const values = valueRange(series, spec, times);
-  const spacing = tickSpacing(values, Math.max(2, Math.floor((height - 26) / 34)));
+  const spacing = tickSpacing(values, Math.max(2, Math.floor((height - 26) / 26)));
   const marks = ticks(values, spacing).map((y) => [y, formatTick(y, spacing)] as const);
   const left = Math.ceil(Math.max(20, ...marks.map(([, text]) => context.measureText(text).width))) + 8;
   const area: PlotArea = { left, top: 6, width: Math.max(10, width - left - 8), height: Math.max(10, height - 26), times, values };

@@ -15,6 +15,8 @@ export interface Card {
 export interface CardContext {
   readonly number: number;
   readonly count: number;
+  /** A name of the question that no other one of the page has. */
+  readonly name: string;
   readonly say: Say;
   readonly stored: Stored | null;
   /** An answer was given: kept, and told to the page. */

@@ -87,14 +87,15 @@ export function createChoice(question: ChoiceQuestion, context: CardContext, mod
     [tries, isRight, isDone] = [before.tries, isRightChoice(question, before.choice), before.isDone];
     if (!isDone) return;
     lock();
-    if (isPredict && question.sim !== null) parts.verdict.before(createLab(question.sim, models));
+    if (isPredict && question.sim !== null) parts.verdict.before(createLab(question.sim, models, context));
     conclude(before.choice);
   }
   return { element: parts.element, isGraded: true, get isRight() { return isRight; } };
 }
 
-function createLab(sim: Json, models: Models | null): SimLab {
+function createLab(sim: Json, models: Models | null, { name }: CardContext): SimLab {
   const lab = new SimLab();
+  lab.id = name;
   // The prediction is over: the lab shows what happens.
   lab.lab = { ...sim, autoplay: false };
   if (models !== null) lab.models = models;
@@ -102,8 +103,9 @@ function createLab(sim: Json, models: Models | null): SimLab {
 }
 
 /** Shows the lab, plays it, and concludes when it is over or when the reader wants it. */
-function watchLab(sim: Json, models: Models | null, parts: { verdict: HTMLElement }, { say }: CardContext, conclude: (evidence: Node[]) => void): void {
-  const lab = createLab(sim, models);
+function watchLab(sim: Json, models: Models | null, parts: { verdict: HTMLElement }, context: CardContext, conclude: (evidence: Node[]) => void): void {
+  const { say } = context;
+  const lab = createLab(sim, models, context);
   const show = h("button", { type: "button" }, say("showVerdict"));
   parts.verdict.before(lab);
   parts.verdict.replaceChildren(h("div", { class: "watch" }, h("p", {}, say("running")), show));

@@ -82,7 +82,7 @@ export class LessonQuiz extends HTMLElement {
         continue;
       }
       const context: CardContext = {
-        number: index + 1, count: spec.questions.length, say, stored: loadAnswer(keep, index),
+        number: index + 1, count: spec.questions.length, name: `${spec.id}.${index + 1}`, say, stored: loadAnswer(keep, index),
         answered: (answer) => {
           storeAnswer(keep, index, answer);
           const given = question.kind === "numeric" || question.kind === "open" || question.kind === "code" ? answer.text : answer.choice;

@@ -39,3 +39,10 @@ export function parseTyped(text: string, unit: string): number | null {
   const value = Number(rest);
   return Number.isFinite(value) ? value : null;
 }
+
+const RAISED: Readonly<Record<string, string>> = { "0": "⁰", "1": "¹", "2": "²", "3": "³", "4": "⁴", "5": "⁵", "6": "⁶", "7": "⁷", "8": "⁸", "9": "⁹", "-": "⁻" };
+
+/** A unit for readers: `m/s^2` with its exponent raised. */
+export function formatUnit(unit: string): string {
+  return unit.replace(/\^(-?\d+)/g, (_, exponent: string) => [...exponent].map((digit) => RAISED[digit] ?? digit).join(""));
+}

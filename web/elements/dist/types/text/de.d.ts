@@ -1,0 +1,3 @@
+import type { Messages } from "./en.js";
+/** The texts of the elements in German. */
+export declare const german: Messages;
