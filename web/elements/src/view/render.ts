@@ -3,7 +3,7 @@ import { projectionOf, type Eye } from "./camera.js";
 import type { SharedContext } from "./context.js";
 import type { Geometry } from "./geometry.js";
 import { UNIT, type Gpu, type Program } from "./gpu.js";
-import { INSTANCE_SIZE, LAYER, LINE_SIZE, type Color, type DrawList, type Run } from "./instances.js";
+import { INSTANCE_SIZE, LAYER, LINE_SIZE, type DrawList, type Run } from "./instances.js";
 import { SHADOW_SIZE, type Lights } from "./lights.js";
 import { scale, type Mat4 } from "./matrix.js";
 
@@ -14,9 +14,8 @@ export interface Picture {
   readonly list: DrawList;
   readonly lights: Lights;
   readonly geometry: Geometry;
-  /** Distance of grid lines; where infinite planes begin to fade, and end; m. */
-  readonly grid: readonly [cell: number, near: number, far: number];
-  readonly gridColor: Color;
+  /** Distance of grid lines; where infinite planes begin to fade, and end, m; opacity of the lines. */
+  readonly grid: readonly [cell: number, near: number, far: number, opacity: number];
   readonly hiddenAlpha: number;
   /** Device pixels of a CSS pixel. */
   readonly density: number;
@@ -78,8 +77,7 @@ function setSurface(gpu: Gpu, p: Picture, projection: Mat4): void {
   gl.uniform1i(uniform("u_texture"), UNIT.image);
   gl.uniform1i(uniform("u_cube"), UNIT.cube);
   gl.uniform1i(uniform("u_shadow"), UNIT.shadow);
-  gl.uniform4f(uniform("u_grid"), p.grid[0], p.grid[1], p.grid[2], 0);
-  gl.uniform4fv(uniform("u_gridColor"), p.gridColor);
+  gl.uniform4fv(uniform("u_grid"), p.grid);
   bind(gpu, UNIT.shadow, gl.TEXTURE_2D, gpu.shadowTexture);
 }
 

@@ -46,8 +46,8 @@ function colorOf(m: SceneModel, rgba: ArrayLike<number>, id: number, material: n
   return isDefault && material >= 0 ? { color: read(m.mat_rgba, material), isDefault: false } : { color: own, isDefault };
 }
 
-/** Material `id`; `size` is that of the element, for textures that cover it. */
-function materialOf(m: SceneModel, id: number, size: Vec3, isMesh: boolean): Material {
+/** Material `id` of an element of this type; a plane without end has no size that a texture could cover. */
+function materialOf(m: SceneModel, id: number, type: number, isEndless = false): Material {
   if (id < 0) return PLAIN;
   const texture = m.mat_texid[TEXTURE_ROLES * id + ROLE_RGB] ?? -1;
   const image = texture < 0 ? undefined : m.textures?.[texture];
@@ -55,13 +55,10 @@ function materialOf(m: SceneModel, id: number, size: Vec3, isMesh: boolean): Mat
     emission: at(m.mat_emission, id), specular: at(m.mat_specular, id), shininess: at(m.mat_shininess, id), reflectance: at(m.mat_reflectance, id),
   };
   if (!image) return { ...PLAIN, ...plain };
-  const isUniform = at(m.mat_texuniform, id) !== 0;
-  const repeat = (axis: 0 | 1): number => {
-    const n = at(m.mat_texrepeat, 2 * id + axis);
-    return isUniform || size[axis] <= 0 ? n : n / (2 * size[axis]);
-  };
-  const textureMode = image.type !== 0 ? TEXTURE_MODE.cube : isMesh ? TEXTURE_MODE.mesh : TEXTURE_MODE.flat;
-  return { ...plain, texture, textureMode, repeat: [repeat(0), repeat(1)] };
+  const hasCoordinates = type === GEOM.mesh || type === GEOM.sdf || type === GEOM.hfield;
+  const flatMode = hasCoordinates ? TEXTURE_MODE.mesh : isEndless ? TEXTURE_MODE.endless : TEXTURE_MODE.box;
+  const textureMode = (image.type === 0 ? flatMode : TEXTURE_MODE.cube) | (at(m.mat_texuniform, id) !== 0 ? TEXTURE_MODE.uniform : 0);
+  return { ...plain, texture, textureMode, repeat: [at(m.mat_texrepeat, 2 * id), at(m.mat_texrepeat, 2 * id + 1)] };
 }
 
 /** How far an infinite plane is drawn, m. */
@@ -75,14 +72,17 @@ function planeInstance(m: SceneModel, f: SceneFrame, id: number, eye: Eye, palet
   const seen = unrotate(rotation, sub(eye.position, origin));
   const reach = planeReach(m, eye);
   const isInfinite = size[0] <= 0 || size[1] <= 0;
-  // The shader draws grid and texture in the frame of the quad: it moves by whole cells.
-  const step = 10 * gridCell(m);
-  const snap = (x: number): number => Math.round(x / step) * step;
-  const middle: Vec3 = [size[0] > 0 ? 0 : snap(seen[0]), size[1] > 0 ? 0 : snap(seen[1]), 0];
-  const pattern = (matid < 0 ? PATTERN.grid : PATTERN.plain) | (isInfinite ? PATTERN.fading : 0);
+  const material = materialOf(m, matid, GEOM.plane, isInfinite);
+  // The shader draws grid and texture in the frame of the quad, which therefore moves by whole cells.
+  const snap = (x: number, axis: 0 | 1): number => {
+    const step = material.texture < 0 ? 10 * gridCell(m) : 2 / Math.max(material.repeat[axis], 1e-3);
+    return Math.round(x / step) * step;
+  };
+  const middle: Vec3 = [size[0] > 0 ? 0 : snap(seen[0], 0), size[1] > 0 ? 0 : snap(seen[1], 1), 0];
+  const pattern = (material.texture < 0 ? PATTERN.grid : PATTERN.plain) | (isInfinite ? PATTERN.fading : 0);
   return {
     shape: "plane", position: add(origin, rotate(rotation, middle)), rotation, scale: [size[0] > 0 ? size[0] : reach, size[1] > 0 ? size[1] : reach, 1],
-    color: isDefault ? palette.floor : color, material: materialOf(m, matid, size, false), pattern, layer: LAYER.plane,
+    color: isDefault ? palette.floor : color, material, pattern, layer: LAYER.plane,
   };
 }
 
@@ -114,9 +114,8 @@ export function pushGeoms(list: DrawList, m: SceneModel, f: SceneFrame, names: G
     const { color } = colorOf(m, m.geom_rgba, id, matid);
     if (!shape || color[3] <= 0) continue;
     const position = row3(f.geom_xpos, id), isOpaque = color[3] >= 1;
-    const isMesh = at(m.geom_type, id) === GEOM.mesh && at(m.mesh_texcoordnum, m.geom_dataid[id] ?? -1) > 0;
     list.push({
-      ...shape, position, rotation: rotationAt(f.geom_xmat, id), color, material: materialOf(m, matid, row3(m.geom_size, id), isMesh),
+      ...shape, position, rotation: rotationAt(f.geom_xmat, id), color, material: materialOf(m, matid, at(m.geom_type, id)),
       layer: isOpaque ? LAYER.opaque : LAYER.transparent, depth: depthOf(eye, position), castsShadow: isOpaque,
     });
   }
@@ -125,12 +124,12 @@ export function pushGeoms(list: DrawList, m: SceneModel, f: SceneFrame, names: G
 export function pushSites(list: DrawList, m: SceneModel, f: SceneFrame, eye: Eye): void {
   for (let id = 0; id < m.site_type.length; id++) {
     if (!isVisible(m.site_group, id)) continue;
-    const size = row3(m.site_size, id), matid = m.site_matid[id] ?? -1;
+    const type = at(m.site_type, id), matid = m.site_matid[id] ?? -1;
     const { color } = colorOf(m, m.site_rgba, id, matid);
     if (color[3] <= 0) continue;
     const position = row3(f.site_xpos, id);
     list.push({
-      ...primitive(at(m.site_type, id), size), position, rotation: rotationAt(f.site_xmat, id), color, material: materialOf(m, matid, size, false),
+      ...primitive(type, row3(m.site_size, id)), position, rotation: rotationAt(f.site_xmat, id), color, material: materialOf(m, matid, type),
       layer: color[3] >= 1 ? LAYER.overlay : LAYER.transparent, depth: depthOf(eye, position),
     });
   }

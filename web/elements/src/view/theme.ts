@@ -4,9 +4,9 @@ import type { Color } from "./instances.js";
 export interface Palette {
   /** CSS colour behind the scene; null where the page is seen. */
   readonly background: string | null;
-  /** Planes without a material, and the lines on planes. */
+  /** Planes without a colour, and the opacity of the lines on planes. */
   readonly floor: Color;
-  readonly grid: Color;
+  readonly grid: number;
   readonly axes: readonly [Color, Color, Color];
   readonly contact: Color;
   readonly force: Color;
@@ -24,10 +24,10 @@ export interface Palette {
   readonly ground: readonly [number, number, number];
 }
 
-/** A colour as `#rrggbb`, with its opacity. */
-function hex(text: string, alpha = 1): Color {
+/** A colour as `#rrggbb`. */
+function hex(text: string): Color {
   const n = Number.parseInt(text.slice(1), 16);
-  return [((n >> 16) & 255) / 255, ((n >> 8) & 255) / 255, (n & 255) / 255, alpha];
+  return [((n >> 16) & 255) / 255, ((n >> 8) & 255) / 255, (n & 255) / 255, 1];
 }
 
 const COMMON = {
@@ -35,18 +35,18 @@ const COMMON = {
 } as const;
 
 const LIGHT = {
-  ...COMMON, floor: hex("#e3e7ea"), grid: hex("#5b6670", 0.5), contact: hex("#0ca678"), force: hex("#f76707"), joint: hex("#7048e8"),
+  ...COMMON, floor: hex("#e3e7ea"), grid: 0.3, contact: hex("#0ca678"), force: hex("#f76707"), joint: hex("#7048e8"),
   com: hex("#fab005"), camera: hex("#1971c2"), trail: hex("#d6336c"), drag: hex("#e8590c"),
 };
 
 const DARK = {
-  ...COMMON, floor: hex("#3a4149"), grid: hex("#c3ccd6", 0.35), contact: hex("#38d9a9"), force: hex("#ff922b"), joint: hex("#b197fc"),
+  ...COMMON, floor: hex("#3a4149"), grid: 0.3, contact: hex("#38d9a9"), force: hex("#ff922b"), joint: hex("#b197fc"),
   com: hex("#ffd43b"), camera: hex("#74c0fc"), trail: hex("#f783ac"), drag: hex("#ffc078"), sky: [0.34, 0.36, 0.4], ground: [0.15, 0.15, 0.16],
 } as const;
 
 const CONTRAST = { lineWidth: 3, hiddenAlpha: 0.6 } as const;
-const CONTRAST_LIGHT = { ...CONTRAST, grid: hex("#000000", 0.9), force: hex("#c92a2a"), contact: hex("#005f40"), trail: hex("#a61e4d"), camera: hex("#0b4884") };
-const CONTRAST_DARK = { ...CONTRAST, grid: hex("#ffffff", 0.85), force: hex("#ffd43b"), contact: hex("#63e6be"), trail: hex("#ffdeeb"), camera: hex("#d0ebff") };
+const CONTRAST_LIGHT = { ...CONTRAST, grid: 1, force: hex("#c92a2a"), contact: hex("#005f40"), trail: hex("#a61e4d"), camera: hex("#0b4884") };
+const CONTRAST_DARK = { ...CONTRAST, grid: 1, force: hex("#ffd43b"), contact: hex("#63e6be"), trail: hex("#ffdeeb"), camera: hex("#d0ebff") };
 
 /** Brightness of a CSS colour, from 0 to 1, as the browser reads it; null where it is no colour or transparent. */
 export function brightness(color: string): number | null {

@@ -215,7 +215,7 @@ export class SceneView implements View, Client {
     fitCanvas(context, width, height);
     drawPicture(context, {
       width, height, eye, list: this.#list, lights: collectLights(m, frame, eye, this.#palette, this.overlays.shadows), geometry: this.#geometry,
-      grid: [gridCell(m), 0.15 * reach, 0.8 * reach], gridColor: this.#palette.grid, hiddenAlpha: this.#palette.hiddenAlpha, density,
+      grid: [gridCell(m), 0.15 * reach, 0.8 * reach, this.#palette.grid], hiddenAlpha: this.#palette.hiddenAlpha, density,
     });
     target.clearRect(0, 0, width, height);
     if (this.#palette.background !== null) {

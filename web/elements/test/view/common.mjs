@@ -75,7 +75,7 @@ export async function openPage(scale = 1) {
   return { page, errors, stop: async () => { await browser.close(); server.close(); } };
 }
 
-/** Functions of the page: a view of a recorded scene, and the pixels of its canvas. */
+/** Functions of the page: a view of a recorded scene, and the pixels of its canvas (base64). */
 function helpers() {
   globalThis.show = (recordedScene, { width = 320, height = 240, theme = null, edit = null, ...options } = {}) => {
     const scene = globalThis.decode(recordedScene);
@@ -91,5 +91,10 @@ function helpers() {
     view.draw();
     return { canvas, view, scene };
   };
-  globalThis.read = canvas => Array.from(canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data);
+  globalThis.read = canvas => {
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    let text = "";
+    for (let i = 0; i < data.length; i += 8192) text += String.fromCharCode(...data.subarray(i, i + 8192));
+    return btoa(text);
+  };
 }

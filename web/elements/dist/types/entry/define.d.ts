@@ -1,9 +1,0 @@
-import { render } from "./widget.js";
-export { EngineError } from "../engine/client.js";
-export { SimLab } from "../lab/element.js";
-export { LessonQuiz } from "../quiz/element.js";
-export { hashAnswer } from "../quiz/hash.js";
-export { addLanguage } from "../text/messages.js";
-export { render };
-/** Defines both elements. */
-export declare function defineElements(): void;
