@@ -1,7 +1,9 @@
 // Pictures in Chromium: the same silhouettes as MuJoCo's renderer, lights, overlays, themes, sizes.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { NAMES, openPage, pixels, recorded, scene, SIZE } from "./common.mjs";
+import { modules, NAMES, openPage, pixels, poseOf, recorded, scene, SIZE } from "./common.mjs";
+
+const { placeEye, rayGeom, rayThrough } = await modules("ray", "camera");
 
 const [WIDTH, HEIGHT] = SIZE;
 let chromium;
@@ -50,9 +52,16 @@ function neighbours(ids, x, y, distance) {
   return near;
 }
 
+/** Whether two surfaces are in one place at a pixel: either may be seen. */
+function isCoplanar({ model, frame, camera }, x, y) {
+  const eye = placeEye(poseOf(camera), model, frame), ray = rayThrough(eye, WIDTH / HEIGHT, (2 * x + 1) / WIDTH - 1, 1 - (2 * y + 1) / HEIGHT);
+  const [first, second] = Array.from(model.geom_type, (_, id) => rayGeom(model, frame, id, ray)).sort((a, b) => a - b);
+  return second - first < 1e-4 * model.extent;
+}
+
 for (const name of NAMES) {
   test(`silhouettes of every geom are MuJoCo's to a pixel: ${name}`, async () => {
-    const { model, seen } = scene(name), ids = pixels(seen), rgba = await picture(name, { edit: painted(model) });
+    const recording = scene(name), { model, seen } = recording, ids = pixels(seen), rgba = await picture(name, { edit: painted(model) });
     const isPlane = id => id >= 0 && model.geom_type[id] === 0;
     const wrong = [];
     let drawn = 0;
@@ -67,12 +76,12 @@ for (const name of NAMES) {
         const isMixed = [r, g, b, a].some(c => c > 20 && c < 235);
         const fits = id => (id < 0 ? found === null : found?.join() === colorOf(id).join());
         if (ids[at] >= 0) drawn++;
-        if (isMixed ? new Set(neighbours(ids, x, y, 2)).size === 1 : !near.some(fits)) wrong.push(`(${x}, ${y}): ${[r, g, b, a]}, MuJoCo ${ids[at]}`);
+        const isWrong = isMixed ? new Set(neighbours(ids, x, y, 2)).size === 1 : !near.some(fits);
+        if (isWrong && ![x - 1, x, x + 1].some(u => isCoplanar(recording, u, y))) wrong.push(`(${x}, ${y}): ${[r, g, b, a]}, MuJoCo ${ids[at]}`);
       }
     }
-    // Coplanar faces of the gripper's pads show either.
-    const allowed = name.startsWith("gripper") ? 700 : 0;
-    assert.ok(wrong.length <= allowed, `${wrong.length} pixels: ${wrong.slice(0, 4).join("; ")}`);
+    // Where two balls meet, MuJoCo's are coarser.
+    assert.ok(wrong.length <= 2, `${wrong.length} pixels: ${wrong.slice(0, 4).join("; ")}`);
     assert.ok(drawn > 100 || name === "cameras", `${drawn} pixels`);
   });
 }
