@@ -37,12 +37,12 @@ export function layOut(parts: LabParts): HTMLElement {
 
 /** What the engine found wrong in a lab that runs nevertheless. */
 function findingsList(findings: readonly Finding[], say: Say): HTMLElement {
-  return h("details", { class: "findings", part: "findings" }, h("summary", {}, say("findings")), ...findings.map(findingText));
+  return h("details", { class: "findings", part: "findings", open: true }, h("summary", {}, say("findings")), ...findings.map(findingText));
 }
 
 export function findingText(finding: Finding): HTMLElement {
   const place = finding.line === null ? finding.file : `${finding.file}, ${finding.line}:${finding.column ?? 1}`;
-  return h("p", { class: "finding" }, h("code", {}, place), ` ${finding.message}`, finding.help !== null && h("span", { class: "help" }, ` ${capital(finding.help)}.`));
+  return h("p", { class: "finding" }, h("code", {}, place), ` ${capital(finding.message)}.`, finding.help !== null && h("span", { class: "help" }, ` ${capital(finding.help)}.`));
 }
 
 /** A lab that cannot run says why. */

@@ -1,0 +1,214 @@
+// <sim-lab> in Chromium: opened, played, moved, dragged, saved, broken.
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import test, { after } from "node:test";
+import { Lab } from "labspec";
+import { drop, dropLab, labOf, launch, opened, pageOf, repository, serve, watchErrors } from "./site.mjs";
+
+const server = await serve({
+  "/drop.html": pageOf(labOf(dropLab, { models: { drop } })),
+  "/frozen.html": pageOf(labOf({ ...dropLab, stopAt: 0.5, autoplay: true }, { models: { drop } })),
+  "/empty.html": pageOf("<sim-lab></sim-lab>"),
+  "/broken.html": pageOf(`${labOf({ model: "drop", readouts: [{ label: "x", expr: "data.joint('fal').qpos[2]" }] }, { id: "a", models: { drop } })}
+    <sim-lab id="b"><script type="application/json">{"model": }</script></sim-lab><sim-lab id="c" src="/nowhere.json"></sim-lab>
+    ${labOf({ model: "none" }, { id: "d" })}${labOf({ xml: "<mujoco><worldbody><geom size='x'/></worldbody></mujoco>" }, { id: "e" })}`),
+  "/late.html": pageOf("<p>Nothing yet.</p>"),
+});
+const browser = await launch();
+after(async () => {
+  await browser.close();
+  server.close();
+});
+
+/** A page with its errors, closed after the test. */
+async function open(t, path, options = {}) {
+  const context = await browser.newContext(options);
+  t.after(() => context.close());
+  const page = await context.newPage();
+  const errors = watchErrors(page);
+  await page.goto(server.url + path);
+  return { page, errors, lab: page.locator("sim-lab").first() };
+}
+
+const outputs = (page) => page.locator(".readout output").allTextContents();
+
+test("a lab is opened, played, stepped and reset", async (t) => {
+  const { page, errors } = await open(t, "/drop.html");
+  await opened(page);
+  assert.deepEqual(await outputs(page), ["1.000", "free"]);
+  await page.getByRole("button", { name: "Play" }).click();
+  await page.getByRole("button", { name: "Pause" }).waitFor();
+  await page.waitForFunction(() => document.querySelector("sim-lab").time > 0.6);
+  await page.getByRole("button", { name: "Pause" }).click();
+  assert.equal((await outputs(page))[1], "touching");
+  await page.waitForFunction(() => /bob touches floor|ball touches floor/i.test(document.querySelector("sim-lab").shadowRoot.querySelector(".event-list").textContent));
+  const time = await page.evaluate(() => document.querySelector("sim-lab").time);
+  await page.getByRole("button", { name: "Step", exact: true }).click();
+  await page.waitForFunction((t) => Math.abs(document.querySelector("sim-lab").time - t - 0.002) < 1e-9, time);
+  await page.getByRole("button", { name: "Reset" }).click();
+  await page.waitForFunction(() => document.querySelector("sim-lab").time === 0);
+  assert.equal((await outputs(page))[0], "1.000");
+  errors.none();
+});
+
+test("a slider, a select and a button act as the format says, and the page is told", async (t) => {
+  const { page, errors } = await open(t, "/drop.html");
+  await opened(page);
+  await page.evaluate(() => {
+    globalThis.changes = [];
+    document.addEventListener("lab-change", (e) => globalThis.changes.push(e.detail));
+  });
+  await page.evaluate(() => document.querySelector("sim-lab").step(50));
+  const slider = page.getByRole("slider", { name: "gravity" });
+  assert.equal(await slider.getAttribute("aria-valuetext"), "−9.8 m/s²");
+  await slider.focus();
+  await page.keyboard.press("ArrowRight");
+  await page.waitForFunction(() => globalThis.changes.length === 1);
+  assert.equal(await slider.getAttribute("aria-valuetext"), "−9.7 m/s²");
+  await page.getByRole("combobox", { name: "start" }).selectOption("low");
+  await page.waitForFunction(() => globalThis.changes.length === 2);
+  await page.waitForFunction(() => document.querySelector("sim-lab").texts[0] === "0.500");
+  await page.getByRole("button", { name: "Kick" }).click();
+  await page.waitForFunction(() => globalThis.changes.length === 3);
+  const reference = new Lab(dropLab, { drop });
+  reference.step(50);
+  reference.set("gravity", -9.7);
+  reference.set("start", 0.5);
+  reference.press("Kick");
+  reference.step(100);
+  await page.evaluate(() => document.querySelector("sim-lab").step(100));
+  assert.deepEqual(await page.evaluate(() => document.querySelector("sim-lab").numbers), [...reference.numbers]);
+  assert.deepEqual((await page.evaluate(() => globalThis.changes)).map(({ label, value }) => [label, value]), [["gravity", -9.7], ["start", 0.5], ["Kick", null]]);
+  errors.none();
+});
+
+test("the note is text: its script is gone", async (t) => {
+  const { page, errors } = await open(t, "/drop.html");
+  await opened(page);
+  assert.equal(await page.locator(".note").innerHTML(), "Moving the slider drops the ball again. ");
+  errors.none();
+});
+
+test("a lab with an end plays to it, and is played again from its start", async (t) => {
+  const { page, errors } = await open(t, "/frozen.html");
+  await opened(page);
+  await page.waitForFunction(() => document.querySelector("sim-lab").isOver);
+  assert.ok((await page.evaluate(() => document.querySelector("sim-lab").time)) >= 0.5);
+  await page.getByRole("button", { name: "Play" }).click();
+  await page.waitForFunction(() => !document.querySelector("sim-lab").isOver);
+  errors.none();
+});
+
+test("a body follows the pointer, and is let go", async (t) => {
+  const { page, errors } = await open(t, "/drop.html");
+  await opened(page);
+  await page.evaluate(async () => {
+    const lab = document.querySelector("sim-lab");
+    await lab.set("gravity", -1);
+    await lab.step(1);
+  });
+  const box = await page.locator(".view canvas").boundingBox();
+  const actions = async () => JSON.parse(await page.evaluate(async () => new TextDecoder().decode(await document.querySelector("sim-lab").saveState()))).labspec.actions;
+  const middle = box.x + box.width / 2;
+  let isHeld = false;
+  // The ball is small, and in the middle of the picture: it is looked for from above.
+  for (let y = box.y + 10; y < box.y + box.height - 10 && !isHeld; y += 4) {
+    await page.mouse.move(middle, y);
+    await page.mouse.down();
+    isHeld = (await actions()).some(([what]) => what === "force");
+    if (isHeld) {
+      await page.mouse.move(middle + 60, y - 40, { steps: 4 });
+      await page.evaluate(() => document.querySelector("sim-lab").step(100));
+    }
+    await page.mouse.up();
+  }
+  assert.ok(isHeld, "no point of the picture held the ball");
+  const forces = (await actions()).filter(([what]) => what === "force");
+  assert.ok(forces.some(([, body, force]) => body === 1 && force[0] !== 0 && force[2] > 0), "the spring pulls aside and upwards");
+  assert.deepEqual(forces.at(-1), ["force", 1, [0, 0, 0, 0, 0, 0]]);
+  errors.none();
+});
+
+test("a state comes back from its link and from bytes, to the bit; a damaged one is refused in words", async (t) => {
+  const { page, errors } = await open(t, "/drop.html", { permissions: ["clipboard-read", "clipboard-write"] });
+  await opened(page);
+  await page.evaluate(async () => {
+    const lab = document.querySelector("sim-lab");
+    await lab.set("gravity", -3.7);
+    await lab.step(333);
+  });
+  const numbers = await page.evaluate(() => document.querySelector("sim-lab").numbers);
+  await page.locator(".menu summary").click();
+  await page.getByRole("button", { name: "Copy a link to this state" }).click();
+  await page.waitForFunction(() => location.hash.startsWith("#lab.lab="));
+  const link = page.url();
+  await page.goto("about:blank");
+  await page.goto(link);
+  await opened(page);
+  assert.deepEqual(await page.evaluate(() => document.querySelector("sim-lab").numbers), numbers);
+  assert.equal(await page.getByRole("slider", { name: "gravity" }).inputValue(), "-3.7");
+  const same = await page.evaluate(async () => {
+    const lab = document.querySelector("sim-lab");
+    const bytes = await lab.saveState();
+    await lab.step(50);
+    const after = lab.numbers.join();
+    await lab.openState(bytes);
+    await lab.step(50);
+    return lab.numbers.join() === after;
+  });
+  assert.ok(same);
+  await page.goto("about:blank");
+  await page.goto(`${link.slice(0, -9)}xxxxxxxxx`);
+  await opened(page);
+  await page.waitForFunction(() => /cannot be opened/.test(document.querySelector("sim-lab").shadowRoot.querySelector("[role=status].hidden:not(figure *)").textContent));
+  assert.equal(await page.evaluate(() => document.querySelector("sim-lab").time), 0);
+  errors.none();
+});
+
+test("what is wrong with a lab is said in its place", async (t) => {
+  const { page } = await open(t, "/broken.html");
+  const textOf = async (id) => {
+    await page.locator(`#${id}`).scrollIntoViewIfNeeded();
+    await page.evaluate((i) => document.getElementById(i).ready.catch(() => undefined), id);
+    return page.locator(`#${id}`).locator("article").innerText();
+  };
+  assert.match(await textOf("a"), /no joint named "fal"[^]*Did you mean "fall"\?/i);
+  assert.match(await textOf("b"), /not valid JSON/);
+  assert.match(await textOf("c"), /"\/nowhere.json" cannot be loaded: 404/);
+  assert.match(await textOf("d"), /There is no model `none`\. Pass it/);
+  assert.match(await textOf("e"), /size/);
+  await page.goto(`${server.url}/empty.html`);
+  await page.evaluate(() => document.querySelector("sim-lab").ready.catch(() => undefined));
+  assert.match(await page.locator("sim-lab article").innerText(), /no content: give it/);
+});
+
+test("a lab from a script of the page: properties before and after it is in the page, moved and taken away", async (t) => {
+  const { page, errors } = await open(t, "/late.html");
+  const time = await page.evaluate(async ([json, xml]) => {
+    const lab = document.createElement("sim-lab");
+    lab.lab = JSON.stringify(json);
+    lab.models = { drop: xml };
+    document.querySelector("main").append(lab);
+    await lab.step(10);
+    document.querySelector("main").prepend(lab);
+    await new Promise((resolve) => setTimeout(resolve, 50));
+    const { time } = lab;
+    lab.remove();
+    await new Promise((resolve) => setTimeout(resolve, 50));
+    document.querySelector("main").append(lab);
+    await lab.step(1);
+    return [time, lab.time];
+  }, [dropLab, drop]);
+  assert.ok(Math.abs(time[0] - 0.02) < 1e-12 && Math.abs(time[1] - 0.002) < 1e-12, String(time));
+  errors.none();
+});
+
+test("the example page opens its labs without an error", async (t) => {
+  const { page, errors } = await open(t, "/web/elements/example/index.html");
+  for (const id of ["drop", "pendulum", "crate"]) {
+    await page.locator(`#${id}`).scrollIntoViewIfNeeded();
+    await opened(page, `#${id}`);
+  }
+  assert.match(readFileSync(`${repository}/web/elements/example/index.html`, "utf8"), /labspec-elements\.js/);
+  errors.none();
+});
