@@ -32,7 +32,7 @@ export class SharedContext {
 
   static create(onLost: () => void): SharedContext | null {
     let canvas = newCanvas();
-    const wanted: WebGLContextAttributes = { alpha: true, antialias: true, premultipliedAlpha: true, powerPreference: "high-performance" };
+    const wanted: WebGLContextAttributes = { alpha: true, antialias: true, premultipliedAlpha: true };
     let gl = canvas.getContext("webgl2", wanted) as WebGL2RenderingContext | null;
     if (!gl && !(canvas instanceof HTMLCanvasElement)) {
       // Some browsers have WebGL 2 for canvases of the document only.

@@ -5,4 +5,8 @@ import type { CreateView } from "./types.js";
 export { labCamera } from "./camera.js";
 export type * from "./types.js";
 
+/**
+ * A view of `model` in `canvas`, whose size on the page comes from its style, not from its pixels. The canvas must have no context of
+ * another kind.
+ */
 export const createView: CreateView = (canvas, model, options) => new SceneView(canvas, model, options);

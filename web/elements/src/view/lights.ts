@@ -78,7 +78,7 @@ function casters(m: SceneModel, f: SceneFrame): { center: Vec3; radius: number }
   for (let id = 0; id < m.geom_type.length; id++) {
     const type = at(m.geom_type, id);
     if (type === GEOM.plane || !isVisible(m.geom_group, id)) continue;
-    const p = row3(f.geom_xpos, id), r = length(row3(m.geom_size, id));
+    const p = row3(f.geom_xpos, id), size = row3(m.geom_size, id), r = type === GEOM.capsule ? size[0] + size[1] : length(size);
     if (!p.every(Number.isFinite)) continue;
     low = [Math.min(low[0], p[0] - r), Math.min(low[1], p[1] - r), Math.min(low[2], p[2] - r)];
     high = [Math.max(high[0], p[0] + r), Math.max(high[1], p[1] + r), Math.max(high[2], p[2] + r)];

@@ -3,7 +3,7 @@ import type { Ray } from "./camera.js";
 import { addScaled, at, cross, dot, rotationAt, row3, sub, unrotate, type Vec3 } from "./matrix.js";
 import { heightGrid } from "./mesh.js";
 import { GEOM, isVisible } from "./scene.js";
-import type { SceneFrame, SceneModel } from "./types.js";
+import type { Numbers, SceneFrame, SceneModel } from "./types.js";
 
 /** No intersection. */
 const NONE = Infinity;
@@ -79,10 +79,28 @@ export function rayTriangle({ from, direction }: Ray, a: Vec3, b: Vec3, c: Vec3)
   return t >= 0 ? t : NONE;
 }
 
-function rayMesh(ray: Ray, m: SceneModel, id: number, bounds: Vec3): number {
-  // A mesh of thousands of triangles is looked at only where the ray meets its box.
-  const margin = 1.01;
-  if (rayBox(ray, [bounds[0] * margin, bounds[1] * margin, bounds[2] * margin]) === NONE) return NONE;
+/** Half sizes of the boxes around meshes, by the list of their vertices. */
+const meshBoxes = new WeakMap<Numbers, Vec3[]>();
+
+/** Half sizes of a box around mesh `id`, whose middle is the origin. */
+function meshBox(m: SceneModel, id: number): Vec3 {
+  const boxes = meshBoxes.get(m.mesh_vert) ?? [];
+  meshBoxes.set(m.mesh_vert, boxes);
+  const found = boxes[id];
+  if (found) return found;
+  const first = at(m.mesh_vertadr, id);
+  let [x, y, z] = [0, 0, 0];
+  for (let i = first; i < first + at(m.mesh_vertnum, id); i++) {
+    x = Math.max(x, Math.abs(at(m.mesh_vert, 3 * i)));
+    y = Math.max(y, Math.abs(at(m.mesh_vert, 3 * i + 1)));
+    z = Math.max(z, Math.abs(at(m.mesh_vert, 3 * i + 2)));
+  }
+  return (boxes[id] = [x, y, z]);
+}
+
+function rayMesh(ray: Ray, m: SceneModel, id: number): number {
+  // Thousands of triangles are looked at only where the ray meets their box.
+  if (rayBox(ray, meshBox(m, id)) === NONE) return NONE;
   const first = at(m.mesh_vertadr, id), face = at(m.mesh_faceadr, id), count = at(m.mesh_facenum, id);
   const corner = (i: number): Vec3 => row3(m.mesh_vert, first + at(m.mesh_face, i));
   let best = NONE;
@@ -133,7 +151,7 @@ export function rayGeom(m: SceneModel, f: SceneFrame, id: number, ray: Ray): num
     case GEOM.capsule: return rayCapsule(local, size[0], size[1]);
     case GEOM.ellipsoid: return rayEllipsoid(local, size);
     case GEOM.cylinder: return rayCylinder(local, size[0], size[1]);
-    case GEOM.mesh: case GEOM.sdf: return rayMesh(local, m, data, size);
+    case GEOM.mesh: case GEOM.sdf: return rayMesh(local, m, data);
     default: return rayBox(local, size);
   }
 }

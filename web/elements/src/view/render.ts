@@ -131,7 +131,9 @@ function drawOverlays(context: SharedContext, p: Picture, projection: Mat4): voi
     gl.depthMask(!isHidden);
     gl.useProgram(surface.program);
     gl.uniform1f(surface.uniform("u_alpha"), alpha);
+    gl.enable(gl.CULL_FACE);
     drawLayer(context, p, LAYER.overlay);
+    gl.disable(gl.CULL_FACE);
     drawLines(context.gpu, p, projection, alpha);
   }
 }
@@ -170,6 +172,5 @@ export function drawPicture(context: SharedContext, p: Picture): void {
   gl.enable(gl.CULL_FACE);
   gl.depthMask(false);
   drawLayer(context, p, LAYER.transparent);
-  gl.disable(gl.CULL_FACE);
   drawOverlays(context, p, projection);
 }

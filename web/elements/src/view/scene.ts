@@ -111,7 +111,7 @@ export function pushGeoms(list: DrawList, m: SceneModel, f: SceneFrame, names: G
       continue;
     }
     const shape = geomForm(m, names, id), matid = m.geom_matid[id] ?? -1;
-    const { color } = colorOf(m, m.geom_rgba, id, matid);
+    const { color: own, isDefault } = colorOf(m, m.geom_rgba, id, matid), color = isDefault ? palette.geom : own;
     if (!shape || color[3] <= 0) continue;
     const position = row3(f.geom_xpos, id), isOpaque = color[3] >= 1;
     list.push({

@@ -6,6 +6,8 @@ export interface Palette {
   readonly background: string | null;
   /** Planes without a colour, and the opacity of the lines on planes. */
   readonly floor: Color;
+  /** Geoms without a colour. */
+  readonly geom: Color;
   readonly grid: number;
   readonly axes: readonly [Color, Color, Color];
   readonly contact: Color;
@@ -35,12 +37,12 @@ const COMMON = {
 } as const;
 
 const LIGHT = {
-  ...COMMON, floor: hex("#e3e7ea"), grid: 0.3, contact: hex("#0ca678"), force: hex("#f76707"), joint: hex("#7048e8"),
+  ...COMMON, floor: hex("#e3e7ea"), geom: hex("#93a5b6"), grid: 0.3, contact: hex("#0ca678"), force: hex("#f76707"), joint: hex("#7048e8"),
   com: hex("#fab005"), camera: hex("#1971c2"), trail: hex("#d6336c"), drag: hex("#e8590c"),
 };
 
 const DARK = {
-  ...COMMON, floor: hex("#3a4149"), grid: 0.3, contact: hex("#38d9a9"), force: hex("#ff922b"), joint: hex("#b197fc"),
+  ...COMMON, floor: hex("#3a4149"), geom: hex("#9db0c2"), grid: 0.3, contact: hex("#38d9a9"), force: hex("#ff922b"), joint: hex("#b197fc"),
   com: hex("#ffd43b"), camera: hex("#74c0fc"), trail: hex("#f783ac"), drag: hex("#ffc078"), sky: [0.34, 0.36, 0.4], ground: [0.15, 0.15, 0.16],
 } as const;
 
