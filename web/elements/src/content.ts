@@ -1,5 +1,6 @@
 /** Where the content of an element comes from: a property, an attribute, or a script inside it. */
 import type { Models } from "labspec/slim";
+import { fetchModel } from "./model-files.js";
 import { isObject, type Json } from "./spec.js";
 import type { Say } from "./text/messages.js";
 
@@ -31,7 +32,7 @@ export async function readContent(element: Element, property: unknown, missing: 
 
 /**
  * The models of an element: its property, `<script type="model/mjcf" data-name="…">` inside it or anywhere on the page, and, for a model
- * that is named and not there, the file of that name in the folder that `models` or `data-models` names.
+ * that is named and not there, the file of that name, with the files that it names, in the folder that `models` or `data-models` names.
  */
 export async function readModels(element: Element, property: Models | null, name: string | null, say: Say): Promise<Models> {
   const models: Record<string, string | Uint8Array> = {};
@@ -44,17 +45,21 @@ export async function readModels(element: Element, property: Models | null, name
   Object.assign(models, property ?? {});
   const folder = element.getAttribute("models") ?? element.closest("[data-models]")?.getAttribute("data-models") ?? null;
   if (name !== null && folder !== null && models[name] === undefined && /^[\w.-]+$/.test(name)) {
-    models[name] = await fetchText(`${folder.replace(/\/?$/, "/")}${name}.xml`, say);
+    Object.assign(models, await fetchModel(name, (path) => fetchFile(`${folder.replace(/\/?$/, "/")}${path}`, say)));
   }
   return models;
 }
 
 async function fetchText(address: string, say: Say): Promise<string> {
+  return (await fetchFile(address, say)).text();
+}
+
+async function fetchFile(address: string, say: Say): Promise<Response> {
   const refuse = (why: string): ContentError => new ContentError(say("notFetched", { url: address, why }));
   try {
     const response = await fetch(new URL(address, document.baseURI));
     if (!response.ok) throw refuse(`${response.status} ${response.statusText}`.trim());
-    return await response.text();
+    return response;
   } catch (e) {
     throw e instanceof ContentError ? e : refuse(e instanceof Error ? e.message : String(e));
   }

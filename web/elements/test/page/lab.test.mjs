@@ -12,6 +12,11 @@ const server = await serve({
   "/broken.html": pageOf(`${labOf({ model: "drop", readouts: [{ label: "x", expr: "data.joint('fal').qpos[2]" }] }, { id: "a", models: { drop } })}
     <sim-lab id="b"><script type="application/json">{"model": }</script></sim-lab><sim-lab id="c" src="/nowhere.json"></sim-lab>
     ${labOf({ model: "none" }, { id: "d" })}${labOf({ xml: "<mujoco><worldbody><geom size='x'/></worldbody></mujoco>" }, { id: "e" })}`),
+  "/folder.html": pageOf('<sim-lab src="/lab.json" models="/models"></sim-lab>'),
+  "/lab.json": JSON.stringify({ model: "pair", readouts: [{ label: "geoms", expr: "model.ngeom" }] }),
+  "/models/pair.xml": "<mujoco><compiler meshdir='shapes'/><asset><mesh name='wedge' file='wedge.obj'/></asset><include file='parts/floor.xml'/><worldbody><geom type='mesh' mesh='wedge'/></worldbody></mujoco>",
+  "/models/parts/floor.xml": "<mujoco><worldbody><geom type='plane' size='1 1 1'/></worldbody></mujoco>",
+  "/models/shapes/wedge.obj": "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n",
   "/late.html": pageOf("<p>Nothing yet.</p>"),
 });
 const browser = await launch();
@@ -200,6 +205,13 @@ test("a lab from a script of the page: properties before and after it is in the 
     return [time, lab.time];
   }, [dropLab, drop]);
   assert.ok(Math.abs(time[0] - 0.02) < 1e-12 && Math.abs(time[1] - 0.002) < 1e-12, String(time));
+  errors.none();
+});
+
+test("a model of a folder brings the files that it names", async (t) => {
+  const { page, errors } = await open(t, "/folder.html");
+  await opened(page);
+  assert.equal(await page.evaluate(() => document.querySelector("sim-lab").numbers[0]), 2);
   errors.none();
 });
 
