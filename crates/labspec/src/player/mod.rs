@@ -76,7 +76,7 @@ impl Player {
     /// What each readout shows now, as the page prints it.
     pub fn readout_texts(&self) -> Vec<String> {
         let all = self.displayed.iter().zip(&self.now.cells);
-        let text = |(shown, cell): (&DisplayedValue, &Cell)| match shown.place {
+        let text = |(displayed, cell): (&DisplayedValue, &Cell)| match displayed.place {
             DisplayedIn::Readout(digits) => Some(cell.rounded(digits)),
             DisplayedIn::Plot(_) => None,
         };

@@ -22,8 +22,9 @@ export interface LabParts {
 
 export function layOut(parts: LabParts): HTMLElement {
   const { spec, say } = parts;
-  const head = h("header", { class: "head", part: "header" },
-    h("span", { class: "kind" }, spec.kind ?? say("lab")), spec.title !== "" && h("h3", { class: "title", part: "title" }, spec.title));
+  const head = spec.title === "" && spec.kind === null ? null : h("header", { class: "head", part: "header" },
+    h("span", { class: "kind", dir: "auto" }, spec.kind ?? say("lab")),
+    spec.title !== "" && h("h3", { class: "title", part: "title", dir: "auto" }, spec.title));
   const buttons = parts.buttons.length > 0 ? h("div", { class: "actions" }, ...parts.buttons) : null;
   const hasControls = parts.controls.length > 0 || buttons !== null;
   const controls = hasControls ? h("div", { class: "controls", part: "controls", role: "group", "aria-label": say("controls") }, ...parts.controls, buttons) : null;
@@ -42,7 +43,7 @@ function findingsList(findings: readonly Finding[], say: Say): HTMLElement {
 
 export function findingText(finding: Finding): HTMLElement {
   const place = finding.line === null ? finding.file : `${finding.file}, ${finding.line}:${finding.column ?? 1}`;
-  return h("p", { class: "finding" }, h("code", {}, place), ` ${capital(finding.message)}.`, finding.help !== null && h("span", { class: "help" }, ` ${capital(finding.help)}.`));
+  return h("p", { class: "finding" }, h("code", {}, place), ` ${sentence(finding.message)}`, finding.help !== null && h("span", { class: "help" }, ` ${sentence(finding.help)}`));
 }
 
 /** A lab that cannot run says why. */
@@ -52,6 +53,7 @@ export function errorPanel(title: string, messages: readonly (string | HTMLEleme
     ...messages.map((message) => (typeof message === "string" ? h("p", {}, message) : message)), help !== null && h("p", { class: "help" }, help));
 }
 
-function capital(text: string): string {
-  return text.charAt(0).toUpperCase() + text.slice(1);
+/** With a capital letter and an end. */
+function sentence(text: string): string {
+  return `${text.charAt(0).toUpperCase()}${text.slice(1)}${/[.?!]$/.test(text) ? "" : "."}`;
 }

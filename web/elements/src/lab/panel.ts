@@ -131,7 +131,7 @@ export async function openPanel(spec: LabSpec, models: Models, state: Uint8Array
       savePicture: () => viewport.savePicture(title),
     });
   player.speed = spec.speeds.includes(1) ? 1 : (spec.speeds[0] ?? 1);
-  const note = spec.note === null ? null : h("div", { class: "note", part: "note" }, safeHtml(spec.note, document));
+  const note = spec.note === null ? null : h("div", { class: "note", part: "note", dir: "auto" }, safeHtml(spec.note, document));
   const element = layOut({
     spec, title, say, view: viewport.element, viewBar: viewBar.element, toolbar: toolbar.element, controls: controls.elements,
     buttons: controls.buttons, readouts: readouts.element, plots: plots.map((plot) => plot.element), note, spoken: [spoken.log, spoken.region],

@@ -41,14 +41,14 @@ export function createCard(context: CardContext, label: string | null, prompt: s
   const verdict = h("div", { class: "verdict-area", role: "status" });
   const element = h("section", { class: "question", part: "question", "aria-labelledby": promptId },
     h("p", { class: "kind" }, label === null ? place : `${place} · ${label}`),
-    h("div", { class: "prose prompt", id: promptId }, safeHtml(prompt, document)), form, verdict);
+    h("div", { class: "prose prompt", id: promptId, dir: "auto" }, safeHtml(prompt, document)), form, verdict);
   return { element, form, verdict, promptId };
 }
 
 /** The verdict on an answer, with what explains it. */
 export function showVerdict(area: HTMLElement, isRight: boolean | null, text: string, explain: string | null, more: readonly (Node | null)[] = []): void {
   const badge = isRight === null ? null : h("p", { class: isRight ? "badge good" : "badge bad" }, icon(isRight ? "check" : "cross"), h("strong", {}, text));
-  const why = explain === null ? null : h("div", { class: "prose explain" }, safeHtml(explain, document));
+  const why = explain === null ? null : h("div", { class: "prose explain", dir: "auto" }, safeHtml(explain, document));
   const children = [badge, ...more, why].filter((child) => child !== null);
   area.replaceChildren(h("div", { class: `verdict ${isRight === null ? "" : isRight ? "good" : "bad"}` }, ...children));
 }

@@ -8,7 +8,7 @@ export const german: Messages = {
   step: "Schritt",
   stepHint: "Ein Schritt von {timestep} s",
   stepMore: "Schritt 0.1 s",
-  reset: "Zurücksetzen",
+  reset: "Neustart",
   speed: "Tempo",
   speedValue: "{speed}-fache Echtzeit",
   slower: "Dieses Modell läuft hier mit {speed}-facher Echtzeit.",
