@@ -17,8 +17,8 @@ interface Counted<T> {
   users: number;
 }
 
-/** Time until a lost context is replaced, ms. */
-const RETRY = 100;
+/** Time until a lost context is replaced, and the longest time between two attempts, ms. */
+const RETRY = 100, LONGEST_RETRY = 8000;
 
 function newCanvas(): HTMLCanvasElement | OffscreenCanvas {
   return typeof OffscreenCanvas === "undefined" ? document.createElement("canvas") : new OffscreenCanvas(1, 1);
@@ -102,22 +102,34 @@ export class SharedContext {
 }
 
 let shared: SharedContext | null = null;
+/** Before this time no context is asked for, after one was refused. */
+let refusedUntil = 0;
 const clients = new Set<Client>();
+
+/** Draws every view again as soon as there is a context; a browser may refuse one for a while. */
+function revive(delay: number): void {
+  setTimeout(() => {
+    if (clients.size === 0) return;
+    if (sharedContext()) for (const client of clients) client.contextLost();
+    else revive(Math.min(2 * delay, LONGEST_RETRY));
+  }, delay);
+}
 
 function contextLost(of: SharedContext | null): void {
   // A context that was freed on purpose has been replaced already.
   if (of !== shared) return;
   shared = null;
-  for (const client of clients) setTimeout(() => { if (clients.has(client)) client.contextLost(); }, RETRY);
+  revive(RETRY);
 }
 
 /** The context of the page; null where the browser has none now. */
 export function sharedContext(): SharedContext | null {
   if (shared?.gpu.gl.isContextLost()) contextLost(shared);
-  if (!shared) {
+  if (!shared && performance.now() >= refusedUntil) {
     const made: { context: SharedContext | null } = { context: null };
     made.context = SharedContext.create(() => { contextLost(made.context); });
     shared = made.context;
+    if (!shared) refusedUntil = performance.now() + RETRY / 2;
   }
   return shared;
 }

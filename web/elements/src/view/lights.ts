@@ -59,8 +59,10 @@ function modelLights(m: SceneModel, f: SceneFrame): { lights: Light[]; ambient: 
   const lights: Light[] = [];
   let ambient: Vec3 = [0, 0, 0];
   for (let id = 0; id < m.light_type.length; id++) {
-    if (!at(m.light_active, id)) continue;
-    const type = at(m.light_type, id), direction = normalize(row3(f.light_xdir, id)), isDirectional = type === LIGHT.directional;
+    const type = at(m.light_type, id);
+    // A light from an image is drawn as no light.
+    if (!at(m.light_active, id) || type > LIGHT.point) continue;
+    const direction = normalize(row3(f.light_xdir, id)), isDirectional = type === LIGHT.directional;
     ambient = addScaled(ambient, row3(m.light_ambient, id), 1);
     lights.push({
       position: isDirectional ? scale(direction, -1) : row3(f.light_xpos, id), isDirectional, direction,

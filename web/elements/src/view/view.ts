@@ -206,7 +206,9 @@ export class SceneView implements View, Client {
     const frame = this.#frame, context = sharedContext(), target = canvas.getContext("2d");
     if (!frame || !target) return false;
     if (!context) {
-      target.fillText("3D pictures need WebGL 2", 8, 16);
+      target.clearRect(0, 0, width, height);
+      target.fillStyle = getComputedStyle(this.#canvas).color;
+      target.fillText("The 3D view needs WebGL 2.", 8, 16);
       return false;
     }
     const eye = placeEye(this.camera, this.#model, frame), m = this.#model, reach = planeReach(m, eye);

@@ -252,3 +252,27 @@ test("a model without geoms, and numbers that are not finite, draw nothing and d
   }, recorded("joint_zoo"));
   assert.equal(count, 0);
 });
+
+test("without WebGL a sentence stands in the picture; the scene follows when there is a context", async () => {
+  const other = await openPage();
+  const result = await other.page.evaluate(async s => {
+    const canvas = HTMLCanvasElement.prototype.getContext, offscreen = OffscreenCanvas.prototype.getContext;
+    HTMLCanvasElement.prototype.getContext = function (kind, ...args) { return kind === "webgl2" ? null : canvas.call(this, kind, ...args); };
+    OffscreenCanvas.prototype.getContext = () => null;
+    const shown = show(s), { data } = shown.canvas.getContext("2d").getImageData(0, 0, 320, 240);
+    const text = data.filter((v, i) => i % 4 === 3 && v > 60).length;
+    HTMLCanvasElement.prototype.getContext = canvas;
+    await new Promise(resolve => setTimeout(resolve, 200));
+    // Some browsers have WebGL 2 for canvases of the document only.
+    shown.view.draw();
+    const kind = view.sharedContext().canvas.constructor.name;
+    const drawn = shown.canvas.getContext("2d").getImageData(0, 0, 320, 240).data.filter((v, i) => i % 4 === 3 && v > 100).length;
+    OffscreenCanvas.prototype.getContext = offscreen;
+    shown.view.dispose();
+    return { text, kind, drawn };
+  }, recorded("incline"));
+  await other.stop();
+  assert.ok(result.text > 50 && result.text < 2000, `${result.text} pixels of text`);
+  assert.equal(result.kind, "HTMLCanvasElement");
+  assert.ok(result.drawn > 5000);
+});
