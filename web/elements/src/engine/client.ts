@@ -43,44 +43,60 @@ export function setEngineSource(given: EngineSource): void {
 
 /** Opens a lab in the engine that has the fewest. */
 export async function openRemote(json: string, models: Calls["open"]["args"][1], state: Uint8Array | null): Promise<RemoteLab> {
-  const most = Math.max(1, Math.min(MOST_WORKERS, (navigator.hardwareConcurrency || 2) - 1));
-  const slot = opened++ % most;
-  const ask = await (engines[slot] ??= startEngine());
+  const ask = await engineOf(opened++);
   const answer = await ask(0, "open", json, models, state);
   return { opened: answer, ask: (call, ...args) => ask(answer.id, call, ...args) };
+}
+
+/** Starts the engine of the next lab while its content is still read. */
+export function prepareEngine(): void {
+  // Whoever opens a lab is told what is wrong.
+  engineOf(opened).catch(() => undefined);
+}
+
+function engineOf(lab: number): Promise<Ask> {
+  const most = Math.max(1, Math.min(MOST_WORKERS, (navigator.hardwareConcurrency || 2) - 1));
+  const slot = lab % most;
+  return (engines[slot] ??= startEngine().catch((e: unknown) => {
+    // What failed may be tried again: a module that was not fetched, for example.
+    delete engines[slot];
+    compiled = undefined;
+    throw e;
+  }));
 }
 
 async function startEngine(): Promise<Ask> {
   if (source === undefined) throw new Error("no engine was given to this page");
   const own = source;
-  const module = await (compiled ??= own.module());
+  const module = (compiled ??= own.module());
   for (const url of own.workerUrls()) {
     const worker = await startWorker(url, module);
     if (worker !== undefined) return asking(worker);
   }
   const { port1, port2 } = new MessageChannel();
   own.serve(port1);
-  await started(port2, module);
+  await started(port2, await module);
   return asking(port2);
 }
 
-/** A worker; `undefined` where the page may have none. */
-async function startWorker(url: string, module: WebAssembly.Module): Promise<Channel | undefined> {
+/** A worker; `undefined` where the page may have none. It loads while the module is compiled. */
+async function startWorker(url: string, module: Promise<WebAssembly.Module>): Promise<Channel | undefined> {
+  let worker: Worker;
   try {
-    const worker = new Worker(url);
-    const failed = new Promise<never>((_, reject) => {
-      worker.onerror = (event) => {
-        event.preventDefault();
-        reject(new Error("the worker cannot be loaded"));
-      };
-    });
-    await Promise.race([started(worker, module), failed]);
-    worker.onerror = null;
-    return worker;
-  } catch (e) {
-    if (e instanceof EngineError) throw e;
+    worker = new Worker(url);
+  } catch {
     return undefined;
   }
+  const failed = new Promise<undefined>((resolve) => {
+    worker.onerror = (event) => {
+      event.preventDefault();
+      resolve(undefined);
+    };
+  });
+  const ready = module.then((compiledModule) => started(worker, compiledModule)).then(() => worker);
+  const first = await Promise.race([ready, failed]);
+  if (first === undefined) ready.catch(() => undefined);
+  return first;
 }
 
 /** Sends the module, and waits until the engine is ready. */
@@ -104,6 +120,13 @@ function asking(channel: Channel): Ask {
     if (problem === undefined) entry?.resolve(result);
     else entry?.reject(new EngineError(problem));
   };
+  if (channel instanceof Worker) {
+    channel.onerror = (event) => {
+      const problem = { code: "worker", message: event.message, findings: [] };
+      for (const { reject } of waiting.values()) reject(new EngineError(problem));
+      waiting.clear();
+    };
+  }
   return <Name extends keyof Calls>(lab: number, call: Name, ...args: Calls[Name]["args"]) =>
     new Promise<Calls[Name]["answer"]>((resolve, reject) => {
       const id = next++;

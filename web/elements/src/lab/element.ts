@@ -3,7 +3,7 @@ import type { ControlValue, Models } from "labspec/slim";
 import { childrenRead, ContentError, readContent, readModels } from "../content.js";
 import { deferred } from "../deferred.js";
 import { h, takeOwnProperty } from "../dom.js";
-import { EngineError } from "../engine/client.js";
+import { EngineError, prepareEngine } from "../engine/client.js";
 import { readLab } from "../spec.js";
 import { decodeState, stateInFragment, StateError } from "../state/fragment.js";
 import { applyStyles, watchTheme } from "../style/apply.js";
@@ -115,6 +115,7 @@ export class SimLab extends HTMLElement {
   #want(): void {
     if (this.#isWanted || !this.isConnected) return;
     this.#isWanted = true;
+    prepareEngine();
     void this.#open(++this.#turn);
   }
 

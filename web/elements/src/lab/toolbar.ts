@@ -76,7 +76,7 @@ function createSpeeds(speeds: readonly number[], say: Say, actions: ToolbarActio
   const id = uniqueId();
   const start = speeds.includes(1) ? 1 : (speeds[0] ?? 1);
   const select = h("select", { id, class: "speed" }, ...speeds.map((speed) => {
-    const option = h("option", { value: speed, "aria-label": say("speedValue", { speed }) }, `${formatBrief(speed)}×`);
+    const option = h("option", { value: speed, "aria-label": say("speedValue", { speed }) }, `\u2066${formatBrief(speed)}×\u2069`);
     option.selected = speed === start;
     return option;
   }));

@@ -15,7 +15,7 @@ const POLICIES = {
 const page = (script) => pageOf(labOf(dropLab, { models: { drop } }), { script });
 const many = Array.from({ length: 40 }, (_, i) => labOf({ ...dropLab, title: `Lab ${i}`, height: 160, autoplay: true }, { id: `lab${i}`, models: { drop } })).join("");
 const served = await Promise.all(Object.values(POLICIES).map(([script, policy]) => serve({ "/page.html": page(script) }, { "content-security-policy": policy })));
-const server = await serve({ "/many.html": pageOf(many), "/widget.html": pageOf('<div id="host"></div>'), "/plot.html": pageOf("") });
+const server = await serve({ "/many.html": pageOf(many), "/one.html": pageOf(labOf(dropLab, { models: { drop } })), "/widget.html": pageOf('<div id="host"></div>'), "/plot.html": pageOf("") });
 const browser = await launch();
 after(async () => {
   await browser.close();
@@ -42,6 +42,7 @@ Object.keys(POLICIES).forEach((name, i) => {
     });
     // Poses are those before the last step, as after mj_step: 99 steps of 2 ms from 1 m, the sum of v h with v after each step.
     assert.ok(Math.abs(numbers[0] - (1 - 9.8 * 0.002 * 0.002 * (99 * 100) / 2)) < 1e-9, String(numbers));
+    assert.equal(page.workers().length, name.endsWith("no workers") ? 0 : 1);
     const problems = errors.errors.filter((text) => !/worker/i.test(text) || !/Content Security Policy/i.test(text));
     assert.deepEqual(problems, [], "only the refused worker is reported");
   });
@@ -125,6 +126,22 @@ test("a frame of a plot with six traces takes less than 2 ms", async (t) => {
   const [median, most] = [times[300], times[594]];
   console.log(`a frame of six traces: median ${median.toFixed(2)} ms, 99 % below ${most.toFixed(2)} ms`);
   assert.ok(median < 2, `${median} ms`);
+});
+
+test("a lab is visible soon after its script", async (t) => {
+  const { page } = await open(t, `${server.url}/one.html`);
+  const times = [];
+  for (let run = 0; run < 5; run++) {
+    await page.reload();
+    times.push(await page.evaluate(async () => {
+      await document.querySelector("sim-lab").ready;
+      await new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)));
+      const script = performance.getEntriesByType("resource").find((entry) => entry.name.endsWith("labspec-elements.js"));
+      return performance.now() - script.responseEnd;
+    }));
+  }
+  console.log(`a lab is visible ${times.map((time) => time.toFixed(0)).join(", ")} ms after its script has arrived`);
+  assert.ok(Math.min(...times) < 2000);
 });
 
 test("weights", () => {
