@@ -34,7 +34,13 @@ export function texToMath(tex: string, owner: Document): Element {
   const row = (children: Element[]): Element => (children.length === 1 && children[0] !== undefined ? children[0] : make("mrow", ...children));
 
   const group = (): Element => {
-    if (tokens[at] !== "{") return atom();
+    const token = tokens[at] ?? "";
+    if (/^\d./.test(token)) {
+      // Without braces, an argument is one digit.
+      tokens[at] = token.slice(1);
+      return make("mn", token.charAt(0));
+    }
+    if (token !== "{") return atom();
     at++;
     const inside = sequence("}");
     at++;
