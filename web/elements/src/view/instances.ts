@@ -61,8 +61,8 @@ interface Placed {
   readonly key: Instance;
 }
 
-/** A list of numbers that grows. */
-class Numbers {
+/** An array of numbers that grows. */
+class GrowingArray {
   data: Float32Array<ArrayBuffer>;
   constructor(size: number) { this.data = new Float32Array(size); }
   reserve(size: number): void {
@@ -85,9 +85,9 @@ function order(a: Placed, b: Placed): number {
 }
 
 export class DrawList {
-  readonly #written = new Numbers(64 * INSTANCE_SIZE);
-  readonly #sorted = new Numbers(64 * INSTANCE_SIZE);
-  readonly #lines = new Numbers(64 * LINE_SIZE);
+  readonly #written = new GrowingArray(64 * INSTANCE_SIZE);
+  readonly #sorted = new GrowingArray(64 * INSTANCE_SIZE);
+  readonly #lines = new GrowingArray(64 * LINE_SIZE);
   #items: Placed[] = [];
   /** Runs of the last `finish`, and those that cast shadows. */
   runs: Run[] = [];

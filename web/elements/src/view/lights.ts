@@ -111,8 +111,8 @@ function shadowView(light: Light, m: SceneModel, f: SceneFrame): { shadow: Mat4;
 }
 
 export function collectLights(m: SceneModel, f: SceneFrame, eye: Eye, palette: Palette, hasShadows: boolean): Lights {
-  const { lights: own, ambient } = modelLights(m, f);
-  const lights = [headlight(eye), ...(own.length > 0 ? own : [SUN])].slice(0, MAX_LIGHTS);
+  const { lights: given, ambient } = modelLights(m, f);
+  const lights = [headlight(eye), ...(given.length > 0 ? given : [SUN])].slice(0, MAX_LIGHTS);
   const shadowLight = hasShadows ? lights.findIndex(l => l.castsShadow) : -1;
   const caster = lights[shadowLight];
   const view = caster ? shadowView(caster, m, f) : { shadow: new Float32Array(16), pixel: 0 };

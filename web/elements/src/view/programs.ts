@@ -5,9 +5,9 @@ export const MAX_LIGHTS = 8;
 
 /** What a surface shows besides its colour: `instances.ts` writes these numbers. */
 export const PATTERN = { plain: 0, grid: 1, checker: 2, fading: 4 } as const;
-/** Where texture coordinates come from: the mesh, the faces of a box (or of what is inside it), a plane without end, a direction;
- * `uniform` is added for metres. */
-export const TEXTURE_MODE = { none: 0, mesh: 1, box: 2, endless: 3, cube: 4, uniform: 8 } as const;
+/** Where texture coordinates come from: the mesh, the faces of a box (or of what is inside it), a plane without end, a direction in the
+ * shape of size 1 or in metres. */
+export const TEXTURE_MODE = { none: 0, mesh: 1, box: 2, endless: 3, cube: 4, cubeOfMetres: 5 } as const;
 
 /** Attributes by location: three of the shape, six of the instance. */
 const INSTANCE = `#version 300 es
@@ -31,11 +31,9 @@ export const SURFACE_VERTEX = `${INSTANCE}
 out vec3 v_world, v_normal, v_local, v_unit;
 out vec2 v_uv;
 flat out vec4 v_color, v_material, v_extra;
-flat out vec3 v_size;
 void main() {
   v_local = local();
   v_unit = a_position.xyz;
-  v_size = i_scale.xyz;
   v_world = toWorld(v_local);
   vec3 n = a_normal / i_scale.xyz;
   v_normal = vec3(dot(i_x.xyz, n), dot(i_y.xyz, n), dot(i_z.xyz, n));
@@ -50,7 +48,6 @@ precision highp sampler2DShadow;
 in vec3 v_world, v_normal, v_local, v_unit;
 in vec2 v_uv;
 flat in vec4 v_color, v_material, v_extra;
-flat in vec3 v_size;
 uniform vec4 u_eye;
 uniform int u_lights, u_shadowLight;
 uniform vec4 u_lightPosition[${MAX_LIGHTS}];
@@ -86,13 +83,13 @@ float lit(vec3 n) {
   return sum / 25.0;
 }
 
-// To the right and downwards on each face of a box, seen from outside with z upwards; x and y of its size count for every face.
-vec2 boxCoordinates(bool isUniform) {
+// To the right and downwards on each face of a box, seen from outside with z upwards.
+vec2 boxCoordinates() {
   vec3 u = v_unit, side = abs(u);
   vec2 p = u.xy * vec2(1, sign(u.z + 1e-6));
   if (side.y > 0.9999 && side.z < 0.9999) p = vec2(-u.x * sign(u.y), u.z);
   else if (side.x > 0.9999 && side.z < 0.9999) p = vec2(u.y * sign(u.x), u.z);
-  return (0.5 + vec2(0.5, -0.5) * p) * v_extra.xy * (isUniform ? v_size.xy : vec2(1));
+  return 0.5 + vec2(0.5, -0.5) * p;
 }
 
 float gridLine(vec2 p, float cell, float width) {
@@ -105,11 +102,12 @@ void main() {
   vec4 color = v_color;
   color.a *= u_alpha;
   vec3 base = linear(color.rgb);
-  int mode = int(v_extra.z) & 7, pattern = int(v_extra.w);
-  bool isUniform = int(v_extra.z) >= ${TEXTURE_MODE.uniform};
-  if (mode == ${TEXTURE_MODE.cube}) base *= linear(texture(u_cube, isUniform ? v_local : v_unit).rgb);
+  int mode = int(v_extra.z), pattern = int(v_extra.w);
+  if (mode == ${TEXTURE_MODE.cube}) base *= linear(texture(u_cube, v_unit).rgb);
+  else if (mode == ${TEXTURE_MODE.cubeOfMetres}) base *= linear(texture(u_cube, v_local).rgb);
   else if (mode != ${TEXTURE_MODE.none}) {
-    vec4 t = texture(u_texture, mode == ${TEXTURE_MODE.mesh} ? v_uv : mode == ${TEXTURE_MODE.box} ? boxCoordinates(isUniform) : 0.5 * v_local.xy * v_extra.xy);
+    vec2 uv = mode == ${TEXTURE_MODE.mesh} ? v_uv : mode == ${TEXTURE_MODE.box} ? boxCoordinates() : 0.5 * v_local.xy;
+    vec4 t = texture(u_texture, uv * v_extra.xy);
     base *= linear(t.rgb); color.a *= t.a;
   }
   bool isPlane = (pattern & ${PATTERN.grid}) != 0;

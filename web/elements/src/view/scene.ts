@@ -41,13 +41,13 @@ export function primitive(type: number, [a, b, c]: Vec3): Form {
 /** The colour of an element with its own colour and perhaps a material; its own wins where it is not MuJoCo's default. */
 function colorOf(m: SceneModel, rgba: ArrayLike<number>, id: number, material: number): { color: Color; isDefault: boolean } {
   const read = (a: ArrayLike<number>, i: number): Color => [at(a, 4 * i), at(a, 4 * i + 1), at(a, 4 * i + 2), at(a, 4 * i + 3)];
-  const own = read(rgba, id);
-  const isDefault = own[0] === 0.5 && own[1] === 0.5 && own[2] === 0.5 && own[3] === 1;
-  return isDefault && material >= 0 ? { color: read(m.mat_rgba, material), isDefault: false } : { color: own, isDefault };
+  const color = read(rgba, id);
+  const isDefault = color[0] === 0.5 && color[1] === 0.5 && color[2] === 0.5 && color[3] === 1;
+  return isDefault && material >= 0 ? { color: read(m.mat_rgba, material), isDefault: false } : { color, isDefault };
 }
 
-/** Material `id` of an element of this type; a plane without end has no size that a texture could cover. */
-function materialOf(m: SceneModel, id: number, type: number, isEndless = false): Material {
+/** Material `id` of an element of this type and size; a plane without end has no size that a texture could cover. */
+function materialOf(m: SceneModel, id: number, type: number, size: Vec3, isEndless = false): Material {
   if (id < 0) return PLAIN;
   const texture = m.mat_texid[TEXTURE_ROLES * id + ROLE_RGB] ?? -1;
   const image = texture < 0 ? undefined : m.textures?.[texture];
@@ -55,10 +55,13 @@ function materialOf(m: SceneModel, id: number, type: number, isEndless = false):
     emission: at(m.mat_emission, id), specular: at(m.mat_specular, id), shininess: at(m.mat_shininess, id), reflectance: at(m.mat_reflectance, id),
   };
   if (!image) return { ...PLAIN, ...plain };
+  const isUniform = at(m.mat_texuniform, id) !== 0;
   const hasCoordinates = type === GEOM.mesh || type === GEOM.sdf || type === GEOM.hfield;
   const flatMode = hasCoordinates ? TEXTURE_MODE.mesh : isEndless ? TEXTURE_MODE.endless : TEXTURE_MODE.box;
-  const textureMode = (image.type === 0 ? flatMode : TEXTURE_MODE.cube) | (at(m.mat_texuniform, id) !== 0 ? TEXTURE_MODE.uniform : 0);
-  return { ...plain, texture, textureMode, repeat: [at(m.mat_texrepeat, 2 * id), at(m.mat_texrepeat, 2 * id + 1)] };
+  const cubeMode = isUniform ? TEXTURE_MODE.cubeOfMetres : TEXTURE_MODE.cube;
+  // MuJoCo multiplies by half sizes: `texrepeat` is for two metres.
+  const repeat = (axis: 0 | 1): number => at(m.mat_texrepeat, 2 * id + axis) * (isUniform && !isEndless ? size[axis] : 1);
+  return { ...plain, texture, textureMode: image.type === 0 ? flatMode : cubeMode, repeat: [repeat(0), repeat(1)] };
 }
 
 /** How far an infinite plane is drawn, m. */
@@ -72,7 +75,7 @@ function planeInstance(m: SceneModel, f: SceneFrame, id: number, eye: Eye, palet
   const seen = unrotate(rotation, sub(eye.position, origin));
   const reach = planeReach(m, eye);
   const isInfinite = size[0] <= 0 || size[1] <= 0;
-  const material = materialOf(m, matid, GEOM.plane, isInfinite);
+  const material = materialOf(m, matid, GEOM.plane, size, isInfinite);
   // The shader draws grid and texture in the frame of the quad, which therefore moves by whole cells.
   const snap = (x: number, axis: 0 | 1): number => {
     const step = material.texture < 0 ? 10 * gridCell(m) : 2 / Math.max(material.repeat[axis], 1e-3);
@@ -111,11 +114,11 @@ export function pushGeoms(list: DrawList, m: SceneModel, f: SceneFrame, names: G
       continue;
     }
     const shape = geomForm(m, names, id), matid = m.geom_matid[id] ?? -1;
-    const { color: own, isDefault } = colorOf(m, m.geom_rgba, id, matid), color = isDefault ? palette.geom : own;
+    const given = colorOf(m, m.geom_rgba, id, matid), color = given.isDefault ? palette.geom : given.color;
     if (!shape || color[3] <= 0) continue;
     const position = row3(f.geom_xpos, id), isOpaque = color[3] >= 1;
     list.push({
-      ...shape, position, rotation: rotationAt(f.geom_xmat, id), color, material: materialOf(m, matid, at(m.geom_type, id)),
+      ...shape, position, rotation: rotationAt(f.geom_xmat, id), color, material: materialOf(m, matid, at(m.geom_type, id), row3(m.geom_size, id)),
       layer: isOpaque ? LAYER.opaque : LAYER.transparent, depth: depthOf(eye, position), castsShadow: isOpaque,
     });
   }
@@ -124,12 +127,12 @@ export function pushGeoms(list: DrawList, m: SceneModel, f: SceneFrame, names: G
 export function pushSites(list: DrawList, m: SceneModel, f: SceneFrame, eye: Eye): void {
   for (let id = 0; id < m.site_type.length; id++) {
     if (!isVisible(m.site_group, id)) continue;
-    const type = at(m.site_type, id), matid = m.site_matid[id] ?? -1;
+    const type = at(m.site_type, id), size = row3(m.site_size, id), matid = m.site_matid[id] ?? -1;
     const { color } = colorOf(m, m.site_rgba, id, matid);
     if (color[3] <= 0) continue;
     const position = row3(f.site_xpos, id);
     list.push({
-      ...primitive(type, row3(m.site_size, id)), position, rotation: rotationAt(f.site_xmat, id), color, material: materialOf(m, matid, type),
+      ...primitive(type, size), position, rotation: rotationAt(f.site_xmat, id), color, material: materialOf(m, matid, type, size),
       layer: color[3] >= 1 ? LAYER.overlay : LAYER.transparent, depth: depthOf(eye, position),
     });
   }

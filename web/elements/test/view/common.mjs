@@ -32,7 +32,9 @@ export function decode(scene) {
   return { ...scene, model: typed(scene.model), frame: typed(scene.frame) };
 }
 
-const RECORDED = JSON.parse(readFileSync(new URL("golden/scenes.json", import.meta.url), "utf8"));
+const read = name => JSON.parse(readFileSync(new URL(`golden/${name}.json`, import.meta.url), "utf8"));
+const RECORDED = read("scenes");
+export const TEXTURED = read("textures");
 export const NAMES = Object.keys(RECORDED);
 export const SIZE = [320, 240];
 

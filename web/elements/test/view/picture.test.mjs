@@ -1,7 +1,7 @@
 // Pictures in Chromium: the same silhouettes as MuJoCo's renderer, lights, overlays, themes, sizes.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { modules, NAMES, openPage, pixels, poseOf, recorded, scene, SIZE } from "./common.mjs";
+import { modules, NAMES, openPage, pixels, poseOf, recorded, scene, SIZE, TEXTURED } from "./common.mjs";
 
 const { placeEye, rayGeom, rayThrough } = await modules("ray", "camera");
 
@@ -14,13 +14,15 @@ after(async () => {
 });
 
 /** The pixels of a scene's picture: RGBA, row by row from the top. */
-async function picture(name, options = {}) {
+const picture = (name, options = {}) => pictureOf(recorded(name), options);
+
+async function pictureOf(recording, options = {}) {
   const text = await chromium.page.evaluate(([s, o]) => {
     const { canvas, view } = show(s, o), pixels = read(canvas);
     view.dispose();
     canvas.remove();
     return pixels;
-  }, [recorded(name), options]);
+  }, [recording, options]);
   return Buffer.from(text, "base64");
 }
 
@@ -139,6 +141,21 @@ test("a shadow is darker than the floor and keeps its colour", async () => {
   assert.ok(darker > 800 && lighter < 20, `${darker} darker, ${lighter} lighter`);
 });
 
+test("a spot light lights what is inside its cone", async () => {
+  const light = {
+    light_type: [0], light_castshadow: [0], light_active: [1], light_attenuation: [1, 0, 0], light_cutoff: [20], light_exponent: [0],
+    light_ambient: [0, 0, 0], light_diffuse: [0.8, 0, 0], light_specular: [0, 0, 0],
+  };
+  const above = { ...recorded("endless"), camera: { azimuth: 90, elevation: -89.9, distance: 4, target: [3, 0, 0] } };
+  Object.assign(above.frame = { ...above.frame }, { light_xpos: [3, 0, 2], light_xdir: [0, 0, -1] });
+  const [lit, unlit] = [await pictureOf(above, { edit: light }), await pictureOf(above, { edit: { ...light, light_active: [0], light_type: [0] } })];
+  const redness = (rgba, x) => { const at = 4 * (WIDTH * (HEIGHT / 2 + 3) + x); return rgba[at] - rgba[at + 2]; };
+  const radius = Math.round((2 * Math.tan(Math.PI / 9) * HEIGHT) / 2 / (4 * Math.tan(Math.PI / 8)));
+  const inside = WIDTH / 2 + Math.round(0.7 * radius), outside = WIDTH / 2 + Math.round(1.15 * radius);
+  assert.ok(redness(lit, inside) > redness(lit, outside) + 15, `${redness(lit, inside)} inside, ${redness(lit, outside)} outside`);
+  assert.ok(Math.abs(redness(unlit, inside) - redness(unlit, outside)) < 6);
+});
+
 test("a transparent geom shows what is behind it", async () => {
   // The box at the front becomes glass; the cylinder behind it is green.
   const { model } = scene("ortho"), rgba = Array.from(model.geom_rgba);
@@ -157,7 +174,26 @@ test("high contrast and dark themes change lines, not geoms", async () => {
   assert.ok(darkest(contrast) < darkest(plain) - 40, `${darkest(contrast)} against ${darkest(plain)}`);
 });
 
-test("textures lie as MuJoCo draws them: the tile of a plane begins at its upper left corner", async () => {
+for (const [name, recording] of Object.entries(TEXTURED)) {
+  test(`textures lie as MuJoCo draws them: ${name}`, async () => {
+    const expected = pixels(recording.colors), rgba = await pictureOf(recording, { overlays: { shadows: false } });
+    let compared = 0, wrong = [];
+    for (let y = 2; y < HEIGHT - 2; y++) {
+      for (let x = 2; x < WIDTH - 2; x++) {
+        const at = y * WIDTH + x, [r, g, b] = rgba.subarray(4 * at, 4 * at + 3), half = Math.max(0.5 * Math.max(r, g, b), 10);
+        if (new Set(neighbours(expected, x, y, 2)).size > 1) continue;
+        compared++;
+        const bright = 4 * Number(r > half) + 2 * Number(g > half) + Number(b > half);
+        if (bright !== expected[at]) wrong.push(`(${x}, ${y}): ${[r, g, b]}, MuJoCo ${expected[at]}`);
+      }
+    }
+    assert.ok(compared > 0.4 * WIDTH * HEIGHT, `${compared} pixels are compared`);
+    // The renderers blend neighbouring colours of a texture differently.
+    assert.ok(wrong.length <= 0.01 * compared, `${wrong.length} of ${compared} pixels: ${wrong.slice(0, 4).join("; ")}`);
+  });
+}
+
+test("a tile of a plane begins at its upper left corner", async () => {
   const rgba = await picture("looks", { camera: { azimuth: 90, elevation: -89.9, distance: 3, target: [0, 0, 0] }, overlays: { shadows: false } });
   // Three columns and two rows of tiles with a white edge: bright columns at the edges of tiles, dark between them.
   const brightness = (x, y) => rgba[4 * (WIDTH * y + x)];

@@ -67,6 +67,12 @@ test("a point is projected where its ray begins", () => {
   }
 });
 
+test("the free camera of a model without a field of view has MuJoCo's, 45 degrees", () => {
+  const { model, frame } = scene("pendulum"), { fovy, ...others } = model;
+  assert.equal(fovy, 45);
+  assert.deepEqual(placeEye(defaultCamera(model), others, frame), placeEye(defaultCamera(model), model, frame));
+});
+
 test("the camera of a lab says where the camera is, that of a view where it looks", () => {
   const { model, frame } = scene("pendulum");
   const pose = { ...defaultCamera(model), ...labCamera({ azimuth: -90, elevation: 30, distance: 2, target: [0.1, 0, 1] }) };

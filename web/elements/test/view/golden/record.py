@@ -4,6 +4,8 @@
 
 writes scenes.json beside itself: for each scene the fields that the view reads, the camera, which geom is seen in every pixel
 (run lengths of ids, row by row from the top; -1 nothing, ngeom + i tendon i), and where rays meet geoms (`mj_ray`).
+
+And textures.json: scenes with textures, and which of red, green and blue are bright in every pixel (run lengths of 4 r + 2 g + b).
 """
 
 import json
@@ -15,7 +17,7 @@ import numpy as np
 
 WIDTH, HEIGHT = 320, 240
 # Larger textures are left out, bytes.
-SMALL_TEXTURES = 4096
+SMALL_TEXTURES = 20000
 
 # name: (folder, file, steps, camera); a camera is free (azimuth, elevation, distance, target), fixed or tracking.
 SCENES = {
@@ -145,13 +147,8 @@ def rays(m, d, random):
     return out
 
 
-def record(path, steps, spec, random):
-    m = mujoco.MjModel.from_xml_path(str(path)) if path else mujoco.MjModel.from_xml_string(INLINE)
-    d = mujoco.MjData(m)
-    for _ in range(steps):
-        mujoco.mj_step(m, d)
-    mujoco.mj_forward(m, d)
-    library, camera = cameras(m, spec)
+def scene(m, d):
+    """The fields of a scene that the view reads."""
     model = {name: numbers(getattr(m, name)) for name in MODEL}
     model |= {"center": numbers(m.stat.center), "extent": float(m.stat.extent), "fovy": float(m.vis.global_.fovy),
               "cameras": [m.camera(i).name for i in range(m.ncam)]}
@@ -159,16 +156,91 @@ def record(path, steps, spec, random):
         model["textures"] = textures(m)
     frame = {name: numbers(getattr(d, name)) for name in FRAME}
     frame |= {"time": d.time, "contacts": contacts(m, d)}
-    return {"camera": camera, "model": model, "frame": frame, "seen": silhouettes(m, d, library), "rays": rays(m, d, random)}
+    return {"model": model, "frame": frame}
+
+
+def record(path, steps, spec, random):
+    m = mujoco.MjModel.from_xml_path(str(path)) if path else mujoco.MjModel.from_xml_string(INLINE)
+    d = mujoco.MjData(m)
+    for _ in range(steps):
+        mujoco.mj_step(m, d)
+    mujoco.mj_forward(m, d)
+    library, camera = cameras(m, spec)
+    return scene(m, d) | {"camera": camera, "seen": silhouettes(m, d, library), "rays": rays(m, d, random)}
+
+
+def tile(color, size=8):
+    """A colour; in the upper half white on the left and another colour on the right."""
+    pixels = np.empty((size, size, 3), np.uint8)
+    pixels[:] = color
+    pixels[: size // 2, : size // 2] = 255
+    pixels[: size // 2, size // 2 :] = np.roll(color, 1)
+    return pixels
+
+
+def textured(has_sky):
+    """Planes, boxes, balls and meshes with textures of all kinds, or a sky."""
+    spec = mujoco.MjSpec()
+    colors = [(255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 0), (255, 0, 255), (0, 255, 255)]
+    cube = np.concatenate([tile(c) for c in colors]).ravel().tolist()
+    kinds = mujoco.mjtTexture
+    for name, kind in [("cube", kinds.mjTEXTURE_CUBE)] + [("sky", kinds.mjTEXTURE_SKYBOX)] * has_sky:
+        spec.add_texture(name=name, type=kind, width=8, height=48, nchannel=3, data=cube)
+    spec.add_texture(name="flat", type=kinds.mjTEXTURE_2D, width=8, height=8, nchannel=3, data=tile((255, 0, 0)).ravel().tolist())
+    for texture in ["cube", "flat"]:
+        for uniform in [0, 1]:
+            material = spec.add_material(name=f"{texture}{uniform}", texuniform=uniform, texrepeat=[3, 2], specular=0)
+            material.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = texture
+    corners = [-1, -0.5, -1, 1, -0.5, -1, 1, -0.5, 1, -1, -0.5, 1, 0, 0.5, 0]
+    spec.add_mesh(name="wedge", uservert=[0.4 * x for x in corners], usertexcoord=[0, 0, 1, 0, 1, 1, 0, 1, 0.5, 0.5],
+                  userface=[0, 1, 2, 0, 2, 3, 1, 0, 4, 2, 1, 4, 3, 2, 4, 0, 3, 4])
+    types = mujoco.mjtGeom
+    for uniform, x in [] if has_sky else [(0, -2), (1, 2)]:
+        add = spec.worldbody.add_geom
+        add(type=types.mjGEOM_PLANE, size=[1.9, 1.5, 0.1], pos=[x, 0, 0], material=f"flat{uniform}")
+        add(type=types.mjGEOM_BOX, size=[0.4, 0.3, 0.2], pos=[x - 1, 0, 0.8], material=f"cube{uniform}")
+        add(type=types.mjGEOM_BOX, size=[0.4, 0.3, 0.2], pos=[x, 0, 0.8], material=f"flat{uniform}")
+        add(type=types.mjGEOM_SPHERE, size=[0.3, 0, 0], pos=[x, 0.2, 1.6], material=f"cube{uniform}")
+        add(type=types.mjGEOM_MESH, meshname="wedge", pos=[x + 1, 0, 0.8], material=f"flat{uniform}")
+    model = spec.compile()
+    model.vis.headlight.ambient[:] = 0.6
+    return model
+
+
+TEXTURED = {
+    "left": (False, (90, -40, 4.5, (-2, 0, 0.6))),
+    "right": (False, (90, -40, 4.5, (2, 0, 0.6))),
+    "side": (False, (20, -10, 4.5, (1, 0, 0.6))),
+    "back": (False, (215, -30, 5, (0, 0, 0.6))),
+    "sky": (True, (35, 10, 3, (0, 0, 0))),
+    "sky_down": (True, (200, -70, 3, (0, 0, 0))),
+}
+
+
+def record_textures(has_sky, spec):
+    m = textured(has_sky)
+    d = mujoco.MjData(m)
+    mujoco.mj_forward(m, d)
+    library, camera = cameras(m, spec)
+    with mujoco.Renderer(m, HEIGHT, WIDTH) as renderer:
+        renderer.update_scene(d, library)
+        rgb = renderer.render().astype(int)
+    bright = rgb > np.maximum(0.5 * rgb.max(axis=2, keepdims=True), 10)
+    return scene(m, d) | {"camera": camera, "colors": runs(bright @ [4, 2, 1])}
+
+
+def write(name, scenes):
+    lines = [f"{json.dumps(name)}: {json.dumps(scene, separators=(',', ':'))}" for name, scene in scenes.items()]
+    text = "{\n" + ",\n".join(lines) + "\n}\n"
+    pathlib.Path(__file__).with_name(name).write_text(text)
 
 
 def main(corpus, specs):
     folders = {"corpus": pathlib.Path(corpus), "specs": pathlib.Path(specs)}
     random = np.random.default_rng(7)
     scenes = {name: record(folder and folders[folder] / f"{file}.xml", steps, camera, random) for name, (folder, file, steps, camera) in SCENES.items()}
-    lines = [f"{json.dumps(name)}: {json.dumps(scene, separators=(',', ':'))}" for name, scene in scenes.items()]
-    text = "{\n" + ",\n".join(lines) + "\n}\n"
-    pathlib.Path(__file__).with_name("scenes.json").write_text(text)
+    write("scenes.json", scenes)
+    write("textures.json", {name: record_textures(*about) for name, about in TEXTURED.items()})
 
 
 main(*sys.argv[1:])
