@@ -42,7 +42,7 @@ test("ranges hold what is drawn", () => {
     assert.ok(range.min < range.max && (times.min > 0 || (range.min <= min && range.max >= max)));
     const spacing = tickSpacing(range, 4);
     const marks = ticks(range, spacing);
-    assert.ok(marks.length >= 1 && marks.length <= 6, `${marks}`);
+    assert.ok(marks.length >= 1 && marks.length <= 7, `${marks}`);
   }
   for (const y of [0, 5, NaN]) {
     const series = createSeries(1);

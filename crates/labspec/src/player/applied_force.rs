@@ -11,7 +11,9 @@ impl Player {
     /// There is no such body or it is the world, a number is not finite, or the lab is frozen.
     pub fn apply_force(&mut self, body: usize, force: [f64; 6]) -> Result<(), Error> {
         if body == 0 || body >= self.model().nbody {
-            return Err(Error::Call(format!("no force can act on body {body}: it is the world or does not exist")));
+            return Err(Error::Call(format!(
+                "no force can act on body {body}: it is the world or does not exist"
+            )));
         }
         if force.iter().any(|x| !x.is_finite()) {
             return Err(Error::Call("a force consists of finite numbers".into()));

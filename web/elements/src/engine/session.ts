@@ -6,7 +6,7 @@ import { readSceneFrame, readSceneModel, sceneModelChanged, writtenSceneFields }
 
 /** Samples of one frame; more are thinned out. */
 const MOST_ROWS = 128;
-/** Steps between two looks at the clock. */
+/** Steps for which the force of a drag is held. */
 const PIECE = 8;
 const NO_FORCE = [0, 0, 0, 0, 0, 0];
 
@@ -65,9 +65,9 @@ export function advance(session: Session, seconds: number, budget: number): Fram
     for (let i = 0; i < PIECE && left >= lab.timestep; i++) {
       left -= lab.timestep;
       stepOnce(session);
-      if (lab.isOver || session.events.slice(before).some((event) => event.type === "restart")) break outer;
+      const isRestarted = session.events.slice(before).some((event) => event.type === "restart");
+      if (lab.isOver || isRestarted || performance.now() >= deadline) break outer;
     }
-    if (performance.now() >= deadline) break;
   }
   const behind = lab.isOver ? 0 : Math.max(0, left - lab.timestep);
   session.carry = lab.isOver ? 0 : Math.min(left, lab.timestep);

@@ -37,7 +37,7 @@ export function tickSpacing(range: Range, count: number): number {
   const rough = (range.max - range.min) / Math.max(1, count);
   const power = 10 ** Math.floor(Math.log10(rough));
   const factor = rough / power;
-  return power * (factor <= 1 ? 1 : factor <= 2 ? 2 : factor <= 5 ? 5 : 10);
+  return power * (factor <= 1 ? 1 : factor <= 2.5 ? 2 : factor <= 6 ? 5 : 10);
 }
 
 /** Round ticks inside a range. */

@@ -10,7 +10,13 @@ import { launch, pageOf, repository, serve, watchErrors } from "./site.mjs";
 
 const corpus = process.env.CORPUS ?? join(repository, "../shared/corpus");
 assert.ok(existsSync(corpus), "CORPUS is the folder with `labs` and `models`");
-const STEPS = [1, 99, 400];
+const STEPS = [1, 99, 200];
+
+/** What a reader does with a control: presses it, chooses its last option, moves it to two thirds. `null` is a press. */
+function actOf({ kind, label, min, max, step, options }) {
+  if (kind === "button") return [label, null];
+  return [label, kind === "select" ? options.at(-1)[1] : min + Math.round((2 * (max - min)) / 3 / step) * step];
+}
 
 function modelsOf(folder) {
   const files = readdirSync(folder).filter((file) => file.endsWith(".xml"));
@@ -41,26 +47,43 @@ for (const [name, written, models] of labs) {
   const text = written.replace(/"autoplay":\s*true/, '"autoplay": false');
   test(name, async () => {
     const lab = new Lab(text, models);
-    const expected = [[...lab.numbers]];
-    for (const steps of STEPS) {
+    const expected = [[lab.time, ...lab.numbers]];
+    const play = (steps) => {
       for (let i = 0; i < steps && !lab.isOver; i++) lab.step();
-      expected.push([...lab.numbers]);
+      expected.push([lab.time, ...lab.numbers]);
+    };
+    STEPS.forEach(play);
+    const acts = lab.controls.map(actOf);
+    for (const [label, value] of acts) {
+      if (value === null) lab.press(label);
+      else lab.set(label, value);
+      play(20);
     }
-    const there = await page.evaluate(async ([json, own, parts]) => {
+    lab.reset();
+    play(20);
+    const there = await page.evaluate(async ([json, own, parts, doing]) => {
       const element = document.createElement("sim-lab");
       element.lab = json;
       element.models = own;
       document.querySelector("main").append(element);
       await element.ready;
-      const out = [element.numbers];
-      for (const steps of parts) {
+      const out = [[element.time, ...element.numbers]];
+      const play = async (steps) => {
         await element.step(steps);
-        out.push(element.numbers);
+        out.push([element.time, ...element.numbers]);
+      };
+      for (const steps of parts) await play(steps);
+      for (const [label, value] of doing) {
+        if (value === null) await element.press(label);
+        else await element.set(label, value);
+        await play(20);
       }
+      await element.reset();
+      await play(20);
       const text = element.texts;
       element.remove();
       return { numbers: out.map((row) => row.map((x) => (Object.is(x, -0) ? "-0" : String(x)))), text };
-    }, [text, models, STEPS]);
+    }, [text, models, STEPS, acts]);
     assert.deepEqual(there.numbers, expected.map((row) => row.map((x) => (Object.is(x, -0) ? "-0" : String(x)))));
     assert.deepEqual(there.text, [...lab.readoutTexts]);
     count += expected.flat().length;

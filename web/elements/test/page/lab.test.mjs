@@ -5,6 +5,8 @@ import test, { after } from "node:test";
 import { Lab } from "labspec";
 import { drop, dropLab, labOf, launch, opened, pageOf, repository, serve, watchErrors } from "./site.mjs";
 
+const boxes = Array.from({ length: 27 }, (_, i) => `<body pos='${(i % 3) * 0.19} ${(Math.floor(i / 3) % 3) * 0.19} ${0.11 + Math.floor(i / 9) * 0.21}'><freejoint/><geom type='box' size='.1 .1 .1'/></body>`).join("");
+const pile = `<mujoco><option timestep='0.00005'/><worldbody><geom type='plane' size='5 5 1'/>${boxes}</worldbody></mujoco>`;
 const server = await serve({
   "/drop.html": pageOf(labOf(dropLab, { models: { drop } })),
   "/frozen.html": pageOf(labOf({ ...dropLab, stopAt: 0.5, autoplay: true }, { models: { drop } })),
@@ -17,6 +19,7 @@ const server = await serve({
   "/models/pair.xml": "<mujoco><compiler meshdir='shapes'/><asset><mesh name='wedge' file='wedge.obj'/></asset><include file='parts/floor.xml'/><worldbody><geom type='mesh' mesh='wedge'/></worldbody></mujoco>",
   "/models/parts/floor.xml": "<mujoco><worldbody><geom type='plane' size='1 1 1'/></worldbody></mujoco>",
   "/models/shapes/wedge.obj": "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n",
+  "/pile.html": pageOf(labOf({ model: "pile", height: 160, controls: [{ label: "gravity", set: "model.opt.gravity[2]", min: -20, max: -1, value: -9.8 }] }, { models: { pile } })),
   "/late.html": pageOf("<p>Nothing yet.</p>"),
 });
 const browser = await launch();
@@ -205,6 +208,39 @@ test("a lab from a script of the page: properties before and after it is in the 
     return [time, lab.time];
   }, [dropLab, drop]);
   assert.ok(Math.abs(time[0] - 0.02) < 1e-12 && Math.abs(time[1] - 0.002) < 1e-12, String(time));
+  errors.none();
+});
+
+test("the speed is chosen; a model slower than real time says so, and its controls answer", async (t) => {
+  const { page, errors } = await open(t, "/pile.html");
+  await opened(page);
+  await page.getByRole("combobox", { name: "Speed" }).selectOption({ label: "\u20664×\u2069" });
+  await page.getByRole("button", { name: "Play" }).click();
+  await page.waitForFunction(() => /runs at 0\.\d+ times real time/.test(document.querySelector("sim-lab").shadowRoot.querySelector(".slow").textContent));
+  const [answer, longest] = await page.evaluate(async () => {
+    const lab = document.querySelector("sim-lab");
+    let [last, most] = [performance.now(), 0];
+    const timer = setInterval(() => {
+      most = Math.max(most, performance.now() - last);
+      last = performance.now();
+    }, 1);
+    const begun = performance.now();
+    await lab.set("gravity", -5);
+    const took = performance.now() - begun;
+    await new Promise((resolve) => setTimeout(resolve, 1000));
+    clearInterval(timer);
+    return [took, most];
+  });
+  console.log(`slower than real time: a slider is answered after ${answer.toFixed(0)} ms; the page waits at most ${longest.toFixed(0)} ms`);
+  assert.ok(answer < 1000);
+  errors.none();
+});
+
+test("print shows the lab without what only a screen can use", async (t) => {
+  const { page, errors } = await open(t, "/drop.html");
+  await opened(page);
+  await page.emulateMedia({ media: "print" });
+  assert.deepEqual(await Promise.all([".toolbar", ".view-bar", ".view", ".readouts", ".plot", ".note"].map((part) => page.locator(part).isVisible())), [false, false, true, true, true, true]);
   errors.none();
 });
 
