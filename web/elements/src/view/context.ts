@@ -102,6 +102,7 @@ export class SharedContext {
 }
 
 let shared: SharedContext | null = null;
+let hasHadContext = false;
 /** Before this time no context is asked for, after one was refused. */
 let refusedUntil = 0;
 const clients = new Set<Client>();
@@ -129,10 +130,14 @@ export function sharedContext(): SharedContext | null {
     const made: { context: SharedContext | null } = { context: null };
     made.context = SharedContext.create(() => { contextLost(made.context); });
     shared = made.context;
-    if (!shared) refusedUntil = performance.now() + RETRY / 2;
+    if (shared) hasHadContext = true;
+    else refusedUntil = performance.now() + RETRY / 2;
   }
   return shared;
 }
+
+/** Whether the browser has WebGL 2, even if it has lost its context at the moment. */
+export const hasWebGl = (): boolean => hasHadContext || sharedContext() !== null;
 
 export function addClient(client: Client): void { clients.add(client); }
 

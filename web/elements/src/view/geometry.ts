@@ -3,7 +3,7 @@ import type { SharedContext } from "./context.js";
 import { at } from "./matrix.js";
 import { hashNumbers, hfieldShape, meshShape } from "./mesh.js";
 import type { GeometryNames } from "./scene.js";
-import type { SceneModel } from "./types.js";
+import type { Numbers, SceneModel, SceneTexture } from "./types.js";
 
 /** Names of everything that a model needs uploaded; equal data has equal names, in every view. */
 export interface Geometry extends GeometryNames {
@@ -15,23 +15,50 @@ export interface Geometry extends GeometryNames {
 /** `mjTEXTURE_SKYBOX`. */
 const SKYBOX = 2;
 
-function meshName(m: SceneModel, id: number): string {
-  const part = (list: Parameters<typeof hashNumbers>[0], first: number, count: number, width: number): string =>
-    hashNumbers(list, width * first, width * (first + count));
-  const faces = at(m.mesh_faceadr, id), count = at(m.mesh_facenum, id);
-  return `mesh ${part(m.mesh_vert, at(m.mesh_vertadr, id), at(m.mesh_vertnum, id), 3)} ${part(m.mesh_face, faces, count, 3)} ${
-    part(m.mesh_facenormal, faces, count, 3)} ${part(m.mesh_facetexcoord, faces, count, 3)}`;
+const MESH_FIELDS = [
+  "mesh_vertadr", "mesh_vert", "mesh_normaladr", "mesh_normal", "mesh_texcoordadr", "mesh_texcoord", "mesh_faceadr", "mesh_face", "mesh_facenormal",
+  "mesh_facetexcoord",
+] as const;
+
+function sameNumbers(a: ArrayLike<number>, b: ArrayLike<number>): boolean {
+  if (a === b) return true;
+  if (a.length !== b.length) return false;
+  for (let i = 0; i < a.length; i++) if (a[i] !== b[i]) return false;
+  return true;
 }
 
-export function nameGeometry(m: SceneModel): Geometry {
-  const mesh = Array.from(m.mesh_vertadr, (_, id) => meshName(m, id));
-  const hfield = Array.from(m.hfield_adr, (first, id) => {
-    const [rows, columns] = [at(m.hfield_nrow, id), at(m.hfield_ncol, id)];
-    return `hfield ${rows}x${columns} ${hashNumbers(m.hfield_data, first, first + rows * columns)} ${hashNumbers(m.hfield_size, 4 * id, 4 * id + 4)}`;
-  });
+function meshName(m: SceneModel, id: number): string {
+  const rows = (list: Numbers, first: number, end: number, width: number): string => hashNumbers(list, width * first, width * end);
+  // The rows of a mesh end where those of the next one begin.
+  const until = (addresses: Numbers, list: Numbers, width: number): number => addresses[id + 1] ?? list.length / width;
+  const face = at(m.mesh_faceadr, id), lastFace = face + at(m.mesh_facenum, id), vertex = at(m.mesh_vertadr, id);
+  const texcoord = m.mesh_texcoordadr[id] ?? -1, lastTexcoord = texcoord + at(m.mesh_texcoordnum, id);
+  return [
+    "mesh", rows(m.mesh_vert, vertex, vertex + at(m.mesh_vertnum, id), 3),
+    rows(m.mesh_normal, at(m.mesh_normaladr, id), until(m.mesh_normaladr, m.mesh_normal, 3), 3),
+    texcoord < 0 ? "" : rows(m.mesh_texcoord, texcoord, lastTexcoord, 2),
+    rows(m.mesh_face, face, lastFace, 3), rows(m.mesh_facenormal, face, lastFace, 3), rows(m.mesh_facetexcoord, face, lastFace, 3),
+  ].join(" ");
+}
+
+function hfieldName(m: SceneModel, id: number): string {
+  const first = at(m.hfield_adr, id), [rows, columns] = [at(m.hfield_nrow, id), at(m.hfield_ncol, id)];
+  return `hfield ${rows}x${columns} ${hashNumbers(m.hfield_data, first, first + rows * columns)} ${hashNumbers(m.hfield_size, 4 * id, 4 * id + 4)}`;
+}
+
+const textureName = (t: SceneTexture): string => `texture ${t.type} ${t.width}x${t.height} ${t.channels} ${hashNumbers(t.data)}`;
+
+/** The names of a model's geometry. With the model before it, meshes and textures that have stayed the same are not hashed again. */
+export function nameGeometry(m: SceneModel, before?: { readonly model: SceneModel; readonly geometry: Geometry }): Geometry {
   const images = m.textures ?? [];
-  const textures = images.map(t => `texture ${t.type} ${t.width}x${t.height} ${t.channels} ${hashNumbers(t.data)}`);
-  return { mesh, hfield, textures, sky: images.findIndex(t => t.type === SKYBOX) };
+  const hasSameMeshes = before !== undefined && MESH_FIELDS.every(field => sameNumbers(m[field], before.model[field]));
+  return {
+    mesh: hasSameMeshes ? before.geometry.mesh : Array.from(m.mesh_vertadr, (_, id) => meshName(m, id)),
+    // A program may write heights in place.
+    hfield: Array.from(m.hfield_adr, (_, id) => hfieldName(m, id)),
+    textures: images === before?.model.textures ? before.geometry.textures : images.map(textureName),
+    sky: images.findIndex(t => t.type === SKYBOX),
+  };
 }
 
 export function uploadGeometry(context: SharedContext, m: SceneModel, g: Geometry): void {

@@ -7,6 +7,6 @@ export type * from "./types.js";
 
 /**
  * A view of `model` in `canvas`, whose size on the page comes from its style, not from its pixels. The canvas must have no context of
- * another kind.
+ * another kind. Throws an `Error` where the browser has no WebGL 2.
  */
 export const createView: CreateView = (canvas, model, options) => new SceneView(canvas, model, options);

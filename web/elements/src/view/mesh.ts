@@ -88,15 +88,15 @@ export function hfieldShape(m: SceneModel, id: number): Shape {
 }
 
 /** Two 32-bit FNV-1a hashes of numbers `from` to `to` of a list, to recognize geometry that has been uploaded. */
-export function hashNumbers(list: Numbers, from = 0, to = list.length, seed = ""): string {
+export function hashNumbers(list: Numbers, from = 0, to = list.length): string {
   let a = 0x811c9dc5, b = 0x01234567;
   const word = new Float32Array(1), bits = new Uint32Array(word.buffer);
   for (let i = from; i < to; i++) {
     word[0] = at(list, i);
     a = Math.imul(a ^ at(bits, 0), 0x01000193);
-    b = Math.imul(b ^ (at(bits, 0) >>> 7) ^ i, 0x85ebca6b);
+    b = Math.imul(b ^ (at(bits, 0) >>> 7) ^ (i - from), 0x85ebca6b);
     a ^= a >>> 15;
     b ^= b >>> 13;
   }
-  return `${seed}${to - from}:${(a >>> 0).toString(36)}${(b >>> 0).toString(36)}`;
+  return `${to - from}:${(a >>> 0).toString(36)}${(b >>> 0).toString(36)}`;
 }

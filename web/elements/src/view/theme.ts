@@ -1,5 +1,6 @@
 /** Colours: of the page behind the picture, and of what is drawn over the scene. */
 import type { Color } from "./instances.js";
+import { at } from "./matrix.js";
 
 export interface Palette {
   /** CSS colour behind the scene; null where the page is seen. */
@@ -57,9 +58,18 @@ export function brightness(color: string): number | null {
   const context = canvas.getContext("2d", { willReadFrequently: true });
   if (!context) return null;
   context.fillStyle = color;
+  const bright = (r: number, g: number, b: number, a: number): number | null => (a < 0.5 ? null : (0.2126 * r + 0.7152 * g + 0.0722 * b) / 255);
+  const text = String(context.fillStyle);
+  if (text.startsWith("#")) {
+    const [r, g, b] = hex(text);
+    return bright(255 * r, 255 * g, 255 * b, 1);
+  }
+  const parts = /^rgba?\((.*)\)$/.exec(text)?.[1]?.split(",").map(Number);
+  if (parts) return bright(at(parts, 0), at(parts, 1), at(parts, 2), parts[3] ?? 1);
+  // A colour of another space.
   context.fillRect(0, 0, 1, 1);
-  const [r = 0, g = 0, b = 0, a = 0] = context.getImageData(0, 0, 1, 1).data;
-  return a < 128 ? null : (0.2126 * r + 0.7152 * g + 0.0722 * b) / 255;
+  const { data } = context.getImageData(0, 0, 1, 1);
+  return bright(at(data, 0), at(data, 1), at(data, 2), at(data, 3) / 255);
 }
 
 /** The colours for a page. `textColor` decides between light and dark where the page is seen behind the scene. */

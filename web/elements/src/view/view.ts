@@ -1,6 +1,6 @@
 /** A view: keeps the scene, decides whether there is anything to draw, and brings the picture into its canvas. */
 import { defaultCamera, placeEye, pointFacing, rayThrough, type Eye, type Ray } from "./camera.js";
-import { addClient, fitCanvas, removeClient, sharedContext, type Client, type SharedContext } from "./context.js";
+import { addClient, fitCanvas, hasWebGl, removeClient, sharedContext, type Client, type SharedContext } from "./context.js";
 import { nameGeometry, releaseGeometry, uploadGeometry, type Geometry } from "./geometry.js";
 import { DrawList } from "./instances.js";
 import { collectLights } from "./lights.js";
@@ -49,6 +49,7 @@ export class SceneView implements View, Client {
   #drawn = "";
 
   constructor(canvas: HTMLCanvasElement, model: SceneModel, options: ViewOptions = {}) {
+    if (!hasWebGl()) throw new Error("the 3D view needs WebGL 2");
     this.#canvas = canvas;
     this.#model = model;
     this.#options = options;
@@ -73,8 +74,8 @@ export class SceneView implements View, Client {
   }
 
   setModel(model: SceneModel): void {
+    this.#geometry = nameGeometry(model, { model: this.#model, geometry: this.#geometry });
     this.#model = model;
-    this.#geometry = nameGeometry(model);
     this.#isChanged = true;
   }
 
@@ -204,13 +205,7 @@ export class SceneView implements View, Client {
   /** Draws the scene into a canvas; false where the browser has no WebGL context now. */
   #paint(canvas: HTMLCanvasElement, width: number, height: number, density: number): boolean {
     const frame = this.#frame, context = sharedContext(), target = canvas.getContext("2d");
-    if (!frame || !target) return false;
-    if (!context) {
-      target.clearRect(0, 0, width, height);
-      target.fillStyle = getComputedStyle(this.#canvas).color;
-      target.fillText("The 3D view needs WebGL 2.", 8, 16);
-      return false;
-    }
+    if (!frame || !context || !target) return false;
     const eye = placeEye(this.camera, this.#model, frame), m = this.#model, reach = planeReach(m, eye);
     this.#fill(frame, eye);
     this.#upload(context);

@@ -53,8 +53,8 @@ export const poseOf = recordedCamera => ({ azimuth: 0, elevation: 0, distance: 1
 
 /** A page with the view as `view`, under a strict policy; close it with `stop`. */
 export async function openPage(scale = 1) {
-  const text = await bundle(`import { createView, labCamera } from "./index.ts"; import { sharedContext } from "./context.ts";
-    Object.assign(globalThis, { view: { createView, labCamera, sharedContext }, decode: ${decode.toString().replaceAll("INTEGERS", INTEGERS.toString())} });`, "iife");
+  const text = await bundle(`import { createView, labCamera } from "./index.ts"; import { sharedContext } from "./context.ts"; import { brightness } from "./theme.ts";
+    Object.assign(globalThis, { view: { createView, labCamera, sharedContext, brightness }, decode: ${decode.toString().replaceAll("INTEGERS", INTEGERS.toString())} });`, "iife");
   const server = createServer((request, response) => {
     const isScript = request.url === "/view.js";
     response.writeHead(200, {

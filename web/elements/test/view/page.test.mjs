@@ -253,26 +253,49 @@ test("a model without geoms, and numbers that are not finite, draw nothing and d
   assert.equal(count, 0);
 });
 
-test("without WebGL a sentence stands in the picture; the scene follows when there is a context", async () => {
+test("without WebGL there is no view; one may come later, on a canvas of the document", async () => {
   const other = await openPage();
   const result = await other.page.evaluate(async s => {
-    const canvas = HTMLCanvasElement.prototype.getContext, offscreen = OffscreenCanvas.prototype.getContext;
+    const canvas = HTMLCanvasElement.prototype.getContext;
     HTMLCanvasElement.prototype.getContext = function (kind, ...args) { return kind === "webgl2" ? null : canvas.call(this, kind, ...args); };
     OffscreenCanvas.prototype.getContext = () => null;
-    const shown = show(s), { data } = shown.canvas.getContext("2d").getImageData(0, 0, 320, 240);
-    const text = data.filter((v, i) => i % 4 === 3 && v > 60).length;
+    let message = "";
+    try {
+      show(s);
+    } catch (error) {
+      ({ message } = error);
+    }
     HTMLCanvasElement.prototype.getContext = canvas;
     await new Promise(resolve => setTimeout(resolve, 200));
     // Some browsers have WebGL 2 for canvases of the document only.
-    shown.view.draw();
-    const kind = view.sharedContext().canvas.constructor.name;
+    const shown = show(s), kind = view.sharedContext().canvas.constructor.name;
     const drawn = shown.canvas.getContext("2d").getImageData(0, 0, 320, 240).data.filter((v, i) => i % 4 === 3 && v > 100).length;
-    OffscreenCanvas.prototype.getContext = offscreen;
     shown.view.dispose();
-    return { text, kind, drawn };
+    return { message, kind, drawn };
   }, recorded("incline"));
   await other.stop();
-  assert.ok(result.text > 50 && result.text < 2000, `${result.text} pixels of text`);
+  assert.equal(result.message, "the 3D view needs WebGL 2");
   assert.equal(result.kind, "HTMLCanvasElement");
   assert.ok(result.drawn > 5000);
+});
+
+test("while the browser refuses a context, a view waits for one", async () => {
+  const other = await openPage();
+  const drawn = await other.page.evaluate(async s => {
+    const { getContext } = OffscreenCanvas.prototype, count = canvas => canvas.getContext("2d").getImageData(0, 0, 320, 240).data.filter((v, i) => i % 4 === 3 && v > 100).length;
+    const shown = show(s), before = count(shown.canvas), onPage = HTMLCanvasElement.prototype.getContext;
+    OffscreenCanvas.prototype.getContext = () => null;
+    HTMLCanvasElement.prototype.getContext = function (kind, ...args) { return kind === "webgl2" ? null : onPage.call(this, kind, ...args); };
+    view.sharedContext().gpu.gl.getExtension("WEBGL_lose_context").loseContext();
+    shown.canvas.getContext("2d").clearRect(0, 0, 320, 240);
+    await new Promise(resolve => setTimeout(resolve, 400));
+    shown.view.draw();
+    const without = count(shown.canvas);
+    OffscreenCanvas.prototype.getContext = getContext;
+    await new Promise(resolve => setTimeout(resolve, 1500));
+    return { before, without, after: count(shown.canvas) };
+  }, recorded("incline"));
+  await other.stop();
+  assert.equal(drawn.without, 0);
+  assert.ok(drawn.before > 5000 && drawn.after === drawn.before, JSON.stringify(drawn));
 });

@@ -167,6 +167,15 @@ test("a transparent geom shows what is behind it", async () => {
   assert.ok(count(glass, isMixed) > 1000);
 });
 
+test("the colours of a page are light or dark, in whatever way they are written", async () => {
+  const dark = ["#101418", "rgb(10 20 30)", "rgba(0, 0, 0, 0.9)", "hsl(210 30% 12%)", "oklch(0.2 0.02 250)", "color(display-p3 0.1 0.1 0.1)", "black"];
+  const light = ["#fff", "rgb(250 250 240)", "oklch(0.95 0.01 100)", "color(srgb 0.9 0.9 0.9)", "white"];
+  const found = await chromium.page.evaluate(colors => colors.map(c => view.brightness(c)), [...dark, ...light, "transparent", "rgba(0, 0, 0, 0)"]);
+  found.slice(0, dark.length).forEach((b, i) => assert.ok(b !== null && b < 0.2, `${dark[i]}: ${b}`));
+  found.slice(dark.length, -2).forEach((b, i) => assert.ok(b > 0.8, `${light[i]}: ${b}`));
+  assert.deepEqual(found.slice(-2), [null, null]);
+});
+
 test("high contrast and dark themes change lines, not geoms", async () => {
   const plain = await picture("endless", { theme: { background: "#ffffff", highContrast: false } });
   const contrast = await picture("endless", { theme: { background: "#ffffff", highContrast: true } });
