@@ -47,7 +47,7 @@ export function createToolbar(options: ToolbarOptions, say: Say, actions: Toolba
   const time = h("output", { class: "clock", "aria-live": "off", "aria-label": say("time") });
   const slow = h("span", { class: "slow", role: "note" });
   slow.hidden = true;
-  const element = h("div", { class: "toolbar", part: "toolbar", role: "group", "aria-label": say("lab") },
+  const element = h("div", { class: "toolbar", part: "toolbar", role: "group", "aria-label": say("playback") },
     play,
     button("step", say("step"), actions.step, say("stepHint", { timestep: formatBrief(options.timestep) })),
     options.hasLargeSteps && button("step", say("stepMore"), actions.stepMore),

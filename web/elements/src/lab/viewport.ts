@@ -53,6 +53,7 @@ export function createViewport(opened: Opened, spec: LabSpec, say: Say, actions:
       ...(trail >= 0 ? { trail } : {}),
     });
   } catch {
+    for (const name of ["role", "tabindex", "aria-label", "aria-description", "style"]) element.removeAttribute(name);
     element.replaceChildren(h("p", { class: "view-failed" }, say("viewFailed")));
   }
   const state: PointerState = { frame: opened.frame.scene, home: view === null ? null : copyPose(view.camera), held: null, target: [0, 0, 0], isActive: false };

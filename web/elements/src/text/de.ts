@@ -3,6 +3,7 @@ import type { Messages } from "./en.js";
 /** The texts of the elements in German. */
 export const german: Messages = {
   lab: "Versuch",
+  playback: "Wiedergabe",
   play: "Abspielen",
   pause: "Anhalten",
   step: "Schritt",

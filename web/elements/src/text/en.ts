@@ -1,6 +1,7 @@
 /** The texts of the elements in English. `{name}` is replaced. */
 export const english = {
   lab: "Lab",
+  playback: "Playback",
   play: "Play",
   pause: "Pause",
   step: "Step",

@@ -1,6 +1,6 @@
 // Labs for everybody: by keyboard, read aloud, without motion, in German, on small phones, in high contrast, from right to left.
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import test, { after } from "node:test";
 import { drop, dropLab, labOf, launch, opened, pageOf, root, serve, watchErrors } from "./site.mjs";
@@ -51,6 +51,23 @@ for (const [name, path, options] of [
     errors.none();
   });
 }
+
+test("the accessibility tree of each lab of the example", async (t) => {
+  const context = await browser.newContext();
+  t.after(() => context.close());
+  const page = await context.newPage();
+  await page.goto(`${server.url}/web/elements/example/index.html`);
+  for (const id of ["drop", "pendulum", "crate", "balls"]) {
+    await page.locator(`#${id}`).scrollIntoViewIfNeeded();
+    if (id !== "balls") await opened(page, `#${id}`);
+    await page.waitForTimeout(100);
+    const tree = `${await page.locator(`#${id}`).ariaSnapshot()}\n`;
+    const file = join(root, `test/page/trees/${id}.yml`);
+    // LABSPEC_BLESS=1 writes the trees anew.
+    if (process.env.LABSPEC_BLESS === "1") writeFileSync(file, tree);
+    assert.equal(tree, readFileSync(file, "utf8"), `${id}: LABSPEC_BLESS=1 accepts the change`);
+  }
+});
 
 test("a whole lab by keyboard alone", async (t) => {
   const { page, errors } = await open(t, "/lab.html");

@@ -244,6 +244,20 @@ test("print shows the lab without what only a screen can use", async (t) => {
   errors.none();
 });
 
+test("without WebGL, a lab says so and works", async (t) => {
+  const blind = await launch(["--disable-gpu", "--disable-software-rasterizer", "--disable-3d-apis"]);
+  t.after(() => blind.close());
+  const page = await blind.newPage();
+  const errors = watchErrors(page);
+  await page.goto(`${server.url}/drop.html`);
+  await opened(page);
+  assert.match(await page.locator(".view").innerText(), /shows no 3D view/);
+  await page.evaluate(() => document.querySelector("sim-lab").step(400));
+  assert.equal((await outputs(page))[1], "touching");
+  assert.equal(await page.locator(".view-bar").count(), 0);
+  errors.none();
+});
+
 test("a model of a folder brings the files that it names", async (t) => {
   const { page, errors } = await open(t, "/folder.html");
   await opened(page);

@@ -25,9 +25,9 @@ export async function serve(pages = {}, headers = {}) {
 }
 
 /** Chromium, as Debian has it. */
-export function launch() {
+export function launch(args = ["--enable-unsafe-swiftshader"]) {
   const executablePath = process.env.CHROMIUM ?? ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find(existsSync);
-  return chromium.launch({ executablePath, args: ["--no-sandbox", "--enable-unsafe-swiftshader"] });
+  return chromium.launch({ executablePath, args: ["--no-sandbox", ...args] });
 }
 
 /** Errors of a page: nothing may be said on its console. */
