@@ -49,7 +49,7 @@ export function labCamera(camera: { azimuth?: number; elevation?: number; distan
 
 /** The camera `pose` in a frame of the scene. */
 export function placeEye(pose: CameraPose, model: SceneModel, frame: SceneFrame): Eye {
-  const near = NEAR * model.extent, far = FAR * model.extent;
+  const extent = Math.max(model.extent, 1e-6), near = NEAR * extent, far = FAR * extent;
   const fixed = pose.fixed;
   if (fixed !== undefined && fixed >= 0 && 3 * fixed < frame.cam_xpos.length) {
     const m = rotationAt(frame.cam_xmat, fixed);
@@ -66,7 +66,7 @@ export function placeEye(pose: CameraPose, model: SceneModel, frame: SceneFrame)
   const target = pose.track === undefined ? pose.target : row3(frame.subtree_com, pose.track);
   return {
     position: addScaled(target, forward, -pose.distance), right: [sa, -ca, 0], up: [-se * ca, -se * sa, ce], forward,
-    halfHeight: Math.tan(((model.fovy ?? FREE_FOVY) * DEGREE) / 2), isOrthographic: false, near: Math.min(near, pose.distance / 20), far: Math.max(far, 4 * pose.distance),
+    halfHeight: Math.tan(((model.fovy ?? FREE_FOVY) * DEGREE) / 2), isOrthographic: false, near: Math.max(Math.min(near, pose.distance / 20), 1e-6 * extent), far: Math.max(far, 4 * pose.distance),
   };
 }
 

@@ -24,17 +24,22 @@ function rayEllipsoid({ from: p, direction: d }: Ray, [a, b, c]: Vec3): number {
   return nearer(...roots(dot(e, e), dot(q, e), dot(q, q) - 1));
 }
 
-function rayBox({ from: p, direction: d }: Ray, size: Vec3): number {
+/** Where a ray enters and leaves a box; it leaves before it enters where it misses. */
+function boxSpan({ from: p, direction: d }: Ray, size: Vec3): readonly [enter: number, leave: number] {
   let enter = -Infinity, leave = Infinity;
   for (const i of [0, 1, 2] as const) {
-    const near = (-Math.sign(d[i]) * size[i] - p[i]) / d[i], far = (Math.sign(d[i]) * size[i] - p[i]) / d[i];
     if (d[i] === 0) {
-      if (Math.abs(p[i]) > size[i]) return NONE;
+      if (Math.abs(p[i]) > size[i]) return [NONE, -NONE];
       continue;
     }
-    enter = Math.max(enter, near);
-    leave = Math.min(leave, far);
+    enter = Math.max(enter, (-Math.sign(d[i]) * size[i] - p[i]) / d[i]);
+    leave = Math.min(leave, (Math.sign(d[i]) * size[i] - p[i]) / d[i]);
   }
+  return [enter, leave];
+}
+
+function rayBox(ray: Ray, size: Vec3): number {
+  const [enter, leave] = boxSpan(ray, size);
   return enter <= leave ? nearer(enter, leave) : NONE;
 }
 
@@ -108,27 +113,37 @@ function rayMesh(ray: Ray, m: SceneModel, id: number): number {
   return best;
 }
 
+/** The first and last of `count` cells of an axis of half size `size` that lie between two coordinates. */
+function cellRange(a: number, b: number, size: number, count: number): [first: number, last: number] {
+  const cell = (x: number): number => Math.min(Math.max(Math.floor(((x / size + 1) / 2) * count), 0), count - 1);
+  const [low, high] = [Math.min(a, b), Math.max(a, b)], margin = 1e-9 * size;
+  return [cell(low - margin), cell(high + margin)];
+}
+
 function rayHfield(ray: Ray, m: SceneModel, id: number): number {
   const { rows, columns, size, point } = heightGrid(m, id);
-  const [x, y, top, base] = size, middle: Vec3 = [ray.from[0], ray.from[1], ray.from[2] + base / 2];
-  let best = rayBox({ from: middle, direction: ray.direction }, [x, y, base / 2]);
-  const whole: Vec3 = [ray.from[0], ray.from[1], ray.from[2] - (top - base) / 2];
-  if (rayBox({ from: whole, direction: ray.direction }, [x, y, (top + base) / 2 + 1e-9]) === NONE) return best;
+  const [x, y, top, base] = size, { from: p, direction: d } = ray;
+  let best = rayBox({ from: [p[0], p[1], p[2] + base / 2], direction: d }, [x, y, base / 2]);
+  const [enter, leave] = boxSpan({ from: [p[0], p[1], p[2] - (top - base) / 2], direction: d }, [x, y, (top + base) / 2 + 1e-9]);
+  if (!(enter <= leave && leave >= 0)) return best;
+  const meet = (a: Vec3, b: Vec3, c: Vec3): void => { best = Math.min(best, rayTriangle(ray, a, b, c)); };
   const wall = (a: Vec3, b: Vec3): void => {
-    const [c, d]: [Vec3, Vec3] = [[b[0], b[1], 0], [a[0], a[1], 0]];
-    best = Math.min(best, rayTriangle(ray, a, b, c), rayTriangle(ray, a, c, d));
+    meet(a, b, [b[0], b[1], 0]);
+    meet(a, [b[0], b[1], 0], [a[0], a[1], 0]);
   };
-  for (let r = 0; r + 1 < rows; r++) {
-    for (let c = 0; c + 1 < columns; c++) {
-      const [p, q, s, t] = [point(r, c), point(r, c + 1), point(r + 1, c), point(r + 1, c + 1)];
-      best = Math.min(best, rayTriangle(ray, p, q, t), rayTriangle(ray, p, t, s));
+  // Only cells below the ray.
+  const start = Math.max(enter, 0), [firstColumn, lastColumn] = cellRange(p[0] + start * d[0], p[0] + leave * d[0], x, columns - 1);
+  const [firstRow, lastRow] = cellRange(p[1] + start * d[1], p[1] + leave * d[1], y, rows - 1);
+  for (let r = firstRow; r <= lastRow; r++) {
+    for (let c = firstColumn; c <= lastColumn; c++) {
+      const a = point(r, c), b = point(r, c + 1), e = point(r + 1, c), f = point(r + 1, c + 1);
+      meet(a, b, f);
+      meet(a, f, e);
+      if (r === 0) wall(a, b);
+      if (r === rows - 2) wall(e, f);
+      if (c === 0) wall(a, e);
+      if (c === columns - 2) wall(b, f);
     }
-    wall(point(r, 0), point(r + 1, 0));
-    wall(point(r, columns - 1), point(r + 1, columns - 1));
-  }
-  for (let c = 0; c + 1 < columns; c++) {
-    wall(point(0, c), point(0, c + 1));
-    wall(point(rows - 1, c), point(rows - 1, c + 1));
   }
   return best;
 }
