@@ -170,7 +170,10 @@ export class SimLab extends HTMLElement {
   /** Opens the lab in the state that is asked for; where that is refused, at its start, and says why. */
   async #openInState(spec: ReturnType<typeof readLab>, models: Models, say: Say): Promise<[Panel, string | null]> {
     const open = (state: Uint8Array | null): Promise<Panel> => openPanel(spec, models, state, this.#key(), say, {
-      change: (label, value, time) => this.#tell("lab-change", { label, value, time }),
+      change: (label, value, time) => {
+        this.shadowRoot?.querySelector(".failure")?.remove();
+        this.#tell("lab-change", { label, value, time });
+      },
       event: (event, text) => this.#tell("lab-event", { ...event, text }),
       playing: (isPlaying) => this.#tell(isPlaying ? "lab-play" : "lab-pause", { time: this.time }),
       failed: (e) => this.#fail(e),

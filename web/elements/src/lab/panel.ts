@@ -90,8 +90,8 @@ export async function openPanel(spec: LabSpec, models: Models, state: Uint8Array
   });
   const viewBar = createViewBar(opened, spec, viewport, say);
   const controls = createControls(opened.controls, {
-    set: (label, value) => void player.set(label, value).then(() => events.change(label, value, frame.time)),
-    press: (label) => void player.press(label).then(() => events.change(label, null, frame.time)),
+    set: (label, value) => void player.set(label, value).then(() => events.change(label, value, frame.time), () => undefined),
+    press: (label) => void player.press(label).then(() => events.change(label, null, frame.time), () => undefined),
   });
   const readouts = createReadouts(opened.shown, say("readouts"));
   const plots = spec.plots.map((plot, p) => {
@@ -112,7 +112,7 @@ export async function openPanel(spec: LabSpec, models: Models, state: Uint8Array
       },
       stepMore: () => {
         player.pause();
-        void player.advance(0.1).then(() => spoken.say(describe()));
+        void player.advance(0.1).then(() => spoken.say(describe()), () => undefined);
       },
       reset: () => {
         void player.reset();

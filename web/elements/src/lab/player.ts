@@ -45,14 +45,11 @@ export function createPlayer(remote: RemoteLab, events: PlayerEvents): Player {
     events.frame(frame);
     if (frame.isOver) player.pause();
   };
-  const ask = async (what: Promise<Frame>): Promise<void> => {
-    try {
-      take(await what);
-    } catch (e) {
-      player.pause();
-      events.failed(e);
-    }
-  };
+  /** Shows the answer. What fails is told to the reader, and to whoever waits for it. */
+  const ask = (what: Promise<Frame>): Promise<void> => heard(what.then(take, (e: unknown) => {
+    events.failed(e);
+    throw e;
+  }));
   const measure = (asked: number, behind: number): void => {
     lag = 0.9 * lag + 0.1 * (asked > 0 ? Math.min(1, behind / asked) : 0);
     events.slow(lag > 0.15 ? speed * (1 - lag) : null);
@@ -70,17 +67,23 @@ export function createPlayer(remote: RemoteLab, events: PlayerEvents): Player {
       measure(seconds, frame.behind);
       return frame;
     });
-    void ask(answer).finally(() => {
+    ask(answer).then(() => {
       isWaiting = false;
+    }, () => {
+      isWaiting = false;
+      player.pause();
     });
   };
   const setOnce = async (label: string, entry: { next: ControlValue | undefined }): Promise<void> => {
-    while (entry.next !== undefined) {
-      const value = entry.next;
-      entry.next = undefined;
-      await ask(remote.ask("set", label, value));
+    try {
+      while (entry.next !== undefined) {
+        const value = entry.next;
+        entry.next = undefined;
+        await ask(remote.ask("set", label, value));
+      }
+    } finally {
+      moving.delete(label);
     }
-    moving.delete(label);
   };
   const player: Player = {
     get isPlaying() { return stop !== null; },
@@ -95,7 +98,7 @@ export function createPlayer(remote: RemoteLab, events: PlayerEvents): Player {
         stop = onEveryFrame(tick);
         events.playing(true);
       };
-      if (isOver) void player.reset().then(begin);
+      if (isOver) player.reset().then(begin, () => undefined);
       else begin();
     },
     pause() {
@@ -116,7 +119,7 @@ export function createPlayer(remote: RemoteLab, events: PlayerEvents): Player {
       }
       const entry: { next: ControlValue | undefined; done: Promise<void> } = { next: value, done: Promise.resolve() };
       moving.set(label, entry);
-      entry.done = setOnce(label, entry);
+      entry.done = heard(setOnce(label, entry));
       return entry.done;
     },
     press: (label) => ask(remote.ask("press", label)),
@@ -127,4 +130,10 @@ export function createPlayer(remote: RemoteLab, events: PlayerEvents): Player {
     },
   };
   return player;
+}
+
+/** A promise that may be left alone: that it was refused has been told already. */
+function heard(promise: Promise<void>): Promise<void> {
+  promise.catch(() => undefined);
+  return promise;
 }

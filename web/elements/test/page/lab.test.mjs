@@ -19,7 +19,7 @@ const server = await serve({
   "/models/pair.xml": "<mujoco><compiler meshdir='shapes'/><asset><mesh name='wedge' file='wedge.obj'/></asset><include file='parts/floor.xml'/><worldbody><geom type='mesh' mesh='wedge'/></worldbody></mujoco>",
   "/models/parts/floor.xml": "<mujoco><worldbody><geom type='plane' size='1 1 1'/></worldbody></mujoco>",
   "/models/shapes/wedge.obj": "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n",
-  "/pile.html": pageOf(labOf({ model: "pile", height: 160, controls: [{ label: "gravity", set: "model.opt.gravity[2]", min: -20, max: -1, value: -9.8 }] }, { models: { pile } })),
+  "/pile.html": pageOf(labOf({ model: "pile", height: 160, controls: [{ label: "gravity", set: "model.opt.gravity[2]", min: -20, max: -1, step: 0.1, value: -9.8 }] }, { models: { pile } })),
   "/late.html": pageOf("<p>Nothing yet.</p>"),
 });
 const browser = await launch();
@@ -233,6 +233,24 @@ test("the speed is chosen; a model slower than real time says so, and its contro
   });
   console.log(`slower than real time: a slider is answered after ${answer.toFixed(0)} ms; the page waits at most ${longest.toFixed(0)} ms`);
   assert.ok(answer < 1000);
+  errors.none();
+});
+
+test("a call that is refused is refused to its caller, is said, and the lab goes on", async (t) => {
+  const { page, errors } = await open(t, "/drop.html");
+  await opened(page);
+  const said = await page.evaluate(async () => {
+    const lab = document.querySelector("sim-lab");
+    const messages = [];
+    for (const call of [() => lab.set("gravity", 5), () => lab.set("nothing", 1), () => lab.press("gravity")]) await call().catch((e) => messages.push(e.message));
+    await lab.set("gravity", -5);
+    await lab.step(1);
+    return [messages, lab.time, lab.shadowRoot.querySelector(".failure").textContent];
+  });
+  assert.equal(said[0].length, 3);
+  assert.match(said[0][0], /"gravity" goes from -20 to -1: 5 cannot be chosen/);
+  assert.equal(said[1], 0.002);
+  assert.match(said[2], /gravity/);
   errors.none();
 });
 
