@@ -439,3 +439,48 @@ fn variables_of_an_engine_are_shared_by_its_texts() {
     let endless = engine.statements("for (let i = 0; i >= 0; i++) { ctx.x = i }").unwrap();
     assert_eq!(endless.run(&mut engine).unwrap_err().findings().len(), 1);
 }
+
+/// A force acts as `xfrc_applied` does, until the lab is reset; what cannot act is refused, and changes nothing.
+#[test]
+fn a_force_acts_until_the_lab_is_reset() {
+    let (mut pulled, mut plain) = (player(), player());
+    pulled.apply_force(1, [0.0, 0.0, 30.0, 0.0, 0.0, 0.0]).unwrap();
+    for _ in 0..50 {
+        pulled.step().unwrap();
+        plain.step().unwrap();
+    }
+    let velocity = |player: &Player| player.data().fields().qvel[2];
+    let gained = 30.0 / pulled.model().body_mass[1] * 50.0 * pulled.timestep();
+    assert!(
+        (velocity(&pulled) - velocity(&plain) - gained).abs() < 1e-9,
+        "{}",
+        velocity(&pulled) - velocity(&plain)
+    );
+    let before = bits(&pulled);
+    assert!(pulled.apply_force(0, [1.0; 6]).is_err());
+    assert!(pulled.apply_force(9, [1.0; 6]).is_err());
+    assert!(pulled.apply_force(1, [f64::NAN; 6]).is_err());
+    assert_eq!(bits(&pulled), before);
+    for lab in [&mut pulled, &mut plain] {
+        lab.reset();
+        lab.step().unwrap();
+    }
+    // The variables of the lab are kept over a reset, and with them the peak that the force has led to.
+    let state = |player: &Player| {
+        player
+            .data()
+            .fields()
+            .qacc
+            .iter()
+            .chain(&player.data().fields().qpos)
+            .map(|x| x.to_bits())
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(state(&pulled), state(&plain));
+}
+
+/// Readouts as the page prints them: with their digits, and texts as they are.
+#[test]
+fn readouts_are_printed_with_their_digits() {
+    assert_eq!(player().readout_texts(), ["0.0000", "none"]);
+}

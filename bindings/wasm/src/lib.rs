@@ -196,6 +196,19 @@ impl Lab {
         unsafe { Float64Array::view(self.player.numbers()) }
     }
 
+    /// What each readout shows now, as the page prints it.
+    #[wasm_bindgen(getter, js_name = readoutTexts)]
+    pub fn readout_texts(&self) -> Vec<String> {
+        self.player.readout_texts()
+    }
+
+    /// Sets the force and the torque at the centre of mass of a body, six numbers in world axes.
+    #[wasm_bindgen(js_name = applyForce)]
+    pub fn apply_force(&mut self, body: usize, force: &[f64]) -> Result<(), JsValue> {
+        let force = force.try_into().map_err(|_| call_error("wrong-length", "a force has six numbers"))?;
+        self.player.apply_force(body, force).map_err(|e| thrown(&e))
+    }
+
     /// Moves a slider or selects an option.
     pub fn set(&mut self, label: &str, value: &Input) -> Result<(), JsValue> {
         let done = match (value.as_f64(), value.as_bool(), value.as_string()) {

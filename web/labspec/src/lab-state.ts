@@ -3,7 +3,8 @@ import { STATE, weight } from "./weight.js";
 import type { State as RawState } from "#glue";
 
 /** What a student did, so that it can be done again. */
-export type Action = readonly ["play", number] | readonly ["set", string, ControlValue] | readonly ["press", string] | readonly ["reset"];
+export type Action = readonly ["play", number] | readonly ["set", string, ControlValue] | readonly ["press", string] | readonly ["reset"]
+  | readonly ["force", number, readonly number[]];
 
 /** The format of saved states. */
 export const FORMAT = 1;

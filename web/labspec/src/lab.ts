@@ -113,6 +113,11 @@ export class Lab {
     return call(() => this.#lab().numbers.slice());
   }
 
+  /** What each readout shows now, as the page prints it. */
+  get readoutTexts(): readonly string[] {
+    return call(() => this.#lab().readoutTexts);
+  }
+
   /** What was found when the lab was opened, and what broke since. */
   get findings(): readonly Finding[] {
     return call(() => locate(this.#lab().findings, this.#texts));
@@ -137,6 +142,15 @@ export class Lab {
   press(label: string): void {
     const which = check.text(label, "a label");
     this.#do(["press", which], (raw) => raw.press(which));
+  }
+
+  /**
+   * Sets the force (N) and the torque (N m) at the centre of mass of a body, six numbers in world axes: its row of `xfrc_applied`. They
+   * act in every step until they are set again or the lab is reset.
+   */
+  applyForce(body: number, force: ArrayLike<number>): void {
+    const [which, given] = [check.count(body, "a body"), Array.from(check.numbers(force, "a force", 6))];
+    this.#do(["force", which, given], (raw) => raw.applyForce(which, Float64Array.from(given)));
   }
 
   /** Back to the start, as the page's button does it: controls and model keep what they hold. */
@@ -248,6 +262,7 @@ export class Lab {
       } else if (what === "set") lab.set(a as string, b as ControlValue);
       else if (what === "press") lab.press(a as string);
       else if (what === "reset") lab.reset();
+      else if (what === "force") lab.applyForce(a as number, b as number[]);
       else throw wrong("these bytes are not a state of a lab");
     }
     return lab;

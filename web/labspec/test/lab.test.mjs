@@ -212,3 +212,23 @@ test("what was freed says so", () => {
   model.free();
   throws(() => new Data(model), "freed");
 });
+
+test("a force acts on a body until it is set again or the lab is reset, and is part of a state", () => {
+  const drawn = new Lab(json, { drop });
+  assert.deepEqual(drawn.readoutTexts, ["1.000"]);
+  const mass = drawn.model.body_mass[1];
+  drawn.applyForce(1, [0, 0, 19.8 * mass, 0, 0, 0]);
+  drawn.step(100);
+  assert.ok(Math.abs(drawn.data.qvel[2] - 2) < 1e-9, String(drawn.data.qvel[2]));
+  const back = Lab.resume(drawn.save().toBytes(), json, { drop });
+  for (const each of [drawn, back]) each.step(50);
+  assert.equal(bits(back.data.qpos), bits(drawn.data.qpos));
+  for (const [body, force] of [[0, [1, 0, 0, 0, 0, 0]], [7, [1, 0, 0, 0, 0, 0]], [1, [NaN, 0, 0, 0, 0, 0]], [1, [1]], [1, "up"]]) {
+    assert.throws(() => drawn.applyForce(body, force), { name: "LabspecError" });
+  }
+  drawn.reset();
+  drawn.step();
+  const plain = new Lab(json, { drop });
+  plain.step();
+  assert.equal(bits(drawn.data.qpos), bits(plain.data.qpos));
+});

@@ -4,6 +4,7 @@
 //! panics, whatever its arguments. An impossible call is an [`Error`], and a breakdown while the lab plays is a
 //! [`Finding`].
 
+mod applied_force;
 mod control;
 mod displayed;
 mod load;
@@ -71,6 +72,16 @@ impl Player {
     /// The current values as numbers; NaN for other values.
     pub fn numbers(&self) -> &[f64] {
         &self.now.numbers
+    }
+
+    /// What each readout shows now, as the page prints it.
+    pub fn readout_texts(&self) -> Vec<String> {
+        let all = self.displayed.iter().zip(&self.now.cells);
+        let text = |(displayed, cell): (&DisplayedValue, &Cell)| match displayed.place {
+            DisplayedIn::Readout(digits) => Some(cell.rounded(digits)),
+            DisplayedIn::Plot(_) => None,
+        };
+        all.filter_map(text).collect()
     }
 
     /// The current value of a control; `None` when there is no such control, `undefined` for a button.

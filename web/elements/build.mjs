@@ -1,0 +1,52 @@
+// Builds the elements: `dist/labspec-elements.js`, one file with everything, and `dist/elements.js` with files beside it.
+import { build } from "esbuild";
+import { execFileSync } from "node:child_process";
+import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { gzipSync } from "node:zlib";
+
+const root = dirname(fileURLToPath(import.meta.url));
+const at = (...parts) => join(root, ...parts);
+const wasm = at("../labspec/dist/labspec.wasm");
+
+const common = {
+  absWorkingDir: root, bundle: true, write: false, minify: true, target: "es2022", legalComments: "none", logLevel: "warning",
+  loader: { ".css": "text" },
+};
+
+/** Style sheets without what only people read. */
+const styles = {
+  name: "styles",
+  setup: (b) => b.onLoad({ filter: /\.css$/ }, async ({ path }) => {
+    const { transform } = await import("esbuild");
+    const { code } = await transform(readFileSync(path, "utf8"), { loader: "css", minify: true, target: ["chrome123", "firefox120", "safari17.5"] });
+    return { contents: code, loader: "text" };
+  }),
+};
+
+/** The engine as a program that uses nothing but `channel`. */
+async function engine() {
+  const { outputFiles } = await build({ ...common, entryPoints: [at("src/entry/engine.ts")], format: "iife" });
+  return outputFiles[0].text;
+}
+
+const [program, packed] = [await engine(), gzipSync(readFileSync(wasm), { level: 9 }).toString("base64")];
+const made = {
+  name: "made",
+  setup(b) {
+    b.onResolve({ filter: /^#(engine|module)$/ }, ({ path }) => ({ path, namespace: "made" }));
+    b.onLoad({ filter: /^#engine$/, namespace: "made" }, () => ({ contents: `export function serve(channel) {\n${program}\n}` }));
+    b.onLoad({ filter: /^#module$/, namespace: "made" }, () => ({ contents: `export default "${packed}";` }));
+  },
+};
+
+rmSync(at("dist"), { recursive: true, force: true });
+mkdirSync(at("dist"));
+for (const [entry, name] of [["one-file", "labspec-elements.js"], ["elements", "elements.js"]]) {
+  const { outputFiles } = await build({ ...common, entryPoints: [at(`src/entry/${entry}.ts`)], format: "esm", plugins: [styles, made] });
+  writeFileSync(at("dist", name), outputFiles[0].contents);
+}
+writeFileSync(at("dist/engine.js"), `(function(channel){${program}})(self);\n`);
+copyFileSync(wasm, at("dist/labspec.wasm"));
+execFileSync(process.execPath, [at("../node_modules/typescript/bin/tsc"), "-p", at("tsconfig.json")], { stdio: "inherit" });

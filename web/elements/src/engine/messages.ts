@@ -1,0 +1,101 @@
+/** What a page and the engine tell each other. The engine runs in a worker, or in the page where a policy forbids workers. */
+import type { Control, ControlValue, Finding, Models, Shown } from "labspec/slim";
+import type { SceneFrame, SceneModel } from "../view/types.js";
+
+/** Something that happened in a lab, with the simulated time in seconds. */
+export type EngineEvent =
+  | { readonly type: "contact"; readonly time: number; readonly first: string; readonly second: string; readonly touching: boolean }
+  | { readonly type: "finding"; readonly time: number; readonly finding: Finding }
+  | { readonly type: "stop"; readonly time: number }
+  | { readonly type: "restart"; readonly time: number };
+
+/** A lab after something was done to it. */
+export interface Frame {
+  /** Simulated time, s. */
+  readonly time: number;
+  /** What the traces and readouts show, in the order of `shown`; NaN for what is not a number. */
+  readonly numbers: Float64Array;
+  /** The readouts as they are printed. */
+  readonly texts: readonly string[];
+  /** Samples since the last frame: time, then `numbers`, for one step after the other. */
+  readonly rows: Float64Array;
+  readonly scene: SceneFrame;
+  /** The constants of the scene, where a program changed them. */
+  readonly model?: SceneModel;
+  readonly events: readonly EngineEvent[];
+  /** Whether the lab stands still until it is reset. */
+  readonly isOver: boolean;
+  /** Where the controls stand, in their order; `null` for buttons. */
+  readonly values: readonly (ControlValue | null)[];
+  /** Simulated time that was asked for and not reached within the budget, s. */
+  readonly behind: number;
+}
+
+/** A lab that was opened. */
+export interface Opened {
+  readonly id: number;
+  readonly controls: readonly Control[];
+  readonly shown: readonly Shown[];
+  readonly findings: readonly Finding[];
+  readonly model: SceneModel;
+  readonly frame: Frame;
+  readonly timestep: number;
+  /** Names of bodies and sites, by id. */
+  readonly bodies: readonly string[];
+  readonly sites: readonly string[];
+  /** Whether a body can move, by id. */
+  readonly movable: readonly boolean[];
+}
+
+/** A spring that drags a body: a point in the frame of the body, and where it is pulled to in the world frame, m. */
+export interface Drag {
+  readonly body: number;
+  readonly local: readonly [number, number, number];
+  readonly target: readonly [number, number, number];
+}
+
+/** What a page can ask of a lab: arguments, and the answer. */
+export interface Calls {
+  open: { args: [lab: string, models: Models, state: Uint8Array | null]; answer: Opened };
+  advance: { args: [seconds: number, budget: number]; answer: Frame };
+  step: { args: [steps: number]; answer: Frame };
+  reset: { args: []; answer: Frame };
+  set: { args: [label: string, value: ControlValue]; answer: Frame };
+  press: { args: [label: string]; answer: Frame };
+  drag: { args: [drag: Drag | null]; answer: Frame };
+  save: { args: []; answer: Uint8Array };
+  free: { args: []; answer: null };
+}
+
+/** A question of the page. `lab` is 0 for `open`. */
+export interface Request {
+  readonly id: number;
+  readonly lab: number;
+  readonly call: keyof Calls;
+  readonly args: readonly unknown[];
+}
+
+/** What an error says, as a plain object. */
+export interface Problem {
+  readonly code: string;
+  readonly message: string;
+  readonly findings: readonly Finding[];
+}
+
+/** The answer of the engine. */
+export interface Reply {
+  readonly id: number;
+  readonly result?: unknown;
+  readonly problem?: Problem;
+}
+
+/** The first message to the engine: its compiled module. It answers "ready". */
+export interface Start {
+  readonly module: WebAssembly.Module;
+}
+
+/** One end of the channel between a page and the engine. */
+export interface Channel {
+  postMessage(message: unknown, transfer: Transferable[]): void;
+  onmessage: ((event: MessageEvent) => void) | null;
+}

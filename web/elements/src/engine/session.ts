@@ -1,0 +1,157 @@
+/** A lab that is played: what a page asks of it, frame by frame. */
+import { Lab, type ControlValue, type Models } from "labspec/slim";
+import { springForce } from "./drag.js";
+import type { Drag, EngineEvent, Frame, Opened } from "./messages.js";
+import { readSceneFrame, readSceneModel, sceneModelChanged, writtenSceneFields } from "./scene.js";
+
+/** Samples of one frame; more are thinned out. */
+const MOST_ROWS = 128;
+/** Steps for which the force of a drag is held. */
+const PIECE = 8;
+const NO_FORCE = [0, 0, 0, 0, 0, 0];
+
+export interface Session {
+  readonly lab: Lab;
+  readonly names: readonly string[];
+  readonly controls: Lab["controls"];
+  readonly written: ReturnType<typeof writtenSceneFields>;
+  /** Findings that the page knows. */
+  reported: number;
+  sent: ReturnType<typeof readSceneModel>;
+  rows: number[][];
+  events: EngineEvent[];
+  drag: Drag | null;
+  /** Time that was asked for and is less than a step, s. */
+  carry: number;
+}
+
+/** Opens a lab, or one in a saved state. */
+export function openSession(json: string, models: Models, state: Uint8Array | null): Session {
+  const lab = state === null ? new Lab(json, models) : Lab.resume(state, json, models);
+  const session: Session = {
+    lab, names: geomNames(lab), controls: lab.controls, written: writtenSceneFields(lab), sent: readSceneModel(lab),
+    reported: lab.findings.length, rows: [], events: [], drag: null, carry: 0,
+  };
+  lab.on("contact", ({ time, geom1, geom2, touching }) => {
+    const [first, second] = [session.names[geom1] ?? "", session.names[geom2] ?? ""];
+    session.events.push({ type: "contact", time, first, second, touching });
+  });
+  lab.on("end", ({ time }) => session.events.push({ type: "stop", time }));
+  sample(session);
+  return session;
+}
+
+/** What a page is told of a lab that was opened. */
+export function describeOpened(id: number, session: Session): Opened {
+  const { lab } = session;
+  const dofs = lab.model.body_dofnum;
+  const parents = lab.model.body_parentid;
+  const movable: boolean[] = [];
+  for (let body = 0; body < dofs.length; body++) movable.push(body > 0 && ((dofs[body] ?? 0) > 0 || movable[parents[body] ?? 0] === true));
+  return {
+    id, controls: session.controls, shown: lab.shown, findings: lab.findings, model: session.sent, frame: takeFrame(session, 0),
+    timestep: lab.timestep, bodies: lab.names("body"), sites: lab.names("site"), movable,
+  };
+}
+
+/** Plays for so many simulated seconds, but works for at most `budget` milliseconds. */
+export function advance(session: Session, seconds: number, budget: number): Frame {
+  const { lab } = session;
+  const deadline = performance.now() + budget;
+  let left = session.carry + seconds;
+  const before = session.events.length;
+  outer: while (!lab.isOver && left >= lab.timestep) {
+    pull(session);
+    for (let i = 0; i < PIECE && left >= lab.timestep; i++) {
+      left -= lab.timestep;
+      stepOnce(session);
+      const isRestarted = session.events.slice(before).some((event) => event.type === "restart");
+      if (lab.isOver || isRestarted || performance.now() >= deadline) break outer;
+    }
+  }
+  const behind = lab.isOver ? 0 : Math.max(0, left - lab.timestep);
+  session.carry = lab.isOver ? 0 : Math.min(left, lab.timestep);
+  return takeFrame(session, behind);
+}
+
+/** Makes so many steps. */
+export function stepSession(session: Session, steps: number): Frame {
+  session.carry = 0;
+  for (let i = 0; i < steps && !session.lab.isOver; i++) {
+    if (i % PIECE === 0) pull(session);
+    stepOnce(session);
+  }
+  return takeFrame(session, 0);
+}
+
+/** Does something else to the lab, and looks at it. */
+export function actOn(session: Session, what: (lab: Lab) => void): Frame {
+  const before = session.lab.time;
+  what(session.lab);
+  if (session.lab.time < before) session.rows = [];
+  sample(session);
+  return takeFrame(session, 0);
+}
+
+/** Sets a control. */
+export function setControl(session: Session, label: string, value: ControlValue): Frame {
+  return actOn(session, (lab) => lab.set(label, value));
+}
+
+/** Drags a body with a spring, or lets it go. */
+export function setDrag(session: Session, drag: Drag | null): Frame {
+  const { lab } = session;
+  const body = session.drag?.body;
+  if (body !== undefined && body !== drag?.body) lab.applyForce(body, NO_FORCE);
+  session.drag = drag;
+  pull(session);
+  return takeFrame(session, 0);
+}
+
+function pull(session: Session): void {
+  if (session.drag !== null) session.lab.applyForce(session.drag.body, springForce(session.lab, session.drag));
+}
+
+/** One step and its sample. A bad number sends the engine back to its start. */
+function stepOnce(session: Session): void {
+  const { lab } = session;
+  const before = lab.time;
+  lab.step();
+  if (lab.time < before) {
+    session.rows = [];
+    session.events.push({ type: "restart", time: before });
+  }
+  sample(session);
+}
+
+function sample(session: Session): void {
+  session.rows.push([session.lab.time, ...session.lab.numbers]);
+}
+
+/** The frame of what was done since the last one. */
+function takeFrame(session: Session, behind: number): Frame {
+  const { lab, events } = session;
+  const found = lab.findings;
+  for (const finding of found.slice(session.reported)) events.push({ type: "finding", time: lab.time, finding });
+  session.reported = found.length;
+  const stride = Math.ceil(session.rows.length / MOST_ROWS);
+  const kept = session.rows.filter((_, i) => i % stride === 0 || i === session.rows.length - 1);
+  const rows = Float64Array.from(kept.flat());
+  [session.rows, session.events] = [[], []];
+  const changed = session.written.length > 0 && sceneModelChanged(lab, session.sent, session.written);
+  if (changed) session.sent = readSceneModel(lab);
+  return {
+    time: lab.time, numbers: lab.numbers, texts: lab.readoutTexts, rows, scene: readSceneFrame(lab),
+    ...(changed ? { model: session.sent } : {}), events, isOver: lab.isOver,
+    values: session.controls.map((control) => lab.value(control.label)), behind,
+  };
+}
+
+/** Names of geoms for people: their own, or that of their body. */
+function geomNames(lab: Lab): string[] {
+  const [geoms, bodies, of] = [lab.names("geom"), lab.names("body"), lab.model.geom_bodyid];
+  return geoms.map((name, i) => {
+    const body = bodies[of[i] ?? 0] ?? "";
+    return name !== "" ? name : body !== "" && (of[i] ?? 0) > 0 ? body : `geom ${i}`;
+  });
+}

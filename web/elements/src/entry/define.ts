@@ -1,0 +1,17 @@
+/** What both builds export. */
+import { defineSimLab } from "../lab/element.js";
+import { defineLessonQuiz } from "../quiz/element.js";
+import { render } from "./widget.js";
+
+export { EngineError } from "../engine/client.js";
+export { SimLab } from "../lab/element.js";
+export { LessonQuiz } from "../quiz/element.js";
+export { hashAnswer } from "../quiz/hash.js";
+export { addLanguage } from "../text/messages.js";
+export { render };
+
+/** Defines both elements. */
+export function defineElements(): void {
+  defineSimLab();
+  defineLessonQuiz();
+}

@@ -1,0 +1,23 @@
+/** The elements with the module and the worker in files of their own, beside this one. */
+import { serve } from "#engine";
+import { setEngineSource } from "../engine/client.js";
+import { defineElements, render } from "./define.js";
+
+export * from "./define.js";
+export default { render };
+
+setEngineSource({
+  serve,
+  workerUrls: () => [
+    new URL("./engine.js", import.meta.url).href,
+    // A script of another origin is no worker; its text is.
+    URL.createObjectURL(new Blob([`(${serve.toString()})(self)`], { type: "text/javascript" })),
+  ],
+  async module() {
+    const response = await fetch(new URL("./labspec.wasm", import.meta.url));
+    if (!response.ok) throw new Error(`labspec.wasm is not beside the script: ${response.status}`);
+    const isTyped = response.headers.get("content-type")?.startsWith("application/wasm") === true;
+    return isTyped ? WebAssembly.compileStreaming(response) : WebAssembly.compile(await response.arrayBuffer());
+  },
+});
+defineElements();

@@ -1,0 +1,53 @@
+/** The elements as a widget: `render` as anywidget asks for it (JupyterLab, marimo, MyST). */
+import { SimLab } from "../lab/element.js";
+import { LessonQuiz } from "../quiz/element.js";
+import type { Models } from "labspec/slim";
+
+/** The model of a widget: its traits. */
+export interface WidgetModel {
+  get(name: string): unknown;
+  on?(event: string, listener: () => void): void;
+  off?(event: string, listener: () => void): void;
+}
+
+/** Keys of a lab or a quiz, where the widget's own content is one: MyST passes the JSON of a directive as traits. */
+const LAB_KEYS = [
+  "model", "xml", "key", "title", "kind", "note", "height", "dock", "autoplay", "camera", "overlays", "toggles", "forceScale", "trail",
+  "speeds", "stopAt", "setup", "controller", "controls", "plots", "readouts",
+];
+const QUIZ_KEYS = ["id", "title", "questions"];
+
+/** Shows a lab or a quiz in an element; returns a function that takes it away. */
+export function render({ model, el }: { model: WidgetModel; el: HTMLElement }): () => void {
+  const isQuiz = isGiven(model.get("quiz")) || isGiven(model.get("questions"));
+  const element = isQuiz ? new LessonQuiz() : new SimLab();
+  const update = (): void => {
+    const models = model.get("models");
+    const own = typeof models === "object" && models !== null ? (models as Models) : null;
+    if (own !== null) element.models = own;
+    if (typeof models === "string") element.setAttribute("models", models);
+    const lang = model.get("lang");
+    if (typeof lang === "string") element.lang = lang;
+    if (element instanceof LessonQuiz) element.quiz = contentOf(model, "quiz", QUIZ_KEYS);
+    else element.lab = contentOf(model, "lab", LAB_KEYS);
+  };
+  update();
+  el.replaceChildren(element);
+  const events = ["change:lab", "change:quiz", "change:models"];
+  for (const event of events) model.on?.(event, update);
+  return () => {
+    for (const event of events) model.off?.(event, update);
+    element.remove();
+  };
+}
+
+function isGiven(x: unknown): boolean {
+  return x !== undefined && x !== null && x !== "";
+}
+
+function contentOf(model: WidgetModel, name: string, keys: readonly string[]): object | string {
+  const own = model.get(name);
+  if (typeof own === "string" || (typeof own === "object" && own !== null)) return own;
+  const entries = keys.map((key) => [key, model.get(key)] as const).filter(([, value]) => value !== undefined && value !== null);
+  return Object.fromEntries(entries);
+}

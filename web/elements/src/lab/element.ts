@@ -1,0 +1,237 @@
+/** `<sim-lab>`: a physics lab in a page. */
+import type { ControlValue, Models } from "labspec/slim";
+import { childrenRead, ContentError, readContent, readModels } from "../content.js";
+import { deferred } from "../deferred.js";
+import { h, takeOwnProperty } from "../dom.js";
+import { EngineError, prepareEngine } from "../engine/client.js";
+import { readLab } from "../spec.js";
+import { decodeState, stateInFragment, StateError } from "../state/fragment.js";
+import { applyStyles, watchTheme } from "../style/apply.js";
+import { messagesFor, type Say } from "../text/messages.js";
+import { errorPanel, findingText } from "./layout.js";
+import { openPanel, type Panel } from "./panel.js";
+
+const TAG = "sim-lab";
+
+export class SimLab extends HTMLElement {
+  static readonly observedAttributes = ["src", "lang"];
+  #lab: object | string | null = null;
+  #models: Models | null = null;
+  #panel: Panel | null = null;
+  /** Counts openings: what an older one brings is dropped. */
+  #turn = 0;
+  #isWanted = false;
+  #ready = deferred();
+  #seen: IntersectionObserver | null = null;
+  #unwatch: (() => void) | null = null;
+  #state: Uint8Array | null = null;
+
+  /** The lab as an object or as JSON. */
+  get lab(): object | string | null { return this.#lab; }
+  set lab(lab: object | string | null) {
+    this.#lab = lab;
+    this.#reopen();
+  }
+
+  /** Models by name (MJCF), and files that they name, by path. */
+  get models(): Models | null { return this.#models; }
+  set models(models: Models | null) {
+    this.#models = models;
+    this.#reopen();
+  }
+
+  /** Fulfilled when the lab is open; refused with the reason where it cannot be. */
+  get ready(): Promise<void> {
+    this.#want();
+    return this.#ready.promise;
+  }
+
+  get time(): number { return this.#panel?.frame.time ?? 0; }
+  get playing(): boolean { return this.#panel?.player.isPlaying ?? false; }
+  /** Whether the lab has reached its end, and stands still until it is reset. */
+  get isOver(): boolean { return this.#panel?.frame.isOver ?? false; }
+  /** Labels and units of the traces and readouts. */
+  get shown(): Panel["remote"]["opened"]["shown"] { return this.#panel?.remote.opened.shown ?? []; }
+  /** What they show, in the same order. */
+  get numbers(): readonly number[] { return Array.from(this.#panel?.frame.numbers ?? []); }
+  /** The readouts as they are printed. */
+  get texts(): readonly string[] { return this.#panel?.frame.texts ?? []; }
+
+  play(): void { void this.ready.then(() => this.#panel?.player.play(), () => undefined); }
+  pause(): void { this.#panel?.player.pause(); }
+  async reset(): Promise<void> { await (await this.#opened()).player.reset(); }
+  async step(steps = 1): Promise<void> { await (await this.#opened()).player.step(steps); }
+  async set(label: string, value: ControlValue): Promise<void> { await (await this.#opened()).player.set(label, value); }
+  async press(label: string): Promise<void> { await (await this.#opened()).player.press(label); }
+  /** The state as bytes, for `openState`. */
+  async saveState(): Promise<Uint8Array> { return (await this.#opened()).save(); }
+  /** Opens a state that was saved: the lab goes on from there with the same bits. */
+  async openState(state: Uint8Array): Promise<void> {
+    this.#state = state;
+    this.#reopen();
+    await this.ready;
+  }
+
+  connectedCallback(): void {
+    const root = this.shadowRoot ?? this.attachShadow({ mode: "open" });
+    applyStyles(root);
+    takeOwnProperty(this, "models");
+    takeOwnProperty(this, "lab");
+    if (root.childElementCount === 0) this.#showLoading(root);
+    addEventListener("hashchange", this.#onHash);
+    this.#unwatch = watchTheme(() => this.#panel?.restyle());
+    this.#seen = new IntersectionObserver((entries) => {
+      const isSeen = entries[entries.length - 1]?.isIntersecting === true;
+      if (isSeen) this.#want();
+      if (this.#panel !== null) this.#panel.player.isVisible = isSeen;
+    }, { rootMargin: "200px" });
+    this.#seen.observe(this);
+  }
+
+  disconnectedCallback(): void {
+    removeEventListener("hashchange", this.#onHash);
+    this.#seen?.disconnect();
+    this.#unwatch?.();
+    // An element that is moved in its page is connected again at once.
+    queueMicrotask(() => {
+      if (!this.isConnected) this.#close();
+    });
+  }
+
+  attributeChangedCallback(_name: string, before: string | null, after: string | null): void {
+    if (before !== after) this.#reopen();
+  }
+
+  readonly #onHash = (): void => {
+    if (this.#panel !== null && stateInFragment(location.hash, this.#key()) !== null) this.#reopen();
+  };
+
+  async #opened(): Promise<Panel> {
+    await this.ready;
+    if (this.#panel === null) throw new Error("this lab is closed");
+    return this.#panel;
+  }
+
+  #want(): void {
+    if (this.#isWanted || !this.isConnected) return;
+    this.#isWanted = true;
+    prepareEngine();
+    void this.#open(++this.#turn);
+  }
+
+  #close(): void {
+    this.#turn++;
+    this.#isWanted = false;
+    this.#panel?.dispose();
+    this.#panel = null;
+    this.#ready = deferred();
+    if (this.shadowRoot !== null) this.#showLoading(this.shadowRoot);
+  }
+
+  #reopen(): void {
+    if (!this.#isWanted) return;
+    this.#close();
+    this.#want();
+  }
+
+  #showLoading(root: ShadowRoot): void {
+    const say = messagesFor(this);
+    show(root, h("div", { class: "lab loading", role: "status" }, h("span", {}, say("loading"))));
+  }
+
+  async #open(turn: number): Promise<void> {
+    const [root, say] = [this.shadowRoot, messagesFor(this)];
+    if (root === null) return;
+    const isOld = (): boolean => turn !== this.#turn;
+    try {
+      await childrenRead();
+      const { json, text } = await readContent(this, this.#lab, say("noLab"), say);
+      const spec = readLab(json, text);
+      const models = await readModels(this, this.#models, spec.model, say);
+      if (isOld()) return;
+      const [panel, remark] = await this.#openInState(spec, models, say);
+      if (isOld()) return panel.dispose();
+      this.#panel = panel;
+      show(root, panel.element);
+      panel.restyle();
+      panel.player.isVisible = true;
+      if (remark !== null) panel.say(remark);
+      const mayMove = !matchMedia("(prefers-reduced-motion: reduce)").matches;
+      if (spec.autoplay && mayMove) panel.player.play();
+      this.#ready.resolve();
+      this.#tell("lab-ready", {});
+    } catch (e) {
+      if (isOld()) return;
+      showError(root, e, say);
+      this.#ready.reject(e);
+    }
+  }
+
+  /** Opens the lab in the state that is asked for; where that is refused, at its start, and says why. */
+  async #openInState(spec: ReturnType<typeof readLab>, models: Models, say: Say): Promise<[Panel, string | null]> {
+    const open = (state: Uint8Array | null): Promise<Panel> => openPanel(spec, models, state, this.#key(), say, {
+      change: (label, value, time) => {
+        this.shadowRoot?.querySelector(".failure")?.remove();
+        this.#tell("lab-change", { label, value, time });
+      },
+      event: (event, text) => this.#tell("lab-event", { ...event, text }),
+      playing: (isPlaying) => this.#tell(isPlaying ? "lab-play" : "lab-pause", { time: this.time }),
+      failed: (e) => this.#fail(e),
+      reopen: (state) => void this.openState(state).catch(() => undefined),
+    });
+    const given = this.#state;
+    this.#state = null;
+    const linked = stateInFragment(location.hash, this.#key());
+    if (given === null && linked === null) return [await open(null), null];
+    try {
+      return [await open(given ?? (await decodeState(linked ?? ""))), say("stateRestored")];
+    } catch (e) {
+      const isRefused = e instanceof StateError || (e instanceof EngineError && (e.problem.code === "not-a-state" || given === null));
+      if (!isRefused) throw e;
+      return [await open(null), say("stateRefused", { why: reasonOf(e, say) })];
+    }
+  }
+
+  /** Something failed while the lab was used: what was shown stays. */
+  #fail(e: unknown): void {
+    const [root, say] = [this.shadowRoot, messagesFor(this)];
+    const text = e instanceof StateError ? say("stateRefused", { why: reasonOf(e, say) }) : reasonOf(e, say);
+    this.#panel?.say(text);
+    root?.querySelector(".failure")?.remove();
+    const article = root?.querySelector("article");
+    article?.append(h("p", { class: "failure", role: "alert", part: "error" }, text));
+  }
+
+  /** The name of the lab in addresses: its `id`, or its place among the labs of the page. */
+  #key(): string {
+    if (this.id !== "") return this.id;
+    return String([...document.querySelectorAll(TAG)].indexOf(this) + 1);
+  }
+
+  #tell(type: string, detail: object): void {
+    this.dispatchEvent(new CustomEvent(type, { detail, bubbles: true, composed: true }));
+  }
+}
+
+function show(root: ShadowRoot, element: HTMLElement): void {
+  root.replaceChildren(...root.querySelectorAll("style"), element);
+}
+
+function reasonOf(e: unknown, say: Say): string {
+  if (e instanceof StateError) return say(e.reason === "too-long" ? "stateTooLong" : "stateDamaged");
+  return e instanceof Error ? e.message : String(e);
+}
+
+function showError(root: ShadowRoot, e: unknown, say: Say): void {
+  if (e instanceof ContentError) return show(root, errorPanel(say("broken"), [e.message], null));
+  if (e instanceof EngineError) {
+    const findings = e.problem.findings.map(findingText);
+    return show(root, errorPanel(say("broken"), findings.length > 0 ? findings : [e.message], say("brokenHelp")));
+  }
+  show(root, errorPanel(say("broken"), [say("engineFailed", { why: e instanceof Error ? e.message : String(e) })], null));
+}
+
+/** Defines the element, unless the page has it. */
+export function defineSimLab(): void {
+  if (customElements.get(TAG) === undefined) customElements.define(TAG, SimLab);
+}

@@ -1,0 +1,171 @@
+/** A lab that is open: its parts, and how frames of the engine reach them. */
+import type { ControlValue, Models } from "labspec/slim";
+import { fileName, h, saveFile } from "../dom.js";
+import { openRemote, type RemoteLab } from "../engine/client.js";
+import type { EngineEvent, Frame } from "../engine/messages.js";
+import { createPlot } from "../plot/plot.js";
+import type { LabSpec } from "../spec.js";
+import { checkState, encodeState, fragmentWith } from "../state/fragment.js";
+import type { Say } from "../text/messages.js";
+import { formatTime } from "../text/numbers.js";
+import { safeHtml } from "../text/sanitize.js";
+import { createControls } from "./controls.js";
+import { layOut } from "./layout.js";
+import { createPlayer, type Player } from "./player.js";
+import { createReadouts } from "./readouts.js";
+import { createSpoken } from "./spoken.js";
+import { createToolbar } from "./toolbar.js";
+import { createViewBar } from "./view-bar.js";
+import { createViewport } from "./viewport.js";
+
+/** What the element tells the page. */
+export interface PanelEvents {
+  change(label: string, value: ControlValue | null, time: number): void;
+  event(event: EngineEvent, text: string): void;
+  playing(isPlaying: boolean): void;
+  failed(e: unknown): void;
+  /** A saved state is to be opened in place of this one. */
+  reopen(state: Uint8Array): void;
+}
+
+export interface Panel {
+  readonly element: HTMLElement;
+  readonly remote: RemoteLab;
+  readonly player: Player;
+  readonly frame: Frame;
+  /** Says something politely. */
+  say(text: string): void;
+  restyle(): void;
+  describe(): string;
+  save(): Promise<Uint8Array>;
+  dispose(): void;
+}
+
+/** Opens a lab, and builds its parts. `key` is its name in addresses. */
+export async function openPanel(spec: LabSpec, models: Models, state: Uint8Array | null, key: string, say: Say, events: PanelEvents): Promise<Panel> {
+  const remote = await openRemote(spec.json, models, state);
+  const { opened } = remote;
+  const title = spec.title === "" ? say("lab") : spec.title;
+  const spoken = createSpoken(say);
+  const wantsNoMotion = matchMedia("(prefers-reduced-motion: reduce)").matches;
+  let [frame, isStale, atStart]: [Frame, boolean, boolean] = [opened.frame, false, true];
+
+  const show = (): void => {
+    isStale = false;
+    viewport.setFrame(frame.scene);
+    viewport.draw();
+    for (const plot of plots) plot.draw();
+    readouts.show(frame.texts);
+    controls.show(frame.values);
+    toolbar.showTime(frame.time);
+  };
+  const take = (next: Frame): void => {
+    if (next.time < frame.time) {
+      spoken.clear();
+      viewport.clearTrail();
+    }
+    frame = next;
+    atStart = false;
+    if (next.model !== undefined) viewport.setModel(next.model);
+    for (const plot of plots) plot.add(next.rows, opened.shown.length + 1);
+    const sentences = spoken.report(next.events);
+    next.events.forEach((event, i) => events.event(event, sentences[i] ?? sentences[0] ?? ""));
+    if (!isStale) {
+      isStale = true;
+      requestAnimationFrame(show);
+    }
+  };
+  const player = createPlayer(remote, {
+    frame: take,
+    playing(isPlaying) {
+      toolbar.showPlaying(isPlaying);
+      spoken.say(isPlaying ? say("started") : describe());
+      events.playing(isPlaying);
+    },
+    slow: (speed) => toolbar.showSlow(speed),
+    failed: events.failed,
+  });
+  const viewport = createViewport(opened, spec, say, {
+    drag: (drag) => void player.drag(drag), say: spoken.say, released: () => viewBar.showReleased(),
+  });
+  const viewBar = createViewBar(opened, spec, viewport, say);
+  const controls = createControls(opened.controls, {
+    set: (label, value) => void player.set(label, value).then(() => events.change(label, value, frame.time), () => undefined),
+    press: (label) => void player.press(label).then(() => events.change(label, null, frame.time), () => undefined),
+  });
+  const readouts = createReadouts(opened.shown, say("readouts"));
+  const plots = spec.plots.map((plot, p) => {
+    const columns = opened.shown.flatMap((one, i) => (one.plot === p ? [i] : []));
+    return createPlot(plot, columns, title, say);
+  });
+  const describe = (): string => {
+    const traces = plots.flatMap((plot) => plot.describe());
+    return [say("paused", { time: formatTime(frame.time) }), readouts.describe(), ...traces].filter((text) => text !== "").join(" ");
+  };
+  const save = (): Promise<Uint8Array> => remote.ask("save");
+  const toolbar = createToolbar(
+    { speeds: spec.speeds, timestep: opened.timestep, hasLargeSteps: wantsNoMotion, hasPicture: viewport.isDrawn, first: viewBar.bodies }, say, {
+      toggle: () => (player.isPlaying ? player.pause() : player.play()),
+      step: () => {
+        player.pause();
+        void player.step(1);
+      },
+      stepMore: () => {
+        player.pause();
+        void player.advance(0.1).then(() => spoken.say(describe()), () => undefined);
+      },
+      reset: () => {
+        void player.reset();
+        spoken.say(say("wasReset"));
+      },
+      speed: (speed) => {
+        player.speed = speed;
+      },
+      copyLink: () => void copyLink(save, key, say, spoken.say),
+      saveState: () => void save().then((bytes) => saveFile(`${fileName(title)}.json`, new Blob([bytes as BlobPart], { type: "application/json" }))),
+      openState: (file) => void file.arrayBuffer().then((buffer) => {
+        const bytes = new Uint8Array(buffer);
+        checkState(bytes);
+        events.reopen(bytes);
+      }).catch(events.failed),
+      savePicture: () => viewport.savePicture(title),
+    });
+  player.speed = spec.speeds.includes(1) ? 1 : (spec.speeds[0] ?? 1);
+  const note = spec.note === null ? null : h("div", { class: "note", part: "note", dir: "auto" }, safeHtml(spec.note, document));
+  const element = layOut({
+    spec, title, say, view: viewport.element, viewBar: viewBar.element, toolbar: toolbar.element, controls: controls.elements,
+    buttons: controls.buttons, readouts: readouts.element, plots: plots.map((plot) => plot.element), note, spoken: [spoken.log, spoken.region],
+    findings: opened.findings,
+  });
+  for (const plot of plots) plot.add(opened.frame.rows, opened.shown.length + 1);
+  requestAnimationFrame(show);
+  return {
+    element, remote, player, say: spoken.say, describe, save,
+    get frame() { return frame; },
+    restyle() {
+      viewport.restyle();
+      for (const plot of plots) plot.restyle();
+      if (atStart) show();
+    },
+    dispose() {
+      player.close();
+      viewport.dispose();
+    },
+  };
+}
+
+/** Puts the state into the address of the page, and that into the clipboard. */
+async function copyLink(save: () => Promise<Uint8Array>, key: string, say: Say, speak: (text: string) => void): Promise<void> {
+  const text = await encodeState(await save());
+  if (text === null) return speak(say("linkTooLong"));
+  const address = new URL(location.href);
+  address.hash = fragmentWith(address.hash, key, text);
+  history.replaceState(history.state, "", address);
+  try {
+    await navigator.clipboard.writeText(address.href);
+    speak(say("linkCopied"));
+  } catch {
+    // Without the clipboard, the address of the page has the state all the same.
+    speak(address.href);
+  }
+}

@@ -1,0 +1,139 @@
+/** Plays a lab: asks the engine for as much simulated time as has passed, and never twice at once. */
+import type { ControlValue } from "labspec/slim";
+import type { RemoteLab } from "../engine/client.js";
+import type { Drag, Frame } from "../engine/messages.js";
+import { onEveryFrame } from "./clock.js";
+
+export interface Player {
+  readonly isPlaying: boolean;
+  /** Simulated seconds for each second. */
+  speed: number;
+  /** Whether the lab is seen: one that is not stands still. */
+  isVisible: boolean;
+  play(): void;
+  pause(): void;
+  /** Plays so many simulated seconds at once. */
+  advance(seconds: number): Promise<void>;
+  step(steps: number): Promise<void>;
+  reset(): Promise<void>;
+  set(label: string, value: ControlValue): Promise<void>;
+  press(label: string): Promise<void>;
+  drag(drag: Drag | null): Promise<void>;
+  close(): void;
+}
+
+export interface PlayerEvents {
+  frame(frame: Frame): void;
+  playing(isPlaying: boolean): void;
+  /** How fast the lab really plays, where that is slower than asked; `null` where it is not. */
+  slow(speed: number | null): void;
+  failed(e: unknown): void;
+}
+
+/** Longest time between two frames that is caught up, s. */
+const MOST_ELAPSED = 0.1;
+/** Milliseconds of the engine's work for one frame. */
+const BUDGET = 12;
+
+export function createPlayer(remote: RemoteLab, events: PlayerEvents): Player {
+  let [stop, isWaiting, last, isVisible, speed]: [(() => void) | null, boolean, number, boolean, number] = [null, false, 0, true, 1];
+  let [isOver, lag] = [remote.opened.frame.isOver, 0];
+  // The last value of a control that is being moved waits for the one before it.
+  const moving = new Map<string, { next: ControlValue | undefined; done: Promise<void> }>();
+  const take = (frame: Frame): void => {
+    isOver = frame.isOver;
+    events.frame(frame);
+    if (frame.isOver) player.pause();
+  };
+  /** Shows the answer. What fails is told to the reader, and to whoever waits for it. */
+  const ask = (what: Promise<Frame>): Promise<void> => heard(what.then(take, (e: unknown) => {
+    events.failed(e);
+    throw e;
+  }));
+  const measure = (asked: number, behind: number): void => {
+    lag = 0.9 * lag + 0.1 * (asked > 0 ? Math.min(1, behind / asked) : 0);
+    events.slow(lag > 0.15 ? speed * (1 - lag) : null);
+  };
+  const tick = (now: number): void => {
+    if (isWaiting || !isVisible) {
+      if (!isVisible) last = now;
+      return;
+    }
+    const seconds = Math.min(MOST_ELAPSED, (now - last) / 1000) * speed;
+    last = now;
+    if (!(seconds > 0)) return;
+    isWaiting = true;
+    const answer = remote.ask("advance", seconds, BUDGET).then((frame) => {
+      measure(seconds, frame.behind);
+      return frame;
+    });
+    ask(answer).then(() => {
+      isWaiting = false;
+    }, () => {
+      isWaiting = false;
+      player.pause();
+    });
+  };
+  const setOnce = async (label: string, entry: { next: ControlValue | undefined }): Promise<void> => {
+    try {
+      while (entry.next !== undefined) {
+        const value = entry.next;
+        entry.next = undefined;
+        await ask(remote.ask("set", label, value));
+      }
+    } finally {
+      moving.delete(label);
+    }
+  };
+  const player: Player = {
+    get isPlaying() { return stop !== null; },
+    get speed() { return speed; },
+    set speed(value) { [speed, lag] = [value, 0]; },
+    get isVisible() { return isVisible; },
+    set isVisible(value) { isVisible = value; },
+    play() {
+      if (stop !== null) return;
+      const begin = (): void => {
+        last = performance.now();
+        stop = onEveryFrame(tick);
+        events.playing(true);
+      };
+      if (isOver) player.reset().then(begin, () => undefined);
+      else begin();
+    },
+    pause() {
+      if (stop === null) return;
+      stop();
+      stop = null;
+      events.slow(null);
+      events.playing(false);
+    },
+    advance: (seconds) => ask(remote.ask("advance", seconds, Infinity)),
+    step: (steps) => ask(remote.ask("step", steps)),
+    reset: () => ask(remote.ask("reset")),
+    set(label, value) {
+      const before = moving.get(label);
+      if (before !== undefined) {
+        before.next = value;
+        return before.done;
+      }
+      const entry: { next: ControlValue | undefined; done: Promise<void> } = { next: value, done: Promise.resolve() };
+      moving.set(label, entry);
+      entry.done = heard(setOnce(label, entry));
+      return entry.done;
+    },
+    press: (label) => ask(remote.ask("press", label)),
+    drag: (drag) => ask(remote.ask("drag", drag)),
+    close() {
+      player.pause();
+      remote.ask("free").catch(() => undefined);
+    },
+  };
+  return player;
+}
+
+/** A promise that may be left alone: that it was refused has been told already. */
+function heard(promise: Promise<void>): Promise<void> {
+  promise.catch(() => undefined);
+  return promise;
+}

@@ -1,0 +1,57 @@
+/** What is drawn over the scene and through which camera, below the picture; a body to drag by keys, in the menu. */
+import { h, uniqueId } from "../dom.js";
+import type { Opened } from "../engine/messages.js";
+import type { LabSpec } from "../spec.js";
+import type { Say } from "../text/messages.js";
+import type { Viewport } from "./viewport.js";
+
+export interface ViewBar {
+  readonly element: HTMLElement | null;
+  /** The choice of a body to drag. */
+  readonly bodies: HTMLElement | null;
+  /** No body is held by keys any more. */
+  showReleased(): void;
+}
+
+export function createViewBar(opened: Opened, spec: LabSpec, viewport: Viewport, say: Say): ViewBar {
+  if (!viewport.isDrawn) return { element: null, bodies: null, showReleased: () => undefined };
+  const toggles = spec.toggles.map((overlay) => {
+    const box = h("input", { type: "checkbox" });
+    box.checked = viewport.overlay(overlay);
+    box.addEventListener("change", () => viewport.setOverlay(overlay, box.checked));
+    return h("label", { class: "toggle", part: "toggle" }, box, h("span", {}, say(overlay)));
+  });
+  const group = toggles.length > 0 ? h("fieldset", { class: "toggles" }, h("legend", { class: "hidden" }, say("overlays")), ...toggles) : null;
+  const camera = createCameras(opened, viewport, say);
+  const bodies = createBodies(opened, viewport, say);
+  return {
+    element: group !== null || camera !== null ? h("div", { class: "view-bar", part: "view-bar" }, group, camera) : null,
+    bodies: bodies?.element ?? null,
+    showReleased: () => bodies?.clear(),
+  };
+}
+
+function createCameras({ model }: Opened, viewport: Viewport, say: Say): HTMLElement | null {
+  if (model.cameras.length === 0) return null;
+  const id = uniqueId();
+  const select = h("select", { id },
+    h("option", { value: "" }, say("freeCamera")),
+    ...model.cameras.map((name, i) => h("option", { value: i }, name === "" ? say("cameraNumber", { number: i + 1 }) : name)));
+  select.addEventListener("change", () => viewport.setCamera(select.value === "" ? null : Number(select.value)));
+  return h("span", { class: "choice" }, h("label", { for: id }, say("camera")), select);
+}
+
+function createBodies(opened: Opened, viewport: Viewport, say: Say): { element: HTMLElement; clear(): void } | null {
+  const bodies = opened.bodies.map((name, id) => ({ name: name === "" ? say("bodyNumber", { number: id }) : name.replaceAll("_", " "), id }));
+  const movable = bodies.filter(({ id }) => opened.movable[id] === true);
+  if (movable.length === 0) return null;
+  const id = uniqueId();
+  const select = h("select", { id, class: "drag" }, h("option", { value: "" }, say("noBody")), ...movable.map((body) => h("option", { value: body.id }, body.name)));
+  select.addEventListener("change", () => viewport.grab(select.value === "" ? null : Number(select.value)));
+  return {
+    element: h("span", { class: "choice" }, h("label", { for: id }, say("dragBody")), select),
+    clear() {
+      select.value = "";
+    },
+  };
+}

@@ -1,0 +1,253 @@
+/** The picture of a lab: the camera and the bodies follow the pointer and the keys. */
+import { createView, labCamera } from "../view/index.js";
+import type { CameraPose, Overlay, SceneFrame, SceneModel, View } from "../view/types.js";
+import { h, saveFile, fileName } from "../dom.js";
+import type { Drag, Opened } from "../engine/messages.js";
+import { clamp, type LabSpec } from "../spec.js";
+import type { Say } from "../text/messages.js";
+import { cameraAxes, copyPose, moveCameraByKey, panCamera, pinchCamera, scaled, turnCamera, zoomCamera, type Point } from "./camera-moves.js";
+
+export interface Viewport {
+  readonly element: HTMLElement;
+  /** Whether there is a picture. */
+  readonly isDrawn: boolean;
+  setModel(model: SceneModel): void;
+  setFrame(frame: SceneFrame): void;
+  clearTrail(): void;
+  draw(): void;
+  restyle(): void;
+  setOverlay(overlay: Overlay, on: boolean): void;
+  overlay(overlay: Overlay): boolean;
+  /** Through a camera of the model, or the free one (`null`). */
+  setCamera(fixed: number | null): void;
+  /** Drags a body with the keyboard, or lets it go (`null`). */
+  grab(body: number | null): void;
+  savePicture(title: string): void;
+  dispose(): void;
+}
+
+export interface ViewportActions {
+  drag(drag: Drag | null): void;
+  say(text: string): void;
+  /** The body that is dragged by keys was let go there. */
+  released(): void;
+}
+
+/** Pixels that a pointer may move in a tap. */
+const TAP = 8;
+const TURN = 0.4;
+
+export function createViewport(opened: Opened, spec: LabSpec, say: Say, actions: ViewportActions): Viewport {
+  const canvas = h("canvas", { part: "view" });
+  const title = spec.title === "" ? say("lab") : spec.title;
+  const hint = h("span", { class: "tap-hint", "aria-hidden": "true" }, say("viewTap"));
+  const element = h("div", {
+    class: "view", tabindex: 0, role: "application", "aria-label": say("view", { title }), "aria-description": say("viewHelp"),
+  }, canvas, hint);
+  element.style.height = `${spec.height}px`;
+  const trail = spec.trail === null ? -1 : opened.sites.indexOf(spec.trail);
+  let view: View | null = null;
+  try {
+    view = createView(canvas, opened.model, {
+      camera: labCamera(spec.camera), overlays: spec.overlays, ...(spec.forceScale === null ? {} : { forceScale: spec.forceScale }),
+      ...(trail >= 0 ? { trail } : {}),
+    });
+  } catch {
+    for (const name of ["role", "tabindex", "aria-label", "aria-description", "style"]) element.removeAttribute(name);
+    element.replaceChildren(h("p", { class: "view-failed" }, say("viewFailed")));
+  }
+  const state: PointerState = { frame: opened.frame.scene, home: view === null ? null : copyPose(view.camera), held: null, target: [0, 0, 0], isActive: false };
+  if (view !== null) {
+    view.setFrame(opened.frame.scene);
+    listen(element, canvas, view, opened, say, actions, state);
+  }
+  const resize = new ResizeObserver(() => view?.draw());
+  resize.observe(canvas);
+  return {
+    element,
+    isDrawn: view !== null,
+    setModel: (model) => view?.setModel(model),
+    setFrame(frame) {
+      state.frame = frame;
+      view?.setFrame(frame);
+      if (view !== null && state.held !== null) view.setDrag({ from: grabbedPoint(frame, state.held), to: state.target });
+    },
+    clearTrail: () => view?.clearTrail(),
+    draw: () => view?.draw(),
+    restyle() {
+      const style = getComputedStyle(element);
+      view?.setTheme({ background: style.backgroundColor, highContrast: matchMedia("(forced-colors: active), (prefers-contrast: more)").matches });
+      view?.draw();
+    },
+    setOverlay(overlay, on) {
+      if (view === null) return;
+      view.overlays[overlay] = on;
+      view.draw();
+    },
+    overlay: (overlay) => view?.overlays[overlay] === true,
+    setCamera(fixed) {
+      if (view === null) return;
+      if (fixed === null) delete view.camera.fixed;
+      else view.camera.fixed = fixed;
+      view.draw();
+    },
+    grab(body) {
+      if (view === null || body === null) return release(view, state, actions);
+      const held: Drag = { body, local: [0, 0, 0], target: [0, 0, 0] };
+      state.target = grabbedPoint(state.frame, held);
+      state.held = { ...held, target: state.target };
+      actions.drag(state.held);
+      view.setDrag({ from: state.target, to: state.target });
+      const name = opened.bodies[body] ?? "";
+      actions.say(`${say("grabbed", { body: name })} ${say("dragHelp", { body: name })}`);
+      element.focus();
+    },
+    savePicture(name) {
+      const ratio = 2;
+      void view?.toPng(canvas.clientWidth * ratio, canvas.clientHeight * ratio).then((png) => saveFile(`${fileName(name)}.png`, png));
+    },
+    dispose() {
+      resize.disconnect();
+      view?.dispose();
+    },
+  };
+}
+
+interface PointerState {
+  frame: SceneFrame;
+  home: CameraPose | null;
+  held: Drag | null;
+  target: Point;
+  /** Whether touches belong to the picture: after a tap. */
+  isActive: boolean;
+}
+
+function release(view: View | null, state: PointerState, actions: ViewportActions): void {
+  if (state.held === null) return;
+  state.held = null;
+  view?.setDrag(null);
+  view?.draw();
+  actions.drag(null);
+  actions.released();
+}
+
+/** The grabbed point of a body in the world frame. */
+function grabbedPoint({ xpos, xmat }: SceneFrame, { body, local }: Drag): Point {
+  const row = (i: number): number => {
+    const axis = 9 * body + 3 * i;
+    return (xpos[3 * body + i] ?? 0) + (xmat[axis] ?? 0) * local[0] + (xmat[axis + 1] ?? 0) * local[1] + (xmat[axis + 2] ?? 0) * local[2];
+  };
+  return [row(0), row(1), row(2)];
+}
+
+/** A point of the world in the frame of a body. */
+function localPoint({ xpos, xmat }: SceneFrame, body: number, point: readonly number[]): Point {
+  const away = [0, 1, 2].map((i) => (point[i] ?? 0) - (xpos[3 * body + i] ?? 0));
+  const column = (i: number): number => [0, 1, 2].reduce((sum, j) => sum + (xmat[9 * body + 3 * j + i] ?? 0) * (away[j] ?? 0), 0);
+  return [column(0), column(1), column(2)];
+}
+
+function listen(element: HTMLElement, canvas: HTMLCanvasElement, view: View, opened: Opened, say: Say, actions: ViewportActions, state: PointerState): void {
+  const pointers = new Map<number, { x: number; y: number }>();
+  let [moved, mode]: [number, "turn" | "move" | "drag" | "none"] = [0, "none"];
+  const place = (event: PointerEvent): { x: number; y: number } => {
+    const box = canvas.getBoundingClientRect();
+    return { x: event.clientX - box.left, y: event.clientY - box.top };
+  };
+  const activate = (on: boolean): void => {
+    state.isActive = on;
+    element.classList.toggle("active", on);
+  };
+  element.addEventListener("blur", () => activate(false));
+  canvas.addEventListener("contextmenu", (event) => event.preventDefault());
+  canvas.addEventListener("pointerdown", (event) => {
+    const at = place(event);
+    moved = 0;
+    if (event.pointerType === "touch" && !state.isActive) {
+      mode = "none";
+      return void pointers.set(event.pointerId, at);
+    }
+    pointers.set(event.pointerId, at);
+    canvas.setPointerCapture(event.pointerId);
+    element.focus({ preventScroll: true });
+    const found = event.button === 0 && pointers.size === 1 && !event.shiftKey && !event.ctrlKey ? view.pick(at.x, at.y) : null;
+    if (found !== null && opened.movable[found.body] === true) {
+      mode = "drag";
+      state.target = [...found.point];
+      state.held = { body: found.body, local: localPoint(state.frame, found.body, found.point), target: state.target };
+      actions.drag(state.held);
+      view.setDrag({ from: state.target, to: state.target });
+    } else mode = event.button === 0 && !event.shiftKey && !event.ctrlKey ? "turn" : "move";
+    event.preventDefault();
+  });
+  canvas.addEventListener("pointermove", (event) => {
+    const before = pointers.get(event.pointerId);
+    if (before === undefined) return;
+    const at = place(event);
+    const [dx, dy] = [at.x - before.x, at.y - before.y];
+    moved += Math.abs(dx) + Math.abs(dy);
+    pointers.set(event.pointerId, at);
+    if (mode === "none") return;
+    if (pointers.size === 2) {
+      pinchCamera(view, [...pointers.values()], before, at);
+      return view.draw();
+    }
+    if (mode === "drag" && state.held !== null) {
+      state.target = view.unproject(at.x, at.y, state.target);
+      state.held = { ...state.held, target: state.target };
+      actions.drag(state.held);
+      view.setDrag({ from: grabbedPoint(state.frame, state.held), to: state.target });
+    } else if (mode === "turn") turnCamera(view.camera, -dx * TURN, dy * TURN);
+    else panCamera(view, dx, dy);
+    view.draw();
+  });
+  const end = (event: PointerEvent): void => {
+    if (event.pointerType === "touch" && !state.isActive && moved < TAP && event.type === "pointerup") {
+      element.focus({ preventScroll: true });
+      activate(true);
+    }
+    pointers.delete(event.pointerId);
+    if (mode === "drag") release(view, state, actions);
+    if (pointers.size === 0) mode = "none";
+  };
+  canvas.addEventListener("pointerup", end);
+  canvas.addEventListener("pointercancel", end);
+  element.addEventListener("wheel", (event) => {
+    // A page that is scrolled is not held up: the picture zooms when it has the focus, or with Ctrl.
+    if (element.getRootNode() instanceof ShadowRoot && (element.getRootNode() as ShadowRoot).activeElement !== element && !event.ctrlKey) return;
+    event.preventDefault();
+    zoomCamera(view.camera, Math.exp(clamp(event.deltaY, -200, 200) * 0.002));
+    view.draw();
+  }, { passive: false });
+  element.addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const used = state.held === null ? moveCameraByKey(view, event, state.home) : dragByKey(view, event, state, opened.model.extent, actions);
+    if (!used) return;
+    event.preventDefault();
+    event.stopPropagation();
+    if (event.key === "Escape") actions.say(say("released", { body: "" }).trim());
+    view.draw();
+  });
+}
+
+/** Pulls the held body: arrows in the plane that faces the camera, Page Up and Page Down along the vertical. */
+function dragByKey(view: View, event: KeyboardEvent, state: PointerState, extent: number, actions: ViewportActions): boolean {
+  if (event.key === "Escape") {
+    release(view, state, actions);
+    return true;
+  }
+  if (state.held === null) return false;
+  const stride = 0.05 * extent;
+  const [right, up] = cameraAxes(view.camera);
+  const moves: Record<string, Point> = {
+    ArrowLeft: scaled(right, -stride), ArrowRight: scaled(right, stride), ArrowUp: scaled(up, stride), ArrowDown: scaled(up, -stride),
+    PageUp: [0, 0, stride], PageDown: [0, 0, -stride],
+  };
+  const move = moves[event.key];
+  if (move === undefined) return false;
+  state.target = [state.target[0] + move[0], state.target[1] + move[1], state.target[2] + move[2]];
+  state.held = { ...state.held, target: state.target };
+  actions.drag(state.held);
+  view.setDrag({ from: grabbedPoint(state.frame, state.held), to: state.target });
+  return true;
+}

@@ -1,0 +1,59 @@
+/** The frame of a question: its number, text, form, verdict and explanation. */
+import { h, icon } from "../dom.js";
+import type { Say } from "../text/messages.js";
+import { safeHtml } from "../text/sanitize.js";
+import type { Stored } from "./store.js";
+
+/** A question on the page. */
+export interface Card {
+  readonly element: HTMLElement;
+  /** `null` where it is not graded or not answered. */
+  readonly isRight: boolean | null;
+  readonly isGraded: boolean;
+}
+
+export interface CardContext {
+  readonly number: number;
+  readonly count: number;
+  /** A name of the question that no other one of the page has. */
+  readonly name: string;
+  readonly say: Say;
+  readonly stored: Stored | null;
+  /** An answer was given: kept, and told to the page. */
+  answered(answer: Stored): void;
+}
+
+export interface CardParts {
+  readonly element: HTMLElement;
+  readonly form: HTMLFormElement;
+  /** Where verdicts stand; they are read aloud. */
+  readonly verdict: HTMLElement;
+  readonly promptId: string;
+}
+
+let prompts = 0;
+
+export function createCard(context: CardContext, label: string | null, prompt: string): CardParts {
+  const { number, count, say } = context;
+  const promptId = `labspec-question-${++prompts}`;
+  const place = say("question", { number, count });
+  const form = h("form", { class: "answer", novalidate: true });
+  const verdict = h("div", { class: "verdict-area", role: "status" });
+  const element = h("section", { class: "question", part: "question", "aria-labelledby": promptId },
+    h("p", { class: "kind" }, label === null ? place : `${place} · ${label}`),
+    h("div", { class: "prose prompt", id: promptId, dir: "auto" }, safeHtml(prompt, document)), form, verdict);
+  return { element, form, verdict, promptId };
+}
+
+/** The verdict on an answer, with what explains it. */
+export function showVerdict(area: HTMLElement, isRight: boolean | null, text: string, explain: string | null, more: readonly (Node | null)[] = []): void {
+  const badge = isRight === null ? null : h("p", { class: isRight ? "badge good" : "badge bad" }, icon(isRight ? "check" : "cross"), h("strong", {}, text));
+  const why = explain === null ? null : h("div", { class: "prose explain", dir: "auto" }, safeHtml(explain, document));
+  const children = [badge, ...more, why].filter((child) => child !== null);
+  area.replaceChildren(h("div", { class: `verdict ${isRight === null ? "" : isRight ? "good" : "bad"}` }, ...children));
+}
+
+/** A remark below the form: what is missing, or which try it is. */
+export function showRemark(area: HTMLElement, text: string): void {
+  area.replaceChildren(h("p", { class: "remark" }, text));
+}

@@ -1,0 +1,146 @@
+/** Questions with options: one of several, several of several, true or false, and predictions, which a lab answers. */
+import type { Models } from "labspec/slim";
+import { h, icon, uniqueId } from "../dom.js";
+import { SimLab } from "../lab/element.js";
+import { numberOf, type Json } from "../spec.js";
+import { formatTime } from "../text/numbers.js";
+import { safeHtml } from "../text/sanitize.js";
+import { createCard, showRemark, showVerdict, type Card, type CardContext } from "./card.js";
+import { isRightChoice, isRightOption } from "./grade.js";
+import type { ChoiceQuestion } from "./read.js";
+import type { Stored } from "./store.js";
+
+/** Seconds that a lab plays before its verdict, where it has no end of its own. */
+const WATCH = 3;
+
+export function createChoice(question: ChoiceQuestion, context: CardContext, models: Models | null): Card {
+  const { say } = context;
+  const parts = createCard(context, question.label, question.q);
+  const { form, verdict } = parts;
+  const isPredict = question.kind === "predict" && question.sim !== null;
+  const name = uniqueId();
+  const type = question.kind === "multiple" ? "checkbox" : "radio";
+  const inputs = question.options.map((_, i) => h("input", { type, name, value: i }));
+  const rows = question.options.map((option, i) => h("label", { class: "option", part: "option" }, inputs[i], h("span", { class: "prose" }, safeHtml(option, document))));
+  const submit = h("button", { type: "submit", class: "primary" }, say(isPredict ? "commit" : "check"));
+  const hint = say(isPredict ? "predictHelp" : type === "checkbox" ? "chooseAll" : "chooseOne");
+  form.append(
+    h("fieldset", { class: "options", "aria-labelledby": parts.promptId }, h("legend", { class: "hidden" }, hint), ...rows),
+    h("div", { class: "form-foot" }, submit, (isPredict || type === "checkbox") && h("span", { class: "hint" }, hint)));
+  let [tries, isRight, isDone]: [number, boolean | null, boolean] = [0, null, false];
+  const chosen = (): number[] => inputs.flatMap((input, i) => (input.checked ? [i] : []));
+
+  const lock = (): void => {
+    for (const input of inputs) input.disabled = true;
+    submit.hidden = true;
+    form.querySelector(".hint")?.remove();
+  };
+  /** Marks what was chosen, and what is right where the question is over. */
+  const mark = (choice: readonly number[]): void => {
+    rows.forEach((row, i) => {
+      const right = isRightOption(question, i) ?? (isRight === true && choice.includes(i) ? true : choice.includes(i) ? false : null);
+      row.classList.toggle("right", right === true && isDone);
+      row.classList.toggle("wrong", right !== true && choice.includes(i));
+      row.querySelector(".icon")?.remove();
+      if (right === true && isDone) row.append(icon("check"));
+      else if (choice.includes(i) && right !== true) row.append(icon("cross"));
+    });
+  };
+  const conclude = (choice: readonly number[], evidence: readonly Node[] = []): void => {
+    mark(choice);
+    const said = choice.map((i) => plainText(question.options[i] ?? "")).join("; ");
+    const prediction = isPredict ? h("p", { class: "said" }, say("committed", { answer: said })) : null;
+    showVerdict(verdict, isRight, say(isRight === true ? "correct" : "wrong"), question.explain, [prediction, ...evidence]);
+  };
+  const stored = (choice: readonly number[]): Stored => ({ choice, text: "", tries, isRight, isDone });
+
+  form.addEventListener("submit", (event) => {
+    event.preventDefault();
+    const choice = chosen();
+    if (choice.length === 0 && type === "radio") return showRemark(verdict, say("chooseFirst"));
+    tries++;
+    isRight = isRightChoice(question, choice);
+    isDone = isRight || tries >= question.attempts || isPredict;
+    context.answered(stored(choice));
+    if (!isDone) {
+      mark(choice);
+      return showVerdict(verdict, false, say("wrong"), null, [h("p", {}, say("attempts", { number: tries, count: question.attempts }))]);
+    }
+    lock();
+    if (isPredict && question.sim !== null) watchLab(question.sim, models, parts, context, (evidence) => conclude(choice, evidence));
+    else conclude(choice);
+  });
+  for (const input of inputs) {
+    input.addEventListener("change", () => {
+      if (!isDone) for (const row of rows) row.classList.remove("wrong");
+    });
+  }
+  restore(context.stored);
+
+  /** An answer of an earlier visit. */
+  function restore(before: Stored | null): void {
+    if (before === null || before.tries === 0) return;
+    for (const i of before.choice) {
+      const input = inputs[i];
+      if (input !== undefined) input.checked = true;
+    }
+    [tries, isRight, isDone] = [before.tries, isRightChoice(question, before.choice), before.isDone];
+    if (!isDone) return;
+    lock();
+    if (isPredict && question.sim !== null) parts.verdict.before(createLab(question.sim, models, context));
+    conclude(before.choice);
+  }
+  return { element: parts.element, isGraded: true, get isRight() { return isRight; } };
+}
+
+function createLab(sim: Json, models: Models | null, { name }: CardContext): SimLab {
+  const lab = new SimLab();
+  lab.id = name;
+  // The prediction is over: the lab shows what happens.
+  lab.lab = { ...sim, autoplay: false };
+  if (models !== null) lab.models = models;
+  return lab;
+}
+
+/** Shows the lab, plays it, and concludes when it is over or when the reader wants it. */
+function watchLab(sim: Json, models: Models | null, parts: { verdict: HTMLElement }, context: CardContext, conclude: (evidence: Node[]) => void): void {
+  const { say } = context;
+  const lab = createLab(sim, models, context);
+  const show = h("button", { type: "button" }, say("showVerdict"));
+  parts.verdict.before(lab);
+  parts.verdict.replaceChildren(h("div", { class: "watch" }, h("p", {}, say("running")), show));
+  let isOver = false;
+  const finish = (): void => {
+    if (isOver) return;
+    isOver = true;
+    clearInterval(timer);
+    lab.removeEventListener("lab-pause", look);
+    conclude(evidenceOf(lab, say));
+  };
+  const until = numberOf(sim["stopAt"]) ?? WATCH;
+  const look = (): void => {
+    if (lab.isOver || lab.time >= until) {
+      lab.pause();
+      finish();
+    }
+  };
+  const timer = setInterval(look, 150);
+  lab.addEventListener("lab-pause", look);
+  show.addEventListener("click", finish);
+  const wantsNoMotion = matchMedia("(prefers-reduced-motion: reduce)").matches;
+  void lab.ready.then(() => {
+    if (!wantsNoMotion) lab.play();
+  }, () => finish());
+}
+
+/** What the lab shows at its end, beside what was predicted. */
+function evidenceOf(lab: SimLab, say: CardContext["say"]): Node[] {
+  const labels = lab.shown.filter((one) => one.plot === undefined).map((one) => one.label);
+  if (labels.length === 0) return [];
+  const rows = labels.flatMap((label, i) => [h("dt", {}, label), h("dd", {}, lab.texts[i] ?? "")]);
+  return [h("div", { class: "evidence" }, h("p", {}, say("happened", { time: formatTime(lab.time) })), h("dl", {}, ...rows))];
+}
+
+function plainText(html: string): string {
+  return safeHtml(html, document).textContent?.trim() ?? "";
+}

@@ -1,0 +1,41 @@
+/** Answers that a reader gave, kept by the browser under `id#index`. Pages may forbid it: then nothing is kept. */
+import { isObject, listOf, numberOf } from "../spec.js";
+
+/** An answer: chosen options, or a text; how often it was tried, and whether it was right at last. */
+export interface Stored {
+  readonly choice: readonly number[];
+  readonly text: string;
+  readonly tries: number;
+  readonly isRight: boolean | null;
+  readonly isDone: boolean;
+}
+
+const PREFIX = "labspec-quiz:";
+
+export function loadAnswer(quiz: string, index: number): Stored | null {
+  if (quiz === "") return null;
+  try {
+    const text = localStorage.getItem(`${PREFIX}${quiz}#${index}`);
+    const json: unknown = text === null ? null : JSON.parse(text);
+    if (!isObject(json)) return null;
+    const choice = listOf(json["choice"]).filter((x): x is number => typeof x === "number" && Number.isInteger(x) && x >= 0);
+    const right = json["isRight"];
+    return {
+      choice, text: typeof json["text"] === "string" ? json["text"] : "", tries: Math.max(0, numberOf(json["tries"]) ?? 0),
+      isRight: typeof right === "boolean" ? right : null, isDone: json["isDone"] === true,
+    };
+  } catch {
+    return null;
+  }
+}
+
+export function storeAnswer(quiz: string, index: number, answer: Stored | null): void {
+  if (quiz === "") return;
+  try {
+    const name = `${PREFIX}${quiz}#${index}`;
+    if (answer === null) localStorage.removeItem(name);
+    else localStorage.setItem(name, JSON.stringify(answer));
+  } catch {
+    // A page without storage starts anew after a reload.
+  }
+}

@@ -1,0 +1,12 @@
+/** The 3D view of a lab: `createView` draws a scene into a canvas. */
+import { SceneView } from "./view.js";
+import type { CreateView } from "./types.js";
+
+export { labCamera } from "./camera.js";
+export type * from "./types.js";
+
+/**
+ * A view of `model` in `canvas`, whose size on the page comes from its style, not from its pixels. The canvas must have no context of
+ * another kind. Throws an `Error` where the browser has no WebGL 2.
+ */
+export const createView: CreateView = (canvas, model, options) => new SceneView(canvas, model, options);

@@ -1,0 +1,75 @@
+// Plots as data: samples, ranges, ticks, tables.
+import assert from "node:assert/strict";
+import test from "node:test";
+import { load, random } from "./load.mjs";
+
+const { addRows, createSeries, extremes, nearestIndex, toCsv } = await load("plot/series.ts");
+const { tickSpacing, ticks, timeRange, valueRange } = await load("plot/scale.ts");
+const { describeTrace, tableRows } = await load("plot/summary.ts");
+const { english } = await load("text/en.ts");
+const say = (name, values = {}) => english[name].replace(/\{(\w+)\}/g, (_, key) => String(values[key]));
+const spec = { ylabel: "", xlabel: null, window: 5, ymin: null, ymax: null, height: 140, refLines: [], traces: [] };
+const fill = (series, count, f) => addRows(series, Float64Array.from(Array.from({ length: count }, (_, i) => [i * 0.01, f(i * 0.01)]).flat()), 2, [0]);
+
+test("samples are kept in order, and time that goes back clears them", () => {
+  const series = createSeries(2);
+  addRows(series, Float64Array.of(0, 1, 2, 0.1, 3, 4), 3, [1, 0]);
+  assert.deepEqual([series.length, series.values[0][1], series.values[1][1]], [2, 4, 3]);
+  addRows(series, Float64Array.of(0.1, 5, 6), 3, [1, 0]);
+  assert.deepEqual([series.length, series.values[0][1]], [2, 6], "the same time is the same sample");
+  addRows(series, Float64Array.of(0, 7, 8), 3, [1, 0]);
+  assert.deepEqual([series.length, series.values[0][0]], [1, 8]);
+});
+
+test("a long run keeps the last samples", () => {
+  const series = createSeries(1);
+  for (let i = 0; i < 100_000; i++) addRows(series, Float64Array.of(i, i), 2, [0]);
+  assert.ok(series.length >= 1 << 14 && series.length <= 1 << 15);
+  assert.equal(series.values[0][series.length - 1], 99_999);
+  for (let i = 1; i < series.length; i++) assert.equal(series.times[i] - series.times[i - 1], 1);
+});
+
+test("ranges hold what is drawn", () => {
+  const next = random(7);
+  for (let run = 0; run < 200; run++) {
+    const series = createSeries(1);
+    const scale = 10 ** (next() * 12 - 6);
+    fill(series, 1 + Math.floor(next() * 900), () => (next() - 0.5) * scale);
+    const times = timeRange(series, spec.window);
+    assert.ok(times.max - times.min - 5 < 1e-9 && times.max >= series.times[series.length - 1]);
+    const range = valueRange(series, spec, times);
+    const { min, max } = extremes(series, 0, 0, series.length);
+    assert.ok(range.min < range.max && (times.min > 0 || (range.min <= min && range.max >= max)));
+    const spacing = tickSpacing(range, 4);
+    const marks = ticks(range, spacing);
+    assert.ok(marks.length >= 1 && marks.length <= 7, `${marks}`);
+  }
+  for (const y of [0, 5, NaN]) {
+    const series = createSeries(1);
+    fill(series, 3, () => y);
+    const range = valueRange(series, spec, timeRange(series, 5));
+    assert.ok(range.max > range.min);
+  }
+});
+
+test("the nearest sample, a table and a file", () => {
+  const series = createSeries(1);
+  fill(series, 500, (t) => Math.sin(t));
+  assert.equal(nearestIndex(series, 1.004), 100);
+  assert.equal(nearestIndex(series, 99), 499);
+  const rows = tableRows(series);
+  assert.equal(rows.length, 60);
+  assert.deepEqual(rows[59], ["4.990", "-0.962"]);
+  const lines = toCsv(series, ["=x, \"quoted\""], "time (s)").trimEnd().split("\n");
+  assert.equal(lines[0], "time (s),\"'=x, \"\"quoted\"\"\"");
+  lines.slice(1).forEach((line, i) => assert.deepEqual(line.split(",").map(Number), [series.times[i], series.values[0][i]]));
+});
+
+test("a trace in words", () => {
+  const series = createSeries(1);
+  fill(series, 201, (t) => t * (2 - t));
+  assert.equal(describeTrace(series, 0, "height (m)", say), "height (m) goes from 0 to 0, highest 1 at 1.000 s.");
+  const flat = createSeries(1);
+  fill(flat, 5, () => 2);
+  assert.equal(describeTrace(flat, 0, "x", say), "x stays at 2.");
+});
