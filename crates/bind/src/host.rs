@@ -43,8 +43,7 @@ impl Host for World {
                 let before = core::cost(&self.data);
                 let result = functions::access::call(function.run, self, heap, args);
                 // Passes of the engine have counted themselves.
-                let price =
-                    if core::cost(&self.data) == before { functions::price(function, self) } else { 0 };
+                let price = if core::cost(&self.data) == before { price(function, self) } else { 0 };
                 core::charge(&mut self.data, price);
                 result
             }
@@ -65,6 +64,20 @@ impl Host for World {
     fn work(&self) -> u64 {
         core::cost(&self.data)
     }
+}
+
+/// What a call costs when it is no pass of the engine, in the unit of [`labspec_core::cost`].
+fn price(f: &functions::Function, w: &World) -> u64 {
+    let (nv, ncon) = (w.model.nv as u64, w.data.fields().contact.len() as u64);
+    let reads = match f.reads {
+        functions::Touches::Contacts => 50 * ncon,
+        functions::Touches::Derived => labspec_core::cost_of_pass(&w.data),
+        functions::Touches::Mass => 4 * nv * nv,
+        functions::Touches::Motion => 100 * nv,
+        _ => 0,
+    };
+    let writes = if f.writes.is_empty() { 0 } else { labspec_core::cost_of_pass(&w.data) };
+    50 + reads + writes
 }
 
 /// Values that the engine has no meaning for are refused, not ignored.

@@ -5,7 +5,7 @@ use crate::heap::Heap;
 use crate::types::{FieldKey, FunctionId};
 use crate::value::Value;
 
-/// The host while a program runs. Indexes count from the start of the whole field, as [`crate::Field::first`].
+/// The host while a program runs. Indexes count from the start of the whole field, as `Field::first`.
 pub trait Host {
     /// Element `index`; `None` past the end.
     fn get(&self, field: FieldKey, index: usize) -> Option<f64>;
@@ -25,20 +25,20 @@ pub trait Host {
     /// Stores an element that exists.
     ///
     /// # Errors
-    /// The host refuses: the text becomes the message of a [`crate::RuntimeError`].
+    /// The host refuses: the text becomes the message of a [`crate::runtime_event::RuntimeError`].
     fn set(&mut self, field: FieldKey, index: usize, value: f64) -> Result<(), String>;
 
     /// Number of elements of the whole field, now.
     fn len(&self, field: FieldKey) -> usize;
 
-    /// Calls a function. Lists and records among the arguments and the result live in `heap`. Arguments for [`crate::Param::Object`] are not passed; parameters that were left out
+    /// Calls a function. Lists and records among the arguments and the result live in `heap`. Arguments for `Param::Object` are not passed; parameters that were left out
     /// make the list shorter.
     ///
     /// # Errors
-    /// The call fails: the text becomes the message of a [`crate::RuntimeError`].
+    /// The call fails: the text becomes the message of a [`crate::runtime_event::RuntimeError`].
     fn call(&mut self, heap: &mut Heap, function: FunctionId, args: &[Value]) -> Result<Value, String>;
 
-    /// What the numbers of fields and elements are of here, as [`crate::Schema::identity`] says of programs. Hosts of one kind need not
+    /// What the numbers of fields and elements are of here, as `Schema::identity` says of programs. Hosts of one kind need not
     /// tell.
     fn identity(&self) -> u64 {
         0

@@ -1,6 +1,6 @@
 //! Values of a program: JavaScript's primitive values and their conversions (ECMAScript, "Type Conversion" and
 //! "Testing and Comparison Operations"), what the operators do to values, and
-//! references to lists, records and functions, which live in a [`crate::Heap`].
+//! references to lists, records and functions, which live in a [`crate::heap::Heap`].
 
 use std::fmt;
 use std::sync::Arc;
@@ -10,7 +10,7 @@ use crate::operation::truthy;
 use crate::operators::{BinaryOp, LogicalOp, UnaryOp};
 use crate::types::{FieldKey, Type};
 
-/// The number of a list, record or function in its [`crate::Heap`].
+/// The number of a list, record or function in its [`crate::heap::Heap`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Ref(pub(crate) u32);
 
@@ -99,7 +99,7 @@ impl Value {
         !matches!(self, Value::List(_) | Value::Record(_) | Value::Function(_) | Value::View(_))
     }
 
-    /// JavaScript's `Number(v)` of a primitive value; of others NaN, see [`crate::Heap::number`].
+    /// JavaScript's `Number(v)` of a primitive value; of others NaN, see [`crate::heap::Heap::number`].
     pub fn to_number(&self) -> f64 {
         match self {
             Value::Undefined => f64::NAN,
@@ -158,7 +158,7 @@ impl Value {
     }
 }
 
-/// JavaScript's `String(v)` of a primitive value; of others only what it is, see [`crate::Heap::text`].
+/// JavaScript's `String(v)` of a primitive value; of others only what it is, see [`crate::heap::Heap::text`].
 impl fmt::Display for Value {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

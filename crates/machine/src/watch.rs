@@ -23,7 +23,7 @@ pub struct Comparison {
     pub holds: bool,
 }
 
-/// What the runs in a [`crate::Context`] note, once it is given to [`crate::Context::watch`].
+/// What the runs in a [`crate::context::Context`] note, once it is given to [`crate::context::Context::watch`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Watch {
     /// The number of the comparison, in the order of evaluation, that gives the opposite of what it would.

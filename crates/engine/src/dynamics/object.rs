@@ -54,7 +54,7 @@ pub fn object_velocity(m: &Model, d: &Fields, kind: Obj, id: usize, local: bool)
 
 /// Angular and linear acceleration of an object (`mj_objectAcceleration`), rad/s² and m/s², as an accelerometer
 /// feels it: at rest it points up with the strength of gravity. Axes as for [`object_velocity`]; needs
-/// [`rne_post_constraint`](crate::rne_post_constraint). Zero for what cannot move.
+/// [`rne_post_constraint`](crate::sensor::body_force::rne_post_constraint). Zero for what cannot move.
 pub fn object_acceleration(m: &Model, d: &Fields, kind: Obj, id: usize, local: bool) -> Spatial {
     let Some(f) = frame(m, d, kind as i32, id) else { return [0.0; 6] };
     acceleration(m, d, &f, local)

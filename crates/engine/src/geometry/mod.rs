@@ -1,6 +1,6 @@
 //! Pure geometry of shapes: rays, containment, support points, distance and penetration.
 //!
-//! A [`Shape`] is a type, sizes and a pose; nothing here knows of a model, its data or dynamics. What asks these is in
+//! A `Shape` is a type, sizes and a pose; nothing here knows of a model, its data or dynamics. What asks these is in
 //! [`crate::query`].
 
 mod cast;

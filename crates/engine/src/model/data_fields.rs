@@ -9,7 +9,7 @@ use super::plan::PlanTable;
 macro_rules! define_data {
     ($($rows:tt)*) => { define! {
         #[derive(Default)]
-        /// State, inputs and results of a simulation, field by field as MuJoCo's `mjData`: what [`crate::Data`] shows.
+        /// State, inputs and results of a simulation, field by field as MuJoCo's `mjData`: what `labspec_core::Data` shows.
         #[allow(non_snake_case)] // MuJoCo's names: M, qLD
         Fields {
             /// Detected contacts of the last position stage.

@@ -10,7 +10,7 @@
 //!
 //! The tables are macros that hand all rows to another macro, so that each use reads the same rows.
 
-/// Sizes and constant arrays of [`crate::Model`].
+/// Sizes and constant arrays of [`Model`](crate::model::Model).
 #[macro_export]
 macro_rules! model_fields {
     ($apply:ident) => { $apply! {
@@ -490,7 +490,7 @@ macro_rules! statistic_fields {
     } };
 }
 
-/// State, inputs and results of [`crate::Fields`].
+/// State, inputs and results of [`Fields`](crate::model::Fields).
 #[macro_export]
 macro_rules! data_fields {
     ($apply:ident) => { $apply! {

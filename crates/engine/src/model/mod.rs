@@ -127,12 +127,12 @@ impl Default for Options {
 }
 
 impl Options {
-    /// Whether a part of the simulation is switched off; `bit` is one of [`crate::disable`].
+    /// Whether a part of the simulation is switched off; `bit` is one of [`disable`](crate::kinds::disable).
     pub fn disabled(&self, bit: i32) -> bool {
         self.disableflags & bit != 0
     }
 
-    /// Whether an optional part is switched on; `bit` is one of [`crate::enable`].
+    /// Whether an optional part is switched on; `bit` is one of [`enable`](crate::kinds::enable).
     pub fn enabled(&self, bit: i32) -> bool {
         self.enableflags & bit != 0
     }

@@ -75,7 +75,7 @@ pub fn write(m: &Model) -> Vec<u8> {
     out
 }
 
-/// The model that [`write`] wrote; `None` for anything else.
+/// The model that [`write()`] wrote; `None` for anything else.
 pub fn read(bytes: &[u8]) -> Option<Model> {
     let (body, end) = bytes.split_last_chunk::<8>()?;
     if fingerprint(body) != u64::from_le_bytes(*end) {

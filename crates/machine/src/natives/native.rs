@@ -46,7 +46,7 @@ pub enum NativeResult {
 }
 
 /// What becomes of NaN, and of `undefined` where that counts, among the elements of what a method is called on and among its
-/// arguments ([`crate::Watch`]). What is looked at is lost, unless the result is NaN again.
+/// arguments ([`crate::watch::Watch`]). What is looked at is lost, unless the result is NaN again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NanBehaviour {
     /// Elements and arguments decide the result, as comparisons and texts do.

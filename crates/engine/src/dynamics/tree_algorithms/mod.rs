@@ -1,7 +1,7 @@
 //! How trees are computed: the table of tree algorithms.
 //!
-//! Three things are computed of a tree: where its bodies are ([`Places`]), M with the bias force ([`Forces`]), and accelerations
-//! from forces, by a factorization of M ([`Factors`]). The general algorithm, which is the last row, computes all three of
+//! Three things are computed of a tree: where its bodies are (`Places`), M with the bias force (`Forces`), and accelerations
+//! from forces, by a factorization of M (`Factors`). The general algorithm, which is the last row, computes all three of
 //! any tree. A specialized one computes some of them, of trees of its kind, in less time. Each tree takes, for each of the three, the first row
 //! of the table that covers it; this follows from the structure of the model when data are made for it, never from a plan.
 //!

@@ -1,6 +1,6 @@
 //! Contacts of two shapes: closed forms where there are some, the general convex algorithm elsewhere.
 //!
-//! Every function appends its contacts to a list: at most [`MOST`], only those within `margin`, in an order that is
+//! Every function appends its contacts to a list: at most `MOST`, only those within `margin`, in an order that is
 //! MuJoCo's. The first shape has the smaller type; the normal points from it to the second.
 
 mod box_box;
