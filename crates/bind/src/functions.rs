@@ -9,7 +9,6 @@ mod sim;
 
 use std::sync::LazyLock;
 
-use super::World;
 use super::displayed::LABELS;
 use super::handle::{self, Side};
 use super::units;
@@ -150,20 +149,6 @@ const NOTHING: Result<Value, String> = Ok(Value::Undefined);
 fn done(result: Result<(), access::Failed>) -> Result<Value, String> {
     result?;
     NOTHING
-}
-
-/// The cost of a call that does not run a pass of the engine, in the unit of [`labspec_core::cost`].
-pub(super) fn price(f: &Function, w: &World) -> u64 {
-    let (nv, ncon) = (w.model.nv as u64, w.data.fields().contact.len() as u64);
-    let reads = match f.reads {
-        Touches::Contacts => 50 * ncon,
-        Touches::Derived => labspec_core::cost_of_pass(&w.data),
-        Touches::Mass => 4 * nv * nv,
-        Touches::Motion => 100 * nv,
-        _ => 0,
-    };
-    let writes = if f.writes.is_empty() { 0 } else { labspec_core::cost_of_pass(&w.data) };
-    50 + reads + writes
 }
 
 /// The index of the object whose name is the first argument.

@@ -14,6 +14,7 @@ mod error;
 mod field_entry;
 pub mod functions;
 mod handle;
+mod host;
 mod host_terms;
 mod measures;
 mod names;
