@@ -71,6 +71,8 @@ export class SceneView implements View, Client {
     });
     this.#resize.observe(canvas);
     this.#watchDensity();
+    // A reset of the graphics processor empties the canvas too.
+    canvas.addEventListener("contextrestored", () => { this.contextLost(); }, { signal: this.#disposal.signal });
     this.#visibility.observe(canvas);
     addClient(this);
   }
@@ -153,7 +155,6 @@ export class SceneView implements View, Client {
   }
 
   contextLost(): void {
-    this.#uploaded = null;
     this.#isChanged = true;
     this.draw();
   }

@@ -21,6 +21,25 @@ test("a lost context is replaced, and every view is drawn again", async () => {
   assert.ok(result.before[0] > 1000 && result.isNew);
 });
 
+test("a running lab draws in the new context before all views do, and its meshes are freed there", async () => {
+  const other = await openPage();
+  const result = await other.page.evaluate(async ([plain, mesh]) => {
+    const keeper = show(plain), running = show(mesh), lost = view.sharedContext();
+    lost.gpu.gl.getExtension("WEBGL_lose_context").loseContext();
+    running.view.setFrame(running.scene.frame);
+    running.view.draw();
+    await new Promise(resolve => setTimeout(resolve, 500));
+    const before = view.sharedContext().uploads.shapes;
+    running.view.dispose();
+    const after = view.sharedContext().uploads.shapes;
+    keeper.view.dispose();
+    return { isNew: view.sharedContext() !== lost, freed: before - after, meshes: mesh.model.mesh_vertadr.length };
+  }, [recorded("incline"), recorded("mesh_builtin")]);
+  await other.stop();
+  assert.ok(result.isNew);
+  assert.equal(result.freed, result.meshes);
+});
+
 test("without WebGL there is no view; one may come later, on a canvas of the document", async () => {
   const other = await openPage();
   const result = await other.page.evaluate(async s => {

@@ -57,7 +57,7 @@ test("40 views share one context, and the last one frees it", async () => {
 
 test("nothing is drawn while nothing changes", async () => {
   const draws = await page.evaluate(async s => {
-    const { view, scene } = show(s);
+    const { view, scene, canvas } = show(s);
     await settle();
     const out = {};
     out.same = await drawsOf(() => { view.draw(); view.draw(); });
@@ -65,6 +65,7 @@ test("nothing is drawn while nothing changes", async () => {
     out.camera = await drawsOf(() => { view.camera.azimuth += 10; view.draw(); });
     out.target = await drawsOf(() => { view.camera.target[2] += 0.1; view.draw(); });
     out.overlay = await drawsOf(() => { view.overlays.frames = true; view.draw(); });
+    out.restored = await drawsOf(() => { canvas.dispatchEvent(new Event("contextrestored")); });
     out.theme = await drawsOf(() => { view.setTheme({ background: "#000", highContrast: true }); view.draw(); });
     out.drag = await drawsOf(() => { view.setDrag({ from: [0, 0, 0], to: [0, 0, 1] }); view.draw(); });
     out.noDrag = await drawsOf(() => { view.setDrag(null); view.draw(); });
