@@ -32,6 +32,7 @@ export class SceneView implements View, Client {
   readonly #options: ViewOptions;
   readonly #list = new DrawList();
   readonly #trail = new Trail();
+  readonly #disposal = new AbortController();
   readonly #resize: ResizeObserver;
   readonly #visibility: IntersectionObserver;
   #model: SceneModel;
@@ -69,6 +70,9 @@ export class SceneView implements View, Client {
       this.draw();
     });
     this.#resize.observe(canvas);
+    this.#watchDensity();
+    // A reset of the graphics processor empties the canvas too.
+    canvas.addEventListener("contextrestored", () => { this.contextLost(); }, { signal: this.#disposal.signal });
     this.#visibility.observe(canvas);
     addClient(this);
   }
@@ -142,6 +146,7 @@ export class SceneView implements View, Client {
   dispose(): void {
     if (this.#isDisposed) return;
     this.#isDisposed = true;
+    this.#disposal.abort();
     this.#resize.disconnect();
     this.#visibility.disconnect();
     if (this.#uploaded) releaseGeometry(this.#uploaded.context, this.#uploaded.geometry);
@@ -150,7 +155,6 @@ export class SceneView implements View, Client {
   }
 
   contextLost(): void {
-    this.#uploaded = null;
     this.#isChanged = true;
     this.draw();
   }
@@ -164,6 +168,15 @@ export class SceneView implements View, Client {
     this.#canvas.width = w;
     this.#canvas.height = h;
     this.#isChanged = true;
+  }
+
+  /** Draws again when the page moves to a screen with other pixels. */
+  #watchDensity(): void {
+    const change = (): void => {
+      this.#watchDensity();
+      this.draw();
+    };
+    matchMedia(`(resolution: ${devicePixelRatio}dppx)`).addEventListener("change", change, { once: true, signal: this.#disposal.signal });
   }
 
   /** What a caller may have changed since the last picture. */

@@ -124,7 +124,7 @@ test("a plot is read by keys and as a table", async (t) => {
   await page.keyboard.press("ArrowRight");
   await page.waitForFunction(() => /^at 0\.\d+ s: ball 0\.\d+$/.test(document.querySelector("sim-lab").shadowRoot.querySelector("figure [role=status]").textContent));
   await page.getByText("Data", { exact: true }).click();
-  assert.ok((await page.locator(".table-scroll tbody tr").count()) >= 40);
+  await page.waitForFunction(() => document.querySelector("sim-lab").shadowRoot.querySelectorAll(".table-scroll tbody tr").length >= 40);
   assert.deepEqual(await page.locator(".table-scroll thead th").allTextContents(), ["time (s)", "ball"]);
   const [download] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "Save CSV" }).click()]);
   assert.equal(download.suggestedFilename(), "a-drop-height-m.csv");
