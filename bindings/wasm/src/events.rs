@@ -1,14 +1,14 @@
-//! What a page is told at the step at which it happens: contacts that begin or end, and warnings of the engine.
+//! Events that stop a run of a page at the step at which they occur: contacts that begin or end, and warnings of the engine.
 
 use labspec_core::{Fields, Warning};
 use labspec_finding::order;
 
-/// What was seen after the last step.
+/// The observed state after the last step.
 #[derive(Default)]
 pub(crate) struct Watched {
-    /// The pairs of geoms that touched.
+    /// The pairs of geoms in contact.
     touching: Vec<(usize, usize)>,
-    /// How often each warning was raised since the data were reset.
+    /// The number of times that each warning was raised since the last reset of the data.
     warnings: [usize; Warning::COUNT],
     /// Time after the last step and before it, s.
     time: f64,
@@ -16,12 +16,12 @@ pub(crate) struct Watched {
 }
 
 impl Watched {
-    /// Takes what is so before a step.
+    /// Stores the counts of warnings and the time before a step.
     pub(crate) fn start(&mut self, fields: &Fields) {
         (self.warnings, self.time) = (fields.warning.map(|w| w.number), fields.time);
     }
 
-    /// Whether other geoms touch now.
+    /// Whether the pairs of geoms in contact have changed.
     pub(crate) fn touches_otherwise(&mut self, fields: &Fields) -> bool {
         let now = touching_pairs(fields);
         let other = now != self.touching;
@@ -29,7 +29,7 @@ impl Watched {
         other
     }
 
-    /// Whether the engine warned in this step. A bad number resets the data and their counts, and is counted then.
+    /// Whether the engine raised a warning in this step. A bad number resets the data and its counts, and is counted afterwards.
     pub(crate) fn warns(&mut self, fields: &Fields) -> bool {
         self.before = self.time;
         let counted = if fields.time < self.time { [0; Warning::COUNT] } else { self.warnings };

@@ -22,8 +22,7 @@ pub struct RawModel {
 /// An empty model.
 pub(crate) fn nothing() -> Model {
     static NOTHING: OnceLock<Model> = OnceLock::new();
-    // An empty text has no errors.
-    #[allow(clippy::unwrap_used)]
+    #[allow(clippy::unwrap_used)] // an empty model compiles
     NOTHING.get_or_init(|| Model::from_xml("<mujoco/>").unwrap()).clone()
 }
 

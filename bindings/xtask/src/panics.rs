@@ -1,15 +1,15 @@
-//! Panics of a module as plain traps.
+//! Replaces the panics of a module by traps, to reduce its size.
 //!
-//! A panic of the module ends as a trap, and what it says reaches nobody: there is no hook, and a page has no error output. Where code may
-//! panic, the place and the numbers for the message are handed over nevertheless. Here the functions that would make the message become the
-//! trap itself; `wasm-opt` then removes what was handed to them. The places (a file, a line and a column each) become zeros, which compress.
+//! A panic of a page module ends as a trap in any case, and its message is lost: there is no hook, and a page has no error output. Code that
+//! may panic nevertheless passes the source location and the values of the message to a library function. This file replaces the bodies of
+//! these functions by the trap, so that `wasm-opt` removes their arguments, and overwrites the source locations with zeros, which compress well.
 
 use std::collections::{BTreeSet, HashSet};
 use std::path::Path;
 use walrus::ir::{Const, Instr, InstrLocId, Unreachable, Value, Visitor, dfs_in_order};
 use walrus::{ConstExpr, DataId, DataKind, FunctionBuilder, FunctionId, FunctionKind, Module, ModuleConfig};
 
-/// Functions of Rust's libraries that never return: the ends of their paths.
+/// The ends of the paths of library functions that never return.
 const ENDS: [&str; 10] = [
     "option::unwrap_failed",
     "option::expect_failed",
@@ -25,10 +25,10 @@ const ENDS: [&str; 10] = [
 
 const LIBRARIES: [&str; 3] = ["core::", "alloc::", "hashbrown::"];
 
-/// Where all functions but formatting never return.
+/// Modules whose functions never return, except formatting.
 const MODULES: [&str; 2] = ["core::panicking::", "core::cell::panic_already_"];
 
-/// The path of a function, without the numbers that tell versions of a crate and copies of a function apart.
+/// The path of a function, without the hashes and numbers in brackets that distinguish crate versions and copies of a function.
 fn path(name: &str) -> String {
     let mut depth = 0_u32;
     let outside = name.chars().filter(|c| {
@@ -48,7 +48,7 @@ fn never_returns(name: &str) -> bool {
         || library && ENDS.iter().any(|end| path.ends_with(end))
 }
 
-/// The constants that are handed last to functions that stop the module: addresses of places, as a rule.
+/// Collects the constants that are passed as the last argument to functions that never return. Usually they are addresses of source locations.
 struct LastConstants<'a> {
     stopping: &'a HashSet<FunctionId>,
     before: Option<i32>,
@@ -68,10 +68,10 @@ impl<'i> Visitor<'i> for LastConstants<'_> {
     }
 }
 
-/// Bytes of a place in the source: address and length of the file's name, line and column.
+/// The size of a source location: address and length of the file name, line and column.
 const PLACE: usize = 16;
 
-/// The segment that has some bytes, and where they begin in it.
+/// The data segment that contains an address range, and the offset of the range in it.
 fn segment(module: &Module, address: usize, length: usize) -> Option<(DataId, usize)> {
     module.data.iter().find_map(|data| {
         let DataKind::Active { offset: ConstExpr::Value(Value::I32(start)), .. } = data.kind else {
@@ -87,7 +87,7 @@ fn bytes(module: &Module, address: usize, length: usize) -> Option<&[u8]> {
     module.data.get(id).value.get(at..at + length)
 }
 
-/// Whether a place of a file of Rust is at an address.
+/// Whether the bytes at an address are the source location of a Rust file.
 fn is_place(module: &Module, address: usize) -> bool {
     let number = |k: usize| {
         let four = bytes(module, address + 4 * k, 4)?.try_into().ok()?;
@@ -97,7 +97,7 @@ fn is_place(module: &Module, address: usize) -> bool {
     file().is_some_and(|name| name.ends_with(b".rs"))
 }
 
-/// Makes zeros of the places that are handed to functions that stop the module.
+/// Overwrites the source locations that are passed to functions that never return.
 fn clear_places(module: &mut Module, stopping: &HashSet<FunctionId>) {
     let mut constants = LastConstants { stopping, before: None, found: BTreeSet::new() };
     for (_, local) in module.funcs.iter_local() {
@@ -109,7 +109,7 @@ fn clear_places(module: &mut Module, stopping: &HashSet<FunctionId>) {
     }
 }
 
-/// Makes traps of the functions of a module that only say why it stops; their number.
+/// Replaces the functions of a module that never return by traps. Returns their number.
 pub(crate) fn to_traps(file: &Path) -> Result<usize, String> {
     let error = |e: &dyn std::fmt::Display| format!("{}: {e:#}", file.display());
     let mut config = ModuleConfig::new();

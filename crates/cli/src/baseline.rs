@@ -142,7 +142,7 @@ fn line(text: &str, at: usize) -> &str {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
+#[allow(clippy::unwrap_used)] // a panic is the report of a failed test
 mod tests {
     use super::*;
     use labspec::finding::InFile;

@@ -254,7 +254,7 @@ impl<I: Iterator<Item = std::io::Result<u8>>> Rows<I> {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
+#[allow(clippy::unwrap_used)] // a panic is the report of a failed test
 mod tests {
     use super::*;
 

@@ -279,7 +279,7 @@ fn string_list(table: &toml::Table, name: &str, of_rules: bool) -> Result<Vec<St
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
+#[allow(clippy::unwrap_used)] // a panic is the report of a failed test
 mod tests {
     use super::*;
 

@@ -262,7 +262,7 @@ fn nothing_to_check(paths: &[PathBuf], problems: &[(PathBuf, String)]) -> Failur
 }
 
 #[cfg(test)]
-#[allow(clippy::panic, clippy::unwrap_used)]
+#[allow(clippy::panic, clippy::unwrap_used)] // a panic is the report of a failed test
 mod tests {
     use super::*;
     use crate::common::ModelOptions;

@@ -35,7 +35,7 @@ pub fn apart<T>(work: impl FnOnce() -> T) -> Result<T, String> {
 }
 
 #[cfg(test)]
-#[allow(clippy::panic)]
+#[allow(clippy::panic)] // a panic is the report of a failed test
 mod tests {
     use super::*;
 

@@ -43,7 +43,7 @@ pub fn is_png_of_ours(start: &[u8]) -> bool {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
+#[allow(clippy::unwrap_used)] // a panic is the report of a failed test
 mod tests {
     use super::*;
     use crate::{Chart, Series, line_chart};

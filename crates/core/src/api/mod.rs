@@ -7,7 +7,7 @@ mod contents;
 pub(crate) mod data;
 pub(crate) mod error;
 #[cfg(test)]
-#[allow(clippy::unwrap_used)] // a test that fails says why
+#[allow(clippy::unwrap_used)] // a panic is the report of a failed test
 mod idle_actuators;
 pub(crate) mod model;
 #[cfg(feature = "nalgebra")]
@@ -17,7 +17,7 @@ pub mod nalgebra;
 mod planar_chains;
 pub(crate) mod planning;
 #[cfg(test)]
-#[allow(clippy::unwrap_used, clippy::panic)] // a test that fails says why
+#[allow(clippy::unwrap_used, clippy::panic)] // a panic is the report of a failed test
 mod recorded_sensors;
 #[cfg(test)]
 #[allow(clippy::unwrap_used)] // a panic is the report of a failed test

@@ -115,5 +115,5 @@ fn check_acceleration(m: &Model, d: &mut Fields, s: &mut Scratch) {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
+#[allow(clippy::unwrap_used)] // a panic is the report of a failed test
 mod tests;

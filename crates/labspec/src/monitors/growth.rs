@@ -183,13 +183,12 @@ fn update_inertia_scale(w: &mut GrowthMonitor, m: &Model) {
         return;
     }
     w.looks_until_update = if m.nv <= FEW { 1 } else { LOOKS_PER_UPDATE };
-    if mass_matrix(m, &mut w.copied).is_err() {
-        return;
-    }
-    let mass_matrix = &w.copied.fields().M;
+    let filled = mass_matrix(m, &mut w.copied);
+    debug_assert!(filled.is_ok(), "the data belong to the model, and their plan keeps every stage");
+    let elements = &w.copied.fields().M;
     // A row of M ends with its diagonal.
     for ((root, &start), &length) in w.roots.iter_mut().zip(&m.M_rowadr).zip(&m.M_rownnz) {
-        if let Some(diagonal) = mass_matrix.get((start + length - 1) as usize) {
+        if let Some(diagonal) = elements.get((start + length - 1) as usize) {
             *root = root.max(diagonal.max(0.0).sqrt());
         }
     }
@@ -362,6 +361,6 @@ fn fed<S: Scope>(m: &Model, d: &Data<S>) -> bool {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
+#[allow(clippy::unwrap_used)] // a panic is the report of a failed test
 #[path = "growth_tests.rs"]
 mod tests;

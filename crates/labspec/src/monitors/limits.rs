@@ -141,7 +141,7 @@ fn far(j: &mut Limited, time: f64, [before, q]: [f64; 2]) -> Option<Past> {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
+#[allow(clippy::unwrap_used)] // a panic is the report of a failed test
 mod tests {
     use super::*;
     use labspec_core::{step, xml};

@@ -200,7 +200,7 @@ fn reference(m: &Model, [time, ratio]: [f64; 2]) -> Spring {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
+#[allow(clippy::unwrap_used)] // a panic is the report of a failed test
 mod tests {
     use super::*;
     use labspec_core::{Data, step, xml};

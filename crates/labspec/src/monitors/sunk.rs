@@ -143,7 +143,7 @@ fn normal_force(f: &Fields, c: &Contact, pyramidal: bool) -> f64 {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
+#[allow(clippy::unwrap_used)] // a panic is the report of a failed test
 mod tests {
     use super::*;
     use labspec_core::{step, xml};

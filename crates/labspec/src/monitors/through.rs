@@ -176,7 +176,7 @@ fn within(pos: &[f64], mat: &[f64], g: usize, wall: usize) -> Option<[f64; 3]> {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
+#[allow(clippy::unwrap_used)] // a panic is the report of a failed test
 mod tests {
     use super::*;
     use labspec_core::{step, xml};

@@ -97,7 +97,7 @@ fn fell(m: &Model, d: &Fields, [g, p]: [usize; 2], travel: f64, depth: f64) -> F
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
+#[allow(clippy::unwrap_used)] // a panic is the report of a failed test
 mod tests {
     use super::*;
 

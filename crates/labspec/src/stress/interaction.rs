@@ -282,7 +282,7 @@ fn interleaved(
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
+#[allow(clippy::unwrap_used)] // a panic is the report of a failed test
 mod tests {
     use super::*;
     use crate::lint::{ModelFolder, load_lesson};

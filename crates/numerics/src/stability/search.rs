@@ -59,7 +59,7 @@ pub(super) fn largest(
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
+#[allow(clippy::unwrap_used)] // a panic is the report of a failed test
 mod tests {
     use super::*;
 

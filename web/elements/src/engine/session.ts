@@ -59,13 +59,11 @@ export function advance(session: Session, seconds: number, budget: number): Fram
   const { lab } = session;
   const deadline = performance.now() + budget;
   let left = session.carry + seconds;
-  const before = session.events.length;
   outer: while (!lab.isOver && left >= lab.timestep) {
     pull(session);
     for (let i = 0; i < PIECE && left >= lab.timestep; i++) {
       left -= lab.timestep;
-      stepOnce(session);
-      const isRestarted = session.events.slice(before).some((event) => event.type === "restart");
+      const isRestarted = stepOnce(session);
       if (lab.isOver || isRestarted || performance.now() >= deadline) break outer;
     }
   }
@@ -112,16 +110,18 @@ function pull(session: Session): void {
   if (session.drag !== null) session.lab.applyForce(session.drag.body, springForce(session.lab, session.drag));
 }
 
-/** One step and its sample. A bad number sends the engine back to its start. */
-function stepOnce(session: Session): void {
+/** Makes one step and samples it. Returns whether the engine has reset the data because of a bad number. */
+function stepOnce(session: Session): boolean {
   const { lab } = session;
   const before = lab.time;
   lab.step();
-  if (lab.time < before) {
+  const isRestarted = lab.time < before;
+  if (isRestarted) {
     session.rows = [];
     session.events.push({ type: "restart", time: before });
   }
   sample(session);
+  return isRestarted;
 }
 
 function sample(session: Session): void {

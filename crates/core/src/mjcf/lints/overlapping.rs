@@ -49,7 +49,7 @@ fn placed(m: &Model) -> Option<Fields> {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used, clippy::panic)]
+#[allow(clippy::unwrap_used, clippy::panic)] // a panic is the report of a failed test
 mod tests {
     use super::*;
     use crate::mjcf::compile;

@@ -363,7 +363,7 @@ fn differs(a: &Judgement, b: &Judgement) -> bool {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
+#[allow(clippy::unwrap_used)] // a panic is the report of a failed test
 mod tests {
     use super::*;
     use crate::lint::{ModelFolder, load_lesson_file};

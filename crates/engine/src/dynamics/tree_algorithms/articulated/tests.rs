@@ -1,6 +1,6 @@
 //! Articulated bodies compared with the factorization of M.
 
-#![allow(clippy::unwrap_used, clippy::panic)]
+#![allow(clippy::unwrap_used, clippy::panic)] // a panic is the report of a failed test
 
 use super::*;
 use crate::dynamics::tree_algorithms::{solve, solve_with};
