@@ -4,7 +4,7 @@ import { fetchModel } from "./model-files.js";
 import { isObject, type Json } from "./spec.js";
 import type { Say } from "./text/messages.js";
 
-/** What a reader can be told: what is wrong with the content of an element. */
+/** Messages for readers about faulty content of an element. */
 export class ContentError extends Error {}
 
 /** The JSON of an element, as an object and as it is written. */

@@ -10,7 +10,7 @@ export function deferred(): Deferred {
   const promise = new Promise<void>((fulfil, refuse) => {
     [resolve, reject] = [fulfil, refuse];
   });
-  // Whoever waits for it is told; nobody need wait.
+  // A rejection reaches the callers that wait for the promise; waiting is optional.
   promise.catch(() => undefined);
   return { promise, resolve: () => resolve(), reject: (e) => reject(e) };
 }

@@ -50,7 +50,7 @@ export async function openRemote(json: string, models: Calls["open"]["args"][1],
 
 /** Starts the engine of the next lab while its content is still read. */
 export function prepareEngine(): void {
-  // Whoever opens a lab is told what is wrong.
+  // The caller that opens a lab receives the error.
   engineOf(opened).catch(() => undefined);
 }
 

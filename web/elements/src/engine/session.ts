@@ -41,7 +41,7 @@ export function openSession(json: string, models: Models, state: Uint8Array | nu
   return session;
 }
 
-/** What a page is told of a lab that was opened. */
+/** The description of an opened lab, for the page. */
 export function describeOpened(id: number, session: Session): Opened {
   const { lab } = session;
   const dofs = lab.model.body_dofnum;

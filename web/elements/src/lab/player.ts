@@ -45,7 +45,7 @@ export function createPlayer(remote: RemoteLab, events: PlayerEvents): Player {
     events.frame(frame);
     if (frame.isOver) player.pause();
   };
-  /** Shows the answer. What fails is told to the reader, and to whoever waits for it. */
+  /** Shows the answer. Errors are shown to the reader and passed to the caller. */
   const ask = (what: Promise<Frame>): Promise<void> => heard(what.then(take, (e: unknown) => {
     events.failed(e);
     throw e;
@@ -132,7 +132,7 @@ export function createPlayer(remote: RemoteLab, events: PlayerEvents): Player {
   return player;
 }
 
-/** A promise that may be left alone: that it was refused has been told already. */
+/** A promise that may be ignored, because its rejection has been reported already. */
 function heard(promise: Promise<void>): Promise<void> {
   promise.catch(() => undefined);
   return promise;

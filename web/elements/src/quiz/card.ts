@@ -19,7 +19,7 @@ export interface CardContext {
   readonly name: string;
   readonly say: Say;
   readonly stored: Stored | null;
-  /** An answer was given: kept, and told to the page. */
+  /** Stores an answer and reports it to the page. */
   answered(answer: Stored): void;
 }
 

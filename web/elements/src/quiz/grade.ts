@@ -12,7 +12,7 @@ export function isRightChoice(question: ChoiceQuestion, choice: readonly number[
   return hashAnswer(key.salt, said) === key.sha256;
 }
 
-/** Whether an option is a right one; `null` where only its hash is known. */
+/** Whether an option is correct, or `null` if only the hash of the answer is available. */
 export function isRightOption(question: ChoiceQuestion, option: number): boolean | null {
   return "choice" in question.key ? question.key.choice.includes(option) : null;
 }
