@@ -42,8 +42,6 @@ impl RawData {
         what: impl FnOnce(&Model, &mut Data<core::Planned>) -> Result<(), Error>,
     ) -> Result<(), JsValue> {
         let (m, d) = (&model.model, &mut self.world.data);
-        let size = core::state::size(m, INTEGRATION).map_err(|e| refused(&e))?;
-        self.before.resize(size, 0.0);
         core::state::get(m, d, &mut self.before, INTEGRATION).map_err(|e| refused(&e))?;
         core::limit(d, work);
         let done = what(m, d);
@@ -104,7 +102,8 @@ impl RawData {
             displayed: Vec::new(),
             numbers: Vec::new(),
         };
-        Ok(RawData { world, poses: Vec::new(), before: Vec::new() })
+        let size = core::state::size(&model.model, INTEGRATION).map_err(|e| refused(&e))?;
+        Ok(RawData { world, poses: Vec::new(), before: vec![0.0; size] })
     }
 
     /// Makes so many steps, with at most so much work.

@@ -16,6 +16,7 @@ use labspec_core::Obj;
 use labspec_core::reflect::{self, FieldId, Kind, Object, Stage, data, option};
 use labspec_expr::dimension::Dimension;
 use labspec_expr::{AccessedFields, FieldKey, FunctionId, FunctionInfo, Param, ResultDimension, Type, Value};
+use labspec_finding::order;
 
 /// The objects that contain functions.
 pub(super) const OBJECTS: [&str; 3] = ["mj", "sim", "lib"];
@@ -141,6 +142,26 @@ pub(super) const ROW: Function = Function {
 pub(super) static TABLE: LazyLock<Vec<&'static Function>> = LazyLock::new(|| {
     [mj::ROWS, lib::ROWS, sim::ROWS, measure::ROWS, over::ROWS].into_iter().flatten().collect()
 });
+
+/// The indexes of [`TABLE`] by object and name. Several functions with one name keep the order of the table.
+static BY_NAME: LazyLock<Vec<usize>> = LazyLock::new(|| {
+    let mut indexes: Vec<usize> = (0..TABLE.len()).collect();
+    order::sort_by(&mut indexes, |&a, &b| (key_of(a), a).cmp(&(key_of(b), b)));
+    indexes
+});
+
+/// The object and the name of a function of [`TABLE`].
+fn key_of(i: usize) -> (&'static str, &'static str) {
+    TABLE.get(i).map_or(("", ""), |f| (f.object, f.name))
+}
+
+/// The functions of an object (empty for global functions) that have a name, with their indexes in [`TABLE`].
+pub(super) fn named(object: &str, name: &str) -> impl Iterator<Item = (usize, &'static Function)> {
+    let wanted = (object, name);
+    let first = BY_NAME.partition_point(|&i| key_of(i) < wanted);
+    let from_here = BY_NAME.get(first..).unwrap_or_default().iter();
+    from_here.take_while(move |&&i| key_of(i) == wanted).filter_map(|&i| Some((i, *TABLE.get(i)?)))
+}
 
 /// The result of a function that returns nothing.
 const NOTHING: Result<Value, String> = Ok(Value::Undefined);

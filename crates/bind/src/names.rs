@@ -58,19 +58,24 @@ impl<'m> ModelNames<'m> {
     }
 }
 
+/// Whether programs of a scope see a function.
+fn is_visible(f: &functions::Function, scope: Scope) -> bool {
+    match f.place {
+        FunctionPlace::Everywhere => scope != Scope::Claim,
+        FunctionPlace::Measures => scope == Scope::Measure || (scope == Scope::Claim && f.name == "abs"),
+        FunctionPlace::Claims => scope == Scope::Claim,
+    }
+}
+
 impl ModelNames<'_> {
     fn functions(&self) -> impl Iterator<Item = (usize, &'static functions::Function)> {
         let scope = self.scope;
-        TABLE.iter().copied().enumerate().filter(move |(_, f)| match f.place {
-            FunctionPlace::Everywhere => scope != Scope::Claim,
-            FunctionPlace::Measures => scope == Scope::Measure || (scope == Scope::Claim && f.name == "abs"),
-            FunctionPlace::Claims => scope == Scope::Claim,
-        })
+        TABLE.iter().copied().enumerate().filter(move |(_, f)| is_visible(f, scope))
     }
 
     /// Finds a function by its object and its name.
     fn function_of(&self, object: &str, name: &str) -> Option<Entry> {
-        let found = self.functions().find(|(_, f)| f.object == object && f.name == name);
+        let found = functions::named(object, name).find(|(_, f)| is_visible(f, self.scope));
         found.map(|(i, _)| Entry::Function(FunctionId(i as u32)))
     }
 

@@ -389,13 +389,13 @@ pub fn servo_gains(m: &Model, actuator: usize) -> Option<[f64; 2]> {
 }
 
 /// The energy at `qpos` and `qvel`, for the current controls. `None` if an actuator has no potential, because it may add energy.
-/// Computes poses, lengths and velocities of bodies only.
+/// Computes poses and lengths only.
 ///
 /// # Errors
 ///
-/// When the data belongs to another model, or its plan leaves out inertias and velocities of bodies.
+/// When the data belongs to another model, or its plan leaves out poses or inertias of bodies.
 pub fn mechanical_energy<S: Scope>(m: &Model, d: &mut Data<S>) -> Result<Option<Energy>, Error> {
-    d.has(&[data::cinert, data::cvel])?;
+    d.has(&[data::ximat, data::cinert])?;
     let (d, s) = d.engine(m)?;
     Ok(balance::mechanical_energy(m, d, s))
 }

@@ -2,7 +2,7 @@
 //!
 //! `tree_algorithms` is the table of algorithms. Each tree uses the first one that its structure allows. The general
 //! algorithm computes poses from `qpos` (`kinematics`, `camera`), the centres of mass and the motion axes of the
-//! degrees of freedom (`com`), M and its factorization (`mass`, `triangle`), and the bias force, which consists of
+//! degrees of freedom (`com`), M and its factorization (`mass`, `triangle`), the kinetic energy (`kinetic`), and the bias force, which consists of
 //! gravity, Coriolis and centrifugal terms (`rne`). Jacobians map joint velocities to velocities of points
 //! (`jacobian`, `object`, `path`).
 
@@ -10,6 +10,7 @@ pub mod camera;
 pub mod com;
 pub mod jacobian;
 pub mod kinematics;
+pub(crate) mod kinetic;
 pub mod mass;
 pub mod object;
 pub(crate) mod path;
@@ -39,6 +40,8 @@ pub struct Scratch {
     /// Spatial accelerations and forces of bodies.
     cacc: Vec<f64>,
     cfrc: Vec<f64>,
+    /// Motions of bodies, for their kinetic energy.
+    motions: Vec<kinetic::Motion>,
     /// A temporary factorization: rows and 1/D.
     pub(crate) ld: Vec<f64>,
     pub(crate) diag_inv: Vec<f64>,
@@ -53,6 +56,7 @@ impl Scratch {
             path: Path::new(m),
             cacc: vec![0.0; 6 * m.nbody],
             cfrc: vec![0.0; 6 * m.nbody],
+            motions: vec![kinetic::Motion::default(); m.nbody],
             ld: vec![0.0; m.nC],
             diag_inv: vec![0.0; m.nv],
         }

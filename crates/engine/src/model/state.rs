@@ -92,14 +92,17 @@ pub fn size(m: &Model, sig: i32) -> Result<usize, StateError> {
 }
 
 /// Writes a state to `out`, which has `size` numbers (`mj_getState`).
-pub fn get(m: &Model, d: &Fields, out: &mut [f64], sig: i32) -> Result<(), StateError> {
-    fits(m, sig, out.len())?;
-    let mut out = out.iter_mut();
+pub fn get(d: &Fields, out: &mut [f64], sig: i32) -> Result<(), StateError> {
+    let wanted = bits(sig)?.map(|bit| part(d, bit).len()).sum();
+    if wanted != out.len() {
+        return Err(StateError::Length { wanted, found: out.len() });
+    }
+    let mut rest = out;
     for bit in bits(sig)? {
         let part = part(d, bit);
-        for (i, x) in (0..part.len()).zip(&mut out) {
-            *x = part.get(i).unwrap_or(0.0);
-        }
+        let (values, after) = rest.split_at_mut(part.len());
+        part.copy_to(values);
+        rest = after;
     }
     Ok(())
 }

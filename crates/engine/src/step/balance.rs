@@ -3,7 +3,7 @@
 use super::forward;
 use super::workspace::Scratch;
 use crate::dynamics::reflected::tendons_have_inertia;
-use crate::dynamics::{com, mass};
+use crate::dynamics::{kinetic, mass};
 use crate::forces::passive::spring;
 use crate::forces::{actuation, transmission};
 use crate::kinds::disable;
@@ -29,7 +29,7 @@ impl Energy {
 }
 
 /// The energy at `qpos` and `qvel`, for the current controls. `None` if an actuator has no potential, because it may add energy.
-/// Computes poses, lengths and velocities of bodies only.
+/// Computes poses and lengths only.
 pub fn mechanical_energy(m: &Model, d: &mut Fields, s: &mut Scratch) -> Option<Energy> {
     forward::placed(m, d, s);
     transmission::transmissions(m, d, &mut s.forces);
@@ -44,10 +44,9 @@ pub fn mechanical_energy(m: &Model, d: &mut Fields, s: &mut Scratch) -> Option<E
     Some(Energy { kinetic: kinetic(m, d, s), gravity, elastic })
 }
 
-/// ½ vᵀ M v, J.
+/// ½ vᵀ M v, J: the kinetic energy of bodies, plus ½ Σ a v² with the armature a of each degree of freedom.
 ///
-/// For bodies, it is ½ Σ Vᵀ I V + ½ Σ a v², with the spatial velocity V and inertia I of each body and the armature a of each degree of
-/// freedom. The time grows with the number of bodies, while M has up to nv² elements. Two cases need M itself. M of simple bodies is
+/// The time grows with the number of bodies, while M has up to nv² elements. Two cases need M itself. M of simple bodies is
 /// constant: it does not follow `body_mass` until constants are recomputed. M contains the inertia of a tendon only where its
 /// sparsity pattern has an element.
 fn kinetic(m: &Model, d: &mut Fields, s: &mut Scratch) -> f64 {
@@ -55,13 +54,9 @@ fn kinetic(m: &Model, d: &mut Fields, s: &mut Scratch) -> f64 {
         forward::mass_matrix(m, d, s);
         return 0.5 * mass::quadratic(m, &d.M, &d.qvel);
     }
-    com::com_vel(m, d);
-    let bodies = rows::<10>(&d.cinert).iter().zip(rows::<6>(&d.cvel)).zip(&m.body_simple);
-    let bodies = bodies.filter(|&(_, &simple)| simple == 0);
-    let of_bodies: f64 = bodies.map(|((inertia, v), _)| dot(inertia_mul(inertia, v), *v)).sum();
     let of_dof = |k: usize| if m.dof_simplenum[k] > 0 { m.dof_M0[k] } else { mass::armature(m, k) };
     let of_dofs: f64 = d.qvel.iter().enumerate().map(|(k, v)| of_dof(k) * v * v).sum();
-    0.5 * (of_bodies + of_dofs)
+    kinetic::of_bodies(m, d, &mut s.dynamics) + 0.5 * of_dofs
 }
 
 /// The potential energy of all actuators, or `None` if one of them has none.

@@ -2,6 +2,7 @@
 
 use super::sequence::{BEFORE_MASS, COLLISION, FOR_LENGTHS, INPUTS, POSITIONS, VELOCITIES};
 use super::{calls, sleep};
+use crate::dynamics::com;
 use crate::model::plan::PlanFlag;
 use crate::model::{Fields, Model};
 use crate::step::workspace::Scratch;
@@ -63,14 +64,15 @@ pub(crate) fn from_velocities(m: &Model, d: &mut Fields, s: &mut Scratch) {
     from_inputs(m, d, s);
 }
 
-/// Computes poses of bodies, their spatial inertias, and lengths of tendons.
+/// Computes poses of bodies and lengths of tendons. Inertias and motion axes are computed only where lengths need them.
 pub(crate) fn placed(m: &Model, d: &mut Fields, s: &mut Scratch) {
     let [bits, ..] = d.plan.passes[0];
     let lengths = if m.ntendon + m.nactuator > 0 { FOR_LENGTHS } else { 0 };
     POSITIONS.run(m, d, s, bits & BEFORE_MASS & (!FOR_LENGTHS | lengths));
 }
 
-/// Computes M for these poses.
+/// Computes spatial inertias and M for these poses.
 pub fn mass_matrix(m: &Model, d: &mut Fields, s: &mut Scratch) {
+    com::com_pos(m, d);
     calls::fill_mass_matrix(m, d, s, d.plan.has(PlanFlag::Composite), true);
 }

@@ -82,12 +82,12 @@ pub(crate) static VELOCITIES: Sequence = Sequence::new(PassPart::Velocities);
 pub(crate) static INPUTS: Sequence = Sequence::new(PassPart::Inputs);
 
 /// In the part of positions: collision; the stages that the mass matrix and lengths depend on; those of them that only tendons and
-/// transmissions need.
+/// transmissions need, without the mass matrix.
 pub(crate) const COLLISION: u32 = OF_POSITIONS.stage_bits(&[Stage::Collision]);
 pub(crate) const BEFORE_MASS: u32 =
     OF_POSITIONS.before(Stage::MassMatrix) & !OF_POSITIONS.stage_bits(&[Stage::CameraPoses]);
 pub(crate) const FOR_LENGTHS: u32 =
-    OF_POSITIONS.stage_bits(&[Stage::Orientations, Stage::GeomPoses, Stage::SitePoses]);
+    OF_POSITIONS.stage_bits(&[Stage::Orientations, Stage::GeomPoses, Stage::SitePoses, Stage::ComPos]);
 
 /// The same passes, with time measurement.
 pub(crate) fn by_the_clock(passes: [[u32; 3]; 2]) -> [[u32; 3]; 2] {

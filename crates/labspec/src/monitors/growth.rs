@@ -24,8 +24,8 @@
 //!
 //! because |M_jk| ≤ √(m_j m_k). Energy that the integrator creates appears as kinetic energy at least once per oscillation.
 //! While this bound is below half of the smallest reportable gain, the monitor computes nothing else. The factor is one
-//! half because m_k are values of an earlier evaluation. The monitor also skips three steps after an evaluation that found
-//! only a small gain, while the bound is at most 2.25 times its value at that evaluation: within these steps no gain
+//! half because m_k are values of an earlier evaluation. The monitor also skips seven steps after an evaluation that found
+//! only a small gain, while the bound is at most 1.6 times its value at that evaluation: within these steps no gain
 //! reaches three times the available energy.
 //!
 //! A step in which a body rotates by more than half a turn cannot resolve the motion. If nothing in the scene is elastic, a
@@ -58,9 +58,9 @@ const LIFTS: f64 = 0.25;
 const LASTS: u32 = 32;
 /// Number of steps that are skipped after an evaluation whose gain is below the fraction `CALM` of the available energy,
 /// while the speeds are at most `FASTER` times as large.
-const REST: u32 = 3;
+const REST: u32 = 7;
 const CALM: f64 = 0.25;
-const FASTER: f64 = 1.5;
+const FASTER: f64 = 1.25;
 /// A rotation per step that a step cannot resolve, rad, and the number of gains in such steps that is reported.
 const TURN: f64 = std::f64::consts::PI;
 const LEAPS: u32 = 4;

@@ -65,10 +65,19 @@ impl RunawayMonitor {
 
     pub(super) fn observe(&mut self, m: &Model, d: &Fields) {
         let mut now = [(0.0f64, 0usize); 2];
-        for (dof, v) in d.qvel.iter().enumerate() {
-            let kind = usize::from(!slides(m, dof));
-            if v.abs() > now[kind].0 {
-                now[kind] = (v.abs(), dof);
+        let mut compare = |dof: usize, kind: usize| {
+            let speed = d.qvel.get(dof).map_or(0.0, |v| v.abs());
+            if speed > now[kind].0 {
+                now[kind] = (speed, dof);
+            }
+        };
+        for (&joint, &first) in m.jnt_type.iter().zip(&m.jnt_dofadr) {
+            let first = first as usize;
+            match joint {
+                joint::SLIDE => compare(first, 0),
+                joint::HINGE => compare(first, 1),
+                joint::FREE => (0..6).for_each(|i| compare(first + i, usize::from(i >= 3))),
+                _ => (0..3).for_each(|i| compare(first + i, 1)),
             }
         }
         let first = *self.first.get_or_insert([now[0].0, now[1].0]);

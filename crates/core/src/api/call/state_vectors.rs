@@ -15,7 +15,7 @@ pub fn size(m: &Model, sig: i32) -> Result<usize, Error> {
 /// Writes a state to `out`, which has `size` numbers (`mj_getState`).
 pub fn get<S: Scope>(m: &Model, d: &Data<S>, out: &mut [f64], sig: i32) -> Result<(), Error> {
     d.belongs_to(m)?;
-    Ok(state::get(m, &d.fields, out, sig)?)
+    Ok(state::get(&d.fields, out, sig)?)
 }
 
 /// Sets a state (`mj_setState`). `forward` or the next step computes the results that depend on it.

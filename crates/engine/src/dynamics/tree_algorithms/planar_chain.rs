@@ -23,7 +23,9 @@ use crate::kinds::joint;
 use crate::math::*;
 use crate::model::plan::PlanFlag;
 use crate::model::{Fields, Model};
+use std::array::from_fn;
 use std::ops::Range;
+use wide::f64x4;
 
 pub(super) const ROW: Row = Row {
     name: "planar",
@@ -62,6 +64,7 @@ pub(super) struct Trees {
     spans: Vec<Span>,
     links: Vec<Link>,
     joints: Vec<[Joint; 2]>,
+    hinges: Vec<FourHinges>,
     /// Whether all chains are currently planar.
     flat: bool,
     /// Whether no tendon has inertia. The inertia of tendons can couple links; chains are then solved with the rows
@@ -75,6 +78,35 @@ struct Span {
     dofs: Range<usize>,
     links: Range<usize>,
     plane: [Vec3; 2],
+}
+
+/// The anchors and the senses of four hinges in series, for loops along the rows of a matrix.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct FourHinges {
+    anchor: [f64x4; 2],
+    sense: f64x4,
+}
+
+fn load_hinges(hinges: &mut [FourHinges], links: &[Link]) {
+    for (hinges, four) in hinges.iter_mut().zip(links.chunks(4)) {
+        let of = |get: fn(&Link) -> f64| f64x4::new(from_fn(|i| four.get(i).map_or(0.0, get)));
+        hinges.anchor = [of(|link| link.anchor[0]), of(|link| link.anchor[1])];
+        hinges.sense = of(|link| link.sense);
+    }
+}
+
+/// Writes a row of n elements at the start of `rows`, which ends with the last row of the chain: `of` gives the elements from their
+/// hinges. The last group may also write elements of the next rows, so rows are written in ascending order.
+#[cfg_attr(not(feature = "small"), inline(always))]
+fn fill(rows: &mut [f64], n: usize, hinges: &[FourHinges], of: impl Fn(&FourHinges) -> f64x4) {
+    let groups = n.div_ceil(4).min(hinges.len());
+    for (to, hinges) in rows.chunks_mut(4).zip(&hinges[..groups]) {
+        let elements = of(hinges).to_array();
+        match to.first_chunk_mut() {
+            Some(four) => *four = elements,
+            None => to.iter_mut().zip(elements).for_each(|(to, element)| *to = element),
+        }
+    }
 }
 
 /// Whether a tree was a long planar chain when the model was compiled.
@@ -122,6 +154,7 @@ impl Trees {
             spans,
             links: vec![Link::default(); links],
             joints: vec![[Joint::default(); 2]; links],
+            hinges: vec![FourHinges::default(); links.div_ceil(4)],
             flat: true,
             untied: true,
         };
@@ -183,7 +216,8 @@ fn mass(m: &Model, d: &mut Fields, w: &mut Scratch) {
         let links = &mut trees.links[span.links.clone()];
         forward_kinematics(links, &d.qpos);
         if rows {
-            rows_of_mass(m, &mut d.M, span, links);
+            load_hinges(&mut trees.hinges, links);
+            rows_of_mass(m, &mut d.M, span, links, &trees.hinges);
         }
     }
 }
@@ -200,23 +234,27 @@ fn in_space(m: &Model, d: &mut Fields, w: &mut Scratch) {
 
 /// Computes the rows of M: the angular momentum about a hinge of all links beyond it, for a unit velocity of a hinge
 /// before it.
-fn rows_of_mass(m: &Model, mass: &mut [f64], span: &Span, links: &[Link]) {
+fn rows_of_mass(m: &Model, mass: &mut [f64], span: &Span, links: &mut [Link], hinges: &[FourHinges]) {
     let (mut moment, mut first, mut total) = (0.0, [0.0; 2], 0.0);
-    for (i, link) in links.iter().enumerate().rev() {
+    for link in links.iter_mut().rev() {
         moment += link.inertia;
         first = add(first, [-link.mass * link.arm[1], link.mass * link.arm[0]]);
         total += link.mass;
-        let row = &mut mass[rows_of_m::row(m, span.dofs.start + i)];
-        for (to, before) in row.iter_mut().zip(links) {
-            let [x, y] = sub(link.anchor, before.anchor);
-            *to = link.sense * before.sense * (moment + dot(first, [-y, x]));
-        }
-        if let Some(diagonal) = row.last_mut() {
-            *diagonal += link.armature;
-        }
+        link.beyond = (moment, first);
         let q = link.quarter;
         moment += dot(q, add(scale(first, 2.0), scale(q, total)));
         first = add_scaled(first, q, total);
+    }
+    let end = rows_of_m::rows_of(m, span.dofs.clone()).end;
+    for (k, link) in span.dofs.clone().zip(&*links) {
+        let row = rows_of_m::row(m, k);
+        let anchor = link.anchor.map(f64x4::splat);
+        let (moment, first) = (f64x4::splat(link.beyond.0), link.beyond.1.map(f64x4::splat));
+        fill(&mut mass[row.start..end], row.len(), hinges, |before| {
+            let [x, y] = sub(anchor, before.anchor);
+            before.sense * link.sense * (first[0] * -y + first[1] * x + moment)
+        });
+        mass[row.end - 1] += link.armature;
     }
 }
 
@@ -332,22 +370,23 @@ fn solve_both(m: &Model, d: &mut Fields, w: &mut Scratch, (b, x, y): Damped<'_>)
 /// Computes the rows of `qLD`, and `qLDiagInv`.
 #[inline(never)]
 fn rows_of_factor(m: &Model, d: &mut Fields, w: &mut Scratch) {
-    let Trees { spans, links, joints, untied, flat, .. } = &w.algorithms.planar_chain;
+    let Trees { spans, links, joints, hinges, untied, flat, .. } = &mut w.algorithms.planar_chain;
     if !(*untied && *flat) {
         return;
     }
-    for span in spans {
+    for span in spans.iter() {
         let (links, joints) = (&links[span.links.clone()], &joints[span.links.clone()]);
+        load_hinges(hinges, links);
+        let end = rows_of_m::rows_of(m, span.dofs.clone()).end;
         for ((k, link), [Joint { u, inv, .. }, _]) in span.dofs.clone().zip(links).zip(joints) {
             d.qLDiagInv[k] = *inv;
-            let row = &mut d.qLD[rows_of_m::row(m, k)];
-            for (to, before) in row.iter_mut().zip(links) {
-                let [x, y] = sub(link.anchor, before.anchor);
-                *to = before.sense * (u[0] - u[1] * y + u[2] * x) * inv;
-            }
-            if let Some(diagonal) = row.last_mut() {
-                *diagonal = 1.0 / inv;
-            }
+            let row = rows_of_m::row(m, k);
+            let (anchor, u) = (link.anchor.map(f64x4::splat), u.map(f64x4::splat));
+            fill(&mut d.qLD[row.start..end], row.len(), hinges, |before| {
+                let [x, y] = sub(anchor, before.anchor);
+                before.sense * (u[0] - u[1] * y + u[2] * x) * *inv
+            });
+            d.qLD[row.end - 1] = 1.0 / inv;
         }
     }
 }

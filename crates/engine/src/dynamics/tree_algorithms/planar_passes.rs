@@ -25,6 +25,8 @@ pub(super) struct Link {
     pub(super) arm: Vec2,
     /// Current position of the anchor.
     pub(super) anchor: Vec2,
+    /// Moment of inertia and first moment about the anchor of this link and all links beyond it, if M is read.
+    pub(super) beyond: (f64, Vec2),
     /// Torque about the anchor and force that the motion of the link needs with zero joint accelerations: torque, x,
     /// y.
     pub(super) force: [f64; 3],

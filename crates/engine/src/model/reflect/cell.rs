@@ -53,6 +53,16 @@ impl View<'_> {
             View::Size(n) => (i == 0).then_some(*n as f64),
         }
     }
+
+    /// Copies the elements as numbers, as far as `out` reaches.
+    pub fn copy_to(&self, out: &mut [f64]) {
+        match self {
+            View::F64(v) => out.iter_mut().zip(*v).for_each(|(out, x)| *out = *x),
+            View::I32(v) => out.iter_mut().zip(*v).for_each(|(out, x)| *out = f64::from(*x)),
+            View::Bool(v) => out.iter_mut().zip(*v).for_each(|(out, x)| *out = f64::from(u8::from(*x))),
+            View::Size(n) => out.iter_mut().take(1).for_each(|out| *out = *n as f64),
+        }
+    }
 }
 
 /// The numbers of a field, for writing. Sizes cannot be written.

@@ -24,7 +24,7 @@ fn recorded() -> Vec<(&'static str, Vec<f64>)> {
 
 fn state(m: &Model, d: &Fields, sig: i32) -> Vec<f64> {
     let mut out = vec![f64::NAN; size(m, sig).unwrap()];
-    get(m, d, &mut out, sig).unwrap();
+    get(d, &mut out, sig).unwrap();
     out
 }
 
@@ -104,7 +104,7 @@ fn wrong_lists_change_nothing() {
     }
     let length = StateError::Length { wanted: m.nq, found: 3 };
     assert_eq!(set(&m, &mut d, &[1.0; 3], QPOS), Err(length));
-    assert_eq!(get(&m, &d, &mut [0.0; 3], QPOS), Err(length));
+    assert_eq!(get(&d, &mut [0.0; 3], QPOS), Err(length));
     let missing = extract(&m, &[1.0], TIME, &mut vec![0.0; m.nq], QPOS);
     assert_eq!(missing, Err(StateError::Missing(QPOS)));
     assert!(d == before);
