@@ -10,7 +10,7 @@
 use super::contents::Contents;
 use super::planning::Plan;
 use crate::model::reflect::FieldSet;
-use crate::step::deciding::never_asked;
+use crate::step::deciding::undecisive_writes;
 
 /// The number of passes for which values must stay constant before a plan assumes them.
 pub(super) const SETTLED: u64 = 256;
@@ -33,7 +33,7 @@ pub(super) struct Assumed {
 impl Assumed {
     /// The assumptions of a new plan. A plan that was made for any value is not narrowed later.
     pub(super) fn from_plan(plan: &mut Plan) -> Assumed {
-        let wide = plan.any != never_asked(&plan.access) && plan.made_for.is_some();
+        let wide = plan.any != undecisive_writes(&plan.access) && plan.made_for.is_some();
         let settled = if wide { u64::MAX } else { 0 };
         Assumed { made_for: plan.made_for.take(), any: plan.any, wide, settled, due: false }
     }

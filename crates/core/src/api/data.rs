@@ -12,7 +12,7 @@ use crate::model::reflect::{self, FieldId, FieldSet, Kind, Object, View, ViewMut
 use crate::model::stage::Stage;
 use crate::model::{Fields, Names};
 use crate::step::analysis::AccessSet;
-use crate::step::deciding::{deciding, never_asked};
+use crate::step::deciding::{deciding, undecisive_writes};
 use crate::step::reset;
 use crate::step::workspace::{Scratch, Workspace};
 use std::marker::PhantomData;
@@ -352,7 +352,7 @@ impl<S: Scope> Data<S> {
         }
         if narrower {
             self.assumed.due = false;
-            self.plan_for(m, never_asked(&self.access));
+            self.plan_for(m, undecisive_writes(&self.access));
         }
         self.version = self.assumed.version_of(&m.contents);
         Ok(())
@@ -366,7 +366,7 @@ impl<S: Scope> Data<S> {
     /// Makes a new plan for the current values of the model.
     pub(super) fn plan_again(&mut self, m: &Model) {
         let mut any = self.assumed.any;
-        any.extend(&never_asked(&self.access));
+        any.extend(&undecisive_writes(&self.access));
         self.plan_for(m, any);
     }
 
@@ -378,7 +378,7 @@ impl<S: Scope> Data<S> {
         // The data may contain values that the plan does not assume.
         self.touched = !S::FULL;
         self.assumed.any = any;
-        self.assumed.wide = any != never_asked(&self.access);
+        self.assumed.wide = any != undecisive_writes(&self.access);
         match &mut self.assumed.made_for {
             Some(planned) => planned.follow(&m.contents),
             None => self.assumed.made_for = plan.made_for,

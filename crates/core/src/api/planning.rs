@@ -60,12 +60,12 @@ impl Plan {
 
     /// Like [`Plan::new`], with some tree algorithms only: to measure the gain of each, or to compare it with the general one.
     pub fn by_algorithms(m: &Model, access: &AccessSet, algorithms: TreeAlgorithms) -> Plan {
-        Plan::made(m, access, deciding::never_asked(access), |d| Inner::new(m, d, algorithms))
+        Plan::made(m, access, deciding::undecisive_writes(access), |d| Inner::new(m, d, algorithms))
     }
 
     /// Like [`Plan::new`], with an additional stage and the stages that it uses, to measure their cost. No number changes.
     pub fn with(m: &Model, access: &AccessSet, more: Stage) -> Plan {
-        Plan::made(m, access, deciding::never_asked(access), |d| {
+        Plan::made(m, access, deciding::undecisive_writes(access), |d| {
             Inner::with(m, d, TreeAlgorithms::ALL, Some(more))
         })
     }

@@ -64,7 +64,7 @@ impl Extent {
     }
 
     /// The region after joint `j` of the body has moved it.
-    fn moved(self, m: &Model, j: usize) -> Extent {
+    fn after_joint(self, m: &Model, j: usize) -> Extent {
         let axis = rows::<3>(&m.jnt_axis)[j];
         match (m.jnt_type[j], self.turned) {
             (joint::HINGE | joint::BALL, _) => Extent { turned: None, ..self.at(rows::<3>(&m.jnt_pos)[j]) },
@@ -96,7 +96,7 @@ impl Extents {
             let turned = from.turned.map(|turned| if b > 0 { quat_mul(turned, quat) } else { turned });
             let mut here = Extent { point: [0.0; 3], turned, ..from };
             for j in element_range(m.body_jntadr[b], m.body_jntnum[b]) {
-                here = here.moved(m, j);
+                here = here.after_joint(m, j);
             }
             if m.body_mocapid[b] >= 0 {
                 here = Extent { free: [true; 3], turned: None, ..here };
@@ -113,7 +113,7 @@ impl Extents {
     }
 
     /// Whether the two geoms can never come within the distance `reach` (m) of each other.
-    pub(super) fn keep_apart(&self, m: &Model, pair: &Pair, reach: f64) -> bool {
+    pub(super) fn never_within(&self, m: &Model, pair: &Pair, reach: f64) -> bool {
         let [g1, g2] = [pair.geom1 as usize, pair.geom2 as usize];
         let (Some(a), Some(b)) = (self.geoms.get(g1), self.geoms.get(g2)) else { return false };
         let [ra, rb] = [m.geom_rbound[g1], m.geom_rbound[g2]];

@@ -107,8 +107,8 @@ impl Sweep {
         self.near.clear();
         self.near.extend_from_slice(&self.explicit);
         self.in_columns(m);
-        self.wide_and_wide(m);
-        self.wide_and_others(m, width);
+        self.sweep_wide(m);
+        self.sweep_wide_against_narrow(m, width);
         for s in &self.shadows {
             let reach =
                 |plane: usize| s.radius - m.geom_rbound[s.geom as usize] + params::half_reach(m, plane);
@@ -124,7 +124,7 @@ impl Sweep {
 
     /// Computes and sorts the intervals and columns of all geoms. Returns the width of a column, m.
     fn place(&mut self, m: &Model, centres: &[Vec3]) -> f64 {
-        let axis = widest(&self.shadows, centres);
+        let axis = axis_of_largest_variance(&self.shadows, centres);
         let mut sum = 0.0;
         for s in &mut self.shadows {
             let g = s.geom as usize;
@@ -185,7 +185,7 @@ impl Sweep {
     }
 
     /// Sweeps the geoms that are wider than a column, without columns.
-    fn wide_and_wide(&mut self, m: &Model) {
+    fn sweep_wide(&mut self, m: &Model) {
         for (i, &k) in self.wide.iter().enumerate() {
             let s = &self.shadows[k as usize];
             let later = self.wide[i + 1..].iter().map(|&other| &self.shadows[other as usize]);
@@ -202,7 +202,7 @@ impl Sweep {
     }
 
     /// Tests wide geoms against the narrow geoms in their columns.
-    fn wide_and_others(&mut self, m: &Model, width: f64) {
+    fn sweep_wide_against_narrow(&mut self, m: &Model, width: f64) {
         for &k in &self.wide {
             let s = &self.shadows[k as usize];
             if s.spans() > self.shadows.len() as i64 {
@@ -248,7 +248,7 @@ fn may_touch(m: &Model, a: usize, b: usize) -> Option<Pair> {
 }
 
 /// The axis with the largest variance of the centres.
-fn widest(shadows: &[Shadow], centres: &[Vec3]) -> usize {
+fn axis_of_largest_variance(shadows: &[Shadow], centres: &[Vec3]) -> usize {
     let n = shadows.len().max(1) as f64;
     let (mut sum, mut squares) = ([0.0; 3], [0.0; 3]);
     for s in shadows {

@@ -9,7 +9,7 @@
 //! boundary of the polytope or slightly outside. A negative upper bound means that the bodies are separate.
 
 use super::difference::{Limits, ROUNDING, Vertex, support};
-use super::polish::{Reach, least_reach};
+use super::polish::{Reach, minimize_reach};
 use super::simplex::{Corral, barycentric};
 use super::support::Body;
 use crate::math::*;
@@ -61,7 +61,7 @@ pub(crate) struct Scratch {
 
 /// The depth of round bodies is computed to `ccd_tolerance`, but at least to this fraction of the depth. Otherwise
 /// the direction would be arbitrary for bodies that barely touch.
-const SURE: f64 = 0.01;
+const MIN_RELATIVE_ACCURACY: f64 = 0.01;
 
 const NONE: u32 = u32::MAX;
 
@@ -91,9 +91,9 @@ pub(super) fn depth(
     if corners {
         return Some(Reach { normal: plane.normal, height: plane.offset, witness: p.witness(face, size) });
     }
-    let mut least = least_reach(a, b, plane.normal, limits);
-    while left > 0 && least.height > 0.0 && SURE * least.height < tolerance {
-        tolerance = SURE * least.height;
+    let mut least = minimize_reach(a, b, plane.normal, limits);
+    while left > 0 && least.height > 0.0 && MIN_RELATIVE_ACCURACY * least.height < tolerance {
+        tolerance = MIN_RELATIVE_ACCURACY * least.height;
         // This support point is a vertex of the expanded polytope, so no nearby face has a bound much below its
         // height.
         p.vertices.push(support(a, b, least.normal));
@@ -102,7 +102,7 @@ pub(super) fn depth(
             break;
         }
         match p.expand(a, b, [rounding, tolerance], least.height, &mut left) {
-            Some((_, lower)) => least = least_reach(a, b, lower.normal, limits),
+            Some((_, lower)) => least = minimize_reach(a, b, lower.normal, limits),
             None => break,
         }
     }

@@ -64,7 +64,7 @@ pub(crate) fn from_velocities(m: &Model, d: &mut Fields, s: &mut Scratch) {
 }
 
 /// Computes poses of bodies, their spatial inertias, and lengths of tendons.
-pub(crate) fn placed(m: &Model, d: &mut Fields, s: &mut Scratch) {
+pub(crate) fn update_positions(m: &Model, d: &mut Fields, s: &mut Scratch) {
     let [bits, ..] = d.plan.passes[0];
     let lengths = if m.ntendon + m.nactuator > 0 { FOR_LENGTHS } else { 0 };
     POSITIONS.run(m, d, s, bits & BEFORE_MASS & (!FOR_LENGTHS | lengths));

@@ -28,8 +28,8 @@ const NO_AUTORESET: &str = "<flag autoreset='disable'/>";
 
 #[test]
 fn a_bad_number_resets_and_the_step_goes_on_from_there() {
-    type Break = (Warning, fn(&mut Fields));
-    let breaks: [Break; 5] = [
+    type Fault = (Warning, fn(&mut Fields));
+    let breaks: [Fault; 5] = [
         (Warning::BadQpos, |d| d.qpos[1] = f64::NAN),
         (Warning::BadQvel, |d| d.qvel[1] = 1e11),
         (Warning::BadQvel, |d| d.qvel[1] = f64::NEG_INFINITY),

@@ -3,7 +3,7 @@
 use super::{Attr, Element, INT, Kind, LIST, REAL, TEXT, attributes, extension, upto, word};
 use crate::kinds::interpolation;
 use crate::model::Obj;
-use crate::sensor::{self, Senses};
+use crate::sensor::{self, SensorTarget};
 
 const COMMON: &[Attr] = attributes! {
     Kind::Name("sensor") => name;
@@ -63,22 +63,24 @@ const PLUGIN: &[Attr] = attributes! {
 /// The attribute groups of a kind of sensor: those that select the measured object, and those that almost all kinds have.
 const fn groups(kind: &sensor::Kind) -> &'static [&'static [Attr]] {
     match kind.senses {
-        Senses::Nothing => &[COMMON, VALUES, TIMING],
-        Senses::Site => &[COMMON, VALUES, TIMING, SITE],
-        Senses::Ray => &[COMMON, VALUES, TIMING, SITE, CAMERA, DATA],
-        Senses::SiteInImage => &[COMMON, VALUES, TIMING, SITE, CAMERA],
-        Senses::ScalarJoint | Senses::BallJoint | Senses::LimitedJoint => &[COMMON, VALUES, TIMING, JOINT],
-        Senses::Tendon | Senses::LimitedTendon => &[COMMON, VALUES, TIMING, TENDON],
-        Senses::Actuator => &[COMMON, VALUES, TIMING, ACTUATOR],
-        Senses::Frame => &[COMMON, VALUES, TIMING, OBJECT],
-        Senses::RelativeFrame => &[COMMON, VALUES, TIMING, OBJECT, REFERENCE],
-        Senses::FrameInSite => &[COMMON, VALUES, TIMING, OBJECT, SITE],
-        Senses::Subtree => &[COMMON, VALUES, TIMING, BODY],
-        Senses::Pair => &[COMMON, VALUES, TIMING, PAIR],
-        Senses::Contacts => &[COMMON, VALUES, TIMING, PAIR, SITE, CONTACT],
-        Senses::User => &[COMMON, VALUES, USERS],
-        Senses::Tactile => &[COMMON, TIMING, TACTILE],
-        Senses::Plugin => &[COMMON, PLUGIN],
+        SensorTarget::Nothing => &[COMMON, VALUES, TIMING],
+        SensorTarget::Site => &[COMMON, VALUES, TIMING, SITE],
+        SensorTarget::Ray => &[COMMON, VALUES, TIMING, SITE, CAMERA, DATA],
+        SensorTarget::SiteInImage => &[COMMON, VALUES, TIMING, SITE, CAMERA],
+        SensorTarget::ScalarJoint | SensorTarget::BallJoint | SensorTarget::LimitedJoint => {
+            &[COMMON, VALUES, TIMING, JOINT]
+        }
+        SensorTarget::Tendon | SensorTarget::LimitedTendon => &[COMMON, VALUES, TIMING, TENDON],
+        SensorTarget::Actuator => &[COMMON, VALUES, TIMING, ACTUATOR],
+        SensorTarget::Frame => &[COMMON, VALUES, TIMING, OBJECT],
+        SensorTarget::RelativeFrame => &[COMMON, VALUES, TIMING, OBJECT, REFERENCE],
+        SensorTarget::FrameInSite => &[COMMON, VALUES, TIMING, OBJECT, SITE],
+        SensorTarget::Subtree => &[COMMON, VALUES, TIMING, BODY],
+        SensorTarget::Pair => &[COMMON, VALUES, TIMING, PAIR],
+        SensorTarget::Contacts => &[COMMON, VALUES, TIMING, PAIR, SITE, CONTACT],
+        SensorTarget::User => &[COMMON, VALUES, USERS],
+        SensorTarget::Tactile => &[COMMON, TIMING, TACTILE],
+        SensorTarget::Plugin => &[COMMON, PLUGIN],
     }
 }
 
@@ -90,8 +92,8 @@ static ELEMENTS: [Element; COUNT] = {
         let kind = &sensor::KINDS[i];
         let element = Element::new(kind.name, groups(kind));
         all[i] = match kind.senses {
-            Senses::Tactile => element.refused(),
-            Senses::Plugin => element.children(&[&extension::CONFIG]).refused(),
+            SensorTarget::Tactile => element.refused(),
+            SensorTarget::Plugin => element.children(&[&extension::CONFIG]).refused(),
             _ => element,
         };
         i += 1;
