@@ -49,9 +49,9 @@ impl Assumed {
     }
 
     /// Records that constants were computed for which the plan has already been checked.
-    pub(super) fn adopt_constants(&mut self, contents: &Contents) {
+    pub(super) fn accept_constants(&mut self, contents: &Contents) {
         if let Some(planned) = &mut self.made_for {
-            planned.adopt_constants(contents);
+            planned.accept_constants(contents);
         }
     }
 }

@@ -278,7 +278,7 @@ impl<S: Scope> Data<S> {
 
     /// The version of the contents that the plan was made for.
     #[cfg(test)]
-    pub(super) fn made_for_version(&self) -> Option<u64> {
+    pub(super) fn plan_version(&self) -> Option<u64> {
         self.assumed.made_for.as_ref().map(|planned| planned.version)
     }
 
@@ -290,7 +290,7 @@ impl<S: Scope> Data<S> {
     /// Records that the plan has been checked for the constants that were computed with these data.
     pub(super) fn mark_synced(&mut self, m: &Model) {
         self.version = self.assumed.version_of(&m.contents);
-        self.assumed.adopt_constants(&m.contents);
+        self.assumed.accept_constants(&m.contents);
     }
 
     /// Replaces the plan.
@@ -305,10 +305,10 @@ impl<S: Scope> Data<S> {
     /// Checks that fields of the data are computed.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn has(&self, fields: &[FieldId]) -> Result<(), Error> {
-        if S::FULL { Ok(()) } else { self.lacks(fields) }
+        if S::FULL { Ok(()) } else { self.missing_fields(fields) }
     }
 
-    fn lacks(&self, fields: &[FieldId]) -> Result<(), Error> {
+    fn missing_fields(&self, fields: &[FieldId]) -> Result<(), Error> {
         fields.iter().try_for_each(|field| self.read(*field).map(|_| ()))
     }
 }
@@ -345,7 +345,7 @@ impl<S: Scope> Data<S> {
         } else if self.assumed.wide {
             let moved = changed.intersection(&deciding());
             if !moved.is_empty() {
-                planned.adopt(&m.contents, &moved);
+                planned.copy_stamps(&m.contents, &moved);
                 self.assumed.settled = self.assumed.settled.max(unrest);
                 narrower &= self.assumed.due;
             }
@@ -373,7 +373,8 @@ impl<S: Scope> Data<S> {
     /// Makes a new plan that is valid for any value of some fields.
     fn plan_for(&mut self, m: &Model, any: FieldSet) {
         let PlanTable { algorithms, more, .. } = self.fields.plan;
-        let plan = Plan::made(m, &self.access, any, |access| PlanTable::with(m, access, algorithms, more));
+        let plan =
+            Plan::make_plan(m, &self.access, any, |access| PlanTable::with(m, access, algorithms, more));
         reset::set_plan(m, &mut self.fields, &mut self.scratch, plan.inner);
         // The data may contain values that the plan does not assume.
         self.touched = !S::FULL;

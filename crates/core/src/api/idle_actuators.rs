@@ -22,7 +22,7 @@ fn reading() -> AccessSet {
 }
 
 /// Checks that steps with planned data give the results of full steps.
-fn agree(m: &Model, planned: &mut Data<Planned>, full: &mut Data) {
+fn check_steps_agree(m: &Model, planned: &mut Data<Planned>, full: &mut Data) {
     for _ in 0..30 {
         call::step(m, planned).unwrap();
         call::step(m, full).unwrap();
@@ -48,7 +48,7 @@ fn without_actuators_nothing_compensates_gravity_for_them() {
     let (mut planned, mut full) = (Data::planned(&m, Plan::new(&m, &everything)), Data::unplanned(&m));
     let mut written = m.clone();
     assert!(call::view_mut(&mut written, &mut planned, model::jnt_actgravcomp).unwrap().set(0, 1.0));
-    agree(&written, &mut planned, &mut full);
+    check_steps_agree(&written, &mut planned, &mut full);
     assert_eq!(planned.fields().qfrc_actuator, [0.0; 6]);
     assert_eq!(planned.fields().qfrc_gravcomp[2], 9.81 * 0.1);
 }
@@ -71,11 +71,11 @@ fn actuators_without_controls_are_left_out() {
         written.writes.insert(data::ctrl);
         assert!(Plan::new(&m, &written).keeps(Stage::Actuation));
         let (mut planned, mut full) = (Data::planned(&m, plan), Data::unplanned(&m));
-        agree(&m, &mut planned, &mut full);
+        check_steps_agree(&m, &mut planned, &mut full);
         // A control that the access set does not announce acts.
         planned.edit().ctrl[0] = 0.7;
         full.edit().ctrl[0] = 0.7;
-        agree(&m, &mut planned, &mut full);
+        check_steps_agree(&m, &mut planned, &mut full);
         assert!(planned.fields().actuator_force[0] != 0.0, "{actuators}");
     }
 }
@@ -88,10 +88,10 @@ fn keyframes_and_states_bring_their_controls() {
     let (mut planned, mut full) = (Data::planned(&m, Plan::new(&m, &reading())), Data::unplanned(&m));
     call::reset_data_keyframe(&m, &mut planned, key).unwrap();
     call::reset_data_keyframe(&m, &mut full, key).unwrap();
-    agree(&m, &mut planned, &mut full);
+    check_steps_agree(&m, &mut planned, &mut full);
     let mut other = Data::planned(&m, Plan::new(&m, &reading()));
     call::state::copy(&m, &full, &mut other, call::state::INTEGRATION).unwrap();
-    agree(&m, &mut other, &mut full);
+    check_steps_agree(&m, &mut other, &mut full);
 }
 
 #[test]
@@ -102,19 +102,19 @@ fn equalities_that_are_off_are_left_out() {
     assert!(!plan.keeps(Stage::Constraint) && !plan.keeps(Stage::Kinematics));
     assert!(Plan::new(&pendulum(&tie.replacen("false", "true", 1)), &reading()).keeps(Stage::Solve));
     let (mut planned, mut full) = (Data::planned(&m, plan), Data::unplanned(&m));
-    agree(&m, &mut planned, &mut full);
+    check_steps_agree(&m, &mut planned, &mut full);
     for (i, on) in [(0, true), (1, true), (0, false)] {
         planned.edit().eq_active[i] = on;
         full.edit().eq_active[i] = on;
-        agree(&m, &mut planned, &mut full);
+        check_steps_agree(&m, &mut planned, &mut full);
     }
     // Inactive after a reset, and active until then.
     m.edit().eq_active0.fill(false);
-    agree(&m, &mut planned, &mut full);
+    check_steps_agree(&m, &mut planned, &mut full);
     let mut data = Data::planned(&m, Plan::new(&m, &reading()));
     m.edit().eq_active0.fill(true);
     call::reset_data(&m, &mut data).unwrap();
     call::reset_data(&m, &mut full).unwrap();
-    agree(&m, &mut data, &mut full);
+    check_steps_agree(&m, &mut data, &mut full);
     assert!(data.plan().keeps(Stage::Solve));
 }

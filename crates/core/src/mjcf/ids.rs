@@ -110,7 +110,7 @@ impl Ids {
     }
 
     /// Whether a camera has no pixels.
-    pub(crate) fn is_blind(&self, camera: i32) -> bool {
+    pub(crate) fn has_no_pixels(&self, camera: i32) -> bool {
         self.blind.contains(&camera)
     }
 

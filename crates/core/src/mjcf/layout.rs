@@ -181,7 +181,7 @@ fn is_origin(pos: Vec3) -> bool {
 }
 
 /// Whether q is the identity rotation; q and -q are the same rotation.
-fn is_unturned([w, x, y, z]: Quat) -> bool {
+fn is_identity([w, x, y, z]: Quat) -> bool {
     (w.abs() - 1.0).abs() < SAME_FRAME && is_origin([x, y, z])
 }
 
@@ -200,7 +200,7 @@ pub(crate) fn find_simple_bodies(bodies: &[BodySpec], inertias: &[Inertia]) -> V
         if i == 0 {
             return simple::DIAGONAL; // by convention
         }
-        let centred = is_origin(inertia.pos) && is_unturned(inertia.quat);
+        let centred = is_origin(inertia.pos) && is_identity(inertia.quat);
         if !body.simple || !centred || !base(body.parent) || leaf.get(i) != Some(&true) {
             return simple::NO;
         }

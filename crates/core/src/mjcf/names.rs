@@ -4,16 +4,16 @@ use std::collections::BTreeMap;
 
 use super::classes::Classes;
 use super::schema::Kind;
+use crate::mjcf::keyword_map::KeywordMap;
 use crate::mjcf::rules;
 use crate::mjcf::text::diagnostic::{Report, nearest, shorten_name};
 use crate::mjcf::text::tree::{Attribute, Node, Tree};
 use crate::mjcf::text::values::Value;
-use crate::mjcf::word_map::WordMap;
 
 /// Named elements, by kind and name.
 #[derive(Debug, Default)]
 pub(crate) struct NameTable<'t> {
-    nodes: WordMap<BTreeMap<&'t str, usize>>,
+    nodes: KeywordMap<BTreeMap<&'t str, usize>>,
 }
 
 /// The name of the world body, and its index in the table. It is not an element.
@@ -122,7 +122,12 @@ pub(crate) fn check_references(tree: &Tree, names: &NameTable, classes: &Classes
             match a.attr.kind {
                 Kind::Ref(kind) if !name.is_empty() && names.find(kind, name).is_none() => {
                     if entry {
-                        dangling.push(Dangling { entry: node.element.name, attribute: a, kind, name });
+                        dangling.push(DanglingReference {
+                            entry: node.element.name,
+                            attribute: a,
+                            kind,
+                            name,
+                        });
                     } else {
                         names.unknown(kind, name, a.span.clone(), report);
                     }
@@ -151,7 +156,7 @@ fn is_entry(tree: &Tree, node: &Node) -> bool {
 }
 
 /// A default that refers to an object that does not exist.
-struct Dangling<'t> {
+struct DanglingReference<'t> {
     /// The kind of element to which the default applies.
     entry: &'static str,
     attribute: &'t Attribute,
@@ -165,7 +170,7 @@ fn check_dangling(
     tree: &Tree,
     names: &NameTable,
     classes: &Classes,
-    mut dangling: Vec<Dangling>,
+    mut dangling: Vec<DanglingReference>,
     report: &mut Report,
 ) {
     let mut childclass: Vec<Option<usize>> = Vec::with_capacity(tree.nodes.len());
@@ -177,8 +182,9 @@ fn check_dangling(
             "spatial" | "fixed" => "tendon",
             name => name,
         };
-        let may_use =
-            |d: &Dangling| d.entry == entry && node.element.attribute(d.attribute.attr.name).is_some();
+        let may_use = |d: &DanglingReference| {
+            d.entry == entry && node.element.attribute(d.attribute.attr.name).is_some()
+        };
         if dangling.is_empty() {
             return;
         }

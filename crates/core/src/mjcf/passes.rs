@@ -114,7 +114,7 @@ fn read_specs(source: &Source, assets: &mut Assets, report: &mut Report) -> Opti
     let scene = read_scene_fields(&mut cx, refs, &bodies, compiler.discardvisual);
     settings::memory(tree, report);
     assets.hulls(&bodies, &pairs, report);
-    classes.check_room(report);
+    classes.report_exceeded_budget(report);
     let sensors = read_sensor::sensors(tree, refs, &tendons, report);
     let users = user_widths(tree, &bodies, &tendons, &actuators, &sensors, report);
     Some(Specs {
@@ -213,7 +213,7 @@ fn fill_model(
         return None;
     }
     let mut simple = layout::find_simple_bodies(bodies, inertias);
-    fill_tendon::demote_simple(&mut simple, bodies, tendons);
+    fill_tendon::clear_simple_flags(&mut simple, bodies, tendons);
     let pattern = layout::pattern(layout, &simple, report)?;
     let whole = layout::whole_pattern(layout, report)?;
     let parts = fill::Parts {

@@ -9,7 +9,7 @@ use crate::mjcf::text::diagnostic::{Report, shorten_name};
 use crate::mjcf::text::tree::Tree;
 use crate::mjcf::text::values::Value;
 use crate::model::{Options, Statistic};
-use crate::setup::lengthrange::{Mode, Search};
+use crate::setup::lengthrange::{Mode, RangeSearch};
 
 /// The attributes of all sections of one name. Later sections override earlier ones.
 fn section(tree: &Tree, name: &str) -> Props {
@@ -77,10 +77,10 @@ impl Compiler {
         let p = section(tree, "compiler");
         let groups = p.ints("inertiagrouprange").unwrap_or(&[0, 5]);
         Compiler {
-            degrees: p.word("angle") != Some(angle::RADIAN),
+            degrees: p.keyword("angle") != Some(angle::RADIAN),
             autolimits: p.flag("autolimits", true),
             eulerseq: eulerseq(&p, report),
-            inertiafromgeom: match p.word("inertiafromgeom") {
+            inertiafromgeom: match p.keyword("inertiafromgeom") {
                 Some(choice::FALSE) => InertiaFromGeom::Never,
                 Some(choice::TRUE) => InertiaFromGeom::Always,
                 _ => InertiaFromGeom::Auto,
@@ -168,10 +168,10 @@ pub(crate) fn options(tree: &Tree, report: &mut Report) -> Options {
         o_solref: p.reals("o_solref", d.o_solref),
         o_solimp: p.reals("o_solimp", d.o_solimp),
         o_friction: p.reals("o_friction", d.o_friction),
-        integrator: p.word("integrator").unwrap_or(d.integrator),
-        cone: p.word("cone").unwrap_or(d.cone),
-        jacobian: p.word("jacobian").unwrap_or(d.jacobian),
-        solver: p.word("solver").unwrap_or(d.solver),
+        integrator: p.keyword("integrator").unwrap_or(d.integrator),
+        cone: p.keyword("cone").unwrap_or(d.cone),
+        jacobian: p.keyword("jacobian").unwrap_or(d.jacobian),
+        solver: p.keyword("solver").unwrap_or(d.solver),
         disableflags,
         enableflags,
         disableactuator: disabled_groups(&p, report),
@@ -219,17 +219,17 @@ fn disabled_groups(p: &Props, report: &mut Report) -> i32 {
 }
 
 /// The parameters of the search for length ranges, `compiler/lengthrange`.
-pub(crate) fn length_range(tree: &Tree) -> Search {
+pub(crate) fn length_range(tree: &Tree) -> RangeSearch {
     let mut p = Props::default();
     for (i, _) in tree.sections("compiler") {
         for (_, node) in tree.children(i) {
             p.overlay(node);
         }
     }
-    let d = Search::default();
+    let d = RangeSearch::default();
     let real = |name: &str, default: f64| p.real(name).unwrap_or(default);
-    Search {
-        mode: match p.word("mode") {
+    RangeSearch {
+        mode: match p.keyword("mode") {
             Some(0) => Mode::Nothing,
             Some(3) => Mode::All,
             // Actuators with user callbacks do not exist here.
@@ -289,7 +289,7 @@ fn flags(tree: &Tree) -> (i32, i32) {
         }
     }
     let bits = |table: &[(&str, i32)], set: i32| {
-        table.iter().filter(|(name, _)| p.word(name) == Some(set)).fold(0, |all, (_, bit)| all | bit)
+        table.iter().filter(|(name, _)| p.keyword(name) == Some(set)).fold(0, |all, (_, bit)| all | bit)
     };
     (bits(&DISABLE, 0), bits(&ENABLE, 1))
 }

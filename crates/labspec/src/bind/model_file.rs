@@ -8,7 +8,7 @@ use crate::rules;
 use crate::source::{SourceFile, Sources, Text};
 use crate::spec::{Lab, ModelSource};
 use labspec_core::Model;
-use labspec_core::xml::{self, Examined, FileProblem, Files, Folder, NoFiles};
+use labspec_core::xml::{self, CheckedModel, FileProblem, Files, Folder, NoFiles};
 use labspec_finding::nearest;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -82,10 +82,10 @@ pub(crate) fn compile_to_play(lab: &Lab, folder: &ModelFolder) -> Compiled {
 }
 
 /// Compiles a model with its errors, without the warnings of [`xml::check_xml`].
-fn compile_errors(xml: &str, files: &dyn Files, path: Option<&str>) -> Examined {
+fn compile_errors(xml: &str, files: &dyn Files, path: Option<&str>) -> CheckedModel {
     match xml::compile_with(xml, files, path) {
-        Ok(model) => Examined { model: Some(model), findings: Vec::new() },
-        Err(findings) => Examined { model: None, findings },
+        Ok(model) => CheckedModel { model: Some(model), findings: Vec::new() },
+        Err(findings) => CheckedModel { model: None, findings },
     }
 }
 
@@ -131,7 +131,7 @@ pub(super) fn compile_source(
     files: &dyn Files,
     name: Option<&str>,
     hash: Option<Hash>,
-    compile: fn(&str, &dyn Files, Option<&str>) -> Examined,
+    compile: fn(&str, &dyn Files, Option<&str>) -> CheckedModel,
 ) -> Compiled {
     let remembering = Remembering::new(files, hash);
     let checked = compile(file.text(), &remembering, name);

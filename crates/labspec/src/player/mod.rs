@@ -10,7 +10,7 @@ mod displayed;
 mod load;
 mod scene;
 
-pub use control::{Control, ControlKind, Which};
+pub use control::{Control, ControlKey, ControlKind};
 pub use displayed::{DisplayedIn, DisplayedValue};
 
 use crate::error::{Error, located};
@@ -85,7 +85,7 @@ impl Player {
     }
 
     /// The current value of a control; `None` when there is no such control, `undefined` for a button.
-    pub fn value<'w>(&self, which: impl Into<Which<'w>>) -> Option<&Value> {
+    pub fn value<'w>(&self, which: impl Into<ControlKey<'w>>) -> Option<&Value> {
         self.now.session.values().get(self.index(which.into()).ok()?)
     }
 
@@ -119,7 +119,11 @@ impl Player {
     ///
     /// # Errors
     /// There is no such control, it is a button, a student cannot choose this value, or the lab is frozen.
-    pub fn set<'w>(&mut self, which: impl Into<Which<'w>>, value: impl Into<Value>) -> Result<(), Error> {
+    pub fn set<'w>(
+        &mut self,
+        which: impl Into<ControlKey<'w>>,
+        value: impl Into<Value>,
+    ) -> Result<(), Error> {
         let index = self.index(which.into())?;
         let Some(control) = self.lab.controls.get(index) else { return Err(self.unknown(index)) };
         let value = settings::value(control, &value.into())?;
@@ -130,7 +134,7 @@ impl Player {
     ///
     /// # Errors
     /// There is no such control, it is not a button, or the lab is frozen.
-    pub fn press<'w>(&mut self, which: impl Into<Which<'w>>) -> Result<(), Error> {
+    pub fn press<'w>(&mut self, which: impl Into<ControlKey<'w>>) -> Result<(), Error> {
         let index = self.index(which.into())?;
         let Some(control) = self.controls.get(index) else { return Err(self.unknown(index)) };
         let ControlKind::Button = control.kind else {
@@ -333,11 +337,11 @@ impl Player {
         if list.is_empty() { "as it stands".into() } else { format!("with {}", list.join(", ")) }
     }
 
-    fn index(&self, which: Which<'_>) -> Result<usize, Error> {
+    fn index(&self, which: ControlKey<'_>) -> Result<usize, Error> {
         match which {
-            Which::Index(index) if index < self.controls.len() => Ok(index),
-            Which::Index(index) => Err(self.unknown(index)),
-            Which::Label(label) => {
+            ControlKey::Index(index) if index < self.controls.len() => Ok(index),
+            ControlKey::Index(index) => Err(self.unknown(index)),
+            ControlKey::Label(label) => {
                 let programs = self.now.session.programs();
                 let found = programs.control(label).map(|(index, _)| index);
                 found.ok_or_else(|| settings::unknown_control(label, programs).into())

@@ -9,7 +9,7 @@ use crate::mjcf::rules;
 use crate::mjcf::spec::{ActuatorSpec, List, RangeSpec};
 use crate::mjcf::text::diagnostic::Report;
 use crate::model::Model;
-use crate::setup::lengthrange::{self, Failure, Search};
+use crate::setup::lengthrange::{self, RangeError, RangeSearch};
 use crate::step::workspace::Workspace;
 
 /// Limit for the product of steps and degrees of freedom in the search for all length ranges. A larger search would take minutes.
@@ -112,8 +112,8 @@ pub(crate) fn pattern(m: &mut Model, list: &[ActuatorSpec], report: &mut Report)
 }
 
 /// Computes the length ranges of actuators that need one and have none.
-pub(crate) fn length_ranges(m: &mut Model, list: &[ActuatorSpec], search: &Search, report: &mut Report) {
-    let wanted: Vec<usize> = listed((0..m.nactuator).filter(|&i| search.wants(m, i)));
+pub(crate) fn length_ranges(m: &mut Model, list: &[ActuatorSpec], search: &RangeSearch, report: &mut Report) {
+    let wanted: Vec<usize> = listed((0..m.nactuator).filter(|&i| search.needs_search(m, i)));
     let pulled = wanted.iter().filter(|&&i| search.limits(m, i).is_none()).count();
     let Some(first) = wanted.first().and_then(|&i| list.get(i)) else { return };
     // With active limits, the cost of a step grows with the cube of the number of degrees of freedom.
@@ -129,10 +129,10 @@ pub(crate) fn length_ranges(m: &mut Model, list: &[ActuatorSpec], search: &Searc
         let wrong = match lengthrange::length_range(m, &mut d, &mut s, i, search) {
             Ok(()) => continue,
             _ if !lengthrange::has_length(m, i) => "its target gives it no length".to_string(),
-            Err(Failure::NoRange([lower, upper])) => {
+            Err(RangeError::NoRange([lower, upper])) => {
                 format!("pulling it either way gives {lower:.4} and {upper:.4}")
             }
-            Err(Failure::NotSettled([lower, upper])) => {
+            Err(RangeError::NotSettled([lower, upper])) => {
                 format!("pulled for the maximum time, it still moves between {lower:.4} and {upper:.4}")
             }
         };

@@ -163,7 +163,13 @@ impl Assets {
             match build::hull(mesh) {
                 Ok(hull) => mesh.hull = Some(hull),
                 Err(problem) => {
-                    say(problem, rules::MESH, &format!("mesh `{}`", asset.name), asset.span.clone(), report);
+                    report_problem(
+                        problem,
+                        rules::MESH,
+                        &format!("mesh `{}`", asset.name),
+                        asset.span.clone(),
+                        report,
+                    );
                     asset.value = None;
                 }
             }
@@ -172,7 +178,13 @@ impl Assets {
 }
 
 /// Reports a problem with an asset.
-fn say(problem: Problem, code: &'static Rule, owner: &str, span: Range<usize>, report: &mut Report) {
+fn report_problem(
+    problem: Problem,
+    code: &'static Rule,
+    owner: &str,
+    span: Range<usize>,
+    report: &mut Report,
+) {
     let mut d = report.error(code, span, format!("{owner} {}", problem.message));
     if !problem.why.is_empty() {
         d = d.why(problem.why);
@@ -195,14 +207,14 @@ impl Reader<'_> {
 
     fn wrong<T>(&mut self, problem: Problem, code: &'static Rule, node: &Node, p: &Props) -> Option<T> {
         let span = p.span(problem.attribute).unwrap_or(node.span.clone());
-        say(problem, code, &node.describe(), span, self.report);
+        report_problem(problem, code, &node.describe(), span, self.report);
         None
     }
 
     fn options(&mut self, node: &Node, p: &Props) -> Option<Options> {
         let refquat = p.reals("refquat", IDENTITY);
         let maxhullvert = p.int("maxhullvert").unwrap_or(-1);
-        let problem = if norm4(refquat) < crate::math::MINVAL {
+        let problem = if quaternion_norm(refquat) < crate::math::MINVAL {
             Problem::new(
                 "refquat",
                 "has a `refquat` of zero",
@@ -223,7 +235,7 @@ impl Reader<'_> {
                 refquat,
                 smooth: p.flag("smoothnormal", false),
                 maxhullvert: usize::try_from(maxhullvert).ok(),
-                body: match p.word("inertia") {
+                body: match p.keyword("inertia") {
                     Some(0) => Body::Convex,
                     Some(1) => Body::Exact,
                     Some(3) => Body::Shell,
@@ -414,7 +426,7 @@ impl Reader<'_> {
     }
 }
 
-fn norm4(q: [f64; 4]) -> f64 {
+fn quaternion_norm(q: [f64; 4]) -> f64 {
     norm([norm([q[0], q[1], q[2]]), q[3], 0.0])
 }
 

@@ -5,7 +5,7 @@
 //! roots of the characteristic polynomial within the unit circle). The classical Runge-Kutta method is stable for h √(k/m) < 2.78
 //! and h c / m < 2.78 (Hairer and Wanner, Solving Ordinary Differential Equations II, chapter IV.2).
 
-use super::{digits, format_name, place};
+use super::{digits, element_span, format_name};
 use crate::kinds::{biastype, disable, integrator, joint, trntype};
 use crate::mjcf::rules;
 use crate::mjcf::text::diagnostic::Report;
@@ -25,18 +25,18 @@ pub(super) fn check_time_constants(tree: &Tree, m: &Model, report: &mut Report) 
 
 /// The elements that act on a joint: stiffness, dampers that are integrated implicitly, dampers that are integrated explicitly.
 #[derive(Clone, Copy, Default)]
-struct Acting {
+struct ActingElements {
     spring: f64,
     implicit: f64,
     explicit: f64,
     servo: bool,
 }
 
-fn acting(m: &Model, j: usize) -> Option<Acting> {
+fn acting(m: &Model, j: usize) -> Option<ActingElements> {
     let dof = usize::try_from(*m.jnt_dofadr.get(j)?).ok()?;
     let method = m.opt.integrator;
     let [euler, fast] = [integrator::EULER, integrator::RK4].map(|k| method == k);
-    let mut all = Acting::default();
+    let mut all = ActingElements::default();
     let damper = *m.dof_damping.get(dof)?;
     match fast || (euler && m.opt.disabled(disable::EULERDAMP)) {
         true => all.explicit += damper,
@@ -100,7 +100,7 @@ fn joints(tree: &Tree, m: &Model, report: &mut Report) {
             digits(h)
         );
         report
-            .note(rules::TOO_FAST, place(tree, &["joint"], name), message)
+            .note(rules::TOO_FAST, element_span(tree, &["joint"], name), message)
             .why(format!(
                 "on an inertia of {}, the integrator makes it grow from step to step, unless something else limits it",
                 digits(mass)

@@ -88,5 +88,5 @@ fn holds_bodies(tree: &Tree, at: usize) -> bool {
 /// A sky texture is visible without a reference.
 fn is_sky(node: &Node) -> bool {
     node.element.name == "texture"
-        && node.attributes.iter().any(|a| a.attr.name == "type" && matches!(&a.value, Value::Word(2)))
+        && node.attributes.iter().any(|a| a.attr.name == "type" && matches!(&a.value, Value::Keyword(2)))
 }

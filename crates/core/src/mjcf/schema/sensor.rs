@@ -1,6 +1,6 @@
 //! `sensor`: one element for each kind in the table of sensors.
 
-use super::{Attr, Element, INT, Kind, LIST, REAL, TEXT, attributes, extension, upto, word};
+use super::{Attr, Element, INT, Kind, LIST, REAL, TEXT, attributes, extension, keyword, upto};
 use crate::kinds::interpolation;
 use crate::model::Obj;
 use crate::sensor::{self, SensorTarget};
@@ -14,14 +14,14 @@ const TIMING: &[Attr] = attributes! {
     INT => nsample;
     REAL => delay;
     upto(2) => interval;
-    Kind::Words(&[word("zoh", interpolation::HOLD), word("linear", interpolation::LINEAR), word("cubic", interpolation::CUBIC)]) => interp;
+    Kind::Keywords(&[keyword("zoh", interpolation::HOLD), keyword("linear", interpolation::LINEAR), keyword("cubic", interpolation::CUBIC)]) => interp;
 };
-const FRAMES: Kind = Kind::Words(&[
-    word("body", Obj::Body as i32),
-    word("xbody", Obj::XBody as i32),
-    word("geom", Obj::Geom as i32),
-    word("site", Obj::Site as i32),
-    word("camera", Obj::Camera as i32),
+const FRAMES: Kind = Kind::Keywords(&[
+    keyword("body", Obj::Body as i32),
+    keyword("xbody", Obj::XBody as i32),
+    keyword("geom", Obj::Geom as i32),
+    keyword("site", Obj::Site as i32),
+    keyword("camera", Obj::Camera as i32),
 ]);
 const OBJECT: &[Attr] = attributes! { FRAMES => objtype; TEXT => objname; };
 const REFERENCE: &[Attr] = attributes! {
@@ -40,14 +40,14 @@ const PAIR: &[Attr] = attributes! { Kind::Ref("body") => body1 body2; Kind::Ref(
 const CONTACT: &[Attr] = attributes! {
     Kind::Ref("body") => subtree1 subtree2;
     TEXT => data;
-    Kind::Words(&[word("none", 0), word("mindist", 1), word("maxforce", 2), word("netforce", 3)]) => reduce;
+    Kind::Keywords(&[keyword("none", 0), keyword("mindist", 1), keyword("maxforce", 2), keyword("netforce", 3)]) => reduce;
     INT => num;
 };
 const USERS: &[Attr] = attributes! {
     FRAMES => objtype;
     TEXT => objname;
-    Kind::Words(&[word("real", 0), word("positive", 1), word("axis", 2), word("quaternion", 3)]) => datatype;
-    Kind::Words(&[word("none", 0), word("pos", 1), word("vel", 2), word("acc", 3)]) => needstage;
+    Kind::Keywords(&[keyword("real", 0), keyword("positive", 1), keyword("axis", 2), keyword("quaternion", 3)]) => datatype;
+    Kind::Keywords(&[keyword("none", 0), keyword("pos", 1), keyword("vel", 2), keyword("acc", 3)]) => needstage;
     INT => dim;
 };
 const TACTILE: &[Attr] = attributes! {

@@ -116,7 +116,7 @@ impl Context<'_> {
         let [period, phase] = self.p.reals("interval", [0.0; 2]);
         let timing = SensorTiming {
             nsample: self.p.int("nsample").unwrap_or(0),
-            interp: self.p.word("interp").unwrap_or(interpolation::HOLD),
+            interp: self.p.keyword("interp").unwrap_or(interpolation::HOLD),
             delay: self.p.real("delay").unwrap_or(0.0),
             interval: [period, phase],
         };
@@ -210,7 +210,7 @@ impl Context<'_> {
             },
             SensorTarget::SiteInImage => {
                 let (site, camera) = (self.required("site", "site"), self.required("camera", "camera"));
-                if camera.is_some_and(|camera| self.refs.ids.is_blind(camera)) {
+                if camera.is_some_and(|camera| self.refs.ids.has_no_pixels(camera)) {
                     let message = format!("the camera of {} has no resolution", self.node.describe());
                     self.error_at("camera", rules::SENSOR, message)
                         .why("the place in the image is counted in pixels")
@@ -257,7 +257,7 @@ impl Context<'_> {
                 return self.missing(&[attribute]);
             }
         }
-        let objtype = self.p.word(objtype)?;
+        let objtype = self.p.keyword(objtype)?;
         let kind = crate::mjcf::ids::keyword(objtype);
         match self.id(objname, kind) {
             Some(id) => Some(SensorObjects::for_object(objtype, id)),
@@ -352,7 +352,7 @@ impl Context<'_> {
                     return None;
                 }
                 let dim = self.dim(num as usize, data_size(&CONTACT_DATA, mask))?;
-                Some(([mask, self.p.word("reduce").unwrap_or(0), num], dim))
+                Some(([mask, self.p.keyword("reduce").unwrap_or(0), num], dim))
             }
             SensorTarget::User => {
                 if !self.p.has("dim") {
@@ -416,7 +416,7 @@ impl Context<'_> {
         if kind.senses != SensorTarget::User {
             return (kind.datatype, kind.when as i32);
         }
-        let datatype = match self.p.word("datatype") {
+        let datatype = match self.p.keyword("datatype") {
             Some(t) if t == Datatype::Positive as i32 => Datatype::Positive,
             Some(t) if t == Datatype::Axis as i32 => Datatype::Axis,
             Some(t) if t == Datatype::Quaternion as i32 => Datatype::Quaternion,
@@ -432,6 +432,6 @@ impl Context<'_> {
                 format!("`dim` of {} is {dim}, but its `datatype` has {needed}", self.node.describe());
             self.error_at("dim", rules::CONFLICT, message).help(format!("write `dim=\"{needed}\"`"));
         }
-        (datatype, self.p.word("needstage").unwrap_or(SensorStage::Acceleration as i32))
+        (datatype, self.p.keyword("needstage").unwrap_or(SensorStage::Acceleration as i32))
     }
 }

@@ -21,7 +21,7 @@ pub(crate) fn count(m: &mut Model, list: &[TendonSpec]) {
 /// Clears the flag `simple` of bodies whose mass matrix is not diagonal because of a tendon. A spatial tendon with armature
 /// couples the degrees of freedom of the bodies that it is attached to. The armature that an actuator adds to a tendon does not
 /// clear the flag, as in MuJoCo: for a simple body, M contains only the diagonal of that term.
-pub(crate) fn demote_simple(simple: &mut [i32], bodies: &[BodySpec], list: &[TendonSpec]) {
+pub(crate) fn clear_simple_flags(simple: &mut [i32], bodies: &[BodySpec], list: &[TendonSpec]) {
     let site_body: Vec<usize> =
         listed(bodies.iter().enumerate().flat_map(|(i, b)| b.sites.iter().map(move |_| i)));
     let sites = list.iter().filter(|t| t.armature > 0.0).flat_map(|t| &t.path);

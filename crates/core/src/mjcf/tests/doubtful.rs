@@ -8,7 +8,7 @@ fn codes(xml: &str) -> Vec<(&'static str, Severity)> {
 }
 
 /// Whether the speed of a joint grows to a thousand times its initial value.
-fn grows(xml: &str) -> bool {
+fn speed_grows(xml: &str) -> bool {
     let model = check_xml(xml, &NoFiles, None).model.unwrap();
     let Workspace { fields: mut data, scratch: mut s } = Workspace::new(&model);
     data.qvel[0] = 1e-3;
@@ -52,7 +52,7 @@ fn what_is_too_fast_grows_and_the_rest_does_not() {
             }
             for xml in all {
                 let reported = codes(&xml).iter().any(|(code, _)| *code == "mjcf-too-fast");
-                let grows = grows(&xml);
+                let grows = speed_grows(&xml);
                 seen[usize::from(reported)] += 1;
                 // The bound of RK4 is slightly below the true stability limit.
                 assert!(

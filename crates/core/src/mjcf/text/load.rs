@@ -10,7 +10,7 @@ use std::ops::Range;
 use std::rc::Rc;
 
 use super::diagnostic::{Report, shorten_name};
-use super::files::{FileProblem, Files, clean, folder_of};
+use super::files::{FileProblem, Files, folder_of, normalize_path};
 use super::patch::{self, Patch, Refusal};
 use super::scan;
 use super::tree::{self, Tree};
@@ -25,12 +25,12 @@ const MAX_NESTED: usize = 10;
 
 /// A model before `replicate` and `attach` are expanded.
 #[derive(Debug)]
-pub(crate) struct Written {
+pub(crate) struct UnexpandedModel {
     pub(crate) tree: Tree,
     /// The folder of its files; empty for the folder of the main model.
     pub(crate) folder: String,
     /// The models that it may attach, by name.
-    pub(crate) models: BTreeMap<String, Written>,
+    pub(crate) models: BTreeMap<String, UnexpandedModel>,
 }
 
 /// Reads models and counts the resources that they use.
@@ -75,7 +75,7 @@ impl<'f> Loader<'f> {
         text: Rc<str>,
         file: Option<&str>,
         report: &mut Report,
-    ) -> Option<Written> {
+    ) -> Option<UnexpandedModel> {
         let folder = folder_of(file.unwrap_or("")).to_string();
         self.open.push(file.unwrap_or("").to_string());
         let base = report.source(file.filter(|_| self.open.len() > 1), text.clone());
@@ -89,7 +89,7 @@ impl<'f> Loader<'f> {
             let mut tree = tree::check_tree(&list, root, report)?;
             names::after_files(&mut tree);
             let models = self.models(&tree, &folder, report);
-            Some(Written { tree, folder, models })
+            Some(UnexpandedModel { tree, folder, models })
         });
         self.open.pop();
         written
@@ -175,7 +175,12 @@ impl<'f> Loader<'f> {
     }
 
     /// The models that the assets of a model refer to.
-    fn models(&mut self, tree: &Tree, folder: &str, report: &mut Report) -> BTreeMap<String, Written> {
+    fn models(
+        &mut self,
+        tree: &Tree,
+        folder: &str,
+        report: &mut Report,
+    ) -> BTreeMap<String, UnexpandedModel> {
         let mut models = BTreeMap::new();
         let assets = tree.sections("asset").flat_map(|(section, _)| tree.children(section));
         for (_, node) in assets.filter(|(_, n)| n.element.name == "model") {
@@ -250,7 +255,7 @@ pub(crate) fn read(
     span: &Range<usize>,
     report: &mut Report,
 ) -> Option<(String, Vec<u8>)> {
-    let Some(path) = clean(folder, written) else {
+    let Some(path) = normalize_path(folder, written) else {
         report
             .error(
                 rules::FILE,

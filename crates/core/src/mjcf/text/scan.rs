@@ -65,7 +65,8 @@ pub(crate) fn prepare<'t>(
         return None;
     }
     let Changes { blanks, inserted } = changes;
-    let mut text = if blanks.is_empty() { Cow::Borrowed(text) } else { Cow::Owned(blanked(text, &blanks)) };
+    let mut text =
+        if blanks.is_empty() { Cow::Borrowed(text) } else { Cow::Owned(replace_by_blanks(text, &blanks)) };
     if !inserted.is_empty() {
         let (mut out, mut at) = (String::with_capacity(text.len() + inserted.len()), 0);
         for &place in &inserted {
@@ -80,7 +81,7 @@ pub(crate) fn prepare<'t>(
 }
 
 /// The text with these ranges replaced by blanks. The ranges are on character boundaries, and line breaks stay.
-fn blanked(text: &str, places: &[Range<usize>]) -> String {
+fn replace_by_blanks(text: &str, places: &[Range<usize>]) -> String {
     let (mut out, mut at) = (String::with_capacity(text.len()), 0);
     for place in places {
         out.push_str(text.get(at..place.start).unwrap_or(""));
@@ -93,7 +94,7 @@ fn blanked(text: &str, places: &[Range<usize>]) -> String {
 }
 
 /// Skips the text of a range, with a warning if it is not blank.
-fn pass_over(text: &str, range: Range<usize>, base: usize, changes: &mut Changes, report: &mut Report) {
+fn skip_text(text: &str, range: Range<usize>, base: usize, changes: &mut Changes, report: &mut Report) {
     let Some(between) = text.get(range.clone()) else { return };
     // A text may start with a byte order mark.
     let between = between.strip_prefix('\u{feff}').filter(|_| range.start == 0).unwrap_or(between);
@@ -132,7 +133,7 @@ fn within_limits(
     while let Some(open) = find(bytes, at, b"<") {
         // Text directly after the root element is an error in MuJoCo too. The parser reports it.
         if !ended {
-            pass_over(text, at..open, base, changes, report);
+            skip_text(text, at..open, base, changes, report);
         }
         let rest = bytes.get(open..).unwrap_or_default();
         at = if rest.starts_with(b"<!--") {
@@ -140,7 +141,7 @@ fn within_limits(
             after(bytes, open + 4, b"-->")
         } else if rest.starts_with(b"<![CDATA[") {
             let end = after(bytes, open + 9, b"]]>");
-            pass_over(text, open..end, base, changes, report);
+            skip_text(text, open..end, base, changes, report);
             ended = false;
             end
         } else if rest.starts_with(b"<?") {
@@ -166,7 +167,7 @@ fn within_limits(
         };
     }
     if !ended && depth == 0 && counts.elements > 0 {
-        pass_over(text, at..text.len(), base, changes, report);
+        skip_text(text, at..text.len(), base, changes, report);
     }
     true
 }

@@ -51,9 +51,9 @@ impl Node {
     }
 
     /// The number of an attribute's keyword.
-    pub(crate) fn word(&self, name: &str) -> Option<i32> {
+    pub(crate) fn keyword(&self, name: &str) -> Option<i32> {
         match &self.attribute(name)?.value {
-            Value::Word(word) => Some(*word),
+            Value::Keyword(word) => Some(*word),
             _ => None,
         }
     }
@@ -245,7 +245,7 @@ fn attributes(xml: &Xml, element: &'static Element, report: &mut Report) -> Vec<
         if a.value.trim().is_empty() && attr.kind.counts() && !needs_number(element.name, attr.name) {
             let message = format!("`{}` of {} is empty, so it has no effect", attr.name, element.name);
             report.warning(rules::NO_EFFECT, span.clone(), message).help("write its numbers, or remove it");
-            if counts_empty(element.name, attr.name) {
+            if counts_when_empty(element.name, attr.name) {
                 list.push(Attribute { attr, value: Value::Bad, span });
             }
             continue;
@@ -305,7 +305,7 @@ fn needs_number(element: &str, attribute: &str) -> bool {
 }
 
 /// Attributes that count as present for the check of exclusive attributes, although they are empty.
-fn counts_empty(element: &str, attribute: &str) -> bool {
+fn counts_when_empty(element: &str, attribute: &str) -> bool {
     attribute == "quat"
         || (element == "inertial" && crate::mjcf::schema::is_form(attribute))
         || matches!((element, attribute), ("connect" | "weld", "anchor" | "relpose"))

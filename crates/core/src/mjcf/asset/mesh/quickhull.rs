@@ -44,8 +44,8 @@ pub(crate) enum Flat {
 impl Hull {
     /// The hull of finite points. If `most` is given, it has at most this many corners: those farthest outside are added first.
     pub(crate) fn from_points(points: &[Vec3], most: Option<usize>) -> Result<Hull, Flat> {
-        let mut growing = Growing::new(points)?;
-        growing.grow(most.unwrap_or(usize::MAX))?;
+        let mut growing = PartialHull::new(points)?;
+        growing.add_farthest_points(most.unwrap_or(usize::MAX))?;
         Ok(growing.finish())
     }
 
@@ -96,7 +96,7 @@ struct Face {
     alive: bool,
 }
 
-struct Growing {
+struct PartialHull {
     points: Vec<Point>,
     /// Grid steps per unit of the world.
     steps: Vec3,
@@ -109,12 +109,12 @@ struct Growing {
     begins: Vec<u32>,
 }
 
-impl Growing {
+impl PartialHull {
     /// Starts with a tetrahedron of points that are far apart.
-    fn new(points: &[Vec3]) -> Result<Growing, Flat> {
+    fn new(points: &[Vec3]) -> Result<PartialHull, Flat> {
         let (points, steps) = on_grid(points);
         let indices = || 0..points.len() as u32;
-        let mut g = Growing {
+        let mut g = PartialHull {
             steps,
             faces: Vec::new(),
             corners: 4,
@@ -148,7 +148,7 @@ impl Growing {
         for (corner, beyond) in sides {
             g.add(corner, beyond);
         }
-        g.hand_out(listed(0..g.points.len() as u32), 0);
+        g.assign_to_faces(listed(0..g.points.len() as u32), 0);
         Ok(g)
     }
 
@@ -172,7 +172,7 @@ impl Growing {
     }
 
     /// Assigns each point to the first face, from index `first` on, that it is above. Points above no face are inside.
-    fn hand_out(&mut self, points: Vec<u32>, first: usize) {
+    fn assign_to_faces(&mut self, points: Vec<u32>, first: usize) {
         let mut highest: Vec<i128> = vec![0; self.faces.len() - first];
         for p in points {
             let at = self.point(p);
@@ -222,7 +222,7 @@ impl Growing {
     }
 
     /// Adds the point that is farthest outside, until no point is outside or the limit of corners is reached.
-    fn grow(&mut self, most: usize) -> Result<(), Flat> {
+    fn add_farthest_points(&mut self, most: usize) -> Result<(), Flat> {
         while self.corners < most
             && let Some((_, std::cmp::Reverse(start))) = self.open.pop()
         {
@@ -233,7 +233,7 @@ impl Growing {
                 return Err(Flat::Endless);
             }
             self.corners += 1;
-            self.cover(start, apex);
+            self.replace_visible_faces(start, apex);
             // A closed surface of triangles has twice as many faces as corners, minus four.
             if self.faces.len() > 8 * self.corners + 1000 {
                 self.compact();
@@ -243,7 +243,7 @@ impl Growing {
     }
 
     /// Replaces the faces that are visible from a point by a cone from their border to the point.
-    fn cover(&mut self, start: u32, apex: u32) {
+    fn replace_visible_faces(&mut self, start: u32, apex: u32) {
         let at = self.point(apex);
         let mut border: Vec<(u32, u32, u32)> = Vec::new();
         let mut orphans = Vec::new();
@@ -294,7 +294,7 @@ impl Growing {
             }
         }
         orphans.retain(|&p| p != apex);
-        self.hand_out(orphans, first);
+        self.assign_to_faces(orphans, first);
     }
 
     /// Merges coplanar triangles into one flat face. A corner is a point where three or more flat faces meet.
