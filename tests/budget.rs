@@ -6,7 +6,7 @@
 
 use crate::support::{check_text, codes, compile, workspace};
 use labspec::bind::scene::Models;
-use labspec::check::{self, CheckLevel, Checked, Tried};
+use labspec::check::{self, CheckLevel, Checked, Coverage};
 use labspec::lint::ModelFolder;
 use labspec::lint::load_lesson;
 use labspec::source::SourceFile;
@@ -45,7 +45,7 @@ fn check_lab(xml: &str, more: Value) -> Checked {
     checked
 }
 
-fn tried(checked: &Checked) -> Tried {
+fn tried(checked: &Checked) -> Coverage {
     checked.labs[0].tried.clone().unwrap()
 }
 

@@ -9,7 +9,7 @@
 
 use crate::support::{compile, read_json, workspace};
 use labspec::monitors::growth::Source;
-use labspec::monitors::watch::{self, Noticed};
+use labspec::monitors::watch::{self, Observations};
 use labspec_core::{self as core, Data, Model, Warning, enable};
 use serde_json::{Value as Json, json};
 use std::fmt::Write;
@@ -71,7 +71,7 @@ fn run(xml: &str, steps: u64, long: u64, keep: &Json) -> Json {
 }
 
 /// The fault that was noticed first, and its time.
-fn to_json(noticed: &Noticed) -> Json {
+fn to_json(noticed: &Observations) -> Json {
     let pushed = noticed.growth.is_some_and(|g| matches!(g.source, Source::Damper(_)));
     let grows = if pushed { "a damper pushes" } else { "energy grows" };
     let list = [

@@ -71,7 +71,7 @@ fn one(a: &Arguments, path: &Path, named: bool) -> Result<Option<String>, Failur
     }
     // The formatted text is parsed again before the file is replaced.
     let again = reload_lesson(&lesson, &done.text, &folder);
-    if !format::says_the_same(&lesson, &again) {
+    if !format::is_equivalent(&lesson, &again) {
         return Err(format!(
             "{} is unchanged: formatting would change its meaning; please report this lesson",
             printable_path(path)

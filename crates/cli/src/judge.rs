@@ -10,7 +10,7 @@ use labspec::check::{Recording, file_name};
 use labspec::report::printable_lines;
 use labspec::report::{nonfinite, printable_path, to_value};
 use labspec::source::read_text;
-use labspec::verify::judge::{Left, RecordedRun, RunTask, format_value};
+use labspec::verify::judge::{RecordedRun, RunTask, Unjudged, format_value};
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -108,7 +108,7 @@ struct JudgeReport<'c> {
     compared: usize,
     verdicts: usize,
     turned: usize,
-    not_judged: Left,
+    not_judged: Unjudged,
     stale_runs: usize,
     missing_runs: usize,
     differing: Vec<Differing<'c>>,
@@ -319,7 +319,7 @@ pub(super) fn machine(engine: &str, results: &CourseResults) -> Value {
 }
 
 /// `2 searches, 1 range, 5 closed forms`, or `None` if nothing was left out.
-fn left(left: Left) -> Option<String> {
+fn left(left: Unjudged) -> Option<String> {
     let kinds = [
         (left.searches, "search", "searches"),
         (left.ranges, "range", "ranges"),

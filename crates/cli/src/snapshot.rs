@@ -11,7 +11,7 @@ use super::stdio::print;
 use super::target::model_folder_within;
 use clap::ValueEnum;
 use labspec::bind::scene::Models;
-use labspec::check::{self, Renewal, RenewedLab, SnapshotResult};
+use labspec::check::{self, SnapshotResult, SnapshotUpdate, UpdatedLab};
 use labspec::ledger::State;
 use labspec::lint::{ModelFolder, load_lesson_file, snapshot_path};
 use labspec::report::counted;
@@ -81,7 +81,7 @@ impl Standing {
 struct Looked {
     file: PathBuf,
     standing: Standing,
-    renewal: Option<Renewal>,
+    renewal: Option<SnapshotUpdate>,
     /// Labs whose current output is accepted.
     accepted: BTreeSet<String>,
     written: bool,
@@ -146,7 +146,7 @@ fn collect_lessons(a: &Arguments) -> Result<Vec<Looked>, Failure> {
             continue;
         }
         let renewal = check::renew(&lesson, models);
-        let same = |lab: &RenewedLab| matches!(lab.result.state, State::True(_));
+        let same = |lab: &UpdatedLab| matches!(lab.result.state, State::True(_));
         let standing = match &renewal {
             r if r.fault.is_some() => Standing::Unreadable,
             r if !r.stored => Standing::New,
@@ -174,7 +174,7 @@ fn collect_lessons(a: &Arguments) -> Result<Vec<Looked>, Failure> {
 }
 
 /// Labs whose output differs from the snapshot, or is not stored, even after this command.
-fn left(one: &Looked) -> impl Iterator<Item = &RenewedLab> {
+fn left(one: &Looked) -> impl Iterator<Item = &UpdatedLab> {
     let labs = one.renewal.iter().flat_map(|r| &r.labs);
     labs.filter(|lab| {
         let can = lab.new.is_some() || lab.result.state == State::False;
@@ -193,7 +193,7 @@ fn review(
     let (mut number, mut rest) = (0, false);
     for one in all {
         let file = printable_path(&one.file);
-        let open: Vec<RenewedLab> = left(one).cloned().collect();
+        let open: Vec<UpdatedLab> = left(one).cloned().collect();
         for lab in open {
             number += 1;
             let can = lab.new.is_some() || lab.result.state == State::False;
@@ -246,7 +246,7 @@ fn store(one: &mut Looked, everything: bool) -> Result<(), Failure> {
 }
 
 /// The message about a lab whose output differs from the snapshot.
-fn about(lab: &RenewedLab) -> String {
+fn about(lab: &UpdatedLab) -> String {
     let snapshot = &lab.result;
     let mut text = format!(
         "  {:<10} lab {}: {}\n",

@@ -4,12 +4,13 @@ use labspec_bind::units::parse;
 use labspec_expr::dimension::Dimension;
 
 /// Texts that may also be symbols or words when they are alone: an area, a mass, a temperature, a length.
-const DOUBTFUL: [&str; 14] = ["A", "C", "K", "L", "V", "T", "g", "h", "l", "1", "ft", "lb", "bar", "rev"];
+const AMBIGUOUS_UNITS: [&str; 14] =
+    ["A", "C", "K", "L", "V", "T", "g", "h", "l", "1", "ft", "lb", "bar", "rev"];
 
 /// The dimension of the unit of a control.
 pub(crate) fn unit(text: &str) -> Option<Dimension> {
     let text = text.trim();
-    if DOUBTFUL.contains(&text) { None } else { parse(text) }
+    if AMBIGUOUS_UNITS.contains(&text) { None } else { parse(text) }
 }
 
 /// The unit in brackets at the end of a label, as in `speed (mm/s)` and `E [J]`, with its dimension. `ball(s)` has none.

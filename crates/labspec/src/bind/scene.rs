@@ -26,7 +26,7 @@ pub struct Models {
     folder: ModelFolder,
     compiled: Mutex<BTreeMap<String, Arc<OnceLock<Loaded>>>>,
     /// The findings about each model, until they are taken.
-    reported: Mutex<BTreeMap<String, Said>>,
+    reported: Mutex<BTreeMap<String, ModelDiagnostics>>,
     /// Functions of the embedding program, which labs may call.
     functions: Functions,
     /// Computes digests of the files; `None` without a cache of results.
@@ -40,7 +40,7 @@ pub struct Models {
 }
 
 /// The findings about a model, and the files to which they refer.
-type Said = (Vec<Finding>, Vec<SourceFile>);
+type ModelDiagnostics = (Vec<Finding>, Vec<SourceFile>);
 
 /// A loaded model of the folder.
 #[derive(Debug)]

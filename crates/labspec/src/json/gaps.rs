@@ -37,7 +37,7 @@ impl Parser<'_> {
     fn comment(&mut self, end: usize) {
         let range = self.at..end;
         self.at = end;
-        self.say(Problem::replaced(Mistake::Comment, range, ""));
+        self.report(Problem::replaced(Mistake::Comment, range, ""));
     }
 
     /// The end of a comment between `/*` and `*/`; the end of the line if it is never closed.

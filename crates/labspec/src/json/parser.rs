@@ -7,7 +7,7 @@ use labspec_finding::order;
 use std::ops::Range;
 
 /// Parsing ends because a limit is reached, which is reported.
-pub(super) struct Stop;
+pub(super) struct LimitReached;
 
 /// The text, the current position, and the problems so far.
 pub(super) struct Parser<'a> {
@@ -100,7 +100,7 @@ impl<'a> Parser<'a> {
     // Problems.
 
     /// Reports an error. Its spans are bytes of the text.
-    pub(super) fn say(&mut self, problem: Problem) {
+    pub(super) fn report(&mut self, problem: Problem) {
         self.broken = true;
         if self.problems.len() < MAX_MISTAKES {
             self.problems.push(problem);
@@ -108,9 +108,9 @@ impl<'a> Parser<'a> {
     }
 
     /// Reports text that has no place in the grammar.
-    pub(super) fn say_stray(&mut self, range: Range<usize>) {
+    pub(super) fn report_stray(&mut self, range: Range<usize>) {
         let text = self.text.get(range.clone()).unwrap_or("").to_string();
-        self.say(Problem::new(Mistake::Stray(text), range));
+        self.report(Problem::new(Mistake::Stray(text), range));
     }
 
     /// Records the changes that repair an error which is reported together with others of its kind.

@@ -1,6 +1,6 @@
 //! The kinds of errors in JSON, with their spans, and with repairs where these are certain. `lint` contains the messages.
 
-use super::strings::{Trouble, quoted};
+use super::strings::{StringFault, quoted};
 use crate::source::SourceMap;
 use std::ops::Range;
 
@@ -251,19 +251,19 @@ pub(super) fn string_open(open: usize, end: usize, last: bool, fixed: bool) -> P
 
 /// The error of a character that JSON does not allow inside a text. Line breaks and quotes are reported for the whole text
 /// at once: [`inside`].
-pub(super) fn in_string(span: Range<usize>, trouble: Trouble) -> Problem {
+pub(super) fn in_string(span: Range<usize>, trouble: StringFault) -> Problem {
     let slash = span.start..span.start + 1;
     match trouble {
-        Trouble::Escape('\\') => Problem::replaced(Mistake::Escape('\\'), slash, "\\\\"),
-        Trouble::Escape(c) => Problem::new(Mistake::Escape(c), span).repair(slash, "\\\\"),
-        Trouble::Needless(c) => Problem::replaced(Mistake::NeedlessEscape(c), span, c),
-        Trouble::Half => Problem::new(Mistake::HalfPair, span),
-        Trouble::Control(c) => {
+        StringFault::Escape('\\') => Problem::replaced(Mistake::Escape('\\'), slash, "\\\\"),
+        StringFault::Escape(c) => Problem::new(Mistake::Escape(c), span).repair(slash, "\\\\"),
+        StringFault::Needless(c) => Problem::replaced(Mistake::NeedlessEscape(c), span, c),
+        StringFault::Half => Problem::new(Mistake::HalfPair, span),
+        StringFault::Control(c) => {
             Problem::replaced(Mistake::Control(c), span, if c == '\t' { "\\t" } else { "" })
         }
-        Trouble::Line => Problem::new(Mistake::LineBreaks(1), span),
-        Trouble::Quote => Problem::new(Mistake::InnerQuotes(1), span),
-        Trouble::Joined => Problem::replaced(Mistake::JoinedLines, span, ""),
+        StringFault::Line => Problem::new(Mistake::LineBreaks(1), span),
+        StringFault::Quote => Problem::new(Mistake::InnerQuotes(1), span),
+        StringFault::Joined => Problem::replaced(Mistake::JoinedLines, span, ""),
     }
 }
 
@@ -291,7 +291,7 @@ pub(super) fn together(
             RepeatedMistake::Typographic => all.iter().filter(|(_, right)| right == "\"").count(),
             _ => list.len(),
         };
-        let problem = crowd(kind, count, first(list, text), text).repair(region, right);
+        let problem = repeated(kind, count, first(list, text), text).repair(region, right);
         return vec![match all.last().filter(|_| count > 1) {
             Some((last, _)) => problem.related(last.clone()),
             None => problem,
@@ -301,7 +301,7 @@ pub(super) fn together(
         let (region, right) = rewritten(&changes.iter().collect::<Vec<_>>(), text)?;
         let count = if kind == RepeatedMistake::Typographic { changes.len() } else { 1 };
         let at = first(std::slice::from_ref(changes), text);
-        Some(crowd(kind, count, at, text).repair(region, right))
+        Some(repeated(kind, count, at, text).repair(region, right))
     };
     list.iter().take(super::MAX_MISTAKES).filter_map(each).collect()
 }
@@ -313,7 +313,7 @@ fn first(list: &[Vec<TextChange>], text: &str) -> Range<usize> {
     span.start..span.start + length
 }
 
-fn crowd(kind: RepeatedMistake, count: usize, span: Range<usize>, text: &str) -> Problem {
+fn repeated(kind: RepeatedMistake, count: usize, span: Range<usize>, text: &str) -> Problem {
     let c = text.get(span.clone()).and_then(|t| t.chars().next()).unwrap_or(' ');
     let mistake = match kind {
         RepeatedMistake::Typographic => Mistake::Typographic(count),

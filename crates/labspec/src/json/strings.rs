@@ -11,12 +11,12 @@ pub(super) struct Decoded {
     /// Maps the text to the bytes of the inside.
     pub(super) map: SourceMap,
     /// The errors in it, and their ranges.
-    pub(super) troubles: Vec<(Range<usize>, Trouble)>,
+    pub(super) troubles: Vec<(Range<usize>, StringFault)>,
 }
 
 /// Text that JSON does not allow inside a string.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Trouble {
+pub(super) enum StringFault {
     /// A backslash before a letter that is not an escape; usually LaTeX.
     Escape(char),
     /// An escaped quote that needs no backslash in JSON: `\'`.
@@ -67,9 +67,9 @@ impl Decoded {
         let first = chars.next().unwrap_or(' ');
         if first != '\\' {
             let trouble = match first {
-                '"' => Trouble::Quote,
-                '\n' | '\r' => Trouble::Line,
-                c => Trouble::Control(c),
+                '"' => StringFault::Quote,
+                '\n' | '\r' => StringFault::Line,
+                c => StringFault::Control(c),
             };
             let length = if rest.starts_with("\r\n") { 2 } else { 1 };
             self.troubles.push((at..at + length, trouble));
@@ -82,7 +82,7 @@ impl Decoded {
         }
         let Some(c) = chars.next() else {
             // A backslash at the very end has nothing to escape.
-            self.troubles.push((at..at + 1, Trouble::Escape('\\')));
+            self.troubles.push((at..at + 1, StringFault::Escape('\\')));
             self.verbatim(raw, at..at + 1);
             return 1;
         };
@@ -90,22 +90,22 @@ impl Decoded {
         match c {
             '\n' | '\r' => {
                 let length = if rest.starts_with("\\\r\n") { 3 } else { length };
-                self.troubles.push((at..at + length, Trouble::Joined));
+                self.troubles.push((at..at + length, StringFault::Joined));
                 length
             }
             '\'' | '`' => {
-                self.troubles.push((at..at + length, Trouble::Needless(c)));
+                self.troubles.push((at..at + length, StringFault::Needless(c)));
                 self.whole(c, at..at + length);
                 length
             }
             'u' if rest.get(2..6).and_then(hex).is_some() => {
-                self.troubles.push((at..at + 6, Trouble::Half));
+                self.troubles.push((at..at + 6, StringFault::Half));
                 self.whole('\u{fffd}', at..at + 6);
                 6
             }
             _ => {
                 // The letter after the backslash is read as itself.
-                self.troubles.push((at..at + length, Trouble::Escape(c)));
+                self.troubles.push((at..at + length, StringFault::Escape(c)));
                 self.verbatim(raw, at..at + 1);
                 1
             }
@@ -187,15 +187,15 @@ mod tests {
     #[test]
     fn what_json_does_not_allow_is_kept_as_it_was_meant() {
         for (raw, value, trouble) in [
-            (r"\ud83d", "\u{fffd}", Trouble::Half),
-            (r"\ude00", "\u{fffd}", Trouble::Half),
-            (r"\u12é", r"\u12é", Trouble::Escape('u')),
-            (r"$\alpha$", r"$\alpha$", Trouble::Escape('a')),
-            (r"it\'s", "it's", Trouble::Needless('\'')),
-            ("a\tb", "a\tb", Trouble::Control('\t')),
-            ("a\r\nb", "a\r\nb", Trouble::Line),
-            ("a\\\nb", "ab", Trouble::Joined),
-            ("a\"b", "a\"b", Trouble::Quote),
+            (r"\ud83d", "\u{fffd}", StringFault::Half),
+            (r"\ude00", "\u{fffd}", StringFault::Half),
+            (r"\u12é", r"\u12é", StringFault::Escape('u')),
+            (r"$\alpha$", r"$\alpha$", StringFault::Escape('a')),
+            (r"it\'s", "it's", StringFault::Needless('\'')),
+            ("a\tb", "a\tb", StringFault::Control('\t')),
+            ("a\r\nb", "a\r\nb", StringFault::Line),
+            ("a\\\nb", "ab", StringFault::Joined),
+            ("a\"b", "a\"b", StringFault::Quote),
         ] {
             let d = decode(raw);
             assert_eq!((d.value.as_str(), d.troubles.len(), d.troubles[0].1), (value, 1, trouble), "{raw}");

@@ -35,13 +35,13 @@ pub struct Player {
     loaded: Vec<Finding>,
     controls: Vec<Control>,
     displayed: Vec<DisplayedValue>,
-    now: Saved,
+    now: SavedLab,
     scene: Option<Scene>,
 }
 
 /// A state of a lab: everything that determines how it continues, including the model and the `ctx` variables.
 #[derive(Clone, Debug)]
-pub struct Saved {
+pub struct SavedLab {
     lab: Arc<Lab>,
     session: Session<'static>,
     cells: Vec<Cell>,
@@ -221,7 +221,7 @@ impl Player {
         let ahead = (time - self.time()).max(0.0);
         let steps = run::count_steps(&self.lab, Some(ahead), None, self.timestep())?.min(most);
         let stop = self.stop().unwrap_or(f64::INFINITY).min(time);
-        self.now.session.renew(Budget::ASKED);
+        self.now.session.renew(Budget::REQUESTED_RUN);
         let made = run::play(&mut self.now.session, &Play::steps(steps), |session, made| {
             each(session, made)?;
             if session.world.data.time() >= stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
@@ -235,15 +235,15 @@ impl Player {
         let session = &self.now.session;
         let done = self.done();
         let mut all = self.loaded.clone();
-        let troubles = session.troubles.iter().map(|t| run::threw(t, &done));
+        let troubles = session.troubles.iter().map(|t| run::error_finding(t, &done));
         let breakdowns = run::breakdowns_of(session).into_iter();
-        let broken = breakdowns.map(|b| run::broke(&b, &done, self.lab.place()));
+        let broken = breakdowns.map(|b| run::describe_breakdown(&b, &done, self.lab.place()));
         all.extend(troubles.chain(broken).chain(self.spent()).map(|f| located(f, &self.file)));
         all
     }
 
     /// The state, for [`Player::restore`].
-    pub fn save(&self) -> Saved {
+    pub fn save(&self) -> SavedLab {
         self.now.clone()
     }
 
@@ -251,7 +251,7 @@ impl Player {
     ///
     /// # Errors
     /// It was saved by another lab.
-    pub fn restore(&mut self, saved: &Saved) -> Result<(), Error> {
+    pub fn restore(&mut self, saved: &SavedLab) -> Result<(), Error> {
         if !Arc::ptr_eq(&self.lab, &saved.lab) {
             return Err(Error::Call(
                 "this state belongs to another lab, or was saved before this lab was loaded again".into(),
@@ -307,7 +307,7 @@ impl Player {
     fn frozen(&self) -> Option<Error> {
         let session = &self.now.session;
         session.ended()?;
-        let troubles = session.troubles.last().map(|t| run::threw(t, &self.done()));
+        let troubles = session.troubles.last().map(|t| run::error_finding(t, &self.done()));
         let all: Vec<Finding> =
             self.spent().or(troubles).map(|f| located(f, &self.file)).into_iter().collect();
         Some(if all.is_empty() {

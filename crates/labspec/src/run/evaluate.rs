@@ -3,7 +3,7 @@
 use super::budget::{Budget, End};
 use super::cell::Cell;
 use super::session::Session;
-use super::trouble::Trouble;
+use super::trouble::ProgramError;
 use crate::source::Text;
 use labspec_core as core;
 use labspec_expr::{Program, Value, rules};
@@ -27,7 +27,7 @@ impl Session<'_> {
     /// The current value of an expression; `None` when it throws, or when the budget ran out. An expression that exceeded
     /// its budget before is not evaluated again.
     pub fn evaluate(&mut self, program: &Program, text: &Text) -> Option<Value> {
-        let endless = |t: &Trouble| t.rule == rules::BUDGET && t.text == *text;
+        let endless = |t: &ProgramError| t.rule == rules::BUDGET && t.text == *text;
         if matches!(self.end, Some(End::Budget { .. } | End::Foreign)) || self.troubles.iter().any(endless) {
             return None;
         }
@@ -38,7 +38,7 @@ impl Session<'_> {
         match program.run(&mut self.world, &mut self.context, None) {
             Ok(value) => self.settle(time).then_some(value),
             Err(e) => {
-                self.threw(e, text, time);
+                self.report_error(e, text, time);
                 None
             }
         }

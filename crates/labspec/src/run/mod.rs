@@ -19,20 +19,20 @@ mod trouble;
 mod variant;
 mod watched;
 
-pub use breakdown::{Breakdown, Shorter, how_stiff, owner, softer, time, two_digits};
+pub use breakdown::{Breakdown, ShorterTimestep, attribute_to_soften, how_stiff, owner, time, two_digits};
 pub use budget::{Budget, End};
 pub use cell::{Cell, printed, rounded};
 pub use diagnose::{breakdowns_of, worst_breakdown};
-pub use held::Held;
+pub use held::ProgramsRef;
 pub use integrator::{INTEGRATORS, Integrator};
-pub use messages::{broke, threw};
+pub use messages::{describe_breakdown, error_finding};
 pub use play::{Play, play};
 pub use samples::Samples;
 pub use session::{Session, Start};
 pub use settings::{presses, presses_within, set_controls};
 pub use steady::is_steady;
 pub use table::Table;
-pub use trouble::Trouble;
+pub use trouble::ProgramError;
 pub use variant::StepVariant;
 
 use crate::bind::Programs;

@@ -4,7 +4,7 @@
 use super::bodies::{geom_name, joint_of_dof, joint_of_place};
 use super::causes::{stiffness_cause, unknown_cause};
 use super::fault::{Evidence, Fault, FaultKind};
-use crate::monitors::watch::Noticed;
+use crate::monitors::watch::Observations;
 use crate::run::Session;
 use labspec_core::{Model, Warning, WarningStat, joint};
 
@@ -107,7 +107,7 @@ fn other_warnings(session: &Session<'_>, m: &Model) -> Vec<Fault> {
 }
 
 /// The earliest observation besides energy growth; later ones may be consequences of it.
-pub(super) fn noticed_fault(m: &Model, noticed: &Noticed) -> Option<Fault> {
+pub(super) fn earliest_observed_fault(m: &Model, noticed: &Observations) -> Option<Fault> {
     let fault = |kind, time, who: String, cause: &str, size, evidence| Fault {
         kind,
         time,

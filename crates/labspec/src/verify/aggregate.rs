@@ -76,14 +76,14 @@ pub(super) struct RunningAggregate<'a> {
     /// State of the measures that interpolate between samples.
     trail: CurveTrail,
     /// Samples without a number, where they leave the result undecided.
-    pub(super) gaps: Gaps,
+    pub(super) gaps: MissingNumbers,
     /// Whether the previous sample had no number.
     lacked: bool,
 }
 
 /// Samples without a number.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Gaps {
+pub(super) struct MissingNumbers {
     pub(super) count: usize,
     /// Time of the first one, s.
     pub(super) first: f64,
@@ -103,7 +103,7 @@ impl<'a> RunningAggregate<'a> {
                 done: false,
                 previous: f64::NAN,
                 trail: CurveTrail::START,
-                gaps: Gaps::default(),
+                gaps: MissingNumbers::default(),
                 lacked: false,
             })
         };
@@ -149,7 +149,7 @@ impl<'a> RunningAggregate<'a> {
         let mut args = Arguments { programs: self.args, text, session, lack: false };
         // This sample decides what earlier samples left undecided.
         if self.take(time, &mut args) {
-            self.gaps = Gaps::default();
+            self.gaps = MissingNumbers::default();
         }
         if args.lack && !first {
             if self.gaps.count == 0 {

@@ -37,7 +37,7 @@ fn record_curves(asked: &RunRequest<'_, '_>, stage: &Stage<'_>) -> Option<Curves
     if traces == 0 {
         return None;
     }
-    let mut ready = runner::ready(asked, stage, &mut Vec::new())?;
+    let mut ready = runner::prepare_run(asked, stage, &mut Vec::new())?;
     let every = ready.count.div_ceil(SAMPLES).max(1);
     let mut times = Vec::new();
     let mut values = vec![Vec::new(); traces];

@@ -63,7 +63,7 @@ pub(super) fn check_number(
         return judged(verdict, reason);
     }
     let mut turns = |outcome: &Outcome, how: &str, weights: &mut [Weight]| {
-        key.turned_over(bound, outcome, how, computed, weights)
+        key.answer_changes(bound, outcome, how, computed, weights)
     };
     if let Err((verdict, reason)) =
         withstand_numerics(bound, outcomes, &mut weights, keyed.span.clone(), findings, &mut turns)
@@ -190,7 +190,7 @@ impl NumericKey<'_> {
 
     /// A finding if the answer is false in an outcome under perturbed numerics; otherwise the spread of `weights` is
     /// widened. `computed` is the value under the numerics of the lesson.
-    fn turned_over(
+    fn answer_changes(
         &self,
         bound: &BoundVerify<'_>,
         outcome: &Outcome,

@@ -54,7 +54,7 @@ pub(super) fn check_options(
     }
     let mut widened = judgement.weights.clone();
     let mut turns = |outcome: &Outcome, how: &str, weights: &mut [Weight]| {
-        judgement.turned_over(bound, outcome, how, weights)
+        judgement.answer_changes(bound, outcome, how, weights)
     };
     if let Err((verdict, reason)) =
         withstand_numerics(bound, outcomes, &mut widened, keyed.span.clone(), findings, &mut turns)
@@ -157,7 +157,7 @@ impl OptionJudgement<'_> {
 
     /// A finding if an option changes in an outcome under perturbed numerics. The spread of `weights` is widened by the
     /// margins.
-    fn turned_over(
+    fn answer_changes(
         &self,
         bound: &BoundVerify<'_>,
         outcome: &Outcome,

@@ -30,7 +30,7 @@ pub(super) struct RunRequest<'r, 'a> {
 }
 
 /// Executes a run. A result in the cache is reused; its findings were reported before.
-pub(super) fn perform(
+pub(super) fn execute_run(
     asked: &RunRequest<'_, '_>,
     stage: &Stage<'_>,
     findings: &mut Vec<Finding>,
@@ -49,11 +49,11 @@ pub(super) fn perform(
     let asked = &RunRequest { numerics, place: asked.place.clone(), ..*asked };
     let key = key(asked);
     if let Some(cached) = stage.cached_run(&key) {
-        stage.note(cached.left_behind);
+        stage.note(cached.has_uncoupled_change);
         return Some(cached);
     }
     let made = make(asked, stage, findings)?;
-    stage.note(made.left_behind);
+    stage.note(made.has_uncoupled_change);
     stage.keep(key, &made);
     Some(made)
 }
@@ -87,7 +87,7 @@ pub(super) struct PreparedRun<'r> {
 }
 
 /// Sets up a run: its controls, its setup, its length. Errors are added to `findings`.
-pub(super) fn ready<'r>(
+pub(super) fn prepare_run<'r>(
     asked: &RunRequest<'r, '_>,
     stage: &Stage<'_>,
     findings: &mut Vec<Finding>,
@@ -164,7 +164,7 @@ pub(super) fn play<'r>(
 
 fn make(asked: &RunRequest<'_, '_>, stage: &Stage<'_>, findings: &mut Vec<Finding>) -> Option<RunResult> {
     let RunRequest { run, measures, .. } = asked;
-    let mut ready = ready(asked, stage, findings)?;
+    let mut ready = prepare_run(asked, stage, findings)?;
     let mut running: Vec<Measure<'_>> = measures.iter().map(|m| Measure::new(&m.program, m.text)).collect();
     play(asked, &mut ready, |session, _| running.iter_mut().for_each(|m| m.sample(session)));
     let open = ready.open;
@@ -178,8 +178,8 @@ fn make(asked: &RunRequest<'_, '_>, stage: &Stage<'_>, findings: &mut Vec<Findin
     Some(RunResult {
         values,
         warnings: session.warnings.iter().map(|w| w.number).sum(),
-        broke: broke(&session).or_else(|| open.map(undecided_stop)),
-        left_behind: session.left_behind() || asked.scene.scene.left_behind,
+        broke: describe_breakdown(&session).or_else(|| open.map(undecided_stop)),
+        has_uncoupled_change: session.has_uncoupled_change() || asked.scene.scene.has_uncoupled_change,
     })
 }
 
@@ -243,7 +243,7 @@ fn undecided_stop(time: f64) -> String {
 }
 
 /// How a run broke, in one clause.
-fn broke(session: &Session<'_>) -> Option<String> {
+fn describe_breakdown(session: &Session<'_>) -> Option<String> {
     match (run::worst_breakdown(session), session.troubles.first()) {
         (Some(breakdown), _) => Some(breakdown.what),
         (None, Some(t)) => Some(format!("{}, at t = {} s", t.message, t.time)),

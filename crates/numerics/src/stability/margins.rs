@@ -194,7 +194,7 @@ fn search(
 
 /// Whether the theoretical bound states that an object is too stiff.
 fn stiff(m: &Model, object: Option<(Obj, Option<usize>)>) -> bool {
-    stability::suspects(m)
+    stability::unstable_parts(m)
         .iter()
         .any(|s| object.is_none_or(|(kind, id)| kind == s.object && id.is_none_or(|id| id == s.id)))
 }

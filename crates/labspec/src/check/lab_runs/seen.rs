@@ -7,12 +7,12 @@ use super::super::PreparedLab;
 use super::display::WatchedDisplay;
 use crate::finding::Finding;
 use crate::rules::{self, Rule, shows_infinite, shows_nan, text_in_plot};
-use crate::run::{Cell, Session, Trouble};
+use crate::run::{Cell, ProgramError, Session};
 use crate::source::Text;
 use std::collections::BTreeSet;
 
 /// All displays of a lab.
-pub(super) struct Seen<'a> {
+pub(super) struct LabDisplays<'a> {
     displays: Vec<WatchedDisplay<'a>>,
     /// Number of traces and readouts.
     width: usize,
@@ -23,9 +23,9 @@ pub(super) struct Seen<'a> {
     troubles: Vec<(&'static Rule, Text, std::ops::Range<usize>)>,
 }
 
-impl<'a> Seen<'a> {
+impl<'a> LabDisplays<'a> {
     /// The displays of a lab before the first run.
-    pub(super) fn new(ready: &'a PreparedLab<'a>) -> Seen<'a> {
+    pub(super) fn new(ready: &'a PreparedLab<'a>) -> LabDisplays<'a> {
         let programs = &ready.programs;
         let displays = programs.probes.iter().enumerate().filter_map(|(i, p)| {
             let bound = p.bound.as_ref()?;
@@ -48,7 +48,7 @@ impl<'a> Seen<'a> {
         });
         let on_purpose = programs.bound().filter(|b| shows_nan::says_gap(&b.text.value));
         let gaps = on_purpose.flat_map(|b| b.program.effects().ctx_writes.iter().copied()).collect();
-        Seen {
+        LabDisplays {
             displays: displays.collect(),
             width: programs.probes.len(),
             gaps,
@@ -103,7 +103,7 @@ impl<'a> Seen<'a> {
     }
 
     /// Whether a program has not thrown this error in a run before.
-    pub(super) fn is_new(&mut self, t: &Trouble) -> bool {
+    pub(super) fn is_new(&mut self, t: &ProgramError) -> bool {
         let is_reported = |(code, text, span): &(&'static Rule, Text, std::ops::Range<usize>)| {
             *code == t.rule && *text == t.text && *span == t.span
         };

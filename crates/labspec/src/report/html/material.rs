@@ -1,6 +1,6 @@
 //! The data of a page.
 
-use crate::check::{Allowed, Basis, Checked, Drawn};
+use crate::check::{Allowed, Basis, Checked, VerifyCurves};
 use crate::finding::Finding;
 use crate::ledger::Ledger;
 use crate::source::SourceFile;
@@ -11,7 +11,7 @@ pub struct Material<'a> {
     /// The lessons, in order.
     pub lessons: &'a [Checked],
     /// The curves of the labs of each lesson in the runs of its claims.
-    pub curves: &'a [Vec<Drawn>],
+    pub curves: &'a [Vec<VerifyCurves>],
     /// The basis of the check of each lesson.
     pub bases: &'a [Basis],
     /// All reported findings, of lessons and of models.

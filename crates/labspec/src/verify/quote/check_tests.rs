@@ -20,7 +20,7 @@ fn checked(quote: &str, computed: f64, half: &[f64], starts: &[f64]) -> (QuoteOu
     let value = QuoteValue { computed, timestep: &half, start: &starts, unit: &|| None };
     let claim = QuoteClaim { quote: &says.quote, part: says.quote.as_str(), expr: &says.exprs[0] };
     let places = places_of_quote(&says.quote, None, &rendered);
-    let outcome = check_quote(&claim, &reading(quote), places, &value, &rendered, &mut findings);
+    let outcome = check_quote(&claim, &read_quote(quote), places, &value, &rendered, &mut findings);
     (outcome, findings)
 }
 

@@ -6,7 +6,7 @@ use super::context::before;
 use super::context_after::after;
 use super::number::{Form, Quoted, ten};
 use super::numeral::{Chars, Numeral, numbers};
-use super::unit_text::{Link, Unit, unit_behind};
+use super::unit_text::{Link, Unit, unit_after};
 use std::ops::Range;
 
 /// A quantity with its position, in characters.
@@ -34,7 +34,7 @@ pub(super) struct Quantity {
 
 impl Quantity {
     /// Whether both state the same number, ignoring their units.
-    pub(super) fn says(&self, other: &Quantity) -> bool {
+    pub(super) fn states(&self, other: &Quantity) -> bool {
         let (a, b) = (&self.quoted, &other.quoted);
         a.value.to_bits() == b.value.to_bits() && a.half_unit == b.half_unit && a.form == b.form
     }
@@ -47,7 +47,7 @@ pub(super) fn quantities(chars: Chars<'_>) -> Vec<Quantity> {
 
 /// Like [`quantities`], but the ends of a range in words with two units (`between 0.4 s and 0.5 s`) are separate
 /// quantities, because a text states each of them.
-pub(super) fn quantities_apart(chars: Chars<'_>) -> Vec<Quantity> {
+pub(super) fn separate_quantities(chars: Chars<'_>) -> Vec<Quantity> {
     read(chars, true)
 }
 
@@ -94,7 +94,7 @@ fn read(chars: Chars<'_>, apart: bool) -> Vec<Quantity> {
 /// The numbers of a text with their units, without joining pairs.
 pub(super) fn singles(chars: Chars<'_>) -> Vec<Quantity> {
     let one = |(number, digits): (Numeral, usize)| {
-        let unit = unit_behind(chars, number.end);
+        let unit = unit_after(chars, number.end);
         let end = unit.as_ref().map_or(number.end, |(_, end)| *end);
         Quantity {
             quoted: number.quoted,

@@ -3,8 +3,8 @@
 use super::*;
 use proptest::prelude::*;
 
-fn read(text: &str) -> Reading {
-    reading(text).unwrap_or_else(|e| panic!("{text}: {e:?}"))
+fn read(text: &str) -> QuoteReading {
+    read_quote(text).unwrap_or_else(|e| panic!("{text}: {e:?}"))
 }
 
 /// The value, and half a unit of the last digit.
@@ -14,7 +14,7 @@ fn plain(text: &str) -> (f64, f64) {
 }
 
 fn refused(text: &str) -> &'static str {
-    match reading(text) {
+    match read_quote(text) {
         Err(Unread::Form(form)) => form,
         other => panic!("{text}: {other:?}"),
     }
@@ -87,7 +87,7 @@ fn numbers_are_read_as_printed() {
         );
     }
     for none in ["none", "", "half a second", "H2O", "x_1 and t2", "$L^2$", "in 3D", "#3", "=", "-", "."] {
-        assert_eq!(reading(none), Err(Unread::NoNumber), "{none}");
+        assert_eq!(read_quote(none), Err(Unread::NoNumber), "{none}");
     }
 }
 
@@ -252,7 +252,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(3000))]
     #[test]
     fn what_is_printed_is_read((text, value, half) in printed()) {
-        let q = match reading(&text) {
+        let q = match read_quote(&text) {
             Ok(r) => r.read,
             Err(e) => return Err(TestCaseError::fail(format!("{text}: {e:?}"))),
         };
@@ -260,14 +260,14 @@ proptest! {
         prop_assert!((q.half_unit - half).abs() <= 1e-12 * half, "{}: half a unit {} and not {}", text, q.half_unit, half);
         prop_assert!(q.is(value) && q.is(value + 0.99 * half) && !q.is(value + 1.01 * half), "{}", text);
         // The printed value is read as the same number.
-        let again = reading(&q.print(value)).unwrap().read;
+        let again = read_quote(&q.print(value)).unwrap().read;
         prop_assert!((again.value - value).abs() <= 2.0 * half, "{}: {}", text, q.print(value));
     }
 
     #[test]
     fn nothing_written_is_a_panic(text in "[-–0-9.,' eE×x^±+/:()=%½{}$\\\\<>&;a-cs\u{a0}²₁]{0,40}", x in any::<f64>(), any in "\\PC{0,60}") {
         for text in [text, any] {
-            if let Ok(r) = reading(&text) {
+            if let Ok(r) = read_quote(&text) {
                 r.read.print(x);
                 r.read.is(x);
                 r.read.differ(x, 1.0);

@@ -11,7 +11,7 @@ use crate::verify::{self, Judgement, Measured, QuoteState, Verdict, significant}
 use std::ops::Range;
 
 /// The dependency of claims on programs that omit coupled parameters.
-pub(super) struct Rests {
+pub(super) struct Dependency {
     who: String,
     /// The parameters that they do not update, in words.
     left: String,
@@ -21,11 +21,11 @@ pub(super) struct Rests {
     codes: String,
 }
 
-impl Rests {
-    pub(super) fn new(causes: &[PartnerCandidate<'_>], first: &Judgement, second: &Judgement) -> Rests {
+impl Dependency {
+    pub(super) fn new(causes: &[PartnerCandidate<'_>], first: &Judgement, second: &Judgement) -> Dependency {
         let who: Vec<&str> = causes.iter().map(|c| c.who.as_str()).collect();
         let left: Vec<String> = causes.iter().map(PartnerCandidate::left).collect();
-        Rests {
+        Dependency {
             who: who.join(" and "),
             left: left.join(", and "),
             corrected: corrected_words(causes),
