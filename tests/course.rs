@@ -49,7 +49,7 @@ pub(super) fn checked(name: &str, text: &str, models: &Models, depth: CheckLevel
 }
 
 /// Warnings and errors, and findings that the settings of the course make an error (`specs/labspec.toml`), one line each.
-pub(super) fn complaints(checked: &Checked) -> Vec<String> {
+pub(super) fn list_findings(checked: &Checked) -> Vec<String> {
     let counted = checked.findings.iter().filter(|f| counts(f));
     counted
         .map(|f| {
@@ -81,7 +81,7 @@ fn everything_that_the_course_says_is_true() {
     let mut quotes = 0;
     for lesson in course() {
         let checked = checked(&lesson.name, &lesson.text, &models, CheckLevel::FULL);
-        assert_eq!(complaints(&checked), [] as [&str; 0], "{}", lesson.name);
+        assert_eq!(list_findings(&checked), [] as [&str; 0], "{}", lesson.name);
         let mut asked = 0;
         for claim in &checked.claims {
             for quote in &claim.judgement.quotes {

@@ -160,12 +160,12 @@ impl Host for Recorder<'_> {
 
 /// The requests to node for one lab.
 #[derive(Default)]
-struct Work {
+struct LabRequests {
     states: Vec<Json>,
     jobs: Vec<Json>,
 }
 
-impl Work {
+impl LabRequests {
     /// Adds a source text with one state; the session is not changed.
     fn add(&mut self, session: &Session<'_>, globals: &Globals, at: &Job<'_>, given: Option<Value>) {
         let (mut world, mut context) = (session.world.clone(), session.context.clone());
@@ -183,7 +183,7 @@ impl Work {
         }));
     }
 
-    fn ask(&self, objects: Json) -> Vec<String> {
+    fn run_in_node(&self, objects: Json) -> Vec<String> {
         let script = workspace().join("tests/language.js");
         let started = Command::new("node").arg(script).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn();
         let mut child = started.unwrap();
@@ -274,7 +274,7 @@ fn compare(name: &str, lab: &Lab, model: &Model, count: &mut Count) {
     let jobs = texts(lab, &programs);
     let plan = Some(Plan::new(model, &AccessSet::ANY));
     let mut session = Session::start(&programs, model, Start { plan, ..Start::of_lab(lab) });
-    let mut work = Work::default();
+    let mut work = LabRequests::default();
     for phase in 0..4 {
         match phase {
             1 => (0..60).for_each(|_| session.step()),
@@ -302,7 +302,7 @@ fn compare(name: &str, lab: &Lab, model: &Model, count: &mut Count) {
         }
     }
     let names = ModelNames::new(model, Scope::Lab);
-    let found = work.ask(objects(&names));
+    let found = work.run_in_node(objects(&names));
     assert!(found.len() >= work.jobs.len(), "{name}: {found:#?}");
     let wrong: Vec<String> = found
         .iter()

@@ -18,24 +18,24 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// A lab with its model.
-struct Opened {
+struct LoadedLab {
     lab: Lab,
     model: Arc<Model>,
 }
 
-fn open(path: &Path, models: ModelFolder) -> Opened {
-    open_all(path, models).remove(0)
+fn load_lab(path: &Path, models: ModelFolder) -> LoadedLab {
+    load_labs(path, models).remove(0)
 }
 
-fn open_all(path: &Path, models: ModelFolder) -> Vec<Opened> {
+fn load_labs(path: &Path, models: ModelFolder) -> Vec<LoadedLab> {
     let lesson = load_lesson(SourceFile::read(path).unwrap(), &models);
     let models = Models::new(models);
     let one =
-        |lab: &Lab| Opened { lab: lab.clone(), model: models.model_of_lab(lab, &mut Vec::new()).unwrap() };
+        |lab: &Lab| LoadedLab { lab: lab.clone(), model: models.model_of_lab(lab, &mut Vec::new()).unwrap() };
     lesson.addressed().iter().map(|(_, lab)| one(lab)).collect()
 }
 
-impl Opened {
+impl LoadedLab {
     fn compare(&self, options: &Options) -> Report {
         let mut findings = Vec::new();
         let programs = Programs::compile(&self.lab, &self.model, &mut findings);
@@ -86,7 +86,7 @@ fn orders_are_those_of_theory() {
         let ids = |i: &Integrator| orders.iter().any(|(id, _)| *id == i.id);
         let integrators = INTEGRATORS.into_iter().filter(ids).collect();
         let report =
-            open(path, ModelFolder::unknown()).compare(&Options { integrators, ..Options::default() });
+            load_lab(path, ModelFolder::unknown()).compare(&Options { integrators, ..Options::default() });
         for (id, theory) in orders {
             let seen = order(&report, *id);
             // At timesteps at which the error of order eight is above rounding, higher-order terms contribute: the observed
@@ -106,7 +106,7 @@ fn what_a_teacher_cares_about_is_ten_times_closer() {
     let all = Options { integrators: INTEGRATORS.to_vec(), ..Options::default() };
     for name in ["03_double_pendulum", "05_tumbling_box"] {
         let path = labs.iter().find(|p| p.file_stem().is_some_and(|s| s == name)).unwrap();
-        let report = open(path, ModelFolder::unknown()).compare(&all);
+        let report = load_lab(path, ModelFolder::unknown()).compare(&all);
         // In the engine's count of work, which is the same on every machine.
         let good = |shared: bool| {
             report
@@ -130,7 +130,7 @@ fn what_a_teacher_cares_about_is_ten_times_closer() {
 
 /// Compares the recommended setting with a Runge–Kutta run with much shorter steps, both performed as on a page. Returns
 /// `false` if the lab's own code sets the timestep at the start, so that it cannot be changed.
-fn advice_holds(name: &str, lab: &Opened, report: &Report, setting: &Setting) -> bool {
+fn advice_holds(name: &str, lab: &LoadedLab, report: &Report, setting: &Setting) -> bool {
     let timestep = lab.model.opt.timestep;
     let fine = timestep.min(setting.timestep) / 8.0;
     let every = (setting.timestep / fine).round() as usize;
@@ -162,22 +162,22 @@ fn advice_holds_in_an_independent_run() {
         return;
     }
     let corpus = workspace().join("../shared/corpus");
-    let models = || ModelFolder::open(&corpus.join("models")).unwrap();
+    let models = || ModelFolder::load_lab(&corpus.join("models")).unwrap();
     let mut labs: Vec<PathBuf> =
         std::fs::read_dir(corpus.join("labs")).unwrap().map(|e| e.unwrap().path()).collect();
     labs.retain(|p| p.extension().is_some_and(|e| e == "json"));
     labs.sort();
     let (mut held, mut tried) = (0, 0);
     // The chain and the stack take long, and are not labs.
-    let mut all: Vec<(PathBuf, Opened)> = labs
+    let mut all: Vec<(PathBuf, LoadedLab)> = labs
         .into_iter()
         .chain(standard().into_iter().take(9))
-        .map(|p| (p.clone(), open(&p, models())))
+        .map(|p| (p.clone(), load_lab(&p, models())))
         .collect();
     for lesson in ["01-what-a-step-computes", "02-bounce-and-swing"] {
         let path = workspace().join(format!("specs/lessons/{lesson}.md"));
-        let models = ModelFolder::open(&workspace().join("specs/models")).unwrap();
-        all.extend(open_all(&path, models).into_iter().map(|lab| (path.clone(), lab)));
+        let models = ModelFolder::load_lab(&workspace().join("specs/models")).unwrap();
+        all.extend(load_labs(&path, models).into_iter().map(|lab| (path.clone(), lab)));
     }
     for (path, lab) in all {
         let name = path.file_stem().unwrap().to_str().unwrap().to_string();

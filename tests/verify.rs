@@ -530,7 +530,7 @@ fn what_a_lab_shows_can_be_claimed() {
 }
 
 /// A lab with this `verify` object about a ball that falls from 1 m onto a floor: the verdicts of its quotes, and the findings.
-fn dropped(
+fn check_drop(
     says: &[[&str; 2]],
     verify: serde_json::Value,
 ) -> (Vec<&'static str>, Vec<labspec::finding::Finding>) {
@@ -579,19 +579,19 @@ fn a_run_changes_model_keyframe_and_controller() {
         ["0.450 m", "low.z"],
         ["0.44 s", "ends.t"],
     ];
-    let (verdicts, found) = dropped(&right, verify.clone());
+    let (verdicts, found) = check_drop(&right, verify.clone());
     // A value that only reads the model is computed.
     assert_eq!(verdicts[1..3], ["computed"; 2], "{found:#?}");
     assert_eq!([&verdicts[..1], &verdicts[3..]].concat(), ["verified"; 6], "{found:#?}");
     let wrong = [["1.00 kg", "heavy.mass"], ["0.95 m", "quick.z"], ["1.0 m", "low.z"], ["3.00 s", "ends.t"]];
-    assert_eq!(dropped(&wrong, verify).0, ["refuted"; 4]);
+    assert_eq!(check_drop(&wrong, verify).0, ["refuted"; 4]);
 }
 
 #[test]
 fn what_a_run_cannot_change_is_said_with_what_is_near() {
     let run = |run: serde_json::Value| {
         let verify = json!({"runs": {"r": run}, "measure": {"z": "final(data.qpos[2])"}});
-        let (verdicts, found) = dropped(&[["0.95 m", "z"]], verify);
+        let (verdicts, found) = check_drop(&[["0.95 m", "z"]], verify);
         assert_eq!(verdicts, ["failed"], "{run}");
         found
     };
@@ -654,12 +654,12 @@ fn sweeps_measure_a_law() {
         ["4 kg", "max(weigh.mass)"],
         ["2.33 kg", "mean(weigh.mass)"],
     ];
-    let (verdicts, found) = dropped(&right, verify.clone());
+    let (verdicts, found) = check_drop(&right, verify.clone());
     // A value that only reads the model is computed.
     assert_eq!(verdicts[..2], ["verified"; 2], "{found:#?}");
     assert_eq!(verdicts[2..], ["computed"; 6], "{found:#?}");
     let wrong = [["0.60", right[0][1]], ["2.00 kg", "slope(weigh.mass)"], ["0.50 m", "fall.value[3]"]];
-    assert_eq!(dropped(&wrong, verify.clone()).0, ["refuted"; 3]);
+    assert_eq!(check_drop(&wrong, verify.clone()).0, ["refuted"; 3]);
     // Values that are not lists, members or laws are reported.
     for (expr, words) in [
         ("fall.touch[5]", "indexes are 0 to 4"),
@@ -667,7 +667,7 @@ fn sweeps_measure_a_law() {
         ("slope(fall.touch.map(t => t))", "run.value"),
         ("fall.tuoch[1]", "touch"),
     ] {
-        let (verdicts, found) = dropped(&[["0.50 s", expr]], verify.clone());
+        let (verdicts, found) = check_drop(&[["0.50 s", expr]], verify.clone());
         assert_eq!(verdicts, ["failed"], "{expr}");
         assert!(says(&found, words), "{expr}: {found:#?}");
     }
@@ -684,7 +684,7 @@ fn a_sweep_that_is_none_is_refused() {
         (json!({"start (m)": [0.5, 3]}), "3 cannot be chosen"),
     ] {
         let verify = json!({"runs": {"r": {"sweep": sweep}}, "measure": {"z": "final(data.qpos[2])"}});
-        let found = dropped(&[["0.95 m", "r.z[0]"]], verify).1;
+        let found = check_drop(&[["0.95 m", "r.z[0]"]], verify).1;
         assert!(says(&found, words), "{sweep}: {found:#?}");
     }
 }

@@ -58,7 +58,7 @@ fn running() -> Option<Duration> {
 }
 
 /// Runs `cases` cases, or as many as fit into `LABSPEC_FUZZ_SECONDS`. A case returns its input.
-fn tries(cases: u64, mut case: impl FnMut(u64) -> String) {
+fn run_cases(cases: u64, mut case: impl FnMut(u64) -> String) {
     if let Some(n) = variable("LABSPEC_FUZZ_CASE") {
         let case_file = Path::new(env!("CARGO_TARGET_TMPDIR")).join("case");
         let input = case(n);

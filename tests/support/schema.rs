@@ -17,23 +17,23 @@ pub(crate) fn schemas() -> BTreeMap<String, Value> {
 /// The errors in a value, each with its path; empty if the value conforms to the schema. The schema is a file or a part of one
 /// (`lesson.json#/$defs/lab`).
 pub(crate) fn problems(schemas: &BTreeMap<String, Value>, name: &str, value: &Value) -> Vec<String> {
-    let mut look = Look { schemas, problems: Vec::new() };
+    let mut look = SchemaCheck { schemas, problems: Vec::new() };
     let (file, schema) = look.follow("", name);
     look.check(&file, schema, value, "");
     look.problems
 }
 
-struct Look<'s> {
+struct SchemaCheck<'s> {
     schemas: &'s BTreeMap<String, Value>,
     problems: Vec<String>,
 }
 
 /// The keys of an object that a schema has evaluated.
-type Spoken = BTreeSet<String>;
+type EvaluatedKeys = BTreeSet<String>;
 
-impl<'s> Look<'s> {
-    fn check(&mut self, file: &str, schema: &'s Value, value: &Value, at: &str) -> Spoken {
-        let mut spoken = Spoken::new();
+impl<'s> SchemaCheck<'s> {
+    fn check(&mut self, file: &str, schema: &'s Value, value: &Value, at: &str) -> EvaluatedKeys {
+        let mut spoken = EvaluatedKeys::new();
         let Some(keywords) = schema.as_object() else {
             if schema == &Value::Bool(false) {
                 self.problems.push(format!("{at} must not be there"));
@@ -75,7 +75,7 @@ impl<'s> Look<'s> {
                     true
                 }
                 "oneOf" => {
-                    let holding: Vec<Spoken> =
+                    let holding: Vec<EvaluatedKeys> =
                         list(want).iter().filter_map(|s| self.holds(file, s, value)).collect();
                     let one = holding.len() == 1;
                     spoken.extend(holding.into_iter().flatten());
@@ -141,19 +141,19 @@ impl<'s> Look<'s> {
     }
 
     /// The keys that a schema evaluates, if the value conforms to it.
-    fn holds(&self, file: &str, schema: &'s Value, value: &Value) -> Option<Spoken> {
-        let mut alone = Look { schemas: self.schemas, problems: Vec::new() };
+    fn holds(&self, file: &str, schema: &'s Value, value: &Value) -> Option<EvaluatedKeys> {
+        let mut alone = SchemaCheck { schemas: self.schemas, problems: Vec::new() };
         let spoken = alone.check(file, schema, value, "");
         alone.problems.is_empty().then_some(spoken)
     }
 
     /// The keys that the matching schemas evaluate. If none matches, the errors of the closest schema are reported: one that
     /// fails inside the value, not at the value itself.
-    fn any_of(&mut self, file: &str, any: &'s [Value], value: &Value, at: &str) -> Spoken {
+    fn any_of(&mut self, file: &str, any: &'s [Value], value: &Value, at: &str) -> EvaluatedKeys {
         let mut closest = None;
-        let mut spoken = Spoken::new();
+        let mut spoken = EvaluatedKeys::new();
         for schema in any {
-            let mut alone = Look { schemas: self.schemas, problems: Vec::new() };
+            let mut alone = SchemaCheck { schemas: self.schemas, problems: Vec::new() };
             let of = alone.check(file, schema, value, at);
             spoken.extend(of.into_iter().filter(|_| alone.problems.is_empty()));
             let here = alone.problems.iter().filter(|p| p.starts_with(&format!("{at}:"))).count();

@@ -54,7 +54,7 @@ pub(super) enum Arg {
 
 /// The part of the simulation that a function reads or writes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Touches {
+pub(super) enum AccessedPart {
     Nothing,
     /// The derived fields of the data.
     Derived,
@@ -105,8 +105,8 @@ pub(super) struct Function {
     pub(super) length: Option<usize>,
     /// The field of the data of which it returns the part of one object of this kind.
     pub(super) gives: Option<(FieldId, Obj)>,
-    pub(super) reads: Touches,
-    pub(super) writes: &'static [Touches],
+    pub(super) reads: AccessedPart,
+    pub(super) writes: &'static [AccessedPart],
     pub(super) place: FunctionPlace,
     pub(super) aggregate: bool,
     /// The dimension of the numbers in the result.
@@ -127,7 +127,7 @@ pub(super) const ROW: Function = Function {
     members: &[],
     length: None,
     gives: None,
-    reads: Touches::Nothing,
+    reads: AccessedPart::Nothing,
     writes: &[],
     place: FunctionPlace::Everywhere,
     aggregate: false,
@@ -146,7 +146,7 @@ pub(super) static TABLE: LazyLock<Vec<&'static Function>> = LazyLock::new(|| {
 const NOTHING: Result<Value, String> = Ok(Value::Undefined);
 
 /// The result of a function that runs a pass of the engine.
-fn done(result: Result<(), access::Failed>) -> Result<Value, String> {
+fn pass_result(result: Result<(), access::Failed>) -> Result<Value, String> {
     result?;
     NOTHING
 }
@@ -158,7 +158,7 @@ fn index(args: &[Value]) -> Result<usize, String> {
 
 /// Whether a function reads the simulation; `abs`, for example, does not.
 pub fn reads(FunctionId(f): FunctionId) -> bool {
-    TABLE.get(f as usize).is_some_and(|function| function.reads != Touches::Nothing)
+    TABLE.get(f as usize).is_some_and(|function| function.reads != AccessedPart::Nothing)
 }
 
 fn number(args: &[Value]) -> Result<f64, String> {
@@ -177,8 +177,8 @@ pub(super) fn none() -> FunctionInfo {
 /// The signature and effects in the types of the language.
 fn info(f: &Function) -> FunctionInfo {
     let param = |arg: &Arg| match arg {
-        Arg::Model => Param::Object(handle::encode(handle::Thing::Struct(Object::Model))),
-        Arg::Data => Param::Object(handle::encode(handle::Thing::Struct(Object::Data))),
+        Arg::Model => Param::Object(handle::encode(handle::HandleTarget::Struct(Object::Model))),
+        Arg::Data => Param::Object(handle::encode(handle::HandleTarget::Struct(Object::Data))),
         Arg::Number => Param::Number,
         Arg::Angle => Param::Angle,
         Arg::Text => Param::Text,
@@ -219,20 +219,20 @@ fn path(f: &Function) -> String {
 /// The fields on which the Jacobian of a site depends.
 const MOTION: [FieldId; 5] = [data::xanchor, data::xaxis, data::xmat, data::xpos, data::site_xpos];
 
-fn accessed_fields(touches: &[Touches]) -> AccessedFields {
-    let is = |f: &FieldId, t: &Touches| {
+fn accessed_fields(touches: &[AccessedPart]) -> AccessedFields {
+    let is = |f: &FieldId, t: &AccessedPart| {
         let i = f.info();
         match t {
-            Touches::Nothing | Touches::DisplayedLabels => false,
-            Touches::Derived => i.kind == Kind::Derived,
-            Touches::State => i.object == Object::Data && matches!(i.kind, Kind::State | Kind::Input),
-            Touches::Coordinates => *f == data::qpos,
-            Touches::Contacts => i.stage == Stage::Collision || *f == data::efc_force,
-            Touches::Energy => *f == data::energy,
-            Touches::Flags => *f == option::enableflags,
-            Touches::Places => [data::xpos, data::site_xpos].contains(f),
-            Touches::Motion => MOTION.contains(f),
-            Touches::Mass => i.stage == Stage::MassMatrix,
+            AccessedPart::Nothing | AccessedPart::DisplayedLabels => false,
+            AccessedPart::Derived => i.kind == Kind::Derived,
+            AccessedPart::State => i.object == Object::Data && matches!(i.kind, Kind::State | Kind::Input),
+            AccessedPart::Coordinates => *f == data::qpos,
+            AccessedPart::Contacts => i.stage == Stage::Collision || *f == data::efc_force,
+            AccessedPart::Energy => *f == data::energy,
+            AccessedPart::Flags => *f == option::enableflags,
+            AccessedPart::Places => [data::xpos, data::site_xpos].contains(f),
+            AccessedPart::Motion => MOTION.contains(f),
+            AccessedPart::Mass => i.stage == Stage::MassMatrix,
         }
     };
     let fields: Vec<FieldKey> = reflect::fields()
@@ -308,7 +308,7 @@ mod tests {
 
     #[test]
     fn every_touch_is_of_some_field() {
-        use Touches::*;
+        use AccessedPart::*;
         let all = [Derived, State, Coordinates, Contacts, Energy, Flags, Places, Motion, Mass];
         assert!(all.iter().all(|t| matches!(accessed_fields(&[*t]), AccessedFields::Fields(_))));
     }

@@ -7,11 +7,11 @@ use super::collect::{STDIN, collect};
 use super::common::{Color, Failure, ModelOptions, Outcome};
 use super::course::{CheckRequest, CrossCheckRequest};
 use super::fix::{FixMode, fix};
-use super::output::{PlannedOutput, look_ahead};
+use super::output::{PlannedOutput, check_outputs_writable};
 use super::output_kind::OutputKind;
 use super::policy::PolicyOptions;
 use super::scheduler::check_lessons;
-use super::stdio::complain;
+use super::stdio::print_skipped;
 use super::{judge, reproduction, watch};
 use labspec::check::{CheckLevel, Recording};
 use labspec::report::counted;
@@ -217,7 +217,7 @@ fn check_outputs(a: &Arguments, paths: RecordPaths<'_>) -> Result<(), Failure> {
         return Ok(());
     }
     let inputs: Vec<PathBuf> = collect(&a.paths).files.into_iter().map(|(path, _)| path).collect();
-    look_ahead(&inputs, &outputs)
+    check_outputs_writable(&inputs, &outputs)
 }
 
 /// Applies fixes. With `--diff`, the command ends here with the returned outcome.
@@ -227,7 +227,7 @@ fn apply_fixes(request: &CheckRequest<'_>, mode: FixMode) -> Result<Option<Outco
         return Ok(Some(if repaired.fixes > 0 { Outcome::Findings } else { Outcome::Clean }));
     }
     if repaired.fixes > 0 {
-        complain(&format!(
+        print_skipped(&format!(
             "fixed {} in {}\n",
             counted(repaired.fixes, "finding"),
             counted(repaired.files, "file")

@@ -5,7 +5,7 @@ use super::common::{Failure, Outcome, interrupted};
 use super::lsp;
 use super::output::write_file;
 use super::output_kind::OutputKind;
-use super::stdio::{self, complain};
+use super::stdio::{self, print_error};
 use super::{
     check, completions, developer, explain, fmt, init, plan, precision, run, scaffold, schema, snapshot,
     stability, trace,
@@ -79,7 +79,7 @@ pub(crate) fn run_program() -> ExitCode {
             return usage(&e);
         }
     };
-    if cli.command.prints_what_is_finished() {
+    if cli.command.handles_interrupt() {
         listen();
     }
     // All work uses the same stack size, independent of that of the main thread.
@@ -89,7 +89,7 @@ pub(crate) fn run_program() -> ExitCode {
         Ok(Outcome::Findings) => ExitCode::from(1),
         Ok(Outcome::Partial) => ExitCode::from(3),
         Err(message) => {
-            complain(&format!("labspec: {}\n", printable_lines(&message)));
+            print_error(&format!("labspec: {}\n", printable_lines(&message)));
             ExitCode::from(2)
         }
     }
@@ -135,7 +135,7 @@ fn execute(command: &Command) -> Result<Outcome, Failure> {
 
 impl Command {
     /// Whether the command tests for Ctrl-C between pieces of work. Ctrl-C ends all other commands at once.
-    fn prints_what_is_finished(&self) -> bool {
+    fn handles_interrupt(&self) -> bool {
         use Command::{
             Bench, Check, Fmt, Plan, Precision, Record, Run, Scaffold, Snapshot, Stability, Trace, Verify,
         };
@@ -161,13 +161,13 @@ impl Command {
 fn usage(e: &clap::Error) -> ExitCode {
     if e.use_stderr() {
         // An argument may be a file name that someone else chose.
-        complain(&printable_lines(&e.render().to_string()));
+        print_error(&printable_lines(&e.render().to_string()));
         return ExitCode::from(2);
     }
     match stdio::outcome(e.print().and_then(|()| std::io::stdout().flush())) {
         Ok(()) => ExitCode::SUCCESS,
         Err(message) => {
-            complain(&format!("labspec: {message}\n"));
+            print_error(&format!("labspec: {message}\n"));
             ExitCode::from(2)
         }
     }

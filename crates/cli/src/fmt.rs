@@ -34,7 +34,7 @@ pub(super) fn fmt(a: &Arguments) -> Result<Outcome, Failure> {
     let mut outcome = Outcome::Clean;
     let mut failures: Vec<String> = Vec::new();
     let collected = collect(&a.paths);
-    collected.complain();
+    collected.print_skipped();
     let Collected { files, problems, .. } = collected;
     failures.extend(problems.into_iter().map(|(_, why)| why));
     for (path, named) in files {

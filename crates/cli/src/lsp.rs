@@ -2,7 +2,7 @@
 
 use super::common::{Failure, ModelOptions, Outcome};
 use super::policy::{Policies, Policy, PolicyOptions};
-use super::stdio::complain;
+use super::stdio::print_error;
 use super::target::model_folder;
 use labspec::finding::Finding;
 use labspec::lint::ModelFolder;
@@ -30,7 +30,7 @@ pub(super) fn lsp(a: &Arguments) -> Result<Outcome, Failure> {
     let reported = RefCell::new(BTreeSet::new());
     let say = |why: Failure| {
         if reported.borrow_mut().insert(why.clone()) {
-            complain(&format!("labspec: {why}\n"));
+            print_error(&format!("labspec: {why}\n"));
         }
     };
     let models = |path: &Path| {

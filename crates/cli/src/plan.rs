@@ -99,7 +99,7 @@ fn human(report: &PlanReport) -> String {
     let running = report.rows.iter().filter(|r| r.keep).count();
     let _ = writeln!(text, "\n{running} of {} stages run in every step", report.rows.len());
     if let Some(step) = &report.step {
-        let [low, high] = step.quarters;
+        let [low, high] = step.quartiles;
         let _ = writeln!(
             text,
             "a step takes {} ns ({} to {}); with everything read, it takes {} ns",
@@ -286,28 +286,28 @@ struct Cost {
 struct Pairs<'a> {
     all: usize,
     can_touch: usize,
-    tests: Vec<Test<'a>>,
-    left_out: Vec<LeftOut>,
-    in_reach: Option<MeanAndMost>,
-    contacts: Option<MeanAndMost>,
+    tests: Vec<SearchTest<'a>>,
+    left_out: Vec<OmittedStage>,
+    in_reach: Option<MeanAndMaximum>,
+    contacts: Option<MeanAndMaximum>,
 }
 
 #[derive(Serialize)]
-struct Test<'a> {
+struct SearchTest<'a> {
     shapes: &'a [&'static str; 2],
     pairs: usize,
     searched: bool,
 }
 
 #[derive(Serialize)]
-struct LeftOut {
+struct OmittedStage {
     reason: &'static str,
     pairs: usize,
 }
 
 /// The mean and the maximum of a count.
 #[derive(Serialize)]
-struct MeanAndMost {
+struct MeanAndMaximum {
     mean: f64,
     most: f64,
 }
@@ -316,8 +316,8 @@ struct MeanAndMost {
 struct Solver<'a> {
     cone: &'static str,
     methods: &'a [EngineOption],
-    rows: Option<MeanAndMost>,
-    iterations: Option<MeanAndMost>,
+    rows: Option<MeanAndMaximum>,
+    iterations: Option<MeanAndMaximum>,
 }
 
 /// The number of trees that an algorithm computes.
@@ -342,8 +342,8 @@ fn cost(cost: StageCost, reason: Option<&'static str>) -> Cost {
     Cost { share: cost.share, ns: cost.ns, reason }
 }
 
-fn mean_and_most([mean, most]: [f64; 2]) -> MeanAndMost {
-    MeanAndMost { mean, most }
+fn mean_and_maximum([mean, most]: [f64; 2]) -> MeanAndMaximum {
+    MeanAndMaximum { mean, most }
 }
 
 fn pair_row(of: &PairSummary) -> Pairs<'_> {
@@ -353,11 +353,11 @@ fn pair_row(of: &PairSummary) -> Pairs<'_> {
         all: of.all,
         can_touch: of.can_touch,
         tests: tests
-            .map(|(shapes, pairs, searched)| Test { shapes, pairs: *pairs, searched: *searched })
+            .map(|(shapes, pairs, searched)| SearchTest { shapes, pairs: *pairs, searched: *searched })
             .collect(),
-        left_out: left_out.map(|&(reason, pairs)| LeftOut { reason, pairs }).collect(),
-        in_reach: of.seen.map(|s| mean_and_most(s.in_reach)),
-        contacts: of.seen.map(|s| mean_and_most(s.contacts)),
+        left_out: left_out.map(|&(reason, pairs)| OmittedStage { reason, pairs }).collect(),
+        in_reach: of.seen.map(|s| mean_and_maximum(s.in_reach)),
+        contacts: of.seen.map(|s| mean_and_maximum(s.contacts)),
     }
 }
 
@@ -374,8 +374,8 @@ fn machine(of: &PlanReport) -> Report<'_> {
     let step = of.step.as_ref().map(|s| Step {
         steps: s.steps,
         ns: s.ns,
-        low_ns: s.quarters[0],
-        high_ns: s.quarters[1],
+        low_ns: s.quartiles[0],
+        high_ns: s.quartiles[1],
         full_ns: s.full,
         work: s.work,
         integrator: cost(s.integrator, None),
@@ -402,8 +402,8 @@ fn machine(of: &PlanReport) -> Report<'_> {
         solver: Solver {
             cone: of.cone,
             methods: &of.solvers,
-            rows: seen.map(|s| mean_and_most(s.rows)),
-            iterations: seen.map(|s| mean_and_most(s.iterations)),
+            rows: seen.map(|s| mean_and_maximum(s.rows)),
+            iterations: seen.map(|s| mean_and_maximum(s.iterations)),
         },
         integrators: &of.integrators,
         tree_algorithms: tree_algorithms.collect(),

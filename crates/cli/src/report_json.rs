@@ -49,7 +49,7 @@ pub(super) struct StoredReport {
 }
 
 /// The maximum size of a stored report in bytes.
-const MOST: u64 = 64 << 20;
+const MAX_REPORT: u64 = 64 << 20;
 /// The maximum length of an error message of the parser, which may quote the file.
 const MOST_QUOTED: usize = 200;
 
@@ -62,7 +62,7 @@ pub(super) fn read_report<T: DeserializeOwned>(path: &Path, stored: &StoredRepor
         |why: &str| format!("{} is not {}: {why}; {}", printable_path(path), stored.what, stored.next_step);
     let invalid =
         |e: serde_json::Error| no(&printable(&e.to_string().chars().take(MOST_QUOTED).collect::<String>()));
-    let text = read_text(path, MOST, stored.what)?;
+    let text = read_text(path, MAX_REPORT, stored.what)?;
     // The head is parsed first, because the content depends on the version.
     let head: Head = serde_json::from_str(&text).map_err(invalid)?;
     if head.report != stored.name || head.schema_version != SCHEMA_VERSION {

@@ -3,7 +3,7 @@
 use super::common::{Failure, Outcome};
 use super::lab_args::LabArguments;
 use super::output::write_file;
-use super::output::{PlannedOutput, wanted, write_png, write_with};
+use super::output::{PlannedOutput, requested_outputs, write_png, write_with};
 use super::output_kind::OutputKind;
 use super::stdio::print;
 use super::stdio::stream;
@@ -77,10 +77,10 @@ pub(super) fn run(a: &Arguments) -> Result<Outcome, Failure> {
             .map(Option::unwrap_or_default)
     };
     let (drawn, painted) = (plots(&a.svg, "svg")?, plots(&a.png, "png")?);
-    let mut files = wanted(&[(OutputKind::Table, &a.csv), (OutputKind::Run, &a.json)]);
+    let mut files = requested_outputs(&[(OutputKind::Table, &a.csv), (OutputKind::Run, &a.json)]);
     files.extend(drawn.iter().map(|path| PlannedOutput { kind: OutputKind::Plot, path: path.clone() }));
     files.extend(painted.iter().map(|path| PlannedOutput { kind: OutputKind::Picture, path: path.clone() }));
-    a.handled.look_ahead(&target, &files)?;
+    a.handled.check_outputs_writable(&target, &files)?;
     let table =
         stress::watched_run(&target.lab, &target.model, &target.programs, &options).map_err(|e| e.0)?;
     if let Some(file) = &a.csv {

@@ -13,7 +13,7 @@ use labspec::report::{printable, printable_lines, printable_path};
 use labspec::spec::Lesson;
 use labspec::verify::{Verdict, significant};
 use labspec_proposals::scaffold::{Scaffold, ScaffoldOutcome, scaffold as look, written};
-use labspec_proposals::trace::{ProposedVerify, laid_out};
+use labspec_proposals::trace::{ProposedVerify, format_verify};
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -99,7 +99,7 @@ fn human(a: &Arguments, lesson: &Lesson, all: &[Scaffold]) -> String {
                     );
                 }
                 if !a.write {
-                    let _ = writeln!(text, "\n\"verify\": {}\n", printable_lines(&laid_out(verify)));
+                    let _ = writeln!(text, "\n\"verify\": {}\n", printable_lines(&format_verify(verify)));
                 }
             }
             ScaffoldOutcome::Contradicted { option, values } => {

@@ -10,7 +10,7 @@ use labspec::lint::load_lesson_file;
 use labspec::report::{printable, printable_lines, printable_path};
 use labspec::spec::Lesson;
 use labspec::verify::significant;
-use labspec_proposals::trace::{self, Hit, Origin, ProposedVerify, Traced, Traces, blocks, laid_out};
+use labspec_proposals::trace::{self, Hit, Origin, ProposedVerify, Traced, Traces, blocks, format_verify};
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -78,7 +78,7 @@ fn human(a: &Arguments, lesson: &Lesson, found: &Traces<'_>) -> String {
         let _ = write!(
             text,
             "\nfor lab {address}, {accept}:\n\n\"verify\": {}\n",
-            printable_lines(&laid_out(&block))
+            printable_lines(&format_verify(&block))
         );
     }
     let _ = writeln!(text, "\n{}: {}", printable_path(&a.lesson), summarize(&found.numbers));

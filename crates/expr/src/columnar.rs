@@ -298,9 +298,9 @@ mod tests {
     }
 
     /// A world with the same fields as another, but a different identity.
-    struct Elsewhere(World);
+    struct OtherWorld(World);
 
-    impl Host for Elsewhere {
+    impl Host for OtherWorld {
         fn get(&self, field: FieldKey, index: usize) -> Option<f64> {
             self.0.get(field, index)
         }
@@ -332,7 +332,7 @@ mod tests {
         let of_height = one.columns(&height).unwrap().unwrap();
         let of_time = other.columns(&time).unwrap().unwrap();
         // Samples of a world with another identity are refused.
-        assert_eq!(one.sample(&Elsewhere(World::new())), Err(Foreign::Identity));
+        assert_eq!(one.sample(&OtherWorld(World::new())), Err(Foreign::Identity));
         assert!(one.is_empty());
         one.sample(&World::new()).unwrap();
         other.sample(&World::new()).unwrap();
@@ -347,7 +347,7 @@ mod tests {
         assert_eq!(both.columns(&foreign).unwrap_err(), Foreign::Identity);
         let mut theirs = Recording::new();
         theirs.columns(&foreign).unwrap().unwrap();
-        theirs.sample(&Elsewhere(World::new())).unwrap();
+        theirs.sample(&OtherWorld(World::new())).unwrap();
         assert_eq!(of_height.evaluate(&theirs), Err(Foreign::Identity));
     }
 

@@ -40,7 +40,7 @@ const MAX_BYTES: usize = 64 << 20;
 /// The bytes of one value in a list.
 const VALUE: usize = size_of::<Value>();
 /// Bytes in use below which nothing is collected.
-const CALM: usize = 1 << 20;
+const MIN_COLLECTION: usize = 1 << 20;
 /// Limit on the depth of nested lists that are printed.
 const MAX_PRINT_DEPTH: usize = 32;
 /// The longest string that a program can build, in bytes. A string that grows with every step must not
@@ -254,7 +254,7 @@ impl Heap {
 
     /// Whether enough memory was allocated since the last collection to make another one worthwhile.
     pub(crate) fn wants_collection(&self) -> bool {
-        self.bytes > self.threshold.max(CALM)
+        self.bytes > self.threshold.max(MIN_COLLECTION)
     }
 
     /// Frees all objects that are unreachable from the roots.

@@ -3,7 +3,7 @@
 use super::super::report_json::with_nonfinite;
 use labspec::report::key;
 use labspec_numerics::precision::{
-    Advice, BesideRow, Compared, Errors, Event, LeftOut, Nearby, Report, Row, RunCost, RunStatus,
+    Advice, BesideRow, Compared, Errors, Event, LeftOut, NearbyStarts, Report, Row, RunCost, RunStatus,
 };
 use serde::Serialize;
 use serde_json::{Map, Value};
@@ -62,7 +62,7 @@ struct PrecisionReport<'a> {
     penetration_uncertainty: f64,
     samples: usize,
     beside: Option<BesideReport<'a>>,
-    nearby: Option<Nearby>,
+    nearby: Option<NearbyStarts>,
 }
 
 /// A setting with the errors of each trace. `work` is in units of the engine.
@@ -125,7 +125,7 @@ pub(super) fn machine(report: &Report) -> Map<String, Value> {
     // A closed form has no uncertainty: its entry is missing, not lost.
     let of = |f: fn(&Compared) -> Option<f64>| targets().map(f).collect::<Vec<_>>();
     let uncertainty = of(|t| (!t.closed).then_some(t.uncertain));
-    let (unseen, until) = (of(|t| Some(t.unseen)), of(|t| t.until));
+    let (unseen, until) = (of(|t| Some(t.invisible_error)), of(|t| t.until));
     let conserved = [report.energy, report.momentum[0], report.momentum[1]];
     let row = PrecisionReport {
         traces: targets().map(|t| t.label.as_str()).collect(),

@@ -7,7 +7,7 @@ mod table;
 use super::common::{Failure, Outcome, interrupted};
 use super::lab_args::LabArguments;
 use super::output::write_file;
-use super::output::{wanted, write_png, write_with};
+use super::output::{requested_outputs, write_png, write_with};
 use super::output_kind::OutputKind;
 use super::report_json::print_report;
 use super::stdio::{Progress, print, stream};
@@ -21,7 +21,7 @@ use labspec_numerics::precision::{Axis, Options, Recording, Report, RunStatus, c
 use machine::{csv, machine};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use table::{others, setting, table};
+use table::{setting, table, write_other_runs};
 
 /// Arguments of `precision`.
 #[derive(clap::Args, Debug)]
@@ -70,9 +70,13 @@ enum Format {
 
 pub(super) fn precision(a: &Arguments) -> Result<Outcome, Failure> {
     let target = a.handled.open()?;
-    a.handled.look_ahead(
+    a.handled.check_outputs_writable(
         &target,
-        &wanted(&[(OutputKind::Settings, &a.csv), (OutputKind::Plot, &a.svg), (OutputKind::Picture, &a.png)]),
+        &requested_outputs(&[
+            (OutputKind::Settings, &a.csv),
+            (OutputKind::Plot, &a.svg),
+            (OutputKind::Picture, &a.png),
+        ]),
     )?;
     let options = Options {
         until: a.until,
@@ -109,11 +113,11 @@ pub(super) fn precision(a: &Arguments) -> Result<Outcome, Failure> {
         Format::Json => print_report("precision", &machine(&report))?,
         Format::Csv => stream(|out| csv(&report, out))?,
     }
-    Ok(if report.reference.is_none() || lost(&report) { Outcome::Findings } else { Outcome::Clean })
+    Ok(if report.reference.is_none() || has_no_result(&report) { Outcome::Findings } else { Outcome::Clean })
 }
 
 /// Whether the run with the lab's own setting failed, or the truth is not known to its end.
-fn lost(report: &Report) -> bool {
+fn has_no_result(report: &Report) -> bool {
     report.rows.iter().any(|r| r.is_own && r.status != RunStatus::Good)
         || report.targets.iter().any(|t| t.until.is_some())
 }
@@ -129,11 +133,11 @@ impl Vary {
 }
 
 /// The maximum size of a recording in bytes.
-const MOST: u64 = 256 << 20;
+const MAX_RECORDING: u64 = 256 << 20;
 
 fn recording(path: &Path) -> Result<Recording, Failure> {
     let named = |e: String| format!("cannot use {}: {e}", printable_path(path));
-    let text = read_text(path, MOST, "a recording")?;
+    let text = read_text(path, MAX_RECORDING, "a recording")?;
     Recording::read(&text).map_err(named)
 }
 
@@ -159,7 +163,7 @@ fn human(report: &Report) -> String {
                 false => "no method completes this lab",
             };
             let _ = writeln!(text, "Nothing can be compared: {why}.");
-            fates(report, &mut text);
+            write_outcomes(report, &mut text);
         }
         Some(how) => {
             let _ = writeln!(
@@ -172,7 +176,7 @@ fn human(report: &Report) -> String {
         }
     }
     if let Some(beside) = &report.beside {
-        others(report, beside, &mut text);
+        write_other_runs(report, beside, &mut text);
     }
     for out in &report.left_out {
         let _ = writeln!(text, "Not compared: {}, because {}.", printable(&out.label), out.reason);
@@ -212,7 +216,7 @@ fn compared_at(report: &Report) -> String {
 }
 
 /// Writes the outcome of each run.
-fn fates(report: &Report, text: &mut String) {
+fn write_outcomes(report: &Report, text: &mut String) {
     for row in &report.rows {
         let reason = row.reported.first().map_or(String::new(), |t| format!(": {}", printable(t)));
         let _ = writeln!(

@@ -19,7 +19,7 @@ struct Column {
 }
 
 /// The maximum number of columns next to each other.
-const ABREAST: usize = 5;
+const MAX_COLUMNS: usize = 5;
 
 /// Writes the largest errors of all compared quantities, with one column each, and marks the settings that
 /// are best in cost and error.
@@ -30,9 +30,10 @@ pub(super) fn table(report: &Report, text: &mut String) {
     }
     let names: Vec<String> = report.rows.iter().map(setting).collect();
     let width = names.iter().map(|n| n.chars().count()).max().unwrap_or(0).max(10);
-    for (first, some) in columns.chunks(ABREAST).enumerate() {
-        let heads: String =
-            (0..some.len()).map(|k| format!(" {:>10}", format!("({})", first * ABREAST + k + 1))).collect();
+    for (first, some) in columns.chunks(MAX_COLUMNS).enumerate() {
+        let heads: String = (0..some.len())
+            .map(|k| format!(" {:>10}", format!("({})", first * MAX_COLUMNS + k + 1)))
+            .collect();
         let _ = writeln!(
             text,
             "\n  {:<width$} {:>10} {:>12} {:>16}{heads}",
@@ -65,16 +66,16 @@ fn columns(report: &Report) -> Vec<Column> {
     let mut list: Vec<Column> = Vec::new();
     for (i, target) in report.targets.iter().enumerate().filter(|(_, t)| !t.blank) {
         let of = |row: &Row| row.errors.get(i).map_or("–".into(), |e| error(e, target));
-        list.push(Column { legend: about(target), cells: report.rows.iter().map(of).collect() });
+        list.push(Column { legend: describe_truth(target), cells: report.rows.iter().map(of).collect() });
     }
     for (k, event) in report.events.iter().enumerate().filter(|(_, e)| e.time.is_finite()) {
         let legend = format!(
             "{}, at {} s (± {} s): error in s",
             printable(&event.name),
-            with_doubt(event.time, event.uncertain),
+            certain_digits(event.time, event.uncertain),
             cell(event.uncertain)
         );
-        let of = |row: &Row| at_most(row.events.get(k).copied().unwrap_or(f64::NAN), event.uncertain);
+        let of = |row: &Row| error_or_doubt(row.events.get(k).copied().unwrap_or(f64::NAN), event.uncertain);
         list.push(Column { legend, cells: report.rows.iter().map(of).collect() });
     }
     let mut keeps = |size: Option<f64>, what: &str, unit: &str, of: fn(&Row) -> Option<f64>| {
@@ -83,7 +84,7 @@ fn columns(report: &Report) -> Vec<Column> {
                 "the scene keeps its {what} ({} {unit} move): largest change in {unit}",
                 significant(size)
             );
-            let change = |r: &Row| at_most(of(r).unwrap_or(f64::NAN), ROUNDING * size);
+            let change = |r: &Row| error_or_doubt(of(r).unwrap_or(f64::NAN), ROUNDING * size);
             list.push(Column { legend, cells: report.rows.iter().map(change).collect() });
         }
     };
@@ -94,10 +95,10 @@ fn columns(report: &Report) -> Vec<Column> {
         let doubt = report.penetration_doubt.max(ROUNDING * report.penetration);
         let legend = format!(
             "bodies are {} m (± {} m) in each other: error in m",
-            with_doubt(report.penetration, doubt),
+            certain_digits(report.penetration, doubt),
             cell(doubt)
         );
-        let of = |r: &Row| at_most((r.penetration - report.penetration).abs(), doubt);
+        let of = |r: &Row| error_or_doubt((r.penetration - report.penetration).abs(), doubt);
         list.push(Column { legend, cells: report.rows.iter().map(of).collect() });
     }
     list
@@ -111,7 +112,7 @@ fn cell(x: f64) -> String {
 }
 
 /// An error, or the doubt about the truth if that is larger.
-fn at_most(error: f64, doubt: f64) -> String {
+fn error_or_doubt(error: f64, doubt: f64) -> String {
     if error <= doubt { format!("≤{doubt:.0e}") } else { cell(error) }
 }
 
@@ -121,7 +122,7 @@ fn error(e: &Errors, target: &Compared) -> String {
 }
 
 /// A number with its certain digits and one more.
-fn with_doubt(x: f64, doubt: f64) -> String {
+fn certain_digits(x: f64, doubt: f64) -> String {
     if !(doubt > 0.0 && doubt.is_finite()) {
         return significant(x);
     }
@@ -139,7 +140,7 @@ pub(super) fn named(target: &Compared) -> String {
 }
 
 /// The truth with which a column of errors was computed, and the smallest visible error.
-fn about(target: &Compared) -> String {
+fn describe_truth(target: &Compared) -> String {
     let unit = target.unit.as_ref().map_or(String::new(), |u| format!(" {}", printable(u)));
     let of = if unit.is_empty() { String::new() } else { format!(" in{unit}") };
     let against = match target.closed {
@@ -153,14 +154,14 @@ fn about(target: &Compared) -> String {
         "{}: largest error{of} against {against}; {} {}{unit}{until}",
         printable(&target.label),
         if target.readout { "its digits hide" } else { "its plot hides" },
-        two_digits(target.unseen)
+        two_digits(target.invisible_error)
     )
 }
 
 /// Writes the runs of another program: the same columns of errors, and the times that it measured.
-pub(super) fn others(report: &Report, beside: &Beside, text: &mut String) {
+pub(super) fn write_other_runs(report: &Report, beside: &Beside, text: &mut String) {
     let _ = writeln!(text, "\nBeside: {}, largest errors against the same truth", printable(&beside.engine));
-    let columns = || report.targets.iter().enumerate().filter(|(_, t)| !t.blank).take(ABREAST);
+    let columns = || report.targets.iter().enumerate().filter(|(_, t)| !t.blank).take(MAX_COLUMNS);
     for row in &beside.rows {
         let cell = |(i, target): (usize, &Compared)| {
             format!(" {:>10}", row.errors.get(i).map_or("–".into(), |e| error(e, target)))

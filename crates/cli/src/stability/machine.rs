@@ -6,7 +6,7 @@ use labspec::bind::Programs;
 use labspec::report::key;
 use labspec::stress::{Action, Fault, Interaction, Kind};
 use labspec_numerics::stability::{
-    MapCell, Margin, Parting, Sensitivity, StabilityFinding, StabilityMap, StressReport,
+    DivergenceOfStarts, MapCell, Margin, Sensitivity, StabilityFinding, StabilityMap, StressReport,
 };
 use serde::Serialize;
 use serde_json::{Map, Value};
@@ -238,7 +238,7 @@ fn sensitivity_row(s: &Sensitivity) -> SensitivityRow<'_> {
     SensitivityRow {
         length: s.length,
         apart: s.apart,
-        parting: s.parting.map(|Parting { low, high }| {
+        parting: s.parting.map(|DivergenceOfStarts { low, high }| {
             with_nonfinite(&PartingRow { low, high }, &[("low", &low), ("high", &high)])
         }),
         exponent: s.exponent.map(|e| ExponentRow {

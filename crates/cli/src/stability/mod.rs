@@ -5,7 +5,7 @@ mod machine;
 use super::common::{Failure, Outcome, interrupted};
 use super::lab_args::LabArguments;
 use super::output::write_file;
-use super::output::{wanted, write_png};
+use super::output::{requested_outputs, write_png};
 use super::output_kind::OutputKind;
 use super::report_json::print_report;
 use super::stdio::{Progress, print};
@@ -56,7 +56,10 @@ enum Format {
 
 pub(super) fn stability(a: &Arguments) -> Result<Outcome, Failure> {
     let target = a.handled.open()?;
-    a.handled.look_ahead(&target, &wanted(&[(OutputKind::Plot, &a.svg), (OutputKind::Picture, &a.png)]))?;
+    a.handled.check_outputs_writable(
+        &target,
+        &requested_outputs(&[(OutputKind::Plot, &a.svg), (OutputKind::Picture, &a.png)]),
+    )?;
     let map = a.map.as_ref().map(|text| two_labels(&target.lab, text)).transpose()?;
     let (set, press) = (a.handled.set(&target.lab)?, a.handled.press(&target.lab)?);
     let options = Options { until: a.until, margins: a.margins, map, set, press };

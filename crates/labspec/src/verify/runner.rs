@@ -136,7 +136,8 @@ pub(super) fn play<'r>(
     mut sample: impl FnMut(&mut Session<'_>, usize),
 ) {
     let RunRequest { scene: bound, run, .. } = asked;
-    let (lab, programs, displayed) = (&*bound.scene.lab, &*bound.scene.programs, bound.displayed.asked());
+    let (lab, programs, displayed) =
+        (&*bound.scene.lab, &*bound.scene.programs, bound.displayed.used_labels());
     let played = Play { steps: ready.count, every: 1, presses: &ready.press, watched: true };
     let mut watch = Some(Box::new(Watch::losses()));
     let mut open = None;

@@ -21,7 +21,7 @@ pub const MAX_WORK: u64 = 200_000_000;
 /// Limit on the depth of nested calls.
 pub(super) const MAX_CALLS: usize = 200;
 /// Registers for the arguments of a call.
-pub(super) const HANDED: usize = 64;
+pub(super) const MAX_ARGUMENTS: usize = 64;
 
 /// Runs a program once. Not inlined, so that the code paths of formulas stay short.
 #[inline(never)]
@@ -98,11 +98,11 @@ impl Machine<'_> {
     }
 
     pub(super) fn make_room(&mut self, unit: &MachineFunction, frame: RegisterFrame) {
-        let numbers = frame.n + (unit.number_count as usize + HANDED).max(REGISTERS);
+        let numbers = frame.n + (unit.number_count as usize + MAX_ARGUMENTS).max(REGISTERS);
         if self.context.numbers.len() < numbers {
             self.context.numbers.resize(numbers, 0.0);
         }
-        let values = frame.v + unit.value_count as usize + HANDED;
+        let values = frame.v + unit.value_count as usize + MAX_ARGUMENTS;
         if self.context.values.len() < values {
             self.context.values.resize(values, Value::Undefined);
         }
@@ -175,7 +175,7 @@ impl Machine<'_> {
                     }
                 }
                 Op::Again(to, turn) => {
-                    self.count_turn(u64::from(turn), unit, at - 1)?;
+                    self.count_iteration(u64::from(turn), unit, at - 1)?;
                     at = to as usize;
                 }
                 Op::Return => return Ok(()),
@@ -264,7 +264,7 @@ impl Machine<'_> {
 
     /// Subtracts the cost of an iteration of a loop.
     #[inline(always)]
-    fn count_turn(&mut self, turn: u64, unit: &MachineFunction, at: usize) -> RunResult {
+    fn count_iteration(&mut self, turn: u64, unit: &MachineFunction, at: usize) -> RunResult {
         if self.budget < turn {
             self.budget = 0;
             return Err(failure(natives::out_of_steps(), unit, at));
@@ -320,7 +320,7 @@ impl Machine<'_> {
     }
 
     /// Frees objects to which no register and no variable refers, if enough memory was allocated.
-    pub(super) fn tidy(&mut self) {
+    pub(super) fn collect_garbage(&mut self) {
         if self.context.heap.wants_collection() {
             self.context.collect(self.input);
         }

@@ -109,7 +109,7 @@ pub(super) fn so_far<'a>(pairs: impl Iterator<Item = (&'a Vec<f64>, &'a Vec<f64>
 }
 
 /// The largest difference of the two families, relative to the range of the quantity.
-pub(super) fn worst_part(values: &[Vec<f64>], uncertain: &[Vec<f64>]) -> f64 {
+pub(super) fn largest_relative_difference(values: &[Vec<f64>], uncertain: &[Vec<f64>]) -> f64 {
     let of = |(values, uncertain): (&Vec<f64>, &Vec<f64>)| {
         uncertain.last().copied().unwrap_or(0.0) / range(values).max(f64::MIN_POSITIVE)
     };

@@ -109,7 +109,7 @@ impl Recording {
         let rows = self.runs.iter().map(|run| {
             let values = places.iter().map(|&i| run.values[i].clone()).collect();
             // A closed form is evaluated with the reference run, because it depends only on time.
-            let apart = case.rhythm(run.timestep).stride;
+            let apart = case.sampling_plan(run.timestep).stride;
             let met = |list: &Vec<f64>| list.iter().step_by(apart).copied().collect();
             let exact = truth.run.exact.iter().map(met).collect();
             let seen = Run { values, exact, ..Run::default() };

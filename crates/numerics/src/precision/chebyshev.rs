@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 const DEGREE: usize = 12;
 /// The number of parts of the interval that are searched for turning points, and the bisections in one part.
 const PARTS: usize = 48;
-const HALVINGS: usize = 60;
+const BISECTIONS: usize = 60;
 
 /// The turning point of a target near the second last state, a maximum or a minimum. For a method of high order, the steps are
 /// repeated with other lengths; for others, the parabola through three states is used.
@@ -75,7 +75,7 @@ fn turn(values: &[f64]) -> Option<(f64, f64)> {
         .filter(falls)
         .max_by(|&a, &b| sum(&series, point(a)).total_cmp(&sum(&series, point(b))))?;
     let (mut low, mut high) = (point(best), point(best + 1));
-    for _ in 0..HALVINGS {
+    for _ in 0..BISECTIONS {
         let middle = 0.5 * (low + high);
         if sum(&slope, middle) > 0.0 { low = middle } else { high = middle }
     }

@@ -117,7 +117,7 @@ fn prepare(case: &mut PrecisionCase<'_>, options: &Options) -> Result<Ladder, Ru
         return Err(RunError(format!("this lab displays no numbers to compare{why}")));
     }
     case.presses = run::presses(case.programs, &options.press)?;
-    if let Some(who) = case.steps_itself() {
+    if let Some(who) = case.program_that_sets_timestep() {
         return Err(RunError(format!(
             "{} sets the timestep while the lab runs, so no other timestep can be tested",
             labspec::report::printable(&who)
@@ -189,7 +189,7 @@ impl Comparison<'_, '_> {
             setting: *setting,
             is_own: self.ladder.is_own(setting),
             errors,
-            events: events::offs(&run, &self.events),
+            events: events::timing_errors(&run, &self.events),
             energy: self.conserved.energy.map(|_| change(&run.energy, self.part)),
             momentum: [0, 1]
                 .map(|k| self.conserved.momentum[k].map(|_| self.conserved.change(&run, k, self.part))),

@@ -15,16 +15,16 @@ use labspec_core::Model;
 
 /// The thresholds for a zero crossing (distance from zero on both sides) and for a turning point, as parts of the range.
 /// Smaller changes are rounding, or a scene that settles.
-const PASSES: f64 = 1e-5;
-const TURNS: f64 = 1e-3;
+const MIN_CROSSING: f64 = 1e-5;
+const MIN_TURN: f64 = 1e-3;
 /// A number that changes by less than this part of its size has no events.
 const CONSTANT: f64 = 1e-9;
 /// Bodies within this distance at the start are in contact, m.
-const TOUCHING: f64 = 1e-9;
+const CONTACT_DISTANCE: f64 = 1e-9;
 /// The maximum number of turning points of one number that are located.
-const MOST_TURNS: usize = 100;
+const MAX_TURNING_POINTS: usize = 100;
 /// The number of bisections that locate a time up to rounding.
-const HALVINGS: usize = 80;
+const BISECTIONS: usize = 80;
 
 /// The thresholds of the events of each target: for zero crossings and for turning points.
 #[derive(Clone, Debug)]
@@ -39,7 +39,7 @@ impl EventThresholds {
             let size = values.iter().fold(0.0f64, |a, x| a.max(x.abs()));
             let range = range(values);
             let range = if range > CONSTANT * size { range } else { f64::INFINITY };
-            [PASSES * range, TURNS * range]
+            [MIN_CROSSING * range, MIN_TURN * range]
         };
         EventThresholds { least: values.iter().map(least).collect() }
     }
@@ -47,7 +47,7 @@ impl EventThresholds {
 
 /// The search for the first zero crossing of a number.
 #[derive(Clone, Debug)]
-struct Passage {
+struct ZeroCrossing {
     side: f64,
     last: f64,
     candidate: EventTime,
@@ -56,7 +56,7 @@ struct Passage {
 
 /// The search for the first turning point of a number.
 #[derive(Clone, Debug)]
-struct Turn {
+struct TurningPoint {
     low: f64,
     high: f64,
     /// 1 for upwards, -1 for downwards, 0 while unknown.
@@ -81,8 +81,8 @@ pub(super) struct EventFinder<'s> {
     /// Pairs of geoms that are in contact at the start.
     touching: Vec<[usize; 2]>,
     contact: Option<EventTime>,
-    passages: Vec<Passage>,
-    turns: Vec<Turn>,
+    passages: Vec<ZeroCrossing>,
+    turns: Vec<TurningPoint>,
     /// The time at which the last event was confirmed, s.
     settled: f64,
 }
@@ -90,9 +90,17 @@ pub(super) struct EventFinder<'s> {
 impl<'s> EventFinder<'s> {
     pub(super) fn new(sought: &'s EventThresholds, m: &Model, setting: &Setting) -> EventFinder<'s> {
         let none = EventTime::NONE;
-        let passage = Passage { side: 0.0, last: f64::NAN, candidate: none, done: false };
+        let passage = ZeroCrossing { side: 0.0, last: f64::NAN, candidate: none, done: false };
         let (low, high) = (f64::INFINITY, f64::NEG_INFINITY);
-        let turn = Turn { low, high, direction: 0.0, last: f64::NAN, candidate: none, looks: 0, done: false };
+        let turn = TurningPoint {
+            low,
+            high,
+            direction: 0.0,
+            last: f64::NAN,
+            candidate: none,
+            looks: 0,
+            done: false,
+        };
         EventFinder {
             sought,
             dense: setting.integrator.is_high(),
@@ -119,19 +127,19 @@ impl<'s> EventFinder<'s> {
     }
 
     /// Processes the state of the run after a step, with the displayed values.
-    pub(super) fn see(&mut self, session: &Session<'_>, values: &[f64], evaluate: &Evaluate<'_>) {
+    pub(super) fn observe_step(&mut self, session: &Session<'_>, values: &[f64], evaluate: &Evaluate<'_>) {
         let time = self.time(session);
         self.past.keep(session, time);
         let before = self.number_found();
         if self.past.count() == 1 {
-            let near = |c: &labspec_core::Contact| c.dist <= TOUCHING;
+            let near = |c: &labspec_core::Contact| c.dist <= CONTACT_DISTANCE;
             let contacts = session.world.data.fields().contact.iter().filter(|c| near(c));
             self.touching = contacts.map(|c| [c.geom1, c.geom2]).collect();
         } else if self.contact.is_none() && depth(session, &self.touching) > 0.0 {
             self.contact = Some(self.first_contact(session));
         }
         for (i, &value) in values.iter().enumerate() {
-            self.pass(i, value, session, evaluate);
+            self.observe_crossing(i, value, session, evaluate);
             self.turn(i, value, session, evaluate);
         }
         if self.number_found() > before {
@@ -170,7 +178,7 @@ impl<'s> EventFinder<'s> {
         !self.touching.is_empty()
     }
 
-    fn pass(&mut self, i: usize, now: f64, session: &Session<'_>, evaluate: &Evaluate<'_>) {
+    fn observe_crossing(&mut self, i: usize, now: f64, session: &Session<'_>, evaluate: &Evaluate<'_>) {
         let (Some(p), Some([least, _])) = (self.passages.get_mut(i), self.sought.least.get(i)) else {
             return;
         };
@@ -185,7 +193,7 @@ impl<'s> EventFinder<'s> {
         if crossed {
             let side = p.side;
             let mut bench = StepReplay::new(session, &self.past);
-            let found = passage(&mut bench, i, side, evaluate);
+            let found = crossing_time(&mut bench, i, side, evaluate);
             let Some(p) = self.passages.get_mut(i) else { return };
             p.candidate = found.unwrap_or_else(|| between(&self.past, last, now));
         }
@@ -220,7 +228,7 @@ impl<'s> EventFinder<'s> {
         let (direction, looks) = (t.direction, t.looks);
         if begins {
             t.looks += 1;
-            let dense = self.dense && looks < MOST_TURNS;
+            let dense = self.dense && looks < MAX_TURNING_POINTS;
             let mut bench = StepReplay::new(session, &self.past);
             let found = turning_point(&mut bench, i, direction, dense, evaluate);
             let Some(t) = self.turns.get_mut(i) else { return };
@@ -244,7 +252,7 @@ impl<'s> EventFinder<'s> {
         let h = self.past.step(from);
         let (mut low, mut high) = (0.0, h);
         let start = self.past.time(from);
-        for _ in 0..HALVINGS {
+        for _ in 0..BISECTIONS {
             let middle = 0.5 * (low + high);
             if middle <= low || middle >= high {
                 break;
@@ -287,7 +295,12 @@ fn between(past: &StepHistory, last: f64, now: f64) -> EventTime {
 }
 
 /// The time at which a target crosses zero in the last step or in the one before.
-fn passage(bench: &mut StepReplay<'_>, i: usize, side: f64, evaluate: &Evaluate<'_>) -> Option<EventTime> {
+fn crossing_time(
+    bench: &mut StepReplay<'_>,
+    i: usize,
+    side: f64,
+    evaluate: &Evaluate<'_>,
+) -> Option<EventTime> {
     let oldest = bench.past.count().min(3) - 1;
     let leaves = |bench: &mut StepReplay<'_>, j: usize| {
         bench.value(j, 0.0, i, evaluate) * side > 0.0 && bench.value(j - 1, 0.0, i, evaluate) * side <= 0.0
@@ -304,7 +317,7 @@ fn passage(bench: &mut StepReplay<'_>, i: usize, side: f64, evaluate: &Evaluate<
         return None;
     }
     let mut moved = 0.0;
-    for k in 0..HALVINGS {
+    for k in 0..BISECTIONS {
         // The Illinois method, with bisection if it does not progress.
         let line = low + (high - low) * at_low / (at_low - at_high);
         let inside = line > low && line < high && k % 3 != 2;

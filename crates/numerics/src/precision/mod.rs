@@ -31,7 +31,7 @@ mod step_replay;
 pub use beside::{Beside, BesideRow, Recording};
 pub use case::LeftOut;
 pub use compare::compare;
-pub use events::{Event, Nearby};
+pub use events::{Event, NearbyStarts};
 pub use judge::{Compared, Errors};
 pub use numbers::milliseconds;
 pub use report::{Advice, Kind, Options, Report, Row};

@@ -2,7 +2,7 @@
 
 use super::beside::{Beside, Recording};
 use super::case::LeftOut;
-use super::events::{Event, Nearby};
+use super::events::{Event, NearbyStarts};
 use super::judge::{Compared, Errors};
 use super::run_cost::RunCost;
 use super::run_record::RunStatus;
@@ -83,7 +83,7 @@ pub struct Report {
     /// The uncertainty of the penetration depth, m.
     pub penetration_doubt: f64,
     /// How long runs with nearby starts agree, if the reference is lost before the end.
-    pub nearby: Option<Nearby>,
+    pub nearby: Option<NearbyStarts>,
     /// The rows for which no other is better in both error and cost, from the cheapest to the most accurate.
     pub front: Vec<usize>,
     /// The recommendations.

@@ -5,7 +5,7 @@ use labspec_core::{self as core, Model, state};
 
 /// The part of the state that evolves in a step, and the part that is constant during it.
 const MOTION: i32 = state::FULLPHYSICS | state::WARMSTART;
-const HELD: i32 = state::USER;
+const HELD_INPUTS: i32 = state::USER;
 /// The number of stored states.
 const MOST_STATES: usize = 4;
 
@@ -27,7 +27,7 @@ pub(super) struct StepHistory {
 impl StepHistory {
     pub(super) fn new(m: &Model) -> StepHistory {
         let zeros = |sig| vec![0.0; state::size(m, sig).unwrap_or(0)];
-        let empty = PastState { time: 0.0, motion: zeros(MOTION), held: zeros(HELD) };
+        let empty = PastState { time: 0.0, motion: zeros(MOTION), held: zeros(HELD_INPUTS) };
         StepHistory { states: std::array::from_fn(|_| empty.clone()), count: 0 }
     }
 
@@ -39,7 +39,7 @@ impl StepHistory {
         now.time = time;
         // The state belongs to the same model, so this cannot fail.
         let _ = state::get(m, d, &mut now.motion, MOTION);
-        let _ = state::get(m, d, &mut now.held, HELD);
+        let _ = state::get(m, d, &mut now.held, HELD_INPUTS);
         self.count = (self.count + 1).min(MOST_STATES);
     }
 
@@ -86,7 +86,7 @@ impl<'b> StepReplay<'b> {
         }
         let (m, d) = (&world.model, &mut world.data);
         let _ = state::set(m, d, &start.motion, MOTION);
-        let _ = state::set(m, d, &end.held, HELD);
+        let _ = state::set(m, d, &end.held, HELD_INPUTS);
         if x > 0.0 {
             let _ = core::step(m, d);
         }

@@ -8,7 +8,7 @@ use labspec::verify::Stated;
 use labspec_expr::Value;
 
 /// The length of a run after a button is pressed, s.
-const ROUTINE: f64 = 10.0;
+const RUN_AFTER_PRESS: f64 = 10.0;
 /// Words that state a change of a quantity, with the factor.
 const CHANGES: [(&str, f64); 12] = [
     ("doubled", 2.0),
@@ -54,7 +54,7 @@ pub(super) fn runs(question: &Question, asked: &str, lab: &Lab, numbers: &[State
         for t in &mut all {
             t.press = pressed.clone();
             // The process that a button starts takes some time.
-            t.until = t.until.or(lab.stop_at.is_none().then_some(ROUTINE));
+            t.until = t.until.or(lab.stop_at.is_none().then_some(RUN_AFTER_PRESS));
         }
     }
     let pairs = pairs(&all, asked, lab, &stated);
@@ -66,8 +66,8 @@ fn changed(control: &Control, asked: &str, base: &Trial) -> Option<Trial> {
     let label = control.label.as_str();
     let ControlKind::Slider { value: start, min, .. } = &control.kind else { return None };
     let words = label.split(|c: char| !c.is_alphanumeric()).filter(|w| w.chars().count() > 2);
-    let shared = words.filter(|w| super::relation::says(asked, &w.to_lowercase())).count();
-    let (_, factor) = CHANGES.iter().find(|(words, _)| super::relation::says(asked, words))?;
+    let shared = words.filter(|w| super::relation::contains_words(asked, &w.to_lowercase())).count();
+    let (_, factor) = CHANGES.iter().find(|(words, _)| super::relation::contains_words(asked, words))?;
     if shared == 0 {
         return None;
     }
@@ -104,13 +104,13 @@ fn pairs(all: &[Trial], asked: &str, lab: &Lab, stated: &[Stated]) -> Vec<(usize
         }
     }
     for (i, t) in all.iter().enumerate().skip(1) {
-        list.push(if comes_first(t, asked, lab) { (i, 0) } else { (0, i) });
+        list.push(if is_initial_run(t, asked, lab) { (i, 0) } else { (0, i) });
     }
     list
 }
 
 /// Whether the question goes from this run to the unchanged lab: "from 10 to 1", where 1 is the initial value.
-fn comes_first(t: &Trial, asked: &str, lab: &Lab) -> bool {
+fn is_initial_run(t: &Trial, asked: &str, lab: &Lab) -> bool {
     let [(label, value)] = t.set.as_slice() else { return false };
     let Some(control) = lab.control(label) else { return false };
     let written = |value: &Scalar| match value {

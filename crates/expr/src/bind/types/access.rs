@@ -344,13 +344,13 @@ impl<'a> Binder<'a> {
             );
         };
         match self.object_name(id, arg)? {
-            Chosen::Known(object) => Ok(Entity::Object(object)),
-            Chosen::Computed(name) => Ok(Entity::Picked(id, name)),
+            ObjectChoice::Known(object) => Ok(Entity::Object(object)),
+            ObjectChoice::Computed(name) => Ok(Entity::Picked(id, name)),
         }
     }
 
     /// Binds the name of an object of a collection.
-    pub(super) fn object_name(&mut self, id: CollectionId, arg: &'a Expr) -> Attempt<Chosen> {
+    pub(super) fn object_name(&mut self, id: CollectionId, arg: &'a Expr) -> Attempt<ObjectChoice> {
         let noun = self.schema.noun(id).to_owned();
         let names = self.schema.names(id);
         let ir = self.value(arg)?;
@@ -363,7 +363,7 @@ impl<'a> Binder<'a> {
                             .help(format!("give the {noun} a name in the {}", self.host_terms().model)),
                     );
                 }
-                return Ok(Chosen::Computed(ir));
+                return Ok(ObjectChoice::Computed(ir));
             }
             _ => {
                 let text = if names.is_empty() {
@@ -389,7 +389,7 @@ impl<'a> Binder<'a> {
         if let Some(object) = self.schema.lookup(id, name) {
             let title = self.schema.describe(object);
             self.explain(arg.span, || Help { title, lines: Vec::new() });
-            return Ok(Chosen::Known(object));
+            return Ok(ObjectChoice::Known(object));
         }
         let report =
             Finding::error(rules::UNKNOWN_OBJECT, arg.span, format!("there is no {noun} named \"{name}\""));
@@ -407,7 +407,7 @@ impl<'a> Binder<'a> {
 }
 
 /// The object to which a name refers.
-pub(super) enum Chosen {
+pub(super) enum ObjectChoice {
     Known(ObjectId),
     /// Known only at run time.
     Computed(Ir),

@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 use super::binder::{Binder, Entity, InlineSite, VariableMeaning};
 use super::facts::FactKind;
 use crate::ast::{Body, Expr, Function, Name, Pattern};
-use crate::bind::names::{NameTable, Surroundings, resolve};
+use crate::bind::names::{NameContext, NameTable, resolve};
 use crate::bind::source::TextKind;
 use crate::globals::Globals;
 use crate::ir::{Ir, IrKind, IrStatement, always_return};
@@ -29,7 +29,7 @@ fn names_of(function: &Function) -> &'static NameTable {
 fn resolved(function: &'static Function) -> NameTable {
     let globals = Globals::new();
     let around =
-        Surroundings { schema: None, globals: &globals, mode: TextKind::Statements, has_value: false };
+        NameContext { schema: None, globals: &globals, mode: TextKind::Statements, has_value: false };
     resolve(around, |walk| walk.inside(function)).0
 }
 
@@ -82,7 +82,7 @@ impl<'a> Binder<'a> {
         self.loops = loops;
         self.returns.pop();
         if !always_return(&body) {
-            self.facts.see(key, Type::Undefined);
+            self.facts.widen(key, Type::Undefined);
         }
         let result = self.new_local(key, false);
         let ty = self.facts.ty(key);
@@ -110,8 +110,8 @@ impl<'a> Binder<'a> {
     /// Binds a parameter of a written method: an entity that needs no storage becomes an alias.
     fn give_entity(&mut self, name: &Name, thing: Entity, steps: &mut Vec<IrStatement>) {
         match thing {
-            Entity::Value(ir) => self.give_value(name, ir, steps),
-            other => self.give(name, VariableMeaning::Alias(other)),
+            Entity::Value(ir) => self.initialize(name, ir, steps),
+            other => self.mark_declared(name, VariableMeaning::Alias(other)),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::binder::{BindContext, BoundText, bind};
 use super::facts::{FactKey, FactKind, TypeFacts};
-use crate::bind::names::{Surroundings, resolve};
+use crate::bind::names::{NameContext, resolve};
 use crate::bind::source::SourceTree;
 use crate::globals::Globals;
 use crate::mock::{Mock, execute};
@@ -31,7 +31,7 @@ fn bound(source: &str) -> BoundText {
     assert!(parsed.diagnostics.is_empty(), "{:?}", parsed.diagnostics);
     let tree = SourceTree::Statements(&parsed.tree);
     let mut globals = Globals::new();
-    let around = Surroundings { schema: Some(&Mock), globals: &globals, mode: tree.mode(), has_value: false };
+    let around = NameContext { schema: Some(&Mock), globals: &globals, mode: tree.mode(), has_value: false };
     let (names, found) = resolve(around, |walk| walk.block(&parsed.tree));
     assert!(found.is_empty() && !names.stopped, "{found:?}");
     let id = globals.next_program();
@@ -59,7 +59,7 @@ fn types_join_in_a_lattice_of_four_levels() {
     let key = FactKey { site: 0, at: 0, what: FactKind::Name };
     let mut facts = TypeFacts::default();
     for ty in TYPES {
-        facts.see(key, ty);
+        facts.widen(key, ty);
     }
     assert_eq!(facts.found(key), Type::Any);
 }

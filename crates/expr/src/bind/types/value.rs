@@ -24,12 +24,12 @@ impl<'a> Binder<'a> {
         let report = match thing {
             Entity::Value(ir) if ir.ty == Type::Void => self.no_result(span),
             Entity::Value(ir) => {
-                self.note(span, &ir);
+                self.record_type(span, &ir);
                 return Ok(ir);
             }
             Entity::Field(field) if field.is_scalar() => {
                 let ir = self.load(&field, Index::At(0), span);
-                self.note(span, &ir);
+                self.record_type(span, &ir);
                 return Ok(ir);
             }
             Entity::Field(field) => return Ok(self.field_value(&field, span)),
