@@ -86,7 +86,7 @@ fn a_setup_that_does_not_end() {
 }
 
 #[test]
-fn steps_in_programs_cost_what_steps_cost() {
+fn steps_in_programs_have_the_cost_of_steps() {
     let steps = "for (let i = 0; i < 1e6; i++) mj.mj_step(model, data)";
     let checked = check_lab(PENDULUM, json!({"controller": steps}));
     assert_eq!(codes(&checked), ["too-many-steps"], "{:?}", messages(&checked));
@@ -181,7 +181,7 @@ fn a_grid_of_a_million_cells_ends() {
 }
 
 #[test]
-fn iterations_without_number_end() {
+fn iterations_with_nan_end() {
     let boxes = |option: &str| {
         let mut xml = format!("<mujoco><option {option}/><worldbody><geom type='plane' size='1 1 1'/>");
         for i in 0..8 {
@@ -207,7 +207,7 @@ fn iterations_without_number_end() {
 }
 
 #[test]
-fn a_lab_is_run_for_as_long_as_it_is_looked_at() {
+fn a_lab_runs_for_the_time_that_a_student_watches() {
     let late = |t: f64| json!(format!("if (data.time > {t}) {{ data.qvel[0] = 1e11 }}"));
     for (more, t, found) in [
         (json!({}), 5.01, true),
@@ -236,7 +236,7 @@ fn a_lab_is_run_for_as_long_as_it_is_looked_at() {
 }
 
 #[test]
-fn everything_that_is_shown_is_looked_at() {
+fn every_display_is_checked() {
     let readout = |expr: &str| json!({"readouts": [{"label": "x", "expr": expr}]});
     let trace = |expr: &str| json!({"plots": [{"traces": [{"label": "x", "expr": expr}]}]});
     for (lab, expected) in [
@@ -256,7 +256,7 @@ fn everything_that_is_shown_is_looked_at() {
 }
 
 #[test]
-fn gaps_that_are_meant_are_silent() {
+fn intended_gaps_are_not_reported() {
     let trace = json!([{"traces": [{"label": "x", "expr": "ctx.x"}]}]);
     // Until a button is pressed, or until a routine reports its end.
     let checked = check_lab(

@@ -74,7 +74,7 @@ fn the_settings_of_the_course_are_those_that_are_tested() {
 
 /// Every answer is verified or computed, every number with a unit is claimed and right, and nothing is reported.
 #[test]
-fn everything_that_the_course_says_is_true() {
+fn every_claim_of_the_course_is_true() {
     let models = models();
     let start = Instant::now();
     let mut questions = 0;

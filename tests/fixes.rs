@@ -415,7 +415,7 @@ fn a_broken_block_is_still_checked() {
 
 /// Errors in labs that run, whose fixes change the displayed values: none of these fixes is applied without a request.
 #[test]
-fn repairs_that_change_what_a_lab_shows_are_guesses() {
+fn repairs_that_change_displays_are_guesses() {
     let statements = [
         "data.qvel[6] == 2",
         "data.qvel[6] === 2",

@@ -169,7 +169,7 @@ fn names_and_layout_mean_the_same_on_random_states() {
 }
 
 #[test]
-fn the_command_changes_files_or_says_what_would_change() {
+fn the_command_changes_files_or_lists_the_changes() {
     let folder = folder();
     let lesson = folder.path().join("clean.md");
     let before = std::fs::read_to_string(&lesson).unwrap();

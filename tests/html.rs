@@ -98,7 +98,7 @@ fn course() -> &'static (String, Value) {
 }
 
 #[test]
-fn every_question_stands_in_the_page_with_its_verdict() {
+fn the_page_contains_every_question_with_its_verdict() {
     let (page, report) = course();
     let tree = parse(page);
     let word = |claim: &Value| claim["answer"]["verdict"].as_str().unwrap_or("open").to_string();
@@ -208,7 +208,7 @@ fn the_page_of_a_course_loads_nothing_and_is_small() {
 
 /// In dark mode, every colour of a picture is replaced by a suitable one.
 #[test]
-fn pictures_can_be_seen_in_the_dark() {
+fn pictures_are_visible_in_dark_mode() {
     let (page, _) = course();
     let tree = parse(page);
     let style = visible_text(tree.descendants().find(|n| n.has_tag_name("style")).unwrap());
@@ -236,7 +236,7 @@ fn the_same_course_gives_the_same_bytes() {
 
 /// The page does not depend on the location of the course.
 #[test]
-fn the_page_says_nothing_of_the_machine() {
+fn the_page_contains_no_path_of_the_machine() {
     let folder = folder();
     let whole = folder.path().canonicalize().unwrap();
     let absolute = page_of(&whole, &[whole.to_str().unwrap()]).0;
@@ -299,7 +299,7 @@ fn text_of_lessons_is_text() {
 
 /// The numbers that the page lists as unclaimed are those that the rule reports.
 #[test]
-fn numbers_that_nothing_claims_are_those_of_the_rule() {
+fn unclaimed_numbers_are_those_of_the_rule() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::create_dir(folder.path().join("models")).unwrap();
     let numbers: Vec<String> = (1..=10).map(|n| format!("{n} m")).collect();

@@ -350,7 +350,7 @@ fn compare_lessons(lessons: &[PathBuf], models: &Path) {
 }
 
 #[test]
-fn the_corpus_means_what_javascript_means() {
+fn the_corpus_behaves_as_in_javascript() {
     let corpus = workspace().join("../shared/corpus");
     if !needs("../shared/corpus") || !needs("node") {
         return;
@@ -360,7 +360,7 @@ fn the_corpus_means_what_javascript_means() {
 }
 
 #[test]
-fn our_lessons_mean_what_javascript_means() {
+fn our_lessons_behave_as_in_javascript() {
     if !needs("node") {
         return;
     }
@@ -369,7 +369,7 @@ fn our_lessons_mean_what_javascript_means() {
 
 /// Constructs of real labs that these lessons do not contain: names, loops, closures, arrays as values.
 #[test]
-fn a_lab_of_everything_means_what_javascript_means() {
+fn a_lab_with_every_construct_behaves_as_in_javascript() {
     if !needs("node") {
         return;
     }

@@ -145,7 +145,7 @@ fn apart(recording: &Json, column: usize, a: &Json, b: &Json) -> f64 {
 }
 
 #[test]
-fn labs_trace_what_they_trace_on_a_page() {
+fn labs_have_the_traces_of_the_page() {
     let shared = workspace().join("../shared");
     if !needs("../shared/corpus/labs") {
         return;

@@ -328,7 +328,7 @@ fn completions_know_the_language_the_model_and_the_format() {
 }
 
 #[test]
-fn a_hover_tells_the_value_at_the_start() {
+fn a_hover_states_the_initial_value() {
     let folder = folder();
     let mut editor = Editor::open(folder.path());
     for (inside, expected) in [
@@ -498,7 +498,7 @@ fn repairs_are_offered_and_made() {
 
 /// Findings that require runs are reported when the lesson is saved, unless it changes before the runs end.
 #[test]
-fn runs_go_on_beside_and_stop_when_the_text_changes() {
+fn runs_continue_in_the_background_until_the_text_changes() {
     let folder = folder();
     let mut editor = Editor::open(folder.path());
     let text = crate::program::wrong();
@@ -525,7 +525,7 @@ fn runs_go_on_beside_and_stop_when_the_text_changes() {
 
 /// The client is not trusted: messages may have any content and any order.
 #[test]
-fn whatever_is_said_the_server_goes_on() {
+fn no_message_stops_the_server() {
     let folder = folder();
     let mut editor = Editor::start_editor(folder.path());
     let code = |answer: Result<Value, Value>| answer.unwrap_err()["code"].as_i64().unwrap();
@@ -605,7 +605,7 @@ fn whatever_is_said_the_server_goes_on() {
 
 /// An end without `shutdown`, or by the end of the input, gives a non-zero exit code.
 #[test]
-fn an_editor_that_vanishes_leaves_nothing_behind() {
+fn the_server_ends_with_its_editor() {
     let folder = folder();
     let mut editor = Editor::open(folder.path());
     editor.notify("exit", Value::Null);
@@ -664,7 +664,7 @@ fn places_are_those_of_editors() {
 /// The texts of the editor take precedence, saved or not. Files are named as the editor names them, through links or not.
 #[cfg(unix)]
 #[test]
-fn unsaved_texts_and_linked_folders_are_what_the_editor_sees() {
+fn unsaved_texts_and_linked_folders_are_those_of_the_editor() {
     let folder = folder();
     let link = tempfile::tempdir().unwrap();
     let link = link.path().canonicalize().unwrap().join("linked");
@@ -733,7 +733,7 @@ fn files_may_go_away() {
 
 /// No findings are reported for a document that is closed during its runs, even if it is opened again with the same version.
 #[test]
-fn a_closed_document_is_told_of_no_more() {
+fn a_closed_document_gets_no_further_diagnostics() {
     let folder = folder();
     let mut editor = Editor::open(folder.path());
     let text = crate::program::wrong();
@@ -811,7 +811,7 @@ fn huge_documents_are_answered() {
 
 /// If the dimension is known, it is displayed, also for variables and functions, which have no declared unit.
 #[test]
-fn a_hover_tells_the_dimension() {
+fn a_hover_states_the_dimension() {
     let folder = folder();
     let mut editor = Editor::open(folder.path());
     for (inside, expected) in [
@@ -896,7 +896,7 @@ fn shown_in_editor(found: &Value) -> Vec<(String, u64)> {
 /// In a lesson that uses another one, the findings while typing are those of `check --no-run`, and the findings after
 /// saving are those of `check`.
 #[test]
-fn an_editor_says_of_a_lesson_with_neighbours_what_the_program_says() {
+fn editor_and_program_report_the_same_for_a_lesson_with_neighbours() {
     let folder = crate::ledger::with_neighbours();
     let text = crate::ledger::READER;
     let codes_of = |more: &[&str]| {
@@ -918,7 +918,7 @@ fn an_editor_says_of_a_lesson_with_neighbours_what_the_program_says() {
 
 /// Unsaved contents of other documents are used: labs, headings, models, and files that do not exist yet.
 #[test]
-fn unsaved_neighbours_are_seen() {
+fn unsaved_neighbours_are_read() {
     let folder = crate::ledger::with_neighbours();
     let mut editor = Editor::open(folder.path());
     let labs = crate::ledger::LABS;
@@ -966,7 +966,7 @@ fn unsaved_neighbours_are_seen() {
 
 /// While the author types, no files are read: cached information is used until a file is saved, opened or closed.
 #[test]
-fn a_keystroke_asks_the_disk_nothing() {
+fn a_keystroke_causes_no_disk_access() {
     let folder = crate::ledger::with_neighbours();
     let text = crate::ledger::READER;
     let mut editor = Editor::open(folder.path());

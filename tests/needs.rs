@@ -58,6 +58,6 @@ pub(crate) fn summary() {
 }
 
 #[test]
-fn what_is_missing_is_told_from_what_is_there() {
+fn missing_prerequisites_are_detected() {
     assert!(is_available("tests/needs.rs") && !is_available("../nowhere/at-all"));
 }

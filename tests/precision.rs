@@ -101,7 +101,7 @@ fn orders_are_those_of_theory() {
 }
 
 #[test]
-fn what_a_teacher_cares_about_is_ten_times_closer() {
+fn measures_of_lessons_are_ten_times_more_accurate() {
     let labs = standard();
     let all = Options { integrators: INTEGRATORS.to_vec(), ..Options::default() };
     for name in ["03_double_pendulum", "05_tumbling_box"] {

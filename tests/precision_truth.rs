@@ -263,7 +263,7 @@ fn work_decides_and_is_the_same_again() {
 }
 
 #[test]
-fn orders_are_shown_where_there_is_one() {
+fn orders_are_printed_where_they_exist() {
     let lesson = load_lesson(SourceFile::read(&kinds()).unwrap(), &ModelFolder::unknown());
     for (_, lab) in lesson.addressed() {
         let report = report(lab, &Options::default());
@@ -331,7 +331,7 @@ fn no_cost_of_a_plan_is_negative() {
 }
 
 #[test]
-fn nothing_reads_zero_where_more_is_true() {
+fn small_values_are_not_printed_as_zero() {
     // A pendulum whose plot is compared with a reference, and a stack whose contacts a page displays one step late.
     let lesson = load_lesson(SourceFile::read(&kinds()).unwrap(), &ModelFolder::unknown());
     for (_, lab) in lesson.addressed() {
@@ -346,7 +346,7 @@ fn nothing_reads_zero_where_more_is_true() {
 }
 
 #[test]
-fn units_stand_where_they_are_known() {
+fn units_are_printed_where_known() {
     let lesson = load_lesson(SourceFile::read(&kinds()).unwrap(), &ModelFolder::unknown());
     let mut with_unit = 0;
     for (_, lab) in lesson.addressed() {

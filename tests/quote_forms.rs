@@ -191,7 +191,7 @@ fn runs_and_measures_are_shared() {
 }
 
 #[test]
-fn the_tolerance_refuses_what_a_mistake_gives() {
+fn the_tolerance_rejects_values_of_mistakes() {
     let question = |tol: f64, wrong: &str| {
         let verify = json!({"lab": "#1", "value": "crossing(data.qpos[2] - 0.05)", "wrong": [wrong]});
         let quiz = json!({"id": "q", "questions": [{"kind": "numeric", "q": "How long?", "answer": 0.440, "tol": tol, "unit": "s",
@@ -207,7 +207,7 @@ fn the_tolerance_refuses_what_a_mistake_gives() {
 }
 
 #[test]
-fn a_lab_may_stand_in_another_lesson() {
+fn a_claim_can_use_a_lab_of_another_lesson() {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
     let claim = |lab: &str| with(two_falls(), json!({"lab": lab, "value": "earth.lands"}));
@@ -272,7 +272,7 @@ fn a_measure_may_look_at_the_sample_before() {
 }
 
 #[test]
-fn what_a_slider_shows_is_said() {
+fn the_displayed_value_of_a_slider_is_stated() {
     let says = json!({"says": [["-9.810 m/s^2", "model.opt.gravity[2]"]]});
     let checked = check_text("fall.md", &format!("A ball falls.\n{}", lab(says.clone())));
     assert_eq!(codes(&checked), [] as [&str; 0]);
@@ -286,7 +286,7 @@ fn what_a_slider_shows_is_said() {
 
 /// Claims that would take too long or too much memory are reported and not evaluated.
 #[test]
-fn too_much_is_told() {
+fn excessive_claims_are_reported() {
     let began = std::time::Instant::now();
     // Many objects that each use one of a megabyte.
     let long = "1 + ".repeat(250_000) + "1";

@@ -183,7 +183,7 @@ fn every_report_keeps_its_promise() {
 }
 
 #[test]
-fn numbers_that_are_none_are_named() {
+fn nonfinite_numbers_are_named() {
     let folder = folder();
     std::fs::write(folder.path().join("odd.json"), odd_lab()).unwrap();
     let run =

@@ -59,7 +59,7 @@ fn given(setting: &Json) -> Vec<(String, Value)> {
 }
 
 #[test]
-fn broken_settings_are_reported_and_sound_ones_are_not() {
+fn broken_settings_are_reported_and_valid_ones_are_not() {
     let labs: Vec<PreparedLab> = texts().iter().map(|text| prepare(text)).collect();
     let golden = read_json(&workspace().join("tests/golden/twenty.json"));
     let settings = golden["settings"].as_array().unwrap();
@@ -306,7 +306,7 @@ fn traced(folder: &Path, name: &str, text: &str, models: Option<&str>) -> Result
 }
 
 #[test]
-fn trace_says_what_verify_says() {
+fn trace_agrees_with_verify() {
     let lab_texts = texts().into_iter().enumerate().map(|(i, text)| (format!("lab-{i}"), text, None));
     let mut labs: Vec<Named> = lab_texts.collect();
     labs.extend(corpus());
@@ -319,7 +319,7 @@ fn trace_says_what_verify_says() {
 }
 
 #[test]
-fn precision_and_verify_say_what_run_says() {
+fn precision_and_verify_agree_with_run() {
     let lab_texts = texts().into_iter().enumerate().map(|(i, text)| (format!("lab-{i}"), text, None));
     let mut labs: Vec<Named> = lab_texts.collect();
     labs.extend(corpus());

@@ -152,7 +152,7 @@ fn a_plan_for_any_field_changes_no_bit_of_it() {
 
 /// A simulation that was saved and restored continues with the same bits, for all contents and all integrators.
 #[test]
-fn what_is_restored_goes_on_as_before() {
+fn restored_data_continue_as_before() {
     let mut wrong = Vec::new();
     for (name, mut m, state) in animals() {
         for integrator in 0..5 {

@@ -97,7 +97,7 @@ fn rewrite_numbers(text: &str, write: impl Fn(&str) -> String) -> String {
 }
 
 #[test]
-fn another_layout_and_other_words_are_no_lie() {
+fn another_layout_and_wording_are_accepted() {
     let models = models();
     let lessons = course();
     let wrong = for_each(lessons.len() * CHANGES.len(), |i| {

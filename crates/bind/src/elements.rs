@@ -253,7 +253,7 @@ mod tests {
     }
 
     #[test]
-    fn help_says_what_an_element_is() {
+    fn help_describes_elements() {
         let xml = std::fs::read_to_string(
             Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/golden/models/ball_drop.xml"),
         );

@@ -156,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn names_that_mean_something_or_nothing_are_refused() {
+    fn reserved_and_invalid_names_are_refused() {
         for name in [
             "half",
             "model",

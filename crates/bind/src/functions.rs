@@ -301,13 +301,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn jacobians_follow_from_what_the_engine_says() {
+    fn jacobians_read_the_fields_that_the_engine_states() {
         let engine = labspec_core::JACOBIAN_READS.into_iter().chain([data::site_xpos]);
         assert_eq!(engine.collect::<Vec<_>>(), MOTION);
     }
 
     #[test]
-    fn every_touch_is_of_some_field() {
+    fn every_accessed_part_has_fields() {
         use AccessedPart::*;
         let all = [Derived, State, Coordinates, Contacts, Energy, Flags, Places, Motion, Mass];
         assert!(all.iter().all(|t| matches!(accessed_fields(&[*t]), AccessedFields::Fields(_))));

@@ -79,8 +79,8 @@ const DATA_SIDE: u32 = 1 << 30;
 const INDEX: u32 = (1 << 24) - 1;
 
 /// Returns the id of an object.
-pub(super) fn encode(thing: HandleTarget) -> ObjectId {
-    ObjectId(match thing {
+pub(super) fn encode(target: HandleTarget) -> ObjectId {
+    ObjectId(match target {
         HandleTarget::Struct(object) => STRUCTS.iter().position(|&s| s == object).unwrap_or(0) as u32,
         HandleTarget::Functions(i) => FUNCTIONS + i as u32,
         HandleTarget::Enum(i) => ENUMS + i as u32,
@@ -137,20 +137,20 @@ mod tests {
     fn ids_decode_to_what_was_encoded() {
         for (i, &(kind, _)) in KINDS.iter().enumerate() {
             for side in [Side::Model, Side::Data] {
-                let thing = HandleTarget::Named(side, kind, 1000 * i + 7);
-                assert_eq!(decode(encode(thing)), Some(thing));
-                assert_eq!(index_of(f64::from(encode(thing).0)), 1000 * i + 7);
+                let target = HandleTarget::Named(side, kind, 1000 * i + 7);
+                assert_eq!(decode(encode(target)), Some(target));
+                assert_eq!(index_of(f64::from(encode(target).0)), 1000 * i + 7);
                 assert_eq!(of_collection(collection(side, kind)).map(|(s, k, _)| (s, k)), Some((side, kind)));
             }
         }
-        for thing in [
+        for target in [
             HandleTarget::Struct(Object::Data),
             HandleTarget::Struct(Object::Option),
             HandleTarget::Functions(2),
             HandleTarget::Enum(3),
             HandleTarget::Member(3, 70),
         ] {
-            assert_eq!(decode(encode(thing)), Some(thing));
+            assert_eq!(decode(encode(target)), Some(target));
         }
     }
 }

@@ -110,7 +110,7 @@ mod tests {
     /// A double, an integer and a flag convert values as JavaScript's typed arrays do, except that flags
     /// accept only the bytes 0 and 1.
     #[test]
-    fn fields_keep_what_typed_arrays_keep() {
+    fn fields_store_the_values_that_typed_arrays_store() {
         let mjcf = "<mujoco><worldbody><body name='a'><freejoint/><geom size='1'/></body></worldbody>
             <equality><weld body1='a'/></equality></mujoco>";
         let after = |field: &str, value: &str| {

@@ -289,7 +289,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_written_is_read_back() {
+    fn written_results_are_read_back() {
         let top = course();
         let models = models(top.path());
         let lesson = lesson(&models, LESSON);
@@ -306,7 +306,7 @@ mod tests {
 
     /// A changed byte or a truncated file gives no result.
     #[test]
-    fn a_damaged_result_is_none() {
+    fn a_damaged_result_is_not_read() {
         let top = course();
         let models = models(top.path());
         let lesson = lesson(&models, LESSON);
@@ -378,7 +378,7 @@ mod tests {
 
     /// A model reports its diagnostics even if the result of its lab is cached.
     #[test]
-    fn a_model_reports_its_diagnostics_again() {
+    fn cached_models_report_their_diagnostics_again() {
         let top = course();
         write_ball(top.path(), "text <geom size='0.05'/>");
         let mut first = models(top.path());

@@ -3,7 +3,7 @@
 use super::baseline::Baseline;
 use super::common::ModelOptions;
 use super::policy::{Policy, PolicyOptions};
-use labspec::check::{Allowed, Basis, CheckLevel, Checked, CrossCheck, Recording, VerifyCurves};
+use labspec::check::{Basis, CheckLevel, Checked, CrossCheck, Recording, SuppressedFinding, VerifyCurves};
 use labspec::finding::Finding;
 use labspec::ledger::Ledger;
 use labspec::source::SourceFile;
@@ -72,7 +72,7 @@ pub(super) struct CourseResults {
 #[derive(Default)]
 pub(super) struct SuppressedFindings {
     pub(super) ignored: Vec<Finding>,
-    pub(super) allowed: Vec<Allowed>,
+    pub(super) allowed: Vec<SuppressedFinding>,
     pub(super) baselined: Vec<Finding>,
 }
 

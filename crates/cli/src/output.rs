@@ -292,7 +292,7 @@ mod tests {
 
     /// A run that was killed between writing and renaming leaves a temporary file, which the next run removes.
     #[test]
-    fn what_a_killed_run_has_left_is_cleared() {
+    fn temporary_files_of_a_killed_run_are_removed() {
         let folder = tempfile::tempdir().unwrap();
         let at = |name: &str| folder.path().join(name);
         // The first name has a process id that does not exist. The second belongs to this process, which may still write it.

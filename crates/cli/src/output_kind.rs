@@ -260,7 +260,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn tables_of_ours_are_told_from_measurements() {
+    fn own_tables_are_distinguished_from_measurements() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("t.csv");
         let is_ours = |text: &str| {
@@ -293,7 +293,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lesson_replaces_what_was_read_and_nothing_else() {
+    fn an_output_replaces_only_files_of_its_kind() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.md");
         fs::write(&path, "as read").unwrap();

@@ -347,7 +347,7 @@ mod tests {
     }
 
     #[test]
-    fn mistakes_in_settings_are_told() {
+    fn errors_in_settings_are_reported() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("labspec.toml");
         let error = |text: &str| {

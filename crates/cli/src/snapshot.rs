@@ -361,7 +361,7 @@ mod tests {
     }
 
     #[test]
-    fn each_lab_is_asked_for() {
+    fn review_asks_about_each_lab() {
         for (answers, accepted, questions) in [
             ("y\nn\nyes\n", &["#1", "#3"][..], 3),
             ("what\nn\na\n", &["#2", "#3"], 3),

@@ -260,7 +260,7 @@ mod tests {
     use crate::{Compiler, Context, FunctionId, Globals, Heap, Value};
 
     #[test]
-    fn columns_give_what_rows_give() {
+    fn columns_give_the_results_of_rows() {
         let mut globals = Globals::new();
         let mut compiler = Compiler::new(&Mock, &mut globals);
         let sources = [
@@ -323,7 +323,7 @@ mod tests {
     }
 
     #[test]
-    fn what_does_not_belong_together_is_an_error() {
+    fn mismatched_recordings_and_programs_are_errors() {
         let mut globals = Globals::new();
         let mut compiler = Compiler::new(&Mock, &mut globals);
         let mut program = |text: &str| compiler.expression(text).program.unwrap();
@@ -352,7 +352,7 @@ mod tests {
     }
 
     #[test]
-    fn what_depends_on_more_has_no_columns() {
+    fn programs_that_need_the_machine_have_no_columns() {
         let mut globals = Globals::new();
         let mut compiler = Compiler::new(&Mock, &mut globals);
         let mut recording = Recording::new();

@@ -210,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn an_editor_finds_the_place() {
+    fn editor_positions_are_correct() {
         let text = "\u{feff}ä\tx\r\n𝄞b👩‍🔬c\rd\n";
         let lines = Lines::new(text);
         let at = |what: char| {

@@ -140,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn every_pair_of_levels_stands_in_some_row() {
+    fn every_pair_of_levels_occurs_in_some_row() {
         for levels in [
             &[2, 2, 2, 2, 2, 2, 2, 2, 2, 2][..],
             &[2, 3, 4, 5],
@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn what_does_not_fit_is_counted() {
+    fn pairs_beyond_the_limit_are_counted() {
         let (rows, missing) = pairwise(&[4, 4, 4], 5);
         assert_eq!((rows.len(), missing), (5, 48 - covered_pairs(&rows).len()));
         assert_eq!(pairwise(&[9], 100), (Vec::new(), 0));

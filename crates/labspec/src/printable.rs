@@ -77,7 +77,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_acts_on_a_terminal_is_written_out() {
+    fn terminal_control_characters_are_escaped() {
         for (text, printed) in [
             ("plain – “α” ⚠️ 日本", "plain – “α” ⚠️ 日本"),
             ("a\u{1b}[2Jb", "a\\u{1b}[2Jb"),

@@ -247,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn the_examples_of_functions_give_what_they_say() {
+    fn the_examples_of_functions_give_their_results() {
         let model = xml::compile(PENDULUM).unwrap();
         let mut wrong = Vec::new();
         for FunctionDoc { signature, example: (code, value), measure: over, claim, .. } in

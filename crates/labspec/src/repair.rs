@@ -268,7 +268,7 @@ mod tests {
     }
 
     #[test]
-    fn what_repairs_is_kept_and_what_makes_it_worse_is_not() {
+    fn successful_repairs_are_kept_and_harmful_ones_are_not() {
         assert_eq!(
             repair(find_wrong("a x b x"), false, &find_wrong, &|_| Traces::new()),
             ("a o b o".to_string(), 2)
@@ -281,7 +281,7 @@ mod tests {
     }
 
     #[test]
-    fn a_safe_repair_that_changes_what_is_shown_is_not_made() {
+    fn a_repair_that_changes_displayed_values_is_not_safe() {
         // Only the first character is displayed.
         let shows = |text: &str| Traces::from([(0, 0, vec![text.chars().take(1).collect()])]);
         assert_eq!(repair(find_wrong("x x"), false, &find_wrong, &shows), ("x o".to_string(), 1));
@@ -291,7 +291,7 @@ mod tests {
     /// With three failing ones among 256 repairs, all others are made, with the number of checks of a bisection; one by one
     /// would need 256.
     #[test]
-    fn bad_repairs_are_found_by_halves() {
+    fn bad_repairs_are_found_by_bisection() {
         let mut text = "x ".repeat(256);
         for bad in [400, 222, 0] {
             text.insert(bad, '!');

@@ -40,7 +40,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_panic_says_what_it_was() {
+    fn the_message_of_a_panic_is_returned() {
         assert_eq!(run_in_thread(|| 3), Ok(3));
         let lesson = 7;
         assert_eq!(

@@ -318,7 +318,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_nothing_refers_to_is_freed() {
+    fn unreferenced_objects_are_freed() {
         let mut heap = Heap::default();
         let rooted = heap.numbers(&[1.0, 2.0]).unwrap();
         let ring = heap.list(Vec::new()).unwrap();
@@ -343,7 +343,7 @@ mod tests {
     }
 
     #[test]
-    fn a_full_heap_says_so() {
+    fn a_full_heap_is_an_error() {
         let mut heap = Heap::default();
         let large = || vec![Value::Null; 1 << 20];
         assert!((0..10).any(|_| heap.list(large()).is_err()));

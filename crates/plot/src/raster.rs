@@ -67,7 +67,7 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_is_drawn_with_its_words() {
+    fn a_picture_contains_its_texts() {
         let (one, two) = (png(&chart(""), 2.0).unwrap(), png(&chart("x² + μ"), 2.0).unwrap());
         let ((wide, high, a), (_, _, b)) = (pixels(&one), pixels(&two));
         assert_eq!((wide, high), (640, 400));
@@ -78,7 +78,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_picture_or_too_large_is_an_error() {
+    fn invalid_and_oversized_pictures_are_errors() {
         assert!(png("<svg", 1.0).is_err());
         assert!(png(&chart(""), 1e3).is_err());
         assert!(png(&chart(""), f32::NAN).is_err());

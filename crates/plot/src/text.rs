@@ -99,7 +99,7 @@ mod tests {
     }
 
     #[test]
-    fn long_text_is_cut_to_its_room() {
+    fn long_text_is_truncated_to_its_width() {
         assert_eq!(fit("energy", 12.0, 100.0), "energy");
         let cut = fit("kinetic energy of the heavy ball", 12.0, 100.0);
         assert_eq!(cut, "kinetic energy…");

@@ -12,11 +12,11 @@ pub(super) fn chart(report: &Report, title: &str) -> String {
     let first = report.targets.iter().position(|t| t.is_compared());
     let target = first.and_then(|i| report.targets.get(i));
     // An error below the uncertainty of the reference is drawn at that uncertainty.
-    let doubt = target.map_or(0.0, |t| t.uncertain);
+    let uncertainty = target.map_or(0.0, |t| t.uncertain);
     let of = |errors: &[Errors]| first.and_then(|i| errors.get(i)).copied();
     let point = |errors: &[Errors], cost: f64| {
         let e = of(errors).filter(|e| e.largest.is_finite())?;
-        let error = if e.below { e.largest.max(doubt) } else { e.largest };
+        let error = if e.below { e.largest.max(uncertainty) } else { e.largest };
         Some(MethodPoint { cost, error, at_most: e.below, ..MethodPoint::default() })
     };
     // A run that is not compared is not drawn; a run that failed is.

@@ -92,13 +92,13 @@ fn columns(report: &Report) -> Vec<Column> {
     keeps(report.momentum[0], "momentum", "kg m/s", |r| r.momentum[0]);
     keeps(report.momentum[1], "angular momentum", "kg m²/s", |r| r.momentum[1]);
     if report.penetration > 0.0 {
-        let doubt = report.penetration_doubt.max(ROUNDING * report.penetration);
+        let uncertainty = report.penetration_doubt.max(ROUNDING * report.penetration);
         let legend = format!(
             "bodies are {} m (± {} m) in each other: error in m",
-            certain_digits(report.penetration, doubt),
-            cell(doubt)
+            certain_digits(report.penetration, uncertainty),
+            cell(uncertainty)
         );
-        let of = |r: &Row| error_or_doubt((r.penetration - report.penetration).abs(), doubt);
+        let of = |r: &Row| error_or_doubt((r.penetration - report.penetration).abs(), uncertainty);
         list.push(Column { legend, cells: report.rows.iter().map(of).collect() });
     }
     list
@@ -112,8 +112,8 @@ fn cell(x: f64) -> String {
 }
 
 /// An error, or the doubt about the truth if that is larger.
-fn error_or_doubt(error: f64, doubt: f64) -> String {
-    if error <= doubt { format!("≤{doubt:.0e}") } else { cell(error) }
+fn error_or_doubt(error: f64, uncertainty: f64) -> String {
+    if error <= uncertainty { format!("≤{uncertainty:.0e}") } else { cell(error) }
 }
 
 /// The error of a number.
@@ -122,11 +122,11 @@ fn error(e: &Errors, target: &Compared) -> String {
 }
 
 /// A number with its certain digits and one more.
-fn certain_digits(x: f64, doubt: f64) -> String {
-    if !(doubt > 0.0 && doubt.is_finite()) {
+fn certain_digits(x: f64, uncertainty: f64) -> String {
+    if !(uncertainty > 0.0 && uncertainty.is_finite()) {
         return significant(x);
     }
-    let decimals = (1.0 - doubt.log10().floor()).clamp(0.0, 15.0) as usize;
+    let decimals = (1.0 - uncertainty.log10().floor()).clamp(0.0, 15.0) as usize;
     format!("{x:.decimals$}")
 }
 

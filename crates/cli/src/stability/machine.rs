@@ -211,7 +211,7 @@ fn fault_row<'a>(fault: &'a Fault, interaction: &Interaction, programs: &'a Prog
     FaultRow {
         kind: key(fault.kind.description()),
         time: fault.time,
-        who: &fault.who,
+        who: &fault.subject,
         cause: &fault.cause,
         evidence: evidence.collect(),
         setting: actions(interaction, programs),
@@ -221,12 +221,12 @@ fn fault_row<'a>(fault: &'a Fault, interaction: &Interaction, programs: &'a Prog
 fn margin_row(m: &Margin) -> MarginRow<'_> {
     MarginRow {
         knob: key(m.knob.description()),
-        who: &m.who,
+        who: &m.subject,
         unit: m.unit,
         now: m.now,
         largest: m.largest,
         breaks: m.breaks,
-        how: m.how.as_ref().map(|(kind, who)| BreakRow { kind: key(kind.description()), who }),
+        how: m.how.as_ref().map(|(kind, subject)| BreakRow { kind: key(kind.description()), who: subject }),
         bound: m.bound,
         runs: m.runs,
         geoms: &m.geoms,

@@ -130,7 +130,7 @@ fn finding(found: &StabilityFinding, programs: &Programs, text: &mut String) {
         text,
         "\n{}{expected}: {}, at t = {} s, {}",
         fault.kind.description(),
-        printable(&fault.who),
+        printable(&fault.subject),
         labspec::run::time(fault.time),
         printable(&interaction.describe(programs))
     );
@@ -196,14 +196,17 @@ fn margin(m: &Margin) -> [String; 6] {
         (Some(x), None) => format!("> {}", value(x)),
         (None, _) => "none".into(),
     };
-    let who =
-        if m.knob.description() == "timestep" { String::new() } else { format!(" of {}", printable(&m.who)) };
+    let subject = if m.knob.description() == "timestep" {
+        String::new()
+    } else {
+        format!(" of {}", printable(&m.subject))
+    };
     let how = m
         .how
         .as_ref()
-        .map_or(String::new(), |(kind, who)| format!("{}: {}", kind.description(), printable(who)));
+        .map_or(String::new(), |(kind, subject)| format!("{}: {}", kind.description(), printable(subject)));
     [
-        format!("{}{who}", m.knob.description()),
+        format!("{}{subject}", m.knob.description()),
         value(m.now),
         largest,
         m.largest.map_or(String::new(), |x| two_digits(x / m.now)),

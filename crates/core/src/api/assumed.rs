@@ -90,7 +90,7 @@ mod tests {
 
     /// A plan is that of the current values, before a change and after it, whatever may be written.
     #[test]
-    fn what_is_written_is_taken_as_it_is() {
+    fn written_values_are_used() {
         let fields = [
             (option::integrator, 0, f64::from(integrator::RK4)),
             (option::disableflags, 0, 16.0),
@@ -175,7 +175,7 @@ mod tests {
     /// A plan allows any value for a field that changes repeatedly, until it has stayed constant for some time. After a call that
     /// computes a part, the plan stays until the next full pass.
     #[test]
-    fn restless_values_may_be_any() {
+    fn frequently_written_values_are_arbitrary() {
         let (mut m, mut d) = start(&[model::dof_damping]);
         let passive = |d: &Data<Planned>| d.plan().keeps(Stage::Passive);
         assert!(!passive(&d));

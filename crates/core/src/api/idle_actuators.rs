@@ -36,7 +36,7 @@ fn check_steps_agree(m: &Model, planned: &mut Data<Planned>, full: &mut Data) {
 /// Gravity compensation that counts as an actuator force does not act in a model without actuators (measured on MuJoCo
 /// 3.14.0), whatever the plan contains.
 #[test]
-fn without_actuators_nothing_compensates_gravity_for_them() {
+fn without_actuators_there_is_no_actuator_gravity_compensation() {
     let m = Model::from_xml(
         "<mujoco><worldbody><site name='a' pos='0 0 .5'/><body gravcomp='.1'><freejoint/><geom size='.05' mass='1'/>\
          <site name='s' pos='0 0 .1'/></body></worldbody><tendon><spatial><site site='a'/><site site='s'/></spatial></tendon>\
@@ -81,7 +81,7 @@ fn actuators_without_controls_are_left_out() {
 }
 
 #[test]
-fn keyframes_and_states_bring_their_controls() {
+fn keyframes_and_states_set_controls() {
     let more = "<actuator><motor joint='j'/></actuator><keyframe><key ctrl='.5'/></keyframe>";
     let m = pendulum(more);
     let key = m.keys().next().unwrap();
@@ -95,7 +95,7 @@ fn keyframes_and_states_bring_their_controls() {
 }
 
 #[test]
-fn equalities_that_are_off_are_left_out() {
+fn inactive_equalities_are_excluded() {
     let tie = "<equality><joint joint1='j' joint2='k' active='false'/><connect body1='a' body2='b' anchor='1 0 0' active='false'/></equality>";
     let mut m = pendulum(tie);
     let plan = Plan::new(&m, &reading());

@@ -78,7 +78,7 @@ const TIE: &str = "<equality><joint joint1='j2' joint2='j7'/></equality>";
 const TENDON: &str = "<tendon><fixed armature='.01'><joint joint='j1' coef='1'/><joint joint='j8' coef='-2'/></fixed></tendon>";
 
 #[test]
-fn long_chains_move_as_by_the_general_way() {
+fn long_chains_move_as_by_the_general_algorithm() {
     for option in [
         "",
         "integrator='RK4'",

@@ -80,7 +80,7 @@ fn call_all(m: &Model, Workspace { fields: d, scratch: s }: &mut Workspace) {
 }
 
 #[test]
-fn what_is_accepted_of_a_stored_model_can_be_stepped() {
+fn accepted_stored_models_can_be_stepped() {
     ends(|| {
         let m = model_with_all_features();
         assert_eq!(validate(&m), None);
@@ -112,7 +112,7 @@ fn what_is_accepted_of_a_stored_model_can_be_stepped() {
 }
 
 #[test]
-fn what_is_written_to_the_integers_of_the_data_is_survived() {
+fn written_integers_of_the_data_cause_no_panic() {
     ends(|| {
         let m = model_with_all_features();
         let mut start = Workspace::new(&m);

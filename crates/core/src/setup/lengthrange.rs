@@ -252,7 +252,7 @@ mod tests {
 
     /// If MuJoCo finds no range, this code finds none. A search without end is not started.
     #[test]
-    fn what_has_no_range_says_so() {
+    fn an_actuator_without_a_range_is_an_error() {
         let limit = "range='-60 60'";
         let motor = "<motor joint='a'/>";
         let cases = [

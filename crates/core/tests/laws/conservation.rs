@@ -90,7 +90,7 @@ proptest! {
     }
 
     #[test]
-    fn a_motion_without_friction_finds_its_way_back(scene in scene(), numbers in numbers()) {
+    fn a_frictionless_motion_is_reversible(scene in scene(), numbers in numbers()) {
         let m = compile(&scene.conservative()).unwrap();
         let result = shrinks(&m, |h, n| return_distance(&m, &numbers, h, n));
         prop_assert!(result.is_ok(), "{result:?}");

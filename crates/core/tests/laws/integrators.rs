@@ -93,7 +93,7 @@ fn orders_of_convergence() {
 
 /// The adaptive method does not need small timesteps: one step over the whole time is as accurate as 8,000 steps of order eight.
 #[test]
-fn the_adaptive_method_is_right_whatever_the_step() {
+fn the_adaptive_method_is_accurate_for_every_timestep() {
     let reference = Method { id: integrator::RKMK8, order: 8.0, order_in_space: 8.0, step: 0.0 };
     let adaptive = Method { id: integrator::ADAPTIVE, ..reference };
     let push =
@@ -251,7 +251,7 @@ proptest! {
 
     /// Rotation about a principal axis continues, and a scene at rest without forces stays at rest, bit for bit.
     #[test]
-    fn what_keeps_moving_and_what_rests(scene in scene(), numbers in numbers(), spin in -20.0..20.0f64) {
+    fn principal_rotations_continue_and_scenes_at_rest_stay(scene in scene(), numbers in numbers(), spin in -20.0..20.0f64) {
         let top = compile(
             "<mujoco><option gravity='0 0 0'/><worldbody><body><freejoint/><geom pos='0.1 0 0' size='0.1'/>
              <geom pos='-0.1 0 0' size='0.1'/></body></worldbody></mujoco>",

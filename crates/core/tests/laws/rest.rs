@@ -83,7 +83,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 200, max_shrink_iters: 300, ..ProptestConfig::default() })]
 
     #[test]
-    fn a_sphere_rests_as_deep_as_the_closed_form_says(rest in contact_parameters(true)) {
+    fn the_depth_of_a_resting_sphere_has_a_closed_form(rest in contact_parameters(true)) {
         let mut m = rest.model();
         // With the default tolerance, the solver stops early and the sphere moves up and down with 1e-9 m/s.
         (*m.edit().opt.tolerance, *m.edit().opt.ls_tolerance) = (0.0, 1e-10);

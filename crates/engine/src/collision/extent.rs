@@ -186,7 +186,7 @@ mod tests {
 
     /// A pendulum of 1 m with a bob of 0.1 m above a floor, a cart on rails, and two pendulums next to each other.
     #[test]
-    fn what_is_out_of_reach_is_left_out() {
+    fn pairs_out_of_reach_are_excluded() {
         let floor = "<geom type='plane' size='1 1 1'/>";
         let pendulum = |x: f64, z: f64, joint: &str| {
             format!("<body pos='{x} 0 {z}'>{joint}<geom size='.1' pos='0 0 -1'/></body>")

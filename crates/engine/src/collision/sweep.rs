@@ -70,7 +70,7 @@ pub(super) struct Sweep {
     explicit: Vec<Pair>,
     /// Number of pairs of spheres tested in the last step, and how many of them were near.
     pub(super) tested: usize,
-    asked: usize,
+    queried: usize,
 }
 
 /// Maximum number of columns that a geom not wider than a column can intersect.
@@ -96,14 +96,14 @@ impl Sweep {
             near: Vec::with_capacity(8 * n),
             explicit: filter::explicit_pairs(m).collect(),
             tested: 0,
-            asked: 0,
+            queried: 0,
         }
     }
 
     /// Finds the pairs with overlapping bounds at the current positions. Returns the work units.
     pub(super) fn run(&mut self, m: &Model, d: &Fields) -> u64 {
         let width = self.place(m, rows::<3>(&d.geom_xpos));
-        (self.tested, self.asked) = (0, 0);
+        (self.tested, self.queried) = (0, 0);
         self.near.clear();
         self.near.extend_from_slice(&self.explicit);
         self.in_columns(m);
@@ -119,7 +119,7 @@ impl Sweep {
         sort_by(&mut self.near, |p, q| p.order(m).cmp(&q.order(m)));
         let listed = m.npair + m.nexclude;
         let rest = self.shadows.len() * (100 + 10 * self.planes.len()) + 5 * self.tested;
-        (rest + self.asked * (20 + listed) + 100 * self.near.len()) as u64
+        (rest + self.queried * (20 + listed) + 100 * self.near.len()) as u64
     }
 
     /// Computes and sorts the intervals and columns of all geoms. Returns the width of a column, m.
@@ -173,7 +173,7 @@ impl Sweep {
                     let other = &self.shadows[other as usize];
                     // Geoms that share several columns are paired only in the first one.
                     if other.near(s) && s.first_common(other) == place {
-                        self.asked += 1;
+                        self.queried += 1;
                         if self.near.len() < MOST_NEAR {
                             self.near.extend(may_touch(m, other.geom as usize, s.geom as usize));
                         }
@@ -192,7 +192,7 @@ impl Sweep {
             for other in later.take_while(|other| other.low <= s.high) {
                 self.tested += 1;
                 if other.near(s) {
-                    self.asked += 1;
+                    self.queried += 1;
                     if self.near.len() < MOST_NEAR {
                         self.near.extend(may_touch(m, other.geom as usize, s.geom as usize));
                     }
@@ -210,7 +210,7 @@ impl Sweep {
                 for other in self.shadows.iter().filter(|other| !other.wide) {
                     self.tested += 1;
                     if other.near(s) {
-                        self.asked += 1;
+                        self.queried += 1;
                         if self.near.len() < MOST_NEAR {
                             self.near.extend(may_touch(m, other.geom as usize, s.geom as usize));
                         }
@@ -232,7 +232,7 @@ impl Sweep {
                     }
                     self.tested += 1;
                     if other.near(s) && s.first_common(other) == place {
-                        self.asked += 1;
+                        self.queried += 1;
                         if self.near.len() < MOST_NEAR {
                             self.near.extend(may_touch(m, other.geom as usize, s.geom as usize));
                         }

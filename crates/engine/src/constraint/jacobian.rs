@@ -242,7 +242,7 @@ impl Jacobian {
         columns: &[i32],
         values: impl Iterator<Item = f64>,
     ) {
-        self.open(cost, row);
+        self.start_block(cost, row);
         for (&c, v) in columns.iter().zip(values) {
             self.append(c, v);
         }
@@ -257,7 +257,7 @@ impl Jacobian {
         (mut cb, mut vb): (&[i32], &[f64]),
         factor: f64,
     ) {
-        self.open(cost, row);
+        self.start_block(cost, row);
         loop {
             match (ca, va, cb, vb) {
                 ([a, na @ ..], [x, nx @ ..], [b, nb @ ..], [y, ny @ ..]) if a == b => {
@@ -280,7 +280,7 @@ impl Jacobian {
     /// Appends a block with the rows of another block and other, ascending columns. Returns its values, which are
     /// zero.
     pub(super) fn push_zeros(&mut self, like: &Block, columns: impl Iterator<Item = usize>) -> &mut [f64] {
-        self.open(like.cost, like.row as usize);
+        self.start_block(like.cost, like.row as usize);
         let (adr, col) = (self.used_values, self.used_columns);
         for c in columns {
             if self.columns.len() <= self.used_columns {
@@ -314,7 +314,7 @@ impl Jacobian {
     }
 
     /// Starts a block of one row.
-    fn open(&mut self, cost: Cost, row: usize) {
+    fn start_block(&mut self, cost: Cost, row: usize) {
         let (adr, col) = (self.used_values as u32, self.used_columns as u32);
         self.blocks.push(Block {
             row: row as u32,

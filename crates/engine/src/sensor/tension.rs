@@ -59,7 +59,7 @@ mod tests {
     /// The path of the second tendon begins with a pulley, and its points have overwritten those of the first tendon,
     /// which sleeps.
     #[test]
-    fn a_tendon_that_sleeps_pulls_nobody() {
+    fn a_sleeping_tendon_applies_no_force() {
         let m = compile(
             "<mujoco><option><flag sleep='enable'/></option><worldbody><geom type='plane' size='5 5 1'/>\
             <site name='anchor' pos='0 0 .5'/>\

@@ -134,7 +134,7 @@ mod tests {
 
     /// Every compiled model is valid.
     #[test]
-    fn compiled_models_are_sound() {
+    fn compiled_models_are_valid() {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/golden/models");
         let mut wrong = Vec::new();
         for entry in std::fs::read_dir(folder).unwrap() {
@@ -151,7 +151,7 @@ mod tests {
     /// With any integer in any structure field, the model is refused or valid, and no integer is used as an index before the
     /// validation.
     #[test]
-    fn whatever_the_integers_are_is_looked_at_first() {
+    fn integers_of_stored_data_are_validated_first() {
         let m = compile(EVERYTHING).unwrap();
         let fields =
             reflect::fields().filter(|f| f.info().object == Object::Model && f.info().elem == Elem::I32);

@@ -268,7 +268,7 @@ mod tests {
     }
 
     #[test]
-    fn an_unclosed_comment_is_found_behind_others() {
+    fn an_unclosed_comment_is_found_after_others() {
         let mut found = Vec::new();
         tokens("1 /* a */ // b /*\n /* c", &mut found);
         assert_eq!(found.len(), 1);

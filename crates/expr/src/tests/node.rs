@@ -142,7 +142,7 @@ fn from_env(name: &str, default: u64) -> u64 {
 }
 
 #[test]
-fn random_programs_do_what_javascript_does() {
+fn random_programs_behave_as_in_javascript() {
     if !needs("node") {
         return;
     }

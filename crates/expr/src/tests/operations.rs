@@ -132,7 +132,7 @@ fn check_back_ends(case: &Case, text: &str, pairs: &[(f64, f64)]) {
 }
 
 #[test]
-fn every_back_end_means_what_the_table_says() {
+fn every_back_end_follows_the_table_of_operations() {
     let mut formulas = 0;
     for case in cases() {
         let all: Vec<(f64, f64)> = DIFFICULT_NUMBERS
@@ -171,7 +171,7 @@ fn every_back_end_means_what_the_table_says() {
 }
 
 #[test]
-fn truth_is_one_or_nothing() {
+fn truth_values_are_one_or_zero() {
     for (text, x) in DIFFICULT_NUMBERS {
         assert_eq!(truth(truthy(x)), f64::from(u8::from(Value::Number(x).truthy())), "{text}");
     }

@@ -22,7 +22,7 @@ fn loses_nan(source: &str, x: f64) -> bool {
 }
 
 #[test]
-fn whatever_makes_a_value_of_nothing_loses_it() {
+fn operations_that_turn_nan_into_a_value_are_recorded() {
     for source in [
         "data.qpos[0] < 1",
         "!(data.qpos[0] < 1)",
@@ -77,7 +77,7 @@ fn whatever_makes_a_value_of_nothing_loses_it() {
 }
 
 #[test]
-fn arithmetic_and_questions_lose_nothing() {
+fn arithmetic_and_tests_for_nan_are_not_recorded() {
     for source in [
         "isNaN(data.qpos[0])",
         "!isNaN(data.qpos[0]) && data.qpos[0] < 1",
@@ -95,7 +95,7 @@ fn arithmetic_and_questions_lose_nothing() {
 }
 
 #[test]
-fn undefined_counts_in_claims_alone() {
+fn undefined_is_recorded_in_claims_alone() {
     for source in ["[1].find(x => x > 2) || 1", "[1, 2].some(x => { })", "[1].find(x => x > 2) < 1"] {
         assert!(loses_nan(source, 0.5), "{source}");
     }
@@ -105,7 +105,7 @@ fn undefined_counts_in_claims_alone() {
 }
 
 #[test]
-fn a_turned_comparison_shows_whether_it_decides() {
+fn an_inverted_comparison_shows_whether_it_decides() {
     let (value, watch) = run("data.qpos[0] > 1 && data.qpos[0] < 3", 2.5, Watch::comparing(None));
     assert_eq!(value, Value::Boolean(true));
     assert_eq!(watch.comparisons.iter().map(|c| c.margin).collect::<Vec<_>>(), [1.5, 0.5]);
@@ -120,7 +120,7 @@ fn a_turned_comparison_shows_whether_it_decides() {
 proptest! {
     /// An expression that needs no watch loses nothing.
     #[test]
-    fn losses_are_the_same_with_comparisons(
+    fn losses_are_independent_of_recorded_comparisons(
         tree in crate::tests::roundtrip::expression(), x in prop_oneof![-2f64..2.0, Just(f64::NAN)],
     ) {
         let source = crate::print(&tree);

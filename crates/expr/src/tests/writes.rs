@@ -245,7 +245,7 @@ const FIXED_DIFFERENCES: [&str; 17] = [
 ];
 
 #[test]
-fn what_differed_once_is_as_in_node() {
+fn former_differences_equal_node() {
     if !needs("node") {
         return;
     }

@@ -126,7 +126,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn units_stand_in_brackets_at_the_end() {
+    fn units_are_read_from_brackets_at_the_end() {
         for (label, unit) in [
             ("height (m)", Some("m")),
             ("E [J]", Some("J")),
@@ -171,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn only_what_is_certain_contradicts() {
+    fn only_certain_units_contradict() {
         let d = |text: &str, factor: f64| parse(text).unwrap().times(factor);
         for (found, unit, certain) in [
             (d("m", 1.0), "mm", true),

@@ -20,7 +20,7 @@ mod snapshot;
 mod stored;
 mod units;
 
-pub use allowed::Allowed;
+pub use allowed::SuppressedFinding;
 pub use claim_id::is_about;
 pub use claims::Claim;
 pub use curves::{VerifyCurves, curves};
@@ -76,7 +76,7 @@ pub struct Checked {
     /// For each lab with a snapshot, whether it reproduces the stored values.
     pub snapshots: Vec<SnapshotResult>,
     /// Findings that the author has suppressed with a reason.
-    pub allowed: Vec<Allowed>,
+    pub allowed: Vec<SuppressedFinding>,
     /// The level of the check.
     pub level: CheckLevel,
 }

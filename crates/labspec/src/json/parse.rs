@@ -8,7 +8,7 @@
 use super::node::{Json, Member, Node};
 use super::parser::{LimitReached, Parser};
 use super::problem::{self, Mistake, Problem};
-use super::{MAX_DEPTH, MAX_MISTAKES, MAX_VALUES};
+use super::{MAX_DEPTH, MAX_ERRORS, MAX_VALUES};
 use crate::source::{SourceMap, Text};
 use labspec_finding::order;
 use std::collections::HashMap;
@@ -37,7 +37,7 @@ pub fn parse(text: &str, below: &SourceMap) -> Parsed {
     }
     problems.extend(reported.into_iter().map(|p| p.below(below)));
     order::sort_by_key(&mut problems, |p| p.span.start);
-    problems.truncate(MAX_MISTAKES);
+    problems.truncate(MAX_ERRORS);
     Parsed { node, problems, broken }
 }
 
@@ -49,7 +49,7 @@ const MAX_TRIED: usize = 128 << 10;
 /// no new ones.
 fn try_repairs(text: &str, problems: &mut [Problem]) {
     // Errors that are reported once count once: two brackets may be missing at one place.
-    fn to_mistakes(list: &[Problem]) -> Vec<Mistake> {
+    fn to_errors(list: &[Problem]) -> Vec<Mistake> {
         let mut all: Vec<&Problem> = Vec::new();
         for problem in list {
             if !all.iter().any(|p| p.span == problem.span && p.mistake.is(&problem.mistake)) {
@@ -59,7 +59,7 @@ fn try_repairs(text: &str, problems: &mut [Problem]) {
         all.into_iter().map(|p| p.mistake.clone()).collect()
     }
     let count = |list: &[Mistake], mistake: &Mistake| list.iter().filter(|m| m.is(mistake)).count();
-    let before = to_mistakes(problems);
+    let before = to_errors(problems);
     for (i, problem) in problems.iter_mut().enumerate() {
         let Some((span, right)) = &problem.repair else { continue };
         let mut repaired = text.to_string();
@@ -69,7 +69,7 @@ fn try_repairs(text: &str, problems: &mut [Problem]) {
             let below = SourceMap::verbatim(0..repaired.len());
             let mut parser = Parser::new(&repaired, &below);
             let _ = parser.root();
-            let left = to_mistakes(&parser.finish());
+            let left = to_errors(&parser.finish());
             // The error itself must be gone, not only one that it caused.
             let gone = count(&left, &problem.mistake) < count(&before, &problem.mistake);
             if gone && left.len() < before.len() && left.iter().all(|m| count(&before, m) > 0) {
@@ -211,7 +211,7 @@ impl Parser<'_> {
     }
 
     fn twice(&mut self, key: &Text, earlier: Range<usize>) {
-        if self.placed.len() < MAX_MISTAKES {
+        if self.placed.len() < MAX_ERRORS {
             let mistake = Mistake::Twice(key.value.clone());
             self.placed.push(Problem::new(mistake, key.span()).related(earlier));
         }

@@ -4,7 +4,7 @@
 //! surrounding text decides between the two.
 
 use super::parser::Parser;
-use super::problem::{self, Mistake, RepeatedMistake, TextChange};
+use super::problem::{self, Mistake, RepeatedError, TextChange};
 use super::strings::{StringFault, decode};
 use crate::markdown::is_typographic;
 use crate::source::{SourceMap, Text};
@@ -38,7 +38,7 @@ impl Parser<'_> {
         let inside = end.inside.clone();
         if end.open {
             let last = inside.end == self.text.trim_end().len();
-            self.report(problem::string_open(start, inside.end, last, quote == '"'));
+            self.report(problem::unclosed_string(start, inside.end, last, quote == '"'));
         }
         let decoded = decode(self.text.get(inside.clone()).unwrap_or(""));
         let mut lines: Vec<TextChange> = Vec::new();
@@ -47,14 +47,14 @@ impl Parser<'_> {
         if quote != '"' {
             changes.push((start..inside.start, "\"".into()));
         }
-        for (range, trouble) in &decoded.troubles {
+        for (range, fault) in &decoded.faults {
             let range = range.start + inside.start..range.end + inside.start;
-            match trouble {
+            match fault {
                 StringFault::Line => lines.push((range, "\\n".into())),
                 StringFault::Quote if quote == '"' => inner.push((range, "\\\"".into())),
                 StringFault::Quote => changes.push((range, "\\\"".into())),
                 StringFault::Needless(c) if quote != '"' => changes.push((range, c.to_string())),
-                _ => self.report(problem::in_string(range, *trouble)),
+                _ => self.report(problem::in_string(range, *fault)),
             }
         }
         if quote != '"' && self.text.get(inside.end..end.next) != Some("\"") {
@@ -65,7 +65,7 @@ impl Parser<'_> {
         breaks.into_iter().chain(quotes).for_each(|problem| self.report(problem));
         if !changes.is_empty() {
             self.change(
-                if is_typographic(quote) { RepeatedMistake::Typographic } else { RepeatedMistake::Single },
+                if is_typographic(quote) { RepeatedError::Typographic } else { RepeatedError::Single },
                 changes,
             );
         }

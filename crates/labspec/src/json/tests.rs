@@ -36,7 +36,7 @@ fn value(text: &str) -> serde_json::Value {
 /// repair).
 #[test]
 #[expect(clippy::too_many_lines, reason = "a table of mistakes")]
-fn mistakes_are_reported_and_reading_goes_on() {
+fn errors_are_reported_and_parsing_continues() {
     for (text, message, place, read, repaired) in [
         (r#"{"a": 1 "b": 2}"#, "a comma is missing here", "", r#"{"a":1,"b":2}"#, r#"{"a": 1, "b": 2}"#),
         (r#"[1 {"b": 2}]"#, "a comma is missing here", "", r#"[1,{"b":2}]"#, r#"[1, {"b": 2}]"#),
@@ -247,7 +247,7 @@ fn mistakes_are_reported_and_reading_goes_on() {
 }
 
 #[test]
-fn all_mistakes_of_a_block_are_told_at_once() {
+fn all_errors_of_a_block_are_reported_together() {
     let text = r#"{
   'model': "ball",
   stopAt: 2
@@ -345,7 +345,7 @@ fn hostile_texts_are_read_in_one_pass() {
             let text = format!("{before}{}{behind}", piece.repeat(400_000 / piece.len()));
             let start = std::time::Instant::now();
             let parsed = run(&text);
-            assert!(parsed.problems.len() <= MAX_MISTAKES, "{piece}");
+            assert!(parsed.problems.len() <= MAX_ERRORS, "{piece}");
             assert!(start.elapsed().as_secs() < 5, "{before}{piece}: {:?}", start.elapsed());
         }
     }

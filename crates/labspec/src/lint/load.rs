@@ -219,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_file_is_an_error() {
+    fn a_path_that_is_not_a_file_is_an_error() {
         let folder = tempfile::tempdir().unwrap();
         assert!(load_lesson_file(folder.path(), &ModelFolder::unknown()).unwrap_err().contains("not a file"));
         std::fs::write(folder.path().join("a.md"), b"\xe9").unwrap();

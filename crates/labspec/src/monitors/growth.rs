@@ -80,7 +80,7 @@ pub struct Growth {
     /// Energy gained since the start, at the time when the growth is certain, J.
     pub gain: f64,
     /// Initial energy plus the energy that lifts all bodies by the size of the scene, J.
-    pub held: f64,
+    pub available_energy: f64,
     /// The degree of freedom with the largest part of the kinetic energy.
     pub dof: usize,
     /// The source of the energy.
@@ -124,7 +124,7 @@ pub struct GrowthMonitor {
 struct StartEnergy {
     energy: Energy,
     /// The initial energy, and the energy that lifts all bodies by the size of the scene, J.
-    held: f64,
+    available_energy: f64,
     lift: f64,
 }
 
@@ -206,7 +206,8 @@ pub fn observe<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>) -> Optio
     let speed: f64 = w.roots.iter().zip(qvel.iter()).map(|(root, v)| root * v.abs()).sum();
     // The comparison is false for NaN, so NaN is evaluated.
     if w.lasted == 0
-        && 0.5 * speed * speed < MIN_MOTION_FRACTION * (start.held + MIN_LIFT_FRACTION * start.lift)
+        && 0.5 * speed * speed
+            < MIN_MOTION_FRACTION * (start.available_energy + MIN_LIFT_FRACTION * start.lift)
     {
         return None;
     }
@@ -230,18 +231,18 @@ fn compare<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>, start: Start
         restart(w, m, d);
         return None;
     }
-    let StartEnergy { energy: before, held, lift } = start;
+    let StartEnergy { energy: before, available_energy, lift } = start;
     take(&mut w.copied, d);
     let now = mechanical_energy(m, &mut w.copied).ok().flatten()?;
     update_inertia_scale(w, m);
     let given = before.potential() - now.potential();
     let gain = now.kinetic - before.kinetic - given;
-    let there = held + given.max(now.elastic.abs());
+    let there = available_energy + given.max(now.elastic.abs());
     let dof_of_negative_damping = dof_of_negative_damping(m, d.fields());
     let sudden = if dof_of_negative_damping.is_some() { 1.0 } else { w.sudden };
     // A gain of NaN exceeds no bound.
     let above = |times: f64, there: f64| gain > times * there + MIN_LIFT_FRACTION * lift;
-    let sure = gain > CERTAIN_GAIN_FACTOR * (held + given.max(0.0) + lift);
+    let sure = gain > CERTAIN_GAIN_FACTOR * (available_energy + given.max(0.0) + lift);
     let (seen, leapt) = (sure || above(1.0, there), sure || above(sudden, there));
     w.rest = if gain < SKIP_FRACTION * there { SKIPPED_STEPS } else { 0 };
     if !seen {
@@ -263,7 +264,8 @@ fn compare<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>, start: Start
             None => Source::Steps,
         };
         let dof = most_energetic_dof(m, &mut w.copied);
-        w.found = Some(Growth { time: w.since, gain, held: held + lift, dof, source });
+        w.found =
+            Some(Growth { time: w.since, gain, available_energy: available_energy + lift, dof, source });
     }
     w.found
 }
@@ -307,8 +309,8 @@ fn start(m: &Model, d: &Data<Planned>, energy: Energy) -> StartEnergy {
     let (mass, size) = (m.body_mass.iter().sum::<f64>(), size(m, d));
     let drift = 0.5 * mass * (DRIFT * size) * (DRIFT * size);
     let weight = if m.opt.disabled(disable::GRAVITY) { 0.0 } else { mass * norm(m.opt.gravity) };
-    let held = energy.kinetic + energy.elastic.abs() + stored + drift;
-    StartEnergy { energy, held, lift: weight * size }
+    let available_energy = energy.kinetic + energy.elastic.abs() + stored + drift;
+    StartEnergy { energy, available_energy, lift: weight * size }
 }
 
 /// The diagonal of a box around all bodies and the origin, plus the radius of the largest moving geom, m.

@@ -162,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn a_step_past_a_limit_is_told_and_a_soft_limit_is_not() {
+    fn a_step_past_a_limit_is_reported_and_a_soft_limit_is_not() {
         let found = run("range=\"-45 45\"", "", 1000.0).unwrap();
         assert!(found.joint == 0 && found.time < 0.003 && found.step.unwrap() > 1.9, "{found:?}");
         assert!(found.beyond > 1.1 && (found.range - std::f64::consts::FRAC_PI_2).abs() < 1e-9, "{found:?}");
@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn a_motor_that_holds_a_joint_beyond_its_limit_is_told() {
+    fn a_motor_that_holds_a_joint_beyond_its_limit_is_reported() {
         let motor = |force: f64| {
             let rest = format!(
                 "<actuator><position joint=\"j\" kp=\"{force}\" kv=\"{}\"/></actuator>",
@@ -193,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn what_starts_outside_and_comes_back_is_not_told() {
+    fn a_start_outside_that_returns_is_not_reported() {
         let text = "<mujoco><worldbody><body><joint type=\"slide\" range=\"0 .1\"/><geom size=\".1\" mass=\"1\"/></body></worldbody></mujoco>";
         let m = xml::compile(text).unwrap();
         let mut d = Data::new(&m);

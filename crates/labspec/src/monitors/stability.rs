@@ -236,7 +236,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_found_blows_up_and_what_is_not_does_not() {
+    fn reported_parts_diverge_and_others_do_not() {
         for integrator in ["Euler", "implicit", "implicitfast"] {
             for (kp, kv, damping, h) in [
                 (1e3, 0.0, 0.0, 1.0),

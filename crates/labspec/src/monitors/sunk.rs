@@ -169,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn a_box_that_is_pressed_into_the_floor_is_told() {
+    fn a_box_pressed_into_the_floor_is_reported() {
         let found = run("", "mass=\".001\"", &on_top(1e4), 2000).unwrap();
         assert!(found.geoms == [0, 1] || found.geoms == [1, 2], "{found:?}");
         assert!(found.depth > 0.06 && (found.thickness - 0.2).abs() < 1e-12, "{found:?}");
@@ -179,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_floor_does_not_hold_is_told() {
+    fn bodies_that_sink_through_the_floor_are_reported() {
         for (gravity, sinks) in [(10.0, false), (1e3, false), (1e5, true), (1e6, true)] {
             let option = format!("gravity=\"0 0 -{gravity}\"");
             let found = run(&option, "mass=\"1\"", "", 1000);
@@ -195,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn an_impact_is_not_told() {
+    fn an_impact_is_not_reported() {
         let ball = |contact: &str| {
             format!("<body pos=\"1 0 2\"><freejoint/><geom size=\".1\" mass=\"1\" {contact}/></body>")
         };

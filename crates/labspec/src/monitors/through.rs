@@ -197,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn boxes_that_change_places_are_told() {
+    fn boxes_that_pass_through_each_other_are_reported() {
         let cube = |z: f64| {
             format!(
                 "<body pos=\"0 0 {z}\"><freejoint/><geom type=\"box\" size=\".1 .1 .1\" mass=\"1\"/></body>"
@@ -221,7 +221,7 @@ mod tests {
     const PLATE: &str = "<geom type=\"box\" size=\"1 1 .0005\"/>";
 
     #[test]
-    fn a_ball_that_passes_a_plate_is_told() {
+    fn a_ball_that_passes_a_plate_is_reported() {
         for (radius, speeds) in [(0.01, vec![1.0, 3.0, 10.0, 100.0]), (0.1, vec![30.0, 100.0, 300.0])] {
             for speed in speeds {
                 let found = run(PLATE, &format!("size=\"{radius}\""), speed).unwrap();
@@ -235,7 +235,7 @@ mod tests {
     }
 
     #[test]
-    fn what_may_pass_is_not_told() {
+    fn permitted_passages_are_not_reported() {
         // Collision bits that do not match, a hole, and a body that passes beside the plate.
         assert_eq!(run(PLATE, "size=\".01\" contype=\"2\" conaffinity=\"2\"", 10.0), None);
         let hole = "<geom type=\"box\" pos=\".6 0 0\" size=\".5 1 .0005\"/><geom type=\"box\" pos=\"-.6 0 0\" size=\".5 1 .0005\"/>";

@@ -235,10 +235,10 @@ impl Player {
         let session = &self.now.session;
         let done = self.done();
         let mut all = self.loaded.clone();
-        let troubles = session.troubles.iter().map(|t| run::error_finding(t, &done));
+        let program_errors = session.program_errors.iter().map(|t| run::error_finding(t, &done));
         let breakdowns = run::breakdowns_of(session).into_iter();
         let broken = breakdowns.map(|b| run::describe_breakdown(&b, &done, self.lab.place()));
-        all.extend(troubles.chain(broken).chain(self.spent()).map(|f| located(f, &self.file)));
+        all.extend(program_errors.chain(broken).chain(self.spent()).map(|f| located(f, &self.file)));
         all
     }
 
@@ -307,9 +307,9 @@ impl Player {
     fn frozen(&self) -> Option<Error> {
         let session = &self.now.session;
         session.ended()?;
-        let troubles = session.troubles.last().map(|t| run::error_finding(t, &self.done()));
+        let program_errors = session.program_errors.last().map(|t| run::error_finding(t, &self.done()));
         let all: Vec<Finding> =
-            self.spent().or(troubles).map(|f| located(f, &self.file)).into_iter().collect();
+            self.spent().or(program_errors).map(|f| located(f, &self.file)).into_iter().collect();
         Some(if all.is_empty() {
             Error::Call("the engine refused a call: reset the lab".into())
         } else {

@@ -148,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn spans_over_lines_and_behind_the_end_are_survived() {
+    fn spans_over_lines_and_past_the_end_are_printed() {
         let file = SourceFile::new("a.md", "one\ntwo");
         for span in [0..7, 2..5, 7..7, 90..100, 3..3] {
             let finding = Finding::new(rules::UNKNOWN_KEY, span, "x").at(&file);

@@ -32,9 +32,9 @@ pub(crate) fn check_saturation(observed: &ObservedLab<'_>, findings: &mut Vec<Fi
         let [low, high] =
             [0, 1].map(|k| ready.model.actuator_ctrlrange.get(2 * i + k).copied().unwrap_or(0.0));
         let name = ready.model.names.of_kind(Obj::Actuator).get(i).filter(|n| !n.is_empty());
-        let who = name.map_or_else(|| format!("data.ctrl[{i}]"), |n| format!("the input of \"{n}\""));
+        let subject = name.map_or_else(|| format!("data.ctrl[{i}]"), |n| format!("the input of \"{n}\""));
         findings.push(
-            Finding::warning(ALWAYS_SATURATED, ready.lab.place(), format!("{who} is outside its range all the time"))
+            Finding::warning(ALWAYS_SATURATED, ready.lab.place(), format!("{subject} is outside its range all the time"))
                 .why(format!(
                     "it is {} in the run as the lab stands, its `ctrlrange` goes from {low} to {high}, and it is outside at every sample of {}: the engine clamps it",
                     digits(*value, 4), observed.runs()

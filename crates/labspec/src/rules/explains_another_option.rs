@@ -86,7 +86,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_what_is_said_in_so_many_words_counts() {
+    fn only_explicit_statements_count() {
         let calls = |text: &str| {
             (0..3)
                 .filter(|i| {

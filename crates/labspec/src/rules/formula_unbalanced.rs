@@ -215,7 +215,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_opened_is_closed() {
+    fn delimiters_are_balanced() {
         let faults = |text: &str| faults(text, false, &mut 0);
         let count = |text: &str| faults(text).len();
         for right in [

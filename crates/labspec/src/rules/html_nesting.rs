@@ -113,7 +113,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_browsers_mend_is_found() {
+    fn markup_that_browsers_correct_is_reported() {
         let of =
             |html: &str| faults(html).into_iter().map(|(_, name, fault)| (name, fault)).collect::<Vec<_>>();
         let named = |name: &str, fault| vec![(name.to_string(), fault)];

@@ -109,5 +109,5 @@ fn writes(observed: &ObservedLab<'_>, index: usize, bound: &Bound, value: f64) -
             _ => return None,
         }
     }
-    (!all.is_empty() && session.ended().is_none() && session.troubles.is_empty()).then_some(all)
+    (!all.is_empty() && session.ended().is_none() && session.program_errors.is_empty()).then_some(all)
 }

@@ -47,7 +47,7 @@ pub(crate) fn check_margin(
     let message = format!(
         "this lab breaks at twice its timestep of {} s: {}, {}, at t = {} s",
         run::two_digits(h),
-        fault.who,
+        fault.subject,
         fault.kind.description(),
         run::time(fault.time)
     );

@@ -2,8 +2,8 @@
 
 use super::budget::{Budget, End};
 use super::cell::Cell;
+use super::program_error::ProgramError;
 use super::session::Session;
-use super::trouble::ProgramError;
 use crate::source::Text;
 use labspec_core as core;
 use labspec_expr::{Program, Value, rules};
@@ -28,7 +28,9 @@ impl Session<'_> {
     /// its budget before is not evaluated again.
     pub fn evaluate(&mut self, program: &Program, text: &Text) -> Option<Value> {
         let endless = |t: &ProgramError| t.rule == rules::BUDGET && t.text == *text;
-        if matches!(self.end, Some(End::Budget { .. } | End::Foreign)) || self.troubles.iter().any(endless) {
+        if matches!(self.end, Some(End::Budget { .. } | End::Foreign))
+            || self.program_errors.iter().any(endless)
+        {
             return None;
         }
         self.sampled += SAMPLE;

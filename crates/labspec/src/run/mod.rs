@@ -9,13 +9,13 @@ mod held;
 mod integrator;
 mod messages;
 mod play;
+mod program_error;
 mod samples;
 mod session;
 pub mod settings;
 mod silent;
 mod steady;
 mod table;
-mod trouble;
 mod variant;
 mod watched;
 
@@ -27,12 +27,12 @@ pub use held::ProgramsRef;
 pub use integrator::{INTEGRATORS, Integrator};
 pub use messages::{describe_breakdown, error_finding};
 pub use play::{Play, play};
+pub use program_error::ProgramError;
 pub use samples::Samples;
 pub use session::{Session, Start};
 pub use settings::{presses, presses_within, set_controls};
 pub use steady::is_steady;
 pub use table::Table;
-pub use trouble::ProgramError;
 pub use variant::StepVariant;
 
 use crate::bind::Programs;

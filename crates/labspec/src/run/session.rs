@@ -2,8 +2,8 @@
 
 use super::budget::{Budget, End};
 use super::held::ProgramsRef;
+use super::program_error::ProgramError;
 use super::steady::SteadyController;
-use super::trouble::ProgramError;
 use super::variant::StepVariant;
 use super::watched::MonitoredRun;
 use crate::bind::coupled::{self, Coupled};
@@ -25,7 +25,7 @@ pub struct Session<'p> {
     /// The `ctx` variables.
     pub context: Context,
     /// Errors, the first for each place.
-    pub troubles: Vec<ProgramError>,
+    pub program_errors: Vec<ProgramError>,
     /// Warnings of the engine, including those before a reset.
     pub warnings: [WarningStat; Warning::COUNT],
     pub(super) programs: ProgramsRef<'p>,
@@ -82,7 +82,7 @@ impl<'p> Session<'p> {
                 numbers: Vec::new(),
             },
             context: Context::for_globals(&programs.globals),
-            troubles: Vec::new(),
+            program_errors: Vec::new(),
             warnings: [WarningStat::default(); Warning::COUNT],
             values: values.collect(),
             watched: None,
@@ -429,9 +429,9 @@ impl<'p> Session<'p> {
 
     fn note(&mut self, rule: &'static Rule, text: &Text, span: std::ops::Range<usize>, message: String) {
         let is_noted = |t: &ProgramError| t.rule == rule && t.span == span && t.text == *text;
-        if !self.troubles.iter().any(is_noted) {
+        if !self.program_errors.iter().any(is_noted) {
             let time = self.world.data.time();
-            self.troubles.push(ProgramError { rule, text: text.clone(), span, message, time });
+            self.program_errors.push(ProgramError { rule, text: text.clone(), span, message, time });
         }
     }
 

@@ -32,7 +32,7 @@ pub(super) fn growth(model: &Model, g: Growth) -> Breakdown {
         "energy grows from t = {} s on: {} J without a source, while the start had {} J; most of it moves {}",
         time(g.time),
         two_digits(g.gain),
-        two_digits(g.held),
+        two_digits(g.available_energy),
         joint_of(model, g.dof, &model.jnt_dofadr, joint::nv)
     );
     match g.source {
@@ -53,7 +53,7 @@ pub(super) fn growth(model: &Model, g: Growth) -> Breakdown {
                 two_digits(damping),
                 two_digits(g.gain),
                 time(g.time),
-                two_digits(g.held)
+                two_digits(g.available_energy)
             );
             let why = "the faster a part moves, the harder a negative damper pushes it: a student sees a swing that grows forever without a motor";
             BreakdownAdvice::only("write a `damping` of 0 or more; use an actuator to drive the joint")

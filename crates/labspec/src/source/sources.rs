@@ -219,7 +219,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_open_text_stands_for_its_file_until_it_is_closed() {
+    fn an_open_text_replaces_its_file_until_it_is_closed() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().canonicalize().unwrap().join("a.md");
         std::fs::write(&path, "saved").unwrap();
@@ -235,7 +235,7 @@ mod tests {
     }
 
     #[test]
-    fn the_disk_is_asked_once_until_something_may_have_changed() {
+    fn the_disk_is_read_once_until_a_change() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().canonicalize().unwrap().join("a.md");
         let overlay = Arc::new(Overlay::default());

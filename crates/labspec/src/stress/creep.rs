@@ -74,8 +74,8 @@ impl CreepMonitor {
 
     /// The second half of the stored samples.
     fn drop_every_second(&self) -> &[CreepSample] {
-        let past = self.memory.past();
-        past.get(past.len() / 2..).unwrap_or_default()
+        let samples = self.memory.samples();
+        samples.get(samples.len() / 2..).unwrap_or_default()
     }
 
     /// Bodies and joints that creep in the second half of the stored samples.
@@ -174,12 +174,12 @@ fn is_sticking(d: &Fields, dof: usize) -> bool {
     force.zip(most).is_some_and(|(force, most)| force.abs() < STICKING_FRACTION * most)
 }
 
-fn creep(who: String, since: f64, travel: f64, time: f64, unit: &'static str) -> Fault {
+fn creep(subject: String, since: f64, travel: f64, time: f64, unit: &'static str) -> Fault {
     let speed = if unit == "m" { "m/s" } else { "rad/s" };
     Fault {
         kind: FaultKind::Drifts,
         time: since,
-        who,
+        subject,
         cause: "friction is soft: what it holds creeps, slowly and forever".into(),
         evidence: vec![
             Evidence { name: "speed", value: travel / time, unit: speed },

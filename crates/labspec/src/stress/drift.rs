@@ -19,7 +19,8 @@ pub fn without_pushed_bodies(
         return (faults, 0);
     }
     let firm = case.run(interaction, Some(&raise_friction), length, budget);
-    let moves = |f: &Fault| firm.speeds.iter().any(|(who, speed)| *who == f.who && 2.0 * speed > f.size);
+    let moves =
+        |f: &Fault| firm.speeds.iter().any(|(subject, speed)| *subject == f.subject && 2.0 * speed > f.size);
     // Without a complete second run, the drift is not proven.
     faults.retain(|f| f.kind != FaultKind::Drifts || !firm.cut && !moves(f));
     (faults, firm.spent)

@@ -84,7 +84,7 @@ fn fall_fault(m: &Model, d: &Fields, [g, p]: [usize; 2], travel: f64, depth: f64
     Fault {
         kind: FaultKind::Tunnels,
         time: (d.time - m.opt.timestep).max(0.0),
-        who: format!("{} through {}", geom_name(m, g), geom_name(m, p)),
+        subject: format!("{} through {}", geom_name(m, g), geom_name(m, p)),
         cause: cause.into(),
         evidence: vec![
             Evidence { name: "depth below the surface", value: depth, unit: "m" },

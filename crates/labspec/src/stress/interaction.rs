@@ -309,7 +309,7 @@ mod tests {
     }
 
     #[test]
-    fn ends_options_buttons_and_corners_are_tried() {
+    fn ends_options_buttons_and_corners_are_tested() {
         assert_eq!(counts(&lab("")), [1, 1, 0, 0, 0, 0, 0]);
         // One slider is at an end already; both ends are tested during the run.
         assert_eq!(counts(&lab(SLIDER)), [1, 1, 1, 0, 0, 0, 1]);
@@ -320,7 +320,7 @@ mod tests {
     }
 
     #[test]
-    fn many_controls_meet_in_pairs() {
+    fn many_controls_are_combined_in_pairs() {
         let sliders: Vec<String> = (0..12).map(|k| SLIDER.replace("\"m\"", &format!("\"m{k}\""))).collect();
         let (all, missing) = list_interactions(&lab(&sliders.join(",")), 2.0, &nothing());
         let corners: Vec<&Interaction> = all.iter().filter(|h| h.kind == Kind::Corner).collect();
@@ -337,14 +337,14 @@ mod tests {
     }
 
     #[test]
-    fn everything_in_turn_lies_in_the_window_and_in_order() {
+    fn sequential_actions_are_in_the_window_and_in_order() {
         let (all, _) = list_interactions(&lab(&[SLIDER, SELECT, BUTTON].join(",")), 2.0, &nothing());
         let last = all.last().unwrap();
         assert_eq!(last.actions.len(), 8);
         assert!(last.actions.windows(2).all(|two| two[0].time < two[1].time) && last.actions[7].time < 2.0);
     }
     #[test]
-    fn a_base_stands_before_everything_else() {
+    fn the_base_settings_come_first() {
         let set = |control, x| Action { time: 0.0, control, value: Some(Value::Number(x)) };
         let press = |control, time| Action { time, control, value: None };
         let base =

@@ -49,7 +49,7 @@ pub(crate) fn describe(fault: &Fault) -> Option<Breakdown> {
     };
     Some(Breakdown {
         rule,
-        what: format!("{} {what} at t = {} s", fault.who, run::time(fault.time)),
+        what: format!("{} {what} at t = {} s", fault.subject, run::time(fault.time)),
         why,
         cause: Some(fault.cause.clone()),
         shorter: ShorterTimestep::No,

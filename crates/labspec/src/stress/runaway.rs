@@ -54,9 +54,9 @@ impl RunawayMonitor {
     fn unbounded_speed(&self, m: &Model) -> Option<(f64, usize, f64, f64)> {
         let grows = |(_, dof, _, bound): &(f64, usize, f64, f64)| {
             let kind = usize::from(!slides(m, *dof));
-            let past = self.memory.past().iter().map(|(_, largest)| largest[kind]);
+            let samples = self.memory.samples().iter().map(|(_, largest)| largest[kind]);
             let speeds: Vec<f64> =
-                past.chain([self.largest[kind]]).filter(|v| FAR_FACTOR * v > *bound).collect();
+                samples.chain([self.largest[kind]]).filter(|v| FAR_FACTOR * v > *bound).collect();
             let last = speeds.len().saturating_sub(1);
             let at = |part: usize| speeds.get(part * last / PARTS).copied().unwrap_or(f64::INFINITY);
             last < PARTS || (0..PARTS).all(|part| at(part + 1) > MIN_GROWTH * at(part))
@@ -86,9 +86,9 @@ impl RunawayMonitor {
             let bound = FAR_FACTOR * (first[k] + expected_speeds(m)[k]);
             if speed > bound {
                 let half = self.start + 0.5 * (d.time - self.start);
-                let past = self.memory.past();
-                let before = past.partition_point(|(t, _)| *t <= half);
-                let early = before.checked_sub(1).and_then(|i| past.get(i)).map_or(first, |(_, v)| *v);
+                let samples = self.memory.samples();
+                let before = samples.partition_point(|(t, _)| *t <= half);
+                let early = before.checked_sub(1).and_then(|i| samples.get(i)).map_or(first, |(_, v)| *v);
                 if speed > SPEED_FACTOR * early[k] {
                     self.found = Some((d.time, dof, speed, bound));
                     return;
@@ -103,7 +103,7 @@ impl RunawayMonitor {
         Some(Fault {
             kind: FaultKind::Silent,
             time,
-            who: joint_of_dof(m, dof),
+            subject: joint_of_dof(m, dof),
             cause: stiffness_cause(m)
                 .unwrap_or_else(|| "it grows exponentially, and the engine gives no warning".into()),
             evidence: vec![

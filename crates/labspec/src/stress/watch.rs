@@ -292,7 +292,7 @@ fn tunnelling(m: &Model, d: &Fields, [g, p]: [usize; 2], from: Vec3, to: Vec3) -
     Fault {
         kind: FaultKind::Tunnels,
         time: (d.time - h).max(0.0),
-        who: format!("{} through {}", geom_name(m, g), geom_name(m, p)),
+        subject: format!("{} through {}", geom_name(m, g), geom_name(m, p)),
         cause,
         evidence: vec![
             Evidence { name: "way in one step", value: travel, unit: "m" },
@@ -321,7 +321,7 @@ fn penetration(m: &Model, t: &TouchingPair) -> Fault {
     Fault {
         kind: FaultKind::Penetrates,
         time: t.at,
-        who: format!("{} and {}", geom_name(m, g), geom_name(m, p)),
+        subject: format!("{} and {}", geom_name(m, g), geom_name(m, p)),
         cause,
         evidence: vec![
             Evidence { name: "depth", value: t.depth, unit: "m" },
@@ -342,7 +342,7 @@ fn chatter(m: &Model, d: &Fields, t: &TouchingPair) -> Fault {
     Fault {
         kind: FaultKind::Chatters,
         time: d.time - (BLOCK * BLOCKS) as f64 * m.opt.timestep,
-        who: format!("{} on {}", geom_name(m, g), geom_name(m, p)),
+        subject: format!("{} on {}", geom_name(m, g), geom_name(m, p)),
         cause,
         evidence: vec![
             Evidence { name: "switches in 100 steps", value: t.switches as f64, unit: "" },

@@ -285,17 +285,17 @@ impl<'a> BoundVerify<'a> {
             let measures: Vec<&CompiledText<'_>> = scene.measures.iter().map(|(_, m)| m).collect();
             let made = self.execute_run(run, numerics, &measures, findings)?;
             let names = scene.measures.iter().map(|(name, _)| name.to_string());
-            let mut doubts = Vec::new();
+            let mut missing_samples = Vec::new();
             let mut measures = Vec::new();
-            for (name, Sampled { value, doubt, .. }) in names.zip(made.values) {
-                doubts.extend(doubt.map(|doubt| (name.clone(), doubt)));
+            for (name, Sampled { value, sample_gap, .. }) in names.zip(made.values) {
+                missing_samples.extend(sample_gap.map(|sample_gap| (name.clone(), sample_gap)));
                 measures.push((name, value));
             }
             runs.push(RunOutcome {
                 name: run.name.to_string(),
                 swept: run.swept,
                 measures,
-                doubts,
+                missing_samples,
                 warnings: made.warnings,
                 broke: made.broke,
             });
@@ -311,8 +311,8 @@ impl<'a> BoundVerify<'a> {
         findings: &mut Vec<Finding>,
     ) -> Option<RunResult> {
         let place = run.spec.map_or(self.verify.span.clone(), |r| r.name.span());
-        let asked = RunRequest { scene: self.scene_of(run)?, run, numerics, measures, place };
-        runner::execute_run(&asked, self.stage, findings)
+        let request = RunRequest { scene: self.scene_of(run)?, run, numerics, measures, place };
+        runner::execute_run(&request, self.stage, findings)
     }
 
     /// The span of a run in the lesson, and whether the lesson declares that it breaks.

@@ -406,8 +406,8 @@ impl ClosedFormRuns<'_> {
         if let Some(End::Budget { time }) = session.ended() {
             return Err(format!("the work budget ran out at t = {} s", run::time(*time)));
         }
-        if let Some(trouble) = session.troubles.first() {
-            return Err(trouble.message.clone());
+        if let Some(program_error) = session.program_errors.first() {
+            return Err(program_error.message.clone());
         }
         match (run::worst_breakdown(&session), session.ended()) {
             (Some(breakdown), _) => Err(format!("the run breaks: {}", breakdown.what)),

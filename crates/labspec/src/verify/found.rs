@@ -72,7 +72,7 @@ impl BoundVerify<'_> {
         let nothing_read = claim.reads.is_empty() && program.aggregates().is_empty();
         let evidence = if measured.is_empty() { Evidence::Computed } else { Evidence::Simulated };
         let mut parts = Vec::new();
-        let mut doubt = None;
+        let mut sample_gap = None;
         if !program.aggregates().is_empty() {
             let [run] = self.runs.as_slice() else { return None };
             if let Some(x) = outcome.measured_elsewhere(&text.value) {
@@ -92,7 +92,7 @@ impl BoundVerify<'_> {
             let how = made.broke.filter(|_| !expected);
             broke = broke.or(how.map(|how| format!("the run breaks: {how}")));
             if let Some(sampled) = made.values.into_iter().next() {
-                (parts, doubt) = (sampled.parts, sampled.doubt);
+                (parts, sample_gap) = (sampled.parts, sampled.sample_gap);
             }
         }
         let inputs = claim.inputs(self, outcome, parts);
@@ -105,7 +105,7 @@ impl BoundVerify<'_> {
         };
         let undecided = traced.lost.map(|span| Undecided {
             part: text.value.get(span.start..span.end).unwrap_or(&text.value).to_string(),
-            because: doubt.map(|d| d.to_string()).or_else(|| self.missing(&claim, outcome, &inputs)),
+            because: sample_gap.map(|d| d.to_string()).or_else(|| self.missing(&claim, outcome, &inputs)),
         });
         let value = if undecided.is_some() { Value::Number(f64::NAN) } else { traced.value.clone() };
         // The length of a sweep is not a result of a run, so a condition on it is not evidence.
@@ -141,8 +141,8 @@ impl BoundVerify<'_> {
                 let run = outcome.runs.get(*run)?;
                 let (name, _) = run.measures.get(*measure)?;
                 let title = format!("{}.{name}", run.title());
-                Some(match run.doubts.iter().find(|(doubted, _)| doubted == name) {
-                    Some((_, doubt)) => format!("`{title}` has no value: {doubt}"),
+                Some(match run.missing_samples.iter().find(|(doubted, _)| doubted == name) {
+                    Some((_, sample_gap)) => format!("`{title}` has no value: {sample_gap}"),
                     None => format!("`{title}` has no value: its event does not happen in the run"),
                 })
             }

@@ -36,7 +36,7 @@ pub(crate) struct Sampled {
     pub(crate) value: f64,
     /// The results of its aggregates, in order.
     pub(crate) parts: Vec<f64>,
-    pub(crate) doubt: Option<MissingSamples>,
+    pub(crate) sample_gap: Option<MissingSamples>,
 }
 
 /// The aggregates of one measure.
@@ -82,7 +82,7 @@ impl<'a> Measure<'a> {
             self.text.value.get(start..end).unwrap_or(&self.text.value).to_string()
         };
         let open = self.running.iter().zip(self.program.aggregates()).find(|(r, _)| r.gaps.count > 0);
-        let doubt = match (open, lost) {
+        let sample_gap = match (open, lost) {
             (Some((r, aggregate)), _) => Some(MissingSamples {
                 part: part(aggregate.span.start, aggregate.span.end),
                 gaps: r.gaps.count,
@@ -95,6 +95,6 @@ impl<'a> Measure<'a> {
             (None, None) => None,
         };
         let parts = self.parts();
-        Sampled { value: if doubt.is_some() { f64::NAN } else { value }, parts, doubt }
+        Sampled { value: if sample_gap.is_some() { f64::NAN } else { value }, parts, sample_gap }
     }
 }

@@ -58,11 +58,11 @@ fn contradiction(
     condition: &Text,
     holds: bool,
 ) -> Option<String> {
-    let asked = required_range(&parse_expression(&condition.value).tree)?;
-    let closed = asked.low.is_finite() && asked.high.is_finite();
+    let required = required_range(&parse_expression(&condition.value).tree)?;
+    let closed = required.low.is_finite() && required.high.is_finite();
     let stated = match option_text(&option.value) {
         Some(claimed) => claimed,
-        None if closed && asked.ratio => return contradicted_ratio(option, &asked),
+        None if closed && required.ratio => return contradicted_ratio(option, &required),
         None => return None,
     };
     // A condition with one side may bound another quantity than the option mentions: a height instead of a fall distance.
@@ -74,8 +74,10 @@ fn contradiction(
     let widen = |x: f64, f: f64| if x > 0.0 { x * f } else { x / f };
     let stated =
         OptionNumber { low: widen(stated.low, 1.0 / slip), high: widen(stated.high, slip), ..stated };
-    let text =
-        Text { map: SourceMap::whole(asked.quantity.len(), condition.span()), value: asked.quantity.clone() };
+    let text = Text {
+        map: SourceMap::whole(required.quantity.len(), condition.span()),
+        value: required.quantity.clone(),
+    };
     let found = units::of_claim(bound, outcome, &text)?;
     let wanted = stated.unit.dimension?;
     if !found.agrees(&wanted) {
@@ -90,7 +92,7 @@ fn contradiction(
         }
         None => return None,
     };
-    let (low, high) = (asked.low * factor, asked.high * factor);
+    let (low, high) = (required.low * factor, required.high * factor);
     let slack = 1e-9 * stated.low.abs().max(stated.high.abs()).min(f64::MAX);
     let slack = if slack.is_finite() { slack } else { 0.0 };
     if stated.high < low - slack || stated.low > high + slack {
@@ -107,13 +109,13 @@ fn contradiction(
 }
 
 /// The contradiction between an option that states a ratio and a condition that requires another one.
-fn contradicted_ratio(option: &Text, asked: &RequiredRange) -> Option<String> {
+fn contradicted_ratio(option: &Text, required: &RequiredRange) -> Option<String> {
     let stated = option_ratio(&option.value)?;
-    let slack = 0.05 * asked.low.abs().max(asked.high.abs());
-    let fits = |x: &f64| asked.low - slack <= *x && *x <= asked.high + slack;
+    let slack = 0.05 * required.low.abs().max(required.high.abs());
+    let fits = |x: &f64| required.low - slack <= *x && *x <= required.high + slack;
     let none = !stated.may_be.iter().any(fits);
     none.then(|| {
-        format!("the option says {}, but its condition {}", stated.text, range(asked.low, asked.high))
+        format!("the option says {}, but its condition {}", stated.text, range(required.low, required.high))
     })
 }
 
@@ -238,7 +240,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_a_condition_asks_is_an_interval() {
+    fn the_requirement_of_a_condition_is_an_interval() {
         let of =
             |text: &str| required_range(&parse_expression(text).tree).map(|a| (a.quantity, a.low, a.high));
         for (text, quantity, low, high) in [

@@ -284,8 +284,8 @@ impl Machine<'_> {
     ) -> RunResult {
         let frame = RegisterFrame { n: f.n + unit.number_count as usize, v: f.v + unit.value_count as usize };
         let Some(callee) = code.units.get(callee as usize) else { return Ok(()) };
-        if let Err(trouble) = self.enter(callee) {
-            return Err(failure(trouble, unit, at));
+        if let Err(fault) = self.enter(callee) {
+            return Err(failure(fault, unit, at));
         }
         self.make_room(callee, frame);
         let result = self.execute(code, callee, frame);
@@ -339,15 +339,15 @@ impl StepError {
     #[cold]
     fn at(self, unit: &MachineFunction, at: usize) -> Box<RuntimeError> {
         match self {
-            StepError::Here(trouble) => failure(trouble, unit, at),
+            StepError::Here(fault) => failure(fault, unit, at),
             StepError::Inside(error) => error,
         }
     }
 }
 
 impl From<NativeError> for StepError {
-    fn from(trouble: NativeError) -> StepError {
-        StepError::Here(trouble)
+    fn from(fault: NativeError) -> StepError {
+        StepError::Here(fault)
     }
 }
 
@@ -362,6 +362,6 @@ pub(super) fn span_of(unit: &MachineFunction, at: usize) -> Span {
 }
 
 #[cold]
-fn failure(trouble: NativeError, unit: &MachineFunction, at: usize) -> Box<RuntimeError> {
-    Box::new(RuntimeError { rule: trouble.rule, span: span_of(unit, at), message: trouble.message })
+fn failure(fault: NativeError, unit: &MachineFunction, at: usize) -> Box<RuntimeError> {
+    Box::new(RuntimeError { rule: fault.rule, span: span_of(unit, at), message: fault.message })
 }

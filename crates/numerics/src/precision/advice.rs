@@ -119,7 +119,7 @@ fn closest(report: &Report, usable: &[usize]) -> Option<Advice> {
         Some((target, _)) if !usable.iter().all(|&i| wrong(&rows[i])) => format!(
             "It is unknown whether a tested setting shows {every} correctly: the reference of \"{}\" may be off by {}, and {} would be visible; the closest is {}.",
             target.label,
-            with_unit(target.doubt, target),
+            with_unit(target.uncertainty, target),
             with_unit(target.invisible_error, target),
             name(&rows[i])
         ),
@@ -186,7 +186,7 @@ fn describe_own_error(report: &Report, own_row: usize) -> String {
     let seen = match (least > 1.0, target.readout) {
         _ if most <= 1.0 => "which is not visible".to_string(),
         (false, _) => {
-            format!("within {}, the error of the reference", with_unit(target.doubt, target))
+            format!("within {}, the error of the reference", with_unit(target.uncertainty, target))
         }
         (true, true) => format!("which its digits show {}", samples()),
         (true, false) => {

@@ -129,7 +129,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_a_recording_lacks_is_said() {
+    fn missing_parts_of_a_recording_are_reported() {
         for (text, what) in [
             ("[", "it is not JSON"),
             ("{}", "it has no list `traces`"),

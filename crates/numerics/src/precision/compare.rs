@@ -117,10 +117,10 @@ fn prepare(case: &mut PrecisionCase<'_>, options: &Options) -> Result<Ladder, Ru
         return Err(RunError(format!("this lab displays no numbers to compare{why}")));
     }
     case.presses = run::presses(case.programs, &options.press)?;
-    if let Some(who) = case.program_that_sets_timestep() {
+    if let Some(subject) = case.program_that_sets_timestep() {
         return Err(RunError(format!(
             "{} sets the timestep while the lab runs, so no other timestep can be tested",
-            labspec::report::printable(&who)
+            labspec::report::printable(&subject)
         )));
     }
     let (timestep, integrator) = {

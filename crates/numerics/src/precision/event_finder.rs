@@ -72,7 +72,7 @@ pub(super) struct EventFinder<'s> {
     sought: &'s EventThresholds,
     /// Whether the method has a high order, so that its steps can be repeated with any length.
     dense: bool,
-    past: StepHistory,
+    history: StepHistory,
     /// The length of a step, the start time, s, and the number of steps since. The engine's own time is a sum of that
     /// many steps, each rounded.
     step: f64,
@@ -104,7 +104,7 @@ impl<'s> EventFinder<'s> {
         EventFinder {
             sought,
             dense: setting.integrator.is_high(),
-            past: StepHistory::new(m),
+            history: StepHistory::new(m),
             step: setting.timestep,
             start: 0.0,
             made: 0,
@@ -129,9 +129,9 @@ impl<'s> EventFinder<'s> {
     /// Processes the state of the run after a step, with the displayed values.
     pub(super) fn observe_step(&mut self, session: &Session<'_>, values: &[f64], evaluate: &Evaluate<'_>) {
         let time = self.time(session);
-        self.past.keep(session, time);
+        self.history.keep(session, time);
         let before = self.number_found();
-        if self.past.count() == 1 {
+        if self.history.count() == 1 {
             let near = |c: &labspec_core::Contact| c.dist <= CONTACT_DISTANCE;
             let contacts = session.world.data.fields().contact.iter().filter(|c| near(c));
             self.touching = contacts.map(|c| [c.geom1, c.geom2]).collect();
@@ -143,14 +143,14 @@ impl<'s> EventFinder<'s> {
             self.turn(i, value, session, evaluate);
         }
         if self.number_found() > before {
-            self.settled = self.past.time(0);
+            self.settled = self.history.time(0);
         }
     }
 
     /// The time of the next state.
     fn time(&mut self, session: &Session<'_>) -> f64 {
         let clock = session.world.data.time();
-        if self.past.count() == 0 {
+        if self.history.count() == 0 {
             self.start = clock;
         }
         let time = self.start + self.made as f64 * self.step;
@@ -192,10 +192,10 @@ impl<'s> EventFinder<'s> {
         }
         if crossed {
             let side = p.side;
-            let mut bench = StepReplay::new(session, &self.past);
+            let mut bench = StepReplay::new(session, &self.history);
             let found = crossing_time(&mut bench, i, side, evaluate);
             let Some(p) = self.passages.get_mut(i) else { return };
-            p.candidate = found.unwrap_or_else(|| between(&self.past, last, now));
+            p.candidate = found.unwrap_or_else(|| between(&self.history, last, now));
         }
         let Some(p) = self.passages.get_mut(i) else { return };
         if now.abs() > *least {
@@ -229,7 +229,7 @@ impl<'s> EventFinder<'s> {
         if begins {
             t.looks += 1;
             let dense = self.dense && looks < MAX_TURNING_POINTS;
-            let mut bench = StepReplay::new(session, &self.past);
+            let mut bench = StepReplay::new(session, &self.history);
             let found = turning_point(&mut bench, i, direction, dense, evaluate);
             let Some(t) = self.turns.get_mut(i) else { return };
             t.candidate = found.unwrap_or(EventTime::NONE);
@@ -240,18 +240,18 @@ impl<'s> EventFinder<'s> {
 
     /// The time of the first contact of bodies that were apart at the start: the shortest step that ends with a contact.
     fn first_contact(&self, session: &Session<'_>) -> EventTime {
-        let mut bench = StepReplay::new(session, &self.past);
+        let mut bench = StepReplay::new(session, &self.history);
         // A displayed contact belongs to the previous step.
-        let oldest = self.past.count().min(3) - 1;
+        let oldest = self.history.count().min(3) - 1;
         let touches = |bench: &mut StepReplay<'_>, from: usize, x: f64| {
             bench.place(from, x);
             depth(&bench.session, &self.touching)
         };
         let from = (1..=oldest).rev().find(|&j| touches(&mut bench, j - 1, 0.0) > 0.0);
         let Some(from) = from else { return EventTime::NONE };
-        let h = self.past.step(from);
+        let h = self.history.step(from);
         let (mut low, mut high) = (0.0, h);
-        let start = self.past.time(from);
+        let start = self.history.time(from);
         for _ in 0..BISECTIONS {
             let middle = 0.5 * (low + high);
             if middle <= low || middle >= high {
@@ -271,8 +271,8 @@ impl<'s> EventFinder<'s> {
         let size =
             bench.session.world.data.fields().contact.iter().map(|c| length(c.pos)).fold(1.0, f64::max);
         let rounding = 8.0 * f64::EPSILON * size / speed.max(f64::MIN_POSITIVE);
-        let doubt = (high - low) + if rounding.is_finite() { rounding.min(h) } else { h };
-        EventTime { at: start + high, doubt, slope: f64::INFINITY, top: false }
+        let uncertainty = (high - low) + if rounding.is_finite() { rounding.min(h) } else { h };
+        EventTime { at: start + high, uncertainty, slope: f64::INFINITY, top: false }
     }
 }
 
@@ -288,10 +288,15 @@ fn depth(session: &Session<'_>, apart: &[[usize; 2]]) -> f64 {
 }
 
 /// A zero crossing between the last two samples, by linear interpolation.
-fn between(past: &StepHistory, last: f64, now: f64) -> EventTime {
-    let h = past.step(1);
+fn between(history: &StepHistory, last: f64, now: f64) -> EventTime {
+    let h = history.step(1);
     let part = (last / (last - now)).clamp(0.0, 1.0);
-    EventTime { at: past.time(1) + part * h, doubt: 2.0 * h, slope: (now - last).abs() / h, top: false }
+    EventTime {
+        at: history.time(1) + part * h,
+        uncertainty: 2.0 * h,
+        slope: (now - last).abs() / h,
+        top: false,
+    }
 }
 
 /// The time at which a target crosses zero in the last step or in the one before.
@@ -301,12 +306,12 @@ fn crossing_time(
     side: f64,
     evaluate: &Evaluate<'_>,
 ) -> Option<EventTime> {
-    let oldest = bench.past.count().min(3) - 1;
+    let oldest = bench.history.count().min(3) - 1;
     let leaves = |bench: &mut StepReplay<'_>, j: usize| {
         bench.value(j, 0.0, i, evaluate) * side > 0.0 && bench.value(j - 1, 0.0, i, evaluate) * side <= 0.0
     };
     let from = (1..=oldest).rev().find(|&j| leaves(bench, j))?;
-    let (h, start) = (bench.past.step(from), bench.past.time(from));
+    let (h, start) = (bench.history.step(from), bench.history.time(from));
     let (mut low, mut high) = (0.0, h);
     let mut at_low = bench.value(from, 0.0, i, evaluate) * side;
     let mut at_high = bench.value(from - 1, 0.0, i, evaluate) * side;
@@ -344,6 +349,6 @@ fn crossing_time(
     let slope = (bench.value(from, b, i, evaluate) - bench.value(from, a, i, evaluate)).abs() / (b - a);
     let size = bench.size.max(residual);
     let rounding = (8.0 * f64::EPSILON * size + residual) / slope.max(f64::MIN_POSITIVE);
-    let doubt = (high - low) + rounding.min(2.0 * h);
-    Some(EventTime { at: start + 0.5 * (low + high), doubt, slope, top: false })
+    let uncertainty = (high - low) + rounding.min(2.0 * h);
+    Some(EventTime { at: start + 0.5 * (low + high), uncertainty, slope, top: false })
 }

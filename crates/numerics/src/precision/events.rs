@@ -53,8 +53,8 @@ pub(super) fn events(case: &PrecisionCase<'_>, truth: &Reference, targets: &[Com
         let again =
             i.checked_sub(1).map(|k| k % n.max(1)).is_some_and(|k| (0..k).any(|j| text(j) == text(k)));
         let horizon = target.map_or(all, |t| if t.blank { Some(0.0) } else { t.until });
-        match !again && horizon.is_none_or(|until| exact_event.at + exact_event.doubt <= until) {
-            true => Event { name, time: exact_event.at, uncertain: exact_event.doubt },
+        match !again && horizon.is_none_or(|until| exact_event.at + exact_event.uncertainty <= until) {
+            true => Event { name, time: exact_event.at, uncertain: exact_event.uncertainty },
             false => Event { name, time: f64::NAN, uncertain: f64::NAN },
         }
     };

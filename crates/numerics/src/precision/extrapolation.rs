@@ -119,10 +119,10 @@ fn finish(
         }
     }
     let depth_doubt = other.as_ref().map_or(f64::NAN, |o| (o.penetration - seen.penetration).abs());
-    let at = |moments: &[f64], doubts: bool| -> Vec<EventTime> {
+    let at = |moments: &[f64], uncertainties: bool| -> Vec<EventTime> {
         let one = |(m, at): (&EventTime, &f64)| EventTime {
             at: *at,
-            doubt: if doubts { m.doubt } else { 0.0 },
+            uncertainty: if uncertainties { m.uncertainty } else { 0.0 },
             ..*m
         };
         seen.moments.iter().zip(moments).map(one).collect()

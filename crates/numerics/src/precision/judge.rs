@@ -57,7 +57,7 @@ pub struct Compared {
     /// The uncertainty of the reference, where it is used.
     pub uncertain: f64,
     /// The same without rounding errors.
-    pub doubt: f64,
+    pub uncertainty: f64,
     /// The largest minus the smallest value in the reference; in the lab's own run if the reference is constant.
     pub range: f64,
     /// The largest invisible error: half a unit of the last digit, or half a pixel of the plot.
@@ -83,19 +83,19 @@ impl Compared {
         self.samples > 1
     }
 
-    /// The largest and the smallest visible error at one sample, if the truth is within `doubt` of `exact`, in multiples of
+    /// The largest and the smallest visible error at one sample, if the truth is within `uncertainty` of `exact`, in multiples of
     /// the smallest visible error.
-    fn visible_errors(&self, displayed: f64, exact: f64, doubt: f64) -> [f64; 2] {
+    fn visible_errors(&self, displayed: f64, exact: f64, uncertainty: f64) -> [f64; 2] {
         let error = (displayed - exact).abs();
         let parts = |unit: f64| {
-            [error + doubt, error - doubt]
+            [error + uncertainty, error - uncertainty]
                 .map(|e| if e <= 0.0 { 0.0 } else { e / unit.max(f64::MIN_POSITIVE) })
         };
         if !self.readout {
             return parts(self.invisible_error);
         }
         // Digits: a number within its uncertainty of a rounding boundary may be displayed as either neighbour.
-        let slack = doubt + DIGITS_ROUND * self.size;
+        let slack = uncertainty + DIGITS_ROUND * self.size;
         let print = |x: f64| printed(x, self.digits);
         let (low, now, high) = (print(exact - slack), print(displayed), print(exact + slack));
         let unit = 2.0 * self.invisible_error;
@@ -104,7 +104,7 @@ impl Compared {
             return [1.0 + most, 1.0 + least];
         }
         [
-            if doubt <= self.invisible_error * MAX_EXACT_UNCERTAINTY { most.min(1.0) } else { most },
+            if uncertainty <= self.invisible_error * MAX_EXACT_UNCERTAINTY { most.min(1.0) } else { most },
             least.min(1.0),
         ]
     }
@@ -156,7 +156,7 @@ pub(super) fn compared(case: &PrecisionCase<'_>, reference: &Reference, own_run:
             closed,
             size,
             uncertain: most.max(ROUNDING * size),
-            doubt: most,
+            uncertainty: most,
             range: range_of,
             invisible_error,
             readout: digits.is_some(),
@@ -196,11 +196,11 @@ pub(super) fn errors(
             }
             e.rms += d * d;
             e.end = d;
-            let doubt = match target.closed {
+            let uncertainty = match target.closed {
                 true => 0.0,
-                false => reference.uncertain[i].get(k * stride).copied().unwrap_or(target.doubt),
+                false => reference.uncertain[i].get(k * stride).copied().unwrap_or(target.uncertainty),
             };
-            let [most, least] = target.visible_errors(displayed, exact, doubt);
+            let [most, least] = target.visible_errors(displayed, exact, uncertainty);
             e.seen = [e.seen[0].max(most), e.seen[1].max(least)];
             e.wrong += usize::from(least > 1.0);
         }
@@ -222,7 +222,7 @@ mod tests {
             unit: None,
             closed: false,
             uncertain: 0.0,
-            doubt: 0.0,
+            uncertainty: 0.0,
             range: size,
             invisible_error: 0.5 * 0.1f64.powi(digits as i32),
             readout: true,

@@ -75,12 +75,12 @@ fn advance_to_jump(
     session: &mut Session<'_>,
     start: &SavedStart,
     h: f64,
-    held: &[f64],
+    inputs: &[f64],
     next: &[f64],
 ) -> Option<f64> {
-    let whole = largest_difference(held, next);
+    let whole = largest_difference(inputs, next);
     let (mut low, mut high) = (0.0, h);
-    let (mut at_low, mut at_high) = (held.to_vec(), next.to_vec());
+    let (mut at_low, mut at_high) = (inputs.to_vec(), next.to_vec());
     for _ in 0..BISECTIONS {
         let middle = 0.5 * (low + high);
         if middle <= low || middle >= high || high - low <= f64::EPSILON * session.world.data.time() {
@@ -123,12 +123,12 @@ pub(super) fn play(
             return made - 1;
         }
         session.refresh();
-        let held = numbers(session, CONTROLLED_STATE);
+        let inputs = numbers(session, CONTROLLED_STATE);
         let next = controls_now(session);
-        let change = largest_difference(&held, &next);
+        let change = largest_difference(&inputs, &next);
         if change > JUMP_FACTOR * usual + 1e-9 * largest_difference(&next, &vec![0.0; next.len()]) {
             let end = SavedStart::save(session);
-            match advance_to_jump(session, &start, h, &held, &next) {
+            match advance_to_jump(session, &start, h, &inputs, &next) {
                 Some(x) => {
                     advance(session, &start, x);
                     set_timestep(session, h - x);

@@ -140,8 +140,8 @@ impl Run {
             None if !self.reported.is_empty() => RunStatus::Warned,
             None => RunStatus::Good,
         };
-        if let Some(trouble) = session.troubles.first() {
-            self.reported.push(trouble.message.clone());
+        if let Some(program_error) = session.program_errors.first() {
+            self.reported.push(program_error.message.clone());
         }
     }
 }

@@ -65,21 +65,21 @@ pub(super) type Evaluate<'e> = dyn Fn(&mut Session<'_>, usize) -> f64 + 'e;
 /// A copy of a run in which its last steps are repeated.
 pub(super) struct StepReplay<'b> {
     pub(super) session: Session<'b>,
-    pub(super) past: &'b StepHistory,
+    pub(super) history: &'b StepHistory,
     /// The largest magnitude of the evaluated values.
     pub(super) size: f64,
 }
 
 impl<'b> StepReplay<'b> {
-    pub(super) fn new(session: &Session<'b>, past: &'b StepHistory) -> StepReplay<'b> {
-        StepReplay { session: session.clone(), past, size: 0.0 }
+    pub(super) fn new(session: &Session<'b>, history: &'b StepHistory) -> StepReplay<'b> {
+        StepReplay { session: session.clone(), history, size: 0.0 }
     }
 
     /// Advances from a state by a step of this length, and computes all fields there.
     pub(super) fn place(&mut self, from: usize, x: f64) {
-        let Some(start) = self.past.states.get(from) else { return };
+        let Some(start) = self.history.states.get(from) else { return };
         // The values that were constant in the step are stored with its end.
-        let Some(end) = self.past.states.get(from.saturating_sub(1)) else { return };
+        let Some(end) = self.history.states.get(from.saturating_sub(1)) else { return };
         let world = &mut self.session.world;
         if x > 0.0 {
             *world.model.edit().opt.timestep = x;

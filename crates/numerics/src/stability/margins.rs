@@ -46,7 +46,7 @@ pub struct Margin {
     /// The kind of parameter.
     pub knob: ParameterKind,
     /// The object to which it belongs.
-    pub who: String,
+    pub subject: String,
     /// Its unit; empty for a ratio, or if the unit depends on the joint.
     pub unit: &'static str,
     /// The current value in the lab.
@@ -86,7 +86,7 @@ type Read = dyn Fn(&Model) -> f64;
 /// A parameter that is raised.
 struct RaisedParameter {
     knob: ParameterKind,
-    who: String,
+    subject: String,
     unit: &'static str,
     now: f64,
     most: f64,
@@ -122,13 +122,13 @@ pub(super) fn margins(
     list.extend(some(ratios(&model, &base.touching), "pairs of bodies"));
     let mut found = Vec::new();
     for raised in list {
-        report_progress(&format!("margin: {} of {}", raised.knob.description(), raised.who));
+        report_progress(&format!("margin: {} of {}", raised.knob.description(), raised.subject));
         match search(case, &raised, length, work) {
             Ok(margin) => found.push(margin),
             Err(why) => left_out.push(format!(
                 "the margin of the {} of {}, {why}",
                 raised.knob.description(),
-                raised.who
+                raised.subject
             )),
         }
     }
@@ -157,7 +157,7 @@ fn search(
                 return None;
             };
             if let Some(fault) = worst_fault(&outcome.faults, &[]) {
-                how = Some((fault.kind, fault.who.clone()));
+                how = Some((fault.kind, fault.subject.clone()));
                 return Some(false);
             }
             if outcome.cut {
@@ -180,7 +180,7 @@ fn search(
     let bound = bound.filter(|b| b.broken.is_some()).and_then(|SearchLimit { fine, .. }| fine);
     Ok(Margin {
         knob: raised.knob,
-        who: raised.who.clone(),
+        subject: raised.subject.clone(),
         unit: raised.unit,
         now: raised.now,
         largest: limit.fine.map(|x| x * raised.now),
@@ -236,7 +236,7 @@ fn timestep(m: &Model, length: f64) -> RaisedParameter {
     let now = m.opt.timestep;
     RaisedParameter {
         knob: ParameterKind::Timestep,
-        who: "the lab".into(),
+        subject: "the lab".into(),
         unit: "s",
         now,
         most: (LONGEST.min(length / STEPS) / now).max(1.0),
@@ -270,7 +270,7 @@ fn gains(m: &Model) -> Vec<RaisedParameter> {
         if gain > 0.0 && scaled == Some(2.0 * gain) {
             list.push(RaisedParameter {
                 knob: ParameterKind::Gain,
-                who: named(&m.names.actuator, a, "the servo"),
+                subject: named(&m.names.actuator, a, "the servo"),
                 unit: "",
                 now: gain,
                 most: f64::INFINITY,
@@ -290,7 +290,7 @@ fn stiffnesses(m: &Model) -> Vec<RaisedParameter> {
         for j in (0..m.njnt).filter(|&j| m.jnt_stiffness.get(j).is_some_and(|&k| k > 0.0)) {
             list.push(RaisedParameter {
                 knob: ParameterKind::Stiffness,
-                who: named(&m.names.joint, j, "joint"),
+                subject: named(&m.names.joint, j, "joint"),
                 unit: "",
                 now: m.jnt_stiffness[j],
                 most: f64::INFINITY,
@@ -305,7 +305,7 @@ fn stiffnesses(m: &Model) -> Vec<RaisedParameter> {
         for t in (0..m.ntendon).filter(|&t| m.tendon_stiffness.get(t).is_some_and(|&k| k > 0.0)) {
             list.push(RaisedParameter {
                 knob: ParameterKind::Stiffness,
-                who: named(&m.names.tendon, t, "tendon"),
+                subject: named(&m.names.tendon, t, "tendon"),
                 unit: "N/m",
                 now: m.tendon_stiffness[t],
                 most: f64::INFINITY,
@@ -345,7 +345,7 @@ fn contacts(m: &Model, touching: &[[usize; 2]]) -> Option<RaisedParameter> {
     let now = read(m);
     (now > 0.0).then(|| RaisedParameter {
         knob: ParameterKind::Stiffness,
-        who: "all contacts".into(),
+        subject: "all contacts".into(),
         unit: "1/s²",
         now,
         most: f64::INFINITY,
@@ -374,7 +374,7 @@ fn ratios(m: &Model, touching: &[[usize; 2]]) -> Vec<RaisedParameter> {
         for [heavy, light] in [[a, b], [b, a]] {
             list.push(RaisedParameter {
                 knob: ParameterKind::MassRatio,
-                who: format!("{} to {}", body_name(m, heavy), body_name(m, light)),
+                subject: format!("{} to {}", body_name(m, heavy), body_name(m, light)),
                 unit: "",
                 now: mass(heavy) / mass(light),
                 most: f64::INFINITY,

@@ -224,11 +224,15 @@ fn ends(control: &Control, last: f64) -> String {
 fn has_no_new_fault(found: &FaultGroup, before: &RunOutcome, after: &RunOutcome) -> bool {
     let FaultGroup { fault, .. } = found;
     if fault.kind == FaultKind::Drifts {
-        let speed = after.speeds.iter().find(|(who, _)| *who == fault.who).map_or(0.0, |(_, speed)| *speed);
+        let speed = after
+            .speeds
+            .iter()
+            .find(|(subject, _)| *subject == fault.subject)
+            .map_or(0.0, |(_, speed)| *speed);
         return speed <= STOPPED * fault.size && worst_fault(&after.faults, &[]).is_none();
     }
-    let others = before.faults.iter().filter(|f| (f.kind, &f.who) != (fault.kind, &fault.who));
-    let others: Vec<(FaultKind, String)> = others.map(|f| (f.kind, f.who.clone())).collect();
+    let others = before.faults.iter().filter(|f| (f.kind, &f.subject) != (fault.kind, &fault.subject));
+    let others: Vec<(FaultKind, String)> = others.map(|f| (f.kind, f.subject.clone())).collect();
     worst_fault(&after.faults, &others).is_none()
 }
 

@@ -78,7 +78,7 @@ mod tests {
     }
 
     #[test]
-    fn what_never_breaks_and_what_always_does_is_told_apart() {
+    fn never_and_always_failing_parameters_are_distinguished() {
         assert_eq!(
             largest(1e9, 2.0, |_| Some(true)),
             Some(SearchLimit { fine: Some(2f64.powi(20)), broken: None })

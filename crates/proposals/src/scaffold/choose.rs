@@ -66,12 +66,12 @@ pub(super) fn choose<'t, 'l>(
     numbers: &[Stated],
     stage: &Stage<'_>,
 ) -> Result<MeasureChoice<'t, 'l>, String> {
-    let asked = plain(&question.q.value).to_lowercase();
+    let question_text = plain(&question.q.value).to_lowercase();
     let options: Vec<String> = options.iter().map(|o| plain(&o.value)).collect();
     let question_words: BTreeSet<String> =
-        split_words(&asked).chain(options.iter().flat_map(|o| split_words(o))).collect();
+        split_words(&question_text).chain(options.iter().flat_map(|o| split_words(o))).collect();
     let relations: Vec<Option<Relation>> = options.iter().map(|o| Relation::read(o)).collect();
-    let order = ["first", "earlier", "sooner", "before"].iter().any(|w| contains_words(&asked, w));
+    let order = ["first", "earlier", "sooner", "before"].iter().any(|w| contains_words(&question_text, w));
     let comparable = relations.iter().flatten().count();
     let mut choices: Vec<MeasureChoice<'t, 'l>> = Vec::new();
     for tried in labs {
@@ -79,7 +79,7 @@ pub(super) fn choose<'t, 'l>(
             choices.extend(orders(tried, &options));
         }
         if comparable >= 2 {
-            let runs = pairs::runs(question, &asked, tried.lab, numbers);
+            let runs = pairs::runs(question, &question_text, tried.lab, numbers);
             choices.extend(comparisons(tried, &runs, &relations, &question_words, stage));
         }
     }

@@ -64,7 +64,7 @@ mod tests {
 
     /// The work of the check is bounded, for any number of geoms at the same position.
     #[test]
-    fn geoms_in_one_place_take_bounded_work() {
+    fn coincident_geoms_take_bounded_work() {
         for geom in [
             "<geom size='.1'/>",
             "<geom type='box' size='.1 .1 .1'/>",

@@ -177,7 +177,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sister_folder_below_the_root_is_open_and_nothing_above_it() {
+    fn a_sister_folder_below_the_root_is_readable_and_folders_above_are_not() {
         let outer = tempfile::tempdir().unwrap();
         let root = outer.path().join("course");
         std::fs::create_dir_all(root.join("models/deep")).unwrap();

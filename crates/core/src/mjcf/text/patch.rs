@@ -266,7 +266,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_changed_is_said_with_what_is_near() {
+    fn a_refused_change_is_reported_with_similar_names() {
         for (path, value, words) in [
             ("geom irn mass", "1", "no geom `irn`; did you mean `iron`?"),
             ("geom iron mas", "1", "no attribute `mas`; did you mean `mass`?"),

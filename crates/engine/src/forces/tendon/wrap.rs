@@ -327,7 +327,7 @@ mod tests {
     }
 
     #[test]
-    fn strings_are_as_short_as_they_can_be() {
+    fn wrapped_paths_have_minimal_length() {
         let mut state = 1u64;
         let mut random = || {
             state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);

@@ -34,11 +34,11 @@ impl<'a> Binder<'a> {
             let index = self.index(&field, index, span)?;
             return Ok(Entity::Value(self.load(&field, index, span)));
         }
-        let thing = self.entity(object);
-        if let Ok(Entity::Globals) = thing {
+        let entity = self.entity(object);
+        if let Ok(Entity::Globals) = entity {
             return self.read_named_global(index, span).map(Entity::Value);
         }
-        match thing {
+        match entity {
             Ok(Entity::Field(field)) => {
                 let index = self.index(&field, index, span)?;
                 self.name_element(&field, &index, span);
@@ -233,14 +233,14 @@ impl<'a> Binder<'a> {
         Ok(at)
     }
 
-    pub(super) fn not_indexable(&self, thing: &Entity, object: &Expr, index: &Expr, span: Span) -> Finding {
+    pub(super) fn not_indexable(&self, entity: &Entity, object: &Expr, index: &Expr, span: Span) -> Finding {
         let text = self.text(object.span);
         let error = |message: String| Finding::error(rules::NOT_INDEXABLE, span, message);
         let name = match &index.kind {
             ExprKind::String(name) => Some(name.as_str()),
             _ => None,
         };
-        match (thing, name) {
+        match (entity, name) {
             (Entity::Collection(id), _) => {
                 self.collection_needs_call(*id, object.span, name.map(|n| (n, span)))
             }
@@ -272,7 +272,7 @@ impl<'a> Binder<'a> {
                 | Entity::Native(_)
                 | Entity::Closure(_),
                 _,
-            ) => self.not_called(thing, object.span),
+            ) => self.not_called(entity, object.span),
             _ => error(format!("`{text}` is not an array"))
                 .help(format!("select a field with a point, as `{}`", self.host_terms().array)),
         }

@@ -138,9 +138,9 @@ impl<'a> Binder<'a> {
             ExprKind::Member { object, name, optional: false } => match self.entity(object)? {
                 Entity::Globals => self.global_place(&name.text, target.span),
                 Entity::Value(ir) => self.member_place(ir, name, target.span),
-                thing => {
-                    let thing = self.member_of(thing, object.span, name, false, target.span)?;
-                    self.place_of(thing, target)
+                entity => {
+                    let entity = self.member_of(entity, object.span, name, false, target.span)?;
+                    self.place_of(entity, target)
                 }
             },
             ExprKind::Index { object, index, optional: false } => match self.entity(object) {
@@ -159,8 +159,8 @@ impl<'a> Binder<'a> {
                     let index = self.value(index)?;
                     Ok(AssignmentTarget::Item(ir, index))
                 }
-                Ok(thing) => {
-                    let report = match thing {
+                Ok(entity) => {
+                    let report = match entity {
                         Entity::Value(ref ir) if !matches!(ir.kind, IrKind::Load(..)) => {
                             self.not_a_place(target)
                         }
@@ -214,14 +214,14 @@ impl<'a> Binder<'a> {
                 }
             };
         }
-        let thing = self.root(name, span)?;
+        let entity = self.root(name, span)?;
         let expr = Expr { kind: ExprKind::Name(name.to_owned()), span };
-        self.place_of(thing, &expr)
+        self.place_of(entity, &expr)
     }
 
     /// Binds an entity, named directly or as a member, as a target.
-    fn place_of(&mut self, thing: Entity, target: &Expr) -> Attempt<AssignmentTarget> {
-        match thing {
+    fn place_of(&mut self, entity: Entity, target: &Expr) -> Attempt<AssignmentTarget> {
+        match entity {
             Entity::Field(field) => {
                 self.check_assignable(&field, target.span)?;
                 if field.is_scalar() {

@@ -346,9 +346,9 @@ impl<'a> Binder<'a> {
             return self.refuse_nesting(expr.span);
         }
         self.levels += 1;
-        let thing = self.entity_inside(expr);
+        let entity = self.entity_inside(expr);
         self.levels -= 1;
-        thing
+        entity
     }
 
     #[inline(never)]

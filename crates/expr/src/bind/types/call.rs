@@ -31,14 +31,14 @@ impl<'a> Binder<'a> {
         optional: bool,
         span: Span,
     ) -> Attempt<Entity> {
-        let thing = match self.entity(callee) {
-            Ok(thing) => thing,
+        let entity = match self.entity(callee) {
+            Ok(entity) => entity,
             Err(Reported) => {
                 self.check_arguments(args);
                 return Err(Reported);
             }
         };
-        match thing {
+        match entity {
             Entity::Collection(id) => self.named(id, callee.span, args, span),
             Entity::Function(id) => self.host_call(id, args, callee.span, span).map(Entity::Value),
             Entity::MathFunction(function) => self.math_call(function, args, span).map(Entity::Value),
@@ -113,9 +113,9 @@ impl<'a> Binder<'a> {
     }
 
     #[inline(never)]
-    fn not_callable(&self, thing: &Entity, span: Span) -> Finding {
+    fn not_callable(&self, entity: &Entity, span: Span) -> Finding {
         let text = self.text(span);
-        let what = match thing {
+        let what = match entity {
             Entity::Field(field) if !field.is_scalar() => "an array",
             Entity::Field(_) => "a number",
             Entity::Object(_) | Entity::Math | Entity::Globals => "an object",
@@ -123,7 +123,7 @@ impl<'a> Binder<'a> {
             _ => "a value",
         };
         let report = Finding::error(rules::NOT_CALLABLE, span, format!("`{text}` is {what}, not a function"));
-        match thing {
+        match entity {
             Entity::Field(field) if !field.is_scalar() => report
                 .why("parentheses call a function")
                 .help(format!("select elements with square brackets, as `{text}[0]`")),
@@ -134,9 +134,9 @@ impl<'a> Binder<'a> {
     }
 
     /// The finding for a function that is named but not called.
-    pub(super) fn not_called(&self, thing: &Entity, span: Span) -> Finding {
+    pub(super) fn not_called(&self, entity: &Entity, span: Span) -> Finding {
         let text = self.text(span);
-        let call = match thing {
+        let call = match entity {
             Entity::Function(id) => {
                 let signature = self.signature(&self.schema.function(*id));
                 let arguments = signature.split_once('(').map_or(")", |(_, rest)| rest);
@@ -206,8 +206,8 @@ impl<'a> Binder<'a> {
 
     /// Binds an argument of a function of `Math`. A list is an error: `Math.max([1, 2])` should be `Math.max(...[1, 2])`.
     fn math_argument(&mut self, path: &str, function: math::MathFunction, arg: &'a Expr) -> Attempt<Ir> {
-        let thing = self.entity(arg)?;
-        let report = match &thing {
+        let entity = self.entity(arg)?;
+        let report = match &entity {
             Entity::Field(field) if !field.is_scalar() => Some(self.whole_array(field, arg.span)),
             Entity::Value(ir) if matches!(ir.ty, Type::List | Type::View) => Some(self.not_single(ir)),
             _ => None,
@@ -218,7 +218,7 @@ impl<'a> Binder<'a> {
                 let help = format!("write `{path}(...{text})` for all its elements, or `{text}[0]` for one");
                 self.refuse(report.help(help).guess(Span::new(arg.span.start, arg.span.start), "..."))
             }
-            None => self.operand_of(thing, arg.span),
+            None => self.operand_of(entity, arg.span),
         }
     }
 

@@ -114,8 +114,8 @@ impl<'a> Binder<'a> {
                 self.changing(expr)
             }
             ExprKind::Call { .. } => {
-                let thing = self.entity(expr)?;
-                match thing {
+                let entity = self.entity(expr)?;
+                match entity {
                     // The call of a function without a result gives `undefined`.
                     Entity::Value(ir) if ir.ty == Type::Void => Ok(Ir { ty: Type::Undefined, ..ir }),
                     other => self.value_of(other, expr.span),

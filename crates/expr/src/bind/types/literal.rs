@@ -31,14 +31,14 @@ impl<'a> Binder<'a> {
 
     /// Binds `...list`. A short array of known size is expanded.
     fn spread(&mut self, inner: &'a Expr) -> Attempt<Vec<IrItem>> {
-        let thing = self.entity(inner)?;
-        if let Entity::Field(field) = &thing
+        let entity = self.entity(inner)?;
+        if let Entity::Field(field) = &entity
             && !field.is_scalar()
             && let Some(elements) = self.elements(field, inner.span)
         {
             return Ok(elements.into_iter().map(|value| IrItem { value, spread: false }).collect());
         }
-        let value = self.value_of(thing, inner.span)?;
+        let value = self.value_of(entity, inner.span)?;
         self.expect_elements(&value)?;
         Ok(vec![IrItem { value, spread: true }])
     }
@@ -151,7 +151,7 @@ impl<'a> Binder<'a> {
                 for (key, element) in entries {
                     let object = whole.clone();
                     match self.value_member(object, key, false, *span) {
-                        Ok(thing) => match self.value_of(thing, key.span) {
+                        Ok(entity) => match self.value_of(entity, key.span) {
                             Ok(part) => self.part(element, part, steps),
                             Err(Reported) => self.mark_unbound(&element.target),
                         },
@@ -202,13 +202,13 @@ impl<'a> Binder<'a> {
         value: &'a Expr,
         steps: &mut Vec<IrStatement>,
     ) {
-        let Ok(thing) = self.entity(value) else { return self.mark_unbound(pattern) };
+        let Ok(entity) = self.entity(value) else { return self.mark_unbound(pattern) };
         // Parts of `model`, `data`, `ctx` or `Math` become aliases.
         if let (Pattern::Record { entries, .. }, Entity::Object(_) | Entity::Math | Entity::Globals) =
-            (pattern, &thing)
+            (pattern, &entity)
         {
             for (key, element) in entries {
-                let part = self.member_of(thing.clone(), value.span, key, false, key.span);
+                let part = self.member_of(entity.clone(), value.span, key, false, key.span);
                 match (part, &element.target) {
                     (Ok(part), Pattern::Name(name)) => self.initialize_part(name, part, key.span, steps),
                     (Ok(part), inner) => match self.value_of(part, key.span) {
@@ -223,7 +223,7 @@ impl<'a> Binder<'a> {
             }
             return;
         }
-        if let (Pattern::Record { entries, .. }, Entity::Value(ir)) = (pattern, &thing) {
+        if let (Pattern::Record { entries, .. }, Entity::Value(ir)) = (pattern, &entity) {
             let values: Vec<Attempt<Ir>> = entries
                 .iter()
                 .filter(|_| ir.ty == Type::Record)
@@ -233,7 +233,7 @@ impl<'a> Binder<'a> {
                 return self.mark_unbound(pattern);
             }
         }
-        match self.value_of(thing, value.span) {
+        match self.value_of(entity, value.span) {
             Ok(ir) => {
                 let place = self.store_in_temporary(ir, pattern.span(), steps);
                 self.destructure_value(pattern, place, steps);

@@ -117,7 +117,7 @@ impl<'a> Binder<'a> {
             Ok(Entity::Field(field)) if !field.is_scalar() => {
                 Ok(self.elements_of_field(&field, &read_counter, items.span))
             }
-            Ok(thing) => self.elements_of_value(thing, &read_counter, items.span, span, steps),
+            Ok(entity) => self.elements_of_value(entity, &read_counter, items.span, span, steps),
             Err(Reported) => Err(Reported),
         };
         let Ok((length, item)) = elements else { return self.dead_loop(target, body, functions) };

@@ -30,12 +30,12 @@ impl<'a> Binder<'a> {
     #[inline(never)]
     pub(super) fn root(&mut self, name: &str, span: Span) -> Attempt<Entity> {
         if let Some(variable) = self.variable(name, span)? {
-            let thing = self.read_variable(&variable, span)?;
-            self.explain_entity(&thing, name, span);
-            return Ok(thing);
+            let entity = self.read_variable(&variable, span)?;
+            self.explain_entity(&entity, name, span);
+            return Ok(entity);
         }
-        if let Some(thing) = language(name, span) {
-            return Ok(thing);
+        if let Some(entity) = language(name, span) {
+            return Ok(entity);
         }
         if self.site.is_some()
             && let Some(function) = natives::find_function(name)
@@ -50,16 +50,16 @@ impl<'a> Binder<'a> {
             self.unresolved.get_or_insert(span);
             return Err(Reported);
         };
-        let thing = from_entry(entry, span);
-        self.explain_entity(&thing, name, span);
-        Ok(thing)
+        let entity = from_entry(entry, span);
+        self.explain_entity(&entity, name, span);
+        Ok(entity)
     }
 
     /// Records the help for a name or a member.
     #[inline(never)]
-    fn explain_entity(&mut self, thing: &Entity, text: &str, span: Span) {
+    fn explain_entity(&mut self, entity: &Entity, text: &str, span: Span) {
         let schema = self.schema;
-        match thing {
+        match entity {
             Entity::Field(field) => self.explain(span, || field_help(field, schema.host_terms())),
             Entity::Object(id) => {
                 self.explain(span, || Help { title: schema.describe(*id), lines: Vec::new() });
@@ -80,8 +80,8 @@ impl<'a> Binder<'a> {
     /// Binds `object.name` or `object?.name`.
     #[inline(never)]
     fn member(&mut self, object: &'a Expr, name: &Name, optional: bool, span: Span) -> Attempt<Entity> {
-        let thing = self.entity(object)?;
-        let found = self.member_of(thing, object.span, name, optional, span)?;
+        let entity = self.entity(object)?;
+        let found = self.member_of(entity, object.span, name, optional, span)?;
         self.explain_entity(&found, &name.text, name.span);
         Ok(found)
     }
@@ -90,13 +90,13 @@ impl<'a> Binder<'a> {
     #[inline(never)]
     pub(super) fn member_of(
         &mut self,
-        thing: Entity,
+        entity: Entity,
         object: Span,
         name: &Name,
         optional: bool,
         span: Span,
     ) -> Attempt<Entity> {
-        match thing {
+        match entity {
             Entity::Object(id) => match self.schema.member(id, &name.text) {
                 Some(entry) => Ok(from_entry(entry, span)),
                 None => {
@@ -117,12 +117,12 @@ impl<'a> Binder<'a> {
                 let report = self.collection_needs_call(id, object, Some((&name.text, span)));
                 self.refuse(report)
             }
-            thing @ (Entity::Function(_)
+            entity @ (Entity::Function(_)
             | Entity::MathFunction(_)
             | Entity::Method(..)
             | Entity::Native(_)
             | Entity::Closure(_)) => {
-                let report = self.not_called(&thing, object);
+                let report = self.not_called(&entity, object);
                 self.refuse(report)
             }
             Entity::Value(ir) => self.value_member(ir, name, optional, span),

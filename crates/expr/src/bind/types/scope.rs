@@ -67,8 +67,8 @@ impl<'a> Binder<'a> {
         }
         for statement in statements {
             if let StmtKind::Function { name, function } = &statement.kind {
-                let thing = self.new_function(function);
-                self.mark_declared(name, VariableMeaning::Alias(thing));
+                let entity = self.new_function(function);
+                self.mark_declared(name, VariableMeaning::Alias(entity));
             }
         }
     }
@@ -161,7 +161,7 @@ impl<'a> Binder<'a> {
     /// The meaning of a variable where it is read.
     pub(super) fn read_variable(&mut self, variable: &Variable, span: Span) -> Attempt<Entity> {
         match &variable.meaning {
-            VariableMeaning::Alias(thing) => Ok(thing.clone()),
+            VariableMeaning::Alias(entity) => Ok(entity.clone()),
             VariableMeaning::Unknown if variable.ready => Err(Reported),
             _ => {
                 self.capture(variable);

@@ -86,14 +86,14 @@ impl<'a> Binder<'a> {
             let report = self.assignment_inside(*op, *op_span, test.span);
             return self.refuse(report);
         }
-        let thing = self.entity(test)?;
-        if let Entity::Field(field) = &thing
+        let entity = self.entity(test)?;
+        if let Entity::Field(field) = &entity
             && !field.is_scalar()
         {
             let report = self.whole_array(field, test.span);
             return self.refuse(report);
         }
-        self.value_of(thing, test.span)
+        self.value_of(entity, test.span)
     }
 
     /// Binds an expression used as a statement. An expression without an effect adds no step.
@@ -118,11 +118,11 @@ impl<'a> Binder<'a> {
                         self.host_call(id, &[], expr.span, expr.span)?
                     }
                     Entity::Value(ir) if may_have_effect(&ir) => ir,
-                    thing @ (Entity::Function(_)
+                    entity @ (Entity::Function(_)
                     | Entity::MathFunction(_)
                     | Entity::Method(..)
                     | Entity::Closure(_)) => {
-                        let report = self.not_called(&thing, expr.span);
+                        let report = self.not_called(&entity, expr.span);
                         return self.refuse(report);
                     }
                     _ => {
@@ -164,7 +164,7 @@ impl<'a> Binder<'a> {
     fn declare(&mut self, constant: bool, declarator: &'a Declarator, steps: &mut Vec<IrStatement>) {
         match (&declarator.target, &declarator.value) {
             (Pattern::Name(name), Some(value)) => match self.declared(name, constant, value, steps) {
-                Ok(Some(thing)) => self.mark_declared(name, VariableMeaning::Alias(thing)),
+                Ok(Some(entity)) => self.mark_declared(name, VariableMeaning::Alias(entity)),
                 Ok(None) => {}
                 Err(_) => self.mark_declared(name, VariableMeaning::Unknown),
             },
@@ -191,7 +191,7 @@ impl<'a> Binder<'a> {
             return Ok(None);
         }
         let changes = !constant && self.assignments(self.key_of(name)) > 0;
-        let thing = match self.entity(value)? {
+        let entity = match self.entity(value)? {
             alias @ (Entity::Field(_) | Entity::Closure(_) | Entity::Native(_) | Entity::MathFunction(_))
                 if !changes && !matches!(&alias, Entity::Field(f) if f.is_scalar()) =>
             {
@@ -219,7 +219,7 @@ impl<'a> Binder<'a> {
                 .help(format!("declare it with `const {}`, and use another name for the number", name.text)),
             );
         }
-        Ok(Some(thing))
+        Ok(Some(entity))
     }
 
     /// Whether the program only reads values.

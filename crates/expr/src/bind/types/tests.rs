@@ -94,7 +94,7 @@ fn programs_that_are_made_to_be_slow_take_few_rounds() {
 }
 
 #[test]
-fn a_text_without_circles_takes_one_round() {
+fn a_text_without_type_cycles_takes_one_round() {
     for source in [
         "const a = data.time; const b = a * 2; ctx.out = b + a",
         "const f = x => x * x; ctx.out = f(2) + f(data.time)",
@@ -106,7 +106,7 @@ fn a_text_without_circles_takes_one_round() {
 }
 
 #[test]
-fn what_the_last_round_says_is_what_runs() {
+fn the_types_of_the_last_round_are_those_of_the_run() {
     // All variables are numbers, until a string is assigned through all of them.
     let n = 40;
     let steps: String = (0..n).map(|i| format!("a{i} = a{};", i + 1)).collect();

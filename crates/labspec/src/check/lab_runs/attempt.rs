@@ -97,7 +97,7 @@ pub(super) fn make(
     let (spent, faults) = (session.spent() + tried_work, watcher.faults(&session));
     hash.close(&session.world.model);
     let record = Record { moved: trial.moved.clone(), rows, hash, beyond };
-    let lost = !session.troubles.is_empty() || session.warnings.iter().any(|w| w.number > 0);
+    let lost = !session.program_errors.is_empty() || session.warnings.iter().any(|w| w.number > 0);
     Ok(Attempt { covered, spent, broke, lost, ended, model: session.world.model, record, faults })
 }
 
@@ -111,7 +111,7 @@ fn report_breaks(
     findings: &mut Vec<Finding>,
 ) -> (bool, u64) {
     let before = findings.len();
-    for t in &session.troubles {
+    for t in &session.program_errors {
         if seen.is_new(t) {
             findings.push(run::error_finding(t, &trial.done));
         }

@@ -20,7 +20,7 @@ pub(super) fn nothing() -> Interaction {
 /// Makes these runs within the budget, and reports the faults of all runs.
 pub(super) fn go_on(state: &mut LabRunState<'_>, left: &mut u64, findings: &mut Vec<Finding>) {
     let completed = state.tried.as_ref().is_some_and(|t| t.runs > 0 && t.ended.is_none());
-    if !state.hopeless && completed {
+    if !state.has_no_remedy && completed {
         try_more(state, left, findings);
     }
     findings.extend(state.faults.iter().filter_map(|found| finding_of(found, state)));

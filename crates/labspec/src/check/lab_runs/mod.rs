@@ -85,7 +85,7 @@ struct LabRunState<'a> {
     /// Whether a run lost its numbers, so that not every run was completed.
     lost: bool,
     /// Whether it breaks or does not start as loaded: it would with every control.
-    hopeless: bool,
+    has_no_remedy: bool,
 }
 
 impl LabRunState<'_> {
@@ -189,7 +189,7 @@ fn begin<'a>(
         tried: None,
         records: Vec::new(),
         lost: false,
-        hopeless: false,
+        has_no_remedy: false,
     };
     let Some(first) = state.left.next() else { return state };
     match attempt::make(ready, &state.case, &first, budget, &mut state.seen, findings) {
@@ -204,17 +204,17 @@ fn begin<'a>(
             {
                 findings.push(f);
             }
-            state.hopeless = attempt.broke || attempt.covered == 0.0 && wanted > 0.0;
+            state.has_no_remedy = attempt.broke || attempt.covered == 0.0 && wanted > 0.0;
             state.tried =
                 Some(Coverage { runs: 0, wanted, covered: wanted, skipped: 0, broke: false, ended: None });
             count(&mut state, &first, attempt, left);
         }
         Err(e) => {
             findings.push(impossible(first.place(ready.lab), e));
-            state.hopeless = true;
+            state.has_no_remedy = true;
         }
     }
-    if state.hopeless {
+    if state.has_no_remedy {
         let skipped = state.left.by_ref().count();
         state.skip(skipped);
     }

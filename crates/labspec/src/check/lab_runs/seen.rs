@@ -20,7 +20,7 @@ pub(super) struct LabDisplays<'a> {
     gaps: BTreeSet<u32>,
     found: Vec<Finding>,
     /// Errors of programs that were reported before.
-    troubles: Vec<(&'static Rule, Text, std::ops::Range<usize>)>,
+    program_errors: Vec<(&'static Rule, Text, std::ops::Range<usize>)>,
 }
 
 impl<'a> LabDisplays<'a> {
@@ -53,7 +53,7 @@ impl<'a> LabDisplays<'a> {
             width: programs.probes.len(),
             gaps,
             found: Vec::new(),
-            troubles: Vec::new(),
+            program_errors: Vec::new(),
         }
     }
 
@@ -107,9 +107,9 @@ impl<'a> LabDisplays<'a> {
         let is_reported = |(code, text, span): &(&'static Rule, Text, std::ops::Range<usize>)| {
             *code == t.rule && *text == t.text && *span == t.span
         };
-        let new = !self.troubles.iter().any(is_reported);
+        let new = !self.program_errors.iter().any(is_reported);
         if new {
-            self.troubles.push((t.rule, t.text.clone(), t.span.clone()));
+            self.program_errors.push((t.rule, t.text.clone(), t.span.clone()));
         }
         new
     }

@@ -29,7 +29,7 @@ const MIN_RELATIVE_CHANGE: f64 = 1e-3;
 pub(super) struct PartnerCandidate<'a> {
     text: Text,
     /// The name of the program in messages.
-    who: String,
+    subject: String,
     pairs: PairSet,
     /// Its lab; `None` for the setup of a run.
     lab: Option<&'a Lab>,
@@ -44,7 +44,7 @@ impl PartnerCandidate<'_> {
     fn left(&self) -> String {
         let mut partners: Vec<&str> = self.pairs.pairs().map(|(_, pair)| pair.left).collect();
         partners.dedup();
-        format!("{} does not update {}", self.who, partners.join(" and "))
+        format!("{} does not update {}", self.subject, partners.join(" and "))
     }
 }
 
@@ -85,19 +85,19 @@ fn candidates<'a>(lesson: &'a Lesson, labs: &[PreparedLab<'a>]) -> Vec<PartnerCa
         let programs = &ready.programs;
         let in_lesson = all.iter().any(|lab| std::ptr::eq(*lab, ready.lab));
         let of_lab = [("the setup", &programs.setup), ("the controller", &programs.controller)];
-        let named = of_lab.into_iter().map(|(who, bound)| (who.to_string(), bound.as_ref()));
+        let named = of_lab.into_iter().map(|(subject, bound)| (subject.to_string(), bound.as_ref()));
         let controls = programs.controls.iter().map(|(label, program)| match program {
             ControlProgram::Change(_, action) => (format!("\"{label}\""), action.run.as_ref()),
             ControlProgram::Press(run) => (format!("\"{label}\""), run.as_ref()),
         });
-        for (who, bound) in named.chain(controls) {
+        for (subject, bound) in named.chain(controls) {
             let Some(bound) = bound else { continue };
             let written = PairSet::written_by(&bound.program);
             let pairs = written.without(coupled::intentionally_separate(programs, bound, written));
             let pairs = pairs.without(suppressed_pairs(lesson, &bound.text, pairs));
             candidates.push(PartnerCandidate {
                 text: bound.text.clone(),
-                who,
+                subject,
                 pairs,
                 lab: Some(ready.lab),
                 in_lesson,
@@ -180,7 +180,7 @@ impl<'a> Partners<'a> {
                 }
                 let with: Vec<&str> = pairs.iter().map(|p| p.corrected).collect();
                 let why = format!("{evidence} with {}", with.join(" and "));
-                let finding = setconst::left(rule, span, &cause.who, &pairs, Severity::Warning);
+                let finding = setconst::left(rule, span, &cause.subject, &pairs, Severity::Warning);
                 findings.push(if evidence.is_empty() { finding } else { finding.why(why) });
             }
         }
@@ -198,10 +198,10 @@ impl<'a> Partners<'a> {
         let mut all: Vec<PartnerCandidate<'a>> = self.candidates.iter().filter(of).cloned().collect();
         for text in changes(verify) {
             let pairs = PairSet::ALL.without(suppressed_pairs(self.lesson, text, PairSet::ALL));
-            let who = format!("the change of `{}`", text.value);
+            let subject = format!("the change of `{}`", text.value);
             all.push(PartnerCandidate {
                 text: text.clone(),
-                who,
+                subject,
                 pairs,
                 lab: None,
                 in_lesson: true,
@@ -215,11 +215,11 @@ impl<'a> Partners<'a> {
             let Some(bound) = bench.compile(text, &text.value, None) else { continue };
             let pairs = PairSet::written_by(&bound.program);
             let pairs = pairs.without(suppressed_pairs(self.lesson, text, pairs));
-            let who = format!("the setup of the run {}", named(&run.name.value));
+            let subject = format!("the setup of the run {}", named(&run.name.value));
             if !pairs.is_empty() {
                 all.push(PartnerCandidate {
                     text: text.clone(),
-                    who,
+                    subject,
                     pairs,
                     lab: None,
                     in_lesson: true,
@@ -402,7 +402,7 @@ mod tests {
     /// A run that reports no omitted coupled parameter equals the corrected run bit for bit, so `verify` does not make the
     /// corrected run.
     #[test]
-    fn a_run_that_leaves_nothing_behind_is_the_corrected_one() {
+    fn a_run_without_uncoupled_changes_equals_the_corrected_one() {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
         let ours = (root.join("specs/lessons"), root.join("specs/models"));
         let corpus = root.join("../shared/corpus");

@@ -455,8 +455,8 @@ fn act(session: &mut Session<'_>, what: &Move) {
 /// A statement failed, the simulation broke, or the run ended early. Errors in a trace or a readout have separate findings.
 fn check_completion(session: &Session<'_>, programs: &Programs) -> Result<(), String> {
     let probe = |t: &Text| programs.probes.iter().any(|p| p.bound.as_ref().is_some_and(|b| b.text == *t));
-    if let Some(trouble) = session.troubles.iter().find(|t| !probe(&t.text)) {
-        return Err(format!("its statements fail: {}", trouble.message));
+    if let Some(program_error) = session.program_errors.iter().find(|t| !probe(&t.text)) {
+        return Err(format!("its statements fail: {}", program_error.message));
     }
     match (run::worst_breakdown(session), session.ended()) {
         (Some(broken), _) => Err(format!("the simulation breaks: {}", broken.what)),

@@ -23,7 +23,7 @@ pub(super) struct Compared {
     pub(super) advice: SetConstAdvice,
     pub(super) repaired: Option<String>,
     /// Why the effect of coupled parameters could not be tested.
-    pub(super) untried: Option<String>,
+    pub(super) untested: Option<String>,
 }
 
 /// The runs of one trial.
@@ -63,16 +63,16 @@ impl SetConstBench<'_> {
         let refreshed = s.inertial.is_some().then(|| self.observed(s, true));
         let coupled = (!s.pairs.is_empty()).then(|| self.corrected(s, s.pairs));
         let variants = LabVariants { as_is, refreshed, coupled, steps };
-        let (mut untried, mut uncoupled) = (None, None);
+        let (mut untested, mut uncoupled) = (None, None);
         let mut all: Vec<Runs<'_>> = Vec::new();
         for trial in &trials {
             match self.runs(s, &variants, trial, &mut uncoupled) {
                 Ok(runs) => all.push(runs),
-                Err(reason) => untried = untried.or(Some(reason)),
+                Err(reason) => untested = untested.or(Some(reason)),
             }
         }
         let constants = all.iter().find(|r| self.columns(s).difference(&r.as_is, &r.anew).is_some());
-        if let (None, Some(reason), true) = (constants, &untried, s.inertial.is_some()) {
+        if let (None, Some(reason), true) = (constants, &untested, s.inertial.is_some()) {
             return Err(reason.clone());
         }
         let mut partners = self.partners(s, &all, &variants);
@@ -105,7 +105,7 @@ impl SetConstBench<'_> {
             Some(difference.describe(&r.trial.description, &format!("the constants recomputed{and}")))
         });
         let (advice, repaired) = self.choose_advice(s, matter, constants.is_some(), &all, steps);
-        Ok(Compared { constants, partners, advice, repaired, untried: uncoupled })
+        Ok(Compared { constants, partners, advice, repaired, untested: uncoupled })
     }
 
     /// The suggestion, and the corrected text if one gives the same runs.

@@ -22,7 +22,7 @@ impl SetConstBench<'_> {
                 let partners = self.has_uncoupled_change(s, &compared, fix);
                 constants.into_iter().chain(partners).collect()
             }
-            Err(reason) => untried(s, &reason).into_iter().collect(),
+            Err(reason) => untested(s, &reason).into_iter().collect(),
         }
     }
 
@@ -33,7 +33,7 @@ impl SetConstBench<'_> {
         compared: &Compared,
         mut fix: Option<Fix>,
     ) -> Vec<Finding> {
-        let (evidence, pairs, severity) = match (&compared.partners, &compared.untried) {
+        let (evidence, pairs, severity) = match (&compared.partners, &compared.untested) {
             (Some((evidence, pairs)), _) => (evidence.clone(), *pairs, Severity::Warning),
             (None, Some(reason)) => {
                 let why = format!("the effect could not be tested: {reason}");
@@ -181,7 +181,7 @@ fn missing(s: &SuspectProgram<'_>, compared: &Compared) -> Option<Finding> {
 }
 
 /// The finding that constants are not recomputed, where the effect could not be tested.
-fn untried(s: &SuspectProgram<'_>, reason: &str) -> Option<Finding> {
+fn untested(s: &SuspectProgram<'_>, reason: &str) -> Option<Finding> {
     Some(
         about_constants(s)?
             .why(format!("{CONSTANTS}: a heavier ball then sinks deeper into the floor than any real one"))

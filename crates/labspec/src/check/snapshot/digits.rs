@@ -86,7 +86,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_written_is_read_with_its_unit() {
+    fn written_numbers_are_read_with_their_unit() {
         for (x, unit, text) in [
             (0.21523, -3, "0.215"),
             (-0.21523, -1, "-0.2"),

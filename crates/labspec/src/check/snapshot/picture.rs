@@ -43,7 +43,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn two_curves_stand_in_one_picture() {
+    fn two_curves_share_one_picture() {
         let times = [0.0, 0.1, 0.2, 0.3, 0.4];
         let drawn = picture(&times, &[1.0, 0.95, 0.8, 0.55, f64::NAN], &[1.0, 0.95, 0.75, 0.6, 0.2]);
         insta::assert_snapshot!(drawn.join("\n"));

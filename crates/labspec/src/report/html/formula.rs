@@ -242,7 +242,7 @@ mod tests {
     }
 
     #[test]
-    fn what_letters_cannot_say_stands_as_it_is_written() {
+    fn unsupported_formulas_stay_as_written() {
         for tex in [
             r"\tfrac12 g t^2",
             r"\frac{a}{b}",

@@ -1,6 +1,6 @@
 //! The data of a page.
 
-use crate::check::{Allowed, Basis, Checked, VerifyCurves};
+use crate::check::{Basis, Checked, SuppressedFinding, VerifyCurves};
 use crate::finding::Finding;
 use crate::ledger::Ledger;
 use crate::source::SourceFile;
@@ -17,7 +17,7 @@ pub struct Material<'a> {
     /// All reported findings, of lessons and of models.
     pub findings: &'a [Finding],
     /// The suppressed findings.
-    pub allowed: &'a [Allowed],
+    pub allowed: &'a [SuppressedFinding],
     /// The claims of the course.
     pub ledger: &'a Ledger,
     /// The files with findings.

@@ -97,7 +97,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn text_acts_on_nothing() {
+    fn escaped_text_has_no_effect() {
         assert_eq!(plain("<b a=\"'\">&"), "&lt;b a=&quot;&#39;&quot;&gt;&amp;");
         assert_eq!(plain("a\u{202e}b\u{0}c\u{ffff}"), "a\\u{202e}b\\u{0}c\\u{ffff}");
         assert_eq!(plain(" two\n lines\t"), "two lines");
@@ -113,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn paths_lose_what_they_share() {
+    fn common_prefixes_of_paths_are_removed() {
         let names = Names::shorten_paths(["/home/me/course/a.md", "/home/me/course/b/c.md"].into_iter());
         assert_eq!(names.short("/home/me/course/b/c.md"), "b/c.md");
         assert_eq!(names.short("/home/me/models/x.xml"), "x.xml");

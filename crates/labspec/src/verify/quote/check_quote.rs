@@ -148,8 +148,8 @@ impl<'q> Comparison<'q> {
     /// The outcome where the digits depend on a perturbed start: they cannot be reproduced, or no run comes near them.
     fn judge_chaotic(&self, mut outcome: QuoteOutcome, findings: &mut Vec<Finding>) -> QuoteOutcome {
         let values: Vec<f64> = self.start.iter().map(|o| o.value).chain([self.computed]).collect();
-        let doubts = self.reading.doubts.iter().map(|(q, _)| *q);
-        let mut readings = [Some(self.read), self.reading.share].into_iter().flatten().chain(doubts);
+        let ambiguities = self.reading.ambiguities.iter().map(|(q, _)| *q);
+        let mut readings = [Some(self.read), self.reading.share].into_iter().flatten().chain(ambiguities);
         if readings.any(|q| is_within_runs(&q, &values)) {
             let finding = messages::chaotic(self.claim, &outcome, &self.read, &values);
             return unclear(outcome, "no reader can reproduce these digits", finding, findings);
@@ -200,11 +200,11 @@ impl<'q> Comparison<'q> {
     /// The outcome where the number differs: it has another reading, is in another unit, or is wrong.
     fn explain_difference(&self, mut outcome: QuoteOutcome, findings: &mut Vec<Finding>) -> QuoteOutcome {
         let Comparison { claim, reading, read, computed, .. } = self;
-        if let Some((other, why)) = reading.doubts.iter().find(|(q, _)| q.is(*computed)) {
+        if let Some((other, why)) = reading.ambiguities.iter().find(|(q, _)| q.is(*computed)) {
             let finding = messages::ambiguous_unit(claim, &outcome, read, why, Some(other));
             return unclear(outcome, "the quote has two readings", finding, findings);
         }
-        if let Some(why) = reading.unsure {
+        if let Some(why) = reading.is_ambiguous {
             let finding = messages::ambiguous_unit(claim, &outcome, read, why, None);
             return unclear(outcome, "the quote has two readings", finding, findings);
         }
@@ -243,20 +243,25 @@ fn unit_at(
 ) -> Option<(Unit, UnitMatch)> {
     let unit =
         |place: &QuotePlace| reading.unit.clone().or_else(|| place.unit.clone().filter(|_| reading.last));
-    let held = |place: &QuotePlace| unit(place).map(|unit| (hold(&unit, found), unit));
-    let best = places.iter().map(|p| (held(p).map_or(UnitMatch::Fits, |(held, _)| held), p));
-    let rank = |held: UnitMatch| match held {
+    let unit_match = |place: &QuotePlace| unit(place).map(|unit| (hold(&unit, found), unit));
+    let best =
+        places.iter().map(|p| (unit_match(p).map_or(UnitMatch::Fits, |(unit_match, _)| unit_match), p));
+    let rank = |unit_match: UnitMatch| match unit_match {
         UnitMatch::Fits => 0,
         UnitMatch::Unknown => 1,
         UnitMatch::Unsure => 2,
         UnitMatch::Wrong => 3,
     };
-    let chosen = best.min_by_key(|(held, _)| rank(*held)).map(|(_, p)| unit(p));
+    let chosen = best.min_by_key(|(unit_match, _)| rank(*unit_match)).map(|(_, p)| unit(p));
     match chosen {
-        None => reading.unit.clone().map(|unit| (hold(&unit, found), unit)).map(|(held, unit)| (unit, held)),
+        None => reading
+            .unit
+            .clone()
+            .map(|unit| (hold(&unit, found), unit))
+            .map(|(unit_match, unit)| (unit, unit_match)),
         Some(chosen) => {
             places.retain(|p| unit(p).map(|u| u.text) == chosen.as_ref().map(|u| u.text.clone()));
-            chosen.map(|unit| (hold(&unit, found), unit)).map(|(held, unit)| (unit, held))
+            chosen.map(|unit| (hold(&unit, found), unit)).map(|(unit_match, unit)| (unit, unit_match))
         }
     }
 }

@@ -259,7 +259,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn many_ways_of_writing_are_one() {
+    fn many_notations_are_equal() {
         let f = |text: &str| fold(text, true).0;
         for text in ["2.4 × 10⁻⁴", "$2.4 \\times 10^{-4}$", "2.4\\times10^{-4}", "2.4×10^\u{2212}4"] {
             assert_eq!(f(text), "2.4×10^-4", "{text}");
@@ -276,7 +276,7 @@ mod tests {
     }
 
     #[test]
-    fn places_are_kept() {
+    fn byte_ranges_are_kept() {
         let text = "takes $2.4 \\times 10^{-4}$ s";
         let (folded, map) = fold(text, true);
         assert_eq!(folded, "takes 2.4×10^-4 s");

@@ -109,7 +109,7 @@ mod tests {
     use crate::verify::quote::html::{TEXT_SEPARATOR, strip};
 
     #[test]
-    fn what_is_hidden_is_not_shown() {
+    fn hidden_elements_are_not_rendered() {
         let visible = |html: &str| strip(html).0.replace(TEXT_SEPARATOR, "");
         assert_eq!(visible("a<div hidden>b<div>c</div>d</div>e"), "ae");
         assert_eq!(visible("a<span style=\"color: red; Display: none\">b</span>c"), "ac");

@@ -71,7 +71,7 @@ mod tests {
     }
 
     #[test]
-    fn only_what_a_page_shows_is_left() {
+    fn only_rendered_text_remains() {
         assert_eq!(stripped("<p>it takes <b>0.442</b>&nbsp;s</p>"), "\u{1}it takes 0.442\u{a0}s\u{1}");
         assert_eq!(stripped("a < b && c<d title=\"1 > 0\">e</d>"), "a < b && c\u{1}e\u{1}");
         assert_eq!(stripped("x<!-- 0.442 s -->y<script>0.442</script>z"), "xy\u{1}\u{1}z");
@@ -85,7 +85,7 @@ mod tests {
     }
 
     #[test]
-    fn places_are_kept() {
+    fn byte_ranges_are_kept() {
         let html = "<b>0.442</b>&nbsp;s";
         let (text, map) = strip(html);
         assert_eq!(text, "0.442\u{a0}s");

@@ -60,7 +60,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_cell_knows_its_head() {
+    fn a_cell_has_its_column_head() {
         let text = "x\n\n| h (s) | error (mm) |\n|---:|---:|\n| 0.1 | -0.7 |\n| 0.2 | -1.4 |\n";
         let at = text.find("1.4").unwrap_or(0);
         assert_eq!(MarkdownCell::at(text, at).map(|c| c.head), Some("error (mm)".into()));

@@ -305,7 +305,7 @@ mod tests {
 
     /// The work grows with the text and not with the number of quotes.
     #[test]
-    fn many_quotes_cost_one_walk() {
+    fn many_quotes_cost_one_pass() {
         let text = "0.442 s and 0.4421 s; ".repeat(50_000);
         let mut search = Search::new();
         let all: Vec<usize> = (0..400).map(|i| search.add(&format!("0.442{i} s"))).collect();

@@ -15,9 +15,9 @@ pub(super) struct Quantity {
     /// Its number, with sign, power of ten and factor; both ends of a range.
     pub(super) quoted: Quoted,
     /// Other possible values of the number.
-    pub(super) doubts: Vec<f64>,
+    pub(super) ambiguities: Vec<f64>,
     /// Why it must not be reported as wrong.
-    pub(super) unsure: Option<&'static str>,
+    pub(super) is_ambiguous: Option<&'static str>,
     /// The whole quantity, including sign and unit.
     pub(super) whole: Range<usize>,
     /// Index of the first digit.
@@ -98,8 +98,8 @@ pub(super) fn singles(chars: Chars<'_>) -> Vec<Quantity> {
         let end = unit.as_ref().map_or(number.end, |(_, end)| *end);
         Quantity {
             quoted: number.quoted,
-            doubts: number.doubts,
-            unsure: number.unsure,
+            ambiguities: number.ambiguities,
+            is_ambiguous: number.is_ambiguous,
             whole: number.start..end,
             digits,
             number_end: number.end,
@@ -208,8 +208,8 @@ fn plus_minus(
 fn join_pair(first: &Quantity, second: &Quantity, form: Form, value: f64, unit: Option<Unit>) -> Pair {
     Pair::One(Quantity {
         quoted: Quoted { form, value, ..first.quoted },
-        doubts: Vec::new(),
-        unsure: first.unsure.or(second.unsure),
+        ambiguities: Vec::new(),
+        is_ambiguous: first.is_ambiguous.or(second.is_ambiguous),
         whole: first.whole.start..second.whole.end,
         number_end: if unit.is_some() && first.unit.is_some() { first.number_end } else { second.number_end },
         unit,

@@ -14,9 +14,9 @@ pub(in crate::verify) struct QuoteReading {
     /// The number as a fraction of one, for `50 %`.
     pub(super) share: Option<Quoted>,
     /// Other numbers that it may state, each with a reason.
-    pub(super) doubts: Vec<(Quoted, &'static str)>,
+    pub(super) ambiguities: Vec<(Quoted, &'static str)>,
     /// Why it must not be reported as wrong when it differs.
-    pub(super) unsure: Option<&'static str>,
+    pub(super) is_ambiguous: Option<&'static str>,
     /// Its unit, if it has one.
     pub(super) unit: Option<Unit>,
     /// Whether no number follows it in the quote. If so, and the quote has no unit, the unit after the quote in the text
@@ -86,9 +86,9 @@ pub(in crate::verify) fn read_quote(text: &str) -> Result<QuoteReading, Unread> 
     let others = all.get(at + 1..).unwrap_or_default();
     reading.last = others.is_empty();
     if !matches!(reading.read.form, Form::PlusMinus(..) | Form::Range(..)) {
-        reading.doubts.extend(others.iter().map(|q| (q.quoted, several)));
+        reading.ambiguities.extend(others.iter().map(|q| (q.quoted, several)));
         if !others.is_empty() {
-            reading.unsure = reading.unsure.or(Some(several));
+            reading.is_ambiguous = reading.is_ambiguous.or(Some(several));
         }
     }
     Ok(reading)
@@ -109,8 +109,8 @@ fn of_quantity(q: &Quantity) -> Result<QuoteReading, Unread> {
     Ok(QuoteReading {
         read: q.quoted,
         share: q.unit.as_ref().and_then(|unit| as_share(&q.quoted, unit)),
-        doubts: q.doubts.iter().map(|&value| (Quoted { value, ..q.quoted }, why)).collect(),
-        unsure: q.unsure,
+        ambiguities: q.ambiguities.iter().map(|&value| (Quoted { value, ..q.quoted }, why)).collect(),
+        is_ambiguous: q.is_ambiguous,
         unit: q.unit.clone(),
         last: false,
     })

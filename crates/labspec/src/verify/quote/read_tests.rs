@@ -92,7 +92,7 @@ fn numbers_are_read_as_printed() {
 }
 
 #[test]
-fn a_plus_minus_and_a_range_hold_what_lies_in_them() {
+fn a_plus_minus_and_a_range_contain_their_interval() {
     for (text, low, high) in [
         ("0.44 ± 0.01 s", 0.43, 0.45),
         ("0.44 +/- 0.01 s", 0.43, 0.45),
@@ -136,17 +136,17 @@ fn a_percentage_is_a_number_or_a_fraction_of_one() {
 }
 
 #[test]
-fn what_may_mean_two_things_is_not_called_wrong() {
-    let doubts = |text| read(text).doubts.iter().map(|(q, _)| q.value).collect::<Vec<_>>();
-    assert_eq!(doubts("1,500"), [1.5]);
-    assert_eq!(doubts("2 500 N"), [2.0, 500.0]);
-    assert_eq!(doubts("0.442 s with 2 ms"), [2.0]);
-    assert_eq!(doubts("1,500,000"), Vec::<f64>::new());
-    assert_eq!(doubts("a = 3 m + 2 m = 5 m"), Vec::<f64>::new());
+fn ambiguous_numbers_are_not_called_wrong() {
+    let ambiguities = |text| read(text).ambiguities.iter().map(|(q, _)| q.value).collect::<Vec<_>>();
+    assert_eq!(ambiguities("1,500"), [1.5]);
+    assert_eq!(ambiguities("2 500 N"), [2.0, 500.0]);
+    assert_eq!(ambiguities("0.442 s with 2 ms"), [2.0]);
+    assert_eq!(ambiguities("1,500,000"), Vec::<f64>::new());
+    assert_eq!(ambiguities("a = 3 m + 2 m = 5 m"), Vec::<f64>::new());
     for text in ["3,5 m", "1,44", "0.442 s with 2 ms"] {
-        assert!(read(text).unsure.is_some(), "{text}");
+        assert!(read(text).is_ambiguous.is_some(), "{text}");
     }
-    assert_eq!(read("0,442 s").unsure, None);
+    assert_eq!(read("0,442 s").is_ambiguous, None);
 }
 
 #[test]
@@ -184,7 +184,7 @@ fn other_forms_are_refused_by_name() {
 }
 
 #[test]
-fn units_are_seen() {
+fn units_are_read() {
     for (text, unit) in [
         ("0.83 mm", "mm"),
         ("0.83mm", "mm"),
@@ -251,7 +251,7 @@ fn printed() -> impl Strategy<Value = (String, f64, f64)> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(3000))]
     #[test]
-    fn what_is_printed_is_read((text, value, half) in printed()) {
+    fn printed_numbers_are_read_back((text, value, half) in printed()) {
         let q = match read_quote(&text) {
             Ok(r) => r.read,
             Err(e) => return Err(TestCaseError::fail(format!("{text}: {e:?}"))),

@@ -97,7 +97,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn commands_are_shown_as_a_page_shows_them() {
+    fn commands_are_rendered_as_on_a_page() {
         for (text, expected) in [
             ("\\SI{0.5}{s}", "0.5 s"),
             ("\\SI{0.5}{\\second}", "0.5 s"),

@@ -93,7 +93,7 @@ struct Face {
     plane: Plane,
     /// The points above this face that are above no earlier face. The highest is the last.
     above: Vec<u32>,
-    alive: bool,
+    is_on_hull: bool,
 }
 
 struct PartialHull {
@@ -168,7 +168,7 @@ impl PartialHull {
 
     fn add(&mut self, corner: [u32; 3], beyond: [u32; 3]) {
         let plane = self.plane_of(corner.map(|i| self.point(i)));
-        self.faces.push(Face { corner, beyond, plane, above: Vec::new(), alive: true });
+        self.faces.push(Face { corner, beyond, plane, above: Vec::new(), is_on_hull: true });
     }
 
     /// Assigns each point to the first face, from index `first` on, that it is above. Points above no face are inside.
@@ -206,14 +206,14 @@ impl PartialHull {
     fn compact(&mut self) {
         let mut place = 0;
         let places: Vec<u32> = listed(self.faces.iter().map(|f| {
-            if f.alive {
+            if f.is_on_hull {
                 place += 1;
                 place - 1
             } else {
                 NONE
             }
         }));
-        self.faces.retain(|f| f.alive);
+        self.faces.retain(|f| f.is_on_hull);
         for face in &mut self.faces {
             face.beyond = face.beyond.map(|i| places.get(i as usize).copied().unwrap_or(NONE));
         }
@@ -226,7 +226,7 @@ impl PartialHull {
         while self.corners < most
             && let Some((_, std::cmp::Reverse(start))) = self.open.pop()
         {
-            let Some(&apex) = self.face(start).filter(|f| f.alive).and_then(|f| f.above.last()) else {
+            let Some(&apex) = self.face(start).filter(|f| f.is_on_hull).and_then(|f| f.above.last()) else {
                 continue;
             };
             if self.tests > MOST_TESTS {
@@ -249,19 +249,19 @@ impl PartialHull {
         let mut orphans = Vec::new();
         let mut stack = vec![start];
         if let Some(face) = self.faces.get_mut(start as usize) {
-            face.alive = false;
+            face.is_on_hull = false;
         }
         while let Some(i) = stack.pop() {
             let Some(face) = self.faces.get_mut(i as usize) else { continue };
             orphans.append(&mut face.above);
             let (corner, beyond) = (face.corner, face.beyond);
             for k in 0..3 {
-                let Some(other) = self.faces.get_mut(beyond[k] as usize).filter(|f| f.alive) else {
+                let Some(other) = self.faces.get_mut(beyond[k] as usize).filter(|f| f.is_on_hull) else {
                     continue;
                 };
                 self.tests += 1;
                 if other.plane.height(at) > 0 {
-                    other.alive = false;
+                    other.is_on_hull = false;
                     stack.push(beyond[k]);
                 }
             }
@@ -269,7 +269,7 @@ impl PartialHull {
                 border.push((corner[k], corner[(k + 1) % 3], beyond[k]));
             }
         }
-        border.retain(|&(_, _, outer)| self.face(outer).is_some_and(|f| f.alive));
+        border.retain(|&(_, _, outer)| self.face(outer).is_some_and(|f| f.is_on_hull));
         let first = self.faces.len();
         for (i, &(a, _, _)) in border.iter().enumerate() {
             if let Some(begins) = self.begins.get_mut(a as usize) {
@@ -303,7 +303,7 @@ impl PartialHull {
         let mut side: Vec<u32> = vec![NONE; self.faces.len()];
         let mut sides = 0;
         for start in 0..self.faces.len() {
-            if side[start] != NONE || !self.faces[start].alive {
+            if side[start] != NONE || !self.faces[start].is_on_hull {
                 continue;
             }
             let plane = self.faces[start].plane;
@@ -324,7 +324,7 @@ impl PartialHull {
         let mut borders: BTreeMap<(u32, u32), u32> = BTreeMap::new();
         // The number of flat faces that meet at each point.
         let mut meet = vec![0_u32; self.points.len()];
-        for (face, &this_side) in self.faces.iter().zip(&side).filter(|(f, _)| f.alive) {
+        for (face, &this_side) in self.faces.iter().zip(&side).filter(|(f, _)| f.is_on_hull) {
             for k in 0..3 {
                 if side.get(face.beyond[k] as usize) != Some(&this_side) {
                     borders.insert((this_side, face.corner[k]), face.corner[(k + 1) % 3]);
@@ -423,7 +423,7 @@ mod tests {
     }
 
     #[test]
-    fn flat_clouds_are_told() {
+    fn flat_clouds_are_reported() {
         assert_eq!(Hull::from_points(&[], None), Err(Flat::Point));
         assert_eq!(Hull::from_points(&[[1.0; 3]; 9], None), Err(Flat::Point));
         assert_eq!(Hull::from_points(&[[0.0; 3], [1.0; 3], [2.0; 3], [0.5; 3]], None), Err(Flat::Line));

@@ -107,7 +107,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_ears_ends() {
+    fn a_polygon_without_ears_terminates() {
         for n in [5, 6, 50, 500] {
             let tangled: Vec<Vec3> =
                 (0..n).map(|i| [((i * 7919) % 13) as f64, ((i * 104729) % 17) as f64, 0.0]).collect();

@@ -89,7 +89,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_written_is_read_back() {
+    fn written_snapshots_are_read_back() {
         let text = text();
         insta::assert_snapshot!(text);
         let labs = read(&SourceFile::new("a.snap", text.as_str())).unwrap();
