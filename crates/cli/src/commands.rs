@@ -29,40 +29,40 @@ struct Cli {
 #[derive(Subcommand, Debug)]
 enum Command {
     /// Create a folder for lessons: settings, a first lesson with its model, a workflow
-    Init(init::Arguments),
+    Init(init::InitArguments),
     /// Lint and run all labs and verify all quizzes of lessons, JSON files, or folders of them
     Check(check::CheckArguments),
     /// Verify the claims of quizzes and labs only, with every measure
-    Verify(check::Arguments),
+    Verify(check::VerifyArguments),
     /// Store the output of labs in snapshots for review; `check` compares the labs with them
-    Snapshot(snapshot::Arguments),
+    Snapshot(snapshot::SnapshotArguments),
     /// Format the code in lessons; with --modernize, replace bare indexes by names
-    Fmt(fmt::Arguments),
+    Fmt(fmt::FmtArguments),
     /// Run one lab without a page: LAB.json, LESSON.md#2, LESSON.md#quiz-id.1
-    Run(run::Arguments),
+    Run(run::RunArguments),
     /// Compare error and run time of integrators and timesteps, for one lab
-    Precision(precision::Arguments),
+    Precision(precision::PrecisionArguments),
     /// Find what breaks in one lab when a student moves its controls in every way
-    Stability(stability::Arguments),
+    Stability(stability::StabilityArguments),
     /// Show which stages of the engine a lab or model needs, why, and what each costs
-    Plan(plan::Arguments),
+    Plan(plan::PlanArguments),
     /// Find the origin of the numbers in a lesson: runs and measures with the same digits
-    Trace(trace::Arguments),
+    Trace(trace::TraceArguments),
     /// Propose a first, tested `verify` object for every question and lab that has none
-    Scaffold(scaffold::Arguments),
+    Scaffold(scaffold::ScaffoldArguments),
     /// Explain the code of a finding, with an example; without a code, list all codes
-    Explain(explain::Arguments),
+    Explain(explain::ExplainArguments),
     /// Print the JSON Schema of labs and quizzes, for editors: lab, quiz, or lesson for a JSON file of both
-    Schema(schema::Arguments),
+    Schema(schema::SchemaArguments),
     /// Serve an editor: findings, completion, values and names while typing (Language Server Protocol)
     #[cfg(feature = "lsp")]
-    Lsp(lsp::Arguments),
+    Lsp(lsp::LspArguments),
     /// For engineers: compute the numbers of this engine for the states of a MuJoCo recording
     Record(developer::RecordArguments),
     /// For engineers: measure the time of a step
     Bench(developer::BenchArguments),
     /// Print a completion script for a shell
-    Completions(completions::Arguments),
+    Completions(completions::CompletionsArguments),
     /// Write the reference pages, and the JSON Schemas into the folder `schema` beside them
     #[command(hide = true)]
     Reference {

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 
 /// Arguments of `lsp`.
 #[derive(clap::Args, Debug)]
-pub(super) struct Arguments {
+pub(super) struct LspArguments {
     #[command(flatten)]
     models: ModelOptions,
     #[command(flatten)]
@@ -24,7 +24,7 @@ pub(super) struct Arguments {
     stdio: bool,
 }
 
-pub(super) fn lsp(a: &Arguments) -> Result<Outcome, Failure> {
+pub(super) fn lsp(a: &LspArguments) -> Result<Outcome, Failure> {
     Policies::new(&a.policy)?;
     // Each problem is reported once on standard error, which editors write to their log.
     let reported = RefCell::new(BTreeSet::new());

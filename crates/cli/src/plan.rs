@@ -9,14 +9,14 @@ use labspec::report::printable;
 use labspec::verify::significant;
 use labspec_core::reflect::FieldSet;
 use labspec_numerics::profile::{
-    EngineOption, Options, PairSummary, PlanReport, REPEATS, SensorRow, StageCost, name,
+    EngineOption, PairSummary, PlanOptions, PlanReport, REPEATS, SensorRow, StageCost, name,
 };
 use serde::Serialize;
 use std::fmt::Write;
 
 /// Arguments of `plan`.
 #[derive(clap::Args, Debug)]
-pub(super) struct Arguments {
+pub(super) struct PlanArguments {
     /// LAB.json, LESSON.md#2, LESSON.md#quiz-id.1, or MODEL.xml
     lab: String,
     #[command(flatten)]
@@ -29,23 +29,23 @@ pub(super) struct Arguments {
     no_run: bool,
     /// Output format
     #[arg(long, value_enum, default_value = "human")]
-    format: Format,
+    format: PlanFormat,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
-enum Format {
+enum PlanFormat {
     Human,
     Json,
 }
 
-pub(super) fn plan(a: &Arguments) -> Result<Outcome, Failure> {
+pub(super) fn plan(a: &PlanArguments) -> Result<Outcome, Failure> {
     let target = target::open(&a.lab, &a.models)?;
-    let options = Options { read: a.read.clone(), run: !a.no_run };
+    let options = PlanOptions { read: a.read.clone(), run: !a.no_run };
     let report = labspec_numerics::profile::plan(&target.lab, &target.model, &target.programs, &options)
         .map_err(|e| e.0)?;
     match a.format {
-        Format::Human => print(&human(&report))?,
-        Format::Json => print_report("plan", &machine(&report))?,
+        PlanFormat::Human => print(&human(&report))?,
+        PlanFormat::Json => print_report("plan", &machine(&report))?,
     }
     Ok(Outcome::Clean)
 }
@@ -230,7 +230,7 @@ fn readers(report: &PlanReport, text: &mut String) {
 
 /// The plan of a lab for programs.
 #[derive(Serialize)]
-struct Report<'a> {
+struct PlanOutput<'a> {
     reads: Vec<&'static str>,
     writes: Vec<&'static str>,
     stages: Vec<Stage<'a>>,
@@ -361,7 +361,7 @@ fn pair_row(of: &PairSummary) -> Pairs<'_> {
     }
 }
 
-fn machine(of: &PlanReport) -> Report<'_> {
+fn machine(of: &PlanReport) -> PlanOutput<'_> {
     let stages = of.rows.iter().map(|r| Stage {
         stage: name(r.stage),
         keep: r.keep,
@@ -392,7 +392,7 @@ fn machine(of: &PlanReport) -> Report<'_> {
         share: r.cost.zip(of.step.as_ref()).map(|(more, step)| more / step.ns),
     });
     let seen = of.pairs.seen;
-    Report {
+    PlanOutput {
         reads: names(&of.access.reads),
         writes: names(&of.access.writes),
         stages: stages.collect(),

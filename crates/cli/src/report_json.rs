@@ -17,7 +17,7 @@ use std::path::Path;
 /// A report with its head.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-struct Report<'a, T> {
+struct VersionedReport<'a, T> {
     schema_version: u32,
     report: &'a str,
     #[serde(flatten)]
@@ -34,7 +34,7 @@ struct Head {
 
 /// Prints a report.
 pub(super) fn print_report(name: &str, entries: &impl Serialize) -> Result<(), Failure> {
-    print_json(&Report { schema_version: SCHEMA_VERSION, report: name, entries }, true)
+    print_json(&VersionedReport { schema_version: SCHEMA_VERSION, report: name, entries }, true)
 }
 
 /// The kind of a report that a later run reads.
@@ -80,7 +80,7 @@ pub(super) fn write_report(
     stored: &StoredReport,
     entries: &impl Serialize,
 ) -> Result<(), Failure> {
-    let report = Report { schema_version: SCHEMA_VERSION, report: stored.name, entries };
+    let report = VersionedReport { schema_version: SCHEMA_VERSION, report: stored.name, entries };
     let text = serde_json::to_string_pretty(&report).map_err(|e| e.to_string())?;
     write_file(path, stored.output, &(text + "\n"))
 }

@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 
 /// Arguments of `run`.
 #[derive(clap::Args, Debug)]
-pub(super) struct Arguments {
+pub(super) struct RunArguments {
     #[command(flatten)]
     handled: LabArguments,
     /// Length in seconds [default: the lab's stopAt, or 2]
@@ -35,7 +35,7 @@ pub(super) struct Arguments {
     full: bool,
     /// Output format
     #[arg(long, value_enum, default_value = "human")]
-    format: Format,
+    format: RunFormat,
     /// Write all samples as comma-separated values
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
@@ -51,7 +51,7 @@ pub(super) struct Arguments {
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
-enum Format {
+enum RunFormat {
     /// Readouts at the end of the run
     Human,
     /// All samples as JSON
@@ -60,7 +60,7 @@ enum Format {
     Csv,
 }
 
-pub(super) fn run(a: &Arguments) -> Result<Outcome, Failure> {
+pub(super) fn run(a: &RunArguments) -> Result<Outcome, Failure> {
     let target = a.handled.open()?;
     let options = RunOptions {
         until: a.until,
@@ -98,9 +98,9 @@ pub(super) fn run(a: &Arguments) -> Result<Outcome, Failure> {
         write_png(file, &svg)?;
     }
     match a.format {
-        Format::Human => print(&readouts(&target.lab, &table))?,
-        Format::Json => stream(|out| table.write_json(out).and_then(|()| out.write_all(b"\n")))?,
-        Format::Csv => stream(|out| table.write_csv(out))?,
+        RunFormat::Human => print(&readouts(&target.lab, &table))?,
+        RunFormat::Json => stream(|out| table.write_json(out).and_then(|()| out.write_all(b"\n")))?,
+        RunFormat::Csv => stream(|out| table.write_csv(out))?,
     }
     let clean = table.errors.is_empty() && table.warnings.is_empty() && table.breakdowns.is_empty();
     Ok(if clean { Outcome::Clean } else { Outcome::Findings })

@@ -25,7 +25,7 @@ use std::path::PathBuf;
 
 /// Arguments of `snapshot`.
 #[derive(clap::Args, Debug)]
-pub(super) struct Arguments {
+pub(super) struct SnapshotArguments {
     /// Lessons (.md), labs and quizzes (.json), or folders of lessons
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<PathBuf>,
@@ -39,11 +39,11 @@ pub(super) struct Arguments {
     accept: bool,
     /// Output format
     #[arg(long, value_enum, default_value = "human")]
-    format: Format,
+    format: SnapshotFormat,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
+enum SnapshotFormat {
     /// For people
     Human,
     /// For programs
@@ -87,9 +87,9 @@ struct ReviewedSnapshot {
     written: bool,
 }
 
-pub(super) fn snapshot(a: &Arguments) -> Result<Outcome, Failure> {
+pub(super) fn snapshot(a: &SnapshotArguments) -> Result<Outcome, Failure> {
     let terminal = std::io::stdin().is_terminal() && std::io::stdout().is_terminal();
-    let asks = a.review && a.format == Format::Human && terminal;
+    let asks = a.review && a.format == SnapshotFormat::Human && terminal;
     let mut all = collect_lessons(a)?;
     for one in &mut all {
         if interrupted() {
@@ -110,8 +110,8 @@ pub(super) fn snapshot(a: &Arguments) -> Result<Outcome, Failure> {
         store(one, a.accept)?;
     }
     match a.format {
-        Format::Human => print(&summary(&all, asks))?,
-        Format::Json => print_report("snapshot", &machine(&all))?,
+        SnapshotFormat::Human => print(&summary(&all, asks))?,
+        SnapshotFormat::Json => print_report("snapshot", &machine(&all))?,
     }
     let open = |one: &ReviewedSnapshot| {
         remaining_changes(one).next().is_some() || (one.standing == SnapshotStatus::Gone && !one.written)
@@ -122,7 +122,7 @@ pub(super) fn snapshot(a: &Arguments) -> Result<Outcome, Failure> {
 }
 
 /// Reads every lesson, runs its labs, and compares the output with the snapshots.
-fn collect_lessons(a: &Arguments) -> Result<Vec<ReviewedSnapshot>, Failure> {
+fn collect_lessons(a: &SnapshotArguments) -> Result<Vec<ReviewedSnapshot>, Failure> {
     let collected = collect(&a.paths);
     collected.print_skipped();
     let Collected { files, problems, .. } = collected;
@@ -304,7 +304,7 @@ fn summary(all: &[ReviewedSnapshot], asked: bool) -> String {
 }
 
 #[derive(Serialize)]
-struct Report<'a> {
+struct SnapshotReport<'a> {
     files: Vec<FileRow<'a>>,
 }
 
@@ -324,7 +324,7 @@ struct LabRow<'a> {
     accepted: bool,
 }
 
-fn machine(all: &[ReviewedSnapshot]) -> Report<'_> {
+fn machine(all: &[ReviewedSnapshot]) -> SnapshotReport<'_> {
     let files = all.iter().map(|one| FileRow {
         file: one.file.display().to_string(),
         standing: one.standing.as_str(),
@@ -332,7 +332,7 @@ fn machine(all: &[ReviewedSnapshot]) -> Report<'_> {
         fault: one.renewal.as_ref().and_then(|r| r.fault.as_deref()),
         labs: one.renewal.iter().flat_map(|r| &r.labs).map(|lab| lab_row(&lab.result, one)).collect(),
     });
-    Report { files: files.collect() }
+    SnapshotReport { files: files.collect() }
 }
 
 fn lab_row<'a>(result: &'a SnapshotResult, one: &ReviewedSnapshot) -> LabRow<'a> {

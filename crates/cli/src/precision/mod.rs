@@ -17,7 +17,9 @@ use labspec::report::{printable, printable_path};
 use labspec::run::{INTEGRATORS, Integrator};
 use labspec::source::read_text;
 use labspec::verify::significant;
-use labspec_numerics::precision::{Axis, Options, Recording, Report, RunStatus, compare, milliseconds};
+use labspec_numerics::precision::{
+    Axis, PrecisionOptions, PrecisionResults, Recording, RunStatus, compare, milliseconds,
+};
 use machine::{csv, machine};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -25,7 +27,7 @@ use table::{setting, table, write_other_runs};
 
 /// Arguments of `precision`.
 #[derive(clap::Args, Debug)]
-pub(super) struct Arguments {
+pub(super) struct PrecisionArguments {
     #[command(flatten)]
     handled: LabArguments,
     /// Length in seconds [default: the lab's stopAt, or 2]
@@ -42,7 +44,7 @@ pub(super) struct Arguments {
     beside: Option<PathBuf>,
     /// Output format
     #[arg(long, value_enum, default_value = "human")]
-    format: Format,
+    format: PrecisionFormat,
     /// Write all errors as comma-separated values
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
@@ -62,13 +64,13 @@ enum Vary {
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
-enum Format {
+enum PrecisionFormat {
     Human,
     Json,
     Csv,
 }
 
-pub(super) fn precision(a: &Arguments) -> Result<Outcome, Failure> {
+pub(super) fn precision(a: &PrecisionArguments) -> Result<Outcome, Failure> {
     let target = a.handled.open()?;
     a.handled.check_outputs_writable(
         &target,
@@ -78,7 +80,7 @@ pub(super) fn precision(a: &Arguments) -> Result<Outcome, Failure> {
             (OutputKind::Picture, &a.png),
         ]),
     )?;
-    let options = Options {
+    let options = PrecisionOptions {
         until: a.until,
         set: a.handled.set(&target.lab)?,
         press: a.handled.press(&target.lab)?,
@@ -87,7 +89,7 @@ pub(super) fn precision(a: &Arguments) -> Result<Outcome, Failure> {
         beside: a.beside.as_ref().map(|path| recording(path)).transpose()?,
     };
     let mut findings = Vec::new();
-    let progress = Progress::new(matches!(a.format, Format::Human));
+    let progress = Progress::new(matches!(a.format, PrecisionFormat::Human));
     let mut report_progress = |text: &str| progress.report(text);
     let report =
         compare(&target.lab, &target.model, &target.programs, &options, &mut findings, &mut report_progress)
@@ -109,15 +111,15 @@ pub(super) fn precision(a: &Arguments) -> Result<Outcome, Failure> {
         write_with(file, OutputKind::Settings, |out| csv(&report, out))?;
     }
     match a.format {
-        Format::Human => print(&human(&report))?,
-        Format::Json => print_report("precision", &machine(&report))?,
-        Format::Csv => stream(|out| csv(&report, out))?,
+        PrecisionFormat::Human => print(&human(&report))?,
+        PrecisionFormat::Json => print_report("precision", &machine(&report))?,
+        PrecisionFormat::Csv => stream(|out| csv(&report, out))?,
     }
     Ok(if report.reference.is_none() || has_no_result(&report) { Outcome::Findings } else { Outcome::Clean })
 }
 
 /// Whether the run with the lab's own setting failed, or the truth is not known to its end.
-fn has_no_result(report: &Report) -> bool {
+fn has_no_result(report: &PrecisionResults) -> bool {
     report.rows.iter().any(|r| r.is_own && r.status != RunStatus::Good)
         || report.targets.iter().any(|t| t.until.is_some())
 }
@@ -154,7 +156,7 @@ fn integrators(names: &[String]) -> Result<Vec<Integrator>, Failure> {
     names.iter().map(one).collect()
 }
 
-fn human(report: &Report) -> String {
+fn human(report: &PrecisionResults) -> String {
     let mut text = String::new();
     match &report.reference {
         None => {
@@ -206,7 +208,7 @@ fn human(report: &Report) -> String {
 }
 
 /// The times at which runs are compared.
-fn compared_at(report: &Report) -> String {
+fn compared_at(report: &PrecisionResults) -> String {
     let apart = report.length / report.samples as f64;
     let shortest = report.rows.iter().map(|r| r.setting.timestep).fold(f64::INFINITY, f64::min);
     match shortest < 0.9 * apart {
@@ -216,7 +218,7 @@ fn compared_at(report: &Report) -> String {
 }
 
 /// Writes the outcome of each run.
-fn write_outcomes(report: &Report, text: &mut String) {
+fn write_outcomes(report: &PrecisionResults, text: &mut String) {
     for row in &report.rows {
         let reason = row.reported.first().map_or(String::new(), |t| format!(": {}", printable(t)));
         let _ = writeln!(

@@ -3,10 +3,12 @@
 use labspec::report::printable;
 use labspec::run::two_digits;
 use labspec::verify::significant;
-use labspec_numerics::precision::{Beside, Compared, Errors, Report, Row, RunStatus, milliseconds};
+use labspec_numerics::precision::{
+    Beside, Compared, Errors, PrecisionResults, PrecisionRow, RunStatus, milliseconds,
+};
 use std::fmt::Write;
 
-pub(super) fn setting(row: &Row) -> String {
+pub(super) fn setting(row: &PrecisionRow) -> String {
     let solver = row.setting.solver.map_or(String::new(), |s| format!(" {}", s.name()));
     let mark = if row.is_own { " *" } else { "" };
     format!("{}{solver}{mark}", row.setting.integrator.name)
@@ -23,7 +25,7 @@ const MAX_COLUMNS: usize = 5;
 
 /// Writes the largest errors of all compared quantities, with one column each, and marks the settings that
 /// are best in cost and error.
-pub(super) fn table(report: &Report, text: &mut String) {
+pub(super) fn table(report: &PrecisionResults, text: &mut String) {
     let columns = columns(report);
     for (k, column) in columns.iter().enumerate() {
         let _ = writeln!(text, "({}) {}", k + 1, column.legend);
@@ -62,10 +64,10 @@ pub(super) fn table(report: &Report, text: &mut String) {
     );
 }
 
-fn columns(report: &Report) -> Vec<Column> {
+fn columns(report: &PrecisionResults) -> Vec<Column> {
     let mut list: Vec<Column> = Vec::new();
     for (i, target) in report.targets.iter().enumerate().filter(|(_, t)| !t.blank) {
-        let of = |row: &Row| row.errors.get(i).map_or("–".into(), |e| error(e, target));
+        let of = |row: &PrecisionRow| row.errors.get(i).map_or("–".into(), |e| error(e, target));
         list.push(Column { legend: describe_truth(target), cells: report.rows.iter().map(of).collect() });
     }
     for (k, event) in report.events.iter().enumerate().filter(|(_, e)| e.time.is_finite()) {
@@ -75,16 +77,18 @@ fn columns(report: &Report) -> Vec<Column> {
             certain_digits(event.time, event.uncertain),
             cell(event.uncertain)
         );
-        let of = |row: &Row| error_or_doubt(row.events.get(k).copied().unwrap_or(f64::NAN), event.uncertain);
+        let of = |row: &PrecisionRow| {
+            error_or_doubt(row.events.get(k).copied().unwrap_or(f64::NAN), event.uncertain)
+        };
         list.push(Column { legend, cells: report.rows.iter().map(of).collect() });
     }
-    let mut keeps = |size: Option<f64>, what: &str, unit: &str, of: fn(&Row) -> Option<f64>| {
+    let mut keeps = |size: Option<f64>, what: &str, unit: &str, of: fn(&PrecisionRow) -> Option<f64>| {
         if let Some(size) = size {
             let legend = format!(
                 "the scene keeps its {what} ({} {unit} move): largest change in {unit}",
                 significant(size)
             );
-            let change = |r: &Row| error_or_doubt(of(r).unwrap_or(f64::NAN), ROUNDING * size);
+            let change = |r: &PrecisionRow| error_or_doubt(of(r).unwrap_or(f64::NAN), ROUNDING * size);
             list.push(Column { legend, cells: report.rows.iter().map(change).collect() });
         }
     };
@@ -98,7 +102,7 @@ fn columns(report: &Report) -> Vec<Column> {
             certain_digits(report.penetration, uncertainty),
             cell(uncertainty)
         );
-        let of = |r: &Row| error_or_doubt((r.penetration - report.penetration).abs(), uncertainty);
+        let of = |r: &PrecisionRow| error_or_doubt((r.penetration - report.penetration).abs(), uncertainty);
         list.push(Column { legend, cells: report.rows.iter().map(of).collect() });
     }
     list
@@ -159,7 +163,7 @@ fn describe_truth(target: &Compared) -> String {
 }
 
 /// Writes the runs of another program: the same columns of errors, and the times that it measured.
-pub(super) fn write_other_runs(report: &Report, beside: &Beside, text: &mut String) {
+pub(super) fn write_other_runs(report: &PrecisionResults, beside: &Beside, text: &mut String) {
     let _ = writeln!(text, "\nBeside: {}, largest errors against the same truth", printable(&beside.engine));
     let columns = || report.targets.iter().enumerate().filter(|(_, t)| !t.blank).take(MAX_COLUMNS);
     for row in &beside.rows {

@@ -14,7 +14,7 @@ use serde_json::{Map, Value};
 /// The performed runs and the results. Times are in s.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-pub(super) struct Report<'a> {
+pub(super) struct StabilityReport<'a> {
     length: f64,
     tried: Vec<CountRow>,
     runs: Vec<RunRow<'a>>,
@@ -154,7 +154,7 @@ struct MapRow<'a> {
     cells: Vec<Vec<String>>,
 }
 
-pub(super) fn machine<'a>(report: &'a StressReport, programs: &'a Programs) -> Report<'a> {
+pub(super) fn machine<'a>(report: &'a StressReport, programs: &'a Programs) -> StabilityReport<'a> {
     let tried = report.tried.iter().map(|t| CountRow {
         kind: key(t.kind.description()),
         made: t.made,
@@ -168,7 +168,7 @@ pub(super) fn machine<'a>(report: &'a StressReport, programs: &'a Programs) -> R
         cut: run.cut,
         wrong: run.wrong.iter().map(|k| key(k.description())).collect(),
     });
-    Report {
+    StabilityReport {
         length: report.length,
         tried: tried.collect(),
         runs: runs.collect(),

@@ -16,7 +16,7 @@ use labspec::run::two_digits;
 use labspec::spec::Lab;
 use labspec::stress::{FaultGroup, FaultKind};
 use labspec_numerics::stability::{
-    MapCell, Margin, Options, Sensitivity, StabilityFinding, StabilityMap, StressReport, probe,
+    MapCell, Margin, Sensitivity, StabilityFinding, StabilityMap, StressOptions, StressReport, probe,
 };
 use labspec_plot::{Cells, cells};
 use machine::machine;
@@ -25,7 +25,7 @@ use std::path::PathBuf;
 
 /// Arguments of `stability`.
 #[derive(clap::Args, Debug)]
-pub(super) struct Arguments {
+pub(super) struct StabilityArguments {
     #[command(flatten)]
     handled: LabArguments,
     /// Length of each run in seconds [default: ten times the lab's stopAt or the window of its plots]
@@ -45,16 +45,16 @@ pub(super) struct Arguments {
     png: Option<PathBuf>,
     /// Output format
     #[arg(long, value_enum, default_value = "human")]
-    format: Format,
+    format: StabilityFormat,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
+enum StabilityFormat {
     Human,
     Json,
 }
 
-pub(super) fn stability(a: &Arguments) -> Result<Outcome, Failure> {
+pub(super) fn stability(a: &StabilityArguments) -> Result<Outcome, Failure> {
     let target = a.handled.open()?;
     a.handled.check_outputs_writable(
         &target,
@@ -62,8 +62,8 @@ pub(super) fn stability(a: &Arguments) -> Result<Outcome, Failure> {
     )?;
     let map = a.map.as_ref().map(|text| two_labels(&target.lab, text)).transpose()?;
     let (set, press) = (a.handled.set(&target.lab)?, a.handled.press(&target.lab)?);
-    let options = Options { until: a.until, margins: a.margins, map, set, press };
-    let progress = Progress::new(a.format == Format::Human);
+    let options = StressOptions { until: a.until, margins: a.margins, map, set, press };
+    let progress = Progress::new(a.format == StabilityFormat::Human);
     let mut report_progress = |text: &str| progress.report(text);
     let report = probe(&target.lab, &target.model, &target.programs, &options, &mut report_progress)
         .map_err(|e| e.0)?;
@@ -75,8 +75,8 @@ pub(super) fn stability(a: &Arguments) -> Result<Outcome, Failure> {
         write_file(file, OutputKind::Plot, &chart(map, target.lab.title()))?;
     }
     match a.format {
-        Format::Human => print(&human(&report, &target.programs))?,
-        Format::Json => print_report("stability", &machine(&report, &target.programs))?,
+        StabilityFormat::Human => print(&human(&report, &target.programs))?,
+        StabilityFormat::Json => print_report("stability", &machine(&report, &target.programs))?,
     }
     Ok(if report.fine() { Outcome::Clean } else { Outcome::Findings })
 }

@@ -14,7 +14,7 @@ use std::rc::Rc;
 use super::schema::{ALTERNATIVES, Kind};
 use crate::mjcf::keyword_map::KeywordMap;
 use crate::mjcf::rules;
-use crate::mjcf::text::diagnostic::Report;
+use crate::mjcf::text::diagnostic::Diagnostics;
 use crate::mjcf::text::tree::{Attribute, Node, Tree};
 use crate::mjcf::text::values::Value;
 
@@ -197,7 +197,7 @@ impl Classes {
     ///
     /// A further section at the top level continues the class `main`. Classes that are defined before keep what they copied from
     /// it, as in MuJoCo. An attached model has its own main class, under the renamed name of its section.
-    pub(crate) fn read(tree: &Tree, report: &mut Report) -> Classes {
+    pub(crate) fn read(tree: &Tree, report: &mut Diagnostics) -> Classes {
         let mut classes = Classes {
             list: vec![Class::default()],
             names: BTreeMap::new(),
@@ -268,7 +268,7 @@ impl Classes {
     }
 
     /// Reports the first list that exceeded the budget for completion by defaults.
-    pub(crate) fn report_exceeded_budget(&self, report: &mut Report) {
+    pub(crate) fn report_exceeded_budget(&self, report: &mut Diagnostics) {
         if let Some(at) = self.budget.exceeded.get() {
             let message = format!("lists completed by defaults have more than {MAX_COMPLETED} numbers");
             report

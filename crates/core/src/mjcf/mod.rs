@@ -43,7 +43,7 @@ use std::io::Read;
 use std::path::Path;
 
 use crate::model::Model;
-use text::diagnostic::Report;
+use text::diagnostic::Diagnostics;
 
 pub use labspec_finding::{Finding, Severity};
 pub use schema::{Attr, Element, Keyword, Kind, SchemaRow, Status, schema_rows};
@@ -84,7 +84,7 @@ pub(crate) fn compile(xml: &str) -> Result<Model, Vec<Finding>> {
 ///
 /// All errors that were found, in the order of the texts. [`check_xml`] returns warnings as well.
 pub(crate) fn compile_with(xml: &str, files: &dyn Files, path: Option<&str>) -> Result<Model, Vec<Finding>> {
-    let mut report = Report::new();
+    let mut report = Diagnostics::new();
     let model = build_model(xml, files, path, (&[], &mut Vec::new()), &mut report).map(|(_, model)| model);
     let mut findings = report.finish();
     findings.retain(|d| d.severity == Severity::Error);
@@ -113,7 +113,7 @@ pub(crate) fn check_patched(
     path: Option<&str>,
     patches: &[Patch],
 ) -> (CheckedModel, Vec<Option<Refusal>>) {
-    let (mut report, mut refusals) = (Report::new(), Vec::new());
+    let (mut report, mut refusals) = (Diagnostics::new(), Vec::new());
     let built = build_model(xml, files, path, (patches, &mut refusals), &mut report);
     if let Some((tree, model)) = &built {
         lints::check_model(tree, model, &mut report);
@@ -124,7 +124,7 @@ pub(crate) fn check_patched(
 /// The text of a model with its patches applied and its includes expanded, so that another program can read it. `None` if the
 /// text is not XML, or a patch cannot be applied.
 pub(crate) fn to_xml(xml: &str, files: &dyn Files, path: Option<&str>, patches: &[Patch]) -> Option<String> {
-    text::load::Loader::new(files, patches).written(xml, path, &mut Report::new())
+    text::load::Loader::new(files, patches).written(xml, path, &mut Diagnostics::new())
 }
 
 /// Builds a model that can be simulated, and its tree.
@@ -133,7 +133,7 @@ fn build_model(
     files: &dyn Files,
     path: Option<&str>,
     patches: (&[Patch], &mut Vec<Option<Refusal>>),
-    report: &mut Report,
+    report: &mut Diagnostics,
 ) -> Option<(text::tree::Tree, Model)> {
     let (tree, model) = passes::build(xml, files, path, patches, report)?;
     unsimulated::report_unsimulated(&tree, &model, report);
@@ -143,7 +143,7 @@ fn build_model(
 /// Compiles a model that may contain elements that cannot be simulated yet.
 #[cfg(test)]
 pub(crate) fn compile_only(xml: &str, files: &dyn Files) -> Result<Model, Vec<Finding>> {
-    let mut report = Report::new();
+    let mut report = Diagnostics::new();
     match passes::build(xml, files, None, (&[], &mut Vec::new()), &mut report) {
         Some((_, model)) if report.is_clean() => Ok(model),
         _ => Err(report.finish()),

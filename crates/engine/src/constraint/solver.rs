@@ -10,7 +10,7 @@ use super::iterate::{IslandProgress, Iterate};
 use super::jacobian::{Block, Jacobian};
 use super::primal::{Problem, shape};
 use super::row_counts::by_rows;
-use crate::dynamics::{Scratch as Trees, mass, tree_algorithms};
+use crate::dynamics::{Scratch as TreeScratch, mass, tree_algorithms};
 use crate::kinds::{disable, solver};
 use crate::math::{copy, zero};
 use crate::model::plan::PlanFlag;
@@ -18,7 +18,7 @@ use crate::model::{Fields, Model};
 
 /// Computes `qacc`, `efc_force`, `qfrc_constraint` and `solver_niter` from `qacc_smooth` and the rows.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(crate) fn solve(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut Trees) {
+pub(crate) fn solve(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut TreeScratch) {
     d.solver_niter = 0;
     d.nisland = 0;
     copy(&d.qacc_smooth, &mut d.qacc);
@@ -29,7 +29,7 @@ pub(crate) fn solve(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut Tree
 }
 
 #[inline(never)] // so that steps without constraint rows do not execute its setup code
-fn solve_rows(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut Trees) {
+fn solve_rows(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut TreeScratch) {
     let [_, columns, values] = w.jac.size();
     d.meter.add(8 * (columns + values) + 40 * d.nefc as u64);
     let dual = m.opt.solver == solver::PGS || m.opt.noslip_iterations > 0;
@@ -72,7 +72,14 @@ fn solve_rows(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut Trees) {
 
 /// Newton's method or conjugate gradients, from the better of two starting points.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn primal(m: &Model, d: &mut Fields, s: &mut Iterate, trees: &mut Trees, islands: &Islands, jac: &Jacobian) {
+fn primal(
+    m: &Model,
+    d: &mut Fields,
+    s: &mut Iterate,
+    trees: &mut TreeScratch,
+    islands: &Islands,
+    jac: &Jacobian,
+) {
     if !m.opt.disabled(disable::WARMSTART) && warm_start(m, d, s, trees, islands, jac) {
         return;
     }
@@ -93,7 +100,7 @@ fn dual_start(
     m: &Model,
     d: &mut Fields,
     s: &mut Iterate,
-    trees: &mut Trees,
+    trees: &mut TreeScratch,
     islands: &Islands,
     jac: &Jacobian,
 ) {
@@ -114,7 +121,7 @@ fn dual_start(
 }
 
 /// Computes `efc_force` and `qfrc_constraint` for the acceleration `qacc` (`mj_invConstraint`).
-pub(crate) fn inverse(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut Trees) {
+pub(crate) fn inverse(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut TreeScratch) {
     d.qfrc_constraint.fill(0.0);
     if d.nefc == 0 {
         return;
@@ -139,7 +146,7 @@ fn warm_start(
     m: &Model,
     d: &mut Fields,
     s: &mut Iterate,
-    trees: &mut Trees,
+    trees: &mut TreeScratch,
     islands: &Islands,
     jac: &Jacobian,
 ) -> bool {

@@ -12,7 +12,7 @@ use super::support::Body;
 use crate::math::*;
 
 pub(crate) use super::difference::Limits as Effort;
-pub(crate) use super::epa::Scratch as ConvexScratch;
+pub(crate) use super::epa::ConvexScratch;
 pub(crate) use super::support::Body as Convex;
 
 /// Where two bodies are nearest, or where they overlap most.

@@ -43,7 +43,7 @@ struct Face {
 
 /// The polytope. Its memory is reused, so that calls do not allocate.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Scratch {
+pub(crate) struct ConvexScratch {
     vertices: Vec<Vertex>,
     faces: Vec<Face>,
     /// Candidates for the face with the lowest bound.
@@ -77,7 +77,7 @@ pub(super) fn depth(
     a: &mut Body,
     b: &mut Body,
     limits: Limits,
-    p: &mut Scratch,
+    p: &mut ConvexScratch,
 ) -> Option<Reach> {
     p.vertices.clear();
     p.vertices.extend_from_slice(corral.vertices());
@@ -109,7 +109,7 @@ pub(super) fn depth(
     Some(least)
 }
 
-impl Scratch {
+impl ConvexScratch {
     fn point(&self, v: u32) -> Vec3 {
         self.vertices[v as usize].point
     }

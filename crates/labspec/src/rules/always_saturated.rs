@@ -19,13 +19,13 @@ pub const ALWAYS_SATURATED: &Rule = &Rule {
 };
 
 /// Runs of fewer samples say nothing.
-const LOOKS: usize = 10;
+const MIN_SAMPLES: usize = 10;
 
 pub(crate) fn check_saturation(observed: &ObservedLab<'_>, findings: &mut Vec<Finding>) {
     let ready = observed.bench.ready;
     let Some(first) = observed.records.first() else { return };
     for (i, (_, value)) in first.beyond.times.iter().enumerate() {
-        let always = |b: &Beyond| b.looks >= LOOKS && b.times.get(i).is_some_and(|t| t.0 == b.looks);
+        let always = |b: &Beyond| b.looks >= MIN_SAMPLES && b.times.get(i).is_some_and(|t| t.0 == b.looks);
         if !observed.records.iter().all(|r| always(&r.beyond)) {
             continue;
         }

@@ -27,12 +27,12 @@ pub(super) fn visible_text(html: &str) -> String {
         }
         return text.trim_end_matches('.').trim_end().to_string();
     }
-    let text = loose(html);
+    let text = normalized_words(html);
     text.split(' ').filter(|w| !["a", "an", "the"].contains(w)).collect::<Vec<_>>().join(" ")
 }
 
 /// The words of a text without capitals and marks, code and formulas too.
-pub(super) fn loose(html: &str) -> String {
+pub(super) fn normalized_words(html: &str) -> String {
     let lower = plain(html).to_lowercase();
     let without_punctuation: String =
         lower.chars().map(|c| if ",;:!?'\"“”‘’()".contains(c) { ' ' } else { c }).collect();

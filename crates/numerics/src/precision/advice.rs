@@ -4,20 +4,20 @@ use super::case::LeftOut;
 use super::case::REPEATED_NUMBER;
 use super::judge::Compared;
 use super::numbers::milliseconds;
-use super::report::{Advice, Kind, Report, Row};
+use super::report::{Advice, Kind, PrecisionResults, PrecisionRow};
 use super::run_record::RunStatus;
 use labspec::run::two_digits;
 
 /// Whether the run of a row reached its end and was compared.
-fn is_compared_to_end(row: &Row) -> bool {
+fn is_compared_to_end(row: &PrecisionRow) -> bool {
     row.status == RunStatus::Good && row.score.is_finite()
 }
 
 /// The reliable error, in multiples of the smallest visible error: the largest error of this timestep and of all shorter ones
 /// of the same method. This way, a timestep that happens to hit an impact well gets no advantage.
-fn reliable(rows: &[Row], i: usize) -> f64 {
+fn reliable(rows: &[PrecisionRow], i: usize) -> f64 {
     let mine = rows[i].setting;
-    let shorter = |r: &&Row| {
+    let shorter = |r: &&PrecisionRow| {
         r.setting.integrator == mine.integrator
             && r.setting.solver.is_none()
             && r.setting.timestep < mine.timestep
@@ -28,7 +28,7 @@ fn reliable(rows: &[Row], i: usize) -> f64 {
 }
 
 /// The settings for which no other is better in both error and cost, from the cheapest to the most accurate.
-pub(super) fn front(rows: &[Row]) -> Vec<usize> {
+pub(super) fn front(rows: &[PrecisionRow]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..rows.len()).filter(|&i| is_compared_to_end(&rows[i])).collect();
     order.sort_by(|&a, &b| {
         let key = |i: usize| (rows[i].cost.work, reliable(rows, i));
@@ -49,7 +49,7 @@ const EQUAL_WORK: f64 = 1.05;
 
 /// Reports the error of the lab's own setting, a more accurate setting for the same work, and the cheapest one that displays
 /// every digit correctly. Only settings that a page can use are recommended.
-pub(super) fn advise(report: &Report) -> Vec<Advice> {
+pub(super) fn advise(report: &PrecisionResults) -> Vec<Advice> {
     let rows = &report.rows;
     let usable: Vec<usize> = (0..rows.len())
         .filter(|&i| rows[i].setting.integrator.shared && is_compared_to_end(&rows[i]))
@@ -70,7 +70,7 @@ pub(super) fn advise(report: &Report) -> Vec<Advice> {
 }
 
 /// The most accurate setting that needs no more work than the lab's own, if it is much more accurate.
-fn closer_for_same_work(rows: &[Row], usable: &[usize], own_row: usize) -> Option<Advice> {
+fn closer_for_same_work(rows: &[PrecisionRow], usable: &[usize], own_row: usize) -> Option<Advice> {
     let affordable =
         usable.iter().copied().filter(|&i| rows[i].cost.work <= EQUAL_WORK * rows[own_row].cost.work);
     let i = affordable.min_by(|&a, &b| reliable(rows, a).total_cmp(&reliable(rows, b)))?;
@@ -88,7 +88,7 @@ fn closer_for_same_work(rows: &[Row], usable: &[usize], own_row: usize) -> Optio
 }
 
 /// The cheapest setting that displays every number correctly.
-fn cheapest_correct(report: &Report, own_row: Option<usize>, i: usize) -> Advice {
+fn cheapest_correct(report: &PrecisionResults, own_row: Option<usize>, i: usize) -> Advice {
     let (rows, every) = (&report.rows, every(report));
     let text = match own_row {
         Some(own_row) if i == own_row => {
@@ -105,12 +105,13 @@ fn cheapest_correct(report: &Report, own_row: Option<usize>, i: usize) -> Advice
 }
 
 /// The most accurate setting, if none displays every number correctly, or if that is unknown.
-fn closest(report: &Report, usable: &[usize]) -> Option<Advice> {
+fn closest(report: &PrecisionResults, usable: &[usize]) -> Option<Advice> {
     let (rows, every) = (&report.rows, every(report));
     let i = usable.iter().copied().min_by(|&a, &b| rows[a].score.total_cmp(&rows[b].score))?;
     // Wrong, even if the error of the reference is taken into account.
-    let wrong =
-        |row: &Row| report.targets.iter().zip(&row.errors).any(|(t, e)| t.is_compared() && e.seen[1] > 1.0);
+    let wrong = |row: &PrecisionRow| {
+        report.targets.iter().zip(&row.errors).any(|(t, e)| t.is_compared() && e.seen[1] > 1.0)
+    };
     let doubtful = report.targets.iter().zip(&rows[i].errors).find(|(t, e)| {
         let [most, least] = e.seen;
         t.is_compared() && most > 1.0 && least <= 1.0
@@ -129,7 +130,7 @@ fn closest(report: &Report, usable: &[usize]) -> Option<Advice> {
 }
 
 /// The meaning of "every number" in this comparison.
-fn every(report: &Report) -> String {
+fn every(report: &PrecisionResults) -> String {
     let again = |o: &&LeftOut| o.reason != REPEATED_NUMBER;
     let compared = report.targets.iter().filter(|t| t.is_compared());
     let until = compared.filter_map(|t| t.until).reduce(f64::min);
@@ -141,13 +142,13 @@ fn every(report: &Report) -> String {
     }
 }
 
-fn name(row: &Row) -> String {
+fn name(row: &PrecisionRow) -> String {
     let solver = row.setting.solver.map_or(String::new(), |s| format!(" with {}", s.name()));
     format!("{} at {} ms{solver}", row.setting.integrator.name, milliseconds(row.setting.timestep))
 }
 
 /// The work of a run relative to that of the lab's own setting.
-fn relative_work(row: &Row, own_row: &Row) -> String {
+fn relative_work(row: &PrecisionRow, own_row: &PrecisionRow) -> String {
     let ratio = row.cost.work / own_row.cost.work;
     match ratio {
         r if !r.is_finite() => "work that was not counted".into(),
@@ -157,7 +158,7 @@ fn relative_work(row: &Row, own_row: &Row) -> String {
 }
 
 /// The error of the lab's own setting.
-fn describe_own_error(report: &Report, own_row: usize) -> String {
+fn describe_own_error(report: &PrecisionResults, own_row: usize) -> String {
     let row = &report.rows[own_row];
     let name = name(row);
     if !matches!(row.status, RunStatus::Good | RunStatus::Warned) {

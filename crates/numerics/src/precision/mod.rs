@@ -34,7 +34,7 @@ pub use compare::compare;
 pub use events::{Event, NearbyStarts};
 pub use judge::{Compared, Errors};
 pub use numbers::milliseconds;
-pub use report::{Advice, Kind, Options, Report, Row};
+pub use report::{Advice, Kind, PrecisionOptions, PrecisionResults, PrecisionRow};
 pub use run_cost::RunCost;
 pub use run_record::RunStatus;
 pub use setting::{Axis, Setting, Solver};

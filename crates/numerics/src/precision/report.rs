@@ -13,7 +13,7 @@ use serde::Serialize;
 
 /// The settings to compare, and the interactions during the runs.
 #[derive(Clone, Debug, Default)]
-pub struct Options {
+pub struct PrecisionOptions {
     /// The length in s; the lab's `stopAt`, or 2, if `None`.
     pub until: Option<f64>,
     /// Controls by label, with the values that they get before the first step.
@@ -30,7 +30,7 @@ pub struct Options {
 
 /// The results of one setting.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row {
+pub struct PrecisionRow {
     /// The setting.
     pub setting: Setting,
     /// Whether it is the lab's own.
@@ -58,7 +58,7 @@ pub struct Row {
 
 /// All runs of a lab.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Report {
+pub struct PrecisionResults {
     /// The compared numbers.
     pub targets: Vec<Compared>,
     /// The numbers that are not compared, with the reasons.
@@ -71,7 +71,7 @@ pub struct Report {
     /// each of its steps, unless the steps are shorter than the sample interval.
     pub samples: usize,
     /// The runs: by integrator, from large to small timesteps; then the solver settings.
-    pub rows: Vec<Row>,
+    pub rows: Vec<PrecisionRow>,
     /// The events of the reference, in the order of the rows' `events`.
     pub events: Vec<Event>,
     /// The energy that the scene conserves: the size of the moving part, J.

@@ -17,6 +17,6 @@ mod truth;
 
 pub use map::{MapCell, StabilityMap};
 pub use margins::{Margin, ParameterKind};
-pub use probe::{Options, RunCount, StabilityFinding, StressReport, StressRun, probe};
+pub use probe::{RunCount, StabilityFinding, StressOptions, StressReport, StressRun, probe};
 pub use remedy::Remedy;
 pub use sensitivity::{DivergenceOfStarts, Exponent, Horizon, Sensitivity};

@@ -7,7 +7,7 @@ use crate::mjcf::arrays::{flat, padded};
 use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
 use crate::mjcf::spec::{ActuatorSpec, List, RangeSpec};
-use crate::mjcf::text::diagnostic::Report;
+use crate::mjcf::text::diagnostic::Diagnostics;
 use crate::model::Model;
 use crate::setup::lengthrange::{self, RangeError, RangeSearch};
 use crate::step::workspace::Workspace;
@@ -25,7 +25,7 @@ pub(crate) struct Counts {
 }
 
 /// Counts the sizes of all actuators.
-pub(crate) fn count(list: &[ActuatorSpec], report: &mut Report) -> Counts {
+pub(crate) fn count(list: &[ActuatorSpec], report: &mut Diagnostics) -> Counts {
     let mut n = Counts::default();
     for a in list {
         let nu = controls(a).len();
@@ -105,14 +105,19 @@ pub(crate) fn user(a: &ActuatorSpec) -> List {
 }
 
 /// Computes the number of entries of the moment matrix. `None`, with an error in the report, if it is too large.
-pub(crate) fn pattern(m: &mut Model, list: &[ActuatorSpec], report: &mut Report) -> Option<()> {
+pub(crate) fn pattern(m: &mut Model, list: &[ActuatorSpec], report: &mut Diagnostics) -> Option<()> {
     m.nJmom = transmission::entries(m);
     let span = list.first().map_or(0..0, |a| a.span.clone());
     report.take(2 * m.nJmom, span, "the moments of all actuators").then_some(())
 }
 
 /// Computes the length ranges of actuators that need one and have none.
-pub(crate) fn length_ranges(m: &mut Model, list: &[ActuatorSpec], search: &RangeSearch, report: &mut Report) {
+pub(crate) fn length_ranges(
+    m: &mut Model,
+    list: &[ActuatorSpec],
+    search: &RangeSearch,
+    report: &mut Diagnostics,
+) {
     let wanted: Vec<usize> = listed((0..m.nactuator).filter(|&i| search.needs_search(m, i)));
     let pulled = wanted.iter().filter(|&&i| search.limits(m, i).is_none()).count();
     let Some(first) = wanted.first().and_then(|&i| list.get(i)) else { return };

@@ -10,7 +10,7 @@ use crate::mjcf::context::Context;
 use crate::mjcf::ids::References;
 use crate::mjcf::rules;
 use crate::mjcf::spec::{ActuatorSpec, BodySpec, RangeSpec, TendonSpec, TransmissionSpec};
-use crate::mjcf::text::diagnostic::Report;
+use crate::mjcf::text::diagnostic::Diagnostics;
 use crate::mjcf::text::tree::{Node, name};
 
 /// All actuators in the order of the text.
@@ -87,7 +87,7 @@ fn unset() -> ActuatorSpec {
 }
 
 /// Overrides the fields of an actuator: first the attributes that all elements share, then those of its shortcut.
-fn overlay(a: &mut ActuatorSpec, node: &Node, report: &mut Report) {
+fn overlay(a: &mut ActuatorSpec, node: &Node, report: &mut Diagnostics) {
     let Some(set) = shortcut::find(node.element.name) else { return };
     let p = Props::written_props(node);
     a.gaintype = p.keyword("gaintype").unwrap_or(a.gaintype);
@@ -139,7 +139,7 @@ fn transmission(
     a: &ActuatorSpec,
     refs: References,
     node: &Node,
-    report: &mut Report,
+    report: &mut Diagnostics,
 ) -> Option<TransmissionSpec> {
     let owner = node.describe();
     let given: Vec<_> = listed(TARGETS.iter().filter(|(name, ..)| node.attribute(name).is_some()));
@@ -188,7 +188,13 @@ fn transmission(
 }
 
 /// Reports attributes that are valid only for another transmission.
-fn check_transmission_attribute(node: &Node, attribute: &str, object: &str, kind: i32, report: &mut Report) {
+fn check_transmission_attribute(
+    node: &Node,
+    attribute: &str,
+    object: &str,
+    kind: i32,
+    report: &mut Diagnostics,
+) {
     let owner = node.describe();
     for (name, of, needs) in [
         ("slidersite", trntype::SLIDERCRANK, "cranksite"),
@@ -216,7 +222,7 @@ fn check_orientation(
     second: i32,
     refs: References,
     node: &Node,
-    report: &mut Report,
+    report: &mut Diagnostics,
 ) {
     let owner = node.describe();
     let joint = attribute == "joint";

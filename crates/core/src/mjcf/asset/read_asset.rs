@@ -15,7 +15,7 @@ use crate::mjcf::expand::AttachedModel;
 use crate::mjcf::names::{NameTable, WORLD};
 use crate::mjcf::rules::{self, Rule};
 use crate::mjcf::spec::{BodySpec, PairSpec};
-use crate::mjcf::text::diagnostic::{Report, shorten_name};
+use crate::mjcf::text::diagnostic::{Diagnostics, shorten_name};
 use crate::mjcf::text::files::{Files, MAX_FILE};
 use crate::mjcf::text::load;
 use crate::mjcf::text::tree::{Node, Tree, name};
@@ -54,7 +54,7 @@ struct Reader<'a> {
     files: &'a dyn Files,
     /// The remaining part of [`MOST`].
     left: usize,
-    report: &'a mut Report,
+    report: &'a mut Diagnostics,
 }
 
 impl Assets {
@@ -64,7 +64,7 @@ impl Assets {
         classes: &Classes,
         parts: &[AttachedModel],
         files: &dyn Files,
-        report: &mut Report,
+        report: &mut Diagnostics,
     ) -> Assets {
         let mut assets = Assets::default();
         let mut reader = Reader { parts, files, left: MOST, report };
@@ -132,7 +132,7 @@ impl Assets {
 
     /// Checks that the bodies that skin files name as bones exist after `fusestatic`. Bodies that the text itself refers to are
     /// never fused.
-    pub(crate) fn check_bones(&self, bodies: &[BodySpec], names: &NameTable, report: &mut Report) {
+    pub(crate) fn check_bones(&self, bodies: &[BodySpec], names: &NameTable, report: &mut Diagnostics) {
         let used: BTreeSet<&str> = filled(bodies.iter().map(|b| b.name.as_str()));
         for bone in self.skins.iter().filter_map(|a| a.value.as_ref()).flat_map(|s| &s.bones) {
             let Some(span) = bone.file.clone().filter(|_| !report.is_full()) else { continue };
@@ -149,7 +149,7 @@ impl Assets {
     }
 
     /// Computes the hulls of the meshes that can collide, and of those of sites.
-    pub(crate) fn hulls(&mut self, bodies: &[BodySpec], pairs: &[PairSpec], report: &mut Report) {
+    pub(crate) fn hulls(&mut self, bodies: &[BodySpec], pairs: &[PairSpec], report: &mut Diagnostics) {
         let geoms: Vec<_> = listed(bodies.iter().flat_map(|b| &b.geoms));
         let touching = geoms.iter().filter(|g| g.contype != 0 || g.conaffinity != 0);
         let paired = pairs.iter().flat_map(|p| p.geoms).filter_map(|g| geoms.get(usize::try_from(g).ok()?));
@@ -183,7 +183,7 @@ fn report_problem(
     code: &'static Rule,
     owner: &str,
     span: Range<usize>,
-    report: &mut Report,
+    report: &mut Diagnostics,
 ) {
     let mut d = report.error(code, span, format!("{owner} {}", problem.message));
     if !problem.why.is_empty() {

@@ -7,13 +7,13 @@ use crate::mjcf::gather::{filled, listed};
 use crate::mjcf::names::WORLD;
 use crate::mjcf::rules;
 use crate::mjcf::schema::{BODY, FRAME};
-use crate::mjcf::text::diagnostic::{Report, nearest, shorten_name};
+use crate::mjcf::text::diagnostic::{Diagnostics, nearest, shorten_name};
 use crate::mjcf::text::tree::{Attribute, Node};
 use crate::mjcf::text::values::Value;
 
 impl Expander {
     /// Copies a part of another model, or of this one, with a prefix for its names.
-    pub(super) fn attach(&mut self, at: usize, report: &mut Report) -> Option<()> {
+    pub(super) fn attach(&mut self, at: usize, report: &mut Diagnostics) -> Option<()> {
         let node = self.nodes.get(at)?.clone();
         let Some(prefix) = node.attribute("prefix").and(Some(node.text("prefix").unwrap_or(""))) else {
             report
@@ -56,7 +56,7 @@ impl Expander {
         node: &Node,
         prefix: &str,
         part: Option<(&'static str, &str)>,
-        report: &mut Report,
+        report: &mut Diagnostics,
     ) -> Option<()> {
         let Some((kind, name)) = part else {
             report
@@ -116,7 +116,7 @@ impl Expander {
         prefix: &str,
         child: &mut Child,
         part: Option<(&'static str, &str)>,
-        report: &mut Report,
+        report: &mut Diagnostics,
     ) -> Option<()> {
         let offset = *child.offset.get_or_insert(self.parts.len());
         if offset == self.parts.len() {
@@ -191,7 +191,7 @@ fn roots_to_attach(
     child: &Child,
     request: &Node,
     part: Option<(&'static str, &str)>,
-    report: &mut Report,
+    report: &mut Diagnostics,
 ) -> Option<Vec<usize>> {
     let (kind, name) = match part {
         None | Some(("body", WORLD)) => return Some(members(&child.model.tree.nodes, "worldbody")),
@@ -247,7 +247,7 @@ fn report_unknown<'n>(
     name: &str,
     names: impl Iterator<Item = &'n str>,
     span: std::ops::Range<usize>,
-    report: &mut Report,
+    report: &mut Diagnostics,
 ) {
     let error = report.error(
         rules::UNKNOWN_NAME,

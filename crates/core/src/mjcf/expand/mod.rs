@@ -21,7 +21,7 @@ use crate::math::{Vec3, add, rotate};
 use crate::mjcf::body::orientation;
 use crate::mjcf::keyword_map::KeywordMap;
 use crate::mjcf::rules;
-use crate::mjcf::text::diagnostic::Report;
+use crate::mjcf::text::diagnostic::Diagnostics;
 use crate::mjcf::text::load::UnexpandedModel;
 use crate::mjcf::text::tree::{Attribute, Node, Tree};
 use crate::mjcf::text::values::Value;
@@ -50,7 +50,7 @@ pub(crate) struct Expanded {
 }
 
 /// Expands all requests of a model.
-pub(crate) fn model(written: UnexpandedModel, report: &mut Report) -> Expanded {
+pub(crate) fn model(written: UnexpandedModel, report: &mut Diagnostics) -> Expanded {
     let compiler = Compiler::read(&written.tree, report);
     let child = |(name, written)| (name, Child::new(model(written, report)));
     let models = filled(written.models.into_iter().map(child));
@@ -210,7 +210,7 @@ impl Expander {
     }
 
     /// Makes `count` copies in consecutive frames. The original is only their pattern.
-    fn replicate(&mut self, at: usize, report: &mut Report) -> Option<()> {
+    fn replicate(&mut self, at: usize, report: &mut Diagnostics) -> Option<()> {
         let node = self.nodes.get(at)?.clone();
         let count = count(&node, report)?;
         let digits = count.to_string().len();
@@ -257,7 +257,7 @@ impl Expander {
     }
 
     /// Reports elements that cannot be replicated.
-    fn report_unreplicable(&self, followers: &[Followers], report: &mut Report) {
+    fn report_unreplicable(&self, followers: &[Followers], report: &mut Diagnostics) {
         for node in followers.iter().flat_map(|f| &f.incomplete).filter_map(|&at| self.nodes.get(at)) {
             report
                 .error(
@@ -300,7 +300,7 @@ impl Expander {
 }
 
 /// The number of copies.
-fn count(node: &Node, report: &mut Report) -> Option<i32> {
+fn count(node: &Node, report: &mut Diagnostics) -> Option<i32> {
     let Some(attribute) = node.attribute("count") else {
         report
             .error(rules::MISSING_ATTRIBUTE, node.span.clone(), "replicate has no `count`")

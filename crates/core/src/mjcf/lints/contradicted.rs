@@ -4,7 +4,7 @@ use super::{digits, element_span, format_name, own_name};
 use crate::kinds::joint;
 use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
-use crate::mjcf::text::diagnostic::Report;
+use crate::mjcf::text::diagnostic::Diagnostics;
 use crate::mjcf::text::tree::{Attribute, Node, Tree};
 use crate::mjcf::text::values::Value;
 use crate::model::{Model, Obj};
@@ -20,7 +20,7 @@ const PAIRS: [(&str, &str); 4] = [
 const LIMIT_TOLERANCE: f64 = 0.01;
 const SERVOS: [&str; 2] = ["position", "intvelocity"];
 
-pub(super) fn check_ranges(tree: &Tree, m: &Model, report: &mut Report) {
+pub(super) fn check_ranges(tree: &Tree, m: &Model, report: &mut Diagnostics) {
     switched_off(tree, report);
     keys(tree, m, report);
     servos(tree, m, report);
@@ -31,7 +31,7 @@ fn attribute<'n>(node: &'n Node, name: &str) -> Option<&'n Attribute> {
 }
 
 /// Reports a range in an element whose flag is `false`.
-fn switched_off(tree: &Tree, report: &mut Report) {
+fn switched_off(tree: &Tree, report: &mut Diagnostics) {
     for node in &tree.nodes {
         for (range, flag) in PAIRS {
             let (Some(range), Some(flag)) = (attribute(node, range), attribute(node, flag)) else { continue };
@@ -49,7 +49,7 @@ fn switched_off(tree: &Tree, report: &mut Report) {
 }
 
 /// Reports keyframes that start beyond a limit.
-fn keys(tree: &Tree, m: &Model, report: &mut Report) {
+fn keys(tree: &Tree, m: &Model, report: &mut Diagnostics) {
     let nodes: Vec<&Node> =
         listed(tree.sections("keyframe").flat_map(|(i, _)| tree.children(i).map(|(_, n)| n)));
     for (k, node) in nodes.iter().enumerate().take(m.nkey) {
@@ -85,7 +85,7 @@ fn keys(tree: &Tree, m: &Model, report: &mut Report) {
 }
 
 /// Reports position servos that have neither a range of targets nor a range of forces.
-fn servos(tree: &Tree, m: &Model, report: &mut Report) {
+fn servos(tree: &Tree, m: &Model, report: &mut Diagnostics) {
     let nodes: Vec<&Node> =
         listed(tree.sections("actuator").flat_map(|(i, _)| tree.children(i).map(|(_, n)| n)));
     if nodes.len() != m.nactuator || m.nu != m.nactuator {

@@ -9,13 +9,13 @@ mod too_fast;
 mod unused_names;
 mod weights;
 
-use super::text::diagnostic::Report;
+use super::text::diagnostic::Diagnostics;
 use super::text::tree::{Node, Tree};
 use crate::model::Model;
 use std::ops::Range;
 
 /// Reports doubtful constructs of a model.
-pub(super) fn check_model(tree: &Tree, m: &Model, report: &mut Report) {
+pub(super) fn check_model(tree: &Tree, m: &Model, report: &mut Diagnostics) {
     unused_names::check_names(tree, report);
     contradicted::check_ranges(tree, m, report);
     too_fast::check_time_constants(tree, m, report);

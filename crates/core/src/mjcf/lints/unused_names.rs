@@ -2,7 +2,7 @@
 
 use crate::mjcf::rules;
 use crate::mjcf::schema::Kind;
-use crate::mjcf::text::diagnostic::{Report, shorten_name};
+use crate::mjcf::text::diagnostic::{Diagnostics, shorten_name};
 use crate::mjcf::text::tree::{Node, Tree};
 use crate::mjcf::text::values::Value;
 use std::collections::{BTreeMap, BTreeSet};
@@ -12,7 +12,7 @@ const CLASS: &str = "default class";
 /// Assets that have an effect only if they are referenced.
 const ASSETS: [&str; 4] = ["mesh", "material", "texture", "hfield"];
 
-pub(super) fn check_names(tree: &Tree, report: &mut Report) {
+pub(super) fn check_names(tree: &Tree, report: &mut Diagnostics) {
     // A file that contains only classes and assets is meant for inclusion.
     if !tree.nodes.iter().any(|n| n.element.name == "geom" && n.parent.is_some_and(|p| holds_bodies(tree, p)))
     {

@@ -287,7 +287,7 @@ pub(crate) fn numerics(cx: &mut Context) -> Vec<NumericSpec> {
 /// All custom texts: name and text.
 pub(crate) fn texts(
     tree: &Tree,
-    report: &mut crate::mjcf::text::diagnostic::Report,
+    report: &mut crate::mjcf::text::diagnostic::Diagnostics,
 ) -> Vec<(String, String)> {
     let nodes = tree.sections("custom").flat_map(|(at, _)| tree.children(at));
     listed(

@@ -9,7 +9,7 @@ use crate::mjcf::ids::References;
 use crate::mjcf::rules::{self, Rule};
 use crate::mjcf::settings::checked;
 use crate::mjcf::spec::{List, SensorObjects, SensorSpec, SensorTiming, TendonSpec};
-use crate::mjcf::text::diagnostic::{Report, shorten_name};
+use crate::mjcf::text::diagnostic::{Diagnostics, shorten_name};
 use crate::mjcf::text::tree::{Node, Tree, name};
 use crate::model::Obj;
 use crate::sensor::{CONTACT_DATA, Datatype, KINDS, Kind, RAY_DATA, SensorStage, SensorTarget, data_size};
@@ -24,7 +24,7 @@ struct Context<'a> {
     p: Props,
     refs: References<'a>,
     tendons: &'a [TendonSpec],
-    report: &'a mut Report,
+    report: &'a mut Diagnostics,
 }
 
 /// All sensors in the order of the text.
@@ -32,7 +32,7 @@ pub(crate) fn sensors(
     tree: &Tree,
     refs: References,
     tendons: &[TendonSpec],
-    report: &mut Report,
+    report: &mut Diagnostics,
 ) -> Vec<SensorSpec> {
     let mut list = Vec::new();
     let mut values = 0;

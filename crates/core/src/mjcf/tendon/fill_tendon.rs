@@ -6,7 +6,7 @@ use crate::mjcf::arrays::{flat, padded};
 use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
 use crate::mjcf::spec::{BodySpec, TendonSpec};
-use crate::mjcf::text::diagnostic::Report;
+use crate::mjcf::text::diagnostic::Diagnostics;
 use crate::model::Model;
 
 /// Limit for the entries of the Jacobians of all tendons.
@@ -71,7 +71,7 @@ pub(crate) fn tendons(m: &mut Model, list: &[TendonSpec]) {
 }
 
 /// Computes the sparsity pattern of the Jacobians. `None`, with an error in the report, if it is too large.
-pub(crate) fn pattern(m: &mut Model, list: &[TendonSpec], report: &mut Report) -> Option<()> {
+pub(crate) fn pattern(m: &mut Model, list: &[TendonSpec], report: &mut Diagnostics) -> Option<()> {
     let span = list.first().map_or(0..0, |t| t.span.clone());
     if tendon::set_pattern(m, MAX_JACOBIAN).is_some() {
         return report.take(2 * m.nJten, span, "the Jacobians of all tendons").then_some(());

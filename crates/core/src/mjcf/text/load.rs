@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::rc::Rc;
 
-use super::diagnostic::{Report, shorten_name};
+use super::diagnostic::{Diagnostics, shorten_name};
 use super::files::{FileProblem, Files, folder_of, normalize_path};
 use super::patch::{self, Patch, Refusal};
 use super::scan;
@@ -53,7 +53,12 @@ impl<'f> Loader<'f> {
 
     /// The text of a model with its patches applied and its includes expanded. `None` if the text is not XML, or a patch cannot
     /// be applied.
-    pub(crate) fn written(&mut self, text: &str, file: Option<&str>, report: &mut Report) -> Option<String> {
+    pub(crate) fn written(
+        &mut self,
+        text: &str,
+        file: Option<&str>,
+        report: &mut Diagnostics,
+    ) -> Option<String> {
         let base = report.source(None, text.into());
         let mut list = Vec::new();
         let root = self.parse(text, base, &mut list, report)?;
@@ -74,7 +79,7 @@ impl<'f> Loader<'f> {
         &mut self,
         text: Rc<str>,
         file: Option<&str>,
-        report: &mut Report,
+        report: &mut Diagnostics,
     ) -> Option<UnexpandedModel> {
         let folder = folder_of(file.unwrap_or("")).to_string();
         self.open.push(file.unwrap_or("").to_string());
@@ -100,7 +105,7 @@ impl<'f> Loader<'f> {
         text: &str,
         base: usize,
         list: &mut Vec<Element>,
-        report: &mut Report,
+        report: &mut Diagnostics,
     ) -> Option<usize> {
         let text = scan::prepare(text, base, &mut self.counts, report)?;
         xml::parse(&text, base, list, report)
@@ -112,7 +117,7 @@ impl<'f> Loader<'f> {
         list: &mut Vec<Element>,
         model_name: Option<&str>,
         folder: &str,
-        report: &mut Report,
+        report: &mut Diagnostics,
     ) {
         let mut included: BTreeSet<String> = filled(model_name.map(str::to_string));
         let mut at = 0;
@@ -134,7 +139,7 @@ impl<'f> Loader<'f> {
         list: &mut Vec<Element>,
         folder: &str,
         included: &mut BTreeSet<String>,
-        report: &mut Report,
+        report: &mut Diagnostics,
     ) -> Vec<usize> {
         let Some(element) = list.get(at) else { return Vec::new() };
         #[cfg(test)]
@@ -179,7 +184,7 @@ impl<'f> Loader<'f> {
         &mut self,
         tree: &Tree,
         folder: &str,
-        report: &mut Report,
+        report: &mut Diagnostics,
     ) -> BTreeMap<String, UnexpandedModel> {
         let mut models = BTreeMap::new();
         let assets = tree.sections("asset").flat_map(|(section, _)| tree.children(section));
@@ -222,7 +227,7 @@ impl<'f> Loader<'f> {
         written: &str,
         folder: &str,
         span: &Range<usize>,
-        report: &mut Report,
+        report: &mut Diagnostics,
     ) -> Option<(String, Rc<str>)> {
         self.files_read += 1;
         if self.files_read > MAX_FILES {
@@ -253,7 +258,7 @@ pub(crate) fn read(
     folder: &str,
     limit: usize,
     span: &Range<usize>,
-    report: &mut Report,
+    report: &mut Diagnostics,
 ) -> Option<(String, Vec<u8>)> {
     let Some(path) = normalize_path(folder, written) else {
         report

@@ -8,7 +8,7 @@ use std::ops::Range;
 
 use roxmltree::{Document, Error, Node, ParsingOptions};
 
-use super::diagnostic::{Report, shorten_name};
+use super::diagnostic::{Diagnostics, shorten_name};
 use super::scan::Prepared;
 use crate::mjcf::rules;
 
@@ -95,7 +95,7 @@ pub(crate) fn parse(
     prepared: &Prepared,
     base: usize,
     list: &mut Vec<Element>,
-    report: &mut Report,
+    report: &mut Diagnostics,
 ) -> Option<usize> {
     let text = &*prepared.text;
     let options = ParsingOptions { allow_dtd: false, ..ParsingOptions::default() };
@@ -143,7 +143,7 @@ fn element(prepared: &Prepared, base: usize, xml: &Node) -> Element {
 }
 
 /// Reports a syntax error of the XML in plain words.
-fn explain(prepared: &Prepared, base: usize, error: &Error, report: &mut Report) {
+fn explain(prepared: &Prepared, base: usize, error: &Error, report: &mut Diagnostics) {
     let text = &*prepared.text;
     let at = match error {
         Error::UnclosedRootNode | Error::UnexpectedEndOfStream | Error::NoRootNode => text.len(),

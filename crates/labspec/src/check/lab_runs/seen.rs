@@ -39,14 +39,14 @@ impl<'a> LabDisplays<'a> {
                 column: i + 1,
                 name: format!("the {} \"{label}\"", if trace { "trace" } else { "readout" }),
                 trace,
-                says_gap: shows_nan::says_gap(text),
-                says_infinite: shows_nan::says(text, "Infinity"),
+                mentions_gap: shows_nan::mentions_gap(text),
+                says_infinite: shows_nan::contains_word(text, "Infinity"),
                 ever: false,
                 gap: false,
                 reported: Vec::new(),
             })
         });
-        let on_purpose = programs.bound().filter(|b| shows_nan::says_gap(&b.text.value));
+        let on_purpose = programs.bound().filter(|b| shows_nan::mentions_gap(&b.text.value));
         let gaps = on_purpose.flat_map(|b| b.program.effects().ctx_writes.iter().copied()).collect();
         LabDisplays {
             displays: displays.collect(),
@@ -79,10 +79,10 @@ impl<'a> LabDisplays<'a> {
                 continue;
             };
             if finding.code == rules::SHOWS_NAN.code
-                && (display.says_gap || shows_nan::is_unset(display.bound, session, &self.gaps))
+                && (display.mentions_gap || shows_nan::is_unset(display.bound, session, &self.gaps))
             {
                 // An intended gap may be filled by an interaction that no run tests, unless the text is constant.
-                display.gap |= !display.says_gap || display.bound.program.effects().constant();
+                display.gap |= !display.mentions_gap || display.bound.program.effects().constant();
             } else if !display.reported.contains(&finding.code) {
                 display.reported.push(finding.code);
                 self.found.push(finding);
