@@ -1,6 +1,6 @@
 //! Loads a lab from a text.
 
-use super::{Player, SavedLab, control, displayed};
+use super::{Player, Saved, control, displayed};
 use crate::bind::scene::Models;
 use crate::bind::{Functions, Programs, compile_to_play};
 use crate::check;
@@ -118,7 +118,7 @@ impl Player {
         let mut session = Session::start(Arc::new(programs), model, Start::of_lab(&lab));
         session.watch();
         let (controls, displayed) = (control::list(&lab), displayed::list(&lab));
-        let now = SavedLab { lab: Arc::clone(&lab), session, cells: Vec::new(), numbers: Vec::new() };
+        let now = Saved { lab: Arc::clone(&lab), session, cells: Vec::new(), numbers: Vec::new() };
         let mut player = Player { lab, file, loaded, controls, displayed, now, scene: None };
         player.observe();
         player

@@ -35,13 +35,13 @@ pub struct Player {
     loaded: Vec<Finding>,
     controls: Vec<Control>,
     displayed: Vec<DisplayedValue>,
-    now: SavedLab,
+    now: Saved,
     scene: Option<Scene>,
 }
 
 /// A state of a lab: everything that determines how it continues, including the model and the `ctx` variables.
 #[derive(Clone, Debug)]
-pub struct SavedLab {
+pub struct Saved {
     lab: Arc<Lab>,
     session: Session<'static>,
     cells: Vec<Cell>,
@@ -221,7 +221,7 @@ impl Player {
         let ahead = (time - self.time()).max(0.0);
         let steps = run::count_steps(&self.lab, Some(ahead), None, self.timestep())?.min(most);
         let stop = self.stop().unwrap_or(f64::INFINITY).min(time);
-        self.now.session.renew(Budget::REQUESTED_RUN);
+        self.now.session.renew(Budget::ASKED);
         let made = run::play(&mut self.now.session, &Play::steps(steps), |session, made| {
             each(session, made)?;
             if session.world.data.time() >= stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
@@ -243,7 +243,7 @@ impl Player {
     }
 
     /// The state, for [`Player::restore`].
-    pub fn save(&self) -> SavedLab {
+    pub fn save(&self) -> Saved {
         self.now.clone()
     }
 
@@ -251,7 +251,7 @@ impl Player {
     ///
     /// # Errors
     /// It was saved by another lab.
-    pub fn restore(&mut self, saved: &SavedLab) -> Result<(), Error> {
+    pub fn restore(&mut self, saved: &Saved) -> Result<(), Error> {
         if !Arc::ptr_eq(&self.lab, &saved.lab) {
             return Err(Error::Call(
                 "this state belongs to another lab, or was saved before this lab was loaded again".into(),

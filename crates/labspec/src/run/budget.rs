@@ -10,7 +10,7 @@ pub struct Budget {
 
 impl Budget {
     /// For a run that a user requests.
-    pub const REQUESTED_RUN: Budget = Budget { left: 100_000_000_000 };
+    pub const ASKED: Budget = Budget { left: 100_000_000_000 };
     /// For a run of a check that detects breakdowns.
     pub const TRIAL: Budget = Budget { left: 1_000_000_000 };
     /// For all such runs of a file.
@@ -23,7 +23,7 @@ impl Budget {
 
 impl Default for Budget {
     fn default() -> Budget {
-        Budget::REQUESTED_RUN
+        Budget::ASKED
     }
 }
 
