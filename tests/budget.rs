@@ -4,7 +4,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use crate::support::{check_text, codes, compile, workspace};
+use crate::support::{check_text, codes, compile, thread_time, workspace};
 use labspec::bind::scene::Models;
 use labspec::check::{self, CheckLevel, Checked, Coverage};
 use labspec::lint::ModelFolder;
@@ -18,12 +18,6 @@ use std::time::Duration;
 /// The processor time of a check in these tests, with few compiler optimizations.
 const LONGEST: Duration = Duration::from_secs(60);
 
-/// The processor time of this thread, if known.
-fn used() -> Option<Duration> {
-    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
-    text.split(' ').next()?.parse().ok().map(Duration::from_nanos)
-}
-
 /// A pendulum, 1000 steps in 10 s.
 const PENDULUM: &str = "<mujoco><option timestep='.01'/><worldbody><body><joint name='swing' type='hinge' axis='0 1 0'/><geom size='.1' pos='.5 0 0' mass='1'/></body></worldbody></mujoco>";
 
@@ -36,9 +30,9 @@ fn check_lab(xml: &str, more: Value) -> Checked {
     for (key, value) in more.as_object().unwrap() {
         lab[key] = value.clone();
     }
-    let before = used();
+    let before = thread_time();
     let checked = check_text("lab.md", &format!("```lab simlab\n{lab}\n```\n"));
-    if let (Some(before), Some(after)) = (before, used()) {
+    if let (Some(before), Some(after)) = (before, thread_time()) {
         println!("{:?}", after - before);
         assert!(after - before < LONGEST, "{:?}", after - before);
     }

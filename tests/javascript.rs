@@ -6,7 +6,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use crate::needs::needs;
-use crate::support::{model_text, workspace};
+use crate::support::{model_text, sorted_files, workspace};
 use labspec::bind::scene::Models;
 use labspec::bind::{ControlProgram, ModelNames, Programs, Scope, World};
 use labspec::lint::ModelFolder;
@@ -317,13 +317,6 @@ fn compare(name: &str, lab: &Lab, model: &Model, count: &mut Count) {
     count.compared += work.jobs.len();
 }
 
-fn files(folder: &Path) -> Vec<PathBuf> {
-    let mut files: Vec<PathBuf> =
-        std::fs::read_dir(folder).into_iter().flatten().map(|e| e.unwrap().path()).collect();
-    files.sort();
-    files
-}
-
 /// Compares all labs of some lessons.
 fn compare_lessons(lessons: &[PathBuf], models: &Path) {
     let folder = ModelFolder::open(models).unwrap();
@@ -355,7 +348,7 @@ fn the_corpus_behaves_as_in_javascript() {
     if !needs("../shared/corpus") || !needs("node") {
         return;
     }
-    let lessons = [files(&corpus.join("labs")), files(&corpus.join("quizzes"))].concat();
+    let lessons = [sorted_files(&corpus.join("labs")), sorted_files(&corpus.join("quizzes"))].concat();
     compare_lessons(&lessons, &corpus.join("models"));
 }
 
@@ -364,7 +357,7 @@ fn our_lessons_behave_as_in_javascript() {
     if !needs("node") {
         return;
     }
-    compare_lessons(&files(&workspace().join("specs/lessons")), &workspace().join("specs/models"));
+    compare_lessons(&sorted_files(&workspace().join("specs/lessons")), &workspace().join("specs/models"));
 }
 
 /// Constructs of real labs that these lessons do not contain: names, loops, closures, arrays as values.

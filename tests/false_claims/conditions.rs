@@ -1,9 +1,10 @@
 //! Options of questions: conditions that are true but could be false, and altered ones.
 
 use super::lesson::{Body, Claim, Truth};
-use super::random::{Random, printed};
+use super::random::printed;
 use super::scenes::NEVER;
 use super::values::other_units;
+use crate::support::random::Random;
 use serde_json::json;
 
 /// A measure of a run, by its name in a claim, with its value.

@@ -2,9 +2,10 @@
 
 use super::conditions::MeasuredNumber;
 use super::lesson::{Body, Claim, Truth};
-use super::random::{Random, printed};
+use super::random::printed;
 use super::scenes::NEVER;
 use super::values::{other_units, through_code};
+use crate::support::random::Random;
 use serde_json::json;
 
 fn says(variant: &str, truth: Truth, quote: &str, expr: &str, block: String) -> Claim {

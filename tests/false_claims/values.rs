@@ -2,8 +2,8 @@
 
 use super::conditions::MeasuredNumber;
 use super::lesson::{Body, Claim, Truth};
-use super::random::Random;
 use super::scenes::NEVER;
+use crate::support::random::Random;
 use serde_json::{Value, json};
 
 struct ClaimedValue<'a> {

@@ -1,9 +1,10 @@
 //! Random trees of files with unusual names, contents and file types, and random command lines for them. The program terminates
 //! without a signal, with exit code 0, 1 or 2.
 
-use super::{Random, run_cases};
+use super::run_cases;
 use crate::program::{CLEAN, FALL, wrong};
 use crate::support::model_text;
+use crate::support::random::Random;
 use crate::support::report::hold;
 use std::fs::File;
 use std::path::{Path, PathBuf};

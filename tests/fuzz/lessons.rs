@@ -1,7 +1,8 @@
 //! Damaged lessons, labs and quizzes: they are read, checked, formatted and reported to people and programs; some are run.
 
-use super::{Random, run_cases};
+use super::run_cases;
 use crate::program::{CLEAN, FALL, wrong};
+use crate::support::random::Random;
 use crate::support::{model_text, workspace};
 use labspec::bind::scene::Models;
 use labspec::check::{self, CheckLevel};

@@ -3,7 +3,8 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
-use super::{Random, run_cases};
+use super::run_cases;
+use crate::support::random::Random;
 use crate::support::{models, unconstrained, workspace};
 use labspec_core::xml::{self, FileProblem, Files};
 use labspec_core::{self as core, Data};

@@ -1,7 +1,8 @@
 //! The engine through its public interface: random calls with hostile numbers, indices and lengths. Nothing panics;
 //! invalid calls are refused.
 
-use super::{Random, run_cases};
+use super::run_cases;
+use crate::support::random::Random;
 use crate::support::{model, models, workspace};
 use labspec_core::reflect::{self, Elem, Kind};
 use labspec_core::{self as core, AccessSet, Data, Model, Obj, Plan, save, state};
