@@ -1,7 +1,7 @@
 //! Mutation tests: mistakes of authors are planted one by one into real labs and quizzes, to measure how many are found.
 //!
-//! A mutant counts if it changes what a student sees (`mutants/student_view.rs`). It is found if it gives a finding with the severity
-//! of a warning or higher that the original does not have. The table is in `docs/measured/mutants.md`.
+//! A mutant counts if it changes what a student sees (`mutants/student_view.rs`). It is found if it gives a finding with
+//! the severity of a warning or higher that the original does not have. The table is in `docs/measured/mutants.md`.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 

@@ -92,7 +92,7 @@ impl Parser<'_> {
         let node = if self.key_ahead() {
             let start = self.at;
             self.report(Problem::replaced(Mistake::OpeningMissing, start..start, "{"));
-            self.repair_count('{', 1);
+            self.adjust_bracket_count('{', 1);
             Some(self.members(start)?)
         } else {
             self.value()?
@@ -318,7 +318,7 @@ impl Parser<'_> {
                 Some(_) if !first && self.key_ahead() && self.open.iter().any(|(c, _)| *c == '{') => {
                     let key = self.at;
                     self.at = end;
-                    self.repair_count(']', 1);
+                    self.adjust_bracket_count(']', 1);
                     self.report(Problem::replaced(Mistake::ListGoesOn, end..end, "]").related(key..key + 1));
                     break;
                 }

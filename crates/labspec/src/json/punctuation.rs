@@ -110,7 +110,7 @@ impl Parser<'_> {
         let start = self.at;
         let c = self.peek().unwrap_or('}');
         self.bump();
-        self.repair_count(c, -1);
+        self.adjust_bracket_count(c, -1);
         self.report(Problem::replaced(Mistake::StrayBracket(c), start..start + 1, ""));
     }
 
@@ -127,14 +127,14 @@ impl Parser<'_> {
             // The other bracket was intended.
             (_, true, true) | (false, true, _) => {
                 self.bump();
-                self.repair_count(found, -1);
-                self.repair_count(mine, 1);
+                self.adjust_bracket_count(found, -1);
+                self.adjust_bracket_count(mine, 1);
                 self.report(Problem::replaced(Mistake::OtherBracket { mine, found }, start..start + 1, mine));
                 true
             }
             (true, true, false) | (true, false, false) => {
                 let end = self.before();
-                self.repair_count(mine, 1);
+                self.adjust_bracket_count(mine, 1);
                 let mistake = Mistake::BracketMissing { mine, found };
                 self.report(Problem::replaced(mistake, end..end, mine).related(start..start + 1));
                 true
@@ -157,7 +157,7 @@ impl Parser<'_> {
         line.starts_with(['\n', '\r']) && key.is_some_and(|k| k.starts_with('"'))
     }
 
-    pub(super) fn repair_count(&mut self, bracket: char, by: i64) {
+    pub(super) fn adjust_bracket_count(&mut self, bracket: char, by: i64) {
         let i = ['{', '}', '[', ']'].iter().position(|c| *c == bracket);
         if let Some(n) = i.and_then(|i| self.brackets.get_mut(i)) {
             *n += by;

@@ -46,8 +46,8 @@ use labspec_core::{Data, Energy, Fields, Model, Plan, Planned, Scope, disable, j
 use labspec_core::{exhausted, forward, limit, mass_matrix, mechanical_energy, mul_m, work_left};
 
 /// Bounds of the factor by which the gain of one step must exceed the available energy: the usual value, and the largest
-/// value, which applies near the stability limit of a spring. `OSCILLATION_FACTOR` is the factor on the energy ratio of the stiffest
-/// spring.
+/// value, which applies near the stability limit of a spring. `OSCILLATION_FACTOR` is the factor on the energy ratio of
+/// the stiffest spring.
 const STEP_GAIN_FACTORS: [f64; 2] = [3.0, 10.0];
 const OSCILLATION_FACTOR: f64 = 1.5;
 /// A gain of this factor times the available energy, without the energy of springs, cannot be an oscillation of a spring.
@@ -63,9 +63,10 @@ const SKIP_FRACTION: f64 = 0.25;
 const SKIP_SPEED_FACTOR: f64 = 1.5;
 /// A rotation per step that a step cannot resolve, rad, and the number of gains in such steps that is reported.
 const MAX_RESOLVED_ROTATION: f64 = std::f64::consts::PI;
-const MAX_UNRESOLVED_GAINS: u32 = 4;
-/// Motion below the fraction `MIN_MOTION_FRACTION` of the smallest reportable gain is not evaluated. In scenes with more than `MAX_DOFS_PER_STEP_INERTIA`
-/// degrees of freedom, the diagonal of M is recomputed only once per `EVALUATIONS_PER_UPDATE` evaluations.
+const MIN_UNRESOLVED_GAINS: u32 = 4;
+/// Motion below the fraction `MIN_MOTION_FRACTION` of the smallest reportable gain is not evaluated. In scenes with more
+/// than `MAX_DOFS_PER_STEP_INERTIA` degrees of freedom, the diagonal of M is recomputed only once per
+/// `EVALUATIONS_PER_UPDATE` evaluations.
 const MIN_MOTION_FRACTION: f64 = 0.5;
 const MAX_DOFS_PER_STEP_INERTIA: usize = 12;
 const EVALUATIONS_PER_UPDATE: u32 = 64;
@@ -257,7 +258,7 @@ fn compare<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>, start: Start
     }
     w.lasted += 1;
     w.leaps += u32::from(turn > MAX_RESOLVED_ROTATION);
-    if leapt || w.lasted >= MIN_GAIN_STEPS || w.leaps >= MAX_UNRESOLVED_GAINS {
+    if leapt || w.lasted >= MIN_GAIN_STEPS || w.leaps >= MIN_UNRESOLVED_GAINS {
         let source = match dof_of_negative_damping {
             Some(dof) => Source::Damper(dof),
             None if turn > MAX_RESOLVED_ROTATION => Source::LongSteps(turn),

@@ -10,9 +10,9 @@ use labspec_core::{Contact, Data, Fields, Model, Scope, geom_thickness};
 /// Thresholds of the depth: a fraction of the thickness of the thinner geom, and of the length of the smaller one.
 const THICKNESS: f64 = 0.3;
 const LENGTH: f64 = 0.03;
-/// A contact must be this deep for `MIN_DURATION` seconds, `MIN_STEPS` steps and `MIN_TIME_CONSTANTS` time constants of the contact, with a
-/// depth that changes by at most the fraction `MAX_DEPTH_CHANGE`. An impact is shorter, and a contact that pushes the bodies apart
-/// changes its depth.
+/// A contact must be this deep for `MIN_DURATION` seconds, `MIN_STEPS` steps and `MIN_TIME_CONSTANTS` time constants of
+/// the contact, with a depth that changes by at most the fraction `MAX_DEPTH_CHANGE`. An impact is shorter, and a contact
+/// that pushes the bodies apart changes its depth.
 const MIN_DURATION: f64 = 0.25;
 const MIN_STEPS: u32 = 32;
 const MIN_TIME_CONSTANTS: f64 = 4.0;

@@ -57,7 +57,8 @@ pub(crate) fn check_contact_times(ready: &PreparedLab<'_>, findings: &mut Vec<Fi
     );
 }
 
-/// The variable that a new contact, and nothing else in the step before, sets to the time of the controller; that time; the timestep.
+/// The variable that a new contact, and nothing else in the step before, sets to the time of the controller; that time;
+/// the timestep.
 fn late_variable(ready: &PreparedLab<'_>, slots: &[u32]) -> Option<(u32, f64, f64)> {
     let (lab, programs) = (ready.lab, &ready.programs);
     let start = Start { budget: WORK, ..Start::of_lab(lab) };

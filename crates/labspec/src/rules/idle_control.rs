@@ -1,7 +1,8 @@
 //! Controls that change nothing anybody sees: over all of their range, or over a part of it.
 //!
-//! What two runs show is compared to the last bit, so what matters only a little matters. Two controls may act together only: each is
-//! tried with the others moved, too, early and in mid-run. If the work budget ends before all is tried, nothing is reported.
+//! What two runs show is compared to the last bit, so what matters only a little matters. Two controls may act together
+//! only: each is tried with the others moved, too, early and in mid-run. If the work budget ends before all is tried,
+//! nothing is reported.
 
 use super::{IDLE_RANGE, needs_reset};
 use crate::bind::ControlProgram;

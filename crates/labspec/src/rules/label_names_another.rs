@@ -202,8 +202,8 @@ fn is_only_named_object(one: &DisplayedValue<'_>, named: &NamedObject) -> bool {
     one.rest.is_empty() && one.reads.iter().all(|(kind, _)| same_kind(*kind))
 }
 
-/// Whether another label is the same but for its name, which is that of what this one reads. Where that one reads a third thing, the
-/// names may mean something else.
+/// Whether another label is the same but for its name, which is that of what this one reads. Where that one reads a third
+/// thing, the names may mean something else.
 fn beside(
     one: &DisplayedValue<'_>,
     named: &NamedObject,

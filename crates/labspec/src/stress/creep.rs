@@ -73,14 +73,14 @@ impl CreepMonitor {
     }
 
     /// The second half of the stored samples.
-    fn drop_every_second(&self) -> &[CreepSample] {
+    fn second_half(&self) -> &[CreepSample] {
         let samples = self.memory.samples();
         samples.get(samples.len() / 2..).unwrap_or_default()
     }
 
     /// Bodies and joints that creep in the second half of the stored samples.
     pub(super) fn faults(&self, m: &Model) -> Vec<Fault> {
-        let half = self.drop_every_second();
+        let half = self.second_half();
         let (Some(first), Some(last)) = (half.first(), half.last()) else { return Vec::new() };
         if half.len() < 9 || last.time - first.time < MIN_REST {
             return Vec::new();
@@ -93,7 +93,7 @@ impl CreepMonitor {
     /// Drift speed of each body and each joint with friction in the second half of the stored samples, by name, m/s or
     /// rad/s.
     pub(super) fn speeds(&self, m: &Model) -> Vec<(String, f64)> {
-        let half = self.drop_every_second();
+        let half = self.second_half();
         let (Some(first), Some(last)) = (half.first(), half.last()) else { return Vec::new() };
         let time = last.time - first.time;
         let speeds = last.places.iter().zip(&first.places).map(|(to, from)| norm(sub(*to, *from)) / time);

@@ -21,7 +21,7 @@ const MIN_DEEP_DURATION: f64 = 0.2;
 /// Number of steps of a block in which switches are counted, the minimum number of switches in a block, and the number of
 /// consecutive blocks.
 const BLOCK: usize = 100;
-const MIN_SWITCHING_BLOCKS: usize = 45;
+const MIN_SWITCHES: usize = 45;
 const BLOCKS: usize = 2;
 /// A body that moves by less than this fraction of its size in a block is nearly at rest.
 const REST_FRACTION: f64 = 0.02;
@@ -164,8 +164,7 @@ impl RunMonitor {
             }
             if ends {
                 let rests = touch.from.is_some() && touch.moved < REST_FRACTION * touch.size;
-                touch.blocks =
-                    if touch.switches >= MIN_SWITCHING_BLOCKS && rests { touch.blocks + 1 } else { 0 };
+                touch.blocks = if touch.switches >= MIN_SWITCHES && rests { touch.blocks + 1 } else { 0 };
                 if touch.blocks >= BLOCKS && !touch.chatters {
                     touch.chatters = true;
                     self.faults.push(chatter(m, d, touch));

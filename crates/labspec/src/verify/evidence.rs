@@ -58,8 +58,8 @@ pub(super) fn reach(values: &[f64]) -> f64 {
 /// Factors by which a measured value is multiplied.
 const FACTORS: [f64; 14] =
     [0.0, 0.5, 2.0, -1.0, 0.9, 1.1, 0.99, 1.01, 0.999_999, 1.000_001, 0.1, 10.0, 0.001, 1000.0];
-/// Number of joint draws: `INITIAL_DRAWS` before the search in single numbers, `TOTAL_DRAWS` in total; and the number of bisection steps
-/// of that search.
+/// Number of joint draws: `INITIAL_DRAWS` before the search in single numbers, `TOTAL_DRAWS` in total; and the number of
+/// bisection steps of that search.
 const INITIAL_DRAWS: usize = 200;
 const TOTAL_DRAWS: usize = 4000;
 const BISECTIONS: usize = 60;

@@ -32,8 +32,8 @@ const ROUNDING: f64 = 1e-9;
 const MAX_UNCERTAINTY: f64 = 0.01;
 const MAX_DISTANCE: f64 = 0.1;
 
-/// A tolerance above `WIDE_TOLERANCE_FACTOR` times the larger of trace and formula accepts everything. `NOISE` is the difference that
-/// rounding alone produces.
+/// A tolerance above `WIDE_TOLERANCE_FACTOR` times the larger of trace and formula accepts everything. `NOISE` is the
+/// difference that rounding alone produces.
 const WIDE_TOLERANCE_FACTOR: f64 = 2.0;
 const NOISE: f64 = 1e-12;
 

@@ -18,8 +18,8 @@ use std::ops::ControlFlow;
 const APART: f64 = 1e-7;
 const TIMES: usize = 100;
 const DIRECTIONS: u64 = 3;
-/// Growth counts as exponential if the factor is at least `MIN_GROWTH`, a straight line explains at least `MIN_EXPLAINED` of the variance
-/// of its logarithm, and the logarithm grows by at least `HALF` of its total in each half of the time.
+/// Growth counts as exponential if the factor is at least `MIN_GROWTH`, a straight line explains at least `MIN_EXPLAINED`
+/// of the variance of its logarithm, and the logarithm grows by at least `HALF` of its total in each half of the time.
 const MIN_GROWTH: f64 = 100.0;
 const MIN_EXPLAINED: f64 = 0.9;
 const HALF: f64 = 0.3;

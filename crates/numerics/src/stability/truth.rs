@@ -15,7 +15,7 @@ const SAMPLES: usize = 100;
 /// Two runs agree if they differ by at most this part of a range.
 const MAX_DIFFERENCE: f64 = 1e-3;
 /// The divisor of the first shorter timestep, and the number of further reductions, each by [`REFINEMENT`].
-const FIRST_REFINEMENT: usize = 4;
+const FIRST_DIVISOR: usize = 4;
 const REFINEMENT: usize = 4;
 const MAX_REFINEMENTS: usize = 3;
 /// The work limit for one run.
@@ -56,7 +56,7 @@ pub(super) fn truth<'h>(
         };
         rows(case, interaction, Some(&change), length, every as f64 * timestep, work)
     };
-    let mut parts = FIRST_REFINEMENT;
+    let mut parts = FIRST_DIVISOR;
     let mut coarse = fine(parts, work);
     let mut best: Option<(SampledRows, usize)> = None;
     for _ in 0..MAX_REFINEMENTS {
