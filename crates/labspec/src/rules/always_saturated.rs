@@ -1,4 +1,4 @@
-use crate::check::observations::{Beyond, ObservedLab};
+use crate::check::observations::{InputsOutOfRange, ObservedLab};
 use crate::check::setconst::digits;
 use labspec_core::Obj;
 use labspec_finding::{Example, Finding, Layer, Rule, Severity};
@@ -25,7 +25,8 @@ pub(crate) fn check_saturation(observed: &ObservedLab<'_>, findings: &mut Vec<Fi
     let ready = observed.bench.ready;
     let Some(first) = observed.records.first() else { return };
     for (i, (_, value)) in first.beyond.times.iter().enumerate() {
-        let always = |b: &Beyond| b.looks >= MIN_SAMPLES && b.times.get(i).is_some_and(|t| t.0 == b.looks);
+        let always =
+            |b: &InputsOutOfRange| b.looks >= MIN_SAMPLES && b.times.get(i).is_some_and(|t| t.0 == b.looks);
         if !observed.records.iter().all(|r| always(&r.beyond)) {
             continue;
         }

@@ -35,10 +35,10 @@ const ELSE: [&str; 6] = ["button", "not", "press", "click", "then", "after"];
 
 /// Whether a sentence says that a change starts the lab again.
 fn claims_restart(sentence: &str) -> bool {
-    let says = |words: &[&str]| words.iter().any(|w| sentence.contains(w));
-    (contains_word(&STARTS) || contains_word(&BEGINS) && contains_word(&AGAIN))
-        && contains_word(&CHANGES)
-        && !contains_word(&ELSE)
+    let contains_any = |words: &[&str]| words.iter().any(|w| sentence.contains(w));
+    (contains_any(&STARTS) || contains_any(&BEGINS) && contains_any(&AGAIN))
+        && contains_any(&CHANGES)
+        && !contains_any(&ELSE)
 }
 
 pub(crate) fn check_repeats(observed: &ObservedLab<'_>, findings: &mut Vec<Finding>) {

@@ -31,7 +31,7 @@ pub(crate) fn check_stiffness(model: &Model, place: Range<usize>, covered: &str)
             .help(format!(
                 "set the timestep to {} s, or {}",
                 run::two_digits(0.9 * worst.timestep.min(model.opt.timestep)),
-                run::softer(&worst)
+                run::attribute_to_soften(&worst)
             )),
     )
 }
