@@ -28,7 +28,7 @@ fn coordinates() -> AccessSet {
 
 /// Steps a model from its start, once to warm up and once to count allocations: with the full pipeline, with a plan for any
 /// access, and with a plan for the coordinates.
-fn allocates_nothing(name: &str, m: &Model, steps: usize) {
+fn check_allocations(name: &str, m: &Model, steps: usize) {
     for plan in [Plan::full(), Plan::new(m, &AccessSet::ANY), Plan::new(m, &coordinates())] {
         let mut d = Data::planned(m, plan);
         let mut contacts = 0;
@@ -56,20 +56,20 @@ fn allocates_nothing(name: &str, m: &Model, steps: usize) {
 fn sensors() {
     for name in ["frames", "contacts", "cameras", "limits", "delays", "delays_rk4"] {
         let file = workspace().join(format!("crates/core/src/api/golden/{name}.xml"));
-        allocates_nothing(name, &compile(&std::fs::read_to_string(file).unwrap()), 100);
+        check_allocations(name, &compile(&std::fs::read_to_string(file).unwrap()), 100);
     }
 }
 
 #[test]
 fn flight() {
-    allocates_nothing("free fall", &model("free_fall"), 500);
-    allocates_nothing("tumbling", &model("spin"), 500);
+    check_allocations("free fall", &model("free_fall"), 500);
+    check_allocations("tumbling", &model("spin"), 500);
 }
 
 /// In flight, at the impact, and at rest.
 #[test]
 fn drop_onto_a_floor() {
-    allocates_nothing("ball drop", &model("ball_drop"), 1500);
+    check_allocations("ball drop", &model("ball_drop"), 1500);
 }
 
 /// The first impact of a scene may allocate; later steps may not.
@@ -86,9 +86,9 @@ fn rest_after_the_first_impact() {
 
 #[test]
 fn limits() {
-    allocates_nothing("limits", &model("limits"), 800);
+    check_allocations("limits", &model("limits"), 800);
     let limited = model_text("double_pendulum").replace("type=\"hinge\"", "type=\"hinge\" range=\"-40 40\"");
-    allocates_nothing("double pendulum with limits", &compile(&limited), 800);
+    check_allocations("double pendulum with limits", &compile(&limited), 800);
 }
 
 #[test]
@@ -111,13 +111,13 @@ fn thirty_spheres_on_a_plane() {
         d.ncon
     });
     assert!(most.max().unwrap() >= 40, "the pile is meant to touch");
-    allocates_nothing("thirty spheres", &m, 300);
+    check_allocations("thirty spheres", &m, 300);
 }
 
 #[test]
 fn trees_that_fall_asleep_and_wake() {
     for name in ["sleep", "sleep_pile", "sleep_ties"] {
-        allocates_nothing(name, &model(name), 300);
+        check_allocations(name, &model(name), 300);
     }
 }
 
@@ -151,7 +151,7 @@ fn runge_kutta() {
     for name in ["double_pendulum", "tree", "stack", "mocap"] {
         let mut m = model(name);
         *m.edit().opt.integrator = integrator::RK4;
-        allocates_nothing(name, &m, 300);
+        check_allocations(name, &m, 300);
     }
 }
 
@@ -161,7 +161,7 @@ fn every_integrator_with_everything_in_the_zoo() {
         for id in integrator::EULER..=integrator::DISCRETE {
             let mut m = m.clone();
             *m.edit().opt.integrator = id;
-            allocates_nothing(&format!("{name}, integrator {id}"), &m, 5);
+            check_allocations(&format!("{name}, integrator {id}"), &m, 5);
         }
     }
 }
@@ -179,7 +179,7 @@ fn reset() {
 fn automatic_reset() {
     let mut m = model("ball_drop");
     m.edit().opt.gravity[2] = -1e12;
-    allocates_nothing("a simulation that breaks", &m, 50);
+    check_allocations("a simulation that breaks", &m, 50);
 }
 
 #[test]

@@ -46,7 +46,7 @@ fn found(folder: &Path, arguments: &[&str]) -> Vec<(String, String)> {
 }
 
 #[test]
-fn no_lab_that_is_well_is_said_to_go_wrong() {
+fn no_correct_lab_is_reported_to_break() {
     const SILENT: [&str; 6] =
         ["energy-grows", "damper-pushes", "past-limit", "passes-through", "sinks-in", "solver-stops-early"];
     let grows = |list: Vec<(String, String)>| {
@@ -70,7 +70,7 @@ fn no_lab_that_is_well_is_said_to_go_wrong() {
 }
 
 #[test]
-fn a_lab_that_shows_its_energy_is_watched_as_well() {
+fn a_lab_that_displays_its_energy_is_monitored_too() {
     let link =
         "<body><joint axis='0 1 0'/><geom type='capsule' fromto='0 0 0 .4 0 0' size='.03' mass='.5'/></body>";
     let folder = tempfile::tempdir().unwrap();

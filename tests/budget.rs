@@ -4,9 +4,9 @@
 
 #![allow(clippy::unwrap_used)]
 
-use crate::support::{check_text, codes, compile, workspace};
+use crate::support::{check_text, codes, compile, thread_time, workspace};
 use labspec::bind::scene::Models;
-use labspec::check::{self, CheckLevel, Checked, Tried};
+use labspec::check::{self, CheckLevel, Checked, Coverage};
 use labspec::lint::ModelFolder;
 use labspec::lint::load_lesson;
 use labspec::source::SourceFile;
@@ -17,12 +17,6 @@ use std::time::Duration;
 
 /// The processor time of a check in these tests, with few compiler optimizations.
 const LONGEST: Duration = Duration::from_secs(60);
-
-/// The processor time of this thread, if known.
-fn used() -> Option<Duration> {
-    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
-    text.split(' ').next()?.parse().ok().map(Duration::from_nanos)
-}
 
 /// A pendulum, 1000 steps in 10 s.
 const PENDULUM: &str = "<mujoco><option timestep='.01'/><worldbody><body><joint name='swing' type='hinge' axis='0 1 0'/><geom size='.1' pos='.5 0 0' mass='1'/></body></worldbody></mujoco>";
@@ -36,16 +30,16 @@ fn check_lab(xml: &str, more: Value) -> Checked {
     for (key, value) in more.as_object().unwrap() {
         lab[key] = value.clone();
     }
-    let before = used();
+    let before = thread_time();
     let checked = check_text("lab.md", &format!("```lab simlab\n{lab}\n```\n"));
-    if let (Some(before), Some(after)) = (before, used()) {
+    if let (Some(before), Some(after)) = (before, thread_time()) {
         println!("{:?}", after - before);
         assert!(after - before < LONGEST, "{:?}", after - before);
     }
     checked
 }
 
-fn tried(checked: &Checked) -> Tried {
+fn coverage(checked: &Checked) -> Coverage {
     checked.labs[0].tried.clone().unwrap()
 }
 
@@ -64,7 +58,7 @@ fn the_first_throw_of_a_controller_ends_the_run() {
             PENDULUM,
             json!({"controller": controller, "controls": [{"label": "g", "set": "model.opt.gravity[2]", "min": -10, "max": -1, "value": -9}]}),
         );
-        let t = tried(&checked);
+        let t = coverage(&checked);
         assert_eq!((t.runs, t.skipped, t.covered, t.broke), (1, 2, 0.0, true), "{controller}: {t:?}");
         assert_eq!(t.ended.as_deref(), Some("frozen after 0 of 10 s"));
         assert_eq!(codes(&checked).len(), 1, "{:?}", messages(&checked));
@@ -72,7 +66,7 @@ fn the_first_throw_of_a_controller_ends_the_run() {
     // Errors that occur later are reported as well, with the time that was covered.
     let checked =
         check_lab(PENDULUM, json!({"controller": format!("if (data.time > 3.995) {{ {THROWS} }}")}));
-    assert_eq!(tried(&checked).ended.as_deref(), Some("frozen after 4 of 10 s"));
+    assert_eq!(coverage(&checked).ended.as_deref(), Some("frozen after 4 of 10 s"));
 }
 
 #[test]
@@ -81,24 +75,24 @@ fn a_setup_that_does_not_end() {
         PENDULUM,
         json!({"setup": "let n = 1; while (n > 0) n++", "readouts": [{"label": "t", "expr": "data.time"}]}),
     );
-    assert_eq!(tried(&checked).covered, 0.0);
+    assert_eq!(coverage(&checked).covered, 0.0);
     assert_eq!(codes(&checked), ["too-many-steps"], "{:?}", messages(&checked));
 }
 
 #[test]
-fn steps_in_programs_cost_what_steps_cost() {
+fn steps_in_programs_have_the_cost_of_steps() {
     let steps = "for (let i = 0; i < 1e6; i++) mj.mj_step(model, data)";
     let checked = check_lab(PENDULUM, json!({"controller": steps}));
     assert_eq!(codes(&checked), ["too-many-steps"], "{:?}", messages(&checked));
     let checked = check_lab(PENDULUM, json!({"controls": [{"type": "button", "label": "On", "run": steps}]}));
     assert_eq!(count(&checked, "too-many-steps"), 1, "{:?}", messages(&checked));
     // Unchanged, with the button, with a perturbation, and for a long time.
-    assert_eq!((tried(&checked).runs, tried(&checked).covered), (4, 10.0));
+    assert_eq!((coverage(&checked).runs, coverage(&checked).covered), (4, 10.0));
     let readout = format!("(() => {{ {steps}; return data.time }})()");
     let checked = check_lab(PENDULUM, json!({"readouts": [{"label": "t", "expr": readout}]}));
     assert_eq!(count(&checked, "too-many-steps"), 1, "{:?}", messages(&checked));
     // The readout is not evaluated again, so the run continues.
-    assert_eq!(tried(&checked).covered, 10.0);
+    assert_eq!(coverage(&checked).covered, 10.0);
 }
 
 #[test]
@@ -108,7 +102,7 @@ fn ten_traces_that_do_not_end() {
         .collect();
     let checked = check_lab(PENDULUM, json!({"readouts": readouts}));
     assert_eq!(count(&checked, "too-many-steps"), 10, "{:?}", messages(&checked));
-    assert_eq!((tried(&checked).runs, tried(&checked).covered), (1, 10.0));
+    assert_eq!((coverage(&checked).runs, coverage(&checked).covered), (1, 10.0));
 }
 
 #[test]
@@ -119,11 +113,11 @@ fn a_hundred_sliders_with_a_slow_loop() {
             .collect()
     };
     let checked = check_lab(PENDULUM, json!({"controls": controls("2e5")}));
-    let t = tried(&checked);
+    let t = coverage(&checked);
     assert!(t.runs > 1 && t.runs + t.skipped == 201, "{t:?}");
     // Each of these alone exceeds the limit; the run does not reach its start.
     let checked = check_lab(PENDULUM, json!({"controls": controls("1e9")}));
-    let t = tried(&checked);
+    let t = coverage(&checked);
     assert_eq!((t.runs, t.skipped, t.covered), (1, 200, 0.0), "{t:?}");
 }
 
@@ -135,7 +129,7 @@ fn two_thousand_balls_in_one_place() {
     }
     xml.push_str("</worldbody></mujoco>");
     let checked = check_lab(&xml, json!({"stopAt": 20}));
-    let t = tried(&checked);
+    let t = coverage(&checked);
     println!("{t:?}");
     assert!(t.covered < 1.0 && t.ended.unwrap().starts_with("first "));
     assert!(!codes(&checked).contains(&"simulation-diverges"), "{:?}", messages(&checked));
@@ -160,7 +154,7 @@ fn a_thousand_sensors_of_four_million_pairs() {
         side("b", 5.0)
     );
     let checked = check_lab(&xml, json!({"readouts": [{"label": "d", "expr": "data.sensordata[0]"}]}));
-    let t = tried(&checked);
+    let t = coverage(&checked);
     // Sensors for the same pairs start with the best distance so far, so that some steps fit into the budget.
     assert!(t.covered < 0.1, "{t:?}");
     assert!(t.ended.unwrap().starts_with("first 0"));
@@ -175,13 +169,13 @@ fn a_grid_of_a_million_cells_ends() {
         <body pos='0 0 .9'><freejoint/><geom type='ellipsoid' size='600 600 1'/></body>
         </worldbody></mujoco>";
     let checked = check_lab(xml, json!({"readouts": [{"label": "z", "expr": "data.qpos[2]"}]}));
-    let t = tried(&checked);
+    let t = coverage(&checked);
     println!("{t:?}");
     assert!(t.covered < 0.1 && t.ended.unwrap().starts_with("first 0"));
 }
 
 #[test]
-fn iterations_without_number_end() {
+fn iterations_with_nan_end() {
     let boxes = |option: &str| {
         let mut xml = format!("<mujoco><option {option}/><worldbody><geom type='plane' size='1 1 1'/>");
         for i in 0..8 {
@@ -197,17 +191,17 @@ fn iterations_without_number_end() {
         let many = format!(
             "solver='{solver}' tolerance='0' ls_tolerance='0' iterations='1000000000' ls_iterations='1000000000' noslip_iterations='1000000000' noslip_tolerance='0' ccd_iterations='1000000000' sdf_iterations='1000000000'"
         );
-        let t = tried(&check_lab(&boxes(&many), json!({})));
+        let t = coverage(&check_lab(&boxes(&many), json!({})));
         println!("{solver} {t:?}");
         assert!(t.covered == t.wanted || t.ended.unwrap().starts_with("first "), "{solver}");
     }
     let setup = "model.opt.tolerance = 0; model.opt.noslip_tolerance = 0; model.opt.noslip_iterations = 1e9; model.opt.iterations = 1e9";
-    let t = tried(&check_lab(&boxes(""), json!({"setup": setup})));
+    let t = coverage(&check_lab(&boxes(""), json!({"setup": setup})));
     assert!(t.covered == t.wanted || t.ended.unwrap().starts_with("first "));
 }
 
 #[test]
-fn a_lab_is_run_for_as_long_as_it_is_looked_at() {
+fn a_lab_runs_for_the_time_that_a_student_watches() {
     let late = |t: f64| json!(format!("if (data.time > {t}) {{ data.qvel[0] = 1e11 }}"));
     for (more, t, found) in [
         (json!({}), 5.01, true),
@@ -230,13 +224,13 @@ fn a_lab_is_run_for_as_long_as_it_is_looked_at() {
             "{more} {t}: {:?}",
             messages(&checked)
         );
-        let t = tried(&checked);
+        let t = coverage(&checked);
         assert_eq!((t.covered, t.ended, t.broke), (t.wanted, None, found), "{more}");
     }
 }
 
 #[test]
-fn everything_that_is_shown_is_looked_at() {
+fn every_display_is_checked() {
     let readout = |expr: &str| json!({"readouts": [{"label": "x", "expr": expr}]});
     let trace = |expr: &str| json!({"plots": [{"traces": [{"label": "x", "expr": expr}]}]});
     for (lab, expected) in [
@@ -256,7 +250,7 @@ fn everything_that_is_shown_is_looked_at() {
 }
 
 #[test]
-fn gaps_that_are_meant_are_silent() {
+fn intended_gaps_are_not_reported() {
     let trace = json!([{"traces": [{"label": "x", "expr": "ctx.x"}]}]);
     // Until a button is pressed, or until a routine reports its end.
     let checked = check_lab(
@@ -289,7 +283,7 @@ fn with_each_setting_of_a_control() {
     assert_eq!(codes(&checked), ["shows-infinite"]);
     assert!(checked.findings[0].message.contains("with \"k\" at 0"), "{:?}", messages(&checked));
     // Unchanged and at both ends of the slider; with a perturbation, moved during the run, and for a long time.
-    assert_eq!((tried(&checked).runs, tried(&checked).skipped), (6, 0));
+    assert_eq!((coverage(&checked).runs, coverage(&checked).skipped), (6, 0));
 }
 
 #[test]
@@ -297,7 +291,7 @@ fn every_warning_of_the_engine_is_a_finding() {
     let checked =
         check_lab(PENDULUM, json!({"setup": "model.body_mass[1] = -1; model.body_inertia.fill(-1)"}));
     assert!(codes(&checked).contains(&"engine-warning"), "{:?}", messages(&checked));
-    assert!(tried(&checked).broke);
+    assert!(coverage(&checked).broke);
 }
 
 /// No real lesson exceeds the limit, and none displays values that a student cannot read.

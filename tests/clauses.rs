@@ -270,7 +270,7 @@ fn file(case: &str) -> (&'static str, String) {
 }
 
 #[test]
-fn every_clause_is_told_and_what_comes_close_is_not() {
+fn every_clause_is_reported_and_similar_text_is_not() {
     let mut faults = Vec::new();
     for clause in CLAUSES {
         let Clause { says, code, wrong, right } = clause;

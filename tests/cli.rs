@@ -116,7 +116,7 @@ fn verify_shows_every_measure() {
 }
 
 #[test]
-fn what_cannot_run_says_why() {
+fn a_run_that_is_not_possible_states_the_reason() {
     let mut all = String::new();
     for arguments in [
         &["check", "nowhere.md"][..],

@@ -94,7 +94,7 @@ fn a_run_that_breaks_is_a_finding() {
 }
 
 #[test]
-fn plan_gives_reasons() {
+fn plan_prints_reasons() {
     snapshot("plan", stdout_of(&["plan", "fall.json", "--no-run"]));
     let plan = json_of(&["plan", "clean.md#1", "--format", "json"]);
     assert_eq!(keys(&plan)[..5], ["schemaVersion", "report", "reads", "writes", "stages"]);
@@ -148,7 +148,7 @@ fn plan_measures() {
 
 /// An additional reader adds stages: those that the plan of a lab with this reader keeps.
 #[test]
-fn plan_tells_what_a_reader_brings() {
+fn plan_prints_the_effect_of_a_reader() {
     let folder = folder();
     let plan = |arguments: &[&str]| -> Value {
         let all = [&["plan", "fall.json", "--no-run", "--format", "json"], arguments].concat();

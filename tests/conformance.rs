@@ -7,7 +7,7 @@
 
 use crate::needs::needs;
 use crate::recorded::compare_with_recording;
-use crate::standing::{Exception, Standing};
+use crate::standing::{Exception, ModelResults};
 use crate::support::{models, read_json, workspace};
 use crate::zoo::ORDER;
 use std::process::Command;
@@ -54,7 +54,7 @@ const FOLDERS: [(&str, &str); 3] =
     [("conformance", "conformance/models"), ("corpus", "corpus/models"), ("bench", "bench")];
 
 /// Runs a recorder with the Python that has the library, if there is one.
-fn ask(recorder: &str, arguments: &[&str]) -> Option<tempfile::TempDir> {
+fn run_recorder(recorder: &str, arguments: &[&str]) -> Option<tempfile::TempDir> {
     let python = std::env::var_os("LABSPEC_ORACLE")?;
     let folder = tempfile::tempdir().unwrap();
     let script = workspace().join("tests/golden").join(recorder).canonicalize().unwrap();
@@ -69,10 +69,10 @@ fn every_shared_model_is_as_recorded() {
     if !needs("../shared/conformance") {
         return;
     }
-    let fresh = ask("conformance.py", &["--states", "8", "--out", "."]);
+    let fresh = run_recorder("conformance.py", &["--states", "8", "--out", "."]);
     let stored = workspace().join("tests/golden/conformance");
     let recordings = fresh.as_ref().map_or(stored.as_path(), |folder| folder.path());
-    let mut standing = Standing::default();
+    let mut standing = ModelResults::default();
     for (kind, folder) in FOLDERS {
         for name in models(&shared.join(folder)) {
             let recording = read_json(&recordings.join(kind).join(format!("{name}.json")));
@@ -90,8 +90,9 @@ fn every_shared_model_is_as_recorded() {
 fn random_models_are_as_the_library_has_them() {
     let seed = std::env::var("LABSPEC_SEED").unwrap_or_else(|_| "1".into());
     let arguments = [".", "--count", &RANDOM.to_string(), "--seed", &seed];
-    let folder = ask("menagerie.py", &arguments).unwrap_or_else(|| panic!("LABSPEC_ORACLE names no Python"));
-    let mut standing = Standing::default();
+    let folder =
+        run_recorder("menagerie.py", &arguments).unwrap_or_else(|| panic!("LABSPEC_ORACLE names no Python"));
+    let mut standing = ModelResults::default();
     for name in models(folder.path()) {
         let at = |ending: &str| folder.path().join(format!("{name}.{ending}"));
         standing.add(format!("random {name}"), compare_with_recording(&at("xml"), &read_json(&at("json"))));

@@ -49,7 +49,7 @@ pub(super) fn checked(name: &str, text: &str, models: &Models, depth: CheckLevel
 }
 
 /// Warnings and errors, and findings that the settings of the course make an error (`specs/labspec.toml`), one line each.
-pub(super) fn complaints(checked: &Checked) -> Vec<String> {
+pub(super) fn list_findings(checked: &Checked) -> Vec<String> {
     let counted = checked.findings.iter().filter(|f| counts(f));
     counted
         .map(|f| {
@@ -74,14 +74,14 @@ fn the_settings_of_the_course_are_those_that_are_tested() {
 
 /// Every answer is verified or computed, every number with a unit is claimed and right, and nothing is reported.
 #[test]
-fn everything_that_the_course_says_is_true() {
+fn every_claim_of_the_course_is_true() {
     let models = models();
     let start = Instant::now();
     let mut questions = 0;
     let mut quotes = 0;
     for lesson in course() {
         let checked = checked(&lesson.name, &lesson.text, &models, CheckLevel::FULL);
-        assert_eq!(complaints(&checked), [] as [&str; 0], "{}", lesson.name);
+        assert_eq!(list_findings(&checked), [] as [&str; 0], "{}", lesson.name);
         let mut asked = 0;
         for claim in &checked.claims {
             for quote in &claim.judgement.quotes {

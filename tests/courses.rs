@@ -94,7 +94,7 @@ fn findings_are_printed_as_lessons_are_done() {
 }
 
 #[test]
-fn without_a_cache_nothing_is_kept() {
+fn without_a_cache_no_file_is_stored() {
     let (folder, cache_folder) = (folder(), tempfile::tempdir().unwrap());
     let files = || std::fs::read_dir(cache_folder.path()).unwrap().count();
     stdout_and_code(folder.path(), Some(cache_folder.path()), &["check", "clean.md", "--no-cache"]);
@@ -110,7 +110,7 @@ fn without_a_cache_nothing_is_kept() {
 
 /// After a model changes or cache entries are damaged, the report is that of a check without a cache.
 #[test]
-fn what_is_kept_is_never_trusted_beyond_its_bytes() {
+fn cached_results_are_valid_only_for_equal_bytes() {
     let (folder, cache_folder) = (folder(), tempfile::tempdir().unwrap());
     let arguments = ["check", "clean.md", "wrong.md", "fall.json", "broken/lesson.md"];
     let same = || {
@@ -176,7 +176,7 @@ impl Drop for Running {
 /// A report, another one after a change, and the end by Ctrl-C.
 #[cfg(unix)]
 #[test]
-fn watching_checks_again_what_changed() {
+fn watching_checks_changed_files_again() {
     use std::io::{BufRead, BufReader};
     use std::process::Stdio;
     use std::sync::mpsc;

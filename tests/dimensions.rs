@@ -25,7 +25,7 @@ fn word(measure: &Measure) -> String {
 }
 
 #[test]
-fn every_expression_has_a_dimension_or_none_that_is_known() {
+fn every_expression_has_a_dimension_or_is_unknown() {
     if !needs("../shared/corpus") {
         return;
     }
@@ -114,7 +114,7 @@ fn readout(label: &str, expr: &str) -> Vec<String> {
 }
 
 #[test]
-fn units_that_contradict_are_told() {
+fn contradicting_units_are_reported() {
     for (label, expr, unit) in [
         ("x (mm)", "data.qpos[0]", "m"),
         ("x (m)", "1000 * data.qpos[0]", "mm"),
@@ -146,7 +146,7 @@ fn units_that_contradict_are_told() {
 }
 
 #[test]
-fn what_may_be_right_is_not_told() {
+fn possibly_correct_units_are_not_reported() {
     for (label, expr) in [
         ("x (mm)", "1000 * data.qpos[0]"),
         ("x (m)", "data.qpos[0] - 0.3"),
@@ -178,7 +178,7 @@ fn what_may_be_right_is_not_told() {
 }
 
 #[test]
-fn variables_and_loops_keep_what_is_stored() {
+fn variables_and_loops_keep_dimensions() {
     for (setup, expr, found) in [
         ("ctx.x = data.qpos[0]", "ctx.x", true),
         ("ctx.x = null", "ctx.x", false),
@@ -199,7 +199,7 @@ fn variables_and_loops_keep_what_is_stored() {
 /// Lists, strings, functions and loops preserve the dimension of a quantity; if it is mixed with others,
 /// the dimension is uncertain.
 #[test]
-fn lists_texts_and_functions_keep_what_they_are_given() {
+fn lists_texts_and_functions_keep_dimensions() {
     let mut wrong = Vec::new();
     for (expr, found) in [
         ("[data.time][0]", true),
@@ -233,7 +233,7 @@ fn lists_texts_and_functions_keep_what_they_are_given() {
 }
 
 #[test]
-fn controls_are_held_against_what_they_set() {
+fn controls_are_compared_with_the_fields_that_they_set() {
     let slider = |unit: &str, key: &str, text: &str| {
         reported(&format!(
             "\"controls\": [{}]",
@@ -269,7 +269,7 @@ fn controls_are_held_against_what_they_set() {
 }
 
 #[test]
-fn sums_of_what_cannot_be_added_are_told() {
+fn sums_of_different_dimensions_are_reported() {
     for (expr, count) in [
         ("data.qpos[0] + data.time", 1),
         ("data.qpos[0] > data.qvel[0]", 1),
@@ -285,7 +285,7 @@ fn sums_of_what_cannot_be_added_are_told() {
 }
 
 #[test]
-fn labels_that_name_another_are_told() {
+fn labels_that_name_another_quantity_are_reported() {
     let both = |readouts: &[(&str, &str)]| {
         let list: Vec<_> = readouts.iter().map(|(l, e)| serde_json::json!({"label": l, "expr": e})).collect();
         reported(&format!("\"readouts\": {}", serde_json::json!(list)))

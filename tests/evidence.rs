@@ -166,7 +166,7 @@ fn a_measure_without_numbers_says_how_many_are_missing() {
 }
 
 #[test]
-fn what_is_decided_later_is_decided() {
+fn late_decisions_count() {
     for (measure, holds) in [
         ("final(Math.sqrt(data.time - 0.5) + data.qpos[2])", "m > 0.7"),
         ("last(Math.sqrt(data.time - 0.5) > data.qpos[2])", "m > 0.9"),
@@ -193,7 +193,7 @@ fn what_is_decided_later_is_decided() {
 }
 
 #[test]
-fn a_range_is_that_of_what_was_read() {
+fn a_range_covers_the_values_that_were_read() {
     let over = |range: Json, runs: Json| {
         choice("run.z < 0.4", &json!({"over": range, "runs": runs, "options": ["run.z < 0.4", "run.z > 5"]}))
     };
@@ -219,7 +219,7 @@ fn a_range_is_that_of_what_was_read() {
 }
 
 #[test]
-fn a_search_sees_a_thin_band_and_says_where_it_looked() {
+fn a_search_finds_a_narrow_band_and_states_its_range() {
     // The condition fails in a band of a hundredth of the range, between two of the values that are tried first.
     let find = |condition: &str| {
         json!({"find": {"limit": {"largest": "g", "from": -20, "to": -2, "while": condition, "tol": 1e-3}},
@@ -239,7 +239,7 @@ fn checked_reason(checked: &Checked) -> String {
 }
 
 #[test]
-fn a_closed_form_is_known_well_and_of_time_alone() {
+fn a_closed_form_depends_on_time_alone_and_has_a_small_uncertainty() {
     let spring = |h: &str, form: &str| {
         let xml = format!(
             "<mujoco><option timestep='{h}' gravity='0 0 0'><flag contact='disable'/></option><worldbody><body><joint name='s' type='slide' axis='1 0 0' stiffness='100'/><geom size='0.1' mass='1'/></body></worldbody><keyframe><key qpos='0.1'/></keyframe></mujoco>"
@@ -264,7 +264,7 @@ fn a_closed_form_is_known_well_and_of_time_alone() {
 }
 
 #[test]
-fn a_label_of_several_plots_is_none_of_them() {
+fn a_label_of_several_plots_is_ambiguous() {
     let mut two = lab();
     two["plots"] = json!([
         {"traces": [{"label": "x", "expr": "data.qpos[2]"}]}, {"traces": [{"label": "x", "expr": "data.qvel[2]"}]}
@@ -286,7 +286,7 @@ fn a_label_of_several_plots_is_none_of_them() {
 /// An object with errors may have another meaning than intended, so it is not verified. A run is
 /// evidence only for what it does.
 #[test]
-fn what_has_mistakes_is_not_verified() {
+fn an_object_with_errors_is_not_verified() {
     assert_eq!(verdict(&choice("z < 0.1", &json!({}))), Verdict::Verified);
     for more in [
         json!({"says": "0.44 s"}),
@@ -304,7 +304,7 @@ fn what_has_mistakes_is_not_verified() {
 
 /// An unknown unit, and a unit that belongs to another quantity, in all uses of the number in the text.
 #[test]
-fn a_unit_is_compared_or_said_to_be_open() {
+fn a_unit_is_compared_or_reported_as_not_compared() {
     let asked = |unit: &str, value: &str| {
         let verify =
             json!({"lab": "#1", "runs": {"run": {"until": 1}}, "measure": measures(), "value": value});

@@ -20,7 +20,7 @@ fn file(path: &str) -> String {
 }
 
 #[test]
-fn examples_print_what_the_guide_shows() {
+fn examples_print_the_output_of_the_guide() {
     accessor::main().unwrap();
     function::main().unwrap();
     lab::main().unwrap();

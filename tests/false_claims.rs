@@ -16,9 +16,9 @@ mod spaces;
 mod values;
 
 use crate::support::for_each;
+use crate::support::random::Random;
 use conditions::MeasuredNumber;
 use lesson::{Claim, Outcome, Truth};
-use random::Random;
 use scenes::Scene;
 use std::collections::BTreeMap;
 use std::fmt::Write;

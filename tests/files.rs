@@ -219,7 +219,7 @@ fn fmt_keeps_the_names_of_functions() {
 }
 
 #[test]
-fn fmt_goes_on_behind_a_file_that_it_cannot_read() {
+fn fmt_continues_after_an_unreadable_file() {
     let folder = folder();
     std::fs::write(folder.path().join("a.md"), b"latin-1: \xe9").unwrap();
     std::fs::write(folder.path().join("b.md"), long_lesson(100)).unwrap();

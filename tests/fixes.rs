@@ -150,7 +150,7 @@ fn try_all(case: &Case) -> (usize, Vec<String>) {
     (with_fix.len(), faults.collect())
 }
 
-fn all_hold(cases: impl IntoIterator<Item = Case>, at_least: usize) {
+fn check_fixes(cases: impl IntoIterator<Item = Case>, at_least: usize) {
     let (mut tried, mut wrong) = (0, Vec::new());
     for case in cases {
         let (n, faults) = try_all(&case);
@@ -175,13 +175,13 @@ fn fixes_of_the_wrong_lessons_hold() {
     let case = |p: PathBuf| {
         Case::new(p.file_name().unwrap().to_str().unwrap(), &std::fs::read_to_string(&p).unwrap())
     };
-    all_hold(lessons.into_iter().map(case), 30);
+    check_fixes(lessons.into_iter().map(case), 30);
 }
 
 #[test]
 fn fixes_of_the_bad_examples_of_rules_hold() {
     let examples = rules::LESSONS.iter().map(|rule| Case::new(rule.bad.name(), &rule.bad.text()));
-    all_hold(examples, 10);
+    check_fixes(examples, 10);
 }
 
 #[test]
@@ -205,7 +205,7 @@ fn fixes_of_real_lessons_hold() {
             cases.push(Case { name, text: std::fs::read_to_string(&path).unwrap(), models: models.clone() });
         }
     }
-    all_hold(cases, 10);
+    check_fixes(cases, 10);
 }
 
 /// Two balls and an arm, with names of every kind.
@@ -331,7 +331,7 @@ const STATEMENTS: [&str; 36] = [
 fn fixes_of_the_language_hold_inside_of_json() {
     let expressions = EXPRESSIONS.iter().map(|e| lab(e, "data.qvel[0] = 1"));
     let statements = STATEMENTS.iter().map(|s| lab("data.time", s));
-    all_hold(expressions.chain(statements), 35);
+    check_fixes(expressions.chain(statements), 35);
 }
 
 /// The source texts in the tests of the language's errors, as far as they can be extracted.
@@ -352,7 +352,7 @@ fn fixes_of_the_mistakes_of_the_language_hold() {
         }
     }
     assert!(cases.len() > 100, "{}", cases.len());
-    all_hold(cases, 40);
+    check_fixes(cases, 40);
 }
 
 /// A correct lab and a correct quiz, in every layout in which JSON can be written.
@@ -415,7 +415,7 @@ fn a_broken_block_is_still_checked() {
 
 /// Errors in labs that run, whose fixes change the displayed values: none of these fixes is applied without a request.
 #[test]
-fn repairs_that_change_what_a_lab_shows_are_guesses() {
+fn repairs_that_change_displays_are_guesses() {
     let statements = [
         "data.qvel[6] == 2",
         "data.qvel[6] === 2",

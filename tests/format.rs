@@ -6,7 +6,7 @@
 use crate::javascript::snapshot;
 use crate::needs::needs;
 use crate::program::{folder, run_in};
-use crate::support::workspace;
+use crate::support::{sorted_files, workspace};
 use labspec::bind::scene::Models;
 use labspec::bind::{ModelNames, Scope, World};
 use labspec::format::{format, modernized};
@@ -19,13 +19,6 @@ use labspec_core::{self as core, Data, Model, reflect};
 use labspec_expr::{Compiler, Context, Globals, Program, Type, Value};
 use std::path::{Path, PathBuf};
 
-fn files(folder: &Path) -> Vec<PathBuf> {
-    let mut files: Vec<PathBuf> =
-        std::fs::read_dir(folder).into_iter().flatten().map(|e| e.unwrap().path()).collect();
-    files.sort();
-    files
-}
-
 /// Our lessons, and those of the corpus if it exists, each with its models.
 fn lessons() -> Vec<(PathBuf, ModelFolder)> {
     let (specs, corpus) = (workspace().join("specs"), workspace().join("../shared/corpus"));
@@ -37,7 +30,7 @@ fn lessons() -> Vec<(PathBuf, ModelFolder)> {
     for (root, parts) in roots {
         let models = ModelFolder::open(&root.join("models")).unwrap();
         for part in parts {
-            all.extend(files(&root.join(part)).into_iter().map(|path| (path, models.clone())));
+            all.extend(sorted_files(&root.join(part)).into_iter().map(|path| (path, models.clone())));
         }
     }
     all
@@ -169,7 +162,7 @@ fn names_and_layout_mean_the_same_on_random_states() {
 }
 
 #[test]
-fn the_command_changes_files_or_says_what_would_change() {
+fn the_command_changes_files_or_lists_the_changes() {
     let folder = folder();
     let lesson = folder.path().join("clean.md");
     let before = std::fs::read_to_string(&lesson).unwrap();

@@ -139,7 +139,7 @@ fn sarif_schema() -> Value {
 }
 
 #[test]
-fn sarif_is_what_its_standard_asks_for() {
+fn sarif_follows_its_schema() {
     let folder = course();
     let log: Value = serde_json::from_str(&form(folder.path(), "sarif")).unwrap();
     let schemas = BTreeMap::from([("sarif".to_string(), sarif_schema())]);
@@ -414,7 +414,7 @@ fn every_lesson_of_ours_has_its_forms() {
 
 /// The schema of settings accepts what the program accepts, and refuses what it refuses.
 #[test]
-fn settings_have_a_schema_that_takes_what_is_right() {
+fn the_schema_of_settings_accepts_valid_settings() {
     let schema = read_json(&workspace().join("docs/schema/labspec-toml.json"));
     let schemas = BTreeMap::from([("settings".to_string(), schema)]);
     let good = json!({"select": ["all"], "widgets": ["playground"], "paths": [{"match": ["drafts/**"], "deny": ["warnings"]}]});

@@ -15,12 +15,12 @@ const SCENES: usize = 240;
 const STEPS: usize = 300;
 const SHORTER: usize = 100;
 /// The thickness up to which a box counts as a wall, m; its middle is at 1 m.
-const WALL: f64 = 0.03;
+const WALL_THICKNESS: f64 = 0.03;
 
 /// Random numbers, reproducible for a seed.
-struct Dice(u64);
+struct Random(u64);
 
-impl Dice {
+impl Random {
     /// A number from 0 up to 1 (splitmix64).
     fn part(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
@@ -54,9 +54,9 @@ const FLOOR: &str = "<geom type='plane' size='50 50 1'/>";
 
 fn scene(
     kind: &'static str,
-    r: &mut Dice,
+    r: &mut Random,
     steps: [f64; 2],
-    make: impl FnOnce(&mut Dice) -> [String; 4],
+    make: impl FnOnce(&mut Random) -> [String; 4],
 ) -> Scene {
     let step = r.over(steps[0], steps[1]);
     let method = r.one(&["Euler", "RK4", "implicit", "implicitfast", "discrete"]);
@@ -87,13 +87,13 @@ fn box_at(z: f64, half: f64, mass: f64) -> String {
 
 /// The scenes of a seed.
 fn scenes(seed: u64) -> Vec<Scene> {
-    let mut dice = Dice(seed);
+    let mut dice = Random(seed);
     let r = &mut dice;
     let none = String::new;
     let cart = |more: String| {
         format!("<body><joint name='j' type='slide' {more}/><geom size='.1' mass='1'/></body>")
     };
-    let make = |i: usize, r: &mut Dice| match i % 8 {
+    let make = |i: usize, r: &mut Random| match i % 8 {
         0 => scene("links that swing", r, [1e-3, 1.0], |r| {
             let n = 1 + (3.0 * r.part()) as usize;
             let body = links(n, r.over(0.1, 1.0), &format!("damping='{:.1e}'", r.over(1e-4, 1e-2)));
@@ -147,7 +147,7 @@ fn scenes(seed: u64) -> Vec<Scene> {
 
 /// The observations of a run.
 #[derive(Default)]
-struct Seen {
+struct Observations {
     warned: bool,
     reported: bool,
     /// The largest kinetic energy, J.
@@ -161,13 +161,16 @@ struct Seen {
 }
 
 /// Performs a run and observes it `STEPS` times; a watched run is monitored like the run of a lab.
-fn run(m: &Model, each: usize, watched: bool) -> Seen {
+fn run(m: &Model, each: usize, watched: bool) -> Observations {
     let mut d = Data::new(m);
     core::reset_data_keyframe(m, &mut d, m.keys().next().unwrap()).unwrap();
     core::forward(m, &mut d).unwrap();
     let mut scratch = Data::new(m);
     let mut watch = watched.then(|| watch::watch(m, &d, false));
-    let mut seen = Seen { ends: vec![[f64::INFINITY, f64::NEG_INFINITY]; 3 * m.nbody], ..Seen::default() };
+    let mut seen = Observations {
+        ends: vec![[f64::INFINITY, f64::NEG_INFINITY]; 3 * m.nbody],
+        ..Observations::default()
+    };
     for k in 0..=STEPS {
         for _ in 0..if k == 0 { 0 } else { each } {
             core::step(m, &mut d).unwrap();
@@ -208,7 +211,7 @@ enum Truth {
     Between,
 }
 
-fn truth(m: &Model, coarse: &Seen, fine: &Seen) -> Truth {
+fn truth(m: &Model, coarse: &Observations, fine: &Observations) -> Truth {
     if fine.warned || !fine.fastest.is_finite() {
         return Truth::Between;
     }
@@ -227,7 +230,8 @@ fn truth(m: &Model, coarse: &Seen, fine: &Seen) -> Truth {
         .fold(0.0, f64::max);
     // A limit, a wall and a floor must hold independent of the short steps, because they are soft in that run as well.
     let [past, deep] = [coarse.beyond, coarse.depth.max(fine.depth)];
-    let passed = m.geom_type[0] == geom::BOX && coarse.ends.iter().any(|[_, high]| *high > 1.0 + WALL);
+    let passed =
+        m.geom_type[0] == geom::BOX && coarse.ends.iter().any(|[_, high]| *high > 1.0 + WALL_THICKNESS);
     if faster > 10.0 || out > 1.0 || past > 0.5 || deep > 0.3 || passed {
         Truth::Wrong
     } else if faster < 1.5 && out < 0.3 && past < 0.25 && deep < 0.2 {
@@ -263,7 +267,7 @@ pub(crate) fn section() -> (String, Rates, Vec<String>) {
         if *opt.integrator != integrator::RK4 {
             *opt.integrator = integrator::EULER;
         }
-        let fine = if coarse.warned { Seen::default() } else { run(&m, SHORTER, false) };
+        let fine = if coarse.warned { Observations::default() } else { run(&m, SHORTER, false) };
         let truth = truth(&m, &coarse, &fine);
         if kinds.iter().all(|(kind, _)| *kind != scene.kind) {
             kinds.push((scene.kind, Rates::default()));

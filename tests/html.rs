@@ -37,7 +37,7 @@ fn parse(page: &str) -> Document<'_> {
 }
 
 /// The visible text of an element, with normalized spaces.
-fn seen(node: Node<'_, '_>) -> String {
+fn visible_text(node: Node<'_, '_>) -> String {
     let all: String = node.descendants().filter(Node::is_text).filter_map(|t| t.text()).collect();
     all.split_whitespace().collect::<Vec<_>>().join(" ")
 }
@@ -48,7 +48,7 @@ fn with_class<'a, 'i>(node: Node<'a, 'i>, class: &str) -> Vec<Node<'a, 'i>> {
 }
 
 /// Nothing is loaded, nothing runs, and every link leads to an element of the page.
-fn harmless(page: &str) {
+fn check_harmless(page: &str) {
     let tree = parse(page);
     let ids: Vec<&str> = tree.descendants().filter_map(|n| n.attribute("id")).collect();
     let unique: BTreeSet<&str> = ids.iter().copied().collect();
@@ -98,7 +98,7 @@ fn course() -> &'static (String, Value) {
 }
 
 #[test]
-fn every_question_stands_in_the_page_with_its_verdict() {
+fn the_page_contains_every_question_with_its_verdict() {
     let (page, report) = course();
     let tree = parse(page);
     let word = |claim: &Value| claim["answer"]["verdict"].as_str().unwrap_or("open").to_string();
@@ -109,15 +109,17 @@ fn every_question_stands_in_the_page_with_its_verdict() {
     let (mut questions, mut measures, mut quotes) = (0, 0, 0);
     for (section, lesson) in sections.iter().zip(lessons) {
         let file = lesson["file"].as_str().unwrap();
-        assert_eq!(seen(section.first_element_child().unwrap()), file.rsplit('/').next().unwrap());
+        assert_eq!(visible_text(section.first_element_child().unwrap()), file.rsplit('/').next().unwrap());
         let verdicts: BTreeMap<&str, String> = lesson["claims"]
             .as_array()
             .unwrap()
             .iter()
             .map(|c| (c["name"].as_str().unwrap(), word(c)))
             .collect();
-        let articles: BTreeMap<String, Node<'_, '_>> =
-            with_class(*section, "claim").into_iter().map(|a| (seen(with_class(a, "name")[0]), a)).collect();
+        let articles: BTreeMap<String, Node<'_, '_>> = with_class(*section, "claim")
+            .into_iter()
+            .map(|a| (visible_text(with_class(a, "name")[0]), a))
+            .collect();
         let read = load_lesson_file(&workspace().join(file), &models).unwrap();
         for quiz in &read.quizzes {
             for (n, question) in Quiz::numbered(quiz) {
@@ -125,12 +127,15 @@ fn every_question_stands_in_the_page_with_its_verdict() {
                 let name = format!("quiz {}, question {n}", quiz.id.as_ref().map_or("", |t| t.as_str()));
                 let article = articles.get(&name).unwrap_or_else(|| panic!("{file}: {name}"));
                 let expected = verdicts.get(name.as_str()).map_or("open", String::as_str);
-                assert!(seen(with_class(*article, "verdict")[0]).ends_with(expected), "{file}: {name}");
+                assert!(
+                    visible_text(with_class(*article, "verdict")[0]).ends_with(expected),
+                    "{file}: {name}"
+                );
                 // A formula of one letter is displayed as that letter.
                 let normal = |html: &str| {
                     plain(html).replace('$', "").split_whitespace().collect::<Vec<_>>().join(" ")
                 };
-                assert_eq!(seen(with_class(*article, "asked")[0]), normal(&question.q.value));
+                assert_eq!(visible_text(with_class(*article, "asked")[0]), normal(&question.q.value));
                 let QuestionKind::Choice { options, .. } = &question.kind else { continue };
                 let items: Vec<Node<'_, '_>> =
                     with_class(*article, "options")[0].children().filter(Node::is_element).collect();
@@ -138,10 +143,10 @@ fn every_question_stands_in_the_page_with_its_verdict() {
                 for (i, (item, option)) in items.iter().zip(options).enumerate() {
                     let keyed = question.right_option() == Some(i);
                     let text = format!("{}{}", normal(&option.value), if keyed { " key" } else { "" });
-                    assert_eq!(seen(item.first_element_child().unwrap()), text);
+                    assert_eq!(visible_text(item.first_element_child().unwrap()), text);
                     assert_eq!(item.attribute("class") == Some("key"), keyed);
                     if let Some(condition) = question.verify.as_ref().and_then(|v| v.options.get(i)) {
-                        let held = seen(with_class(*item, "condition")[0]);
+                        let held = visible_text(with_class(*item, "condition")[0]);
                         let is_stated = condition.value.trim() == "undecided" || held.contains("hold");
                         assert!(is_stated, "{file}: {name}: {held}");
                     }
@@ -154,7 +159,7 @@ fn every_question_stands_in_the_page_with_its_verdict() {
             let found =
                 articles.iter().find(|(title, _)| *title == name || title.starts_with(&format!("{name} ")));
             let article = *found.unwrap_or_else(|| panic!("{file}: {name}")).1;
-            let text = seen(article);
+            let text = visible_text(article);
             let rows = article.descendants().filter(|n| n.has_tag_name("tr"));
             let rows: Vec<Vec<String>> =
                 rows.map(|row| row.children().filter(Node::is_element).map(seen).collect()).collect();
@@ -190,7 +195,7 @@ fn every_question_stands_in_the_page_with_its_verdict() {
 #[test]
 fn the_page_of_a_course_loads_nothing_and_is_small() {
     let (page, _) = course();
-    harmless(page);
+    check_harmless(page);
     assert!(page.len() < 1_500_000, "{} bytes", page.len());
     let tree = parse(page);
     let pictures =
@@ -203,10 +208,10 @@ fn the_page_of_a_course_loads_nothing_and_is_small() {
 
 /// In dark mode, every colour of a picture is replaced by a suitable one.
 #[test]
-fn pictures_can_be_seen_in_the_dark() {
+fn pictures_are_visible_in_dark_mode() {
     let (page, _) = course();
     let tree = parse(page);
-    let style = seen(tree.descendants().find(|n| n.has_tag_name("style")).unwrap());
+    let style = visible_text(tree.descendants().find(|n| n.has_tag_name("style")).unwrap());
     let dark = style.split("prefers-color-scheme: dark").nth(1).unwrap();
     let inside =
         tree.descendants().filter(|n| n.tag_name().namespace() == Some("http://www.w3.org/2000/svg"));
@@ -231,14 +236,14 @@ fn the_same_course_gives_the_same_bytes() {
 
 /// The page does not depend on the location of the course.
 #[test]
-fn the_page_says_nothing_of_the_machine() {
+fn the_page_contains_no_path_of_the_machine() {
     let folder = folder();
     let whole = folder.path().canonicalize().unwrap();
     let absolute = page_of(&whole, &[whole.to_str().unwrap()]).0;
     let relative = page_of(&whole, &["."]).0;
     assert!(!absolute.contains(whole.to_str().unwrap()));
     assert_eq!(absolute, relative);
-    harmless(&absolute);
+    check_harmless(&absolute);
     for part in ["✗</span> refuted", "wrong.md", "unknown-field", "0.450 s", "in the baseline"] {
         assert_eq!(absolute.contains(part), part != "in the baseline", "{part}");
     }
@@ -284,7 +289,7 @@ fn text_of_lessons_is_text() {
         );
         std::fs::write(folder.path().join(format!("{i}.md")), text).unwrap();
         let (page, report) = page_of(folder.path(), &[&format!("{i}.md")]);
-        harmless(&page);
+        check_harmless(&page);
         assert!(page.len() < 400_000, "{} bytes", page.len());
         let tree = parse(&page);
         let asked: Vec<String> = with_class(tree.root(), "asked").into_iter().map(seen).collect();
@@ -294,7 +299,7 @@ fn text_of_lessons_is_text() {
 
 /// The numbers that the page lists as unclaimed are those that the rule reports.
 #[test]
-fn numbers_that_nothing_claims_are_those_of_the_rule() {
+fn unclaimed_numbers_are_those_of_the_rule() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::create_dir(folder.path().join("models")).unwrap();
     let numbers: Vec<String> = (1..=10).map(|n| format!("{n} m")).collect();
@@ -319,7 +324,7 @@ fn numbers_that_nothing_claims_are_those_of_the_rule() {
     assert_eq!(listed, ["11 m"]);
     // The answer counts as one more.
     assert_eq!(
-        seen(with_class(tree.root(), "whole")[0]),
+        visible_text(with_class(tree.root(), "whole")[0]),
         "Questions 1 of 1 have a check Numbers with units 11 of 12 are claimed"
     );
 }
@@ -335,14 +340,14 @@ fn formulas_are_read() {
         "explain": "<p>$\\tfrac12 m v^2 = m g d$, so it is $4.3 \\times 10^{-3}$ km/s.</p>"}]});
     std::fs::write(folder.path().join("a.md"), format!("# A fall\n\n```quiz\n{quiz}\n```\n")).unwrap();
     let (page, _) = page_of(folder.path(), &["a.md"]);
-    harmless(&page);
+    check_harmless(&page);
     let tree = parse(&page);
     let one = |class: &str| with_class(tree.root(), class)[0];
-    assert_eq!(seen(one("asked")), "It falls 0.442 s at g = 9.81 m/s2. How fast is it?");
+    assert_eq!(visible_text(one("asked")), "It falls 0.442 s at g = 9.81 m/s2. How fast is it?");
     let options: Vec<Node<'_, '_>> = one("options").children().filter(Node::is_element).collect();
-    let texts: Vec<String> = options.iter().map(|o| seen(o.first_element_child().unwrap())).collect();
+    let texts: Vec<String> = options.iter().map(|o| visible_text(o.first_element_child().unwrap())).collect();
     assert_eq!(texts, ["v = \\sqrt{2gd} key", "v ≈ v0 e-t/τ", "for $5 and $6"]);
-    assert_eq!(seen(one("explained")), "\\tfrac12 m v^2 = m g d, so it is 4.3×10-3 km/s.");
+    assert_eq!(visible_text(one("explained")), "\\tfrac12 m v^2 = m g d, so it is 4.3×10-3 km/s.");
     let all = |name: &str| -> Vec<String> {
         tree.descendants().filter(|n| n.has_tag_name(name)).map(seen).collect()
     };
@@ -382,7 +387,7 @@ fn runs_have_their_settings_beside_them() {
     }
     let record = folder.path().join("record.json");
     let (page, _) = page_of(folder.path(), &["a.md", "--record", record.to_str().unwrap()]);
-    harmless(&page);
+    check_harmless(&page);
     let rows = |page: &str| -> (String, Vec<Vec<String>>) {
         let tree = parse(page);
         let of = |t: &Node<'_, '_>| t.descendants().find(|n| n.has_tag_name("caption")).map(seen);

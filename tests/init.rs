@@ -59,7 +59,7 @@ fn shells_complete_every_command() {
 
 /// The workflow, the action and the hook use existing commands and options of the program.
 #[test]
-fn what_calls_the_program_names_what_there_is() {
+fn callers_of_the_program_use_existing_commands() {
     let read = |name: &str| std::fs::read_to_string(workspace().join(name)).unwrap();
     let help = run(&["check", "--help"]).stdout;
     for (file, words) in

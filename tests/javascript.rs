@@ -6,7 +6,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use crate::needs::needs;
-use crate::support::{model_text, workspace};
+use crate::support::{model_text, sorted_files, workspace};
 use labspec::bind::scene::Models;
 use labspec::bind::{ControlProgram, ModelNames, Programs, Scope, World};
 use labspec::lint::ModelFolder;
@@ -160,12 +160,12 @@ impl Host for Recorder<'_> {
 
 /// The requests to node for one lab.
 #[derive(Default)]
-struct Work {
+struct LabRequests {
     states: Vec<Json>,
     jobs: Vec<Json>,
 }
 
-impl Work {
+impl LabRequests {
     /// Adds a source text with one state; the session is not changed.
     fn add(&mut self, session: &Session<'_>, globals: &Globals, at: &Job<'_>, given: Option<Value>) {
         let (mut world, mut context) = (session.world.clone(), session.context.clone());
@@ -183,7 +183,7 @@ impl Work {
         }));
     }
 
-    fn ask(&self, objects: Json) -> Vec<String> {
+    fn run_in_node(&self, objects: Json) -> Vec<String> {
         let script = workspace().join("tests/language.js");
         let started = Command::new("node").arg(script).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn();
         let mut child = started.unwrap();
@@ -274,7 +274,7 @@ fn compare(name: &str, lab: &Lab, model: &Model, count: &mut Count) {
     let jobs = texts(lab, &programs);
     let plan = Some(Plan::new(model, &AccessSet::ANY));
     let mut session = Session::start(&programs, model, Start { plan, ..Start::of_lab(lab) });
-    let mut work = Work::default();
+    let mut work = LabRequests::default();
     for phase in 0..4 {
         match phase {
             1 => (0..60).for_each(|_| session.step()),
@@ -302,7 +302,7 @@ fn compare(name: &str, lab: &Lab, model: &Model, count: &mut Count) {
         }
     }
     let names = ModelNames::new(model, Scope::Lab);
-    let found = work.ask(objects(&names));
+    let found = work.run_in_node(objects(&names));
     assert!(found.len() >= work.jobs.len(), "{name}: {found:#?}");
     let wrong: Vec<String> = found
         .iter()
@@ -315,13 +315,6 @@ fn compare(name: &str, lab: &Lab, model: &Model, count: &mut Count) {
     count.texts += jobs.len();
     count.distinct.extend(jobs.iter().map(|j| j.text.to_string()));
     count.compared += work.jobs.len();
-}
-
-fn files(folder: &Path) -> Vec<PathBuf> {
-    let mut files: Vec<PathBuf> =
-        std::fs::read_dir(folder).into_iter().flatten().map(|e| e.unwrap().path()).collect();
-    files.sort();
-    files
 }
 
 /// Compares all labs of some lessons.
@@ -350,26 +343,26 @@ fn compare_lessons(lessons: &[PathBuf], models: &Path) {
 }
 
 #[test]
-fn the_corpus_means_what_javascript_means() {
+fn the_corpus_behaves_as_in_javascript() {
     let corpus = workspace().join("../shared/corpus");
     if !needs("../shared/corpus") || !needs("node") {
         return;
     }
-    let lessons = [files(&corpus.join("labs")), files(&corpus.join("quizzes"))].concat();
+    let lessons = [sorted_files(&corpus.join("labs")), sorted_files(&corpus.join("quizzes"))].concat();
     compare_lessons(&lessons, &corpus.join("models"));
 }
 
 #[test]
-fn our_lessons_mean_what_javascript_means() {
+fn our_lessons_behave_as_in_javascript() {
     if !needs("node") {
         return;
     }
-    compare_lessons(&files(&workspace().join("specs/lessons")), &workspace().join("specs/models"));
+    compare_lessons(&sorted_files(&workspace().join("specs/lessons")), &workspace().join("specs/models"));
 }
 
 /// Constructs of real labs that these lessons do not contain: names, loops, closures, arrays as values.
 #[test]
-fn a_lab_of_everything_means_what_javascript_means() {
+fn a_lab_with_every_construct_behaves_as_in_javascript() {
     if !needs("node") {
         return;
     }

@@ -74,7 +74,7 @@ fn judged(folder: &Path, recording: &Value) -> (i32, Value, String) {
 }
 
 #[test]
-fn every_measure_of_our_course_is_what_mujoco_gives() {
+fn every_measure_of_the_course_agrees_with_mujoco() {
     let recorded = recording("judge");
     let runs = recorded["runs"].as_array().unwrap();
     let count: usize = runs.iter().map(|r| r["values"].as_object().unwrap().len()).sum();
@@ -113,7 +113,7 @@ fn a_request_holds_the_models_as_the_runs_have_them() {
 }
 
 #[test]
-fn a_judge_that_agrees_changes_nothing() {
+fn a_recording_that_agrees_changes_no_verdict() {
     let folder = folder();
     let (_, recording) = asked(folder.path());
     let (code, report, stdout) = judged(folder.path(), &recording);
@@ -127,7 +127,7 @@ fn a_judge_that_agrees_changes_nothing() {
 
 /// Claims that depend on runs that are not recorded are counted, and "all" then refers to the rest only.
 #[test]
-fn what_is_not_judged_is_counted() {
+fn unjudged_claims_are_counted() {
     let folder = folder();
     let verify = json!({"runs": {"plain": {}}, "measure": {"height": "final(data.qpos[2])"},
         "find": {"limit": {"largest": "gravity", "from": 5, "to": 15, "run": "plain", "while": "height > 0.5", "tol": 0.01}},
@@ -152,7 +152,7 @@ fn what_is_not_judged_is_counted() {
 }
 
 #[test]
-fn a_verdict_that_turns_over_is_found() {
+fn a_changed_verdict_is_reported() {
     let folder = folder();
     let (_, mut recording) = asked(folder.path());
     recording["runs"][0]["values"]["height"] = json!(0.46);
@@ -198,7 +198,7 @@ fn a_verdict_that_turns_over_is_found() {
 }
 
 #[test]
-fn a_recording_of_another_text_is_told_and_not_used() {
+fn a_recording_of_another_text_is_reported_and_not_used() {
     let folder = folder();
     let (_, mut recording) = asked(folder.path());
     recording["runs"][0]["values"]["height"] = json!(0.46);
@@ -222,7 +222,7 @@ fn a_recording_of_another_text_is_told_and_not_used() {
 }
 
 #[test]
-fn what_is_no_recording_is_refused() {
+fn invalid_recordings_are_refused() {
     let folder = folder();
     let (_, good) = asked(folder.path());
     let with = |change: &dyn Fn(&mut Value)| {

@@ -32,7 +32,7 @@ const WIDER: f64 = 2.0;
 const PERTURBATION: f64 = 1e-14;
 
 /// Less accurate traces, with the cause: lab, trace, maximum number of runs. Nothing outside this list is excused.
-const EXCUSED: &[(&str, &str, usize, &str)] = &[
+const KNOWN_DIFFERENCES: &[(&str, &str, usize, &str)] = &[
     (
         "1.2_01_simlab",
         "readout/|free quat|",
@@ -58,7 +58,7 @@ const GRIP: &str =
 
 /// How a lab is run.
 #[derive(Clone, Copy, PartialEq)]
-enum How {
+enum Reason {
     /// As recorded.
     Recorded,
     /// With coordinates and gravity shifted by these multiples of [`PERTURBATION`].
@@ -68,18 +68,18 @@ enum How {
 }
 
 /// All other variants that should give the same result.
-const OTHERWISE: [How; 7] = [
-    How::Tight,
-    How::Nudged(1.0, 1.0),
-    How::Nudged(-1.0, -1.0),
-    How::Nudged(1.0, -1.0),
-    How::Nudged(-1.0, 1.0),
-    How::Nudged(0.0, 1.0),
-    How::Nudged(0.0, -1.0),
+const OTHERWISE: [Reason; 7] = [
+    Reason::Tight,
+    Reason::Nudged(1.0, 1.0),
+    Reason::Nudged(-1.0, -1.0),
+    Reason::Nudged(1.0, -1.0),
+    Reason::Nudged(-1.0, 1.0),
+    Reason::Nudged(0.0, 1.0),
+    Reason::Nudged(0.0, -1.0),
 ];
 
 /// Runs a lab as in a recording, or in a variant.
-fn ours(shared: &Path, recording: &Json, how: How) -> Json {
+fn ours(shared: &Path, recording: &Json, how: Reason) -> Json {
     let name = recording["lab"].as_str().unwrap();
     let folder = ModelFolder::open(&shared.join("corpus/models")).unwrap();
     let file = SourceFile::read(&shared.join(format!("corpus/labs/{name}.json"))).unwrap();
@@ -92,11 +92,11 @@ fn ours(shared: &Path, recording: &Json, how: How) -> Json {
         .unwrap_or_else(|| panic!("{name}: {:?}", models.take_findings()));
     let mut model: Model = (*model).clone();
     let [moved, pulled] =
-        if let How::Nudged(q, g) = how { [q * PERTURBATION, g * PERTURBATION] } else { [0.0; 2] };
+        if let Reason::Nudged(q, g) = how { [q * PERTURBATION, g * PERTURBATION] } else { [0.0; 2] };
     let edit = model.edit();
     edit.qpos0.iter_mut().chain(edit.key_qpos).for_each(|q| *q += moved);
     model.edit().opt.gravity.iter_mut().for_each(|g| *g *= 1.0 + pulled);
-    if recording["tight"] == true || how == How::Tight {
+    if recording["tight"] == true || how == Reason::Tight {
         (*model.edit().opt.tolerance, *model.edit().opt.ls_tolerance) = (0.0, 1e-10);
         (*model.edit().opt.iterations, *model.edit().opt.ls_iterations) = (200, 100);
     }
@@ -145,7 +145,7 @@ fn apart(recording: &Json, column: usize, a: &Json, b: &Json) -> f64 {
 }
 
 #[test]
-fn labs_trace_what_they_trace_on_a_page() {
+fn labs_have_the_traces_of_the_page() {
     let shared = workspace().join("../shared");
     if !needs("../shared/corpus/labs") {
         return;
@@ -156,7 +156,7 @@ fn labs_trace_what_they_trace_on_a_page() {
     let recordings = read_json(&path);
     let recordings = recordings.as_array().unwrap();
     for recording in recordings {
-        let found = ours(&shared, recording, How::Recorded);
+        let found = ours(&shared, recording, Reason::Recorded);
         let tight = if recording["tight"] == true { " tight" } else { "" };
         let what = format!("{} {} {}{tight}", recording["lab"], recording["set"], recording["press"]);
         if found["warnings"] != recording["warnings"] {
@@ -195,12 +195,14 @@ fn labs_trace_what_they_trace_on_a_page() {
     // Another file of recordings has other runs.
     if std::env::var_os("LABSPEC_LABS").is_none() {
         for ((lab, trace), runs) in &excess {
-            let listed = EXCUSED.iter().find(|(l, t, ..)| l == lab && t == trace).map_or(0, |e| e.2);
+            let listed =
+                KNOWN_DIFFERENCES.iter().find(|(l, t, ..)| l == lab && t == trace).map_or(0, |e| e.2);
             if *runs > listed {
                 wrong.push(format!("{lab}, {trace}: excused in {runs} runs, listed for {listed}"));
             }
         }
-        for (lab, trace, ..) in EXCUSED.iter().filter(|(l, t, ..)| !excess.contains_key(&(*l, *t))) {
+        for (lab, trace, ..) in KNOWN_DIFFERENCES.iter().filter(|(l, t, ..)| !excess.contains_key(&(*l, *t)))
+        {
             wrong.push(format!("{lab}, {trace}: is listed as excused, and is as on the page"));
         }
     }

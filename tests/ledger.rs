@@ -367,7 +367,7 @@ fn a_baseline_hides_no_claim_that_changed() {
 
 /// The last line states the number of false claims and findings, and what the lessons suppress.
 #[test]
-fn the_last_line_says_what_is_so() {
+fn the_last_line_states_the_outcome() {
     let folder = folder();
     let done = run_in(folder.path(), &["check", "wrong.md"]);
     let (claims, findings) = last_line(&done).rsplit_once(": ").unwrap().1.split_once(" false, ").unwrap();
@@ -402,7 +402,7 @@ fn the_last_line_says_what_is_so() {
 
 /// A fence with almost the right word is reported, also next to a correct lab.
 #[test]
-fn a_fence_that_is_nearly_ours_is_told_beside_a_lab() {
+fn a_misspelt_fence_is_reported_although_the_lesson_has_a_lab() {
     let folder = folder();
     let lab = FALL.replace("\n", " ");
     for near in ["lab-simlab", "labs", "simlab", "Lab simlab", "lab simlabs", "lab_simlab"] {

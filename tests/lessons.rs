@@ -35,7 +35,7 @@ fn sorted(folder: &Path) -> Vec<PathBuf> {
 }
 
 #[test]
-fn every_wrong_lesson_reads_as_its_snapshot() {
+fn findings_of_wrong_lessons_equal_their_snapshots() {
     let models = ModelFolder::with_names(["ball", "incline", "pendulum"]);
     for path in sorted(&workspace().join("tests/lessons")) {
         let Some(name) =

@@ -58,7 +58,7 @@ fn codes(list: &[&str]) -> Vec<String> {
 }
 
 #[test]
-fn rules_are_chosen_and_left_out() {
+fn rules_are_selected_and_ignored() {
     let folder = folder(&[("a.md", TWICE)]);
     let twice = codes(&["duplicate-readout"]);
     assert_eq!(reported_codes(&folder, &["a.md"]), (1, twice.clone()));
@@ -78,7 +78,7 @@ fn rules_are_chosen_and_left_out() {
 
 /// Ignoring an error does not make a broken lesson clean.
 #[test]
-fn an_error_that_is_ignored_is_left_out_and_not_clean() {
+fn an_ignored_error_is_omitted_but_not_a_success() {
     let broken = TWICE.replace("data.qvel[2]", "data.qvle[2]").replacen("\"z\"", "\"v\"", 1);
     let folder = folder(&[("a.md", &broken)]);
     assert_eq!(reported_codes(&folder, &["a.md"]).0, 1);
@@ -139,7 +139,7 @@ fn an_author_allows_with_a_reason() {
 }
 
 #[test]
-fn what_the_baseline_knows_is_not_told_again() {
+fn baselined_findings_are_not_reported() {
     let broken = TWICE.replace("data.qvel[2]", "data.qvle[2]");
     let folder = folder(&[("lessons/a.md", &broken)]);
     let written = check(&folder, &["lessons", "--baseline", "known.json", "--update-baseline"]);
@@ -229,7 +229,7 @@ fn standard_input_has_a_name() {
 }
 
 #[test]
-fn what_git_ignores_is_not_a_lesson() {
+fn files_ignored_by_git_are_not_lessons() {
     let folder = folder(&[("a.md", "# A\n"), ("build/b.md", TWICE), (".gitignore", "build/\n")]);
     assert!(!check(&folder, &["."]).stdout.contains("duplicate-readout"));
     // A file that is named directly is checked.
@@ -238,7 +238,7 @@ fn what_git_ignores_is_not_a_lesson() {
 
 /// An unknown widget is in the ledger as not checked, and is counted. If the page provides it, the ledger states this.
 #[test]
-fn a_widget_that_nobody_knows_is_named_as_not_checked() {
+fn an_unknown_widget_is_listed_as_not_checked() {
     let folder = crate::program::folder();
     let lesson = format!(
         "{}\n```lab integrators\n{{\"model\": \"ball_drop\"}}\n```\n\n```lab playground\n{{}}\n```\n",

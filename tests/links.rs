@@ -91,7 +91,7 @@ fn no_link_is_dead() {
 
 /// Files and folders of the code, named by the end of their paths: `step/pipeline.rs`.
 #[test]
-fn files_that_pages_name_are_there() {
+fn files_that_pages_name_exist() {
     let (files, pages) = all();
     let files: Vec<String> = files.iter().map(|f| f.to_string_lossy().into_owned()).collect();
     let (mut gone, mut count) = (Vec::new(), 0);

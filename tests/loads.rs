@@ -38,7 +38,7 @@ const STRICTER: [(&str, &str, &str); 16] = [
 ];
 
 #[test]
-fn what_mujoco_refuses_is_refused() {
+fn models_that_mujoco_refuses_are_refused() {
     let text = std::fs::read_to_string(workspace().join("tests/golden/loads.json")).unwrap();
     let cases: Vec<(String, usize, usize, String, String)> = serde_json::from_str(&text).unwrap();
     let mut models: BTreeMap<String, String> = BTreeMap::new();

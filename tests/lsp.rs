@@ -22,7 +22,7 @@ struct Editor {
 
 impl Editor {
     /// Starts the program without sending a message.
-    fn silent(folder: &Path) -> Editor {
+    fn start_editor(folder: &Path) -> Editor {
         let mut command = program(folder, &["lsp", "--stdio"]);
         let mut child =
             command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::null()).spawn().unwrap();
@@ -32,7 +32,7 @@ impl Editor {
     }
 
     fn open(folder: &Path) -> Editor {
-        let mut editor = Editor::silent(folder);
+        let mut editor = Editor::start_editor(folder);
         let options = json!({"inlayHints": {"units": true}, "runOnSave": true});
         let root = editor.root.clone();
         editor.ask("initialize", json!({"rootUri": root, "initializationOptions": options})).unwrap();
@@ -45,17 +45,17 @@ impl Editor {
         self.to.flush().unwrap();
     }
 
-    fn say(&mut self, message: &Value) {
+    fn send(&mut self, message: &Value) {
         let text = message.to_string();
         self.raw(format!("Content-Length: {}\r\n\r\n{text}", text.len()).as_bytes());
     }
 
     fn notify(&mut self, method: &str, params: Value) {
-        self.say(&json!({"jsonrpc": "2.0", "method": method, "params": params}));
+        self.send(&json!({"jsonrpc": "2.0", "method": method, "params": params}));
     }
 
     /// The next message, or `None` at the end of the output.
-    fn hear(&mut self) -> Option<Value> {
+    fn receive(&mut self) -> Option<Value> {
         let mut length = 0;
         loop {
             let mut line = String::new();
@@ -79,13 +79,13 @@ impl Editor {
     fn ask(&mut self, method: &str, params: Value) -> Result<Value, Value> {
         self.next += 1;
         let id = json!(self.next);
-        self.say(&json!({"jsonrpc": "2.0", "id": id, "method": method, "params": params}));
+        self.send(&json!({"jsonrpc": "2.0", "id": id, "method": method, "params": params}));
         self.answer(&id)
     }
 
     fn answer(&mut self, id: &Value) -> Result<Value, Value> {
         loop {
-            let message = self.hear().unwrap();
+            let message = self.receive().unwrap();
             if message.get("method").is_none() && message["id"] == *id {
                 return match message.get("error") {
                     Some(error) => Err(error.clone()),
@@ -126,7 +126,7 @@ impl Editor {
             if let Some(at) = self.heard.iter().position(about) {
                 return self.heard.remove(at)["params"]["diagnostics"].clone();
             }
-            let message = self.hear().unwrap();
+            let message = self.receive().unwrap();
             self.heard.push(message);
         }
     }
@@ -210,7 +210,7 @@ fn lab(inside: &str) -> String {
 #[test]
 fn a_session_as_it_was_recorded() {
     let folder = folder();
-    let mut editor = Editor::silent(folder.path());
+    let mut editor = Editor::start_editor(folder.path());
     let root = editor.root.clone();
     let mut transcript = String::new();
     let mut note = |what: &str, answer: &Value| {
@@ -328,7 +328,7 @@ fn completions_know_the_language_the_model_and_the_format() {
 }
 
 #[test]
-fn a_hover_tells_the_value_at_the_start() {
+fn a_hover_states_the_initial_value() {
     let folder = folder();
     let mut editor = Editor::open(folder.path());
     for (inside, expected) in [
@@ -498,7 +498,7 @@ fn repairs_are_offered_and_made() {
 
 /// Findings that require runs are reported when the lesson is saved, unless it changes before the runs end.
 #[test]
-fn runs_go_on_beside_and_stop_when_the_text_changes() {
+fn runs_continue_in_the_background_until_the_text_changes() {
     let folder = folder();
     let mut editor = Editor::open(folder.path());
     let text = crate::program::wrong();
@@ -525,9 +525,9 @@ fn runs_go_on_beside_and_stop_when_the_text_changes() {
 
 /// The client is not trusted: messages may have any content and any order.
 #[test]
-fn whatever_is_said_the_server_goes_on() {
+fn no_message_stops_the_server() {
     let folder = folder();
-    let mut editor = Editor::silent(folder.path());
+    let mut editor = Editor::start_editor(folder.path());
     let code = |answer: Result<Value, Value>| answer.unwrap_err()["code"].as_i64().unwrap();
     assert_eq!(code(editor.ask("textDocument/hover", json!({}))), -32002);
     editor.notify(
@@ -540,11 +540,11 @@ fn whatever_is_said_the_server_goes_on() {
     assert_eq!(code(editor.ask("textDocument/somethingElse", json!({}))), -32601);
     for bad in ["{", "[]", "3", "{\"jsonrpc\":\"2.0\"}", "\u{1}"] {
         editor.raw(format!("Content-Length: {}\r\n\r\n{bad}", bad.len()).as_bytes());
-        let answer = editor.hear().unwrap();
+        let answer = editor.receive().unwrap();
         assert_eq!((&answer["id"], &answer["error"]["code"]), (&Value::Null, &json!(-32700)), "{bad}");
     }
     editor.raw(b"Nonsense\r\n");
-    assert_eq!(editor.hear().unwrap()["error"]["code"], -32700);
+    assert_eq!(editor.receive().unwrap()["error"]["code"], -32700);
     // Parameters of all shapes for all requests.
     editor.did_open("b.md", &lab("\"setup\": \"data.qpos[\", \"trail\": \"“"));
     let uri = editor.uri("b.md");
@@ -605,7 +605,7 @@ fn whatever_is_said_the_server_goes_on() {
 
 /// An end without `shutdown`, or by the end of the input, gives a non-zero exit code.
 #[test]
-fn an_editor_that_vanishes_leaves_nothing_behind() {
+fn the_server_ends_with_its_editor() {
     let folder = folder();
     let mut editor = Editor::open(folder.path());
     editor.notify("exit", Value::Null);
@@ -664,12 +664,12 @@ fn places_are_those_of_editors() {
 /// The texts of the editor take precedence, saved or not. Files are named as the editor names them, through links or not.
 #[cfg(unix)]
 #[test]
-fn unsaved_texts_and_linked_folders_are_what_the_editor_sees() {
+fn unsaved_texts_and_linked_folders_are_those_of_the_editor() {
     let folder = folder();
     let link = tempfile::tempdir().unwrap();
     let link = link.path().canonicalize().unwrap().join("linked");
     std::os::unix::fs::symlink(folder.path().canonicalize().unwrap(), &link).unwrap();
-    let mut editor = Editor::silent(folder.path());
+    let mut editor = Editor::start_editor(folder.path());
     editor.root = format!("file://{}", link.display());
     let root = editor.root.clone();
     editor.ask("initialize", json!({"rootUri": root})).unwrap();
@@ -733,7 +733,7 @@ fn files_may_go_away() {
 
 /// No findings are reported for a document that is closed during its runs, even if it is opened again with the same version.
 #[test]
-fn a_closed_document_is_told_of_no_more() {
+fn a_closed_document_gets_no_further_diagnostics() {
     let folder = folder();
     let mut editor = Editor::open(folder.path());
     let text = crate::program::wrong();
@@ -772,13 +772,13 @@ fn a_cancelled_request_is_answered_once() {
         if i % 3 == 0 {
             editor.notify("$/cancelRequest", json!({"id": id}));
         }
-        editor.say(&ask(id.clone()));
+        editor.send(&ask(id.clone()));
         editor.notify("$/cancelRequest", json!({"id": id}));
         answered.push(id);
     }
     editor.notify("$/cancelRequest", json!({"id": "nobody"}));
     for id in &answered {
-        let message = editor.hear().unwrap();
+        let message = editor.receive().unwrap();
         assert_eq!(message["id"], *id);
         assert!(message.get("result").is_some() != message.get("error").is_some(), "{message}");
     }
@@ -811,7 +811,7 @@ fn huge_documents_are_answered() {
 
 /// If the dimension is known, it is displayed, also for variables and functions, which have no declared unit.
 #[test]
-fn a_hover_tells_the_dimension() {
+fn a_hover_states_the_dimension() {
     let folder = folder();
     let mut editor = Editor::open(folder.path());
     for (inside, expected) in [
@@ -896,7 +896,7 @@ fn shown_in_editor(found: &Value) -> Vec<(String, u64)> {
 /// In a lesson that uses another one, the findings while typing are those of `check --no-run`, and the findings after
 /// saving are those of `check`.
 #[test]
-fn an_editor_says_of_a_lesson_with_neighbours_what_the_program_says() {
+fn editor_and_program_report_the_same_for_a_lesson_with_neighbours() {
     let folder = crate::ledger::with_neighbours();
     let text = crate::ledger::READER;
     let codes_of = |more: &[&str]| {
@@ -918,7 +918,7 @@ fn an_editor_says_of_a_lesson_with_neighbours_what_the_program_says() {
 
 /// Unsaved contents of other documents are used: labs, headings, models, and files that do not exist yet.
 #[test]
-fn unsaved_neighbours_are_seen() {
+fn unsaved_neighbours_are_read() {
     let folder = crate::ledger::with_neighbours();
     let mut editor = Editor::open(folder.path());
     let labs = crate::ledger::LABS;
@@ -966,7 +966,7 @@ fn unsaved_neighbours_are_seen() {
 
 /// While the author types, no files are read: cached information is used until a file is saved, opened or closed.
 #[test]
-fn a_keystroke_asks_the_disk_nothing() {
+fn a_keystroke_causes_no_disk_access() {
     let folder = crate::ledger::with_neighbours();
     let text = crate::ledger::READER;
     let mut editor = Editor::open(folder.path());

@@ -1,17 +1,17 @@
 //! Mutation tests: mistakes of authors are planted one by one into real labs and quizzes, to measure how many are found.
 //!
-//! A mutant counts if it changes what a student sees (`mutants/eyes.rs`). It is found if it gives a finding with the severity
-//! of a warning or higher that the original does not have. The table is in `docs/measured/mutants.md`.
+//! A mutant counts if it changes what a student sees (`mutants/student_view.rs`). It is found if it gives a finding with
+//! the severity of a warning or higher that the original does not have. The table is in `docs/measured/mutants.md`.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 mod claims;
 mod edit;
-mod eyes;
 mod labs;
 pub(crate) mod material;
 mod quizzes;
 mod reasons;
+mod student_view;
 
 use crate::needs::needs;
 use crate::support::{for_each, workspace};
@@ -21,7 +21,7 @@ use labspec::check::{self, CheckLevel};
 use labspec::finding::Severity;
 use labspec::lint::load_lesson;
 use labspec::source::SourceFile;
-use material::{Piece, What};
+use material::{Piece, PieceKind};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -58,7 +58,7 @@ enum Detection {
 
 /// The information that is needed to recognize a mistake.
 #[derive(Clone, Copy, PartialEq)]
-enum Ground {
+enum RequiredKnowledge {
     /// Only the lab or the quiz.
     Itself,
     /// A claim, which the lesson contains.
@@ -67,11 +67,11 @@ enum Ground {
     Unclaimed,
 }
 
-fn kinds() -> Vec<(What, &'static Kind)> {
+fn kinds() -> Vec<(PieceKind, &'static Kind)> {
     let labs = labs::TEXTS.iter().chain(&labs::VIEWS).chain(&labs::CONTROLS).chain(&labs::SCENES);
-    let labs = labs.map(|k| (What::Lab, k));
-    let quizzes = quizzes::QUIZZES.iter().map(|k| (What::Quiz, k));
-    labs.chain(quizzes).chain(labs::LABELS.iter().map(|k| (What::Lab, k))).collect()
+    let labs = labs.map(|k| (PieceKind::Lab, k));
+    let quizzes = quizzes::QUIZZES.iter().map(|k| (PieceKind::Quiz, k));
+    labs.chain(quizzes).chain(labs::LABELS.iter().map(|k| (PieceKind::Lab, k))).collect()
 }
 
 /// A pseudo-random number that depends on others, for selections.
@@ -103,11 +103,16 @@ fn planted(pieces: &[Piece]) -> Vec<Mutant> {
 fn codes(piece: &Piece, json: &Value, models: &Models) -> BTreeMap<&'static str, usize> {
     let (name, text) = piece.file(json);
     // A quiz has answers, a lab has runs.
-    counted(name, text, models, if piece.what == What::Quiz { CheckLevel::CLAIMS } else { CheckLevel::FULL })
+    counted(
+        name,
+        text,
+        models,
+        if piece.what == PieceKind::Quiz { CheckLevel::CLAIMS } else { CheckLevel::FULL },
+    )
 }
 
 /// The same for the lesson of a lab with claims: the findings of the claims.
-fn claims_say(piece: &Piece, json: &Value, models: &Models) -> BTreeMap<&'static str, usize> {
+fn claim_findings(piece: &Piece, json: &Value, models: &Models) -> BTreeMap<&'static str, usize> {
     piece.lesson(json).map_or(BTreeMap::new(), |text| counted("lesson.md", text, models, CheckLevel::CLAIMS))
 }
 
@@ -137,9 +142,9 @@ fn planted_mistakes_are_found() {
         let piece = &pieces[i];
         let models = &models[piece.models];
         (
-            eyes::seen(piece, &piece.json, models),
+            student_view::visible_text(piece, &piece.json, models),
             codes(piece, &piece.json, models),
-            claims_say(piece, &piece.json, models),
+            claim_findings(piece, &piece.json, models),
         )
     });
     let kinds = kinds();
@@ -151,13 +156,13 @@ fn planted_mistakes_are_found() {
         let piece = &pieces[*piece];
         let models = &models[piece.models];
         let kind = kinds[*kind].1;
-        let displayed = eyes::seen(piece, json, models);
-        let right = kind.right.map(|right| eyes::seen(piece, &right(json), models));
+        let displayed = student_view::visible_text(piece, json, models);
+        let right = kind.right.map(|right| student_view::visible_text(piece, &right(json), models));
         let case = Case { piece, json, models };
         let ground = match (claims::is_measurable(kind.name, &case), claims::claimed(&case)) {
-            (true, _) => Ground::Itself,
-            (false, true) => Ground::Claimed,
-            (false, false) => Ground::Unclaimed,
+            (true, _) => RequiredKnowledge::Itself,
+            (false, true) => RequiredKnowledge::Claimed,
+            (false, false) => RequiredKnowledge::Unclaimed,
         };
         if displayed == *seen || right.is_some_and(|right| right == displayed) {
             return (Detection::Unseen, ground);
@@ -166,29 +171,29 @@ fn planted_mistakes_are_found() {
             now.iter().any(|(code, n)| before.get(code).is_none_or(|b| b < n))
         };
         let new = more(&codes(piece, json, models), before)
-            || ground == Ground::Claimed && more(&claims_say(piece, json, models), claimed);
+            || ground == RequiredKnowledge::Claimed && more(&claim_findings(piece, json, models), claimed);
         (if new { Detection::Found } else { Detection::Survived }, ground)
     });
     drop(kinds);
     if let Some(path) = std::env::var_os("LABSPEC_SURVIVORS") {
         std::fs::write(path, survivors(&pieces, &mutants, &detections)).unwrap();
     }
-    let [_, seen, found] = count(&mutants, &detections, |_, ground| ground == Ground::Itself);
+    let [_, seen, found] = count(&mutants, &detections, |_, ground| ground == RequiredKnowledge::Itself);
     assert!(100 * found >= 95 * seen, "without a claim: {found} of {seen}");
-    let [_, seen, found] = count(&mutants, &detections, |_, ground| ground == Ground::Claimed);
+    let [_, seen, found] = count(&mutants, &detections, |_, ground| ground == RequiredKnowledge::Claimed);
     assert!(found == seen && seen > 0, "with a claim: {found} of {seen}");
     hold(&table(&pieces, &mutants, &detections));
 }
 
 /// All mutants that are visible and not found: their kind, their piece, and the change.
-fn survivors(pieces: &[Piece], mutants: &[Mutant], detections: &[(Detection, Ground)]) -> String {
+fn survivors(pieces: &[Piece], mutants: &[Mutant], detections: &[(Detection, RequiredKnowledge)]) -> String {
     let (kinds, mut page) = (kinds(), String::new());
     for (m, (_, ground)) in mutants.iter().zip(detections).filter(|(_, f)| f.0 == Detection::Survived) {
         let piece = &pieces[m.piece];
         let needs = match ground {
-            Ground::Itself => "known",
-            Ground::Claimed => "claimed",
-            Ground::Unclaimed => "unclaimed",
+            RequiredKnowledge::Itself => "known",
+            RequiredKnowledge::Claimed => "claimed",
+            RequiredKnowledge::Unclaimed => "unclaimed",
         };
         writeln!(page, "{needs} {} {}", kinds[m.kind].1.name, piece.name).unwrap();
         edit::differences("", &piece.json, &m.json, &mut page);
@@ -199,8 +204,8 @@ fn survivors(pieces: &[Piece], mutants: &[Mutant], detections: &[(Detection, Gro
 /// The numbers of visible and of found mutants, of those that a predicate selects.
 fn count(
     mutants: &[Mutant],
-    detections: &[(Detection, Ground)],
-    which: impl Fn(&Mutant, Ground) -> bool,
+    detections: &[(Detection, RequiredKnowledge)],
+    which: impl Fn(&Mutant, RequiredKnowledge) -> bool,
 ) -> [usize; 3] {
     let selected = || mutants.iter().zip(detections).filter(|(m, (_, ground))| which(m, *ground));
     let seen = selected().filter(|(_, f)| f.0 != Detection::Unseen).count();
@@ -212,9 +217,9 @@ fn share([_, seen, found]: [usize; 3]) -> String {
 }
 
 /// The page.
-fn table(pieces: &[Piece], mutants: &[Mutant], detections: &[(Detection, Ground)]) -> String {
+fn table(pieces: &[Piece], mutants: &[Mutant], detections: &[(Detection, RequiredKnowledge)]) -> String {
     let mut page = String::new();
-    let labs = pieces.iter().filter(|p| p.what == What::Lab).count();
+    let labs = pieces.iter().filter(|p| p.what == PieceKind::Lab).count();
     let kinds = kinds();
     write!(
         page,
@@ -231,9 +236,9 @@ fn table(pieces: &[Piece], mutants: &[Mutant], detections: &[(Detection, Ground)
     )
     .unwrap();
     for (words, ground) in [
-        ("recognizable without a claim", Ground::Itself),
-        ("needs a claim, and the lesson has a `verify` object for it", Ground::Claimed),
-        ("needs a claim, and the lesson has none", Ground::Unclaimed),
+        ("recognizable without a claim", RequiredKnowledge::Itself),
+        ("needs a claim, and the lesson has a `verify` object for it", RequiredKnowledge::Claimed),
+        ("needs a claim, and the lesson has none", RequiredKnowledge::Unclaimed),
     ] {
         let [all, seen, found] = count(mutants, detections, |_, g| g == ground);
         writeln!(page, "| {words} | {all} | {seen} | {found} | {} |", share([all, seen, found])).unwrap();
@@ -252,10 +257,11 @@ fn table(pieces: &[Piece], mutants: &[Mutant], detections: &[(Detection, Ground)
     );
     for (i, (_, kind)) in kinds.iter().enumerate() {
         let [all, seen, found] = count(mutants, detections, |m, _| m.kind == i);
-        let parts = [Ground::Itself, Ground::Claimed, Ground::Unclaimed].map(|ground| {
-            let [_, seen, found] = count(mutants, detections, |m, g| m.kind == i && g == ground);
-            if seen == 0 { "–".to_string() } else { format!("{found} / {seen}") }
-        });
+        let parts = [RequiredKnowledge::Itself, RequiredKnowledge::Claimed, RequiredKnowledge::Unclaimed]
+            .map(|ground| {
+                let [_, seen, found] = count(mutants, detections, |m, g| m.kind == i && g == ground);
+                if seen == 0 { "–".to_string() } else { format!("{found} / {seen}") }
+            });
         let share = share([all, seen, found]);
         let parts = parts.join(" | ");
         writeln!(page, "| {} | {} | {all} | {seen} | {found} | {share} | {parts} |", kind.name, kind.words)
@@ -269,9 +275,9 @@ fn table(pieces: &[Piece], mutants: &[Mutant], detections: &[(Detection, Ground)
         }
     }
     page.push_str("\n## Mistakes that are not found\n\nRecognizable without a claim, but not found:\n\n");
-    undetected(&mut page, pieces, mutants, detections, Ground::Itself);
+    undetected(&mut page, pieces, mutants, detections, RequiredKnowledge::Itself);
     page.push_str("\nRecognizable only through a claim, in lessons without one:\n\n");
-    undetected(&mut page, pieces, mutants, detections, Ground::Unclaimed);
+    undetected(&mut page, pieces, mutants, detections, RequiredKnowledge::Unclaimed);
     page
 }
 
@@ -280,8 +286,8 @@ fn undetected(
     page: &mut String,
     pieces: &[Piece],
     mutants: &[Mutant],
-    detections: &[(Detection, Ground)],
-    ground: Ground,
+    detections: &[(Detection, RequiredKnowledge)],
+    ground: RequiredKnowledge,
 ) {
     for (i, (_, kind)) in kinds().iter().enumerate() {
         let survived = mutants
@@ -295,7 +301,7 @@ fn undetected(
             let named = names.iter().take(NAMED).map(|n| format!("`{n}`")).collect::<Vec<_>>().join(", ");
             let more = if names.len() > NAMED { ", …" } else { "" };
             let why = match ground {
-                Ground::Itself => {
+                RequiredKnowledge::Itself => {
                     let why = reasons::reason(kind.name)
                         .unwrap_or_else(|| panic!("why is {} not found?", kind.name));
                     format!("{why}. ")

@@ -17,7 +17,7 @@ static MISSING: Mutex<BTreeMap<String, String>> = Mutex::new(BTreeMap::new());
 /// Whether a prerequisite exists: `node`, or a path relative to the workspace (`../shared/corpus`). Must be called before
 /// anything else; if it returns `false`, the test must return.
 pub(crate) fn needs(what: &str) -> bool {
-    if there(what) {
+    if is_available(what) {
         return true;
     }
     let required = std::env::var_os("LABSPEC_REQUIRE").is_some_and(|value| value == "all");
@@ -30,7 +30,7 @@ pub(crate) fn needs(what: &str) -> bool {
     false
 }
 
-fn there(what: &str) -> bool {
+fn is_available(what: &str) -> bool {
     match what {
         "node" => Command::new("node").arg("--version").output().is_ok_and(|o| o.status.success()),
         place => Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(place).exists(),
@@ -58,6 +58,6 @@ pub(crate) fn summary() {
 }
 
 #[test]
-fn what_is_missing_is_told_from_what_is_there() {
-    assert!(there("tests/needs.rs") && !there("../nowhere/at-all"));
+fn missing_prerequisites_are_detected() {
+    assert!(is_available("tests/needs.rs") && !is_available("../nowhere/at-all"));
 }

@@ -8,7 +8,7 @@ use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 
 #[test]
-fn what_is_left_out_is_said_and_counted() {
+fn omitted_claims_are_listed_and_counted() {
     assert_eq!(run(&["check", "clean.md", "--no-run"]).code, 3);
     snapshot("check-no-run", stdout_of(&["check", "clean.md", "fall.json", "--no-run"]));
     let report: Value =
@@ -72,7 +72,7 @@ fn nothing_is_run() {
 
 /// A folder in which nothing needs a run is checked completely: a model is loaded, and a quiz without a check claims nothing.
 #[test]
-fn where_nothing_needs_a_run_nothing_is_left_out() {
+fn without_claims_that_need_runs_nothing_is_omitted() {
     assert_eq!(run(&["check", "models/ball_drop.xml", "--no-run"]).code, 0);
     assert_eq!(run(&["check", "empty", "--no-run"]).code, 2);
 }
@@ -80,7 +80,7 @@ fn where_nothing_needs_a_run_nothing_is_left_out() {
 /// For all lessons: a check without runs has no finding that the full check does not have, calls nothing true that needs a run,
 /// and counts the same number of claims.
 #[test]
-fn it_says_less_and_never_more() {
+fn a_check_without_runs_reports_a_subset() {
     let mut left = 0;
     for folder in ["specs/lessons", "tests/lessons"] {
         let of = |more: &[&str]| {

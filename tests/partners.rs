@@ -118,7 +118,7 @@ fn a_ball_of_ten_times_the_mass_rolls_as_any_ball() {
 }
 
 #[test]
-fn what_is_no_slider_is_held_to_the_same() {
+fn other_controls_are_checked_too() {
     let mut setup = lab(CYLINDER, &json!([]), "data.qvel[0]");
     setup["setup"] = json!("model.body_mass[1] = 20; mj.mj_setConst(model, data)");
     repaired(&setup, "mass-alone");
@@ -145,7 +145,7 @@ fn what_is_no_slider_is_held_to_the_same() {
 }
 
 #[test]
-fn missing_setconst_shows_no_wrong_number_as_right() {
+fn a_wrong_number_without_setconst_is_not_verified() {
     // The change of the constants alone has a smaller effect than that of the inertia.
     for xml in [RAMP, CYLINDER] {
         let lab = lab(xml, &slider([1.0, 10.0, 1.0], &json!({"set": "model.body_mass[1]"})), "data.qvel[0]");
@@ -279,7 +279,7 @@ fn a_geom_that_is_switched_on_takes_its_body_along() {
 }
 
 #[test]
-fn a_servo_goes_to_its_target_whatever_its_gain() {
+fn a_servo_reaches_its_target_with_every_gain() {
     let servo = |xml: &str, apply: &str| {
         let mut lab = lab(xml, &slider([10.0, 30.0, 10.0], &json!({"apply": apply})), "data.qpos[0]");
         lab["setup"] = json!("data.ctrl[0] = 0.5");
@@ -357,7 +357,7 @@ fn a_claim_of_a_body_that_does_not_exist_is_refuted() {
 }
 
 #[test]
-fn a_change_of_a_written_out_inertia_is_held_to_the_same() {
+fn a_change_of_an_explicit_inertia_is_checked_too() {
     let xml = RAMP.replace(
         "<geom size='.1' mass='1'/>",
         "<inertial pos='0 0 0' mass='1' diaginertia='.004 .004 .004'/><geom size='.1'/>",
@@ -380,7 +380,7 @@ fn a_change_of_a_written_out_inertia_is_held_to_the_same() {
 }
 
 #[test]
-fn a_claim_that_holds_both_ways_says_so() {
+fn a_claim_that_holds_with_and_without_the_correction_states_it() {
     let verify = format!("{RUNS}, {}", r#""options": ["heavy.v > 3", "heavy.v < 2"]"#);
     let checked = check_text("lesson.md", &lesson(MASS, "", &verify, KEY));
     let answer = checked.claims.iter().find_map(|c| c.judgement.answer.clone()).unwrap();
@@ -417,7 +417,7 @@ fn quotes_and_closed_forms_are_judged_twice() {
 }
 
 #[test]
-fn a_difference_that_is_shown_on_purpose_is_not_refuted() {
+fn an_intended_difference_is_not_refuted() {
     let text = "The heavy ball is another one.";
     let runs = format!(
         r#""runs": {{"forgotten": {{"setup": "model.body_mass[1] = 10; mj.mj_setConst(model, data)"}}, "right": {{"setup": "{}"}}}}, "measure": {{"v": "final(data.qvel[0])"}}, "options": ["forgotten.v > 1.2 * right.v", "abs(forgotten.v - right.v) < 0.05"]"#,

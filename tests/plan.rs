@@ -3,7 +3,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use crate::scenes::tied_scene;
+use crate::scenes::constrained_scene;
 use crate::support::{compile, model, model_text};
 use labspec_core::reflect::{self, FieldId, FieldSet, Object, Stage, View};
 use labspec_core::{self as core, AccessSet, Data, Model, Plan, Planned, Scope, enable};
@@ -199,7 +199,7 @@ fn writes(events: &[Event]) -> FieldSet {
 
 /// Scenes with sensors.
 fn sensing() -> impl Strategy<Value = crate::scenes::Scene> {
-    (tied_scene(), vec(0..crate::scenes::SENSORS.len(), 1..6)).prop_map(|(mut scene, sensors)| {
+    (constrained_scene(), vec(0..crate::scenes::SENSORS.len(), 1..6)).prop_map(|(mut scene, sensors)| {
         scene.sensors = sensors;
         scene
     })
@@ -210,7 +210,7 @@ proptest! {
 
     #[test]
     fn planned_and_full_runs_agree_on_what_is_read(
-        scene in tied_scene(),
+        scene in constrained_scene(),
         reads in vec(any::<prop::sample::Index>(), 0..6),
         events in vec(event(), 0..6),
     ) {
@@ -228,8 +228,8 @@ proptest! {
 
     /// The same with writes that the plan does not contain, and with a plan for any values.
     #[test]
-    fn writes_that_nobody_announced_count(
-        scene in tied_scene(),
+    fn unannounced_writes_take_effect(
+        scene in constrained_scene(),
         reads in vec(any::<prop::sample::Index>(), 0..6),
         events in vec(event(), 0..6),
     ) {
@@ -267,8 +267,8 @@ proptest! {
 
     /// The measurement of `labspec plan`: an additional stage, and a clock between the stages.
     #[test]
-    fn a_stage_more_and_a_clock_change_nothing(
-        scene in tied_scene(),
+    fn an_additional_stage_and_a_clock_change_no_number(
+        scene in constrained_scene(),
         reads in vec(any::<prop::sample::Index>(), 0..4),
         more in any::<prop::sample::Index>(),
         events in vec(event(), 0..4),
@@ -289,7 +289,7 @@ proptest! {
     }
 
     #[test]
-    fn a_plan_that_may_be_asked_anything_is_the_full_run(scene in tied_scene(), events in vec(event(), 0..4)) {
+    fn a_plan_for_any_value_equals_the_full_run(scene in constrained_scene(), events in vec(event(), 0..4)) {
         let m = compile(&scene.xml());
         let mut access = AccessSet { reads: FieldSet::EMPTY, writes: writes(&events) };
         data_fields().into_iter().for_each(|f| access.reads.insert(f));
@@ -301,7 +301,7 @@ proptest! {
 /// A clock between the stages records exactly the stages that the plan keeps, in every pass, including those within a
 /// Runge–Kutta step. The work that it finds equals that of the engine, except for a constant per pass.
 #[test]
-fn a_clock_sees_what_the_plan_keeps() {
+fn a_clock_measures_the_stages_of_the_plan() {
     fn tick() -> u64 {
         static NOW: AtomicU64 = AtomicU64::new(0);
         NOW.fetch_add(1, Ordering::Relaxed)
@@ -373,7 +373,7 @@ fn reading(names: &[&str]) -> AccessSet {
 }
 
 /// Fields of a stage that is left out keep the values of the last reset.
-fn untouched(f: FieldId, d: &Data<Planned>, m: &Model, before: &Data<Planned>) -> bool {
+fn keeps_reset_value(f: FieldId, d: &Data<Planned>, m: &Model, before: &Data<Planned>) -> bool {
     assert!(d.read(f).is_err(), "{} was left out, and can be read", f.info().name);
     let n = core::length(m, d, f);
     let element = |d, i| core::element(m, d, f, i).map(f64::to_bits);
@@ -381,7 +381,7 @@ fn untouched(f: FieldId, d: &Data<Planned>, m: &Model, before: &Data<Planned>) -
 }
 
 #[test]
-fn what_is_left_out_is_not_computed() {
+fn omitted_stages_are_not_computed() {
     let fixed = [
         ("free_fall", &["qpos"][..]),
         ("ball_drop", &["qpos"]),
@@ -407,7 +407,7 @@ fn what_is_left_out_is_not_computed() {
                 // Without constraints, the acceleration is set although the solver does not run.
                 if f.info().name != "qacc" {
                     assert!(
-                        untouched(f, &d, &m, &before),
+                        keeps_reset_value(f, &d, &m, &before),
                         "{name}: {:?} wrote {}",
                         decision.stage,
                         f.info().name
@@ -429,7 +429,7 @@ fn the_full_plan_keeps_everything() {
 
 /// Enabling energy during a run requires the poses on which it depends.
 #[test]
-fn a_written_flag_keeps_what_it_may_switch_on() {
+fn a_plan_keeps_the_stages_that_a_written_flag_may_enable() {
     let m = compile(&model_text("free_fall"));
     let mut access = reading(&["energy", "qpos"]);
     assert!(!Plan::new(&m, &access).keeps(Stage::Energy));
@@ -472,7 +472,7 @@ fn decisions_read_as_reasons() {
 
 /// Forces outside the plan's access set act: the plan is recomputed.
 #[test]
-fn a_force_that_nobody_announced_acts() {
+fn an_unannounced_force_acts() {
     let m = model("free_fall");
     let mut planned = Data::planned(&m, Plan::new(&m, &reading(&["qvel"])));
     let mut full = Data::unplanned(&m);
@@ -494,8 +494,8 @@ fn a_force_that_nobody_announced_acts() {
 
 /// Parameters that the plan assumed constant may change: the plan is recomputed.
 #[test]
-fn a_parameter_that_nobody_announced_counts() {
-    unannounced(model("pendulum"), |m| {
+fn an_unannounced_parameter_takes_effect() {
+    check_unannounced_change(model("pendulum"), |m| {
         m.edit().dof_damping[0] = 0.7;
         m.edit().body_mass[1] *= 2.0;
     });
@@ -503,15 +503,15 @@ fn a_parameter_that_nobody_announced_counts() {
 
 /// The same holds for parameters of the derivatives of forces with respect to velocities, which are analysed once.
 #[test]
-fn a_slope_that_nobody_announced_counts() {
+fn an_unannounced_derivative_takes_effect() {
     let slide = "<mujoco><option integrator='implicitfast'/><worldbody><body><joint name='x' type='slide' damping='1'/>\
                  <geom size='.1'/></body></worldbody><actuator><position joint='x' kp='90' kv='5'/></actuator></mujoco>";
-    unannounced(compile(slide), |m| m.edit().actuator_biasprm[2] = -40.0);
-    unannounced(compile(slide), |m| m.edit().dof_damping[0] = 30.0);
+    check_unannounced_change(compile(slide), |m| m.edit().actuator_biasprm[2] = -40.0);
+    check_unannounced_change(compile(slide), |m| m.edit().dof_damping[0] = 30.0);
 }
 
 /// Planned steps before and after `change` give the same result as full steps after it.
-fn unannounced(mut m: Model, change: impl Fn(&mut Model)) {
+fn check_unannounced_change(mut m: Model, change: impl Fn(&mut Model)) {
     let mut planned = Data::planned(&m, Plan::new(&m, &reading(&["qpos"])));
     planned.edit().qvel[0] = 1.0;
     core::step(&m, &mut planned).unwrap();

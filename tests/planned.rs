@@ -48,7 +48,7 @@ fn one(names: &ModelNames<'_>, path: &str, entry: &Entry, depth: usize, all: &mu
             all.extend(places.iter().take(count.min(MOST)).map(|i| format!("{path}[{i}]")));
         }
         Entry::Collection(collection) if depth > 0 => {
-            for name in some(names, *collection) {
+            for name in member_names(names, *collection) {
                 if let Some(object) = names.lookup(*collection, &name) {
                     members(names, &format!("{path}('{name}')"), object, depth - 1, all);
                 }
@@ -66,7 +66,9 @@ fn one(names: &ModelNames<'_>, path: &str, entry: &Entry, depth: usize, all: &mu
                 Param::Numbers => Some("[1, 2, 3]".to_string()),
                 Param::Any => Some("{}".to_string()),
                 Param::Object(_) => None,
-                Param::Name(collection) => some(names, *collection).first().map(|name| format!("'{name}'")),
+                Param::Name(collection) => {
+                    member_names(names, *collection).first().map(|name| format!("'{name}'"))
+                }
                 Param::Lazy => None,
             };
             for left_out in 0..=info.optional {
@@ -86,7 +88,7 @@ fn one(names: &ModelNames<'_>, path: &str, entry: &Entry, depth: usize, all: &mu
     }
 }
 
-fn some(names: &ModelNames<'_>, collection: CollectionId) -> Vec<String> {
+fn member_names(names: &ModelNames<'_>, collection: CollectionId) -> Vec<String> {
     let plain = |name: &String| !name.is_empty() && !name.contains(['\'', '\\', '\n']);
     names.names(collection).into_iter().filter(plain).take(MOST).collect()
 }

@@ -66,7 +66,7 @@ fn a_scene_is_the_present_state_and_changes_nothing() {
 }
 
 #[test]
-fn a_page_draws_what_the_lab_says() {
+fn a_page_draws_the_overlays_of_the_lab() {
     let player = player();
     let labels: Vec<&str> = player.controls().iter().map(|c| c.label.as_str()).collect();
     assert_eq!(labels, ["height", "solver", "Kick"]);
@@ -110,7 +110,7 @@ fn programs_of_another_model_are_not_run() {
 
 /// The columns of one model are never filled from a session with another model.
 #[test]
-fn a_recording_takes_no_samples_of_another_model() {
+fn a_recording_refuses_samples_of_another_model() {
     let lesson = load_lesson(labspec::source::SourceFile::new("lab.json", LAB), &models().into());
     let lab = lesson.all_labs()[0];
     let [model, twin] = [(); 2].map(|()| crate::support::model("ball_drop"));
@@ -138,12 +138,16 @@ fn a_session_evaluates_nothing_of_another_model() {
         let bound = programs.probes[0].bound.as_ref().unwrap();
         assert_eq!(session.evaluate(&bound.program, &bound.text).is_some(), good);
     }
-    assert!(session.troubles[0].message.contains("compiled for something else"), "{:?}", session.troubles);
+    assert!(
+        session.program_errors[0].message.contains("compiled for something else"),
+        "{:?}",
+        session.program_errors
+    );
 }
 
 /// A player that is stepped gives the same values as `run`, bit for bit, independent of requests by the frontend in between.
 #[test]
-fn a_player_goes_the_way_of_a_run() {
+fn a_player_repeats_a_run() {
     let lesson = load_lesson(labspec::source::SourceFile::new("lab.json", LAB), &models().into());
     let lab = lesson.all_labs()[0];
     let model = crate::support::model("ball_drop");
@@ -208,7 +212,7 @@ fn pieces_of_a_run_are_the_run() {
 }
 
 #[test]
-fn a_saved_state_goes_on_to_the_bit() {
+fn a_saved_state_continues_bit_for_bit() {
     let mut player = player();
     player.set("height", 0.5).unwrap();
     player.play_to(0.3).unwrap();
@@ -288,7 +292,7 @@ fn nonsense_is_an_error() {
 }
 
 #[test]
-fn what_breaks_is_a_finding_with_its_time() {
+fn a_break_is_a_finding_with_its_time() {
     let broken = |controller: &str| {
         let lab = serde_json::json!({"model": "ball_drop", "controller": controller, "readouts": [{"label": "z", "expr": "data.qpoz[2]"}]});
         Player::of_lab(&lab.to_string(), models()).unwrap()
@@ -319,7 +323,7 @@ fn what_breaks_is_a_finding_with_its_time() {
 }
 
 #[test]
-fn a_lab_stops_where_it_says() {
+fn a_lab_stops_at_its_stop_time() {
     let lab = LAB.replacen('{', "{\"stopAt\": 0.25, ", 1);
     let mut player = Player::of_lab(&lab, models()).unwrap();
     player.play_to(10.0).unwrap();
@@ -367,7 +371,7 @@ fn a_lesson_is_the_same_wherever_its_models_come_from() {
 }
 
 #[test]
-fn a_model_that_there_is_not_is_told() {
+fn a_missing_model_is_reported() {
     let lesson = "```lab\n{\"model\": \"drop\"}\n```\n";
     let codes = |mut checker: Checker| {
         checker.check("a.md", lesson).findings.iter().map(|f| f.code).collect::<Vec<_>>()
@@ -397,7 +401,7 @@ fn models_in_memory_include_each_other() {
 }
 
 #[test]
-fn a_text_knows_its_model() {
+fn a_text_uses_its_model() {
     let mut drop = Engine::compile(&model_text("ball_drop")).unwrap();
     let mut other = Engine::compile(&model_text("ball_drop")).unwrap();
     let z = drop.expression("data.qpos[2]").unwrap();

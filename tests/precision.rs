@@ -13,30 +13,32 @@ use labspec::run::{INTEGRATORS, Integrator};
 use labspec::source::SourceFile;
 use labspec::spec::Lab;
 use labspec_core::{Model, integrator};
-use labspec_numerics::precision::{Kind, Options, Report, Row, RunStatus, Setting, compare};
+use labspec_numerics::precision::{
+    Kind, PrecisionOptions, PrecisionResults, PrecisionRow, RunStatus, Setting, compare,
+};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// A lab with its model.
-struct Opened {
+struct LoadedLab {
     lab: Lab,
     model: Arc<Model>,
 }
 
-fn open(path: &Path, models: ModelFolder) -> Opened {
-    open_all(path, models).remove(0)
+fn load_lab(path: &Path, models: ModelFolder) -> LoadedLab {
+    load_labs(path, models).remove(0)
 }
 
-fn open_all(path: &Path, models: ModelFolder) -> Vec<Opened> {
+fn load_labs(path: &Path, models: ModelFolder) -> Vec<LoadedLab> {
     let lesson = load_lesson(SourceFile::read(path).unwrap(), &models);
     let models = Models::new(models);
     let one =
-        |lab: &Lab| Opened { lab: lab.clone(), model: models.model_of_lab(lab, &mut Vec::new()).unwrap() };
+        |lab: &Lab| LoadedLab { lab: lab.clone(), model: models.model_of_lab(lab, &mut Vec::new()).unwrap() };
     lesson.addressed().iter().map(|(_, lab)| one(lab)).collect()
 }
 
-impl Opened {
-    fn compare(&self, options: &Options) -> Report {
+impl LoadedLab {
+    fn compare(&self, options: &PrecisionOptions) -> PrecisionResults {
         let mut findings = Vec::new();
         let programs = Programs::compile(&self.lab, &self.model, &mut findings);
         compare(&self.lab, &self.model, &programs, options, &mut findings, &mut |_| ()).unwrap()
@@ -64,7 +66,7 @@ fn standard() -> Vec<PathBuf> {
 }
 
 /// The observed order of a method at the shortest timesteps with errors above rounding.
-fn order(report: &Report, id: i32) -> f64 {
+fn order(report: &PrecisionResults, id: i32) -> f64 {
     let rows = report.rows.iter().filter(|r| r.setting.integrator.id == id && r.status == RunStatus::Good);
     rows.filter_map(|r| r.errors[0].order).next_back().unwrap()
 }
@@ -85,8 +87,8 @@ fn orders_are_those_of_theory() {
         let path = labs.iter().find(|p| p.file_name().unwrap().to_str().unwrap().starts_with(name)).unwrap();
         let ids = |i: &Integrator| orders.iter().any(|(id, _)| *id == i.id);
         let integrators = INTEGRATORS.into_iter().filter(ids).collect();
-        let report =
-            open(path, ModelFolder::unknown()).compare(&Options { integrators, ..Options::default() });
+        let report = load_lab(path, ModelFolder::unknown())
+            .compare(&PrecisionOptions { integrators, ..PrecisionOptions::default() });
         for (id, theory) in orders {
             let seen = order(&report, *id);
             // At timesteps at which the error of order eight is above rounding, higher-order terms contribute: the observed
@@ -101,12 +103,12 @@ fn orders_are_those_of_theory() {
 }
 
 #[test]
-fn what_a_teacher_cares_about_is_ten_times_closer() {
+fn measures_of_lessons_are_ten_times_more_accurate() {
     let labs = standard();
-    let all = Options { integrators: INTEGRATORS.to_vec(), ..Options::default() };
+    let all = PrecisionOptions { integrators: INTEGRATORS.to_vec(), ..PrecisionOptions::default() };
     for name in ["03_double_pendulum", "05_tumbling_box"] {
         let path = labs.iter().find(|p| p.file_stem().is_some_and(|s| s == name)).unwrap();
-        let report = open(path, ModelFolder::unknown()).compare(&all);
+        let report = load_lab(path, ModelFolder::unknown()).compare(&all);
         // In the engine's count of work, which is the same on every machine.
         let good = |shared: bool| {
             report
@@ -130,7 +132,7 @@ fn what_a_teacher_cares_about_is_ten_times_closer() {
 
 /// Compares the recommended setting with a Runge–Kutta run with much shorter steps, both performed as on a page. Returns
 /// `false` if the lab's own code sets the timestep at the start, so that it cannot be changed.
-fn advice_holds(name: &str, lab: &Opened, report: &Report, setting: &Setting) -> bool {
+fn advice_holds(name: &str, lab: &LoadedLab, report: &PrecisionResults, setting: &Setting) -> bool {
     let timestep = lab.model.opt.timestep;
     let fine = timestep.min(setting.timestep) / 8.0;
     let every = (setting.timestep / fine).round() as usize;
@@ -162,37 +164,37 @@ fn advice_holds_in_an_independent_run() {
         return;
     }
     let corpus = workspace().join("../shared/corpus");
-    let models = || ModelFolder::open(&corpus.join("models")).unwrap();
+    let models = || ModelFolder::load_lab(&corpus.join("models")).unwrap();
     let mut labs: Vec<PathBuf> =
         std::fs::read_dir(corpus.join("labs")).unwrap().map(|e| e.unwrap().path()).collect();
     labs.retain(|p| p.extension().is_some_and(|e| e == "json"));
     labs.sort();
     let (mut held, mut tried) = (0, 0);
     // The chain and the stack take long, and are not labs.
-    let mut all: Vec<(PathBuf, Opened)> = labs
+    let mut all: Vec<(PathBuf, LoadedLab)> = labs
         .into_iter()
         .chain(standard().into_iter().take(9))
-        .map(|p| (p.clone(), open(&p, models())))
+        .map(|p| (p.clone(), load_lab(&p, models())))
         .collect();
     for lesson in ["01-what-a-step-computes", "02-bounce-and-swing"] {
         let path = workspace().join(format!("specs/lessons/{lesson}.md"));
-        let models = ModelFolder::open(&workspace().join("specs/models")).unwrap();
-        all.extend(open_all(&path, models).into_iter().map(|lab| (path.clone(), lab)));
+        let models = ModelFolder::load_lab(&workspace().join("specs/models")).unwrap();
+        all.extend(load_labs(&path, models).into_iter().map(|lab| (path.clone(), lab)));
     }
     for (path, lab) in all {
         let name = path.file_stem().unwrap().to_str().unwrap().to_string();
-        let report = lab.compare(&Options { until: Some(1.0), ..Options::default() });
+        let report = lab.compare(&PrecisionOptions { until: Some(1.0), ..PrecisionOptions::default() });
         if !report.advice.iter().any(|a| a.kind == Kind::Right) {
             continue;
         }
         // The recommended setting is the cheapest by run time, which on a busy machine may be any of the correct ones.
-        let shorter = |r: &Row, than: &Row| {
+        let shorter = |r: &PrecisionRow, than: &PrecisionRow| {
             r.setting.integrator.id == than.setting.integrator.id
                 && r.setting.timestep <= than.setting.timestep
         };
-        let right = |r: &Row| r.status == RunStatus::Good && r.score <= 1.0;
+        let right = |r: &PrecisionRow| r.status == RunStatus::Good && r.score <= 1.0;
         let shared = report.rows.iter().filter(|r| r.setting.integrator.shared);
-        let good: Vec<&Row> =
+        let good: Vec<&PrecisionRow> =
             shared.filter(|r| report.rows.iter().filter(|s| shorter(s, r)).all(right)).collect();
         let holding = good.iter().filter(|r| advice_holds(&name, &lab, &report, &r.setting)).count();
         tried += holding;

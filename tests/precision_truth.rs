@@ -12,7 +12,9 @@ use labspec::run::{self, Cell, RunOptions, rounded};
 use labspec::source::SourceFile;
 use labspec::spec::{Lab, Lesson};
 use labspec_core::{Model, integrator};
-use labspec_numerics::precision::{Kind, Options, Report, Row, RunStatus, compare};
+use labspec_numerics::precision::{
+    Kind, PrecisionOptions, PrecisionResults, PrecisionRow, RunStatus, compare,
+};
 use labspec_numerics::stability;
 use serde_json::Value;
 use std::path::PathBuf;
@@ -35,7 +37,7 @@ fn model(lab: &Lab) -> std::sync::Arc<Model> {
     Models::new(ModelFolder::unknown()).model_of_lab(lab, &mut Vec::new()).unwrap()
 }
 
-fn report(lab: &Lab, options: &Options) -> Report {
+fn report(lab: &Lab, options: &PrecisionOptions) -> PrecisionResults {
     let model = model(lab);
     let mut findings = Vec::new();
     let programs = Programs::compile(lab, &model, &mut findings);
@@ -53,11 +55,11 @@ fn column(lab: &Lab, (id, timestep): (i32, f64), length: f64, label: &str) -> Ve
     table.rows.iter().map(|row| if let Cell::Number(x) = row[at] { x } else { f64::NAN }).collect()
 }
 
-fn lab_row(report: &Report) -> &Row {
+fn lab_row(report: &PrecisionResults) -> &PrecisionRow {
     report.rows.iter().find(|r| r.is_own).unwrap()
 }
 
-fn right(report: &Report) -> &Row {
+fn right(report: &PrecisionResults) -> &PrecisionRow {
     let advice = report.advice.iter().find(|a| a.kind == Kind::Right).unwrap();
     &report.rows[advice.row]
 }
@@ -83,7 +85,7 @@ fn events_and_ends_are_those_of_equations_by_hand() {
     let (mut times, mut ends) = (0, 0);
     for (_, lab) in labs {
         let title = lab.title();
-        let report = report(lab, &Options::default());
+        let report = report(lab, &PrecisionOptions::default());
         let expected = &truth[title];
         assert!(!expected.is_null(), "{title}");
         for (name, time) in expected["events"].as_object().unwrap() {
@@ -140,7 +142,7 @@ fn small_differences_grow_as_by_equations_by_hand() {
         let mut model = Model::clone(&model(&lab));
         (*model.edit().opt.timestep, *model.edit().opt.integrator) = (0.0002, integrator::RK4);
         let programs = Programs::compile(&lab, &model, &mut Vec::new());
-        let options = stability::Options { until: Some(until), ..Default::default() };
+        let options = stability::PrecisionOptions { until: Some(until), ..Default::default() };
         let report = stability::probe(&lab, &model, &programs, &options, &mut |_| ()).unwrap();
         let found = report.sensitivity.parting.unwrap();
         let off = |x: f64, key: &str| (x / truth[key].as_f64().unwrap() - 1.0).abs();
@@ -161,7 +163,7 @@ fn a_dip_after_the_start_is_no_passage() {
         "stopAt": 0.4, "plots": trace("data.qpos[0]"),
     });
     let lesson = written(&lab);
-    let report = report(one(&lesson), &Options::default());
+    let report = report(one(&lesson), &PrecisionOptions::default());
     assert!(report.events.iter().all(|e| e.time.is_nan()), "{:?}", report.events);
 }
 
@@ -171,7 +173,7 @@ fn longer_steps_are_tried_until_something_changes() {
     let labs = lesson.addressed();
     for (title, longest) in [("A mass ratio of a thousand", 0.032), ("The intermediate axis", 0.128)] {
         let lab = labs.iter().find(|(_, l)| l.title() == title).unwrap().1;
-        let report = report(lab, &Options::default());
+        let report = report(lab, &PrecisionOptions::default());
         let best = right(&report);
         assert_eq!(
             (best.setting.integrator.id, best.setting.timestep),
@@ -193,7 +195,7 @@ fn a_run_that_breaks_is_no_measure_of_a_plot() {
     let labs = lesson.addressed();
     // With the lab's own setting, the gyroscope's axis turns over, with arbitrarily large numbers.
     let lab = labs.iter().find(|(_, l)| l.title() == "A gyroscope").unwrap().1;
-    let report = report(lab, &Options::default());
+    let report = report(lab, &PrecisionOptions::default());
     assert_ne!(lab_row(&report).status, RunStatus::Good);
     // Its transverse speed stays within 11 rad/s, half a pixel of which is small.
     assert!(report.targets[1].unseen < 0.06, "{}", report.targets[1].unseen);
@@ -214,7 +216,7 @@ fn every_sample_of_a_readout_counts() {
     });
     let lesson = written(&lab);
     let lab = one(&lesson);
-    let report = report(lab, &Options::default());
+    let report = report(lab, &PrecisionOptions::default());
     let euler = report.rows.iter().find(|r| r.setting.integrator.id == integrator::EULER);
     let euler = euler.unwrap();
     assert!(euler.errors[0].end < 0.05 && euler.errors[0].wrong > 10 && euler.score > 1.0);
@@ -238,7 +240,7 @@ fn late_contacts_count() {
     let lesson = written(&lab);
     let work = |until: f64| {
         let integrators = vec![Integrator::named("Euler").unwrap()];
-        let options = Options { until: Some(until), integrators, ..Options::default() };
+        let options = PrecisionOptions { until: Some(until), integrators, ..PrecisionOptions::default() };
         lab_row(&report(one(&lesson), &options)).cost.work
     };
     let (air, whole) = (work(0.8), work(2.0));
@@ -250,8 +252,8 @@ fn work_decides_and_is_the_same_again() {
     let lesson = load_lesson(SourceFile::read(&kinds()).unwrap(), &ModelFolder::unknown());
     let labs = lesson.addressed();
     let lab = labs.iter().find(|(_, l)| l.title() == "Gears with elastic teeth").unwrap().1;
-    let [one, two] = [0; 2].map(|_| report(lab, &Options::default()));
-    let numbers = |r: &Report| -> Vec<f64> { r.rows.iter().map(|row| row.cost.work).collect() };
+    let [one, two] = [0; 2].map(|_| report(lab, &PrecisionOptions::default()));
+    let numbers = |r: &PrecisionResults| -> Vec<f64> { r.rows.iter().map(|row| row.cost.work).collect() };
     assert_eq!(numbers(&one), numbers(&two));
     assert_eq!((&one.front, &one.advice), (&two.front, &two.advice));
     // An integrator that solves with derivatives costs more than one that does not.
@@ -263,10 +265,10 @@ fn work_decides_and_is_the_same_again() {
 }
 
 #[test]
-fn orders_are_shown_where_there_is_one() {
+fn orders_are_printed_where_they_exist() {
     let lesson = load_lesson(SourceFile::read(&kinds()).unwrap(), &ModelFolder::unknown());
     for (_, lab) in lesson.addressed() {
-        let report = report(lab, &Options::default());
+        let report = report(lab, &PrecisionOptions::default());
         let touched = ["A fast ball between walls", "Dry friction", "A slam", "A pinball", "A stack"];
         let orders = report.rows.iter().flat_map(|r| r.errors.iter().filter_map(|e| e.order));
         let orders: Vec<f64> = orders.collect();
@@ -287,7 +289,7 @@ fn nothing_is_compared_beyond_the_horizon_of_chaos() {
     });
     let lesson = written(&lab);
     let integrators = vec![Integrator::named("Euler").unwrap()];
-    let report = report(one(&lesson), &Options { integrators, ..Options::default() });
+    let report = report(one(&lesson), &PrecisionOptions { integrators, ..PrecisionOptions::default() });
     let until = report.targets[0].until.unwrap();
     assert!(until > 5.0 && until < 79.0, "{until}");
     assert!(report.events.iter().all(|e| e.time.is_nan() || e.time + e.uncertain <= until));
@@ -304,7 +306,7 @@ fn controllers_of_time_have_a_reference_as_good_as_others() {
         if !["A driven oscillator", "A square wave", "Drag", "Van der Pol"].contains(&lab.title()) {
             continue;
         }
-        let report = report(lab, &Options::default());
+        let report = report(lab, &PrecisionOptions::default());
         let target = &report.targets[0];
         assert!(target.uncertain <= 1e-9 * target.range, "{}: {:e}", lab.title(), target.uncertain);
     }
@@ -312,7 +314,7 @@ fn controllers_of_time_have_a_reference_as_good_as_others() {
 
 #[test]
 fn no_cost_of_a_plan_is_negative() {
-    use labspec_numerics::profile::{Options as PlanOptions, plan};
+    use labspec_numerics::profile::{PrecisionOptions as PlanOptions, plan};
     let lesson = load_lesson(SourceFile::read(&kinds()).unwrap(), &ModelFolder::unknown());
     let mut measured = 0;
     for (_, lab) in lesson.addressed().into_iter().take(8) {
@@ -331,11 +333,11 @@ fn no_cost_of_a_plan_is_negative() {
 }
 
 #[test]
-fn nothing_reads_zero_where_more_is_true() {
+fn small_values_are_not_printed_as_zero() {
     // A pendulum whose plot is compared with a reference, and a stack whose contacts a page displays one step late.
     let lesson = load_lesson(SourceFile::read(&kinds()).unwrap(), &ModelFolder::unknown());
     for (_, lab) in lesson.addressed() {
-        let report = report(lab, &Options::default());
+        let report = report(lab, &PrecisionOptions::default());
         for row in report.rows.iter().filter(|r| r.status == RunStatus::Good) {
             for (e, target) in row.errors.iter().zip(&report.targets).filter(|(_, t)| t.is_compared()) {
                 assert!(e.largest > target.uncertain || e.below, "{}: {:?} {e:?}", lab.title(), row.setting);
@@ -346,12 +348,13 @@ fn nothing_reads_zero_where_more_is_true() {
 }
 
 #[test]
-fn units_stand_where_they_are_known() {
+fn units_are_printed_where_known() {
     let lesson = load_lesson(SourceFile::read(&kinds()).unwrap(), &ModelFolder::unknown());
     let mut with_unit = 0;
     for (_, lab) in lesson.addressed() {
         let integrators = vec![Integrator::named("RK4").unwrap()];
-        let report = report(lab, &Options { integrators, until: Some(0.04), ..Options::default() });
+        let report =
+            report(lab, &PrecisionOptions { integrators, until: Some(0.04), ..PrecisionOptions::default() });
         for target in report.targets {
             let stated = target.label.contains('(');
             assert!(!stated || target.unit.as_ref().is_some_and(|u| target.label.contains(u.as_str())));

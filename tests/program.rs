@@ -5,7 +5,7 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::support::model_text;
-use crate::support::report::hold_command;
+use crate::support::report::check_command_outputs;
 use serde_json::Value;
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -134,7 +134,7 @@ fn finished(folder: &Path, arguments: &[&str], output: std::process::Output) -> 
         stdout: text(output.stdout),
         stderr: text(output.stderr),
     };
-    hold_command(folder, arguments, done.code, &done.stdout);
+    check_command_outputs(folder, arguments, done.code, &done.stdout);
     done
 }
 

@@ -27,7 +27,7 @@ fn lab(verify: Value) -> String {
 }
 
 /// Two falls: on the earth 0.440 s, on the moon 1.083 s.
-fn falls() -> Value {
+fn two_falls() -> Value {
     json!({
         "runs": {"earth": {"until": 2}, "moon": {"set": {"gravity": -1.62}, "until": 2}},
         "measure": {"lands": "crossing(data.qpos[2] - 0.05)", "speed": "at(data.time > 0.4, -data.qvel[2])"}
@@ -41,7 +41,7 @@ fn with(mut object: Value, more: Value) -> Value {
 
 /// The state of every quote of the first claim, and the codes of all findings.
 fn quotes(prose: &str, says: Value) -> (Vec<QuoteState>, Vec<&'static str>) {
-    let checked = check_text("fall.md", &format!("{prose}\n{}", lab(with(falls(), says))));
+    let checked = check_text("fall.md", &format!("{prose}\n{}", lab(with(two_falls(), says))));
     let states = checked.claims[0].judgement.quotes.iter().map(|q| q.state).collect();
     (states, codes(&checked))
 }
@@ -136,7 +136,7 @@ fn a_table_may_have_words() {
 
 #[test]
 fn a_comment_is_about_the_block_that_follows() {
-    let claim = with(falls(), json!({"lab": "#1", "says": [["0.440 s", "earth.lands"]]}));
+    let claim = with(two_falls(), json!({"lab": "#1", "says": [["0.440 s", "earth.lands"]]}));
     let text = |block: &str| format!("{}\n<!-- labspec verify\n{claim}\n-->\n{block}\n", lab(Value::Null));
     for block in [
         "It takes 0.440 s.",
@@ -166,7 +166,7 @@ fn a_comment_is_about_the_block_that_follows() {
 
 #[test]
 fn runs_and_measures_are_shared() {
-    let lab = lab(with(falls(), json!({"says": [["0.440 s", "earth.lands"]]})));
+    let lab = lab(with(two_falls(), json!({"says": [["0.440 s", "earth.lands"]]})));
     let question = |verify: Value| {
         json!({"id": "q", "questions": [{"kind": "numeric", "q": "How long on the moon?", "answer": 1.083, "tol": 0.001, "unit": "s",
             "explain": "1.083 s", "verify": verify}]})
@@ -191,7 +191,7 @@ fn runs_and_measures_are_shared() {
 }
 
 #[test]
-fn the_tolerance_refuses_what_a_mistake_gives() {
+fn the_tolerance_rejects_values_of_mistakes() {
     let question = |tol: f64, wrong: &str| {
         let verify = json!({"lab": "#1", "value": "crossing(data.qpos[2] - 0.05)", "wrong": [wrong]});
         let quiz = json!({"id": "q", "questions": [{"kind": "numeric", "q": "How long?", "answer": 0.440, "tol": tol, "unit": "s",
@@ -207,10 +207,10 @@ fn the_tolerance_refuses_what_a_mistake_gives() {
 }
 
 #[test]
-fn a_lab_may_stand_in_another_lesson() {
+fn a_claim_can_use_a_lab_of_another_lesson() {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
-    let claim = |lab: &str| with(falls(), json!({"lab": lab, "value": "earth.lands"}));
+    let claim = |lab: &str| with(two_falls(), json!({"lab": lab, "value": "earth.lands"}));
     let quiz = |lab: &str| {
         let quiz = json!({"id": "q", "questions": [{"kind": "numeric", "q": "How long?", "answer": 0.440, "tol": 0.001, "unit": "s",
             "verify": claim(lab)}]});
@@ -272,7 +272,7 @@ fn a_measure_may_look_at_the_sample_before() {
 }
 
 #[test]
-fn what_a_slider_shows_is_said() {
+fn the_displayed_value_of_a_slider_is_stated() {
     let says = json!({"says": [["-9.810 m/s^2", "model.opt.gravity[2]"]]});
     let checked = check_text("fall.md", &format!("A ball falls.\n{}", lab(says.clone())));
     assert_eq!(codes(&checked), [] as [&str; 0]);
@@ -286,7 +286,7 @@ fn what_a_slider_shows_is_said() {
 
 /// Claims that would take too long or too much memory are reported and not evaluated.
 #[test]
-fn too_much_is_told() {
+fn excessive_claims_are_reported() {
     let began = std::time::Instant::now();
     // Many objects that each use one of a megabyte.
     let long = "1 + ".repeat(250_000) + "1";

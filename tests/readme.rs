@@ -24,7 +24,7 @@ fn file(name: &str) -> String {
 }
 
 #[test]
-fn the_example_lessons_print_what_the_readme_shows() {
+fn the_example_lessons_print_the_output_of_the_readme() {
     let output = run(&["check", "specs/lessons"]);
     // The last lesson and the summary; the other lessons are too many.
     let last = output.rfind("\n\nspecs/lessons/").unwrap();

@@ -37,7 +37,7 @@ fn found(lab: &Json) -> Vec<Finding> {
 }
 
 /// The only finding, which is about `mj_setConst`.
-fn only(lab: &Json) -> Finding {
+fn only_finding(lab: &Json) -> Finding {
     let all = found(lab);
     assert_eq!(all.iter().map(|f| f.code).collect::<Vec<_>>(), ["missing-setconst"], "{all:?}");
     all[0].clone()
@@ -45,7 +45,7 @@ fn only(lab: &Json) -> Finding {
 
 /// Applies the fix of the only finding: the lab is still valid JSON, and there is no finding left.
 fn fixed(lab: &Json) -> String {
-    let (mut text, fix) = (lab.to_string(), only(lab).fix.unwrap());
+    let (mut text, fix) = (lab.to_string(), only_finding(lab).fix.unwrap());
     text.replace_range(fix.span, &fix.text);
     serde_json::from_str::<Json>(&text).unwrap();
     assert_eq!(found(&serde_json::from_str(&text).unwrap()), [], "{text}");
@@ -60,8 +60,8 @@ fn drop(controls: &Json) -> Json {
 }
 
 #[test]
-fn a_mass_that_shows_is_said_with_its_evidence() {
-    let finding = only(&drop(&json!([slider(&json!({"set": "model.body_mass[2]", "value": 0.1}))])));
+fn a_visible_effect_of_a_mass_is_reported_with_evidence() {
+    let finding = only_finding(&drop(&json!([slider(&json!({"set": "model.body_mass[2]", "value": 0.1}))])));
     let why = finding.why.unwrap();
     assert!(why.contains("with \"mass\" at 5, \"depth (mm)\" is "), "{why}");
     assert!(why.contains(" with the constants recomputed"), "{why}");
@@ -72,7 +72,7 @@ fn a_mass_that_shows_is_said_with_its_evidence() {
 }
 
 #[test]
-fn what_shows_nowhere_is_not_said() {
+fn invisible_effects_are_not_reported() {
     // Without contacts, limits or friction, no field that depends on an inertia is used.
     for (key, text) in [("set", "model.dof_armature[0]"), ("apply", "model.dof_armature[0] = value")] {
         let lab = json!({
@@ -90,36 +90,36 @@ fn what_shows_nowhere_is_not_said() {
 }
 
 #[test]
-fn an_arm_posed_by_a_key_keeps_its_pose() {
+fn an_arm_in_a_keyframe_keeps_its_pose() {
     let lab = json!({
         "xml": ARM, "key": 0, "controls": [slider(&json!({"apply": "model.body_mass[2] = value", "reset": true}))],
         "plots": [{"traces": [{"label": "elbow", "expr": "data.qpos[1]"}]}]
     });
-    let finding = only(&lab);
+    let finding = only_finding(&lab);
     assert!(finding.why.clone().unwrap().contains("\"elbow\" is "), "{finding:?}");
     assert!(finding.help.unwrap().contains("data.qpos.slice()"));
     assert!(fixed(&lab).contains("data.qpos.set(q)"));
 }
 
 #[test]
-fn the_plain_call_is_advised_where_it_was_seen_to_be_right() {
+fn the_plain_call_is_advised_where_it_gives_the_correct_run() {
     // Starting from the reference pose, and reset after every change, so that qpos cannot be lost.
     let lab =
         drop(&json!([slider(&json!({"apply": "model.body_mass[2] = value;", "value": 0.1, "reset": true}))]));
-    let help = only(&lab).help.unwrap();
+    let help = only_finding(&lab).help.unwrap();
     assert!(help.starts_with("add `mj.mj_setConst(model, data)`; in a test run"), "{help}");
     assert!(!fixed(&lab).contains("slice"));
     // If it were moved during a run, the ball would jump back to its start.
     let lab = drop(&json!([slider(&json!({"apply": "model.body_mass[2] = value // kg", "value": 0.1}))]));
-    assert!(only(&lab).help.unwrap().contains("data.qpos.slice()"));
+    assert!(only_finding(&lab).help.unwrap().contains("data.qpos.slice()"));
     fixed(&lab);
 }
 
 #[test]
-fn a_call_before_the_mass_is_written_counts_as_none() {
+fn a_call_before_the_mass_is_written_does_not_count() {
     let apply = "mj.mj_setConst(model, data); model.body_mass[2] = value";
     let lab = drop(&json!([slider(&json!({"apply": apply, "value": 0.1, "reset": true}))]));
-    assert!(only(&lab).message.contains("changes after the last `mj.mj_setConst(model, data)`"));
+    assert!(only_finding(&lab).message.contains("changes after the last `mj.mj_setConst(model, data)`"));
     fixed(&lab);
     let apply = "model.body_mass[2] = value; mj.mj_setConst(model, data)";
     let lab = drop(&json!([slider(&json!({"apply": apply, "value": 0.1, "reset": true}))]));
@@ -127,24 +127,24 @@ fn a_call_before_the_mass_is_written_counts_as_none() {
 }
 
 #[test]
-fn setups_and_buttons_are_held_to_the_same() {
+fn setups_and_buttons_are_checked_too() {
     let mut lab = drop(&json!([]));
     lab["setup"] = json!("model.body_mass[2] = 5");
-    assert!(only(&lab).why.unwrap().contains("as it stands, \"depth (mm)\" is "));
+    assert!(only_finding(&lab).why.unwrap().contains("as it stands, \"depth (mm)\" is "));
     fixed(&lab);
     let lab = drop(&json!([{"type": "button", "label": "Load", "run": "model.body_mass[2] = 5"}]));
-    assert!(only(&lab).why.unwrap().contains("after \"Load\" is pressed"));
+    assert!(only_finding(&lab).why.unwrap().contains("after \"Load\" is pressed"));
     fixed(&lab);
 }
 
 #[test]
-fn the_setup_of_a_verified_run_is_held_to_the_same() {
+fn the_setup_of_a_verified_run_is_checked_too() {
     let mut lab = drop(&json!([]));
     lab["verify"] = json!({
         "runs": {"heavy": {"setup": "model.body_mass[2] = 5", "until": 1}},
         "measure": {"z": "final(data.qpos[9])"}, "says": []
     });
-    let finding = only(&lab);
+    let finding = only_finding(&lab);
     assert!(finding.why.unwrap().contains("in the run `heavy`, "), "{:?}", finding.help);
     fixed(&lab);
     // Compared with the correct run, the difference is intended.
@@ -154,7 +154,7 @@ fn the_setup_of_a_verified_run_is_held_to_the_same() {
     });
     assert_eq!(found(&lab), []);
     lab["verify"]["runs"]["right"]["setup"] = json!("data.qvel[0] = 1");
-    only(&lab);
+    only_finding(&lab);
     // No field that depends on this one is read.
     lab["verify"]["runs"] = json!({});
     lab["xml"] = json!(PENDULUM);
@@ -165,7 +165,7 @@ fn the_setup_of_a_verified_run_is_held_to_the_same() {
 }
 
 #[test]
-fn what_could_not_be_tried_says_so() {
+fn an_untested_effect_is_reported_as_such() {
     let mut lab = drop(&json!([]));
     lab["setup"] = json!("model.body_mass[2] = 5; data.qvel[0] = 1e11");
     let all = found(&lab);
@@ -177,7 +177,7 @@ fn what_could_not_be_tried_says_so() {
 
 /// The recommended code has the same effect as the engine's own state functions.
 #[test]
-fn keeping_qpos_is_keeping_the_state() {
+fn restoring_qpos_restores_the_state() {
     for xml in [model_text("ball_drop"), ARM.to_string()] {
         let mut model = compile(&xml);
         let mut data = Data::new(&model);
@@ -250,7 +250,7 @@ fn spring(timestep: &str, more: &Json) -> Vec<&'static str> {
 }
 
 #[test]
-fn a_lab_about_divergence_says_so_and_then_it_has_to_diverge() {
+fn a_lab_that_declares_a_divergence_must_diverge() {
     let [breaks, none] = [json!({"expect": "breaks"}), json!({})];
     assert_eq!(spring("0.1", &none), ["energy-grows"], "until it is no number any more");
     assert_eq!(spring("0.1", &breaks), Vec::<&str>::new());
@@ -261,7 +261,7 @@ fn a_lab_about_divergence_says_so_and_then_it_has_to_diverge() {
 }
 
 #[test]
-fn the_real_labs_are_warned_only_of_what_a_run_shows() {
+fn real_labs_get_only_warnings_with_evidence() {
     let shared = workspace().join("../shared/corpus");
     if !shared.exists() {
         println!("skipped: {} is not there", shared.display());

@@ -2,7 +2,7 @@
 //! schemas of `docs/schema`.
 
 use crate::program::{folder, json_of, run_in};
-use crate::support::report::hold_value;
+use crate::support::report::check_report_value;
 use crate::support::schema::schemas;
 use crate::support::workspace;
 use serde_json::{Value, json};
@@ -59,8 +59,8 @@ fn a_report_that_breaks_its_promise_is_refused() {
     lost["nonfinite"] = json!({"rows": [[0, 0, "NaN"]]});
     let mut late = json!({"report": "plan", "schemaVersion": 1});
     late["reads"] = json!([]);
-    hold_value(&good);
-    hold_value(&table);
+    check_report_value(&good);
+    check_report_value(&table);
     for bad in [
         with(&good, "/schemaVersion", json!(2)),
         with(&good, "/report", json!("plan")),
@@ -73,7 +73,7 @@ fn a_report_that_breaks_its_promise_is_refused() {
         lost,
         late,
     ] {
-        let refused = std::panic::catch_unwind(|| hold_value(&bad)).is_err();
+        let refused = std::panic::catch_unwind(|| check_report_value(&bad)).is_err();
         assert!(refused, "{bad:.500}");
     }
 }
@@ -183,7 +183,7 @@ fn every_report_keeps_its_promise() {
 }
 
 #[test]
-fn numbers_that_are_none_are_named() {
+fn nonfinite_numbers_are_named() {
     let folder = folder();
     std::fs::write(folder.path().join("odd.json"), odd_lab()).unwrap();
     let run =

@@ -57,7 +57,7 @@ fn since(folder: &Path) -> (i32, Value) {
 }
 
 #[test]
-fn a_record_says_what_every_verdict_rests_on() {
+fn a_record_states_the_basis_of_every_verdict() {
     let folder = folder();
     let record = record(folder.path(), &[]);
     let mut all = schemas();
@@ -131,7 +131,7 @@ fn nothing_has_changed_since_the_same_check() {
 
 /// A changed setting of a run, and its effects: the difference of the value, and the verdict.
 #[test]
-fn a_setting_that_changed_is_told_with_what_it_changed() {
+fn a_changed_setting_is_reported_with_its_effects() {
     let folder = folder();
     record(folder.path(), &[]);
     let path = folder.path().join("lessons/fall.md");
@@ -160,7 +160,7 @@ fn a_setting_that_changed_is_told_with_what_it_changed() {
 
 /// A changed model: the changed verdicts, and the differences of numbers.
 #[test]
-fn a_model_that_changed_is_told_with_what_it_changed() {
+fn a_changed_model_is_reported_with_its_effects() {
     let folder = folder();
     record(folder.path(), &[]);
     let model = MODEL.replace("pos='0 0 1'", "pos='0 0 0.9'").replace("friction='0.5", "friction='0.6");

@@ -108,7 +108,7 @@ fn every_rule_says_why() {
 /// A scene with a constant mass matrix is not checked in every step. Still, a negative matrix is reported, as in MuJoCo 3.14.0
 /// (101 warnings of inertia in 100 steps).
 #[test]
-fn an_inertia_that_a_lab_takes_away_is_told() {
+fn a_removed_inertia_is_reported() {
     let lab = |setup: &str| {
         Example::Lab(Box::leak(
             format!(

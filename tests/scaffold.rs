@@ -84,7 +84,7 @@ fn one(question: &str) -> (Lesson, Vec<Scaffold>) {
 }
 
 #[test]
-fn words_of_change_move_a_control() {
+fn words_for_changes_select_a_control() {
     let ask = |answer: usize| {
         format!(
             r#"{{"kind": "mcq", "q": "You halve the gravity. How high is the ball after 0.3 s?", "options": ["Higher than before", "Lower than before", "At the same height"], "answer": {answer}}}"#
@@ -119,7 +119,7 @@ fn words_of_change_move_a_control() {
 }
 
 #[test]
-fn what_cannot_be_told_is_left_open_with_the_reason() {
+fn undecidable_proposals_are_omitted_with_the_reason() {
     for (question, why) in [
         (
             r#"{"kind": "mcq", "q": "Why does it fall?", "options": ["Because of its weight", "By chance"], "answer": 0}"#,

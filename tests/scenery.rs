@@ -6,7 +6,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use crate::recorded::{compare_with_recording, list, named, objects, start, worst};
-use crate::standing::Standing;
+use crate::standing::ModelResults;
 use crate::support::{models, numbers, recording, workspace};
 use labspec_core::reflect::Object;
 use labspec_core::{self as core, Data, Model, xml};
@@ -24,7 +24,7 @@ fn folder() -> PathBuf {
 
 #[test]
 fn every_model_of_the_lessons_is_as_recorded() {
-    let mut standing = Standing::default();
+    let mut standing = ModelResults::default();
     let all = models(&folder());
     assert!(all.len() >= 16, "{all:?}");
     for name in all {

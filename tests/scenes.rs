@@ -107,8 +107,8 @@ pub(crate) struct Actuator {
 
 /// Equality constraints, and the settings of the solver.
 #[derive(Clone, Debug, Default)]
-struct Ties {
-    /// Indexes in `TIES`, each with two objects to tie.
+struct Equalities {
+    /// Indexes in `EQUALITY_KINDS`, each with two objects to tie.
     list: Vec<(usize, usize, usize)>,
     frictionloss: f64,
     cone: bool,
@@ -120,7 +120,7 @@ struct Ties {
 }
 
 /// Equality constraints: of two bodies, or of two joints.
-const TIES: [&str; 4] = ["weld", "connect", "joint", "tendon"];
+const EQUALITY_KINDS: [&str; 4] = ["weld", "connect", "joint", "tendon"];
 const SOLVERS: [&str; 4] = ["Newton", "Newton", "CG", "PGS"];
 
 /// A scene.
@@ -129,7 +129,7 @@ pub(crate) struct Scene {
     bodies: Vec<Body>,
     tendons: Vec<Tendon>,
     actuators: Vec<Actuator>,
-    ties: Ties,
+    ties: Equalities,
     /// The density of the medium, kg/m^3.
     density: f64,
     floor: bool,
@@ -221,7 +221,7 @@ pub(crate) fn scene() -> impl Strategy<Value = Scene> {
             bodies,
             tendons,
             actuators,
-            ties: Ties::default(),
+            ties: Equalities::default(),
             density,
             floor,
             mocap,
@@ -234,8 +234,8 @@ pub(crate) fn scene() -> impl Strategy<Value = Scene> {
 
 /// The same with equality constraints and dry friction, cones, all solvers, and sleeping trees.
 #[allow(dead_code)] // one of the two users of this file does not need it
-pub(crate) fn tied_scene() -> impl Strategy<Value = Scene> {
-    let list = vec((0..TIES.len(), 0usize..1000, 0usize..1000), 0..3);
+pub(crate) fn constrained_scene() -> impl Strategy<Value = Scene> {
+    let list = vec((0..EQUALITY_KINDS.len(), 0usize..1000, 0usize..1000), 0..3);
     let condim = prop_oneof![2 => Just(0usize), 1 => Just(4), 1 => Just(6)];
     let ties = (
         list,
@@ -246,7 +246,7 @@ pub(crate) fn tied_scene() -> impl Strategy<Value = Scene> {
         any::<bool>(),
         prop::bool::weighted(0.2),
     )
-        .prop_map(|(list, frictionloss, cone, condim, solver, noslip, sleep)| Ties {
+        .prop_map(|(list, frictionloss, cone, condim, solver, noslip, sleep)| Equalities {
             list,
             frictionloss,
             cone,
@@ -255,7 +255,7 @@ pub(crate) fn tied_scene() -> impl Strategy<Value = Scene> {
             noslip,
             sleep,
         });
-    (scene(), prop_oneof![1 => Just(Ties::default()), 2 => ties])
+    (scene(), prop_oneof![1 => Just(Equalities::default()), 2 => ties])
         .prop_map(|(scene, ties)| Scene { ties, ..scene })
 }
 
@@ -346,7 +346,7 @@ impl Scene {
             let on: Vec<(String, bool)> = joints.chain(tendons).collect();
             self.actuators.iter().for_each(|a| a.write(&on, &mut text));
             text.push_str("</actuator><equality>");
-            self.ties.list.iter().for_each(|&tie| self.tie(tie, &scalars, &mut text));
+            self.ties.list.iter().for_each(|&tie| self.equality(tie, &scalars, &mut text));
             text.push_str("</equality>");
         }
         text.push_str("<sensor>");
@@ -356,10 +356,10 @@ impl Scene {
         text
     }
 
-    fn tie(&self, (kind, one, two): (usize, usize, usize), scalars: &[String], text: &mut String) {
+    fn equality(&self, (kind, one, two): (usize, usize, usize), scalars: &[String], text: &mut String) {
         let (bodies, tendons) = (self.bodies.len(), self.tendons.len());
         let [b1, b2] = [one % bodies, two % bodies];
-        let _ = match TIES[kind] {
+        let _ = match EQUALITY_KINDS[kind] {
             "weld" if b1 != b2 => write!(text, "<weld body1='b{b1}' body2='b{b2}'/>"),
             "connect" if b1 != b2 => write!(text, "<connect body1='b{b1}' body2='b{b2}' anchor='0 0 0.1'/>"),
             "joint" if !scalars.is_empty() => {

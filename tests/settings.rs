@@ -118,7 +118,7 @@ fn run_with(set: &[(&str, Value)], press: &[(&str, f64)]) -> Result<f64, String>
 }
 
 #[test]
-fn a_run_takes_what_a_student_can_choose_and_nothing_else() {
+fn a_run_accepts_only_settings_that_a_student_can_make() {
     let fell = run_with(&[], &[]).unwrap();
     assert_eq!(run_with(&[("gravity", Value::Number(-9.81))], &[]), Ok(fell), "the start is always possible");
     assert!(run_with(&[("integrator", "discrete".into())], &[]).is_ok());

@@ -71,7 +71,7 @@ fn piles_sleep_and_wake_as_recorded() {
 
 /// Limits, dry friction, equalities and tendons act on sleeping trees, and wake them.
 #[test]
-fn what_is_tied_sleeps_and_wakes_as_recorded() {
+fn constrained_trees_sleep_and_wake_as_recorded() {
     differences("sleep_ties", SOLVED);
 }
 

@@ -70,7 +70,7 @@ fn a_snapshot_is_a_text_for_reviewers() {
 
 /// The same lesson gives the same bytes and agrees with its snapshot, with any number of threads.
 #[test]
-fn what_has_not_changed_is_as_stored() {
+fn unchanged_labs_equal_the_snapshot() {
     let folder = with_snapshot();
     let first = stored(folder.path());
     let again = run_in(folder.path(), &["snapshot", "two.md", "--accept"]);
@@ -151,7 +151,7 @@ fn a_change_is_drawn() {
 
 /// Traces, controls and labs that are added, removed or renamed.
 #[test]
-fn what_changed_about_a_lab_is_said() {
+fn changes_of_a_lab_are_described() {
     let changes = |from: &str, to: &str| {
         let (code, all) = after(from, to);
         assert_eq!(code, 1, "{all}");
@@ -205,7 +205,7 @@ fn what_changed_about_a_lab_is_said() {
 
 /// A new snapshot is stored; an existing one is replaced only when the user accepts the change.
 #[test]
-fn only_what_is_accepted_is_overwritten() {
+fn only_accepted_labs_are_overwritten() {
     let folder = with_snapshot();
     let first = stored(folder.path());
     write(folder.path(), &lesson().replace("0 0 -.5' mass", "0 0 -.6' mass"));

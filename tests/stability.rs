@@ -9,7 +9,7 @@
 
 use crate::support::{compile, read_json, workspace};
 use labspec::monitors::growth::Source;
-use labspec::monitors::watch::{self, Noticed};
+use labspec::monitors::watch::{self, Observations};
 use labspec_core::{self as core, Data, Model, Warning, enable};
 use serde_json::{Value as Json, json};
 use std::fmt::Write;
@@ -30,7 +30,7 @@ fn run(xml: &str, steps: u64, long: u64, keep: &Json) -> Json {
     let mut reach = largest(&d.qpos);
     let (total, each) = if long > 0 { (long, (long / 1000).max(1)) } else { (steps, 1) };
     let mut done = 0;
-    let mut out = out_of(&d, keep, "way");
+    let mut out = outside_bounds(&d, keep, "way");
     let mut watch = watch::watch(&m, &d, false);
     let mut reported = Json::Null;
     while done < total {
@@ -51,13 +51,13 @@ fn run(xml: &str, steps: u64, long: u64, keep: &Json) -> Json {
         }
         // NaN never occurs silently: the next step would report it.
         reach = reach.max(largest(&d.qpos));
-        out = out.max(out_of(&d, keep, "way"));
+        out = out.max(outside_bounds(&d, keep, "way"));
     }
     assert!(
         d.qpos.iter().chain(&d.qvel).all(|x| x.is_finite()),
         "a number that is none, and no warning:\n{xml}"
     );
-    let out = out.max(out_of(&d, keep, "end"));
+    let out = out.max(outside_bounds(&d, keep, "end"));
     let mut out = json!({"reach": reach, "out": out, "speed": largest(&d.qvel), "qpos": d.qpos.iter().take(KEPT).collect::<Vec<_>>()});
     out["told"] = reported;
     if long > 0 {
@@ -71,7 +71,7 @@ fn run(xml: &str, steps: u64, long: u64, keep: &Json) -> Json {
 }
 
 /// The fault that was noticed first, and its time.
-fn to_json(noticed: &Noticed) -> Json {
+fn to_json(noticed: &Observations) -> Json {
     let pushed = noticed.growth.is_some_and(|g| matches!(g.source, Source::Damper(_)));
     let grows = if pushed { "a damper pushes" } else { "energy grows" };
     let list = [
@@ -86,7 +86,7 @@ fn to_json(noticed: &Noticed) -> Json {
 }
 
 /// How far a run is outside the bounds of its case.
-fn out_of(d: &Data, keep: &Json, when: &str) -> f64 {
+fn outside_bounds(d: &Data, keep: &Json, when: &str) -> f64 {
     let list = keep.as_array().into_iter().flatten().filter(|k| k["when"] == when);
     let far = list.map(|k| {
         let of = if k["of"] == "qpos" { &d.qpos } else { &d.qvel };

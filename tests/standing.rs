@@ -14,9 +14,9 @@ pub(crate) type Exception = (&'static str, &'static str, &'static str);
 
 /// Models and their results.
 #[derive(Default)]
-pub(crate) struct Standing(Vec<(String, Outcome)>);
+pub(crate) struct ModelResults(Vec<(String, Outcome)>);
 
-impl Standing {
+impl ModelResults {
     pub(crate) fn add(&mut self, name: String, outcome: Outcome) {
         self.0.push((name, outcome));
     }

@@ -88,7 +88,7 @@ fn programs(controller: &str) -> (Programs, labspec_core::Model) {
 }
 
 #[test]
-fn which_controllers_are_left_out_follows_from_what_they_touch() {
+fn skipped_controllers_follow_from_their_effects() {
     for (text, steady) in CONTROLLERS {
         let (programs, _) = programs(text);
         assert_eq!(is_steady(&programs.controller.as_ref().unwrap().program), steady, "{text}");
@@ -99,7 +99,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 100, ..ProptestConfig::default() })]
 
     #[test]
-    fn a_controller_that_is_left_out_changes_nothing(
+    fn skipping_a_steady_controller_changes_no_number(
         which in 0..CONTROLLERS.len(),
         events in vec((0usize..40, event()), 0..8),
     ) {

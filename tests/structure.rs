@@ -22,7 +22,7 @@ fn code(path: &Path) -> String {
 
 /// The paths of all `use` declarations, with braces expanded: `a::{b, c::d}` gives `a::b` and `a::c::d`.
 fn imports(code: &str) -> Vec<String> {
-    fn written_out(prefix: &str, rest: &str, out: &mut Vec<String>) {
+    fn expand_imports(prefix: &str, rest: &str, out: &mut Vec<String>) {
         let Some(open) = rest.find('{') else { return out.push(format!("{prefix}{rest}")) };
         let (head, body) = (format!("{prefix}{}", &rest[..open]), &rest[open + 1..rest.len() - 1]);
         let (mut depth, mut start) = (0, 0);
@@ -32,7 +32,7 @@ fn imports(code: &str) -> Vec<String> {
                 '}' => depth -= 1,
                 ',' if depth == 0 => {
                     if start < i {
-                        written_out(&head, &body[start..i], out);
+                        expand_imports(&head, &body[start..i], out);
                     }
                     start = i + 1;
                 }
@@ -53,7 +53,7 @@ fn imports(code: &str) -> Vec<String> {
                 word => path.push_str(word),
             }
         }
-        written_out("", &path, &mut out);
+        expand_imports("", &path, &mut out);
     }
     // Items that are named by their full path where they are used.
     for (at, _) in code.match_indices("crate::") {
@@ -377,7 +377,7 @@ fn files_of_the_engine_form_no_import_cycles() {
 }
 
 /// The crates in which no two files use each other.
-const WITHOUT_CIRCLES: [&str; 12] = [
+const WITHOUT_CYCLES: [&str; 12] = [
     "bind",
     "cli",
     "developer",
@@ -394,7 +394,7 @@ const WITHOUT_CIRCLES: [&str; 12] = [
 
 #[test]
 fn files_of_a_crate_form_no_import_cycles() {
-    for krate in WITHOUT_CIRCLES {
+    for krate in WITHOUT_CYCLES {
         let graph = ModuleGraph::read(&[krate], "");
         assert!(!graph.text.is_empty(), "there is no crate {krate}");
         assert_eq!(graph.cycle(), None, "in the crate {krate}");

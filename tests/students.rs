@@ -76,7 +76,7 @@ fn a_gain_that_is_too_high_is_found_at_the_end_of_its_slider() {
 }
 
 #[test]
-fn what_stands_exactly_in_its_balance_is_touched() {
+fn bodies_in_exact_balance_are_pushed() {
     let mut still = servo(8e5);
     let xml = still["xml"].as_str().unwrap().replace("kp=\"100\"", "kp=\"3e6\"");
     still = json!({"xml": xml, "stopAt": 1});
@@ -112,7 +112,7 @@ fn a_ball_that_no_step_sees_touch_a_plate_is_found_behind_it() {
 }
 
 #[test]
-fn a_ball_that_is_pressed_through_a_soft_plate_is_found_below_it() {
+fn a_ball_pressed_through_a_soft_plate_is_reported_below_it() {
     let soft = |time: f64| {
         let world = format!(
             r#"<geom name="plate" type="box" size="1 1 .01" pos="0 0 .5" solref="{time} 1"/>
@@ -147,7 +147,7 @@ fn a_ball_that_sinks_into_a_soft_floor_is_found() {
 }
 
 #[test]
-fn a_contact_that_switches_while_nothing_moves_is_found() {
+fn a_contact_that_switches_at_rest_is_reported() {
     let (_, hard) = report(&ball("-4e5 -100", json!([])), &[]);
     assert_eq!(kinds(&hard), [("chatter".into(), "\"floor\" on \"ball\"".into())]);
     assert!(evidence(&hard["findings"][0], "switches in 100 steps") >= 45.0);
@@ -176,7 +176,7 @@ fn a_block_that_friction_holds_and_that_creeps_is_found() {
 }
 
 #[test]
-fn what_grows_exponentially_in_silence_is_found() {
+fn silent_exponential_growth_is_reported() {
     let cart = r#"<body name="cart"><joint name="rail" type="slide"/><geom size=".1" mass="1"/></body>"#;
     let more = |most: f64| {
         json!({
@@ -197,9 +197,9 @@ fn what_grows_exponentially_in_silence_is_found() {
 }
 
 /// The largest value of a margin, and its theoretical bound.
-fn margin(report: &Value, knob: &str, who: &str) -> (f64, Option<f64>) {
+fn margin(report: &Value, knob: &str, subject: &str) -> (f64, Option<f64>) {
     let all = report["margins"].as_array().unwrap();
-    let found = all.iter().find(|m| m["knob"] == knob && m["who"].as_str().unwrap().contains(who));
+    let found = all.iter().find(|m| m["knob"] == knob && m["who"].as_str().unwrap().contains(subject));
     let found = found.unwrap_or_else(|| panic!("{all:#?}"));
     (found["largest"].as_f64().unwrap(), found["bound"].as_f64())
 }
@@ -222,12 +222,12 @@ fn margins_meet_the_bounds_of_one_degree_of_freedom() {
     let (code, report) = report(&still, &["--margins", "--until", "20"]);
     assert_eq!(code, 0);
     // 1 kg on 150 N/m: 2/ω. Then, at 2 ms, 4/h² for all springs together.
-    for (knob, who, bound) in [
+    for (knob, subject, bound) in [
         ("timestep", "lab", 2.0 / 150f64.sqrt()),
         ("gain", "servo", 1e6 - 50.0),
         ("stiffness", "rail", 1e6 - 100.0),
     ] {
-        let (largest, theory) = margin(&report, knob, who);
+        let (largest, theory) = margin(&report, knob, subject);
         near(largest, bound, 0.02);
         if let Some(theory) = theory {
             near(theory, bound, 0.02);
@@ -252,7 +252,7 @@ fn a_heavy_block_on_a_light_one_has_a_largest_ratio() {
 }
 
 #[test]
-fn what_is_said_to_help_does() {
+fn suggested_remedies_work() {
     let (_, broken) = report(&servo(3e6), &[]);
     let helps: Vec<&str> = broken["findings"][0]["remedies"]
         .as_array()
@@ -302,7 +302,7 @@ fn the_exponent_and_the_horizon_are_those_of_a_linear_equation() {
 }
 
 #[test]
-fn a_map_shows_where_a_lab_is_stable() {
+fn a_map_marks_the_stable_settings_of_a_lab() {
     let mut both = servo(2e6);
     let step = json!({"label": "h, in s", "set": "model.opt.timestep", "min": 0.001, "max": 0.003, "step": 0.0005, "value": 0.002});
     both["controls"].as_array_mut().unwrap().push(step);
@@ -331,7 +331,7 @@ fn a_map_shows_where_a_lab_is_stable() {
 }
 
 #[test]
-fn what_cannot_be_tried_is_counted() {
+fn untestable_settings_are_counted() {
     let many: Vec<Value> = (0..70)
         .map(|k| json!({"label": format!("s{k}"), "param": format!("s{k}"), "min": 0, "max": 1, "value": 0}))
         .collect();
@@ -342,7 +342,7 @@ fn what_cannot_be_tried_is_counted() {
 }
 
 #[test]
-fn a_lab_that_says_that_it_breaks_may() {
+fn a_declared_break_is_accepted() {
     let mut breaks = servo(3e6);
     breaks["expect"] = json!("breaks");
     let (code, report) = report(&breaks, &[]);
@@ -400,7 +400,7 @@ fn a_base_is_where_everything_begins() {
 }
 
 #[test]
-fn a_remedy_says_what_it_costs() {
+fn a_remedy_states_its_cost() {
     // A cart of 1 kg on a spring of 2e6 N/m, with Euler's method at 2 ms.
     let cart = r#"<body name="cart"><joint name="rail" type="slide" stiffness="100" damping="1"/><geom size=".1" mass="1"/></body>"#;
     let more = json!({

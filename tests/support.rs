@@ -3,6 +3,7 @@
 // A test that cannot read its own inputs must fail.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+pub(crate) mod random;
 pub(crate) mod report;
 pub(crate) mod schema;
 
@@ -16,10 +17,25 @@ use labspec_core::xml::{self, Finding, Folder};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Duration;
 
 /// The workspace, two folders above the crate of the tests.
 pub(crate) fn workspace() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// The files of a folder in a fixed order; none if there is no such folder.
+pub(crate) fn sorted_files(folder: &Path) -> Vec<PathBuf> {
+    let mut files: Vec<PathBuf> =
+        std::fs::read_dir(folder).into_iter().flatten().map(|e| e.unwrap().path()).collect();
+    files.sort();
+    files
+}
+
+/// The processor time of this thread, if known.
+pub(crate) fn thread_time() -> Option<Duration> {
+    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
+    text.split(' ').next()?.parse().ok().map(Duration::from_nanos)
 }
 
 /// A model of `tests/golden/models`, as text.

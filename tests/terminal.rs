@@ -141,7 +141,7 @@ fn a_title_and_a_label_stay_on_their_line() {
 }
 
 #[test]
-fn no_id_prints_over_its_verdict() {
+fn no_id_overwrites_its_verdict() {
     let folder = folder();
     std::fs::write(folder.path().join("lesson.md"), hostile_lesson()).unwrap();
     for command in ["check", "verify"] {
@@ -234,7 +234,7 @@ fn output_that_cannot_be_written_is_exit_2() {
 
 #[cfg(unix)]
 #[test]
-fn a_reader_that_has_gone_away_ends_the_program_quietly() {
+fn a_closed_reader_ends_the_program_without_an_error() {
     let folder = folder();
     let script =
         "{ $L run clean.md#1 --until 10 --format csv 2> errors; echo $? > code; } | head -1 > /dev/null";
@@ -245,7 +245,7 @@ fn a_reader_that_has_gone_away_ends_the_program_quietly() {
 
 #[cfg(unix)]
 #[test]
-fn ctrl_c_prints_what_is_finished() {
+fn ctrl_c_prints_the_finished_results() {
     let folder = folder();
     // A step of this lab is slow, so that the run is still active when the signal arrives.
     let lab = r#"{"title": "Slow", "model": "free_fall", "stopAt": 2000,

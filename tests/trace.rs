@@ -184,7 +184,7 @@ fn explanations_of_a_real_quiz_are_traced() {
 /// The question's own gripper holds a cube of 1.2 kg; its explanation refers to the cube that the course has used before, which
 /// is that of the model file and of the lab.
 #[test]
-fn what_a_setup_changes_is_put_back() {
+fn changes_of_a_setup_are_undone() {
     let found = |case: &Case, quote: &str| {
         traced(case).into_iter().find(|(_, q, _)| q == quote).map_or(String::new(), |(.., from)| from)
     };
@@ -214,7 +214,7 @@ fn what_a_setup_changes_is_put_back() {
 
 /// A setting that the sentence names applies to its number.
 #[test]
-fn a_sentence_that_names_a_setting_speaks_of_it() {
+fn a_sentence_that_names_a_setting_prefers_its_run() {
     let Some(case) = Case::open("lesson-0.1/lesson-0.1.md") else { return };
     let all = traced(&case);
     let (.., from) = all.iter().find(|(line, quote, _)| (*line, quote.as_str()) == (88, "29 mm")).unwrap();
@@ -245,7 +245,7 @@ fn an_answer_that_is_computed_is_claimed() {
 
 /// All proposals are true when they are accepted.
 #[test]
-fn what_is_proposed_verifies() {
+fn proposals_verify() {
     for (path, least) in [
         ("lesson-0.1/lesson-0.1.md", 20),
         ("corpus/quizzes/5.1_01.json", 5),
@@ -263,7 +263,7 @@ fn what_is_proposed_verifies() {
 
 /// Quoted numbers are claimed, and are not proposed again.
 #[test]
-fn what_is_claimed_is_told_as_claimed() {
+fn claimed_numbers_are_listed_as_claimed() {
     let folder = workspace().join("specs");
     let name = "specs/lessons/02-bounce-and-swing.md";
     let text = std::fs::read_to_string(workspace().join(name)).unwrap();

@@ -62,7 +62,7 @@ fn every() -> impl Iterator<Item = TreeAlgorithms> {
 }
 
 #[test]
-fn every_way_computes_the_zoo_as_the_general_one() {
+fn every_algorithm_computes_the_zoo_as_the_general_one() {
     let mut wrong = Vec::new();
     for (name, m, state) in animals() {
         let mut initial = Data::new(&m);
@@ -83,7 +83,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 200, ..ProptestConfig::default() })]
 
     #[test]
-    fn every_way_computes_random_trees_as_the_general_one(
+    fn every_algorithm_computes_random_trees_as_the_general_one(
         scene in scene(),
         numbers in prop::collection::vec(-1.5..1.5f64, 24),
     ) {

@@ -85,7 +85,7 @@ fn a_lab_that_did_not_run_is_a_finding() {
 
 /// Line 2: a wrong closed form, one for no trace, one that does not compile; a right one; one within a tolerance.
 #[test]
-fn closed_forms_are_held_to_their_traces() {
+fn closed_forms_are_compared_with_their_traces() {
     let exact = |exact: Json| check_json(&lab(json!({"verify": {"exact": exact}})));
     let state = |checked: &Checked| entries(checked, Subject::ClosedForm)[0].state;
     let right = "2 - 0.5 * 9.81 * data.time * data.time";
@@ -233,7 +233,7 @@ fn a_claim_that_throws_is_not_true() {
 
 /// Line 9: the report contains the measures, also at half the timestep, and the margin of each condition.
 #[test]
-fn doubtful_answers_show_what_was_measured() {
+fn doubtful_answers_print_their_measures() {
     let folder = folder();
     let verify = json!({"runs": {"run": {"until": 0.5}}, "measure": {"fall": "2 - final(data.qpos[2])"}, "options": ["fall < 1", "fall >= 1"]});
     std::fs::write(folder.path().join("q.json"), question(0, verify).to_string()).unwrap();

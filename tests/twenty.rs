@@ -20,10 +20,10 @@ use std::path::Path;
 
 /// The minimum share of reported faults, and the maximum share of false alarms.
 const REPORTED: f64 = 0.99;
-const ALARMS: f64 = 0.003;
+const MAX_FALSE_ALARMS: f64 = 0.003;
 
 /// A lab with its model and its programs.
-struct Ready {
+struct PreparedLab {
     lab: Lab,
     model: Model,
     programs: Programs,
@@ -36,17 +36,17 @@ fn texts() -> Vec<String> {
     blocks.map(|part| part.split("\n```").next().unwrap().to_string()).collect()
 }
 
-fn ready(text: &str) -> Ready {
+fn prepare(text: &str) -> PreparedLab {
     let lesson = load_lesson(SourceFile::new("lab.json", text), &ModelFolder::unknown());
     assert_eq!(lesson.findings, [], "the labs are as they should be");
     let lab = lesson.all_labs()[0].clone();
     let model = compile(&lab.xml.as_ref().unwrap().value);
     let programs = Programs::compile(&lab, &model, &mut Vec::new());
-    Ready { lab, model, programs }
+    PreparedLab { lab, model, programs }
 }
 
 /// The codes that `run` reports for a setting.
-fn run(ready: &Ready, set: Vec<(String, Value)>) -> BTreeSet<&'static str> {
+fn run(ready: &PreparedLab, set: Vec<(String, Value)>) -> BTreeSet<&'static str> {
     let options = RunOptions { set, every: 100, ..RunOptions::default() };
     let table = stress::watched_run(&ready.lab, &ready.model, &ready.programs, &options).unwrap();
     assert_eq!(table.errors, Vec::<String>::new());
@@ -59,8 +59,8 @@ fn given(setting: &Json) -> Vec<(String, Value)> {
 }
 
 #[test]
-fn broken_settings_are_reported_and_sound_ones_are_not() {
-    let labs: Vec<Ready> = texts().iter().map(|text| ready(text)).collect();
+fn broken_settings_are_reported_and_valid_ones_are_not() {
+    let labs: Vec<PreparedLab> = texts().iter().map(|text| prepare(text)).collect();
     let golden = read_json(&workspace().join("tests/golden/twenty.json"));
     let settings = golden["settings"].as_array().unwrap();
     let reports = for_each(settings.len(), |i| {
@@ -89,7 +89,7 @@ fn broken_settings_are_reported_and_sound_ones_are_not() {
     wrong.iter().for_each(|line| println!("{line}"));
     assert!(broken[0] >= 1000 && intact[0] >= 3000, "{broken:?} {intact:?}");
     assert!(broken[1] as f64 >= REPORTED * broken[0] as f64, "{broken:?}");
-    assert!(intact[1] as f64 <= ALARMS * intact[0] as f64, "{intact:?}");
+    assert!(intact[1] as f64 <= MAX_FALSE_ALARMS * intact[0] as f64, "{intact:?}");
 }
 
 /// The kind in `stability` for a code of `check` and `run`.
@@ -306,7 +306,7 @@ fn traced(folder: &Path, name: &str, text: &str, models: Option<&str>) -> Result
 }
 
 #[test]
-fn trace_says_what_verify_says() {
+fn trace_agrees_with_verify() {
     let lab_texts = texts().into_iter().enumerate().map(|(i, text)| (format!("lab-{i}"), text, None));
     let mut labs: Vec<Named> = lab_texts.collect();
     labs.extend(corpus());
@@ -319,7 +319,7 @@ fn trace_says_what_verify_says() {
 }
 
 #[test]
-fn precision_and_verify_say_what_run_says() {
+fn precision_and_verify_agree_with_run() {
     let lab_texts = texts().into_iter().enumerate().map(|(i, text)| (format!("lab-{i}"), text, None));
     let mut labs: Vec<Named> = lab_texts.collect();
     labs.extend(corpus());

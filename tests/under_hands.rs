@@ -177,7 +177,7 @@ fn subjects(page: &str) -> Vec<String> {
 }
 
 #[test]
-fn what_the_library_warns_of_is_found_and_margins_are_its() {
+fn warnings_and_margins_agree_with_the_library() {
     let recorded = recording("stability_labs");
     let shared = needs("../shared/corpus");
     let all = recorded["labs"].as_array().unwrap();

@@ -214,7 +214,7 @@ fn quotes(prose: &str, says: &str) -> (usize, Vec<&'static str>) {
 
 /// Issue 12, line 7: a changed number in the prose remained verified, because invisible text still contained the old one.
 #[test]
-fn a_changed_number_in_prose_is_not_verified_by_what_no_reader_sees() {
+fn a_changed_number_in_prose_is_not_verified_by_hidden_text() {
     let prose = "It touches after 0.443 s.\n\n```python\nassert touch == \"0.442 s\"\n```\n\n<!-- 0.442 s -->\n\n\
                  <img src=\"a.png\" alt=\"0.442 s\">\n\nNot <span style=\"display: none\">0.442 s</span> here.\n\n\
                  <div hidden>\n\n0.442 s\n\n</div>\n\n```json\n{\"0.442 s\": true}\n```";
@@ -283,7 +283,7 @@ fn a_wrong_number_is_wrong_in_every_form() {
 }
 
 #[test]
-fn what_is_not_understood_is_said_and_not_called_wrong() {
+fn unreadable_quotes_are_reported_and_not_called_wrong() {
     for (quote, expr, code) in [
         ("1,500 N", "1.5", "quote-unclear"),
         ("3,5 N", "4", "quote-unclear"),
@@ -410,7 +410,7 @@ fn digits_of_a_chaotic_motion_are_never_recommended() {
 
 /// An option that the runs do not decide is counted as neither refuted nor verified.
 #[test]
-fn what_is_not_decided_is_no_distractor_that_is_refuted() {
+fn an_undecided_option_is_not_refuted() {
     let lesson = |options: [&str; 3]| {
         let question = json!({"id": "q", "title": "t", "questions": [{
             "kind": "predict", "q": "Where is it after a second?", "options": ["lower", "higher", "because of the moon"], "answer": 0,
@@ -511,7 +511,7 @@ fn read_off(readout: &str, measure: &str) -> (Vec<QuoteState>, Vec<&'static str>
 }
 
 #[test]
-fn what_a_lab_shows_can_be_claimed() {
+fn displayed_values_can_be_claimed() {
     let right = r#"{"label": "way (m)", "expr": "1 - data.qpos[2]", "digits": 3}"#;
     for measure in
         ["final(shown('way (m)'))", "final(shown('fallen (m)'))", "final(shown('plot/0/fallen (m)'))"]
@@ -530,7 +530,7 @@ fn what_a_lab_shows_can_be_claimed() {
 }
 
 /// A lab with this `verify` object about a ball that falls from 1 m onto a floor: the verdicts of its quotes, and the findings.
-fn dropped(
+fn check_drop(
     says: &[[&str; 2]],
     verify: serde_json::Value,
 ) -> (Vec<&'static str>, Vec<labspec::finding::Finding>) {
@@ -579,19 +579,19 @@ fn a_run_changes_model_keyframe_and_controller() {
         ["0.450 m", "low.z"],
         ["0.44 s", "ends.t"],
     ];
-    let (verdicts, found) = dropped(&right, verify.clone());
+    let (verdicts, found) = check_drop(&right, verify.clone());
     // A value that only reads the model is computed.
     assert_eq!(verdicts[1..3], ["computed"; 2], "{found:#?}");
     assert_eq!([&verdicts[..1], &verdicts[3..]].concat(), ["verified"; 6], "{found:#?}");
     let wrong = [["1.00 kg", "heavy.mass"], ["0.95 m", "quick.z"], ["1.0 m", "low.z"], ["3.00 s", "ends.t"]];
-    assert_eq!(dropped(&wrong, verify).0, ["refuted"; 4]);
+    assert_eq!(check_drop(&wrong, verify).0, ["refuted"; 4]);
 }
 
 #[test]
-fn what_a_run_cannot_change_is_said_with_what_is_near() {
+fn an_invalid_setting_of_a_run_is_reported_with_similar_names() {
     let run = |run: serde_json::Value| {
         let verify = json!({"runs": {"r": run}, "measure": {"z": "final(data.qpos[2])"}});
-        let (verdicts, found) = dropped(&[["0.95 m", "z"]], verify);
+        let (verdicts, found) = check_drop(&[["0.95 m", "z"]], verify);
         assert_eq!(verdicts, ["failed"], "{run}");
         found
     };
@@ -654,12 +654,12 @@ fn sweeps_measure_a_law() {
         ["4 kg", "max(weigh.mass)"],
         ["2.33 kg", "mean(weigh.mass)"],
     ];
-    let (verdicts, found) = dropped(&right, verify.clone());
+    let (verdicts, found) = check_drop(&right, verify.clone());
     // A value that only reads the model is computed.
     assert_eq!(verdicts[..2], ["verified"; 2], "{found:#?}");
     assert_eq!(verdicts[2..], ["computed"; 6], "{found:#?}");
     let wrong = [["0.60", right[0][1]], ["2.00 kg", "slope(weigh.mass)"], ["0.50 m", "fall.value[3]"]];
-    assert_eq!(dropped(&wrong, verify.clone()).0, ["refuted"; 3]);
+    assert_eq!(check_drop(&wrong, verify.clone()).0, ["refuted"; 3]);
     // Values that are not lists, members or laws are reported.
     for (expr, words) in [
         ("fall.touch[5]", "indexes are 0 to 4"),
@@ -667,14 +667,14 @@ fn sweeps_measure_a_law() {
         ("slope(fall.touch.map(t => t))", "run.value"),
         ("fall.tuoch[1]", "touch"),
     ] {
-        let (verdicts, found) = dropped(&[["0.50 s", expr]], verify.clone());
+        let (verdicts, found) = check_drop(&[["0.50 s", expr]], verify.clone());
         assert_eq!(verdicts, ["failed"], "{expr}");
         assert!(says(&found, words), "{expr}: {found:#?}");
     }
 }
 
 #[test]
-fn a_sweep_that_is_none_is_refused() {
+fn an_invalid_sweep_is_refused() {
     for (sweep, words) in [
         (json!({"start (m)": [1]}), "2 to 50 values; this one has 1"),
         (json!({"start (m)": {"from": 0, "to": 1, "count": 51}}), "2 to 50 values; this one has 51"),
@@ -684,7 +684,7 @@ fn a_sweep_that_is_none_is_refused() {
         (json!({"start (m)": [0.5, 3]}), "3 cannot be chosen"),
     ] {
         let verify = json!({"runs": {"r": {"sweep": sweep}}, "measure": {"z": "final(data.qpos[2])"}});
-        let found = dropped(&[["0.95 m", "r.z[0]"]], verify).1;
+        let found = check_drop(&[["0.95 m", "r.z[0]"]], verify).1;
         assert!(says(&found, words), "{sweep}: {found:#?}");
     }
 }
@@ -741,7 +741,7 @@ fn a_limit_is_found_by_halving() {
 /// A column of a table is compared with a sweep, cell by cell, and a single cell with one number; a wrong cell is
 /// reported at its location.
 #[test]
-fn tables_are_held_to_sweeps() {
+fn tables_are_compared_with_sweeps() {
     let lesson = |cell: &str, table: serde_json::Value| {
         let verify = json!({
             "runs": {"fall": {"sweep": {"height (m)": [0.5, 1, 1.5]}, "until": 1, "stop": "contact('ball', 'floor')"},

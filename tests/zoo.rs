@@ -1,7 +1,7 @@
 //! The zoo (`specs/models/zoo`, one model per feature), compared with the results of MuJoCo 3.14.0.
 
 use crate::recorded::{compare_with_recording, list, objects, set};
-use crate::standing::{Exception, Standing};
+use crate::standing::{Exception, ModelResults};
 use crate::support::{compile_unconstrained, models, recording, workspace};
 use labspec_core::reflect::{self, FieldSet, Object};
 use labspec_core::{self as core, AccessSet, Data, Model, Plan, Planned};
@@ -81,7 +81,7 @@ pub(crate) fn animals() -> impl Iterator<Item = (String, Model, Value)> {
 
 #[test]
 fn every_model_of_the_zoo_is_as_recorded() {
-    let mut standing = Standing::default();
+    let mut standing = ModelResults::default();
     for name in models(&folder()) {
         let model = folder().join(format!("{name}.xml"));
         let outcome = compare_with_recording(&model, &recording(&format!("zoo/{name}")));
@@ -152,7 +152,7 @@ fn a_plan_for_any_field_changes_no_bit_of_it() {
 
 /// A simulation that was saved and restored continues with the same bits, for all contents and all integrators.
 #[test]
-fn what_is_restored_goes_on_as_before() {
+fn restored_data_continue_as_before() {
     let mut wrong = Vec::new();
     for (name, mut m, state) in animals() {
         for integrator in 0..5 {

@@ -1,20 +1,20 @@
 //! False statements, inserted one after another into every answer and every claimed number of the course.
 
 use super::places::{Place, digits, places, quotes, verifies};
-use super::{CourseLesson, checked, complaints, counts, course, for_each, models};
+use super::{CourseLesson, checked, counts, course, for_each, list_findings, models};
 use labspec::bind::scene::Models;
 use labspec::check::CheckLevel;
 use labspec::verify::QuoteState;
 use std::ops::Range;
 
 /// Changes a number to a false one; `None` if the result is the same number.
-type Lie = fn(&str) -> Option<String>;
+type Falsification = fn(&str) -> Option<String>;
 
 /// The ways to falsify a number.
-const LIES: [(&str, Lie); 3] = [("a digit", digit), ("a tenth", tenth), ("a unit", unit)];
+const FALSIFICATIONS: [(&str, Falsification); 3] = [("a digit", digit), ("a tenth", tenth), ("a unit", unit)];
 
 /// Half of g h t is 0.73575 mm for the shortest step. It can be rounded to either neighbour, so the next one is not false.
-const EITHER: &str = "-0.7357";
+const UNDETECTABLE: &str = "-0.7357";
 
 /// Increases the last digit by one.
 fn digit(quote: &str) -> Option<String> {
@@ -114,10 +114,10 @@ fn without_runs(text: &str) -> String {
 
 /// Whether a false number in the text is found while the claim is right: at its location, or at the claim,
 /// whose quote is then missing.
-fn is_found(name: &str, text: &str, place: &Place, lie: &str, models: &Models) -> bool {
-    let lied = replaced(text, &[(place.at.clone(), lie.to_string())]);
+fn is_detected(name: &str, text: &str, place: &Place, falsified: &str, models: &Models) -> bool {
+    let lied = replaced(text, &[(place.at.clone(), falsified.to_string())]);
     let checked = checked(name, &lied, models, CheckLevel::CLAIMS);
-    let end = place.at.start + lie.len();
+    let end = place.at.start + falsified.len();
     let claim = |span: &Range<usize>| lied.get(span.clone()).is_some_and(|t| t.contains(&place.quote));
     checked.findings.iter().filter(|f| counts(f)).any(|f| {
         let here = |span: &Range<usize>| span.start < end && place.at.start < span.end;
@@ -136,21 +136,21 @@ fn a_number_that_is_changed_in_the_text_is_found() {
         .collect();
     for (l, lesson) in lessons.iter().enumerate() {
         let plain = checked(&lesson.name, &lesson.text, &models, CheckLevel::CLAIMS);
-        assert_eq!(complaints(&plain), [] as [&str; 0], "{}", lesson.name);
+        assert_eq!(list_findings(&plain), [] as [&str; 0], "{}", lesson.name);
         for place in places(&lesson.text) {
-            for (how, lie) in LIES {
-                cases.extend(lie(&place.quote).map(|lie| (l, place.clone(), how, lie)));
+            for (how, falsified) in FALSIFICATIONS {
+                cases.extend(falsified(&place.quote).map(|falsified| (l, place.clone(), how, falsified)));
             }
         }
     }
     let found = for_each(cases.len(), |i| {
-        let (l, place, _, lie) = &cases[i];
-        is_found(&lessons[*l].name, &lessons[*l].text, place, lie, &models)
+        let (l, place, _, falsified) = &cases[i];
+        is_detected(&lessons[*l].name, &lessons[*l].text, place, falsified, &models)
     });
     let mut undetected = Vec::new();
-    for ((l, place, how, lie), _) in cases.iter().zip(&found).filter(|(_, found)| !**found) {
+    for ((l, place, how, falsified), _) in cases.iter().zip(&found).filter(|(_, found)| !**found) {
         let line = lessons[*l].text[..place.at.start].matches('\n').count() + 1;
-        undetected.push(format!("{}:{line}: {} as {lie} ({how})", lessons[*l].name, place.quote));
+        undetected.push(format!("{}:{line}: {} as {falsified} ({how})", lessons[*l].name, place.quote));
     }
     eprintln!("{} lies in the text, {} missed", cases.len(), undetected.len());
     assert!(cases.len() > 900, "{}", cases.len());
@@ -159,10 +159,15 @@ fn a_number_that_is_changed_in_the_text_is_found() {
 
 /// Falsifies all numbers of a lesson that can be falsified in this way, in the text and in the claims. Returns how many there
 /// are, and which of them are judged right.
-fn believed(lesson: &CourseLesson, how: &str, lie: Lie, models: &Models) -> (usize, Vec<String>) {
+fn undetected(
+    lesson: &CourseLesson,
+    how: &str,
+    falsified: Falsification,
+    models: &Models,
+) -> (usize, Vec<String>) {
     // All at once, because each is judged separately.
     let mut changes: Vec<_> =
-        places(&lesson.text).into_iter().filter_map(|p| Some((p.at, lie(&p.quote)?))).collect();
+        places(&lesson.text).into_iter().filter_map(|p| Some((p.at, falsified(&p.quote)?))).collect();
     let mut lies = Vec::new();
     for object in verifies(&lesson.text) {
         let mut from = object.start;
@@ -170,7 +175,7 @@ fn believed(lesson: &CourseLesson, how: &str, lie: Lie, models: &Models) -> (usi
             let pair = format!("[\"{quote}\"");
             let at = from + lesson.text[from..object.end].find(&pair).unwrap() + 2;
             from = at;
-            let Some(other) = lie(&quote) else { continue };
+            let Some(other) = falsified(&quote) else { continue };
             changes.push((at..at + quote.len(), other.clone()));
             lies.push(other);
         }
@@ -180,7 +185,7 @@ fn believed(lesson: &CourseLesson, how: &str, lie: Lie, models: &Models) -> (usi
     let quoted: Vec<_> = checked.claims.iter().flat_map(|c| &c.judgement.quotes).collect();
     let all: Vec<_> = quoted.into_iter().filter(|q| lies.contains(&q.text)).collect();
     assert_eq!(all.len(), lies.len(), "{}", lesson.name);
-    let either = digit(EITHER).unwrap();
+    let either = digit(UNDETECTABLE).unwrap();
     let right = all.iter().filter(|q| q.state == QuoteState::Right && q.text != either);
     (lies.len(), right.map(|q| format!("{}: {} ({how})", lesson.name, q.text)).collect())
 }
@@ -190,10 +195,12 @@ fn believed(lesson: &CourseLesson, how: &str, lie: Lie, models: &Models) -> (usi
 fn a_number_that_is_claimed_wrongly_is_refuted() {
     let models = models();
     let lessons = course();
-    let cases: Vec<_> = (0..lessons.len()).flat_map(|l| LIES[..2].iter().map(move |lie| (l, *lie))).collect();
+    let cases: Vec<_> = (0..lessons.len())
+        .flat_map(|l| FALSIFICATIONS[..2].iter().map(move |falsified| (l, *falsified)))
+        .collect();
     let undetected = for_each(cases.len(), |i| {
-        let (l, (how, lie)) = cases[i];
-        believed(&lessons[l], how, lie, &models)
+        let (l, (how, falsified)) = cases[i];
+        undetected(&lessons[l], how, falsified, &models)
     });
     let count: usize = undetected.iter().map(|(count, _)| count).sum();
     let undetected: Vec<String> = undetected.into_iter().flat_map(|(_, undetected)| undetected).collect();
@@ -207,7 +214,7 @@ fn a_number_that_is_claimed_wrongly_is_refuted() {
 fn a_unit_that_is_claimed_wrongly_is_refuted() {
     let models = models();
     let lessons = course();
-    let undetected = for_each(lessons.len(), |l| believed(&lessons[l], "a unit", unit, &models));
+    let undetected = for_each(lessons.len(), |l| undetected(&lessons[l], "a unit", unit, &models));
     let count: usize = undetected.iter().map(|(count, _)| count).sum();
     let undetected: Vec<String> = undetected.into_iter().flat_map(|(_, undetected)| undetected).collect();
     eprintln!("{count} false units, {} held to be right", undetected.len());

@@ -1,7 +1,7 @@
 //! Another layout, and other words around a number, do not make a claim false.
 
 use super::places::{Place, places, verifies};
-use super::{checked, complaints, course, for_each, models};
+use super::{checked, course, for_each, list_findings, models};
 use crate::program::program;
 use labspec::check::CheckLevel;
 use labspec::verify::QuoteState;
@@ -15,8 +15,8 @@ const CHANGES: [(&str, Change); 6] = [
     ("short lines", |text| wrapped(text, 50)),
     ("pretty JSON", |text| fences(text, |json| serde_json::to_string_pretty(&json).unwrap())),
     ("JSON on one line", |text| fences(text, |json| json.to_string())),
-    ("no break between number and unit", |text| at_places(text, |quote| quote.replace(' ', "&nbsp;"))),
-    ("other words", |text| at_places(text, |quote| format!("what comes to {quote}, as they say,"))),
+    ("no break between number and unit", |text| rewrite_numbers(text, |quote| quote.replace(' ', "&nbsp;"))),
+    ("other words", |text| rewrite_numbers(text, |quote| format!("what comes to {quote}, as they say,"))),
 ];
 
 /// Wraps paragraphs of prose at this width. Everything else is unchanged.
@@ -76,7 +76,7 @@ fn fences(text: &str, write: impl Fn(Value) -> String) -> String {
 
 /// Writes each number of prose, questions and explanations in another way. Labels are not HTML, so they are left unchanged. In
 /// formulas, a word would be set as italic letters.
-fn at_places(text: &str, write: impl Fn(&str) -> String) -> String {
+fn rewrite_numbers(text: &str, write: impl Fn(&str) -> String) -> String {
     let mut out = String::new();
     let mut from = 0;
     for Place { at, quote } in places(text) {
@@ -97,7 +97,7 @@ fn at_places(text: &str, write: impl Fn(&str) -> String) -> String {
 }
 
 #[test]
-fn another_layout_and_other_words_are_no_lie() {
+fn another_layout_and_wording_are_accepted() {
     let models = models();
     let lessons = course();
     let wrong = for_each(lessons.len() * CHANGES.len(), |i| {
@@ -108,7 +108,7 @@ fn another_layout_and_other_words_are_no_lie() {
         let checked = checked(&lesson.name, &text, &models, CheckLevel::CLAIMS);
         let quotes = checked.claims.iter().flat_map(|c| &c.judgement.quotes);
         let unsure = quotes.filter(|q| q.state != QuoteState::Right).map(|q| q.reason.clone());
-        let all: Vec<String> = complaints(&checked).into_iter().chain(unsure).collect();
+        let all: Vec<String> = list_findings(&checked).into_iter().chain(unsure).collect();
         all.into_iter().map(|what| format!("{}, {how}: {what}", lesson.name)).collect::<Vec<_>>()
     });
     let wrong: Vec<String> = wrong.into_iter().flatten().collect();

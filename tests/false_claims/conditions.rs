@@ -1,9 +1,10 @@
 //! Options of questions: conditions that are true but could be false, and altered ones.
 
 use super::lesson::{Body, Claim, Truth};
-use super::random::{Random, printed};
+use super::random::printed;
 use super::scenes::NEVER;
 use super::values::other_units;
+use crate::support::random::Random;
 use serde_json::json;
 
 /// A measure of a run, by its name in a claim, with its value.
@@ -277,7 +278,7 @@ const MISSING: &[&str] = &[
 ];
 
 /// Conditions that the measures of a run satisfy in every run.
-const TIED: &[&str] = &[
+const ALWAYS_TRUE: &[&str] = &[
     "{r}.seven === 7",
     "{r}.seven > 3",
     "{r}.nothing === 0",
@@ -313,7 +314,7 @@ pub(super) fn empty(random: &mut Random, measured: &[MeasuredNumber]) -> Vec<Cla
         all.push(random.pick(&list).clone());
     }
     for _ in 0..3 {
-        let text = random.pick(TIED).replace("{r}", run);
+        let text = random.pick(ALWAYS_TRUE).replace("{r}", run);
         all.push(("the same of every run", text));
     }
     let list = missing_of(&z, &k.name);

@@ -48,7 +48,7 @@ pub(super) enum Outcome {
 }
 
 /// Measures with the same values, or the same relations between them, in every run.
-const TIED: [(&str, &str); 10] = [
+const DEPENDENT_MEASURES: [(&str, &str); 10] = [
     ("seven", "final(0 * data.qpos[0] + 7)"),
     ("nothing", "final(data.qpos[0] - data.qpos[0])"),
     ("always", "holds(data.qpos[0] <= max(data.qpos[0]))"),
@@ -71,7 +71,7 @@ fn shared(scene: &Scene) -> Value {
     measures.insert("hopeless".into(), json!("holds(!(NaN < -1))"));
     measures.insert("hidden".into(), json!("holds(!(Math.sqrt(-1 - data.time) > 0))"));
     measures.insert("counted".into(), json!("count(!(Math.sqrt(0.2 - data.time) > 100))"));
-    for (name, text) in TIED {
+    for (name, text) in DEPENDENT_MEASURES {
         measures.insert(name.into(), json!(text));
     }
     json!({"runs": scene.runs, "measure": measures, "says": [["runs", "1 < 2"]]})

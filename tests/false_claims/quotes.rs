@@ -2,9 +2,10 @@
 
 use super::conditions::MeasuredNumber;
 use super::lesson::{Body, Claim, Truth};
-use super::random::{Random, printed};
+use super::random::printed;
 use super::scenes::NEVER;
 use super::values::{other_units, through_code};
+use crate::support::random::Random;
 use serde_json::json;
 
 fn says(variant: &str, truth: Truth, quote: &str, expr: &str, block: String) -> Claim {
@@ -251,7 +252,7 @@ const HIDDEN: &[&str] = &[
 ];
 
 /// Cells, and the text around a table, that hide the number from a reader.
-const STRUCK: [(&str, &str); 6] = [
+const HIDING_MARKUP: [(&str, &str); 6] = [
     ("~~{N}~~ 77777", "{B}"),
     ("<del>{N}</del> 77777", "{B}"),
     ("<span hidden>{N}</span> 77777", "{B}"),
@@ -361,7 +362,7 @@ pub(super) fn wrong(random: &mut Random, measured: &[MeasuredNumber]) -> Vec<Cla
         all.push(says("hidden", Truth::False, &whole, &k.name, block));
     }
     let heading = format!("result ({unit})");
-    for (cell, whole) in STRUCK {
+    for (cell, whole) in HIDING_MARKUP {
         let cell = cell.replace("{N}", &n.text);
         let mut made = table("hidden", Truth::False, &heading, &cell, &k.name);
         if let Body::Text(_, block) = &mut made.body {

@@ -1,7 +1,7 @@
 //! Random labs: a few families, each with random parameters, two runs, their measures, and the measures
 //! that are known by a formula.
 
-use super::random::Random;
+use crate::support::random::Random;
 use serde_json::{Value, json};
 
 /// A measure of a run.

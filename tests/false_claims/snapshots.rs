@@ -1,7 +1,7 @@
 //! Snapshots: the stored text of labs, and copies with one change in each lab.
 
-use super::random::Random;
 use super::scenes::Scene;
+use crate::support::random::Random;
 use labspec::bind::scene::Models;
 use labspec::check::{self, CheckLevel};
 use labspec::ledger::State;

@@ -1,8 +1,8 @@
 //! Claims about ranges, searches, fits and ends of runs, by a known law; and closed forms.
 
 use super::lesson::{Body, Claim, Truth};
-use super::random::Random;
 use super::scenes::{Law, Scene};
+use crate::support::random::Random;
 use serde_json::{Value, json};
 
 impl Law {

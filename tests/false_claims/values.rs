@@ -2,11 +2,11 @@
 
 use super::conditions::MeasuredNumber;
 use super::lesson::{Body, Claim, Truth};
-use super::random::Random;
 use super::scenes::NEVER;
+use crate::support::random::Random;
 use serde_json::{Value, json};
 
-struct Asked<'a> {
+struct ClaimedValue<'a> {
     answer: f64,
     tol: f64,
     unit: &'a str,
@@ -16,7 +16,7 @@ fn question(
     kind: &'static str,
     variant: &str,
     truth: Truth,
-    asked: &Asked<'_>,
+    asked: &ClaimedValue<'_>,
     value: &str,
     wrong: &[String],
 ) -> Claim {
@@ -35,8 +35,8 @@ fn rounded(x: f64) -> f64 {
     format!("{x:.4}").parse().unwrap()
 }
 
-fn asked(k: &MeasuredNumber) -> Asked<'static> {
-    Asked { answer: rounded(k.x), tol: rounded(0.03 * k.x.abs() + 0.01), unit: k.unit }
+fn asked(k: &MeasuredNumber) -> ClaimedValue<'static> {
+    ClaimedValue { answer: rounded(k.x), tol: rounded(0.03 * k.x.abs() + 0.01), unit: k.unit }
 }
 
 pub(super) fn right(random: &mut Random, measured: &[MeasuredNumber]) -> Vec<Claim> {
@@ -92,8 +92,8 @@ pub(super) fn through_code(random: &mut Random, k: &MeasuredNumber) -> String {
 pub(super) fn wrong(random: &mut Random, measured: &[MeasuredNumber]) -> Vec<Claim> {
     let k = random.pick(measured);
     let a = asked(k);
-    let with = |answer: f64| Asked { answer: rounded(answer), ..asked(k) };
-    let value = |variant: &str, truth, asked: &Asked<'_>, text: &str| {
+    let with = |answer: f64| ClaimedValue { answer: rounded(answer), ..asked(k) };
+    let value = |variant: &str, truth, asked: &ClaimedValue<'_>, text: &str| {
         question("value", variant, truth, asked, text, &[])
     };
     let away = a.tol * (1.2 + 0.5 * random.below(60) as f64);
@@ -108,11 +108,11 @@ pub(super) fn wrong(random: &mut Random, measured: &[MeasuredNumber]) -> Vec<Cla
         all.push(value("a factor", Truth::False, &a, &format!("2 * {}", k.name)));
         for unit in other_units(k.unit) {
             let text = through_code(random, k);
-            all.push(value("another unit", Truth::False, &Asked { unit, ..asked(k) }, &text));
+            all.push(value("another unit", Truth::False, &ClaimedValue { unit, ..asked(k) }, &text));
         }
         if !k.unit.is_empty() {
             let unit = *random.pick(&["furlongs", "S", "blinks", "fortnights", "Wb", "x"]);
-            all.push(value("an unknown unit", Truth::False, &Asked { unit, ..asked(k) }, &k.name));
+            all.push(value("an unknown unit", Truth::False, &ClaimedValue { unit, ..asked(k) }, &k.name));
         }
     }
     let other = random.pick(measured);
@@ -158,11 +158,11 @@ pub(super) fn empty(random: &mut Random, measured: &[MeasuredNumber]) -> Vec<Cla
     let (m, x) = (&k.name, a.answer);
     let run = m.split('.').next().unwrap();
     let z = format!("{run}.{}", random.pick(&NEVER).name);
-    let value = |variant: &str, asked: &Asked<'_>, text: String| {
+    let value = |variant: &str, asked: &ClaimedValue<'_>, text: String| {
         question("value", variant, Truth::Empty, asked, &text, &[])
     };
-    let truth = Asked { answer: 1.0, tol: 0.1, unit: "" };
-    let half = Asked { answer: 0.5, tol: 0.01, unit: "" };
+    let truth = ClaimedValue { answer: 1.0, tol: 0.1, unit: "" };
+    let half = ClaimedValue { answer: 0.5, tol: 0.01, unit: "" };
     let mut all = Vec::new();
     for text in [
         format!("{x} + 0 * {m}"),
@@ -202,7 +202,7 @@ pub(super) fn empty(random: &mut Random, measured: &[MeasuredNumber]) -> Vec<Cla
     ] {
         all.push(value("decided by what is no number", &a, text));
     }
-    let root = Asked { answer: 0.4472, tol: 0.02, unit: "" };
+    let root = ClaimedValue { answer: 0.4472, tol: 0.02, unit: "" };
     for text in [
         format!("{run}.rooted"),
         "max(Math.sqrt(0.2 - data.time))".to_string(),
@@ -212,7 +212,7 @@ pub(super) fn empty(random: &mut Random, measured: &[MeasuredNumber]) -> Vec<Cla
     }
     all.push(value(
         "reads the data outside of an aggregate",
-        &Asked { answer: 0.0, tol: 0.01, unit: "" },
+        &ClaimedValue { answer: 0.0, tol: 0.01, unit: "" },
         "data.time".into(),
     ));
     all.push(value("reads the data outside of an aggregate", &a, format!("{x} + 0 * data.time")));

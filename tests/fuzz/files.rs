@@ -1,9 +1,10 @@
 //! Random trees of files with unusual names, contents and file types, and random command lines for them. The program terminates
 //! without a signal, with exit code 0, 1 or 2.
 
-use super::{Random, tries};
+use super::run_cases;
 use crate::program::{CLEAN, FALL, wrong};
 use crate::support::model_text;
+use crate::support::random::Random;
 use crate::support::report::hold;
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -114,7 +115,7 @@ fn write(path: &Path, random: &mut Random) {
 
 /// Unusual files. Links point into the tree and may form cycles.
 #[cfg(unix)]
-fn odd(path: &Path, all: &[PathBuf], random: &mut Random) {
+fn unusual_file(path: &Path, all: &[PathBuf], random: &mut Random) {
     use std::os::unix::fs::{PermissionsExt, symlink};
     match random.below(5) {
         0 => drop(symlink(path, path)),
@@ -129,7 +130,7 @@ fn odd(path: &Path, all: &[PathBuf], random: &mut Random) {
 }
 
 #[cfg(not(unix))]
-fn odd(path: &Path, _: &[PathBuf], random: &mut Random) {
+fn unusual_file(path: &Path, _: &[PathBuf], random: &mut Random) {
     write(path, random);
 }
 
@@ -144,7 +145,7 @@ fn grow(root: &Path, random: &mut Random) -> Vec<PathBuf> {
                     folders.push(path.clone());
                 }
             }
-            2 if !path.exists() => odd(&path, &all, random),
+            2 if !path.exists() => unusual_file(&path, &all, random),
             _ => write(&path, random),
         }
         all.push(path);
@@ -188,7 +189,7 @@ fn run(root: &Path, outputs: &Path, arguments: &[String]) -> Result<String, Stri
 
 #[test]
 fn odd_files_and_command_lines_end_with_0_1_or_2() {
-    tries(CASES, |n| {
+    run_cases(CASES, |n| {
         let mut random = Random(n);
         let (folder, outputs) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
         let all = grow(folder.path(), &mut random);

@@ -1,7 +1,8 @@
 //! Damaged lessons, labs and quizzes: they are read, checked, formatted and reported to people and programs; some are run.
 
-use super::{Random, tries};
+use super::run_cases;
 use crate::program::{CLEAN, FALL, wrong};
+use crate::support::random::Random;
 use crate::support::{model_text, workspace};
 use labspec::bind::scene::Models;
 use labspec::check::{self, CheckLevel};
@@ -196,7 +197,7 @@ fn mutate(random: &mut Random, corpus: &Corpus, text: &mut String) {
 }
 
 /// Whether nothing is between two backticks of a message. Three backticks are a fence.
-fn holds_nothing(text: &str) -> bool {
+fn is_empty_quote(text: &str) -> bool {
     let at = |i: usize| text.as_bytes().get(i) == Some(&b'`');
     text.match_indices("``").any(|(i, _)| !(at(i + 2) || i > 0 && at(i - 1)))
 }
@@ -220,7 +221,7 @@ fn messages(name: &str, text: &str, models: &ModelFolder, depth: CheckLevel) -> 
         // A backtick that the author wrote, outside of fences, may be next to a backtick of the message.
         let rest = |l: &str| l.trim_start_matches(['>', ' ']).trim_start_matches("```").contains('`');
         let has_code = text.lines().any(rest) || (name.ends_with("json") && text.contains('`'));
-        texts.for_each(|t| assert!(has_code || !holds_nothing(t), "{finding:?}"));
+        texts.for_each(|t| assert!(has_code || !is_empty_quote(t), "{finding:?}"));
         let here = finding.related.iter().filter(|place| place.path == *file.path());
         here.for_each(|place| assert!(inside(&place.span), "{finding:?}"));
     }
@@ -238,7 +239,7 @@ fn damaged_lessons_are_read_checked_and_reported() {
         std::fs::write(folder.path().join(format!("{name}.xml")), model_text(name)).unwrap();
     }
     let models = ModelFolder::open(folder.path()).unwrap();
-    tries(CASES, |n| {
+    run_cases(CASES, |n| {
         let mut random = Random(n);
         let runs = n.is_multiple_of(RUN);
         let mut text = random.pick(if runs { &corpus.quick } else { &corpus.all }).clone();

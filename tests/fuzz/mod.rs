@@ -13,6 +13,8 @@ mod lessons;
 mod models;
 mod public;
 
+use crate::support::random::Random;
+use crate::support::thread_time;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -21,44 +23,12 @@ use std::time::{Duration, Instant};
 /// may be busy with other programs.
 const LONGEST: Duration = Duration::from_secs(60);
 
-/// A pseudorandom sequence of numbers (Steele, Lea and Flood 2014, SplitMix64).
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// A number below `n`; `n` must not be 0.
-    fn below(&mut self, n: usize) -> usize {
-        (self.next() % n as u64) as usize
-    }
-
-    fn pick<'a, T>(&mut self, list: &'a [T]) -> &'a T {
-        &list[self.below(list.len())]
-    }
-
-    fn word(&mut self, list: &[&'static str]) -> &'static str {
-        list[self.below(list.len())]
-    }
-}
-
 fn variable(name: &str) -> Option<u64> {
     std::env::var(name).ok().and_then(|s| s.parse().ok())
 }
 
-/// The processor time of this thread.
-fn running() -> Option<Duration> {
-    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
-    text.split(' ').next()?.parse().ok().map(Duration::from_nanos)
-}
-
 /// Runs `cases` cases, or as many as fit into `LABSPEC_FUZZ_SECONDS`. A case returns its input.
-fn tries(cases: u64, mut case: impl FnMut(u64) -> String) {
+fn run_cases(cases: u64, mut case: impl FnMut(u64) -> String) {
     if let Some(n) = variable("LABSPEC_FUZZ_CASE") {
         let case_file = Path::new(env!("CARGO_TARGET_TMPDIR")).join("case");
         let input = case(n);
@@ -70,10 +40,10 @@ fn tries(cases: u64, mut case: impl FnMut(u64) -> String) {
     let first = variable("LABSPEC_SEED").unwrap_or(1) << 32;
     let (start, mut n) = (Instant::now(), 0);
     while limit.map_or(n < cases, |limit| start.elapsed() < limit) {
-        let (begin, ran) = (Instant::now(), running());
+        let (begin, ran) = (Instant::now(), thread_time());
         let done = catch_unwind(AssertUnwindSafe(|| case(first + n)));
         assert!(done.is_ok(), "case {} fails", first + n);
-        let elapsed = running().zip(ran).map_or(begin.elapsed(), |(now, ran)| now - ran);
+        let elapsed = thread_time().zip(ran).map_or(begin.elapsed(), |(now, ran)| now - ran);
         assert!(elapsed < LONGEST, "case {} takes {elapsed:?}", first + n);
         n += 1;
     }

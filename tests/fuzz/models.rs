@@ -3,7 +3,8 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
-use super::{Random, tries};
+use super::run_cases;
+use crate::support::random::Random;
 use crate::support::{models, unconstrained, workspace};
 use labspec_core::xml::{self, FileProblem, Files};
 use labspec_core::{self as core, Data};
@@ -102,9 +103,9 @@ impl Corpus {
 }
 
 /// Any file name refers to the model itself, so that cycles are frequent.
-struct Itself<'a>(&'a str);
+struct SelfInclude<'a>(&'a str);
 
-impl Files for Itself<'_> {
+impl Files for SelfInclude<'_> {
     fn read(&self, path: &str, limit: usize) -> Result<Vec<u8>, FileProblem> {
         match path.len() % 3 {
             0 => Err(FileProblem::Missing),
@@ -210,7 +211,7 @@ fn case(corpus: &Corpus, number: u64) -> String {
 
 /// Compiles the text and, if that succeeds, performs three steps. Returns whether it compiled.
 fn run(text: &str) -> bool {
-    let Ok(m) = xml::compile_with(text, &Itself(text), Some("self.xml")) else { return false };
+    let Ok(m) = xml::compile_with(text, &SelfInclude(text), Some("self.xml")) else { return false };
     let mut d = Data::new(&m);
     (0..3).for_each(|_| core::step(&m, &mut d).unwrap());
     true
@@ -220,7 +221,7 @@ fn run(text: &str) -> bool {
 fn mutated_models_neither_panic_nor_hang_nor_fill_memory() {
     let corpus = Corpus::read();
     let mut compiled = 0;
-    tries(CASES, |n| {
+    run_cases(CASES, |n| {
         let text = case(&corpus, n);
         let mut works = false;
         let memory = allocation_counter::measure(|| works = run(&text));

@@ -1,7 +1,8 @@
 //! The engine through its public interface: random calls with hostile numbers, indices and lengths. Nothing panics;
 //! invalid calls are refused.
 
-use super::{Random, tries};
+use super::run_cases;
+use crate::support::random::Random;
 use crate::support::{model, models, workspace};
 use labspec_core::reflect::{self, Elem, Kind};
 use labspec_core::{self as core, AccessSet, Data, Model, Obj, Plan, save, state};
@@ -181,7 +182,7 @@ fn random_calls_of_the_engine_do_not_panic() {
     let names = models(&workspace().join("tests/golden/models"));
     let all: Vec<Model> = names.iter().map(|name| model(name)).collect();
     let one = std::env::var_os("LABSPEC_FUZZ_CASE").is_some();
-    tries(CASES, |n| {
+    run_cases(CASES, |n| {
         let mut random = Random(n);
         let mut m = random.pick(&all).clone();
         let mut d = Data::new(&m);
@@ -210,7 +211,7 @@ fn stored_models_come_back_or_are_refused() {
         assert_eq!(Model::from_bytes(&m.to_bytes()).unwrap(), *m);
     }
     let mut accepted = 0;
-    tries(CASES, |n| {
+    run_cases(CASES, |n| {
         let mut random = Random(n);
         let mut bytes = random.pick(&all).to_bytes();
         let end = bytes.len() - 8;

@@ -4,8 +4,8 @@
 //! the result is a correct lab that somebody could have written on purpose. For kinds that contain both, a predicate decides by
 //! the content of the lesson. It does not depend on whether the mistake was found.
 
-use super::eyes;
-use super::material::{Piece, What};
+use super::material::{Piece, PieceKind};
+use super::student_view;
 use labspec::bind::Programs;
 use labspec::bind::dimensions;
 use labspec::bind::scene::Models;
@@ -74,7 +74,7 @@ const KINDS: [(&str, Needs); 23] = [
     (
         "no-digits",
         Needs::Some(
-            prints_the_same,
+            has_equal_output,
             "printing a large value as an integer may be intended. It is recognizable if a changing value then prints at most two texts, or if a non-zero value prints 0",
         ),
     ),
@@ -83,7 +83,7 @@ const KINDS: [(&str, Needs); 23] = [
     (
         "reset-forgotten",
         Needs::Some(
-            says_again,
+            states_again,
             "a control may act in the middle of a run. It is recognizable if the note says that the run restarts, or if the control has an effect only after a restart",
         ),
     ),
@@ -124,7 +124,7 @@ const KINDS: [(&str, Needs); 23] = [
     (
         "labels-exchanged",
         Needs::Some(
-            labels_tell,
+            labels_identify,
             "both have the same dimension, and neither label is a name in the model. It is recognizable if units or such names distinguish them",
         ),
     ),
@@ -157,8 +157,8 @@ pub(super) fn is_measurable(kind: &str, case: &Case<'_>) -> bool {
 pub(super) fn claimed(case: &Case<'_>) -> bool {
     let at = |json: &Value| json["questions"].as_array().cloned().unwrap_or_default();
     match case.piece.what {
-        What::Lab => case.piece.home.is_some(),
-        What::Quiz => {
+        PieceKind::Lab => case.piece.home.is_some(),
+        PieceKind::Quiz => {
             let (old, new) = (at(&case.piece.json), at(case.json));
             old.iter().zip(&new).any(|(a, b)| a != b && a["verify"].is_object())
         }
@@ -299,15 +299,16 @@ fn shows_no_run(case: &Case<'_>) -> bool {
     plots || model.is_some_and(|m| stop < m.opt.timestep)
 }
 
-fn prints_the_same(case: &Case<'_>) -> bool {
+fn has_equal_output(case: &Case<'_>) -> bool {
     changed(&case.piece.json, case.json, "readouts", "digits").iter().any(|(i, _, _)| {
-        let [before, now] = [&case.piece.json, case.json].map(|json| eyes::prints(json, case.models, *i));
+        let [before, now] =
+            [&case.piece.json, case.json].map(|json| student_view::prints(json, case.models, *i));
         let zero = |t: &String| t.parse::<f64>() == Ok(0.0);
         now.len() <= 2 && before.len() >= 10 || now.iter().all(zero) && !before.iter().any(zero)
     })
 }
 
-fn says_again(case: &Case<'_>) -> bool {
+fn states_again(case: &Case<'_>) -> bool {
     let note = case.json["note"].as_str().unwrap_or("").to_lowercase();
     let it = changed(&case.piece.json, case.json, "controls", "reset");
     let named = it.iter().any(|(_, a, _)| {
@@ -356,7 +357,7 @@ fn explained(case: &Case<'_>) -> bool {
     says && (a - b).abs() > tolerance
 }
 
-fn labels_tell(case: &Case<'_>) -> bool {
+fn labels_identify(case: &Case<'_>) -> bool {
     let names = names(&case.piece.json, case.models);
     let (old, new) = (displayed(&case.piece.json), displayed(case.json));
     let both: Vec<&str> = old

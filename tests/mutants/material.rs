@@ -17,7 +17,7 @@ const LATER: &str = "{\"id\": \"02-balls\"";
 
 /// The kind of a piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum What {
+pub(crate) enum PieceKind {
     Lab,
     Quiz,
 }
@@ -26,19 +26,19 @@ pub(crate) enum What {
 pub(crate) struct Piece {
     /// The file and the number of the piece.
     pub(crate) name: String,
-    pub(crate) what: What,
+    pub(crate) what: PieceKind,
     pub(crate) json: Value,
     /// The index of its folder of models.
     pub(crate) models: usize,
     /// The text of the lesson before and after it, for a quiz whose answers are verified with the labs of its lesson.
     pub(crate) around: Option<(String, String)>,
     /// The lesson with claims about a lab.
-    pub(crate) home: Option<Home>,
+    pub(crate) home: Option<LabLocation>,
 }
 
 /// The location of a lab in a lesson with claims about it.
 #[derive(Clone)]
-pub(crate) struct Home {
+pub(crate) struct LabLocation {
     before: String,
     behind: String,
     /// The object of the fence. `at` is the path of the lab in it.
@@ -58,7 +58,7 @@ impl Piece {
 
     /// The lesson with claims about a lab, in which `json` replaces the lab.
     pub(crate) fn lesson(&self, json: &Value) -> Option<String> {
-        let Home { before, behind, whole, at } = self.home.as_ref()?;
+        let LabLocation { before, behind, whole, at } = self.home.as_ref()?;
         let mut whole = whole.clone();
         let target = whole.pointer_mut(at)?;
         *target = carried(&self.json, json, target);
@@ -164,21 +164,28 @@ fn add(all: &mut Vec<Piece>, name: &str, models: usize, text: &str, around: Opti
     let name = name.to_string();
     let home = |at: String| {
         let (before, behind) = around.clone()?;
-        Some(Home { before, behind, whole: json.clone(), at })
+        Some(LabLocation { before, behind, whole: json.clone(), at })
     };
     let Some(questions) = json["questions"].as_array() else {
         let home = home(String::new()).filter(|_| json["verify"].is_object());
-        all.push(Piece { name, what: What::Lab, json: alone(&json), models, around: None, home });
+        all.push(Piece { name, what: PieceKind::Lab, json: alone(&json), models, around: None, home });
         return;
     };
     for (i, question) in questions.iter().enumerate().filter(|(_, q)| q["sim"].is_object()) {
         let name = format!("{name}?{}", i + 1);
         let is_local = question["verify"].is_object() && question["verify"]["lab"].is_null();
         let home = home(format!("/questions/{i}/sim")).filter(|_| is_local);
-        all.push(Piece { name, what: What::Lab, json: alone(&question["sim"]), models, around: None, home });
+        all.push(Piece {
+            name,
+            what: PieceKind::Lab,
+            json: alone(&question["sim"]),
+            models,
+            around: None,
+            home,
+        });
     }
     let around = around.filter(|_| questions.iter().any(|q| q["verify"].is_object()));
-    all.push(Piece { name, what: What::Quiz, json, models, around, home: None });
+    all.push(Piece { name, what: PieceKind::Quiz, json, models, around, home: None });
 }
 
 /// A lab without claims, and with a short run.

@@ -10,12 +10,12 @@ use std::sync::OnceLock;
 pub(crate) fn hold(printed: &str) {
     if printed.starts_with('{') {
         let report = serde_json::from_str(printed).unwrap_or_else(|e| panic!("{e} in\n{printed:.2000}"));
-        hold_value(&report);
+        check_report_value(&report);
     }
 }
 
 /// Checks the outputs of a command. Commands that print JSON must have printed a report.
-pub(crate) fn hold_command(folder: &Path, arguments: &[&str], code: i32, printed: &str) {
+pub(crate) fn check_command_outputs(folder: &Path, arguments: &[&str], code: i32, printed: &str) {
     let asked = |option: &str, value: &str| arguments.windows(2).any(|pair| pair == [option, value]);
     let always = matches!(arguments.first(), Some(&("bench" | "record")));
     if (always || asked("--format", "json")) && matches!(code, 0 | 1 | 130) {
@@ -32,7 +32,7 @@ pub(crate) fn hold_command(folder: &Path, arguments: &[&str], code: i32, printed
     }
 }
 
-pub(crate) fn hold_value(report: &Value) {
+pub(crate) fn check_report_value(report: &Value) {
     static SCHEMAS: OnceLock<BTreeMap<String, Value>> = OnceLock::new();
     let first: Vec<&String> = report.as_object().unwrap().keys().take(2).collect();
     assert_eq!(first, ["schemaVersion", "report"], "{report:.2000}");

@@ -17,28 +17,28 @@ pub(crate) fn schemas() -> BTreeMap<String, Value> {
 /// The errors in a value, each with its path; empty if the value conforms to the schema. The schema is a file or a part of one
 /// (`lesson.json#/$defs/lab`).
 pub(crate) fn problems(schemas: &BTreeMap<String, Value>, name: &str, value: &Value) -> Vec<String> {
-    let mut look = Look { schemas, problems: Vec::new() };
+    let mut look = SchemaCheck { schemas, problems: Vec::new() };
     let (file, schema) = look.follow("", name);
     look.check(&file, schema, value, "");
     look.problems
 }
 
-struct Look<'s> {
+struct SchemaCheck<'s> {
     schemas: &'s BTreeMap<String, Value>,
     problems: Vec<String>,
 }
 
 /// The keys of an object that a schema has evaluated.
-type Spoken = BTreeSet<String>;
+type EvaluatedKeys = BTreeSet<String>;
 
-impl<'s> Look<'s> {
-    fn check(&mut self, file: &str, schema: &'s Value, value: &Value, at: &str) -> Spoken {
-        let mut spoken = Spoken::new();
+impl<'s> SchemaCheck<'s> {
+    fn check(&mut self, file: &str, schema: &'s Value, value: &Value, at: &str) -> EvaluatedKeys {
+        let mut evaluated = EvaluatedKeys::new();
         let Some(keywords) = schema.as_object() else {
             if schema == &Value::Bool(false) {
                 self.problems.push(format!("{at} must not be there"));
             }
-            return spoken;
+            return evaluated;
         };
         for (keyword, want) in keywords {
             let holds = match keyword.as_str() {
@@ -63,31 +63,31 @@ impl<'s> Look<'s> {
                     .is_none_or(|o| list(want).iter().all(|key| o.contains_key(key.as_str().unwrap()))),
                 "$ref" => {
                     let (file, schema) = self.follow(file, want.as_str().unwrap());
-                    spoken.extend(self.check(&file, schema, value, at));
+                    evaluated.extend(self.check(&file, schema, value, at));
                     true
                 }
                 "allOf" => {
-                    list(want).iter().for_each(|s| spoken.extend(self.check(file, s, value, at)));
+                    list(want).iter().for_each(|s| evaluated.extend(self.check(file, s, value, at)));
                     true
                 }
                 "anyOf" => {
-                    spoken.extend(self.any_of(file, list(want), value, at));
+                    evaluated.extend(self.any_of(file, list(want), value, at));
                     true
                 }
                 "oneOf" => {
-                    let holding: Vec<Spoken> =
+                    let holding: Vec<EvaluatedKeys> =
                         list(want).iter().filter_map(|s| self.holds(file, s, value)).collect();
                     let one = holding.len() == 1;
-                    spoken.extend(holding.into_iter().flatten());
+                    evaluated.extend(holding.into_iter().flatten());
                     one
                 }
                 "not" => self.holds(file, want, value).is_none(),
                 "if" => {
                     let holding = self.holds(file, want, value);
                     let next = if holding.is_some() { "then" } else { "else" };
-                    spoken.extend(holding.into_iter().flatten());
+                    evaluated.extend(holding.into_iter().flatten());
                     if let Some(schema) = keywords.get(next) {
-                        spoken.extend(self.check(file, schema, value, at));
+                        evaluated.extend(self.check(file, schema, value, at));
                     }
                     true
                 }
@@ -95,7 +95,7 @@ impl<'s> Look<'s> {
                     for (key, schema) in want.as_object().unwrap() {
                         if let Some(inside) = value.get(key) {
                             self.check(file, schema, inside, &format!("{at}/{key}"));
-                            spoken.insert(key.clone());
+                            evaluated.insert(key.clone());
                         }
                     }
                     true
@@ -105,7 +105,7 @@ impl<'s> Look<'s> {
                     for (key, inside) in value.as_object().into_iter().flatten() {
                         if declared.is_none_or(|declared| !declared.contains_key(key)) {
                             self.check(file, want, inside, &format!("{at}/{key}"));
-                            spoken.insert(key.clone());
+                            evaluated.insert(key.clone());
                         }
                     }
                     true
@@ -132,30 +132,30 @@ impl<'s> Look<'s> {
         }
         if let Some(schema) = keywords.get("unevaluatedProperties") {
             for (key, inside) in value.as_object().into_iter().flatten() {
-                if !spoken.contains(key) {
+                if !evaluated.contains(key) {
                     self.check(file, schema, inside, &format!("{at}/{key}"));
                 }
             }
         }
-        spoken
+        evaluated
     }
 
     /// The keys that a schema evaluates, if the value conforms to it.
-    fn holds(&self, file: &str, schema: &'s Value, value: &Value) -> Option<Spoken> {
-        let mut alone = Look { schemas: self.schemas, problems: Vec::new() };
-        let spoken = alone.check(file, schema, value, "");
-        alone.problems.is_empty().then_some(spoken)
+    fn holds(&self, file: &str, schema: &'s Value, value: &Value) -> Option<EvaluatedKeys> {
+        let mut alone = SchemaCheck { schemas: self.schemas, problems: Vec::new() };
+        let evaluated = alone.check(file, schema, value, "");
+        alone.problems.is_empty().then_some(evaluated)
     }
 
     /// The keys that the matching schemas evaluate. If none matches, the errors of the closest schema are reported: one that
     /// fails inside the value, not at the value itself.
-    fn any_of(&mut self, file: &str, any: &'s [Value], value: &Value, at: &str) -> Spoken {
+    fn any_of(&mut self, file: &str, any: &'s [Value], value: &Value, at: &str) -> EvaluatedKeys {
         let mut closest = None;
-        let mut spoken = Spoken::new();
+        let mut evaluated = EvaluatedKeys::new();
         for schema in any {
-            let mut alone = Look { schemas: self.schemas, problems: Vec::new() };
+            let mut alone = SchemaCheck { schemas: self.schemas, problems: Vec::new() };
             let of = alone.check(file, schema, value, at);
-            spoken.extend(of.into_iter().filter(|_| alone.problems.is_empty()));
+            evaluated.extend(of.into_iter().filter(|_| alone.problems.is_empty()));
             let here = alone.problems.iter().filter(|p| p.starts_with(&format!("{at}:"))).count();
             let far = (here, alone.problems.len());
             if closest.as_ref().is_none_or(|(least, _)| far < *least) {
@@ -163,7 +163,7 @@ impl<'s> Look<'s> {
             }
         }
         self.problems.extend(closest.into_iter().flat_map(|(_, problems)| problems));
-        spoken
+        evaluated
     }
 
     /// Resolves a reference: `#/$defs/place` of the same file, or another file.

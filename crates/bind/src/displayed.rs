@@ -15,7 +15,7 @@ pub struct DisplayedLabels {
     labels: Vec<String>,
     /// The dimension that each label states, if it states one.
     measures: Vec<Option<Dimension>>,
-    asked: RefCell<BTreeSet<usize>>,
+    used: RefCell<BTreeSet<usize>>,
 }
 
 impl DisplayedLabels {
@@ -23,7 +23,7 @@ impl DisplayedLabels {
     /// equal, the first one is used.
     pub fn new(labels: impl IntoIterator<Item = (String, Option<Dimension>)>) -> DisplayedLabels {
         let (labels, measures) = labels.into_iter().unzip();
-        DisplayedLabels { labels, measures, asked: RefCell::default() }
+        DisplayedLabels { labels, measures, used: RefCell::default() }
     }
 
     pub(crate) fn measure(&self, label: usize) -> Option<Dimension> {
@@ -36,13 +36,13 @@ impl DisplayedLabels {
     }
 
     /// Returns the indexes of the labels that programs use. Only these need to be computed.
-    pub fn asked(&self) -> Vec<usize> {
-        self.asked.borrow().iter().copied().collect()
+    pub fn used_labels(&self) -> Vec<usize> {
+        self.used.borrow().iter().copied().collect()
     }
 
     pub(crate) fn find(&self, label: &str) -> Option<ObjectId> {
         let at = self.labels.iter().position(|l| l == label)?;
-        self.asked.borrow_mut().insert(at);
+        self.used.borrow_mut().insert(at);
         Some(ObjectId(at as u32))
     }
 }

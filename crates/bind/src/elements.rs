@@ -159,11 +159,12 @@ fn coordinate(ty: i32, at: usize) -> Option<(&'static str, &'static str)> {
 
 /// The description of a degree of freedom of a joint, and the unit of its coordinate.
 fn rate(ty: i32, at: usize) -> Option<(&'static str, &'static str)> {
-    const TURN: [&str; 3] = ["turning about its own x", "turning about its own y", "turning about its own z"];
+    const ROTATIONS: [&str; 3] =
+        ["turning about its own x", "turning about its own y", "turning about its own z"];
     Some(match (ty, at) {
         (joint::FREE, 0..=2) => (["along x", "along y", "along z"].get(at)?, "m"),
-        (joint::FREE, _) => (TURN.get(at - 3)?, "rad"),
-        (joint::BALL, _) => (TURN.get(at)?, "rad"),
+        (joint::FREE, _) => (ROTATIONS.get(at - 3)?, "rad"),
+        (joint::BALL, _) => (ROTATIONS.get(at)?, "rad"),
         (joint::SLIDE, _) => ("along its axis", "m"),
         _ => ("about its axis", "rad"),
     })
@@ -252,7 +253,7 @@ mod tests {
     }
 
     #[test]
-    fn help_says_what_an_element_is() {
+    fn help_describes_elements() {
         let xml = std::fs::read_to_string(
             Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/golden/models/ball_drop.xml"),
         );

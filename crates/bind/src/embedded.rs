@@ -54,7 +54,7 @@ impl Functions {
         Arc::make_mut(&mut self.0).push(function);
         // The compiler of the language decides whether a text can call it.
         let text = format!("{name}({})", vec!["0"; params].join(", "));
-        let (names, mut globals) = (Only(&self), Globals::new());
+        let (names, mut globals) = (FunctionSchema(&self), Globals::new());
         // `value` is a name of the language if there is a control.
         let mut compiler = Compiler::new(&names, &mut globals).with_value(Some(Type::Number));
         let program = compiler.expression(&text).program;
@@ -101,9 +101,9 @@ impl Functions {
 }
 
 /// A schema that contains only these functions.
-struct Only<'f>(&'f Functions);
+struct FunctionSchema<'f>(&'f Functions);
 
-impl Schema for Only<'_> {
+impl Schema for FunctionSchema<'_> {
     fn root(&self, name: &str) -> Option<Entry> {
         Some(Entry::Function(FunctionId(self.0.find(name)? as u32)))
     }
@@ -156,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn names_that_mean_something_or_nothing_are_refused() {
+    fn reserved_and_invalid_names_are_refused() {
         for name in [
             "half",
             "model",

@@ -55,7 +55,7 @@ pub(super) enum Arg {
 
 /// The part of the simulation that a function reads or writes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Touches {
+pub(super) enum AccessedPart {
     Nothing,
     /// The derived fields of the data.
     Derived,
@@ -106,8 +106,8 @@ pub(super) struct Function {
     pub(super) length: Option<usize>,
     /// The field of the data of which it returns the part of one object of this kind.
     pub(super) gives: Option<(FieldId, Obj)>,
-    pub(super) reads: Touches,
-    pub(super) writes: &'static [Touches],
+    pub(super) reads: AccessedPart,
+    pub(super) writes: &'static [AccessedPart],
     pub(super) place: FunctionPlace,
     pub(super) aggregate: bool,
     /// The dimension of the numbers in the result.
@@ -128,7 +128,7 @@ pub(super) const ROW: Function = Function {
     members: &[],
     length: None,
     gives: None,
-    reads: Touches::Nothing,
+    reads: AccessedPart::Nothing,
     writes: &[],
     place: FunctionPlace::Everywhere,
     aggregate: false,
@@ -167,7 +167,7 @@ pub(super) fn named(object: &str, name: &str) -> impl Iterator<Item = (usize, &'
 const NOTHING: Result<Value, String> = Ok(Value::Undefined);
 
 /// The result of a function that runs a pass of the engine.
-fn done(result: Result<(), access::Failed>) -> Result<Value, String> {
+fn pass_result(result: Result<(), access::Failed>) -> Result<Value, String> {
     result?;
     NOTHING
 }
@@ -179,7 +179,7 @@ fn index(args: &[Value]) -> Result<usize, String> {
 
 /// Whether a function reads the simulation; `abs`, for example, does not.
 pub fn reads(FunctionId(f): FunctionId) -> bool {
-    TABLE.get(f as usize).is_some_and(|function| function.reads != Touches::Nothing)
+    TABLE.get(f as usize).is_some_and(|function| function.reads != AccessedPart::Nothing)
 }
 
 fn number(args: &[Value]) -> Result<f64, String> {
@@ -198,8 +198,8 @@ pub(super) fn none() -> FunctionInfo {
 /// The signature and effects in the types of the language.
 fn info(f: &Function) -> FunctionInfo {
     let param = |arg: &Arg| match arg {
-        Arg::Model => Param::Object(handle::encode(handle::Thing::Struct(Object::Model))),
-        Arg::Data => Param::Object(handle::encode(handle::Thing::Struct(Object::Data))),
+        Arg::Model => Param::Object(handle::encode(handle::HandleTarget::Struct(Object::Model))),
+        Arg::Data => Param::Object(handle::encode(handle::HandleTarget::Struct(Object::Data))),
         Arg::Number => Param::Number,
         Arg::Angle => Param::Angle,
         Arg::Text => Param::Text,
@@ -240,20 +240,20 @@ fn path(f: &Function) -> String {
 /// The fields on which the Jacobian of a site depends.
 const MOTION: [FieldId; 5] = [data::xanchor, data::xaxis, data::xmat, data::xpos, data::site_xpos];
 
-fn accessed_fields(touches: &[Touches]) -> AccessedFields {
-    let is = |f: &FieldId, t: &Touches| {
+fn accessed_fields(touches: &[AccessedPart]) -> AccessedFields {
+    let is = |f: &FieldId, t: &AccessedPart| {
         let i = f.info();
         match t {
-            Touches::Nothing | Touches::DisplayedLabels => false,
-            Touches::Derived => i.kind == Kind::Derived,
-            Touches::State => i.object == Object::Data && matches!(i.kind, Kind::State | Kind::Input),
-            Touches::Coordinates => *f == data::qpos,
-            Touches::Contacts => i.stage == Stage::Collision || *f == data::efc_force,
-            Touches::Energy => *f == data::energy,
-            Touches::Flags => *f == option::enableflags,
-            Touches::Places => [data::xpos, data::site_xpos].contains(f),
-            Touches::Motion => MOTION.contains(f),
-            Touches::Mass => i.stage == Stage::MassMatrix,
+            AccessedPart::Nothing | AccessedPart::DisplayedLabels => false,
+            AccessedPart::Derived => i.kind == Kind::Derived,
+            AccessedPart::State => i.object == Object::Data && matches!(i.kind, Kind::State | Kind::Input),
+            AccessedPart::Coordinates => *f == data::qpos,
+            AccessedPart::Contacts => i.stage == Stage::Collision || *f == data::efc_force,
+            AccessedPart::Energy => *f == data::energy,
+            AccessedPart::Flags => *f == option::enableflags,
+            AccessedPart::Places => [data::xpos, data::site_xpos].contains(f),
+            AccessedPart::Motion => MOTION.contains(f),
+            AccessedPart::Mass => i.stage == Stage::MassMatrix,
         }
     };
     let fields: Vec<FieldKey> = reflect::fields()
@@ -322,14 +322,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn jacobians_follow_from_what_the_engine_says() {
+    fn jacobians_read_the_fields_that_the_engine_states() {
         let engine = labspec_core::JACOBIAN_READS.into_iter().chain([data::site_xpos]);
         assert_eq!(engine.collect::<Vec<_>>(), MOTION);
     }
 
     #[test]
-    fn every_touch_is_of_some_field() {
-        use Touches::*;
+    fn every_accessed_part_has_fields() {
+        use AccessedPart::*;
         let all = [Derived, State, Coordinates, Contacts, Energy, Flags, Places, Motion, Mass];
         assert!(all.iter().all(|t| matches!(accessed_fields(&[*t]), AccessedFields::Fields(_))));
     }

@@ -13,7 +13,7 @@ pub(super) enum Side {
 
 /// An object with members.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Thing {
+pub(super) enum HandleTarget {
     /// `model`, `model.opt`, `model.stat`, `data`.
     Struct(Object),
     /// `mj`, `sim` or `lib`: the index of its name in [`super::functions::OBJECTS`].
@@ -79,13 +79,13 @@ const DATA_SIDE: u32 = 1 << 30;
 const INDEX: u32 = (1 << 24) - 1;
 
 /// Returns the id of an object.
-pub(super) fn encode(thing: Thing) -> ObjectId {
-    ObjectId(match thing {
-        Thing::Struct(object) => STRUCTS.iter().position(|&s| s == object).unwrap_or(0) as u32,
-        Thing::Functions(i) => FUNCTIONS + i as u32,
-        Thing::Enum(i) => ENUMS + i as u32,
-        Thing::Member(i, j) => MEMBERS + ((i as u32) << 8) + j as u32,
-        Thing::Named(side, kind, index) => {
+pub(super) fn encode(target: HandleTarget) -> ObjectId {
+    ObjectId(match target {
+        HandleTarget::Struct(object) => STRUCTS.iter().position(|&s| s == object).unwrap_or(0) as u32,
+        HandleTarget::Functions(i) => FUNCTIONS + i as u32,
+        HandleTarget::Enum(i) => ENUMS + i as u32,
+        HandleTarget::Member(i, j) => MEMBERS + ((i as u32) << 8) + j as u32,
+        HandleTarget::Named(side, kind, index) => {
             let kind = KINDS.iter().position(|&(k, _)| k == kind).unwrap_or(0) as u32;
             let side = if side == Side::Data { DATA_SIDE } else { 0 };
             NAMED | side | kind << 24 | (index as u32 & INDEX)
@@ -94,22 +94,22 @@ pub(super) fn encode(thing: Thing) -> ObjectId {
 }
 
 /// Returns the object of an id, or `None` if no object has the id.
-pub(super) fn decode(ObjectId(id): ObjectId) -> Option<Thing> {
+pub(super) fn decode(ObjectId(id): ObjectId) -> Option<HandleTarget> {
     if id & NAMED != 0 {
         let side = if id & DATA_SIDE != 0 { Side::Data } else { Side::Model };
         let (kind, _) = *KINDS.get((id >> 24 & 0x3f) as usize)?;
-        return Some(Thing::Named(side, kind, (id & INDEX) as usize));
+        return Some(HandleTarget::Named(side, kind, (id & INDEX) as usize));
     }
     if id >= MEMBERS {
-        return Some(Thing::Member(((id - MEMBERS) >> 8) as usize, (id & 0xff) as usize));
+        return Some(HandleTarget::Member(((id - MEMBERS) >> 8) as usize, (id & 0xff) as usize));
     }
     if id >= ENUMS {
-        return Some(Thing::Enum((id - ENUMS) as usize));
+        return Some(HandleTarget::Enum((id - ENUMS) as usize));
     }
     if id >= FUNCTIONS {
-        return Some(Thing::Functions((id - FUNCTIONS) as usize));
+        return Some(HandleTarget::Functions((id - FUNCTIONS) as usize));
     }
-    STRUCTS.get(id as usize).map(|&s| Thing::Struct(s))
+    STRUCTS.get(id as usize).map(|&s| HandleTarget::Struct(s))
 }
 
 /// The index of the object whose id is passed to a function as a number.
@@ -137,20 +137,20 @@ mod tests {
     fn ids_decode_to_what_was_encoded() {
         for (i, &(kind, _)) in KINDS.iter().enumerate() {
             for side in [Side::Model, Side::Data] {
-                let thing = Thing::Named(side, kind, 1000 * i + 7);
-                assert_eq!(decode(encode(thing)), Some(thing));
-                assert_eq!(index_of(f64::from(encode(thing).0)), 1000 * i + 7);
+                let target = HandleTarget::Named(side, kind, 1000 * i + 7);
+                assert_eq!(decode(encode(target)), Some(target));
+                assert_eq!(index_of(f64::from(encode(target).0)), 1000 * i + 7);
                 assert_eq!(of_collection(collection(side, kind)).map(|(s, k, _)| (s, k)), Some((side, kind)));
             }
         }
-        for thing in [
-            Thing::Struct(Object::Data),
-            Thing::Struct(Object::Option),
-            Thing::Functions(2),
-            Thing::Enum(3),
-            Thing::Member(3, 70),
+        for target in [
+            HandleTarget::Struct(Object::Data),
+            HandleTarget::Struct(Object::Option),
+            HandleTarget::Functions(2),
+            HandleTarget::Enum(3),
+            HandleTarget::Member(3, 70),
         ] {
-            assert_eq!(decode(encode(thing)), Some(thing));
+            assert_eq!(decode(encode(target)), Some(target));
         }
     }
 }

@@ -43,7 +43,7 @@ impl Host for World {
                 let before = core::cost(&self.data);
                 let result = functions::access::call(function.run, self, heap, args);
                 // Passes of the engine have already added their cost.
-                let price = if core::cost(&self.data) == before { price(function, self) } else { 0 };
+                let price = if core::cost(&self.data) == before { call_cost(function, self) } else { 0 };
                 core::charge(&mut self.data, price);
                 result
             }
@@ -67,13 +67,13 @@ impl Host for World {
 }
 
 /// The cost of a call that does not run a pass of the engine, in the unit of [`labspec_core::cost`].
-fn price(f: &functions::Function, w: &World) -> u64 {
+fn call_cost(f: &functions::Function, w: &World) -> u64 {
     let (nv, ncon) = (w.model.nv as u64, w.data.fields().contact.len() as u64);
     let reads = match f.reads {
-        functions::Touches::Contacts => 50 * ncon,
-        functions::Touches::Derived => labspec_core::cost_of_pass(&w.data),
-        functions::Touches::Mass => 4 * nv * nv,
-        functions::Touches::Motion => 100 * nv,
+        functions::AccessedPart::Contacts => 50 * ncon,
+        functions::AccessedPart::Derived => labspec_core::cost_of_pass(&w.data),
+        functions::AccessedPart::Mass => 4 * nv * nv,
+        functions::AccessedPart::Motion => 100 * nv,
         _ => 0,
     };
     let writes = if f.writes.is_empty() { 0 } else { labspec_core::cost_of_pass(&w.data) };
@@ -110,7 +110,7 @@ mod tests {
     /// A double, an integer and a flag convert values as JavaScript's typed arrays do, except that flags
     /// accept only the bytes 0 and 1.
     #[test]
-    fn fields_keep_what_typed_arrays_keep() {
+    fn fields_store_the_values_that_typed_arrays_store() {
         let mjcf = "<mujoco><worldbody><body name='a'><freejoint/><geom size='1'/></body></worldbody>
             <equality><weld body1='a'/></equality></mujoco>";
         let after = |field: &str, value: &str| {

@@ -9,7 +9,7 @@ use labspec_core::{
 use labspec_expr::dimension::{Dimension, Measure};
 
 /// The maximum number of elements that are analysed one by one; the dimension of a larger part of a field is unknown.
-const MOST: usize = 4096;
+const MAX_ELEMENTS: usize = 4096;
 
 /// Whether a motion is a translation or a rotation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,7 +30,7 @@ pub(super) fn measure(m: &Model, f: FieldId, first: usize, count: Option<usize>)
         // The number of rows changes during a run; the unit of the field applies to each row.
         (None, None) => first + 1,
     };
-    if last.saturating_sub(first) > MOST {
+    if last.saturating_sub(first) > MAX_ELEMENTS {
         return Measure::Unknown;
     }
     let mut all = (first..last).map(|at| element(m, f, &shape, at));

@@ -6,7 +6,7 @@ use super::elements;
 use super::enums::ENUMS;
 use super::field_entry::{field, member_name, noun, owner, short_name};
 use super::functions::{self, FunctionPlace, OBJECTS, TABLE};
-use super::handle::{self, KINDS, Side, Thing};
+use super::handle::{self, HandleTarget, KINDS, Side};
 use super::host_terms::HOST_TERMS;
 use super::measures;
 use labspec_core::reflect::{self, FieldId, Object, data, option};
@@ -117,7 +117,7 @@ impl ModelNames<'_> {
         let wanted = if kind == Obj::Sensor && name == "data" { "sensordata" } else { name };
         let (_, f, first, count) =
             self.rows(side, kind, index).find(|(short, f, ..)| short == wanted || f.info().name == wanted)?;
-        let holder = self.describe(handle::encode(Thing::Named(side, kind, index)));
+        let holder = self.describe(handle::encode(HandleTarget::Named(side, kind, index)));
         let path = format!("{}.{name}", self.path(side, kind, index));
         Some(Entry::Field(field(f, path, first, vec![Some(count)], format!("{holder} has {count} of these"))))
     }
@@ -141,12 +141,12 @@ impl Schema for ModelNames<'_> {
 
     fn root(&self, name: &str) -> Option<Entry> {
         match name {
-            "model" => Some(Entry::Object(handle::encode(Thing::Struct(Object::Model)))),
-            "data" => Some(Entry::Object(handle::encode(Thing::Struct(Object::Data)))),
+            "model" => Some(Entry::Object(handle::encode(HandleTarget::Struct(Object::Model)))),
+            "data" => Some(Entry::Object(handle::encode(HandleTarget::Struct(Object::Data)))),
             // The short form that the lab format allows.
             "mj_setConst" => self.function_of("mj", name),
             _ => match OBJECTS.iter().position(|o| *o == name) {
-                Some(i) => Some(Entry::Object(handle::encode(Thing::Functions(i)))),
+                Some(i) => Some(Entry::Object(handle::encode(HandleTarget::Functions(i)))),
                 None => self.function_of("", name).or_else(|| {
                     let function = self.functions?.find(name)?;
                     Some(Entry::Function(FunctionId((TABLE.len() + function) as u32)))
@@ -169,12 +169,16 @@ impl Schema for ModelNames<'_> {
 
     fn member(&self, object: ObjectId, name: &str) -> Option<Entry> {
         match handle::decode(object)? {
-            Thing::Struct(of) => {
+            HandleTarget::Struct(of) => {
                 if of == Object::Model {
                     match name {
-                        "opt" => return Some(Entry::Object(handle::encode(Thing::Struct(Object::Option)))),
+                        "opt" => {
+                            return Some(Entry::Object(handle::encode(HandleTarget::Struct(Object::Option))));
+                        }
                         "stat" => {
-                            return Some(Entry::Object(handle::encode(Thing::Struct(Object::Statistic))));
+                            return Some(Entry::Object(handle::encode(HandleTarget::Struct(
+                                Object::Statistic,
+                            ))));
                         }
                         _ => {}
                     }
@@ -193,7 +197,7 @@ impl Schema for ModelNames<'_> {
                 let f = reflect::field(of, name)?;
                 Some(Entry::Field(self.whole(f, format!("{}.{name}", self.describe(object)))))
             }
-            Thing::Functions(i) => {
+            HandleTarget::Functions(i) => {
                 let holder = OBJECTS.get(i)?;
                 match (*holder, name) {
                     ("sim", "time") => Some(Entry::Field(self.whole(data::time, "sim.time".into()))),
@@ -202,28 +206,28 @@ impl Schema for ModelNames<'_> {
                     }
                     ("mj", _) if name.starts_with("mjt") => {
                         let i = ENUMS.iter().position(|(n, _)| *n == name)?;
-                        Some(Entry::Object(handle::encode(Thing::Enum(i))))
+                        Some(Entry::Object(handle::encode(HandleTarget::Enum(i))))
                     }
                     _ => self.function_of(holder, name),
                 }
             }
-            Thing::Enum(i) => {
+            HandleTarget::Enum(i) => {
                 let (_, members) = ENUMS.get(i)?;
                 let j = members.iter().position(|(n, _)| *n == name)?;
-                Some(Entry::Object(handle::encode(Thing::Member(i, j))))
+                Some(Entry::Object(handle::encode(HandleTarget::Member(i, j))))
             }
-            Thing::Member(i, j) => {
+            HandleTarget::Member(i, j) => {
                 let (_, number) = ENUMS.get(i)?.1.get(j)?;
                 (name == "value").then_some(Entry::Constant(Value::Number(*number as f64)))
             }
-            Thing::Named(side, kind, index) => self.named_member(side, kind, index, name),
+            HandleTarget::Named(side, kind, index) => self.named_member(side, kind, index, name),
         }
     }
 
     fn member_names(&self, object: ObjectId) -> Vec<String> {
         let mut names: Vec<String> = Vec::new();
         match handle::decode(object) {
-            Some(Thing::Struct(of)) => {
+            Some(HandleTarget::Struct(of)) => {
                 names.extend(Self::struct_fields(of).map(|f| f.info().name.to_string()));
                 if of == Object::Model {
                     names.extend(["opt".into(), "stat".into()]);
@@ -232,7 +236,7 @@ impl Schema for ModelNames<'_> {
                     names.extend(KINDS.iter().map(|(_, noun)| noun.to_string()));
                 }
             }
-            Some(Thing::Functions(i)) => {
+            Some(HandleTarget::Functions(i)) => {
                 let holder = OBJECTS.get(i).copied().unwrap_or("");
                 names.extend(
                     self.functions().filter(|(_, f)| f.object == holder).map(|(_, f)| f.name.to_string()),
@@ -241,12 +245,12 @@ impl Schema for ModelNames<'_> {
                     names.extend(["time".into(), "timestep".into()]);
                 }
             }
-            Some(Thing::Enum(i)) => {
+            Some(HandleTarget::Enum(i)) => {
                 let members = ENUMS.get(i).map_or(&[][..], |(_, members)| members);
                 names.extend(members.iter().map(|(n, _)| n.to_string()));
             }
-            Some(Thing::Member(..)) => names.push("value".into()),
-            Some(Thing::Named(side, kind, index)) => {
+            Some(HandleTarget::Member(..)) => names.push("value".into()),
+            Some(HandleTarget::Named(side, kind, index)) => {
                 names.extend(["id".into(), "name".into()]);
                 names.extend(self.rows(side, kind, index).map(|(short, ..)| short));
             }
@@ -257,17 +261,17 @@ impl Schema for ModelNames<'_> {
 
     fn describe(&self, object: ObjectId) -> String {
         match handle::decode(object) {
-            Some(Thing::Struct(Object::Model)) => "model".into(),
-            Some(Thing::Struct(Object::Option)) => "model.opt".into(),
-            Some(Thing::Struct(Object::Statistic)) => "model.stat".into(),
-            Some(Thing::Struct(Object::Data)) => "data".into(),
-            Some(Thing::Functions(i)) => OBJECTS.get(i).copied().unwrap_or("").into(),
-            Some(Thing::Enum(i)) => format!("mj.{}", ENUMS.get(i).map_or("", |(n, _)| n)),
-            Some(Thing::Member(i, j)) => {
+            Some(HandleTarget::Struct(Object::Model)) => "model".into(),
+            Some(HandleTarget::Struct(Object::Option)) => "model.opt".into(),
+            Some(HandleTarget::Struct(Object::Statistic)) => "model.stat".into(),
+            Some(HandleTarget::Struct(Object::Data)) => "data".into(),
+            Some(HandleTarget::Functions(i)) => OBJECTS.get(i).copied().unwrap_or("").into(),
+            Some(HandleTarget::Enum(i)) => format!("mj.{}", ENUMS.get(i).map_or("", |(n, _)| n)),
+            Some(HandleTarget::Member(i, j)) => {
                 let (holder, members) = ENUMS.get(i).copied().unwrap_or(("", &[]));
                 format!("mj.{holder}.{}", members.get(j).map_or("", |(n, _)| n))
             }
-            Some(Thing::Named(_, kind, index)) => {
+            Some(HandleTarget::Named(_, kind, index)) => {
                 let name = self.model.names.of_kind(kind).get(index).map_or("", String::as_str);
                 format!("the {} \"{name}\"", noun(kind))
             }
@@ -280,7 +284,7 @@ impl Schema for ModelNames<'_> {
             return self.displayed?.find(name);
         }
         let (side, kind, _) = handle::of_collection(collection)?;
-        self.model.names.id(kind, name).map(|i| handle::encode(Thing::Named(side, kind, i)))
+        self.model.names.id(kind, name).map(|i| handle::encode(HandleTarget::Named(side, kind, i)))
     }
 
     fn names(&self, collection: CollectionId) -> Vec<String> {
@@ -341,7 +345,7 @@ impl Schema for ModelNames<'_> {
 
     fn result_field(&self, FunctionId(i): FunctionId, object: ObjectId) -> Option<Field> {
         let (f, kind) = TABLE.get(i as usize)?.gives?;
-        let Some(Thing::Named(_, of, index)) = handle::decode(object) else { return None };
+        let Some(HandleTarget::Named(_, of, index)) = handle::decode(object) else { return None };
         let (first, count) = elements::row(self.model, f, kind, index).filter(|_| of == kind)?;
         let path = format!("{}.{}", self.path(Side::Data, kind, index), short_name(f.info().name));
         Some(field(f, path, first, vec![Some(count)], format!("a position has {count} of these")))
@@ -355,8 +359,8 @@ impl Schema for ModelNames<'_> {
 
     fn hint(&self, object: ObjectId, name: &str) -> Option<String> {
         let here = match handle::decode(object)? {
-            Thing::Struct(of) => of,
-            Thing::Functions(_) if name.starts_with("mj_") => {
+            HandleTarget::Struct(of) => of,
+            HandleTarget::Functions(_) if name.starts_with("mj_") => {
                 return Some(format!("`{name}` is a function of MuJoCo that labspec does not offer yet"));
             }
             _ => return None,
@@ -364,7 +368,7 @@ impl Schema for ModelNames<'_> {
         let elsewhere = [Object::Model, Object::Option, Object::Data, Object::Statistic]
             .into_iter()
             .find(|&of| of != here && reflect::field(of, name).is_some())?;
-        let holder = self.describe(handle::encode(Thing::Struct(elsewhere)));
+        let holder = self.describe(handle::encode(HandleTarget::Struct(elsewhere)));
         Some(format!("`{name}` belongs to {holder}: write `{holder}.{name}`"))
     }
 

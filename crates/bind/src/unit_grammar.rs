@@ -20,9 +20,9 @@ use nom::{IResult, Parser};
 type Meaning = Option<Dimension>;
 
 /// Limits on nested brackets, on the factors of one unit, and on the characters of a word.
-const DEEP: usize = 4;
-const MANY: usize = 8;
-const WORD: usize = 40;
+const MAX_NESTING: usize = 4;
+const MAX_FACTORS: usize = 8;
+const MAX_WORD: usize = 40;
 
 /// Parses the longest product at the beginning of a text.
 pub(crate) fn unit(text: &str) -> IResult<&str, Meaning> {
@@ -38,7 +38,7 @@ fn product(text: &str, depth: usize) -> IResult<&str, Meaning> {
         let power = if divides { -1.0 } else { 1.0 };
         (all.filter(|_| clear).and_then(|all| all.product(next?.power(power)?)), divides || divided)
     };
-    map(fold_many_m_n(0, MANY - 1, linked, || (first, false), multiply), |(all, _)| all).parse(rest)
+    map(fold_many_m_n(0, MAX_FACTORS - 1, linked, || (first, false), multiply), |(all, _)| all).parse(rest)
 }
 
 /// Parses the separator of two factors, and returns whether the second is a divisor.
@@ -64,7 +64,7 @@ fn factor(text: &str, depth: usize, first: bool) -> IResult<&str, Meaning> {
 }
 
 fn base(text: &str, depth: usize, first: bool) -> IResult<&str, Meaning> {
-    let inner = |text| if depth < DEEP { product(text, depth + 1) } else { fail().parse(text) };
+    let inner = |text| if depth < MAX_NESTING { product(text, depth + 1) } else { fail().parse(text) };
     let number = |factor| Some(Dimension::NUMBER.times(factor));
     // In `1/s`, the `1` is a part of the unit; in `m 1`, it is a number.
     let before_stroke = peek(alt((recognize((take_while(|c| c == ' '), char('/'))), eof)));
@@ -85,8 +85,9 @@ fn base(text: &str, depth: usize, first: bool) -> IResult<&str, Meaning> {
 fn name(text: &str) -> IResult<&str, Meaning> {
     let wide = text.starts_with(is_wide);
     let letter = |c: char| is_letter(c) && is_wide(c) == wide || matches!(c, '°' | 'µ' | '℃' | '℉');
-    let (_, word) = take_while_m_n(1, WORD, letter).parse(text)?;
-    let ends = word.char_indices().rev().map(|(at, c)| at + c.len_utf8()).take(if wide { WORD } else { 1 });
+    let (_, word) = take_while_m_n(1, MAX_WORD, letter).parse(text)?;
+    let ends =
+        word.char_indices().rev().map(|(at, c)| at + c.len_utf8()).take(if wide { MAX_WORD } else { 1 });
     let meaning = |word: &str| {
         if is_other(word) { Some(None) } else { symbol(&word.replace('µ', "μ")).map(Some) }
     };

@@ -6,9 +6,9 @@ pub use crate::unit_table::{PREFIXES, is_wide};
 use labspec_expr::dimension::{ANGLE, BASES, Dimension};
 use std::f64::consts::PI;
 
-/// The base units in the order of a [`Dimension`]; `WRITTEN` is the order in which they are formatted.
+/// The base units in the order of a [`Dimension`]; `BASE_UNIT_ORDER` is the order in which they are formatted.
 const NAMES: [&str; BASES] = ["rad", "kg", "m", "s", "K", "A"];
-const WRITTEN: [usize; BASES] = [KG, M, S, K, A, ANGLE];
+const BASE_UNIT_ORDER: [usize; BASES] = [KG, M, S, K, A, ANGLE];
 
 /// A unit expression at the beginning of a text.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,12 +40,12 @@ pub fn read(text: &str) -> Option<UnitText> {
 }
 
 /// Units that are preferred to powers of base units.
-const USUAL: [&str; 9] = ["N", "N m", "N/m", "N s/m", "W", "Pa", "N s", "1/s", "m"];
+const PREFERRED_UNITS: [&str; 9] = ["N", "N m", "N/m", "N s/m", "W", "Pa", "N s", "1/s", "m"];
 
 /// Formats a dimension: `mm/s`, `N m`, `deg`; a dimensionless number is `1`. A factor that is not a power of
 /// ten is described in words.
 pub fn written(dimension: &Dimension) -> String {
-    let usual = USUAL
+    let usual = PREFERRED_UNITS
         .iter()
         .find(|u| parse(u).is_some_and(|d| d.agrees(dimension) && d.has_angle() == dimension.has_angle()));
     let base = usual.map_or_else(|| from_bases(dimension), |u| u.to_string());
@@ -77,7 +77,7 @@ fn shortest(x: f64) -> String {
 
 fn from_bases(dimension: &Dimension) -> String {
     let (mut above, mut below) = (Vec::new(), Vec::new());
-    for base in WRITTEN {
+    for base in BASE_UNIT_ORDER {
         let name = NAMES[base];
         match dimension.whole_power(base) {
             Some(0) => {}

@@ -149,7 +149,7 @@ mod tests {
     use labspec::rules;
 
     #[test]
-    fn what_has_moved_is_known_and_what_is_new_is_not() {
+    fn moved_findings_are_baselined_and_new_ones_are_not() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("baseline.json");
         let file = |text: &str| SourceFile::new(folder.path().join("a.md").to_str().unwrap(), text);

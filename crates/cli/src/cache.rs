@@ -62,7 +62,7 @@ impl Cache {
             return check::run_checks(lesson, models, level);
         }
         let (slot, key) = (slot(path, level), self.key(lesson, models, level));
-        if let Some(found) = self.load(&slot).and_then(|text| recall(&text, &key, lesson, models)) {
+        if let Some(found) = self.load(&slot).and_then(|text| read_entry(&text, &key, lesson, models)) {
             return found;
         }
         let found = check::run_checks(lesson, models, level);
@@ -174,7 +174,7 @@ fn entry(key: &str, lesson: &Lesson, models: &Models, found: &LabOutcome) -> Opt
 
 /// The result in a text, if it is complete and belongs to these models. Models with diagnostics are compiled, so
 /// that these are reported.
-fn recall(text: &str, key: &str, lesson: &Lesson, models: &Models) -> Option<LabOutcome> {
+fn read_entry(text: &str, key: &str, lesson: &Lesson, models: &Models) -> Option<LabOutcome> {
     let entry: CacheEntry<LabOutcome> = serde_json::from_str(whole(text)?).ok()?;
     let is_same = |used: &UsedModel| match &used.files {
         None => models.folder().path(&used.name).is_none(),
@@ -257,7 +257,7 @@ mod tests {
     use labspec::source::SourceFile;
     use std::cell::Cell;
 
-    const DEEP: CheckLevel = CheckLevel::FULL;
+    const FULL_CHECK: CheckLevel = CheckLevel::FULL;
     const LESSON: &str = r#"{"model": "drop", "title": "Drop", "stopAt": 0.1,
         "controls": [{"label": "v", "set": "data.qvel[2]", "min": 0, "max": 1, "value": 0}],
         "readouts": [{"label": "z", "expr": "data.qpos[2]"}, {"label": "n", "expr": "data.qops"}],
@@ -289,37 +289,37 @@ mod tests {
     }
 
     #[test]
-    fn what_was_written_is_read_back() {
+    fn written_results_are_read_back() {
         let top = course();
         let models = models(top.path());
         let lesson = lesson(&models, LESSON);
-        let found = check::run_checks(&lesson, &models, DEEP);
+        let found = check::run_checks(&lesson, &models, FULL_CHECK);
         assert!(
             !found.findings.is_empty() && found.labs[0].runs == 5 && found.claims.len() == 1,
             "{found:?}"
         );
         let text = entry("key", &lesson, &models, &found).unwrap();
-        let again = recall(&text, "key", &lesson, &models).unwrap();
+        let again = read_entry(&text, "key", &lesson, &models).unwrap();
         assert_eq!(format!("{found:?}"), format!("{again:?}"));
-        assert!(recall(&text, "other", &lesson, &models).is_none());
+        assert!(read_entry(&text, "other", &lesson, &models).is_none());
     }
 
     /// A changed byte or a truncated file gives no result.
     #[test]
-    fn a_damaged_result_is_none() {
+    fn a_damaged_result_is_not_read() {
         let top = course();
         let models = models(top.path());
         let lesson = lesson(&models, LESSON);
-        let found = check::run_checks(&lesson, &models, DEEP);
+        let found = check::run_checks(&lesson, &models, FULL_CHECK);
         let text = entry("key", &lesson, &models, &found).unwrap();
         for i in 0..text.len() {
             for bit in [0x01, 0x20, 0x80] {
                 let mut bytes = text.clone().into_bytes();
                 bytes[i] ^= bit;
                 let Ok(damaged) = String::from_utf8(bytes) else { continue };
-                assert!(recall(&damaged, "key", &lesson, &models).is_none(), "byte {i}");
+                assert!(read_entry(&damaged, "key", &lesson, &models).is_none(), "byte {i}");
             }
-            assert!(recall(&text[..i], "key", &lesson, &models).is_none(), "{i} bytes");
+            assert!(read_entry(&text[..i], "key", &lesson, &models).is_none(), "{i} bytes");
         }
         // A complete entry with another structure gives no result, and no panic.
         for body in [
@@ -331,7 +331,7 @@ mod tests {
             "{\"key\":\"key\",\"models\":[{\"name\":\"drop\",\"has_diagnostics\":false,\"files\":[]}],\"found\":[[],[],[],[]]}",
         ] {
             let foreign = format!("{}\n{body}", digest::hex(body.as_bytes()));
-            assert!(recall(&foreign, "key", &lesson, &models).is_none(), "{body}");
+            assert!(read_entry(&foreign, "key", &lesson, &models).is_none(), "{body}");
         }
     }
 
@@ -352,41 +352,41 @@ mod tests {
             asked.get()
         };
         let newer = LESSON.replace("Drop", "Fall");
-        assert!(fresh(&cache, LESSON, DEEP));
-        assert!(!fresh(&cache, LESSON, DEEP));
-        assert!(fresh(&cache, &newer, DEEP), "the lesson");
-        assert!(!fresh(&cache, &newer, DEEP));
+        assert!(fresh(&cache, LESSON, FULL_CHECK));
+        assert!(!fresh(&cache, LESSON, FULL_CHECK));
+        assert!(fresh(&cache, &newer, FULL_CHECK), "the lesson");
+        assert!(!fresh(&cache, &newer, FULL_CHECK));
         assert!(fresh(&cache, &newer, CheckLevel::CLAIMS), "the depth");
         write_ball(top.path(), "<geom size='0.06'/>");
-        assert!(fresh(&cache, &newer, DEEP), "a file that the model includes");
-        assert!(!fresh(&cache, &newer, DEEP));
+        assert!(fresh(&cache, &newer, FULL_CHECK), "a file that the model includes");
+        assert!(!fresh(&cache, &newer, FULL_CHECK));
         std::fs::write(top.path().join("models/drop.xml"), "<mujoco> <include file='ball.xml'/></mujoco>")
             .unwrap();
-        assert!(fresh(&cache, &newer, DEEP), "the model");
+        assert!(fresh(&cache, &newer, FULL_CHECK), "the model");
         std::fs::remove_file(top.path().join("models/drop.xml")).unwrap();
-        assert!(fresh(&cache, &newer, DEEP), "the model is gone");
-        assert!(!fresh(&cache, &newer, DEEP));
+        assert!(fresh(&cache, &newer, FULL_CHECK), "the model is gone");
+        assert!(!fresh(&cache, &newer, FULL_CHECK));
         let other = Cache { program: "two".into(), ..cache };
-        assert!(fresh(&other, &newer, DEEP), "the program");
+        assert!(fresh(&other, &newer, FULL_CHECK), "the program");
         // A damaged file on disk: the lesson is checked again, and the file is replaced.
         for file in std::fs::read_dir(top.path().join("cache")).unwrap() {
             std::fs::write(file.unwrap().path(), [0xff, 0, 0x80]).unwrap();
         }
-        assert!(fresh(&other, &newer, DEEP), "damage");
-        assert!(!fresh(&other, &newer, DEEP));
+        assert!(fresh(&other, &newer, FULL_CHECK), "damage");
+        assert!(!fresh(&other, &newer, FULL_CHECK));
     }
 
     /// A model reports its diagnostics even if the result of its lab is cached.
     #[test]
-    fn a_model_reports_its_diagnostics_again() {
+    fn cached_models_report_their_diagnostics_again() {
         let top = course();
         write_ball(top.path(), "text <geom size='0.05'/>");
         let mut first = models(top.path());
         let read = lesson(&first, LESSON);
-        let found = check::run_checks(&read, &first, DEEP);
+        let found = check::run_checks(&read, &first, FULL_CHECK);
         let text = entry("key", &read, &first, &found).unwrap();
         let mut second = models(top.path());
-        assert!(recall(&text, "key", &read, &second).is_some());
+        assert!(read_entry(&text, "key", &read, &second).is_some());
         let findings = first.take_findings();
         assert!(!findings.is_empty());
         assert_eq!(findings, second.take_findings());

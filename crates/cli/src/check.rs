@@ -2,16 +2,16 @@
 
 use super::baseline::Baseline;
 use super::cache::Cache;
-use super::check_output::{Format, OutputOptions, PreviousRecord, report_results};
+use super::check_output::{CheckFormat, OutputOptions, PreviousRecord, report_results};
 use super::collect::{STDIN, collect};
 use super::common::{Color, Failure, ModelOptions, Outcome};
 use super::course::{CheckRequest, CrossCheckRequest};
 use super::fix::{FixMode, fix};
-use super::output::{PlannedOutput, look_ahead};
+use super::output::{PlannedOutput, check_outputs_writable};
 use super::output_kind::OutputKind;
 use super::policy::PolicyOptions;
 use super::scheduler::check_lessons;
-use super::stdio::complain;
+use super::stdio::print_skipped;
 use super::{judge, reproduction, watch};
 use labspec::check::{CheckLevel, Recording};
 use labspec::report::counted;
@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 
 /// Arguments of `check` and `verify`.
 #[derive(clap::Args, Debug)]
-pub(super) struct Arguments {
+pub(super) struct VerifyArguments {
     /// Lessons (.md), labs and quizzes (.json), models (.xml), or folders of lessons
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<PathBuf>,
@@ -29,7 +29,7 @@ pub(super) struct Arguments {
     models: ModelOptions,
     /// Output format
     #[arg(long, value_enum, default_value = "human")]
-    format: Format,
+    format: CheckFormat,
     #[arg(long, value_enum, default_value = "auto", value_name = "WHEN")]
     color: Color,
     /// Number of files to check in parallel [default: the number of processors]
@@ -70,7 +70,7 @@ pub(super) struct Arguments {
 #[derive(clap::Args, Debug)]
 pub(super) struct CheckArguments {
     #[command(flatten)]
-    common: Arguments,
+    common: VerifyArguments,
     /// Check structure, models and the names in every text, but run nothing: labs and claims count as left out,
     /// and the exit code is 3 if no problems are found
     #[arg(long)]
@@ -121,13 +121,13 @@ pub(super) fn check_command(a: &CheckArguments) -> Result<Outcome, Failure> {
     run_check(&a.common, level, false, fix, paths)
 }
 
-pub(super) fn verify_command(a: &Arguments) -> Result<Outcome, Failure> {
+pub(super) fn verify_command(a: &VerifyArguments) -> Result<Outcome, Failure> {
     run_check(a, CheckLevel::CLAIMS, true, None, RecordPaths::default())
 }
 
 /// Checks once, or again whenever a file changes.
 fn run_check(
-    a: &Arguments,
+    a: &VerifyArguments,
     level: CheckLevel,
     with_evidence: bool,
     fix_mode: Option<FixMode>,
@@ -136,7 +136,7 @@ fn run_check(
     let cache = Cache::open(a.no_cache, a.watch);
     let processors = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
     let inputs = read_inputs(a, fix_mode.is_some(), paths)?;
-    let is_human = a.format == Format::Human;
+    let is_human = a.format == CheckFormat::Human;
     let request = CheckRequest {
         paths: &a.paths,
         stdin: inputs.stdin.as_ref(),
@@ -184,7 +184,11 @@ fn run_check(
 }
 
 /// Reads the files that the arguments name, and checks that the outputs can be written and overwrite no input.
-fn read_inputs<'a>(a: &Arguments, fixes: bool, paths: RecordPaths<'a>) -> Result<CheckInputs<'a>, Failure> {
+fn read_inputs<'a>(
+    a: &VerifyArguments,
+    fixes: bool,
+    paths: RecordPaths<'a>,
+) -> Result<CheckInputs<'a>, Failure> {
     let piped = a.paths.iter().any(|p| p.as_os_str() == STDIN);
     let stdin = piped.then(|| read_stdin().map(|text| (a.stdin_name.clone(), text))).transpose()?;
     if piped && (a.watch || fixes) {
@@ -202,7 +206,7 @@ fn read_inputs<'a>(a: &Arguments, fixes: bool, paths: RecordPaths<'a>) -> Result
 }
 
 /// Checks that the outputs can be written and overwrite no input.
-fn check_outputs(a: &Arguments, paths: RecordPaths<'_>) -> Result<(), Failure> {
+fn check_outputs(a: &VerifyArguments, paths: RecordPaths<'_>) -> Result<(), Failure> {
     let outputs = [
         (OutputKind::Record, paths.write),
         (OutputKind::Page, paths.html),
@@ -217,7 +221,7 @@ fn check_outputs(a: &Arguments, paths: RecordPaths<'_>) -> Result<(), Failure> {
         return Ok(());
     }
     let inputs: Vec<PathBuf> = collect(&a.paths).files.into_iter().map(|(path, _)| path).collect();
-    look_ahead(&inputs, &outputs)
+    check_outputs_writable(&inputs, &outputs)
 }
 
 /// Applies fixes. With `--diff`, the command ends here with the returned outcome.
@@ -227,7 +231,7 @@ fn apply_fixes(request: &CheckRequest<'_>, mode: FixMode) -> Result<Option<Outco
         return Ok(Some(if repaired.fixes > 0 { Outcome::Findings } else { Outcome::Clean }));
     }
     if repaired.fixes > 0 {
-        complain(&format!(
+        print_skipped(&format!(
             "fixed {} in {}\n",
             counted(repaired.fixes, "finding"),
             counted(repaired.files, "file")

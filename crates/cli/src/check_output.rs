@@ -20,7 +20,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum Format {
+pub(super) enum CheckFormat {
     /// For people
     Human,
     /// A line for each finding
@@ -48,7 +48,7 @@ type Changes<'a> = (&'a Path, Vec<since::LessonChange>);
 /// The options of the output.
 pub(super) struct OutputOptions<'a> {
     pub(super) paths: &'a [PathBuf],
-    pub(super) format: Format,
+    pub(super) format: CheckFormat,
     pub(super) color: Color,
     /// Whether the command is `verify`, which prints the evidence of every claim.
     pub(super) with_evidence: bool,
@@ -84,19 +84,19 @@ pub(super) fn report_results(
         options.previous.map(|(file, old)| (*file, since::changes(old, &reproduction::now(file, results))));
     match options.format {
         _ if options.statistics => print(&report::statistics(&results.findings))?,
-        Format::Human => print(&human_text(options, outcome, results, &sources, changes.as_ref()))?,
-        Format::Json => {
+        CheckFormat::Human => print(&human_text(options, outcome, results, &sources, changes.as_ref()))?,
+        CheckFormat::Json => {
             let mut report = check_report(outcome, results, &sources);
             report.since = changes.as_ref().map(|(_, changes)| changes.as_slice());
             report.judge = results.reference_engine.as_ref().map(|engine| judge::machine(engine, results));
             print_report(if options.with_evidence { "verify" } else { "check" }, &report)?;
         }
-        Format::Concise => print(&report::concise(&results.findings, &sources))?,
-        Format::Jsonl => print(&report::jsonl(&results.findings, &sources))?,
-        Format::Github => print(&report::github(&results.findings, &sources))?,
-        Format::Gitlab => print_json(&report::gitlab(&results.findings, &sources), true)?,
-        Format::Sarif => print_json(&report::sarif(&results.findings, &sources), true)?,
-        Format::Junit => print(&report::junit(&results.ledger, &results.findings, &sources))?,
+        CheckFormat::Concise => print(&report::concise(&results.findings, &sources))?,
+        CheckFormat::Jsonl => print(&report::jsonl(&results.findings, &sources))?,
+        CheckFormat::Github => print(&report::github(&results.findings, &sources))?,
+        CheckFormat::Gitlab => print_json(&report::gitlab(&results.findings, &sources), true)?,
+        CheckFormat::Sarif => print_json(&report::sarif(&results.findings, &sources), true)?,
+        CheckFormat::Junit => print(&report::junit(&results.ledger, &results.findings, &sources))?,
     }
     command_outcome(options, outcome, results)
 }

@@ -1,6 +1,6 @@
 //! The files of a command: those named by the user, and the lessons in folders.
 
-use super::stdio::complain;
+use super::stdio::print_skipped;
 use labspec::lint::{self, root_of};
 use labspec::report::{printable_lines, printable_path};
 use labspec::spec::{FileKind, kind_of};
@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// The snapshots whose lessons no longer exist, below these folders or named directly, in a fixed order.
-pub(super) fn lost_snapshots(paths: &[PathBuf]) -> Vec<PathBuf> {
+pub(super) fn orphaned_snapshots(paths: &[PathBuf]) -> Vec<PathBuf> {
     let is_lost = |path: &Path| {
         let name = path.file_name().and_then(|name| name.to_str());
         let lesson =
@@ -48,9 +48,9 @@ pub(super) struct Collected {
 
 impl Collected {
     /// Prints the skipped paths on standard error.
-    pub(super) fn complain(&self) {
+    pub(super) fn print_skipped(&self) {
         for (path, why) in &self.left_out {
-            complain(&printable_lines(&format!("labspec: {} is skipped: {why}\n", path.display())));
+            print_skipped(&printable_lines(&format!("labspec: {} is skipped: {why}\n", path.display())));
         }
     }
 }
@@ -68,7 +68,7 @@ pub(super) fn collect(paths: &[PathBuf]) -> Collected {
             Ok(_) => all.files.push((path.clone(), true)),
         }
     }
-    all.files = once(all.files);
+    all.files = without_duplicates(all.files);
     all
 }
 
@@ -77,7 +77,7 @@ fn unreadable(path: &Path, e: &std::io::Error) -> String {
 }
 
 /// Removes duplicates of the same file; the first path is used.
-fn once(files: Vec<ListedFile>) -> Vec<ListedFile> {
+fn without_duplicates(files: Vec<ListedFile>) -> Vec<ListedFile> {
     let mut places: BTreeMap<PathBuf, usize> = BTreeMap::new();
     let mut all: Vec<ListedFile> = Vec::new();
     for (path, named) in files {
@@ -123,7 +123,7 @@ fn walk(folder: &Path, wanted: &dyn Fn(&Path) -> bool, all: &mut Collected) {
         } else if kind.is_dir() && entry.depth() > MAX_DEPTH {
             let why = format!("{} is nested more than {MAX_DEPTH} folders deep", printable_path(path));
             all.problems.push((path.to_path_buf(), why));
-        } else if kind.is_file() && wanted(path) {
+        } else if kind.is_file() && requested_outputs(path) {
             all.files.push((path.to_path_buf(), false));
         }
     }
@@ -134,13 +134,13 @@ fn follow(link: &Path, root: &Path, wanted: &dyn Fn(&Path) -> bool, all: &mut Co
     let real = match link.canonicalize() {
         Ok(real) => real,
         Err(e) => {
-            if wanted(link) {
+            if requested_outputs(link) {
                 all.problems.push((link.to_path_buf(), unreadable(link, &e)));
             }
             return;
         }
     };
-    let is_file = real.is_file() && wanted(link);
+    let is_file = real.is_file() && requested_outputs(link);
     if !is_file && !real.is_dir() {
         return;
     }

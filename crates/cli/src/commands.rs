@@ -5,7 +5,7 @@ use super::common::{Failure, Outcome, interrupted};
 use super::lsp;
 use super::output::write_file;
 use super::output_kind::OutputKind;
-use super::stdio::{self, complain};
+use super::stdio::{self, print_error};
 use super::{
     check, completions, developer, explain, fmt, init, plan, precision, run, scaffold, schema, snapshot,
     stability, trace,
@@ -29,40 +29,40 @@ struct Cli {
 #[derive(Subcommand, Debug)]
 enum Command {
     /// Create a folder for lessons: settings, a first lesson with its model, a workflow
-    Init(init::Arguments),
+    Init(init::InitArguments),
     /// Lint and run all labs and verify all quizzes of lessons, JSON files, or folders of them
     Check(check::CheckArguments),
     /// Verify the claims of quizzes and labs only, with every measure
-    Verify(check::Arguments),
+    Verify(check::VerifyArguments),
     /// Store the output of labs in snapshots for review; `check` compares the labs with them
-    Snapshot(snapshot::Arguments),
+    Snapshot(snapshot::SnapshotArguments),
     /// Format the code in lessons; with --modernize, replace bare indexes by names
-    Fmt(fmt::Arguments),
+    Fmt(fmt::FmtArguments),
     /// Run one lab without a page: LAB.json, LESSON.md#2, LESSON.md#quiz-id.1
-    Run(run::Arguments),
+    Run(run::RunArguments),
     /// Compare error and run time of integrators and timesteps, for one lab
-    Precision(precision::Arguments),
+    Precision(precision::PrecisionArguments),
     /// Find what breaks in one lab when a student moves its controls in every way
-    Stability(stability::Arguments),
+    Stability(stability::StabilityArguments),
     /// Show which stages of the engine a lab or model needs, why, and what each costs
-    Plan(plan::Arguments),
+    Plan(plan::PlanArguments),
     /// Find the origin of the numbers in a lesson: runs and measures with the same digits
-    Trace(trace::Arguments),
+    Trace(trace::TraceArguments),
     /// Propose a first, tested `verify` object for every question and lab that has none
-    Scaffold(scaffold::Arguments),
+    Scaffold(scaffold::ScaffoldArguments),
     /// Explain the code of a finding, with an example; without a code, list all codes
-    Explain(explain::Arguments),
+    Explain(explain::ExplainArguments),
     /// Print the JSON Schema of labs and quizzes, for editors: lab, quiz, or lesson for a JSON file of both
-    Schema(schema::Arguments),
+    Schema(schema::SchemaArguments),
     /// Serve an editor: findings, completion, values and names while typing (Language Server Protocol)
     #[cfg(feature = "lsp")]
-    Lsp(lsp::Arguments),
+    Lsp(lsp::LspArguments),
     /// For engineers: compute the numbers of this engine for the states of a MuJoCo recording
     Record(developer::RecordArguments),
     /// For engineers: measure the time of a step
     Bench(developer::BenchArguments),
     /// Print a completion script for a shell
-    Completions(completions::Arguments),
+    Completions(completions::CompletionsArguments),
     /// Write the reference pages, and the JSON Schemas into the folder `schema` beside them
     #[command(hide = true)]
     Reference {
@@ -79,7 +79,7 @@ pub(crate) fn run_program() -> ExitCode {
             return usage(&e);
         }
     };
-    if cli.command.prints_what_is_finished() {
+    if cli.command.handles_interrupt() {
         listen();
     }
     // All work uses the same stack size, independent of that of the main thread.
@@ -89,7 +89,7 @@ pub(crate) fn run_program() -> ExitCode {
         Ok(Outcome::Findings) => ExitCode::from(1),
         Ok(Outcome::Partial) => ExitCode::from(3),
         Err(message) => {
-            complain(&format!("labspec: {}\n", printable_lines(&message)));
+            print_error(&format!("labspec: {}\n", printable_lines(&message)));
             ExitCode::from(2)
         }
     }
@@ -135,7 +135,7 @@ fn execute(command: &Command) -> Result<Outcome, Failure> {
 
 impl Command {
     /// Whether the command tests for Ctrl-C between pieces of work. Ctrl-C ends all other commands at once.
-    fn prints_what_is_finished(&self) -> bool {
+    fn handles_interrupt(&self) -> bool {
         use Command::{
             Bench, Check, Fmt, Plan, Precision, Record, Run, Scaffold, Snapshot, Stability, Trace, Verify,
         };
@@ -161,13 +161,13 @@ impl Command {
 fn usage(e: &clap::Error) -> ExitCode {
     if e.use_stderr() {
         // An argument may be a file name that someone else chose.
-        complain(&printable_lines(&e.render().to_string()));
+        print_error(&printable_lines(&e.render().to_string()));
         return ExitCode::from(2);
     }
     match stdio::outcome(e.print().and_then(|()| std::io::stdout().flush())) {
         Ok(()) => ExitCode::SUCCESS,
         Err(message) => {
-            complain(&format!("labspec: {message}\n"));
+            print_error(&format!("labspec: {message}\n"));
             ExitCode::from(2)
         }
     }

@@ -6,13 +6,13 @@ use clap_complete::{Shell, generate};
 
 /// Arguments of `completions`.
 #[derive(clap::Args, Debug)]
-pub(super) struct Arguments {
+pub(super) struct CompletionsArguments {
     /// The shell
     #[arg(value_enum)]
     shell: Shell,
 }
 
-pub(super) fn completions(a: &Arguments, command: &mut clap::Command) -> Result<Outcome, Failure> {
+pub(super) fn completions(a: &CompletionsArguments, command: &mut clap::Command) -> Result<Outcome, Failure> {
     let mut script = Vec::new();
     generate(a.shell, command, "labspec", &mut script);
     print(&String::from_utf8_lossy(&script))?;

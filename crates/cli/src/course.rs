@@ -3,7 +3,7 @@
 use super::baseline::Baseline;
 use super::common::ModelOptions;
 use super::policy::{Policy, PolicyOptions};
-use labspec::check::{Allowed, Basis, CheckLevel, Checked, CrossCheck, Drawn, Recording};
+use labspec::check::{Basis, CheckLevel, Checked, CrossCheck, Recording, SuppressedFinding, VerifyCurves};
 use labspec::finding::Finding;
 use labspec::ledger::Ledger;
 use labspec::source::SourceFile;
@@ -55,7 +55,7 @@ pub(super) struct CourseResults {
     /// The name of the reference simulator, if there is a recording.
     pub(super) reference_engine: Option<String>,
     /// The plots of the runs of each lesson's claims, if requested.
-    pub(super) curves: Vec<Vec<Drawn>>,
+    pub(super) curves: Vec<Vec<VerifyCurves>>,
     /// All findings.
     pub(super) findings: Vec<Finding>,
     /// Findings that require all lessons: about models, and about several lessons together.
@@ -72,7 +72,7 @@ pub(super) struct CourseResults {
 #[derive(Default)]
 pub(super) struct SuppressedFindings {
     pub(super) ignored: Vec<Finding>,
-    pub(super) allowed: Vec<Allowed>,
+    pub(super) allowed: Vec<SuppressedFinding>,
     pub(super) baselined: Vec<Finding>,
 }
 

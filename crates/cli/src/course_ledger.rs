@@ -38,7 +38,7 @@ pub(super) fn build_ledger(
     files.left_out.iter().for_each(|(path, why)| of_files.add(left_out_entry(path, why.clone())));
     ledger.append(of_files);
     accept_page_widgets(&mut ledger, results, policies)?;
-    settle_suppressed(&mut ledger, results);
+    keep_suppressed_failures(&mut ledger, results);
     Ok(ledger)
 }
 
@@ -61,7 +61,7 @@ fn accept_page_widgets(
 
 /// A suppressed finding must not turn a failure into a success: a file with an ignored error counts as not checked, and a claim
 /// whose findings are all in the baseline gets the state "baselined".
-fn settle_suppressed(ledger: &mut Ledger, results: &CourseResults) {
+fn keep_suppressed_failures(ledger: &mut Ledger, results: &CourseResults) {
     let problems = |all: &[Finding]| {
         group_by_path(all.iter().filter(|f| f.severity != Severity::Note).cloned().collect())
     };

@@ -7,12 +7,12 @@ use labspec::rules;
 
 /// Arguments of `explain`.
 #[derive(clap::Args, Debug)]
-pub(super) struct Arguments {
+pub(super) struct ExplainArguments {
     /// A code such as `unknown-key`
     code: Option<String>,
 }
 
-pub(super) fn explain(a: &Arguments) -> Result<Outcome, Failure> {
+pub(super) fn explain(a: &ExplainArguments) -> Result<Outcome, Failure> {
     let Some(code) = &a.code else {
         let width = rules::all().map(|rule| rule.code.len()).max().unwrap_or(0);
         let lines: Vec<String> =

@@ -9,7 +9,7 @@ use super::stdio::show_progress;
 use super::target::{model_folder_within, root};
 use labspec::bind::parts::Hash;
 use labspec::bind::scene::{Models, check_model_file};
-use labspec::check::{self, Basis, CheckLevel, Checked, CrossCheck, Drawn, LabOutcome};
+use labspec::check::{self, Basis, CheckLevel, Checked, CrossCheck, LabOutcome, VerifyCurves};
 use labspec::finding::Finding;
 use labspec::lint::{self, ModelFolder, load_lesson_at, load_lesson_file};
 use labspec::report::printable_path;
@@ -51,7 +51,7 @@ pub(super) struct LessonOutcome {
     pub(super) checked: Checked,
     pub(super) suppressed: SuppressedFindings,
     pub(super) basis: Basis,
-    pub(super) curves: Vec<Drawn>,
+    pub(super) curves: Vec<VerifyCurves>,
     pub(super) cross_check: CrossCheck,
     /// Whether a panic ended the check.
     pub(super) cancelled: bool,

@@ -32,7 +32,7 @@ pub(super) struct FixMode {
 
 /// The number of applied fixes, and of changed files.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Repaired {
+pub(super) struct AppliedFixes {
     pub(super) fixes: usize,
     pub(super) files: usize,
 }
@@ -41,9 +41,9 @@ pub(super) struct Repaired {
 ///
 /// # Errors
 /// A file cannot be written. A file that cannot be read is left to the check.
-pub(super) fn fix(request: &CheckRequest<'_>, mode: FixMode) -> Result<Repaired, Failure> {
+pub(super) fn fix(request: &CheckRequest<'_>, mode: FixMode) -> Result<AppliedFixes, Failure> {
     let mut policies = Policies::new(request.policy)?;
-    let mut repaired = Repaired::default();
+    let mut repaired = AppliedFixes::default();
     for (path, named) in collect(request.paths).files {
         if interrupted() {
             break;

@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 
 /// Arguments of `fmt`.
 #[derive(clap::Args, Debug)]
-pub(super) struct Arguments {
+pub(super) struct FmtArguments {
     /// Lessons (.md), labs and quizzes (.json), or folders of them
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<PathBuf>,
@@ -30,11 +30,11 @@ pub(super) struct Arguments {
     check: bool,
 }
 
-pub(super) fn fmt(a: &Arguments) -> Result<Outcome, Failure> {
+pub(super) fn fmt(a: &FmtArguments) -> Result<Outcome, Failure> {
     let mut outcome = Outcome::Clean;
     let mut failures: Vec<String> = Vec::new();
     let collected = collect(&a.paths);
-    collected.complain();
+    collected.print_skipped();
     let Collected { files, problems, .. } = collected;
     failures.extend(problems.into_iter().map(|(_, why)| why));
     for (path, named) in files {
@@ -57,7 +57,7 @@ pub(super) fn fmt(a: &Arguments) -> Result<Outcome, Failure> {
 }
 
 /// Formats one file; returns a message for the user, if there is one.
-fn one(a: &Arguments, path: &Path, named: bool) -> Result<Option<String>, Failure> {
+fn one(a: &FmtArguments, path: &Path, named: bool) -> Result<Option<String>, Failure> {
     let file = SourceFile::read(path)?;
     let folder = model_folder(&a.models, path)?;
     let lesson = load_lesson_at(file, path, &Sources::Disk, &folder);
@@ -71,7 +71,7 @@ fn one(a: &Arguments, path: &Path, named: bool) -> Result<Option<String>, Failur
     }
     // The formatted text is parsed again before the file is replaced.
     let again = reload_lesson(&lesson, &done.text, &folder);
-    if !format::says_the_same(&lesson, &again) {
+    if !format::is_equivalent(&lesson, &again) {
         return Err(format!(
             "{} is unchanged: formatting would change its meaning; please report this lesson",
             printable_path(path)

@@ -10,7 +10,7 @@ use labspec::check::{Recording, file_name};
 use labspec::report::printable_lines;
 use labspec::report::{nonfinite, printable_path, to_value};
 use labspec::source::read_text;
-use labspec::verify::judge::{Left, RecordedRun, RunTask, format_value};
+use labspec::verify::judge::{RecordedRun, RunTask, Unjudged, format_value};
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -19,7 +19,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 /// The maximum size of a recording in bytes.
-const MOST: u64 = 64 << 20;
+const MAX_RECORDING: u64 = 64 << 20;
 /// The version of both formats.
 const VERSION: u64 = 1;
 
@@ -108,15 +108,15 @@ struct JudgeReport<'c> {
     compared: usize,
     verdicts: usize,
     turned: usize,
-    not_judged: Left,
+    not_judged: Unjudged,
     stale_runs: usize,
     missing_runs: usize,
-    differing: Vec<Differing<'c>>,
+    differing: Vec<DifferenceRow<'c>>,
     unjudged: Vec<Unjudged<'c>>,
 }
 
 #[derive(Serialize)]
-struct Differing<'c> {
+struct DifferenceRow<'c> {
     file: String,
     owner: &'c str,
     measure: &'c str,
@@ -167,7 +167,7 @@ pub(super) fn read(file: &Path) -> Result<Recording, Failure> {
             printable_path(file)
         )
     };
-    let text = read_text(file, MOST, "a recording of a judge")?;
+    let text = read_text(file, MAX_RECORDING, "a recording of a judge")?;
     let read: Field<RecordingFile> = serde_json::from_str(&text).map_err(|e| no(&e.to_string()))?;
     let expected = |f: &&RecordingFile| {
         f.recording.valid().is_some_and(|name| name == "judge") && f.version.valid() == Some(&VERSION)
@@ -245,7 +245,7 @@ impl<'c> JudgeReport<'c> {
                 all.differing.extend(judged.differing.iter().map(|(measure, ours, theirs)| {
                     let both = [("ours", *ours), ("theirs", *theirs)].into_iter();
                     let nonfinite = both.filter_map(|(key, x)| Some((key, nonfinite(x)?))).collect();
-                    Differing { file: file(), owner, measure, ours: *ours, theirs: *theirs, nonfinite }
+                    DifferenceRow { file: file(), owner, measure, ours: *ours, theirs: *theirs, nonfinite }
                 }));
                 let unjudged = judged.unjudged.iter();
                 all.unjudged.extend(unjudged.map(|(measure, reason)| Unjudged {
@@ -278,7 +278,7 @@ pub(super) fn summary(file: &Path, engine: &str, results: &CourseResults) -> Str
         "differs from"
     };
     // If something was left out, "all" refers only to what was compared.
-    let (left, judged) = match left(all.not_judged) {
+    let (left, judged) = match describe_unjudged(all.not_judged) {
         Some(left) => (format!("; not judged: {left}"), "judged "),
         None => (String::new(), ""),
     };
@@ -294,7 +294,7 @@ pub(super) fn summary(file: &Path, engine: &str, results: &CourseResults) -> Str
     }
     text.push_str(&left);
     text.push('\n');
-    for Differing { file, owner, measure, ours, theirs, .. } in &all.differing {
+    for DifferenceRow { file, owner, measure, ours, theirs, .. } in &all.differing {
         let [ours, theirs] = [*ours, *theirs].map(format_value);
         let _ = writeln!(text, "  differs    {file}, {owner}: `{measure}` is {ours} here but {theirs} there");
     }
@@ -319,7 +319,7 @@ pub(super) fn machine(engine: &str, results: &CourseResults) -> Value {
 }
 
 /// `2 searches, 1 range, 5 closed forms`, or `None` if nothing was left out.
-fn left(left: Left) -> Option<String> {
+fn describe_unjudged(left: Unjudged) -> Option<String> {
     let kinds = [
         (left.searches, "search", "searches"),
         (left.ranges, "range", "ranges"),

@@ -1,7 +1,7 @@
 //! The lab of a command, and the interactions with it: `--set LABEL=VALUE`, `--press LABEL@TIME`.
 
 use super::common::{Failure, ModelOptions};
-use super::output::{PlannedOutput, look_ahead};
+use super::output::{PlannedOutput, check_outputs_writable};
 use super::target::{self, LabTarget};
 use labspec::run::settings;
 use labspec::spec::Lab;
@@ -28,8 +28,12 @@ impl LabArguments {
     }
 
     /// Checks that these files can be written and would not overwrite an input.
-    pub(super) fn look_ahead(&self, target: &LabTarget, outputs: &[PlannedOutput]) -> Result<(), Failure> {
-        look_ahead(&target::read_for(&self.lab, &self.models, &target.lab), outputs)
+    pub(super) fn check_outputs_writable(
+        &self,
+        target: &LabTarget,
+        outputs: &[PlannedOutput],
+    ) -> Result<(), Failure> {
+        check_outputs_writable(&target::read_for(&self.lab, &self.models, &target.lab), outputs)
     }
 
     pub(super) fn set(&self, lab: &Lab) -> Result<Vec<(String, Value)>, Failure> {

@@ -2,7 +2,7 @@
 
 use super::common::{Failure, ModelOptions, Outcome};
 use super::policy::{Policies, Policy, PolicyOptions};
-use super::stdio::complain;
+use super::stdio::print_error;
 use super::target::model_folder;
 use labspec::finding::Finding;
 use labspec::lint::ModelFolder;
@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 
 /// Arguments of `lsp`.
 #[derive(clap::Args, Debug)]
-pub(super) struct Arguments {
+pub(super) struct LspArguments {
     #[command(flatten)]
     models: ModelOptions,
     #[command(flatten)]
@@ -24,13 +24,13 @@ pub(super) struct Arguments {
     stdio: bool,
 }
 
-pub(super) fn lsp(a: &Arguments) -> Result<Outcome, Failure> {
+pub(super) fn lsp(a: &LspArguments) -> Result<Outcome, Failure> {
     Policies::new(&a.policy)?;
     // Each problem is reported once on standard error, which editors write to their log.
     let reported = RefCell::new(BTreeSet::new());
     let say = |why: Failure| {
         if reported.borrow_mut().insert(why.clone()) {
-            complain(&format!("labspec: {why}\n"));
+            print_error(&format!("labspec: {why}\n"));
         }
     };
     let models = |path: &Path| {

@@ -20,7 +20,7 @@ pub(super) fn write_file(path: &Path, kind: OutputKind<'_>, text: &str) -> Resul
 pub(super) fn remove_file(path: &Path, kind: OutputKind<'_>) -> Result<(), Failure> {
     let cannot = |e: io::Error| format!("cannot remove {}: {e}", printable_path(path));
     let old = fs::symlink_metadata(path).map_err(cannot)?;
-    if let Some(why) = kind.refuses(path, &old) {
+    if let Some(why) = kind.refusal(path, &old) {
         return Err(cannot(io::Error::new(io::ErrorKind::InvalidInput, why)));
     }
     fs::remove_file(path).map_err(cannot)
@@ -59,13 +59,13 @@ fn replace(
 ) -> io::Result<()> {
     let place = place(path)?;
     let old = writable(&place)?;
-    if let Some(why) = old.as_ref().and_then(|old| kind.refuses(&place, old)) {
+    if let Some(why) = old.as_ref().and_then(|old| kind.refusal(&place, old)) {
         return Err(io::Error::new(io::ErrorKind::InvalidInput, why));
     }
     if let Some(folder) = place.parent() {
         clear_abandoned(folder, is_temporary);
     }
-    let (mut temporary, file) = Temporary::beside(&place)?;
+    let (mut temporary, file) = Temporary::create_temporary(&place)?;
     if let Some(old) = &old {
         keep_owner(&temporary.path, old);
         fs::set_permissions(&temporary.path, old.permissions())?;
@@ -87,7 +87,7 @@ fn replace(
 }
 
 /// The age in seconds after which an unchanged temporary file counts as abandoned. A younger one may belong to another run.
-const ABANDONED: u64 = 600;
+const ABANDONED_AFTER: u64 = 600;
 
 /// Whether a file has the name of a [`Temporary`]: `.labspec-12-0.tmp`.
 fn is_temporary(name: &str) -> bool {
@@ -99,8 +99,8 @@ fn is_temporary(name: &str) -> bool {
 /// Removes the temporary files of killed runs from a folder: files with such a name whose process does not exist any more, or,
 /// if that is unknown, that have not been written for ten minutes. Each folder is searched once.
 pub(super) fn clear_abandoned(folder: &Path, is_temporary: fn(&str) -> bool) {
-    static SEEN: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
-    if !SEEN.lock().is_ok_and(|mut seen| seen.insert(folder.to_path_buf())) {
+    static ABANDONED_FILES: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+    if !ABANDONED_FILES.lock().is_ok_and(|mut seen| seen.insert(folder.to_path_buf())) {
         return;
     }
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
@@ -109,15 +109,15 @@ pub(super) fn clear_abandoned(folder: &Path, is_temporary: fn(&str) -> bool) {
         let process = name.trim_start_matches(".labspec-").split('-').next().and_then(|n| n.parse().ok());
         let Ok(meta) = entry.metadata() else { continue };
         let age = meta.modified().ok().and_then(|at| at.elapsed().ok()).map_or(0, |age| age.as_secs());
-        let gone = process.is_some_and(is_gone);
-        if meta.is_file() && process != Some(std::process::id()) && (gone || age >= ABANDONED) {
+        let gone = process.is_some_and(has_ended);
+        if meta.is_file() && process != Some(std::process::id()) && (gone || age >= ABANDONED_AFTER) {
             let _ = fs::remove_file(entry.path());
         }
     }
 }
 
 /// Whether the system states that no process with this id is running.
-fn is_gone(process: u32) -> bool {
+fn has_ended(process: u32) -> bool {
     Path::new("/proc/self").exists() && !Path::new(&format!("/proc/{process}")).exists()
 }
 
@@ -128,7 +128,7 @@ struct Temporary {
 }
 
 impl Temporary {
-    fn beside(place: &Path) -> io::Result<(Temporary, File)> {
+    fn create_temporary(place: &Path) -> io::Result<(Temporary, File)> {
         static COUNT: AtomicUsize = AtomicUsize::new(0);
         let mut last = None;
         for _ in 0..100 {
@@ -241,7 +241,7 @@ pub(super) struct PlannedOutput {
 }
 
 /// The outputs that were requested.
-pub(super) fn wanted(outputs: &[(OutputKind<'static>, &Option<PathBuf>)]) -> Vec<PlannedOutput> {
+pub(super) fn requested_outputs(outputs: &[(OutputKind<'static>, &Option<PathBuf>)]) -> Vec<PlannedOutput> {
     let asked = outputs
         .iter()
         .filter_map(|(kind, path)| Some(PlannedOutput { kind: *kind, path: path.as_ref()?.clone() }));
@@ -252,7 +252,7 @@ pub(super) fn wanted(outputs: &[(OutputKind<'static>, &Option<PathBuf>)]) -> Vec
 ///
 /// # Errors
 /// An output would overwrite an input or another output, or cannot be written.
-pub(super) fn look_ahead(read: &[PathBuf], outputs: &[PlannedOutput]) -> Result<(), Failure> {
+pub(super) fn check_outputs_writable(read: &[PathBuf], outputs: &[PlannedOutput]) -> Result<(), Failure> {
     let inputs: Vec<Identity> = read.iter().filter_map(|p| Identity::read(p).ok()).collect();
     let mut written: Vec<(Identity, String)> = Vec::new();
     // Standard output may be redirected to a file.
@@ -271,7 +271,7 @@ pub(super) fn look_ahead(read: &[PathBuf], outputs: &[PlannedOutput]) -> Result<
                 "{named} would overwrite a lesson or a model, so nothing was written; name another file"
             ));
         }
-        if old.as_ref().is_some_and(|old| kind.refuses(&identity.place, old).is_some()) {
+        if old.as_ref().is_some_and(|old| kind.refusal(&identity.place, old).is_some()) {
             return Err(format!(
                 "{named} would overwrite a file that labspec did not write with this option, so nothing was written; name another file, or remove that one first"
             ));
@@ -292,7 +292,7 @@ mod tests {
 
     /// A run that was killed between writing and renaming leaves a temporary file, which the next run removes.
     #[test]
-    fn what_a_killed_run_has_left_is_cleared() {
+    fn temporary_files_of_a_killed_run_are_removed() {
         let folder = tempfile::tempdir().unwrap();
         let at = |name: &str| folder.path().join(name);
         // The first name has a process id that does not exist. The second belongs to this process, which may still write it.

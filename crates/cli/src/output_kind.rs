@@ -38,13 +38,13 @@ pub(super) enum OutputKind<'t> {
 }
 
 /// Extensions of files that labspec reads. An output never replaces such a file, even if labspec wrote it.
-const READ: [&str; 14] = [
+const INPUT_EXTENSIONS: [&str; 14] = [
     "md", "markdown", "mdx", "qmd", "rmd", "xml", "mjcf", "urdf", "stl", "obj", "msh", "png", "toml", "snap",
 ];
 /// The maximum size of a JSON output that is read completely to recognize it.
-const MOST: u64 = 64 << 20;
+const MAX_JSON_OUTPUT: u64 = 64 << 20;
 /// The number of bytes by which other outputs are recognized.
-const HEAD: u64 = 4 << 10;
+const RECOGNIZED_BYTES: u64 = 4 << 10;
 /// The first columns of a table of settings.
 const SETTINGS: [&str; 4] = ["integrator", "solver", "timestep", "own"];
 
@@ -72,12 +72,12 @@ impl OutputKind<'_> {
         let ending = place.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
         match self {
             OutputKind::Snapshot | OutputKind::Reference | OutputKind::New | OutputKind::Lesson(_) => false,
-            _ => ending.is_some_and(|e| READ.contains(&e.as_str())) && !drawn_here(place),
+            _ => ending.is_some_and(|e| INPUT_EXTENSIONS.contains(&e.as_str())) && !is_own_picture(place),
         }
     }
 
     /// Why this output may not replace an existing file, or `None` if it may.
-    pub(super) fn refuses(self, place: &Path, old: &fs::Metadata) -> Option<&'static str> {
+    pub(super) fn refusal(self, place: &Path, old: &fs::Metadata) -> Option<&'static str> {
         match self {
             OutputKind::New => Some("a file already exists there"),
             OutputKind::Lesson(text) => {
@@ -87,18 +87,18 @@ impl OutputKind<'_> {
             }
             _ if self.is_input(place) => Some("it is a lesson, a model or a part of one"),
             _ => {
-                let is_own = old.len() == 0 || self.wrote(place, old.len());
+                let is_own = old.len() == 0 || self.looks_like_output(place, old.len());
                 (!is_own).then_some("it is a file of another kind")
             }
         }
     }
 
     /// Whether a file looks like an output of this kind.
-    fn wrote(self, place: &Path, size: u64) -> bool {
+    fn looks_like_output(self, place: &Path, size: u64) -> bool {
         let head = head(place);
         let text = head.trim_start_matches('\u{feff}').trim_start();
         let value = || {
-            let whole = if size <= MOST { fs::read_to_string(place).ok() } else { None };
+            let whole = if size <= MAX_JSON_OUTPUT { fs::read_to_string(place).ok() } else { None };
             whole.and_then(|text| serde_json::from_str::<serde_json::Value>(&text).ok())
         };
         let says = |key: &str, word: &str| value().is_some_and(|value| value[key] == word);
@@ -112,14 +112,15 @@ impl OutputKind<'_> {
                     && start.contains(",\"report\":\"run\",\"version\":\"labspec ")
             }
             OutputKind::Page => {
-                text.starts_with("<!DOCTYPE html>") && tail(place, size).contains("<footer><p><bdi>labspec ")
+                text.starts_with("<!DOCTYPE html>")
+                    && last_bytes(place, size).contains("<footer><p><bdi>labspec ")
             }
             OutputKind::Table | OutputKind::Settings => is_table(place),
             OutputKind::Plot => {
                 text.starts_with("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"")
                     && fs::read_to_string(place).is_ok_and(|text| text.contains("'DejaVu Sans'"))
             }
-            OutputKind::Picture => drawn_here(place),
+            OutputKind::Picture => is_own_picture(place),
             OutputKind::Snapshot => {
                 let is_header =
                     |line: &str| line.trim_start_matches(['#', ' ']).starts_with("labspec snapshot");
@@ -138,30 +139,30 @@ impl OutputKind<'_> {
 /// The first bytes of a file as text.
 fn head(place: &Path) -> String {
     let mut bytes = Vec::new();
-    let read = File::open(place).and_then(|file| file.take(HEAD).read_to_end(&mut bytes));
+    let read = File::open(place).and_then(|file| file.take(RECOGNIZED_BYTES).read_to_end(&mut bytes));
     read.map_or(String::new(), |_| String::from_utf8_lossy(&bytes).into_owned())
 }
 
 /// The last bytes of a file as text.
-fn tail(place: &Path, size: u64) -> String {
+fn last_bytes(place: &Path, size: u64) -> String {
     let mut bytes = Vec::new();
     let read = File::open(place).and_then(|mut file| {
-        file.seek(SeekFrom::Start(size.saturating_sub(HEAD)))?;
-        file.take(HEAD).read_to_end(&mut bytes)
+        file.seek(SeekFrom::Start(size.saturating_sub(RECOGNIZED_BYTES)))?;
+        file.take(RECOGNIZED_BYTES).read_to_end(&mut bytes)
     });
     read.map_or(String::new(), |_| String::from_utf8_lossy(&bytes).into_owned())
 }
 
 /// Whether this program drew a picture. Other pictures may be height fields of a model.
 #[cfg(feature = "png")]
-fn drawn_here(place: &Path) -> bool {
+fn is_own_picture(place: &Path) -> bool {
     let mut start = Vec::new();
     let read = File::open(place).and_then(|file| file.take(512).read_to_end(&mut start));
-    read.is_ok() && labspec_plot::is_png_of_ours(&start)
+    read.is_ok() && labspec_plot::is_own_png(&start)
 }
 
 #[cfg(not(feature = "png"))]
-fn drawn_here(_: &Path) -> bool {
+fn is_own_picture(_: &Path) -> bool {
     false
 }
 
@@ -170,7 +171,7 @@ fn drawn_here(_: &Path) -> bool {
 /// measurements are not such a table.
 fn is_table(place: &Path) -> bool {
     let Ok(file) = File::open(place) else { return false };
-    let mut rows = Rows { bytes: BufReader::new(file).bytes(), most: MOST_OF_ROW };
+    let mut rows = Rows { bytes: BufReader::new(file).bytes(), most: MAX_ROW };
     let Some(Some(columns)) = rows.next_row() else { return false };
     let timed = columns.first().is_some_and(|name| name == "time")
         && columns.iter().skip(1).all(|name| is_column(name));
@@ -211,7 +212,7 @@ fn is_name(cell: &str) -> bool {
 }
 
 /// The maximum size of a row in bytes.
-const MOST_OF_ROW: usize = 64 << 20;
+const MAX_ROW: usize = 64 << 20;
 
 /// Iterates over the rows of comma-separated values.
 struct Rows<I> {
@@ -259,7 +260,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn tables_of_ours_are_told_from_measurements() {
+    fn own_tables_are_distinguished_from_measurements() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("t.csv");
         let is_ours = |text: &str| {
@@ -292,11 +293,11 @@ mod tests {
     }
 
     #[test]
-    fn a_lesson_replaces_what_was_read_and_nothing_else() {
+    fn an_output_replaces_only_files_of_its_kind() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.md");
         fs::write(&path, "as read").unwrap();
-        let refused = |kind: OutputKind<'_>| kind.refuses(&path, &fs::metadata(&path).unwrap()).is_some();
+        let refused = |kind: OutputKind<'_>| kind.refusal(&path, &fs::metadata(&path).unwrap()).is_some();
         assert!(!refused(OutputKind::Lesson("as read")));
         assert!(refused(OutputKind::Lesson("as  read")) && refused(OutputKind::Lesson("AS READ")));
         assert!(refused(OutputKind::New) && refused(OutputKind::Snapshot) && refused(OutputKind::Reference));

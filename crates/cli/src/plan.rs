@@ -9,14 +9,14 @@ use labspec::report::printable;
 use labspec::verify::significant;
 use labspec_core::reflect::FieldSet;
 use labspec_numerics::profile::{
-    EngineOption, Options, PairSummary, PlanReport, REPEATS, SensorRow, StageCost, name,
+    EngineOption, PairSummary, PlanOptions, PlanReport, REPEATS, SensorRow, StageCost, name,
 };
 use serde::Serialize;
 use std::fmt::Write;
 
 /// Arguments of `plan`.
 #[derive(clap::Args, Debug)]
-pub(super) struct Arguments {
+pub(super) struct PlanArguments {
     /// LAB.json, LESSON.md#2, LESSON.md#quiz-id.1, or MODEL.xml
     lab: String,
     #[command(flatten)]
@@ -29,23 +29,23 @@ pub(super) struct Arguments {
     no_run: bool,
     /// Output format
     #[arg(long, value_enum, default_value = "human")]
-    format: Format,
+    format: PlanFormat,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
-enum Format {
+enum PlanFormat {
     Human,
     Json,
 }
 
-pub(super) fn plan(a: &Arguments) -> Result<Outcome, Failure> {
+pub(super) fn plan(a: &PlanArguments) -> Result<Outcome, Failure> {
     let target = target::open(&a.lab, &a.models)?;
-    let options = Options { read: a.read.clone(), run: !a.no_run };
+    let options = PlanOptions { read: a.read.clone(), run: !a.no_run };
     let report = labspec_numerics::profile::plan(&target.lab, &target.model, &target.programs, &options)
         .map_err(|e| e.0)?;
     match a.format {
-        Format::Human => print(&human(&report))?,
-        Format::Json => print_report("plan", &machine(&report))?,
+        PlanFormat::Human => print(&human(&report))?,
+        PlanFormat::Json => print_report("plan", &machine(&report))?,
     }
     Ok(Outcome::Clean)
 }
@@ -99,7 +99,7 @@ fn human(report: &PlanReport) -> String {
     let running = report.rows.iter().filter(|r| r.keep).count();
     let _ = writeln!(text, "\n{running} of {} stages run in every step", report.rows.len());
     if let Some(step) = &report.step {
-        let [low, high] = step.quarters;
+        let [low, high] = step.quartiles;
         let _ = writeln!(
             text,
             "a step takes {} ns ({} to {}); with everything read, it takes {} ns",
@@ -230,7 +230,7 @@ fn readers(report: &PlanReport, text: &mut String) {
 
 /// The plan of a lab for programs.
 #[derive(Serialize)]
-struct Report<'a> {
+struct PlanOutput<'a> {
     reads: Vec<&'static str>,
     writes: Vec<&'static str>,
     stages: Vec<Stage<'a>>,
@@ -286,28 +286,28 @@ struct Cost {
 struct Pairs<'a> {
     all: usize,
     can_touch: usize,
-    tests: Vec<Test<'a>>,
-    left_out: Vec<LeftOut>,
-    in_reach: Option<MeanAndMost>,
-    contacts: Option<MeanAndMost>,
+    tests: Vec<SearchTest<'a>>,
+    left_out: Vec<OmittedStage>,
+    in_reach: Option<MeanAndMaximum>,
+    contacts: Option<MeanAndMaximum>,
 }
 
 #[derive(Serialize)]
-struct Test<'a> {
+struct SearchTest<'a> {
     shapes: &'a [&'static str; 2],
     pairs: usize,
     searched: bool,
 }
 
 #[derive(Serialize)]
-struct LeftOut {
+struct OmittedStage {
     reason: &'static str,
     pairs: usize,
 }
 
 /// The mean and the maximum of a count.
 #[derive(Serialize)]
-struct MeanAndMost {
+struct MeanAndMaximum {
     mean: f64,
     most: f64,
 }
@@ -316,8 +316,8 @@ struct MeanAndMost {
 struct Solver<'a> {
     cone: &'static str,
     methods: &'a [EngineOption],
-    rows: Option<MeanAndMost>,
-    iterations: Option<MeanAndMost>,
+    rows: Option<MeanAndMaximum>,
+    iterations: Option<MeanAndMaximum>,
 }
 
 /// The number of trees that an algorithm computes.
@@ -342,8 +342,8 @@ fn cost(cost: StageCost, reason: Option<&'static str>) -> Cost {
     Cost { share: cost.share, ns: cost.ns, reason }
 }
 
-fn mean_and_most([mean, most]: [f64; 2]) -> MeanAndMost {
-    MeanAndMost { mean, most }
+fn mean_and_maximum([mean, most]: [f64; 2]) -> MeanAndMaximum {
+    MeanAndMaximum { mean, most }
 }
 
 fn pair_row(of: &PairSummary) -> Pairs<'_> {
@@ -353,15 +353,15 @@ fn pair_row(of: &PairSummary) -> Pairs<'_> {
         all: of.all,
         can_touch: of.can_touch,
         tests: tests
-            .map(|(shapes, pairs, searched)| Test { shapes, pairs: *pairs, searched: *searched })
+            .map(|(shapes, pairs, searched)| SearchTest { shapes, pairs: *pairs, searched: *searched })
             .collect(),
-        left_out: left_out.map(|&(reason, pairs)| LeftOut { reason, pairs }).collect(),
-        in_reach: of.seen.map(|s| mean_and_most(s.in_reach)),
-        contacts: of.seen.map(|s| mean_and_most(s.contacts)),
+        left_out: left_out.map(|&(reason, pairs)| OmittedStage { reason, pairs }).collect(),
+        in_reach: of.seen.map(|s| mean_and_maximum(s.in_reach)),
+        contacts: of.seen.map(|s| mean_and_maximum(s.contacts)),
     }
 }
 
-fn machine(of: &PlanReport) -> Report<'_> {
+fn machine(of: &PlanReport) -> PlanOutput<'_> {
     let stages = of.rows.iter().map(|r| Stage {
         stage: name(r.stage),
         keep: r.keep,
@@ -374,8 +374,8 @@ fn machine(of: &PlanReport) -> Report<'_> {
     let step = of.step.as_ref().map(|s| Step {
         steps: s.steps,
         ns: s.ns,
-        low_ns: s.quarters[0],
-        high_ns: s.quarters[1],
+        low_ns: s.quartiles[0],
+        high_ns: s.quartiles[1],
         full_ns: s.full,
         work: s.work,
         integrator: cost(s.integrator, None),
@@ -392,7 +392,7 @@ fn machine(of: &PlanReport) -> Report<'_> {
         share: r.cost.zip(of.step.as_ref()).map(|(more, step)| more / step.ns),
     });
     let seen = of.pairs.seen;
-    Report {
+    PlanOutput {
         reads: names(&of.access.reads),
         writes: names(&of.access.writes),
         stages: stages.collect(),
@@ -402,8 +402,8 @@ fn machine(of: &PlanReport) -> Report<'_> {
         solver: Solver {
             cone: of.cone,
             methods: &of.solvers,
-            rows: seen.map(|s| mean_and_most(s.rows)),
-            iterations: seen.map(|s| mean_and_most(s.iterations)),
+            rows: seen.map(|s| mean_and_maximum(s.rows)),
+            iterations: seen.map(|s| mean_and_maximum(s.iterations)),
         },
         integrators: &of.integrators,
         tree_algorithms: tree_algorithms.collect(),

@@ -14,7 +14,7 @@ use std::sync::Arc;
 /// The name of the settings file.
 pub(super) const FILE: &str = "labspec.toml";
 /// The maximum size of a settings file in bytes.
-const MOST: u64 = 1 << 20;
+const MAX_SETTINGS: u64 = 1 << 20;
 
 /// The options of the command line for findings.
 #[derive(clap::Args, Debug, Clone, Default)]
@@ -168,7 +168,7 @@ impl Policies {
         let whole = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
         let settings = match &self.given {
             Some(given) => Some(given.clone()),
-            None => self.near(whole.parent())?,
+            None => self.nearest_settings(whole.parent())?,
         };
         let none = PolicyFile::default();
         let near = settings.as_deref().unwrap_or(&none);
@@ -188,13 +188,17 @@ impl Policies {
     }
 
     /// The settings of a folder: those in the folder, otherwise those of the nearest enclosing folder.
-    fn near(&mut self, folder: Option<&Path>) -> Result<Option<Arc<PolicyFile>>, Failure> {
+    fn nearest_settings(&mut self, folder: Option<&Path>) -> Result<Option<Arc<PolicyFile>>, Failure> {
         let Some(folder) = folder else { return Ok(None) };
         if let Some(cached) = self.read.get(folder) {
             return Ok(cached.clone());
         }
         let file = folder.join(FILE);
-        let found = if file.is_file() { Some(Arc::new(read(&file)?)) } else { self.near(folder.parent())? };
+        let found = if file.is_file() {
+            Some(Arc::new(read(&file)?))
+        } else {
+            self.nearest_settings(folder.parent())?
+        };
         self.read.insert(folder.to_path_buf(), found.clone());
         Ok(found)
     }
@@ -221,7 +225,7 @@ const OF_PATHS: [&str; 3] = ["match", "ignore", "deny"];
 fn read(path: &Path) -> Result<PolicyFile, Failure> {
     let name = printable_path(path);
     let cannot = |e: String| format!("{name}: {e}");
-    let text = read_text(path, MOST, "settings")?;
+    let text = read_text(path, MAX_SETTINGS, "settings")?;
     let table: toml::Table = toml::from_str(&text).map_err(|e| {
         let place = e.span().map_or(String::new(), |span| {
             let line = text.get(..span.start).unwrap_or_default().matches('\n').count() + 1;
@@ -343,7 +347,7 @@ mod tests {
     }
 
     #[test]
-    fn mistakes_in_settings_are_told() {
+    fn errors_in_settings_are_reported() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("labspec.toml");
         let error = |text: &str| {

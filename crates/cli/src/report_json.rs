@@ -17,7 +17,7 @@ use std::path::Path;
 /// A report with its head.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-struct Report<'a, T> {
+struct VersionedReport<'a, T> {
     schema_version: u32,
     report: &'a str,
     #[serde(flatten)]
@@ -34,7 +34,7 @@ struct Head {
 
 /// Prints a report.
 pub(super) fn print_report(name: &str, entries: &impl Serialize) -> Result<(), Failure> {
-    print_json(&Report { schema_version: SCHEMA_VERSION, report: name, entries }, true)
+    print_json(&VersionedReport { schema_version: SCHEMA_VERSION, report: name, entries }, true)
 }
 
 /// The kind of a report that a later run reads.
@@ -49,7 +49,7 @@ pub(super) struct StoredReport {
 }
 
 /// The maximum size of a stored report in bytes.
-const MOST: u64 = 64 << 20;
+const MAX_REPORT: u64 = 64 << 20;
 /// The maximum length of an error message of the parser, which may quote the file.
 const MOST_QUOTED: usize = 200;
 
@@ -62,7 +62,7 @@ pub(super) fn read_report<T: DeserializeOwned>(path: &Path, stored: &StoredRepor
         |why: &str| format!("{} is not {}: {why}; {}", printable_path(path), stored.what, stored.next_step);
     let invalid =
         |e: serde_json::Error| no(&printable(&e.to_string().chars().take(MOST_QUOTED).collect::<String>()));
-    let text = read_text(path, MOST, stored.what)?;
+    let text = read_text(path, MAX_REPORT, stored.what)?;
     // The head is parsed first, because the content depends on the version.
     let head: Head = serde_json::from_str(&text).map_err(invalid)?;
     if head.report != stored.name || head.schema_version != SCHEMA_VERSION {
@@ -80,7 +80,7 @@ pub(super) fn write_report(
     stored: &StoredReport,
     entries: &impl Serialize,
 ) -> Result<(), Failure> {
-    let report = Report { schema_version: SCHEMA_VERSION, report: stored.name, entries };
+    let report = VersionedReport { schema_version: SCHEMA_VERSION, report: stored.name, entries };
     let text = serde_json::to_string_pretty(&report).map_err(|e| e.to_string())?;
     write_file(path, stored.output, &(text + "\n"))
 }

@@ -3,7 +3,7 @@
 use super::common::{Failure, Outcome};
 use super::lab_args::LabArguments;
 use super::output::write_file;
-use super::output::{PlannedOutput, wanted, write_png, write_with};
+use super::output::{PlannedOutput, requested_outputs, write_png, write_with};
 use super::output_kind::OutputKind;
 use super::stdio::print;
 use super::stdio::stream;
@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 
 /// Arguments of `run`.
 #[derive(clap::Args, Debug)]
-pub(super) struct Arguments {
+pub(super) struct RunArguments {
     #[command(flatten)]
     handled: LabArguments,
     /// Length in seconds [default: the lab's stopAt, or 2]
@@ -35,7 +35,7 @@ pub(super) struct Arguments {
     full: bool,
     /// Output format
     #[arg(long, value_enum, default_value = "human")]
-    format: Format,
+    format: RunFormat,
     /// Write all samples as comma-separated values
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
@@ -51,7 +51,7 @@ pub(super) struct Arguments {
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
-enum Format {
+enum RunFormat {
     /// Readouts at the end of the run
     Human,
     /// All samples as JSON
@@ -60,7 +60,7 @@ enum Format {
     Csv,
 }
 
-pub(super) fn run(a: &Arguments) -> Result<Outcome, Failure> {
+pub(super) fn run(a: &RunArguments) -> Result<Outcome, Failure> {
     let target = a.handled.open()?;
     let options = RunOptions {
         until: a.until,
@@ -77,10 +77,10 @@ pub(super) fn run(a: &Arguments) -> Result<Outcome, Failure> {
             .map(Option::unwrap_or_default)
     };
     let (drawn, painted) = (plots(&a.svg, "svg")?, plots(&a.png, "png")?);
-    let mut files = wanted(&[(OutputKind::Table, &a.csv), (OutputKind::Run, &a.json)]);
+    let mut files = requested_outputs(&[(OutputKind::Table, &a.csv), (OutputKind::Run, &a.json)]);
     files.extend(drawn.iter().map(|path| PlannedOutput { kind: OutputKind::Plot, path: path.clone() }));
     files.extend(painted.iter().map(|path| PlannedOutput { kind: OutputKind::Picture, path: path.clone() }));
-    a.handled.look_ahead(&target, &files)?;
+    a.handled.check_outputs_writable(&target, &files)?;
     let table =
         stress::watched_run(&target.lab, &target.model, &target.programs, &options).map_err(|e| e.0)?;
     if let Some(file) = &a.csv {
@@ -98,9 +98,9 @@ pub(super) fn run(a: &Arguments) -> Result<Outcome, Failure> {
         write_png(file, &svg)?;
     }
     match a.format {
-        Format::Human => print(&readouts(&target.lab, &table))?,
-        Format::Json => stream(|out| table.write_json(out).and_then(|()| out.write_all(b"\n")))?,
-        Format::Csv => stream(|out| table.write_csv(out))?,
+        RunFormat::Human => print(&readouts(&target.lab, &table))?,
+        RunFormat::Json => stream(|out| table.write_json(out).and_then(|()| out.write_all(b"\n")))?,
+        RunFormat::Csv => stream(|out| table.write_csv(out))?,
     }
     let clean = table.errors.is_empty() && table.warnings.is_empty() && table.breakdowns.is_empty();
     Ok(if clean { Outcome::Clean } else { Outcome::Findings })

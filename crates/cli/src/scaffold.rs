@@ -13,14 +13,14 @@ use labspec::report::{printable, printable_lines, printable_path};
 use labspec::spec::Lesson;
 use labspec::verify::{Verdict, significant};
 use labspec_proposals::scaffold::{Scaffold, ScaffoldOutcome, scaffold as look, written};
-use labspec_proposals::trace::{ProposedVerify, laid_out};
+use labspec_proposals::trace::{ProposedVerify, format_verify};
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::PathBuf;
 
 /// Arguments of `scaffold`.
 #[derive(clap::Args, Debug)]
-pub(super) struct Arguments {
+pub(super) struct ScaffoldArguments {
     /// A lesson, or a JSON file of labs or quizzes
     lesson: PathBuf,
     #[command(flatten)]
@@ -30,20 +30,20 @@ pub(super) struct Arguments {
     write: bool,
     /// Output format
     #[arg(long, value_enum, default_value = "human")]
-    format: Format,
+    format: ScaffoldFormat,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
+enum ScaffoldFormat {
     Human,
     Json,
 }
 
-pub(super) fn scaffold(a: &Arguments) -> Result<Outcome, Failure> {
+pub(super) fn scaffold(a: &ScaffoldArguments) -> Result<Outcome, Failure> {
     let folder = model_folder(&a.models, &a.lesson)?;
     let lesson = load_lesson_file(&a.lesson, &folder)?;
     let models = Models::new(folder.clone());
-    let progress = Progress::new(a.format == Format::Human);
+    let progress = Progress::new(a.format == ScaffoldFormat::Human);
     let all = look(&lesson, &models, &mut |text| progress.report(text));
     drop(progress);
     if interrupted() {
@@ -63,8 +63,8 @@ pub(super) fn scaffold(a: &Arguments) -> Result<Outcome, Failure> {
         write_file(&a.lesson, OutputKind::Lesson(lesson.file.text()), &text)?;
     }
     match a.format {
-        Format::Human => print(&human(a, &lesson, &all))?,
-        Format::Json => print_report("scaffold", &machine(&lesson, &all))?,
+        ScaffoldFormat::Human => print(&human(a, &lesson, &all))?,
+        ScaffoldFormat::Json => print_report("scaffold", &machine(&lesson, &all))?,
     }
     let done = |one: &Scaffold| matches!(&one.found, ScaffoldOutcome::Proposed { verdict, .. } if is_confirmed(verdict));
     Ok(if all.iter().all(done) { Outcome::Clean } else { Outcome::Findings })
@@ -75,7 +75,7 @@ fn is_confirmed(verdict: &Option<(Verdict, String)>) -> bool {
     verdict.as_ref().is_none_or(|(v, _)| matches!(v, Verdict::Verified | Verdict::Computed))
 }
 
-fn human(a: &Arguments, lesson: &Lesson, all: &[Scaffold]) -> String {
+fn human(a: &ScaffoldArguments, lesson: &Lesson, all: &[Scaffold]) -> String {
     let mut text = String::new();
     let mut counts = [0usize; 3];
     for one in all {
@@ -99,7 +99,7 @@ fn human(a: &Arguments, lesson: &Lesson, all: &[Scaffold]) -> String {
                     );
                 }
                 if !a.write {
-                    let _ = writeln!(text, "\n\"verify\": {}\n", printable_lines(&laid_out(verify)));
+                    let _ = writeln!(text, "\n\"verify\": {}\n", printable_lines(&format_verify(verify)));
                 }
             }
             ScaffoldOutcome::Contradicted { option, values } => {
@@ -129,7 +129,7 @@ fn human(a: &Arguments, lesson: &Lesson, all: &[Scaffold]) -> String {
 
 /// The proposals for programs.
 #[derive(Serialize)]
-struct Report<'a> {
+struct ScaffoldReport<'a> {
     found: Vec<ScaffoldRow<'a>>,
 }
 
@@ -157,8 +157,8 @@ struct ValueRow<'a> {
     value: f64,
 }
 
-fn machine<'a>(lesson: &Lesson, all: &'a [Scaffold]) -> Report<'a> {
-    Report { found: all.iter().map(|one| row(lesson, one)).collect() }
+fn machine<'a>(lesson: &Lesson, all: &'a [Scaffold]) -> ScaffoldReport<'a> {
+    ScaffoldReport { found: all.iter().map(|one| row(lesson, one)).collect() }
 }
 
 fn row<'a>(lesson: &Lesson, one: &'a Scaffold) -> ScaffoldRow<'a> {

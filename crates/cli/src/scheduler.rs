@@ -11,7 +11,7 @@
 //! The results do not depend on the thread that checked a file.
 
 use super::cache::Cache;
-use super::collect::{Collected, ListedFile, UnreadFile, collect, lost_snapshots};
+use super::collect::{Collected, ListedFile, UnreadFile, collect, orphaned_snapshots};
 use super::common::Failure;
 use super::course::{CheckRequest, CourseResults};
 use super::course_ledger::{FileOutcomes, build_ledger, group_by_path};
@@ -62,7 +62,7 @@ fn check_with_hash(request: &CheckRequest<'_>, cache: &Cache, hash: Hash) -> Res
 /// There are no files.
 fn select_files(request: &CheckRequest<'_>) -> Result<Collected, Failure> {
     let mut collected = collect(request.paths);
-    collected.complain();
+    collected.print_skipped();
     if let Some((name, _)) = request.stdin {
         // The text from standard input replaces the file with its name.
         let real = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
@@ -198,7 +198,7 @@ fn add_course_findings(
     let others = results.checked.iter().flat_map(|c| &c.lesson.others);
     results.dependencies.extend(others.map(|other| PathBuf::from(&other.path)));
     let findings = &mut results.course_findings;
-    findings.extend(lost_snapshots(request.paths).iter().map(|path| lost_snapshot_finding(path)));
+    findings.extend(orphaned_snapshots(request.paths).iter().map(|path| orphaned_snapshot_finding(path)));
     let lessons: Vec<_> = results.checked.iter().map(|c| &c.lesson).collect();
     findings.extend(lint::check_course(&lessons));
     for models in models {
@@ -239,7 +239,7 @@ fn unreadable_finding(path: &Path, why: String) -> Finding {
     f
 }
 
-fn lost_snapshot_finding(path: &Path) -> Finding {
+fn orphaned_snapshot_finding(path: &Path) -> Finding {
     let name = printable_path(path);
     let lesson = name.strip_suffix(lint::SNAPSHOT).unwrap_or(&name);
     let mut f = Finding::new(

@@ -7,7 +7,7 @@ use labspec::spec::format;
 
 /// Arguments of `schema`.
 #[derive(clap::Args, Debug)]
-pub(super) struct Arguments {
+pub(super) struct SchemaArguments {
     /// The kind of object
     #[arg(value_enum, default_value = "lesson")]
     of: Of,
@@ -23,7 +23,7 @@ enum Of {
     Lesson,
 }
 
-pub(super) fn schema(a: &Arguments) -> Result<Outcome, Failure> {
+pub(super) fn schema(a: &SchemaArguments) -> Result<Outcome, Failure> {
     let root = match a.of {
         Of::Lab => format::Root::Lab,
         Of::Quiz => format::Root::Quiz,

@@ -1,6 +1,6 @@
 //! `labspec snapshot`: the output of the labs of lessons, stored in files next to the lessons, and the review of changes.
 
-use super::collect::{Collected, collect, lost_snapshots};
+use super::collect::{Collected, collect, orphaned_snapshots};
 use super::common::{Failure, ModelOptions, Outcome, interrupted};
 use super::file_check::is_other_json;
 use super::machine::{SnapshotRow, snapshot_row};
@@ -11,7 +11,7 @@ use super::stdio::print;
 use super::target::model_folder_within;
 use clap::ValueEnum;
 use labspec::bind::scene::Models;
-use labspec::check::{self, Renewal, RenewedLab, SnapshotResult};
+use labspec::check::{self, SnapshotResult, SnapshotUpdate, UpdatedLab};
 use labspec::ledger::State;
 use labspec::lint::{ModelFolder, load_lesson_file, snapshot_path};
 use labspec::report::counted;
@@ -25,7 +25,7 @@ use std::path::PathBuf;
 
 /// Arguments of `snapshot`.
 #[derive(clap::Args, Debug)]
-pub(super) struct Arguments {
+pub(super) struct SnapshotArguments {
     /// Lessons (.md), labs and quizzes (.json), or folders of lessons
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<PathBuf>,
@@ -39,11 +39,11 @@ pub(super) struct Arguments {
     accept: bool,
     /// Output format
     #[arg(long, value_enum, default_value = "human")]
-    format: Format,
+    format: SnapshotFormat,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
+enum SnapshotFormat {
     /// For people
     Human,
     /// For programs
@@ -52,7 +52,7 @@ enum Format {
 
 /// The state of the snapshot of a lesson.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Standing {
+enum SnapshotStatus {
     /// There is no stored snapshot.
     New,
     /// The output is as stored.
@@ -65,38 +65,38 @@ enum Standing {
     Gone,
 }
 
-impl Standing {
+impl SnapshotStatus {
     fn as_str(self) -> &'static str {
         match self {
-            Standing::New => "new",
-            Standing::Same => "same",
-            Standing::Changed => "changed",
-            Standing::Unreadable => "unreadable",
-            Standing::Gone => "gone",
+            SnapshotStatus::New => "new",
+            SnapshotStatus::Same => "same",
+            SnapshotStatus::Changed => "changed",
+            SnapshotStatus::Unreadable => "unreadable",
+            SnapshotStatus::Gone => "gone",
         }
     }
 }
 
 /// A snapshot, and the actions on it.
-struct Looked {
+struct ReviewedSnapshot {
     file: PathBuf,
-    standing: Standing,
-    renewal: Option<Renewal>,
+    standing: SnapshotStatus,
+    renewal: Option<SnapshotUpdate>,
     /// Labs whose current output is accepted.
     accepted: BTreeSet<String>,
     written: bool,
 }
 
-pub(super) fn snapshot(a: &Arguments) -> Result<Outcome, Failure> {
+pub(super) fn snapshot(a: &SnapshotArguments) -> Result<Outcome, Failure> {
     let terminal = std::io::stdin().is_terminal() && std::io::stdout().is_terminal();
-    let asks = a.review && a.format == Format::Human && terminal;
+    let asks = a.review && a.format == SnapshotFormat::Human && terminal;
     let mut all = collect_lessons(a)?;
     for one in &mut all {
         if interrupted() {
             return Ok(Outcome::Findings);
         }
         // A new snapshot overwrites nothing.
-        let whole = a.accept || (one.standing == Standing::New && !a.review);
+        let whole = a.accept || (one.standing == SnapshotStatus::New && !a.review);
         if let Some(renewal) = one.renewal.as_ref().filter(|_| whole) {
             one.accepted = renewal.labs.iter().map(|lab| lab.result.lab.clone()).collect();
         }
@@ -110,19 +110,21 @@ pub(super) fn snapshot(a: &Arguments) -> Result<Outcome, Failure> {
         store(one, a.accept)?;
     }
     match a.format {
-        Format::Human => print(&summary(&all, asks))?,
-        Format::Json => print_report("snapshot", &machine(&all))?,
+        SnapshotFormat::Human => print(&summary(&all, asks))?,
+        SnapshotFormat::Json => print_report("snapshot", &machine(&all))?,
     }
-    let open = |one: &Looked| left(one).next().is_some() || (one.standing == Standing::Gone && !one.written);
-    let unread = |one: &Looked| one.standing == Standing::Unreadable && !one.written;
+    let open = |one: &ReviewedSnapshot| {
+        remaining_changes(one).next().is_some() || (one.standing == SnapshotStatus::Gone && !one.written)
+    };
+    let unread = |one: &ReviewedSnapshot| one.standing == SnapshotStatus::Unreadable && !one.written;
     let bad = all.iter().any(|one| open(one) || unread(one));
     Ok(if bad { Outcome::Findings } else { Outcome::Clean })
 }
 
 /// Reads every lesson, runs its labs, and compares the output with the snapshots.
-fn collect_lessons(a: &Arguments) -> Result<Vec<Looked>, Failure> {
+fn collect_lessons(a: &SnapshotArguments) -> Result<Vec<ReviewedSnapshot>, Failure> {
     let collected = collect(&a.paths);
-    collected.complain();
+    collected.print_skipped();
     let Collected { files, problems, .. } = collected;
     if let Some((_, why)) = problems.first() {
         return Err(why.clone());
@@ -146,15 +148,15 @@ fn collect_lessons(a: &Arguments) -> Result<Vec<Looked>, Failure> {
             continue;
         }
         let renewal = check::renew(&lesson, models);
-        let same = |lab: &RenewedLab| matches!(lab.result.state, State::True(_));
+        let same = |lab: &UpdatedLab| matches!(lab.result.state, State::True(_));
         let standing = match &renewal {
-            r if r.fault.is_some() => Standing::Unreadable,
-            r if !r.stored => Standing::New,
-            r if r.labs.iter().all(same) => Standing::Same,
-            _ => Standing::Changed,
+            r if r.fault.is_some() => SnapshotStatus::Unreadable,
+            r if !r.stored => SnapshotStatus::New,
+            r if r.labs.iter().all(same) => SnapshotStatus::Same,
+            _ => SnapshotStatus::Changed,
         };
         let file = snapshot_path(path);
-        all.push(Looked {
+        all.push(ReviewedSnapshot {
             file,
             standing,
             renewal: Some(renewal),
@@ -162,9 +164,9 @@ fn collect_lessons(a: &Arguments) -> Result<Vec<Looked>, Failure> {
             written: false,
         });
     }
-    for file in lost_snapshots(&a.paths) {
-        let (standing, accepted) = (Standing::Gone, BTreeSet::new());
-        all.push(Looked { file, standing, renewal: None, accepted, written: false });
+    for file in orphaned_snapshots(&a.paths) {
+        let (standing, accepted) = (SnapshotStatus::Gone, BTreeSet::new());
+        all.push(ReviewedSnapshot { file, standing, renewal: None, accepted, written: false });
     }
     if all.is_empty() {
         let names: Vec<String> = a.paths.iter().map(|p| printable_path(p)).collect();
@@ -174,7 +176,7 @@ fn collect_lessons(a: &Arguments) -> Result<Vec<Looked>, Failure> {
 }
 
 /// Labs whose output differs from the snapshot, or is not stored, even after this command.
-fn left(one: &Looked) -> impl Iterator<Item = &RenewedLab> {
+fn remaining_changes(one: &ReviewedSnapshot) -> impl Iterator<Item = &UpdatedLab> {
     let labs = one.renewal.iter().flat_map(|r| &r.labs);
     labs.filter(|lab| {
         let can = lab.new.is_some() || lab.result.state == State::False;
@@ -185,19 +187,19 @@ fn left(one: &Looked) -> impl Iterator<Item = &RenewedLab> {
 
 /// Asks for each lab with a different output whether the change is intended.
 fn review(
-    all: &mut [Looked],
+    all: &mut [ReviewedSnapshot],
     answers: &mut impl BufRead,
     say: &mut impl FnMut(&str) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
-    let total: usize = all.iter().map(|one| left(one).count()).sum();
+    let total: usize = all.iter().map(|one| remaining_changes(one).count()).sum();
     let (mut number, mut rest) = (0, false);
     for one in all {
         let file = printable_path(&one.file);
-        let open: Vec<RenewedLab> = left(one).cloned().collect();
+        let open: Vec<UpdatedLab> = remaining_changes(one).cloned().collect();
         for lab in open {
             number += 1;
             let can = lab.new.is_some() || lab.result.state == State::False;
-            say(&format!("\n{file} ({number} of {total})\n{}", about(&lab)))?;
+            say(&format!("\n{file} ({number} of {total})\n{}", describe_lab(&lab)))?;
             while can && !rest {
                 say("accept it? y: yes, n: no, a: this and all that follow, q: leave the rest > ")?;
                 let mut answer = String::new();
@@ -224,7 +226,7 @@ fn review(
 }
 
 /// Writes the accepted output.
-fn store(one: &mut Looked, everything: bool) -> Result<(), Failure> {
+fn store(one: &mut ReviewedSnapshot, everything: bool) -> Result<(), Failure> {
     let Some(renewal) = &one.renewal else {
         if everything {
             remove_file(&one.file, OutputKind::Snapshot)?;
@@ -246,7 +248,7 @@ fn store(one: &mut Looked, everything: bool) -> Result<(), Failure> {
 }
 
 /// The message about a lab whose output differs from the snapshot.
-fn about(lab: &RenewedLab) -> String {
+fn describe_lab(lab: &UpdatedLab) -> String {
     let snapshot = &lab.result;
     let mut text = format!(
         "  {:<10} lab {}: {}\n",
@@ -261,7 +263,7 @@ fn about(lab: &RenewedLab) -> String {
 }
 
 /// The summary for people. Labs that were reviewed interactively are not repeated.
-fn summary(all: &[Looked], asked: bool) -> String {
+fn summary(all: &[ReviewedSnapshot], asked: bool) -> String {
     let mut text = String::new();
     let (mut same, mut open) = (0, 0);
     for one in all {
@@ -269,26 +271,26 @@ fn summary(all: &[Looked], asked: bool) -> String {
         let fault = one.renewal.as_ref().and_then(|r| r.fault.as_deref()).unwrap_or_default();
         let labs = one.accepted.len();
         match (one.standing, one.written) {
-            (Standing::Same, false) => same += 1,
-            (Standing::Gone, true) => _ = writeln!(text, "removed    {file}: its lesson is gone"),
-            (Standing::Gone, false) => {
+            (SnapshotStatus::Same, false) => same += 1,
+            (SnapshotStatus::Gone, true) => _ = writeln!(text, "removed    {file}: its lesson is gone"),
+            (SnapshotStatus::Gone, false) => {
                 open += 1;
                 _ = writeln!(text, "gone       {file}: its lesson does not exist");
             }
             (_, true) => _ = writeln!(text, "stored     {file}: {}", counted(labs, "lab")),
-            (Standing::Unreadable, false) => {
+            (SnapshotStatus::Unreadable, false) => {
                 open += 1;
                 _ = writeln!(text, "unreadable {}", printable(fault));
             }
-            (Standing::New | Standing::Changed, false) => {
+            (SnapshotStatus::New | SnapshotStatus::Changed, false) => {
                 _ = writeln!(text, "{:<10} {file}", one.standing.as_str());
             }
         }
-        let listed = !(asked || one.standing == Standing::Unreadable);
-        for lab in left(one) {
+        let listed = !(asked || one.standing == SnapshotStatus::Unreadable);
+        for lab in remaining_changes(one) {
             open += 1;
             if listed {
-                text.push_str(&about(lab));
+                text.push_str(&describe_lab(lab));
             }
         }
     }
@@ -302,7 +304,7 @@ fn summary(all: &[Looked], asked: bool) -> String {
 }
 
 #[derive(Serialize)]
-struct Report<'a> {
+struct SnapshotReport<'a> {
     files: Vec<FileRow<'a>>,
 }
 
@@ -322,7 +324,7 @@ struct LabRow<'a> {
     accepted: bool,
 }
 
-fn machine(all: &[Looked]) -> Report<'_> {
+fn machine(all: &[ReviewedSnapshot]) -> SnapshotReport<'_> {
     let files = all.iter().map(|one| FileRow {
         file: one.file.display().to_string(),
         standing: one.standing.as_str(),
@@ -330,10 +332,10 @@ fn machine(all: &[Looked]) -> Report<'_> {
         fault: one.renewal.as_ref().and_then(|r| r.fault.as_deref()),
         labs: one.renewal.iter().flat_map(|r| &r.labs).map(|lab| lab_row(&lab.result, one)).collect(),
     });
-    Report { files: files.collect() }
+    SnapshotReport { files: files.collect() }
 }
 
-fn lab_row<'a>(result: &'a SnapshotResult, one: &Looked) -> LabRow<'a> {
+fn lab_row<'a>(result: &'a SnapshotResult, one: &ReviewedSnapshot) -> LabRow<'a> {
     LabRow { snapshot: snapshot_row(result), accepted: one.accepted.contains(&result.lab) }
 }
 
@@ -344,12 +346,12 @@ mod tests {
     use labspec::spec::read_lesson;
 
     /// A lesson with three labs without stored output.
-    fn looked() -> Looked {
+    fn reviewed_snapshot() -> ReviewedSnapshot {
         let lab = "```lab simlab\n{\"xml\": \"<mujoco/>\", \"stopAt\": 0.01, \"readouts\": [{\"label\": \"t\", \"expr\": \"data.time\"}]}\n```\n\n";
         let lesson = read_lesson(SourceFile::new("a.md", lab.repeat(3)));
         let renewal = check::renew(&lesson, &Models::new(ModelFolder::unknown()));
-        let standing = Standing::Changed;
-        Looked {
+        let standing = SnapshotStatus::Changed;
+        ReviewedSnapshot {
             file: "a.md.snap".into(),
             standing,
             renewal: Some(renewal),
@@ -359,7 +361,7 @@ mod tests {
     }
 
     #[test]
-    fn each_lab_is_asked_for() {
+    fn review_asks_about_each_lab() {
         for (answers, accepted, questions) in [
             ("y\nn\nyes\n", &["#1", "#3"][..], 3),
             ("what\nn\na\n", &["#2", "#3"], 3),
@@ -367,7 +369,7 @@ mod tests {
             ("y\n", &["#1"], 2),
             ("a", &["#1", "#2", "#3"], 1),
         ] {
-            let mut all = [looked()];
+            let mut all = [reviewed_snapshot()];
             let mut printed = String::new();
             let mut say = |text: &str| {
                 printed.push_str(text);

@@ -39,13 +39,13 @@ pub(super) fn outcome(done: io::Result<()>) -> Result<(), Failure> {
 }
 
 /// Prints to standard error. A failure is ignored, because it cannot be reported anywhere.
-pub(super) fn complain(text: &str) {
+pub(super) fn print_error(text: &str) {
     let _ = io::stderr().lock().write_all(text.as_bytes());
 }
 
 /// Replaces the progress line on a terminal.
 pub(super) fn show_progress(text: &str) {
-    complain(&format!("\r\x1b[K{text}"));
+    print_error(&format!("\r\x1b[K{text}"));
 }
 
 /// Clears the progress line.

@@ -10,42 +10,42 @@ use labspec::lint::load_lesson_file;
 use labspec::report::{printable, printable_lines, printable_path};
 use labspec::spec::Lesson;
 use labspec::verify::significant;
-use labspec_proposals::trace::{self, Hit, Origin, ProposedVerify, Traced, Traces, blocks, laid_out};
+use labspec_proposals::trace::{self, Hit, Origin, ProposedVerify, Traced, Traces, blocks, format_verify};
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::PathBuf;
 
 /// Arguments of `trace`.
 #[derive(clap::Args, Debug)]
-pub(super) struct Arguments {
+pub(super) struct TraceArguments {
     /// A lesson, or a JSON file of labs or quizzes
     lesson: PathBuf,
     #[command(flatten)]
     models: ModelOptions,
     /// Output format
     #[arg(long, value_enum, default_value = "human")]
-    format: Format,
+    format: TraceFormat,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
+enum TraceFormat {
     Human,
     Json,
 }
 
-pub(super) fn trace(a: &Arguments) -> Result<Outcome, Failure> {
+pub(super) fn trace(a: &TraceArguments) -> Result<Outcome, Failure> {
     let folder = model_folder(&a.models, &a.lesson)?;
     let lesson = load_lesson_file(&a.lesson, &folder)?;
     let models = Models::new(folder);
-    let progress = Progress::new(a.format == Format::Human);
+    let progress = Progress::new(a.format == TraceFormat::Human);
     let found = trace::trace(&lesson, &models, &mut |text| progress.report(text));
     drop(progress);
     if interrupted() {
         return Ok(Outcome::Clean);
     }
     match a.format {
-        Format::Human => print(&human(a, &lesson, &found))?,
-        Format::Json => print_report("trace", &machine(&lesson, &found))?,
+        TraceFormat::Human => print(&human(a, &lesson, &found))?,
+        TraceFormat::Json => print_report("trace", &machine(&lesson, &found))?,
     }
     let traced = |n: &Traced| matches!(n.origin, Origin::Claimed | Origin::From(_) | Origin::Setting(_));
     Ok(if found.numbers.iter().all(traced) { Outcome::Clean } else { Outcome::Findings })
@@ -59,7 +59,7 @@ fn place(found: &Traces<'_>, hit: &Hit) -> String {
     }
 }
 
-fn human(a: &Arguments, lesson: &Lesson, found: &Traces<'_>) -> String {
+fn human(a: &TraceArguments, lesson: &Lesson, found: &Traces<'_>) -> String {
     let mut text = String::new();
     for n in &found.numbers {
         let at = lesson.file.position(n.stated.span.start);
@@ -78,7 +78,7 @@ fn human(a: &Arguments, lesson: &Lesson, found: &Traces<'_>) -> String {
         let _ = write!(
             text,
             "\nfor lab {address}, {accept}:\n\n\"verify\": {}\n",
-            printable_lines(&laid_out(&block))
+            printable_lines(&format_verify(&block))
         );
     }
     let _ = writeln!(text, "\n{}: {}", printable_path(&a.lesson), summarize(&found.numbers));
@@ -134,7 +134,7 @@ fn share(x: f64) -> String {
 
 /// The origins of the numbers of a lesson, for programs.
 #[derive(Serialize)]
-struct Report<'a> {
+struct TraceReport<'a> {
     numbers: Vec<NumberRow<'a>>,
     proposals: Vec<ProposalRow>,
 }
@@ -164,7 +164,7 @@ struct ProposalRow {
     verify: ProposedVerify,
 }
 
-fn machine<'a>(lesson: &Lesson, found: &'a Traces<'_>) -> Report<'a> {
+fn machine<'a>(lesson: &Lesson, found: &'a Traces<'_>) -> TraceReport<'a> {
     let numbers = found.numbers.iter().map(|n| {
         let at = lesson.file.position(n.stated.span.start);
         let (origin, hit, by) = match &n.origin {
@@ -193,5 +193,5 @@ fn machine<'a>(lesson: &Lesson, found: &'a Traces<'_>) -> Report<'a> {
     });
     let proposals =
         blocks(found).into_iter().map(|(address, verify)| ProposalRow { lab: address.to_string(), verify });
-    Report { numbers: numbers.collect(), proposals: proposals.collect() }
+    TraceReport { numbers: numbers.collect(), proposals: proposals.collect() }
 }

@@ -3,7 +3,7 @@
 use super::collect::collect;
 use super::common::{Failure, Outcome, interrupted};
 use super::policy;
-use super::stdio::complain;
+use super::stdio::print_skipped;
 use labspec::lint;
 use labspec::report::printable_lines;
 use std::collections::{BTreeMap, BTreeSet};
@@ -40,9 +40,9 @@ pub(super) fn watch(
             return outcome;
         }
         if let Err(message) = &outcome {
-            complain(&format!("labspec: {}\n", printable_lines(message)));
+            print_skipped(&format!("labspec: {}\n", printable_lines(message)));
         }
-        complain("labspec: waiting for changes; Ctrl-C ends\n");
+        print_skipped("labspec: waiting for changes; Ctrl-C ends\n");
         while stamps(paths, &also) == before {
             std::thread::sleep(PAUSE);
             if interrupted() {
@@ -53,7 +53,7 @@ pub(super) fn watch(
 }
 
 /// The other files that affect a lesson: its snapshot, and the settings of the enclosing folders, which may not exist yet.
-fn beside(path: &Path) -> Vec<PathBuf> {
+fn related_files(path: &Path) -> Vec<PathBuf> {
     let real = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
     let settings = real.ancestors().skip(1).map(|folder| folder.join(policy::FILE));
     settings.chain([lint::snapshot_path(path)]).collect()
@@ -63,7 +63,7 @@ fn beside(path: &Path) -> Vec<PathBuf> {
 fn stamps(paths: &[PathBuf], also: &BTreeSet<PathBuf>) -> BTreeMap<PathBuf, Stamp> {
     let found = collect(paths).files.into_iter().map(|(path, _)| path);
     found
-        .flat_map(|path| beside(&path).into_iter().chain([path]))
+        .flat_map(|path| related_files(&path).into_iter().chain([path]))
         .chain(paths.iter().filter(|p| !p.is_dir()).cloned())
         .chain(also.iter().cloned())
         .map(|p| (p.clone(), stamp(&p)))

@@ -1,4 +1,4 @@
-//! A pole on a cart: a step linearized, a gain from the Riccati equation, the pole held upright.
+//! Balances a pole on a cart: linearizes a step and computes a feedback gain from the Riccati equation.
 
 use labspec_core::nalgebra::{FiniteDifferences, Transition, transition_fd};
 use labspec_core::{Data, Error, Model, step};
@@ -13,7 +13,7 @@ pub(crate) fn main() -> Result<(), Error> {
     upright().map(|printed| print!("{printed}"))
 }
 
-/// How the tilt grows in a step, and the tilt after 10 s with the feedback u = -K x, x = (x, tilt, their velocities).
+/// The growth of the tilt in a step, and the tilt after 10 s with the feedback u = -K x, x = (x, tilt, their velocities).
 pub(crate) fn upright() -> Result<String, Error> {
     let model = Model::from_xml(CART)?;
     let mut data = Data::new(&model);

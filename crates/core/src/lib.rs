@@ -46,7 +46,7 @@ pub use api::nalgebra;
 pub use api::planning::Plan;
 #[cfg(feature = "mjcf")]
 pub use api::reading as xml;
-pub use api::view::{Actuator, Body, Geom, Joint, Rows3, Sensor, Site, Tendon, Which};
+pub use api::view::{Actuator, Body, Geom, Joint, ObjectKey, Rows3, Sensor, Site, Tendon};
 pub use collision::PairFilterReason;
 pub use geometry::Distance;
 pub use kinds::{

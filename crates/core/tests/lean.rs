@@ -193,7 +193,7 @@ fn distances(m: &Model) -> Vec<Result<[u64; 7], Error>> {
 
 #[cfg(feature = "mjcf")]
 #[test]
-fn a_full_build_leaves_models_and_what_becomes_of_them() {
+fn a_full_build_records_models_and_their_results() {
     std::fs::create_dir_all(left("")).unwrap();
     let compile = |text: &str| Model::from_xml(&format!("<mujoco>{text}</mujoco>")).unwrap();
     let bytes = |bits: &[u64]| bits.iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<u8>>();
@@ -238,7 +238,7 @@ mod lean {
 
     /// A distance equals that of the full build, or is an error.
     #[test]
-    fn no_distance_is_left_out_without_a_word() {
+    fn no_distance_is_omitted_silently() {
         let (mut same, mut refused) = (0, 0);
         for (name, _) in SHARED {
             let m = Model::from_bytes(&read(name, "model")).unwrap();

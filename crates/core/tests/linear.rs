@@ -54,7 +54,7 @@ fn tree() -> (Model, Data) {
 }
 
 #[test]
-fn what_mujoco_computes() {
+fn linearizations_are_those_of_mujoco() {
     let text = std::fs::read_to_string(workspace("tests/golden/linear.json")).unwrap();
     let cases: Vec<Value> = serde_json::from_str(&text).unwrap();
     assert_eq!(cases.len(), 8);
@@ -382,7 +382,7 @@ fn fields_are_seen_without_a_copy() {
 }
 
 #[test]
-fn what_a_plan_left_out_is_an_error_and_what_it_kept_is_the_same() {
+fn omitted_fields_are_errors_and_kept_fields_are_equal() {
     let text = SPRING.replace("actuator='0'", "actuator='push'").replace("<motor ", "<motor name='push' ");
     let model = Model::from_xml(&text).unwrap();
     let mut access = AccessSet { reads: Default::default(), writes: Default::default() };

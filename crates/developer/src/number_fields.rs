@@ -93,7 +93,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_json_has_no_number_for_is_named() {
+    fn nonfinite_fields_are_named() {
         let inner = NumberFields::new([("dist", Numbers::One(f64::NEG_INFINITY))]);
         let row = NumberFields::new([
             ("n", Numbers::Count(2)),

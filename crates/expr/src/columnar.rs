@@ -260,7 +260,7 @@ mod tests {
     use crate::{Compiler, Context, FunctionId, Globals, Heap, Value};
 
     #[test]
-    fn columns_give_what_rows_give() {
+    fn columns_give_the_results_of_rows() {
         let mut globals = Globals::new();
         let mut compiler = Compiler::new(&Mock, &mut globals);
         let sources = [
@@ -298,9 +298,9 @@ mod tests {
     }
 
     /// A world with the same fields as another, but a different identity.
-    struct Elsewhere(World);
+    struct OtherWorld(World);
 
-    impl Host for Elsewhere {
+    impl Host for OtherWorld {
         fn get(&self, field: FieldKey, index: usize) -> Option<f64> {
             self.0.get(field, index)
         }
@@ -323,7 +323,7 @@ mod tests {
     }
 
     #[test]
-    fn what_does_not_belong_together_is_an_error() {
+    fn mismatched_recordings_and_programs_are_errors() {
         let mut globals = Globals::new();
         let mut compiler = Compiler::new(&Mock, &mut globals);
         let mut program = |text: &str| compiler.expression(text).program.unwrap();
@@ -332,7 +332,7 @@ mod tests {
         let of_height = one.columns(&height).unwrap().unwrap();
         let of_time = other.columns(&time).unwrap().unwrap();
         // Samples of a world with another identity are refused.
-        assert_eq!(one.sample(&Elsewhere(World::new())), Err(Foreign::Identity));
+        assert_eq!(one.sample(&OtherWorld(World::new())), Err(Foreign::Identity));
         assert!(one.is_empty());
         one.sample(&World::new()).unwrap();
         other.sample(&World::new()).unwrap();
@@ -347,12 +347,12 @@ mod tests {
         assert_eq!(both.columns(&foreign).unwrap_err(), Foreign::Identity);
         let mut theirs = Recording::new();
         theirs.columns(&foreign).unwrap().unwrap();
-        theirs.sample(&Elsewhere(World::new())).unwrap();
+        theirs.sample(&OtherWorld(World::new())).unwrap();
         assert_eq!(of_height.evaluate(&theirs), Err(Foreign::Identity));
     }
 
     #[test]
-    fn what_depends_on_more_has_no_columns() {
+    fn programs_that_need_the_machine_have_no_columns() {
         let mut globals = Globals::new();
         let mut compiler = Compiler::new(&Mock, &mut globals);
         let mut recording = Recording::new();

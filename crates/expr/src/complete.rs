@@ -54,9 +54,9 @@ pub fn complete(
     let offset = labspec_finding::floor(source, offset);
     let Some(before) = source.get(..offset) else { return Vec::new() };
     match unclosed(before) {
-        Open::Comment => Vec::new(),
-        Open::Text(start) => names(schema, source, start, offset),
-        Open::Nothing => {
+        OpenConstruct::Comment => Vec::new(),
+        OpenConstruct::Text(start) => names(schema, source, start, offset),
+        OpenConstruct::Nothing => {
             let part = |c: char| c.is_alphanumeric() || matches!(c, '_' | '$');
             let start = before.len()
                 - before.chars().rev().take_while(|c| part(*c)).map(char::len_utf8).sum::<usize>();
@@ -87,41 +87,43 @@ pub fn complete(
 }
 
 /// The construct that is open at the end of a text.
-enum Open {
+enum OpenConstruct {
     Nothing,
     Comment,
     /// A string literal, and its start.
     Text(usize),
 }
 
-fn unclosed(text: &str) -> Open {
-    let (mut open, mut chars) = (Open::Nothing, text.char_indices().peekable());
+fn unclosed(text: &str) -> OpenConstruct {
+    let (mut open, mut chars) = (OpenConstruct::Nothing, text.char_indices().peekable());
     while let Some((at, c)) = chars.next() {
         let next = chars.peek().map(|(_, c)| *c);
         open = match (open, c) {
-            (Open::Nothing, '\'' | '"' | '`') => Open::Text(at),
-            (Open::Nothing, '/') if next == Some('/') => {
+            (OpenConstruct::Nothing, '\'' | '"' | '`') => OpenConstruct::Text(at),
+            (OpenConstruct::Nothing, '/') if next == Some('/') => {
                 // A comment extends to the end of the line.
                 match chars.by_ref().find(|(_, c)| *c == '\n') {
-                    Some(_) => Open::Nothing,
-                    None => return Open::Comment,
+                    Some(_) => OpenConstruct::Nothing,
+                    None => return OpenConstruct::Comment,
                 }
             }
-            (Open::Nothing, '/') if next == Some('*') => {
+            (OpenConstruct::Nothing, '/') if next == Some('*') => {
                 match text.get(at + 2..).and_then(|rest| rest.find("*/")) {
                     Some(length) => {
                         while chars.next_if(|(i, _)| *i < at + 2 + length + 2).is_some() {}
-                        Open::Nothing
+                        OpenConstruct::Nothing
                     }
-                    None => return Open::Comment,
+                    None => return OpenConstruct::Comment,
                 }
             }
-            (Open::Text(start), '\\') => {
+            (OpenConstruct::Text(start), '\\') => {
                 chars.next();
-                Open::Text(start)
+                OpenConstruct::Text(start)
             }
-            (Open::Text(start), c) if text.get(start..).is_some_and(|t| t.starts_with(c)) => Open::Nothing,
-            (Open::Text(_), '\n') => Open::Nothing,
+            (OpenConstruct::Text(start), c) if text.get(start..).is_some_and(|t| t.starts_with(c)) => {
+                OpenConstruct::Nothing
+            }
+            (OpenConstruct::Text(_), '\n') => OpenConstruct::Nothing,
             (open, _) => open,
         };
     }

@@ -14,7 +14,7 @@ pub const ANGLE: usize = 0;
 const SIXTHS: i16 = 6;
 
 /// Largest power, in sixths. No physical quantity has a larger one.
-const MOST: i16 = 24 * SIXTHS;
+const MAX_POWER: i16 = 24 * SIXTHS;
 
 /// A product of powers of base units. A number of millimetres has the dimension of metres with the factor 1000.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,7 +62,7 @@ impl Dimension {
         for (p, q) in powers.iter_mut().zip(other.powers) {
             *p += q;
         }
-        let small = powers.iter().all(|p| p.abs() <= MOST);
+        let small = powers.iter().all(|p| p.abs() <= MAX_POWER);
         small.then_some(Dimension { powers, factor: self.factor * other.factor })
     }
 
@@ -71,7 +71,7 @@ impl Dimension {
         let mut powers = self.powers;
         for p in &mut powers {
             let power = f64::from(*p) * exponent;
-            if power.fract() != 0.0 || power.abs() > f64::from(MOST) {
+            if power.fract() != 0.0 || power.abs() > f64::from(MAX_POWER) {
                 return None;
             }
             *p = power as i16;
@@ -124,7 +124,8 @@ impl Dimension {
 impl Measure {
     /// A dimensionless number with an unknown factor, from which nothing can be concluded: a sine may be a
     /// factor of an implied 1 m.
-    pub(crate) const LOOSE: Measure = Measure::Known(Dimension { powers: [0; BASES], factor: f64::NAN });
+    pub(crate) const UNCERTAIN_FACTOR: Measure =
+        Measure::Known(Dimension { powers: [0; BASES], factor: f64::NAN });
 
     /// A number without a unit.
     pub(crate) const NUMBER: Measure = Measure::Known(Dimension::NUMBER);

@@ -143,7 +143,7 @@ impl Program {
             return Err(foreign());
         }
         if let Some(row) = &self.row
-            && let Some(value) = self.quick(row, host, context)
+            && let Some(value) = self.formula_value(row, host, context)
         {
             context.events.clear();
             return Ok(value);
@@ -155,7 +155,7 @@ impl Program {
     /// Returns the value of a formula, or `None` if the virtual machine must run it: an element does not
     /// exist, or a watch needs spans.
     #[inline]
-    fn quick(&self, row: &Row, host: &dyn Host, context: &mut Context) -> Option<Value> {
+    fn formula_value(&self, row: &Row, host: &dyn Host, context: &mut Context) -> Option<Value> {
         match &mut context.watch {
             None => row.value(|elements, out| host.read(elements, out), &mut context.numbers),
             Some(watch) => {

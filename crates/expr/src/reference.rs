@@ -135,7 +135,7 @@ mod tests {
     use crate::mock::execute;
 
     #[test]
-    fn the_examples_give_what_they_say() {
+    fn the_examples_give_their_results() {
         let all = rows(
             &[
                 ReceiverKind::List,

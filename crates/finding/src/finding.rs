@@ -238,7 +238,7 @@ mod tests {
     };
 
     #[test]
-    fn order_is_by_place_and_doubles_go() {
+    fn findings_are_sorted_by_place_without_duplicates() {
         let one = |at: usize| Finding::new(&RULE, at..at + 1, "x");
         let mut all = vec![one(5), one(1), one(5)];
         sort(&mut all);

@@ -89,7 +89,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn finds_what_was_meant() {
+    fn finds_the_intended_name() {
         let names = ["qpos", "qvel", "qacc", "body_mass", "body_inertia", "xpos", "geom_friction", "time"];
         for (written, meant) in [
             ("qpso", Some("qpos")),

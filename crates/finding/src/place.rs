@@ -172,7 +172,7 @@ mod tests {
     }
 
     /// The same by traversing the text byte by byte, as an editor that uses UTF-16 does.
-    fn walked(text: &str, offset: usize) -> EditorPosition {
+    fn position_by_traversal(text: &str, offset: usize) -> EditorPosition {
         let chars: Vec<(usize, char)> = text.char_indices().collect();
         let (mut line, mut units): (usize, Vec<u16>) = (0, Vec::new());
         let mut place = EditorPosition { line: 0, character: 0 };
@@ -201,12 +201,16 @@ mod tests {
     fn agrees(text: &str) {
         let lines = Lines::new(text);
         for offset in 0..text.len() + 3 {
-            assert_eq!(lines.editor(text, offset), walked(text, offset), "byte {offset} of {text:?}");
+            assert_eq!(
+                lines.editor(text, offset),
+                position_by_traversal(text, offset),
+                "byte {offset} of {text:?}"
+            );
         }
     }
 
     #[test]
-    fn an_editor_finds_the_place() {
+    fn editor_positions_are_correct() {
         let text = "\u{feff}ä\tx\r\n𝄞b👩‍🔬c\rd\n";
         let lines = Lines::new(text);
         let at = |what: char| {

@@ -1,12 +1,12 @@
-//! A model compiled, an expression compiled against it, and its value.
+//! Compiles a model and an expression that reads it, and evaluates the expression.
 
 use labspec::{Engine, Error};
 
 pub(crate) fn main() -> Result<(), Error> {
-    accessor().map(|shown| print!("{shown}"))
+    accessor().map(|printed| print!("{printed}"))
 }
 
-/// A bob falls to the floor: its height, and where it comes to rest.
+/// A bob falls to the floor: its initial height, and its height at rest.
 pub(crate) fn accessor() -> Result<String, Error> {
     let mut engine = Engine::compile(
         "<mujoco><worldbody><geom type='plane' size='1 1 1'/>

@@ -1,4 +1,4 @@
-//! A function of one's own, in an accessor and in a lab.
+//! Adds a function to the language, and uses it in an expression and in a lab.
 
 use labspec::{Engine, Error, Functions, Player};
 
@@ -8,10 +8,10 @@ const LAB: &str = r#"{"model": "drop",
   "plots": [{"traces": [{"label": "air pressure (Pa)", "expr": "pressure(data.qpos[2])"}]}]}"#;
 
 pub(crate) fn main() -> Result<(), Error> {
-    function().map(|shown| print!("{shown}"))
+    function().map(|printed| print!("{printed}"))
 }
 
-/// The pressure of the air where the bob is.
+/// The air pressure at the height of the bob.
 pub(crate) fn function() -> Result<String, Error> {
     let barometric = |x: &[f64]| match x {
         [height] if height.is_finite() => Ok(101_325.0 * (-height / 8434.5).exp()),

@@ -1,4 +1,4 @@
-//! A lab that a frontend opens, moves and plays.
+//! Opens a lab, changes its controls and plays it.
 
 use labspec::{Error, Player};
 
@@ -12,10 +12,10 @@ const DROP: &str = "<mujoco><worldbody><geom type='plane' size='1 1 1'/>
   <body name='bob' pos='0 0 1'><freejoint/><geom size='0.1'/></body></worldbody></mujoco>";
 
 pub(crate) fn main() -> Result<(), Error> {
-    lab().map(|shown| print!("{shown}"))
+    lab().map(|printed| print!("{printed}"))
 }
 
-/// The height of a bob after 0.2 s, as it stands and with less gravity.
+/// The height of a bob after 0.2 s, with the gravity of the lab and with less gravity.
 pub(crate) fn lab() -> Result<String, Error> {
     let mut player = Player::of_lab(LAB, [("drop", DROP)])?;
     player.play_to(0.2)?;
@@ -23,8 +23,8 @@ pub(crate) fn lab() -> Result<String, Error> {
     let as_it_stands = player.numbers()[0];
     player.set("gravity", -1.6)?;
     player.play_to(0.2)?;
-    let shown =
+    let displayed =
         format!("{}: {as_it_stands:.4} {}, on the moon {:.4}\n", bob.label, bob.unit, player.numbers()[0]);
     player.restore(&saved)?;
-    Ok(format!("{shown}restored: {:.4}, {} findings\n", player.numbers()[0], player.findings().len()))
+    Ok(format!("{displayed}restored: {:.4}, {} findings\n", player.numbers()[0], player.findings().len()))
 }

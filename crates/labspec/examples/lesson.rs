@@ -1,4 +1,4 @@
-//! A lesson checked from memory: no file is opened.
+//! Checks a lesson in memory, without opening a file.
 
 use labspec::Checker;
 use std::convert::Infallible;
@@ -19,7 +19,7 @@ pub(crate) fn main() -> Result<(), Infallible> {
     Ok(())
 }
 
-/// What is wrong, and what became of every claim.
+/// The findings, and the state of every claim.
 pub(crate) fn lesson() -> String {
     let report =
         Checker::new(|name: &str| (name == "drop").then(|| DROP.to_string())).check("fall.md", LESSON);

@@ -1,4 +1,4 @@
-//! A rule of one's own: every trace of a plot says its unit.
+//! Adds a rule: the label of every trace states its unit.
 use labspec::finding::{Finding, Severity};
 use labspec::rules::{Example, Layer, Rule};
 use labspec::{Checker, spec::Lesson};
@@ -20,7 +20,7 @@ fn check(lesson: &Lesson) -> Vec<Finding> {
 pub(crate) fn main() {
     print!("{}", rule());
 }
-/// What a check says of the rule's two examples.
+/// The findings of a check of the rule's two examples.
 pub(crate) fn rule() -> String {
     let mut checker = Checker::new([("m", "<mujoco><worldbody/></mujoco>")]).rule(check);
     let [wrong, right] = [NO_UNIT.bad, NO_UNIT.good].map(|lab| checker.check("lab.md", &lab.text()));

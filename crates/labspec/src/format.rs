@@ -34,12 +34,12 @@ pub fn format(lesson: &Lesson, mut models: Option<&mut Models>) -> Formatted {
         for (form, text) in lab.code() {
             let named = model.as_ref().and_then(|m| modernized(&text.value, form, m, &mut globals));
             let code = named.as_deref().unwrap_or(&text.value);
-            edits.extend(edit(lesson, text, &laid_out(code, form).unwrap_or_else(|| code.to_owned())));
+            edits.extend(edit(lesson, text, &format_code(code, form).unwrap_or_else(|| code.to_owned())));
             total += 1;
         }
     }
     for (form, text) in claims(lesson) {
-        edits.extend(laid_out(&text.value, form).and_then(|code| edit(lesson, text, &code)));
+        edits.extend(format_code(&text.value, form).and_then(|code| edit(lesson, text, &code)));
         total += 1;
     }
     // From the end to the start, so that offsets remain valid. A lab that is named twice is edited once.
@@ -54,7 +54,7 @@ pub fn format(lesson: &Lesson, mut models: Option<&mut Models>) -> Formatted {
 }
 
 /// Whether two versions of a lesson contain the same labs and claims, and have the same findings.
-pub fn says_the_same(before: &Lesson, after: &Lesson) -> bool {
+pub fn is_equivalent(before: &Lesson, after: &Lesson) -> bool {
     let texts = |lesson: &Lesson| {
         let labs = lesson.all_labs().into_iter().flat_map(|lab| lab.code()).map(|(form, _)| form);
         labs.chain(claims(lesson).into_iter().map(|(form, _)| form)).collect::<Vec<_>>()
@@ -75,7 +75,7 @@ fn claims(lesson: &Lesson) -> Vec<(Form, &Text)> {
     of_labs.chain(of_questions).flat_map(|v| v.code()).collect()
 }
 
-fn laid_out(code: &str, form: Form) -> Option<String> {
+fn format_code(code: &str, form: Form) -> Option<String> {
     match form {
         Form::Statements => format_statements(code),
         Form::Expression | Form::Target => format_expression(code),

@@ -8,10 +8,10 @@ use std::sync::{Arc, OnceLock};
 static REQUESTED: OnceLock<Arc<AtomicBool>> = OnceLock::new();
 
 /// Whether any thread has its own flag; otherwise none is looked up.
-static OWN: AtomicBool = AtomicBool::new(false);
+static ANY_THREAD_FLAG: AtomicBool = AtomicBool::new(false);
 
 thread_local! {
-    static HERE: RefCell<Option<Arc<AtomicBool>>> = const { RefCell::new(None) };
+    static THREAD_FLAG: RefCell<Option<Arc<AtomicBool>>> = const { RefCell::new(None) };
 }
 
 /// Whether long computations on this thread must stop: the flag of all threads or that of this thread is set. It is never
@@ -19,20 +19,20 @@ thread_local! {
 #[inline]
 pub fn requested() -> bool {
     REQUESTED.get().is_some_and(|flag| flag.load(Ordering::Relaxed))
-        || (OWN.load(Ordering::Relaxed) && here())
+        || (ANY_THREAD_FLAG.load(Ordering::Relaxed) && here())
 }
 
 #[cold]
 fn here() -> bool {
-    HERE.with(|flag| flag.borrow().as_ref().is_some_and(|flag| flag.load(Ordering::Relaxed)))
+    THREAD_FLAG.with(|flag| flag.borrow().as_ref().is_some_and(|flag| flag.load(Ordering::Relaxed)))
 }
 
 /// Runs `work` on this thread, and stops it early when the flag is set. The work calls [`requested`] between steps.
 pub fn until<T>(flag: Arc<AtomicBool>, work: impl FnOnce() -> T) -> T {
-    OWN.store(true, Ordering::Relaxed);
-    let before = HERE.with(|here| here.replace(Some(flag)));
+    ANY_THREAD_FLAG.store(true, Ordering::Relaxed);
+    let before = THREAD_FLAG.with(|here| here.replace(Some(flag)));
     let done = work();
-    HERE.with(|here| here.replace(before));
+    THREAD_FLAG.with(|here| here.replace(before));
     done
 }
 

@@ -470,7 +470,7 @@ mod tests {
     }
 
     #[test]
-    fn the_summary_tells_what_was_simulated_from_what_was_not() {
+    fn the_summary_distinguishes_simulated_claims() {
         let mut ledger = Ledger::default();
         for state in [
             State::True(Evidence::Simulated),

@@ -22,7 +22,7 @@ pub(crate) fn pairwise(levels: &[usize], most: usize) -> (Vec<Vec<usize>>, usize
             }
         }
         let row: Vec<usize> = row.into_iter().map(Option::unwrap_or_default).collect();
-        missing.strike(&row);
+        missing.remove_covered(&row);
         rows.push(row);
     }
     (rows, missing.count)
@@ -112,7 +112,7 @@ impl Missing {
         (0..self.levels[factor]).rev().max_by_key(|level| gain(*level)).unwrap_or(0)
     }
 
-    fn strike(&mut self, row: &[usize]) {
+    fn remove_covered(&mut self, row: &[usize]) {
         for (i, a) in row.iter().enumerate() {
             for (j, b) in row.iter().enumerate().skip(i + 1) {
                 let at = self.place((i, *a), (j, *b));
@@ -128,7 +128,7 @@ mod tests {
     use std::collections::BTreeSet;
 
     /// Pairs of factor and level in one row.
-    fn met(rows: &[Vec<usize>]) -> BTreeSet<[(usize, usize); 2]> {
+    fn covered_pairs(rows: &[Vec<usize>]) -> BTreeSet<[(usize, usize); 2]> {
         let of = |row: &Vec<usize>| {
             let row = row.clone();
             (0..row.len()).flat_map(move |i| {
@@ -140,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn every_pair_of_levels_stands_in_some_row() {
+    fn every_pair_of_levels_occurs_in_some_row() {
         for levels in [
             &[2, 2, 2, 2, 2, 2, 2, 2, 2, 2][..],
             &[2, 3, 4, 5],
@@ -152,7 +152,7 @@ mod tests {
             let (rows, missing) = pairwise(levels, usize::MAX);
             let all: usize =
                 levels.iter().sum::<usize>().pow(2) - levels.iter().map(|n| n * n).sum::<usize>();
-            assert_eq!((missing, met(&rows).len()), (0, all / 2), "{levels:?}");
+            assert_eq!((missing, covered_pairs(&rows).len()), (0, all / 2), "{levels:?}");
             assert!(rows.iter().all(|row| row.iter().zip(levels).all(|(level, n)| level < n)));
             assert_eq!(rows, pairwise(levels, usize::MAX).0, "the same again");
             // Fewer rows are impossible, and the greedy design has not many more.
@@ -164,9 +164,9 @@ mod tests {
     }
 
     #[test]
-    fn what_does_not_fit_is_counted() {
+    fn pairs_beyond_the_limit_are_counted() {
         let (rows, missing) = pairwise(&[4, 4, 4], 5);
-        assert_eq!((rows.len(), missing), (5, 48 - met(&rows).len()));
+        assert_eq!((rows.len(), missing), (5, 48 - covered_pairs(&rows).len()));
         assert_eq!(pairwise(&[9], 100), (Vec::new(), 0));
         assert_eq!(pairwise(&[2, 0, 3], 100).0.len(), 6);
     }

@@ -8,18 +8,18 @@ use std::path::Path;
 
 /// A text for one line of output, with invisible characters and control characters written as escapes.
 pub fn printable(text: &str) -> Cow<'_, str> {
-    written_out(text, is_hidden, |c, out| out.extend(c.escape_default()))
+    escape_hidden(text, is_hidden, |c, out| out.extend(c.escape_default()))
 }
 
 /// Like [`printable`], for a whole output with line breaks.
 pub fn printable_lines(text: &str) -> Cow<'_, str> {
-    written_out(text, |c| c != '\n' && is_hidden(c), |c, out| out.extend(c.escape_default()))
+    escape_hidden(text, |c| c != '\n' && is_hidden(c), |c, out| out.extend(c.escape_default()))
 }
 
 /// Like [`printable`], for a line of a lesson, which may contain tabs.
 #[cfg(feature = "report")]
 pub(super) fn printable_line(text: &str) -> Cow<'_, str> {
-    written_out(text, |c| c != '\t' && is_hidden(c), |c, out| out.extend(c.escape_default()))
+    escape_hidden(text, |c| c != '\t' && is_hidden(c), |c, out| out.extend(c.escape_default()))
 }
 
 /// A path in the form that is printed.
@@ -30,7 +30,7 @@ pub fn printable_path(path: &Path) -> String {
 /// Equivalent JSON in which such characters are escaped: `\u009b`.
 pub fn printable_json(json: &str) -> Cow<'_, str> {
     // Outside of strings, the only such characters in JSON are line breaks.
-    written_out(
+    escape_hidden(
         json,
         |c| c != '\n' && is_hidden(c),
         |c, out| {
@@ -46,7 +46,11 @@ pub fn counted(n: usize, one: &str) -> String {
     if n == 1 { format!("1 {one}") } else { format!("{n} {one}s") }
 }
 
-fn written_out(text: &str, hidden: impl Fn(char) -> bool, write: impl Fn(char, &mut String)) -> Cow<'_, str> {
+fn escape_hidden(
+    text: &str,
+    hidden: impl Fn(char) -> bool,
+    write: impl Fn(char, &mut String),
+) -> Cow<'_, str> {
     if !text.contains(&hidden) {
         return Cow::Borrowed(text);
     }
@@ -73,7 +77,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_acts_on_a_terminal_is_written_out() {
+    fn terminal_control_characters_are_escaped() {
         for (text, printed) in [
             ("plain – “α” ⚠️ 日本", "plain – “α” ⚠️ 日本"),
             ("a\u{1b}[2Jb", "a\\u{1b}[2Jb"),

@@ -158,7 +158,7 @@ fn attributes<'a>(rows: impl Iterator<Item = &'a xml::SchemaRow>) -> String {
         let Some(attribute) = row.attribute else { continue };
         let name = format!("`{}`", attribute.name);
         let refused: Vec<&str> = match attribute.kind {
-            xml::Kind::Words(words) => words.iter().filter(|w| !w.supported).map(|w| w.text).collect(),
+            xml::Kind::Keywords(words) => words.iter().filter(|w| !w.supported).map(|w| w.text).collect(),
             _ => Vec::new(),
         };
         let (group, entry) = match row.status {
@@ -247,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn the_examples_of_functions_give_what_they_say() {
+    fn the_examples_of_functions_give_their_results() {
         let model = xml::compile(PENDULUM).unwrap();
         let mut wrong = Vec::new();
         for FunctionDoc { signature, example: (code, value), measure: over, claim, .. } in

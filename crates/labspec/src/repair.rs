@@ -25,7 +25,7 @@ const ROUNDS: usize = 20;
 const STEPS: usize = 300;
 
 /// The rules whose checks run the lab to test the repair.
-const SHOWN_BY_A_RUN: [&rules::Rule; 1] = [rules::MISSING_SETCONST];
+const RULES_WITH_RUNS: [&rules::Rule; 1] = [rules::MISSING_SETCONST];
 
 /// The displayed values of the labs of a lesson: for each run that can be made (by its index), the samples of each trace
 /// and readout (by its index), as bits.
@@ -156,7 +156,7 @@ pub fn repair(
 fn rounds(now: &mut TextState, kind: Applicability, judge: &RepairJudge<'_>) -> usize {
     let mut made = 0;
     for _ in 0..ROUNDS {
-        let fixes = apart(&now.looked.findings, kind);
+        let fixes = disjoint_repairs(&now.looked.findings, kind);
         if fixes.is_empty() || interrupted() {
             break;
         }
@@ -199,7 +199,7 @@ fn keep(
 }
 
 /// Repairs that do not touch each other, in the order of the text, with the codes of their rules.
-fn apart(findings: &[Finding], kind: Applicability) -> Vec<Repair> {
+fn disjoint_repairs(findings: &[Finding], kind: Applicability) -> Vec<Repair> {
     let may = |fix: &Fix| fix.applicability == kind;
     let mut all: Vec<Repair> =
         findings.iter().filter_map(|f| Some((f.code, f.fix.clone().filter(may)?))).collect();
@@ -245,7 +245,7 @@ fn attempt(
     if !gone || is.errors() > was.errors() || is.broken > was.broken {
         return None;
     }
-    let shown_by_a_run = codes.keys().all(|code| SHOWN_BY_A_RUN.iter().any(|rule| rule.code == *code));
+    let shown_by_a_run = codes.keys().all(|code| RULES_WITH_RUNS.iter().any(|rule| rule.code == *code));
     let proven = !judge.proves || shown_by_a_run || now.displayed(judge).is_subset(next.displayed(judge));
     proven.then_some(next)
 }
@@ -268,7 +268,7 @@ mod tests {
     }
 
     #[test]
-    fn what_repairs_is_kept_and_what_makes_it_worse_is_not() {
+    fn successful_repairs_are_kept_and_harmful_ones_are_not() {
         assert_eq!(
             repair(find_wrong("a x b x"), false, &find_wrong, &|_| Traces::new()),
             ("a o b o".to_string(), 2)
@@ -281,7 +281,7 @@ mod tests {
     }
 
     #[test]
-    fn a_safe_repair_that_changes_what_is_shown_is_not_made() {
+    fn a_repair_that_changes_displayed_values_is_not_safe() {
         // Only the first character is displayed.
         let shows = |text: &str| Traces::from([(0, 0, vec![text.chars().take(1).collect()])]);
         assert_eq!(repair(find_wrong("x x"), false, &find_wrong, &shows), ("x o".to_string(), 1));
@@ -291,7 +291,7 @@ mod tests {
     /// With three failing ones among 256 repairs, all others are made, with the number of checks of a bisection; one by one
     /// would need 256.
     #[test]
-    fn bad_repairs_are_found_by_halves() {
+    fn bad_repairs_are_found_by_bisection() {
         let mut text = "x ".repeat(256);
         for bad in [400, 222, 0] {
             text.insert(bad, '!');

@@ -25,7 +25,7 @@ pub fn run<T: Send>(work: impl Fn() -> T + Sync) -> T {
 ///
 /// # Errors
 /// The message of the panic.
-pub fn apart<T>(work: impl FnOnce() -> T) -> Result<T, String> {
+pub fn run_in_thread<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     // Unfinished results are dropped, and caches contain only complete entries.
     catch_unwind(AssertUnwindSafe(work)).map_err(|panic| {
         let text = panic.downcast_ref::<String>().map(String::as_str);
@@ -40,20 +40,23 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_panic_says_what_it_was() {
-        assert_eq!(apart(|| 3), Ok(3));
+    fn the_message_of_a_panic_is_returned() {
+        assert_eq!(run_in_thread(|| 3), Ok(3));
         let lesson = 7;
-        assert_eq!(apart(|| -> u8 { panic!("lesson {lesson} is odd") }), Err("lesson 7 is odd".into()));
-        assert_eq!(apart(|| -> u8 { panic!("odd") }), Err("odd".into()));
+        assert_eq!(
+            run_in_thread(|| -> u8 { panic!("lesson {lesson} is odd") }),
+            Err("lesson 7 is odd".into())
+        );
+        assert_eq!(run_in_thread(|| -> u8 { panic!("odd") }), Err("odd".into()));
     }
 
     #[test]
     fn the_work_has_the_stated_stack() {
         /// Needs more than 2 MB of stack, the default of a thread.
-        fn deep(n: usize) -> usize {
+        fn deep_recursion(n: usize) -> usize {
             let space = std::hint::black_box([n as u8; 1 << 10]);
-            if n == 0 { 0 } else { deep(n - 1) + usize::from(space[n % 1024] == n as u8) }
+            if n == 0 { 0 } else { deep_recursion(n - 1) + usize::from(space[n % 1024] == n as u8) }
         }
-        assert_eq!(run(|| deep(4_000)), 4_000);
+        assert_eq!(run(|| deep_recursion(4_000)), 4_000);
     }
 }

@@ -54,7 +54,7 @@ mod tests {
     }
 
     #[test]
-    fn clones_share_what_they_have_in_common_and_grow_apart() {
+    fn clones_share_common_names_and_diverge() {
         let mut first = GlobalNames::default();
         first.push("a");
         let early = first.clone();

@@ -40,7 +40,7 @@ const MAX_BYTES: usize = 64 << 20;
 /// The bytes of one value in a list.
 const VALUE: usize = size_of::<Value>();
 /// Bytes in use below which nothing is collected.
-const CALM: usize = 1 << 20;
+const MIN_COLLECTION: usize = 1 << 20;
 /// Limit on the depth of nested lists that are printed.
 const MAX_PRINT_DEPTH: usize = 32;
 /// The longest string that a program can build, in bytes. A string that grows with every step must not
@@ -254,7 +254,7 @@ impl Heap {
 
     /// Whether enough memory was allocated since the last collection to make another one worthwhile.
     pub(crate) fn wants_collection(&self) -> bool {
-        self.bytes > self.threshold.max(CALM)
+        self.bytes > self.threshold.max(MIN_COLLECTION)
     }
 
     /// Frees all objects that are unreachable from the roots.
@@ -318,7 +318,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_nothing_refers_to_is_freed() {
+    fn unreferenced_objects_are_freed() {
         let mut heap = Heap::default();
         let rooted = heap.numbers(&[1.0, 2.0]).unwrap();
         let ring = heap.list(Vec::new()).unwrap();
@@ -343,7 +343,7 @@ mod tests {
     }
 
     #[test]
-    fn a_full_heap_says_so() {
+    fn a_full_heap_is_an_error() {
         let mut heap = Heap::default();
         let large = || vec![Value::Null; 1 << 20];
         assert!((0..10).any(|_| heap.list(large()).is_err()));

@@ -52,13 +52,13 @@ impl BinaryOp {
             BinaryOp::GreaterEqual => truth(a >= b),
             BinaryOp::Equal | BinaryOp::StrictEqual => truth(a == b),
             BinaryOp::NotEqual | BinaryOp::StrictNotEqual => truth(a != b),
-            _ => self.on_numbers_seldom(a, b),
+            _ => self.on_numbers_rare(a, b),
         }
     }
 
     /// The less frequent operators, out of line, so that frequently executed code stays short.
     #[inline(never)]
-    fn on_numbers_seldom(self, a: f64, b: f64) -> f64 {
+    fn on_numbers_rare(self, a: f64, b: f64) -> f64 {
         match self {
             // Rust's remainder has the sign of the dividend, as in JavaScript.
             BinaryOp::Remainder => a % b,

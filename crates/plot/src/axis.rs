@@ -357,7 +357,7 @@ mod tests {
     }
 
     #[test]
-    fn wishes_for_the_ends() {
+    fn requested_ends_are_used() {
         let both = range(Some((0.0, 9.0)), Some(2.0), Some(1.0));
         assert_eq!((both.low, both.high, both.free_low, both.free_high), (1.0, 2.0, false, false));
         let beyond = range(Some((0.0, 1.0)), Some(10.0), None);

@@ -5,7 +5,7 @@
 
 use super::number::px;
 use super::style::{POWER, TICK};
-use super::text::{clean, escape, width};
+use super::text::{clean_label, escape, width};
 
 /// The space after a superscript. Some renderers drop a space character there.
 const SPACE: f64 = 3.5;
@@ -49,7 +49,7 @@ impl Canvas {
              role=\"img\" font-family=\"Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif\">"
         ));
         canvas.depth = 1;
-        canvas.push(&format!("<title>{}</title>", escape(&clean(title))));
+        canvas.push(&format!("<title>{}</title>", escape(&clean_label(title))));
         canvas.push(&format!("<desc>{}</desc>", escape(description)));
         canvas.push(&format!("<rect width=\"{w}\" height=\"{h}\" fill=\"#ffffff\"/>"));
         canvas
@@ -65,7 +65,7 @@ impl Canvas {
     pub(super) fn named(&mut self, attributes: &str, name: &str) {
         self.open(attributes);
         if !name.is_empty() {
-            self.push(&format!("<title>{}</title>", escape(&clean(name))));
+            self.push(&format!("<title>{}</title>", escape(&clean_label(name))));
         }
     }
 

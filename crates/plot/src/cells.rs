@@ -5,10 +5,10 @@
 //! can be read without colours.
 
 use super::canvas::{Canvas, drop, style};
-use super::frame::{self, EDGE, Frame, Words};
-use super::legend::{self, Entry, STROKE};
-use super::style::{INK, LABEL, SHADE, SOFT, TICK, TITLE, colour, extent};
-use super::text::{clean, fit, width};
+use super::frame::{self, EDGE, Frame, PlotTexts};
+use super::legend::{self, Entry, SAMPLE_WIDTH};
+use super::style::{LABEL, LABEL_COLOUR, SHADE_COLOUR, TICK, TITLE, TITLE_COLOUR, colour, extent};
+use super::text::{clean_label, fit, width};
 
 /// A map of cells.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -50,10 +50,10 @@ pub fn cells(chart: &Cells) -> String {
     map.draw_values(&mut canvas, chart);
     map.draw_titles(&mut canvas);
     legend::draw(&mut canvas, &map.legend, &area, map.words.below(), |canvas, index, at| {
-        canvas.area((at.0 + STROKE - 12.0, at.1 - 6.0), (at.0 + STROKE, at.1 + 6.0), fill(index));
+        canvas.area((at.0 + SAMPLE_WIDTH - 12.0, at.1 - 6.0), (at.0 + SAMPLE_WIDTH, at.1 + 6.0), fill(index));
         if index > 0 {
             canvas.open(&style(TICK, "#ffffff", "middle"));
-            canvas.text((at.0 + STROKE - 6.0, at.1 + drop(TICK)), &index.to_string());
+            canvas.text((at.0 + SAMPLE_WIDTH - 6.0, at.1 + drop(TICK)), &index.to_string());
             canvas.close();
         }
     });
@@ -63,7 +63,7 @@ pub fn cells(chart: &Cells) -> String {
 /// The layout of the picture.
 struct Layout<'c> {
     size: (f64, f64),
-    words: Words<'c>,
+    words: PlotTexts<'c>,
     columns: usize,
     rows: usize,
     /// The values of the rows, shortened to the available width.
@@ -77,14 +77,14 @@ impl<'c> Layout<'c> {
     fn new(chart: &'c Cells) -> Layout<'c> {
         let size = (extent(chart.width, 200.0, 640.0), extent(chart.height, 160.0, 420.0));
         let words =
-            Words { title: &chart.title, xlabel: &chart.xlabel, ylabel: &chart.ylabel, width: size.0 };
+            PlotTexts { title: &chart.title, xlabel: &chart.xlabel, ylabel: &chart.ylabel, width: size.0 };
         let (columns, rows) = (chart.columns.len().min(MOST), chart.rows.len().min(MOST));
         let (top, below) = (words.above(), words.below());
         let entries = chart.kinds.iter().enumerate().map(|(index, k)| Entry { label: k.clone(), index });
         let legend = legend::plan(entries.collect(), size.0, size.1 - top - below, true);
         let bottom = (size.1 - below - legend.below).max(top + 20.0);
         let row_values: Vec<String> =
-            chart.rows.iter().take(rows).map(|r| fit(&clean(r), TICK, 0.25 * size.0)).collect();
+            chart.rows.iter().take(rows).map(|r| fit(&clean_label(r), TICK, 0.25 * size.0)).collect();
         let widest = row_values.iter().map(|l| width(l, TICK)).fold(0.0, f64::max);
         let left = EDGE + widest + 8.0;
         let right = (size.0 - EDGE - legend.right - 4.0).max(left + 40.0);
@@ -93,7 +93,7 @@ impl<'c> Layout<'c> {
     }
 
     /// The left edge of a column.
-    fn across(&self, i: usize) -> f64 {
+    fn column_left(&self, i: usize) -> f64 {
         self.area.left + self.area.width() * i as f64 / self.columns.max(1) as f64
     }
 
@@ -108,7 +108,7 @@ impl<'c> Layout<'c> {
         for (j, row) in chart.cells.iter().take(self.rows).enumerate() {
             for (i, kind) in row.iter().take(self.columns).enumerate() {
                 let Some(kind) = kind.filter(|k| *k < chart.kinds.len()) else { continue };
-                let (left, right) = (self.across(i), self.across(i + 1));
+                let (left, right) = (self.column_left(i), self.column_left(i + 1));
                 let (lower, upper) = (self.up(j), self.up(j + 1));
                 canvas.area((left, upper), (right, lower), fill(kind));
                 if kind > 0 {
@@ -129,24 +129,25 @@ impl<'c> Layout<'c> {
 
     /// Draws the values of rows and columns: the first one, and then every n-th, as many as fit.
     fn draw_values(&self, canvas: &mut Canvas, chart: &Cells) {
-        canvas.open(&style(TICK, SOFT, "end"));
+        canvas.open(&style(TICK, LABEL_COLOUR, "end"));
         let every = (1.6 * TICK * self.rows as f64 / self.area.height()).ceil().max(1.0) as usize;
         for (j, label) in self.row_values.iter().enumerate().step_by(every) {
             let middle = (self.up(j) + self.up(j + 1)) / 2.0;
             canvas.text((self.area.left - 6.0, middle + drop(TICK)), label);
         }
         canvas.close();
-        canvas.open(&style(TICK, SOFT, "middle"));
+        canvas.open(&style(TICK, LABEL_COLOUR, "middle"));
         let names: Vec<String> = chart
             .columns
             .iter()
             .take(self.columns)
-            .map(|c| fit(&clean(c), TICK, 0.25 * self.size.0))
+            .map(|c| fit(&clean_label(c), TICK, 0.25 * self.size.0))
             .collect();
         let widest = names.iter().map(|l| width(l, TICK)).fold(0.0, f64::max) + 10.0;
         let every = (widest * self.columns as f64 / self.area.width()).ceil().max(1.0) as usize;
         for (i, name) in names.iter().enumerate().step_by(every) {
-            canvas.text(((self.across(i) + self.across(i + 1)) / 2.0, self.area.bottom + 17.0), name);
+            canvas
+                .text(((self.column_left(i) + self.column_left(i + 1)) / 2.0, self.area.bottom + 17.0), name);
         }
         canvas.close();
     }
@@ -154,17 +155,17 @@ impl<'c> Layout<'c> {
     /// Draws the title and the labels of both axes.
     fn draw_titles(&self, canvas: &mut Canvas) {
         let (words, area, whole) = (&self.words, &self.area, self.size.0 - 2.0 * EDGE);
-        canvas.open(&style(LABEL, INK, "start"));
-        canvas.text((EDGE, area.top - 8.0), &fit(&clean(words.ylabel), LABEL, whole));
+        canvas.open(&style(LABEL, TITLE_COLOUR, "start"));
+        canvas.text((EDGE, area.top - 8.0), &fit(&clean_label(words.ylabel), LABEL, whole));
         canvas.close();
         if !words.title.trim().is_empty() {
-            canvas.open(&style(TITLE, INK, "start"));
-            canvas.text((EDGE, EDGE + TITLE), &fit(&clean(words.title), TITLE, whole));
+            canvas.open(&style(TITLE, TITLE_COLOUR, "start"));
+            canvas.text((EDGE, EDGE + TITLE), &fit(&clean_label(words.title), TITLE, whole));
             canvas.close();
         }
         if !words.xlabel.trim().is_empty() {
-            canvas.open(&style(LABEL, INK, "middle"));
-            let text = fit(&clean(words.xlabel), LABEL, area.width());
+            canvas.open(&style(LABEL, TITLE_COLOUR, "middle"));
+            let text = fit(&clean_label(words.xlabel), LABEL, area.width());
             canvas.text(((area.left + area.right) / 2.0, area.bottom + 35.0), &text);
             canvas.close();
         }
@@ -173,7 +174,7 @@ impl<'c> Layout<'c> {
 
 /// The colour of a kind; the first kind is light.
 fn fill(kind: usize) -> &'static str {
-    if kind == 0 { SHADE } else { colour(kind - 1) }
+    if kind == 0 { SHADE_COLOUR } else { colour(kind - 1) }
 }
 
 /// The description of the picture in words.
@@ -181,7 +182,7 @@ fn describe(chart: &Cells) -> String {
     let count = |kind: Option<usize>| chart.cells.iter().flatten().filter(|k| **k == kind).count();
     let mut text = String::from("A map of cells.");
     for (k, name) in chart.kinds.iter().enumerate().take(12) {
-        text.push_str(&format!(" {}: {}.", clean(name), count(Some(k))));
+        text.push_str(&format!(" {}: {}.", clean_label(name), count(Some(k))));
     }
     match count(None) {
         0 => {}

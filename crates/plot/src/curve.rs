@@ -11,7 +11,7 @@ use super::number::px;
 /// The maximum distance of a removed point from the drawn line, in pixels. It is invisible even when the picture is enlarged.
 const TOLERANCE: f64 = 0.05;
 /// Positions further away than this many pixels are moved to this distance, which is far outside any picture.
-const FAR: f64 = 1e6;
+const MAX_POSITION: f64 = 1e6;
 
 /// The parts of the curve through `samples` inside the frame. A sample for which `place` returns no position ends a part, and
 /// so does a step backwards in x, because time starts again after a reset.
@@ -82,7 +82,7 @@ fn columns(places: impl Iterator<Item = Option<Point>>, frame: &Frame) -> Vec<Ve
             gap = true;
             continue;
         };
-        let point = (x.clamp(-FAR, FAR), y.clamp(-FAR, FAR));
+        let point = (x.clamp(-MAX_POSITION, MAX_POSITION), y.clamp(-MAX_POSITION, MAX_POSITION));
         let index = point.0.clamp(frame.left - 1.0, frame.right + 1.0).floor() as i64;
         match &mut open {
             // A gap that is narrower than a pixel is invisible.
@@ -216,44 +216,44 @@ mod tests {
 
     const FRAME: Frame = Frame { left: 0.0, top: 0.0, right: 100.0, bottom: 100.0 };
 
-    fn drawn(samples: &[(f64, f64)]) -> Vec<Vec<Point>> {
+    fn simplified_pieces(samples: &[(f64, f64)]) -> Vec<Vec<Point>> {
         pieces(samples, &FRAME, |(x, y)| (x.is_finite() && y.is_finite()).then_some((x, y)))
     }
 
     #[test]
     fn a_straight_line_is_two_points() {
         let samples: Vec<_> = (0..100_000).map(|i| f64::from(i) * 1e-3).map(|x| (x, 0.5 * x)).collect();
-        assert_eq!(drawn(&samples), vec![vec![(0.0, 0.0), (99.999, 49.9995)]]);
+        assert_eq!(simplified_pieces(&samples), vec![vec![(0.0, 0.0), (99.999, 49.9995)]]);
     }
 
     #[test]
     fn a_spike_of_one_sample_is_kept() {
         let samples: Vec<_> =
             (0..100_000).map(|i| (f64::from(i) * 1e-3, if i == 31_416 { 80.0 } else { 20.0 })).collect();
-        let peak = drawn(&samples).concat().iter().fold(0.0, |m: f64, p| m.max(p.1));
+        let peak = simplified_pieces(&samples).concat().iter().fold(0.0, |m: f64, p| m.max(p.1));
         assert_eq!(peak, 80.0);
     }
 
     #[test]
     fn gaps_and_resets_break_the_line() {
-        let gap = drawn(&[(0.0, 1.0), (10.0, 5.0), (20.0, f64::NAN), (30.0, 1.0), (40.0, 2.0)]);
+        let gap = simplified_pieces(&[(0.0, 1.0), (10.0, 5.0), (20.0, f64::NAN), (30.0, 1.0), (40.0, 2.0)]);
         assert_eq!(gap, vec![vec![(0.0, 1.0), (10.0, 5.0)], vec![(30.0, 1.0), (40.0, 2.0)]]);
-        let reset = drawn(&[(0.0, 1.0), (50.0, 9.0), (0.0, 1.0), (20.0, 3.0)]);
+        let reset = simplified_pieces(&[(0.0, 1.0), (50.0, 9.0), (0.0, 1.0), (20.0, 3.0)]);
         assert_eq!(reset.len(), 2);
-        assert_eq!(drawn(&[(5.0, 5.0)]), vec![vec![(5.0, 5.0)]]);
-        assert!(drawn(&[(f64::NAN, 5.0)]).is_empty() && drawn(&[]).is_empty());
+        assert_eq!(simplified_pieces(&[(5.0, 5.0)]), vec![vec![(5.0, 5.0)]]);
+        assert!(simplified_pieces(&[(f64::NAN, 5.0)]).is_empty() && simplified_pieces(&[]).is_empty());
     }
 
     #[test]
     fn lines_are_cut_at_the_frame() {
         assert_eq!(
-            drawn(&[(-50.0, 50.0), (50.0, 50.0), (50.0, 200.0), (75.0, -1e9)]),
+            simplified_pieces(&[(-50.0, 50.0), (50.0, 50.0), (50.0, 200.0), (75.0, -1e9)]),
             vec![
                 vec![(0.0, 50.0), (50.0, 50.0), (50.0, 100.0)],
                 vec![(50.002_499_500_099_98, 100.0), (50.004_999_000_199_96, 0.0)]
             ]
         );
-        assert!(drawn(&[(-5.0, -5.0), (-3.0, 300.0)]).is_empty());
+        assert!(simplified_pieces(&[(-5.0, -5.0), (-3.0, 300.0)]).is_empty());
     }
 
     proptest! {
@@ -262,7 +262,7 @@ mod tests {
             mut samples in prop::collection::vec((0.0..100.0f64, 0.0..100.0f64), 1..3000)
         ) {
             samples.sort_by(|a, b| a.0.total_cmp(&b.0));
-            let points = drawn(&samples).concat();
+            let points = simplified_pieces(&samples).concat();
             prop_assert!(points.len() <= 2 * 101 + 4);
             prop_assert!(points.iter().all(|p| FRAME.holds(*p)));
             let top = |points: &[Point]| points.iter().fold(f64::MAX, |m, p| m.min(p.1));
@@ -271,7 +271,7 @@ mod tests {
 
         #[test]
         fn anything_can_be_drawn(samples in prop::collection::vec((any::<f64>(), any::<f64>()), 0..50)) {
-            prop_assert!(drawn(&samples).concat().iter().all(|p| FRAME.holds((p.0.round(), p.1.round()))));
+            prop_assert!(simplified_pieces(&samples).concat().iter().all(|p| FRAME.holds((p.0.round(), p.1.round()))));
         }
     }
 }

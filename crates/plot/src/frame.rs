@@ -2,8 +2,8 @@
 
 use super::axis::Axis;
 use super::canvas::{Canvas, Label, drop, style};
-use super::style::{AXIS, FAINT, GRID, INK, LABEL, SOFT, TICK, TITLE};
-use super::text::{clean, fit, width};
+use super::style::{AXIS, GRID, LABEL, LABEL_COLOUR, MINOR_GRID_COLOUR, TICK, TITLE, TITLE_COLOUR};
+use super::text::{clean_label, fit, width};
 
 /// A position in a picture, in pixels.
 pub(super) type Point = (f64, f64);
@@ -48,7 +48,7 @@ impl Frame {
 }
 
 /// The title and labels of a plot.
-pub(super) struct Words<'a> {
+pub(super) struct PlotTexts<'a> {
     pub(super) title: &'a str,
     pub(super) xlabel: &'a str,
     pub(super) ylabel: &'a str,
@@ -61,7 +61,7 @@ pub(super) const EDGE: f64 = 12.0;
 /// The space between an axis and the labels of its ticks.
 const TO_TICK: f64 = 8.0;
 
-impl Words<'_> {
+impl PlotTexts<'_> {
     /// The height of the rows above the area: the title, the label of the vertical axis, and half a tick label.
     pub(super) fn above(&self) -> f64 {
         let title = if self.title.trim().is_empty() { 0.0 } else { 22.0 };
@@ -82,11 +82,11 @@ pub(super) fn margin(y: &Axis) -> f64 {
 
 /// Draws everything except the data. The scales extend over `inner`. The horizontal lines and the border extend over `outer`,
 /// which is wider than `inner` if there are strips next to the scale.
-pub(super) fn draw(canvas: &mut Canvas, outer: &Frame, inner: &Frame, x: &Axis, y: &Axis, words: &Words) {
+pub(super) fn draw(canvas: &mut Canvas, outer: &Frame, inner: &Frame, x: &Axis, y: &Axis, words: &PlotTexts) {
     let across = |at: f64| snap(inner.at(0.0, at).1);
     let along = |at: f64| snap(inner.at(at, 0.0).0);
 
-    canvas.open(&format!("stroke=\"{FAINT}\""));
+    canvas.open(&format!("stroke=\"{MINOR_GRID_COLOUR}\""));
     for at in &y.minor {
         canvas.line((outer.left, across(*at)), (outer.right, across(*at)));
     }
@@ -114,12 +114,12 @@ pub(super) fn draw(canvas: &mut Canvas, outer: &Frame, inner: &Frame, x: &Axis, 
     }
     canvas.close();
 
-    canvas.open(&style(TICK, SOFT, "end"));
+    canvas.open(&style(TICK, LABEL_COLOUR, "end"));
     for tick in &y.ticks {
         canvas.label((outer.left - TO_TICK, inner.at(0.0, tick.at).1 + drop(TICK)), &tick.label);
     }
     canvas.close();
-    canvas.open(&style(TICK, SOFT, "middle"));
+    canvas.open(&style(TICK, LABEL_COLOUR, "middle"));
     for tick in x.ticks.iter().filter(|t| t.label != Label::default()) {
         canvas.label((inner.at(tick.at, 0.0).0, outer.bottom + 17.0), &tick.label);
     }
@@ -129,20 +129,20 @@ pub(super) fn draw(canvas: &mut Canvas, outer: &Frame, inner: &Frame, x: &Axis, 
 
 /// Draws the title, the label of the vertical axis, which is horizontal and above the axis so that it is easy to read, and the
 /// label of the horizontal axis below it.
-fn label(canvas: &mut Canvas, outer: &Frame, x: &Axis, y: &Axis, words: &Words) {
+fn label(canvas: &mut Canvas, outer: &Frame, x: &Axis, y: &Axis, words: &PlotTexts) {
     let end = words.width - EDGE;
     // Bold glyphs are wider by about this factor.
-    let title = fit(&clean(words.title), TITLE, (end - outer.left) / 1.08);
+    let title = fit(&clean_label(words.title), TITLE, (end - outer.left) / 1.08);
     if !title.is_empty() {
-        canvas.open(&format!("{} font-weight=\"bold\"", style(TITLE, INK, "start")));
+        canvas.open(&format!("{} font-weight=\"bold\"", style(TITLE, TITLE_COLOUR, "start")));
         canvas.text((outer.left, EDGE + TITLE - 2.0), &title);
         canvas.close();
     }
     let note_width = y.note.as_ref().map_or(0.0, |note| EDGE + note.width(TICK) + 10.0);
     let start = outer.left.max(note_width);
     let row = outer.top - 11.0;
-    canvas.open(&style(LABEL, INK, "start"));
-    let ylabel = fit(&clean(words.ylabel), LABEL, end - start);
+    canvas.open(&style(LABEL, TITLE_COLOUR, "start"));
+    let ylabel = fit(&clean_label(words.ylabel), LABEL, end - start);
     if !ylabel.is_empty() {
         canvas.text((start, row), &ylabel);
     }
@@ -153,11 +153,11 @@ fn label(canvas: &mut Canvas, outer: &Frame, x: &Axis, y: &Axis, words: &Words) 
 
     let (row, available) = (outer.bottom + 35.0, outer.width());
     let note_width = x.note.as_ref().map_or(0.0, |note| note.width(TICK) + 10.0);
-    let xlabel = fit(&clean(words.xlabel), LABEL, (available - note_width).max(available / 2.0));
+    let xlabel = fit(&clean_label(words.xlabel), LABEL, (available - note_width).max(available / 2.0));
     if !xlabel.is_empty() {
         let wish = outer.left + available / 2.0;
         let most = outer.right - note_width - width(&xlabel, LABEL) / 2.0;
-        canvas.open(&style(LABEL, INK, "middle"));
+        canvas.open(&style(LABEL, TITLE_COLOUR, "middle"));
         canvas.text((wish.min(most), row), &xlabel);
         canvas.close();
     }
@@ -168,7 +168,7 @@ fn label(canvas: &mut Canvas, outer: &Frame, x: &Axis, y: &Axis, words: &Words) 
 
 /// Draws the part that all tick labels share.
 fn shared(canvas: &mut Canvas, note: &Label, at: Point, anchor: &str) {
-    canvas.open(&style(TICK, SOFT, anchor));
+    canvas.open(&style(TICK, LABEL_COLOUR, anchor));
     canvas.label(at, note);
     canvas.close();
 }
@@ -178,7 +178,7 @@ pub(super) fn empty(canvas: &mut Canvas, frame: &Frame, why: &str) {
     let (x, y) = frame.at(0.5, 0.5);
     let half = width(why, LABEL) / 2.0 + 6.0;
     canvas.area((x - half, y - LABEL), (x + half, y + LABEL), "#ffffff");
-    canvas.open(&style(LABEL, SOFT, "middle"));
+    canvas.open(&style(LABEL, LABEL_COLOUR, "middle"));
     canvas.text((x, y + drop(LABEL)), why);
     canvas.close();
 }

@@ -6,7 +6,7 @@ use super::style::SMALL;
 use super::text::width;
 
 /// A label to be placed.
-pub(super) struct Wish {
+pub(super) struct PlacedLabel {
     /// The point to which it belongs.
     pub(super) point: Point,
     /// Its text.
@@ -23,7 +23,7 @@ const MOST: usize = 300;
 
 /// The baselines of the labels that could be placed, in the order of placement. The others are left out.
 pub(super) fn arrange(
-    mut wishes: Vec<Wish>,
+    mut wishes: Vec<PlacedLabel>,
     marks: &[Point],
     curves: &[Vec<Point>],
     frame: &Frame,
@@ -33,7 +33,7 @@ pub(super) fn arrange(
     }
     wishes.sort_by_key(|wish| !wish.first);
     wishes.dedup_by(|a, b| a.point == b.point && a.text == b.text);
-    let marks: Vec<Frame> = marks.iter().map(|p| around(*p, MARK - 1.0, MARK - 1.0)).collect();
+    let marks: Vec<Frame> = marks.iter().map(|p| frame_around(*p, MARK - 1.0, MARK - 1.0)).collect();
     let mut occupied: Vec<Frame> = Vec::new();
     let mut placed = Vec::new();
     for wish in wishes.into_iter().filter(|w| !w.text.is_empty()) {
@@ -56,7 +56,7 @@ pub(super) fn arrange(
 }
 
 /// The rectangles next to the point, the preferred ones first: at the sides, above, below, then at the corners.
-fn candidates(wish: &Wish) -> [Frame; 8] {
+fn candidates(wish: &PlacedLabel) -> [Frame; 8] {
     let (w, h) = (width(&wish.text, SMALL) + 2.0, SMALL);
     let (x, y) = (MARK + w / 2.0, MARK + h / 2.0);
     let corner = (x - 2.0, y - 2.0);
@@ -70,10 +70,10 @@ fn candidates(wish: &Wish) -> [Frame; 8] {
         (corner.0, corner.1),
         (-corner.0, corner.1),
     ];
-    middles.map(|(dx, dy)| around((wish.point.0 + dx, wish.point.1 + dy), w / 2.0, h / 2.0))
+    middles.map(|(dx, dy)| frame_around((wish.point.0 + dx, wish.point.1 + dy), w / 2.0, h / 2.0))
 }
 
-fn around(middle: Point, half_width: f64, half_height: f64) -> Frame {
+fn frame_around(middle: Point, half_width: f64, half_height: f64) -> Frame {
     Frame {
         left: middle.0 - half_width,
         top: middle.1 - half_height,
@@ -88,22 +88,22 @@ mod tests {
 
     const FRAME: Frame = Frame { left: 0.0, top: 0.0, right: 100.0, bottom: 100.0 };
 
-    fn wish(point: Point) -> Wish {
-        Wish { point, text: String::from("2 ms"), first: false }
+    fn label_at(point: Point) -> PlacedLabel {
+        PlacedLabel { point, text: String::from("2 ms"), first: false }
     }
 
     #[test]
     fn a_label_avoids_edges_curves_and_labels() {
-        let placed = arrange(vec![wish((50.0, 50.0))], &[], &[], &FRAME);
+        let placed = arrange(vec![label_at((50.0, 50.0))], &[], &[], &FRAME);
         assert!(placed[0].0.0 > 50.0);
-        let at_the_edge = arrange(vec![wish((95.0, 50.0))], &[], &[], &FRAME);
+        let at_the_edge = arrange(vec![label_at((95.0, 50.0))], &[], &[], &FRAME);
         assert!(at_the_edge[0].0.0 < 70.0);
         let curve = vec![(0.0, 50.0), (100.0, 50.0)];
-        let beside_a_curve = arrange(vec![wish((50.0, 50.0))], &[], &[curve], &FRAME);
+        let beside_a_curve = arrange(vec![label_at((50.0, 50.0))], &[], &[curve], &FRAME);
         assert!(beside_a_curve[0].0.1 < 46.0);
-        let many = (0..50).map(|_| wish((50.0, 50.0))).collect();
+        let many = (0..50).map(|_| label_at((50.0, 50.0))).collect();
         assert_eq!(arrange(many, &[], &[], &FRAME).len(), 1);
-        let near = (0..50).map(|i| wish((50.0 + 0.1 * f64::from(i), 50.0))).collect();
+        let near = (0..50).map(|i| label_at((50.0 + 0.1 * f64::from(i), 50.0))).collect();
         assert!(arrange(near, &[], &[], &FRAME).len() < 9);
     }
 }

@@ -2,8 +2,8 @@
 
 use super::canvas::{Canvas, drop, style};
 use super::frame::{EDGE, Frame};
-use super::style::{INK, LABEL};
-use super::text::{clean, fit, width};
+use super::style::{LABEL, TITLE_COLOUR};
+use super::text::{clean_label, fit, width};
 
 /// A curve in the legend.
 pub(super) struct Entry {
@@ -16,11 +16,11 @@ pub(super) struct Entry {
 /// The width of the sample line of a curve, including the space after it.
 const SAMPLE: f64 = 30.0;
 /// The width of the sample line alone.
-pub(super) const STROKE: f64 = 22.0;
+pub(super) const SAMPLE_WIDTH: f64 = 22.0;
 /// The height of a row.
 const ROW: f64 = 18.0;
 /// The space between entries in a row.
-const BETWEEN: f64 = 18.0;
+const ENTRY_SPACING: f64 = 18.0;
 
 /// The layout of the legend.
 pub(super) struct Plan {
@@ -39,7 +39,7 @@ pub(super) struct Plan {
 pub(super) fn plan(entries: Vec<Entry>, size: f64, height: f64, beside_plot: bool) -> Plan {
     let entries: Vec<Entry> = entries
         .into_iter()
-        .map(|e| Entry { label: clean(&e.label), ..e })
+        .map(|e| Entry { label: clean_label(&e.label), ..e })
         .filter(|e| !e.label.is_empty())
         .collect();
     let widest = entries.iter().map(|e| width(&e.label, LABEL)).fold(0.0, f64::max);
@@ -63,7 +63,7 @@ fn rows(entries: Vec<Entry>, size: f64, height: f64) -> Plan {
         let label = fit(&entry.label, LABEL, available - SAMPLE);
         let wide = SAMPLE + width(&label, LABEL);
         // The last row reserves space for the note about the remaining curves, if there are any.
-        let reserve = if row + 1.0 >= most && i + 1 < count { BETWEEN + 60.0 } else { 0.0 };
+        let reserve = if row + 1.0 >= most && i + 1 < count { ENTRY_SPACING + 60.0 } else { 0.0 };
         if x > 0.0 && x + wide + reserve > available {
             if row + 1.0 >= most {
                 plan.more = Some((x, row * ROW, count - i));
@@ -72,7 +72,7 @@ fn rows(entries: Vec<Entry>, size: f64, height: f64) -> Plan {
             (x, row) = (0.0, row + 1.0);
         }
         plan.entries.push((x, row * ROW, Entry { label, ..entry }));
-        x += wide + BETWEEN;
+        x += wide + ENTRY_SPACING;
     }
     plan.below = (row + 1.0) * ROW + 4.0;
     plan
@@ -101,7 +101,7 @@ pub(super) fn draw(
     for (x, y, entry) in &plan.entries {
         sample(canvas, entry.index, (corner.0 + x, corner.1 + y));
     }
-    canvas.open(&style(LABEL, INK, "start"));
+    canvas.open(&style(LABEL, TITLE_COLOUR, "start"));
     for (x, y, entry) in &plan.entries {
         canvas.text((corner.0 + x + SAMPLE, corner.1 + y + drop(LABEL)), &entry.label);
     }

@@ -34,4 +34,4 @@ pub use cells::{Cells, cells};
 pub use lines::{Chart, Series, line_chart};
 pub use precision::{Method, MethodPoint, WorkPrecision, work_precision};
 #[cfg(feature = "png")]
-pub use raster::{is_png_of_ours, png};
+pub use raster::{is_own_png, png};

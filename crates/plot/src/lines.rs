@@ -3,11 +3,11 @@
 use super::axis::{Axis, Range, linear, range};
 use super::canvas::{Canvas, drop, style};
 use super::curve::{path, pieces};
-use super::frame::{self, EDGE, Frame, Point, Words, draw, margin};
-use super::legend::{self, Entry, STROKE};
+use super::frame::{self, EDGE, Frame, PlotTexts, Point, draw, margin};
+use super::legend::{self, Entry, SAMPLE_WIDTH};
 use super::number::{drawable, short};
-use super::style::{AXIS, INK, SMALL, TICK, ZERO, colour, dash, extent};
-use super::text::{clean, fit, width};
+use super::style::{AXIS, SMALL, TICK, TITLE_COLOUR, ZERO, colour, dash, extent};
+use super::text::{clean_label, fit, width};
 
 /// A curve.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -55,14 +55,15 @@ pub struct Chart {
 /// width of the picture and not on the number of samples.
 pub fn line_chart(chart: &Chart) -> String {
     let size = (extent(chart.width, 200.0, 640.0), extent(chart.height, 160.0, 320.0));
-    let words = Words { title: &chart.title, xlabel: &chart.xlabel, ylabel: &chart.ylabel, width: size.0 };
+    let words =
+        PlotTexts { title: &chart.title, xlabel: &chart.xlabel, ylabel: &chart.ylabel, width: size.0 };
     let (xs, ys) = ranges(chart);
 
     let refs: Vec<(f64, String)> = chart
         .ref_lines
         .iter()
         .filter(|(y, _)| drawable(*y) && (ys.free_low || *y >= ys.low) && (ys.free_high || *y <= ys.high))
-        .map(|(y, label)| (*y, fit(&clean(label.as_deref().unwrap_or("")), SMALL, 0.24 * size.0)))
+        .map(|(y, label)| (*y, fit(&clean_label(label.as_deref().unwrap_or("")), SMALL, 0.24 * size.0)))
         .collect();
     let label_width = refs.iter().map(|(_, label)| width(label, SMALL)).fold(0.0, f64::max);
 
@@ -89,12 +90,12 @@ pub fn line_chart(chart: &Chart) -> String {
     references(&mut canvas, &refs, &frame, &y);
     let found = curves(&mut canvas, &chart.series, &frame, &x, &y);
     if !found {
-        frame::empty(&mut canvas, &frame, nothing(chart));
+        frame::empty(&mut canvas, &frame, empty_text(chart));
     }
     legend::draw(&mut canvas, &legend, &frame, below, |canvas, index, at| {
         let dashed = chart.series.get(index).is_some_and(|s| s.dash);
         canvas.open(&stroke(index, dashed));
-        canvas.line(at, (at.0 + STROKE, at.1));
+        canvas.line(at, (at.0 + SAMPLE_WIDTH, at.1));
         canvas.close();
     });
     canvas.finish()
@@ -193,8 +194,9 @@ fn references(canvas: &mut Canvas, refs: &[(f64, String)], frame: &Frame, y: &Ax
     seen.retain(|(_, label)| !label.is_empty());
     seen.sort_by(|a, b| a.0.total_cmp(&b.0));
     seen.truncate((frame.height() / (SMALL + 2.0)).max(1.0) as usize);
-    canvas.open(&style(SMALL, INK, "start"));
-    for (at, (_, label)) in apart(&seen.iter().map(|s| s.0).collect::<Vec<_>>(), frame).into_iter().zip(&seen)
+    canvas.open(&style(SMALL, TITLE_COLOUR, "start"));
+    for (at, (_, label)) in
+        separated_heights(&seen.iter().map(|s| s.0).collect::<Vec<_>>(), frame).into_iter().zip(&seen)
     {
         canvas.text((frame.right + 6.0, at + drop(SMALL)), label);
     }
@@ -203,7 +205,7 @@ fn references(canvas: &mut Canvas, refs: &[(f64, String)], frame: &Frame, y: &Ax
 
 /// Heights in ascending order, moved apart so that lines of text do not touch: downwards from the first one, and back upwards
 /// from the last one if it left the frame.
-fn apart(heights: &[f64], frame: &Frame) -> Vec<f64> {
+fn separated_heights(heights: &[f64], frame: &Frame) -> Vec<f64> {
     let row = SMALL + 2.0;
     let mut least = f64::NEG_INFINITY;
     let mut moved: Vec<f64> = Vec::with_capacity(heights.len());
@@ -220,7 +222,7 @@ fn apart(heights: &[f64], frame: &Frame) -> Vec<f64> {
     moved
 }
 
-fn nothing(chart: &Chart) -> &'static str {
+fn empty_text(chart: &Chart) -> &'static str {
     let mut samples = chart.series.iter().flat_map(|s| &s.points);
     if chart.series.iter().all(|s| s.points.is_empty()) {
         "no data"
@@ -233,14 +235,14 @@ fn nothing(chart: &Chart) -> &'static str {
 
 /// The description of the picture in words.
 fn describe(chart: &Chart) -> String {
-    let (x, y) = (clean(&chart.xlabel), clean(&chart.ylabel));
+    let (x, y) = (clean_label(&chart.xlabel), clean_label(&chart.ylabel));
     let over = if x.is_empty() { String::new() } else { format!(" over {x}") };
     let what = if y.is_empty() { String::from("Lines") } else { format!("Lines of {y}") };
     let mut text = format!("{what}{over}.");
     // A description of every curve would be too long for a listener.
     for series in chart.series.iter().take(12) {
         let values = || series.points.iter().filter(|p| drawable(p.0) && drawable(p.1));
-        let label = clean(&series.label);
+        let label = clean_label(&series.label);
         let label = if label.is_empty() { "Unnamed" } else { &label };
         let Some((low, high)) = extremes(values().map(|p| p.1)) else {
             text.push_str(&format!(" {label}: no finite values."));

@@ -9,12 +9,12 @@
 use super::axis::{Axis, logarithmic};
 use super::canvas::{Canvas, Label, style};
 use super::curve::path;
-use super::frame::{self, EDGE, Frame, Point, Words, draw, margin};
-use super::labels::{Wish, arrange};
-use super::legend::{self, Entry, STROKE};
+use super::frame::{self, EDGE, Frame, PlotTexts, Point, draw, margin};
+use super::labels::{PlacedLabel, arrange};
+use super::legend::{self, Entry, SAMPLE_WIDTH};
 use super::number::{HUGE, px, short};
-use super::style::{SHADE, SMALL, SOFT, TICK, colour, dash, extent};
-use super::text::{clean, fit, width};
+use super::style::{LABEL_COLOUR, SHADE_COLOUR, SMALL, TICK, colour, dash, extent};
+use super::text::{clean_label, fit, width};
 
 /// A curve: a method over its timesteps.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -99,7 +99,8 @@ const TINY: f64 = 1e-300;
 /// the picture states that.
 pub fn work_precision(chart: &WorkPrecision) -> String {
     let size = (extent(chart.width, 200.0, 640.0), extent(chart.height, 160.0, 420.0));
-    let words = Words { title: &chart.title, xlabel: &chart.xlabel, ylabel: &chart.ylabel, width: size.0 };
+    let words =
+        PlotTexts { title: &chart.title, xlabel: &chart.xlabel, ylabel: &chart.ylabel, width: size.0 };
     let methods: Vec<Vec<Run>> = chart.methods.iter().map(|m| runs(&m.points)).collect();
     let all = || methods.iter().flatten();
 
@@ -140,9 +141,9 @@ pub fn work_precision(chart: &WorkPrecision) -> String {
             .get(index)
             .map_or(MarkerStyle { index, hollow: false }, |m| MarkerStyle::of_method(index, m));
         canvas.open(&stroke(look));
-        canvas.line(at, (at.0 + STROKE, at.1));
+        canvas.line(at, (at.0 + SAMPLE_WIDTH, at.1));
         canvas.close();
-        mark(canvas, look, (at.0 + STROKE / 2.0, at.1));
+        mark(canvas, look, (at.0 + SAMPLE_WIDTH / 2.0, at.1));
     });
     canvas.finish()
 }
@@ -163,15 +164,15 @@ fn drop_labels_under_strips(x: &mut Axis, outer: &Frame, inner: &Frame, size: f6
 /// Shades the strips next to the scale: runs without an error on the left, diverged runs on the right.
 fn shade_strips(canvas: &mut Canvas, outer: &Frame, inner: &Frame) {
     if inner.left > outer.left {
-        canvas.area((outer.left, outer.top), (inner.left, outer.bottom), SHADE);
+        canvas.area((outer.left, outer.top), (inner.left, outer.bottom), SHADE_COLOUR);
     }
     if inner.right < outer.right {
-        canvas.area((inner.right, outer.top), (outer.right, outer.bottom), SHADE);
+        canvas.area((inner.right, outer.top), (outer.right, outer.bottom), SHADE_COLOUR);
     }
 }
 
 fn name_strips(canvas: &mut Canvas, outer: &Frame, inner: &Frame) {
-    canvas.open(&style(TICK, SOFT, "middle"));
+    canvas.open(&style(TICK, LABEL_COLOUR, "middle"));
     if inner.left > outer.left {
         canvas.text(((outer.left + inner.left) / 2.0, outer.bottom + 17.0), "0");
     }
@@ -204,7 +205,7 @@ fn axis(values: impl Iterator<Item = f64>, extent: impl Fn(&Label) -> f64) -> Ax
 }
 
 /// A run with its position.
-struct Placed<'a> {
+struct PlacedRun<'a> {
     error: Error,
     at: Point,
     note: &'a str,
@@ -220,7 +221,7 @@ fn place<'a>(
     x: &Axis,
     y: &Axis,
     diverging: usize,
-) -> Vec<Vec<Placed<'a>>> {
+) -> Vec<Vec<PlacedRun<'a>>> {
     let mut rank = 0;
     let mut placed = Vec::new();
     for method in methods {
@@ -241,7 +242,13 @@ fn place<'a>(
                 Some(inner.at(0.0, fraction?.clamp(0.0, 1.0)).1)
             };
             let bar = run.spread.and_then(|[low, high]| Some([end(low)?, end(high)?]));
-            Some(Placed { error: run.error, at: (along, height), note: run.note, at_most: run.at_most, bar })
+            Some(PlacedRun {
+                error: run.error,
+                at: (along, height),
+                note: run.note,
+                at_most: run.at_most,
+                bar,
+            })
         });
         placed.push(runs.collect());
     }
@@ -249,7 +256,7 @@ fn place<'a>(
 }
 
 /// Draws curves, marks and the labels of points.
-fn plot(canvas: &mut Canvas, chart: &WorkPrecision, methods: &[Vec<Placed>], frame: &Frame) {
+fn plot(canvas: &mut Canvas, chart: &WorkPrecision, methods: &[Vec<PlacedRun>], frame: &Frame) {
     let curves: Vec<Vec<Vec<Point>>> = methods.iter().map(|m| connected(m)).collect();
     for (index, (method, curve)) in chart.methods.iter().zip(&curves).enumerate() {
         let data = path(curve);
@@ -274,13 +281,13 @@ fn plot(canvas: &mut Canvas, chart: &WorkPrecision, methods: &[Vec<Placed>], fra
             } else {
                 mark(canvas, look, run.at);
             }
-            let text = fit(&clean(run.note), SMALL, 0.2 * frame.width());
-            wishes.push(Wish { point: run.at, text, first: i == 0 || i + 1 == method.len() });
+            let text = fit(&clean_label(run.note), SMALL, 0.2 * frame.width());
+            wishes.push(PlacedLabel { point: run.at, text, first: i == 0 || i + 1 == method.len() });
         }
     }
     let marks: Vec<Point> = methods.iter().flatten().map(|run| run.at).collect();
     let lines: Vec<Vec<Point>> = curves.into_iter().flatten().collect();
-    canvas.open(&style(SMALL, SOFT, "start"));
+    canvas.open(&style(SMALL, LABEL_COLOUR, "start"));
     // At the right, a label may extend into the space before the legend.
     let bounds = Frame { right: frame.right + 8.0, ..*frame };
     for (at, text) in arrange(wishes, &marks, &lines, &bounds) {
@@ -290,8 +297,8 @@ fn plot(canvas: &mut Canvas, chart: &WorkPrecision, methods: &[Vec<Placed>], fra
 }
 
 /// The lines between consecutive runs that have a position on the scale.
-fn connected(method: &[Placed]) -> Vec<Vec<Point>> {
-    let on_scale = |run: &Placed| matches!(run.error, Error::Finite(_));
+fn connected(method: &[PlacedRun]) -> Vec<Vec<Point>> {
+    let on_scale = |run: &PlacedRun| matches!(run.error, Error::Finite(_));
     let parts = method.chunk_by(|a, b| on_scale(a) && on_scale(b));
     parts.filter(|p| p.len() > 1).map(|p| p.iter().map(|run| run.at).collect()).collect()
 }
@@ -361,7 +368,7 @@ fn describe(chart: &WorkPrecision) -> String {
     let mut text =
         String::from("Cost against error, both on logarithmic axes; lower and further left is better.");
     for method in chart.methods.iter().take(12) {
-        let label = clean(&method.label);
+        let label = clean_label(&method.label);
         text.push_str(&format!(" {}:", if label.is_empty() { "Unnamed" } else { &label }));
         let runs = runs(&method.points);
         if runs.is_empty() {
@@ -375,7 +382,7 @@ fn describe(chart: &WorkPrecision) -> String {
                 Error::Finite(error) => format!("error {}", short(error)),
                 Error::Diverged => String::from(DIVERGED),
             };
-            let note = clean(run.note);
+            let note = clean_label(run.note);
             let note = if note.is_empty() { note } else { format!("{note} ") };
             format!(" {note}{error} at cost {}", short(run.cost))
         });

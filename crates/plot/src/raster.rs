@@ -37,7 +37,7 @@ pub fn png(svg: &str, scale: f32) -> Result<Vec<u8>, String> {
 }
 
 /// Whether a file with this beginning is one of these images.
-pub fn is_png_of_ours(start: &[u8]) -> bool {
+pub fn is_own_png(start: &[u8]) -> bool {
     let comment = format!("{}\0{}", MAKER.0, MAKER.1);
     start.starts_with(b"\x89PNG") && start.windows(comment.len()).take(256).any(|w| w == comment.as_bytes())
 }
@@ -67,21 +67,21 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_is_drawn_with_its_words() {
+    fn a_picture_contains_its_texts() {
         let (one, two) = (png(&chart(""), 2.0).unwrap(), png(&chart("x² + μ"), 2.0).unwrap());
         let ((wide, high, a), (_, _, b)) = (pixels(&one), pixels(&two));
         assert_eq!((wide, high), (640, 400));
         let dark = |p: &[u8]| p.chunks(4).filter(|c| c[0] < 100).count();
         assert!(dark(&b) > dark(&a) + 50, "{} {}", dark(&a), dark(&b));
-        assert!(is_png_of_ours(&one));
+        assert!(is_own_png(&one));
         assert_eq!(one, png(&chart(""), 2.0).unwrap());
     }
 
     #[test]
-    fn what_is_no_picture_or_too_large_is_an_error() {
+    fn invalid_and_oversized_pictures_are_errors() {
         assert!(png("<svg", 1.0).is_err());
         assert!(png(&chart(""), 1e3).is_err());
         assert!(png(&chart(""), f32::NAN).is_err());
-        assert!(!is_png_of_ours(b"\x89PNG by somebody else"));
+        assert!(!is_own_png(b"\x89PNG by somebody else"));
     }
 }

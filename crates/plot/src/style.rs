@@ -11,9 +11,9 @@ const SOLID: [Option<&str>; 3] = [None, Some("10 3 2 3"), Some("2 3")];
 const DASHED: [Option<&str>; 3] = [Some("6 4"), Some("12 5"), Some("4 2")];
 
 /// Titles and axis labels.
-pub(super) const INK: &str = "#222222";
+pub(super) const TITLE_COLOUR: &str = "#222222";
 /// Labels of ticks and points.
-pub(super) const SOFT: &str = "#4d4d4d";
+pub(super) const LABEL_COLOUR: &str = "#4d4d4d";
 /// Axes.
 pub(super) const AXIS: &str = "#7f7f7f";
 /// The grid line at zero.
@@ -21,9 +21,9 @@ pub(super) const ZERO: &str = "#b5b5b5";
 /// Grid lines at ticks.
 pub(super) const GRID: &str = "#e3e3e3";
 /// Grid lines between ticks.
-pub(super) const FAINT: &str = "#f2f2f2";
+pub(super) const MINOR_GRID_COLOUR: &str = "#f2f2f2";
 /// Areas next to a scale.
-pub(super) const SHADE: &str = "#f6f6f6";
+pub(super) const SHADE_COLOUR: &str = "#f6f6f6";
 
 /// Font size of the title, in pixels.
 pub(super) const TITLE: f64 = 14.0;
@@ -38,7 +38,7 @@ pub(super) const SMALL: f64 = 10.0;
 
 /// The colour of the curve with this index.
 pub(super) fn colour(index: usize) -> &'static str {
-    PALETTE.get(index % PALETTE.len()).copied().unwrap_or(INK)
+    PALETTE.get(index % PALETTE.len()).copied().unwrap_or(TITLE_COLOUR)
 }
 
 /// The dash pattern of the curve with this index; `None` is a solid line. Each further cycle through the colours uses another

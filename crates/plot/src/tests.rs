@@ -302,7 +302,7 @@ fn method() -> impl Strategy<Value = Method> {
 
 proptest! {
     #[test]
-    fn any_chart_is_a_sound_picture(
+    fn any_chart_is_a_valid_picture(
         words in (any::<String>(), any::<String>(), any::<String>()),
         size in (number(), number()),
         ends in prop::array::uniform4(prop::option::of(number())),
@@ -318,7 +318,7 @@ proptest! {
     }
 
     #[test]
-    fn any_map_is_a_sound_picture(
+    fn any_map_is_a_valid_picture(
         words in (any::<String>(), any::<String>(), any::<String>()),
         size in (number(), number()),
         columns in prop::collection::vec(any::<String>(), 0..30),
@@ -333,7 +333,7 @@ proptest! {
     }
 
     #[test]
-    fn any_work_precision_chart_is_a_sound_picture(
+    fn any_work_precision_chart_is_a_valid_picture(
         words in (any::<String>(), any::<String>(), any::<String>()),
         size in (number(), number()),
         methods in prop::collection::vec(method(), 0..10),

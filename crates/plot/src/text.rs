@@ -7,15 +7,15 @@
 const LONGEST: usize = 160;
 
 /// A label on one line, without characters that XML forbids or that change the direction of the surrounding text.
-pub(super) fn clean(label: &str) -> String {
-    let mut text: String = label.chars().take(LONGEST).map(tame).collect();
+pub(super) fn clean_label(label: &str) -> String {
+    let mut text: String = label.chars().take(LONGEST).map(printable_character).collect();
     if label.chars().nth(LONGEST).is_some() {
         text.push('…');
     }
     text.trim().to_owned()
 }
 
-fn tame(c: char) -> char {
+fn printable_character(c: char) -> char {
     match c {
         '\t' | '\n' | '\r' | '\u{2028}' | '\u{2029}' => ' ',
         '\u{61c}'
@@ -89,17 +89,17 @@ mod tests {
     #[test]
     fn hostile_labels_become_text() {
         assert_eq!(
-            escape(&clean("<b a='1' b=\"2\">&\u{0}\n</b>")),
+            escape(&clean_label("<b a='1' b=\"2\">&\u{0}\n</b>")),
             "&lt;b a=&#39;1&#39; b=&quot;2&quot;&gt;&amp;\u{fffd} &lt;/b&gt;"
         );
         for turns in ['\u{61c}', '\u{200e}', '\u{200f}', '\u{202a}', '\u{202e}', '\u{2066}', '\u{2069}'] {
-            assert_eq!(clean(&format!("a{turns}b")), "a\u{fffd}b");
+            assert_eq!(clean_label(&format!("a{turns}b")), "a\u{fffd}b");
         }
-        assert_eq!(clean(&"x".repeat(1_000_000)).chars().count(), LONGEST + 1);
+        assert_eq!(clean_label(&"x".repeat(1_000_000)).chars().count(), LONGEST + 1);
     }
 
     #[test]
-    fn long_text_is_cut_to_its_room() {
+    fn long_text_is_truncated_to_its_width() {
         assert_eq!(fit("energy", 12.0, 100.0), "energy");
         let cut = fit("kinetic energy of the heavy ball", 12.0, 100.0);
         assert_eq!(cut, "kinetic energy…");

@@ -54,11 +54,11 @@ impl EngineAccess<'_> {
 
     fn pass(&mut self, run: fn(&Model, &mut Data<Planned>) -> Result<(), Error>) -> Result<(), Failed> {
         let result = run(&self.world.model, &mut self.world.data);
-        self.noted(result)
+        self.record_error(result)
     }
 
     /// Returns the result of the engine, and records its error.
-    fn noted<T>(&self, result: Result<T, Error>) -> Result<T, Failed> {
+    fn record_error<T>(&self, result: Result<T, Error>) -> Result<T, Failed> {
         result.map_err(|error| {
             let message = String::from(error);
             self.failed.borrow_mut().get_or_insert_with(|| message.clone());
@@ -68,13 +68,13 @@ impl EngineAccess<'_> {
 
     pub(super) fn set_const(&mut self) -> Result<(), Failed> {
         let result = core::set_const(&mut self.world.model, &mut self.world.data);
-        self.noted(result)
+        self.record_error(result)
     }
 
     /// Resets the simulation to a keyframe, or to the default configuration.
     pub(super) fn reset_to(&mut self, key: Option<usize>) -> Result<(), Failed> {
         let result = self.world.reset_to(key);
-        self.noted(result)
+        self.record_error(result)
     }
 
     /// Resets the simulation to the keyframe of the lab.
@@ -84,24 +84,24 @@ impl EngineAccess<'_> {
 
     /// The force (N) and the torque (N m) of a contact in the contact frame.
     pub(super) fn contact_force(&self, contact: &Contact) -> Result<[f64; 6], Failed> {
-        self.noted(core::contact_force(&self.world.model, &self.world.data, contact))
+        self.record_error(core::contact_force(&self.world.model, &self.world.data, contact))
     }
 
     /// The mass matrix: nv rows of nv numbers in one list.
     pub(super) fn full_m(&self) -> Result<Vec<f64>, Failed> {
-        self.noted(core::full_m(&self.world.model, &self.world.data))
+        self.record_error(core::full_m(&self.world.model, &self.world.data))
     }
 
     pub(super) fn jac_site(&self, site: usize) -> Result<Jacobian, Failed> {
-        self.noted(core::jac_site(&self.world.model, &self.world.data, site))
+        self.record_error(core::jac_site(&self.world.model, &self.world.data, site))
     }
 
     pub(super) fn integrate_pos(&self, q: &mut [f64], v: &[f64], h: f64) -> Result<(), Failed> {
-        self.noted(core::integrate_pos(&self.world.model, q, v, h))
+        self.record_error(core::integrate_pos(&self.world.model, q, v, h))
     }
 
     pub(super) fn differentiate_pos(&self, h: f64, from: &[f64], to: &[f64]) -> Result<Vec<f64>, Failed> {
-        self.noted(core::differentiate_pos(&self.world.model, h, from, to))
+        self.record_error(core::differentiate_pos(&self.world.model, h, from, to))
     }
 
     /// The potential and the kinetic energy in J; enables their computation.

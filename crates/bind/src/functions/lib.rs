@@ -1,7 +1,7 @@
 //! The functions of `lib`: shortcuts for what lessons need most often.
 
 use super::access::EngineAccess;
-use super::{Arg, Function, ROW, Touches, Unit, index, number};
+use super::{AccessedPart, Arg, Function, ROW, Unit, index, number};
 use labspec_core::reflect::data;
 use labspec_core::{self as core, Obj};
 use labspec_expr::{Heap, Type, Value};
@@ -38,7 +38,7 @@ pub(super) const ROWS: &[Function] = &[
         object: "lib",
         name: "qpos",
         args: &[Arg::Name(Obj::Joint)],
-        reads: Touches::State,
+        reads: AccessedPart::State,
         doc: "first coordinate of a joint",
         example: ("data.qpos[0] = 0.1; lib.qpos('swing')", "0.1"),
         run: |w, _, args| {
@@ -52,7 +52,7 @@ pub(super) const ROWS: &[Function] = &[
         name: "normalForce",
         args: &[Arg::Name(Obj::Geom)],
         optional: 1,
-        reads: Touches::Contacts,
+        reads: AccessedPart::Contacts,
         unit: Unit::Of("N"),
         doc: "normal force in N, summed over all contacts or over those of one geom",
         example: ("lib.normalForce()", "0"),
@@ -93,7 +93,7 @@ pub(super) const ROWS: &[Function] = &[
         args: &[Arg::Name(Obj::Site)],
         length: Some(3),
         gives: Some((data::site_xpos, Obj::Site)),
-        reads: Touches::Places,
+        reads: AccessedPart::Places,
         unit: Unit::Of("m"),
         doc: "world position of a site, m",
         example: ("lib.sitePos('tip')[2]", "0.5"),
@@ -105,7 +105,7 @@ pub(super) const ROWS: &[Function] = &[
         args: &[Arg::Name(Obj::Body)],
         length: Some(3),
         gives: Some((data::xpos, Obj::Body)),
-        reads: Touches::Places,
+        reads: AccessedPart::Places,
         unit: Unit::Of("m"),
         doc: "world position of a body, m",
         example: ("lib.bodyPos('bob')[2]", "1"),
@@ -117,8 +117,8 @@ pub(super) const ROWS: &[Function] = &[
         name: "energy",
         returns: Type::Record,
         members: ENERGIES,
-        reads: Touches::Energy,
-        writes: &[Touches::Flags, Touches::Derived],
+        reads: AccessedPart::Energy,
+        writes: &[AccessedPart::Flags, AccessedPart::Derived],
         unit: Unit::Of("J"),
         doc: "potential, kinetic and total energy, J; the first use turns the energy computation on",
         example: ("lib.energy().total", "4.905"),
@@ -127,7 +127,7 @@ pub(super) const ROWS: &[Function] = &[
     },
     Function {
         name: "contactPairs",
-        reads: Touches::Contacts,
+        reads: AccessedPart::Contacts,
         doc: "pairs of geoms in contact, each as text; a geom without a name is shown by its body",
         example: ("lib.contactPairs().length", "0"),
         run: |w, heap, _| {
@@ -145,7 +145,7 @@ pub(super) const ROWS: &[Function] = &[
         args: &[Arg::Name(Obj::Site), Arg::Number],
         optional: 1,
         length: Some(6),
-        reads: Touches::Motion,
+        reads: AccessedPart::Motion,
         doc: "Jacobian of a site: three rows of linear and three of angular velocity per degree of freedom; the second argument keeps only the first columns",
         example: ("lib.jacobian('tip')[0][0]", "-0.5"),
         run: |w, heap, args| {
@@ -158,7 +158,7 @@ pub(super) const ROWS: &[Function] = &[
         name: "jacobianSV",
         args: &[Arg::Name(Obj::Site), Arg::Any],
         optional: 1,
-        reads: Touches::Motion,
+        reads: AccessedPart::Motion,
         doc: "singular values of the Jacobian of a site, largest first; the second argument is {cols, rows: \"full\" or \"pos\"}",
         example: ("lib.jacobianSV('tip', {rows: 'pos'})[0]", "0.5"),
         run: |w, heap, args| {
@@ -174,8 +174,8 @@ pub(super) const ROWS: &[Function] = &[
     },
     Function {
         name: "massMatrix",
-        reads: Touches::Mass,
-        writes: &[Touches::Derived],
+        reads: AccessedPart::Mass,
+        writes: &[AccessedPart::Derived],
         doc: "the mass matrix, nv rows of nv numbers; computes all derived fields first",
         example: ("lib.massMatrix()[0][0].toFixed(5)", "0.25036"),
         run: |w, heap, _| {

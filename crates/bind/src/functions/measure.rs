@@ -2,7 +2,7 @@
 
 use super::access::EngineAccess;
 use super::lib::eigenvalues;
-use super::{Arg, Function, FunctionPlace, ROW, Touches, Unit, index, number};
+use super::{AccessedPart, Arg, Function, FunctionPlace, ROW, Unit, index, number};
 use crate::handle;
 use labspec_core::{self as core, Obj};
 use labspec_expr::{Heap, Type, Value};
@@ -87,7 +87,7 @@ pub(super) const ROWS: &[Function] = &[
         args: &[Arg::Name(Obj::Geom), Arg::Name(Obj::Geom)],
         optional: 1,
         returns: Type::Boolean,
-        reads: Touches::Contacts,
+        reads: AccessedPart::Contacts,
         place: FunctionPlace::Measures,
         doc: "whether two geoms are in contact, or whether one geom is in any contact",
         example: ("max(contact('bob'))", "0"),
@@ -106,7 +106,7 @@ pub(super) const ROWS: &[Function] = &[
         args: &[Arg::Name(Obj::Geom), Arg::Name(Obj::Geom)],
         returns: Type::Record,
         members: CONTACT,
-        reads: Touches::Contacts,
+        reads: AccessedPart::Contacts,
         place: FunctionPlace::Measures,
         doc: "the deepest contact of two geoms, as the engine mixes it from both: dim, friction (5 numbers), solref (2), solimp (5), margin (m), dist (m), pos (3, m), frame (9), active (1 if it pushes) and force (6, N and N m); NaN everywhere without a contact",
         example: ("final(mixed('bob', 'bob').dim)", "NaN"),
@@ -135,7 +135,7 @@ pub(super) const ROWS: &[Function] = &[
         name: "shown",
         args: &[Arg::Label],
         returns: Type::Any,
-        reads: Touches::DisplayedLabels,
+        reads: AccessedPart::DisplayedLabels,
         place: FunctionPlace::Measures,
         doc: "the text that a student reads under the label of a readout, or the number of a trace; if both have the label, name the trace as in a table of `labspec run`: `plot/0/label`",
         example: ("max(shown('time (s)'))", "0.1"),

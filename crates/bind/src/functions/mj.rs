@@ -1,6 +1,6 @@
 //! The functions of `mj`: functions of MuJoCo on the model and the data of the lab.
 
-use super::{Arg, Function, NOTHING, ROW, Touches, done, number};
+use super::{AccessedPart, Arg, Function, NOTHING, ROW, number, pass_result};
 use labspec_core::Obj;
 use labspec_expr::{Heap, Type, Value};
 
@@ -11,43 +11,43 @@ const ENGINE: Function =
 pub(super) const ROWS: &[Function] = &[
     Function {
         name: "mj_setConst",
-        writes: &[Touches::Coordinates, Touches::Derived],
+        writes: &[AccessedPart::Coordinates, AccessedPart::Derived],
         doc: "recomputes the constants that follow from masses, inertias and poses; resets qpos to qpos0",
         example: ("model.body_mass[1] = 2; mj.mj_setConst(model, data); model.body_subtreemass[0]", "2"),
-        run: |w, _, _| done(w.set_const()),
+        run: |w, _, _| pass_result(w.set_const()),
         ..ENGINE
     },
     Function {
         name: "mj_forward",
-        writes: &[Touches::Derived],
+        writes: &[AccessedPart::Derived],
         doc: "computes every derived field from the state, without advancing time",
         example: (
             "data.qpos[0] = Math.PI / 2; mj.mj_forward(model, data); data.site_xpos[0].toFixed(3)",
             "-0.500",
         ),
-        run: |w, _, _| done(w.forward()),
+        run: |w, _, _| pass_result(w.forward()),
         ..ENGINE
     },
     Function {
         name: "mj_step",
-        writes: &[Touches::State, Touches::Derived],
+        writes: &[AccessedPart::State, AccessedPart::Derived],
         doc: "advances the simulation by one step",
         example: ("mj.mj_step(model, data); data.time", "0.002"),
-        run: |w, _, _| done(w.step()),
+        run: |w, _, _| pass_result(w.step()),
         ..ENGINE
     },
     Function {
         name: "mj_resetData",
-        writes: &[Touches::State, Touches::Derived],
+        writes: &[AccessedPart::State, AccessedPart::Derived],
         doc: "resets the data to the default configuration",
         example: ("data.qpos[0] = 1; mj.mj_resetData(model, data); data.qpos[0]", "0"),
-        run: |w, _, _| done(w.reset_data()),
+        run: |w, _, _| pass_result(w.reset_data()),
         ..ENGINE
     },
     Function {
         name: "mj_resetDataKeyframe",
         args: &[Arg::Model, Arg::Data, Arg::Number],
-        writes: &[Touches::State, Touches::Derived],
+        writes: &[AccessedPart::State, AccessedPart::Derived],
         doc: "resets the data to a keyframe, counted from 0",
         example: ("mj.mj_resetDataKeyframe(model, data, 1); data.qpos[0]", "1.5"),
         run: |w, _, args| {
@@ -55,68 +55,68 @@ pub(super) const ROWS: &[Function] = &[
             if !(key >= 0.0 && key < w.nkey() as f64) {
                 return Err(format!("keyframe {key} does not exist: the model has {}", w.nkey()));
             }
-            done(w.reset_to(Some(key as usize)))
+            pass_result(w.reset_to(Some(key as usize)))
         },
         ..ENGINE
     },
     Function {
         name: "mj_step1",
-        writes: &[Touches::Derived],
+        writes: &[AccessedPart::Derived],
         doc: "computes everything that follows from position and velocity: the first half of a step",
         example: ("mj.mj_step1(model, data); data.time", "0"),
-        run: |w, _, _| done(w.step1()),
+        run: |w, _, _| pass_result(w.step1()),
         ..ENGINE
     },
     Function {
         name: "mj_step2",
-        writes: &[Touches::State, Touches::Derived],
+        writes: &[AccessedPart::State, AccessedPart::Derived],
         doc: "computes forces and advances the simulation: the second half of a step",
         example: ("mj.mj_step1(model, data); mj.mj_step2(model, data); data.time", "0.002"),
-        run: |w, _, _| done(w.step2()),
+        run: |w, _, _| pass_result(w.step2()),
         ..ENGINE
     },
     Function {
         name: "mj_kinematics",
-        reads: Touches::Derived,
-        writes: &[Touches::Derived],
+        reads: AccessedPart::Derived,
+        writes: &[AccessedPart::Derived],
         doc: "computes the poses of bodies, joints, geoms and sites from the coordinates",
         example: (
             "data.qpos[0] = Math.PI; mj.mj_kinematics(model, data); data.site_xpos[2].toFixed(2)",
             "1.50",
         ),
-        run: |w, _, _| done(w.kinematics()),
+        run: |w, _, _| pass_result(w.kinematics()),
         ..ENGINE
     },
     Function {
         name: "mj_fwdPosition",
-        writes: &[Touches::Derived],
+        writes: &[AccessedPart::Derived],
         doc: "computes everything that follows from positions: poses, the mass matrix, contacts",
         example: (
             "data.qpos[0] = Math.PI; mj.mj_fwdPosition(model, data); data.site_xpos[2].toFixed(2)",
             "1.50",
         ),
-        run: |w, _, _| done(w.fwd_position()),
+        run: |w, _, _| pass_result(w.fwd_position()),
         ..ENGINE
     },
     Function {
         name: "mj_fwdVelocity",
-        reads: Touches::Derived,
-        writes: &[Touches::Derived],
+        reads: AccessedPart::Derived,
+        writes: &[AccessedPart::Derived],
         doc: "computes everything that follows from velocities, after the position stage",
         example: (
             "data.qvel[0] = 2; mj.mj_fwdPosition(model, data); mj.mj_fwdVelocity(model, data); data.cvel[7]",
             "2",
         ),
-        run: |w, _, _| done(w.fwd_velocity()),
+        run: |w, _, _| pass_result(w.fwd_velocity()),
         ..ENGINE
     },
     Function {
         name: "mj_collision",
-        reads: Touches::Derived,
-        writes: &[Touches::Contacts],
+        reads: AccessedPart::Derived,
+        writes: &[AccessedPart::Contacts],
         doc: "finds the contacts of geoms at their current poses",
         example: ("mj.mj_kinematics(model, data); mj.mj_collision(model, data); data.ncon", "0"),
-        run: |w, _, _| done(w.collision()),
+        run: |w, _, _| pass_result(w.collision()),
         ..ENGINE
     },
     Function {
@@ -157,56 +157,56 @@ pub(super) const ROWS: &[Function] = &[
     },
     Function {
         name: "mj_energyPos",
-        reads: Touches::Derived,
-        writes: &[Touches::Energy],
+        reads: AccessedPart::Derived,
+        writes: &[AccessedPart::Energy],
         doc: "computes the potential energy of the current poses into data.energy[0], J",
         example: ("mj.mj_energyPos(model, data); data.energy[0]", "4.905"),
-        run: |w, _, _| done(w.energy_pos()),
+        run: |w, _, _| pass_result(w.energy_pos()),
         ..ENGINE
     },
     Function {
         name: "mj_energyVel",
-        reads: Touches::Derived,
-        writes: &[Touches::Energy],
+        reads: AccessedPart::Derived,
+        writes: &[AccessedPart::Energy],
         doc: "computes the kinetic energy of the current velocities into data.energy[1], J",
         example: ("data.qvel[0] = 2; mj.mj_energyVel(model, data); data.energy[1].toFixed(5)", "0.50072"),
-        run: |w, _, _| done(w.energy_vel()),
+        run: |w, _, _| pass_result(w.energy_vel()),
         ..ENGINE
     },
     Function {
         name: "mj_inverse",
-        reads: Touches::Derived,
-        writes: &[Touches::Derived],
+        reads: AccessedPart::Derived,
+        writes: &[AccessedPart::Derived],
         doc: "computes qfrc_inverse, the generalized force that causes the acceleration in qacc",
         example: ("mj.mj_inverse(model, data); Math.abs(data.qfrc_inverse[0]).toFixed(4)", "0.0000"),
-        run: |w, _, _| done(w.inverse()),
+        run: |w, _, _| pass_result(w.inverse()),
         ..ENGINE
     },
     Function {
         name: "mj_subtreeVel",
-        reads: Touches::Derived,
-        writes: &[Touches::Derived],
+        reads: AccessedPart::Derived,
+        writes: &[AccessedPart::Derived],
         doc: "computes velocity and angular momentum of the subtrees",
         example: (
             "data.qvel[0] = 2; mj.mj_forward(model, data); mj.mj_subtreeVel(model, data); data.subtree_linvel[3].toFixed(3)",
             "-1.000",
         ),
-        run: |w, _, _| done(w.subtree_vel()),
+        run: |w, _, _| pass_result(w.subtree_vel()),
         ..ENGINE
     },
     Function {
         name: "mj_rnePostConstraint",
-        reads: Touches::Derived,
-        writes: &[Touches::Derived],
+        reads: AccessedPart::Derived,
+        writes: &[AccessedPart::Derived],
         doc: "computes accelerations of bodies and the forces between them",
         example: ("mj.mj_rnePostConstraint(model, data); data.cfrc_int[11].toFixed(2)", "9.81"),
-        run: |w, _, _| done(w.rne_post_constraint()),
+        run: |w, _, _| pass_result(w.rne_post_constraint()),
         ..ENGINE
     },
     Function {
         name: "mj_contactForce",
         args: &[Arg::Model, Arg::Data, Arg::Number, Arg::Any],
-        reads: Touches::Contacts,
+        reads: AccessedPart::Contacts,
         doc: "writes the force and torque of a contact, counted from 0, into a list of six: N along the normal and two tangents, then N m about them; zeros if the contact has no constraint",
         example: (
             "ctx.f = [0, 0, 0, 0, 0, 0]; if (data.ncon > 0) { mj.mj_contactForce(model, data, 0, ctx.f) }; ctx.f[0]",

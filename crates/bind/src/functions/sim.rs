@@ -1,7 +1,7 @@
 //! The functions of `sim`: the simulation as seen by the page. Playing and pausing have no effect without a page.
 
 use super::lib::{ENERGIES, energy};
-use super::{Function, ROW, Touches, Unit, done};
+use super::{AccessedPart, Function, ROW, Unit, pass_result};
 use labspec_expr::{Type, Value};
 
 const SIM: Function = Function { object: "sim", returns: Type::Void, ..ROW };
@@ -17,20 +17,20 @@ pub(super) const ROWS: &[Function] = &[
     },
     Function {
         name: "forward",
-        writes: &[Touches::Derived],
+        writes: &[AccessedPart::Derived],
         doc: "computes every derived field from the state",
         example: ("data.qpos[0] = Math.PI; sim.forward(); data.site_xpos[2].toFixed(2)", "1.50"),
-        run: |w, _, _| done(w.forward()),
+        run: |w, _, _| pass_result(w.forward()),
         ..SIM
     },
     Function {
         name: "reset",
-        writes: &[Touches::State, Touches::Derived],
+        writes: &[AccessedPart::State, AccessedPart::Derived],
         doc: "resets the data to the initial state, or to the keyframe of the lab, and computes the derived fields",
         example: ("data.qpos[0] = 1; sim.reset(); data.qpos[0]", "0"),
         run: |w, _, _| {
             w.reset()?;
-            done(w.forward())
+            pass_result(w.forward())
         },
         ..SIM
     },
@@ -38,8 +38,8 @@ pub(super) const ROWS: &[Function] = &[
         name: "energy",
         returns: Type::Record,
         members: ENERGIES,
-        reads: Touches::Energy,
-        writes: &[Touches::Flags, Touches::Derived],
+        reads: AccessedPart::Energy,
+        writes: &[AccessedPart::Flags, AccessedPart::Derived],
         unit: Unit::Of("J"),
         doc: "potential, kinetic and total energy, J; the first use turns the energy computation on",
         example: ("sim.energy().potential", "4.905"),
@@ -49,7 +49,7 @@ pub(super) const ROWS: &[Function] = &[
     Function {
         name: "contacts",
         returns: Type::List,
-        reads: Touches::Contacts,
+        reads: AccessedPart::Contacts,
         doc: "the contacts, each a record of geom1, geom2, dist (m), pos (m), frame, force (N) and dim",
         example: ("sim.contacts().length", "0"),
         run: |w, heap, _| {

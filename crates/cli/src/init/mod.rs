@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 /// Arguments of `init`.
 #[derive(clap::Args, Debug)]
-pub(super) struct Arguments {
+pub(super) struct InitArguments {
     /// The folder; it is created if it does not exist
     #[arg(default_value = ".", value_name = "DIR")]
     folder: PathBuf,
@@ -23,7 +23,7 @@ const FILES: [(&str, &str); 4] = [
     (".github/workflows/labspec.yml", include_str!("workflow.yml")),
 ];
 
-pub(super) fn init(a: &Arguments) -> Result<Outcome, Failure> {
+pub(super) fn init(a: &InitArguments) -> Result<Outcome, Failure> {
     let places: Vec<(PathBuf, &str)> =
         FILES.iter().map(|(name, text)| (a.folder.join(name), *text)).collect();
     // Nothing is written if one of the files already exists.

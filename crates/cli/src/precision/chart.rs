@@ -3,24 +3,24 @@
 use super::table::named;
 use labspec::run::INTEGRATORS;
 use labspec::verify::significant;
-use labspec_numerics::precision::{Errors, Report, Row, RunStatus, milliseconds};
+use labspec_numerics::precision::{Errors, PrecisionResults, PrecisionRow, RunStatus, milliseconds};
 use labspec_plot::{Method, MethodPoint, WorkPrecision, work_precision};
 
 /// A log-log chart of the first trace: error on the horizontal axis, cost on the vertical axis, one curve per integrator.
-pub(super) fn chart(report: &Report, title: &str) -> String {
+pub(super) fn chart(report: &PrecisionResults, title: &str) -> String {
     // The first number whose truth is known.
     let first = report.targets.iter().position(|t| t.is_compared());
     let target = first.and_then(|i| report.targets.get(i));
     // An error below the uncertainty of the reference is drawn at that uncertainty.
-    let doubt = target.map_or(0.0, |t| t.uncertain);
+    let uncertainty = target.map_or(0.0, |t| t.uncertain);
     let of = |errors: &[Errors]| first.and_then(|i| errors.get(i)).copied();
     let point = |errors: &[Errors], cost: f64| {
         let e = of(errors).filter(|e| e.largest.is_finite())?;
-        let error = if e.below { e.largest.max(doubt) } else { e.largest };
+        let error = if e.below { e.largest.max(uncertainty) } else { e.largest };
         Some(MethodPoint { cost, error, at_most: e.below, ..MethodPoint::default() })
     };
     // A run that is not compared is not drawn; a run that failed is.
-    let mine = |row: &Row| {
+    let mine = |row: &PrecisionRow| {
         let note = format!("{} ms", milliseconds(row.setting.timestep));
         let spread = Some([row.cost.low, row.cost.high]);
         let failed = MethodPoint { cost: row.cost.median, failed: true, ..MethodPoint::default() };

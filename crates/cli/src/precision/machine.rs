@@ -3,14 +3,15 @@
 use super::super::report_json::with_nonfinite;
 use labspec::report::key;
 use labspec_numerics::precision::{
-    Advice, BesideRow, Compared, Errors, Event, LeftOut, Nearby, Report, Row, RunCost, RunStatus,
+    Advice, BesideRow, Compared, Errors, Event, LeftOut, NearbyStarts, PrecisionResults, PrecisionRow,
+    RunCost, RunStatus,
 };
 use serde::Serialize;
 use serde_json::{Map, Value};
 use std::io;
 
 /// Writes a line for each setting and number.
-pub(super) fn csv(report: &Report, out: &mut dyn io::Write) -> io::Result<()> {
+pub(super) fn csv(report: &PrecisionResults, out: &mut dyn io::Write) -> io::Result<()> {
     writeln!(
         out,
         "integrator,solver,timestep (s),own,label,unit,largest,at (s),rms,end,below,order,fate,microsecondsPerSecond,lowMicrosecondsPerSecond,highMicrosecondsPerSecond,work"
@@ -62,7 +63,7 @@ struct PrecisionReport<'a> {
     penetration_uncertainty: f64,
     samples: usize,
     beside: Option<BesideReport<'a>>,
-    nearby: Option<Nearby>,
+    nearby: Option<NearbyStarts>,
 }
 
 /// A setting with the errors of each trace. `work` is in units of the engine.
@@ -120,12 +121,12 @@ struct BesideRunRow<'a> {
     microseconds_per_second: f64,
 }
 
-pub(super) fn machine(report: &Report) -> Map<String, Value> {
+pub(super) fn machine(report: &PrecisionResults) -> Map<String, Value> {
     let targets = || report.targets.iter();
     // A closed form has no uncertainty: its entry is missing, not lost.
     let of = |f: fn(&Compared) -> Option<f64>| targets().map(f).collect::<Vec<_>>();
     let uncertainty = of(|t| (!t.closed).then_some(t.uncertain));
-    let (unseen, until) = (of(|t| Some(t.unseen)), of(|t| t.until));
+    let (unseen, until) = (of(|t| Some(t.invisible_error)), of(|t| t.until));
     let conserved = [report.energy, report.momentum[0], report.momentum[1]];
     let row = PrecisionReport {
         traces: targets().map(|t| t.label.as_str()).collect(),
@@ -179,7 +180,7 @@ fn event_row(event: &Event) -> Map<String, Value> {
     with_nonfinite(&row, &[("time", &row.time), ("uncertainty", &row.uncertainty)])
 }
 
-fn run_row(row: &Row, report: &Report) -> Map<String, Value> {
+fn run_row(row: &PrecisionRow, report: &PrecisionResults) -> Map<String, Value> {
     let at_most = row.events.iter().zip(&report.events).map(|(off, event)| *off <= event.uncertain);
     let of = |f: fn(&Errors) -> Option<f64>| row.errors.iter().map(f).collect::<Vec<_>>();
     let row = RunRow {

@@ -7,7 +7,7 @@ mod table;
 use super::common::{Failure, Outcome, interrupted};
 use super::lab_args::LabArguments;
 use super::output::write_file;
-use super::output::{wanted, write_png, write_with};
+use super::output::{requested_outputs, write_png, write_with};
 use super::output_kind::OutputKind;
 use super::report_json::print_report;
 use super::stdio::{Progress, print, stream};
@@ -17,15 +17,17 @@ use labspec::report::{printable, printable_path};
 use labspec::run::{INTEGRATORS, Integrator};
 use labspec::source::read_text;
 use labspec::verify::significant;
-use labspec_numerics::precision::{Axis, Options, Recording, Report, RunStatus, compare, milliseconds};
+use labspec_numerics::precision::{
+    Axis, PrecisionOptions, PrecisionResults, Recording, RunStatus, compare, milliseconds,
+};
 use machine::{csv, machine};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use table::{others, setting, table};
+use table::{setting, table, write_other_runs};
 
 /// Arguments of `precision`.
 #[derive(clap::Args, Debug)]
-pub(super) struct Arguments {
+pub(super) struct PrecisionArguments {
     #[command(flatten)]
     handled: LabArguments,
     /// Length in seconds [default: the lab's stopAt, or 2]
@@ -42,7 +44,7 @@ pub(super) struct Arguments {
     beside: Option<PathBuf>,
     /// Output format
     #[arg(long, value_enum, default_value = "human")]
-    format: Format,
+    format: PrecisionFormat,
     /// Write all errors as comma-separated values
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
@@ -62,19 +64,23 @@ enum Vary {
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
-enum Format {
+enum PrecisionFormat {
     Human,
     Json,
     Csv,
 }
 
-pub(super) fn precision(a: &Arguments) -> Result<Outcome, Failure> {
+pub(super) fn precision(a: &PrecisionArguments) -> Result<Outcome, Failure> {
     let target = a.handled.open()?;
-    a.handled.look_ahead(
+    a.handled.check_outputs_writable(
         &target,
-        &wanted(&[(OutputKind::Settings, &a.csv), (OutputKind::Plot, &a.svg), (OutputKind::Picture, &a.png)]),
+        &requested_outputs(&[
+            (OutputKind::Settings, &a.csv),
+            (OutputKind::Plot, &a.svg),
+            (OutputKind::Picture, &a.png),
+        ]),
     )?;
-    let options = Options {
+    let options = PrecisionOptions {
         until: a.until,
         set: a.handled.set(&target.lab)?,
         press: a.handled.press(&target.lab)?,
@@ -83,7 +89,7 @@ pub(super) fn precision(a: &Arguments) -> Result<Outcome, Failure> {
         beside: a.beside.as_ref().map(|path| recording(path)).transpose()?,
     };
     let mut findings = Vec::new();
-    let progress = Progress::new(matches!(a.format, Format::Human));
+    let progress = Progress::new(matches!(a.format, PrecisionFormat::Human));
     let mut report_progress = |text: &str| progress.report(text);
     let report =
         compare(&target.lab, &target.model, &target.programs, &options, &mut findings, &mut report_progress)
@@ -105,15 +111,15 @@ pub(super) fn precision(a: &Arguments) -> Result<Outcome, Failure> {
         write_with(file, OutputKind::Settings, |out| csv(&report, out))?;
     }
     match a.format {
-        Format::Human => print(&human(&report))?,
-        Format::Json => print_report("precision", &machine(&report))?,
-        Format::Csv => stream(|out| csv(&report, out))?,
+        PrecisionFormat::Human => print(&human(&report))?,
+        PrecisionFormat::Json => print_report("precision", &machine(&report))?,
+        PrecisionFormat::Csv => stream(|out| csv(&report, out))?,
     }
-    Ok(if report.reference.is_none() || lost(&report) { Outcome::Findings } else { Outcome::Clean })
+    Ok(if report.reference.is_none() || has_no_result(&report) { Outcome::Findings } else { Outcome::Clean })
 }
 
 /// Whether the run with the lab's own setting failed, or the truth is not known to its end.
-fn lost(report: &Report) -> bool {
+fn has_no_result(report: &PrecisionResults) -> bool {
     report.rows.iter().any(|r| r.is_own && r.status != RunStatus::Good)
         || report.targets.iter().any(|t| t.until.is_some())
 }
@@ -129,11 +135,11 @@ impl Vary {
 }
 
 /// The maximum size of a recording in bytes.
-const MOST: u64 = 256 << 20;
+const MAX_RECORDING: u64 = 256 << 20;
 
 fn recording(path: &Path) -> Result<Recording, Failure> {
     let named = |e: String| format!("cannot use {}: {e}", printable_path(path));
-    let text = read_text(path, MOST, "a recording")?;
+    let text = read_text(path, MAX_RECORDING, "a recording")?;
     Recording::read(&text).map_err(named)
 }
 
@@ -150,7 +156,7 @@ fn integrators(names: &[String]) -> Result<Vec<Integrator>, Failure> {
     names.iter().map(one).collect()
 }
 
-fn human(report: &Report) -> String {
+fn human(report: &PrecisionResults) -> String {
     let mut text = String::new();
     match &report.reference {
         None => {
@@ -159,7 +165,7 @@ fn human(report: &Report) -> String {
                 false => "no method completes this lab",
             };
             let _ = writeln!(text, "Nothing can be compared: {why}.");
-            fates(report, &mut text);
+            write_outcomes(report, &mut text);
         }
         Some(how) => {
             let _ = writeln!(
@@ -172,7 +178,7 @@ fn human(report: &Report) -> String {
         }
     }
     if let Some(beside) = &report.beside {
-        others(report, beside, &mut text);
+        write_other_runs(report, beside, &mut text);
     }
     for out in &report.left_out {
         let _ = writeln!(text, "Not compared: {}, because {}.", printable(&out.label), out.reason);
@@ -202,7 +208,7 @@ fn human(report: &Report) -> String {
 }
 
 /// The times at which runs are compared.
-fn compared_at(report: &Report) -> String {
+fn compared_at(report: &PrecisionResults) -> String {
     let apart = report.length / report.samples as f64;
     let shortest = report.rows.iter().map(|r| r.setting.timestep).fold(f64::INFINITY, f64::min);
     match shortest < 0.9 * apart {
@@ -212,7 +218,7 @@ fn compared_at(report: &Report) -> String {
 }
 
 /// Writes the outcome of each run.
-fn fates(report: &Report, text: &mut String) {
+fn write_outcomes(report: &PrecisionResults, text: &mut String) {
     for row in &report.rows {
         let reason = row.reported.first().map_or(String::new(), |t| format!(": {}", printable(t)));
         let _ = writeln!(

@@ -3,10 +3,12 @@
 use labspec::report::printable;
 use labspec::run::two_digits;
 use labspec::verify::significant;
-use labspec_numerics::precision::{Beside, Compared, Errors, Report, Row, RunStatus, milliseconds};
+use labspec_numerics::precision::{
+    Beside, Compared, Errors, PrecisionResults, PrecisionRow, RunStatus, milliseconds,
+};
 use std::fmt::Write;
 
-pub(super) fn setting(row: &Row) -> String {
+pub(super) fn setting(row: &PrecisionRow) -> String {
     let solver = row.setting.solver.map_or(String::new(), |s| format!(" {}", s.name()));
     let mark = if row.is_own { " *" } else { "" };
     format!("{}{solver}{mark}", row.setting.integrator.name)
@@ -19,20 +21,21 @@ struct Column {
 }
 
 /// The maximum number of columns next to each other.
-const ABREAST: usize = 5;
+const MAX_COLUMNS: usize = 5;
 
 /// Writes the largest errors of all compared quantities, with one column each, and marks the settings that
 /// are best in cost and error.
-pub(super) fn table(report: &Report, text: &mut String) {
+pub(super) fn table(report: &PrecisionResults, text: &mut String) {
     let columns = columns(report);
     for (k, column) in columns.iter().enumerate() {
         let _ = writeln!(text, "({}) {}", k + 1, column.legend);
     }
     let names: Vec<String> = report.rows.iter().map(setting).collect();
     let width = names.iter().map(|n| n.chars().count()).max().unwrap_or(0).max(10);
-    for (first, some) in columns.chunks(ABREAST).enumerate() {
-        let heads: String =
-            (0..some.len()).map(|k| format!(" {:>10}", format!("({})", first * ABREAST + k + 1))).collect();
+    for (first, some) in columns.chunks(MAX_COLUMNS).enumerate() {
+        let heads: String = (0..some.len())
+            .map(|k| format!(" {:>10}", format!("({})", first * MAX_COLUMNS + k + 1)))
+            .collect();
         let _ = writeln!(
             text,
             "\n  {:<width$} {:>10} {:>12} {:>16}{heads}",
@@ -61,29 +64,31 @@ pub(super) fn table(report: &Report, text: &mut String) {
     );
 }
 
-fn columns(report: &Report) -> Vec<Column> {
+fn columns(report: &PrecisionResults) -> Vec<Column> {
     let mut list: Vec<Column> = Vec::new();
     for (i, target) in report.targets.iter().enumerate().filter(|(_, t)| !t.blank) {
-        let of = |row: &Row| row.errors.get(i).map_or("–".into(), |e| error(e, target));
-        list.push(Column { legend: about(target), cells: report.rows.iter().map(of).collect() });
+        let of = |row: &PrecisionRow| row.errors.get(i).map_or("–".into(), |e| error(e, target));
+        list.push(Column { legend: describe_truth(target), cells: report.rows.iter().map(of).collect() });
     }
     for (k, event) in report.events.iter().enumerate().filter(|(_, e)| e.time.is_finite()) {
         let legend = format!(
             "{}, at {} s (± {} s): error in s",
             printable(&event.name),
-            with_doubt(event.time, event.uncertain),
+            certain_digits(event.time, event.uncertain),
             cell(event.uncertain)
         );
-        let of = |row: &Row| at_most(row.events.get(k).copied().unwrap_or(f64::NAN), event.uncertain);
+        let of = |row: &PrecisionRow| {
+            error_or_doubt(row.events.get(k).copied().unwrap_or(f64::NAN), event.uncertain)
+        };
         list.push(Column { legend, cells: report.rows.iter().map(of).collect() });
     }
-    let mut keeps = |size: Option<f64>, what: &str, unit: &str, of: fn(&Row) -> Option<f64>| {
+    let mut keeps = |size: Option<f64>, what: &str, unit: &str, of: fn(&PrecisionRow) -> Option<f64>| {
         if let Some(size) = size {
             let legend = format!(
                 "the scene keeps its {what} ({} {unit} move): largest change in {unit}",
                 significant(size)
             );
-            let change = |r: &Row| at_most(of(r).unwrap_or(f64::NAN), ROUNDING * size);
+            let change = |r: &PrecisionRow| error_or_doubt(of(r).unwrap_or(f64::NAN), ROUNDING * size);
             list.push(Column { legend, cells: report.rows.iter().map(change).collect() });
         }
     };
@@ -91,13 +96,13 @@ fn columns(report: &Report) -> Vec<Column> {
     keeps(report.momentum[0], "momentum", "kg m/s", |r| r.momentum[0]);
     keeps(report.momentum[1], "angular momentum", "kg m²/s", |r| r.momentum[1]);
     if report.penetration > 0.0 {
-        let doubt = report.penetration_doubt.max(ROUNDING * report.penetration);
+        let uncertainty = report.penetration_doubt.max(ROUNDING * report.penetration);
         let legend = format!(
             "bodies are {} m (± {} m) in each other: error in m",
-            with_doubt(report.penetration, doubt),
-            cell(doubt)
+            certain_digits(report.penetration, uncertainty),
+            cell(uncertainty)
         );
-        let of = |r: &Row| at_most((r.penetration - report.penetration).abs(), doubt);
+        let of = |r: &PrecisionRow| error_or_doubt((r.penetration - report.penetration).abs(), uncertainty);
         list.push(Column { legend, cells: report.rows.iter().map(of).collect() });
     }
     list
@@ -111,8 +116,8 @@ fn cell(x: f64) -> String {
 }
 
 /// An error, or the doubt about the truth if that is larger.
-fn at_most(error: f64, doubt: f64) -> String {
-    if error <= doubt { format!("≤{doubt:.0e}") } else { cell(error) }
+fn error_or_doubt(error: f64, uncertainty: f64) -> String {
+    if error <= uncertainty { format!("≤{uncertainty:.0e}") } else { cell(error) }
 }
 
 /// The error of a number.
@@ -121,11 +126,11 @@ fn error(e: &Errors, target: &Compared) -> String {
 }
 
 /// A number with its certain digits and one more.
-fn with_doubt(x: f64, doubt: f64) -> String {
-    if !(doubt > 0.0 && doubt.is_finite()) {
+fn certain_digits(x: f64, uncertainty: f64) -> String {
+    if !(uncertainty > 0.0 && uncertainty.is_finite()) {
         return significant(x);
     }
-    let decimals = (1.0 - doubt.log10().floor()).clamp(0.0, 15.0) as usize;
+    let decimals = (1.0 - uncertainty.log10().floor()).clamp(0.0, 15.0) as usize;
     format!("{x:.decimals$}")
 }
 
@@ -139,7 +144,7 @@ pub(super) fn named(target: &Compared) -> String {
 }
 
 /// The truth with which a column of errors was computed, and the smallest visible error.
-fn about(target: &Compared) -> String {
+fn describe_truth(target: &Compared) -> String {
     let unit = target.unit.as_ref().map_or(String::new(), |u| format!(" {}", printable(u)));
     let of = if unit.is_empty() { String::new() } else { format!(" in{unit}") };
     let against = match target.closed {
@@ -153,14 +158,14 @@ fn about(target: &Compared) -> String {
         "{}: largest error{of} against {against}; {} {}{unit}{until}",
         printable(&target.label),
         if target.readout { "its digits hide" } else { "its plot hides" },
-        two_digits(target.unseen)
+        two_digits(target.invisible_error)
     )
 }
 
 /// Writes the runs of another program: the same columns of errors, and the times that it measured.
-pub(super) fn others(report: &Report, beside: &Beside, text: &mut String) {
+pub(super) fn write_other_runs(report: &PrecisionResults, beside: &Beside, text: &mut String) {
     let _ = writeln!(text, "\nBeside: {}, largest errors against the same truth", printable(&beside.engine));
-    let columns = || report.targets.iter().enumerate().filter(|(_, t)| !t.blank).take(ABREAST);
+    let columns = || report.targets.iter().enumerate().filter(|(_, t)| !t.blank).take(MAX_COLUMNS);
     for row in &beside.rows {
         let cell = |(i, target): (usize, &Compared)| {
             format!(" {:>10}", row.errors.get(i).map_or("–".into(), |e| error(e, target)))

@@ -6,7 +6,7 @@ use labspec::bind::Programs;
 use labspec::report::key;
 use labspec::stress::{Action, Fault, Interaction, Kind};
 use labspec_numerics::stability::{
-    MapCell, Margin, Parting, Sensitivity, StabilityFinding, StabilityMap, StressReport,
+    DivergenceOfStarts, MapCell, Margin, Sensitivity, StabilityFinding, StabilityMap, StressReport,
 };
 use serde::Serialize;
 use serde_json::{Map, Value};
@@ -14,7 +14,7 @@ use serde_json::{Map, Value};
 /// The performed runs and the results. Times are in s.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-pub(super) struct Report<'a> {
+pub(super) struct StabilityReport<'a> {
     length: f64,
     tried: Vec<CountRow>,
     runs: Vec<RunRow<'a>>,
@@ -154,7 +154,7 @@ struct MapRow<'a> {
     cells: Vec<Vec<String>>,
 }
 
-pub(super) fn machine<'a>(report: &'a StressReport, programs: &'a Programs) -> Report<'a> {
+pub(super) fn machine<'a>(report: &'a StressReport, programs: &'a Programs) -> StabilityReport<'a> {
     let tried = report.tried.iter().map(|t| CountRow {
         kind: key(t.kind.description()),
         made: t.made,
@@ -168,7 +168,7 @@ pub(super) fn machine<'a>(report: &'a StressReport, programs: &'a Programs) -> R
         cut: run.cut,
         wrong: run.wrong.iter().map(|k| key(k.description())).collect(),
     });
-    Report {
+    StabilityReport {
         length: report.length,
         tried: tried.collect(),
         runs: runs.collect(),
@@ -211,7 +211,7 @@ fn fault_row<'a>(fault: &'a Fault, interaction: &Interaction, programs: &'a Prog
     FaultRow {
         kind: key(fault.kind.description()),
         time: fault.time,
-        who: &fault.who,
+        who: &fault.subject,
         cause: &fault.cause,
         evidence: evidence.collect(),
         setting: actions(interaction, programs),
@@ -221,12 +221,12 @@ fn fault_row<'a>(fault: &'a Fault, interaction: &Interaction, programs: &'a Prog
 fn margin_row(m: &Margin) -> MarginRow<'_> {
     MarginRow {
         knob: key(m.knob.description()),
-        who: &m.who,
+        who: &m.subject,
         unit: m.unit,
         now: m.now,
         largest: m.largest,
         breaks: m.breaks,
-        how: m.how.as_ref().map(|(kind, who)| BreakRow { kind: key(kind.description()), who }),
+        how: m.how.as_ref().map(|(kind, subject)| BreakRow { kind: key(kind.description()), who: subject }),
         bound: m.bound,
         runs: m.runs,
         geoms: &m.geoms,
@@ -238,7 +238,7 @@ fn sensitivity_row(s: &Sensitivity) -> SensitivityRow<'_> {
     SensitivityRow {
         length: s.length,
         apart: s.apart,
-        parting: s.parting.map(|Parting { low, high }| {
+        parting: s.parting.map(|DivergenceOfStarts { low, high }| {
             with_nonfinite(&PartingRow { low, high }, &[("low", &low), ("high", &high)])
         }),
         exponent: s.exponent.map(|e| ExponentRow {

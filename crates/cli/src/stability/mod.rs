@@ -5,7 +5,7 @@ mod machine;
 use super::common::{Failure, Outcome, interrupted};
 use super::lab_args::LabArguments;
 use super::output::write_file;
-use super::output::{wanted, write_png};
+use super::output::{requested_outputs, write_png};
 use super::output_kind::OutputKind;
 use super::report_json::print_report;
 use super::stdio::{Progress, print};
@@ -16,7 +16,7 @@ use labspec::run::two_digits;
 use labspec::spec::Lab;
 use labspec::stress::{FaultGroup, FaultKind};
 use labspec_numerics::stability::{
-    MapCell, Margin, Options, Sensitivity, StabilityFinding, StabilityMap, StressReport, probe,
+    MapCell, Margin, Sensitivity, StabilityFinding, StabilityMap, StressOptions, StressReport, probe,
 };
 use labspec_plot::{Cells, cells};
 use machine::machine;
@@ -25,7 +25,7 @@ use std::path::PathBuf;
 
 /// Arguments of `stability`.
 #[derive(clap::Args, Debug)]
-pub(super) struct Arguments {
+pub(super) struct StabilityArguments {
     #[command(flatten)]
     handled: LabArguments,
     /// Length of each run in seconds [default: ten times the lab's stopAt or the window of its plots]
@@ -45,22 +45,25 @@ pub(super) struct Arguments {
     png: Option<PathBuf>,
     /// Output format
     #[arg(long, value_enum, default_value = "human")]
-    format: Format,
+    format: StabilityFormat,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
+enum StabilityFormat {
     Human,
     Json,
 }
 
-pub(super) fn stability(a: &Arguments) -> Result<Outcome, Failure> {
+pub(super) fn stability(a: &StabilityArguments) -> Result<Outcome, Failure> {
     let target = a.handled.open()?;
-    a.handled.look_ahead(&target, &wanted(&[(OutputKind::Plot, &a.svg), (OutputKind::Picture, &a.png)]))?;
+    a.handled.check_outputs_writable(
+        &target,
+        &requested_outputs(&[(OutputKind::Plot, &a.svg), (OutputKind::Picture, &a.png)]),
+    )?;
     let map = a.map.as_ref().map(|text| two_labels(&target.lab, text)).transpose()?;
     let (set, press) = (a.handled.set(&target.lab)?, a.handled.press(&target.lab)?);
-    let options = Options { until: a.until, margins: a.margins, map, set, press };
-    let progress = Progress::new(a.format == Format::Human);
+    let options = StressOptions { until: a.until, margins: a.margins, map, set, press };
+    let progress = Progress::new(a.format == StabilityFormat::Human);
     let mut report_progress = |text: &str| progress.report(text);
     let report = probe(&target.lab, &target.model, &target.programs, &options, &mut report_progress)
         .map_err(|e| e.0)?;
@@ -72,8 +75,8 @@ pub(super) fn stability(a: &Arguments) -> Result<Outcome, Failure> {
         write_file(file, OutputKind::Plot, &chart(map, target.lab.title()))?;
     }
     match a.format {
-        Format::Human => print(&human(&report, &target.programs))?,
-        Format::Json => print_report("stability", &machine(&report, &target.programs))?,
+        StabilityFormat::Human => print(&human(&report, &target.programs))?,
+        StabilityFormat::Json => print_report("stability", &machine(&report, &target.programs))?,
     }
     Ok(if report.fine() { Outcome::Clean } else { Outcome::Findings })
 }
@@ -127,7 +130,7 @@ fn finding(found: &StabilityFinding, programs: &Programs, text: &mut String) {
         text,
         "\n{}{expected}: {}, at t = {} s, {}",
         fault.kind.description(),
-        printable(&fault.who),
+        printable(&fault.subject),
         labspec::run::time(fault.time),
         printable(&interaction.describe(programs))
     );
@@ -193,14 +196,17 @@ fn margin(m: &Margin) -> [String; 6] {
         (Some(x), None) => format!("> {}", value(x)),
         (None, _) => "none".into(),
     };
-    let who =
-        if m.knob.description() == "timestep" { String::new() } else { format!(" of {}", printable(&m.who)) };
+    let subject = if m.knob.description() == "timestep" {
+        String::new()
+    } else {
+        format!(" of {}", printable(&m.subject))
+    };
     let how = m
         .how
         .as_ref()
-        .map_or(String::new(), |(kind, who)| format!("{}: {}", kind.description(), printable(who)));
+        .map_or(String::new(), |(kind, subject)| format!("{}: {}", kind.description(), printable(subject)));
     [
-        format!("{}{who}", m.knob.description()),
+        format!("{}{subject}", m.knob.description()),
         value(m.now),
         largest,
         m.largest.map_or(String::new(), |x| two_digits(x / m.now)),

@@ -10,7 +10,7 @@
 use super::contents::Contents;
 use super::planning::Plan;
 use crate::model::reflect::FieldSet;
-use crate::step::deciding::never_asked;
+use crate::step::deciding::undecisive_writes;
 
 /// The number of passes for which values must stay constant before a plan assumes them.
 pub(super) const SETTLED: u64 = 256;
@@ -33,7 +33,7 @@ pub(super) struct Assumed {
 impl Assumed {
     /// The assumptions of a new plan. A plan that was made for any value is not narrowed later.
     pub(super) fn from_plan(plan: &mut Plan) -> Assumed {
-        let wide = plan.any != never_asked(&plan.access) && plan.made_for.is_some();
+        let wide = plan.any != undecisive_writes(&plan.access) && plan.made_for.is_some();
         let settled = if wide { u64::MAX } else { 0 };
         Assumed { made_for: plan.made_for.take(), any: plan.any, wide, settled, due: false }
     }
@@ -49,9 +49,9 @@ impl Assumed {
     }
 
     /// Records that constants were computed for which the plan has already been checked.
-    pub(super) fn adopt_constants(&mut self, contents: &Contents) {
+    pub(super) fn accept_constants(&mut self, contents: &Contents) {
         if let Some(planned) = &mut self.made_for {
-            planned.adopt_constants(contents);
+            planned.accept_constants(contents);
         }
     }
 }
@@ -90,7 +90,7 @@ mod tests {
 
     /// A plan is that of the current values, before a change and after it, whatever may be written.
     #[test]
-    fn what_is_written_is_taken_as_it_is() {
+    fn written_values_are_used() {
         let fields = [
             (option::integrator, 0, f64::from(integrator::RK4)),
             (option::disableflags, 0, 16.0),
@@ -175,7 +175,7 @@ mod tests {
     /// A plan allows any value for a field that changes repeatedly, until it has stayed constant for some time. After a call that
     /// computes a part, the plan stays until the next full pass.
     #[test]
-    fn restless_values_may_be_any() {
+    fn frequently_written_values_are_arbitrary() {
         let (mut m, mut d) = start(&[model::dof_damping]);
         let passive = |d: &Data<Planned>| d.plan().keeps(Stage::Passive);
         assert!(!passive(&d));

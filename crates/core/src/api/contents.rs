@@ -90,7 +90,7 @@ impl Contents {
     }
 
     /// Copies the stamps of some fields from other contents.
-    pub(super) fn adopt(&mut self, other: &Contents, fields: &FieldSet) {
+    pub(super) fn copy_stamps(&mut self, other: &Contents, fields: &FieldSet) {
         for field in fields.iter() {
             if let (Some(stamp), Some(new)) =
                 (self.stamps.get_mut(field.index()), other.stamps.get(field.index()))
@@ -101,7 +101,7 @@ impl Contents {
     }
 
     /// Copies the stamps of the fields that `mj_setConst` computes. The plan has already been checked for their values.
-    pub(super) fn adopt_constants(&mut self, other: &Contents) {
+    pub(super) fn accept_constants(&mut self, other: &Contents) {
         for field in constants() {
             if let (Some(stamp), Some(new)) =
                 (self.stamps.get_mut(field.index()), other.stamps.get(field.index()))
@@ -179,7 +179,7 @@ mod tests {
     }
 
     /// Steps that alternate between clones, which are written directly and through edits, give the same result as full steps.
-    fn moved(
+    fn check_clones_agree(
         events: &[(usize, usize, usize)],
         made_with: usize,
         announced: &[usize],
@@ -216,7 +216,7 @@ mod tests {
             events in prop::collection::vec((0..WRITES.len() + 3, 0..40usize, 0..2usize), 1..12),
             announced in prop::collection::vec(0..WRITES.len(), 0..3),
         ) {
-            moved(&events, 0, &announced)?;
+            check_clones_agree(&events, 0, &announced)?;
         }
     }
 
@@ -294,9 +294,9 @@ mod tests {
         }
         plans.dedup();
         assert_eq!(plans.len(), 1, "{plans:?}");
-        let before = d.made_for_version();
+        let before = d.plan_version();
         call::view_mut(&mut m, &mut d, model::body_mass).unwrap().set(1, 0.5);
         call::step(&m, &mut d).unwrap();
-        assert_ne!(d.made_for_version(), before);
+        assert_ne!(d.plan_version(), before);
     }
 }

@@ -12,7 +12,7 @@ use crate::model::reflect::{self, FieldId, FieldSet, Kind, Object, View, ViewMut
 use crate::model::stage::Stage;
 use crate::model::{Fields, Names};
 use crate::step::analysis::AccessSet;
-use crate::step::deciding::{deciding, never_asked};
+use crate::step::deciding::{deciding, undecisive_writes};
 use crate::step::reset;
 use crate::step::workspace::{Scratch, Workspace};
 use std::marker::PhantomData;
@@ -278,7 +278,7 @@ impl<S: Scope> Data<S> {
 
     /// The version of the contents that the plan was made for.
     #[cfg(test)]
-    pub(super) fn made_for_version(&self) -> Option<u64> {
+    pub(super) fn plan_version(&self) -> Option<u64> {
         self.assumed.made_for.as_ref().map(|planned| planned.version)
     }
 
@@ -290,7 +290,7 @@ impl<S: Scope> Data<S> {
     /// Records that the plan has been checked for the constants that were computed with these data.
     pub(super) fn mark_synced(&mut self, m: &Model) {
         self.version = self.assumed.version_of(&m.contents);
-        self.assumed.adopt_constants(&m.contents);
+        self.assumed.accept_constants(&m.contents);
     }
 
     /// Replaces the plan.
@@ -305,10 +305,10 @@ impl<S: Scope> Data<S> {
     /// Checks that fields of the data are computed.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn has(&self, fields: &[FieldId]) -> Result<(), Error> {
-        if S::FULL { Ok(()) } else { self.lacks(fields) }
+        if S::FULL { Ok(()) } else { self.missing_fields(fields) }
     }
 
-    fn lacks(&self, fields: &[FieldId]) -> Result<(), Error> {
+    fn missing_fields(&self, fields: &[FieldId]) -> Result<(), Error> {
         fields.iter().try_for_each(|field| self.read(*field).map(|_| ()))
     }
 }
@@ -345,14 +345,14 @@ impl<S: Scope> Data<S> {
         } else if self.assumed.wide {
             let moved = changed.intersection(&deciding());
             if !moved.is_empty() {
-                planned.adopt(&m.contents, &moved);
+                planned.copy_stamps(&m.contents, &moved);
                 self.assumed.settled = self.assumed.settled.max(unrest);
                 narrower &= self.assumed.due;
             }
         }
         if narrower {
             self.assumed.due = false;
-            self.plan_for(m, never_asked(&self.access));
+            self.plan_for(m, undecisive_writes(&self.access));
         }
         self.version = self.assumed.version_of(&m.contents);
         Ok(())
@@ -366,19 +366,20 @@ impl<S: Scope> Data<S> {
     /// Makes a new plan for the current values of the model.
     pub(super) fn plan_again(&mut self, m: &Model) {
         let mut any = self.assumed.any;
-        any.extend(&never_asked(&self.access));
+        any.extend(&undecisive_writes(&self.access));
         self.plan_for(m, any);
     }
 
     /// Makes a new plan that is valid for any value of some fields.
     fn plan_for(&mut self, m: &Model, any: FieldSet) {
         let PlanTable { algorithms, more, .. } = self.fields.plan;
-        let plan = Plan::made(m, &self.access, any, |access| PlanTable::with(m, access, algorithms, more));
+        let plan =
+            Plan::make_plan(m, &self.access, any, |access| PlanTable::with(m, access, algorithms, more));
         reset::set_plan(m, &mut self.fields, &mut self.scratch, plan.inner);
         // The data may contain values that the plan does not assume.
         self.touched = !S::FULL;
         self.assumed.any = any;
-        self.assumed.wide = any != never_asked(&self.access);
+        self.assumed.wide = any != undecisive_writes(&self.access);
         match &mut self.assumed.made_for {
             Some(planned) => planned.follow(&m.contents),
             None => self.assumed.made_for = plan.made_for,

@@ -35,13 +35,17 @@ fn chain(links: usize, option: &str, more: &str) -> Model {
     Model::from_xml(&text.replacen("{}", if more.is_empty() { "-9" } else { "1.95" }, 1)).unwrap()
 }
 
-fn everything(m: &Model, algorithms: TreeAlgorithms) -> Data<Planned> {
+fn data_with_all_fields(m: &Model, algorithms: TreeAlgorithms) -> Data<Planned> {
     Data::planned(m, Plan::by_algorithms(m, &AccessSet::ANY, algorithms))
 }
 
 /// Data whose forces are computed by the given tree algorithms, after some steps.
-fn moved(m: &Model, algorithms: TreeAlgorithms, change: &dyn Fn(&mut Model)) -> (Model, Data<Planned>) {
-    let (mut m, mut d) = (m.clone(), everything(m, algorithms));
+fn data_after_steps(
+    m: &Model,
+    algorithms: TreeAlgorithms,
+    change: &dyn Fn(&mut Model),
+) -> (Model, Data<Planned>) {
+    let (mut m, mut d) = (m.clone(), data_with_all_fields(m, algorithms));
     for (i, v) in d.edit().qvel.iter_mut().enumerate() {
         *v = 0.3 * f64::from((7 * i as i32) % 5 - 2);
     }
@@ -53,9 +57,9 @@ fn moved(m: &Model, algorithms: TreeAlgorithms, change: &dyn Fn(&mut Model)) -> 
     (m, d)
 }
 
-fn agree(m: &Model, change: &dyn Fn(&mut Model)) {
-    let [(_, ours), (m, theirs)] =
-        [TreeAlgorithms::ALL, TreeAlgorithms::GENERAL].map(|algorithms| moved(m, algorithms, change));
+fn check_forces_agree(m: &Model, change: &dyn Fn(&mut Model)) {
+    let [(_, ours), (m, theirs)] = [TreeAlgorithms::ALL, TreeAlgorithms::GENERAL]
+        .map(|algorithms| data_after_steps(m, algorithms, change));
     for name in
         ["M", "qLD", "qLDiagInv", "qfrc_bias", "qacc_smooth", "qacc", "qfrc_constraint", "qpos", "qvel"]
     {
@@ -74,7 +78,7 @@ const TIE: &str = "<equality><joint joint1='j2' joint2='j7'/></equality>";
 const TENDON: &str = "<tendon><fixed armature='.01'><joint joint='j1' coef='1'/><joint joint='j8' coef='-2'/></fixed></tendon>";
 
 #[test]
-fn long_chains_move_as_by_the_general_way() {
+fn long_chains_move_as_by_the_general_algorithm() {
     for option in [
         "",
         "integrator='RK4'",
@@ -83,7 +87,7 @@ fn long_chains_move_as_by_the_general_way() {
         "integrator='discrete'",
     ] {
         for more in ["", TIE, TENDON] {
-            agree(&chain(12, option, more), &|_| {});
+            check_forces_agree(&chain(12, option, more), &|_| {});
         }
     }
     assert!(chain(12, "", "").planar_trees == [0] && chain(6, "", "").planar_trees.is_empty());
@@ -94,9 +98,9 @@ fn long_chains_move_as_by_the_general_way() {
 fn a_chain_may_leave_its_plane() {
     for (option, more) in [("", ""), ("", TIE), ("integrator='implicitfast'", "")] {
         let m = chain(12, option, more);
-        agree(&m, &|m| m.edit().jnt_axis[3 * 5..3 * 5 + 3].copy_from_slice(&[1.0, 0.0, 0.0]));
-        agree(&m, &|m| m.edit().body_mass[4] *= 3.0);
-        agree(&m, &|m| m.edit().body_pos[3 * 4] += 0.05);
+        check_forces_agree(&m, &|m| m.edit().jnt_axis[3 * 5..3 * 5 + 3].copy_from_slice(&[1.0, 0.0, 0.0]));
+        check_forces_agree(&m, &|m| m.edit().body_mass[4] *= 3.0);
+        check_forces_agree(&m, &|m| m.edit().body_pos[3 * 4] += 0.05);
     }
 }
 

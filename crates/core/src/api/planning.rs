@@ -60,23 +60,23 @@ impl Plan {
 
     /// Like [`Plan::new`], with some tree algorithms only: to measure the gain of each, or to compare it with the general one.
     pub fn by_algorithms(m: &Model, access: &AccessSet, algorithms: TreeAlgorithms) -> Plan {
-        Plan::made(m, access, deciding::never_asked(access), |d| Inner::new(m, d, algorithms))
+        Plan::make_plan(m, access, deciding::undecisive_writes(access), |d| Inner::new(m, d, algorithms))
     }
 
     /// Like [`Plan::new`], with an additional stage and the stages that it uses, to measure their cost. No number changes.
     pub fn with(m: &Model, access: &AccessSet, more: Stage) -> Plan {
-        Plan::made(m, access, deciding::never_asked(access), |d| {
+        Plan::make_plan(m, access, deciding::undecisive_writes(access), |d| {
             Inner::with(m, d, TreeAlgorithms::ALL, Some(more))
         })
     }
 
     /// The stages that a model may need for any values that programs write.
     pub fn for_any_value(m: &Model, access: &AccessSet) -> Plan {
-        Plan::made(m, access, access.writes, |d| Inner::new(m, d, TreeAlgorithms::ALL))
+        Plan::make_plan(m, access, access.writes, |d| Inner::new(m, d, TreeAlgorithms::ALL))
     }
 
     /// A plan that is valid for any value of the fields `any`, and for the current values of all other fields.
-    pub(super) fn made(
+    pub(super) fn make_plan(
         m: &Model,
         access: &AccessSet,
         any: FieldSet,

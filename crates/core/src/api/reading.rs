@@ -6,14 +6,14 @@ use crate::mjcf;
 use std::path::Path;
 
 pub use crate::mjcf::{
-    Attr, Element, FileProblem, Files, Finding, Folder, Kind, MAX_ALL_ATTRIBUTES, MAX_ATTRIBUTES, MAX_DEPTH,
-    MAX_DOFS, MAX_ELEMENTS, MAX_FILE, MAX_GEOMS, MAX_MASS, MAX_TEXT, MjcfFileError, NoFiles, Patch, Refusal,
-    SchemaRow, Severity, Status, Word, rules, schema_rows,
+    Attr, Element, FileProblem, Files, Finding, Folder, Keyword, Kind, MAX_ALL_ATTRIBUTES, MAX_ATTRIBUTES,
+    MAX_DEPTH, MAX_DOFS, MAX_ELEMENTS, MAX_FILE, MAX_GEOMS, MAX_MASS, MAX_TEXT, MjcfFileError, NoFiles,
+    Patch, Refusal, SchemaRow, Severity, Status, rules, schema_rows,
 };
 
 /// The result of reading the text of a model.
 #[derive(Clone, Debug)]
-pub struct Examined {
+pub struct CheckedModel {
     /// The model; `None` when there are errors.
     pub model: Option<Model>,
     /// Errors and warnings, in the order of the texts.
@@ -22,9 +22,9 @@ pub struct Examined {
 
 /// Compiles a model and returns its errors and its warnings. A warning reports what the author may not have intended. `path` is
 /// the path of the text itself in `files`, if it has one: files that the text names are searched for in that folder.
-pub fn check_xml(xml: &str, files: &dyn Files, path: Option<&str>) -> Examined {
-    let mjcf::Examined { model, findings } = mjcf::check_xml(xml, files, path);
-    Examined { model: model.map(Model::new), findings }
+pub fn check_xml(xml: &str, files: &dyn Files, path: Option<&str>) -> CheckedModel {
+    let mjcf::CheckedModel { model, findings } = mjcf::check_xml(xml, files, path);
+    CheckedModel { model: model.map(Model::new), findings }
 }
 
 /// Like [`check_xml`], with patches that are applied to the text before it is compiled. For each patch, also returns why it was
@@ -34,9 +34,9 @@ pub fn check_patched(
     files: &dyn Files,
     path: Option<&str>,
     patches: &[Patch],
-) -> (Examined, Vec<Option<Refusal>>) {
-    let (mjcf::Examined { model, findings }, refusals) = mjcf::check_patched(xml, files, path, patches);
-    (Examined { model: model.map(Model::new), findings }, refusals)
+) -> (CheckedModel, Vec<Option<Refusal>>) {
+    let (mjcf::CheckedModel { model, findings }, refusals) = mjcf::check_patched(xml, files, path, patches);
+    (CheckedModel { model: model.map(Model::new), findings }, refusals)
 }
 
 /// The text of a model with its patches applied and its includes expanded, so that another program can read it. Meshes and other

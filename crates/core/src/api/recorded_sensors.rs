@@ -173,7 +173,7 @@ fn equality_constraints_act_where_they_hold() {
                 d.efc_force = want;
                 rows += d.nefc;
                 crate::sensor::body_force::rne_post_constraint(&m, &mut d);
-                crate::sensor::evaluate(&m, &mut d, &mut s.sensor, crate::sensor::When::Acceleration);
+                crate::sensor::evaluate(&m, &mut d, &mut s.sensor, crate::sensor::SensorStage::Acceleration);
             }
             "sensordata" | "cacc" | "cfrc_int" | "cfrc_ext" => {
                 let got = numbers(&m, &d, Object::Data, name);

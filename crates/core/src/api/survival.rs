@@ -42,7 +42,7 @@ const VALUES: [i32; 10] = [i32::MIN, -12, -2, -1, 0, 1, 2, 7, 1000, i32::MAX];
 /// The work limit of a case. Beyond it stages are left out, as in a run whose budget is spent.
 const BUDGET: u64 = 3_000_000;
 
-fn everything() -> Model {
+fn model_with_all_features() -> Model {
     compile(EVERYTHING).unwrap()
 }
 
@@ -65,7 +65,7 @@ fn integers(object: Object, among: fn(FieldId) -> bool) -> impl Iterator<Item = 
 }
 
 /// Calls every function that a caller can call.
-fn use_all(m: &Model, Workspace { fields: d, scratch: s }: &mut Workspace) {
+fn call_all(m: &Model, Workspace { fields: d, scratch: s }: &mut Workspace) {
     d.meter.set_left(BUDGET);
     forward::contacts(m, d, s);
     dynamics::kinematics(m, &mut d.clone(), &mut s.clone().dynamics);
@@ -80,9 +80,9 @@ fn use_all(m: &Model, Workspace { fields: d, scratch: s }: &mut Workspace) {
 }
 
 #[test]
-fn what_is_accepted_of_a_stored_model_can_be_stepped() {
+fn accepted_stored_models_can_be_stepped() {
     ends(|| {
-        let m = everything();
+        let m = model_with_all_features();
         assert_eq!(validate(&m), None);
         let (mut accepted, mut refused, mut fatal) = (0, 0, Vec::new());
         for field in integers(Object::Model, |_| true).chain(integers(Object::Option, |_| true)) {
@@ -112,9 +112,9 @@ fn what_is_accepted_of_a_stored_model_can_be_stepped() {
 }
 
 #[test]
-fn what_is_written_to_the_integers_of_the_data_is_survived() {
+fn written_integers_of_the_data_cause_no_panic() {
     ends(|| {
-        let m = everything();
+        let m = model_with_all_features();
         let mut start = Workspace::new(&m);
         (0..2).for_each(|_| step(&m, &mut start.fields, &mut start.scratch));
         assert!(start.fields.tree_asleep.iter().any(|&next| next >= 0), "nothing sleeps");
@@ -131,17 +131,17 @@ fn what_is_written_to_the_integers_of_the_data_is_survived() {
                     // Writes one element, then all of them.
                     let mut d = start.clone();
                     reflect::view_data_mut(&mut d.fields, field).set(i, f64::from(value));
-                    use_all(&m, &mut d);
+                    call_all(&m, &mut d);
                     for k in 0..n {
                         reflect::view_data_mut(&mut d.fields, field).set(k, f64::from(value));
                     }
-                    use_all(&m, &mut d);
+                    call_all(&m, &mut d);
                 }
                 // Makes each tree follow another in the sleep cycle: cycles that the engine did not create.
                 for next in 0..n {
                     let mut d = start.clone();
                     reflect::view_data_mut(&mut d.fields, field).set(i, next as f64);
-                    use_all(&m, &mut d);
+                    call_all(&m, &mut d);
                 }
             }
         }

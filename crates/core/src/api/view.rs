@@ -7,7 +7,7 @@ use crate::math::rows;
 use crate::model::{Names, Obj};
 
 /// The name of an object, or its typed id.
-pub trait Which<I> {
+pub trait ObjectKey<I> {
     /// The index of the object. An unknown name is an error.
     fn find_in(&self, names: &Names) -> Result<usize, Error>;
 }
@@ -23,12 +23,12 @@ macro_rules! objects {
     ($($(#[$doc:meta])* $view:ident $id:ident $kind:ident $get:ident $list:ident $noun:literal {
         $($(#[$fdoc:meta])* $field:ident -> $ret:ty = |$s:ident| $value:expr;)*
     })*) => { $(
-        impl Which<$id> for str {
+        impl ObjectKey<$id> for str {
             fn find_in(&self, names: &Names) -> Result<usize, Error> {
                 find(names, Obj::$kind, self)
             }
         }
-        impl Which<$id> for $id {
+        impl ObjectKey<$id> for $id {
             fn find_in(&self, names: &Names) -> Result<usize, Error> {
                 let count = names.of_kind(Obj::$kind).len();
                 if self.0 < count { Ok(self.0) } else { Err(Error::NoId { kind: $noun, id: self.0, count }) }
@@ -61,7 +61,7 @@ macro_rules! objects {
 
         impl Data<Full> {
             #[doc = concat!("A ", $noun, " by its name or id.")]
-            pub fn $get(&self, which: &(impl Which<$id> + ?Sized)) -> Result<$view<'_>, Error> {
+            pub fn $get(&self, which: &(impl ObjectKey<$id> + ?Sized)) -> Result<$view<'_>, Error> {
                 Ok($view { data: self, id: which.find_in(&self.names)? })
             }
         }
@@ -181,7 +181,7 @@ impl<S: super::data::Scope> Data<S> {
     /// Sets the coordinates of a joint.
     pub fn set_joint_qpos(
         &mut self,
-        which: &(impl Which<JointId> + ?Sized),
+        which: &(impl ObjectKey<JointId> + ?Sized),
         qpos: &[f64],
     ) -> Result<(), Error> {
         let [first, n] = self.addresses.qpos.get(which.find_in(&self.names)?).copied().unwrap_or_default();
@@ -191,7 +191,7 @@ impl<S: super::data::Scope> Data<S> {
     /// Sets the velocities of a joint.
     pub fn set_joint_qvel(
         &mut self,
-        which: &(impl Which<JointId> + ?Sized),
+        which: &(impl ObjectKey<JointId> + ?Sized),
         qvel: &[f64],
     ) -> Result<(), Error> {
         let [first, n] = self.addresses.qvel.get(which.find_in(&self.names)?).copied().unwrap_or_default();
@@ -199,13 +199,21 @@ impl<S: super::data::Scope> Data<S> {
     }
 
     /// Sets the controls of an actuator. Most actuators have one.
-    pub fn set_ctrl(&mut self, which: &(impl Which<ActuatorId> + ?Sized), ctrl: &[f64]) -> Result<(), Error> {
+    pub fn set_ctrl(
+        &mut self,
+        which: &(impl ObjectKey<ActuatorId> + ?Sized),
+        ctrl: &[f64],
+    ) -> Result<(), Error> {
         let [first, n] = self.addresses.ctrl.get(which.find_in(&self.names)?).copied().unwrap_or_default();
         set(self.fields.ctrl.get_mut(first..first + n), ctrl, "the control of this actuator")
     }
 
     /// Applies a force and a torque at the centre of mass of a body, N and N m, world. They act until they are set again.
-    pub fn set_xfrc(&mut self, which: &(impl Which<BodyId> + ?Sized), force: [f64; 6]) -> Result<(), Error> {
+    pub fn set_xfrc(
+        &mut self,
+        which: &(impl ObjectKey<BodyId> + ?Sized),
+        force: [f64; 6],
+    ) -> Result<(), Error> {
         let first = 6 * which.find_in(&self.names)?;
         let fields = self.edit();
         set(fields.xfrc_applied.get_mut(first..first + 6), &force, "a force and a torque")

@@ -12,11 +12,11 @@ use std::ops::Range;
 use std::rc::Rc;
 
 use super::schema::{ALTERNATIVES, Kind};
+use crate::mjcf::keyword_map::KeywordMap;
 use crate::mjcf::rules;
-use crate::mjcf::text::diagnostic::Report;
+use crate::mjcf::text::diagnostic::Diagnostics;
 use crate::mjcf::text::tree::{Attribute, Node, Tree};
 use crate::mjcf::text::values::Value;
-use crate::mjcf::word_map::WordMap;
 
 /// Limit for the number of classes. Each copies its parent.
 const MAX_CLASSES: usize = 2000;
@@ -24,7 +24,7 @@ const MAX_CLASSES: usize = 2000;
 /// The effective attributes of an element: its own, and those of its class where it has none.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Props {
-    values: WordMap<(Value, Range<usize>)>,
+    values: KeywordMap<(Value, Range<usize>)>,
     /// The elements whose attributes these are.
     #[cfg(test)]
     elements: Vec<&'static super::schema::Element>,
@@ -124,16 +124,16 @@ impl Props {
     }
 
     /// The number of a keyword in MuJoCo.
-    pub(crate) fn word(&self, name: &str) -> Option<i32> {
+    pub(crate) fn keyword(&self, name: &str) -> Option<i32> {
         match self.get(name) {
-            Some(Value::Word(n)) => Some(*n),
+            Some(Value::Keyword(n)) => Some(*n),
             _ => None,
         }
     }
 
     /// Whether a keyword among `false` and `true` is `true`. `default` if it is absent.
     pub(crate) fn flag(&self, name: &str, default: bool) -> bool {
-        self.word(name).map_or(default, |word| word == choice::TRUE)
+        self.keyword(name).map_or(default, |word| word == choice::TRUE)
     }
 
     /// A text, or `None` if it is absent or empty.
@@ -178,7 +178,7 @@ const SHORT: usize = 20;
 struct Class {
     parent: usize,
     /// Shared with the classes that add no attributes.
-    entries: WordMap<Rc<Props>>,
+    entries: KeywordMap<Rc<Props>>,
     /// The elements of the class itself, in the order of the text.
     nodes: Vec<usize>,
 }
@@ -197,7 +197,7 @@ impl Classes {
     ///
     /// A further section at the top level continues the class `main`. Classes that are defined before keep what they copied from
     /// it, as in MuJoCo. An attached model has its own main class, under the renamed name of its section.
-    pub(crate) fn read(tree: &Tree, report: &mut Report) -> Classes {
+    pub(crate) fn read(tree: &Tree, report: &mut Diagnostics) -> Classes {
         let mut classes = Classes {
             list: vec![Class::default()],
             names: BTreeMap::new(),
@@ -213,7 +213,8 @@ impl Classes {
                 (None, false) => classes.main,
                 (None, true) => node.text("class").and_then(|name| classes.find(name)).unwrap_or(0),
             };
-            let mut entries = classes.list.get(parent).map_or_else(WordMap::default, |c| c.entries.clone());
+            let mut entries =
+                classes.list.get(parent).map_or_else(KeywordMap::default, |c| c.entries.clone());
             let mut nodes = Vec::new();
             for (at, entry) in tree.children(i).filter(|(_, e)| e.element.name != "default") {
                 let props = Rc::make_mut(entries.or_default(entry.element.name));
@@ -267,7 +268,7 @@ impl Classes {
     }
 
     /// Reports the first list that exceeded the budget for completion by defaults.
-    pub(crate) fn check_room(&self, report: &mut Report) {
+    pub(crate) fn report_exceeded_budget(&self, report: &mut Diagnostics) {
         if let Some(at) = self.budget.exceeded.get() {
             let message = format!("lists completed by defaults have more than {MAX_COMPLETED} numbers");
             report

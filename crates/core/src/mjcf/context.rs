@@ -6,7 +6,7 @@ use super::settings::Compiler;
 use crate::math::Quat;
 use crate::mjcf::asset::read_asset::Assets;
 use crate::mjcf::body::orientation;
-use crate::mjcf::text::diagnostic::Report;
+use crate::mjcf::text::diagnostic::Diagnostics;
 use crate::mjcf::text::tree::{Node, Tree};
 
 /// The inputs for reading an element.
@@ -18,7 +18,7 @@ pub(crate) struct Context<'a> {
     pub(crate) assets: &'a Assets,
     /// The compiler settings of the model that contains the current element: see [`Context::enter`].
     pub(crate) compiler: &'a Compiler,
-    pub(crate) report: &'a mut Report,
+    pub(crate) report: &'a mut Diagnostics,
 }
 
 impl Context<'_> {

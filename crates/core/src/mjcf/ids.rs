@@ -3,7 +3,7 @@
 use super::names::{NameTable, WORLD};
 use super::spec::{BodySpec, SensorObjects};
 use crate::mjcf::rules;
-use crate::mjcf::text::diagnostic::Report;
+use crate::mjcf::text::diagnostic::Diagnostics;
 use crate::mjcf::text::tree::{Node, Tree};
 use crate::model::Obj;
 use std::collections::BTreeMap;
@@ -110,7 +110,7 @@ impl Ids {
     }
 
     /// Whether a camera has no pixels.
-    pub(crate) fn is_blind(&self, camera: i32) -> bool {
+    pub(crate) fn has_no_pixels(&self, camera: i32) -> bool {
         self.blind.contains(&camera)
     }
 
@@ -154,7 +154,7 @@ impl References<'_> {
         kind: &str,
         node: &Node,
         attribute: &str,
-        report: &mut Report,
+        report: &mut Diagnostics,
     ) -> Option<i32> {
         if node.text(attribute).is_none() {
             let message = format!("{} has no `{attribute}`", node.describe());

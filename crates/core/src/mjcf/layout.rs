@@ -7,7 +7,7 @@ use crate::math::{Quat, Vec3};
 use crate::mjcf::body::inertia::describe_body;
 use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
-use crate::mjcf::text::diagnostic::Report;
+use crate::mjcf::text::diagnostic::Diagnostics;
 
 /// Limit for the entries of the mass matrix. A long chain with many branches exceeds it.
 const MAX_MATRIX: usize = 20_000_000;
@@ -78,7 +78,7 @@ pub(crate) fn number(bodies: &[BodySpec]) -> Layout {
 }
 
 /// Reports models beyond the limits, and invalid joints and mocap bodies.
-pub(crate) fn check_sizes(bodies: &[BodySpec], layout: &Layout, report: &mut Report) {
+pub(crate) fn check_sizes(bodies: &[BodySpec], layout: &Layout, report: &mut Diagnostics) {
     within_limits(bodies, layout, report);
     for (i, body) in bodies.iter().enumerate().skip(1) {
         check_joints(body, report);
@@ -109,7 +109,7 @@ pub(crate) fn check_sizes(bodies: &[BodySpec], layout: &Layout, report: &mut Rep
 
 /// Checks the limits for geoms and degrees of freedom. Collision detection tests pairs of geoms, and every degree of freedom is
 /// coupled with all its ancestors, so that a very large model would take much memory and hours without a message.
-fn within_limits(bodies: &[BodySpec], layout: &Layout, report: &mut Report) {
+fn within_limits(bodies: &[BodySpec], layout: &Layout, report: &mut Diagnostics) {
     let geoms: usize = bodies.iter().map(|b| b.geoms.len()).sum();
     let mut depth: Vec<usize> = Vec::with_capacity(layout.dofs.len());
     for dof in &layout.dofs {
@@ -130,7 +130,7 @@ fn within_limits(bodies: &[BodySpec], layout: &Layout, report: &mut Report) {
     }
 }
 
-fn check_joints(body: &BodySpec, report: &mut Report) {
+fn check_joints(body: &BodySpec, report: &mut Diagnostics) {
     let mut dofs = 0;
     let mut after_ball = false;
     for j in &body.joints {
@@ -181,7 +181,7 @@ fn is_origin(pos: Vec3) -> bool {
 }
 
 /// Whether q is the identity rotation; q and -q are the same rotation.
-fn is_unturned([w, x, y, z]: Quat) -> bool {
+fn is_identity([w, x, y, z]: Quat) -> bool {
     (w.abs() - 1.0).abs() < SAME_FRAME && is_origin([x, y, z])
 }
 
@@ -200,7 +200,7 @@ pub(crate) fn find_simple_bodies(bodies: &[BodySpec], inertias: &[Inertia]) -> V
         if i == 0 {
             return simple::DIAGONAL; // by convention
         }
-        let centred = is_origin(inertia.pos) && is_unturned(inertia.quat);
+        let centred = is_origin(inertia.pos) && is_identity(inertia.quat);
         if !body.simple || !centred || !base(body.parent) || leaf.get(i) != Some(&true) {
             return simple::NO;
         }
@@ -227,7 +227,7 @@ pub(crate) struct Pattern {
 
 /// Row i contains the degrees of freedom on the path from the root to i, ascending, i last; for a simple body, only i itself.
 /// `None`, with an error in the report, if the pattern is too large.
-pub(crate) fn pattern(layout: &Layout, simple: &[i32], report: &mut Report) -> Option<Pattern> {
+pub(crate) fn pattern(layout: &Layout, simple: &[i32], report: &mut Diagnostics) -> Option<Pattern> {
     let mut p = Pattern::default();
     for (i, dof) in layout.dofs.iter().enumerate() {
         let start = p.colind.len();
@@ -261,7 +261,7 @@ pub(crate) struct WholePattern {
 }
 
 /// The pattern for a model. `None`, with an error in the report, if it is too large.
-pub(crate) fn whole_pattern(layout: &Layout, report: &mut Report) -> Option<WholePattern> {
+pub(crate) fn whole_pattern(layout: &Layout, report: &mut Diagnostics) -> Option<WholePattern> {
     let dofs = &layout.dofs;
     let up = |i: usize| std::iter::successors(dofs.get(i).and_then(|d| d.parent), |&j| dofs.get(j)?.parent);
     let mut w = WholePattern::default();

@@ -22,6 +22,7 @@ mod fill;
 mod gather;
 mod geom;
 mod ids;
+mod keyword_map;
 mod layout;
 mod lints;
 mod names;
@@ -37,16 +38,15 @@ mod tendon;
 mod tests;
 mod text;
 mod unsimulated;
-mod word_map;
 
 use std::io::Read;
 use std::path::Path;
 
 use crate::model::Model;
-use text::diagnostic::Report;
+use text::diagnostic::Diagnostics;
 
 pub use labspec_finding::{Finding, Severity};
-pub use schema::{Attr, Element, Kind, SchemaRow, Status, Word, schema_rows};
+pub use schema::{Attr, Element, Keyword, Kind, SchemaRow, Status, schema_rows};
 pub use text::diagnostic::MjcfFileError;
 pub use text::files::{FileProblem, Files, Folder, MAX_FILE, NoFiles};
 pub use text::patch::{Patch, Refusal};
@@ -84,8 +84,8 @@ pub(crate) fn compile(xml: &str) -> Result<Model, Vec<Finding>> {
 ///
 /// All errors that were found, in the order of the texts. [`check_xml`] returns warnings as well.
 pub(crate) fn compile_with(xml: &str, files: &dyn Files, path: Option<&str>) -> Result<Model, Vec<Finding>> {
-    let mut report = Report::new();
-    let model = built(xml, files, path, (&[], &mut Vec::new()), &mut report).map(|(_, model)| model);
+    let mut report = Diagnostics::new();
+    let model = build_model(xml, files, path, (&[], &mut Vec::new()), &mut report).map(|(_, model)| model);
     let mut findings = report.finish();
     findings.retain(|d| d.severity == Severity::Error);
     model.ok_or(findings)
@@ -93,7 +93,7 @@ pub(crate) fn compile_with(xml: &str, files: &dyn Files, path: Option<&str>) -> 
 
 /// The result of reading the text of a model.
 #[derive(Clone, Debug)]
-pub(crate) struct Examined {
+pub(crate) struct CheckedModel {
     /// The model; `None` when there are errors.
     pub model: Option<Model>,
     /// Errors and warnings, in the order of the texts.
@@ -101,7 +101,7 @@ pub(crate) struct Examined {
 }
 
 /// Like [`compile_with`], but also returns warnings, which report what the author may not have intended.
-pub(crate) fn check_xml(xml: &str, files: &dyn Files, path: Option<&str>) -> Examined {
+pub(crate) fn check_xml(xml: &str, files: &dyn Files, path: Option<&str>) -> CheckedModel {
     check_patched(xml, files, path, &[]).0
 }
 
@@ -112,28 +112,28 @@ pub(crate) fn check_patched(
     files: &dyn Files,
     path: Option<&str>,
     patches: &[Patch],
-) -> (Examined, Vec<Option<Refusal>>) {
-    let (mut report, mut refusals) = (Report::new(), Vec::new());
-    let built = built(xml, files, path, (patches, &mut refusals), &mut report);
+) -> (CheckedModel, Vec<Option<Refusal>>) {
+    let (mut report, mut refusals) = (Diagnostics::new(), Vec::new());
+    let built = build_model(xml, files, path, (patches, &mut refusals), &mut report);
     if let Some((tree, model)) = &built {
         lints::check_model(tree, model, &mut report);
     }
-    (Examined { model: built.map(|(_, model)| model), findings: report.finish() }, refusals)
+    (CheckedModel { model: built.map(|(_, model)| model), findings: report.finish() }, refusals)
 }
 
 /// The text of a model with its patches applied and its includes expanded, so that another program can read it. `None` if the
 /// text is not XML, or a patch cannot be applied.
 pub(crate) fn to_xml(xml: &str, files: &dyn Files, path: Option<&str>, patches: &[Patch]) -> Option<String> {
-    text::load::Loader::new(files, patches).written(xml, path, &mut Report::new())
+    text::load::Loader::new(files, patches).written(xml, path, &mut Diagnostics::new())
 }
 
 /// Builds a model that can be simulated, and its tree.
-fn built(
+fn build_model(
     xml: &str,
     files: &dyn Files,
     path: Option<&str>,
     patches: (&[Patch], &mut Vec<Option<Refusal>>),
-    report: &mut Report,
+    report: &mut Diagnostics,
 ) -> Option<(text::tree::Tree, Model)> {
     let (tree, model) = passes::build(xml, files, path, patches, report)?;
     unsimulated::report_unsimulated(&tree, &model, report);
@@ -143,7 +143,7 @@ fn built(
 /// Compiles a model that may contain elements that cannot be simulated yet.
 #[cfg(test)]
 pub(crate) fn compile_only(xml: &str, files: &dyn Files) -> Result<Model, Vec<Finding>> {
-    let mut report = Report::new();
+    let mut report = Diagnostics::new();
     match passes::build(xml, files, None, (&[], &mut Vec::new()), &mut report) {
         Some((_, model)) if report.is_clean() => Ok(model),
         _ => Err(report.finish()),

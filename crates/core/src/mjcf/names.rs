@@ -4,16 +4,16 @@ use std::collections::BTreeMap;
 
 use super::classes::Classes;
 use super::schema::Kind;
+use crate::mjcf::keyword_map::KeywordMap;
 use crate::mjcf::rules;
-use crate::mjcf::text::diagnostic::{Report, nearest, shorten_name};
+use crate::mjcf::text::diagnostic::{Diagnostics, nearest, shorten_name};
 use crate::mjcf::text::tree::{Attribute, Node, Tree};
 use crate::mjcf::text::values::Value;
-use crate::mjcf::word_map::WordMap;
 
 /// Named elements, by kind and name.
 #[derive(Debug, Default)]
 pub(crate) struct NameTable<'t> {
-    nodes: WordMap<BTreeMap<&'t str, usize>>,
+    nodes: KeywordMap<BTreeMap<&'t str, usize>>,
 }
 
 /// The name of the world body, and its index in the table. It is not an element.
@@ -22,7 +22,7 @@ const WORLD_NODE: usize = 0;
 
 impl<'t> NameTable<'t> {
     /// Collects all names and reports duplicates.
-    pub(crate) fn read(tree: &'t Tree, report: &mut Report) -> NameTable<'t> {
+    pub(crate) fn read(tree: &'t Tree, report: &mut Diagnostics) -> NameTable<'t> {
         let mut table = NameTable::default();
         table.nodes.or_default("body").insert(WORLD, WORLD_NODE);
         for (i, node) in tree.nodes.iter().enumerate() {
@@ -63,7 +63,13 @@ impl<'t> NameTable<'t> {
     }
 
     /// Reports a name that no object of the kind has.
-    pub(crate) fn unknown(&self, kind: &str, name: &str, span: std::ops::Range<usize>, report: &mut Report) {
+    pub(crate) fn unknown(
+        &self,
+        kind: &str,
+        name: &str,
+        span: std::ops::Range<usize>,
+        report: &mut Diagnostics,
+    ) {
         if report.incomplete {
             return; // the object may have been left out
         }
@@ -105,7 +111,7 @@ fn stem(path: &str) -> &str {
 }
 
 /// Checks that references and classes exist.
-pub(crate) fn check_references(tree: &Tree, names: &NameTable, classes: &Classes, report: &mut Report) {
+pub(crate) fn check_references(tree: &Tree, names: &NameTable, classes: &Classes, report: &mut Diagnostics) {
     let mut defined: BTreeMap<&str, usize> = BTreeMap::new();
     let mut dangling = Vec::new();
     for node in &tree.nodes {
@@ -122,7 +128,12 @@ pub(crate) fn check_references(tree: &Tree, names: &NameTable, classes: &Classes
             match a.attr.kind {
                 Kind::Ref(kind) if !name.is_empty() && names.find(kind, name).is_none() => {
                     if entry {
-                        dangling.push(Dangling { entry: node.element.name, attribute: a, kind, name });
+                        dangling.push(DanglingReference {
+                            entry: node.element.name,
+                            attribute: a,
+                            kind,
+                            name,
+                        });
                     } else {
                         names.unknown(kind, name, a.span.clone(), report);
                     }
@@ -151,7 +162,7 @@ fn is_entry(tree: &Tree, node: &Node) -> bool {
 }
 
 /// A default that refers to an object that does not exist.
-struct Dangling<'t> {
+struct DanglingReference<'t> {
     /// The kind of element to which the default applies.
     entry: &'static str,
     attribute: &'t Attribute,
@@ -165,8 +176,8 @@ fn check_dangling(
     tree: &Tree,
     names: &NameTable,
     classes: &Classes,
-    mut dangling: Vec<Dangling>,
-    report: &mut Report,
+    mut dangling: Vec<DanglingReference>,
+    report: &mut Diagnostics,
 ) {
     let mut childclass: Vec<Option<usize>> = Vec::with_capacity(tree.nodes.len());
     for node in &tree.nodes {
@@ -177,8 +188,9 @@ fn check_dangling(
             "spatial" | "fixed" => "tendon",
             name => name,
         };
-        let may_use =
-            |d: &Dangling| d.entry == entry && node.element.attribute(d.attribute.attr.name).is_some();
+        let may_use = |d: &DanglingReference| {
+            d.entry == entry && node.element.attribute(d.attribute.attr.name).is_some()
+        };
         if dangling.is_empty() {
             return;
         }
@@ -209,7 +221,7 @@ fn check_class<'t>(
     tree: &'t Tree,
     node: &'t Node,
     defined: &mut BTreeMap<&'t str, usize>,
-    report: &mut Report,
+    report: &mut Diagnostics,
 ) {
     let nested = node.parent.and_then(|p| tree.nodes.get(p)).is_some_and(|p| p.element.name == "default");
     let span = node.attribute("class").map_or(node.span.clone(), |a| a.span.clone());

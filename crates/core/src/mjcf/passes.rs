@@ -16,7 +16,7 @@ use super::spec::{
     ActuatorSpec, BodySpec, EqualitySpec, ExcludeSpec, Inertia, List, PairSpec, SensorSpec, TendonSpec,
 };
 use super::tendon::{fill_tendon, read_tendon};
-use super::text::diagnostic::Report;
+use super::text::diagnostic::Diagnostics;
 use super::text::files::Files;
 use super::text::patch::{Patch, Refusal};
 use super::text::{load, tree};
@@ -55,7 +55,7 @@ pub(super) fn build(
     files: &dyn Files,
     path: Option<&str>,
     (patches, refusals): (&[Patch], &mut Vec<Option<Refusal>>),
-    report: &mut Report,
+    report: &mut Diagnostics,
 ) -> Option<(tree::Tree, Model)> {
     let mut loader = load::Loader::new(files, patches);
     let written = loader.model(xml.into(), path, report);
@@ -88,7 +88,7 @@ pub(super) fn build(
 }
 
 /// Reads every object, each kind after the kinds that it refers to. `None` if there is no model.
-fn read_specs(source: &Source, assets: &mut Assets, report: &mut Report) -> Option<Specs> {
+fn read_specs(source: &Source, assets: &mut Assets, report: &mut Diagnostics) -> Option<Specs> {
     let &Source { tree, classes, names, parts } = source;
     let compiler = &parts.first()?.compiler;
     let mut bodies =
@@ -114,7 +114,7 @@ fn read_specs(source: &Source, assets: &mut Assets, report: &mut Report) -> Opti
     let scene = read_scene_fields(&mut cx, refs, &bodies, compiler.discardvisual);
     settings::memory(tree, report);
     assets.hulls(&bodies, &pairs, report);
-    classes.check_room(report);
+    classes.report_exceeded_budget(report);
     let sensors = read_sensor::sensors(tree, refs, &tendons, report);
     let users = user_widths(tree, &bodies, &tendons, &actuators, &sensors, report);
     Some(Specs {
@@ -172,7 +172,7 @@ fn user_widths(
     tendons: &[TendonSpec],
     actuators: &[ActuatorSpec],
     sensors: &[SensorSpec],
-    report: &mut Report,
+    report: &mut Diagnostics,
 ) -> fill::Users {
     let actuator_users: Vec<_> = listed(actuators.iter().map(fill_actuator::user));
     let mut width =
@@ -196,7 +196,7 @@ fn fill_model(
     specs: &Specs,
     assets: &Assets,
     min_keys: usize,
-    report: &mut Report,
+    report: &mut Diagnostics,
 ) -> Option<()> {
     let Specs { bodies, inertias, layout, tendons, actuators, .. } = specs;
     let counts = fill_actuator::count(actuators, report);
@@ -213,7 +213,7 @@ fn fill_model(
         return None;
     }
     let mut simple = layout::find_simple_bodies(bodies, inertias);
-    fill_tendon::demote_simple(&mut simple, bodies, tendons);
+    fill_tendon::clear_simple_flags(&mut simple, bodies, tendons);
     let pattern = layout::pattern(layout, &simple, report)?;
     let whole = layout::whole_pattern(layout, report)?;
     let parts = fill::Parts {
@@ -242,7 +242,7 @@ fn fill_model(
 
 /// Computes the fields that depend on the arrays: sleep policies, the total mass, constants, springs and length ranges. `None` if
 /// there is no model.
-fn compute_constants(m: &mut Model, source: &Source, specs: &Specs, report: &mut Report) -> Option<()> {
+fn compute_constants(m: &mut Model, source: &Source, specs: &Specs, report: &mut Diagnostics) -> Option<()> {
     sleep_policy::policies(m, &specs.bodies);
     reshape::total_mass(m, &source.parts.first()?.compiler);
     crate::setup::setconst::set_const0(m);

@@ -5,11 +5,11 @@ use super::spec::List;
 use crate::kinds::{angle, choice, disable, enable};
 use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
-use crate::mjcf::text::diagnostic::{Report, shorten_name};
+use crate::mjcf::text::diagnostic::{Diagnostics, shorten_name};
 use crate::mjcf::text::tree::Tree;
 use crate::mjcf::text::values::Value;
 use crate::model::{Options, Statistic};
-use crate::setup::lengthrange::{Mode, Search};
+use crate::setup::lengthrange::{Mode, RangeSearch};
 
 /// The attributes of all sections of one name. Later sections override earlier ones.
 fn section(tree: &Tree, name: &str) -> Props {
@@ -27,7 +27,7 @@ pub(crate) fn checked(
     owner: &str,
     test: impl Fn(f64) -> bool,
     must: &str,
-    report: &mut Report,
+    report: &mut Diagnostics,
 ) -> Option<f64> {
     let x = props.real(name)?;
     if !test(x) {
@@ -73,14 +73,14 @@ pub(crate) struct Compiler {
 
 impl Compiler {
     /// Reads the section.
-    pub(crate) fn read(tree: &Tree, report: &mut Report) -> Compiler {
+    pub(crate) fn read(tree: &Tree, report: &mut Diagnostics) -> Compiler {
         let p = section(tree, "compiler");
         let groups = p.ints("inertiagrouprange").unwrap_or(&[0, 5]);
         Compiler {
-            degrees: p.word("angle") != Some(angle::RADIAN),
+            degrees: p.keyword("angle") != Some(angle::RADIAN),
             autolimits: p.flag("autolimits", true),
             eulerseq: eulerseq(&p, report),
-            inertiafromgeom: match p.word("inertiafromgeom") {
+            inertiafromgeom: match p.keyword("inertiafromgeom") {
                 Some(choice::FALSE) => InertiaFromGeom::Never,
                 Some(choice::TRUE) => InertiaFromGeom::Always,
                 _ => InertiaFromGeom::Auto,
@@ -107,7 +107,7 @@ impl Compiler {
     }
 }
 
-fn eulerseq(p: &Props, report: &mut Report) -> [(usize, bool); 3] {
+fn eulerseq(p: &Props, report: &mut Diagnostics) -> [(usize, bool); 3] {
     let text = match p.has("eulerseq") {
         true => p.text("eulerseq").unwrap_or(""),
         false => "xyz",
@@ -133,7 +133,7 @@ fn eulerseq(p: &Props, report: &mut Report) -> [(usize, bool); 3] {
 }
 
 /// Reads `option`. Missing values are MuJoCo's defaults.
-pub(crate) fn options(tree: &Tree, report: &mut Report) -> Options {
+pub(crate) fn options(tree: &Tree, report: &mut Diagnostics) -> Options {
     let p = section(tree, "option");
     let d = Options::default();
     let mut positive = |name: &str, default: f64| {
@@ -168,10 +168,10 @@ pub(crate) fn options(tree: &Tree, report: &mut Report) -> Options {
         o_solref: p.reals("o_solref", d.o_solref),
         o_solimp: p.reals("o_solimp", d.o_solimp),
         o_friction: p.reals("o_friction", d.o_friction),
-        integrator: p.word("integrator").unwrap_or(d.integrator),
-        cone: p.word("cone").unwrap_or(d.cone),
-        jacobian: p.word("jacobian").unwrap_or(d.jacobian),
-        solver: p.word("solver").unwrap_or(d.solver),
+        integrator: p.keyword("integrator").unwrap_or(d.integrator),
+        cone: p.keyword("cone").unwrap_or(d.cone),
+        jacobian: p.keyword("jacobian").unwrap_or(d.jacobian),
+        solver: p.keyword("solver").unwrap_or(d.solver),
         disableflags,
         enableflags,
         disableactuator: disabled_groups(&p, report),
@@ -179,7 +179,7 @@ pub(crate) fn options(tree: &Tree, report: &mut Report) -> Options {
 }
 
 /// A tolerance. A negative one has the effect of zero: the solver does not stop early.
-fn tolerance(p: &Props, name: &str, default: f64, report: &mut Report) -> f64 {
+fn tolerance(p: &Props, name: &str, default: f64, report: &mut Diagnostics) -> f64 {
     let x = p.real(name).unwrap_or(default);
     if x < 0.0 {
         acts_as_zero(p, name, x.to_string(), report);
@@ -188,7 +188,7 @@ fn tolerance(p: &Props, name: &str, default: f64, report: &mut Report) -> f64 {
 }
 
 /// A number of iterations or points. A negative one has the effect of zero.
-fn count(p: &Props, name: &str, default: i32, report: &mut Report) -> i32 {
+fn count(p: &Props, name: &str, default: i32, report: &mut Diagnostics) -> i32 {
     let n = p.int(name).unwrap_or(default);
     if n < 0 {
         acts_as_zero(p, name, n.to_string(), report);
@@ -196,14 +196,14 @@ fn count(p: &Props, name: &str, default: i32, report: &mut Report) -> i32 {
     n
 }
 
-fn acts_as_zero(p: &Props, name: &str, written: String, report: &mut Report) {
+fn acts_as_zero(p: &Props, name: &str, written: String, report: &mut Diagnostics) {
     let span = p.span(name).unwrap_or(0..0);
     let message = format!("`{name}` of option is {written}, which has the effect of 0");
     report.warning(rules::NO_EFFECT, span, message).help("write 0, or remove it for the default");
 }
 
 /// The groups of `actuatorgroupdisable` as bits.
-fn disabled_groups(p: &Props, report: &mut Report) -> i32 {
+fn disabled_groups(p: &Props, report: &mut Diagnostics) -> i32 {
     let mut bits = 0;
     for &group in p.ints("actuatorgroupdisable").unwrap_or(&[]) {
         if (0..=30).contains(&group) {
@@ -219,17 +219,17 @@ fn disabled_groups(p: &Props, report: &mut Report) -> i32 {
 }
 
 /// The parameters of the search for length ranges, `compiler/lengthrange`.
-pub(crate) fn length_range(tree: &Tree) -> Search {
+pub(crate) fn length_range(tree: &Tree) -> RangeSearch {
     let mut p = Props::default();
     for (i, _) in tree.sections("compiler") {
         for (_, node) in tree.children(i) {
             p.overlay(node);
         }
     }
-    let d = Search::default();
+    let d = RangeSearch::default();
     let real = |name: &str, default: f64| p.real(name).unwrap_or(default);
-    Search {
-        mode: match p.word("mode") {
+    RangeSearch {
+        mode: match p.keyword("mode") {
             Some(0) => Mode::Nothing,
             Some(3) => Mode::All,
             // Actuators with user callbacks do not exist here.
@@ -289,7 +289,7 @@ fn flags(tree: &Tree) -> (i32, i32) {
         }
     }
     let bits = |table: &[(&str, i32)], set: i32| {
-        table.iter().filter(|(name, _)| p.word(name) == Some(set)).fold(0, |all, (_, bit)| all | bit)
+        table.iter().filter(|(name, _)| p.keyword(name) == Some(set)).fold(0, |all, (_, bit)| all | bit)
     };
     (bits(&DISABLE, 0), bits(&ENABLE, 1))
 }
@@ -306,7 +306,7 @@ pub(crate) struct StatisticOverride {
 
 impl StatisticOverride {
     /// Reads the section.
-    pub(crate) fn read(tree: &Tree, report: &mut Report) -> StatisticOverride {
+    pub(crate) fn read(tree: &Tree, report: &mut Diagnostics) -> StatisticOverride {
         let p = section(tree, "statistic");
         let mut positive =
             |name: &str| checked(&p, name, "statistic", |x| x > 0.0, "larger than zero", report);
@@ -343,7 +343,7 @@ pub(crate) fn user_width(
     tree: &Tree,
     size: &str,
     lists: &mut dyn Iterator<Item = &List>,
-    report: &mut Report,
+    report: &mut Diagnostics,
 ) -> usize {
     let p = section(tree, "size");
     let span = p.span(size).unwrap_or(0..0);
@@ -379,7 +379,7 @@ pub(crate) fn user_width(
 
 /// Checks the attributes of `size` for memory. They have no effect here, but must be valid in MuJoCo: a number of bytes with K,
 /// M, G, T, P or E; other numbers at least -1.
-pub(crate) fn memory(tree: &Tree, report: &mut Report) {
+pub(crate) fn memory(tree: &Tree, report: &mut Diagnostics) {
     let p = section(tree, "size");
     if p.has("memory") {
         let text = p.text("memory").unwrap_or("").trim();
@@ -400,7 +400,7 @@ pub(crate) fn memory(tree: &Tree, report: &mut Report) {
 }
 
 /// The number of user values of the model, `size nuserdata`.
-pub(crate) fn userdata(tree: &Tree, report: &mut Report) -> usize {
+pub(crate) fn userdata(tree: &Tree, report: &mut Diagnostics) -> usize {
     let p = section(tree, "size");
     let n = p.int("nuserdata").unwrap_or(0);
     let span = p.span("nuserdata").unwrap_or(0..0);

@@ -24,7 +24,7 @@ pub(crate) enum Mode {
 
 /// The parameters of the search.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Search {
+pub(crate) struct RangeSearch {
     pub(crate) mode: Mode,
     /// Whether an existing range is kept.
     pub(crate) useexisting: bool,
@@ -43,9 +43,9 @@ pub(crate) struct Search {
     pub(crate) tolrange: f64,
 }
 
-impl Default for Search {
+impl Default for RangeSearch {
     fn default() -> Self {
-        Search {
+        RangeSearch {
             mode: Mode::Muscles,
             useexisting: true,
             uselimit: false,
@@ -62,14 +62,14 @@ impl Default for Search {
 
 /// The reason why no range was found.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Failure {
+pub(crate) enum RangeError {
     /// The length at the upper end does not exceed the length at the lower end.
     NoRange([f64; 2]),
     /// The length at one end has not settled; it varies between these lengths.
     NotSettled([f64; 2]),
 }
 
-impl Search {
+impl RangeSearch {
     /// Number of steps for both ends.
     pub(crate) fn steps(&self, m: &Model) -> f64 {
         2.0 * (self.inttotal / self.step(m)).max(0.0)
@@ -80,7 +80,7 @@ impl Search {
     }
 
     /// Whether the range of actuator `i` must be found by simulation.
-    pub(crate) fn wants(&self, m: &Model, i: usize) -> bool {
+    pub(crate) fn needs_search(&self, m: &Model, i: usize) -> bool {
         let muscle = m.actuator_gaintype[i] == gaintype::MUSCLE || m.actuator_biastype[i] == biastype::MUSCLE;
         let [lower, upper] = rows::<2>(&m.actuator_lengthrange)[m.actuator_outadr[i] as usize];
         let asked = match self.mode {
@@ -115,8 +115,8 @@ pub(crate) fn length_range(
     d: &mut Fields,
     s: &mut Scratch,
     i: usize,
-    search: &Search,
-) -> Result<(), Failure> {
+    search: &RangeSearch,
+) -> Result<(), RangeError> {
     let o = m.actuator_outadr[i] as usize;
     if let Some(range) = search.limits(m, i) {
         rows_mut::<2>(&mut m.actuator_lengthrange)[o] = range;
@@ -131,22 +131,29 @@ pub(crate) fn length_range(
         | disable::DAMPER
         | disable::GRAVITY
         | disable::ACTUATION;
-    let ends = [-1.0, 1.0].map(|sign| pull(m, d, s, o, sign, search));
+    let ends = [-1.0, 1.0].map(|sign| simulate_pull(m, d, s, o, sign, search));
     m.opt = options;
     let range = [ends[0][0], ends[1][1]];
     if range[0] >= range[1] || range.iter().any(|x| !x.is_finite()) {
-        return Err(Failure::NoRange(range));
+        return Err(RangeError::NoRange(range));
     }
     let settled = |end: &[f64; 2]| end[1] - end[0] <= search.tolrange * (range[1] - range[0]);
     if let Some(end) = ends.into_iter().find(|end| !settled(end)) {
-        return Err(Failure::NotSettled(end));
+        return Err(RangeError::NotSettled(end));
     }
     rows_mut::<2>(&mut m.actuator_lengthrange)[o] = range;
     Ok(())
 }
 
 /// Smallest and largest length of output `o` in the last part of the simulation, pulled in one direction.
-fn pull(m: &Model, d: &mut Fields, s: &mut Scratch, o: usize, sign: f64, search: &Search) -> [f64; 2] {
+fn simulate_pull(
+    m: &Model,
+    d: &mut Fields,
+    s: &mut Scratch,
+    o: usize,
+    sign: f64,
+    search: &RangeSearch,
+) -> [f64; 2] {
     let damping = libm::exp(-m.opt.timestep / search.timeconst.max(0.01));
     let mut lengths: Option<[f64; 2]> = None;
     let mut acceleration = vec![0.0; m.nv];
@@ -171,7 +178,7 @@ fn pull(m: &Model, d: &mut Fields, s: &mut Scratch, o: usize, sign: f64, search:
 }
 
 /// Applies a force along the moment of output `o` that would accelerate the mechanism by |M⁻¹ f| = `accel`.
-fn force(m: &Model, d: &mut Fields, o: usize, sign: f64, search: &Search, acceleration: &mut [f64]) {
+fn force(m: &Model, d: &mut Fields, o: usize, sign: f64, search: &RangeSearch, acceleration: &mut [f64]) {
     acceleration.fill(0.0);
     d.qfrc_applied.fill(0.0);
     for at in row(d, o) {
@@ -245,7 +252,7 @@ mod tests {
 
     /// If MuJoCo finds no range, this code finds none. A search without end is not started.
     #[test]
-    fn what_has_no_range_says_so() {
+    fn an_actuator_without_a_range_is_an_error() {
         let limit = "range='-60 60'";
         let motor = "<motor joint='a'/>";
         let cases = [

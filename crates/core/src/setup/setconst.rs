@@ -22,7 +22,7 @@ pub(crate) fn set_const(m: &mut Model, d: &mut Fields, s: &mut Scratch) {
     let pass = d.meter.half;
     d.meter.add(8 * pass + solves as u64);
     subtree_mass(m);
-    same_frames(m);
+    mark_coincident_frames(m);
     trees(m);
     transmission::reflected(m);
     m.ngravcomp = m.body_gravcomp.iter().filter(|&&c| c > 0.0).count();
@@ -90,7 +90,7 @@ fn trees(m: &mut Model) {
 }
 
 /// Sets which inertial frames, geoms and sites coincide with the frame of their body. Their poses are then copied.
-fn same_frames(m: &mut Model) {
+fn mark_coincident_frames(m: &mut Model) {
     let (ipos, iquat) = (rows::<3>(&m.body_ipos), rows::<4>(&m.body_iquat));
     for b in 0..m.nbody {
         m.body_sameframe[b] = match (same(ipos[b], [0.0; 3]), same_rotation(iquat[b], IDENTITY)) {

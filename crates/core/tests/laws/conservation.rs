@@ -26,7 +26,7 @@ fn drift(m: &Model, start: &[f64], h: f64, steps: usize, invariants: fn(&Model, 
 }
 
 /// The distance from the initial state after a motion whose velocity is reversed halfway.
-fn way_back(m: &Model, start: &[f64], h: f64, steps: usize) -> f64 {
+fn return_distance(m: &Model, start: &[f64], h: f64, steps: usize) -> f64 {
     let (m, before, mut d) = run(m, start, h, steps);
     d.edit().qvel.iter_mut().for_each(|v| *v = -*v);
     (0..steps).for_each(|_| core::step(&m, &mut d).unwrap());
@@ -90,9 +90,9 @@ proptest! {
     }
 
     #[test]
-    fn a_motion_without_friction_finds_its_way_back(scene in scene(), numbers in numbers()) {
+    fn a_frictionless_motion_is_reversible(scene in scene(), numbers in numbers()) {
         let m = compile(&scene.conservative()).unwrap();
-        let result = shrinks(&m, |h, n| way_back(&m, &numbers, h, n));
+        let result = shrinks(&m, |h, n| return_distance(&m, &numbers, h, n));
         prop_assert!(result.is_ok(), "{result:?}");
     }
 }

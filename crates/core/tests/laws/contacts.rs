@@ -178,7 +178,7 @@ proptest! {
         prop_assume!(m.ngeom == n + 1);
         // Pairs of equal types are tested in the order of the file. If there are several deepest points, another one may be
         // selected.
-        prop_assume!(a.ncon == b.ncon && same_places(&a, &b));
+        prop_assume!(a.ncon == b.ncon && positions_agree(&a, &b));
         let scale = largest(&a.qacc);
         for (place, &i) in second.iter().enumerate() {
             for k in 0..6 {
@@ -198,7 +198,7 @@ proptest! {
 }
 
 /// Whether two lists of contacts have the same positions, in any order.
-fn same_places(a: &Data, b: &Data) -> bool {
+fn positions_agree(a: &Data, b: &Data) -> bool {
     let near = |p: &Vec3, q: &Vec3| (0..3).all(|k| (p[k] - q[k]).abs() < 1e-9);
     a.contact.iter().all(|c| b.contact.iter().any(|e| near(&c.pos, &e.pos)))
 }

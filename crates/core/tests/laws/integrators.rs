@@ -39,7 +39,7 @@ fn end(m: &Model, method: &Method, h: f64, steps: usize, begin: impl Fn(&mut Dat
     d
 }
 
-fn apart(a: &Data, b: &Data) -> f64 {
+fn distance(a: &Data, b: &Data) -> f64 {
     let differences = a.qpos.iter().zip(&b.qpos).chain(a.qvel.iter().zip(&b.qvel));
     differences.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
@@ -49,7 +49,7 @@ fn apart(a: &Data, b: &Data) -> f64 {
 fn observed_order(m: &Model, method: &Method, h: f64, time: f64, begin: impl Fn(&mut Data)) -> Option<f64> {
     let run = |k: usize| end(m, method, h / k as f64, k * (time / h).round() as usize, &begin);
     let [coarse, middle, fine] = [run(1), run(2), run(4)];
-    let (first, second) = (apart(&coarse, &middle), apart(&middle, &fine));
+    let (first, second) = (distance(&coarse, &middle), distance(&middle, &fine));
     // Large numbers have larger rounding errors, which methods of high order reach quickly.
     let size = fine.qpos.iter().chain(fine.qvel.iter()).fold(1.0f64, |a, x| a.max(x.abs()));
     let rounding = if method.order > 4.0 { 1e-11 * size } else { 1e-12 };
@@ -64,7 +64,7 @@ const ARM: &str = "<mujoco><worldbody><body pos='0 0 1'>
     </body></body></body></worldbody></mujoco>";
 
 /// A body in free rotation with a pendulum on a ball joint.
-const TUMBLER: &str = "<mujoco><worldbody><body pos='0 0 1'>
+const TUMBLING_BODY: &str = "<mujoco><worldbody><body pos='0 0 1'>
     <freejoint/><geom pos='0.1 0 0' size='0.1' mass='1'/><geom pos='-0.2 0.1 0' size='0.05' mass='0.5'/><geom pos='0 0.1 0.1' size='0.05' mass='0.3'/>
     <body pos='0.2 0 0'><joint type='ball' damping='0.02' stiffness='0.5'/><geom pos='0.1 0.1 -0.2' size='0.05' mass='0.4'/>
     <geom pos='-0.1 0.1 0' size='0.05' mass='0.2'/></body></body></worldbody></mujoco>";
@@ -72,7 +72,7 @@ const TUMBLER: &str = "<mujoco><worldbody><body pos='0 0 1'>
 #[test]
 fn orders_of_convergence() {
     let arm = compile(ARM).unwrap();
-    let tumbler = compile(TUMBLER).unwrap();
+    let tumbler = compile(TUMBLING_BODY).unwrap();
     for method in &METHODS {
         let push =
             |d: &mut Data| d.edit().qvel.iter_mut().enumerate().for_each(|(i, v)| *v = 0.8 - 0.3 * i as f64);
@@ -93,16 +93,16 @@ fn orders_of_convergence() {
 
 /// The adaptive method does not need small timesteps: one step over the whole time is as accurate as 8,000 steps of order eight.
 #[test]
-fn the_adaptive_method_is_right_whatever_the_step() {
+fn the_adaptive_method_is_accurate_for_every_timestep() {
     let reference = Method { id: integrator::RKMK8, order: 8.0, order_in_space: 8.0, step: 0.0 };
     let adaptive = Method { id: integrator::ADAPTIVE, ..reference };
     let push =
         |d: &mut Data| d.edit().qvel.iter_mut().enumerate().for_each(|(i, v)| *v = 3.0 - 0.9 * i as f64);
-    for xml in [ARM, TUMBLER] {
+    for xml in [ARM, TUMBLING_BODY] {
         let m = compile(xml).unwrap();
         let truth = end(&m, &reference, 1e-3, 400, push);
         for h in [0.4, 0.1, 0.02, 2e-3] {
-            let error = apart(&end(&m, &adaptive, h, (0.4 / h).round() as usize, push), &truth);
+            let error = distance(&end(&m, &adaptive, h, (0.4 / h).round() as usize, push), &truth);
             assert!(error < 2e-11, "{h}: {error}");
         }
     }
@@ -186,7 +186,7 @@ impl Oscillator {
     }
 
     /// The exact state after a step, from the series of the matrix exponential. `None` if the step is long.
-    fn truth(&self) -> Option<(f64, f64)> {
+    fn exact_state(&self) -> Option<(f64, f64)> {
         let Oscillator { mass: m, stiffness: k, damping: b, timestep: h, x, v } = *self;
         let (mut sum, mut term) = ((x, v), (x, v));
         for n in 1..40 {
@@ -208,7 +208,7 @@ impl Oscillator {
         let d = end(&m, method, timestep, 1, |d| (d.edit().qpos[0], d.edit().qvel[0]) = (x, v));
         if method.order > 4.0 {
             // The error of a step of length h is about hᵖ⁺¹/(p+1)!, in the units of the motion.
-            let Some((x1, v1)) = self.truth() else { return Ok(()) };
+            let Some((x1, v1)) = self.exact_state() else { return Ok(()) };
             let length = timestep * (stiffness / mass).sqrt().max(damping / mass);
             let small = ROUNDING + length.powf(method.order + 1.0) / 1e3;
             let scale = 1.0 + v1.abs() + (stiffness / mass).sqrt();
@@ -251,7 +251,7 @@ proptest! {
 
     /// Rotation about a principal axis continues, and a scene at rest without forces stays at rest, bit for bit.
     #[test]
-    fn what_keeps_moving_and_what_rests(scene in scene(), numbers in numbers(), spin in -20.0..20.0f64) {
+    fn principal_rotations_continue_and_scenes_at_rest_stay(scene in scene(), numbers in numbers(), spin in -20.0..20.0f64) {
         let top = compile(
             "<mujoco><option gravity='0 0 0'/><worldbody><body><freejoint/><geom pos='0.1 0 0' size='0.1'/>
              <geom pos='-0.1 0 0' size='0.1'/></body></worldbody></mujoco>",
@@ -263,7 +263,7 @@ proptest! {
             let still = end(&m, method, 5e-3, 3, |d| core::integrate_pos(&m, d.edit().qpos, &vec![0.0; m.nv], 1.0).unwrap());
             let start = Data::new(&m);
             let springs = m.jnt_stiffness.iter().any(|&k| k != 0.0);
-            prop_assert!(springs || apart(&still, &start) == 0.0, "{}: {:?}", method.id, still.qvel);
+            prop_assert!(springs || distance(&still, &start) == 0.0, "{}: {:?}", method.id, still.qvel);
             prop_assert_eq!(end(&m, method, 2e-3, 3, |d| scatter(&m, d, &numbers)), end(&m, method, 2e-3, 3, |d| scatter(&m, d, &numbers)));
         }
     }

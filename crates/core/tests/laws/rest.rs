@@ -6,7 +6,7 @@ use proptest::prelude::*;
 
 /// Contact parameters of a resting sphere.
 #[derive(Clone, Copy, Debug)]
-struct Rest {
+struct RestingContact {
     time: f64,
     damping: f64,
     solimp: [f64; 5],
@@ -17,11 +17,11 @@ struct Rest {
 
 /// Parameters of any contact, or of one that comes to rest. A contact with a time constant of a few steps and low damping
 /// continues to bounce, in MuJoCo as here, because each step applies the force of its start.
-fn rest(settles: bool) -> impl Strategy<Value = Rest> {
+fn contact_parameters(settles: bool) -> impl Strategy<Value = RestingContact> {
     let (steps, damping, end) = if settles { (4.0, 0.8, 0.8) } else { (0.5, 0.3, 0.3) };
     let solimp = (0.3..1.0, end..0.98, 2e-4..5e-3, 0.2..0.8, 1.0..4.0);
     (steps..20.0, damping..1.5, solimp, 0.01..10.0, 0.0005..0.005, prop::option::of(0.2..1.5)).prop_map(
-        |(steps, damping, (share, dw, width, mid, power), mass, timestep, friction)| Rest {
+        |(steps, damping, (share, dw, width, mid, power), mass, timestep, friction)| RestingContact {
             time: steps * timestep,
             damping,
             solimp: [share * dw, dw, width, mid, power],
@@ -32,7 +32,7 @@ fn rest(settles: bool) -> impl Strategy<Value = Rest> {
     )
 }
 
-impl Rest {
+impl RestingContact {
     /// The impedance at a penetration depth.
     fn impedance(&self, depth: f64) -> f64 {
         let [d0, dw, width, mid, power] = self.solimp;
@@ -83,7 +83,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 200, max_shrink_iters: 300, ..ProptestConfig::default() })]
 
     #[test]
-    fn a_sphere_rests_as_deep_as_the_closed_form_says(rest in rest(true)) {
+    fn the_depth_of_a_resting_sphere_has_a_closed_form(rest in contact_parameters(true)) {
         let mut m = rest.model();
         // With the default tolerance, the solver stops early and the sphere moves up and down with 1e-9 m/s.
         (*m.edit().opt.tolerance, *m.edit().opt.ls_tolerance) = (0.0, 1e-10);
@@ -100,7 +100,7 @@ proptest! {
 
     /// At that depth the forces are balanced, whether or not a simulation with this timestep converges to it.
     #[test]
-    fn the_closed_form_is_in_balance(rest in rest(false)) {
+    fn the_closed_form_is_in_balance(rest in contact_parameters(false)) {
         let mut m = rest.model();
         (*m.edit().opt.tolerance, *m.edit().opt.ls_tolerance) = (0.0, 1e-10);
         let mut d = Data::new(&m);

@@ -150,7 +150,7 @@ fn noise() -> impl FnMut() -> f64 {
     }
 }
 
-fn turned(q: [f64; 4], [x, y, z]: [f64; 3]) -> [f64; 3] {
+fn rotate(q: [f64; 4], [x, y, z]: [f64; 3]) -> [f64; 3] {
     let [w, a, b, c] = q;
     let t = [2.0 * (b * z - c * y), 2.0 * (c * x - a * z), 2.0 * (a * y - b * x)];
     [
@@ -191,7 +191,7 @@ fn axes_of_symmetric_meshes_are_stable() {
             let q: [f64; 4] = std::array::from_fn(|_| random());
             let n = q.iter().map(|x| x * x).sum::<f64>().sqrt();
             let q = q.map(|x| x / n);
-            let here: Vec<[f64; 3]> = vertices.iter().map(|v| turned(q, *v)).collect();
+            let here: Vec<[f64; 3]> = vertices.iter().map(|v| rotate(q, *v)).collect();
             let moved: Vec<[f64; 3]> = here.iter().map(|v| v.map(|x| x + 1e-8 * random())).collect();
             let (a, b) = (axes(&here), axes(&moved));
             let cos = a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>().abs().min(1.0);

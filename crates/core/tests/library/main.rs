@@ -38,7 +38,7 @@ fn full_m(m: &Model, d: &Data) -> Vec<f64> {
     core::full_m(m, d).unwrap()
 }
 
-fn ours(m: &Model, d: &Data, field: &str) -> Vec<f64> {
+fn computed_values(m: &Model, d: &Data, field: &str) -> Vec<f64> {
     let contacts = |of: fn(&core::Contact) -> f64| d.contact.iter().map(of).collect();
     match field {
         "model.body_simple" => m.body_simple.iter().map(|&x| f64::from(x)).collect(),
@@ -71,7 +71,7 @@ fn as_recorded(prefix: &str) {
         let mut d = Data::new(&m);
         core::forward(&m, &mut d).unwrap();
         for (field, theirs) in &case.fields {
-            let ours = ours(&m, &d, field);
+            let ours = computed_values(&m, &d, field);
             let scale = theirs.iter().fold(1.0_f64, |s, x| s.max(x.abs()));
             let near = ours.len() == theirs.len()
                 && ours.iter().zip(theirs).all(|(x, y)| (x - y).abs() <= 1e-12 * scale);

@@ -21,7 +21,7 @@ fn height(m: &Model, mut d: Data<Planned>, writes: &[(&str, usize, f64)]) -> f64
 }
 
 #[test]
-fn bits_that_are_switched_do_what_they_do_in_the_library() {
+fn switched_flags_act_as_in_the_library() {
     let text = include_str!("../../../../tests/golden/switched.txt");
     let mut wrong = Vec::new();
     for line in text.lines() {

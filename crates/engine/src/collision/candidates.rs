@@ -25,7 +25,7 @@ pub struct Changes {
 /// incomplete list, when the list becomes longer than [`MOST_LISTED`].
 pub(crate) fn candidate_pairs(m: &Model, change: Changes) -> Vec<Pair> {
     let extents = (!change.places && !change.params).then(|| Extents::new(m));
-    let meet = |p: &Pair| !extents.as_ref().is_some_and(|e| e.keep_apart(m, p, params::params(m, p).reach));
+    let meet = |p: &Pair| !extents.as_ref().is_some_and(|e| e.never_within(m, p, params::params(m, p).reach));
     let geoms = |b: usize| element_range(m.body_geomadr[b], m.body_geomnum[b]);
     let with_geoms: Vec<usize> = (0..m.nbody).filter(|&b| m.body_geomnum[b] > 0).collect();
     let mut out: Vec<Pair> = explicit_pairs(m).filter(meet).collect();

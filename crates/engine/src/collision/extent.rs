@@ -64,7 +64,7 @@ impl Extent {
     }
 
     /// The region after joint `j` of the body has moved it.
-    fn moved(self, m: &Model, j: usize) -> Extent {
+    fn after_joint(self, m: &Model, j: usize) -> Extent {
         let axis = rows::<3>(&m.jnt_axis)[j];
         match (m.jnt_type[j], self.turned) {
             (joint::HINGE | joint::BALL, _) => Extent { turned: None, ..self.at(rows::<3>(&m.jnt_pos)[j]) },
@@ -96,7 +96,7 @@ impl Extents {
             let turned = from.turned.map(|turned| if b > 0 { quat_mul(turned, quat) } else { turned });
             let mut here = Extent { point: [0.0; 3], turned, ..from };
             for j in element_range(m.body_jntadr[b], m.body_jntnum[b]) {
-                here = here.moved(m, j);
+                here = here.after_joint(m, j);
             }
             if m.body_mocapid[b] >= 0 {
                 here = Extent { free: [true; 3], turned: None, ..here };
@@ -113,7 +113,7 @@ impl Extents {
     }
 
     /// Whether the two geoms can never come within the distance `reach` (m) of each other.
-    pub(super) fn keep_apart(&self, m: &Model, pair: &Pair, reach: f64) -> bool {
+    pub(super) fn never_within(&self, m: &Model, pair: &Pair, reach: f64) -> bool {
         let [g1, g2] = [pair.geom1 as usize, pair.geom2 as usize];
         let (Some(a), Some(b)) = (self.geoms.get(g1), self.geoms.get(g2)) else { return false };
         let [ra, rb] = [m.geom_rbound[g1], m.geom_rbound[g2]];
@@ -186,7 +186,7 @@ mod tests {
 
     /// A pendulum of 1 m with a bob of 0.1 m above a floor, a cart on rails, and two pendulums next to each other.
     #[test]
-    fn what_is_out_of_reach_is_left_out() {
+    fn pairs_out_of_reach_are_excluded() {
         let floor = "<geom type='plane' size='1 1 1'/>";
         let pendulum = |x: f64, z: f64, joint: &str| {
             format!("<body pos='{x} 0 {z}'>{joint}<geom size='.1' pos='0 0 -1'/></body>")

@@ -58,7 +58,7 @@ fn bodies_collide(m: &Model, b1: usize, b2: usize) -> bool {
 
 /// Whether the midphase can find two geoms. The bounding volumes of bodies contain only the geoms that had contact
 /// bits when the model was compiled. They are used if both bodies have such geoms, unless the midphase is disabled.
-fn volumes_hold(m: &Model, g1: usize, g2: usize) -> bool {
+fn midphase_contains(m: &Model, g1: usize, g2: usize) -> bool {
     let visual = |g: usize| m.visual_geoms.binary_search(&(g as i32)).is_ok();
     let hold = |g: usize| {
         let b = m.geom_bodyid[g] as usize;
@@ -148,5 +148,5 @@ pub(super) fn admitted(m: &Model, g1: usize, g2: usize) -> bool {
 pub(super) fn masks_admit(m: &Model, g1: usize, g2: usize) -> bool {
     can_collide(m, g1, g2)
         && bodies_collide(m, m.geom_bodyid[g1] as usize, m.geom_bodyid[g2] as usize)
-        && volumes_hold(m, g1, g2)
+        && midphase_contains(m, g1, g2)
 }

@@ -93,7 +93,7 @@ pub(crate) fn collide(m: &Model, d: &mut Fields, w: &mut Scratch) {
     }
     if list.params.is_empty() {
         for pair in &list.pairs {
-            if !list.leaves_out(m, d, pair) {
+            if !list.excludes(m, d, pair) {
                 narrow_mixed(m, d, work, pair);
             }
         }
@@ -106,7 +106,7 @@ pub(crate) fn collide(m: &Model, d: &mut Fields, w: &mut Scratch) {
             let k = left.trailing_zeros() as usize;
             left &= left - 1;
             let (pair, params) = (&list.pairs[64 * word + k], &list.params[64 * word + k]);
-            if list.leaves_out(m, d, pair) {
+            if list.excludes(m, d, pair) {
                 continue;
             }
             if near >> k & 1 == 0 {
@@ -127,7 +127,7 @@ pub(crate) fn collide(m: &Model, d: &mut Fields, w: &mut Scratch) {
 
 /// Whether the current contact filters exclude a pair.
 #[cfg_attr(not(feature = "small"), inline(never))]
-fn is_refused(m: &Model, pair: &Pair) -> bool {
+fn is_filtered(m: &Model, pair: &Pair) -> bool {
     pair.explicit == Pair::DYNAMIC && !filter::admitted(m, pair.geom1 as usize, pair.geom2 as usize)
 }
 
@@ -140,9 +140,9 @@ pub(crate) fn none(d: &mut Fields) {
 impl Pairs {
     /// Whether contact filters or sleep exclude a pair of the list.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    fn leaves_out(&self, m: &Model, d: &Fields, pair: &Pair) -> bool {
+    fn excludes(&self, m: &Model, d: &Fields, pair: &Pair) -> bool {
         let [g1, g2] = [pair.geom1 as usize, pair.geom2 as usize];
-        self.filter && is_refused(m, pair) || asleep::pair(m, d, g1, g2)
+        self.filter && is_filtered(m, pair) || asleep::pair(m, d, g1, g2)
     }
 }
 

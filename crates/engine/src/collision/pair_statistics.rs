@@ -59,7 +59,9 @@ pub fn pair_statistics(m: &Model, change: Changes) -> Vec<(PairFilterReason, usi
         for b in a + 1..m.ngeom {
             let named = named.contains(&[a as i32, b as i32]);
             let mut reason = reason(m, a, b, change.bits, named);
-            if reason == PairFilterReason::CanTouch && extents.as_ref().is_some_and(|e| apart(m, e, a, b)) {
+            if reason == PairFilterReason::CanTouch
+                && extents.as_ref().is_some_and(|e| is_out_of_reach(m, e, a, b))
+            {
                 reason = PairFilterReason::OutOfReach;
             }
             match counts.iter_mut().find(|(f, _)| *f == reason) {
@@ -73,11 +75,11 @@ pub fn pair_statistics(m: &Model, change: Changes) -> Vec<(PairFilterReason, usi
 }
 
 /// Whether two geoms are out of reach of each other, also with the margins of their explicit pairs.
-fn apart(m: &Model, extents: &Extents, a: usize, b: usize) -> bool {
+fn is_out_of_reach(m: &Model, extents: &Extents, a: usize, b: usize) -> bool {
     let both = ordered(a as i32, b as i32);
     let of = |p: &Pair| ordered(p.geom1 as i32, p.geom2 as i32) == both;
     let mut pairs = explicit_pairs(m).filter(of).chain(dynamic_pair(m, a, b, true));
-    pairs.all(|p| extents.keep_apart(m, &p, params::params(m, &p).reach))
+    pairs.all(|p| extents.never_within(m, &p, params::params(m, &p).reach))
 }
 
 fn ordered(a: i32, b: i32) -> [i32; 2] {

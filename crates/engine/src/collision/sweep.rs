@@ -70,7 +70,7 @@ pub(super) struct Sweep {
     explicit: Vec<Pair>,
     /// Number of pairs of spheres tested in the last step, and how many of them were near.
     pub(super) tested: usize,
-    asked: usize,
+    queried: usize,
 }
 
 /// Maximum number of columns that a geom not wider than a column can intersect.
@@ -96,19 +96,19 @@ impl Sweep {
             near: Vec::with_capacity(8 * n),
             explicit: filter::explicit_pairs(m).collect(),
             tested: 0,
-            asked: 0,
+            queried: 0,
         }
     }
 
     /// Finds the pairs with overlapping bounds at the current positions. Returns the work units.
     pub(super) fn run(&mut self, m: &Model, d: &Fields) -> u64 {
         let width = self.place(m, rows::<3>(&d.geom_xpos));
-        (self.tested, self.asked) = (0, 0);
+        (self.tested, self.queried) = (0, 0);
         self.near.clear();
         self.near.extend_from_slice(&self.explicit);
         self.in_columns(m);
-        self.wide_and_wide(m);
-        self.wide_and_others(m, width);
+        self.sweep_wide(m);
+        self.sweep_wide_against_narrow(m, width);
         for s in &self.shadows {
             let reach =
                 |plane: usize| s.radius - m.geom_rbound[s.geom as usize] + params::half_reach(m, plane);
@@ -119,12 +119,12 @@ impl Sweep {
         sort_by(&mut self.near, |p, q| p.order(m).cmp(&q.order(m)));
         let listed = m.npair + m.nexclude;
         let rest = self.shadows.len() * (100 + 10 * self.planes.len()) + 5 * self.tested;
-        (rest + self.asked * (20 + listed) + 100 * self.near.len()) as u64
+        (rest + self.queried * (20 + listed) + 100 * self.near.len()) as u64
     }
 
     /// Computes and sorts the intervals and columns of all geoms. Returns the width of a column, m.
     fn place(&mut self, m: &Model, centres: &[Vec3]) -> f64 {
-        let axis = widest(&self.shadows, centres);
+        let axis = axis_of_largest_variance(&self.shadows, centres);
         let mut sum = 0.0;
         for s in &mut self.shadows {
             let g = s.geom as usize;
@@ -173,7 +173,7 @@ impl Sweep {
                     let other = &self.shadows[other as usize];
                     // Geoms that share several columns are paired only in the first one.
                     if other.near(s) && s.first_common(other) == place {
-                        self.asked += 1;
+                        self.queried += 1;
                         if self.near.len() < MOST_NEAR {
                             self.near.extend(may_touch(m, other.geom as usize, s.geom as usize));
                         }
@@ -185,14 +185,14 @@ impl Sweep {
     }
 
     /// Sweeps the geoms that are wider than a column, without columns.
-    fn wide_and_wide(&mut self, m: &Model) {
+    fn sweep_wide(&mut self, m: &Model) {
         for (i, &k) in self.wide.iter().enumerate() {
             let s = &self.shadows[k as usize];
             let later = self.wide[i + 1..].iter().map(|&other| &self.shadows[other as usize]);
             for other in later.take_while(|other| other.low <= s.high) {
                 self.tested += 1;
                 if other.near(s) {
-                    self.asked += 1;
+                    self.queried += 1;
                     if self.near.len() < MOST_NEAR {
                         self.near.extend(may_touch(m, other.geom as usize, s.geom as usize));
                     }
@@ -202,7 +202,7 @@ impl Sweep {
     }
 
     /// Tests wide geoms against the narrow geoms in their columns.
-    fn wide_and_others(&mut self, m: &Model, width: f64) {
+    fn sweep_wide_against_narrow(&mut self, m: &Model, width: f64) {
         for &k in &self.wide {
             let s = &self.shadows[k as usize];
             if s.spans() > self.shadows.len() as i64 {
@@ -210,7 +210,7 @@ impl Sweep {
                 for other in self.shadows.iter().filter(|other| !other.wide) {
                     self.tested += 1;
                     if other.near(s) {
-                        self.asked += 1;
+                        self.queried += 1;
                         if self.near.len() < MOST_NEAR {
                             self.near.extend(may_touch(m, other.geom as usize, s.geom as usize));
                         }
@@ -232,7 +232,7 @@ impl Sweep {
                     }
                     self.tested += 1;
                     if other.near(s) && s.first_common(other) == place {
-                        self.asked += 1;
+                        self.queried += 1;
                         if self.near.len() < MOST_NEAR {
                             self.near.extend(may_touch(m, other.geom as usize, s.geom as usize));
                         }
@@ -248,7 +248,7 @@ fn may_touch(m: &Model, a: usize, b: usize) -> Option<Pair> {
 }
 
 /// The axis with the largest variance of the centres.
-fn widest(shadows: &[Shadow], centres: &[Vec3]) -> usize {
+fn axis_of_largest_variance(shadows: &[Shadow], centres: &[Vec3]) -> usize {
     let n = shadows.len().max(1) as f64;
     let (mut sum, mut squares) = ([0.0; 3], [0.0; 3]);
     for s in shadows {

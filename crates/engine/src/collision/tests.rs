@@ -47,7 +47,7 @@ fn contacts(m: &Model, sweep: bool) -> Vec<Contact> {
 }
 
 #[test]
-fn sweep_finds_what_the_list_finds() {
+fn the_sweep_finds_the_pairs_of_the_list() {
     for (bodies, side) in [(5, 0.3), (20, 0.6), (40, 1.5)] {
         let m = pile(bodies, side);
         let (list, sweep) = (contacts(&m, false), contacts(&m, true));
@@ -141,7 +141,7 @@ fn cost_grows_with_the_number_of_geoms() {
 
 /// The columns miss no pair: comparison with a test of all pairs, with sizes over four decades.
 #[test]
-fn columns_find_what_all_pairs_do() {
+fn columns_find_the_same_pairs_as_all_pairs() {
     for seed in 0..20 {
         let size = |g: usize| 0.02 * [1.0, 0.01, 3.0, 30.0][(g * (seed + 3) / 7) % 4];
         let m = cloud(300, [1.0, 0.5 + 0.1 * seed as f64, 0.3], size);
@@ -170,7 +170,7 @@ fn too_many_contacts_are_left_out_with_a_warning() {
 /// slope of four degrees. Both faces face the box. The contacts must be on the horizontal face, which is nearer to
 /// the direction of least depth.
 #[test]
-fn of_several_sides_the_nearest_to_the_direction_of_least_depth() {
+fn of_several_sides_the_one_nearest_to_the_direction_of_least_depth_is_used() {
     let profile = [(-1.0, -0.07), (0.0, 0.0), (0.1, 0.0), (0.1, -1.0), (-1.0, -1.0)];
     let ends = profile.iter().flat_map(|(x, z)| [-0.5, 0.5].map(|y| format!("{x} {y} {z} ")));
     let xml = format!(
@@ -199,7 +199,7 @@ fn of_several_sides_the_nearest_to_the_direction_of_least_depth() {
 /// A roof with its ridge down, near the edge of a box. The face towards the edge of the box is steeper than the
 /// other, and the penetration depth along its normal is smaller. The contact must be with this face.
 #[test]
-fn of_several_faces_those_of_least_depth_meet() {
+fn of_several_faces_those_of_least_depth_are_used() {
     let (h, slopes) = (0.1, [3.0_f64, 2.0].map(|degrees| degrees.to_radians().tan()));
     let (back, front, side) = (-h / slopes[0], h / slopes[1], h / 20.0_f64.to_radians().tan());
     let mut vertices = String::from("0 0 0");

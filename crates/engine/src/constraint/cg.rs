@@ -3,7 +3,7 @@
 //! Search directions and the truncation of β follow Hager and Zhang 2005 (*A new conjugate gradient method with
 //! guaranteed descent and an efficient line search*).
 
-use super::iterate::Reached;
+use super::iterate::IslandProgress;
 use super::primal::{Direction, Problem};
 use crate::math::MINVAL;
 
@@ -12,11 +12,11 @@ const ETA: f64 = 0.01;
 
 impl Problem<'_> {
     #[inline(never)]
-    pub(super) fn conjugate_gradient(&mut self, from: Reached) {
+    pub(super) fn conjugate_gradient(&mut self, from: IslandProgress) {
         if from.minimum {
             return;
         }
-        let [rows, _] = self.prices();
+        let [rows, _] = self.pass_costs();
         let price = 6 * rows + 4 * self.m.nC as u64 / self.d.nisland.max(1) as u64;
         self.descend(from, price, Self::conjugate_direction);
     }

@@ -23,9 +23,9 @@ use crate::math::{Ldl, add_scaled, dot};
 
 /// Fraction of the trace of G_t that is added to its diagonal. It is as small as rounding, and keeps the diagonal
 /// positive in directions without friction or inertia.
-const RIDGE: f64 = 1e-15;
+const DIAGONAL_SHIFT: f64 = 1e-15;
 /// Tolerance of |y_t| = n, relative to n.
-const CLOSE: f64 = 1e-14;
+const SLIP_TOLERANCE: f64 = 1e-14;
 /// If Newton's step for n is below this fraction of n, the relative error after it is the square of this, which is
 /// rounding.
 const LAST_STEP: f64 = 1e-7;
@@ -144,7 +144,7 @@ impl<const N: usize> Disc<N> {
     fn new(matrix: &[[f64; N]; N]) -> Disc<N> {
         let trace: f64 = (1..N).map(|i| matrix[i][i]).sum();
         let mut matrix = *matrix;
-        (1..N).for_each(|i| matrix[i][i] += RIDGE * trace);
+        (1..N).for_each(|i| matrix[i][i] += DIAGONAL_SHIFT * trace);
         Disc { matrix, trace }
     }
 
@@ -166,7 +166,7 @@ impl<const N: usize> Disc<N> {
             let y = factor.solve(*load);
             let size = length_of_tangents(&y);
             let Tangents { factor, .. } = found.insert(Tangents { y, lambda, factor });
-            if size <= n && lambda == 0.0 || (size - n).abs() <= CLOSE * n || size.is_nan() {
+            if size <= n && lambda == 0.0 || (size - n).abs() <= SLIP_TOLERANCE * n || size.is_nan() {
                 break;
             }
             if size > n {
@@ -279,7 +279,7 @@ mod tests {
 
     /// Optimality conditions in the coordinates in which the cone is circular: y and G y + g are in the cone and
     /// orthogonal. Returns the largest relative violation over random problems.
-    fn misses_optimality<const N: usize>(cases: usize, zones: &mut [usize; 3]) -> f64 {
+    fn optimality_violation<const N: usize>(cases: usize, zones: &mut [usize; 3]) -> f64 {
         let mut random = Random(N as u64);
         let mut worst = 0.0_f64;
         for case in 0..cases {
@@ -324,9 +324,9 @@ mod tests {
     fn forces_of_cones_are_optimal() {
         let mut zones = [0; 3];
         let worst = [
-            misses_optimality::<3>(50_000, &mut zones),
-            misses_optimality::<4>(50_000, &mut zones),
-            misses_optimality::<6>(50_000, &mut zones),
+            optimality_violation::<3>(50_000, &mut zones),
+            optimality_violation::<4>(50_000, &mut zones),
+            optimality_violation::<6>(50_000, &mut zones),
         ];
         println!("{worst:?}, {zones:?} at the apex, on the boundary, inside");
         assert!(zones.iter().all(|&n| n > 1_000), "{zones:?}");

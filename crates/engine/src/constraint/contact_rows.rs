@@ -37,7 +37,7 @@ pub(super) fn make(m: &Model, d: &mut Fields, w: &mut Scratch) {
         }
         let bodies = [m.geom_bodyid[c.geom1] as usize, m.geom_bodyid[c.geom2] as usize];
         jacobian::point_difference(m, d, bodies, c.pos, &c.frame, columns);
-        if columns.dofs().is_empty() && !(super::is_dense(m) && columns.stand_still(m, bodies[0])) {
+        if columns.dofs().is_empty() && !(super::is_dense(m) && columns.push_zero_column(m, bodies[0])) {
             // In a model without degrees of freedom, nothing reads which contacts have rows, so they are not marked.
             c.exclude = if m.nv > 0 { exclude::NO_DOFS } else { exclude::NO };
             continue;
@@ -97,7 +97,7 @@ fn other(
     columns: &mut Columns,
 ) {
     if c.dim > 3 {
-        jacobian::turn_difference(m, d, bodies, &c.frame, columns);
+        jacobian::rotation_difference(m, d, bodies, &c.frame, columns);
     }
     match (c.dim, m.opt.cone) {
         (1, _) => common(m, d, jac, id, c, bodies, columns),
@@ -113,7 +113,7 @@ fn other(
 /// both tangents.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn space(columns: &Columns) -> impl Iterator<Item = [f64; 6]> {
-    let both = columns.values().iter().zip(columns.turns());
+    let both = columns.values().iter().zip(columns.angular_part());
     both.map(|(v, w)| [v[0], v[1], v[2], w[0], w[1], w[2]])
 }
 

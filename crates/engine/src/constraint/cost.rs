@@ -249,7 +249,7 @@ impl<const R: usize> Shape<'_, R> {
 
     /// Whether the cost is a single quadratic function from x to x + v.
     #[inline]
-    pub(super) fn stays(&self, x: &[f64; R], v: &[f64; R]) -> bool {
+    pub(super) fn is_quadratic_along(&self, x: &[f64; R], v: &[f64; R]) -> bool {
         let now: [f64; R] = std::array::from_fn(|r| x[r] + v[r]);
         match (self.zone(x), self.zone(&now)) {
             (Zone::Satisfied, Zone::Satisfied) | (Zone::Quadratic, Zone::Quadratic) => true,

@@ -18,10 +18,10 @@ pub(super) const MOST_SWEEPS: i32 = 100_000;
 
 impl Problem<'_> {
     /// Work units of one sweep over the forces of the island.
-    pub(super) fn price_of_sweep(&self) -> u64 {
+    pub(super) fn sweep_cost(&self) -> u64 {
         let [blocks, _, values] = self.s.dual.inverse.size();
         let mine = self.islands.blocks.len(self.island) as u64;
-        6 * self.prices()[0] + mine * (100 + 4 * values / blocks.max(1))
+        6 * self.pass_costs()[0] + mine * (100 + 4 * values / blocks.max(1))
     }
 
     /// `acceleration` ← M⁻¹ Jᵀ f of the island.

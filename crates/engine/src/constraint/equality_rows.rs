@@ -57,7 +57,7 @@ fn difference(m: &Model, d: &Fields, ends: &[End; 2], out: &mut Columns) {
 fn connect(m: &Model, d: &mut Fields, jac: &mut Jacobian, e: usize, ends: &[End; 2], columns: &mut Columns) {
     difference(m, d, ends, columns);
     jac.push::<3>(Cost::Quadratic, d.nefc, columns.dofs(), columns.values().iter().copied());
-    if jac.keep_moving(m) {
+    if jac.keep_if_moving(m) {
         let pos = sub(ends[0].point, ends[1].point);
         scalars(m, d, e, pos, norm(pos), [inverse_weight(m, [ends[0].body, ends[1].body], 0); 3]);
     }
@@ -66,12 +66,12 @@ fn connect(m: &Model, d: &mut Fields, jac: &mut Jacobian, e: usize, ends: &[End;
 fn weld(m: &Model, d: &mut Fields, jac: &mut Jacobian, e: usize, ends: &[End; 2], columns: &mut Columns) {
     difference(m, d, ends, columns);
     let torquescale = rows::<11>(&m.eq_data)[e][10];
-    let both = columns.values().iter().zip(columns.turns()).map(|(&[x, y, z], &turn)| {
-        let [a, b, c] = scale(between(ends, turn), 0.5 * torquescale);
+    let both = columns.values().iter().zip(columns.angular_part()).map(|(&[x, y, z], &turn)| {
+        let [a, b, c] = scale(relative_rotation_rate(ends, turn), 0.5 * torquescale);
         [x, y, z, a, b, c]
     });
     jac.push::<6>(Cost::Quadratic, d.nefc, columns.dofs(), both);
-    if jac.keep_moving(m) {
+    if jac.keep_if_moving(m) {
         let [x, y, z] = sub(ends[0].point, ends[1].point);
         let [_, a, b, c] = quat_mul(quat_conj(ends[1].quat), ends[0].quat);
         let [a, b, c] = scale([a, b, c], torquescale);
@@ -85,7 +85,7 @@ fn weld(m: &Model, d: &mut Fields, jac: &mut Jacobian, e: usize, ends: &[End; 2]
 }
 
 /// Im(q₂⁻¹ w q₁)
-fn between(ends: &[End; 2], [x, y, z]: Vec3) -> Vec3 {
+fn relative_rotation_rate(ends: &[End; 2], [x, y, z]: Vec3) -> Vec3 {
     let [_, a, b, c] = quat_mul(quat_mul(quat_conj(ends[1].quat), [0.0, x, y, z]), ends[0].quat);
     [a, b, c]
 }
@@ -129,7 +129,7 @@ fn coupled_joints(m: &Model, d: &mut Fields, jac: &mut Jacobian, e: usize) {
     if let Some(&k) = other.first() {
         weight += m.dof_invweight0[k as usize];
     }
-    if jac.keep_moving(m) {
+    if jac.keep_if_moving(m) {
         scalars(m, d, e, [pos], pos, [weight]);
     }
 }
@@ -143,7 +143,7 @@ fn coupled_tendons(m: &Model, d: &mut Fields, jac: &mut Jacobian, e: usize) {
     let other = second.map_or((&[][..], &[][..]), along);
     jac.push_sum(Cost::Quadratic, d.nefc, along(first), other, ratio);
     let weight = m.tendon_invweight0[first] + second.map_or(0.0, |t| m.tendon_invweight0[t]);
-    if jac.keep_moving(m) {
+    if jac.keep_if_moving(m) {
         scalars(m, d, e, [pos], pos, [weight]);
     }
 }

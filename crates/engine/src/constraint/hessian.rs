@@ -21,7 +21,7 @@ use tree_order::Order;
 use wide::f64x4;
 
 /// Maximum number of degrees of freedom for which trees keep the order of the model.
-const SMALL: usize = 120;
+const MAX_MODEL_ORDER_DOFS: usize = 120;
 
 /// Maximum of the sum of squared row lengths for which an island is solved with its Hessian: that of a thousand
 /// degrees of freedom that all interact. Beyond that a step would take minutes, and conjugate gradients find the same
@@ -112,7 +112,13 @@ impl Hessian {
 
     /// Numbers the degrees of freedom of an island and computes the layout of its rows. Returns `false`, without
     /// allocating memory, if the factorization would take more than [`MOST_WORK`].
-    pub(super) fn lay_out(&mut self, m: &Model, jac: &Jacobian, islands: &Islands, island: usize) -> bool {
+    pub(super) fn compute_layout(
+        &mut self,
+        m: &Model,
+        jac: &Jacobian,
+        islands: &Islands,
+        island: usize,
+    ) -> bool {
         if self.made_for == (islands.found, island) {
             return self.fits;
         }
@@ -124,7 +130,7 @@ impl Hessian {
         let trees = || islands.trees_of(island);
         self.len = trees().map(|t| m.tree_dofs(t).len()).sum();
         self.local.resize(m.nv, 0);
-        if self.len <= SMALL {
+        if self.len <= MAX_MODEL_ORDER_DOFS {
             self.number(m, trees());
         } else {
             let mut order = std::mem::take(&mut self.order);

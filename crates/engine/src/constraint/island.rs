@@ -74,7 +74,7 @@ impl Lists {
 /// Marks a tree without an island.
 const NONE: u32 = u32::MAX;
 /// Marks a tree that a constraint moves and whose island has no number yet.
-const TOUCHED: u32 = u32::MAX - 1;
+const UNNUMBERED: u32 = u32::MAX - 1;
 
 fn root(link: &mut [u32], mut i: usize) -> usize {
     while link[i] as usize != i {
@@ -158,7 +158,7 @@ impl Islands {
             let mut previous = None;
             for &c in jac.columns(b) {
                 let t = m.dof_treeid[c as usize] as usize;
-                self.island[t] = TOUCHED;
+                self.island[t] = UNNUMBERED;
                 if let Some(p) = previous.replace(t) {
                     let (a, b) = (root(&mut self.link, p), root(&mut self.link, t));
                     self.link[a.max(b)] = a.min(b) as u32;
@@ -168,7 +168,7 @@ impl Islands {
         // A root is the smallest tree of its island, so it gets a number before the other trees read it.
         let mut n = 0;
         for t in 0..m.ntree {
-            if self.island[t] == TOUCHED {
+            if self.island[t] == UNNUMBERED {
                 let r = root(&mut self.link, t);
                 if r == t {
                     self.island[t] = n;

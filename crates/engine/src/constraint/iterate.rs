@@ -27,13 +27,13 @@ pub(super) struct Iterate {
     /// Matrices of the dual methods.
     pub(super) dual: Dual,
     /// State of each island after the warm start.
-    pub(super) reached: Vec<Reached>,
+    pub(super) progress: Vec<IslandProgress>,
 }
 
 impl Iterate {
     /// Makes the Hessian of an island the current one, with the layout that it had. Islands share no degrees of
     /// freedom, so one list of positions (`local`) serves all.
-    pub(super) fn take_up(&mut self, island: usize) {
+    pub(super) fn select_island(&mut self, island: usize) {
         let at = self.hessian.island();
         if at == island {
             return;
@@ -65,7 +65,7 @@ impl Iterate {
 
 /// State of an island.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Reached {
+pub(super) struct IslandProgress {
     pub(super) cost: f64,
     /// Norm of the gradient.
     pub(super) gradient: f64,

@@ -67,7 +67,7 @@ pub(super) struct Block {
     col: u32,
     ncol: u32,
     /// Set if its degrees of freedom are exactly those of one or two free bodies.
-    free: Free,
+    free: FreeBodies,
 }
 
 /// Degrees of freedom of two free bodies.
@@ -75,23 +75,23 @@ const TWO_FREE: usize = 2 * FREE_DOFS;
 
 /// The number of free bodies, and the first degree of freedom of each.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Free {
+struct FreeBodies {
     bodies: u32,
     first: [u32; 2],
 }
 
-impl Free {
+impl FreeBodies {
     /// The free bodies with the given degrees of freedom, which are in descending order.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    fn from_columns(descending: &[u32]) -> Free {
+    fn from_columns(descending: &[u32]) -> FreeBodies {
         let six = |last: u32, first: u32| last - first + 1 == FREE_DOFS as u32;
         match *descending {
-            _ if SMALL => Free::default(),
-            [a, _, _, _, _, b] if six(a, b) => Free { bodies: 1, first: [b, b] },
+            _ if SMALL => FreeBodies::default(),
+            [a, _, _, _, _, b] if six(a, b) => FreeBodies { bodies: 1, first: [b, b] },
             [a, _, _, _, _, b, c, _, _, _, _, d] if six(a, b) && six(c, d) => {
-                Free { bodies: 2, first: [d, b] }
+                FreeBodies { bodies: 2, first: [d, b] }
             }
-            _ => Free::default(),
+            _ => FreeBodies::default(),
         }
     }
 }
@@ -189,7 +189,7 @@ impl Jacobian {
             adr: adr as u32,
             col: col as u32,
             ncol: n as u32,
-            free: Free::from_columns(descending),
+            free: FreeBodies::from_columns(descending),
         });
         let columns = &mut self.columns[col..col + n];
         let items = descending.iter().copied();
@@ -242,7 +242,7 @@ impl Jacobian {
         columns: &[i32],
         values: impl Iterator<Item = f64>,
     ) {
-        self.open(cost, row);
+        self.start_block(cost, row);
         for (&c, v) in columns.iter().zip(values) {
             self.append(c, v);
         }
@@ -257,7 +257,7 @@ impl Jacobian {
         (mut cb, mut vb): (&[i32], &[f64]),
         factor: f64,
     ) {
-        self.open(cost, row);
+        self.start_block(cost, row);
         loop {
             match (ca, va, cb, vb) {
                 ([a, na @ ..], [x, nx @ ..], [b, nb @ ..], [y, ny @ ..]) if a == b => {
@@ -280,7 +280,7 @@ impl Jacobian {
     /// Appends a block with the rows of another block and other, ascending columns. Returns its values, which are
     /// zero.
     pub(super) fn push_zeros(&mut self, like: &Block, columns: impl Iterator<Item = usize>) -> &mut [f64] {
-        self.open(like.cost, like.row as usize);
+        self.start_block(like.cost, like.row as usize);
         let (adr, col) = (self.used_values, self.used_columns);
         for c in columns {
             if self.columns.len() <= self.used_columns {
@@ -314,9 +314,17 @@ impl Jacobian {
     }
 
     /// Starts a block of one row.
-    fn open(&mut self, cost: Cost, row: usize) {
+    fn start_block(&mut self, cost: Cost, row: usize) {
         let (adr, col) = (self.used_values as u32, self.used_columns as u32);
-        self.blocks.push(Block { row: row as u32, nrow: 1, cost, adr, col, ncol: 0, free: Free::default() });
+        self.blocks.push(Block {
+            row: row as u32,
+            nrow: 1,
+            cost,
+            adr,
+            col,
+            ncol: 0,
+            free: FreeBodies::default(),
+        });
     }
 
     /// Adds a column to the last block.
@@ -336,7 +344,7 @@ impl Jacobian {
     }
 
     /// Removes the last block if it moves nothing. Returns whether the block was kept.
-    pub(super) fn keep_moving(&mut self, m: &Model) -> bool {
+    pub(super) fn keep_if_moving(&mut self, m: &Model) -> bool {
         let dense = super::is_dense(m);
         let moves = |b: &Block| if dense { self.values(b).iter().any(|&v| v != 0.0) } else { b.ncol > 0 };
         let keep = self.blocks.last().is_some_and(moves);

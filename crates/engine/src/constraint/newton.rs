@@ -4,7 +4,7 @@
 //! many steps (Nocedal and Wright 2006, ch. 3).
 
 use super::cost::{Cost, Curvature, unilateral_curvature};
-use super::iterate::Reached;
+use super::iterate::IslandProgress;
 use super::jacobian::{Block, HessianAccumulator, Jacobian, add_entries};
 use super::primal::{Direction, Problem, shape};
 use super::row_counts::by_rows;
@@ -16,19 +16,19 @@ use std::ops::Range;
 
 impl Problem<'_> {
     #[inline(never)]
-    pub(super) fn newton(&mut self, from: Reached) {
+    pub(super) fn newton(&mut self, from: IslandProgress) {
         if from.minimum {
             return;
         }
         let six = self.islands.one_run(self.island).filter(|dofs| dofs.len() == FREE_DOFS);
-        if six.is_none() && !self.lay_out() {
+        if six.is_none() && !self.compute_layout() {
             return self.conjugate_gradient(from);
         }
-        let [rows, products] = self.prices();
+        let [rows, products] = self.pass_costs();
         let price = 4 * rows + products + if six.is_some() { 200 } else { self.s.hessian.work };
         self.d.meter.add(price);
         let tol = self.m.opt.tolerance;
-        let Reached { gradient, scale, .. } = from;
+        let IslandProgress { gradient, scale, .. } = from;
         self.descend(from, price, |p, before| {
             p.newton_direction(&six);
             // While the gradient is large, the first direction is always taken.
@@ -40,10 +40,10 @@ impl Problem<'_> {
     }
 
     /// Computes the layout of the Hessian of the island. Returns `false` if the Hessian is too expensive.
-    fn lay_out(&mut self) -> bool {
+    fn compute_layout(&mut self) -> bool {
         let s = &mut *self.s;
-        s.take_up(self.island);
-        let fits = s.hessian.lay_out(self.m, self.jac, self.islands, self.island);
+        s.select_island(self.island);
+        let fits = s.hessian.compute_layout(self.m, self.jac, self.islands, self.island);
         s.rhs.clear();
         s.rhs.resize(s.hessian.capacity(), 0.0);
         fits

@@ -21,7 +21,7 @@ impl Problem<'_> {
     /// `opt.noslip_tolerance` (0 if it is negative), or until `opt.noslip_iterations` sweeps are done.
     pub(super) fn remove_slip(&mut self) {
         let (tolerance, scale) = (self.m.opt.noslip_tolerance.max(0.0), self.scale_of_all());
-        let price = self.price_of_sweep();
+        let price = self.sweep_cost();
         self.accelerate();
         for _ in 0..self.m.opt.noslip_iterations.clamp(0, MOST_SWEEPS) {
             self.d.meter.add(price);

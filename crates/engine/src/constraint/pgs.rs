@@ -26,7 +26,7 @@ impl Problem<'_> {
     /// `opt.tolerance` (the documented meaning of this tolerance), or until `opt.iterations` sweeps are done.
     pub(super) fn gauss_seidel(&mut self) {
         let (tolerance, scale) = (self.m.opt.tolerance.max(0.0), self.scale_of_all());
-        let price = self.price_of_sweep();
+        let price = self.sweep_cost();
         let mut order = Order(0);
         let mut momentum = 1.0_f64;
         self.start_sweeps();
@@ -43,7 +43,7 @@ impl Problem<'_> {
             if improvement.is_nan() || scale * improvement <= tolerance {
                 break;
             }
-            momentum = if self.turns_back() { 1.0 } else { next };
+            momentum = if self.has_reversed() { 1.0 } else { next };
         }
     }
 
@@ -83,7 +83,7 @@ impl Problem<'_> {
 
     /// Whether (y - f) · (f - previous f) > 0 in the metric of R. y - f approximates the direction of the gradient at
     /// the start of the sweep.
-    fn turns_back(&self) -> bool {
+    fn has_reversed(&self) -> bool {
         let (d, w) = (&*self.d, &self.s.dual);
         let rows = self.blocks().flat_map(|i| self.jac.blocks[i].rows());
         let product =

@@ -3,11 +3,11 @@
 
 use super::cost::{Cost, Shape, clamp_unilateral, unilateral_along};
 use super::island::Islands;
-use super::iterate::{Iterate, Reached};
+use super::iterate::{IslandProgress, Iterate};
 use super::jacobian::{Block, Jacobian};
 use super::row_counts::by_rows;
 use super::search::{Point, minimize};
-use crate::dynamics::{Scratch as Trees, mass, tree_algorithms};
+use crate::dynamics::{Scratch as TreeScratch, mass, tree_algorithms};
 use crate::kinds::{disable, solver};
 use crate::math::{MINVAL, combine, dot, dot_slice, sum, zero};
 use crate::model::{Fields, Model};
@@ -29,7 +29,7 @@ pub(super) struct Problem<'a> {
     pub(super) m: &'a Model,
     pub(super) d: &'a mut Fields,
     pub(super) s: &'a mut Iterate,
-    pub(super) trees: &'a mut Trees,
+    pub(super) trees: &'a mut TreeScratch,
     pub(super) jac: &'a Jacobian,
     pub(super) islands: &'a Islands,
     pub(super) island: usize,
@@ -38,14 +38,14 @@ pub(super) struct Problem<'a> {
 impl<'a> Problem<'a> {
     /// Computes forces, cost and gradient at the current acceleration. Also tests whether it is already the minimum:
     /// the gradient, and the decrease that M⁻¹ predicts, are both small.
-    pub(super) fn reached(&mut self) -> Reached {
+    pub(super) fn evaluate_start(&mut self) -> IslandProgress {
         let (tol, scale) = (self.m.opt.tolerance, self.scale());
         let (cost, gradient) = self.update();
         let small = scale * gradient < tol || self.m.opt.solver == solver::CG;
         let diagonal = self.m.nC == self.m.nv;
         let mut decrement = || if diagonal { self.decrement_by_diagonal() } else { self.decrement_by_mass() };
         let minimum = small && scale * decrement() < tol;
-        Reached { cost, gradient, scale, minimum }
+        IslandProgress { cost, gradient, scale, minimum }
     }
 
     /// Reduces the cost along successive directions. `direct` writes the next direction to `search` and returns what
@@ -54,12 +54,12 @@ impl<'a> Problem<'a> {
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn descend(
         &mut self,
-        from: Reached,
+        from: IslandProgress,
         price: u64,
         mut direct: impl FnMut(&mut Self, Option<f64>) -> Option<Direction>,
     ) {
         let tol = self.m.opt.tolerance;
-        let Reached { mut cost, mut gradient, scale, .. } = from;
+        let IslandProgress { mut cost, mut gradient, scale, .. } = from;
         let Some(mut direction) = direct(self, None) else { return };
         for _ in 0..self.m.opt.iterations.max(0) {
             let alpha = self.line_search(scale, direction);
@@ -81,7 +81,7 @@ impl<'a> Problem<'a> {
     }
 
     /// Work units of one pass over the rows and degrees of freedom of the island, and of the products of columns.
-    pub(super) fn prices(&self) -> [u64; 2] {
+    pub(super) fn pass_costs(&self) -> [u64; 2] {
         let [blocks, columns, values] = self.jac.size();
         let (mine, all) = (self.islands.blocks.len(self.island) as u64, blocks.max(1));
         let dofs: usize = self.dofs().map(|r| r.len()).sum();
@@ -208,7 +208,7 @@ impl<'a> Problem<'a> {
             self.jac.mul_block(&self.jac.blocks[b], &s.search, &mut s.jv);
         }
         let first = matches!(direction, Direction::Newton { first: true, .. });
-        if first && blocks.clone().all(|b| stays(d, s, &self.jac.blocks[b])) {
+        if first && blocks.clone().all(|b| is_quadratic_along(d, s, &self.jac.blocks[b])) {
             return 1.0;
         }
         let (mut length, mut linear, mut quadratic) = (0.0, 0.0, 0.0);
@@ -279,19 +279,19 @@ pub(super) fn shape<'a, const R: usize>(d: &'a Fields, b: &Block) -> Option<Shap
 
 /// Whether the cost of a block is a single quadratic function along the whole step `search`.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn stays(d: &Fields, s: &Iterate, b: &Block) -> bool {
+fn is_quadratic_along(d: &Fields, s: &Iterate, b: &Block) -> bool {
     match b.cost {
         Cost::Quadratic => true,
         Cost::Unilateral => b.rows().all(|r| (s.jar[r] < 0.0) == (s.jar[r] + s.jv[r] < 0.0)),
-        _ => by_rows!(b.nrow, R => stays_other::<R>(d, s, b)),
+        _ => by_rows!(b.nrow, R => is_quadratic_along_other::<R>(d, s, b)),
     }
 }
 
 /// The same test for a constraint that is not unilateral.
 #[inline(never)]
-fn stays_other<const R: usize>(d: &Fields, s: &Iterate, b: &Block) -> bool {
+fn is_quadratic_along_other<const R: usize>(d: &Fields, s: &Iterate, b: &Block) -> bool {
     match (shape::<R>(d, b), s.jar[b.rows()].first_chunk(), s.jv[b.rows()].first_chunk()) {
-        (Some(shape), Some(x), Some(v)) => shape.stays(x, v),
+        (Some(shape), Some(x), Some(v)) => shape.is_quadratic_along(x, v),
         _ => false,
     }
 }

@@ -12,12 +12,12 @@ use crate::model::{Fields, Model};
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn reference(m: &Model, d: &mut Fields, w: &Scratch) {
     if d.nefc > 0 {
-        ask(m, d, w);
+        compute_reference(m, d, w);
     }
 }
 
 #[inline(never)]
-fn ask(m: &Model, d: &mut Fields, w: &Scratch) {
+fn compute_reference(m: &Model, d: &mut Fields, w: &Scratch) {
     w.jac.mul(&d.qvel, &mut d.efc_vel);
     if d.plan.has(PlanFlag::Surfaces) {
         contact_rows::surfaces(m, d);

@@ -99,7 +99,7 @@ mod tests {
 
     /// The search also terminates with an unlimited budget.
     #[test]
-    fn what_is_no_number_ends_the_search() {
+    fn nan_ends_the_search() {
         for (slope, curvature) in [(f64::NAN, 1.0), (-1.0, f64::NAN), (-1.0, 0.0), (f64::NEG_INFINITY, 1.0)] {
             let mut n = 0;
             let mut eval = |alpha| {

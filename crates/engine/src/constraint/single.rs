@@ -155,7 +155,7 @@ fn along_tendon(m: &Model, d: &Fields, jac: &mut Jacobian, cost: Cost, t: usize,
     let row = tendon::row(m, t);
     let values = d.ten_J[row.clone()].iter().map(|j| sign * j);
     jac.push_sparse(cost, d.nefc, &m.ten_J_colind[row], values);
-    jac.keep_moving(m)
+    jac.keep_if_moving(m)
 }
 
 /// The force of all constraints along a tendon, N.

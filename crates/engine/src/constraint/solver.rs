@@ -6,11 +6,11 @@
 use super::Scratch;
 use super::cost::{Cost, clamp_unilateral};
 use super::island::Islands;
-use super::iterate::{Iterate, Reached};
+use super::iterate::{IslandProgress, Iterate};
 use super::jacobian::{Block, Jacobian};
 use super::primal::{Problem, shape};
 use super::row_counts::by_rows;
-use crate::dynamics::{Scratch as Trees, mass, tree_algorithms};
+use crate::dynamics::{Scratch as TreeScratch, mass, tree_algorithms};
 use crate::kinds::{disable, solver};
 use crate::math::{copy, zero};
 use crate::model::plan::PlanFlag;
@@ -18,7 +18,7 @@ use crate::model::{Fields, Model};
 
 /// Computes `qacc`, `efc_force`, `qfrc_constraint` and `solver_niter` from `qacc_smooth` and the rows.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(crate) fn solve(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut Trees) {
+pub(crate) fn solve(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut TreeScratch) {
     d.solver_niter = 0;
     d.nisland = 0;
     copy(&d.qacc_smooth, &mut d.qacc);
@@ -29,7 +29,7 @@ pub(crate) fn solve(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut Tree
 }
 
 #[inline(never)] // so that steps without constraint rows do not execute its setup code
-fn solve_rows(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut Trees) {
+fn solve_rows(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut TreeScratch) {
     let [_, columns, values] = w.jac.size();
     d.meter.add(8 * (columns + values) + 40 * d.nefc as u64);
     let dual = m.opt.solver == solver::PGS || m.opt.noslip_iterations > 0;
@@ -72,7 +72,14 @@ fn solve_rows(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut Trees) {
 
 /// Newton's method or conjugate gradients, from the better of two starting points.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn primal(m: &Model, d: &mut Fields, s: &mut Iterate, trees: &mut Trees, islands: &Islands, jac: &Jacobian) {
+fn primal(
+    m: &Model,
+    d: &mut Fields,
+    s: &mut Iterate,
+    trees: &mut TreeScratch,
+    islands: &Islands,
+    jac: &Jacobian,
+) {
     if !m.opt.disabled(disable::WARMSTART) && warm_start(m, d, s, trees, islands, jac) {
         return;
     }
@@ -82,7 +89,7 @@ fn primal(m: &Model, d: &mut Fields, s: &mut Iterate, trees: &mut Trees, islands
     jac.residual(&d.qacc_smooth, &d.efc_aref, &mut s.jar);
     for island in 0..d.nisland {
         let mut problem = Problem { m, d, s, trees, islands, jac, island };
-        let from = problem.reached();
+        let from = problem.evaluate_start();
         problem.run(from);
     }
 }
@@ -93,7 +100,7 @@ fn dual_start(
     m: &Model,
     d: &mut Fields,
     s: &mut Iterate,
-    trees: &mut Trees,
+    trees: &mut TreeScratch,
     islands: &Islands,
     jac: &Jacobian,
 ) {
@@ -114,7 +121,7 @@ fn dual_start(
 }
 
 /// Computes `efc_force` and `qfrc_constraint` for the acceleration `qacc` (`mj_invConstraint`).
-pub(crate) fn inverse(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut Trees) {
+pub(crate) fn inverse(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut TreeScratch) {
     d.qfrc_constraint.fill(0.0);
     if d.nefc == 0 {
         return;
@@ -139,7 +146,7 @@ fn warm_start(
     m: &Model,
     d: &mut Fields,
     s: &mut Iterate,
-    trees: &mut Trees,
+    trees: &mut TreeScratch,
     islands: &Islands,
     jac: &Jacobian,
 ) -> bool {
@@ -147,32 +154,32 @@ fn warm_start(
     for tree in 0..m.ntree {
         mass::mul(m, &d.M, &d.qacc_warmstart, &mut s.ma, m.tree_dofs(tree));
     }
-    let mut reached = std::mem::take(&mut s.reached);
-    reached.clear();
+    let mut progress = std::mem::take(&mut s.progress);
+    progress.clear();
     for island in 0..d.nisland {
         for dofs in islands.dofs(island) {
             copy(&d.qacc_warmstart[dofs.clone()], &mut d.qacc[dofs]);
         }
-        reached.push(Problem { m, d, s, trees, islands, jac, island }.reached());
+        progress.push(Problem { m, d, s, trees, islands, jac, island }.evaluate_start());
     }
-    let mut done = reached.iter().all(|r| r.minimum);
+    let mut done = progress.iter().all(|r| r.minimum);
     if !done {
         // The Gauss cost of the unconstrained acceleration is zero. That of the last acceleration includes the trees
         // outside of islands.
         let gauss = |k: usize| 0.5 * (s.ma[k] - d.qfrc_smooth[k]) * (d.qacc_warmstart[k] - d.qacc_smooth[k]);
         let apart = (0..m.ntree).filter(|&tree| !islands.has(tree)).flat_map(|tree| m.tree_dofs(tree));
-        let warm = reached.iter().map(|r| r.cost).sum::<f64>() + apart.map(gauss).sum::<f64>();
+        let warm = progress.iter().map(|r| r.cost).sum::<f64>() + apart.map(gauss).sum::<f64>();
         // If all costs are quadratic, Newton's first step reaches the minimum from any starting point.
         let quadratic =
             || m.opt.solver == solver::NEWTON && jac.blocks.iter().all(|b| b.cost == Cost::Quadratic);
         if quadratic() || !costs_less(d, jac, s, warm) {
-            for (island, &from) in reached.iter().enumerate() {
+            for (island, &from) in progress.iter().enumerate() {
                 Problem { m, d, s, trees, islands, jac, island }.run(from);
             }
             done = true;
         }
     }
-    s.reached = reached;
+    s.progress = progress;
     done
 }
 
@@ -229,7 +236,7 @@ fn block_state<const R: usize>(d: &mut Fields, b: &Block, jar: &[f64]) {
 impl Problem<'_> {
     /// Solves the problem from a starting point, with the method that the model selects.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    fn run(&mut self, from: Reached) {
+    fn run(&mut self, from: IslandProgress) {
         match self.m.opt.solver {
             solver::CG => self.conjugate_gradient(from),
             _ => self.newton(from),

@@ -37,7 +37,7 @@ fn move_camera(m: &Model, d: &mut Fields, c: usize, b: usize) {
         _ => {}
     }
     if let Some(target) = target(m.cam_mode[c], m.cam_targetbodyid[c], xpos, com) {
-        *mat = looking(sub(*pos, target));
+        *mat = frame_of_back_axis(sub(*pos, target));
     }
 }
 
@@ -96,7 +96,7 @@ fn target(kind: i32, body: i32, xpos: &[Vec3], com: &[Vec3]) -> Option<Vec3> {
 }
 
 /// The frame whose z axis is along `back`, with a horizontal x axis. A camera looks along -z.
-fn looking(back: Vec3) -> Mat3 {
+fn frame_of_back_axis(back: Vec3) -> Mat3 {
     let z = normalize(back).0;
     let x = normalize(cross([0.0, 0.0, 1.0], z)).0;
     let y = normalize(cross(z, x)).0;

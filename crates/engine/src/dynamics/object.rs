@@ -62,27 +62,27 @@ pub fn object_acceleration(m: &Model, d: &Fields, kind: Obj, id: usize, local: b
 }
 
 pub(crate) fn velocity(m: &Model, d: &Fields, f: &Frame, local: bool) -> Spatial {
-    let v = carried(m, d, f, &rows::<6>(&d.cvel)[f.body]);
-    if local { turned(&f.mat, &v) } else { v }
+    let v = shifted_motion(m, d, f, &rows::<6>(&d.cvel)[f.body]);
+    if local { rotated_spatial(&f.mat, &v) } else { v }
 }
 
 pub(crate) fn acceleration(m: &Model, d: &Fields, f: &Frame, local: bool) -> Spatial {
     if m.body_treeid[f.body] < 0 {
         return [0.0; 6];
     }
-    let mut a = carried(m, d, f, &rows::<6>(&d.cacc)[f.body]);
-    let v = carried(m, d, f, &rows::<6>(&d.cvel)[f.body]);
+    let mut a = shifted_motion(m, d, f, &rows::<6>(&d.cacc)[f.body]);
+    let v = shifted_motion(m, d, f, &rows::<6>(&d.cvel)[f.body]);
     // The linear part is the acceleration of the body-fixed point; the acceleration along its path in space has the
     // additional term ω × v.
     let bend = cross(angular(&v), linear(&v));
     for i in 0..3 {
         a[3 + i] += bend[i];
     }
-    if local { turned(&f.mat, &a) } else { a }
+    if local { rotated_spatial(&f.mat, &a) } else { a }
 }
 
 /// Transforms a motion of the body of `f`, given about the centre of mass of its tree, to the position of `f`.
-fn carried(m: &Model, d: &Fields, f: &Frame, motion: &Spatial) -> Spatial {
+fn shifted_motion(m: &Model, d: &Fields, f: &Frame, motion: &Spatial) -> Spatial {
     let com = rows::<3>(&d.subtree_com)[m.body_rootid[f.body] as usize];
     let w = angular(motion);
     let l = add(linear(motion), cross(w, sub(f.pos, com)));
@@ -90,7 +90,7 @@ fn carried(m: &Model, d: &Fields, f: &Frame, motion: &Spatial) -> Spatial {
 }
 
 /// Rotates both parts to the axes of `mat`.
-pub(crate) fn turned(mat: &Mat3, s: &Spatial) -> Spatial {
+pub(crate) fn rotated_spatial(mat: &Mat3, s: &Spatial) -> Spatial {
     let (w, l) = (mat_t_mul_vec(mat, angular(s)), mat_t_mul_vec(mat, linear(s)));
     [w[0], w[1], w[2], l[0], l[1], l[2]]
 }

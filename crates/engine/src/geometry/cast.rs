@@ -6,12 +6,12 @@ use crate::kinds::geom;
 use crate::math::*;
 
 /// Work units of a ray against a shape, without the triangles that it tests.
-const PRICE: u64 = 20;
+const SHAPE_COST: u64 = 20;
 
 /// The nearest intersection of the ray `from` + x `along` (x ≥ 0; world frame) with the surface of a shape. A plane
 /// is hit from its front side only, inside its rendered rectangle. The work done is added to `work`.
 pub(crate) fn ray_shape(shape: &Shape, from: Vec3, along: Vec3, work: &mut u64) -> Option<Hit> {
-    *work += PRICE;
+    *work += SHAPE_COST;
     if shape.kind == geom::SPHERE {
         return ray::sphere(shape.size[0], &Ray { from: sub(from, shape.pos), along });
     }

@@ -7,12 +7,12 @@
 use super::difference::Limits;
 use super::epa;
 use super::gjk::{GjkResult, distance};
-use super::polish::{Reach, least_reach};
+use super::polish::{Reach, minimize_reach};
 use super::support::Body;
 use crate::math::*;
 
 pub(crate) use super::difference::Limits as Effort;
-pub(crate) use super::epa::Scratch as ConvexScratch;
+pub(crate) use super::epa::ConvexScratch;
 pub(crate) use super::support::Body as Convex;
 
 /// Where two bodies are nearest, or where they overlap most.
@@ -89,6 +89,6 @@ fn search(
     if corners {
         return (length > 0.0).then_some(Nearest { dist, normal, witness });
     }
-    let Reach { normal, height, witness } = least_reach(a, b, normal, limits);
+    let Reach { normal, height, witness } = minimize_reach(a, b, normal, limits);
     (length > 0.0).then_some(Nearest { dist: -height, normal, witness })
 }

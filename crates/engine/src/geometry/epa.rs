@@ -9,7 +9,7 @@
 //! boundary of the polytope or slightly outside. A negative upper bound means that the bodies are separate.
 
 use super::difference::{Limits, ROUNDING, Vertex, support};
-use super::polish::{Reach, least_reach};
+use super::polish::{Reach, minimize_reach};
 use super::simplex::{Corral, barycentric};
 use super::support::Body;
 use crate::math::*;
@@ -38,12 +38,12 @@ struct Face {
     /// The half-edge of the neighbouring face in the opposite direction.
     twin: [u32; 3],
     /// Whether the face is on the surface of the polytope.
-    alive: bool,
+    is_on_surface: bool,
 }
 
 /// The polytope. Its memory is reused, so that calls do not allocate.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Scratch {
+pub(crate) struct ConvexScratch {
     vertices: Vec<Vertex>,
     faces: Vec<Face>,
     /// Candidates for the face with the lowest bound.
@@ -61,7 +61,7 @@ pub(crate) struct Scratch {
 
 /// The depth of round bodies is computed to `ccd_tolerance`, but at least to this fraction of the depth. Otherwise
 /// the direction would be arbitrary for bodies that barely touch.
-const SURE: f64 = 0.01;
+const MIN_RELATIVE_ACCURACY: f64 = 0.01;
 
 const NONE: u32 = u32::MAX;
 
@@ -77,7 +77,7 @@ pub(super) fn depth(
     a: &mut Body,
     b: &mut Body,
     limits: Limits,
-    p: &mut Scratch,
+    p: &mut ConvexScratch,
 ) -> Option<Reach> {
     p.vertices.clear();
     p.vertices.extend_from_slice(corral.vertices());
@@ -91,9 +91,9 @@ pub(super) fn depth(
     if corners {
         return Some(Reach { normal: plane.normal, height: plane.offset, witness: p.witness(face, size) });
     }
-    let mut least = least_reach(a, b, plane.normal, limits);
-    while left > 0 && least.height > 0.0 && SURE * least.height < tolerance {
-        tolerance = SURE * least.height;
+    let mut least = minimize_reach(a, b, plane.normal, limits);
+    while left > 0 && least.height > 0.0 && MIN_RELATIVE_ACCURACY * least.height < tolerance {
+        tolerance = MIN_RELATIVE_ACCURACY * least.height;
         // This support point is a vertex of the expanded polytope, so no nearby face has a bound much below its
         // height.
         p.vertices.push(support(a, b, least.normal));
@@ -102,14 +102,14 @@ pub(super) fn depth(
             break;
         }
         match p.expand(a, b, [rounding, tolerance], least.height, &mut left) {
-            Some((_, lower)) => least = least_reach(a, b, lower.normal, limits),
+            Some((_, lower)) => least = minimize_reach(a, b, lower.normal, limits),
             None => break,
         }
     }
     Some(least)
 }
 
-impl Scratch {
+impl ConvexScratch {
     fn point(&self, v: u32) -> Vec3 {
         self.vertices[v as usize].point
     }
@@ -188,7 +188,7 @@ impl Scratch {
         ];
         for (from, twin) in faces {
             let plane = self.plane(from).unwrap_or(Plane { normal: [0.0; 3], offset: f64::INFINITY });
-            self.add(Face { plane, from, twin, alive: true });
+            self.add(Face { plane, from, twin, is_on_surface: true });
         }
     }
 
@@ -249,7 +249,7 @@ impl Scratch {
         let mut k = 0;
         while let Some(&f) = self.low.get(k) {
             let face = &self.faces[f as usize];
-            if !face.alive || face.plane.offset > upper {
+            if !face.is_on_surface || face.plane.offset > upper {
                 self.low.swap_remove(k);
                 continue;
             }
@@ -265,7 +265,7 @@ impl Scratch {
     fn facing(&self, rounding: f64) -> Option<u32> {
         let w = self.vertices.last()?.point;
         let height = |plane: &Plane| dot(plane.normal, w) - plane.offset;
-        self.faces.iter().position(|f| f.alive && height(&f.plane) > rounding).map(|f| f as u32)
+        self.faces.iter().position(|f| f.is_on_surface && height(&f.plane) > rounding).map(|f| f as u32)
     }
 
     /// Replaces all faces that are visible from the last vertex, including `seen`, by a fan around this vertex.
@@ -275,16 +275,16 @@ impl Scratch {
         let w = self.point(apex);
         self.border.clear();
         self.pending.clear();
-        self.faces[seen as usize].alive = false;
+        self.faces[seen as usize].is_on_surface = false;
         self.pending.extend_from_slice(&self.faces[seen as usize].twin);
         while let Some(edge) = self.pending.pop() {
             let (f, k) = place(edge);
             let face = &mut self.faces[f];
-            if !face.alive {
+            if !face.is_on_surface {
                 continue;
             }
             if dot(face.plane.normal, w) - face.plane.offset > rounding {
-                face.alive = false;
+                face.is_on_surface = false;
                 let [after, before] = [face.twin[(k + 1) % 3], face.twin[(k + 2) % 3]];
                 self.pending.extend_from_slice(&[after, before]);
             } else {
@@ -309,7 +309,7 @@ impl Scratch {
             // For a degenerate triangle the new vertex is on the line of the outer edge, so the triangle takes the
             // plane of its neighbour.
             let plane = self.plane(from).unwrap_or(plane);
-            self.add(Face { plane, from, twin: [outer, NONE, NONE], alive: true });
+            self.add(Face { plane, from, twin: [outer, NONE, NONE], is_on_surface: true });
         }
         for f in first..self.faces.len() {
             let after = self.fan[self.faces[f].from[1] as usize];

@@ -18,16 +18,16 @@ const NEAR: f64 = 0.03;
 /// Maximum number of steps. Near the minimum each step doubles the number of correct digits.
 const MOST_STEPS: usize = 20;
 /// Step length, rad, below which a further step would change nothing.
-const SMALL: f64 = 1e-11;
+const MIN_STEP: f64 = 1e-11;
 /// Sine of the largest angle for which a direction counts as normal to an edge.
-const HELD: f64 = 1e-6;
+const NORMAL_TO_EDGE: f64 = 1e-6;
 /// A support point counts as parallel to a direction if its deviation is at most this fraction of its length.
-const STRAIGHT: f64 = 1e-8;
+const PARALLEL: f64 = 1e-8;
 /// Largest rotation of the direction in one step, rad.
-const TURN: f64 = 0.3;
-/// Sine of the largest angle for which a direction might be normal to an edge; between [`HELD`] and this, the
+const MAX_ROTATION: f64 = 0.3;
+/// Sine of the largest angle for which a direction might be normal to an edge; between [`NORMAL_TO_EDGE`] and this, the
 /// classification is unclear.
-const UNCLEAR: f64 = 1e-3;
+const UNCERTAIN_NORMAL: f64 = 1e-3;
 /// Tilt angle that makes the ends of an edge support points, rad.
 const TILT: f64 = 1e-4;
 /// Directions of edges of both bodies.
@@ -44,7 +44,7 @@ pub(super) struct Reach {
 }
 
 /// The direction near `start` along which the extent of the difference is smallest.
-pub(super) fn least_reach(a: &mut Body, b: &mut Body, start: Vec3, limits: Limits) -> Reach {
+pub(super) fn minimize_reach(a: &mut Body, b: &mut Body, start: Vec3, limits: Limits) -> Reach {
     let mut kinks = Kinks::new();
     let of_a = a.kinks(start, NEAR);
     let of_b = b.kinks(scale(start, -1.0), NEAR);
@@ -59,7 +59,7 @@ pub(super) fn least_reach(a: &mut Body, b: &mut Body, start: Vec3, limits: Limit
     // If a smooth minimum was found, no kink nearby is lower.
     let list = if is_flat { &[] } else { kinks.all() };
     for (i, &edge) in list.iter().enumerate() {
-        consider(across(a, b, start, edge));
+        consider(minimize_across_edge(a, b, start, edge));
         for &other in list.get(i + 1..).unwrap_or(&[]) {
             let (n, sine) = normalize(cross(edge, other));
             if sine > NEAR {
@@ -79,10 +79,10 @@ fn height(a: &mut Body, b: &mut Body, n: Vec3) -> (Vec3, f64) {
 /// Minimizes the extent over all directions. Also returns whether a smooth minimum was found, where the support point
 /// is parallel to the direction.
 fn free(a: &mut Body, b: &mut Body, start: Vec3) -> ((Vec3, f64), bool) {
-    let (n, w, h) = descend(a, b, start, |n, w, h, bend| {
+    let (n, w, h) = descend(a, b, start, |n, w, h, hessian| {
         let f = frame(n);
         let (s, t) = ([f[3], f[4], f[5]], [f[6], f[7], f[8]]);
-        let [ss, st, tt] = bend(n, s, t);
+        let [ss, st, tt] = hessian(n, s, t);
         let (ss, tt) = (ss - h, tt - h);
         // The two principal directions: a rotation that diagonalizes the matrix.
         let (sin, cos) = libm::sincos(0.5 * libm::atan2(2.0 * st, ss - tt));
@@ -91,15 +91,15 @@ fn free(a: &mut Body, b: &mut Body, start: Vec3) -> ((Vec3, f64), bool) {
         let second = downhill(cos * dot(t, w) - sin * dot(s, w), ss + tt - both - mixed);
         add(scale(s, cos * first - sin * second), scale(t, sin * first + cos * second))
     });
-    ((n, h), norm(sub(w, scale(n, h))) <= STRAIGHT * norm(w))
+    ((n, h), norm(sub(w, scale(n, h))) <= PARALLEL * norm(w))
 }
 
 /// Minimizes the extent over the directions normal to an edge.
-fn across(a: &mut Body, b: &mut Body, start: Vec3, edge: Vec3) -> (Vec3, f64) {
+fn minimize_across_edge(a: &mut Body, b: &mut Body, start: Vec3, edge: Vec3) -> (Vec3, f64) {
     let start = normalize(add_scaled(start, edge, -dot(start, edge))).0;
-    let (n, _, h) = descend(a, b, start, |n, w, h, bend| {
+    let (n, _, h) = descend(a, b, start, |n, w, h, hessian| {
         let t = cross(edge, n);
-        scale(t, downhill(dot(t, w), bend(n, t, t)[0] - h))
+        scale(t, downhill(dot(t, w), hessian(n, t, t)[0] - h))
     });
     (n, h)
 }
@@ -107,7 +107,7 @@ fn across(a: &mut Body, b: &mut Body, start: Vec3, edge: Vec3) -> (Vec3, f64) {
 /// The Newton step along one direction. If the curvature is negative, the step has the length of the Newton step, but
 /// leads away from the maximum.
 fn downhill(slope: f64, curvature: f64) -> f64 {
-    if slope == 0.0 { 0.0 } else { (-slope / curvature.abs()).clamp(-TURN, TURN) }
+    if slope == 0.0 { 0.0 } else { (-slope / curvature.abs()).clamp(-MAX_ROTATION, MAX_ROTATION) }
 }
 
 /// Takes steps as long as the extent decreases. A step that does not decrease it is shortened to a quarter. `step`
@@ -123,7 +123,7 @@ fn descend(
     let mut h = dot(at.0, at.1);
     let mut part = 1.0;
     let next_step = |a: &Body, b: &Body, (n, w): (Vec3, Vec3), h: f64| {
-        step(n, w, h, &|n, s, t| add(a.bend(n, s, t), b.bend(n, s, t)))
+        step(n, w, h, &|n, s, t| add(a.support_hessian(n, s, t), b.support_hessian(n, s, t)))
     };
     let mut delta = next_step(a, b, at, h);
     for _ in 0..MOST_STEPS {
@@ -136,7 +136,7 @@ fn descend(
         } else {
             part *= 0.25;
         }
-        if moved.is_nan() || moved < SMALL {
+        if moved.is_nan() || moved < MIN_STEP {
             break;
         }
     }
@@ -150,11 +150,11 @@ fn descend(
 fn witness(a: &mut Body, b: &mut Body, n: Vec3, h: f64, limits: Limits) -> [Vec3; 2] {
     let v = support(a, b, n);
     let apart = scale(n, h);
-    if norm(sub(v.point, apart)) <= SMALL * (norm(v.on_a) + norm(v.on_b)) {
+    if norm(sub(v.point, apart)) <= MIN_STEP * (norm(v.on_a) + norm(v.on_b)) {
         return [v.on_a, v.on_b];
     }
-    let mut across = |angle: f64| [a.kinks(n, angle), b.kinks(scale(n, -1.0), angle)];
-    let (along, nearly) = (across(HELD), across(UNCLEAR));
+    let mut edges = |angle: f64| [a.kinks(n, angle), b.kinks(scale(n, -1.0), angle)];
+    let (along, nearly) = (edges(NORMAL_TO_EDGE), edges(UNCERTAIN_NORMAL));
     let clear = along.iter().zip(&nearly).all(|(x, y)| x.all().len() == y.all().len());
     let around = |p: Vec3| [add_scaled(p, n, 0.5 * h), add_scaled(p, n, -0.5 * h)];
     let from_a = |on_a: Vec3| [on_a, sub(on_a, apart)];
@@ -167,11 +167,11 @@ fn witness(a: &mut Body, b: &mut Body, n: Vec3, h: f64, limits: Limits) -> [Vec3
             let (cosine, between) = (dot(e, f), sub(v.on_b, v.on_a));
             let sine2 = 1.0 - cosine * cosine;
             if sine2 < NEAR * NEAR {
-                return from_a(onto(v.on_a, e, shared_middle(a, b, n, e)));
+                return from_a(move_along_edge(v.on_a, e, shared_midpoint(a, b, n, e)));
             }
             from_a(add_scaled(v.on_a, e, (dot(e, between) - cosine * dot(f, between)) / sine2))
         }
-        _ if norm(sub(v.point, apart)) <= HELD * (norm(v.on_a) + norm(v.on_b)) => {
+        _ if norm(sub(v.point, apart)) <= NORMAL_TO_EDGE * (norm(v.on_a) + norm(v.on_b)) => {
             around(scale(add(v.on_a, v.on_b), 0.5))
         }
         _ => {
@@ -184,13 +184,13 @@ fn witness(a: &mut Body, b: &mut Body, n: Vec3, h: f64, limits: Limits) -> [Vec3
 }
 
 /// Moves a point along an edge direction until its coordinate along the edge is `at`.
-fn onto(line: Vec3, edge: Vec3, at: f64) -> Vec3 {
+fn move_along_edge(line: Vec3, edge: Vec3, at: f64) -> Vec3 {
     add_scaled(line, edge, at - dot(edge, line))
 }
 
 /// The midpoint of the common part of two parallel edges, as a coordinate along them. The ends of the edges are
 /// support points of slightly tilted directions.
-fn shared_middle(a: &mut Body, b: &mut Body, n: Vec3, edge: Vec3) -> f64 {
+fn shared_midpoint(a: &mut Body, b: &mut Body, n: Vec3, edge: Vec3) -> f64 {
     let end = |body: &mut Body, towards: f64, side: f64| {
         let tilted = normalize(add_scaled(scale(n, towards), edge, side * TILT)).0;
         dot(edge, body.support(tilted))

@@ -105,7 +105,7 @@ impl<'a> Body<'a> {
     /// The Hessian of the support function for a unit direction or its opposite, applied to two vectors (world
     /// frame): ss, st, tt, m. On tangents it contains the radii of curvature where the body is round; it is zero at
     /// corners.
-    pub(super) fn bend(&self, dir: Vec3, s: Vec3, t: Vec3) -> Vec3 {
+    pub(super) fn support_hessian(&self, dir: Vec3, s: Vec3, t: Vec3) -> Vec3 {
         let Form::Shape(shape) = self.form else { return [0.0; 3] };
         if !matches!(shape.kind, geom::ELLIPSOID | geom::CYLINDER) {
             return [0.0; 3];

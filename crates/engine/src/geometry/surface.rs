@@ -8,13 +8,13 @@ use crate::math::*;
 const TRIANGLE: u64 = 10;
 
 /// A ray with two axes normal to it. Triangles are projected along the ray onto these axes.
-struct Sight<'a> {
+struct RayFrame<'a> {
     ray: &'a Ray,
     across: [Vec3; 2],
 }
 
-impl Sight<'_> {
-    fn new(ray: &Ray) -> Sight<'_> {
+impl RayFrame<'_> {
+    fn new(ray: &Ray) -> RayFrame<'_> {
         let v = ray.along;
         let [x, y, z] = v.map(f64::abs);
         // The start vector has no component along the largest component of the ray, so it is never parallel to the
@@ -28,7 +28,7 @@ impl Sight<'_> {
         };
         let up = unit_vector(add_scaled(start, v, -dot(v, start) / dot(v, v))).0;
         let side = unit_vector(cross(up, v)).0;
-        Sight { ray, across: [side, up] }
+        RayFrame { ray, across: [side, up] }
     }
 
     /// Distance at which the ray crosses a triangle, negative behind its start, and the normal (a - c) × (b - c).
@@ -70,7 +70,7 @@ fn dot2(a: [f64; 2], b: [f64; 2]) -> f64 {
 /// The nearest triangle of a mesh. `size` contains the half sizes of a bounding box centred at the origin.
 pub(super) fn mesh(mesh: &Mesh, size: Vec3, ray: &Ray, work: &mut u64) -> Option<Hit> {
     crossings(size, ray).filter(|[_, leaves]| leaves.distance >= 0.0)?;
-    let sight = Sight::new(ray);
+    let sight = RayFrame::new(ray);
     *work += TRIANGLE * mesh.face.len() as u64;
     let mut best = None;
     for face in mesh.face {
@@ -94,7 +94,7 @@ pub(super) fn field(field: &Field, ray: &Ray, work: &mut u64) -> Option<Hit> {
     let Some(walls) = top.filter(|[_, leaves]| leaves.distance >= 0.0) else { return best };
     // The part of the ray in the bounding box of the surface; it begins at the start of the ray if that is inside.
     let ends = walls.map(|c| ray.at(c.distance.max(0.0)));
-    let sight = Sight::new(ray);
+    let sight = RayFrame::new(ray);
     let (cols, rows) = (cells(ends, sx, 0, field.ncol), cells(ends, sy, 1, field.nrow));
     *work += 2 * TRIANGLE * (rows.len() as u64 * cols.len() as u64);
     for r in rows {

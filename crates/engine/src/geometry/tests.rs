@@ -107,7 +107,7 @@ fn cases(file: &str, ours: &str) -> (String, bool) {
 }
 
 /// Writes a table to the folder that the environment variable names.
-fn keep(file: &str, table: &str) {
+fn write_table(file: &str, table: &str) {
     if let Ok(folder) = std::env::var("LABSPEC_GEOMETRY") {
         std::fs::write(format!("{folder}/{file}"), table).unwrap();
     }
@@ -207,7 +207,13 @@ fn distinct(contacts: Vec<f64>) -> Vec<f64> {
 fn pierced(a: &Shape, b: &Shape) -> bool {
     let core = Shape { size: [0.0, a.size[1], 0.0], ..*a };
     let near = |core| {
-        nearest(&mut Convex::new(core), &mut Convex::new(b), 0.0, patient().effort, &mut Default::default())
+        nearest(
+            &mut Convex::new(core),
+            &mut Convex::new(b),
+            0.0,
+            precise_settings().effort,
+            &mut Default::default(),
+        )
     };
     a.kind == geom::CAPSULE && b.kind == geom::BOX && near(&core).is_some()
 }
@@ -237,7 +243,7 @@ fn settings() -> PairSettings {
 
 /// Settings with more iterations than the default of 35, which is not always enough for round bodies in deep
 /// penetration.
-fn patient() -> PairSettings {
+fn precise_settings() -> PairSettings {
     let mut settings = settings();
     settings.effort.iterations = 300;
     settings
@@ -287,7 +293,7 @@ fn distances_are_those_of_mujoco() {
         if matches!(method, Some(Method::Field)) || searched && concentric(&a, &b) || pierced(least, other) {
             continue;
         }
-        let found = super::distance::shape_distance(&a, &b, most, &patient(), &mut work).unwrap();
+        let found = super::distance::shape_distance(&a, &b, most, &precise_settings(), &mut work).unwrap();
         let [p, q] = found.fromto;
         let got = [found.dist, p[0], p[1], p[2], q[0], q[1], q[2]];
         let want = floats(want);
@@ -308,7 +314,7 @@ fn distances_are_those_of_mujoco() {
             report.note(name("fromto"), case, difference(&got[1..], &want[1..]), point * scale, &rendered);
         }
     }
-    keep("distances.md", &figures.distance_table());
+    write_table("distances.md", &figures.distance_table());
     report.finish(print, DISTANCES);
 }
 
@@ -345,7 +351,7 @@ fn contacts_are_those_of_mujoco() {
             continue;
         }
         work.touches.clear();
-        pair::contacts(method, &a, &b, margin, patient, &mut work.convex, &mut work.touches);
+        pair::contacts(method, &a, &b, margin, precise_settings, &mut work.convex, &mut work.touches);
         let mut got = Vec::new();
         for t in &work.touches {
             got.push(t.dist);
@@ -391,7 +397,7 @@ fn contacts_are_those_of_mujoco() {
             report.note(format!("{kinds} place"), case, most(&rest), point * scale, &rendered);
         }
     }
-    keep("contacts.md", &figures.contact_table());
+    write_table("contacts.md", &figures.contact_table());
     report.finish(print, CONTACTS);
 }
 
@@ -459,7 +465,7 @@ fn hostile_numbers_are_harmless() {
                     );
                     // A height field with many prisms has at most as many contacts as MuJoCo keeps; two bodies have
                     // at most those of a face.
-                    let most = if b == 1 || a == 1 { pair::MOST } else { 8 };
+                    let most = if b == 1 || a == 1 { pair::MAX_CONTACTS } else { 8 };
                     assert!(work.touches.len() <= most, "{}-{}, {k}", KINDS[a], KINDS[b]);
                 }
             }

@@ -1,7 +1,7 @@
 //! Numbers as little-endian bytes.
 
 /// A number or a flag with a fixed number of bytes.
-pub(crate) trait Plain: Sized {
+pub(crate) trait FixedSize: Sized {
     fn put(&self, out: &mut Vec<u8>);
     /// Reads a value from the front of `bytes`. `None` if there are too few bytes, or if they are not a valid value.
     fn take(bytes: &mut &[u8]) -> Option<Self>;
@@ -15,7 +15,7 @@ fn front<const N: usize>(bytes: &mut &[u8]) -> Option<[u8; N]> {
 
 macro_rules! numbers {
     ($($t:ty),*) => { $(
-        impl Plain for $t {
+        impl FixedSize for $t {
             fn put(&self, out: &mut Vec<u8>) {
                 out.extend_from_slice(&self.to_le_bytes());
             }
@@ -27,7 +27,7 @@ macro_rules! numbers {
 }
 numbers!(u8, u32, u64, i32, f64);
 
-impl Plain for bool {
+impl FixedSize for bool {
     fn put(&self, out: &mut Vec<u8>) {
         out.push(u8::from(*self));
     }
@@ -40,7 +40,7 @@ impl Plain for bool {
     }
 }
 
-impl Plain for usize {
+impl FixedSize for usize {
     fn put(&self, out: &mut Vec<u8>) {
         (*self as u64).put(out);
     }
@@ -49,7 +49,7 @@ impl Plain for usize {
     }
 }
 
-impl<T: Plain> Plain for Option<T> {
+impl<T: FixedSize> FixedSize for Option<T> {
     fn put(&self, out: &mut Vec<u8>) {
         self.is_some().put(out);
         if let Some(x) = self {
@@ -61,7 +61,7 @@ impl<T: Plain> Plain for Option<T> {
     }
 }
 
-impl<T: Plain + Copy + Default, const N: usize> Plain for [T; N] {
+impl<T: FixedSize + Copy + Default, const N: usize> FixedSize for [T; N] {
     fn put(&self, out: &mut Vec<u8>) {
         self.iter().for_each(|x| x.put(out));
     }

@@ -53,8 +53,8 @@ plan_flags! {
     /// Surfaces of geoms may have a velocity.
     Surfaces = true,
     /// Whether joints have dampers is constant.
-    DampersStay = false,
-    /// If [`PlanFlag::DampersStay`] is set: joints have dampers.
+    ConstantDamping = false,
+    /// If [`PlanFlag::ConstantDamping`] is set: joints have dampers.
     JointDampers = true,
     /// Springs are checked at every step.
     Springs = true,
@@ -68,7 +68,7 @@ plan_flags! {
     /// velocity.
     Servos = false,
     /// The derivatives of forces with respect to velocities depend on the model alone, except for those of actuator forces.
-    SlopesStay = false,
+    ConstantVelocityDerivatives = false,
     /// Forces of actuators may be limited, individually or per joint.
     ForceLimits = true,
     /// The solver also writes `efc_b` and `efc_state`.

@@ -78,6 +78,6 @@ fn external(m: &Model, d: &mut Fields) {
         apply(m.geom_bodyid[c.geom1] as usize, c.pos, scale(force, -1.0), scale(torque, -1.0));
         apply(m.geom_bodyid[c.geom2] as usize, c.pos, force, torque);
     }
-    tension::pulls(m, d, |body, point, force| apply(body, point, force, [0.0; 3]));
+    tension::for_each_pull(m, d, |body, point, force| apply(body, point, force, [0.0; 3]));
     d.cfrc_ext = cfrc_ext;
 }

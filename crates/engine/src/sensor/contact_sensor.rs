@@ -102,9 +102,9 @@ fn admitted(m: &Model, d: &Fields, s: usize, c: &Contact) -> Option<bool> {
     {
         return None;
     }
-    let takes_part = |object, geom| takes_part(m, object, geom);
-    let (first1, first2) = (takes_part(first, c.geom1), takes_part(first, c.geom2));
-    let (second1, second2) = (takes_part(second, c.geom1), takes_part(second, c.geom2));
+    let is_selected = |object, geom| is_selected(m, object, geom);
+    let (first1, first2) = (is_selected(first, c.geom1), is_selected(first, c.geom2));
+    let (second1, second2) = (is_selected(second, c.geom1), is_selected(second, c.geom2));
     if !(first1 || first2) || !(second1 || second2) {
         return None;
     }
@@ -119,7 +119,7 @@ fn admitted(m: &Model, d: &Fields, s: usize, c: &Contact) -> Option<bool> {
 
 /// Whether a geom of a contact is an object of the filter or belongs to one. An unspecified object and a site admit
 /// every geom.
-fn takes_part(m: &Model, (kind, id): (i32, i32), geom: usize) -> bool {
+fn is_selected(m: &Model, (kind, id): (i32, i32), geom: usize) -> bool {
     let body = m.geom_bodyid[geom];
     match kind {
         k if k == Obj::Geom as i32 => id == geom as i32,

@@ -8,7 +8,7 @@ use crate::model::{Fields, Model};
 use crate::query;
 
 /// The frame of the sensed object.
-fn sensed(m: &Model, d: &Fields, s: usize) -> Option<Frame> {
+fn sensed_frame(m: &Model, d: &Fields, s: usize) -> Option<Frame> {
     object::frame(m, d, m.sensor_objtype[s], usize::try_from(m.sensor_objid[s]).ok()?)
 }
 
@@ -18,7 +18,7 @@ fn reference(m: &Model, d: &Fields, s: usize) -> Option<Frame> {
 }
 
 pub(super) fn position(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
-    let Some(f) = sensed(m, d, s) else { return };
+    let Some(f) = sensed_frame(m, d, s) else { return };
     put(out, reference(m, d, s).map_or(f.pos, |r| mat_t_mul_vec(&r.mat, sub(f.pos, r.pos))));
 }
 
@@ -31,14 +31,14 @@ pub(super) fn orientation(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) 
 
 /// Axis I of the sensed frame.
 pub(super) fn axis<const I: usize>(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
-    let Some(f) = sensed(m, d, s) else { return };
+    let Some(f) = sensed_frame(m, d, s) else { return };
     let axis = column(&f.mat, I);
     put(out, reference(m, d, s).map_or(axis, |r| mat_t_mul_vec(&r.mat, axis)));
 }
 
 /// Velocity in world axes, or relative to the reference frame, which may move and rotate.
 fn velocity(m: &Model, d: &Fields, s: usize) -> Option<Spatial> {
-    let f = sensed(m, d, s)?;
+    let f = sensed_frame(m, d, s)?;
     let v = object::velocity(m, d, &f, false);
     let Some(r) = reference(m, d, s) else { return Some(v) };
     let of_r = object::velocity(m, d, &r, false);
@@ -47,7 +47,7 @@ fn velocity(m: &Model, d: &Fields, s: usize) -> Option<Spatial> {
     for i in 0..3 {
         seen[3 + i] -= carried[i];
     }
-    Some(object::turned(&r.mat, &seen))
+    Some(object::rotated_spatial(&r.mat, &seen))
 }
 
 pub(super) fn linear_velocity(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
@@ -59,32 +59,32 @@ pub(super) fn angular_velocity(m: &Model, d: &mut Fields, s: usize, out: &mut [f
 }
 
 pub(super) fn velocimeter(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
-    put(out, sensed(m, d, s).map_or([0.0; 3], |f| linear(&object::velocity(m, d, &f, true))));
+    put(out, sensed_frame(m, d, s).map_or([0.0; 3], |f| linear(&object::velocity(m, d, &f, true))));
 }
 
 pub(super) fn gyro(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
-    put(out, sensed(m, d, s).map_or([0.0; 3], |f| angular(&object::velocity(m, d, &f, true))));
+    put(out, sensed_frame(m, d, s).map_or([0.0; 3], |f| angular(&object::velocity(m, d, &f, true))));
 }
 
 pub(super) fn accelerometer(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
-    put(out, sensed(m, d, s).map_or([0.0; 3], |f| linear(&object::acceleration(m, d, &f, true))));
+    put(out, sensed_frame(m, d, s).map_or([0.0; 3], |f| linear(&object::acceleration(m, d, &f, true))));
 }
 
 pub(super) fn linear_acceleration(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
-    put(out, sensed(m, d, s).map_or([0.0; 3], |f| linear(&object::acceleration(m, d, &f, false))));
+    put(out, sensed_frame(m, d, s).map_or([0.0; 3], |f| linear(&object::acceleration(m, d, &f, false))));
 }
 
 pub(super) fn angular_acceleration(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
-    put(out, sensed(m, d, s).map_or([0.0; 3], |f| angular(&object::acceleration(m, d, &f, false))));
+    put(out, sensed_frame(m, d, s).map_or([0.0; 3], |f| angular(&object::acceleration(m, d, &f, false))));
 }
 
 /// The torque about the site and the force that the parent exerts on the body of the site, in the axes of the site.
 fn interaction(m: &Model, d: &Fields, s: usize) -> Spatial {
-    let Some(f) = sensed(m, d, s) else { return [0.0; 6] };
+    let Some(f) = sensed_frame(m, d, s) else { return [0.0; 6] };
     let c = rows::<6>(&d.cfrc_int)[f.body];
     let com = rows::<3>(&d.subtree_com)[m.body_rootid[f.body] as usize];
     let t = sub(angular(&c), cross(sub(f.pos, com), linear(&c)));
-    object::turned(&f.mat, &[t[0], t[1], t[2], c[3], c[4], c[5]])
+    object::rotated_spatial(&f.mat, &[t[0], t[1], t[2], c[3], c[4], c[5]])
 }
 
 pub(super) fn force(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
@@ -96,11 +96,11 @@ pub(super) fn torque(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
 }
 
 pub(super) fn magnetometer(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
-    put(out, sensed(m, d, s).map_or([0.0; 3], |f| mat_t_mul_vec(&f.mat, m.opt.magnetic)));
+    put(out, sensed_frame(m, d, s).map_or([0.0; 3], |f| mat_t_mul_vec(&f.mat, m.opt.magnetic)));
 }
 
 /// 1 if the origin of the frame is inside the site, otherwise 0.
 pub(super) fn inside_site(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
-    let (Some(f), Ok(site)) = (sensed(m, d, s), usize::try_from(m.sensor_refid[s])) else { return };
+    let (Some(f), Ok(site)) = (sensed_frame(m, d, s), usize::try_from(m.sensor_refid[s])) else { return };
     put(out, [f64::from(u8::from(query::inside_site(m, d, site, f.pos)))]);
 }

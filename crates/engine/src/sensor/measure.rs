@@ -15,7 +15,7 @@ fn object(m: &Model, s: usize) -> usize {
 }
 
 /// A sensor without a measurement. Its values are zero.
-pub(super) fn nothing(_: &Model, _: &mut Fields, _: usize, out: &mut [f64]) {
+pub(super) fn no_measurement(_: &Model, _: &mut Fields, _: usize, out: &mut [f64]) {
     out.fill(0.0);
 }
 

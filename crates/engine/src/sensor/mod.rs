@@ -21,7 +21,7 @@ pub(crate) use timing::{record, reset};
 
 use contact_sensor::Match;
 use table::Read;
-pub use table::{Datatype, KINDS, Kind, Senses, When, for_sensor, kind};
+pub use table::{Datatype, KINDS, Kind, SensorStage, SensorTarget, for_sensor, kind};
 
 use crate::geometry::Narrow;
 use crate::kinds::{disable, joint};
@@ -60,7 +60,7 @@ pub fn is_read(m: &Model, s: usize, sensed: Values) -> bool {
 }
 
 /// Evaluates the sensors of a stage that are read. While sensors are disabled, their values do not change.
-pub fn evaluate(m: &Model, d: &mut Fields, w: &mut Scratch, when: When) {
+pub fn evaluate(m: &Model, d: &mut Fields, w: &mut Scratch, when: SensorStage) {
     if m.opt.disabled(disable::SENSOR) || d.meter.over() {
         return;
     }
@@ -145,19 +145,21 @@ pub(crate) fn fits(m: &Model, s: usize) -> bool {
         _ => solid(kind, id),
     };
     match for_sensor(m, s).senses {
-        Senses::Site => within(id, m.nsite),
-        Senses::SiteInImage => within(id, m.nsite) && within(reference, m.ncam),
-        Senses::Ray if kind == Obj::Camera as i32 => within(id, m.ncam),
-        Senses::Ray => within(id, m.nsite),
-        Senses::ScalarJoint => matches!(joint, Some(joint::SLIDE | joint::HINGE)),
-        Senses::BallJoint => joint == Some(joint::BALL),
-        Senses::LimitedJoint => joint.is_some(),
-        Senses::Tendon | Senses::LimitedTendon => within(id, m.ntendon),
-        Senses::Actuator => within(id, m.nactuator) && m.actuator_outnum[id as usize] == m.sensor_dim[s],
-        Senses::Subtree => within(id, m.nbody),
-        Senses::Pair => solid(kind, id) && solid(other, reference),
-        Senses::FrameInSite => within(reference, m.nsite),
-        Senses::Contacts => takes_part(kind, id) && takes_part(other, reference),
+        SensorTarget::Site => within(id, m.nsite),
+        SensorTarget::SiteInImage => within(id, m.nsite) && within(reference, m.ncam),
+        SensorTarget::Ray if kind == Obj::Camera as i32 => within(id, m.ncam),
+        SensorTarget::Ray => within(id, m.nsite),
+        SensorTarget::ScalarJoint => matches!(joint, Some(joint::SLIDE | joint::HINGE)),
+        SensorTarget::BallJoint => joint == Some(joint::BALL),
+        SensorTarget::LimitedJoint => joint.is_some(),
+        SensorTarget::Tendon | SensorTarget::LimitedTendon => within(id, m.ntendon),
+        SensorTarget::Actuator => {
+            within(id, m.nactuator) && m.actuator_outnum[id as usize] == m.sensor_dim[s]
+        }
+        SensorTarget::Subtree => within(id, m.nbody),
+        SensorTarget::Pair => solid(kind, id) && solid(other, reference),
+        SensorTarget::FrameInSite => within(reference, m.nsite),
+        SensorTarget::Contacts => takes_part(kind, id) && takes_part(other, reference),
         _ => true,
     }
 }
@@ -173,7 +175,7 @@ pub(crate) fn needs_of(m: &Model, stage: Stage, among: impl Fn(usize) -> bool) -
         for_sensor(m, s).needs.contains(&stage)
             || poses(stage, m.sensor_objtype[s])
             || poses(stage, m.sensor_reftype[s])
-            || m.sensor_type[s] == kind::USER && offers(stage, m.sensor_needstage[s])
+            || m.sensor_type[s] == kind::USER && must_run_for_user_sensors(stage, m.sensor_needstage[s])
     })
 }
 
@@ -190,10 +192,10 @@ fn poses(stage: Stage, objtype: i32) -> bool {
 }
 
 /// Whether a stage must run for user sensors, which may read all results that are available in their stage.
-fn offers(stage: Stage, needstage: i32) -> bool {
+fn must_run_for_user_sensors(stage: Stage, needstage: i32) -> bool {
     match stage {
-        Stage::SubtreeVel => needstage == When::Velocity as i32,
-        Stage::RnePost => needstage == When::Acceleration as i32,
+        Stage::SubtreeVel => needstage == SensorStage::Velocity as i32,
+        Stage::RnePost => needstage == SensorStage::Acceleration as i32,
         _ => false,
     }
 }

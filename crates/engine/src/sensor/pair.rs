@@ -11,7 +11,7 @@ use crate::model::{Fields, Model, Obj};
 use crate::query::geom_distance;
 
 /// Work units of two geoms that are too far apart.
-const LOOKED_AT: u64 = 4;
+const DISTANT_PAIR_COST: u64 = 4;
 /// Relative tolerance for rounding errors before a pair counts as too far apart.
 const ROUNDING: f64 = 1e-9;
 
@@ -36,7 +36,7 @@ fn nearest(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize) -> (f64, [Vec3;
     for g1 in geoms(m, m.sensor_objtype[s], m.sensor_objid[s]) {
         let (centre, radius) = (rows::<3>(&d.geom_xpos)[g1], bound(m, d, g1));
         for (i, g2) in others.clone().enumerate() {
-            d.meter.add(LOOKED_AT);
+            d.meter.add(DISTANT_PAIR_COST);
             if d.meter.over() {
                 return best;
             }

@@ -15,7 +15,7 @@ use crate::model::{Fields, Model};
 
 /// What a sensor senses. It determines the attributes in MJCF.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Senses {
+pub enum SensorTarget {
     /// No particular object.
     Nothing,
     /// A site.
@@ -72,7 +72,7 @@ pub enum Datatype {
 /// The stage in which the values of a sensor are available (mjtStage).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs)] // positions; velocities; accelerations and forces are available
-pub enum When {
+pub enum SensorStage {
     Position = 1,
     Velocity = 2,
     Acceleration = 3,
@@ -91,13 +91,13 @@ pub struct Kind {
     /// The element in MJCF.
     pub name: &'static str,
     /// What it senses.
-    pub senses: Senses,
+    pub senses: SensorTarget,
     /// Number of values; 0 if the sensed object or parameters of the sensor determine it.
     pub dim: i32,
     /// The kind of the values.
     pub datatype: Datatype,
     /// The stage in which they are available.
-    pub when: When,
+    pub when: SensorStage,
     /// Their unit. For joints and actuators: that of a slide, then that of a hinge. Empty if it depends on more.
     pub unit: &'static str,
     /// The stages whose results they are computed from, besides the poses of the sensed objects.
@@ -118,11 +118,11 @@ macro_rules! kinds {
         /// All kinds of sensors, by their number.
         pub static KINDS: [Kind; [$($name),*].len()] = [$(Kind {
             name: $name,
-            senses: Senses::$senses,
+            senses: SensorTarget::$senses,
             dim: $dim,
             datatype: Datatype::$datatype,
             unit: $unit,
-            when: When::$when,
+            when: SensorStage::$when,
             needs: &[$(Stage::$needs),*],
             read: Read::$how($read),
         }),*];
@@ -175,9 +175,9 @@ kinds! {
     E_POTENTIAL "e_potential" Nothing 1 Real "J" Position [Kinematics Tendon] Of measure::potential_energy;
     E_KINETIC "e_kinetic" Nothing 1 Real "J" Position [MassMatrix] Of measure::kinetic_energy;
     CLOCK "clock" Nothing 1 Real "s" Position [] Of measure::clock;
-    TACTILE "tactile" Tactile 0 Real "" Acceleration [] Of measure::nothing;
-    PLUGIN "plugin" Plugin 0 Real "" Acceleration [] Of measure::nothing;
-    USER "user" User 0 Real "" Acceleration [] Of measure::nothing;
+    TACTILE "tactile" Tactile 0 Real "" Acceleration [] Of measure::no_measurement;
+    PLUGIN "plugin" Plugin 0 Real "" Acceleration [] Of measure::no_measurement;
+    USER "user" User 0 Real "" Acceleration [] Of measure::no_measurement;
 }
 
 /// The row of sensor `s`. An unknown type counts as a user sensor, for which nothing is measured: its values are zero.

@@ -14,7 +14,7 @@ use crate::model::{Fields, Model};
 /// lengths were computed exerts no force, even if its tree has woken since: it has no length and no Jacobian in this
 /// pass, and its path points may have been overwritten by others (`tendon::tendons`). A tendon whose sites coincide
 /// has no direction.
-pub(crate) fn pulls(m: &Model, d: &Fields, mut apply: impl FnMut(usize, Vec3, Vec3)) {
+pub(crate) fn for_each_pull(m: &Model, d: &Fields, mut apply: impl FnMut(usize, Vec3, Vec3)) {
     let spatial = |&t: &usize| !tendon::is_fixed(m, t) && d.ten_length[t] != 0.0;
     for t in (0..m.ntendon).filter(spatial) {
         let force = passive(m, d, t) + actuators(m, d, t) + constraint::tendon_force(m, d, t);
@@ -59,7 +59,7 @@ mod tests {
     /// The path of the second tendon begins with a pulley, and its points have overwritten those of the first tendon,
     /// which sleeps.
     #[test]
-    fn a_tendon_that_sleeps_pulls_nobody() {
+    fn a_sleeping_tendon_applies_no_force() {
         let m = compile(
             "<mujoco><option><flag sleep='enable'/></option><worldbody><geom type='plane' size='5 5 1'/>\
             <site name='anchor' pos='0 0 .5'/>\
@@ -74,7 +74,7 @@ mod tests {
         forward::forward(&m, &mut d, &mut s);
         assert!(asleep::tendon(&m, &d, 0) && !asleep::tendon(&m, &d, 1));
         let mut pulled = Vec::new();
-        pulls(&m, &d, |body, _, _| pulled.push(body));
+        for_each_pull(&m, &d, |body, _, _| pulled.push(body));
         assert_eq!(pulled, [0, 2]);
     }
 
@@ -101,7 +101,7 @@ mod tests {
         assert_eq!((steps, d.ten_length[0]), (24, 0.0));
         let pulled = |d: &Fields| {
             let mut bodies = Vec::new();
-            pulls(&m, d, |body, _, _| bodies.push(body));
+            for_each_pull(&m, d, |body, _, _| bodies.push(body));
             bodies
         };
         assert_eq!(pulled(&d), [0, 2]);

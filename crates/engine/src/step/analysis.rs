@@ -30,15 +30,15 @@ pub(super) const FLAGS: [(PlanFlag, Test); 23] = [
     (PlanFlag::FrictionLoss, |s| s.friction > 0),
     (PlanFlag::Limits, |s| s.limited > 0 || s.limited_tendons > 0),
     (PlanFlag::Adhesion, |s| s.adhesion),
-    (PlanFlag::Surfaces, |s| s.pairs > 0 && s.some(&[SURFACES])),
-    (PlanFlag::DampersStay, |s| s.damped().is_some()),
+    (PlanFlag::Surfaces, |s| s.pairs > 0 && s.has_nonzero(&[SURFACES])),
+    (PlanFlag::ConstantDamping, |s| s.damped().is_some()),
     (PlanFlag::JointDampers, |s| s.damped() == Some(true)),
-    (PlanFlag::Springs, |s| s.some(&JOINT_FORCES[2..]) || s.tendon_springs),
+    (PlanFlag::Springs, |s| s.has_nonzero(&JOINT_FORCES[2..]) || s.tendon_springs),
     (PlanFlag::Dampers, |s| s.damped() != Some(false) || s.tendon_dampers),
     (PlanFlag::ActuatorDampers, |s| s.damped().is_none() || s.m.jnt_actuatorid.iter().any(|&i| i != -1)),
     (PlanFlag::Motors, |s| s.actuators_are(ModelAnalysis::is_motor)),
     (PlanFlag::Servos, |s| s.actuators_are(ModelAnalysis::is_servo)),
-    (PlanFlag::SlopesStay, |s| s.slopes_stay()),
+    (PlanFlag::ConstantVelocityDerivatives, |s| s.has_constant_velocity_derivatives()),
     (PlanFlag::ForceLimits, |s| {
         s.m.actuator_forcelimited.contains(&true)
             || s.m.jnt_actfrclimited.contains(&true)
@@ -46,7 +46,7 @@ pub(super) const FLAGS: [(PlanFlag, Test); 23] = [
     }),
     (PlanFlag::SolverDetails, |s| s.reads_field(data::efc_b) || s.reads_field(data::efc_state)),
     (PlanFlag::BodyForces, |s| s.body_forces()),
-    (PlanFlag::AppliedForces, |s| s.pushed()),
+    (PlanFlag::AppliedForces, |s| s.has_applied_forces()),
     (PlanFlag::PairsChange, |s| s.pairs_change),
     (PlanFlag::ContactParamsChange, |s| s.changes().params),
     (PlanFlag::PlacesChange, |s| s.changes().places),
@@ -110,7 +110,7 @@ impl<'a> ModelAnalysis<'a> {
             access,
             algorithms,
             general: !tree_algorithms::are_constant(m, algorithms),
-            large: tree_algorithms::need_bodies(m, algorithms),
+            large: tree_algorithms::need_composite_bodies(m, algorithms),
             pairs_change: false,
             pairs: 0,
             limited: 0,
@@ -174,7 +174,7 @@ impl<'a> ModelAnalysis<'a> {
             self.limited_tendons = self.limits(model::tendon_limited, &m.tendon_limited);
         }
         if friction {
-            self.friction = FRICTION_LOSS.iter().map(|f| self.others_than_zero(f)).sum();
+            self.friction = FRICTION_LOSS.iter().map(|f| self.count_nonzero(f)).sum();
         }
         let stay_off = !self.may_differ(data::eq_active)
             && !self.writes(&idle::EQUALITIES)
@@ -203,15 +203,16 @@ impl<'a> ModelAnalysis<'a> {
         self.fluid = m.opt.density > 0.0
             || m.opt.viscosity > 0.0
             || self.writes(&[option::density, option::viscosity]);
-        self.gravcomp = self.some(&[GRAVCOMP]);
-        self.adhesion = self.pairs > 0 && self.some(&ADHESION);
-        let damping = self.some(&ACTUATOR_DAMPING);
+        self.gravcomp = self.has_nonzero(&[GRAVCOMP]);
+        self.adhesion = self.pairs > 0 && self.has_nonzero(&ADHESION);
+        let damping = self.has_nonzero(&ACTUATOR_DAMPING);
         let on_joints = self.transmits(&[trntype::JOINT, trntype::JOINTINPARENT]);
         let on_tendons = self.transmits(&[trntype::TENDON]);
-        self.joint_forces = self.some(&JOINT_FORCES) || on_joints && damping;
-        self.tendon_springs = self.some(&TENDON_FORCES[..2]);
-        self.tendon_dampers = self.some(&TENDON_FORCES[2..]) || on_tendons && damping;
-        self.tendon_armature = self.some(&[TENDON_ARMATURE]) || on_tendons && self.some(&[ACTUATOR_ARMATURE]);
+        self.joint_forces = self.has_nonzero(&JOINT_FORCES) || on_joints && damping;
+        self.tendon_springs = self.has_nonzero(&TENDON_FORCES[..2]);
+        self.tendon_dampers = self.has_nonzero(&TENDON_FORCES[2..]) || on_tendons && damping;
+        self.tendon_armature =
+            self.has_nonzero(&[TENDON_ARMATURE]) || on_tendons && self.has_nonzero(&[ACTUATOR_ARMATURE]);
     }
 
     /// Finds whether actuators make forces, or would make them if they had a control.
@@ -235,12 +236,12 @@ impl<'a> ModelAnalysis<'a> {
     }
 
     /// Whether at least one of these numbers is not zero, or may become so.
-    pub(super) fn some(&self, of: &[Numbers]) -> bool {
-        of.iter().any(|numbers| self.others_than_zero(numbers) > 0)
+    pub(super) fn has_nonzero(&self, of: &[Numbers]) -> bool {
+        of.iter().any(|numbers| self.count_nonzero(numbers) > 0)
     }
 
     /// The number of these numbers that are not zero, or may become so.
-    pub(super) fn others_than_zero(&self, (field, numbers): &Numbers) -> usize {
+    pub(super) fn count_nonzero(&self, (field, numbers): &Numbers) -> usize {
         let numbers = numbers(self.m);
         if self.writes(&[*field]) {
             return numbers.len();
@@ -284,9 +285,9 @@ impl<'a> ModelAnalysis<'a> {
             && !self.tendon_armature
             && !self.sleeps
             && !plan.keeps(Stage::Energy)
-            && !(plan.keeps(Stage::Sensors) && self.sensed(Stage::MassMatrix))
+            && !(plan.keeps(Stage::Sensors) && self.is_used_by_sensors(Stage::MassMatrix))
             && !fields.into_iter().any(|f| self.reads_field(f))
-            && tree_algorithms::solve_alone(m, self.algorithms)
+            && tree_algorithms::solve_without_mass_rows(m, self.algorithms)
     }
 
     /// Whether forces of actuators depend on their lengths or velocities, or their moments on the configuration.
@@ -339,27 +340,28 @@ impl<'a> ModelAnalysis<'a> {
 
     /// Whether the derivatives of forces with respect to velocities are constants of the model, except for those of actuator
     /// forces. This requires linear dampers and servos, along joints and fixed tendons.
-    pub(super) fn slopes_stay(&self) -> bool {
+    pub(super) fn has_constant_velocity_derivatives(&self) -> bool {
         let growth = [JOINT_FORCES[1], TENDON_FORCES[3], ACTUATOR_DAMPING[1]];
         let numbers = [model::wrap_prm, TENDON_FORCES[2].0];
         !self.sleeps
             && !self.fluid
             && self.damped().is_some()
-            && !self.some(&growth)
+            && !self.has_nonzero(&growth)
             && !self.writes(&numbers)
             && (self.m.nactuator == 0 || self.actuators_are(ModelAnalysis::is_servo))
             && (0..self.m.ntendon).all(|t| tendon::is_fixed(self.m, t))
     }
 
     /// Whether some sensor that is evaluated uses the results of a stage.
-    pub(super) fn sensed(&self, stage: Stage) -> bool {
-        let read = |s: usize| self.every_sensor || sensor::is_read(self.m, s, self.access.reads.sensed());
+    pub(super) fn is_used_by_sensors(&self, stage: Stage) -> bool {
+        let read =
+            |s: usize| self.every_sensor || sensor::is_read(self.m, s, self.access.reads.sensed_elements());
         sensor::needs_of(self.m, stage, read)
     }
 
     /// Whether fluid forces act on individual geoms.
     pub(super) fn ellipsoids(&self) -> bool {
-        self.some(&[ELLIPSOIDS])
+        self.has_nonzero(&[ELLIPSOIDS])
     }
 
     /// Whether forces are applied to bodies or along degrees of freedom.
@@ -368,7 +370,7 @@ impl<'a> ModelAnalysis<'a> {
     }
 
     /// Whether forces are applied to bodies.
-    pub(super) fn pushed(&self) -> bool {
+    pub(super) fn has_applied_forces(&self) -> bool {
         self.writes(&[data::xfrc_applied])
     }
 
@@ -383,7 +385,7 @@ impl<'a> ModelAnalysis<'a> {
     }
 
     /// Whether there are constraints between points or frames of bodies.
-    pub(super) fn ties_bodies(&self) -> bool {
+    pub(super) fn constrains_bodies(&self) -> bool {
         self.equalities > 0 && self.m.eq_type.iter().any(|&t| t == eqtype::CONNECT || t == eqtype::WELD)
     }
 
@@ -392,7 +394,7 @@ impl<'a> ModelAnalysis<'a> {
         let m = self.m;
         self.limited_tendons > 0
             || self.equalities > 0 && m.eq_type.contains(&eqtype::TENDON)
-            || self.some(&[(model::tendon_frictionloss, |m| &m.tendon_frictionloss)])
+            || self.has_nonzero(&[(model::tendon_frictionloss, |m| &m.tendon_frictionloss)])
     }
 
     /// Whether there are forces along tendons.
@@ -409,7 +411,8 @@ impl<'a> ModelAnalysis<'a> {
     /// bodies.
     pub(super) fn bias_slopes(&self) -> bool {
         let bodies = |&t: &usize| {
-            derivative::is_free_rigid(self.m, t) && !tree_algorithms::turns_alone(self.m, self.algorithms, t)
+            derivative::is_free_rigid(self.m, t)
+                && !tree_algorithms::bias_is_free_torque(self.m, self.algorithms, t)
         };
         let free = || (0..self.m.ntree).any(|t| bodies(&t));
         let of_free = [integrator::IMPLICITFAST, integrator::DISCRETE];

@@ -31,7 +31,7 @@ impl Energy {
 /// The energy at `qpos` and `qvel`, for the current controls. `None` if an actuator has no potential, because it may add energy.
 /// Computes poses and lengths only.
 pub fn mechanical_energy(m: &Model, d: &mut Fields, s: &mut Scratch) -> Option<Energy> {
-    forward::placed(m, d, s);
+    forward::update_positions(m, d, s);
     transmission::transmissions(m, d, &mut s.forces);
     let mut gravity = 0.0;
     if !m.opt.disabled(disable::GRAVITY) {

@@ -41,11 +41,11 @@ pub(super) fn fill_mass_matrix(m: &Model, d: &mut Fields, s: &mut Scratch, gener
 
 pub(super) fn factor(m: &Model, d: &mut Fields, s: &mut Scratch) {
     if !d.plan.has(PlanFlag::MassForRows) {
-        factor_now(m, d, s);
+        refactor(m, d, s);
     }
 }
 
-fn factor_now(m: &Model, d: &mut Fields, s: &mut Scratch) {
+fn refactor(m: &Model, d: &mut Fields, s: &mut Scratch) {
     let bad = tree_algorithms::factor(m, d, &mut s.dynamics);
     check_inertia(d, bad);
 }
@@ -74,10 +74,10 @@ pub(super) fn make_constraints(m: &Model, d: &mut Fields, s: &mut Scratch) {
     constraint::make(m, d, &mut s.constraint);
     if d.plan.has(PlanFlag::MassForRows) && d.nefc > 0 {
         let general = d.plan.has(PlanFlag::Composite);
-        if general || tree_algorithms::put_rows_off(&s.dynamics) {
+        if general || tree_algorithms::defers_mass_rows(&s.dynamics) {
             fill_mass_matrix(m, d, s, general, true);
         }
-        factor_now(m, d, s);
+        refactor(m, d, s);
     }
 }
 
@@ -120,7 +120,7 @@ fn accelerate(m: &Model, d: &mut Fields, s: &mut Scratch) {
             let euler = m.opt.integrator == integrator::EULER && damping::damps(m, d);
             let bad = match euler {
                 true => damping::accelerate(m, d, s, &mut out),
-                false => tree_algorithms::solve_now(m, d, &mut s.dynamics, &mut out),
+                false => tree_algorithms::factor_and_solve(m, d, &mut s.dynamics, &mut out),
             };
             check_inertia(d, bad);
         } else {
@@ -135,7 +135,7 @@ fn accelerate(m: &Model, d: &mut Fields, s: &mut Scratch) {
     }
     if !d.plan.keeps(Stage::Solve) {
         copy(&d.qacc_smooth, &mut d.qacc);
-        turn_free_bodies(m, d, s);
+        add_gyroscopic_correction(m, d, s);
     }
 }
 
@@ -167,14 +167,14 @@ pub(super) fn solve(m: &Model, d: &mut Fields, s: &mut Scratch) {
     } else {
         constraint::solve(m, d, &mut s.constraint, &mut s.dynamics);
     }
-    turn_free_bodies(m, d, s);
+    add_gyroscopic_correction(m, d, s);
 }
 
 /// Adds the gyroscopic correction of the discrete integrator to `qacc` of free bodies.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn turn_free_bodies(m: &Model, d: &mut Fields, s: &mut Scratch) {
+fn add_gyroscopic_correction(m: &Model, d: &mut Fields, s: &mut Scratch) {
     if m.opt.integrator == integrator::DISCRETE {
-        discrete::turn_free_bodies(m, d, s);
+        discrete::add_gyroscopic_correction(m, d, s);
     }
 }
 

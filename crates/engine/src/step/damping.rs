@@ -50,7 +50,11 @@ pub(super) fn damps(m: &Model, d: &Fields) -> bool {
     d.plan.keeps(Stage::Passive)
         && !m.opt.disabled(disable::EULERDAMP)
         && !m.opt.disabled(disable::DAMPER)
-        && if d.plan.has(PlanFlag::DampersStay) { d.plan.has(PlanFlag::JointDampers) } else { has_dampers(m) }
+        && if d.plan.has(PlanFlag::ConstantDamping) {
+            d.plan.has(PlanFlag::JointDampers)
+        } else {
+            has_dampers(m)
+        }
 }
 
 /// Whether some degree of freedom has a damper.

@@ -110,6 +110,6 @@ pub fn deciding() -> FieldSet {
 }
 
 /// The written fields that determine nothing. A plan never uses their values.
-pub fn never_asked(access: &AccessSet) -> FieldSet {
+pub fn undecisive_writes(access: &AccessSet) -> FieldSet {
     access.writes.difference(&deciding())
 }

@@ -23,7 +23,7 @@ pub(crate) fn acceleration(m: &Model, d: &mut Fields, s: &mut Scratch) {
 }
 
 /// For free rigid bodies that are not coupled with others, adds the derivative of the gyroscopic force to `qacc`.
-pub(crate) fn turn_free_bodies(m: &Model, d: &mut Fields, s: &mut Scratch) {
+pub(crate) fn add_gyroscopic_correction(m: &Model, d: &mut Fields, s: &mut Scratch) {
     let Scratch { metric: w, derivative: slopes, constraint: rows, .. } = s;
     for tree in 0..m.ntree {
         if asleep::tree(m, d, tree) {
@@ -82,7 +82,7 @@ pub(crate) fn constraints(m: &Model, d: &mut Fields, s: &mut Scratch) {
             w.values.extend_from_slice(values);
             constraint::push_metric(d, rows, &w.columns, &w.values, term.scale);
         }
-        w.solve_alone(m, &mut d.qacc_smooth);
+        w.solve_without_mass_rows(m, &mut d.qacc_smooth);
     }
     exchange_metric(d, w);
     constraint::solve(m, d, rows, trees);

@@ -65,7 +65,7 @@ pub(crate) fn from_velocities(m: &Model, d: &mut Fields, s: &mut Scratch) {
 }
 
 /// Computes poses of bodies and lengths of tendons. Inertias and motion axes are computed only where lengths need them.
-pub(crate) fn placed(m: &Model, d: &mut Fields, s: &mut Scratch) {
+pub(crate) fn update_positions(m: &Model, d: &mut Fields, s: &mut Scratch) {
     let [bits, ..] = d.plan.passes[0];
     let lengths = if m.ntendon + m.nactuator > 0 { FOR_LENGTHS } else { 0 };
     POSITIONS.run(m, d, s, bits & BEFORE_MASS & (!FOR_LENGTHS | lengths));

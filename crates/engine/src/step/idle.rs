@@ -28,7 +28,7 @@ pub(super) const ACTUATORS: [FieldId; 12] = [
 pub(super) const EQUALITIES: [FieldId; 1] = [model::eq_active0];
 
 /// Whether zero is within each of these ranges that is active.
-fn holds_zero(limited: &[bool], ranges: &[f64]) -> bool {
+fn ranges_contain_zero(limited: &[bool], ranges: &[f64]) -> bool {
     limited
         .iter()
         .zip(rows::<2>(ranges))
@@ -52,8 +52,8 @@ pub(super) fn actuators_are_idle(m: &Model, linear: impl Fn(usize) -> bool) -> b
     (m.nhistory, m.nout) == (0, m.nactuator)
         && !m.jnt_actgravcomp.contains(&true)
         && m.wrap_prm.iter().all(|x| x.is_finite())
-        && holds_zero(&m.actuator_ctrllimited, &m.actuator_ctrlrange)
-        && holds_zero(&m.actuator_forcelimited, &m.actuator_forcerange)
-        && holds_zero(&m.jnt_actfrclimited, &m.jnt_actfrcrange)
+        && ranges_contain_zero(&m.actuator_ctrllimited, &m.actuator_ctrlrange)
+        && ranges_contain_zero(&m.actuator_forcelimited, &m.actuator_forcerange)
+        && ranges_contain_zero(&m.jnt_actfrclimited, &m.jnt_actfrcrange)
         && (0..m.nactuator).all(makes_none)
 }

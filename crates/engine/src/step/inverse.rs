@@ -8,7 +8,7 @@ use crate::kinds::{enable, integrator};
 use crate::math::Spatial;
 use crate::model::plan::PlanTable;
 use crate::model::{Fields, Model};
-use crate::sensor::{self, When};
+use crate::sensor::{self, SensorStage};
 use crate::step::workspace::Scratch;
 use crate::step::{calls, forward};
 use crate::step::{damping, discrete};
@@ -58,7 +58,7 @@ fn from_velocity(m: &Model, d: &mut Fields, s: &mut Scratch) {
     }
     constraint::inverse(m, d, &mut s.constraint, &mut s.dynamics);
     calls::body_forces(m, d);
-    sensor::evaluate(m, d, &mut s.sensor, When::Acceleration);
+    sensor::evaluate(m, d, &mut s.sensor, SensorStage::Acceleration);
     mass::mul(m, &d.M, &d.qacc, &mut d.qfrc_inverse, 0..m.nv);
     if m.opt.integrator == integrator::DISCRETE {
         discrete::add_to_inverse(m, d, s);

@@ -112,7 +112,7 @@ impl Metric {
 
     /// Exchanges the acceleration with the terms (stored in `other`) for that without them, and the factorization with the
     /// diagonals of the terms for that of the matrix alone.
-    pub(super) fn solve_alone(&mut self, m: &Model, smooth: &mut Vec<f64>) {
+    pub(super) fn solve_without_mass_rows(&mut self, m: &Model, smooth: &mut Vec<f64>) {
         self.ld.copy_from_slice(&self.matrix);
         mass::factor(m, &mut self.ld, &mut self.diag_inv, 0..m.nv);
         self.other.copy_from_slice(&self.force);

@@ -63,7 +63,7 @@ pub fn step2(m: &Model, d: &mut Fields, s: &mut Scratch) {
 
 /// Whether no number is [`bad`]. Tests four at a time; the last four may overlap the previous ones.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn all_good(v: &[f64]) -> bool {
+fn none_bad(v: &[f64]) -> bool {
     let good = |x: &[f64; 4]| f64x4::new(*x).abs().simd_le(f64x4::splat(LARGEST));
     match (v.split_first_chunk(), v.last_chunk()) {
         (Some((first, rest)), Some(last)) if !SMALL => {
@@ -99,17 +99,17 @@ fn reset_after(
 
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn check_state(m: &Model, d: &mut Fields, s: &mut Scratch) {
-    if !all_good(&d.qpos) {
+    if !none_bad(&d.qpos) {
         reset_after(m, d, s, Warning::BadQpos, |d| &d.qpos);
     }
-    if !all_good(&d.qvel) {
+    if !none_bad(&d.qvel) {
         reset_after(m, d, s, Warning::BadQvel, |d| &d.qvel);
     }
 }
 
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn check_acceleration(m: &Model, d: &mut Fields, s: &mut Scratch) {
-    if !all_good(&d.qacc) && reset_after(m, d, s, Warning::BadQacc, |d| &d.qacc) {
+    if !none_bad(&d.qacc) && reset_after(m, d, s, Warning::BadQacc, |d| &d.qacc) {
         forward::forward(m, d, s);
     }
 }

@@ -14,7 +14,7 @@ use crate::kinds::{disable, integrator, trntype, wraptype};
 use crate::model::Obj;
 use crate::model::reflect::{data, model};
 use crate::model::stage::Stage;
-use crate::sensor::When;
+use crate::sensor::SensorStage;
 use crate::{collision, constraint, sensor};
 
 /// The part of a forward pass in which a function runs.
@@ -56,7 +56,7 @@ impl Row {
 /// The condition for every scene in which the stage runs.
 const ALWAYS: fn(&ModelAnalysis, Stage) -> bool = |_, _| true;
 
-fn because(yes: bool, why: &str) -> Option<String> {
+fn reason_if(yes: bool, why: &str) -> Option<String> {
     yes.then(|| why.to_string())
 }
 
@@ -66,7 +66,7 @@ pub(super) const STAGES: [Row; 26] = [
         stage: Stage::Sleep,
         name: "sleep",
         needs: &[],
-        wanted: |s| because(s.sleeps, "trees at rest fall asleep"),
+        wanted: |s| reason_if(s.sleeps, "trees at rest fall asleep"),
         left_out: |s| if s.m.ntree == 0 { "nothing can move" } else { "the sleep flag is off" },
         run: &[
             (PassPart::Positions, |m, d, s| sleep::wake(m, d, &mut s.sleep)),
@@ -138,7 +138,7 @@ pub(super) const STAGES: [Row; 26] = [
         wanted: |s| {
             let wakes = s.sleeps && s.m.tendon_limited.contains(&true);
             s.reads(Stage::Tendon)
-                .or_else(|| because(wakes, "tendons at their limits wake the trees that they connect"))
+                .or_else(|| reason_if(wakes, "tendons at their limits wake the trees that they connect"))
         },
         left_out: without_tendons,
         run: &[(PassPart::Positions, |m, d, _| calls::tendons(m, d))],
@@ -153,7 +153,7 @@ pub(super) const STAGES: [Row; 26] = [
         // Constant if all bodies are simple: only the composite inertias would be computed.
         wanted: |s| match s.general {
             true => Some(MOVING_MASS.into()),
-            false => because(s.reads_field(data::crb), "data.crb is read"),
+            false => reason_if(s.reads_field(data::crb), "data.crb is read"),
         },
         left_out: |_| CONSTANT_MASS,
         run: &[(PassPart::Positions, calls::mass_matrix)],
@@ -162,7 +162,7 @@ pub(super) const STAGES: [Row; 26] = [
         stage: Stage::Factor,
         name: "factorization",
         needs: &[],
-        wanted: |s| because(s.general, MOVING_MASS),
+        wanted: |s| reason_if(s.general, MOVING_MASS),
         left_out: |_| CONSTANT_MASS,
         run: &[(PassPart::Positions, calls::factor)],
     },
@@ -186,13 +186,15 @@ pub(super) const STAGES: [Row; 26] = [
         name: "constraint",
         needs: &[
             (&[Stage::Orientations], |s, _| s.welds_bodies()),
-            (&[Stage::Kinematics], |s, _| s.pairs > 0 || s.ties_bodies()),
-            (&[Stage::SitePoses], |s, _| s.ties_bodies() && s.m.eq_objtype.contains(&(Obj::Site as i32))),
+            (&[Stage::Kinematics], |s, _| s.pairs > 0 || s.constrains_bodies()),
+            (&[Stage::SitePoses], |s, _| {
+                s.constrains_bodies() && s.m.eq_objtype.contains(&(Obj::Site as i32))
+            }),
             (&[Stage::Tendon], |s, _| s.tendon_constraints()),
         ],
         wanted: |s| {
             let wakes = s.sleeps && s.m.neq > 0;
-            constraints(s).or_else(|| because(wakes, "trees that are tied together wake each other"))
+            constraints(s).or_else(|| reason_if(wakes, "trees that are tied together wake each other"))
         },
         left_out: |_| NO_CONSTRAINTS,
         run: &[(PassPart::Positions, calls::make_constraints)],
@@ -245,10 +247,10 @@ pub(super) const STAGES: [Row; 26] = [
             (&[Stage::GeomPoses], |s, _| s.fluid && s.ellipsoids()),
         ],
         wanted: |s| {
-            because(s.joint_forces || s.tendon_forces(), "joints or tendons have springs or dampers")
-                .or_else(|| because(s.fluid, "bodies move in a medium"))
-                .or_else(|| because(s.adhesion, "contacts pull"))
-                .or_else(|| because(s.gravcomp, "the weight of bodies is compensated"))
+            reason_if(s.joint_forces || s.tendon_forces(), "joints or tendons have springs or dampers")
+                .or_else(|| reason_if(s.fluid, "bodies move in a medium"))
+                .or_else(|| reason_if(s.adhesion, "contacts pull"))
+                .or_else(|| reason_if(s.gravcomp, "the weight of bodies is compensated"))
         },
         left_out: |_| "no joint or tendon has a spring or a damper, and bodies move in a vacuum",
         run: &[(PassPart::Velocities, |m, d, _| passive::passive(m, d))],
@@ -256,7 +258,7 @@ pub(super) const STAGES: [Row; 26] = [
     Row {
         stage: Stage::Reference,
         name: "reference",
-        needs: &[(&[Stage::ComVel], |s, _| s.ties_bodies())],
+        needs: &[(&[Stage::ComVel], |s, _| s.constrains_bodies())],
         wanted: constraints,
         left_out: |_| NO_CONSTRAINTS,
         run: &[(PassPart::Velocities, |m, d, s| constraint::reference(m, d, &s.constraint))],
@@ -267,9 +269,9 @@ pub(super) const STAGES: [Row; 26] = [
         needs: &[
             (&[Stage::Tendon], |s, _| s.tendon_armature),
             (&[Stage::ComVel], |s, _| s.tendon_armature || s.large),
-            (&[Stage::Kinematics], |s, _| tree_algorithms::look_at_places(s.m, s.algorithms)),
+            (&[Stage::Kinematics], |s, _| tree_algorithms::bias_depends_on_poses(s.m, s.algorithms)),
         ],
-        wanted: |s| because(s.m.nv > 0, "gravity and the motion of bodies make forces"),
+        wanted: |s| reason_if(s.m.nv > 0, "gravity and the motion of bodies make forces"),
         left_out: |_| "nothing moves",
         run: &[(PassPart::Velocities, calls::bias)],
     },
@@ -282,7 +284,7 @@ pub(super) const STAGES: [Row; 26] = [
                 s.m.jnt_actgravcomp.contains(&true) || s.writes(&[model::jnt_actgravcomp])
             }),
         ],
-        wanted: |s| because(s.actuated, "actuators make forces"),
+        wanted: |s| reason_if(s.actuated, "actuators make forces"),
         left_out: |s| without_actuators(s).unwrap_or("actuators are switched off"),
         run: &[(PassPart::Inputs, |m, d, s| actuation::actuation(m, d, &mut s.forces))],
     },
@@ -295,9 +297,9 @@ pub(super) const STAGES: [Row; 26] = [
             (&[Stage::Tendon, Stage::TendonVel], |s, _| {
                 s.tendon_forces() && s.may_integrate_by(integrator::DISCRETE)
             }),
-            (&[Stage::Kinematics], |s, _| s.pushed()),
+            (&[Stage::Kinematics], |s, _| s.has_applied_forces()),
         ],
-        wanted: |s| because(s.m.nv > 0, "the integrator needs it"),
+        wanted: |s| reason_if(s.m.nv > 0, "the integrator needs it"),
         left_out: |_| "nothing moves",
         run: &[(PassPart::Inputs, calls::acceleration)],
     },
@@ -338,19 +340,19 @@ pub(super) const STAGES: [Row; 26] = [
         needs: &[
             (&[Stage::Orientations], |s, _| {
                 let poses = [Stage::Kinematics, Stage::GeomPoses, Stage::SitePoses, Stage::CameraPoses];
-                poses.into_iter().any(|stage| s.sensed(stage))
+                poses.into_iter().any(|stage| s.is_used_by_sensors(stage))
             }),
-            (&[], |s, of| s.sensed(of)),
+            (&[], |s, of| s.is_used_by_sensors(of)),
         ],
-        wanted: |s| because(s.sensors, "sensor values are read"),
+        wanted: |s| reason_if(s.sensors, "sensor values are read"),
         left_out: |s| match s.m.nsensor {
             0 => "the model has no sensors",
             _ => "nothing reads sensordata",
         },
         run: &[
-            (PassPart::Positions, |m, d, s| sensor::evaluate(m, d, &mut s.sensor, When::Position)),
-            (PassPart::Velocities, |m, d, s| sensor::evaluate(m, d, &mut s.sensor, When::Velocity)),
-            (PassPart::Inputs, |m, d, s| sensor::evaluate(m, d, &mut s.sensor, When::Acceleration)),
+            (PassPart::Positions, |m, d, s| sensor::evaluate(m, d, &mut s.sensor, SensorStage::Position)),
+            (PassPart::Velocities, |m, d, s| sensor::evaluate(m, d, &mut s.sensor, SensorStage::Velocity)),
+            (PassPart::Inputs, |m, d, s| sensor::evaluate(m, d, &mut s.sensor, SensorStage::Acceleration)),
         ],
     },
     Row {

@@ -46,7 +46,7 @@ impl PlanTable {
         analysis.every_sensor |= more == Some(Stage::Sensors);
         let mut plan = PlanTable::default();
         (plan.algorithms, plan.more) = (algorithms, more);
-        (plan.sensed, plan.every_sensor) = (access.reads.sensed(), analysis.every_sensor);
+        (plan.sensed, plan.every_sensor) = (access.reads.sensed_elements(), analysis.every_sensor);
         for (flag, holds) in FLAGS {
             plan.set_flag(flag, holds(&analysis));
         }

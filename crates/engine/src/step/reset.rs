@@ -1,6 +1,6 @@
 //! The initial state of data: creation, reset, and replacement of the plan.
 
-use super::sequence::by_the_clock;
+use super::sequence::with_clock;
 use super::{forward, sleep};
 use crate::dynamics::{self, kinematics, mass, tree_algorithms};
 use crate::forces::{actuation, transmission};
@@ -54,12 +54,12 @@ pub fn set_plan(m: &Model, d: &mut Fields, s: &mut Scratch, plan: PlanTable) {
     }
     d.plan = plan;
     if s.watch.is_some() {
-        d.plan.passes = by_the_clock(d.plan.passes);
+        d.plan.passes = with_clock(d.plan.passes);
     }
     tree_algorithms::load(m, &mut s.dynamics);
-    s.derivative.forget();
+    s.derivative.invalidate();
     if sleep::is_fresh(&s.sleep) {
-        lay_down(m, d, s);
+        sleep_or_wake_trees(m, d, s);
     }
     clear_left_out(m, d, s);
 }
@@ -67,7 +67,7 @@ pub fn set_plan(m: &Model, d: &mut Fields, s: &mut Scratch, plan: PlanTable) {
 /// Starts measuring the times of the stages from zero, with a clock of the caller.
 pub fn clock(d: &mut Fields, s: &mut Scratch, clock: fn() -> u64) {
     s.watch = Some(Box::new(Stopwatch::new(clock)));
-    d.plan.passes = by_the_clock(d.plan.passes);
+    d.plan.passes = with_clock(d.plan.passes);
 }
 
 /// Resets state, inputs, results and warnings to the default configuration (`mj_resetData`). Edits of the model stay.
@@ -90,11 +90,11 @@ pub fn reset_data(m: &Model, d: &mut Fields, s: &mut Scratch) {
         }
     }
     clear_left_out(m, d, s);
-    lay_down(m, d, s);
+    sleep_or_wake_trees(m, d, s);
 }
 
 /// Puts the trees to sleep that start asleep, and wakes all others.
-fn lay_down(m: &Model, d: &mut Fields, s: &mut Scratch) {
+fn sleep_or_wake_trees(m: &Model, d: &mut Fields, s: &mut Scratch) {
     if sleep::wake_all(m, d) {
         forward::forward(m, d, s);
         sleep::start(m, d, &mut s.constraint);

@@ -7,7 +7,7 @@
 
 use crate::constraint::kind;
 use crate::kinds::cone;
-use crate::model::bytes::{Plain, fingerprint};
+use crate::model::bytes::{FixedSize, fingerprint};
 use crate::model::reflect::{self, Elem, Object, View};
 use crate::model::{Contact, Fields, Model, Obj, Warning, WarningStat};
 use crate::step::workspace::{Scratch, Workspace};
@@ -81,7 +81,7 @@ pub fn restore(m: &Model, d: &mut Fields, s: &mut Scratch, bytes: &[u8]) -> Resu
         return Err(RestoreError::Damaged);
     }
     let mut new = saved(m, d, rest).ok_or(RestoreError::Damaged)?;
-    if let Some(field) = wrong(m, &new.fields) {
+    if let Some(field) = first_invalid_field(m, &new.fields) {
         return Err(RestoreError::Wrong(field));
     }
     reset::clear_left_out(m, &mut new.fields, &mut new.scratch);
@@ -168,24 +168,24 @@ fn write_contact(c: &Contact, out: &mut Vec<u8>) {
 }
 
 fn read_contact(bytes: &mut &[u8]) -> Option<Contact> {
-    let [dist, includemargin, adhesion, mu] = Plain::take(bytes)?;
+    let [dist, includemargin, adhesion, mu] = FixedSize::take(bytes)?;
     // The fields are read in the order of this expression.
     Some(Contact {
         dist,
         includemargin,
         adhesion,
         mu,
-        pos: Plain::take(bytes)?,
-        frame: Plain::take(bytes)?,
-        friction: Plain::take(bytes)?,
-        solimp: Plain::take(bytes)?,
-        solref: Plain::take(bytes)?,
-        solreffriction: Plain::take(bytes)?,
-        dim: Plain::take(bytes)?,
-        geom1: Plain::take(bytes)?,
-        geom2: Plain::take(bytes)?,
-        exclude: Plain::take(bytes)?,
-        efc_address: Plain::take(bytes)?,
+        pos: FixedSize::take(bytes)?,
+        frame: FixedSize::take(bytes)?,
+        friction: FixedSize::take(bytes)?,
+        solimp: FixedSize::take(bytes)?,
+        solref: FixedSize::take(bytes)?,
+        solreffriction: FixedSize::take(bytes)?,
+        dim: FixedSize::take(bytes)?,
+        geom1: FixedSize::take(bytes)?,
+        geom2: FixedSize::take(bytes)?,
+        exclude: FixedSize::take(bytes)?,
+        efc_address: FixedSize::take(bytes)?,
     })
 }
 
@@ -197,14 +197,14 @@ fn read(m: &Model, d: &mut Fields, bytes: &mut &[u8]) -> Option<()> {
         d.contact.push(read_contact(bytes)?);
     }
     for k in 0..Warning::COUNT {
-        let (number, lastinfo) = (Plain::take(bytes)?, Plain::take(bytes)?);
-        d.warning[k] = WarningStat { number, lastinfo, first_time: Plain::take(bytes)? };
+        let (number, lastinfo) = (FixedSize::take(bytes)?, FixedSize::take(bytes)?);
+        d.warning[k] = WarningStat { number, lastinfo, first_time: FixedSize::take(bytes)? };
     }
     Some(())
 }
 
 /// The first field with a value that the engine cannot use as an index.
-fn wrong(m: &Model, d: &Fields) -> Option<&'static str> {
+fn first_invalid_field(m: &Model, d: &Fields) -> Option<&'static str> {
     for f in reflect::fields().filter(|f| f.info().object == Object::Data) {
         let info = f.info();
         if !matches!(info.elem, Elem::I32 | Elem::Size) {

@@ -56,7 +56,7 @@ impl Sequence {
     }
 
     /// The bits of the functions before a stage of this part.
-    const fn before(&self, stage: Stage) -> u32 {
+    const fn bits_before(&self, stage: Stage) -> u32 {
         let bits = self.stage_bits(&[stage]);
         assert!(bits.is_power_of_two(), "the stage runs once in this part");
         bits - 1
@@ -85,12 +85,12 @@ pub(crate) static INPUTS: Sequence = Sequence::new(PassPart::Inputs);
 /// transmissions need, without the mass matrix.
 pub(crate) const COLLISION: u32 = OF_POSITIONS.stage_bits(&[Stage::Collision]);
 pub(crate) const BEFORE_MASS: u32 =
-    OF_POSITIONS.before(Stage::MassMatrix) & !OF_POSITIONS.stage_bits(&[Stage::CameraPoses]);
+    OF_POSITIONS.bits_before(Stage::MassMatrix) & !OF_POSITIONS.stage_bits(&[Stage::CameraPoses]);
 pub(crate) const FOR_LENGTHS: u32 =
     OF_POSITIONS.stage_bits(&[Stage::Orientations, Stage::GeomPoses, Stage::SitePoses, Stage::ComPos]);
 
 /// The same passes, with time measurement.
-pub(crate) fn by_the_clock(passes: [[u32; 3]; 2]) -> [[u32; 3]; 2] {
+pub(crate) fn with_clock(passes: [[u32; 3]; 2]) -> [[u32; 3]; 2] {
     passes.map(|pass| pass.map(|bits| bits | CLOCKED))
 }
 

@@ -6,7 +6,7 @@
 
 use crate::dynamics::tree_algorithms;
 use crate::geometry::HullFaces;
-use crate::model::bytes::{Plain, fingerprint};
+use crate::model::bytes::{FixedSize, fingerprint};
 use crate::model::reflect::{self, Elem, Object};
 use crate::model::{Model, Names};
 use crate::step::validate::validate;
@@ -15,24 +15,24 @@ const MAGIC: [u8; 8] = *b"labmodl\n";
 /// The version of the layout that this module writes.
 const VERSION: u32 = 3;
 
-fn put_text(text: &str, out: &mut Vec<u8>) {
+fn write_text(text: &str, out: &mut Vec<u8>) {
     text.len().put(out);
     out.extend_from_slice(text.as_bytes());
 }
 
-fn take_text(bytes: &mut &[u8]) -> Option<String> {
+fn read_text(bytes: &mut &[u8]) -> Option<String> {
     let n = usize::take(bytes)?;
     let (text, rest) = bytes.split_at_checked(n)?;
     *bytes = rest;
     String::from_utf8(text.to_vec()).ok()
 }
 
-fn put_list<T>(list: &[T], out: &mut Vec<u8>, mut put: impl FnMut(&T, &mut Vec<u8>)) {
+fn write_list<T>(list: &[T], out: &mut Vec<u8>, mut put: impl FnMut(&T, &mut Vec<u8>)) {
     list.len().put(out);
     list.iter().for_each(|x| put(x, out));
 }
 
-fn take_list<T>(bytes: &mut &[u8], mut take: impl FnMut(&mut &[u8]) -> Option<T>) -> Option<Vec<T>> {
+fn read_list<T>(bytes: &mut &[u8], mut take: impl FnMut(&mut &[u8]) -> Option<T>) -> Option<Vec<T>> {
     let n = usize::take(bytes)?;
     // Every element has at least one byte. The check prevents an allocation that is larger than the input.
     if n > bytes.len() {
@@ -57,18 +57,18 @@ pub fn write(m: &Model) -> Vec<u8> {
             reflect::write_model(m, field, &mut out);
         }
     }
-    put_text(&m.names.model, &mut out);
+    write_text(&m.names.model, &mut out);
     for list in m.names.lists() {
-        put_list(list, &mut out, |name, out| put_text(name, out));
+        write_list(list, &mut out, |name, out| write_text(name, out));
     }
-    put_list(&m.texts, &mut out, |text, out| put_text(text, out));
-    put_list(&m.exclude_bodies, &mut out, |pair, out| pair.put(out));
-    put_list(&m.visual_geoms, &mut out, |geom, out| geom.put(out));
-    put_list(&m.planar_trees, &mut out, |tree, out| tree.put(out));
-    put_list(&m.mesh_sides, &mut out, |hull_faces, out| {
+    write_list(&m.texts, &mut out, |text, out| write_text(text, out));
+    write_list(&m.exclude_bodies, &mut out, |pair, out| pair.put(out));
+    write_list(&m.visual_geoms, &mut out, |geom, out| geom.put(out));
+    write_list(&m.planar_trees, &mut out, |tree, out| tree.put(out));
+    write_list(&m.mesh_sides, &mut out, |hull_faces, out| {
         let (integers, floats) = hull_faces.numbers();
-        put_list(&integers, out, |x, out| x.put(out));
-        put_list(&floats, out, |x, out| x.put(out));
+        write_list(&integers, out, |x, out| x.put(out));
+        write_list(&floats, out, |x, out| x.put(out));
     });
     fingerprint(&out).put(&mut out);
     out
@@ -96,17 +96,17 @@ pub fn read(bytes: &[u8]) -> Option<Model> {
             }
         }
     }
-    m.names = Names { model: take_text(bytes)?, ..Names::default() };
+    m.names = Names { model: read_text(bytes)?, ..Names::default() };
     for list in m.names.lists_mut() {
-        *list = take_list(bytes, take_text)?;
+        *list = read_list(bytes, read_text)?;
     }
-    m.texts = take_list(bytes, take_text)?;
-    m.exclude_bodies = take_list(bytes, Plain::take)?;
-    m.visual_geoms = take_list(bytes, Plain::take)?;
-    m.planar_trees = take_list(bytes, Plain::take)?;
+    m.texts = read_list(bytes, read_text)?;
+    m.exclude_bodies = read_list(bytes, FixedSize::take)?;
+    m.visual_geoms = read_list(bytes, FixedSize::take)?;
+    m.planar_trees = read_list(bytes, FixedSize::take)?;
     let mut mesh = 0..m.nmesh;
-    m.mesh_sides = take_list(bytes, |bytes| {
-        let (integers, floats) = (take_list(bytes, u32::take)?, take_list(bytes, f64::take)?);
+    m.mesh_sides = read_list(bytes, |bytes| {
+        let (integers, floats) = (read_list(bytes, u32::take)?, read_list(bytes, f64::take)?);
         let corners = usize::try_from(*m.mesh_vertnum.get(mesh.next()?)?).ok()?;
         HullFaces::from_numbers(&integers, &floats, corners)
     })?;
@@ -134,7 +134,7 @@ mod tests {
 
     /// Every compiled model is valid.
     #[test]
-    fn compiled_models_are_sound() {
+    fn compiled_models_are_valid() {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/golden/models");
         let mut wrong = Vec::new();
         for entry in std::fs::read_dir(folder).unwrap() {
@@ -151,7 +151,7 @@ mod tests {
     /// With any integer in any structure field, the model is refused or valid, and no integer is used as an index before the
     /// validation.
     #[test]
-    fn whatever_the_integers_are_is_looked_at_first() {
+    fn integers_of_stored_data_are_validated_first() {
         let m = compile(EVERYTHING).unwrap();
         let fields =
             reflect::fields().filter(|f| f.info().object == Object::Model && f.info().elem == Elem::I32);

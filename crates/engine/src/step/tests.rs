@@ -27,9 +27,9 @@ fn raised(d: &Fields) -> Vec<(Warning, usize, usize)> {
 const NO_AUTORESET: &str = "<flag autoreset='disable'/>";
 
 #[test]
-fn a_bad_number_resets_and_the_step_goes_on_from_there() {
-    type Break = (Warning, fn(&mut Fields));
-    let breaks: [Break; 5] = [
+fn a_bad_number_resets_the_data_and_the_step_continues() {
+    type Fault = (Warning, fn(&mut Fields));
+    let breaks: [Fault; 5] = [
         (Warning::BadQpos, |d| d.qpos[1] = f64::NAN),
         (Warning::BadQvel, |d| d.qvel[1] = 1e11),
         (Warning::BadQvel, |d| d.qvel[1] = f64::NEG_INFINITY),
@@ -64,7 +64,7 @@ fn without_a_reset_every_step_counts_twice() {
 }
 
 #[test]
-fn a_bad_control_is_none() {
+fn a_bad_control_acts_as_zero() {
     for flag in ["", NO_AUTORESET] {
         let (m, Workspace { fields: mut d, scratch: mut s }) = started(flag);
         d.ctrl[0] = 1.0;

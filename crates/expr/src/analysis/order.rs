@@ -84,7 +84,7 @@ impl OrderWalk<'_> {
             return;
         };
         self.within.push(id);
-        for (block, always) in passed(unit).into_iter().enumerate() {
+        for (block, always) in blocks_on_every_path(unit).into_iter().enumerate() {
             for op in unit.ops.get(unit.range(block as u32)).unwrap_or(&[]) {
                 self.parts += 1;
                 if self.parts <= MOST_PARTS {
@@ -122,7 +122,7 @@ impl OrderWalk<'_> {
 
 /// Which blocks lie on every path from start to end. Blocks are in source order, so a block lies on every path if no jump
 /// from an earlier block leads past it.
-fn passed(unit: &SsaFunction) -> Vec<bool> {
+fn blocks_on_every_path(unit: &SsaFunction) -> Vec<bool> {
     let end = unit.blocks.len();
     let (mut reached, mut furthest) = (vec![false; end + 1], 0);
     let mut all = Vec::with_capacity(end);

@@ -1,7 +1,7 @@
 //! The compiler for the programs of one lab: it runs the passes in order.
 
 use super::lints;
-use super::names::{self, Surroundings};
+use super::names::{self, NameContext};
 use super::source::SourceTree;
 use super::types::{self, BindContext};
 use crate::globals::{Globals, ProgramId};
@@ -112,7 +112,7 @@ impl<'s> Compiler<'s> {
         tree: SourceTree<'_>,
     ) -> Compiled {
         let id = self.globals.next_program();
-        let around = Surroundings {
+        let around = NameContext {
             schema: Some(self.schema),
             globals: self.globals,
             mode: tree.mode(),

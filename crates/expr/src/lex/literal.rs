@@ -23,7 +23,7 @@ pub(super) fn number_of(
     diagnostics: &mut Vec<Finding>,
 ) -> TokenKind<'static> {
     let value = if text.contains('_') { plain(&text.replace('_', "")) } else { plain(text) };
-    diagnostics.extend(complaint(text, tail, value, span));
+    diagnostics.extend(suffix_finding(text, tail, value, span));
     TokenKind::Number(value.unwrap_or(0.0))
 }
 
@@ -65,7 +65,7 @@ fn plain(text: &str) -> Option<f64> {
 }
 
 /// The finding about a number of this value that is directly followed by the letters `tail`.
-fn complaint(text: &str, tail: &str, value: Option<f64>, span: Span) -> Option<Finding> {
+fn suffix_finding(text: &str, tail: &str, value: Option<f64>, span: Span) -> Option<Finding> {
     let bad = |message: String| Finding::error(rules::BAD_NUMBER, span, message);
     if tail == "n" {
         return Some(
@@ -115,7 +115,7 @@ pub(super) fn string<'a>(
     quote: char,
 ) -> impl Parser<&'a str, Output = RawToken<'a>, Error = nom::error::Error<&'a str>> {
     let plain = take_while1(move |c| c != quote && !matches!(c, '\\' | '\n' | '\r'));
-    let parts = many0(alt((map(plain, LiteralPart::Plain), escape, broken)));
+    let parts = many0(alt((map(plain, LiteralPart::Plain), escape, invalid_part)));
     map((char(quote), parts, opt(char(quote))), move |(_, parts, end)| {
         RawToken::Text(quote, parts, end.is_some())
     })
@@ -127,8 +127,14 @@ pub(super) fn template(input: &str) -> IResult<&str, RawToken<'_>> {
     // JavaScript reads every line end in a template as a line feed.
     let line_end = value(LiteralPart::Char('\n'), alt((tag("\r\n"), tag("\r"))));
     let code = preceded(tag("${"), cut(terminated(code, char('}'))));
-    let part =
-        alt((map(plain, LiteralPart::Plain), map(code, LiteralPart::Code), dollar, line_end, escape, broken));
+    let part = alt((
+        map(plain, LiteralPart::Plain),
+        map(code, LiteralPart::Code),
+        dollar,
+        line_end,
+        escape,
+        invalid_part,
+    ));
     map(delimited(char('`'), many0(part), cut(char('`'))), RawToken::Template).parse(input)
 }
 
@@ -170,7 +176,7 @@ fn escape(input: &str) -> IResult<&str, LiteralPart<'_>> {
         .parse(input)
 }
 
-fn broken(input: &str) -> IResult<&str, LiteralPart<'_>> {
+fn invalid_part(input: &str) -> IResult<&str, LiteralPart<'_>> {
     map(recognize((char('\\'), opt(satisfy(|c| !is_line_end(c))))), LiteralPart::Broken).parse(input)
 }
 
@@ -183,34 +189,34 @@ fn code(input: &str) -> IResult<&str, &str> {
     /// A piece of code.
     #[derive(Clone, Copy, PartialEq)]
     enum LiteralPiece {
-        Opens(Inside),
+        Opens(EnclosingConstruct),
         Closes,
         Other,
     }
     /// The construct that contains the current position.
     #[derive(Clone, Copy, PartialEq)]
-    enum Inside {
+    enum EnclosingConstruct {
         Braces,
         Template,
     }
-    let mut inside = vec![Inside::Braces];
+    let mut inside = vec![EnclosingConstruct::Braces];
     let mut behind = input;
     while let Some(around) = inside.last() {
         let opens = |text, what| value(LiteralPiece::Opens(what), tag(text));
         let other = || value(LiteralPiece::Other, anychar);
         let (next, piece) = match around {
-            Inside::Template => alt((
+            EnclosingConstruct::Template => alt((
                 value(LiteralPiece::Other, (char('\\'), anychar)),
                 value(LiteralPiece::Closes, char('`')),
-                opens("${", Inside::Braces),
+                opens("${", EnclosingConstruct::Braces),
                 other(),
             ))
             .parse(behind)?,
-            Inside::Braces => alt((
+            EnclosingConstruct::Braces => alt((
                 value(LiteralPiece::Other, alt((string('"'), string('\'')))),
                 value(LiteralPiece::Other, comment),
-                opens("`", Inside::Template),
-                opens("{", Inside::Braces),
+                opens("`", EnclosingConstruct::Template),
+                opens("{", EnclosingConstruct::Braces),
                 value(LiteralPiece::Closes, char('}')),
                 other(),
             ))
@@ -237,7 +243,7 @@ fn comment(input: &str) -> IResult<&str, ()> {
 }
 
 /// Appends the contents of the parts of a string or a template to a string.
-fn say<'a>(
+fn append_parts<'a>(
     parts: &[LiteralPart<'a>],
     source: &str,
     diagnostics: &mut Vec<Finding>,
@@ -275,7 +281,7 @@ pub(super) fn text_of(
     (source, span): (&str, Span),
     diagnostics: &mut Vec<Finding>,
 ) -> TokenKind<'static> {
-    let text = say(parts, source, diagnostics, |_, _| {});
+    let text = append_parts(parts, source, diagnostics, |_, _| {});
     if !closed {
         diagnostics.push(
             Finding::error(rules::BAD_STRING, span, "this string is not closed")
@@ -293,7 +299,7 @@ pub(super) fn template_of(
     diagnostics: &mut Vec<Finding>,
 ) -> TokenKind<'static> {
     let (mut texts, mut places) = (Vec::new(), Vec::new());
-    let last = say(&parts, source, diagnostics, |text, code| {
+    let last = append_parts(&parts, source, diagnostics, |text, code| {
         let start = source.offset(code);
         texts.push(std::mem::take(text));
         places.push(Span::new(start, start + code.len()));

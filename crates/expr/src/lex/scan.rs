@@ -136,7 +136,7 @@ fn token<'s>(raw: RawToken<'s>, source: &str, span: Span, diagnostics: &mut Vec<
         RawToken::Odd(c) => {
             diagnostics.push(bad_character(c, span));
             // A character that looks like an operator is read as that operator, so that parsing can continue.
-            look_alike(c).map_or(TokenKind::Bad, TokenKind::Symbol)
+            similar_operator(c).map_or(TokenKind::Bad, TokenKind::Symbol)
         }
     }
 }
@@ -175,7 +175,7 @@ fn typographic(input: &str) -> IResult<&str, &str> {
 }
 
 /// The operator that is intended by a character of a word processor or formula editor.
-fn look_alike(c: char) -> Option<&'static str> {
+fn similar_operator(c: char) -> Option<&'static str> {
     Some(match c {
         '−' | '–' | '—' => "-",
         '×' | '·' | '⋅' | '∙' => "*",
@@ -198,7 +198,7 @@ fn look_alike(c: char) -> Option<&'static str> {
 fn bad_character(c: char, span: Span) -> Finding {
     let character = if c.is_control() { c.escape_unicode().to_string() } else { c.to_string() };
     let report = Finding::error(rules::BAD_CHARACTER, span, format!("`{character}` has no meaning here"));
-    if let Some(text) = look_alike(c) {
+    if let Some(text) = similar_operator(c) {
         return report
             .why("it looks like an operator but is another character, which word processors insert")
             .help(format!("write `{text}`"))
@@ -268,7 +268,7 @@ mod tests {
     }
 
     #[test]
-    fn an_unclosed_comment_is_found_behind_others() {
+    fn an_unclosed_comment_is_found_after_others() {
         let mut found = Vec::new();
         tokens("1 /* a */ // b /*\n /* c", &mut found);
         assert_eq!(found.len(), 1);

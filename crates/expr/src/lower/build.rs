@@ -339,7 +339,7 @@ impl FunctionBuilder<'_> {
         otherwise: impl FnOnce(&mut Self),
     ) {
         let test = Terminator::If(false, self.truth(test), BlockEdge::default());
-        self.fork(test, span, then, otherwise);
+        self.build_branches(test, span, then, otherwise);
     }
 
     fn chain(&mut self, inner: &Ir, span: Span) -> Val {

@@ -26,7 +26,7 @@ pub(super) struct PendingEdge {
 
 impl PendingEdge {
     /// The value that was stored in a variable along the edge.
-    pub(super) fn held(&self, local: LocalId) -> Option<Operand> {
+    pub(super) fn stored_value(&self, local: LocalId) -> Option<Operand> {
         let at = self.stored.binary_search_by_key(&local, |s| s.0).ok()?;
         self.stored.get(at).map(|(_, at)| *at)
     }

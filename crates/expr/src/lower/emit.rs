@@ -13,9 +13,9 @@ use crate::value::Value;
 use labspec_finding::{Span, order};
 
 /// The number of consecutive numeric operations from which a formula is faster, as measured.
-const WORTH: usize = 5;
+const MIN_FORMULA: usize = 5;
 /// The maximum number of operations of a formula, so that its registers fit into one byte.
-const MOST: usize = 64;
+const MAX_FORMULA: usize = 64;
 
 /// Emits the code of a program. `often` states that it runs often enough to use formulas.
 pub(crate) fn emit(form: SsaProgram, often: bool) -> MachineCode {
@@ -30,7 +30,7 @@ fn emit_function(form: &SsaFunction, often: bool) -> MachineFunction {
     let (live, starts) = (vec![true; form.ops.len()], vec![None; form.blocks.len()]);
     let (ops, spans) = (Vec::with_capacity(form.ops.len() + 8), Vec::with_capacity(form.ops.len() + 8));
     let code = MachineFunction { ops, spans, ..MachineFunction::default() };
-    let worth = if often { WORTH } else { usize::MAX };
+    let worth = if often { MIN_FORMULA } else { usize::MAX };
     let mut emit = Emit { worth, form, code, numbers, values, live, starts, jumps: Vec::new() };
     emit.count_uses();
     emit.first_registers();
@@ -160,13 +160,14 @@ impl<'f> Emit<'f> {
         if let Some(start) = self.starts.get_mut(at as usize) {
             *start = Some(self.code.ops.len() as u32);
         }
-        self.settle(at, end);
+        self.write_results_directly(at, end);
         let range = self.form.range(at);
         let (mut i, end_of_block) = (range.start, range.end);
         while i < end_of_block {
             let numeric = |i: &usize| self.form.ops.get(*i).is_some_and(Op::is_numeric);
-            let stop =
-                (i..end_of_block.min(i + MOST)).find(|i| !numeric(i)).unwrap_or(end_of_block.min(i + MOST));
+            let stop = (i..end_of_block.min(i + MAX_FORMULA))
+                .find(|i| !numeric(i))
+                .unwrap_or(end_of_block.min(i + MAX_FORMULA));
             if !self.formula(i, stop) {
                 (i..stop.max(i + 1)).for_each(|i| self.op(i));
             }
@@ -193,7 +194,9 @@ impl<'f> Emit<'f> {
             inputs.push(register);
             register
         };
-        let Some((mut formula, given)) = pure::stretch(form, &ops, &mut input) else { return false };
+        let Some((mut formula, given)) = pure::formula_of_operations(form, &ops, &mut input) else {
+            return false;
+        };
         // The remaining uses of each result, outside these operations.
         let mut left = order::map(given.iter().map(|(n, _)| (n.0, numbers.uses(n.0))));
         for mut op in ops {
@@ -232,7 +235,7 @@ impl<'f> Emit<'f> {
     }
 
     /// Makes operations of a block write their results directly to the registers that its end requires.
-    fn settle(&mut self, at: BlockId, end: &Terminator) {
+    fn write_results_directly(&mut self, at: BlockId, end: &Terminator) {
         let mut wanted: Vec<(Operand, Operand)> = Vec::new();
         match end {
             Terminator::Jump(edge) | Terminator::Again(edge) => wanted = self.moves(edge),

@@ -24,7 +24,7 @@ fn stored_on<'w>(edges: impl IntoIterator<Item = &'w PendingEdge>) -> Vec<LocalI
 }
 
 /// Up to this number of operations, evaluating both branches costs no more than a branch.
-const LITTLE: usize = 4;
+const MAX_CHEAP_OPERATIONS: usize = 4;
 
 /// The condition of a branch on a number, and the outcome for which it jumps.
 fn question(end: &Terminator) -> Option<(bool, Num)> {
@@ -37,7 +37,7 @@ impl FunctionBuilder<'_> {
     }
 
     /// Undoes all stores since a mark.
-    pub(super) fn back_to(&mut self, mark: usize) {
+    pub(super) fn undo_stores(&mut self, mark: usize) {
         for (local, before) in self.variables.log.drain(mark..).rev() {
             if let Some(now) = self.variables.now.get_mut(local as usize) {
                 *now = before;
@@ -70,7 +70,7 @@ impl FunctionBuilder<'_> {
                 at = match param {
                     Some(param) => param,
                     None => {
-                        let param = self.like(at);
+                        let param = self.new_like(at);
                         if let Some(level) = self.loops.get_mut(i) {
                             level.params.insert(local, (param, at));
                         }
@@ -103,7 +103,7 @@ impl FunctionBuilder<'_> {
     }
 
     /// A new name with the same representation.
-    fn like(&mut self, at: Operand) -> Operand {
+    fn new_like(&mut self, at: Operand) -> Operand {
         match at {
             Operand::Number(_) => Operand::Number(self.new_number()),
             Operand::Value(_) => Operand::Value(self.new_value()),
@@ -111,7 +111,7 @@ impl FunctionBuilder<'_> {
     }
 
     /// The current block.
-    fn here(&self) -> BlockId {
+    fn current_block(&self) -> BlockId {
         (self.unit.blocks.len() as u32).saturating_sub(1)
     }
 
@@ -144,7 +144,7 @@ impl FunctionBuilder<'_> {
     /// Ends the block with a jump to a target that is not known yet. The edge contains the variables stored since `mark`.
     pub(super) fn jump(&mut self, mark: usize, span: Span) -> Option<PendingEdge> {
         let pending =
-            (!self.dead).then(|| PendingEdge { from: self.here(), stored: self.stored_since(mark) });
+            (!self.dead).then(|| PendingEdge { from: self.current_block(), stored: self.stored_since(mark) });
         self.end(Terminator::Jump(BlockEdge::default()), span);
         pending
     }
@@ -161,7 +161,7 @@ impl FunctionBuilder<'_> {
             // The condition is constant, so only one edge exists.
             return if truthy(x) == when { self.jump(mark, span) } else { None };
         }
-        let pending = PendingEdge { from: self.here(), stored: self.stored_since(mark) };
+        let pending = PendingEdge { from: self.current_block(), stored: self.stored_since(mark) };
         let after = pending.from;
         self.end(end, span);
         self.begin(after);
@@ -180,21 +180,22 @@ impl FunctionBuilder<'_> {
 
     /// Joins edges in a new block. `after` is the last block that all of them passed. The current values of the variables are
     /// those at the end of `after`; the values in the new block follow from the edges.
-    fn land(&mut self, after: BlockId, edges: impl IntoIterator<Item = Option<PendingEdge>>) {
+    fn join_edges(&mut self, after: BlockId, edges: impl IntoIterator<Item = Option<PendingEdge>>) {
         let edges: Vec<PendingEdge> = edges.into_iter().flatten().collect();
         if edges.is_empty() {
             self.dead = true;
             return;
         }
         self.begin(after);
-        let to = self.here();
+        let to = self.current_block();
         for pending in &edges {
             if let Some(edge) = self.edge(pending.from) {
                 edge.to = to;
             }
         }
         for local in stored_on(&edges) {
-            let held: Vec<Option<Operand>> = edges.iter().map(|pending| pending.held(local)).collect();
+            let held: Vec<Option<Operand>> =
+                edges.iter().map(|pending| pending.stored_value(local)).collect();
             let before = if held.contains(&None) { self.find(local) } else { None };
             let held: Option<Vec<Operand>> = held.into_iter().map(|at| at.or(before)).collect();
             // A variable without a value on one of the edges is not used any more.
@@ -205,7 +206,7 @@ impl FunctionBuilder<'_> {
                 self.write(local, first);
                 continue;
             }
-            let param = self.like(first);
+            let param = self.new_like(first);
             for (pending, at) in edges.iter().zip(held) {
                 if let Some(edge) = self.edge(pending.from) {
                     edge.args.push(at);
@@ -219,38 +220,38 @@ impl FunctionBuilder<'_> {
     }
 
     /// Builds two branches that join again.
-    pub(super) fn fork(
+    pub(super) fn build_branches(
         &mut self,
         test: Terminator,
         span: Span,
         next: impl FnOnce(&mut Self),
         there: impl FnOnce(&mut Self),
     ) {
-        let (mark, from, question) = (self.mark(), self.here(), question(&test));
+        let (mark, from, question) = (self.mark(), self.current_block(), question(&test));
         let pending = self.jump_if(test, mark, span);
         next(self);
         let end = self.jump(mark, span);
-        self.back_to(mark);
-        self.land(from, [pending]);
+        self.undo_stores(mark);
+        self.join_edges(from, [pending]);
         there(self);
         let other = self.jump(mark, span);
-        self.back_to(mark);
-        self.meet(from, question, other, end);
+        self.undo_stores(mark);
+        self.join_branches(from, question, other, end);
     }
 
     /// The same with an empty second branch.
     pub(super) fn skip(&mut self, test: Terminator, span: Span, next: impl FnOnce(&mut Self)) {
-        let (mark, from, question) = (self.mark(), self.here(), question(&test));
+        let (mark, from, question) = (self.mark(), self.current_block(), question(&test));
         let pending = self.jump_if(test, mark, span);
         next(self);
         let end = self.jump(mark, span);
-        self.back_to(mark);
-        self.meet(from, question, pending, end);
+        self.undo_stores(mark);
+        self.join_branches(from, question, pending, end);
     }
 
     /// Joins the two branches of a conditional. If both contain only a few numeric operations, the branch is removed: both
     /// values are evaluated, and one is selected.
-    fn meet(
+    fn join_branches(
         &mut self,
         from: BlockId,
         question: Option<(bool, Num)>,
@@ -258,7 +259,7 @@ impl FunctionBuilder<'_> {
         next: Option<PendingEdge>,
     ) {
         if let (Some((when, test)), Some(there), Some(next)) = (question, &there, &next)
-            && self.is_little(from)
+            && self.is_cheap(from)
             && let Some(held) = self.numbers_of(there, next)
         {
             self.unit.blocks.truncate(from as usize + 1);
@@ -272,23 +273,23 @@ impl FunctionBuilder<'_> {
             }
             return;
         }
-        self.land(from, [there, next]);
+        self.join_edges(from, [there, next]);
     }
 
     /// Whether the blocks since a branch are only its two branches, with few numeric operations.
-    fn is_little(&self, from: BlockId) -> bool {
+    fn is_cheap(&self, from: BlockId) -> bool {
         let branches = self.unit.blocks.get(from as usize + 1..).unwrap_or(&[]);
         let first = branches.first().map_or(self.unit.ops.len(), |b| b.first as usize);
         let ops = self.unit.ops.get(first..).unwrap_or(&[]);
         let plain = branches.iter().all(|b| matches!(b.end, Terminator::Jump(_)) && b.params.is_empty());
-        branches.len() <= 2 && plain && ops.len() <= LITTLE && ops.iter().all(Op::is_numeric)
+        branches.len() <= 2 && plain && ops.len() <= MAX_CHEAP_OPERATIONS && ops.iter().all(Op::is_numeric)
     }
 
     /// The different values of variables at the end of two branches, or `None` if one of them is not a number.
     fn numbers_of(&mut self, there: &PendingEdge, next: &PendingEdge) -> Option<Vec<(LocalId, Num, Num)>> {
         let mut all = Vec::new();
         for local in stored_on([there, next]) {
-            let (there, next) = (there.held(local), next.held(local));
+            let (there, next) = (there.stored_value(local), next.stored_value(local));
             let before = if there.is_none() || next.is_none() { self.find(local) } else { None };
             match (there.or(before), next.or(before)) {
                 (Some(Operand::Number(there)), Some(Operand::Number(next))) => all.push((local, there, next)),
@@ -307,25 +308,25 @@ impl FunctionBuilder<'_> {
         work: impl FnOnce(&mut Self, usize),
         exits: impl FnOnce(&mut Self) -> Vec<PendingEdge>,
     ) {
-        let (mark, from) = (self.mark(), self.here());
+        let (mark, from) = (self.mark(), self.current_block());
         work(self, mark);
         let end = self.jump(mark, span);
         let exits = exits(self);
-        self.back_to(mark);
-        self.land(from, exits.into_iter().map(Some).chain([end]));
+        self.undo_stores(mark);
+        self.join_edges(from, exits.into_iter().map(Some).chain([end]));
     }
 
     /// Begins a loop.
     pub(super) fn enter_loop(&mut self, span: Span) {
         let mark = self.mark();
-        let from = self.here();
+        let from = self.current_block();
         let entry = self.jump(mark, span);
         let dead = entry.is_none();
         self.begin(from);
         self.dead = dead;
         let exit_count = |all: &[EarlyExits]| all.last().map_or(0, |e| e.exits.len());
         let returns = (exit_count(&self.inlines), exit_count(&self.chains));
-        let (header, params) = (self.here(), BTreeMap::new());
+        let (header, params) = (self.current_block(), BTreeMap::new());
         let (breaks, continues) = (Vec::new(), Vec::new());
         if let Some(pending) = &entry
             && let Some(edge) = self.edge(pending.from)
@@ -336,7 +337,7 @@ impl FunctionBuilder<'_> {
     }
 
     /// Leaves the innermost loop, or continues with its next iteration.
-    pub(super) fn leave_turn(&mut self, leaves: bool) {
+    pub(super) fn leave_iteration(&mut self, leaves: bool) {
         let Some(mark) = self.loops.last().map(|l| l.mark) else { return };
         let pending = self.jump(mark, Span::default());
         if let Some(level) = self.loops.last_mut() {
@@ -345,13 +346,13 @@ impl FunctionBuilder<'_> {
     }
 
     /// Joins the edges of `continue`.
-    pub(super) fn land_continues(&mut self) {
+    pub(super) fn join_continues(&mut self) {
         let Some(level) = self.loops.last_mut() else { return };
         let (mark, header, continues) = (level.mark, level.header, std::mem::take(&mut level.continues));
         if !continues.is_empty() {
             let end = self.jump(mark, Span::default());
-            self.back_to(mark);
-            self.land(header, continues.into_iter().map(Some).chain([end]));
+            self.undo_stores(mark);
+            self.join_edges(header, continues.into_iter().map(Some).chain([end]));
         }
     }
 
@@ -368,19 +369,19 @@ impl FunctionBuilder<'_> {
     pub(super) fn leave_loop(&mut self, span: Span) {
         let Some(mark) = self.loops.last().map(|l| l.mark) else { return };
         let back = self.jump(mark, span);
-        self.back_to(mark);
+        self.undo_stores(mark);
         let Some(mut level) = self.loops.pop() else { return };
         for (local, at) in back.iter().chain(&level.breaks).flat_map(|pending| &pending.stored) {
             if !level.params.contains_key(local)
                 && let Some(before) = self.find(*local)
             {
-                let param = self.like(*at);
+                let param = self.new_like(*at);
                 level.params.insert(*local, (param, before));
             }
         }
         let mut changed = Vec::new();
         for (local, (param, before)) in &level.params {
-            let stored = back.as_ref().and_then(|pending| pending.held(*local));
+            let stored = back.as_ref().and_then(|pending| pending.stored_value(*local));
             let next = stored.map_or(*param, |at| self.unit.same.at(at));
             if next == *param || next == self.unit.same.at(*before) {
                 self.unit.same.join(*param, *before);
@@ -413,6 +414,6 @@ impl FunctionBuilder<'_> {
             }
         }
         let exits = level.breaks.into_iter().map(Some);
-        self.land(level.header, exits);
+        self.join_edges(level.header, exits);
     }
 }

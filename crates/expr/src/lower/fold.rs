@@ -84,7 +84,7 @@ mod tests {
     use crate::{Compiler, Context, Globals, Value};
 
     #[test]
-    fn what_a_loop_does_not_change_is_computed_before_the_run() {
+    fn constants_of_a_loop_are_computed_before_the_run() {
         let source =
             "let k = 1; k = 3; let s = 0; for (let i = 0; i < 4; i++) { s += Math.max(k * 2, 1) } ctx.a = s";
         let mut globals = Globals::new();

@@ -13,7 +13,7 @@ pub(crate) fn lower(tree: &IrProgram) -> SsaProgram {
     for unit in &tree.units {
         let mut build = FunctionBuilder::new(tree, &mut form, variables);
         build.whole(unit);
-        build.back_to(0);
+        build.undo_stores(0);
         let mut done = build.unit;
         variables = build.variables;
         fold(&mut done);

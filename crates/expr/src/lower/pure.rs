@@ -20,7 +20,7 @@ pub(crate) fn whole(unit: &SsaFunction) -> Option<Formula> {
         unit.range(at).try_for_each(|i| steps.op(unit.ops.get(i)?).map(|_| ()))?;
     }
     // The blocks that return are the paths to the end.
-    let mut output = steps.chosen(0, unit.blocks.len() as BlockId, 0)?;
+    let mut output = steps.selected_parameter(0, unit.blocks.len() as BlockId, 0)?;
     let mut formula = steps.formula;
     formula.finish(std::slice::from_mut(&mut output));
     (formula.output, formula.truth) = (output, unit.result == Representation::Boolean);
@@ -29,7 +29,7 @@ pub(crate) fn whole(unit: &SsaFunction) -> Option<Formula> {
 
 /// The formula of consecutive numeric operations, with the step of every number that they define. `input` returns the register
 /// of a number that was defined before them.
-pub(crate) fn stretch(
+pub(crate) fn formula_of_operations(
     unit: &SsaFunction,
     ops: &[Op],
     input: &mut dyn FnMut(Num) -> u32,
@@ -108,7 +108,7 @@ impl<'u> Steps<'u> {
         let BasicBlock { params, after, .. } = unit.blocks.get(to as usize)?;
         for (i, param) in params.iter().enumerate() {
             let Operand::Number(name) = param else { return None };
-            let at = self.chosen(*after, to, i)?;
+            let at = self.selected_parameter(*after, to, i)?;
             self.at.insert(*name, at);
         }
         Some(())
@@ -116,7 +116,7 @@ impl<'u> Steps<'u> {
 
     /// The step of a parameter of block `to`, selected by the branches since block `after`, the last block that all paths to it
     /// passed. Edges lead forward, so the blocks are visited from the last to the first.
-    fn chosen(&mut self, after: BlockId, to: BlockId, param: usize) -> Option<StepId> {
+    fn selected_parameter(&mut self, after: BlockId, to: BlockId, param: usize) -> Option<StepId> {
         let unit = self.unit;
         let mut from: Vec<Option<StepId>> = vec![None; (to - after) as usize];
         for at in (after..to).rev() {

@@ -34,8 +34,8 @@ impl FunctionBuilder<'_> {
                 self.choice(test, span, |s| s.steps(then), |s| s.steps(otherwise));
             }
             IrStatement::Loop(inner) => self.repeat(inner),
-            IrStatement::Break | IrStatement::Continue => self.leave_turn(*step == IrStatement::Break),
-            IrStatement::Return(value) => self.give_back(value),
+            IrStatement::Break | IrStatement::Continue => self.leave_iteration(*step == IrStatement::Break),
+            IrStatement::Return(value) => self.return_value(value),
             IrStatement::Inline(result, body, span) => self.inline(*result, body, *span),
         }
     }
@@ -122,7 +122,7 @@ impl FunctionBuilder<'_> {
             test(self);
         }
         self.steps(&inner.body);
-        self.land_continues();
+        self.join_continues();
         self.steps(&inner.update);
         if inner.late {
             test(self);
@@ -145,7 +145,7 @@ impl FunctionBuilder<'_> {
         self.site = outer;
     }
 
-    fn give_back(&mut self, value: &Ir) {
+    fn return_value(&mut self, value: &Ir) {
         let span = value.span;
         let Some((result, mark)) = self.inlines.last().map(|i| (i.result, i.mark)) else {
             let at = match self.unit.result {

@@ -33,7 +33,7 @@ impl Parser<'_> {
                 error_node(span)
             }
         };
-        if let Some(end) = self.eat(closer) {
+        if let Some(end) = self.consume(closer) {
             return Ok((inner, end));
         }
         let report = self.unclosed(opener, closer, inner.expr.span);
@@ -46,7 +46,7 @@ impl Parser<'_> {
         let mut items = Vec::new();
         let mut height = 0;
         loop {
-            if let Some(end) = self.eat(closer) {
+            if let Some(end) = self.consume(closer) {
                 return Ok((items, height, end)); // also after a trailing comma, as in JavaScript
             }
             let span = self.span();
@@ -58,7 +58,7 @@ impl Parser<'_> {
             height = height.max(item.height);
             let last = item.expr.span;
             items.push(item.expr);
-            if self.eat(",").is_some() || self.is(closer) {
+            if self.consume(",").is_some() || self.is(closer) {
                 continue;
             }
             let report = self.unclosed(opener, closer, last);
@@ -66,13 +66,13 @@ impl Parser<'_> {
             if !self.skip_to(&[",", closer]) {
                 return Err(Reported);
             }
-            self.eat(",");
+            self.consume(",");
         }
     }
 
     /// Parses an item or an argument, possibly a spread.
     pub(super) fn item(&mut self) -> Attempt<ExprNode> {
-        let Some(dots) = self.eat("...") else { return self.expression(ASSIGNMENT) };
+        let Some(dots) = self.consume("...") else { return self.expression(ASSIGNMENT) };
         let value = self.expression(ASSIGNMENT)?;
         let span = dots.to(value.expr.span);
         self.node(ExprKind::Spread(Box::new(value.expr)), span, value.height)
@@ -83,7 +83,7 @@ impl Parser<'_> {
         // An index contains no assignment, so `=` shows that the bracket should have been closed before it.
         let ends = self.ended() || matches!(self.peek(), TokenKind::Symbol(";" | ")" | "]" | "}" | "="));
         if !ends {
-            return self.unexpected_behind(before);
+            return self.unexpected_after(before);
         }
         let open = opener.text(self.source);
         Some(

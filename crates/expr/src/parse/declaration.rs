@@ -70,7 +70,7 @@ impl Parser<'_> {
         }
         let target = self.pattern("a name")?;
         let unread = Expr { kind: ExprKind::Error, span };
-        let value = self.eat("=").map(|_| self.assignment().unwrap_or(unread));
+        let value = self.consume("=").map(|_| self.assignment().unwrap_or(unread));
         if value.is_none() && (constant || !matches!(target, Pattern::Name(_))) {
             let text = target.span().text(self.source).to_owned();
             let word = opener.text(self.source);

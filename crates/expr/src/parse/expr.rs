@@ -71,7 +71,7 @@ impl Parser<'_> {
             }
             left = left.whole_chain();
             if matches!(symbol, "++" | "--") && !self.newline() {
-                left = self.update_behind(left)?;
+                left = self.postfix_update(left)?;
             } else if let Some((operator, binds)) = infix(symbol) {
                 if binds < power {
                     return Ok(left);
@@ -146,7 +146,7 @@ impl Parser<'_> {
         }
     }
 
-    fn update_behind(&mut self, left: ExprNode) -> Attempt<ExprNode> {
+    fn postfix_update(&mut self, left: ExprNode) -> Attempt<ExprNode> {
         let increment = self.is("++");
         let span = left.expr.span.to(self.bump());
         let kind = ExprKind::Update { target: Box::new(left.expr), increment, prefix: false };
@@ -195,7 +195,7 @@ impl Parser<'_> {
     fn choice(&mut self, test: ExprNode) -> Attempt<ExprNode> {
         let question = self.bump();
         let then = self.expression(ASSIGNMENT)?;
-        if self.eat(":").is_none() {
+        if self.consume(":").is_none() {
             let report = Finding::error(rules::HALF_CHOICE, question, "this `?` has no `:`")
                 .why(format!("found {} where the second value is required", self.describe_token()))
                 .help("write a conditional expression as `test ? a : b`");

@@ -13,12 +13,12 @@ const MAX_PARAMS: usize = 16;
 
 impl Parser<'_> {
     /// Whether the following parentheses contain the parameters of an arrow function: `=>` comes after them.
-    pub(super) fn arrow_ahead(&self) -> bool {
-        *self.peek_at(self.behind_group(0)) == TokenKind::Symbol("=>")
+    pub(super) fn is_arrow_function(&self) -> bool {
+        *self.peek_at(self.after_group(0)) == TokenKind::Symbol("=>")
     }
 
     /// The number of tokens up to the one that follows token `n`, or that follows the whole bracket that token `n` opens.
-    pub(super) fn behind_group(&self, n: usize) -> usize {
+    pub(super) fn after_group(&self, n: usize) -> usize {
         let mut open = 0usize;
         // An unlimited search from every bracket of a malicious text would take quadratic time. No list of
         // parameters is this long.
@@ -40,11 +40,11 @@ impl Parser<'_> {
     pub(super) fn arrow(&mut self) -> Attempt<ExprNode> {
         let start = self.span();
         let (function, height) = self.measured(|p| {
-            let params = match p.eat("(") {
+            let params = match p.consume("(") {
                 Some(opener) => p.parameters(opener)?,
                 None => vec![Element { target: Pattern::Name(p.new_name("a parameter")?), default: None }],
             };
-            p.eat("=>");
+            p.consume("=>");
             let body = if p.is("{") { Body::Block(p.block()?) } else { Body::Value(p.assignment()?) };
             Ok(Function { name: None, params, body, span: start.to(p.last_span()) })
         });
@@ -89,7 +89,7 @@ impl Parser<'_> {
             TokenKind::Word(_) => Some(self.new_name("the name of the function")?),
             _ => None,
         };
-        let Some(opener) = self.eat("(") else {
+        let Some(opener) = self.consume("(") else {
             let report = Finding::error(
                 rules::MISSING_BRACKET,
                 self.span(),
@@ -115,13 +115,13 @@ impl Parser<'_> {
     /// Parses parameters after their opening parenthesis, including the closing one.
     fn parameters(&mut self, opener: Span) -> Attempt<Vec<Element>> {
         let mut params = Vec::new();
-        while self.eat(")").is_none() {
+        while self.consume(")").is_none() {
             if self.is("...") {
                 let span = self.span();
                 return self.refuse(refuse::rest(span));
             }
             params.push(self.element()?);
-            if self.eat(",").is_some() || self.is(")") {
+            if self.consume(",").is_some() || self.is(")") {
                 continue;
             }
             let last = self.last_span();
@@ -143,7 +143,7 @@ impl Parser<'_> {
     /// Parses `name`, `[a, b]` or `{a, b}`, with or without `= default`.
     fn element(&mut self) -> Attempt<Element> {
         let target = self.pattern("a parameter")?;
-        let default = match self.eat("=") {
+        let default = match self.consume("=") {
             Some(_) => Some(self.expression(ASSIGNMENT)?.expr),
             None => None,
         };
@@ -170,10 +170,10 @@ impl Parser<'_> {
         let opener = self.bump();
         let mut items = Vec::new();
         loop {
-            if let Some(closer) = self.eat("]") {
+            if let Some(closer) = self.consume("]") {
                 return Ok(Pattern::List { items, span: opener.to(closer) });
             }
-            if self.eat(",").is_some() {
+            if self.consume(",").is_some() {
                 items.push(None);
                 continue;
             }
@@ -182,7 +182,7 @@ impl Parser<'_> {
                 return self.refuse(refuse::rest(span));
             }
             items.push(Some(self.element()?));
-            if self.eat(",").is_none() && !self.is("]") {
+            if self.consume(",").is_none() && !self.is("]") {
                 let last = self.last_span();
                 let report = self.unclosed(opener, "]", last);
                 self.diagnostics.extend(report);
@@ -195,7 +195,7 @@ impl Parser<'_> {
         let opener = self.bump();
         let mut entries = Vec::new();
         loop {
-            if let Some(closer) = self.eat("}") {
+            if let Some(closer) = self.consume("}") {
                 return Ok(Pattern::Record { entries, span: opener.to(closer) });
             }
             if self.is("...") {
@@ -222,7 +222,7 @@ impl Parser<'_> {
                 self.element()?
             };
             entries.push((key, element));
-            if self.eat(",").is_none() && !self.is("}") {
+            if self.consume(",").is_none() && !self.is("}") {
                 let last = self.last_span();
                 let report = self.unclosed(opener, "}", last);
                 self.diagnostics.extend(report);
@@ -261,7 +261,7 @@ impl Parser<'_> {
     pub(super) fn block(&mut self) -> Attempt<Vec<Stmt>> {
         let opener = self.bump();
         let statements = self.statements_up_to("}");
-        if self.eat("}").is_none() {
+        if self.consume("}").is_none() {
             let report = Finding::error(rules::UNCLOSED, opener, "this `{` is not closed")
                 .why("everything after it is part of the block")
                 .help("write `}` where the block ends");

@@ -122,12 +122,12 @@ impl<'s> Parser<'s> {
             tallest: 0,
             diagnostics,
         };
-        parser.look_at_quotes();
+        parser.check_typographic_quotes();
         parser
     }
 
     /// Reports findings about typographic quotes, or records that the host must.
-    pub(super) fn look_at_quotes(&mut self) {
+    pub(super) fn check_typographic_quotes(&mut self) {
         for token in self.tokens.iter_mut().filter(|token| !matches!(token.kind, TokenKind::Number(_))) {
             match token.doubt.take() {
                 Some(_) if self.tells => self.quotes_left_to_host = true,
@@ -180,7 +180,7 @@ impl<'s> Parser<'s> {
     }
 
     /// Consumes the symbol if it is next.
-    pub(super) fn eat(&mut self, symbol: &str) -> Option<Span> {
+    pub(super) fn consume(&mut self, symbol: &str) -> Option<Span> {
         self.is(symbol).then(|| self.bump())
     }
 
@@ -252,7 +252,7 @@ impl<'s> Parser<'s> {
         }
         let Ok(expr) = self.assignment() else { return nothing };
         if self.is(",")
-            && let Some(report) = self.unexpected_behind(expr.span)
+            && let Some(report) = self.unexpected_after(expr.span)
         {
             self.diagnostics.push(report);
             return expr;
@@ -268,7 +268,7 @@ impl<'s> Parser<'s> {
     pub(super) fn trailing(&mut self, expr: &Expr) -> Option<Finding> {
         let span = self.span();
         if !self.is(";") {
-            return self.unexpected_behind(expr.span);
+            return self.unexpected_after(expr.span);
         }
         self.bump();
         let report = Finding::error(rules::EXPRESSION_ONLY, span, "an expression does not end with `;`");

@@ -90,7 +90,7 @@ impl Parser<'_> {
 
     /// Parses `(expression)`, or an arrow function.
     pub(super) fn parenthesis(&mut self) -> Attempt<ExprNode> {
-        if self.arrow_ahead() {
+        if self.is_arrow_function() {
             return self.arrow();
         }
         let opener = self.bump();
@@ -107,7 +107,7 @@ impl Parser<'_> {
         for place in places {
             let tokens = lex::tokens_of(self.source, place, &mut self.diagnostics);
             let outer = std::mem::replace(&mut self.tokens, tokens);
-            self.look_at_quotes();
+            self.check_typographic_quotes();
             let at = std::mem::take(&mut self.at);
             let value = self.template_value(place);
             self.tokens = outer;
@@ -128,7 +128,7 @@ impl Parser<'_> {
         }
         let value = self.expression(ASSIGNMENT)?;
         if !self.ended() {
-            let report = self.unexpected_behind(value.expr.span);
+            let report = self.unexpected_after(value.expr.span);
             self.diagnostics.extend(report);
         }
         Ok(value)
@@ -140,7 +140,7 @@ impl Parser<'_> {
         let mut properties = Vec::new();
         let mut height = 0;
         loop {
-            if let Some(closer) = self.eat("}") {
+            if let Some(closer) = self.consume("}") {
                 return self.node(ExprKind::Object(properties), opener.to(closer), height);
             }
             match self.property() {
@@ -151,7 +151,7 @@ impl Parser<'_> {
                 Err(Reported) if self.skip_to(&[",", "}"]) => {}
                 Err(Reported) => return Err(Reported),
             }
-            if self.eat(",").is_some() || self.is("}") {
+            if self.consume(",").is_some() || self.is("}") {
                 continue;
             }
             let report = self.unclosed(opener, "}", self.last_span());
@@ -159,20 +159,20 @@ impl Parser<'_> {
             if !self.skip_to(&[",", "}"]) {
                 return Err(Reported);
             }
-            self.eat(",");
+            self.consume(",");
         }
     }
 
     pub(super) fn property(&mut self) -> Attempt<(Property, usize)> {
         let span = self.span();
-        if self.eat("...").is_some() {
+        if self.consume("...").is_some() {
             let value = self.expression(ASSIGNMENT)?;
             return Ok((Property::Spread(value.expr), value.height));
         }
         if self.is("[") {
             let opener = self.bump();
             let (key, _) = self.enclosed(opener, "]", ASSIGNMENT)?;
-            if self.eat(":").is_none() {
+            if self.consume(":").is_none() {
                 return self.refuse(refuse::member_function(span));
             }
             let value = self.expression(ASSIGNMENT)?;
@@ -194,7 +194,7 @@ impl Parser<'_> {
         };
         self.bump();
         let key = Name { text, span };
-        if self.eat(":").is_some() {
+        if self.consume(":").is_some() {
             let value = self.expression(ASSIGNMENT)?;
             return Ok((Property::Named { key, value: value.expr }, value.height));
         }

@@ -20,11 +20,11 @@ impl Parser<'_> {
 
     /// Whether the parser is at the end of a statement.
     pub(super) fn at_boundary(&self, first: usize) -> bool {
-        self.at > first && (self.ended() || self.newline() || self.at_behind(";") || self.at_behind("}"))
+        self.at > first && (self.ended() || self.newline() || self.previous_is(";") || self.previous_is("}"))
     }
 
     /// Whether the previous token is this symbol.
-    fn at_behind(&self, symbol: &str) -> bool {
+    fn previous_is(&self, symbol: &str) -> bool {
         let before = self.at.checked_sub(1).and_then(|i| self.tokens.get(i));
         before.is_some_and(|t| matches!(t.kind, TokenKind::Symbol(s) if s == symbol))
     }
@@ -36,7 +36,7 @@ impl Parser<'_> {
             if self.at > first && self.newline() {
                 return;
             }
-            if self.eat(";").is_some() {
+            if self.consume(";").is_some() {
                 return;
             }
             self.skip_group();
@@ -65,7 +65,7 @@ impl Parser<'_> {
             }
             if self.is("{") {
                 self.skip_group();
-            } else if !self.at_behind(";") {
+            } else if !self.previous_is(";") {
                 let first = self.at;
                 if !self.ended() {
                     self.skip_statement(first, "}");

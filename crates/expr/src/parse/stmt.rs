@@ -22,7 +22,7 @@ impl Parser<'_> {
     pub(super) fn statements_up_to(&mut self, closer: &str) -> Vec<Stmt> {
         let mut statements = Vec::new();
         while !self.ended() && !self.is(closer) {
-            if self.eat(";").is_some() {
+            if self.consume(";").is_some() {
                 continue;
             }
             statements.push(self.recovered(closer));
@@ -52,7 +52,7 @@ impl Parser<'_> {
             TokenKind::Word(word) => *word,
             TokenKind::Symbol("{") => return self.block().map(StmtKind::Block),
             TokenKind::Symbol(")" | "]" | "}") => {
-                let report = self.unexpected_behind(Span::default());
+                let report = self.unexpected_after(Span::default());
                 self.diagnostics.extend(report);
                 return Err(Reported);
             }
@@ -103,7 +103,7 @@ impl Parser<'_> {
         }
         self.bump();
         let test = self.head("while")?;
-        self.eat(";");
+        self.consume(";");
         Ok(StmtKind::DoWhile { body, test })
     }
 
@@ -139,7 +139,7 @@ impl Parser<'_> {
             return Ok(first);
         }
         let mut parts = vec![first];
-        while self.eat(",").is_some() {
+        while self.consume(",").is_some() {
             parts.push(self.assignment()?);
         }
         let span = parts.iter().map(|part| part.span).reduce(Span::to).unwrap_or_default();
@@ -148,7 +148,7 @@ impl Parser<'_> {
 
     /// Parses `(test)` after `if` or `while`.
     fn head(&mut self, word: &str) -> Attempt<Expr> {
-        let Some(opener) = self.eat("(") else {
+        let Some(opener) = self.consume("(") else {
             let report = Finding::error(
                 rules::MISSING_BRACKET,
                 self.span(),
@@ -166,7 +166,7 @@ impl Parser<'_> {
     /// Parses the body of a condition or a loop.
     fn body(&mut self, word: &str) -> Attempt<Stmt> {
         let span = self.span();
-        if self.eat(";").is_some() {
+        if self.consume(";").is_some() {
             let report = Finding::warning(
                 rules::EMPTY_BODY,
                 span,
@@ -217,7 +217,7 @@ impl Parser<'_> {
 
     fn for_loop(&mut self) -> Attempt<StmtKind> {
         self.bump();
-        let Some(opener) = self.eat("(") else {
+        let Some(opener) = self.consume("(") else {
             let report = Finding::error(
                 rules::MISSING_BRACKET,
                 self.span(),
@@ -244,7 +244,7 @@ impl Parser<'_> {
         let test = if self.is(";") { None } else { Some(self.assignment()?) };
         self.separator()?;
         let update = if self.is(")") { None } else { Some(self.sequence()?) };
-        if self.eat(")").is_none() {
+        if self.consume(")").is_none() {
             let last = self.last_span();
             let report = self.unclosed(opener, ")", last);
             self.diagnostics.extend(report);
@@ -258,7 +258,7 @@ impl Parser<'_> {
     fn for_of_head(&mut self) -> Attempt<Option<(bool, Pattern)>> {
         let declares = ["const", "let", "var"].iter().any(|w| self.is_word(w));
         let constant = self.is_word("const");
-        let behind = self.behind_group(usize::from(declares));
+        let behind = self.after_group(usize::from(declares));
         let of = |word: &str| matches!(self.peek_at(behind), TokenKind::Word(w) if *w == word);
         if !of("of") && !of("in") {
             return Ok(None);
@@ -288,7 +288,7 @@ impl Parser<'_> {
 
     /// Parses a `;` in the head of a `for`.
     fn separator(&mut self) -> Attempt<()> {
-        if self.eat(";").is_some() {
+        if self.consume(";").is_some() {
             return Ok(());
         }
         let report = Finding::error(
@@ -303,10 +303,10 @@ impl Parser<'_> {
 
     /// Parses a semicolon, a line end or the end of the text.
     pub(super) fn end_of_statement(&mut self, statement: Span) -> Attempt<()> {
-        if self.eat(";").is_some() || self.ended() || self.newline() || self.is("}") {
+        if self.consume(";").is_some() || self.ended() || self.newline() || self.is("}") {
             return Ok(());
         }
-        let report = self.unexpected_behind(statement);
+        let report = self.unexpected_after(statement);
         self.diagnostics.extend(report);
         Err(Reported)
     }

@@ -44,7 +44,7 @@ impl Parser<'_> {
     }
 
     /// The finding for a token after something complete, or `None` if it is already reported.
-    pub(super) fn unexpected_behind(&mut self, before: Span) -> Option<Finding> {
+    pub(super) fn unexpected_after(&mut self, before: Span) -> Option<Finding> {
         let span = self.span();
         let token = self.describe_token();
         match self.peek() {

@@ -9,36 +9,36 @@ impl Printer<'_> {
     pub(super) fn expr(&mut self, expr: &Expr, least: u8) {
         let enclosed = power(expr) < least;
         if enclosed {
-            self.put("(");
+            self.append("(");
         }
         self.kind(expr);
         if enclosed {
-            self.put(")");
+            self.append(")");
         }
     }
 
     pub(super) fn kind(&mut self, expr: &Expr) {
         match &expr.kind {
             ExprKind::Number(x) => match expr.span.text(self.source) {
-                "" => self.put(&number_text(*x)),
+                "" => self.append(&number_text(*x)),
                 // The span of a parenthesized literal may include the parentheses.
                 written => {
-                    self.put(written.trim_matches(|c: char| matches!(c, '(' | ')') || c.is_whitespace()))
+                    self.append(written.trim_matches(|c: char| matches!(c, '(' | ')') || c.is_whitespace()))
                 }
             },
             ExprKind::String(text) => quote(text, &mut self.out),
-            ExprKind::Boolean(b) => self.put(if *b { "true" } else { "false" }),
-            ExprKind::Null => self.put("null"),
-            ExprKind::Name(name) => self.put(name),
-            ExprKind::Error => self.put("<error>"),
+            ExprKind::Boolean(b) => self.append(if *b { "true" } else { "false" }),
+            ExprKind::Null => self.append("null"),
+            ExprKind::Name(name) => self.append(name),
+            ExprKind::Error => self.append("<error>"),
             ExprKind::Chain(inner) => self.kind(inner),
             ExprKind::Array(items) => {
-                self.put("[");
+                self.append("[");
                 self.items(items);
-                self.put("]");
+                self.append("]");
             }
             ExprKind::Spread(items) => {
-                self.put("...");
+                self.append("...");
                 self.expr(items, ASSIGNMENT);
             }
             ExprKind::Object(properties) => self.object(properties),
@@ -59,21 +59,21 @@ impl Printer<'_> {
                 // `1.x` would be parsed as the number `1.`.
                 let digits = matches!(object.kind, ExprKind::Number(_));
                 self.expr(object, if digits { ATOM + 1 } else { MEMBER });
-                self.put(if *optional { "?." } else { "." });
-                self.put(&name.text);
+                self.append(if *optional { "?." } else { "." });
+                self.append(&name.text);
             }
             ExprKind::Index { object, index, optional } => {
                 self.expr(object, MEMBER);
-                self.put(if *optional { "?.[" } else { "[" });
+                self.append(if *optional { "?.[" } else { "[" });
                 // An assignment in an index is valid only in parentheses.
                 self.expr(index, CHOICE);
-                self.put("]");
+                self.append("]");
             }
             ExprKind::Call { callee, args, optional } => {
                 self.expr(callee, MEMBER);
-                self.put(if *optional { "?.(" } else { "(" });
+                self.append(if *optional { "?.(" } else { "(" });
                 self.items(args);
-                self.put(")");
+                self.append(")");
             }
             _ => {}
         }
@@ -83,11 +83,11 @@ impl Printer<'_> {
     fn operation(&mut self, expr: &Expr) {
         match &expr.kind {
             ExprKind::Unary { op, operand } => {
-                self.put(op.symbol());
+                self.append(op.symbol());
                 // A space keeps `- -x`, `+ ++x` and `typeof x` apart.
                 let runs = starts_with_sign(operand) && matches!(op, UnaryOp::Minus | UnaryOp::Plus);
                 if runs || *op == UnaryOp::TypeOf {
-                    self.put(" ");
+                    self.append(" ");
                 }
                 self.expr(operand, SIGN);
             }
@@ -95,26 +95,26 @@ impl Printer<'_> {
                 let p = op.power();
                 // `**` is right-associative and allows no unary operator on its left; all others are left-associative.
                 let (l, r) = if *op == BinaryOp::Power { (UPDATE, p) } else { (p, p + 1) };
-                self.between(left, l, op.symbol(), right, r);
+                self.binary_operation(left, l, op.symbol(), right, r);
             }
             ExprKind::Logical { op, left, right } => {
                 self.logical_operand(*op, left, op.power());
-                self.put(" ");
-                self.put(op.symbol());
-                self.put(" ");
+                self.append(" ");
+                self.append(op.symbol());
+                self.append(" ");
                 self.logical_operand(*op, right, op.power() + 1);
             }
             ExprKind::Conditional { test, then, otherwise } => {
                 self.expr(test, CHOICE + 1);
-                self.put(" ? ");
+                self.append(" ? ");
                 self.expr(then, ASSIGNMENT);
-                self.put(" : ");
+                self.append(" : ");
                 self.expr(otherwise, ASSIGNMENT);
             }
             ExprKind::Sequence(parts) => {
                 for (i, part) in parts.iter().enumerate() {
                     if i > 0 {
-                        self.put(", ");
+                        self.append(", ");
                     }
                     self.expr(part, ASSIGNMENT);
                 }
@@ -128,19 +128,19 @@ impl Printer<'_> {
         match &expr.kind {
             ExprKind::Assign { target, op, value, .. } => {
                 let symbol = format!("{}=", op.map_or("", |o| o.symbol()));
-                self.between(target, UPDATE, &symbol, value, ASSIGNMENT);
+                self.binary_operation(target, UPDATE, &symbol, value, ASSIGNMENT);
             }
             ExprKind::AssignLogical { target, op, value, .. } => {
-                self.between(target, UPDATE, &format!("{}=", op.symbol()), value, ASSIGNMENT);
+                self.binary_operation(target, UPDATE, &format!("{}=", op.symbol()), value, ASSIGNMENT);
             }
             ExprKind::Update { target, increment, prefix } => {
                 let symbol = if *increment { "++" } else { "--" };
                 if *prefix {
-                    self.put(symbol);
+                    self.append(symbol);
                     self.expr(target, SIGN);
                 } else {
                     self.expr(target, UPDATE);
-                    self.put(symbol);
+                    self.append(symbol);
                 }
             }
             _ => {}
@@ -148,57 +148,57 @@ impl Printer<'_> {
     }
 
     fn template(&mut self, texts: &[String], values: &[Expr]) {
-        self.put("`");
+        self.append("`");
         for (i, text) in texts.iter().enumerate() {
             template_text(text, &mut self.out);
             if let Some(value) = values.get(i) {
-                self.put("${");
+                self.append("${");
                 self.expr(value, ASSIGNMENT);
-                self.put("}");
+                self.append("}");
             }
         }
-        self.put("`");
+        self.append("`");
     }
 
     pub(super) fn object(&mut self, properties: &[Property]) {
-        self.put("{");
+        self.append("{");
         for (i, property) in properties.iter().enumerate() {
             if i > 0 {
-                self.put(", ");
+                self.append(", ");
             }
             match property {
                 Property::Named { key, value } => {
                     let short = matches!(&value.kind, ExprKind::Name(name) if *name == key.text);
                     if !short {
                         if is_word(&key.text) {
-                            self.put(&key.text);
+                            self.append(&key.text);
                         } else {
                             quote(&key.text, &mut self.out);
                         }
-                        self.put(": ");
+                        self.append(": ");
                     }
                     self.expr(value, ASSIGNMENT);
                 }
                 Property::Computed { key, value } => {
-                    self.put("[");
+                    self.append("[");
                     self.expr(key, ASSIGNMENT);
-                    self.put("]: ");
+                    self.append("]: ");
                     self.expr(value, ASSIGNMENT);
                 }
                 Property::Spread(value) => {
-                    self.put("...");
+                    self.append("...");
                     self.expr(value, ASSIGNMENT);
                 }
             }
         }
-        self.put("}");
+        self.append("}");
     }
 
-    pub(super) fn between(&mut self, left: &Expr, l: u8, symbol: &str, right: &Expr, r: u8) {
+    pub(super) fn binary_operation(&mut self, left: &Expr, l: u8, symbol: &str, right: &Expr, r: u8) {
         self.expr(left, l);
-        self.put(" ");
-        self.put(symbol);
-        self.put(" ");
+        self.append(" ");
+        self.append(symbol);
+        self.append(" ");
         self.expr(right, r);
     }
 
@@ -212,7 +212,7 @@ impl Printer<'_> {
     pub(super) fn items(&mut self, items: &[Expr]) {
         for (i, item) in items.iter().enumerate() {
             if i > 0 {
-                self.put(", ");
+                self.append(", ");
             }
             self.expr(item, ASSIGNMENT);
         }

@@ -39,13 +39,13 @@ pub(super) struct Printer<'s> {
 }
 
 impl Printer<'_> {
-    pub(super) fn put(&mut self, text: &str) {
+    pub(super) fn append(&mut self, text: &str) {
         self.out.push_str(text);
     }
 
     pub(super) fn new_line(&mut self) {
         if self.line {
-            return self.put(" ");
+            return self.append(" ");
         }
         self.out.push('\n');
         for _ in 0..self.indent {

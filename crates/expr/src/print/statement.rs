@@ -15,20 +15,20 @@ impl Printer<'_> {
 
     pub(super) fn block(&mut self, statements: &[Stmt]) {
         if statements.is_empty() {
-            return self.put("{}");
+            return self.append("{}");
         }
-        self.put("{");
+        self.append("{");
         self.indent += 1;
         self.new_line();
         self.lines(statements);
         self.indent -= 1;
         self.new_line();
-        self.put("}");
+        self.append("}");
     }
 
     /// Prints the body of a condition or a loop, after its head.
     pub(super) fn body(&mut self, statement: &Stmt) {
-        self.put(" ");
+        self.append(" ");
         self.statement(statement);
     }
 
@@ -37,16 +37,16 @@ impl Printer<'_> {
             StmtKind::Expr(expr) => self.expression_statement(expr),
             StmtKind::Declare { constant, declarators } => {
                 self.declarators(*constant, declarators);
-                self.put(";");
+                self.append(";");
             }
             StmtKind::Function { name, function } => {
-                self.put("function ");
-                self.put(&name.text);
+                self.append("function ");
+                self.append(&name.text);
                 self.params(&function.params);
-                self.put(" ");
+                self.append(" ");
                 match &function.body {
                     Body::Block(statements) => self.block(statements),
-                    Body::Value(_) => self.put("{}"), // the parser never builds these
+                    Body::Value(_) => self.append("{}"), // the parser never builds these
                 }
             }
             StmtKind::If { test, then, otherwise } => self.condition(test, then, otherwise.as_deref()),
@@ -55,11 +55,11 @@ impl Printer<'_> {
                 self.body(body);
             }
             StmtKind::ForOf { constant, target, items, body } => {
-                self.put(if *constant { "for (const " } else { "for (let " });
+                self.append(if *constant { "for (const " } else { "for (let " });
                 self.pattern(target);
-                self.put(" of ");
+                self.append(" of ");
                 self.expr(items, ASSIGNMENT);
-                self.put(")");
+                self.append(")");
                 self.body(body);
             }
             StmtKind::While { test, body } => {
@@ -67,23 +67,23 @@ impl Printer<'_> {
                 self.body(body);
             }
             StmtKind::DoWhile { body, test } => {
-                self.put("do");
+                self.append("do");
                 self.body(body);
-                self.put(" ");
+                self.append(" ");
                 self.head("while", test);
-                self.put(";");
+                self.append(";");
             }
             StmtKind::Block(statements) => self.block(statements),
-            StmtKind::Break => self.put("break;"),
-            StmtKind::Continue => self.put("continue;"),
-            StmtKind::Return(None) => self.put("return;"),
+            StmtKind::Break => self.append("break;"),
+            StmtKind::Continue => self.append("continue;"),
+            StmtKind::Return(None) => self.append("return;"),
             StmtKind::Return(Some(value)) => {
-                self.put("return ");
+                self.append("return ");
                 self.expr(value, ASSIGNMENT);
-                self.put(";");
+                self.append(";");
             }
-            StmtKind::Empty => self.put(";"),
-            StmtKind::Error => self.put("<error>"),
+            StmtKind::Empty => self.append(";"),
+            StmtKind::Error => self.append("<error>"),
         }
     }
 
@@ -95,9 +95,9 @@ impl Printer<'_> {
         let text = self.out.get(start..).unwrap_or("");
         if text.starts_with('{') || text.starts_with("function") {
             self.out.insert(start, '(');
-            self.put(")");
+            self.append(")");
         }
-        self.put(";");
+        self.append(";");
     }
 
     /// Prints `if` and its `else`.
@@ -108,12 +108,12 @@ impl Printer<'_> {
             Some(otherwise) => {
                 // Without braces, the `else` could belong to an inner `if`.
                 if open_ended(then) {
-                    self.put(" ");
+                    self.append(" ");
                     self.block(std::slice::from_ref(then));
                 } else {
                     self.body(then);
                 }
-                self.put(" else");
+                self.append(" else");
                 self.body(otherwise);
             }
         }
@@ -121,7 +121,7 @@ impl Printer<'_> {
 
     /// Prints `for (init; test; update)`.
     fn for_head(&mut self, init: Option<&Stmt>, test: Option<&Expr>, update: Option<&Expr>) {
-        self.put("for (");
+        self.append("for (");
         match init.map(|s| &s.kind) {
             Some(StmtKind::Declare { constant, declarators }) => {
                 self.declarators(*constant, declarators);
@@ -129,35 +129,35 @@ impl Printer<'_> {
             Some(StmtKind::Expr(expr)) => self.expr(expr, 0),
             _ => {}
         }
-        self.put(";");
+        self.append(";");
         if let Some(test) = test {
-            self.put(" ");
+            self.append(" ");
             self.expr(test, ASSIGNMENT);
         }
-        self.put(";");
+        self.append(";");
         if let Some(update) = update {
-            self.put(" ");
+            self.append(" ");
             self.expr(update, 0);
         }
-        self.put(")");
+        self.append(")");
     }
 
     pub(super) fn head(&mut self, word: &str, test: &Expr) {
-        self.put(word);
-        self.put(" (");
+        self.append(word);
+        self.append(" (");
         self.expr(test, ASSIGNMENT);
-        self.put(")");
+        self.append(")");
     }
 
     pub(super) fn declarators(&mut self, constant: bool, declarators: &[Declarator]) {
-        self.put(if constant { "const " } else { "let " });
+        self.append(if constant { "const " } else { "let " });
         for (i, declarator) in declarators.iter().enumerate() {
             if i > 0 {
-                self.put(", ");
+                self.append(", ");
             }
             self.pattern(&declarator.target);
             if let Some(value) = &declarator.value {
-                self.put(" = ");
+                self.append(" = ");
                 self.expr(value, ASSIGNMENT);
             }
         }
@@ -165,35 +165,35 @@ impl Printer<'_> {
 
     pub(super) fn pattern(&mut self, pattern: &Pattern) {
         match pattern {
-            Pattern::Name(name) => self.put(&name.text),
+            Pattern::Name(name) => self.append(&name.text),
             Pattern::List { items, .. } => {
-                self.put("[");
+                self.append("[");
                 for (i, item) in items.iter().enumerate() {
                     if i > 0 {
-                        self.put(", ");
+                        self.append(", ");
                     }
                     match item {
                         Some(item) => self.element(item),
                         // A hole at the end needs an additional comma.
-                        None if i + 1 == items.len() => self.put(","),
+                        None if i + 1 == items.len() => self.append(","),
                         None => {}
                     }
                 }
-                self.put("]");
+                self.append("]");
             }
             Pattern::Record { entries, .. } => {
-                self.put("{");
+                self.append("{");
                 for (i, (key, element)) in entries.iter().enumerate() {
                     if i > 0 {
-                        self.put(", ");
+                        self.append(", ");
                     }
                     if !matches!(&element.target, Pattern::Name(name) if name.text == key.text) {
-                        self.put(&key.text);
-                        self.put(": ");
+                        self.append(&key.text);
+                        self.append(": ");
                     }
                     self.element(element);
                 }
-                self.put("}");
+                self.append("}");
             }
         }
     }
@@ -201,33 +201,33 @@ impl Printer<'_> {
     pub(super) fn element(&mut self, element: &Element) {
         self.pattern(&element.target);
         if let Some(default) = &element.default {
-            self.put(" = ");
+            self.append(" = ");
             self.expr(default, ASSIGNMENT);
         }
     }
 
     pub(super) fn params(&mut self, params: &[Element]) {
-        self.put("(");
+        self.append("(");
         for (i, param) in params.iter().enumerate() {
             if i > 0 {
-                self.put(", ");
+                self.append(", ");
             }
             self.element(param);
         }
-        self.put(")");
+        self.append(")");
     }
 
     pub(super) fn function(&mut self, function: &Function) {
         // A function that calls itself by its name must keep the name.
         if let (Some(name), Body::Block(statements)) = (&function.name, &function.body) {
-            self.put("function ");
-            self.put(&name.text);
+            self.append("function ");
+            self.append(&name.text);
             self.params(&function.params);
-            self.put(" ");
+            self.append(" ");
             return self.block(statements);
         }
         self.params(&function.params);
-        self.put(" => ");
+        self.append(" => ");
         match &function.body {
             Body::Block(statements) => self.block(statements),
             // `=> {` would start a block.
@@ -236,7 +236,7 @@ impl Printer<'_> {
                 self.expr(value, ASSIGNMENT);
                 if self.out.get(start..).is_some_and(|text| text.starts_with('{')) {
                     self.out.insert(start, '(');
-                    self.put(")");
+                    self.append(")");
                 }
             }
         }

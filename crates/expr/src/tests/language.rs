@@ -188,7 +188,7 @@ fn bare_indexes_get_names_that_mean_the_same() {
 }
 
 #[test]
-fn help_says_what_stands_there() {
+fn help_describes_the_expression_at_a_place() {
     let mut globals = Globals::new();
     let source = "2 * data.joint('light_free').qpos[2] + Math.sin(data.time)";
     let mut compiler = Compiler::new(&Mock, &mut globals).explaining();

@@ -219,7 +219,7 @@ fn functions_are_as_near_to_nodes_as_the_table_says() {
 
 /// With node: the table contains the measured values.
 #[test]
-fn the_table_is_what_node_and_we_give() {
+fn the_table_equals_the_measured_differences_to_node() {
     if !needs("node") {
         return;
     }

@@ -35,7 +35,7 @@ fn outcome(row: &Native, element: f64, argument: f64, args: &[f64]) -> String {
 }
 
 #[test]
-fn every_row_states_what_becomes_of_nan() {
+fn every_row_states_how_it_treats_nan() {
     let arguments: [&[f64]; 10] = [
         &[8.5],
         &[],
@@ -72,7 +72,7 @@ fn every_row_states_what_becomes_of_nan() {
 }
 
 #[test]
-fn every_method_that_is_written_is_read_without_a_mistake() {
+fn every_source_method_compiles_without_findings() {
     for (row, (n, text)) in all().iter().flat_map(|row| row.texts().iter().map(move |t| (row, t))) {
         assert!(parse_expression(text).diagnostics.is_empty(), "{}", row.name);
         assert!(source_function(row, *n).is_some(), "{}", row.name);

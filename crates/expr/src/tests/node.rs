@@ -87,7 +87,7 @@ const WRITTEN: [usize; 5] = [1, 2, 13, 14, 15];
 
 /// The result of a program here, or the rule by which the compiler refuses it, or the rule of a limit at which it stops and
 /// that JavaScript does not have.
-pub(super) fn here(source: &str) -> Result<String, &'static str> {
+pub(super) fn result_here(source: &str) -> Result<String, &'static str> {
     if std::env::var("LABSPEC_NODE_SHOW").is_ok() {
         eprintln!("{source}");
     }
@@ -125,7 +125,7 @@ pub(super) fn here(source: &str) -> Result<String, &'static str> {
 }
 
 /// The results of programs in node.
-pub(super) fn there(sources: &[String]) -> Vec<String> {
+pub(super) fn results_in_node(sources: &[String]) -> Vec<String> {
     let script = concat!(env!("CARGO_MANIFEST_DIR"), "/src/tests/node.js");
     let mut child =
         Command::new("node").arg(script).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
@@ -142,7 +142,7 @@ fn from_env(name: &str, default: u64) -> u64 {
 }
 
 #[test]
-fn random_programs_do_what_javascript_does() {
+fn random_programs_behave_as_in_javascript() {
     if !needs("node") {
         return;
     }
@@ -154,7 +154,7 @@ fn random_programs_do_what_javascript_does() {
         let batch: Vec<(String, String)> = (0..2000.min(2 * (wanted - done)))
             .filter_map(|_| {
                 let source = generator.program();
-                match here(&source) {
+                match result_here(&source) {
                     Ok(result) => Some((source, result)),
                     Err(rule) => {
                         *refused.entry(rule).or_insert(0) += 1;
@@ -165,7 +165,7 @@ fn random_programs_do_what_javascript_does() {
             .take(wanted - done)
             .collect();
         let sources: Vec<String> = batch.iter().map(|(s, _)| s.clone()).collect();
-        let results = there(&sources);
+        let results = results_in_node(&sources);
         assert_eq!(results.len(), batch.len());
         for ((source, ours), theirs) in batch.iter().zip(&results) {
             assert!(ours == theirs, "{source}\n here: {ours}\nthere: {theirs}");

@@ -6,7 +6,7 @@ use crate::operation::{select, truth, truthy};
 use crate::operators::{BinaryOp, UnaryOp};
 use crate::{Compiler, Context, Globals, Program, Recording, Value, math};
 
-const HARD: [(&str, f64); 20] = [
+const DIFFICULT_NUMBERS: [(&str, f64); 20] = [
     ("NaN", f64::NAN),
     ("0", 0.0),
     ("(-0)", -0.0),
@@ -90,7 +90,7 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-fn same(ours: f64, table: f64, what: &str) {
+fn assert_same(ours: f64, table: f64, what: &str) {
     let same = ours.to_bits() == table.to_bits() || ours.is_nan() && table.is_nan();
     assert!(same, "{what} gives {ours:?}, the table {table:?}");
 }
@@ -109,7 +109,7 @@ const A: &str = "data.qpos[0]";
 const B: &str = "data.qpos[1]";
 
 /// Compares row, columns and virtual machine for all pairs, with operands that are literals and operands that are read.
-fn agree(case: &Case, text: &str, pairs: &[(f64, f64)]) {
+fn check_back_ends(case: &Case, text: &str, pairs: &[(f64, f64)]) {
     let program = expression(text);
     assert!(program.row.is_some(), "{text} is no row");
     let mut recording = Recording::new();
@@ -118,37 +118,39 @@ fn agree(case: &Case, text: &str, pairs: &[(f64, f64)]) {
     for &(a, b) in pairs {
         let (mut world, table) = (world(a, b), (case.means)(a, b));
         recording.sample(&world).unwrap();
-        same(
+        assert_same(
             program.run(&mut world, &mut context, None).unwrap().to_number(),
             table,
             &format!("row: {text}"),
         );
         let machine = crate::vm::run(&program.code, &mut world, &mut context, None).unwrap();
-        same(machine.to_number(), table, &format!("machine: {text} of {a} and {b}"));
+        assert_same(machine.to_number(), table, &format!("machine: {text} of {a} and {b}"));
     }
     for (x, (a, b)) in columnar.evaluate(&recording).unwrap().iter().zip(pairs) {
-        same(*x, (case.means)(*a, *b), &format!("column: {text} of {a} and {b}"));
+        assert_same(*x, (case.means)(*a, *b), &format!("column: {text} of {a} and {b}"));
     }
 }
 
 #[test]
-fn every_back_end_means_what_the_table_says() {
+fn every_back_end_follows_the_table_of_operations() {
     let mut formulas = 0;
     for case in cases() {
-        let all: Vec<(f64, f64)> =
-            HARD.iter().flat_map(|(_, a)| HARD.iter().map(|(_, b)| (*a, *b))).collect();
-        agree(&case, &(case.write)(A, B), &all);
-        for (text, x) in HARD {
-            let left: Vec<(f64, f64)> = HARD.iter().map(|(_, b)| (x, *b)).collect();
-            let right: Vec<(f64, f64)> = HARD.iter().map(|(_, a)| (*a, x)).collect();
-            agree(&case, &(case.write)(text, B), &left);
-            agree(&case, &(case.write)(A, text), &right);
-            for (other, y) in HARD {
+        let all: Vec<(f64, f64)> = DIFFICULT_NUMBERS
+            .iter()
+            .flat_map(|(_, a)| DIFFICULT_NUMBERS.iter().map(|(_, b)| (*a, *b)))
+            .collect();
+        check_back_ends(&case, &(case.write)(A, B), &all);
+        for (text, x) in DIFFICULT_NUMBERS {
+            let left: Vec<(f64, f64)> = DIFFICULT_NUMBERS.iter().map(|(_, b)| (x, *b)).collect();
+            let right: Vec<(f64, f64)> = DIFFICULT_NUMBERS.iter().map(|(_, a)| (*a, x)).collect();
+            check_back_ends(&case, &(case.write)(text, B), &left);
+            check_back_ends(&case, &(case.write)(A, text), &right);
+            for (other, y) in DIFFICULT_NUMBERS {
                 // Everything is folded.
                 let folded = expression(&(case.write)(text, other));
                 assert!(folded.effects().constant());
                 let value = folded.run(&mut World::new(), &mut Context::new(), None).unwrap();
-                same(value.to_number(), (case.means)(x, y), &(case.write)(text, other));
+                assert_same(value.to_number(), (case.means)(x, y), &(case.write)(text, other));
             }
         }
         // Within a longer program. `Math.max` of three equal values does not change the value, and makes the expression
@@ -162,15 +164,15 @@ fn every_back_end_means_what_the_table_says() {
         for (a, b) in all {
             let mut world = world(a, b);
             program.run(&mut world, &mut context, None).unwrap();
-            same(world.fields[1][2], (case.means)(a, b), &format!("{text} of {a} and {b}"));
+            assert_same(world.fields[1][2], (case.means)(a, b), &format!("{text} of {a} and {b}"));
         }
     }
     assert!(formulas > 50, "only {formulas} formulas within programs");
 }
 
 #[test]
-fn truth_is_one_or_nothing() {
-    for (text, x) in HARD {
+fn truth_values_are_one_or_zero() {
+    for (text, x) in DIFFICULT_NUMBERS {
         assert_eq!(truth(truthy(x)), f64::from(u8::from(Value::Number(x).truthy())), "{text}");
     }
 }

@@ -78,7 +78,7 @@ fn controls_give_values() {
 }
 
 #[test]
-fn effects_name_what_is_touched() {
+fn effects_list_accessed_fields() {
     let mut globals = Globals::new();
     let mut compiler = Compiler::new(&Mock, &mut globals);
     let program = compiler
@@ -139,7 +139,7 @@ fn aggregates_are_programs_of_their_own() {
 }
 
 #[test]
-fn failures_carry_their_place() {
+fn failures_have_their_span() {
     let run = |source: &str| {
         let mut globals = Globals::new();
         let program = Compiler::new(&Mock, &mut globals).statements(source).program.unwrap();
@@ -153,7 +153,7 @@ fn failures_carry_their_place() {
 }
 
 #[test]
-fn elements_past_the_end_are_noted() {
+fn elements_past_the_end_are_recorded() {
     let mut globals = Globals::new();
     let mut compiler = Compiler::new(&Mock, &mut globals);
     let program =
@@ -234,7 +234,7 @@ fn functions_that_call_each_other_deeply_are_refused_on_a_small_stack() {
 }
 
 #[test]
-fn a_host_may_tell_of_typographic_quotes_itself() {
+fn a_host_can_report_typographic_quotes_itself() {
     let mut globals = Globals::new();
     for source in ["data.joint(“heavy_free”).qpos[2]", "1 + ”", "`${data.joint(‘heavy_free’).qpos[2]}`"]
     {

@@ -362,7 +362,7 @@ proptest! {
 }
 
 #[test]
-fn formatting_keeps_what_an_author_chose() {
+fn formatting_keeps_choices_of_the_author() {
     for (source, expression) in [
         ("1000*( data.qpos[2]-0.050 )", Some("1000 * (data.qpos[2] - 0.050)")),
         ("lib.bodyPos(\"cube\")[ 2 ]", Some("lib.bodyPos('cube')[2]")),

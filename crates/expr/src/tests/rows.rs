@@ -13,7 +13,7 @@ fn program(source: &str) -> Program {
 }
 
 #[test]
-fn rows_give_what_the_machine_gives() {
+fn rows_give_the_results_of_the_machine() {
     let (q, t) = ("data.qpos[2]", "data.time");
     let mut sources: Vec<String> = [
         "data.time",
@@ -70,7 +70,7 @@ fn rows_give_what_the_machine_gives() {
 }
 
 #[test]
-fn the_longest_formulas_are_left_to_the_machine() {
+fn the_longest_formulas_run_on_the_machine() {
     let sum = |tens: usize| {
         let term = |i: usize| format!("data.qpos[{}] * {i}.5", i % 14);
         let ten = |i: usize| (10 * i..10 * i + 10).map(term).collect::<Vec<_>>().join(" + ");
@@ -84,7 +84,7 @@ fn the_longest_formulas_are_left_to_the_machine() {
 }
 
 #[test]
-fn an_element_that_does_not_exist_is_left_to_the_machine() {
+fn a_missing_element_is_evaluated_by_the_machine() {
     let program = program("data.efc_force[1] + 1");
     let mut world = World::new();
     let mut context = Context::new();
@@ -95,7 +95,7 @@ fn an_element_that_does_not_exist_is_left_to_the_machine() {
 }
 
 #[test]
-fn nothing_is_kept_that_is_not_needed_again() {
+fn registers_hold_only_results_that_are_read_again() {
     let program = program("1000 * (data.qpos[2] - (1 - 0.5 * 9.81 * data.time * data.time))");
     let row = program.row.unwrap();
     assert_eq!(row.elements.len(), 2);

@@ -224,7 +224,7 @@ fn fields_and_names() {
 }
 
 #[test]
-fn what_a_page_throws_is_thrown() {
+fn errors_of_a_page_are_errors_here() {
     for source in [
         "(() => { for (const [k] of [1, 2]) { return k } return 0 })()",
         "[1, 2].map(([a]) => a).length",

@@ -17,12 +17,12 @@ fn run(source: &str, x: f64, watch: Watch) -> (Value, Watch) {
     (value, *context.watch(None).unwrap())
 }
 
-fn loses(source: &str, x: f64) -> bool {
+fn loses_nan(source: &str, x: f64) -> bool {
     run(source, x, Watch::comparing(None)).1.lost.is_some()
 }
 
 #[test]
-fn whatever_makes_a_value_of_nothing_loses_it() {
+fn operations_that_turn_nan_into_a_value_are_recorded() {
     for source in [
         "data.qpos[0] < 1",
         "!(data.qpos[0] < 1)",
@@ -58,7 +58,7 @@ fn whatever_makes_a_value_of_nothing_loses_it() {
         "isNaN(data.qpos[1]) || data.qpos[0] < 1",
         "isNaN(data.qpos[0]) && !(data.qpos[0] < 1)",
     ] {
-        assert!(loses(source, f64::NAN), "{source}");
+        assert!(loses_nan(source, f64::NAN), "{source}");
         let lost = run(source, 0.5, Watch::comparing(None)).1.lost;
         assert!(
             lost.is_none() || source.contains("=> false"),
@@ -66,18 +66,18 @@ fn whatever_makes_a_value_of_nothing_loses_it() {
             lost.map(|s| s.start..s.end)
         );
         if !source.contains("filter(x => false)") {
-            assert!(!loses(source, 0.5), "{source}");
+            assert!(!loses_nan(source, 0.5), "{source}");
         }
     }
     for source in
         ["holds(!(NaN < -1))".replace("holds", ""), "Math.sqrt(-1) < 5 || true".into(), "0 / 0 > 1".into()]
     {
-        assert!(loses(&source, 0.5), "{source}");
+        assert!(loses_nan(&source, 0.5), "{source}");
     }
 }
 
 #[test]
-fn arithmetic_and_questions_lose_nothing() {
+fn arithmetic_and_tests_for_nan_are_not_recorded() {
     for source in [
         "isNaN(data.qpos[0])",
         "!isNaN(data.qpos[0]) && data.qpos[0] < 1",
@@ -90,22 +90,22 @@ fn arithmetic_and_questions_lose_nothing() {
         "1 > 0 || data.qpos[0] > 1",
         "Math.max(...[1, data.qpos[0]])",
     ] {
-        assert!(!loses(source, f64::NAN), "{source}");
+        assert!(!loses_nan(source, f64::NAN), "{source}");
     }
 }
 
 #[test]
-fn undefined_counts_in_claims_alone() {
+fn undefined_is_recorded_in_claims_alone() {
     for source in ["[1].find(x => x > 2) || 1", "[1, 2].some(x => { })", "[1].find(x => x > 2) < 1"] {
-        assert!(loses(source, 0.5), "{source}");
+        assert!(loses_nan(source, 0.5), "{source}");
     }
-    assert!(!loses("[1].find(x => x > 2) === undefined", 0.5), "it is asked for");
+    assert!(!loses_nan("[1].find(x => x > 2) === undefined", 0.5), "it is asked for");
     let (_, watch) = run("[1].find(x => x > 2) || 1", 0.5, Watch::losses());
     assert_eq!(watch.lost, None);
 }
 
 #[test]
-fn a_turned_comparison_shows_whether_it_decides() {
+fn an_inverted_comparison_shows_whether_it_decides() {
     let (value, watch) = run("data.qpos[0] > 1 && data.qpos[0] < 3", 2.5, Watch::comparing(None));
     assert_eq!(value, Value::Boolean(true));
     assert_eq!(watch.comparisons.iter().map(|c| c.margin).collect::<Vec<_>>(), [1.5, 0.5]);
@@ -120,7 +120,7 @@ fn a_turned_comparison_shows_whether_it_decides() {
 proptest! {
     /// An expression that needs no watch loses nothing.
     #[test]
-    fn losses_are_the_same_with_comparisons(
+    fn losses_are_independent_of_recorded_comparisons(
         tree in crate::tests::roundtrip::expression(), x in prop_oneof![-2f64..2.0, Just(f64::NAN)],
     ) {
         let source = crate::print(&tree);

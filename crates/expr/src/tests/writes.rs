@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use super::node::{here, there};
+use super::node::{result_here, results_in_node};
 use crate::natives::ReceiverKind;
 use crate::needs::needs;
 
@@ -127,7 +127,7 @@ const SHOWN: &str = "; ctx.out = [ctx.k, data.eq_active.slice(), model.geom_cont
 
 /// Refusals that are intended: an element stores a single value, a known index must be in range, and a function cannot
 /// be converted to a string.
-const MEANT: [&str; 4] = ["assign-array", "index-out-of-range", "not-a-value", "whole-array"];
+const INTENDED_DIFFERENCES: [&str; 4] = ["assign-array", "index-out-of-range", "not-a-value", "whole-array"];
 
 /// The results of programs.
 #[derive(Default, Debug)]
@@ -141,13 +141,13 @@ fn compare(sources: Vec<String>) -> Count {
     let mut count = Count::default();
     let mut ran = Vec::new();
     for source in sources {
-        match here(&source) {
+        match result_here(&source) {
             Ok(ours) => ran.push((source, ours)),
             Err(rule) => *count.refused.entry(rule).or_default() += 1,
         }
     }
     let sources: Vec<String> = ran.iter().map(|(source, _)| source.clone()).collect();
-    let theirs = there(&sources);
+    let theirs = results_in_node(&sources);
     assert_eq!(theirs.len(), ran.len());
     let differ = ran.iter().zip(&theirs).filter(|((_, ours), theirs)| ours != *theirs);
     let wrong: Vec<String> = differ
@@ -176,7 +176,7 @@ fn every_value_into_every_kind_of_element() {
     }
     let count = compare(sources);
     println!("{} programs compared, refused by the compiler: {:?}", count.compared, count.refused);
-    assert!(count.refused.keys().all(|code| MEANT.contains(code)), "{count:?}");
+    assert!(count.refused.keys().all(|code| INTENDED_DIFFERENCES.contains(code)), "{count:?}");
     assert!(count.refused.values().sum::<usize>() * 3 < count.compared, "{count:?}");
 }
 
@@ -224,7 +224,7 @@ fn every_method_of_every_kind_of_list() {
 }
 
 /// Cases that once differed.
-const MENDED: [&str; 17] = [
+const FIXED_DIFFERENCES: [&str; 17] = [
     "let v = 3; ctx.k = -(data.eq_active[1] = v)",
     "let v = 3; ctx.k = [+(data.eq_active[1] += v), typeof (data.qpos[0] = v), +(ctx.x = v)]",
     "const f = v => ~(data.qpos[4] >>>= v); ctx.k = [f(3), -f(1)]",
@@ -245,12 +245,12 @@ const MENDED: [&str; 17] = [
 ];
 
 #[test]
-fn what_differed_once_is_as_in_node() {
+fn former_differences_equal_node() {
     if !needs("node") {
         return;
     }
-    let count = compare(MENDED.iter().map(|source| format!("{source}{SHOWN}")).collect());
-    assert_eq!(count.compared, MENDED.len(), "{count:?}");
+    let count = compare(FIXED_DIFFERENCES.iter().map(|source| format!("{source}{SHOWN}")).collect());
+    assert_eq!(count.compared, FIXED_DIFFERENCES.len(), "{count:?}");
 }
 
 #[test]
@@ -264,10 +264,10 @@ fn functions_have_no_text() {
         "ctx.f == 'a'",
     ] {
         let source = format!("ctx.f = () => 1; ctx.out = {source}");
-        assert_eq!(here(&source), Err("not-a-value"), "{source}");
+        assert_eq!(result_here(&source), Err("not-a-value"), "{source}");
     }
     for source in ["Number([ctx.f])", "ctx.f === 'a'", "typeof ctx.f", "[ctx.f].length"] {
         let source = format!("ctx.f = () => 1; ctx.out = {source}");
-        assert!(here(&source).is_ok(), "{source}");
+        assert!(result_here(&source).is_ok(), "{source}");
     }
 }

@@ -50,7 +50,7 @@ const ARGUMENTS: [&str; 30] = [
 ];
 
 #[test]
-fn no_message_about_a_call_shows_nothing() {
+fn messages_about_calls_contain_no_empty_text() {
     let written = natives::public_rows().filter(|row| row.calls());
     let mut calls: Vec<String> = Vec::new();
     for row in written {

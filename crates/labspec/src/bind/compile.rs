@@ -28,7 +28,7 @@ impl Programs {
         let names = ModelNames::new(model, Scope::Lab).with(functions);
         let mut globals = Globals::new();
         let mut texts: Vec<(ProgramId, Text)> = Vec::new();
-        let mut work = Work { names: &names, globals: &mut globals, texts: &mut texts, findings };
+        let mut work = LabCompiler { names: &names, globals: &mut globals, texts: &mut texts, findings };
 
         let setup = lab.setup.as_ref().and_then(|t| work.statements(t, None));
         let controls = lab.controls.iter().map(|c| (c.label.value.clone(), work.control(c))).collect();
@@ -77,14 +77,14 @@ impl Programs {
 }
 
 /// The compilation of one lab.
-struct Work<'a> {
+struct LabCompiler<'a> {
     names: &'a ModelNames<'a>,
     globals: &'a mut Globals,
     texts: &'a mut Vec<(ProgramId, Text)>,
     findings: &'a mut Vec<Finding>,
 }
 
-impl Work<'_> {
+impl LabCompiler<'_> {
     fn statements(&mut self, text: &Text, value: Option<Type>) -> Option<Bound> {
         let compiled = self.compiler(value).statements(&text.value);
         self.keep(text, compiled)

@@ -50,9 +50,9 @@ fn settle<'l>(
     lab: &'l Lab,
     model: &'l Model,
     programs: &'l Programs,
-) -> (Work<'l>, BTreeMap<u32, Measure>, Dimensions) {
+) -> (DimensionPass<'l>, BTreeMap<u32, Measure>, Dimensions) {
     let names = ModelNames::new(model, Scope::Lab).with(&programs.functions);
-    let work = Work { names, lab, programs };
+    let work = DimensionPass { names, lab, programs };
     let mut variables = BTreeMap::new();
     let computed = programs.bound().any(|b| b.program.effects().any_ctx);
     if computed {
@@ -82,13 +82,13 @@ pub fn given_by(control: &Control) -> Measure {
     unit.map_or(Measure::Unknown, Measure::Known)
 }
 
-struct Work<'l> {
+struct DimensionPass<'l> {
     names: ModelNames<'l>,
     lab: &'l Lab,
     programs: &'l Programs,
 }
 
-impl Work<'_> {
+impl DimensionPass<'_> {
     /// Infers every text once.
     fn round(&self, variables: &BTreeMap<u32, Measure>) -> Dimensions {
         let (lab, programs) = (self.lab, self.programs);

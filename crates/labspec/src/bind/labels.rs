@@ -4,12 +4,13 @@ use labspec_bind::units::parse;
 use labspec_expr::dimension::Dimension;
 
 /// Texts that may also be symbols or words when they are alone: an area, a mass, a temperature, a length.
-const DOUBTFUL: [&str; 14] = ["A", "C", "K", "L", "V", "T", "g", "h", "l", "1", "ft", "lb", "bar", "rev"];
+const AMBIGUOUS_UNITS: [&str; 14] =
+    ["A", "C", "K", "L", "V", "T", "g", "h", "l", "1", "ft", "lb", "bar", "rev"];
 
 /// The dimension of the unit of a control.
 pub(crate) fn unit(text: &str) -> Option<Dimension> {
     let text = text.trim();
-    if DOUBTFUL.contains(&text) { None } else { parse(text) }
+    if AMBIGUOUS_UNITS.contains(&text) { None } else { parse(text) }
 }
 
 /// The unit in brackets at the end of a label, as in `speed (mm/s)` and `E [J]`, with its dimension. `ball(s)` has none.
@@ -125,7 +126,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn units_stand_in_brackets_at_the_end() {
+    fn units_are_read_from_brackets_at_the_end() {
         for (label, unit) in [
             ("height (m)", Some("m")),
             ("E [J]", Some("J")),
@@ -170,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn only_what_is_certain_contradicts() {
+    fn only_certain_units_contradict() {
         let d = |text: &str, factor: f64| parse(text).unwrap().times(factor);
         for (found, unit, certain) in [
             (d("m", 1.0), "mm", true),

@@ -1,6 +1,6 @@
 //! Compiles a model file: the model, its findings, and the files of the findings.
 
-use super::parts::{Hash, ModelFile, Remembering};
+use super::parts::{Hash, ModelFile, RecordingFiles};
 use crate::finding::{Finding, InFile};
 use crate::lint::{ModelFolder, lesson_folder, root_of};
 use crate::models::FilesOf;
@@ -8,7 +8,7 @@ use crate::rules;
 use crate::source::{SourceFile, Sources, Text};
 use crate::spec::{Lab, ModelSource};
 use labspec_core::Model;
-use labspec_core::xml::{self, Examined, FileProblem, Files, Folder, NoFiles};
+use labspec_core::xml::{self, CheckedModel, FileProblem, Files, Folder, NoFiles};
 use labspec_finding::nearest;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -82,16 +82,16 @@ pub(crate) fn compile_to_play(lab: &Lab, folder: &ModelFolder) -> Compiled {
 }
 
 /// Compiles a model with its errors, without the warnings of [`xml::check_xml`].
-fn compile_errors(xml: &str, files: &dyn Files, path: Option<&str>) -> Examined {
+fn compile_errors(xml: &str, files: &dyn Files, path: Option<&str>) -> CheckedModel {
     match xml::compile_with(xml, files, path) {
-        Ok(model) => Examined { model: Some(model), findings: Vec::new() },
-        Err(findings) => Examined { model: None, findings },
+        Ok(model) => CheckedModel { model: Some(model), findings: Vec::new() },
+        Err(findings) => CheckedModel { model: None, findings },
     }
 }
 
 /// A model file: the text in the editor, or else the saved file.
 pub(super) fn read_file(path: &Path, sources: &Sources) -> Result<SourceFile, String> {
-    match sources.held(path) {
+    match sources.text_in_memory(path) {
         Some((_, text)) => Ok(SourceFile::new(path.display().to_string(), text)),
         None => SourceFile::read(path),
     }
@@ -116,7 +116,7 @@ impl<'s> FilesAround<'s> {
 impl Files for FilesAround<'_> {
     fn read(&self, path: &str, limit: usize) -> Result<Vec<u8>, FileProblem> {
         let Some(folder) = &self.folder else { return NoFiles.read(path, limit) };
-        match self.sources.held(&self.place.join(path)) {
+        match self.sources.text_in_memory(&self.place.join(path)) {
             Some((real, _)) if !real.starts_with(self.root) => Err(FileProblem::Outside),
             Some((_, text)) if text.len() > limit => Err(FileProblem::TooLarge),
             Some((_, text)) => Ok(text.into_bytes()),
@@ -131,9 +131,9 @@ pub(super) fn compile_source(
     files: &dyn Files,
     name: Option<&str>,
     hash: Option<Hash>,
-    compile: fn(&str, &dyn Files, Option<&str>) -> Examined,
+    compile: fn(&str, &dyn Files, Option<&str>) -> CheckedModel,
 ) -> Compiled {
-    let remembering = Remembering::new(files, hash);
+    let remembering = RecordingFiles::new(files, hash);
     let checked = compile(file.text(), &remembering, name);
     let mut sources = Vec::new();
     if !checked.findings.is_empty() {
@@ -205,14 +205,14 @@ fn joined(folder: &str, path: &str) -> String {
 }
 
 /// The help for widening the root.
-const WIDEN: &str =
+const WIDER_ROOT_HELP: &str =
     "put an empty file `labspec.toml` into the folder that holds both, or name that folder with --root";
 
 /// A finding of a model with a span in the file that contains it.
 pub fn from_mjcf(d: &Finding, span: Range<usize>) -> Finding {
     // The engine does not know the options of the program, so this help is added here.
     let outside = d.code == xml::rules::OUTSIDE.code;
-    let help = if outside { Some(WIDEN.to_string()) } else { d.help.clone() };
+    let help = if outside { Some(WIDER_ROOT_HELP.to_string()) } else { d.help.clone() };
     Finding { span, path: Arc::from(""), position: None, help, ..d.clone() }
 }
 

@@ -46,15 +46,15 @@ pub(super) fn hash_now(hash: Hash, model: &Path, files: &dyn Files, path: &str, 
 }
 
 /// Files that record the digests of what is read, if there is a hash function.
-pub(super) struct Remembering<'f> {
+pub(super) struct RecordingFiles<'f> {
     files: &'f dyn Files,
     hash: Option<Hash>,
     parts: RefCell<Vec<ModelFile>>,
 }
 
-impl<'f> Remembering<'f> {
-    pub(super) fn new(files: &'f dyn Files, hash: Option<Hash>) -> Remembering<'f> {
-        Remembering { files, hash, parts: RefCell::default() }
+impl<'f> RecordingFiles<'f> {
+    pub(super) fn new(files: &'f dyn Files, hash: Option<Hash>) -> RecordingFiles<'f> {
+        RecordingFiles { files, hash, parts: RefCell::default() }
     }
 
     /// Every requested file, once each.
@@ -66,7 +66,7 @@ impl<'f> Remembering<'f> {
     }
 }
 
-impl Files for Remembering<'_> {
+impl Files for RecordingFiles<'_> {
     fn read(&self, path: &str, limit: usize) -> Result<Vec<u8>, FileProblem> {
         let bytes = self.files.read(path, limit);
         if let Some(hash) = self.hash {

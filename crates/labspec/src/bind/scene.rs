@@ -26,7 +26,7 @@ pub struct Models {
     folder: ModelFolder,
     compiled: Mutex<BTreeMap<String, Arc<OnceLock<Loaded>>>>,
     /// The findings about each model, until they are taken.
-    reported: Mutex<BTreeMap<String, Said>>,
+    reported: Mutex<BTreeMap<String, ModelDiagnostics>>,
     /// Functions of the embedding program, which labs may call.
     functions: Functions,
     /// Computes digests of the files; `None` without a cache of results.
@@ -40,7 +40,7 @@ pub struct Models {
 }
 
 /// The findings about a model, and the files to which they refer.
-type Said = (Vec<Finding>, Vec<SourceFile>);
+type ModelDiagnostics = (Vec<Finding>, Vec<SourceFile>);
 
 /// A loaded model of the folder.
 #[derive(Debug)]
@@ -52,7 +52,7 @@ struct Loaded {
 }
 
 /// Locks a mutex, even if a thread panicked while it held the lock.
-fn open<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+fn lock_cache<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
@@ -95,7 +95,7 @@ impl Models {
     /// Takes the findings in model files since the last call, in the order of the names of the models.
     pub fn take_findings(&mut self) -> Vec<Finding> {
         let mut findings = Vec::new();
-        for (of_model, files) in std::mem::take(&mut *open(&self.reported)).into_values() {
+        for (of_model, files) in std::mem::take(&mut *lock_cache(&self.reported)).into_values() {
             findings.extend(of_model);
             self.files.extend(files);
         }
@@ -198,21 +198,21 @@ impl Models {
     pub fn read(&self) -> Vec<PathBuf> {
         let Some(folder) = self.folder.path_of_folder() else { return Vec::new() };
         let mut paths = vec![folder.to_path_buf()];
-        let compiled = open(&self.compiled);
+        let compiled = lock_cache(&self.compiled);
         for (name, loaded) in compiled.iter() {
             paths.extend(self.folder.path(name));
             paths.extend(loaded.get().into_iter().flat_map(|l| l.parts.iter().map(|p| folder.join(&p.path))));
         }
-        paths.extend(open(&self.marks).keys().map(|(part, ..)| folder.join(part)));
+        paths.extend(lock_cache(&self.marks).keys().map(|(part, ..)| folder.join(part)));
         paths
     }
 
     fn loaded<T>(&self, name: &str, what: impl Fn(&Loaded) -> T) -> Option<T> {
-        let cached = open(&self.compiled).get(name).cloned();
+        let cached = lock_cache(&self.compiled).get(name).cloned();
         let cell = match cached {
             Some(cell) => cell,
             None if self.folder.has(name) => {
-                open(&self.compiled).entry(name.to_string()).or_default().clone()
+                lock_cache(&self.compiled).entry(name.to_string()).or_default().clone()
             }
             None => return None,
         };
@@ -230,7 +230,7 @@ impl Models {
         let Compiled { model, findings, files, parts } =
             compile_source(&file, &FilesOf(models), Some(&format!("{name}.xml")), None, xml::check_xml);
         let has_diagnostics = !findings.is_empty();
-        open(&self.reported).insert(name.to_string(), (findings, files));
+        lock_cache(&self.reported).insert(name.to_string(), (findings, files));
         Loaded { model: model.map(Arc::new), has_diagnostics, parts }
     }
 
@@ -256,7 +256,7 @@ impl Models {
             }
         };
         let has_diagnostics = !findings.is_empty();
-        open(&self.reported).insert(name.to_string(), (findings, files));
+        lock_cache(&self.reported).insert(name.to_string(), (findings, files));
         Loaded { model, has_diagnostics, parts: made_of }
     }
 
@@ -271,10 +271,10 @@ impl Models {
                 let named = if part.path.is_empty() { format!("{name}.xml") } else { part.path.clone() };
                 // The text of a model and the bytes of the same file, when it is attached, have different digests.
                 let at = (named, part.path.is_empty(), part.limit);
-                let cached = open(&self.marks).get(&at).cloned();
+                let cached = lock_cache(&self.marks).get(&at).cloned();
                 let now = cached.unwrap_or_else(|| {
                     let now = parts::hash_now(hash, &path, files, &part.path, part.limit);
-                    open(&self.marks).insert(at, now.clone());
+                    lock_cache(&self.marks).insert(at, now.clone());
                     now
                 });
                 now == part.hash
@@ -302,7 +302,7 @@ mod tests {
     /// A mesh in a sibling folder is opened when the root contains both folders. A file outside of it is an error that
     /// states how to widen the root.
     #[test]
-    fn a_model_reads_what_lies_below_the_root() {
+    fn a_model_reads_files_below_the_root() {
         let top = tempfile::tempdir().unwrap();
         for folder in ["robot/models", "robot/meshes"] {
             std::fs::create_dir_all(top.path().join(folder)).unwrap();
@@ -348,7 +348,7 @@ mod tests {
 
     /// Completions for `trail` list the sites of the lab's model, from the folder or from the lab itself.
     #[test]
-    fn completions_know_the_sites_of_a_model() {
+    fn completions_list_the_sites_of_a_model() {
         let top = tempfile::tempdir().unwrap();
         let model = "<mujoco><worldbody><site name='tip'/><site/><body name='b'><geom size='1'/><site name='top'/></body></worldbody></mujoco>";
         std::fs::write(top.path().join("rod.xml"), model).unwrap();

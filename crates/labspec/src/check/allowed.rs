@@ -9,7 +9,7 @@ use std::ops::Range;
 
 /// A suppressed finding with its reason.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Allowed {
+pub struct SuppressedFinding {
     /// The finding.
     pub finding: Finding,
     /// The author's reason.
@@ -21,7 +21,7 @@ pub(super) fn suppress_allowed(
     lesson: &Lesson,
     findings: &mut Vec<Finding>,
     level: CheckLevel,
-) -> Vec<Allowed> {
+) -> Vec<SuppressedFinding> {
     let allowances = lesson.allowances();
     if allowances.is_empty() {
         return Vec::new();
@@ -39,7 +39,7 @@ pub(super) fn suppress_allowed(
         if f.is_error() {
             errors.push(code.clone());
         } else {
-            suppressed.push(Allowed { finding: f.clone(), why: allowance.why.clone() });
+            suppressed.push(SuppressedFinding { finding: f.clone(), why: allowance.why.clone() });
         }
         used.push(code);
         f.is_error()
@@ -51,14 +51,14 @@ pub(super) fn suppress_allowed(
 }
 
 /// A rule code in a suppression, with its span.
-type AllowedCode = (String, Range<usize>);
+type SuppressedCode = (String, Range<usize>);
 
 /// The findings about the suppressions: no reason, an unknown rule, nothing to suppress. `used` contains the codes that
 /// suppress a finding.
 fn check_allowances(
     lesson: &Lesson,
     allowances: &[Allowance],
-    used: &[AllowedCode],
+    used: &[SuppressedCode],
     level: CheckLevel,
 ) -> Vec<Finding> {
     let mut wrong = Vec::new();

@@ -223,7 +223,7 @@ impl ClaimChecker<'_> {
         else {
             let reported = findings.len() > before;
             let reason = if reported { "a run cannot be made" } else { "its lab cannot run" };
-            return verify::unmade(verify, question, reason);
+            return verify::not_executable(verify, question, reason);
         };
         for (run, scenes) in verify.runs.iter().zip(&runs) {
             if let Some(BoundLab { lab, model, programs, .. }) = scenes.first() {
@@ -232,15 +232,15 @@ impl ClaimChecker<'_> {
         }
         match BoundVerify::new(verify, base.as_ref(), &runs, &self.stage, findings) {
             Some(bound) => {
-                self.stage.take_left_behind();
+                self.stage.take_uncoupled_change();
                 let mut judgement = verify::check_verify(&bound, verify, question, rendered, findings);
                 // If no run changed a parameter without its coupled parameters, the corrected runs are the same.
-                if self.stage.take_left_behind() {
+                if self.stage.take_uncoupled_change() {
                     self.partners.settle(verify, lab, question, rendered, &mut judgement, findings);
                 }
                 judgement
             }
-            None => verify::unmade(verify, question, "its runs or measures have errors"),
+            None => verify::not_executable(verify, question, "its runs or measures have errors"),
         }
     }
 }

@@ -12,7 +12,7 @@ const RUNS: usize = 24;
 
 /// The runs of one `verify` object.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Drawn {
+pub struct VerifyCurves {
     /// The bytes of the object.
     pub span: Range<usize>,
     /// The curves of each run, for at most `RUNS` runs.
@@ -20,14 +20,14 @@ pub struct Drawn {
 }
 
 /// Repeats the runs of every claim and records the traces of its lab.
-pub fn curves(lesson: &Lesson, models: &Models) -> Vec<Drawn> {
+pub fn curves(lesson: &Lesson, models: &Models) -> Vec<VerifyCurves> {
     let ready = super::of_claims(lesson, models);
     let stage = Stage::new(models);
     let owners = claims::owners(lesson).into_iter();
     let drawn = owners.filter_map(|(_, owner)| {
         let (verify, lab, _) = owner.claim(lesson)?;
         let runs = record_curves(lesson, &ready, verify, lab, &stage, RUNS);
-        (!runs.is_empty()).then(|| Drawn { span: verify.span.clone(), runs })
+        (!runs.is_empty()).then(|| VerifyCurves { span: verify.span.clone(), runs })
     });
     drawn.collect()
 }

@@ -5,7 +5,7 @@ use crate::rules;
 use crate::spec::{Expect, Lab};
 
 /// Rules of findings about a run that breaks.
-const BROKE: [&str; 8] = [
+const BREAK_RULES: [&str; 8] = [
     rules::SIMULATION_DIVERGES.code,
     rules::ENERGY_GROWS.code,
     rules::DAMPER_PUSHES.code,
@@ -16,7 +16,7 @@ const BROKE: [&str; 8] = [
     rules::RUNS_AWAY.code,
 ];
 /// Rules of findings that predict a break, or report a fault without a break. They are redundant if a run breaks.
-const LIKELY: [&str; 5] = [
+const PREDICTION_RULES: [&str; 5] = [
     rules::STIFF_FOR_TIMESTEP.code,
     rules::NEAR_ITS_LIMIT.code,
     rules::PRESSED_DEEP.code,
@@ -29,9 +29,11 @@ const LIKELY: [&str; 5] = [
 pub(super) fn settle(lab: &Lab, runs: usize, findings: &mut Vec<Finding>, first: usize) {
     let Some(Expect::Breaks(place)) = &lab.expect else { return };
     let of_lab = findings.split_off(first.min(findings.len()));
-    let broke = of_lab.iter().any(|f| BROKE.contains(&f.code));
+    let broke = of_lab.iter().any(|f| BREAK_RULES.contains(&f.code));
     let impossible = of_lab.iter().any(|f| f.code == rules::RUN_IMPOSSIBLE.code);
-    findings.extend(of_lab.into_iter().filter(|f| !BROKE.contains(&f.code) && !LIKELY.contains(&f.code)));
+    findings.extend(
+        of_lab.into_iter().filter(|f| !BREAK_RULES.contains(&f.code) && !PREDICTION_RULES.contains(&f.code)),
+    );
     // Without runs there is no evidence, and another finding reports that.
     if broke || impossible || runs == 0 {
         return;

@@ -7,7 +7,7 @@ use crate::bind::scene::Models;
 use crate::finding::Finding;
 use crate::json::to_value;
 use crate::spec::Lesson;
-use crate::verify::judge::{self, Judged, Left, RecordedRun, Reference, RunTask};
+use crate::verify::judge::{self, Judged, RecordedRun, Reference, RunTask, Unjudged};
 use crate::verify::{RenderedText, Stage};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -43,7 +43,7 @@ pub struct CrossCheck {
     /// The result for every claim, by the name of its owner.
     pub claims: Vec<(String, Judged)>,
     /// Claims that the reference engine does not check, of all owners.
-    pub left: Left,
+    pub left: Unjudged,
     /// Number of runs that were recorded for another text.
     pub stale: usize,
     /// Number of runs without a recording.
@@ -66,7 +66,7 @@ pub fn hear(
         let Some((verify, lab, question)) = owner.claim(lesson) else { continue };
         let narrow = owner.block().map(|block| rendered.within(block, verify));
         let rendered = narrow.as_ref().unwrap_or(&rendered);
-        cross_check.left = cross_check.left.and(Left::count(verify));
+        cross_check.left = cross_check.left.and(Unjudged::count(verify));
         let Some(bound) = bind_claim(lesson, &ready, verify, lab, &stage) else { continue };
         let requests = judge::tasks(&bound, verify).into_iter().map(|one| {
             let text = one.task.as_ref().map_or(String::new(), |task| to_value(task).to_string());

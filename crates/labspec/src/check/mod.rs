@@ -20,15 +20,15 @@ mod snapshot;
 mod stored;
 mod units;
 
-pub use allowed::Allowed;
+pub use allowed::SuppressedFinding;
 pub use claim_id::is_about;
 pub use claims::Claim;
-pub use curves::{Drawn, curves};
+pub use curves::{VerifyCurves, curves};
 pub use entries::{evidence, ledger};
 pub use judge::{CrossCheck, Recording, Request, file_name, hear};
-pub use lab_runs::Tried;
+pub use lab_runs::Coverage;
 pub use reproduce::{Basis, ClaimBasis, LabBasis, RunSettings, basis};
-pub use snapshot::{Divergence, Renewal, RenewedLab, SnapshotResult, renew};
+pub use snapshot::{Divergence, SnapshotResult, SnapshotUpdate, UpdatedLab, update_snapshot};
 pub use units::labels as labels_of;
 
 pub(crate) use prepared_lab::PreparedLab;
@@ -55,7 +55,7 @@ pub struct RanLab {
     /// `false` when it could not be run.
     pub ran: bool,
     /// The coverage of its runs; `None` when it could not be run.
-    pub tried: Option<Tried>,
+    pub tried: Option<Coverage>,
     /// Number of errors in its code; texts with errors are not executed.
     pub mistakes: usize,
     /// Whether the lesson declares that it breaks.
@@ -76,7 +76,7 @@ pub struct Checked {
     /// For each lab with a snapshot, whether it reproduces the stored values.
     pub snapshots: Vec<SnapshotResult>,
     /// Findings that the author has suppressed with a reason.
-    pub allowed: Vec<Allowed>,
+    pub allowed: Vec<SuppressedFinding>,
     /// The level of the check.
     pub level: CheckLevel,
 }
@@ -178,13 +178,13 @@ fn beside<'l>(lesson: &'l Lesson, models: &Models) -> impl Iterator<Item = Prepa
 }
 
 /// An empty lab.
-static NOTHING: LazyLock<Lab> =
+static EMPTY_LAB: LazyLock<Lab> =
     LazyLock::new(|| Lab::of_model(Text { value: String::new(), map: SourceMap::point(0) }));
 
 fn empty() -> Option<PreparedLab<'static>> {
     let model = Arc::new(Model::from_xml("<mujoco/>").ok()?);
-    let programs = Programs::compile(&NOTHING, &model, &mut Vec::new());
-    Some(PreparedLab { lab: &NOTHING, model, programs, mistakes: 0 })
+    let programs = Programs::compile(&EMPTY_LAB, &model, &mut Vec::new());
+    Some(PreparedLab { lab: &EMPTY_LAB, model, programs, mistakes: 0 })
 }
 
 /// Removes `idle-control` findings of controls for which a finding states that a reset undoes their effect.

@@ -127,13 +127,14 @@ fn settings(model: &Model, hash: Hash) -> RunSettings {
 }
 
 /// Options that have a separate key, or affect no number.
-const TOLD: [&str; 7] = ["timestep", "integrator", "solver", "cone", "iterations", "tolerance", "jacobian"];
+const SEPARATE_OPTIONS: [&str; 7] =
+    ["timestep", "integrator", "solver", "cone", "iterations", "tolerance", "jacobian"];
 
 fn options(model: &Model) -> BTreeMap<&'static str, Vec<f64>> {
     let Some(plain) = Model::from_xml("<mujoco/>").ok() else { return BTreeMap::new() };
     let fields = || reflect::fields().filter(|f| f.info().object == Object::Option);
     let [written, plain] = [model, &plain].map(|m| numbers(m, fields()));
-    let is_reported = |name: &&'static str| TOLD.contains(name);
+    let is_reported = |name: &&'static str| SEPARATE_OPTIONS.contains(name);
     written
         .into_iter()
         .zip(plain)

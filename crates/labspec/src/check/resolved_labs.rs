@@ -56,7 +56,7 @@ fn named_scene<'r>(
     let scene = lesson.named(named).and_then(|lab| scene_of(ready, lab));
     let (VerifyLab::Elsewhere(text, ..), None) = (named, &scene) else { return scene };
     let other = lesson.other(&text.span()).map(|other| other.lab.as_ref().err().map(String::as_str));
-    findings.push(rules::unknown_lab::lab_elsewhere(text, other));
+    findings.push(rules::unknown_lab::lab_of_other_lesson(text, other));
     None
 }
 

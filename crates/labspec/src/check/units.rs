@@ -18,7 +18,7 @@ pub(super) fn check_units(lab: &Lab, model: &Model, programs: &Programs, finding
         let Measure::Known(dimension) = measured.value else { continue };
         findings.extend(label_unit::wrong_label(&labels, model, bound, &dimension));
     }
-    findings.extend(lab.plots.iter().flat_map(|plot| label_unit::at_odds(plot, model)));
+    findings.extend(lab.plots.iter().flat_map(|plot| label_unit::contradicting_units(plot, model)));
     let names = ModelNames::new(model, Scope::Lab);
     let controls = lab.controls.iter().zip(&programs.controls).zip(&found.controls);
     for ((control, (_, program)), measured) in controls {

@@ -1,7 +1,7 @@
 //! Reads the gaps between values: spaces, and characters that authors write as spaces or comments.
 
 use super::parser::Parser;
-use super::problem::{Mistake, Problem, RepeatedMistake};
+use super::problem::{Mistake, Problem, RepeatedError};
 
 impl Parser<'_> {
     /// Advances to the next significant character. Comments and invisible characters are reported.
@@ -22,7 +22,7 @@ impl Parser<'_> {
                         self.bump();
                     }
                     let range = start..self.at;
-                    self.change(RepeatedMistake::Invisible, vec![(range, " ".to_string())]);
+                    self.change(RepeatedError::Invisible, vec![(range, " ".to_string())]);
                 }
                 _ => return,
             }
@@ -37,7 +37,7 @@ impl Parser<'_> {
     fn comment(&mut self, end: usize) {
         let range = self.at..end;
         self.at = end;
-        self.say(Problem::replaced(Mistake::Comment, range, ""));
+        self.report(Problem::replaced(Mistake::Comment, range, ""));
     }
 
     /// The end of a comment between `/*` and `*/`; the end of the line if it is never closed.

@@ -7,30 +7,30 @@ use proptest::prelude::*;
 use std::ops::Range;
 
 /// Spans of all values and keys, in order.
-fn places(node: &Node, all: &mut Vec<Range<usize>>) {
+fn list_spans(node: &Node, all: &mut Vec<Range<usize>>) {
     all.push(node.span.clone());
     if let Json::Array(items) = &node.json {
-        items.iter().for_each(|n| places(n, all));
+        items.iter().for_each(|n| list_spans(n, all));
     }
     for member in node.members() {
         let key = member.key.span();
         all.push(key.start - 1..key.end + 1);
-        places(&member.value, all);
+        list_spans(&member.value, all);
     }
 }
 
 /// The spans of all values and keys from `jsonc-parser`, in order.
-fn their_places(value: &jsonc_parser::ast::Value<'_>, all: &mut Vec<Range<usize>>) {
+fn reference_spans(value: &jsonc_parser::ast::Value<'_>, all: &mut Vec<Range<usize>>) {
     use jsonc_parser::ast::{ObjectPropName, Value};
     use jsonc_parser::common::Ranged;
     all.push(value.range().start..value.range().end);
     match value {
-        Value::Array(array) => array.elements.iter().for_each(|v| their_places(v, all)),
+        Value::Array(array) => array.elements.iter().for_each(|v| reference_spans(v, all)),
         Value::Object(object) => {
             for property in &object.properties {
                 let ObjectPropName::String(name) = &property.name else { panic!() };
                 all.push(name.range.start..name.range.end);
-                their_places(&property.value, all);
+                reference_spans(&property.value, all);
             }
         }
         _ => {}
@@ -149,13 +149,13 @@ proptest! {
         prop_assert_eq!(to_serde(&node), floats(serde_json::from_str(&text).unwrap()));
         let theirs = jsonc_parser::parse_to_ast(&text, &Default::default(), &Default::default()).unwrap().value.unwrap();
         let (mut a, mut b) = (Vec::new(), Vec::new());
-        places(&node, &mut a);
-        their_places(&theirs, &mut b);
+        list_spans(&node, &mut a);
+        reference_spans(&theirs, &mut b);
         prop_assert_eq!(a, b);
     }
 
     #[test]
-    fn any_text_is_survived(text in any::<String>()) {
+    fn any_text_causes_no_panic(text in any::<String>()) {
         let ours = run(&text);
         prop_assert_eq!(ours.broken, serde_json::from_str::<serde_json::Value>(&text).is_err());
         prop_assert_eq!(ours.broken, !ours.problems.is_empty());

@@ -25,28 +25,28 @@ impl Parser<'_> {
         self.at += length;
         let range = start..self.at;
         match word {
-            Some(Word::Means(json, right)) => {
+            Some(ForeignWord::Means(json, right)) => {
                 let mistake = Mistake::Word { word: token.to_string(), right };
-                self.say(Problem::replaced(mistake, range, right));
+                self.report(Problem::replaced(mistake, range, right));
                 self.node(json, start)
             }
-            Some(Word::NotFinite) => {
-                self.say(Problem::new(Mistake::NotFinite(token.to_string()), range));
+            Some(ForeignWord::NotFinite) => {
+                self.report(Problem::new(Mistake::NotFinite(token.to_string()), range));
                 self.node(Json::Broken, start)
             }
             None if is_number(token) => {
-                self.say(Problem::new(Mistake::TooLarge, range));
+                self.report(Problem::new(Mistake::TooLarge, range));
                 self.node(Json::Broken, start)
             }
             None => {
                 if let Some(right) = repaired(token)
                     && let Ok(value) = right.parse::<f64>()
                 {
-                    self.say(problem::number_form(range, token, Some(right)));
+                    self.report(problem::number_form(range, token, Some(right)));
                     return self.node(Json::Number(value), start);
                 }
                 if token.starts_with(|c: char| c.is_ascii_digit()) {
-                    self.say(problem::number_form(range, token, None));
+                    self.report(problem::number_form(range, token, None));
                     return self.node(Json::Broken, start);
                 }
                 self.at = start;
@@ -62,11 +62,11 @@ impl Parser<'_> {
         self.at = range.end;
         let text = self.text.get(range.clone()).unwrap_or("");
         if text.chars().any(char::is_alphabetic) && !text.starts_with(|c: char| c.is_ascii_digit()) {
-            self.say(problem::bare(Mistake::BareText, range.clone(), text));
+            self.report(problem::bare(Mistake::BareText, range.clone(), text));
             let text = self.verbatim(range);
             return self.node(Json::Text(text), start);
         }
-        self.say(Problem::new(Mistake::NotJson(text.to_string()), range));
+        self.report(Problem::new(Mistake::NotJson(text.to_string()), range));
         self.node(Json::Broken, start)
     }
 
@@ -208,18 +208,18 @@ pub(crate) fn repaired(token: &str) -> Option<String> {
 }
 
 /// A word that denotes a value in another language.
-enum Word {
+enum ForeignWord {
     Means(Json, &'static str),
     NotFinite,
 }
 
-fn word(token: &str) -> Option<Word> {
+fn word(token: &str) -> Option<ForeignWord> {
     Some(match token.to_ascii_lowercase().as_str() {
-        "true" => Word::Means(Json::Bool(true), "true"),
-        "false" => Word::Means(Json::Bool(false), "false"),
-        "null" | "none" | "nil" | "undefined" => Word::Means(Json::Null, "null"),
+        "true" => ForeignWord::Means(Json::Bool(true), "true"),
+        "false" => ForeignWord::Means(Json::Bool(false), "false"),
+        "null" | "none" | "nil" | "undefined" => ForeignWord::Means(Json::Null, "null"),
         "nan" | "infinity" | "inf" | "-infinity" | "-inf" | "+infinity" | "+inf" | "-nan" | "+nan" => {
-            Word::NotFinite
+            ForeignWord::NotFinite
         }
         _ => return None,
     })

@@ -33,7 +33,7 @@ pub const MAX_DEPTH: usize = 64;
 /// Maximum number of values in one JSON text. Labs have a few hundred.
 pub const MAX_VALUES: usize = 20_000;
 /// Maximum number of reported errors of one JSON text.
-pub const MAX_MISTAKES: usize = 200;
+pub const MAX_ERRORS: usize = 200;
 
 /// Serializes a value of one of our types.
 pub fn to_value(of: &impl serde::Serialize) -> serde_json::Value {

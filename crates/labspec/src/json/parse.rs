@@ -6,9 +6,9 @@
 //! end, and both are cached).
 
 use super::node::{Json, Member, Node};
-use super::parser::{Parser, Stop};
+use super::parser::{LimitReached, Parser};
 use super::problem::{self, Mistake, Problem};
-use super::{MAX_DEPTH, MAX_MISTAKES, MAX_VALUES};
+use super::{MAX_DEPTH, MAX_ERRORS, MAX_VALUES};
 use crate::source::{SourceMap, Text};
 use labspec_finding::order;
 use std::collections::HashMap;
@@ -37,7 +37,7 @@ pub fn parse(text: &str, below: &SourceMap) -> Parsed {
     }
     problems.extend(reported.into_iter().map(|p| p.below(below)));
     order::sort_by_key(&mut problems, |p| p.span.start);
-    problems.truncate(MAX_MISTAKES);
+    problems.truncate(MAX_ERRORS);
     Parsed { node, problems, broken }
 }
 
@@ -49,7 +49,7 @@ const MAX_TRIED: usize = 128 << 10;
 /// no new ones.
 fn try_repairs(text: &str, problems: &mut [Problem]) {
     // Errors that are reported once count once: two brackets may be missing at one place.
-    fn to_mistakes(list: &[Problem]) -> Vec<Mistake> {
+    fn to_errors(list: &[Problem]) -> Vec<Mistake> {
         let mut all: Vec<&Problem> = Vec::new();
         for problem in list {
             if !all.iter().any(|p| p.span == problem.span && p.mistake.is(&problem.mistake)) {
@@ -59,7 +59,7 @@ fn try_repairs(text: &str, problems: &mut [Problem]) {
         all.into_iter().map(|p| p.mistake.clone()).collect()
     }
     let count = |list: &[Mistake], mistake: &Mistake| list.iter().filter(|m| m.is(mistake)).count();
-    let before = to_mistakes(problems);
+    let before = to_errors(problems);
     for (i, problem) in problems.iter_mut().enumerate() {
         let Some((span, right)) = &problem.repair else { continue };
         let mut repaired = text.to_string();
@@ -69,7 +69,7 @@ fn try_repairs(text: &str, problems: &mut [Problem]) {
             let below = SourceMap::verbatim(0..repaired.len());
             let mut parser = Parser::new(&repaired, &below);
             let _ = parser.root();
-            let left = to_mistakes(&parser.finish());
+            let left = to_errors(&parser.finish());
             // The error itself must be gone, not only one that it caused.
             let gone = count(&left, &problem.mistake) < count(&before, &problem.mistake);
             if gone && left.len() < before.len() && left.iter().all(|m| count(&before, m) > 0) {
@@ -81,18 +81,18 @@ fn try_repairs(text: &str, problems: &mut [Problem]) {
 }
 
 impl Parser<'_> {
-    fn root(&mut self) -> Result<Option<Node>, Stop> {
+    fn root(&mut self) -> Result<Option<Node>, LimitReached> {
         self.gap();
         if self.rest().is_empty() {
             if !self.broken {
-                self.say(Problem::new(Mistake::Nothing, 0..0));
+                self.report(Problem::new(Mistake::Nothing, 0..0));
             }
             return Ok(None);
         }
         let node = if self.key_ahead() {
             let start = self.at;
-            self.say(Problem::replaced(Mistake::OpeningMissing, start..start, "{"));
-            self.mend('{', 1);
+            self.report(Problem::replaced(Mistake::OpeningMissing, start..start, "{"));
+            self.adjust_bracket_count('{', 1);
             Some(self.members(start)?)
         } else {
             self.value()?
@@ -100,7 +100,7 @@ impl Parser<'_> {
         self.gap();
         if !self.rest().trim().is_empty() {
             let rest = self.at..self.at + self.rest().trim_end().len();
-            self.say(problem::behind(rest, self.text));
+            self.report(problem::behind(rest, self.text));
         }
         Ok(node)
     }
@@ -121,13 +121,13 @@ impl Parser<'_> {
     }
 
     /// Reads a value; `None` where none begins: at a comma, a colon, a closing bracket, the end.
-    pub(super) fn value(&mut self) -> Result<Option<Node>, Stop> {
+    pub(super) fn value(&mut self) -> Result<Option<Node>, LimitReached> {
         self.gap();
         let Some(c) = self.peek() else { return Ok(None) };
         self.values += 1;
         if self.values > MAX_VALUES {
-            self.say(Problem::new(Mistake::TooMany, self.at..self.at + 1));
-            return Err(Stop);
+            self.report(Problem::new(Mistake::TooMany, self.at..self.at + 1));
+            return Err(LimitReached);
         }
         Ok(match c {
             '{' => {
@@ -151,17 +151,17 @@ impl Parser<'_> {
         Node { json, span: self.below.span(start..self.at) }
     }
 
-    fn enter(&mut self, bracket: char, start: usize) -> Result<(), Stop> {
+    fn enter(&mut self, bracket: char, start: usize) -> Result<(), LimitReached> {
         self.open.push((bracket, start));
         if self.open.len() > MAX_DEPTH {
-            self.say(Problem::new(Mistake::TooDeep, start..start + 1));
-            return Err(Stop);
+            self.report(Problem::new(Mistake::TooDeep, start..start + 1));
+            return Err(LimitReached);
         }
         Ok(())
     }
 
     /// Reads the members of an object whose bracket is at `start`.
-    fn members(&mut self, start: usize) -> Result<Node, Stop> {
+    fn members(&mut self, start: usize) -> Result<Node, LimitReached> {
         self.enter('{', start)?;
         let mut members: Vec<Member> = Vec::new();
         let mut seen: HashMap<String, Range<usize>> = HashMap::new();
@@ -191,7 +191,7 @@ impl Parser<'_> {
                     continue;
                 }
                 Some('"') if self.is_lone_quote() => {
-                    self.say(Problem::replaced(Mistake::StrayQuote, self.at..self.at + 1, ""));
+                    self.report(Problem::replaced(Mistake::StrayQuote, self.at..self.at + 1, ""));
                     self.bump();
                     continue;
                 }
@@ -211,22 +211,22 @@ impl Parser<'_> {
     }
 
     fn twice(&mut self, key: &Text, earlier: Range<usize>) {
-        if self.placed.len() < MAX_MISTAKES {
+        if self.placed.len() < MAX_ERRORS {
             let mistake = Mistake::Twice(key.value.clone());
             self.placed.push(Problem::new(mistake, key.span()).related(earlier));
         }
     }
 
     /// Reads a key with its value; `None` for other text, which is reported.
-    fn member(&mut self) -> Result<Option<Member>, Stop> {
+    fn member(&mut self) -> Result<Option<Member>, LimitReached> {
         let start = self.at;
         let Some(key) = self.key() else {
             if matches!(self.peek(), Some('{' | '[')) {
-                self.say(Problem::new(Mistake::KeyMissing, start..start + 1));
+                self.report(Problem::new(Mistake::KeyMissing, start..start + 1));
                 self.value()?;
             } else {
                 let range = self.stray();
-                self.say_stray(range);
+                self.report_stray(range);
             }
             return Ok(None);
         };
@@ -236,7 +236,7 @@ impl Parser<'_> {
         let value = match self.value()? {
             Some(value) => value,
             None => {
-                self.say(Problem::new(Mistake::ValueMissing { colon }, start..end));
+                self.report(Problem::new(Mistake::ValueMissing { colon }, start..end));
                 Node { json: Json::Broken, span: self.below.span(start..end) }
             }
         };
@@ -257,7 +257,7 @@ impl Parser<'_> {
         let range = self.at..self.at + length;
         self.at = range.end;
         let word = self.text.get(range.clone()).unwrap_or("");
-        self.say(problem::bare(Mistake::BareKey, range.clone(), word));
+        self.report(problem::bare(Mistake::BareKey, range.clone(), word));
         Some(self.verbatim(range))
     }
 
@@ -269,10 +269,10 @@ impl Parser<'_> {
         } else if self.starts("=") {
             let length = if self.starts("=>") || self.starts("==") { 2 } else { 1 };
             self.at += length;
-            self.say(Problem::replaced(Mistake::Equals, start..self.at, ":"));
+            self.report(Problem::replaced(Mistake::Equals, start..self.at, ":"));
         } else {
             if !matches!(self.peek(), None | Some(',' | ';' | '}' | ']')) {
-                self.say(Problem::replaced(Mistake::ColonMissing, end..end, ":"));
+                self.report(Problem::replaced(Mistake::ColonMissing, end..end, ":"));
             }
             return false;
         }
@@ -283,12 +283,12 @@ impl Parser<'_> {
                 return true;
             }
             self.bump();
-            self.say(Problem::replaced(Mistake::SecondColon, again..self.at, ""));
+            self.report(Problem::replaced(Mistake::SecondColon, again..self.at, ""));
         }
     }
 
     /// Reads a list.
-    fn items(&mut self) -> Result<Node, Stop> {
+    fn items(&mut self) -> Result<Node, LimitReached> {
         let start = self.at;
         self.bump();
         self.enter('[', start)?;
@@ -318,8 +318,8 @@ impl Parser<'_> {
                 Some(_) if !first && self.key_ahead() && self.open.iter().any(|(c, _)| *c == '{') => {
                     let key = self.at;
                     self.at = end;
-                    self.mend(']', 1);
-                    self.say(Problem::replaced(Mistake::ListGoesOn, end..end, "]").related(key..key + 1));
+                    self.adjust_bracket_count(']', 1);
+                    self.report(Problem::replaced(Mistake::ListGoesOn, end..end, "]").related(key..key + 1));
                     break;
                 }
                 Some(_) => {}
@@ -331,7 +331,7 @@ impl Parser<'_> {
                 Some(item) => items.push(item),
                 None => {
                     let range = self.stray();
-                    self.say_stray(range);
+                    self.report_stray(range);
                 }
             }
             self.separator(false);

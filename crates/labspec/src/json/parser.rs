@@ -1,13 +1,13 @@
 //! The state of the parser: the text, the current position, the open brackets, and the reported errors.
 
-use super::MAX_MISTAKES;
-use super::problem::{self, Mistake, Problem, RepeatedMistake, TextChange};
+use super::MAX_ERRORS;
+use super::problem::{self, Mistake, Problem, RepeatedError, TextChange};
 use crate::source::SourceMap;
 use labspec_finding::order;
 use std::ops::Range;
 
 /// Parsing ends because a limit is reached, which is reported.
-pub(super) struct Stop;
+pub(super) struct LimitReached;
 
 /// The text, the current position, and the problems so far.
 pub(super) struct Parser<'a> {
@@ -100,21 +100,21 @@ impl<'a> Parser<'a> {
     // Problems.
 
     /// Reports an error. Its spans are bytes of the text.
-    pub(super) fn say(&mut self, problem: Problem) {
+    pub(super) fn report(&mut self, problem: Problem) {
         self.broken = true;
-        if self.problems.len() < MAX_MISTAKES {
+        if self.problems.len() < MAX_ERRORS {
             self.problems.push(problem);
         }
     }
 
     /// Reports text that has no place in the grammar.
-    pub(super) fn say_stray(&mut self, range: Range<usize>) {
+    pub(super) fn report_stray(&mut self, range: Range<usize>) {
         let text = self.text.get(range.clone()).unwrap_or("").to_string();
-        self.say(Problem::new(Mistake::Stray(text), range));
+        self.report(Problem::new(Mistake::Stray(text), range));
     }
 
     /// Records the changes that repair an error which is reported together with others of its kind.
-    pub(super) fn change(&mut self, kind: RepeatedMistake, changes: Vec<TextChange>) {
+    pub(super) fn change(&mut self, kind: RepeatedError, changes: Vec<TextChange>) {
         self.broken = true;
         if let Some(list) = self.changes.get_mut(kind as usize) {
             list.push(changes);
@@ -124,12 +124,12 @@ impl<'a> Parser<'a> {
     /// The problems in order; spans are bytes of the text.
     pub(super) fn finish(mut self) -> Vec<Problem> {
         let mut all = std::mem::take(&mut self.problems);
-        for kind in [RepeatedMistake::Typographic, RepeatedMistake::Single, RepeatedMistake::Invisible] {
+        for kind in [RepeatedError::Typographic, RepeatedError::Single, RepeatedError::Invisible] {
             let list = self.changes.get(kind as usize).map_or(&[][..], Vec::as_slice);
             all.extend(problem::together(kind, list, self.text, self.below));
         }
         order::sort_by_key(&mut all, |p| p.span.start);
-        all.truncate(MAX_MISTAKES);
+        all.truncate(MAX_ERRORS);
         all
     }
 }

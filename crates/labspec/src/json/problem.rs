@@ -1,6 +1,6 @@
 //! The kinds of errors in JSON, with their spans, and with repairs where these are certain. `lint` contains the messages.
 
-use super::strings::{Trouble, quoted};
+use super::strings::{StringFault, quoted};
 use crate::source::SourceMap;
 use std::ops::Range;
 
@@ -9,7 +9,7 @@ pub(super) type TextChange = (Range<usize>, String);
 
 /// Errors that occur many times and are reported once for a whole text.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum RepeatedMistake {
+pub(super) enum RepeatedError {
     Typographic,
     Single,
     Invisible,
@@ -243,7 +243,7 @@ pub(super) fn bare(mistake: fn(String) -> Mistake, span: Range<usize>, word: &st
 }
 
 /// The error of a text from the quote at `open` to `end` without its closing quote.
-pub(super) fn string_open(open: usize, end: usize, last: bool, fixed: bool) -> Problem {
+pub(super) fn unclosed_string(open: usize, end: usize, last: bool, fixed: bool) -> Problem {
     let span = if last { open..open + 1 } else { open..end };
     let problem = Problem::new(Mistake::StringOpen { last }, span);
     if fixed { problem.repair(end..end, "\"") } else { problem }
@@ -251,19 +251,19 @@ pub(super) fn string_open(open: usize, end: usize, last: bool, fixed: bool) -> P
 
 /// The error of a character that JSON does not allow inside a text. Line breaks and quotes are reported for the whole text
 /// at once: [`inside`].
-pub(super) fn in_string(span: Range<usize>, trouble: Trouble) -> Problem {
+pub(super) fn in_string(span: Range<usize>, fault: StringFault) -> Problem {
     let slash = span.start..span.start + 1;
-    match trouble {
-        Trouble::Escape('\\') => Problem::replaced(Mistake::Escape('\\'), slash, "\\\\"),
-        Trouble::Escape(c) => Problem::new(Mistake::Escape(c), span).repair(slash, "\\\\"),
-        Trouble::Needless(c) => Problem::replaced(Mistake::NeedlessEscape(c), span, c),
-        Trouble::Half => Problem::new(Mistake::HalfPair, span),
-        Trouble::Control(c) => {
+    match fault {
+        StringFault::Escape('\\') => Problem::replaced(Mistake::Escape('\\'), slash, "\\\\"),
+        StringFault::Escape(c) => Problem::new(Mistake::Escape(c), span).repair(slash, "\\\\"),
+        StringFault::Needless(c) => Problem::replaced(Mistake::NeedlessEscape(c), span, c),
+        StringFault::Half => Problem::new(Mistake::HalfPair, span),
+        StringFault::Control(c) => {
             Problem::replaced(Mistake::Control(c), span, if c == '\t' { "\\t" } else { "" })
         }
-        Trouble::Line => Problem::new(Mistake::LineBreaks(1), span),
-        Trouble::Quote => Problem::new(Mistake::InnerQuotes(1), span),
-        Trouble::Joined => Problem::replaced(Mistake::JoinedLines, span, ""),
+        StringFault::Line => Problem::new(Mistake::LineBreaks(1), span),
+        StringFault::Quote => Problem::new(Mistake::InnerQuotes(1), span),
+        StringFault::Joined => Problem::replaced(Mistake::JoinedLines, span, ""),
     }
 }
 
@@ -279,7 +279,7 @@ pub(super) fn inside(mistake: fn(usize) -> Mistake, changes: &[TextChange], text
 
 /// One problem for all errors of a kind; one for each if a single change cannot repair them all.
 pub(super) fn together(
-    kind: RepeatedMistake,
+    kind: RepeatedError,
     list: &[Vec<TextChange>],
     text: &str,
     below: &SourceMap,
@@ -288,10 +288,10 @@ pub(super) fn together(
     let Some((region, right)) = rewritten(&all, text) else { return Vec::new() };
     if below.is_unbroken(region.clone()) || list.len() == 1 {
         let count = match kind {
-            RepeatedMistake::Typographic => all.iter().filter(|(_, right)| right == "\"").count(),
+            RepeatedError::Typographic => all.iter().filter(|(_, right)| right == "\"").count(),
             _ => list.len(),
         };
-        let problem = crowd(kind, count, first(list, text), text).repair(region, right);
+        let problem = repeated(kind, count, first(list, text), text).repair(region, right);
         return vec![match all.last().filter(|_| count > 1) {
             Some((last, _)) => problem.related(last.clone()),
             None => problem,
@@ -299,11 +299,11 @@ pub(super) fn together(
     }
     let each = |changes: &Vec<TextChange>| {
         let (region, right) = rewritten(&changes.iter().collect::<Vec<_>>(), text)?;
-        let count = if kind == RepeatedMistake::Typographic { changes.len() } else { 1 };
+        let count = if kind == RepeatedError::Typographic { changes.len() } else { 1 };
         let at = first(std::slice::from_ref(changes), text);
-        Some(crowd(kind, count, at, text).repair(region, right))
+        Some(repeated(kind, count, at, text).repair(region, right))
     };
-    list.iter().take(super::MAX_MISTAKES).filter_map(each).collect()
+    list.iter().take(super::MAX_ERRORS).filter_map(each).collect()
 }
 
 /// The span of the first error.
@@ -313,12 +313,12 @@ fn first(list: &[Vec<TextChange>], text: &str) -> Range<usize> {
     span.start..span.start + length
 }
 
-fn crowd(kind: RepeatedMistake, count: usize, span: Range<usize>, text: &str) -> Problem {
+fn repeated(kind: RepeatedError, count: usize, span: Range<usize>, text: &str) -> Problem {
     let c = text.get(span.clone()).and_then(|t| t.chars().next()).unwrap_or(' ');
     let mistake = match kind {
-        RepeatedMistake::Typographic => Mistake::Typographic(count),
-        RepeatedMistake::Single => Mistake::SingleQuotes { quote: c, count },
-        RepeatedMistake::Invisible => Mistake::Invisible { first: c, count },
+        RepeatedError::Typographic => Mistake::Typographic(count),
+        RepeatedError::Single => Mistake::SingleQuotes { quote: c, count },
+        RepeatedError::Invisible => Mistake::Invisible { first: c, count },
     };
     Problem::new(mistake, span)
 }

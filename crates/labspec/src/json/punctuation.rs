@@ -20,29 +20,29 @@ impl Parser<'_> {
                         while self.peek().is_some_and(|c| c.is_ascii_digit()) {
                             self.bump();
                         }
-                        self.say(Problem::replaced(Mistake::DecimalComma, start..start + 1, "."));
+                        self.report(Problem::replaced(Mistake::DecimalComma, start..start + 1, "."));
                         end = self.before();
                         self.gap();
                         continue;
                     }
                     self.gap();
                     if matches!(self.peek(), None | Some('}' | ']')) {
-                        self.say(Problem::replaced(Mistake::TrailingComma, start..start + 1, ""));
+                        self.report(Problem::replaced(Mistake::TrailingComma, start..start + 1, ""));
                     }
                     return;
                 }
                 Some(';') => {
                     self.bump();
-                    self.say(Problem::replaced(Mistake::Semicolon, start..start + 1, ","));
+                    self.report(Problem::replaced(Mistake::Semicolon, start..start + 1, ","));
                     return;
                 }
                 Some(c) if self.begins(c, object) => {
-                    self.say(Problem::replaced(Mistake::CommaMissing, end..end, ","));
+                    self.report(Problem::replaced(Mistake::CommaMissing, end..end, ","));
                     return;
                 }
                 Some(_) => {
                     let range = self.stray();
-                    self.say_stray(range);
+                    self.report_stray(range);
                     end = self.before();
                     self.gap();
                 }
@@ -86,7 +86,7 @@ impl Parser<'_> {
     pub(super) fn extra_comma(&mut self, first: bool) {
         let start = self.at;
         self.bump();
-        self.say(Problem::replaced(Mistake::ExtraComma { first }, start..start + 1, ""));
+        self.report(Problem::replaced(Mistake::ExtraComma { first }, start..start + 1, ""));
     }
 
     /// Reports once that the text ends inside brackets, with all missing ones.
@@ -95,7 +95,7 @@ impl Parser<'_> {
             return;
         }
         let end = self.text.trim_end().len();
-        self.say(problem::unclosed(&self.open, end));
+        self.report(problem::unclosed(&self.open, end));
     }
 
     /// Whether a `}` ends the whole value although members follow.
@@ -110,8 +110,8 @@ impl Parser<'_> {
         let start = self.at;
         let c = self.peek().unwrap_or('}');
         self.bump();
-        self.mend(c, -1);
-        self.say(Problem::replaced(Mistake::StrayBracket(c), start..start + 1, ""));
+        self.adjust_bracket_count(c, -1);
+        self.report(Problem::replaced(Mistake::StrayBracket(c), start..start + 1, ""));
     }
 
     /// Handles a bracket of the other kind. Returns whether the current value ends here.
@@ -127,16 +127,16 @@ impl Parser<'_> {
             // The other bracket was intended.
             (_, true, true) | (false, true, _) => {
                 self.bump();
-                self.mend(found, -1);
-                self.mend(mine, 1);
-                self.say(Problem::replaced(Mistake::OtherBracket { mine, found }, start..start + 1, mine));
+                self.adjust_bracket_count(found, -1);
+                self.adjust_bracket_count(mine, 1);
+                self.report(Problem::replaced(Mistake::OtherBracket { mine, found }, start..start + 1, mine));
                 true
             }
             (true, true, false) | (true, false, false) => {
                 let end = self.before();
-                self.mend(mine, 1);
+                self.adjust_bracket_count(mine, 1);
                 let mistake = Mistake::BracketMissing { mine, found };
-                self.say(Problem::replaced(mistake, end..end, mine).related(start..start + 1));
+                self.report(Problem::replaced(mistake, end..end, mine).related(start..start + 1));
                 true
             }
             (true, false, true) | (false, false, _) => {
@@ -157,7 +157,7 @@ impl Parser<'_> {
         line.starts_with(['\n', '\r']) && key.is_some_and(|k| k.starts_with('"'))
     }
 
-    pub(super) fn mend(&mut self, bracket: char, by: i64) {
+    pub(super) fn adjust_bracket_count(&mut self, bracket: char, by: i64) {
         let i = ['{', '}', '[', ']'].iter().position(|c| *c == bracket);
         if let Some(n) = i.and_then(|i| self.brackets.get_mut(i)) {
             *n += by;

@@ -4,14 +4,14 @@
 //! surrounding text decides between the two.
 
 use super::parser::Parser;
-use super::problem::{self, Mistake, RepeatedMistake, TextChange};
-use super::strings::{Trouble, decode};
+use super::problem::{self, Mistake, RepeatedError, TextChange};
+use super::strings::{StringFault, decode};
 use crate::markdown::is_typographic;
 use crate::source::{SourceMap, Text};
 use std::ops::Range;
 
 /// Number of bytes after a quote that are read.
-const FAR: usize = 4096;
+const MAX_LOOKAHEAD: usize = 4096;
 
 /// The end of a text.
 struct End {
@@ -38,7 +38,7 @@ impl Parser<'_> {
         let inside = end.inside.clone();
         if end.open {
             let last = inside.end == self.text.trim_end().len();
-            self.say(problem::string_open(start, inside.end, last, quote == '"'));
+            self.report(problem::unclosed_string(start, inside.end, last, quote == '"'));
         }
         let decoded = decode(self.text.get(inside.clone()).unwrap_or(""));
         let mut lines: Vec<TextChange> = Vec::new();
@@ -47,14 +47,14 @@ impl Parser<'_> {
         if quote != '"' {
             changes.push((start..inside.start, "\"".into()));
         }
-        for (range, trouble) in &decoded.troubles {
+        for (range, fault) in &decoded.faults {
             let range = range.start + inside.start..range.end + inside.start;
-            match trouble {
-                Trouble::Line => lines.push((range, "\\n".into())),
-                Trouble::Quote if quote == '"' => inner.push((range, "\\\"".into())),
-                Trouble::Quote => changes.push((range, "\\\"".into())),
-                Trouble::Needless(c) if quote != '"' => changes.push((range, c.to_string())),
-                _ => self.say(problem::in_string(range, *trouble)),
+            match fault {
+                StringFault::Line => lines.push((range, "\\n".into())),
+                StringFault::Quote if quote == '"' => inner.push((range, "\\\"".into())),
+                StringFault::Quote => changes.push((range, "\\\"".into())),
+                StringFault::Needless(c) if quote != '"' => changes.push((range, c.to_string())),
+                _ => self.report(problem::in_string(range, *fault)),
             }
         }
         if quote != '"' && self.text.get(inside.end..end.next) != Some("\"") {
@@ -62,10 +62,10 @@ impl Parser<'_> {
         }
         let breaks = problem::inside(Mistake::LineBreaks, &lines, self.text);
         let quotes = problem::inside(Mistake::InnerQuotes, &inner, self.text);
-        breaks.into_iter().chain(quotes).for_each(|problem| self.say(problem));
+        breaks.into_iter().chain(quotes).for_each(|problem| self.report(problem));
         if !changes.is_empty() {
             self.change(
-                if is_typographic(quote) { RepeatedMistake::Typographic } else { RepeatedMistake::Single },
+                if is_typographic(quote) { RepeatedError::Typographic } else { RepeatedError::Single },
                 changes,
             );
         }
@@ -146,7 +146,7 @@ impl Parser<'_> {
     fn json_follows(&self, at: usize) -> bool {
         let all = self.text.get(at..).unwrap_or("");
         // The range is limited, because a long run of spaces must not be read repeatedly.
-        let mut far = FAR.min(all.len());
+        let mut far = MAX_LOOKAHEAD.min(all.len());
         while !all.is_char_boundary(far) {
             far += 1;
         }

@@ -11,12 +11,12 @@ pub(super) struct Decoded {
     /// Maps the text to the bytes of the inside.
     pub(super) map: SourceMap,
     /// The errors in it, and their ranges.
-    pub(super) troubles: Vec<(Range<usize>, Trouble)>,
+    pub(super) faults: Vec<(Range<usize>, StringFault)>,
 }
 
 /// Text that JSON does not allow inside a string.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Trouble {
+pub(super) enum StringFault {
     /// A backslash before a letter that is not an escape; usually LaTeX.
     Escape(char),
     /// An escaped quote that needs no backslash in JSON: `\'`.
@@ -36,7 +36,7 @@ pub(super) enum Trouble {
 /// Decodes `raw`, the text between quotes. Errors are decoded as the probably intended text.
 pub(super) fn decode(raw: &str) -> Decoded {
     let mut d =
-        Decoded { value: String::with_capacity(raw.len()), map: SourceMap::default(), troubles: Vec::new() };
+        Decoded { value: String::with_capacity(raw.len()), map: SourceMap::default(), faults: Vec::new() };
     let mut at = 0;
     while let Some(rest) = raw.get(at..).filter(|rest| !rest.is_empty()) {
         let plain = rest.find(|c: char| c == '\\' || c == '"' || c < ' ').unwrap_or(rest.len());
@@ -66,13 +66,13 @@ impl Decoded {
         let mut chars = rest.chars();
         let first = chars.next().unwrap_or(' ');
         if first != '\\' {
-            let trouble = match first {
-                '"' => Trouble::Quote,
-                '\n' | '\r' => Trouble::Line,
-                c => Trouble::Control(c),
+            let fault = match first {
+                '"' => StringFault::Quote,
+                '\n' | '\r' => StringFault::Line,
+                c => StringFault::Control(c),
             };
             let length = if rest.starts_with("\r\n") { 2 } else { 1 };
-            self.troubles.push((at..at + length, trouble));
+            self.faults.push((at..at + length, fault));
             self.verbatim(raw, at..at + length);
             return length;
         }
@@ -82,7 +82,7 @@ impl Decoded {
         }
         let Some(c) = chars.next() else {
             // A backslash at the very end has nothing to escape.
-            self.troubles.push((at..at + 1, Trouble::Escape('\\')));
+            self.faults.push((at..at + 1, StringFault::Escape('\\')));
             self.verbatim(raw, at..at + 1);
             return 1;
         };
@@ -90,22 +90,22 @@ impl Decoded {
         match c {
             '\n' | '\r' => {
                 let length = if rest.starts_with("\\\r\n") { 3 } else { length };
-                self.troubles.push((at..at + length, Trouble::Joined));
+                self.faults.push((at..at + length, StringFault::Joined));
                 length
             }
             '\'' | '`' => {
-                self.troubles.push((at..at + length, Trouble::Needless(c)));
+                self.faults.push((at..at + length, StringFault::Needless(c)));
                 self.whole(c, at..at + length);
                 length
             }
             'u' if rest.get(2..6).and_then(hex).is_some() => {
-                self.troubles.push((at..at + 6, Trouble::Half));
+                self.faults.push((at..at + 6, StringFault::Half));
                 self.whole('\u{fffd}', at..at + 6);
                 6
             }
             _ => {
                 // The letter after the backslash is read as itself.
-                self.troubles.push((at..at + length, Trouble::Escape(c)));
+                self.faults.push((at..at + length, StringFault::Escape(c)));
                 self.verbatim(raw, at..at + 1);
                 1
             }
@@ -178,33 +178,33 @@ mod tests {
     #[test]
     fn escapes_decode_with_their_places() {
         let d = decode(r#"a\u00e9\n\ud83d\ude00b"#);
-        assert_eq!((d.value.as_str(), d.troubles.len()), ("aé\n😀b", 0));
+        assert_eq!((d.value.as_str(), d.faults.len()), ("aé\n😀b", 0));
         let b = d.value.find('b').unwrap();
         assert_eq!(d.map.span(b..b + 1), 21..22);
         assert_eq!(d.map.span(1..3), 1..7);
     }
 
     #[test]
-    fn what_json_does_not_allow_is_kept_as_it_was_meant() {
-        for (raw, value, trouble) in [
-            (r"\ud83d", "\u{fffd}", Trouble::Half),
-            (r"\ude00", "\u{fffd}", Trouble::Half),
-            (r"\u12é", r"\u12é", Trouble::Escape('u')),
-            (r"$\alpha$", r"$\alpha$", Trouble::Escape('a')),
-            (r"it\'s", "it's", Trouble::Needless('\'')),
-            ("a\tb", "a\tb", Trouble::Control('\t')),
-            ("a\r\nb", "a\r\nb", Trouble::Line),
-            ("a\\\nb", "ab", Trouble::Joined),
-            ("a\"b", "a\"b", Trouble::Quote),
+    fn invalid_json_escapes_keep_their_intended_meaning() {
+        for (raw, value, fault) in [
+            (r"\ud83d", "\u{fffd}", StringFault::Half),
+            (r"\ude00", "\u{fffd}", StringFault::Half),
+            (r"\u12é", r"\u12é", StringFault::Escape('u')),
+            (r"$\alpha$", r"$\alpha$", StringFault::Escape('a')),
+            (r"it\'s", "it's", StringFault::Needless('\'')),
+            ("a\tb", "a\tb", StringFault::Control('\t')),
+            ("a\r\nb", "a\r\nb", StringFault::Line),
+            ("a\\\nb", "ab", StringFault::Joined),
+            ("a\"b", "a\"b", StringFault::Quote),
         ] {
             let d = decode(raw);
-            assert_eq!((d.value.as_str(), d.troubles.len(), d.troubles[0].1), (value, 1, trouble), "{raw}");
+            assert_eq!((d.value.as_str(), d.faults.len(), d.faults[0].1), (value, 1, fault), "{raw}");
             assert_eq!(d.map.derived_len(), d.value.len(), "{raw}");
         }
     }
 
     #[test]
-    fn a_text_is_encoded_for_the_string_it_stands_in() {
+    fn a_text_is_encoded_for_the_string_that_contains_it() {
         assert_eq!(encode("a \"b\" \\tau\n"), r#"a \"b\" \\tau\n"#);
     }
 }

@@ -9,7 +9,7 @@ pub(super) fn run(text: &str) -> Parsed {
 }
 
 /// The message of every finding, and the text of its span.
-fn complaints(text: &str) -> Vec<(String, String)> {
+fn list_findings(text: &str) -> Vec<(String, String)> {
     let parsed = run(text);
     assert!(parsed.broken, "{text} was accepted");
     let message_and_text = |p: &Problem| (to_finding(p).message, text[p.span.clone()].to_string());
@@ -36,7 +36,7 @@ fn value(text: &str) -> serde_json::Value {
 /// repair).
 #[test]
 #[expect(clippy::too_many_lines, reason = "a table of mistakes")]
-fn mistakes_are_reported_and_reading_goes_on() {
+fn errors_are_reported_and_parsing_continues() {
     for (text, message, place, read, repaired) in [
         (r#"{"a": 1 "b": 2}"#, "a comma is missing here", "", r#"{"a":1,"b":2}"#, r#"{"a": 1, "b": 2}"#),
         (r#"[1 {"b": 2}]"#, "a comma is missing here", "", r#"[1,{"b":2}]"#, r#"[1, {"b": 2}]"#),
@@ -235,7 +235,7 @@ fn mistakes_are_reported_and_reading_goes_on() {
             r#"{"a": "b"}"#,
         ),
     ] {
-        assert_eq!(complaints(text), [(message.to_string(), place.to_string())], "{text}");
+        assert_eq!(list_findings(text), [(message.to_string(), place.to_string())], "{text}");
         let read: serde_json::Value = serde_json::from_str(read).unwrap();
         assert_eq!(value(text), floats(read), "{text}");
         assert_eq!(fixed(text), repaired, "{text}");
@@ -247,7 +247,7 @@ fn mistakes_are_reported_and_reading_goes_on() {
 }
 
 #[test]
-fn all_mistakes_of_a_block_are_told_at_once() {
+fn all_errors_of_a_block_are_reported_together() {
     let text = r#"{
   'model': "ball",
   stopAt: 2
@@ -256,7 +256,7 @@ fn all_mistakes_of_a_block_are_told_at_once() {
   "camera": {"azimuth": +90, "elevation" 10,},
   "readouts": [{"label": "z", "expr": "data.qpos[2]"}
 }"#;
-    let messages: Vec<_> = complaints(text).into_iter().map(|(message, _)| message).collect();
+    let messages: Vec<_> = list_findings(text).into_iter().map(|(message, _)| message).collect();
     insta::assert_debug_snapshot!(messages, @r#"
     [
         "JSON has a single quote where it needs a double quote",
@@ -278,13 +278,13 @@ fn all_mistakes_of_a_block_are_told_at_once() {
 #[test]
 fn deep_nesting_is_refused_before_it_can_hurt() {
     let deep = "[".repeat(1_000_000);
-    assert!(complaints(&deep)[0].0.contains("nested brackets"));
+    assert!(list_findings(&deep)[0].0.contains("nested brackets"));
 }
 
 #[test]
 fn too_many_values_are_refused() {
     let long = format!("[{}1]", "1,".repeat(MAX_VALUES + 1));
-    assert!(complaints(&long)[0].0.contains("the JSON has more than"));
+    assert!(list_findings(&long)[0].0.contains("the JSON has more than"));
 }
 
 #[test]
@@ -345,7 +345,7 @@ fn hostile_texts_are_read_in_one_pass() {
             let text = format!("{before}{}{behind}", piece.repeat(400_000 / piece.len()));
             let start = std::time::Instant::now();
             let parsed = run(&text);
-            assert!(parsed.problems.len() <= MAX_MISTAKES, "{piece}");
+            assert!(parsed.problems.len() <= MAX_ERRORS, "{piece}");
             assert!(start.elapsed().as_secs() < 5, "{before}{piece}: {:?}", start.elapsed());
         }
     }

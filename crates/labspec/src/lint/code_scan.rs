@@ -62,7 +62,7 @@ impl CodeScan {
                     }
                 }
                 None => {
-                    let opened = opens(rest, language);
+                    let opened = comment_or_string_start(rest, language);
                     if let Some((mark, end)) = opened {
                         length = mark.len();
                         inside = Some(end);
@@ -99,7 +99,7 @@ impl CodeScan {
 }
 
 /// The comment or string that begins here: its opening and closing marks.
-fn opens(rest: &str, language: Language) -> Option<(&'static str, &'static str)> {
+fn comment_or_string_start(rest: &str, language: Language) -> Option<(&'static str, &'static str)> {
     let marks: &[(&str, &str)] = match language {
         Language::Python => &[("\"\"\"", "\"\"\""), ("'''", "'''"), ("\"", "\""), ("'", "'"), ("#", "\n")],
         Language::Shell => &[("\"", "\""), ("'", "'"), ("#", "\n")],

@@ -27,7 +27,7 @@ fn finding_at(span: Range<usize>, mistake: &Mistake) -> Finding {
             rules::missing_key::describe_missing(span, of, key, why, *advised)
         }
         Mistake::NoChoice => rules::select_options::not_a_pair(span),
-        Mistake::NothingOffered => rules::select_options::nothing_offered(open()),
+        Mistake::NothingOffered => rules::select_options::no_options(open()),
         Mistake::NoTraces => rules::empty_plot::without_traces(open()),
         Mistake::NoPlace(text) => rules::unknown_lab::not_an_address(span, text),
         Mistake::ClaimsNothing => rules::verify_nothing::claims_nothing(open()),

@@ -10,7 +10,7 @@ pub(crate) fn to_finding(problem: &Problem) -> Finding {
     let finding = match &problem.mistake {
         Mistake::TooDeep => json_limit::too_deep(span),
         Mistake::TooMany => json_limit::too_many(span),
-        Mistake::Twice(key) => duplicate_key::twice(span, key, related),
+        Mistake::Twice(key) => duplicate_key::duplicate(span, key, related),
         Mistake::Typographic(count) => typographic_quote::quotes_of_json(span, *count, related),
         _ => json_syntax::describe_problem(problem),
     };

@@ -3,7 +3,7 @@
 use super::ModelFolder;
 use crate::finding::{self, Finding, InFile};
 use crate::rules;
-use crate::source::{Asked, BadText, SourceFile, Sources};
+use crate::source::{BadText, DiskQuery, SourceFile, Sources};
 use crate::spec::{LabAddress, Lesson, Other, Verify, VerifyLab, read_lesson, read_other};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -84,16 +84,16 @@ pub fn load_lesson_file(path: &Path, models: &ModelFolder) -> Result<Lesson, Str
 
 /// Maximum number of bytes of other lessons that are searched for the labs that one lesson names. Each name counts the
 /// bytes of its lesson.
-const MOST_OF_OTHERS: u64 = 256 << 20;
+const MAX_OTHER_LESSONS: u64 = 256 << 20;
 /// Maximum number of bytes of a lesson whose labs another one names.
-const MOST_OF_OTHER: u64 = 4 << 20;
+const MAX_OTHER_LESSON: u64 = 4 << 20;
 
 /// The labs of other lessons that this one names.
 fn read_others(lesson: &Lesson, path: &Path, sources: &Sources) -> Vec<Other> {
     let mut texts: BTreeMap<PathBuf, Result<String, String>> = BTreeMap::new();
     let place = sources.followed(path);
     let folder = place.parent().unwrap_or(Path::new(""));
-    let mut left = MOST_OF_OTHERS;
+    let mut left = MAX_OTHER_LESSONS;
     let named = lesson.verifies().flat_map(Verify::labs).filter_map(|lab| match lab {
         VerifyLab::Elsewhere(text, file, address) => Some((text.span(), file, address)),
         _ => None,
@@ -106,7 +106,7 @@ fn read_others(lesson: &Lesson, path: &Path, sources: &Sources) -> Vec<Other> {
         let cached = texts.entry(there.clone());
         let found = match inside {
             true => cached.or_insert_with(|| read_other_file(path, &there, sources)).clone(),
-            false => Err(NOT_FROM_HERE.into()),
+            false => Err(NOT_A_RELATIVE_PATH.into()),
         };
         let found = found.and_then(|text| {
             left = left
@@ -126,18 +126,18 @@ fn read_others(lesson: &Lesson, path: &Path, sources: &Sources) -> Vec<Other> {
     named.map(&mut read).collect()
 }
 
-const NOT_FROM_HERE: &str = "a lesson must be named by its path from this one";
+const NOT_A_RELATIVE_PATH: &str = "a lesson must be named by its path from this one";
 
 /// The text of another lesson, which must use the same model folder.
 fn read_other_file(lesson_path: &Path, other: &Path, sources: &Sources) -> Result<String, String> {
     if !is_lesson(other) {
         return Err("a lab must be in a lesson (.md) or in a JSON file".into());
     }
-    let models = |path: &Path| sources.place(Asked::Models, path, || ModelFolder::find_near(path));
+    let models = |path: &Path| sources.place(DiskQuery::Models, path, || ModelFolder::find_near(path));
     if models(lesson_path) != models(other) {
         return Err("that lesson has another model folder".into());
     }
-    sources.text(other, MOST_OF_OTHER, "a lesson")
+    sources.text(other, MAX_OTHER_LESSON, "a lesson")
 }
 
 fn is_lesson(path: &Path) -> bool {
@@ -154,13 +154,13 @@ pub fn snapshot_path(path: &Path) -> PathBuf {
 /// The suffix of a snapshot after the name of its lesson.
 pub const SNAPSHOT: &str = ".snap";
 /// Maximum number of bytes of a snapshot.
-const MOST: u64 = 4 << 20;
+const MAX_SNAPSHOT: u64 = 4 << 20;
 
 fn read_snapshot(path: &Path, sources: &Sources) -> Option<Result<SourceFile, String>> {
     let path = snapshot_path(path);
     // A broken link exists, but cannot be read.
     sources.has(&path).then_some(())?;
-    let text = sources.text(&path, MOST, "a snapshot");
+    let text = sources.text(&path, MAX_SNAPSHOT, "a snapshot");
     Some(text.map(|text| SourceFile::new(path.display().to_string(), text)))
 }
 
@@ -219,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_file_is_an_error() {
+    fn a_path_that_is_not_a_file_is_an_error() {
         let folder = tempfile::tempdir().unwrap();
         assert!(load_lesson_file(folder.path(), &ModelFolder::unknown()).unwrap_err().contains("not a file"));
         std::fs::write(folder.path().join("a.md"), b"\xe9").unwrap();

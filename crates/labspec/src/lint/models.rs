@@ -206,7 +206,7 @@ mod tests {
     }
 
     #[test]
-    fn the_root_is_what_the_user_named() {
+    fn the_root_is_the_folder_named_by_the_user() {
         let outer = tempfile::tempdir().unwrap();
         let top = outer.path().canonicalize().unwrap();
         let models = top.join("course/week/models");

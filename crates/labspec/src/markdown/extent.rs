@@ -89,7 +89,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_end_is_found_behind_strings() {
+    fn the_end_is_found_after_strings() {
         for (text, json) in [
             (r#" {"a": "}"} rest"#, r#" {"a": "}"}"#),
             (r#"{"a": "\"}"} rest"#, r#"{"a": "\"}"}"#),

@@ -12,7 +12,7 @@ const MAX_OBJECT: usize = 256 << 10;
 const MAX_TRIES: usize = 50;
 
 /// A JSON object at the beginning of a line with the keys of a lab or a quiz.
-pub(super) struct Bare {
+pub(super) struct BareObject {
     /// Start of its line.
     pub(super) line: usize,
     /// The object.
@@ -21,7 +21,7 @@ pub(super) struct Bare {
 }
 
 /// All such objects of a text.
-pub(super) fn bare_json(text: &str) -> impl Iterator<Item = Bare> {
+pub(super) fn bare_json(text: &str) -> impl Iterator<Item = BareObject> {
     let mut line = 0;
     let mut tries = 0;
     let mut behind = 0;
@@ -51,7 +51,7 @@ pub(super) fn bare_json(text: &str) -> impl Iterator<Item = Bare> {
             return None;
         }
         behind = object.end;
-        Some(Bare { line: start, object, is_quiz })
+        Some(BareObject { line: start, object, is_quiz })
     })
 }
 

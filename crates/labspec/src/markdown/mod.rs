@@ -319,14 +319,14 @@ mod tests {
     }
 
     #[test]
-    fn a_longer_fence_that_shows_a_fence_is_no_damage() {
+    fn a_longer_fence_around_a_fence_is_valid() {
         let scan = scanned("````markdown\n```lab simlab\n{}\n```\n````\n\n~~~\n```quiz\n~~~\n");
         assert_eq!(scan.problems, []);
         assert_eq!(scan.blocks.len(), 2);
     }
 
     #[test]
-    fn a_lost_closing_line_hides_nothing() {
+    fn a_missing_closing_line_hides_no_block() {
         let scan = scanned(
             "```lab simlab\n{\"model\": \"a\"}\nSome prose.\n\n```quiz\n{\"id\": \"q\"}\n```\n\n```lab\n{}\n```\n",
         );
@@ -346,7 +346,7 @@ mod tests {
     }
 
     #[test]
-    fn hostile_texts_are_survived() {
+    fn hostile_texts_cause_no_panic() {
         let many = "```lab {\n".repeat(3000);
         let scan = scanned(&many);
         assert!(scan.blocks.len() <= MAX_BLOCKS);

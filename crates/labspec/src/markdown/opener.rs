@@ -59,7 +59,7 @@ pub(super) fn opener(text: &str, at: usize) -> Option<Opener> {
     }
     let end = start + line.len();
     let info_at = end - info.len();
-    let rest = belongs_below(info).map(|i| info_at + i..end);
+    let rest = other_text_start(info).map(|i| info_at + i..end);
     let head_end = rest.as_ref().map_or(end, |r| r.start);
     let head = text.get(start..head_end)?.trim_end();
     let words = text.get(info_at..head_end)?.split_whitespace().map(str::to_string).collect();
@@ -67,7 +67,7 @@ pub(super) fn opener(text: &str, at: usize) -> Option<Opener> {
 }
 
 /// The index in an info string where other text begins: the JSON of a lab or quiz, or a listing.
-fn belongs_below(info: &str) -> Option<usize> {
+fn other_text_start(info: &str) -> Option<usize> {
     let first = info.split_whitespace().next()?;
     if first == "lab" || first == "quiz" || first.starts_with("lab{") || first.starts_with("quiz{") {
         return info.find(['{', '[']).filter(|&at| !is_attributes(info.get(at..).unwrap_or("")));

@@ -46,29 +46,30 @@ use labspec_core::{Data, Energy, Fields, Model, Plan, Planned, Scope, disable, j
 use labspec_core::{exhausted, forward, limit, mass_matrix, mechanical_energy, mul_m, work_left};
 
 /// Bounds of the factor by which the gain of one step must exceed the available energy: the usual value, and the largest
-/// value, which applies near the stability limit of a spring. `SWINGS` is the factor on the energy ratio of the stiffest
-/// spring.
-const SUDDEN: [f64; 2] = [3.0, 10.0];
-const SWINGS: f64 = 1.5;
+/// value, which applies near the stability limit of a spring. `OSCILLATION_FACTOR` is the factor on the energy ratio of
+/// the stiffest spring.
+const STEP_GAIN_FACTORS: [f64; 2] = [3.0, 10.0];
+const OSCILLATION_FACTOR: f64 = 1.5;
 /// A gain of this factor times the available energy, without the energy of springs, cannot be an oscillation of a spring.
-const SURE: f64 = 1e3;
+const CERTAIN_GAIN_FACTOR: f64 = 1e3;
 /// The smallest reportable gain, as a fraction of the energy that lifts all bodies by the size of the scene.
-const LIFTS: f64 = 0.25;
+const MIN_LIFT_FRACTION: f64 = 0.25;
 /// Number of steps for which a gain above the available energy must persist.
-const LASTS: u32 = 32;
-/// Number of steps that are skipped after an evaluation whose gain is below the fraction `CALM` of the available energy,
-/// while the speeds are at most `FASTER` times as large.
-const REST: u32 = 7;
-const CALM: f64 = 0.25;
-const FASTER: f64 = 1.25;
+const MIN_GAIN_STEPS: u32 = 32;
+/// Number of steps that are skipped after an evaluation whose gain is below the fraction `SKIP_FRACTION` of the available energy,
+/// while the speeds are at most `SKIP_SPEED_FACTOR` times as large.
+const SKIPPED_STEPS: u32 = 7;
+const SKIP_FRACTION: f64 = 0.25;
+const SKIP_SPEED_FACTOR: f64 = 1.25;
 /// A rotation per step that a step cannot resolve, rad, and the number of gains in such steps that is reported.
-const TURN: f64 = std::f64::consts::PI;
-const LEAPS: u32 = 4;
-/// Motion below the fraction `SLOW` of the smallest reportable gain is not evaluated. In scenes with more than `FEW`
-/// degrees of freedom, the diagonal of M is recomputed only once per `LOOKS_PER_UPDATE` evaluations.
-const SLOW: f64 = 0.5;
-const FEW: usize = 12;
-const LOOKS_PER_UPDATE: u32 = 64;
+const MAX_RESOLVED_ROTATION: f64 = std::f64::consts::PI;
+const MIN_UNRESOLVED_GAINS: u32 = 4;
+/// Motion below the fraction `MIN_MOTION_FRACTION` of the smallest reportable gain is not evaluated. In scenes with more
+/// than `MAX_DOFS_PER_STEP_INERTIA` degrees of freedom, the diagonal of M is recomputed only once per
+/// `EVALUATIONS_PER_UPDATE` evaluations.
+const MIN_MOTION_FRACTION: f64 = 0.5;
+const MAX_DOFS_PER_STEP_INERTIA: usize = 12;
+const EVALUATIONS_PER_UPDATE: u32 = 64;
 /// Speed at which a scene at rest may drift, as a fraction of its size per second.
 const DRIFT: f64 = 0.01;
 
@@ -80,7 +81,7 @@ pub struct Growth {
     /// Energy gained since the start, at the time when the growth is certain, J.
     pub gain: f64,
     /// Initial energy plus the energy that lifts all bodies by the size of the scene, J.
-    pub held: f64,
+    pub available_energy: f64,
     /// The degree of freedom with the largest part of the kinetic energy.
     pub dof: usize,
     /// The source of the energy.
@@ -106,7 +107,7 @@ pub struct GrowthMonitor {
     start: Option<StartEnergy>,
     /// Square roots of the diagonal of M, the largest observed values, and the number of evaluations until the next update.
     roots: Vec<f64>,
-    looks_until_update: u32,
+    evaluations_until_update: u32,
     /// Factor by which the gain of one step must exceed the available energy.
     sudden: f64,
     /// Number of steps to skip, and Σ √m_k |v_k| at the last evaluation.
@@ -115,7 +116,7 @@ pub struct GrowthMonitor {
     /// Number of steps for which a gain has persisted, and the time of the first.
     lasted: u32,
     since: f64,
-    /// Number of gains observed in steps whose rotation exceeds `TURN`.
+    /// Number of gains observed in steps whose rotation exceeds `MAX_RESOLVED_ROTATION`.
     leaps: u32,
     found: Option<Growth>,
 }
@@ -124,7 +125,7 @@ pub struct GrowthMonitor {
 struct StartEnergy {
     energy: Energy,
     /// The initial energy, and the energy that lifts all bodies by the size of the scene, J.
-    held: f64,
+    available_energy: f64,
     lift: f64,
 }
 
@@ -134,7 +135,7 @@ pub fn watch<S: Scope>(m: &Model, d: &Data<S>) -> GrowthMonitor {
         copied: Data::planned(m, Plan::awake()),
         start: None,
         roots: vec![0.0; m.nv],
-        looks_until_update: 0,
+        evaluations_until_update: 0,
         sudden: 0.0,
         rest: 0,
         speed: 0.0,
@@ -150,7 +151,7 @@ pub fn watch<S: Scope>(m: &Model, d: &Data<S>) -> GrowthMonitor {
 /// Restarts the monitor in state `d` after the state or the model was changed from outside. A reported gain is kept.
 pub fn restart<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>) {
     (w.start, w.lasted, w.leaps, w.rest) = (None, 0, 0, 0);
-    if m.nv == 0 || fed(m, d) {
+    if m.nv == 0 || has_energy_source(m, d) {
         return;
     }
     let (to, from) = (w.copied.edit(), d.fields());
@@ -164,25 +165,29 @@ pub fn restart<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>) {
         let energy = mechanical_energy(m, &mut w.copied).ok().flatten();
         w.start = energy.map(|energy| start(m, &w.copied, energy));
         w.roots.fill(0.0);
-        w.looks_until_update = 0;
-        w.sudden = sudden(m);
+        w.evaluations_until_update = 0;
+        w.sudden = step_gain_factor(m);
         update_inertia_scale(w, m);
     }
 }
 
 /// Factor by which the gain of one step must exceed the available energy.
-fn sudden(m: &Model) -> f64 {
-    let swing = SWINGS * stability::swing(m);
-    if swing.is_finite() { swing.clamp(SUDDEN[0], SUDDEN[1]) } else { SUDDEN[1] }
+fn step_gain_factor(m: &Model) -> f64 {
+    let swing = OSCILLATION_FACTOR * stability::swing(m);
+    if swing.is_finite() {
+        swing.clamp(STEP_GAIN_FACTORS[0], STEP_GAIN_FACTORS[1])
+    } else {
+        STEP_GAIN_FACTORS[1]
+    }
 }
 
 /// Updates the square roots of the diagonal of M where they have increased.
 fn update_inertia_scale(w: &mut GrowthMonitor, m: &Model) {
-    w.looks_until_update = w.looks_until_update.saturating_sub(1);
-    if w.looks_until_update > 0 {
+    w.evaluations_until_update = w.evaluations_until_update.saturating_sub(1);
+    if w.evaluations_until_update > 0 {
         return;
     }
-    w.looks_until_update = if m.nv <= FEW { 1 } else { LOOKS_PER_UPDATE };
+    w.evaluations_until_update = if m.nv <= MAX_DOFS_PER_STEP_INERTIA { 1 } else { EVALUATIONS_PER_UPDATE };
     let filled = mass_matrix(m, &mut w.copied);
     debug_assert!(filled.is_ok(), "the data belong to the model, and their plan keeps every stage");
     let elements = &w.copied.fields().M;
@@ -201,10 +206,13 @@ pub fn observe<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>) -> Optio
     let qvel = &d.fields().qvel;
     let speed: f64 = w.roots.iter().zip(qvel.iter()).map(|(root, v)| root * v.abs()).sum();
     // The comparison is false for NaN, so NaN is evaluated.
-    if w.lasted == 0 && 0.5 * speed * speed < SLOW * (start.held + LIFTS * start.lift) {
+    if w.lasted == 0
+        && 0.5 * speed * speed
+            < MIN_MOTION_FRACTION * (start.available_energy + MIN_LIFT_FRACTION * start.lift)
+    {
         return None;
     }
-    if w.rest > 0 && speed <= FASTER * w.speed {
+    if w.rest > 0 && speed <= SKIP_SPEED_FACTOR * w.speed {
         w.rest -= 1;
         return None;
     }
@@ -224,46 +232,47 @@ fn compare<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>, start: Start
         restart(w, m, d);
         return None;
     }
-    let StartEnergy { energy: before, held, lift } = start;
+    let StartEnergy { energy: before, available_energy, lift } = start;
     take(&mut w.copied, d);
     let now = mechanical_energy(m, &mut w.copied).ok().flatten()?;
     update_inertia_scale(w, m);
     let given = before.potential() - now.potential();
     let gain = now.kinetic - before.kinetic - given;
-    let there = held + given.max(now.elastic.abs());
-    let pusher = pusher(m, d.fields());
-    let sudden = if pusher.is_some() { 1.0 } else { w.sudden };
+    let there = available_energy + given.max(now.elastic.abs());
+    let dof_of_negative_damping = dof_of_negative_damping(m, d.fields());
+    let sudden = if dof_of_negative_damping.is_some() { 1.0 } else { w.sudden };
     // A gain of NaN exceeds no bound.
-    let above = |times: f64, there: f64| gain > times * there + LIFTS * lift;
-    let sure = gain > SURE * (held + given.max(0.0) + lift);
+    let above = |times: f64, there: f64| gain > times * there + MIN_LIFT_FRACTION * lift;
+    let sure = gain > CERTAIN_GAIN_FACTOR * (available_energy + given.max(0.0) + lift);
     let (seen, leapt) = (sure || above(1.0, there), sure || above(sudden, there));
-    w.rest = if gain < CALM * there { REST } else { 0 };
+    w.rest = if gain < SKIP_FRACTION * there { SKIPPED_STEPS } else { 0 };
     if !seen {
         w.lasted = 0;
         return None;
     }
     // Elastic energy oscillates with a large amplitude just below the stability limit, and returns.
     let stiff = before.elastic != 0.0 || now.elastic != 0.0;
-    let turn = if stiff { 0.0 } else { turn(m, d.fields()) };
+    let turn = if stiff { 0.0 } else { largest_rotation(m, d.fields()) };
     if w.lasted == 0 && w.leaps == 0 {
         w.since = d.time();
     }
     w.lasted += 1;
-    w.leaps += u32::from(turn > TURN);
-    if leapt || w.lasted >= LASTS || w.leaps >= LEAPS {
-        let source = match pusher {
+    w.leaps += u32::from(turn > MAX_RESOLVED_ROTATION);
+    if leapt || w.lasted >= MIN_GAIN_STEPS || w.leaps >= MIN_UNRESOLVED_GAINS {
+        let source = match dof_of_negative_damping {
             Some(dof) => Source::Damper(dof),
-            None if turn > TURN => Source::LongSteps(turn),
+            None if turn > MAX_RESOLVED_ROTATION => Source::LongSteps(turn),
             None => Source::Steps,
         };
-        let dof = liveliest(m, &mut w.copied);
-        w.found = Some(Growth { time: w.since, gain, held: held + lift, dof, source });
+        let dof = most_energetic_dof(m, &mut w.copied);
+        w.found =
+            Some(Growth { time: w.since, gain, available_energy: available_energy + lift, dof, source });
     }
     w.found
 }
 
 /// The largest rotation in one step, rad.
-fn turn(m: &Model, d: &Fields) -> f64 {
+fn largest_rotation(m: &Model, d: &Fields) -> f64 {
     let of = |j: usize| {
         let first = m.jnt_dofadr[j] as usize;
         let dofs = match m.jnt_type[j] {
@@ -278,7 +287,7 @@ fn turn(m: &Model, d: &Fields) -> f64 {
 }
 
 /// The degree of freedom whose negative damping supplies the most power.
-fn pusher(m: &Model, d: &Fields) -> Option<usize> {
+fn dof_of_negative_damping(m: &Model, d: &Fields) -> Option<usize> {
     let power = |k: &usize| -m.dof_damping[*k] * d.qvel[*k] * d.qvel[*k];
     let pushing = (0..m.nv).filter(|&k| m.dof_damping[k] < 0.0 && !m.opt.disabled(disable::DAMPER));
     pushing.max_by(|a, b| power(a).total_cmp(&power(b)))
@@ -301,8 +310,8 @@ fn start(m: &Model, d: &Data<Planned>, energy: Energy) -> StartEnergy {
     let (mass, size) = (m.body_mass.iter().sum::<f64>(), size(m, d));
     let drift = 0.5 * mass * (DRIFT * size) * (DRIFT * size);
     let weight = if m.opt.disabled(disable::GRAVITY) { 0.0 } else { mass * norm(m.opt.gravity) };
-    let held = energy.kinetic + energy.elastic.abs() + stored + drift;
-    StartEnergy { energy, held, lift: weight * size }
+    let available_energy = energy.kinetic + energy.elastic.abs() + stored + drift;
+    StartEnergy { energy, available_energy, lift: weight * size }
 }
 
 /// The diagonal of a box around all bodies and the origin, plus the radius of the largest moving geom, m.
@@ -316,7 +325,7 @@ fn size(m: &Model, d: &Fields) -> f64 {
 }
 
 /// The degree of freedom whose part v (M v) of the kinetic energy is the largest.
-fn liveliest(m: &Model, d: &mut Data<Planned>) -> usize {
+fn most_energetic_dof(m: &Model, d: &mut Data<Planned>) -> usize {
     let mut momentum = vec![0.0; m.nv];
     let filled = mass_matrix(m, d);
     let qvel = &d.fields().qvel;
@@ -334,7 +343,7 @@ fn applied<S: Scope>(d: &Data<S>) -> bool {
 }
 
 /// Whether something other than actuators can supply energy, or limits of joints and tendons clip actuator forces.
-fn fed<S: Scope>(m: &Model, d: &Data<S>) -> bool {
+fn has_energy_source<S: Scope>(m: &Model, d: &Data<S>) -> bool {
     let some = |list: &[f64]| list.iter().any(|&x| x != 0.0);
     let pushes = |list: &[f64]| list.iter().any(|&x| x < 0.0);
     let wind = some(&m.opt.wind) && (m.opt.density != 0.0 || m.opt.viscosity != 0.0);

@@ -56,14 +56,17 @@ fn a_servo_whose_amplitude_doubles_with_each_step_grows() {
     for servo in ["<position joint=\"j\" kp=\"4.5\"/>", "<pid joint=\"j\" kp=\"4.5\"/>"] {
         let text = cart("integrator=\"implicitfast\" timestep=\"1\"", "", servo);
         let found = run(&text, 24, |d| (d.edit().qpos[0], d.edit().ctrl[0]) = (0.01, 0.02)).unwrap();
-        assert!(found.dof == 0 && found.time < 8.0 && found.gain > 100.0 * found.held, "{found:?}");
+        assert!(
+            found.dof == 0 && found.time < 8.0 && found.gain > 100.0 * found.available_energy,
+            "{found:?}"
+        );
         let discrete = text.replace("implicitfast", "discrete");
         assert_eq!(run(&discrete, 24, |d| d.edit().qpos[0] = 0.01), None);
     }
 }
 
 #[test]
-fn what_nature_feeds_does_not_grow() {
+fn physical_energy_input_is_not_reported() {
     // Falls, topples, swings and spins up: gravity or a constant force supplies the energy of the motion.
     for integrator in ["Euler", "RK4", "implicit", "implicitfast", "discrete"] {
         let option = format!("integrator=\"{integrator}\"");
@@ -74,13 +77,13 @@ fn what_nature_feeds_does_not_grow() {
         assert_eq!(upright.is_some(), integrator == "implicit", "{integrator}: {upright:?}");
         let motor = cart(&option, "", "<motor joint=\"j\"/>");
         assert_eq!(run(&motor, 4800, |d| d.edit().ctrl[0] = 50.0), None, "{integrator}");
-        let held = cart(&option, "", "<position joint=\"j\" kp=\"500\" forcerange=\"-2 2\"/>");
-        assert_eq!(run(&held, 4800, |d| d.edit().ctrl[0] = 50.0), None, "{integrator}");
+        let available_energy = cart(&option, "", "<position joint=\"j\" kp=\"500\" forcerange=\"-2 2\"/>");
+        assert_eq!(run(&available_energy, 4800, |d| d.edit().ctrl[0] = 50.0), None, "{integrator}");
     }
 }
 
 #[test]
-fn what_may_be_fed_is_not_watched() {
+fn systems_with_energy_sources_are_not_monitored() {
     // Negative damping at small speeds and positive damping at large speeds, an external force, and a servo with a delay.
     let keeps = cart("", "damping=\"-2 0 1\" stiffness=\"10\"", "");
     assert_eq!(run(&keeps, 2400, |d| d.edit().qpos[0] = 1e-3), None);
@@ -90,7 +93,7 @@ fn what_may_be_fed_is_not_watched() {
 }
 
 #[test]
-fn a_damper_below_zero_is_an_input_without_end() {
+fn a_negative_damper_supplies_energy() {
     for integrator in ["Euler", "implicitfast"] {
         let with = |damping: f64| {
             let text =
@@ -105,7 +108,7 @@ fn a_damper_below_zero_is_an_input_without_end() {
 }
 
 #[test]
-fn a_step_that_is_too_long_for_a_swing_is_told() {
+fn a_timestep_that_is_too_long_for_an_oscillation_is_reported() {
     let one = |h: f64, integrator: &str| {
         let text = format!(
             "<mujoco><option timestep=\"{h}\" integrator=\"{integrator}\"/><worldbody><body><joint axis=\"0 1 0\"/>\
@@ -123,7 +126,7 @@ fn a_step_that_is_too_long_for_a_swing_is_told() {
 }
 
 #[test]
-fn a_start_that_is_pressed_together_may_fly_apart() {
+fn a_compressed_start_may_expand() {
     let text = "<mujoco><worldbody><geom type=\"plane\" size=\"1 1 1\" solref=\"-1e6 -10\"/><body pos=\"0 0 .05\">\
                 <freejoint/><geom size=\".1\" mass=\"1\" solref=\"-1e6 -10\"/></body></worldbody><option timestep=\"1e-4\"/></mujoco>";
     assert_eq!(run(text, 9600, |_| ()), None);

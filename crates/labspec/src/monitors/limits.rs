@@ -12,21 +12,21 @@ use labspec_core::math::rows;
 use labspec_core::{Data, Model, Scope, disable, joint};
 
 /// A limit does not hold a joint that is beyond it by this fraction of its range.
-const FAR: f64 = 0.5;
-/// A limit does not hold a joint that is beyond it by the fraction `BEYOND` of its range, if one step longer than that
-/// moved it there, or if it stays there for `LASTS` seconds and `STEPS` steps.
-const BEYOND: f64 = 0.2;
-const LASTS: f64 = 0.25;
+const FAR_BEYOND: f64 = 0.5;
+/// A limit does not hold a joint that is beyond it by the fraction `MIN_EXCESS` of its range, if one step longer than that
+/// moved it there, or if it stays there for `MIN_DURATION` seconds and `STEPS` steps.
+const MIN_EXCESS: f64 = 0.2;
+const MIN_DURATION: f64 = 0.25;
 const STEPS: u32 = 32;
 /// The smallest excess that is reported: an angle, rad, and a length as a fraction of the extent of the scene.
 const ANGLE: f64 = 0.1;
 const LENGTH: f64 = 0.02;
 /// The range of a slide joint counts as at most this many times the extent of the scene.
-const SCENES: f64 = 10.0;
+const MAX_RANGE_EXTENTS: f64 = 10.0;
 
 /// A joint beyond its limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Past {
+pub struct ExceededLimit {
     /// Time at which it exceeded the limit, s.
     pub time: f64,
     /// Id of the joint.
@@ -77,10 +77,10 @@ pub fn watch<S: Scope>(m: &Model, d: &Data<S>) -> LimitMonitor {
         let (most, least) = if turns {
             (2.0 * std::f64::consts::PI, ANGLE)
         } else {
-            (SCENES * m.stat.extent, LENGTH * m.stat.extent)
+            (MAX_RANGE_EXTENTS * m.stat.extent, LENGTH * m.stat.extent)
         };
-        let size = (high - low).min(most).max(least / BEYOND);
-        let slack = BEYOND * size;
+        let size = (high - low).min(most).max(least / MIN_EXCESS);
+        let slack = MIN_EXCESS * size;
         let range = [low, high];
         let qpos = m.jnt_qposadr[j] as usize;
         let before = *d.fields().qpos.get(qpos)?;
@@ -102,7 +102,7 @@ pub fn watch<S: Scope>(m: &Model, d: &Data<S>) -> LimitMonitor {
 
 /// Call after each step.
 #[inline]
-pub fn observe<S: Scope>(w: &mut LimitMonitor, d: &Data<S>) -> Option<Past> {
+pub fn observe<S: Scope>(w: &mut LimitMonitor, d: &Data<S>) -> Option<ExceededLimit> {
     let qpos = &d.fields().qpos;
     w.joints.iter_mut().find_map(|j| {
         let q = qpos.get(j.qpos)?;
@@ -111,13 +111,13 @@ pub fn observe<S: Scope>(w: &mut LimitMonitor, d: &Data<S>) -> Option<Past> {
             (j.lasted, j.outside) = (0, false);
             return None;
         }
-        far(j, d.time(), [before, *q])
+        report_far_beyond(j, d.time(), [before, *q])
     })
 }
 
 /// The report about a joint that is far beyond its limit, if it has to be reported.
 #[cold]
-fn far(j: &mut Limited, time: f64, [before, q]: [f64; 2]) -> Option<Past> {
+fn report_far_beyond(j: &mut Limited, time: f64, [before, q]: [f64; 2]) -> Option<ExceededLimit> {
     let step = q - before;
     let beyond = |q: f64| (j.range[0] - q).max(q - j.range[1]);
     if j.lasted == 0 {
@@ -126,12 +126,12 @@ fn far(j: &mut Limited, time: f64, [before, q]: [f64; 2]) -> Option<Past> {
     j.lasted += 1;
     // A step towards the range did not move the joint beyond the limit.
     let outward = if q > j.range[1] { step } else { -step };
-    let jumped = outward > BEYOND * j.size && beyond(before) < BEYOND * j.size && step.is_finite();
-    let stays = j.lasted >= STEPS && time - j.since >= LASTS;
+    let jumped = outward > MIN_EXCESS * j.size && beyond(before) < MIN_EXCESS * j.size && step.is_finite();
+    let stays = j.lasted >= STEPS && time - j.since >= MIN_DURATION;
     let step = jumped.then_some(step.abs());
     let range = j.range[1] - j.range[0];
-    let pressed = !j.outside && beyond(q) > FAR * j.size;
-    (jumped || stays || pressed).then(|| Past {
+    let pressed = !j.outside && beyond(q) > FAR_BEYOND * j.size;
+    (jumped || stays || pressed).then(|| ExceededLimit {
         time: j.since,
         joint: j.joint,
         beyond: beyond(q),
@@ -146,7 +146,7 @@ mod tests {
     use super::*;
     use labspec_core::{step, xml};
 
-    fn run(joint: &str, rest: &str, speed: f64) -> Option<Past> {
+    fn run(joint: &str, rest: &str, speed: f64) -> Option<ExceededLimit> {
         let text = format!(
             "<mujoco><option gravity=\"0 0 0\"/><worldbody><body><joint name=\"j\" axis=\"0 1 0\" {joint}/>\
              <geom size=\".1\" pos=\".5 0 0\" mass=\"1\"/></body></worldbody>{rest}</mujoco>"
@@ -162,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn a_step_past_a_limit_is_told_and_a_soft_limit_is_not() {
+    fn a_step_past_a_limit_is_reported_and_a_soft_limit_is_not() {
         let found = run("range=\"-45 45\"", "", 1000.0).unwrap();
         assert!(found.joint == 0 && found.time < 0.003 && found.step.unwrap() > 1.9, "{found:?}");
         assert!(found.beyond > 1.1 && (found.range - std::f64::consts::FRAC_PI_2).abs() < 1e-9, "{found:?}");
@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn a_motor_that_holds_a_joint_beyond_its_limit_is_told() {
+    fn a_motor_that_holds_a_joint_beyond_its_limit_is_reported() {
         let motor = |force: f64| {
             let rest = format!(
                 "<actuator><position joint=\"j\" kp=\"{force}\" kv=\"{}\"/></actuator>",
@@ -193,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn what_starts_outside_and_comes_back_is_not_told() {
+    fn a_start_outside_that_returns_is_not_reported() {
         let text = "<mujoco><worldbody><body><joint type=\"slide\" range=\"0 .1\"/><geom size=\".1\" mass=\"1\"/></body></worldbody></mujoco>";
         let m = xml::compile(text).unwrap();
         let mut d = Data::new(&m);

@@ -16,7 +16,7 @@ use labspec_finding::order;
 
 /// A spring, servo or constraint that is unstable at the timestep of the model.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Suspect {
+pub struct UnstablePart {
     /// The type of the object whose parameters cause it: an actuator, joint, tendon, geom, contact pair or equality.
     pub object: Obj,
     /// Its id.
@@ -43,7 +43,7 @@ pub enum StiffPart {
 }
 
 /// All parts that are too stiff for the timestep and the integrator of the model, in order of decreasing excess.
-pub fn suspects(m: &Model) -> Vec<Suspect> {
+pub fn unstable_parts(m: &Model) -> Vec<UnstablePart> {
     let mut list = Vec::new();
     if m.opt.integrator != integrator::DISCRETE {
         springs(m, &mut list);
@@ -104,7 +104,7 @@ fn implicit(m: &Model) -> [bool; 2] {
 }
 
 /// Springs and dampers of joints and tendons, with the servos that act along them.
-fn springs(m: &Model, list: &mut Vec<Suspect>) {
+fn springs(m: &Model, list: &mut Vec<UnstablePart>) {
     let [joints, others] = implicit(m);
     let on = |x: f64, flag: i32| if m.opt.disabled(flag) { 0.0 } else { x };
     for j in (0..m.njnt).filter(|&j| matches!(m.jnt_type[j], joint::SLIDE | joint::HINGE)) {
@@ -128,7 +128,7 @@ fn springs(m: &Model, list: &mut Vec<Suspect>) {
 /// Adds up the stiffness and damping along one coordinate. The stiffest part is reported.
 fn judge(
     m: &Model,
-    list: &mut Vec<Suspect>,
+    list: &mut Vec<UnstablePart>,
     (object, id): (Obj, usize),
     [stiff, damping]: [f64; 2],
     [own_implicit, servo_implicit]: [bool; 2],
@@ -154,14 +154,14 @@ fn judge(
     }
     let (excess, timestep) = sum.judge(m, inverse);
     let (_, part, object, id) = worst;
-    list.push(Suspect { object, id, part, excess, timestep });
+    list.push(UnstablePart { object, id, part, excess, timestep });
 }
 
 /// Contacts, limits and equalities by their `solref`.
-fn constraints(m: &Model, list: &mut Vec<Suspect>) {
+fn constraints(m: &Model, list: &mut Vec<UnstablePart>) {
     let mut push = |object: Obj, id: usize, part: StiffPart, solref: [f64; 2]| {
         let (excess, timestep) = reference(m, solref).judge(m, 1.0);
-        list.push(Suspect { object, id, part, excess, timestep });
+        list.push(UnstablePart { object, id, part, excess, timestep });
     };
     let on = |flag: i32| !m.opt.disabled(flag);
     if on(disable::CONTACT) {
@@ -236,7 +236,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_found_blows_up_and_what_is_not_does_not() {
+    fn reported_parts_diverge_and_others_do_not() {
         for integrator in ["Euler", "implicit", "implicitfast"] {
             for (kp, kv, damping, h) in [
                 (1e3, 0.0, 0.0, 1.0),
@@ -249,7 +249,7 @@ mod tests {
                     let gains = format!("kp=\"{kp}\" kv=\"{kv}\"");
                     servo(&option(h), &gains, &format!("damping=\"{damping}\""))
                 };
-                let Some(found) = suspects(&with(h)).first().cloned() else {
+                let Some(found) = unstable_parts(&with(h)).first().cloned() else {
                     assert!(farthest(&with(h)) < 0.1, "{integrator} {kp} {kv} {h}");
                     continue;
                 };
@@ -257,7 +257,7 @@ mod tests {
                 let (above, below) = (with(1.02 * found.timestep), with(0.98 * found.timestep));
                 assert!(farthest(&above) > 0.1, "{integrator} {kp} {kv}: {}", found.timestep);
                 assert!(farthest(&below) < 0.1, "{integrator} {kp} {kv}: {}", found.timestep);
-                assert!(suspects(&below).is_empty() && suspects(&above).len() == 1);
+                assert!(unstable_parts(&below).is_empty() && unstable_parts(&above).len() == 1);
             }
         }
     }
@@ -273,7 +273,7 @@ mod tests {
             ] {
                 let with =
                     |h: f64| driven(&format!("integrator=\"{integrator}\" timestep=\"{h}\""), actuator);
-                let found = suspects(&with(0.5)).first().cloned().unwrap();
+                let found = unstable_parts(&with(0.5)).first().cloned().unwrap();
                 assert_eq!((found.object, found.id, found.part), (Obj::Actuator, 0, StiffPart::Servo));
                 let (above, below) = (with(1.02 * found.timestep), with(0.98 * found.timestep));
                 assert!(farthest(&above) > 0.1, "{integrator} {actuator}: {}", found.timestep);
@@ -285,24 +285,24 @@ mod tests {
             "<dcmotor joint=\"j\" motorconst=\".5\" resistance=\"2\"/>",
             "<dcmotor joint=\"j\" motorconst=\".5\" resistance=\"2\" inductance=\".1\" input=\"pos\" controller=\"5e3 0 4\"/>",
         ] {
-            assert_eq!(suspects(&driven("timestep=\".5\"", actuator)), []);
+            assert_eq!(unstable_parts(&driven("timestep=\".5\"", actuator)), []);
         }
     }
 
     #[test]
     fn the_discrete_integrator_follows_everything() {
         let m = servo("integrator=\"discrete\" timestep=\"1\"", "kp=\"1e8\"", "");
-        assert!(suspects(&m).is_empty() && farthest(&m) < 0.1);
+        assert!(unstable_parts(&m).is_empty() && farthest(&m) < 0.1);
     }
 
     #[test]
     fn a_stiff_contact_is_named() {
         let text = "<mujoco><worldbody><geom name=\"floor\" type=\"plane\" size=\"1 1 1\" solref=\"-1e8 0\"/><body pos=\"0 0 .1\">\
                     <freejoint/><geom size=\".1\"/></body></worldbody></mujoco>";
-        let found = suspects(&xml::compile(text).unwrap());
+        let found = unstable_parts(&xml::compile(text).unwrap());
         assert_eq!(found.len(), 1);
         assert_eq!((found[0].object, found[0].id, found[0].part), (Obj::Geom, 0, StiffPart::Constraint));
         assert!(found[0].excess > 90.0 && found[0].timestep < 2.1e-4, "{found:?}");
-        assert!(suspects(&xml::compile(&text.replace(" solref=\"-1e8 0\"", "")).unwrap()).is_empty());
+        assert!(unstable_parts(&xml::compile(&text.replace(" solref=\"-1e8 0\"", "")).unwrap()).is_empty());
     }
 }

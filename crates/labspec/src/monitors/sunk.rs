@@ -10,19 +10,19 @@ use labspec_core::{Contact, Data, Fields, Model, Scope, geom_thickness};
 /// Thresholds of the depth: a fraction of the thickness of the thinner geom, and of the length of the smaller one.
 const THICKNESS: f64 = 0.3;
 const LENGTH: f64 = 0.03;
-/// A contact must be this deep for `LASTS` seconds, `STEPS` steps and `CONSTANTS` time constants of the contact, with a
-/// depth that changes by at most the fraction `SAME`. An impact is shorter, and a contact that pushes the bodies apart
-/// changes its depth.
-const LASTS: f64 = 0.25;
-const STEPS: u32 = 32;
-const CONSTANTS: f64 = 4.0;
-const SAME: f64 = 0.1;
+/// A contact must be this deep for `MIN_DURATION` seconds, `MIN_STEPS` steps and `MIN_TIME_CONSTANTS` time constants of
+/// the contact, with a depth that changes by at most the fraction `MAX_DEPTH_CHANGE`. An impact is shorter, and a contact
+/// that pushes the bodies apart changes its depth.
+const MIN_DURATION: f64 = 0.25;
+const MIN_STEPS: u32 = 32;
+const MIN_TIME_CONSTANTS: f64 = 4.0;
+const MAX_DEPTH_CHANGE: f64 = 0.1;
 /// A body that is entirely below a plane for this many time constants will not return, even if its depth still changes.
-const BELOW: f64 = 6.0;
+const MAX_TIME_CONSTANTS_BELOW: f64 = 6.0;
 
 /// Two bodies that penetrate each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sunk {
+pub struct SunkContact {
     /// Time at which the penetration began, s.
     pub time: f64,
     /// The geoms.
@@ -81,7 +81,7 @@ pub fn restart(w: &mut SinkMonitor) {
 
 /// Call after each step.
 #[inline]
-pub fn observe<S: Scope>(w: &mut SinkMonitor, m: &Model, d: &Data<S>) -> Option<Sunk> {
+pub fn observe<S: Scope>(w: &mut SinkMonitor, m: &Model, d: &Data<S>) -> Option<SunkContact> {
     let f = d.fields();
     let deep = f.contact.iter().take(f.ncon).any(|c| c.dist < -w.least);
     if deep {
@@ -94,7 +94,7 @@ pub fn observe<S: Scope>(w: &mut SinkMonitor, m: &Model, d: &Data<S>) -> Option<
 /// Evaluates the contact that is deepest relative to its geoms. It is reported when the same two geoms have been in contact
 /// long enough.
 #[cold]
-fn deepest(w: &mut SinkMonitor, m: &Model, f: &Fields) -> Option<Sunk> {
+fn deepest(w: &mut SinkMonitor, m: &Model, f: &Fields) -> Option<SunkContact> {
     let sizes = |c: &Contact| Some([*w.sizes.get(c.geom1)?, *w.sizes.get(c.geom2)?]);
     let part = |c: &Contact| {
         let Some([a, b]) = sizes(c) else { return 0.0 };
@@ -108,7 +108,7 @@ fn deepest(w: &mut SinkMonitor, m: &Model, f: &Fields) -> Option<Sunk> {
         return None;
     }
     let depth = -c.dist;
-    if w.lasted == 0 || w.pair != pair || (depth - w.depth).abs() > SAME * w.depth {
+    if w.lasted == 0 || w.pair != pair || (depth - w.depth).abs() > MAX_DEPTH_CHANGE * w.depth {
         (w.pair, w.depth, w.lasted, w.since) = (pair, depth, 0, f.time);
     }
     let [a, b] = sizes(c)?;
@@ -116,10 +116,10 @@ fn deepest(w: &mut SinkMonitor, m: &Model, f: &Fields) -> Option<Sunk> {
     w.lasted += 1;
     w.below = if whole { w.below.min(f.time) } else { f64::INFINITY };
     let constant = time_constant(m, c);
-    let stays = f.time - w.below >= LASTS.max(BELOW * constant);
-    let lasts = w.lasted >= STEPS && f.time - w.since >= LASTS.max(CONSTANTS * constant);
+    let stays = f.time - w.below >= MIN_DURATION.max(MAX_TIME_CONSTANTS_BELOW * constant);
+    let lasts = w.lasted >= MIN_STEPS && f.time - w.since >= MIN_DURATION.max(MIN_TIME_CONSTANTS * constant);
     let force = normal_force(f, c, m.opt.cone == 0);
-    (stays || lasts).then(|| Sunk {
+    (stays || lasts).then(|| SunkContact {
         time: w.since.min(w.below),
         geoms: pair,
         depth,
@@ -148,7 +148,7 @@ mod tests {
     use super::*;
     use labspec_core::{step, xml};
 
-    fn run(option: &str, light: &str, rest: &str, steps: usize) -> Option<Sunk> {
+    fn run(option: &str, light: &str, rest: &str, steps: usize) -> Option<SunkContact> {
         let text = format!(
             "<mujoco><option {option}/><worldbody><geom type=\"plane\" size=\"1 1 1\"/><body pos=\"0 0 .1\"><freejoint/>\
              <geom type=\"box\" size=\".1 .1 .1\" {light}/></body>{rest}</worldbody></mujoco>"
@@ -169,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn a_box_that_is_pressed_into_the_floor_is_told() {
+    fn a_box_pressed_into_the_floor_is_reported() {
         let found = run("", "mass=\".001\"", &on_top(1e4), 2000).unwrap();
         assert!(found.geoms == [0, 1] || found.geoms == [1, 2], "{found:?}");
         assert!(found.depth > 0.06 && (found.thickness - 0.2).abs() < 1e-12, "{found:?}");
@@ -179,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_floor_does_not_hold_is_told() {
+    fn bodies_that_sink_through_the_floor_are_reported() {
         for (gravity, sinks) in [(10.0, false), (1e3, false), (1e5, true), (1e6, true)] {
             let option = format!("gravity=\"0 0 -{gravity}\"");
             let found = run(&option, "mass=\"1\"", "", 1000);
@@ -195,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn an_impact_is_not_told() {
+    fn an_impact_is_not_reported() {
         let ball = |contact: &str| {
             format!("<body pos=\"1 0 2\"><freejoint/><geom size=\".1\" mass=\"1\" {contact}/></body>")
         };

@@ -15,9 +15,9 @@ use labspec_core::{Data, Fields, Model, Scope, may_touch};
 
 /// A displacement per step above this fraction of the thickness is fast: after a few such steps the contact pushes in the
 /// wrong direction.
-const FAST: f64 = 0.1;
+const FAST_DISPLACEMENT: f64 = 0.1;
 /// Number of steps between two measurements of the speeds while no geom is both fast and near a wall.
-const EVERY: u32 = 10;
+const STEPS_PER_MEASUREMENT: u32 = 10;
 /// Factor for the increase of the speed between two measurements, in the estimate of the distance that counts as near.
 const MARGIN: f64 = 2.0;
 
@@ -97,7 +97,7 @@ fn pass(w: &mut TunnellingMonitor, m: &Model, f: &Fields) -> Option<Through> {
     let mut awake = !w.is_stored;
     if w.is_stored {
         let fastest = measure(w, f);
-        if fastest > 0.5 * FAST * w.thinnest {
+        if fastest > 0.5 * FAST_DISPLACEMENT * w.thinnest {
             (awake, found) = walls(w, m, f);
         }
     }
@@ -106,7 +106,7 @@ fn pass(w: &mut TunnellingMonitor, m: &Model, f: &Fields) -> Option<Through> {
         w.pos.copy_from_slice(&f.geom_xpos);
         w.mat.copy_from_slice(&f.geom_xmat);
     } else {
-        w.left = EVERY;
+        w.left = STEPS_PER_MEASUREMENT;
     }
     found
 }
@@ -131,11 +131,11 @@ fn walls(w: &TunnellingMonitor, m: &Model, f: &Fields) -> (bool, Option<Through>
         let Size { thickness, length } = w.sizes[wall];
         for &g in w.geoms.iter().filter(|&&g| g != wall && w.sizes[g].thickness.is_finite()) {
             let moved = w.moved[g] + w.moved[wall];
-            if moved <= 0.5 * FAST * thickness {
+            if moved <= 0.5 * FAST_DISPLACEMENT * thickness {
                 continue;
             }
             let gap = [0, 1, 2].map(|k| now[g][k] - now[wall][k]).map(|x| x * x).iter().sum::<f64>().sqrt();
-            let soon = moved * (1.0 + MARGIN * f64::from(EVERY));
+            let soon = moved * (1.0 + MARGIN * f64::from(STEPS_PER_MEASUREMENT));
             if gap > 0.5 * (length + w.sizes[g].length) + soon || !may_touch(m, g, wall).unwrap_or(false) {
                 continue;
             }
@@ -161,7 +161,7 @@ fn passed(w: &TunnellingMonitor, m: &Model, f: &Fields, g: usize, wall: usize) -
         let part = before[k] / (before[k] - after[k]);
         let at = |j: usize| before[j] + part * (after[j] - before[j]);
         // Without a crossing, `part` is outside 0..=1 or NaN. A vibration about the plane is not a crossing.
-        let far = (before[k] - after[k]).abs() > 2.0 * FAST * half[k];
+        let far = (before[k] - after[k]).abs() > 2.0 * FAST_DISPLACEMENT * half[k];
         far && (0.0..=1.0).contains(&part) && (0..3).all(|j| j == k || at(j).abs() < half[j])
     });
     let length = [0, 1, 2].map(|k| after[k] - before[k]).map(|x| x * x).iter().sum::<f64>().sqrt();
@@ -197,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn boxes_that_change_places_are_told() {
+    fn boxes_that_pass_through_each_other_are_reported() {
         let cube = |z: f64| {
             format!(
                 "<body pos=\"0 0 {z}\"><freejoint/><geom type=\"box\" size=\".1 .1 .1\" mass=\"1\"/></body>"
@@ -221,7 +221,7 @@ mod tests {
     const PLATE: &str = "<geom type=\"box\" size=\"1 1 .0005\"/>";
 
     #[test]
-    fn a_ball_that_passes_a_plate_is_told() {
+    fn a_ball_that_passes_a_plate_is_reported() {
         for (radius, speeds) in [(0.01, vec![1.0, 3.0, 10.0, 100.0]), (0.1, vec![30.0, 100.0, 300.0])] {
             for speed in speeds {
                 let found = run(PLATE, &format!("size=\"{radius}\""), speed).unwrap();
@@ -235,7 +235,7 @@ mod tests {
     }
 
     #[test]
-    fn what_may_pass_is_not_told() {
+    fn permitted_passages_are_not_reported() {
         // Collision bits that do not match, a hole, and a body that passes beside the plate.
         assert_eq!(run(PLATE, "size=\".01\" contype=\"2\" conaffinity=\"2\"", 10.0), None);
         let hole = "<geom type=\"box\" pos=\".6 0 0\" size=\".5 1 .0005\"/><geom type=\"box\" pos=\"-.6 0 0\" size=\".5 1 .0005\"/>";

@@ -18,11 +18,11 @@ use labspec_core::{
 
 /// A missing fraction that is reported, and how many times it must be observed.
 const PART: f64 = 0.25;
-const TIMES: u32 = 8;
-/// Number of steps between two evaluations, each of which costs two forward passes. `FIRST` applies to the first
+const MIN_UNSOLVED: u32 = 8;
+/// Number of steps between two evaluations, each of which costs two forward passes. `FIRST_EVALUATIONS` applies to the first
 /// evaluations.
-const EVERY: u32 = 100;
-const FIRST: u32 = 10;
+const STEPS_PER_EVALUATION: u32 = 100;
+const FIRST_EVALUATIONS: u32 = 10;
 /// Iteration limit and tolerance of the converged solver.
 const ITERATIONS: i32 = 500;
 const TOLERANCE: f64 = 1e-10;
@@ -79,7 +79,7 @@ pub fn observe<S: Scope>(w: &mut SolverMonitor, m: &Model, d: &Data<S>) -> Optio
 #[cold]
 fn compare<S: Scope>(w: &mut SolverMonitor, m: &Model, d: &Data<S>) -> Option<Unsolved> {
     w.looks += 1;
-    w.left = if w.looks < 2 * TIMES { FIRST } else { EVERY };
+    w.left = if w.looks < 2 * MIN_UNSOLVED { FIRST_EVALUATIONS } else { STEPS_PER_EVALUATION };
     let scratch = w.scratch.get_or_insert_with(|| Box::new(scratch(m)));
     let (part, dof) = residual(scratch, m, d)?;
     if part < PART {
@@ -91,7 +91,7 @@ fn compare<S: Scope>(w: &mut SolverMonitor, m: &Model, d: &Data<S>) -> Option<Un
     }
     w.residuals_over += 1;
     let iterations = d.fields().solver_niter;
-    (w.residuals_over >= TIMES).then_some(Unsolved { time: w.since, iterations, part, dof })
+    (w.residuals_over >= MIN_UNSOLVED).then_some(Unsolved { time: w.since, iterations, part, dof })
 }
 
 fn scratch(m: &Model) -> SolverScratch {

@@ -1,8 +1,8 @@
 //! All monitors of a run: each detects one way in which a run fails silently.
 
 use super::growth::{self, Growth};
-use super::limits::{self, Past};
-use super::sunk::{self, Sunk};
+use super::limits::{self, ExceededLimit};
+use super::sunk::{self, SunkContact};
 use super::through::{self, Through};
 use super::unsolved::{self, Unsolved};
 use labspec_core::reflect::Stage;
@@ -10,20 +10,20 @@ use labspec_core::{Data, Model, Scope};
 
 /// The first observation of each kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Noticed {
+pub struct Observations {
     /// A gain of energy that no force supplied, or that negative damping supplies without limit.
     pub growth: Option<Growth>,
     /// A joint beyond its limit.
-    pub past: Option<Past>,
+    pub past: Option<ExceededLimit>,
     /// A body that passed through another one.
     pub through: Option<Through>,
     /// A body that stays inside another one.
-    pub sunk: Option<Sunk>,
+    pub sunk: Option<SunkContact>,
     /// Forces for which the solver did not converge.
     pub unsolved: Option<Unsolved>,
 }
 
-impl Noticed {
+impl Observations {
     /// Time of the earliest observation, s; infinite when there is none.
     pub fn time(&self) -> f64 {
         let times = [
@@ -48,7 +48,7 @@ pub struct Monitors {
     unsolved: unsolved::SolverMonitor,
     /// The scene has no contacts, limits or equality constraints: only energy is monitored.
     bare: bool,
-    noticed: Noticed,
+    noticed: Observations,
 }
 
 /// Starts monitoring a run in state `d`. Energy is monitored unless programs apply forces in every step (`pushed`). The
@@ -61,7 +61,7 @@ pub fn watch<S: Scope>(m: &Model, d: &Data<S>, pushed: bool) -> Monitors {
         sunk: sunk::watch(m),
         unsolved: unsolved::SolverMonitor::default(),
         bare: bare(d),
-        noticed: Noticed::default(),
+        noticed: Observations::default(),
     }
 }
 
@@ -113,6 +113,6 @@ fn constraints<S: Scope>(w: &mut Monitors, m: &Model, d: &Data<S>) {
 }
 
 /// The observations so far.
-pub fn noticed(w: &Monitors) -> &Noticed {
+pub fn observations(w: &Monitors) -> &Observations {
     &w.noticed
 }

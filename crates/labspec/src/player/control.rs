@@ -42,22 +42,22 @@ pub enum ControlKind {
 
 /// Denotes a control by its label or its index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Which<'a> {
+pub enum ControlKey<'a> {
     /// The first with this label.
     Label(&'a str),
     /// The one with this index, from 0.
     Index(usize),
 }
 
-impl<'a> From<&'a str> for Which<'a> {
-    fn from(label: &'a str) -> Which<'a> {
-        Which::Label(label)
+impl<'a> From<&'a str> for ControlKey<'a> {
+    fn from(label: &'a str) -> ControlKey<'a> {
+        ControlKey::Label(label)
     }
 }
 
-impl From<usize> for Which<'_> {
+impl From<usize> for ControlKey<'_> {
     fn from(index: usize) -> Self {
-        Which::Index(index)
+        ControlKey::Index(index)
     }
 }
 

@@ -55,7 +55,7 @@ mod tests {
     use super::unit;
 
     #[test]
-    fn a_unit_stands_in_parentheses_at_the_end() {
+    fn a_unit_is_read_from_parentheses_at_the_end() {
         for (label, expected) in [
             ("height (m)", "m"),
             ("speed (m/s) ", "m/s"),

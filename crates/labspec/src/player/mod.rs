@@ -10,7 +10,7 @@ mod displayed;
 mod load;
 mod scene;
 
-pub use control::{Control, ControlKind, Which};
+pub use control::{Control, ControlKey, ControlKind};
 pub use displayed::{DisplayedIn, DisplayedValue};
 
 use crate::error::{Error, located};
@@ -85,7 +85,7 @@ impl Player {
     }
 
     /// The current value of a control; `None` when there is no such control, `undefined` for a button.
-    pub fn value<'w>(&self, which: impl Into<Which<'w>>) -> Option<&Value> {
+    pub fn value<'w>(&self, which: impl Into<ControlKey<'w>>) -> Option<&Value> {
         self.now.session.values().get(self.index(which.into()).ok()?)
     }
 
@@ -119,7 +119,11 @@ impl Player {
     ///
     /// # Errors
     /// There is no such control, it is a button, a student cannot choose this value, or the lab is frozen.
-    pub fn set<'w>(&mut self, which: impl Into<Which<'w>>, value: impl Into<Value>) -> Result<(), Error> {
+    pub fn set<'w>(
+        &mut self,
+        which: impl Into<ControlKey<'w>>,
+        value: impl Into<Value>,
+    ) -> Result<(), Error> {
         let index = self.index(which.into())?;
         let Some(control) = self.lab.controls.get(index) else { return Err(self.unknown(index)) };
         let value = settings::value(control, &value.into())?;
@@ -130,7 +134,7 @@ impl Player {
     ///
     /// # Errors
     /// There is no such control, it is not a button, or the lab is frozen.
-    pub fn press<'w>(&mut self, which: impl Into<Which<'w>>) -> Result<(), Error> {
+    pub fn press<'w>(&mut self, which: impl Into<ControlKey<'w>>) -> Result<(), Error> {
         let index = self.index(which.into())?;
         let Some(control) = self.controls.get(index) else { return Err(self.unknown(index)) };
         let ControlKind::Button = control.kind else {
@@ -231,10 +235,10 @@ impl Player {
         let session = &self.now.session;
         let done = self.done();
         let mut all = self.loaded.clone();
-        let troubles = session.troubles.iter().map(|t| run::threw(t, &done));
+        let program_errors = session.program_errors.iter().map(|t| run::error_finding(t, &done));
         let breakdowns = run::breakdowns_of(session).into_iter();
-        let broken = breakdowns.map(|b| run::broke(&b, &done, self.lab.place()));
-        all.extend(troubles.chain(broken).chain(self.spent()).map(|f| located(f, &self.file)));
+        let broken = breakdowns.map(|b| run::describe_breakdown(&b, &done, self.lab.place()));
+        all.extend(program_errors.chain(broken).chain(self.spent()).map(|f| located(f, &self.file)));
         all
     }
 
@@ -303,9 +307,9 @@ impl Player {
     fn frozen(&self) -> Option<Error> {
         let session = &self.now.session;
         session.ended()?;
-        let troubles = session.troubles.last().map(|t| run::threw(t, &self.done()));
+        let program_errors = session.program_errors.last().map(|t| run::error_finding(t, &self.done()));
         let all: Vec<Finding> =
-            self.spent().or(troubles).map(|f| located(f, &self.file)).into_iter().collect();
+            self.spent().or(program_errors).map(|f| located(f, &self.file)).into_iter().collect();
         Some(if all.is_empty() {
             Error::Call("the engine refused a call: reset the lab".into())
         } else {
@@ -333,11 +337,11 @@ impl Player {
         if list.is_empty() { "as it stands".into() } else { format!("with {}", list.join(", ")) }
     }
 
-    fn index(&self, which: Which<'_>) -> Result<usize, Error> {
+    fn index(&self, which: ControlKey<'_>) -> Result<usize, Error> {
         match which {
-            Which::Index(index) if index < self.controls.len() => Ok(index),
-            Which::Index(index) => Err(self.unknown(index)),
-            Which::Label(label) => {
+            ControlKey::Index(index) if index < self.controls.len() => Ok(index),
+            ControlKey::Index(index) => Err(self.unknown(index)),
+            ControlKey::Label(label) => {
                 let programs = self.now.session.programs();
                 let found = programs.control(label).map(|(index, _)| index);
                 found.ok_or_else(|| settings::unknown_control(label, programs).into())

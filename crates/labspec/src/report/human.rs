@@ -13,12 +13,12 @@ use std::ops::Range;
 /// Number of characters on each side of a span, and maximum number of characters of the span itself.
 const CONTEXT: usize = 48;
 /// Maximum number of characters of a line that is printed completely.
-const WHOLE: usize = 110;
+const MAX_WHOLE_LINE: usize = 110;
 
 /// All findings, each followed by an empty line. With `colour`, the text contains escape sequences for terminals.
 pub fn human(findings: &[Finding], files: &[&SourceFile], colour: bool) -> String {
     let renderer = if colour { Renderer::styled() } else { Renderer::plain() };
-    let renderer = renderer.term_width(WHOLE + 40);
+    let renderer = renderer.term_width(MAX_WHOLE_LINE + 40);
     let mut text = String::new();
     for finding in findings {
         text.push_str(&one(finding, files, &renderer));
@@ -99,7 +99,7 @@ fn window(line: &str, span: &Range<usize>, line_start: usize) -> (String, Range<
     let end = span.end.saturating_sub(line_start).clamp(start, line.len());
     let (before, inside) = (line.get(..start).unwrap_or(""), line.get(start..end).unwrap_or(""));
     let after = line.get(end..).unwrap_or("");
-    if line.chars().take(WHOLE + 1).count() <= WHOLE {
+    if line.chars().take(MAX_WHOLE_LINE + 1).count() <= MAX_WHOLE_LINE {
         return written([before, inside, after]);
     }
     let left: Vec<char> = before.chars().rev().take(CONTEXT).collect();
@@ -148,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn spans_over_lines_and_behind_the_end_are_survived() {
+    fn spans_over_lines_and_past_the_end_are_printed() {
         let file = SourceFile::new("a.md", "one\ntwo");
         for span in [0..7, 2..5, 7..7, 90..100, 3..3] {
             let finding = Finding::new(rules::UNKNOWN_KEY, span, "x").at(&file);

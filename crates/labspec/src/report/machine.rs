@@ -16,13 +16,13 @@ pub const SCHEMA_VERSION: u32 = 1;
 pub fn report(name: &str, entries: impl Serialize) -> Value {
     #[derive(Serialize)]
     #[serde(rename_all = "camelCase")]
-    struct Report<'a, T> {
+    struct VersionedReport<'a, T> {
         schema_version: u32,
         report: &'a str,
         #[serde(flatten)]
         entries: T,
     }
-    to_value(&Report { schema_version: SCHEMA_VERSION, report: name, entries })
+    to_value(&VersionedReport { schema_version: SCHEMA_VERSION, report: name, entries })
 }
 
 /// Converts words to a key or an enumeration value: `closed form` becomes `closedForm`.

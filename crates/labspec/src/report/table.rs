@@ -217,7 +217,7 @@ fn write_csv_text(text: &str, out: &mut dyn Write) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run::{Breakdown, Shorter};
+    use crate::run::{Breakdown, ShorterTimestep};
     use serde_json::json;
 
     fn table(names: &[&str], rows: Vec<Vec<Cell>>) -> Table {
@@ -257,7 +257,7 @@ mod tests {
             what: "a".into(),
             why: "b",
             cause: None,
-            shorter: Shorter::No,
+            shorter: ShorterTimestep::No,
             instead: "c".into(),
         }];
         table.timestep = f64::INFINITY;

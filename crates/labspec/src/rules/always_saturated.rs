@@ -1,4 +1,4 @@
-use crate::check::observations::{Beyond, ObservedLab};
+use crate::check::observations::{InputsOutOfRange, ObservedLab};
 use crate::check::setconst::digits;
 use labspec_core::Obj;
 use labspec_finding::{Example, Finding, Layer, Rule, Severity};
@@ -19,22 +19,23 @@ pub const ALWAYS_SATURATED: &Rule = &Rule {
 };
 
 /// Runs of fewer samples say nothing.
-const LOOKS: usize = 10;
+const MIN_SAMPLES: usize = 10;
 
 pub(crate) fn check_saturation(observed: &ObservedLab<'_>, findings: &mut Vec<Finding>) {
     let ready = observed.bench.ready;
     let Some(first) = observed.records.first() else { return };
     for (i, (_, value)) in first.beyond.times.iter().enumerate() {
-        let always = |b: &Beyond| b.looks >= LOOKS && b.times.get(i).is_some_and(|t| t.0 == b.looks);
+        let always =
+            |b: &InputsOutOfRange| b.looks >= MIN_SAMPLES && b.times.get(i).is_some_and(|t| t.0 == b.looks);
         if !observed.records.iter().all(|r| always(&r.beyond)) {
             continue;
         }
         let [low, high] =
             [0, 1].map(|k| ready.model.actuator_ctrlrange.get(2 * i + k).copied().unwrap_or(0.0));
         let name = ready.model.names.of_kind(Obj::Actuator).get(i).filter(|n| !n.is_empty());
-        let who = name.map_or_else(|| format!("data.ctrl[{i}]"), |n| format!("the input of \"{n}\""));
+        let subject = name.map_or_else(|| format!("data.ctrl[{i}]"), |n| format!("the input of \"{n}\""));
         findings.push(
-            Finding::warning(ALWAYS_SATURATED, ready.lab.place(), format!("{who} is outside its range all the time"))
+            Finding::warning(ALWAYS_SATURATED, ready.lab.place(), format!("{subject} is outside its range all the time"))
                 .why(format!(
                     "it is {} in the run as the lab stands, its `ctrlrange` goes from {low} to {high}, and it is outside at every sample of {}: the engine clamps it",
                     digits(*value, 4), observed.runs()

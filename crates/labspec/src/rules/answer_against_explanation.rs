@@ -21,11 +21,11 @@ pub const ANSWER_AGAINST_EXPLANATION: &Rule = &Rule {
 pub(super) const CHECK: Check = Check::Question(check_question);
 
 /// Numbers that are as near as this, of the answer, are meant to be it.
-const NEAR: f64 = 0.02;
+const SAME_NUMBER: f64 = 0.02;
 /// Characters before and behind a number that say what it is.
-const AROUND: usize = 60;
+const CONTEXT_LENGTH: usize = 60;
 /// How a slip changes a number.
-const SLIPS: [(f64, &str); 6] = [
+const MISTAKE_FACTORS: [(f64, &str); 6] = [
     (-1.0, "the sign differs"),
     (10.0, "the explanation gives a tenth of the answer"),
     (100.0, "the explanation gives a hundredth of the answer"),
@@ -47,12 +47,12 @@ fn check_question(question: &Question, findings: &mut Vec<Finding>) {
     if key == 0.0 || all.iter().any(|n| is(n, key, decimals)) {
         return;
     }
-    let unit = unit.as_ref().map_or(String::new(), |u| bare(u.as_str()));
+    let unit = unit.as_ref().map_or(String::new(), |u| plain_unit(u.as_str()));
     let result = |n: &&Number| (n.significant >= 2 || n.decimals >= 2) && is_result(html, n, &unit);
     for n in all.iter().filter(result) {
-        let slip = SLIPS.iter().find(|(by, _)| is(n, key / by, decimals + 2) && n.value != 0.0);
+        let slip = MISTAKE_FACTORS.iter().find(|(by, _)| is(n, key / by, decimals + 2) && n.value != 0.0);
         let why = match slip {
-            _ if (n.value - key).abs() <= NEAR * key.abs() => "the printed digits differ",
+            _ if (n.value - key).abs() <= SAME_NUMBER * key.abs() => "the printed digits differ",
             _ if ((n.value - key).abs() - 0.1_f64.powi(decimals as i32)).abs() < 1e-9 => {
                 "the last digits differ by one"
             }
@@ -77,13 +77,14 @@ fn check_question(question: &Question, findings: &mut Vec<Finding>) {
 /// Whether a number is what a line of the explanation comes to: behind `=`, `≈`, `:` or `is`, in the unit of the answer.
 fn is_result(html: &str, n: &Number, unit: &str) -> bool {
     // What stands near it.
-    let back = html.get(..n.at.start).unwrap_or("").char_indices().rev().nth(AROUND).map_or(0, |(at, _)| at);
+    let back =
+        html.get(..n.at.start).unwrap_or("").char_indices().rev().nth(CONTEXT_LENGTH).map_or(0, |(at, _)| at);
     let before = plain(html.get(back..n.at.start).unwrap_or(""));
     let before = before.trim_end_matches(['$', ' ', '-', '−', '{', '~']).trim_end_matches("about");
     let before = before.trim_end();
     let behind = ["=", "≈", ":", " is", "\\approx"].iter().any(|mark| before.ends_with(mark));
-    let after: String = html.get(n.at.end..).unwrap_or("").chars().take(AROUND).collect();
-    let after = bare(&plain(&after));
+    let after: String = html.get(n.at.end..).unwrap_or("").chars().take(CONTEXT_LENGTH).collect();
+    let after = plain_unit(&plain(&after));
     // Another unit, another number.
     let ends = after.is_empty() || after.starts_with(['.', ',', ';', ')', ':']);
     let in_its_unit = !unit.is_empty() && after.starts_with(unit);
@@ -91,7 +92,7 @@ fn is_result(html: &str, n: &Number, unit: &str) -> bool {
 }
 
 /// A unit, or what stands behind a number, without spaces and marks of formulas.
-fn bare(text: &str) -> String {
+fn plain_unit(text: &str) -> String {
     text.chars()
         .filter(|c| !c.is_whitespace() && !"$\\^{}°".contains(*c))
         .collect::<String>()

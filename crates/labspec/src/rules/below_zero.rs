@@ -19,7 +19,7 @@ pub const BELOW_ZERO: &Rule = &Rule {
 };
 
 /// What is never negative: how labels call it, and what its expression has to hold, so that it is this and nothing else.
-const KINDS: [(&str, &str, &str); 9] = [
+const NONNEGATIVE_QUANTITIES: [(&str, &str, &str); 9] = [
     ("nq", "model.nq", "a number of coordinates"),
     ("nv", "model.nv", "a number of degrees of freedom"),
     ("time", "data.time", "elapsed time"),
@@ -40,8 +40,10 @@ pub(crate) fn check_below_zero(observed: &ObservedLab<'_>, findings: &mut Vec<Fi
     for (i, (label, expr)) in displayed.enumerate() {
         let (label, text) = (label.as_str(), expr.as_str());
         let bars = label.starts_with('|') && label.matches('|').count() == 2;
-        let of_kind = |(word, code, _): &&(&str, &str, &str)| names(label, word) && text.contains(code);
-        let Some(what) = KINDS.iter().find(of_kind).map(|k| k.2).or(bars.then_some("a magnitude")) else {
+        let of_kind = |(word, code, _): &&(&str, &str, &str)| is_label_of(label, word) && text.contains(code);
+        let Some(what) =
+            NONNEGATIVE_QUANTITIES.iter().find(of_kind).map(|k| k.2).or(bars.then_some("a magnitude"))
+        else {
             continue;
         };
         let numbers = || {
@@ -75,7 +77,7 @@ pub(crate) fn check_below_zero(observed: &ObservedLab<'_>, findings: &mut Vec<Fi
 }
 
 /// Whether a label is this word, with a unit or a name behind it at most: `time left` is another thing.
-fn names(label: &str, word: &str) -> bool {
+fn is_label_of(label: &str, word: &str) -> bool {
     let lower = label.to_lowercase();
     let rest = match lower.strip_prefix(word) {
         Some(rest) => rest.trim_start(),

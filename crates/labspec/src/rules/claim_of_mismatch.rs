@@ -7,11 +7,11 @@ pub const CLAIM_OF_MISMATCH: &Rule = &Rule {
     layer: Layer::Claim,
     summary: "a claim holds only because a program changes a parameter and not the parameter that belongs to it",
     why: "a heavier ball with the inertia of a light one rolls faster than any real ball: the claim is checked again with the other parameter corrected, and then it is false",
-    bad: Example::Lesson(BAD),
-    good: Example::Lesson(GOOD),
+    bad: Example::Lesson(WRONG_LESSON),
+    good: Example::Lesson(RIGHT_LESSON),
 };
 
-const BAD: &str = r##"```lab simlab
+const WRONG_LESSON: &str = r##"```lab simlab
 {"xml": "<mujoco><option gravity='4.905 0 -8.496'/><worldbody><geom type='plane' size='9 9 1'/><body name='ball' pos='0 0 .1'><freejoint/><geom size='.1' mass='1'/></body></worldbody></mujoco>", "stopAt": 1, "controls": [{"label": "mass (kg)", "apply": "model.body_mass[1] = value; mj.mj_setConst(model, data)", "reset": true, "min": 1, "max": 10, "value": 1}], "readouts": [{"label": "speed (m/s)", "expr": "data.qvel[0]"}]}
 ```
 
@@ -22,7 +22,7 @@ const BAD: &str = r##"```lab simlab
 ```
 "##;
 
-const GOOD: &str = r##"```lab simlab
+const RIGHT_LESSON: &str = r##"```lab simlab
 {"xml": "<mujoco><option gravity='4.905 0 -8.496'/><worldbody><geom type='plane' size='9 9 1'/><body name='ball' pos='0 0 .1'><freejoint/><geom size='.1' mass='1'/></body></worldbody></mujoco>", "stopAt": 1, "controls": [{"label": "mass (kg)", "apply": "const f = value / model.body_mass[1]; model.body_mass[1] = value; for (let i = 3; i < 6; i++) model.body_inertia[i] *= f; mj.mj_setConst(model, data)", "reset": true, "min": 1, "max": 10, "value": 1}], "readouts": [{"label": "speed (m/s)", "expr": "data.qvel[0]"}]}
 ```
 

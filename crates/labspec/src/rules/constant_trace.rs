@@ -23,7 +23,7 @@ pub const CONSTANT_TRACE: &Rule = &Rule {
 };
 
 /// Fields of the model that say where things are when nothing has happened: data have the same under another name.
-const PLACES: [(&str, &str); 8] = [
+const INITIAL_POSE_FIELDS: [(&str, &str); 8] = [
     ("qpos0", "data.qpos"),
     ("qpos_spring", "data.qpos"),
     ("key_qpos", "data.qpos"),
@@ -49,7 +49,7 @@ pub(crate) fn check_still_trace(
     let probe = ready.programs.probes.get(c.checked_sub(1)?)?;
     let effects = probe.bound.as_ref()?.program.effects();
     let data = effects.reads_everything || reads(effects, |f| f.info().object == Object::Data);
-    let place = PLACES
+    let place = INITIAL_POSE_FIELDS
         .iter()
         .find(|(name, _)| reads(effects, |f| f.info().object == Object::Model && f.info().name == *name));
     // Beside curves that move, a number of the model or of the lab may be meant as a line.

@@ -39,7 +39,7 @@ pub(crate) fn check_contact_times(ready: &PreparedLab<'_>, findings: &mut Vec<Fi
     if !suspect || effects.ctx_writes.is_empty() {
         return;
     }
-    let Some((slot, time, step)) = late(ready, &effects.ctx_writes) else { return };
+    let Some((slot, time, step)) = late_variable(ready, &effects.ctx_writes) else { return };
     let name = ready.programs.globals.name(slot);
     let printed = |x: f64| digits(x, 6);
     findings.push(
@@ -57,8 +57,9 @@ pub(crate) fn check_contact_times(ready: &PreparedLab<'_>, findings: &mut Vec<Fi
     );
 }
 
-/// The variable that a new contact, and nothing else in the step before, sets to the time of the controller; that time; the timestep.
-fn late(ready: &PreparedLab<'_>, slots: &[u32]) -> Option<(u32, f64, f64)> {
+/// The variable that a new contact, and nothing else in the step before, sets to the time of the controller; that time;
+/// the timestep.
+fn late_variable(ready: &PreparedLab<'_>, slots: &[u32]) -> Option<(u32, f64, f64)> {
     let (lab, programs) = (ready.lab, &ready.programs);
     let start = Start { budget: WORK, ..Start::of_lab(lab) };
     let mut session = Session::start(programs, &ready.model, start);

@@ -25,14 +25,14 @@ pub const DAMPING_BELOW_ZERO: &Rule = &Rule {
 /// Steps of the runs that are observed at.
 const STEPS: usize = 500;
 /// Words of a lab that means it.
-const WORDS: [&str; 4] = ["negative", "below zero", "self-excit", "van der pol"];
+const INTENTION_WORDS: [&str; 4] = ["negative", "below zero", "self-excit", "van der pol"];
 
 pub(crate) fn check_damping(observed: &ObservedLab<'_>, findings: &mut Vec<Finding>) {
     let ready = observed.bench.ready;
     let lab = ready.lab;
     let controls = lab.controls.iter().map(|c| &c.label);
     let texts = [lab.title.as_ref(), lab.note.as_ref()].into_iter().flatten().chain(controls);
-    let says = |text: &str| WORDS.iter().any(|w| text.to_lowercase().contains(w));
+    let says = |text: &str| INTENTION_WORDS.iter().any(|w| text.to_lowercase().contains(w));
     let chosen = |effects: &labspec_expr::Effects| {
         effects.writes_everything
             || effects.writes.iter().any(|w| w.field.0 as usize == model::dof_damping.index())
@@ -44,7 +44,7 @@ pub(crate) fn check_damping(observed: &ObservedLab<'_>, findings: &mut Vec<Findi
     {
         return;
     }
-    let Some((dof, damping, power, time, done)) = pushes(observed) else { return };
+    let Some((dof, damping, power, time, done)) = most_powerful_damper(observed) else { return };
     let [damping, power, time] = [damping, power, time].map(|x| digits(x, 3));
     let place = programs.setup.as_ref().filter(|b| chosen(b.program.effects())).map(|b| b.text.span());
     findings.push(
@@ -59,7 +59,7 @@ pub(crate) fn check_damping(observed: &ObservedLab<'_>, findings: &mut Vec<Findi
 }
 
 /// The damper below zero that gives the most: its degree of freedom and damping, W, when, and what was done.
-fn pushes(observed: &ObservedLab<'_>) -> Option<(usize, f64, f64, f64, String)> {
+fn most_powerful_damper(observed: &ObservedLab<'_>) -> Option<(usize, f64, f64, f64, String)> {
     let session = observed.bench.start();
     let poly = &session.world.model.dof_dampingpoly;
     let plain = |i: usize| poly.get(2 * i..2 * i + 2).is_some_and(|p| p.iter().all(|x| *x <= 0.0));

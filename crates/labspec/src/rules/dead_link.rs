@@ -3,7 +3,7 @@ use crate::lint::links::{LinkedFile, MOST, decoded, folder_of, linked_files};
 use crate::lint::root_of;
 use crate::markdown::html::tags;
 use crate::markdown::{self, Link, Scan};
-use crate::source::{Asked, MAX_FILE, SourceFile, Sources};
+use crate::source::{DiskQuery, MAX_FILE, SourceFile, Sources};
 use crate::spec::Lesson;
 use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::collections::BTreeSet;
@@ -21,17 +21,17 @@ pub const DEAD_LINK: &Rule = &Rule {
 };
 
 /// Letters and digits of a heading or an anchor: sites write the rest in their own ways.
-fn letters(text: &str) -> String {
+fn anchor_letters(text: &str) -> String {
     text.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
 }
 
 /// Whether a text has this anchor: a heading, or an element with this id.
 fn has_anchor(text: &str, scan: &Scan, ids: &BTreeSet<String>, anchor: &str) -> bool {
-    let meant = letters(anchor);
+    let meant = anchor_letters(anchor);
     // `fall-1` is the second heading "Fall".
     let plain = meant.trim_end_matches(|c: char| c.is_ascii_digit());
     let heading = scan.headings.iter().filter_map(|h| text.get(h.clone())).any(|heading| {
-        let heading_letters = letters(heading);
+        let heading_letters = anchor_letters(heading);
         heading_letters == meant
             || heading_letters == plain
             || heading_letters.trim_start_matches(|c: char| c.is_ascii_digit()) == meant
@@ -48,11 +48,11 @@ fn ids(text: &str, scan: &Scan) -> BTreeSet<String> {
 }
 
 /// What a site numbers itself, or names after an id.
-fn is_of_the_site(lesson: &Lesson, anchor: &str) -> bool {
-    let meant = letters(anchor);
+fn is_generated_anchor(lesson: &Lesson, anchor: &str) -> bool {
+    let meant = anchor_letters(anchor);
     let numbered = ["lab", "quiz", "fig", "figure", "eq", "equation", "tab", "table", "top", "ref", "fn"];
     let stem = meant.trim_end_matches(|c: char| c.is_ascii_digit());
-    let ids = lesson.quizzes.iter().filter_map(|q| q.id.as_ref()).map(|id| letters(id.as_str()));
+    let ids = lesson.quizzes.iter().filter_map(|q| q.id.as_ref()).map(|id| anchor_letters(id.as_str()));
     numbered.contains(&stem) || ids.into_iter().any(|id| !id.is_empty() && meant.contains(&id))
 }
 
@@ -63,7 +63,7 @@ pub(crate) fn check_anchors(lesson: &Lesson, findings: &mut Vec<Finding>) {
     for link in lesson.scan.links.iter().take(MOST) {
         let Some(anchor) = link.target.strip_prefix('#').filter(|a| !a.is_empty()) else { continue };
         let ids = ids_here.get_or_insert_with(|| ids(text, &lesson.scan));
-        if !has_anchor(text, &lesson.scan, ids, &decoded(anchor)) && !is_of_the_site(lesson, anchor) {
+        if !has_anchor(text, &lesson.scan, ids, &decoded(anchor)) && !is_generated_anchor(lesson, anchor) {
             findings.push(finding(link, "this lesson has no such heading"));
         }
     }
@@ -75,7 +75,7 @@ pub(crate) fn check_files(lesson: &Lesson, path: &Path, sources: &Sources, findi
     let mut root = None;
     for LinkedFile { link, path, extension, anchor } in linked_files(lesson, &folder) {
         let root = root.get_or_insert_with(|| {
-            let found = sources.place(Asked::Root, &folder, || Some(root_of(&folder, &[])));
+            let found = sources.place(DiskQuery::Root, &folder, || Some(root_of(&folder, &[])));
             found.unwrap_or_default()
         });
         if !path.starts_with(&*root) {
@@ -91,7 +91,7 @@ pub(crate) fn check_files(lesson: &Lesson, path: &Path, sources: &Sources, findi
                 let other = SourceFile::new(real.display().to_string(), text);
                 let scan = markdown::scan(&other);
                 if !has_anchor(other.text(), &scan, &ids(other.text(), &scan), &decoded(&anchor))
-                    && !is_of_the_site(lesson, &anchor)
+                    && !is_generated_anchor(lesson, &anchor)
                 {
                     findings.push(finding(link, "that lesson has no such heading"));
                 }

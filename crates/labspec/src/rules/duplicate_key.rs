@@ -14,7 +14,7 @@ pub const DUPLICATE_KEY: &Rule = &Rule {
 };
 
 /// A key that stands twice; `first` is where it stands first.
-pub(crate) fn twice(span: Range<usize>, key: &str, first: Option<Range<usize>>) -> Finding {
+pub(crate) fn duplicate(span: Range<usize>, key: &str, first: Option<Range<usize>>) -> Finding {
     let key = if key.is_empty() { "a key without a name".into() } else { format!("`{}`", shorten(key)) };
     let finding = Finding::new(DUPLICATE_KEY, span, format!("{key} appears twice in one object"))
         .help("keep one of the two");

@@ -7,8 +7,8 @@ pub const ENGINE_DEPENDENT: &Rule = &Rule {
     layer: Layer::Claim,
     summary: "a claim has a different verdict with the recorded numbers of MuJoCo (--judge)",
     why: "an answer that depends on the engine or its version is wrong for every reader who uses another one",
-    bad: Example::Files(&[("fall.md", MARKED.as_bytes()), ("judge.json", BAD.as_bytes())]),
-    good: Example::Files(&[("fall.md", LESSON.as_bytes()), ("judge.json", GOOD.as_bytes())]),
+    bad: Example::Files(&[("fall.md", MARKED.as_bytes()), ("judge.json", WRONG_LESSON.as_bytes())]),
+    good: Example::Files(&[("fall.md", LESSON.as_bytes()), ("judge.json", RIGHT_LESSON.as_bytes())]),
 };
 
 const MARKED: &str = r##"# A fall
@@ -29,9 +29,9 @@ const LESSON: &str = r##"# A fall
 
 After 0.2 s it is at 0.80 m.
 "##;
-const BAD: &str = r#"{"recording": "judge", "version": 1, "engine": "MuJoCo 9.9.9", "runs": [
+const WRONG_LESSON: &str = r#"{"recording": "judge", "version": 1, "engine": "MuJoCo 9.9.9", "runs": [
  {"file": "fall.md", "claim": "lab #1", "run": "fall", "hash": "220aa973feae4e87", "values": {"height": 0.811}}]}
 "#;
-const GOOD: &str = r#"{"recording": "judge", "version": 1, "engine": "MuJoCo 3.14.0", "runs": [
+const RIGHT_LESSON: &str = r#"{"recording": "judge", "version": 1, "engine": "MuJoCo 3.14.0", "runs": [
  {"file": "fall.md", "claim": "lab #1", "run": "fall", "hash": "220aa973feae4e87", "values": {"height": 0.802}}]}
 "#;

@@ -1,5 +1,5 @@
 use super::Check;
-use super::wording::loose;
+use super::wording::normalized_words;
 use crate::spec::{Question, QuestionKind};
 use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
@@ -22,16 +22,16 @@ pub(super) const CHECK: Check = Check::Question(check_question);
 
 const ORDINALS: [&str; 6] = ["first", "second", "third", "fourth", "fifth", "sixth"];
 /// Options that have a letter.
-const MOST: usize = 26;
-const THINGS: [&str; 3] = ["option", "answer", "choice"];
+const MAX_OPTIONS: usize = 26;
+const OPTION_NOUNS: [&str; 3] = ["option", "answer", "choice"];
 const RIGHT: [&str; 2] = ["right", "correct"];
 
 fn check_question(question: &Question, findings: &mut Vec<Finding>) {
     let QuestionKind::Choice { options, answer: Some(answer), .. } = &question.kind else { return };
     let (Some(explain), Some(key)) = (&question.explain, question.right_option()) else { return };
-    let text = format!(" {} ", loose(explain.as_str()));
-    let named = (0..options.len().min(MOST))
-        .filter(|i| calls_right(&text, *i, options.get(*i).map_or("", |o| o.as_str())));
+    let text = format!(" {} ", normalized_words(explain.as_str()));
+    let named = (0..options.len().min(MAX_OPTIONS))
+        .filter(|i| calls_correct(&text, *i, options.get(*i).map_or("", |o| o.as_str())));
     let named: Vec<usize> = named.collect();
     if let [other] = named.as_slice()
         && *other != key
@@ -59,12 +59,12 @@ fn letter(i: usize) -> char {
 }
 
 /// Whether a text says of this option, in so many words, that it is the right one.
-fn calls_right(text: &str, i: usize, option: &str) -> bool {
+fn calls_correct(text: &str, i: usize, option: &str) -> bool {
     let letter = letter(i).to_lowercase().to_string();
-    let words = loose(option);
+    let words = normalized_words(option);
     let long = words.chars().count() >= 3;
     RIGHT.iter().any(|right| {
-        let named = THINGS.iter().any(|thing| {
+        let named = OPTION_NOUNS.iter().any(|thing| {
             let ordinal = ORDINALS.get(i).is_some_and(|o| {
                 text.contains(&format!(" {o} {thing} is {right} "))
                     || text.contains(&format!(" {right} {thing} is the {o} "))
@@ -86,11 +86,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_what_is_said_in_so_many_words_counts() {
+    fn only_explicit_statements_count() {
         let calls = |text: &str| {
             (0..3)
                 .filter(|i| {
-                    calls_right(&format!(" {} ", loose(text)), *i, ["up", "it falls", "it stays"][*i])
+                    calls_correct(
+                        &format!(" {} ", normalized_words(text)),
+                        *i,
+                        ["up", "it falls", "it stays"][*i],
+                    )
                 })
                 .collect::<Vec<_>>()
         };

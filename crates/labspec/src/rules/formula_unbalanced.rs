@@ -22,21 +22,21 @@ pub const FORMULA_UNBALANCED: &Rule = &Rule {
 };
 
 /// Longest formula that is looked for, characters.
-const LONGEST: usize = 4000;
+const MAX_FORMULA: usize = 4000;
 /// Longest name of an environment, bytes.
-const LONGEST_NAME: usize = 40;
+const MAX_NAME: usize = 40;
 
 /// How formulas begin and end. A dollar counts only where a page takes it for one.
-const MARKS: [(&str, &str); 4] = [("$$", "$$"), ("$", "$"), ("\\(", "\\)"), ("\\[", "\\]")];
+const DELIMITERS: [(&str, &str); 4] = [("$$", "$$"), ("$", "$"), ("\\(", "\\)"), ("\\[", "\\]")];
 
 /// What is wrong, and where. `plain`: brackets behind a backslash are brackets, as in Markdown. `work` grows by the characters that
-/// are looked at: at most [`MOST_LOOKS`] for each of the text.
+/// are looked at: at most [`MAX_READS`] for each of the text.
 fn faults(text: &str, plain: bool, work: &mut usize) -> Vec<(Range<usize>, String)> {
     let (mut faults, mut lost) = (Vec::new(), 0);
     let mut at = 0;
     while let Some(rest) = text.get(at..).filter(|r| !r.is_empty()) {
         *work += 1;
-        let marks = MARKS.iter().filter(|(open, _)| !plain || open.starts_with('$'));
+        let marks = DELIMITERS.iter().filter(|(open, _)| !plain || open.starts_with('$'));
         let Some((open, close)) = marks.into_iter().find(|(open, _)| rest.starts_with(open)) else {
             let step = match rest.strip_prefix('\\').and_then(|r| r.chars().next()) {
                 Some(c) => 1 + c.len_utf8(),
@@ -72,7 +72,7 @@ fn faults(text: &str, plain: bool, work: &mut usize) -> Vec<(Range<usize>, Strin
 /// Where a formula ends: a dollar behind a backslash is none, and one before a digit begins a price.
 fn closing(inside: &str, close: &str, work: &mut usize) -> Option<usize> {
     let mut escaped = false;
-    for (i, c) in inside.char_indices().take(LONGEST) {
+    for (i, c) in inside.char_indices().take(MAX_FORMULA) {
         *work += 1;
         let rest = inside.get(i..)?;
         if !escaped && rest.starts_with(close) {
@@ -95,7 +95,7 @@ fn closing(inside: &str, close: &str, work: &mut usize) -> Option<usize> {
 
 /// Whether what follows an opening mark looks like a formula: a price does not.
 fn is_formula(inside: &str, open: &str, work: &mut usize) -> bool {
-    let end = inside.char_indices().nth(LONGEST).map_or(inside.len(), |(at, _)| at);
+    let end = inside.char_indices().nth(MAX_FORMULA).map_or(inside.len(), |(at, _)| at);
     let inside = inside.get(..end).unwrap_or("").split("\n\n").next().unwrap_or("");
     *work += end;
     // A letter alone is the name of a quantity: `$g is`. A price begins with a digit, a name of a shell is longer.
@@ -107,7 +107,7 @@ fn is_formula(inside: &str, open: &str, work: &mut usize) -> bool {
 /// Most times that a character is looked at: each mark that nothing closes is a walk through what follows, and a second one to see
 /// whether that is a formula.
 #[cfg(test)]
-const MOST_LOOKS: usize = 2 * MAX_IN_TEXT + LONGEST_NAME + 3;
+const MAX_READS: usize = 2 * MAX_IN_TEXT + MAX_NAME + 3;
 
 /// What is opened in a formula and not closed, in words.
 fn unbalanced(body: &str, work: &mut usize) -> Option<String> {
@@ -127,8 +127,8 @@ fn unbalanced(body: &str, work: &mut usize) -> Option<String> {
         }
         let (after, command) = tex::command(rest).ok()?;
         let name = after.starts_with('{').then(|| {
-            *work += LONGEST_NAME.min(after.len());
-            tex::group(after, LONGEST_NAME - 1).map(|(_, name)| name).ok()
+            *work += MAX_NAME.min(after.len());
+            tex::group(after, MAX_NAME - 1).map(|(_, name)| name).ok()
         });
         match (command, name.flatten()) {
             ("left", _) => left += 1,
@@ -215,7 +215,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_opened_is_closed() {
+    fn delimiters_are_balanced() {
         let faults = |text: &str| faults(text, false, &mut 0);
         let count = |text: &str| faults(text).len();
         for right in [
@@ -277,11 +277,11 @@ mod tests {
             for plain in [false, true] {
                 let mut work = 0;
                 let found = faults(&text, plain, &mut work);
-                assert!(work <= MOST_LOOKS * text.len(), "{piece:?}: {work}");
+                assert!(work <= MAX_READS * text.len(), "{piece:?}: {work}");
                 assert!(found.len() <= text.len());
                 // What is opened once and never closed costs no more than a look at each, and so many walks of a formula's length.
                 if piece == "$a" || piece == "\\left(" || piece == "{" {
-                    assert!(work <= 3 * text.len() + 2 * MAX_IN_TEXT * LONGEST, "{piece:?}: {work}");
+                    assert!(work <= 3 * text.len() + 2 * MAX_IN_TEXT * MAX_FORMULA, "{piece:?}: {work}");
                 }
             }
         }
@@ -289,6 +289,6 @@ mod tests {
         let text = "$a ".repeat(60);
         let mut work = 0;
         (0..1000).for_each(|_| drop(faults(&text, false, &mut work)));
-        assert!(work <= MOST_LOOKS * 1000 * text.len(), "{work}");
+        assert!(work <= MAX_READS * 1000 * text.len(), "{work}");
     }
 }

@@ -34,16 +34,18 @@ const CHANGES: [&str; 5] = ["moving", "changing", "each slider", "every slider",
 const ELSE: [&str; 6] = ["button", "not", "press", "click", "then", "after"];
 
 /// Whether a sentence says that a change starts the lab again.
-fn promises(sentence: &str) -> bool {
-    let says = |words: &[&str]| words.iter().any(|w| sentence.contains(w));
-    (says(&STARTS) || says(&BEGINS) && says(&AGAIN)) && says(&CHANGES) && !says(&ELSE)
+fn claims_restart(sentence: &str) -> bool {
+    let contains_any = |words: &[&str]| words.iter().any(|w| sentence.contains(w));
+    (contains_any(&STARTS) || contains_any(&BEGINS) && contains_any(&AGAIN))
+        && contains_any(&CHANGES)
+        && !contains_any(&ELSE)
 }
 
 pub(crate) fn check_repeats(observed: &ObservedLab<'_>, findings: &mut Vec<Finding>) {
     let ready = observed.bench.ready;
     let Some(note) = ready.lab.note.as_ref() else { return };
     let lower = note.as_str().to_lowercase();
-    let sentences: Vec<&str> = lower.split(['.', ';', ':']).filter(|s| promises(s)).collect();
+    let sentences: Vec<&str> = lower.split(['.', ';', ':']).filter(|s| claims_restart(s)).collect();
     let sliders = ready.lab.controls.iter().filter(|c| matches!(c.kind, ControlKind::Slider { .. }));
     let one = sliders.count() == 1;
     for (index, control) in ready.lab.controls.iter().enumerate() {
@@ -51,7 +53,7 @@ pub(crate) fn check_repeats(observed: &ObservedLab<'_>, findings: &mut Vec<Findi
             continue;
         };
         let resets = action.reset || action.run.as_ref().is_some_and(resets);
-        if resets || !sentences.iter().any(|s| speaks_of(s, control, one)) {
+        if resets || !sentences.iter().any(|s| mentions_control(s, control, one)) {
             continue;
         }
         let Some(value) = choices(control).into_iter().next() else { continue };
@@ -80,7 +82,7 @@ pub(crate) fn check_repeats(observed: &ObservedLab<'_>, findings: &mut Vec<Findi
 }
 
 /// Whether a sentence is about a control: about any slider, about the one that there is, or about this one by a word of its label.
-fn speaks_of(sentence: &str, control: &Control, one: bool) -> bool {
+fn mentions_control(sentence: &str, control: &Control, one: bool) -> bool {
     let slider = matches!(control.kind, ControlKind::Slider { .. });
     let words = ["a slider", "each slider", "every slider"];
     let any =

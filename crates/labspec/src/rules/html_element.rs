@@ -21,7 +21,7 @@ pub const HTML_ELEMENT: &Rule = &Rule {
 pub(super) const VOID: [&str; 13] =
     ["area", "base", "br", "col", "embed", "hr", "img", "input", "link", "meta", "source", "track", "wbr"];
 /// Elements that end by themselves where the next one begins, or where what holds them ends.
-pub(super) const ENDS_ITSELF: [&str; 13] =
+pub(super) const SELF_CLOSING: [&str; 13] =
     ["p", "li", "dt", "dd", "tr", "td", "th", "thead", "tbody", "tfoot", "colgroup", "option", "optgroup"];
 /// All others of HTML that a lesson may want.
 #[rustfmt::skip]
@@ -37,7 +37,7 @@ const KNOWN: [&str; 77] = [
 
 /// Whether HTML has an element, foreign ones and those of its own kind aside.
 pub(super) fn is_element(name: &str) -> bool {
-    VOID.contains(&name) || ENDS_ITSELF.contains(&name) || KNOWN.contains(&name)
+    VOID.contains(&name) || SELF_CLOSING.contains(&name) || KNOWN.contains(&name)
 }
 
 /// An element that HTML does not have.

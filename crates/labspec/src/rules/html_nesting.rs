@@ -1,5 +1,5 @@
 use super::MAX_IN_TEXT;
-use super::html_element::{ENDS_ITSELF, VOID, is_element, unknown};
+use super::html_element::{SELF_CLOSING, VOID, is_element, unknown};
 use super::unescaped_element::is_of_models;
 use crate::json::read::shorten;
 use crate::markdown::html::{HtmlTag, tags};
@@ -23,10 +23,10 @@ pub const HTML_NESTING: &Rule = &Rule {
 };
 
 /// Elements with elements of their own.
-const FOREIGN: [&str; 2] = ["svg", "math"];
+const FOREIGN_ELEMENTS: [&str; 2] = ["svg", "math"];
 
 /// Most tags of a text that are looked at.
-const MOST: usize = 3000;
+const MAX_TAGS: usize = 3000;
 
 /// What is wrong with a tag.
 #[derive(Debug, PartialEq)]
@@ -45,8 +45,8 @@ fn faults(html: &str) -> Vec<(Range<usize>, String, MarkupFault)> {
     let mut faults = Vec::new();
     let mut open: Vec<HtmlTag> = Vec::new();
     let mut all = tags(html);
-    for tag in all.by_ref().take(MOST) {
-        let foreign = open.iter().any(|t| FOREIGN.contains(&t.name.as_str()));
+    for tag in all.by_ref().take(MAX_TAGS) {
+        let foreign = open.iter().any(|t| FOREIGN_ELEMENTS.contains(&t.name.as_str()));
         let name = tag.name.as_str();
         let of_html = is_element(name);
         let opening = open.iter().rposition(|t| t.name == tag.name);
@@ -58,7 +58,7 @@ fn faults(html: &str) -> Vec<(Range<usize>, String, MarkupFault)> {
                 None => faults.push((tag.at, tag.name, MarkupFault::Unopened)),
                 Some(i) => {
                     let inner = open.split_off(i);
-                    let crossed = inner.iter().skip(1).find(|t| !ENDS_ITSELF.contains(&t.name.as_str()));
+                    let crossed = inner.iter().skip(1).find(|t| !SELF_CLOSING.contains(&t.name.as_str()));
                     if let Some(other) = crossed {
                         faults.push((other.at.clone(), other.name.clone(), MarkupFault::Crossed(tag.name)));
                     }
@@ -78,7 +78,7 @@ fn faults(html: &str) -> Vec<(Range<usize>, String, MarkupFault)> {
     if all.next().is_some() {
         open.clear();
     }
-    let left = open.into_iter().filter(|t| !ENDS_ITSELF.contains(&t.name.as_str()));
+    let left = open.into_iter().filter(|t| !SELF_CLOSING.contains(&t.name.as_str()));
     faults.extend(left.map(|t| (t.at, t.name, MarkupFault::Unclosed)));
     faults
 }
@@ -113,7 +113,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_browsers_mend_is_found() {
+    fn markup_that_browsers_correct_is_reported() {
         let of =
             |html: &str| faults(html).into_iter().map(|(_, name, fault)| (name, fault)).collect::<Vec<_>>();
         let named = |name: &str, fault| vec![(name.to_string(), fault)];

@@ -1,7 +1,8 @@
 //! Controls that change nothing anybody sees: over all of their range, or over a part of it.
 //!
-//! What two runs show is compared to the last bit, so what matters only a little matters. Two controls may act together only: each is
-//! tried with the others moved, too, early and in mid-run. If the work budget ends before all is tried, nothing is reported.
+//! What two runs show is compared to the last bit, so what matters only a little matters. Two controls may act together
+//! only: each is tried with the others moved, too, early and in mid-run. If the work budget ends before all is tried,
+//! nothing is reported.
 
 use super::{IDLE_RANGE, needs_reset};
 use crate::bind::ControlProgram;
@@ -30,13 +31,13 @@ pub const IDLE_CONTROL: &Rule = &Rule {
 };
 
 /// Steps of the runs that look for a part of a range that may be idle.
-const QUICK: usize = 250;
+const SHORT_RUN: usize = 250;
 /// So many places in a row that look the same may be idle.
-const IN_A_ROW: usize = 3;
+const MIN_EQUAL: usize = 3;
 /// When a button is pressed, as a share of the run.
-const PRESS: f64 = 0.02;
+const PRESS_TIME: f64 = 0.02;
 /// Fields of the model that are drawn and do nothing else; not all of them are compared.
-const LOOKS: [&str; 7] = ["light_", "mat_", "tex_", "cam_", "vis", "skin_", "geom_group"];
+const APPEARANCE_PREFIXES: [&str; 7] = ["light_", "mat_", "tex_", "cam_", "vis", "skin_", "geom_group"];
 
 /// Presses of one button in a run.
 const PRESSES: usize = 3;
@@ -65,7 +66,7 @@ pub(crate) fn check_idle_controls(observed: &mut ObservedLab<'_>, findings: &mut
             ControlKind::Select { .. } if !all_same || values.len() < 2 => continue,
             ControlKind::Button { .. } | ControlKind::Select { .. } => 0..values.len(),
             ControlKind::Slider { .. } => {
-                match suspicious(&mut observed.bench, index, &values, steps.min(QUICK)) {
+                match longest_equal_range(&mut observed.bench, index, &values, steps.min(SHORT_RUN)) {
                     Some(group) => group,
                     None => continue,
                 }
@@ -102,7 +103,7 @@ fn judged(observed: &ObservedLab<'_>, index: usize) -> bool {
     let drawn = effects.writes.iter().filter_map(|a| FieldId::new(a.field.0 as usize)).any(|f| {
         let name = f.info().name;
         f.info().object != Object::Data
-            && (name.contains("rgba") || LOOKS.iter().any(|l| name.starts_with(l)))
+            && (name.contains("rgba") || APPEARANCE_PREFIXES.iter().any(|l| name.starts_with(l)))
     });
     // That ways of computing agree is often the lesson.
     let numerics = !effects.writes.is_empty()
@@ -120,7 +121,7 @@ fn judged(observed: &ObservedLab<'_>, index: usize) -> bool {
 }
 
 /// Places in a row that look the same in short runs: the longest such row.
-fn suspicious(
+fn longest_equal_range(
     bench: &mut ObservationBench<'_>,
     index: usize,
     values: &[Option<Value>],
@@ -131,7 +132,7 @@ fn suspicious(
         marks.push(bench.run(&[Move { step: 0, control: index, value: value.clone() }], steps)?.hash);
     }
     let best = longest_equal(&marks);
-    (best.len() >= IN_A_ROW.min(values.len())).then_some(best)
+    (best.len() >= MIN_EQUAL.min(values.len())).then_some(best)
 }
 
 /// A slider is moved once. A button is pressed several times, as it may be the second press that acts; an odd number of times, so
@@ -152,7 +153,7 @@ fn idle(bench: &mut ObservationBench<'_>, index: usize, values: &[Option<Value>]
         n => (0..n).collect(),
     };
     let picked: Vec<Option<Value>> = pick.into_iter().filter_map(|i| values.get(i).cloned()).collect();
-    let press = ((PRESS * steps as f64) as usize).max(1);
+    let press = ((PRESS_TIME * steps as f64) as usize).max(1);
     let lab = bench.ready.lab;
     for setting in settings(lab, index, press) {
         for at in [0, steps / 2] {
@@ -216,7 +217,7 @@ fn finding(
     if let Some(finding) = needs_reset::check_setup(observed, control, index, &why).filter(|_| whole) {
         return finding;
     }
-    let help = match written(observed, index) {
+    let help = match first_written(observed, index) {
         Some(what) => format!(
             "check {what}, which it sets: whether it is the right one, what uses it, and what overwrites it"
         ),
@@ -232,7 +233,7 @@ fn finding(
 }
 
 /// The first thing that a control sets.
-fn written(observed: &ObservedLab<'_>, index: usize) -> Option<String> {
+fn first_written(observed: &ObservedLab<'_>, index: usize) -> Option<String> {
     let (_, program) = observed.bench.ready.programs.controls.get(index)?;
     let bound = match program {
         ControlProgram::Press(run) => run.as_ref()?,

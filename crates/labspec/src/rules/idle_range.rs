@@ -25,11 +25,11 @@ pub const IDLE_RANGE: &Rule = &Rule {
 };
 
 /// Values that are tried.
-const PLACES: usize = 25;
+const TESTED_VALUES: usize = 25;
 /// A part of the range that is this share of it counts.
-const SHARE: f64 = 0.3;
+const MIN_SHARE: f64 = 0.3;
 /// Most numbers that are compared.
-const MOST: usize = 2000;
+const MAX_NUMBERS: usize = 2000;
 
 pub(crate) fn check_flat_ranges(observed: &mut ObservedLab<'_>, findings: &mut Vec<Finding>) {
     let ready = observed.bench.ready;
@@ -46,7 +46,7 @@ pub(crate) fn check_flat_ranges(observed: &mut ObservedLab<'_>, findings: &mut V
             continue;
         }
         // Every step of the slider, or so many of them.
-        let count = (steps as usize).min(PLACES);
+        let count = (steps as usize).min(TESTED_VALUES);
         let at = |i: usize| (min.value + (i as f64 * steps / count as f64).round() * step).min(max.value);
         let values: Vec<f64> = (0..=count).map(at).collect();
         let Some(sets) =
@@ -62,7 +62,7 @@ pub(crate) fn check_flat_ranges(observed: &mut ObservedLab<'_>, findings: &mut V
             .windows(2)
             .enumerate()
             .any(|(i, w)| !(flat.start..flat.end - 1).contains(&i) && matches!(w, [a, b] if a == b));
-        if stairs || share < SHARE || flat.len() == sets.len() || flat.len() < 2 {
+        if stairs || share < MIN_SHARE || flat.len() == sets.len() || flat.len() < 2 {
             continue;
         }
         let label = &control.label.value;
@@ -97,7 +97,7 @@ fn writes(observed: &ObservedLab<'_>, index: usize, bound: &Bound, value: f64) -
     for write in bound.program.own_writes() {
         let key = FieldKey(FieldId::new(write.field.0 as usize)?.index() as u32);
         let end = write.count.map_or(session.world.len(key), |n| write.first + n);
-        if all.len() + end.saturating_sub(write.first) > MOST {
+        if all.len() + end.saturating_sub(write.first) > MAX_NUMBERS {
             return None;
         }
         all.extend((write.first..end).map(|i| session.world.get(key, i).map_or(u64::MAX, f64::to_bits)));
@@ -109,5 +109,5 @@ fn writes(observed: &ObservedLab<'_>, index: usize, bound: &Bound, value: f64) -
             _ => return None,
         }
     }
-    (!all.is_empty() && session.ended().is_none() && session.troubles.is_empty()).then_some(all)
+    (!all.is_empty() && session.ended().is_none() && session.program_errors.is_empty()).then_some(all)
 }

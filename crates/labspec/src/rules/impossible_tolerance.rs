@@ -18,14 +18,14 @@ pub const IMPOSSIBLE_TOLERANCE: &Rule = &Rule {
 };
 
 /// The smallest part of an answer that somebody may know it to.
-const TYPED: f64 = 1e-9;
+const MIN_RELATIVE_TOLERANCE: f64 = 1e-9;
 
 pub(super) const CHECK: Check = Check::Question(check_question);
 
 fn check_question(question: &Question, findings: &mut Vec<Finding>) {
     let QuestionKind::Numeric { answer: Some(answer), tol: Some(tol), .. } = &question.kind else { return };
     let whole = answer.value.fract() == 0.0;
-    let too_small = tol.value > 0.0 && tol.value < TYPED * answer.value.abs();
+    let too_small = tol.value > 0.0 && tol.value < MIN_RELATIVE_TOLERANCE * answer.value.abs();
     if too_small {
         let message = format!("a tolerance of {} accepts only {}", tol.value, answer.value);
         findings.push(

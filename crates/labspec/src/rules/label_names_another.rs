@@ -33,7 +33,7 @@ const KINDS: [(Obj, &str); 6] = [
 ];
 
 /// Most names and most labels that are looked at.
-const MOST: usize = 400;
+const MAX_NAMES: usize = 400;
 
 /// A name of the model.
 struct NamedObject {
@@ -74,17 +74,18 @@ pub(crate) fn check_names(lab: &Lab, model: &Model, programs: &Programs, finding
     let labels = traces.chain(lab.readouts.iter().map(|r| &r.label));
     let displays: Vec<DisplayedValue<'_>> = labels
         .zip(&programs.probes)
-        .take(MOST)
+        .take(MAX_NAMES)
         .filter_map(|(label, probe)| displayed(label, probe.bound.as_ref()?, model, &all))
         .collect();
-    for trace in lab.plots.iter().flat_map(|p| &p.traces).zip(&programs.probes).take(MOST) {
+    for trace in lab.plots.iter().flat_map(|p| &p.traces).zip(&programs.probes).take(MAX_NAMES) {
         findings.extend(a_number(trace.0, trace.1.bound.as_ref(), &all));
     }
     let readouts =
         lab.readouts.iter().map(|r| &r.label).zip(programs.probes.iter().skip(lab.traces().count()));
-    findings
-        .extend(readouts.take(MOST).filter_map(|(label, probe)| another_size(label, probe.bound.as_ref()?)));
-    for (control, (_, program)) in lab.controls.iter().zip(&programs.controls).take(MOST) {
+    findings.extend(
+        readouts.take(MAX_NAMES).filter_map(|(label, probe)| another_size(label, probe.bound.as_ref()?)),
+    );
+    for (control, (_, program)) in lab.controls.iter().zip(&programs.controls).take(MAX_NAMES) {
         let bound = match program {
             ControlProgram::Change(_, action) => action.run.as_ref(),
             ControlProgram::Press(run) => run.as_ref(),
@@ -96,9 +97,9 @@ pub(crate) fn check_names(lab: &Lab, model: &Model, programs: &Programs, finding
         let Some(named) = all.get(*name).filter(|n| n.body != body && one.bodies.len() == 1) else {
             continue;
         };
-        if !(alone(one, named)
+        if !(is_only_named_object(one, named)
             || beside(one, named, body, &displays, &all)
-            || in_the_place_of_a_name(one, named))
+            || is_in_name_position(one, named))
         {
             continue;
         }
@@ -123,7 +124,7 @@ pub(crate) fn check_names(lab: &Lab, model: &Model, programs: &Programs, finding
 }
 
 /// Whether a label is something and then, behind a comma, a joint, and the expression reads another joint: `force, shoulder (N)`.
-fn in_the_place_of_a_name(one: &DisplayedValue<'_>, named: &NamedObject) -> bool {
+fn is_in_name_position(one: &DisplayedValue<'_>, named: &NamedObject) -> bool {
     let last = one.label.as_str().rsplit_once(", ").map(|(_, last)| words_of(last));
     let joint = named.kind == Obj::Joint && one.reads.iter().all(|(kind, _)| *kind == Obj::Joint);
     joint && last.is_some_and(|words| words == named.words)
@@ -196,13 +197,13 @@ fn words_of(label: &str) -> Vec<String> {
 }
 
 /// Whether the label is a name and nothing else, of something that has what the expression reads.
-fn alone(one: &DisplayedValue<'_>, named: &NamedObject) -> bool {
+fn is_only_named_object(one: &DisplayedValue<'_>, named: &NamedObject) -> bool {
     let same_kind = |kind: Obj| kind == named.kind || named.kind == Obj::Body && kind == Obj::Joint;
     one.rest.is_empty() && one.reads.iter().all(|(kind, _)| same_kind(*kind))
 }
 
-/// Whether another label is the same but for its name, which is that of what this one reads. Where that one reads a third thing, the
-/// names may mean something else.
+/// Whether another label is the same but for its name, which is that of what this one reads. Where that one reads a third
+/// thing, the names may mean something else.
 fn beside(
     one: &DisplayedValue<'_>,
     named: &NamedObject,
@@ -284,8 +285,13 @@ fn split_words(text: &str) -> Vec<String> {
 fn elements(model: &Model) -> Vec<NamedObject> {
     let mut all = Vec::new();
     for (kind, noun) in KINDS {
-        for (index, name) in
-            model.names.of_kind(kind).iter().enumerate().filter(|(_, n)| n.chars().count() > 1).take(MOST)
+        for (index, name) in model
+            .names
+            .of_kind(kind)
+            .iter()
+            .enumerate()
+            .filter(|(_, n)| n.chars().count() > 1)
+            .take(MAX_NAMES)
         {
             let body = body_of(model, kind, index).filter(|b| *b != 0);
             // A space of names stands before a stroke.

@@ -47,7 +47,7 @@ pub(crate) fn check_text_readout(observed: &ObservedLab<'_>, readout: &Readout, 
 }
 
 /// The label of a plot with a unit that is not the one of a trace, though both measure the same: degrees beside radians.
-pub(crate) fn at_odds(plot: &Plot, model: &Model) -> Option<Finding> {
+pub(crate) fn contradicting_units(plot: &Plot, model: &Model) -> Option<Finding> {
     let axis = plot.ylabel.as_ref()?;
     let (text, of_axis) = of_label(axis.as_str())?;
     if names(model).any(|name| name == text) {

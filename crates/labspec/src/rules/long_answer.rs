@@ -21,8 +21,8 @@ pub const LONG_ANSWER: &Rule = &Rule {
 pub(super) const CHECK: Check = Check::Question(check_question);
 
 /// So many times as long as the next, and by so many characters.
-const TIMES: usize = 2;
-const MORE: usize = 30;
+const LENGTH_RATIO: usize = 2;
+const EXTRA_CHARACTERS: usize = 30;
 
 fn check_question(question: &Question, findings: &mut Vec<Finding>) {
     let QuestionKind::Choice { options, .. } = &question.kind else { return };
@@ -30,7 +30,9 @@ fn check_question(question: &Question, findings: &mut Vec<Finding>) {
     let length = |text: &str| plain(text).chars().count();
     let right_length = length(right.as_str());
     let others = options.iter().filter(|o| !std::ptr::eq(*o, right)).map(|o| length(o.as_str())).max();
-    if let Some(next) = others.filter(|n| right_length >= TIMES * n && right_length >= n + MORE) {
+    if let Some(next) =
+        others.filter(|n| right_length >= LENGTH_RATIO * n && right_length >= n + EXTRA_CHARACTERS)
+    {
         findings.push(
             Finding::new(
                 LONG_ANSWER,

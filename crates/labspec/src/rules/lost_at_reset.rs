@@ -30,7 +30,7 @@ pub(crate) fn check_resets(lab: &Lab, model: &Model, programs: &Programs, findin
         let Some((label, ControlProgram::Change(_, action))) = programs.controls.get(index) else { continue };
         let Some(bound) = action.run.as_ref().filter(|b| !action.init && !resets(b)) else { continue };
         let Some(field) = sets(bound, model) else { continue };
-        let Some(lost_value) = lost(control, index, field, lab, model, programs) else { continue };
+        let Some(lost_value) = describe_lost(control, index, field, lab, model, programs) else { continue };
         findings.push(
             Finding::warning(
                 LOST_AT_RESET,
@@ -49,7 +49,7 @@ pub(crate) fn check_resets(lab: &Lab, model: &Model, programs: &Programs, findin
 
 /// Moves the control, then resets: what of the field is lost, in words. `None` when a setup, a controller or another
 /// control sets it again.
-fn lost(
+fn describe_lost(
     control: &Control,
     index: usize,
     field: FieldId,

@@ -25,7 +25,7 @@ pub const MIXED_AWAY: &Rule = &Rule {
 /// Steps in which contacts are observed for.
 const STEPS: usize = 300;
 /// Every so many steps.
-const EVERY: usize = 5;
+const STEP_INTERVAL: usize = 5;
 
 /// What is mixed: its name, how the engine mixes it, and its value of a geom.
 struct Mixed {
@@ -105,7 +105,7 @@ fn differs(
     let after = all(&session);
     let changed = |g: usize| before.get(g) != after.get(g);
     let mut found = None;
-    run::play(&mut session, &Play { every: EVERY, ..Play::steps(STEPS) }, |session, _| {
+    run::play(&mut session, &Play { every: STEP_INTERVAL, ..Play::steps(STEPS) }, |session, _| {
         for c in session.world.data.fields().contact.iter().filter(|c| c.efc_address.is_some()) {
             let pair = match (changed(c.geom1), changed(c.geom2)) {
                 (true, false) => [c.geom1, c.geom2],

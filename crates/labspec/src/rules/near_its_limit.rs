@@ -21,7 +21,7 @@ pub const NEAR_ITS_LIMIT: &Rule = &Rule {
 };
 
 /// Work for a run at twice the timestep.
-const TWICE: Budget = Budget { left: 300_000_000 };
+const DOUBLED_TIMESTEP_WORK: Budget = Budget { left: 300_000_000 };
 
 /// A lab that breaks at twice its timestep, and did not in so many runs of this length, s.
 pub(crate) fn check_margin(
@@ -40,14 +40,14 @@ pub(crate) fn check_margin(
         return None;
     }
     let twice = |session: &mut Session<'_>| *session.world.model.edit().opt.timestep *= 2.0;
-    let outcome = case.run(untouched, Some(&twice), wanted, TWICE.left);
+    let outcome = case.run(untouched, Some(&twice), wanted, DOUBLED_TIMESTEP_WORK.left);
     let breaks = |f: &&Fault| matches!(f.kind, FaultKind::Diverges | FaultKind::Grows | FaultKind::Silent);
     let fault = outcome.faults.iter().find(breaks)?;
     let h = ready.model.opt.timestep;
     let message = format!(
         "this lab breaks at twice its timestep of {} s: {}, {}, at t = {} s",
         run::two_digits(h),
-        fault.who,
+        fault.subject,
         fault.kind.description(),
         run::time(fault.time)
     );

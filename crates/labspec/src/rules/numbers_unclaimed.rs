@@ -20,19 +20,19 @@ pub const NUMBERS_UNCLAIMED: &Rule = &Rule {
 };
 
 /// With fewer claims nobody can say that the author means to claim everything.
-const LEAST: usize = 10;
+const MIN_CLAIMS: usize = 10;
 /// Of so many numbers one may be left out.
 const SHARE: usize = 10;
 /// Fewer are not reported: one or two are what the text begins with.
 const FEWEST: usize = 3;
 /// Bytes of a lesson in which they are looked for.
-const LONGEST: usize = 2 << 20;
+const MAX_LESSON: usize = 2 << 20;
 
 /// Tells each number on its own where nearly all are claimed, and else the first one of the text, with how many there are.
 pub(crate) fn check_left_out(lesson: &Lesson, findings: &mut Vec<Finding>) {
     // Where nothing can be claimed nothing is left out; and who writes megabytes is not looked at word by word.
     let nothing = lesson.labs.is_empty() && lesson.verifies().next().is_none();
-    if nothing || lesson.file.text().len() > LONGEST {
+    if nothing || lesson.file.text().len() > MAX_LESSON {
         return;
     }
     let counted = counted(lesson);
@@ -40,7 +40,7 @@ pub(crate) fn check_left_out(lesson: &Lesson, findings: &mut Vec<Finding>) {
     let numbers = |list: Vec<Stated>| list.into_iter().filter(|s| !s.answer).collect::<Vec<_>>();
     let [claimed, left] = [counted.claimed, counted.left].map(numbers);
     let all = claimed.len() + left.len();
-    if claimed.len() >= LEAST && left.len() * SHARE <= all {
+    if claimed.len() >= MIN_CLAIMS && left.len() * SHARE <= all {
         for s in left {
             let others = all - 1;
             let message = format!(

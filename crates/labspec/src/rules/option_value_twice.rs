@@ -32,7 +32,7 @@ fn same(a: &Scalar, b: &Scalar) -> bool {
 
 fn check_control(control: &Control, findings: &mut Vec<Finding>) {
     let ControlKind::Select { options, .. } = &control.kind else { return };
-    for (i, option) in options.iter().enumerate().take(MOST) {
+    for (i, option) in options.iter().enumerate().take(MAX_OPTIONS) {
         // Two options of one text are one, and another rule's.
         let twin = options.iter().take(i).find(|o| same(&o.value, &option.value));
         if let Some(first) = twin {
@@ -51,4 +51,4 @@ fn check_control(control: &Control, findings: &mut Vec<Finding>) {
 }
 
 /// Options that are looked at.
-const MOST: usize = 200;
+const MAX_OPTIONS: usize = 200;

@@ -27,11 +27,11 @@ pub const OVERRULED: &Rule = &Rule {
 };
 
 /// Steps after which a control is moved, besides the start.
-const LATE: usize = 40;
+const LATE_STEPS: usize = 40;
 /// The latest step at which it is moved.
 const MOST_STEPS: usize = 20_000;
 /// Most elements that are observed at.
-const MOST: usize = 64;
+const MAX_ELEMENTS: usize = 64;
 
 /// An element that a control sets.
 #[derive(Clone, Copy)]
@@ -69,13 +69,13 @@ fn elements(bound: &Bound) -> Option<Vec<Element>> {
     let mut all = Vec::new();
     for write in bound.program.own_writes() {
         let field = FieldId::new(write.field.0 as usize)?;
-        let count = write.count.filter(|n| *n <= MOST)?;
+        let count = write.count.filter(|n| *n <= MAX_ELEMENTS)?;
         if field.info().object == Object::Data && field.info().kind != Kind::Input {
             return None;
         }
         all.extend((write.first..write.first + count).map(|index| Element { field, index }));
     }
-    (!all.is_empty() && all.len() <= MOST).then_some(all)
+    (!all.is_empty() && all.len() <= MAX_ELEMENTS).then_some(all)
 }
 
 /// Looks at every control; tells which of them are overruled.
@@ -88,7 +88,7 @@ pub(crate) fn check_overruled_controls(observed: &mut ObservedLab<'_>, findings:
         let Some(bound) = action.run.as_ref() else { continue };
         let Some(elements) = elements(bound) else { continue };
         let label = &control.label.value;
-        let finding = if let Some(why) = otherwise(observed, index, current, &elements) {
+        let finding = if let Some(why) = initial_value(observed, index, current, &elements) {
             Finding::warning(OVERRULED, bound.text.span(), format!("the lab does not start with the value of \"{label}\""))
                 .why(why)
                 .help("delete the code after the control that overwrites it, in the setup or in another control, or let it use the control's value")
@@ -109,7 +109,7 @@ pub(crate) fn check_overruled_controls(observed: &mut ObservedLab<'_>, findings:
 }
 
 /// What the lab begins with where the control says another value, in words.
-fn otherwise(
+fn initial_value(
     observed: &ObservedLab<'_>,
     index: usize,
     current: &Value,
@@ -155,9 +155,9 @@ fn overwritten(
     let (steps, _) = observed.bench.steps(observed.length)?;
     let late = [steps / 2, steps.saturating_sub(2)]
         .into_iter()
-        .filter(|n| *n > LATE)
+        .filter(|n| *n > LATE_STEPS)
         .map(|n| (Setting::new(), n.min(MOST_STEPS)));
-    let others = settings(ready.lab, index, 1).into_iter().flat_map(|s| [(s.clone(), 2), (s, LATE)]);
+    let others = settings(ready.lab, index, 1).into_iter().flat_map(|s| [(s.clone(), 2), (s, LATE_STEPS)]);
     let all: Vec<(Setting, usize)> = late.chain(others).collect();
     for (setting, at) in all {
         let mut first: Option<Vec<f64>> = None;

@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Decided by `doubtful` in `verify/quote/messages.rs`.
+/// Decided by `ambiguous_unit` in `verify/quote/messages.rs`.
 pub const QUOTE_UNCLEAR: &Rule = &Rule {
     code: "quote-unclear",
     severity: Severity::Error,

@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Decided by `ready` in `verify/runner.rs`.
+/// Decided by `prepare_run` in `verify/runner.rs`.
 pub const RUN_IMPOSSIBLE: &Rule = &Rule {
     code: "run-impossible",
     severity: Severity::Error,

@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Decided by `ran_away` in `stress/runaway.rs`.
+/// Decided by `unbounded_speed` in `stress/runaway.rs`.
 pub const RUNS_AWAY: &Rule = &Rule {
     code: "runs-away",
     severity: Severity::Error,

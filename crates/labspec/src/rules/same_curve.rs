@@ -29,7 +29,7 @@ pub(crate) fn check_moving_trace(
     plot: &Plot,
 ) -> Option<Finding> {
     let first = before.start;
-    let twin = before.into_iter().find(|other| is_twin(observed, *other, c))?;
+    let twin = before.into_iter().find(|other| shows_same_curve(observed, *other, c))?;
     let [other, trace] = [plot.traces.get(twin - first)?, plot.traces.get(c - first)?];
     let message = format!("\"{}\" and \"{}\" are the same curve", other.label.value, trace.label.value);
     Some(
@@ -44,7 +44,7 @@ pub(crate) fn check_moving_trace(
 }
 
 /// Whether two traces read the same things and are the same in all runs and states.
-fn is_twin(observed: &mut ObservedLab<'_>, a: usize, b: usize) -> bool {
+fn shows_same_curve(observed: &mut ObservedLab<'_>, a: usize, b: usize) -> bool {
     let ready = observed.bench.ready;
     let of = |c: usize| Some(ready.programs.probes.get(c.checked_sub(1)?)?.bound.as_ref()?.program.effects());
     let (Some(one), Some(two)) = (of(a), of(b)) else { return false };

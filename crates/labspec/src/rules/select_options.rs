@@ -23,7 +23,7 @@ pub(crate) fn not_a_pair(span: Range<usize>) -> Finding {
 }
 
 /// A select without options.
-pub(crate) fn nothing_offered(span: Range<usize>) -> Finding {
+pub(crate) fn no_options(span: Range<usize>) -> Finding {
     Finding::new(SELECT_OPTIONS, span, "this select has no options")
         .help("add \"options\": [[\"Euler\", 0], [\"RK4\", 1]]")
 }

@@ -26,7 +26,7 @@ pub const SETCONST_JUMPS: &Rule = &Rule {
 /// Steps before the control is moved, at most.
 const STEPS: usize = 400;
 /// A smaller jump is none.
-const SMALL: f64 = 1e-6;
+const MIN_JUMP: f64 = 1e-6;
 
 pub(crate) fn check_jumps(observed: &ObservedLab<'_>, findings: &mut Vec<Finding>) {
     let ready = observed.bench.ready;
@@ -60,7 +60,7 @@ pub(crate) fn check_jumps(observed: &ObservedLab<'_>, findings: &mut Vec<Finding
         let Some((i, a, b)) = far.max_by(|x, y| (x.1 - x.2).abs().total_cmp(&(y.1 - y.2).abs())) else {
             continue;
         };
-        if session.ended().is_some() || (a - b).abs() <= SMALL {
+        if session.ended().is_some() || (a - b).abs() <= MIN_JUMP {
             continue;
         }
         let model = &ready.model;

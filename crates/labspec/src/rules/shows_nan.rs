@@ -40,14 +40,14 @@ pub(crate) fn always_a_gap(display: &WatchedDisplay<'_>) -> Finding {
     let message = format!("{} shows nan in every run", display.name);
     Finding::warning(SHOWS_NAN, display.bound.text.span(), message)
         .why("a student sees nan, or no curve at all, at every setting")
-        .help(match display.says_gap {
+        .help(match display.mentions_gap {
             true => "write an expression to display: this one is only a gap",
             false => "store the variable that it reads: nothing ever does",
         })
 }
 
 /// Whether a word stands in a text.
-pub(crate) fn says(text: &str, word: &str) -> bool {
+pub(crate) fn contains_word(text: &str, word: &str) -> bool {
     let part = |c: char| c.is_alphanumeric() || c == '_' || c == '$';
     text.match_indices(word).any(|(at, _)| {
         let before = text.get(..at).and_then(|t| t.chars().next_back());
@@ -57,14 +57,14 @@ pub(crate) fn says(text: &str, word: &str) -> bool {
 }
 
 /// Whether a text says itself that there may be a gap; to ask whether something is `null` says nothing of what is shown.
-pub(crate) fn says_gap(text: &str) -> bool {
+pub(crate) fn mentions_gap(text: &str) -> bool {
     let mut asked = text.to_string();
     for how in ["=== ", "!== ", "== ", "!= ", "===", "!==", "==", "!="] {
         for word in ["null", "undefined"] {
             asked = asked.replace(&format!("{how}{word}"), "");
         }
     }
-    ["NaN", "null", "undefined"].iter().any(|word| says(&asked, word))
+    ["NaN", "null", "undefined"].iter().any(|word| contains_word(&asked, word))
 }
 
 /// Whether a text reads a variable that holds nothing yet, or NaN because some text stored that on purpose.

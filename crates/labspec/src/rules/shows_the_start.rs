@@ -23,12 +23,12 @@ pub const SHOWS_THE_START: &Rule = &Rule {
 /// What says where coordinates begin.
 const STARTS: [&str; 2] = ["qpos0", "key_qpos"];
 /// Beginnings of words in a label that says so itself, and whole words.
-const BEGIN: [&str; 6] = ["start", "begin", "initial", "referen", "nominal", "origin"];
-const WHOLE: [&str; 7] = ["rest", "zero", "home", "neutral", "first", "key", "0"];
+const START_PREFIXES: [&str; 6] = ["start", "begin", "initial", "referen", "nominal", "origin"];
+const START_WORDS: [&str; 7] = ["rest", "zero", "home", "neutral", "first", "key", "0"];
 /// Steps of the runs that are observed at.
 const STEPS: usize = 500;
 /// A coordinate that has gone this far has moved, m or rad.
-const MOVED: f64 = 1e-6;
+const MIN_MOTION: f64 = 1e-6;
 
 pub(crate) fn check_beginning(observed: &ObservedLab<'_>, findings: &mut Vec<Finding>) {
     let ready = observed.bench.ready;
@@ -47,7 +47,7 @@ pub(crate) fn check_beginning(observed: &ObservedLab<'_>, findings: &mut Vec<Fin
             || effects.reads.iter().filter_map(|a| Some((FieldId::new(a.field.0 as usize)?.info(), a)));
         let live = fields().any(|(f, _)| f.object == Object::Data);
         let start = fields().find(|(f, a)| STARTS.contains(&f.name) && a.count == Some(1));
-        let (Some((field, access)), false) = (start, more || live || says_so(&label)) else {
+        let (Some((field, access)), false) = (start, more || live || mentions_start(&label)) else {
             continue;
         };
         let column =
@@ -80,9 +80,11 @@ pub(crate) fn check_beginning(observed: &ObservedLab<'_>, findings: &mut Vec<Fin
 }
 
 /// Whether a label says that it is about the start.
-fn says_so(label: &str) -> bool {
+fn mentions_start(label: &str) -> bool {
     let mut words = label.split(|c: char| !c.is_alphanumeric());
-    words.any(|w| BEGIN.iter().any(|b| w.starts_with(b)) || WHOLE.contains(&w) || w.ends_with(['0', '₀']))
+    words.any(|w| {
+        START_PREFIXES.iter().any(|b| w.starts_with(b)) || START_WORDS.contains(&w) || w.ends_with(['0', '₀'])
+    })
 }
 
 /// The first run in which a coordinate moves: from where, to where, and what was done.
@@ -102,6 +104,6 @@ fn moves(observed: &ObservedLab<'_>, at: usize) -> Option<(f64, f64, String)> {
             (low, high) = (low.min(x), high.max(x));
             ControlFlow::Continue(())
         });
-        (session.ended().is_none() && high - low > MOVED).then_some((low, high, description))
+        (session.ended().is_none() && high - low > MIN_MOTION).then_some((low, high, description))
     })
 }

@@ -18,10 +18,10 @@ pub const SLIDER_DIGITS: &Rule = &Rule {
 };
 
 /// Steps of a slider that are looked at.
-const MOST: f64 = 100.0;
+const MAX_STEPS: f64 = 100.0;
 
 /// A number without what rounding has left.
-fn tidy(x: f64) -> f64 {
+fn without_rounding(x: f64) -> f64 {
     format!("{x:.12e}").parse().unwrap_or(x)
 }
 
@@ -39,8 +39,8 @@ fn check_control(control: &Control, findings: &mut Vec<Finding>) {
     // Small and large numbers are printed with an exponent, which has digits of its own.
     let plain = |x: f64| x == 0.0 || (1e-3..1e5).contains(&x.abs());
     let printed = |x: f64| format!("{x:.decimals$}");
-    let steps = ((max.value - min.value) / step.value).min(MOST) as usize;
-    let pairs = (0..steps).map(|i| [i, i + 1].map(|i| tidy(min.value + i as f64 * step.value)));
+    let steps = ((max.value - min.value) / step.value).min(MAX_STEPS) as usize;
+    let pairs = (0..steps).map(|i| [i, i + 1].map(|i| without_rounding(min.value + i as f64 * step.value)));
     let Some([a, b]) = pairs.into_iter().find(|[a, b]| plain(*a) && plain(*b) && printed(*a) == printed(*b))
     else {
         return;

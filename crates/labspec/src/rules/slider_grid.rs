@@ -31,7 +31,7 @@ fn check_control(control: &Control, findings: &mut Vec<Finding>) {
     if !inside || ends || (steps - steps.round()).abs() <= ROUNDING {
         return;
     }
-    let near = [steps.floor(), steps.ceil()].map(|n| tidy(min.value + n * step.value));
+    let near = [steps.floor(), steps.ceil()].map(|n| without_rounding(min.value + n * step.value));
     let [below, above] = near;
     let message = format!("{} is between two steps of the slider, {below} and {above}", value.value);
     findings.push(
@@ -43,6 +43,6 @@ fn check_control(control: &Control, findings: &mut Vec<Finding>) {
 }
 
 /// A number without the last digits, which rounding made.
-fn tidy(x: f64) -> f64 {
+fn without_rounding(x: f64) -> f64 {
     format!("{x:.12e}").parse().unwrap_or(x)
 }

@@ -1,7 +1,7 @@
 use super::example::{FALL, STORED};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Decided by `hold` in `check/snapshot/mod.rs`.
+/// Decided by `compare_lab` in `check/snapshot/mod.rs`.
 pub const SNAPSHOT_DIFFERS: &Rule = &Rule {
     code: "snapshot-differs",
     severity: Severity::Error,

@@ -1,7 +1,7 @@
 use super::example::{FALL, STORED};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Decided by `lost_snapshot_finding` in `../../cli/src/scheduler.rs`.
+/// Decided by `orphaned_snapshot_finding` in `../../cli/src/scheduler.rs`.
 pub const SNAPSHOT_WITHOUT_LESSON: &Rule = &Rule {
     code: "snapshot-without-lesson",
     severity: Severity::Error,

@@ -30,7 +30,7 @@ pub const STALE_READ: &Rule = &Rule {
 /// Steps of the runs that are compared.
 const STEPS: usize = 200;
 /// A difference that can be seen, of the range of a curve.
-const VISIBLE: f64 = 1e-3;
+const VISIBLE_FRACTION: f64 = 1e-3;
 const FORWARD: &str = "mj.mj_forward(model, data)";
 
 /// Where a program stands.
@@ -53,9 +53,11 @@ pub(crate) fn check_stale_reads(observed: &mut ObservedLab<'_>, findings: &mut V
     });
     let setup = programs.setup.iter().map(|b| (ProgramSite::Setup, b, None));
     for (place, bound, given) in setup.chain(controls) {
-        let Some(text) = suspect(bound).then(|| with_forward(&bound.text.value)).flatten() else { continue };
-        let Some(amended) = amended(observed, place, bound, &text, given) else { continue };
-        if let Some(description) = shows(observed, place, &amended) {
+        let Some(text) = reads_after_write(bound).then(|| with_forward(&bound.text.value)).flatten() else {
+            continue;
+        };
+        let Some(amended) = lab_with_statements(observed, place, bound, &text, given) else { continue };
+        if let Some(description) = first_visible_difference(observed, place, &amended) {
             findings.push(
                 Finding::warning(
                     STALE_READ,
@@ -70,7 +72,7 @@ pub(crate) fn check_stale_reads(observed: &mut ObservedLab<'_>, findings: &mut V
 }
 
 /// Whether a program writes the state and reads what follows from it.
-fn suspect(bound: &Bound) -> bool {
+fn reads_after_write(bound: &Bound) -> bool {
     let is = |a: &labspec_expr::Access, kinds: &[Kind]| {
         FieldId::new(a.field.0 as usize)
             .is_some_and(|f| f.info().object == Object::Data && kinds.contains(&f.info().kind))
@@ -121,7 +123,7 @@ fn with_forward(text: &str) -> Option<String> {
 }
 
 /// The lab with other statements at a place.
-fn amended(
+fn lab_with_statements(
     observed: &ObservedLab<'_>,
     place: ProgramSite,
     bound: &Bound,
@@ -167,7 +169,11 @@ fn trials(lab: &Lab, place: ProgramSite) -> Vec<(Vec<Move>, String)> {
 }
 
 /// The first difference that can be seen, in words.
-fn shows(observed: &mut ObservedLab<'_>, place: ProgramSite, amended: &Programs) -> Option<String> {
+fn first_visible_difference(
+    observed: &mut ObservedLab<'_>,
+    place: ProgramSite,
+    amended: &Programs,
+) -> Option<String> {
     let ready = observed.bench.ready;
     for (moves, description) in trials(ready.lab, place) {
         let with_move = observed.bench.run(&moves, STEPS)?;
@@ -191,7 +197,7 @@ fn shows(observed: &mut ObservedLab<'_>, place: ProgramSite, amended: &Programs)
                     a.rounded(r.digits()) != b.rounded(r.digits())
                         && (a.number() - b.number()).abs() > 1e-9 * high.abs().max(low.abs())
                 }
-                None => (a.number() - b.number()).abs() > VISIBLE * (high - low),
+                None => (a.number() - b.number()).abs() > VISIBLE_FRACTION * (high - low),
             };
             if let Some((time, a, b)) = cells().find(|(_, a, b)| apart(a, b)) {
                 let name = probe.name.splitn(3, '/').last().unwrap_or("");

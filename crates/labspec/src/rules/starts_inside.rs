@@ -21,7 +21,7 @@ pub const STARTS_INSIDE: &Rule = &Rule {
 };
 
 /// A contact deeper than this part of the smaller geom's half thickness is no contact.
-const DEEP: f64 = 0.3;
+const MAX_DEPTH_FRACTION: f64 = 0.3;
 /// What is thrown out has come half of the way after so many steps.
 const STEPS: usize = 200;
 
@@ -56,7 +56,7 @@ fn deepest(session: &Session<'_>) -> Option<([usize; 2], f64)> {
     let deep = data.contact.iter().filter_map(|c| {
         let pair = [c.geom1, c.geom2];
         let size = half_thickness_of_pair(model, pair);
-        (c.efc_address.is_some() && -c.dist > DEEP * size).then_some((pair, -c.dist))
+        (c.efc_address.is_some() && -c.dist > MAX_DEPTH_FRACTION * size).then_some((pair, -c.dist))
     });
     deep.max_by(|a, b| a.1.total_cmp(&b.1))
 }

@@ -21,7 +21,7 @@ pub const STIFF_FOR_TIMESTEP: &Rule = &Rule {
 
 /// What of a lab's scene no step of its length can follow, though its run did not show it.
 pub(crate) fn check_stiffness(model: &Model, place: Range<usize>, covered: &str) -> Option<Finding> {
-    let worst = stability::suspects(model).into_iter().next()?;
+    let worst = stability::unstable_parts(model).into_iter().next()?;
     let [owner, how] = [run::owner(model, &worst), run::how_stiff(&worst)];
     Some(
         Finding::warning(STIFF_FOR_TIMESTEP, place, format!("{owner} is {how} for its timestep"))
@@ -31,7 +31,7 @@ pub(crate) fn check_stiffness(model: &Model, place: Range<usize>, covered: &str)
             .help(format!(
                 "set the timestep to {} s, or {}",
                 run::two_digits(0.9 * worst.timestep.min(model.opt.timestep)),
-                run::softer(&worst)
+                run::attribute_to_soften(&worst)
             )),
     )
 }

@@ -22,13 +22,13 @@ pub const STOPS_EARLY: &Rule = &Rule {
 };
 
 /// A lab that runs for so many steps shows something.
-const FEW: usize = 50;
+const MIN_STEPS: usize = 50;
 /// How long it is run to see what would happen, s.
-const LONGER: f64 = 2.0;
+const LONGER_RUN: f64 = 2.0;
 /// A run of this part of a plot's width is a dot.
-const DOT: f64 = 0.02;
+const DOT_FRACTION: f64 = 0.02;
 /// A curve has moved when it has come this share of its way.
-const MOVED: f64 = 0.02;
+const VISIBLE_FRACTION: f64 = 0.02;
 
 pub(crate) fn check_early_stop(observed: &mut ObservedLab<'_>, findings: &mut Vec<Finding>) {
     let ready = observed.bench.ready;
@@ -38,10 +38,10 @@ pub(crate) fn check_early_stop(observed: &mut ObservedLab<'_>, findings: &mut Ve
         findings.push(stops_after_first_step(stop, timestep));
         return;
     }
-    if steps >= FEW || steps == 0 {
+    if steps >= MIN_STEPS || steps == 0 {
         return;
     }
-    let Some(all) = observed.bench.steps(LONGER).and_then(|(n, _)| observed.bench.run(&[], n)) else {
+    let Some(all) = observed.bench.steps(LONGER_RUN).and_then(|(n, _)| observed.bench.run(&[], n)) else {
         return;
     };
     let Some(start) = all.rows.first() else { return };
@@ -60,7 +60,7 @@ pub(crate) fn check_early_stop(observed: &mut ObservedLab<'_>, findings: &mut Ve
     let windows = ready.lab.plots.iter().filter(|p| !p.traces.is_empty()).map(|p| p.window());
     let shortest = windows.filter(|w| w.is_finite()).fold(f64::INFINITY, f64::min);
     let run = steps as f64 * timestep;
-    if seen && shortest.is_finite() && run < DOT * shortest {
+    if seen && shortest.is_finite() && run < DOT_FRACTION * shortest {
         let [run, shortest] = [run, shortest].map(|x| digits(x, 3));
         findings.push(
             Finding::warning(STOPS_EARLY, stop.span.clone(), "the lab stops when its curves have barely begun")
@@ -121,7 +121,7 @@ fn changed(observed: &ObservedLab<'_>, c: usize, range: f64, a: Option<&Cell>, b
     let lab = observed.bench.ready.lab;
     match c.checked_sub(1 + lab.traces().count()).and_then(|i| lab.readouts.get(i)) {
         Some(readout) => a.rounded(readout.digits()) != b.rounded(readout.digits()),
-        None => (a.number() - b.number()).abs() > MOVED * range,
+        None => (a.number() - b.number()).abs() > VISIBLE_FRACTION * range,
     }
 }
 

@@ -21,12 +21,12 @@ pub const TOO_FEW_DIGITS: &Rule = &Rule {
 };
 
 /// A value that changes by less than this share of itself hardly changes.
-const CHANGES: f64 = 0.5;
+const MIN_RELATIVE_CHANGE: f64 = 0.5;
 /// The same where one text is printed whatever happens, and where two are, without decimals.
-const HARDLY: f64 = 0.05;
-const SOME: f64 = 0.1;
+const NEARLY_CONSTANT: f64 = 0.05;
+const NEARLY_CONSTANT_TWO_TEXTS: f64 = 0.1;
 /// So many different values are no count of something.
-const MANY: usize = 20;
+const MIN_VALUES: usize = 20;
 
 /// `c` is the column of the readout.
 pub(crate) fn check_readout(observed: &ObservedLab<'_>, readout: &Readout, c: usize) -> Option<Finding> {
@@ -40,17 +40,18 @@ pub(crate) fn check_readout(observed: &ObservedLab<'_>, readout: &Readout, c: us
     let values: BTreeSet<u64> = numbers().filter(|x| x.fract() != 0.0).map(f64::to_bits).collect();
     // What is nearly 0 is printed with an exponent, and so not rounded.
     let rounded = 4 * numbers().filter(|x| *x == 0.0 || x.abs() >= 1e-3).count() >= 3 * numbers().count();
-    let many = values.len() >= MANY && rounded;
+    let many = values.len() >= MIN_VALUES && rounded;
     let share = (high - low) / low.abs().max(high.abs());
     let printed: BTreeSet<String> =
         cells().map(|c| c.rounded(readout.digits()).trim_start_matches('-').to_string()).collect();
     // One text, or two next to each other, for all that it does.
-    let few =
-        readout.digits() == 0 && (printed.len() == 1 && share > HARDLY || printed.len() == 2 && share > SOME);
+    let few = readout.digits() == 0
+        && (printed.len() == 1 && share > NEARLY_CONSTANT
+            || printed.len() == 2 && share > NEARLY_CONSTANT_TWO_TEXTS);
     // A number that is never 0, and is printed as 0.
     let nothing = printed.iter().all(|t| t == "0") && (low >= 1e-3 || high <= -1e-3);
     let few = few || nothing;
-    if !nothing && !(many && (share > CHANGES && high - low < 2.0 * unit || few)) {
+    if !nothing && !(many && (share > MIN_RELATIVE_CHANGE && high - low < 2.0 * unit || few)) {
         return None;
     }
     let texts = printed.iter().take(2).cloned().collect::<Vec<_>>().join(" and ");

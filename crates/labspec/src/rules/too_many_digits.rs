@@ -22,13 +22,13 @@ pub const TOO_MANY_DIGITS: &Rule = &Rule {
 };
 
 /// A readout is observed at this many times.
-const LOOKS: usize = 10;
+const OBSERVATIONS: usize = 10;
 /// Two decimals too many: the other run differs by so many units of the last one, at most of the looks.
 const UNITS: f64 = 100.0;
 /// Steps of the runs.
 const STEPS: usize = 5000;
 
-const HALF: StepVariant = StepVariant { timestep: 0.5, ..StepVariant::NOMINAL };
+const HALF_TIMESTEP: StepVariant = StepVariant { timestep: 0.5, ..StepVariant::NOMINAL };
 
 pub(crate) fn check_surplus_digits(observed: &mut ObservedLab<'_>, findings: &mut Vec<Finding>) {
     let ready = observed.bench.ready;
@@ -40,7 +40,8 @@ pub(crate) fn check_surplus_digits(observed: &mut ObservedLab<'_>, findings: &mu
     if ready.lab.readouts.is_empty() || ready.programs.bound().any(|b| of_timestep(b.program.effects())) {
         return;
     }
-    let Some((steps, _)) = observed.bench.steps(observed.length).filter(|(n, _)| (LOOKS..=STEPS).contains(n))
+    let Some((steps, _)) =
+        observed.bench.steps(observed.length).filter(|(n, _)| (OBSERVATIONS..=STEPS).contains(n))
     else {
         return;
     };
@@ -93,11 +94,11 @@ pub(crate) fn check_surplus_digits(observed: &mut ObservedLab<'_>, findings: &mu
 fn samples(observed: &mut ObservedLab<'_>, steps: usize, parts: usize) -> Option<Vec<Vec<Cell>>> {
     let mut session = observed.bench.start();
     if parts > 1 {
-        session.perturb(HALF, false);
+        session.perturb(HALF_TIMESTEP, false);
     }
     let mut rows = Vec::new();
     run::play(&mut session, &Play::steps(parts * steps), |session, step| {
-        if step > 0 && step % (parts * (steps / LOOKS)) == 0 {
+        if step > 0 && step % (parts * (steps / OBSERVATIONS)) == 0 {
             rows.push(session.sample());
         }
         ControlFlow::Continue(())

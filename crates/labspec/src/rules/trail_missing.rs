@@ -72,7 +72,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_site_is_told_with_what_there_is() {
+    fn an_unknown_site_is_reported_with_the_existing_ones() {
         let reported = |trail, sites| {
             let [one] = found(trail, sites).try_into().unwrap();
             let Finding { code, message, help, .. } = one;

@@ -46,7 +46,7 @@ pub(crate) fn check_undone_writes(observed: &mut ObservedLab<'_>, findings: &mut
         let (Some(first), Some(then)) = (first, then) else { continue };
         // To begin with a plain reset and then to take a keyframe loses nothing.
         let resets = before.split(';').any(|p| is_reset(p) && p.contains("Keyframe"));
-        let Some((name, set, left)) = lost(observed, &first, &then, resets) else {
+        let Some((name, set, left)) = first_lost_write(observed, &first, &then, resets) else {
             continue;
         };
         findings.push(
@@ -65,7 +65,7 @@ pub(crate) fn check_undone_writes(observed: &mut ObservedLab<'_>, findings: &mut
 }
 
 /// The first number that the first statements set and the reset behind them takes back; `None` where anything of it is left.
-fn lost(
+fn first_lost_write(
     observed: &ObservedLab<'_>,
     first: &Bound,
     then: &Bound,

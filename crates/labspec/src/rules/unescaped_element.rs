@@ -98,7 +98,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn model_elements_are_told_from_html() {
+    fn model_elements_are_distinguished_from_html() {
         let names =
             |html| model_tags(html).into_iter().map(|(range, _)| html[range].to_string()).collect::<Vec<_>>();
         assert_eq!(

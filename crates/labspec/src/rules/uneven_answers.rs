@@ -19,11 +19,11 @@ pub const UNEVEN_ANSWERS: &Rule = &Rule {
 };
 
 /// Chance may do it once in a thousand courses.
-const RARE: f64 = 1e-3;
+const MAX_PROBABILITY: f64 = 1e-3;
 /// So many questions say enough.
-const ENOUGH: usize = 3000;
+const MAX_QUESTIONS: usize = 3000;
 /// Places that are looked at.
-const MOST: usize = 26;
+const MAX_POSITIONS: usize = 26;
 
 /// Checks the whole course: reported once, at the first question whose answer stands there.
 pub(super) fn across(lessons: &[&Lesson]) -> Vec<Finding> {
@@ -38,8 +38,8 @@ pub(super) fn across(lessons: &[&Lesson]) -> Vec<Finding> {
             }
         }
     }
-    keys.truncate(ENOUGH);
-    let places = keys.iter().map(|(_, n, ..)| *n).max().unwrap_or(0).min(MOST);
+    keys.truncate(MAX_QUESTIONS);
+    let places = keys.iter().map(|(_, n, ..)| *n).max().unwrap_or(0).min(MAX_POSITIONS);
     let count_at = |place: usize| keys.iter().filter(|k| k.0 == place).count();
     let Some(place) = (0..places).max_by_key(|p| (count_at(*p), places - p)) else { return Vec::new() };
     let chances: Vec<f64> =
@@ -47,7 +47,7 @@ pub(super) fn across(lessons: &[&Lesson]) -> Vec<Finding> {
     // Any of the places could have been the one.
     let chance = places as f64 * at_least(&chances, count_at(place));
     let Some((.., file, span)) = keys.iter().find(|k| k.0 == place) else { return Vec::new() };
-    if chance >= RARE {
+    if chance >= MAX_PROBABILITY {
         return Vec::new();
     }
     let counts: Vec<String> = (0..places).map(|p| format!("{} at {p}", count_at(p))).collect();

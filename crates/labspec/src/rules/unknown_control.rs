@@ -23,17 +23,18 @@ pub const UNKNOWN_CONTROL: &Rule = &Rule {
 pub(super) const CHECK: Check = Check::Lesson(check_lesson);
 
 /// A hostile object can set thousands of controls; the first mistakes are enough.
-const MOST: usize = 50;
-const LOOKED_AT: usize = 200;
+const MAX_FINDINGS: usize = 50;
+const MAX_CONTROLS: usize = 200;
 
 fn check_lesson(lesson: &Lesson, findings: &mut Vec<Finding>) {
     for claim in claims::all(lesson) {
         let labels = claim.verify.runs.iter().filter_map(|run| Some((run, claim.lab_of(run, lesson)?)));
         let labels = labels.flat_map(|(run, lab)| {
-            let set = run.set.iter().take(LOOKED_AT).map(move |(label, _)| (label, lab, false));
-            set.chain(run.press.iter().take(LOOKED_AT).map(move |(label, _)| (label, lab, true)))
+            let set = run.set.iter().take(MAX_CONTROLS).map(move |(label, _)| (label, lab, false));
+            set.chain(run.press.iter().take(MAX_CONTROLS).map(move |(label, _)| (label, lab, true)))
         });
-        findings.extend(labels.filter_map(|(label, lab, press)| missing(label, lab, press)).take(MOST));
+        findings
+            .extend(labels.filter_map(|(label, lab, press)| missing(label, lab, press)).take(MAX_FINDINGS));
     }
 }
 
@@ -46,7 +47,7 @@ fn missing(label: &Text, lab: &Lab, press: bool) -> Option<Finding> {
     }
     let what = if press { "button" } else { "slider or select" };
     let labels: Vec<&str> =
-        lab.controls.iter().filter(|c| fits(&c.kind)).map(|c| c.label.as_str()).take(LOOKED_AT).collect();
+        lab.controls.iter().filter(|c| fits(&c.kind)).map(|c| c.label.as_str()).take(MAX_CONTROLS).collect();
     let message = format!("the lab has no {what} {}", named(label.as_str()));
     let found = Finding::new(UNKNOWN_CONTROL, label.span(), message);
     Some(match nearest(label.as_str(), labels.iter().copied()) {

@@ -66,7 +66,7 @@ pub(crate) fn not_an_address(span: Range<usize>, text: &str) -> Finding {
 }
 
 /// A lab of another lesson that cannot be used: `other` says why that one has none, if that lesson was read.
-pub(crate) fn lab_elsewhere(text: &Text, other: Option<Option<&str>>) -> Finding {
+pub(crate) fn lab_of_other_lesson(text: &Text, other: Option<Option<&str>>) -> Finding {
     let name = read::named(text.as_str());
     let message = match other {
         Some(None) => format!("{name} cannot run, because its model or its code has errors"),

@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Decided by `no_such_trace` in `verify/exact.rs`.
+/// Decided by `unknown_trace` in `verify/exact.rs`.
 pub const UNKNOWN_TRACE: &Rule = &Rule {
     code: "unknown-trace",
     severity: Severity::Error,

@@ -27,12 +27,12 @@ pub(super) fn visible_text(html: &str) -> String {
         }
         return text.trim_end_matches('.').trim_end().to_string();
     }
-    let text = loose(html);
+    let text = normalized_words(html);
     text.split(' ').filter(|w| !["a", "an", "the"].contains(w)).collect::<Vec<_>>().join(" ")
 }
 
 /// The words of a text without capitals and marks, code and formulas too.
-pub(super) fn loose(html: &str) -> String {
+pub(super) fn normalized_words(html: &str) -> String {
     let lower = plain(html).to_lowercase();
     let without_punctuation: String =
         lower.chars().map(|c| if ",;:!?'\"“”‘’()".contains(c) { ' ' } else { c }).collect();
@@ -102,7 +102,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_are_told_from_indices_and_powers() {
+    fn numbers_are_distinguished_from_indices_and_powers() {
         let of = |text: &str| numbers(text).into_iter().map(|n| n.value).collect::<Vec<_>>();
         assert_eq!(of("<p>7 + 2 = 9, plus 21: 30. And x_1 = -4.50 m</p>"), [7.0, 2.0, 9.0, 21.0, 30.0, -4.5]);
         assert_eq!(of("$10^{-11}$ and $2 \\times 9.81 \\times 0.3$ = 5.886 N m"), [0.3, 5.886]);
@@ -110,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn texts_say_the_same_whatever_their_marks() {
+    fn texts_are_compared_without_punctuation() {
         assert_eq!(visible_text("The <b>ball</b>, falls."), visible_text("ball falls"));
         assert_ne!(visible_text("it rises"), visible_text("it does not rise"));
         assert_ne!(visible_text("-1"), visible_text("1"));

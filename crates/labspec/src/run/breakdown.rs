@@ -1,7 +1,7 @@
 //! Breakdowns of a run, described for teachers: what broke, when, the likely cause, and a suggestion.
 
 use super::cell::rounded;
-use crate::monitors::stability::{self, StiffPart, Suspect};
+use crate::monitors::stability::{self, StiffPart, UnstablePart};
 use crate::rules::Rule;
 use labspec_core::{Model, Obj};
 
@@ -17,20 +17,20 @@ pub struct Breakdown {
     /// The likely cause, where it is known.
     pub cause: Option<String>,
     /// A shorter timestep, s.
-    pub shorter: Shorter,
+    pub shorter: ShorterTimestep,
     /// Another remedy.
     pub instead: String,
 }
 
 /// A timestep that may be short enough.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Shorter {
+pub enum ShorterTimestep {
     /// The timestep is not the cause.
     No,
     /// A shorter timestep may help; the value follows from theory if it is given. It was not tested.
     Maybe(Option<f64>),
     /// A run with this timestep had no fault.
-    Tried(f64),
+    Tested(f64),
     /// None of the tested shorter timesteps gave a run without faults.
     Useless,
 }
@@ -41,12 +41,12 @@ impl Breakdown {
         let cause = self.cause.as_ref().map_or(String::new(), |cause| format!("the likely cause: {cause}; "));
         let instead = &self.instead;
         let advice = match self.shorter {
-            Shorter::No => instead.clone(),
-            Shorter::Maybe(_) => format!("try a shorter timestep, or {instead}"),
-            Shorter::Tried(h) => {
+            ShorterTimestep::No => instead.clone(),
+            ShorterTimestep::Maybe(_) => format!("try a shorter timestep, or {instead}"),
+            ShorterTimestep::Tested(h) => {
                 format!("set the timestep to {} s (this run is fine with it), or {instead}", two_digits(h))
             }
-            Shorter::Useless => format!("use {instead}; none of the tested shorter timesteps helps"),
+            ShorterTimestep::Useless => format!("use {instead}; none of the tested shorter timesteps helps"),
         };
         cause + &advice
     }
@@ -75,24 +75,24 @@ fn without_zeros(text: String) -> String {
 /// The likely cause of a breakdown, and the remedies.
 pub(super) struct BreakdownAdvice {
     pub(super) cause: Option<String>,
-    pub(super) shorter: Shorter,
+    pub(super) shorter: ShorterTimestep,
     pub(super) instead: String,
 }
 
 impl BreakdownAdvice {
     /// A remedy that does not concern the timestep.
     pub(super) fn only(instead: impl Into<String>) -> BreakdownAdvice {
-        BreakdownAdvice { cause: None, shorter: Shorter::No, instead: instead.into() }
+        BreakdownAdvice { cause: None, shorter: ShorterTimestep::No, instead: instead.into() }
     }
 
     /// A shorter timestep, or another remedy.
     pub(super) fn shorter(instead: impl Into<String>) -> BreakdownAdvice {
-        BreakdownAdvice { cause: None, shorter: Shorter::Maybe(None), instead: instead.into() }
+        BreakdownAdvice { cause: None, shorter: ShorterTimestep::Maybe(None), instead: instead.into() }
     }
 
     /// The advice that follows from the stiffest part of a model.
     pub(super) fn by_stiffness(model: &Model) -> BreakdownAdvice {
-        let Some(worst) = stability::suspects(model).into_iter().next() else {
+        let Some(worst) = stability::unstable_parts(model).into_iter().next() else {
             return BreakdownAdvice::shorter("softer contacts or springs, or a smaller range of the control");
         };
         BreakdownAdvice {
@@ -102,8 +102,8 @@ impl BreakdownAdvice {
                 how_stiff(&worst),
                 model.opt.timestep
             )),
-            shorter: Shorter::Maybe(Some(0.9 * worst.timestep)),
-            instead: softer(&worst),
+            shorter: ShorterTimestep::Maybe(Some(0.9 * worst.timestep)),
+            instead: attribute_to_soften(&worst),
         }
     }
 
@@ -114,7 +114,7 @@ impl BreakdownAdvice {
 }
 
 /// The name of the stiff part: `the servo "lift"`, `the spring of joint "knee"`.
-pub fn owner(model: &Model, s: &Suspect) -> String {
+pub fn owner(model: &Model, s: &UnstablePart) -> String {
     let names = model.names.of_kind(s.object);
     let name = match names.get(s.id) {
         Some(name) if !name.is_empty() => format!("\"{name}\""),
@@ -133,7 +133,7 @@ pub fn owner(model: &Model, s: &Suspect) -> String {
 }
 
 /// By how much it is too stiff: `1.8 times too stiff`, `just too stiff`.
-pub fn how_stiff(s: &Suspect) -> String {
+pub fn how_stiff(s: &UnstablePart) -> String {
     match s.excess {
         x if x < 1.1 => "just too stiff".into(),
         x if x < 10.0 => format!("{} times too stiff", without_zeros(format!("{x:.1}"))),
@@ -142,7 +142,7 @@ pub fn how_stiff(s: &Suspect) -> String {
 }
 
 /// The attribute to make softer.
-pub fn softer(s: &Suspect) -> String {
+pub fn attribute_to_soften(s: &UnstablePart) -> String {
     let attribute = match (s.part, s.object) {
         (StiffPart::Servo, _) => "`kp` and `kv`",
         (StiffPart::Spring, _) => "`stiffness` and `damping`",

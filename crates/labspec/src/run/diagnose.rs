@@ -9,9 +9,10 @@ use labspec_core::{Model, Warning, WarningStat, joint};
 const RESET: &str = "MuJoCo then resets the data and continues from time 0: a student sees the scene jump back without an explanation";
 
 /// Warnings that may cause each other, the cause first: only the first of them is reported.
-const STATE: [Warning; 4] = [Warning::Inertia, Warning::BadQpos, Warning::BadQvel, Warning::BadQacc];
+const RELATED_WARNINGS: [Warning; 4] =
+    [Warning::Inertia, Warning::BadQpos, Warning::BadQvel, Warning::BadQacc];
 /// Independent warnings.
-const OTHERS: [Warning; 3] = [Warning::BadCtrl, Warning::ContactFull, Warning::ConstraintFull];
+const INDEPENDENT_WARNINGS: [Warning; 3] = [Warning::BadCtrl, Warning::ContactFull, Warning::ConstraintFull];
 
 /// The worst breakdown of a session; `None` when there is none.
 pub fn worst_breakdown(session: &Session<'_>) -> Option<Breakdown> {
@@ -25,8 +26,8 @@ pub fn breakdowns_of(session: &Session<'_>) -> Vec<Breakdown> {
         Some(explain_warning(&session.world.model, *w, stat))
     };
     let first = |w: &Warning| session.warnings.get(*w as usize).filter(|stat| stat.number > 0);
-    let mut since = STATE.iter().find_map(first).map_or(f64::INFINITY, |stat| stat.first_time);
-    let mut state = STATE.iter().find_map(met);
+    let mut since = RELATED_WARNINGS.iter().find_map(first).map_or(f64::INFINITY, |stat| stat.first_time);
+    let mut state = RELATED_WARNINGS.iter().find_map(met);
     if let Some(growth) = session.growth() {
         // A quantity that grows for a while becomes NaN or infinite in the end.
         if growth.time < since {
@@ -38,9 +39,9 @@ pub fn breakdowns_of(session: &Session<'_>) -> Vec<Breakdown> {
         }
     }
     // After energy growth or a bad number, any other fault may be a consequence; earlier faults are reported.
-    let noticed = silent::first(&session.world.model, &session.noticed());
+    let noticed = silent::first(&session.world.model, &session.observations());
     let before = noticed.filter(|(time, _)| *time < since).map(|(_, b)| b);
-    before.into_iter().chain(state).chain(OTHERS.iter().filter_map(met)).collect()
+    before.into_iter().chain(state).chain(INDEPENDENT_WARNINGS.iter().filter_map(met)).collect()
 }
 
 /// Describes a warning of the engine.

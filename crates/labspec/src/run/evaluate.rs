@@ -2,8 +2,8 @@
 
 use super::budget::{Budget, End};
 use super::cell::Cell;
+use super::program_error::ProgramError;
 use super::session::Session;
-use super::trouble::Trouble;
 use crate::source::Text;
 use labspec_core as core;
 use labspec_expr::{Program, Value, rules};
@@ -27,8 +27,10 @@ impl Session<'_> {
     /// The current value of an expression; `None` when it throws, or when the budget ran out. An expression that exceeded
     /// its budget before is not evaluated again.
     pub fn evaluate(&mut self, program: &Program, text: &Text) -> Option<Value> {
-        let endless = |t: &Trouble| t.rule == rules::BUDGET && t.text == *text;
-        if matches!(self.end, Some(End::Budget { .. } | End::Foreign)) || self.troubles.iter().any(endless) {
+        let endless = |t: &ProgramError| t.rule == rules::BUDGET && t.text == *text;
+        if matches!(self.end, Some(End::Budget { .. } | End::Foreign))
+            || self.program_errors.iter().any(endless)
+        {
             return None;
         }
         self.sampled += SAMPLE;
@@ -38,7 +40,7 @@ impl Session<'_> {
         match program.run(&mut self.world, &mut self.context, None) {
             Ok(value) => self.settle(time).then_some(value),
             Err(e) => {
-                self.threw(e, text, time);
+                self.report_error(e, text, time);
                 None
             }
         }

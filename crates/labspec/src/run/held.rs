@@ -6,33 +6,33 @@ use std::sync::Arc;
 
 /// The programs of a lab: borrowed for one run, or shared, for a lab on a page.
 #[derive(Clone, Debug)]
-pub enum Held<'p> {
+pub enum ProgramsRef<'p> {
     /// Borrowed.
     Lent(&'p Programs),
     /// Shared.
     Shared(Arc<Programs>),
 }
 
-impl Deref for Held<'_> {
+impl Deref for ProgramsRef<'_> {
     type Target = Programs;
 
     #[inline]
     fn deref(&self) -> &Programs {
         match self {
-            Held::Lent(programs) => programs,
-            Held::Shared(programs) => programs,
+            ProgramsRef::Lent(programs) => programs,
+            ProgramsRef::Shared(programs) => programs,
         }
     }
 }
 
-impl<'p> From<&'p Programs> for Held<'p> {
-    fn from(programs: &'p Programs) -> Held<'p> {
-        Held::Lent(programs)
+impl<'p> From<&'p Programs> for ProgramsRef<'p> {
+    fn from(programs: &'p Programs) -> ProgramsRef<'p> {
+        ProgramsRef::Lent(programs)
     }
 }
 
-impl From<Arc<Programs>> for Held<'_> {
+impl From<Arc<Programs>> for ProgramsRef<'_> {
     fn from(programs: Arc<Programs>) -> Self {
-        Held::Shared(programs)
+        ProgramsRef::Shared(programs)
     }
 }

@@ -1,11 +1,11 @@
 //! Findings about errors and breakdowns of a run.
 
-use super::{Breakdown, Trouble};
+use super::{Breakdown, ProgramError};
 use crate::finding::Finding;
 use std::ops::Range;
 
 /// A finding at the text of a program that threw. `done` describes the interaction: `as it stands`.
-pub fn threw(t: &Trouble, done: &str) -> Finding {
+pub fn error_finding(t: &ProgramError, done: &str) -> Finding {
     Finding::error(
         t.rule,
         t.text.span_of(t.span.clone()),
@@ -17,7 +17,7 @@ pub fn threw(t: &Trouble, done: &str) -> Finding {
 
 /// A finding at `place` about a breakdown: a warning of the engine or a silent fault, with time, joint or geoms and likely
 /// cause. `done` describes the interaction.
-pub fn broke(b: &Breakdown, done: &str, place: Range<usize>) -> Finding {
+pub fn describe_breakdown(b: &Breakdown, done: &str, place: Range<usize>) -> Finding {
     let what = match b.rule.code {
         "engine-warning" => format!("the engine warns {done}: {}", b.what),
         "simulation-diverges" | "energy-grows" => format!("the simulation breaks {done}: {}", b.what),

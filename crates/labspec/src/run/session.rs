@@ -1,16 +1,16 @@
 //! One run of a lab: executes the events of the lab format in order.
 
 use super::budget::{Budget, End};
-use super::held::Held;
-use super::steady::Steady;
-use super::trouble::Trouble;
+use super::held::ProgramsRef;
+use super::program_error::ProgramError;
+use super::steady::SteadyController;
 use super::variant::StepVariant;
-use super::watched::Watched;
+use super::watched::MonitoredRun;
 use crate::bind::coupled::{self, Coupled};
 use crate::bind::{ActionProgram, ControlProgram, Programs, World};
 use crate::interrupt;
 use crate::monitors::growth::Growth;
-use crate::monitors::watch::{self, Noticed};
+use crate::monitors::watch::{self, Observations};
 use crate::source::Text;
 use crate::spec::Lab;
 use labspec_core::{self as core, Data, Model, Plan, Planned, Warning, WarningStat};
@@ -25,23 +25,23 @@ pub struct Session<'p> {
     /// The `ctx` variables.
     pub context: Context,
     /// Errors, the first for each place.
-    pub troubles: Vec<Trouble>,
+    pub program_errors: Vec<ProgramError>,
     /// Warnings of the engine, including those before a reset.
     pub warnings: [WarningStat; Warning::COUNT],
-    pub(super) programs: Held<'p>,
+    pub(super) programs: ProgramsRef<'p>,
     key: Option<usize>,
     /// The current value of each control.
     values: Vec<Value>,
-    watched: Option<Watched>,
+    watched: Option<MonitoredRun>,
     /// The last run of a controller that need not run in every step.
-    steady: Option<Steady>,
+    steady: Option<SteadyController>,
     /// Work budget since the start, work of the data before the start, and work of samples.
     budget: u64,
     before: u64,
     pub(super) sampled: u64,
     pub(super) end: Option<End>,
     /// Whether a program changed a parameter without the parameters coupled to it, as far as programs observe that.
-    left_behind: bool,
+    has_uncoupled_change: bool,
 }
 
 /// How a run starts.
@@ -64,7 +64,7 @@ impl Start {
 
 impl<'p> Session<'p> {
     /// Loads the lab: steps 1 to 3 of the order of events.
-    pub fn start(programs: impl Into<Held<'p>>, model: &Model, start: Start) -> Session<'p> {
+    pub fn start(programs: impl Into<ProgramsRef<'p>>, model: &Model, start: Start) -> Session<'p> {
         let (programs, Start { key, plan, budget }) = (programs.into(), start);
         let data = Data::planned(model, plan.unwrap_or_else(|| Plan::new(model, &programs.access)));
         let before = core::cost(&data);
@@ -82,16 +82,19 @@ impl<'p> Session<'p> {
                 numbers: Vec::new(),
             },
             context: Context::for_globals(&programs.globals),
-            troubles: Vec::new(),
+            program_errors: Vec::new(),
             warnings: [WarningStat::default(); Warning::COUNT],
             values: values.collect(),
             watched: None,
-            steady: programs.controller.as_ref().and_then(|bound| Steady::of_program(&bound.program)),
+            steady: programs
+                .controller
+                .as_ref()
+                .and_then(|bound| SteadyController::of_program(&bound.program)),
             budget: budget.left,
             before,
             sampled: 0,
             end: None,
-            left_behind: false,
+            has_uncoupled_change: false,
             programs,
             key,
         };
@@ -121,8 +124,8 @@ impl<'p> Session<'p> {
     }
 
     /// Whether a program changed a parameter without the parameters coupled to it, as far as programs observe that.
-    pub(crate) fn left_behind(&self) -> bool {
-        self.left_behind
+    pub(crate) fn has_uncoupled_change(&self) -> bool {
+        self.has_uncoupled_change
     }
 
     /// Renews the work budget from the current time on, for a page, which plays as long as it is open. A run that has ended
@@ -282,17 +285,17 @@ impl<'p> Session<'p> {
         if self.end.is_some() {
             return;
         }
-        self.watched = Watched::begin(&self.programs, &self.world);
+        self.watched = MonitoredRun::begin(&self.programs, &self.world);
     }
 
     /// Energy growth, when the run is monitored and has gained energy.
     pub fn growth(&self) -> Option<Growth> {
-        self.noticed().growth
+        self.observations().growth
     }
 
     /// All silent faults, as far as the run is monitored.
-    pub fn noticed(&self) -> Noticed {
-        self.watched.as_ref().map(|w| *watch::noticed(&w.watch)).unwrap_or_default()
+    pub fn observations(&self) -> Observations {
+        self.watched.as_ref().map(|w| *watch::observations(&w.watch)).unwrap_or_default()
     }
 
     /// Ends a run in which the engine refuses a call, because it has no valid state.
@@ -303,7 +306,7 @@ impl<'p> Session<'p> {
     }
 
     /// Records an error, or ends the run if its budget ran out.
-    pub(super) fn threw(&mut self, e: RuntimeError, text: &Text, time: f64) {
+    pub(super) fn report_error(&mut self, e: RuntimeError, text: &Text, time: f64) {
         let spent = e.rule == rules::BUDGET && (self.left() == 0 || core::exhausted(&self.world.data));
         if spent {
             self.end.get_or_insert(End::Budget { time });
@@ -396,17 +399,17 @@ impl<'p> Session<'p> {
             return false;
         }
         let time = self.world.data.time();
-        let behind = |c: &Option<Coupled>| c.as_ref().and_then(|c| c.behind(program, text));
-        let corrected = behind(&self.programs.coupled);
-        let observed = if self.left_behind { None } else { behind(&self.programs.observed) };
+        let pairs = |c: &Option<Coupled>| c.as_ref().and_then(|c| c.pairs_after(program, text));
+        let corrected = pairs(&self.programs.coupled);
+        let observed = if self.has_uncoupled_change { None } else { pairs(&self.programs.observed) };
         let before = (corrected.is_some() || observed.is_some()).then(|| self.world.model.clone());
         let result = program.run(&mut self.world, &mut self.context, value);
         let good = result.is_ok();
         if let Err(e) = result {
-            self.threw(e, text, time);
+            self.report_error(e, text, time);
         }
         if let (Some(pairs), Some(before)) = (observed, &before) {
-            self.left_behind = coupled::left_behind(pairs, before, &self.world.model);
+            self.has_uncoupled_change = coupled::has_uncoupled_change(pairs, before, &self.world.model);
         }
         if let (Some(pairs), Some(before), Some(follower)) = (corrected, &before, &self.programs.coupled) {
             let done = follower.follow(pairs, before, program, &mut self.world);
@@ -425,10 +428,10 @@ impl<'p> Session<'p> {
     }
 
     fn note(&mut self, rule: &'static Rule, text: &Text, span: std::ops::Range<usize>, message: String) {
-        let is_noted = |t: &Trouble| t.rule == rule && t.span == span && t.text == *text;
-        if !self.troubles.iter().any(is_noted) {
+        let is_noted = |t: &ProgramError| t.rule == rule && t.span == span && t.text == *text;
+        if !self.program_errors.iter().any(is_noted) {
             let time = self.world.data.time();
-            self.troubles.push(Trouble { rule, text: text.clone(), span, message, time });
+            self.program_errors.push(ProgramError { rule, text: text.clone(), span, message, time });
         }
     }
 

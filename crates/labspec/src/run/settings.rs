@@ -280,7 +280,7 @@ mod tests {
     }
 
     #[test]
-    fn a_value_wins_over_a_text_that_reads_the_same() {
+    fn a_value_takes_precedence_over_an_equal_text() {
         let select = lab(
             r#"{"type": "select", "label": "way", "param": "way", "options": [["up", "down"], ["down", "up"]], "value": "up"}"#,
         );
@@ -288,7 +288,7 @@ mod tests {
     }
 
     #[test]
-    fn the_command_line_means_what_the_control_offers() {
+    fn the_command_line_accepts_the_values_of_a_control() {
         let select = lab(
             r#"{"type": "select", "label": "n", "param": "n", "options": [["1", 10], ["2", 20]], "value": 10}"#,
         );
@@ -298,7 +298,7 @@ mod tests {
     }
 
     #[test]
-    fn a_slider_stands_only_on_its_grid() {
+    fn a_slider_takes_only_values_of_its_grid() {
         let slider = lab(r#"{"label": "m", "param": "m", "min": 0.1, "max": 5, "step": 0.2, "value": 0.15}"#);
         // The end and the start can be chosen even if they are not on the grid.
         for x in [0.1, 0.3, 0.1 + 0.2 * 17.0, 4.9, 5.0, 0.15] {

@@ -2,21 +2,21 @@
 
 use super::breakdown::{Breakdown, BreakdownAdvice, joint_of, time, two_digits};
 use crate::monitors::growth::{Growth, Source};
-use crate::monitors::limits::Past;
-use crate::monitors::sunk::Sunk;
+use crate::monitors::limits::ExceededLimit;
+use crate::monitors::sunk::SunkContact;
 use crate::monitors::through::Through;
 use crate::monitors::unsolved::Unsolved;
-use crate::monitors::watch::Noticed;
+use crate::monitors::watch::Observations;
 use crate::rules;
 use labspec_core::{Model, joint, solver};
 
-const GROWS: &str = "the steps create the energy, not the physics: a student sees things leap or swing ever wider, and MuJoCo gives no warning";
+const ENERGY_FROM_STEPS: &str = "the steps create the energy, not the physics: a student sees things leap or swing ever wider, and MuJoCo gives no warning";
 
 /// Friction above which the edges of a pyramidal cone have almost no normal component.
-const SLIPPERY: f64 = 3.0;
+const SLIPPERY_FRICTION: f64 = 3.0;
 
 /// The earliest silent fault besides energy growth, with its time; later ones may be consequences of it.
-pub(super) fn first(model: &Model, noticed: &Noticed) -> Option<(f64, Breakdown)> {
+pub(super) fn first(model: &Model, noticed: &Observations) -> Option<(f64, Breakdown)> {
     let list = [
         noticed.past.map(|x| (x.time, past(model, x))),
         noticed.through.map(|x| (x.time, through(model, x))),
@@ -32,16 +32,18 @@ pub(super) fn growth(model: &Model, g: Growth) -> Breakdown {
         "energy grows from t = {} s on: {} J without a source, while the start had {} J; most of it moves {}",
         time(g.time),
         two_digits(g.gain),
-        two_digits(g.held),
+        two_digits(g.available_energy),
         joint_of(model, g.dof, &model.jnt_dofadr, joint::nv)
     );
     match g.source {
-        Source::Steps => BreakdownAdvice::by_stiffness(model).breakdown(rules::ENERGY_GROWS, numbers, GROWS),
+        Source::Steps => {
+            BreakdownAdvice::by_stiffness(model).breakdown(rules::ENERGY_GROWS, numbers, ENERGY_FROM_STEPS)
+        }
         Source::LongSteps(turn) => {
             let what = format!("{numbers}, which turns by {} rad in a step", two_digits(turn));
             let cause = format!("a step of {} s cannot follow a turn that fast", model.opt.timestep);
             let advice = BreakdownAdvice { cause: Some(cause), ..BreakdownAdvice::shorter("a slower start") };
-            advice.breakdown(rules::ENERGY_GROWS, what, GROWS)
+            advice.breakdown(rules::ENERGY_GROWS, what, ENERGY_FROM_STEPS)
         }
         Source::Damper(dof) => {
             let of = joint_of(model, dof, &model.jnt_dofadr, joint::nv);
@@ -51,7 +53,7 @@ pub(super) fn growth(model: &Model, g: Growth) -> Breakdown {
                 two_digits(damping),
                 two_digits(g.gain),
                 time(g.time),
-                two_digits(g.held)
+                two_digits(g.available_energy)
             );
             let why = "the faster a part moves, the harder a negative damper pushes it: a student sees a swing that grows forever without a motor";
             BreakdownAdvice::only("write a `damping` of 0 or more; use an actuator to drive the joint")
@@ -60,7 +62,7 @@ pub(super) fn growth(model: &Model, g: Growth) -> Breakdown {
     }
 }
 
-fn past(model: &Model, p: Past) -> Breakdown {
+fn past(model: &Model, p: ExceededLimit) -> Breakdown {
     let of = name(model.names.joint.get(p.joint), "joint", p.joint);
     let unit = if model.jnt_type.get(p.joint) == Some(&joint::SLIDE) { "m" } else { "rad" };
     let [beyond, range] = [p.beyond, p.range].map(two_digits);
@@ -106,7 +108,7 @@ fn through(model: &Model, t: Through) -> Breakdown {
     advice.breakdown(rules::PASSES_THROUGH, what, why)
 }
 
-fn sunk(model: &Model, s: Sunk) -> Breakdown {
+fn sunk(model: &Model, s: SunkContact) -> Breakdown {
     let [a, b] = s.geoms.map(|g| geom(model, g));
     let what = format!(
         "{a} and {b} overlap by {} m from t = {} s on, but the thinner one is only {} m thick; the contact pushes with {} N",
@@ -117,7 +119,7 @@ fn sunk(model: &Model, s: Sunk) -> Breakdown {
     );
     let friction = |g: usize| model.geom_friction.get(3 * g).copied().unwrap_or(0.0);
     let most = s.geoms.map(friction).into_iter().fold(0.0, f64::max);
-    let help = if model.opt.cone == 0 && most > SLIPPERY {
+    let help = if model.opt.cone == 0 && most > SLIPPERY_FRICTION {
         format!(
             "write `cone=\"elliptic\"`, or a friction of 1 instead of {}: with so much friction, the edges of a pyramidal cone do not push along the normal",
             two_digits(most)

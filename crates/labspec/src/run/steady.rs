@@ -11,7 +11,7 @@ use labspec_expr::{Access, Context, FieldKey, Host, Program, Value};
 
 /// A controller of this kind, with the values after its last run.
 #[derive(Clone, Debug)]
-pub(super) struct Steady {
+pub(super) struct SteadyController {
     /// Elements that it reads, and those that it writes.
     elements: Vec<(FieldKey, usize)>,
     /// The `ctx` variables that it reads.
@@ -22,15 +22,15 @@ pub(super) struct Steady {
 }
 
 /// Maximum number of compared values: with more, running the controller is as fast.
-const MOST: usize = 16;
+const MAX_COMPARED: usize = 16;
 
 /// Whether a controller is of this kind.
 pub fn is_steady(program: &Program) -> bool {
-    Steady::of_program(program).is_some()
+    SteadyController::of_program(program).is_some()
 }
 
-impl Steady {
-    pub(super) fn of_program(program: &Program) -> Option<Steady> {
+impl SteadyController {
+    pub(super) fn of_program(program: &Program) -> Option<SteadyController> {
         let effects = program.effects();
         let looks_further = effects.reads_everything
             || effects.writes_everything
@@ -45,12 +45,17 @@ impl Steady {
         let alone = effects.calls.is_empty() && effects.ctx_writes.is_empty();
         // An element that it both reads and writes may differ from run to run.
         let apart = !reads.iter().any(|r| writes.contains(r));
-        let fits = reads.len() + writes.len() + effects.ctx_reads.len() <= MOST;
+        let fits = reads.len() + writes.len() + effects.ctx_reads.len() <= MAX_COMPARED;
         if looks_further || !alone || !apart || !fits || !reads.iter().all(|(field, _)| stays(*field)) {
             return None;
         }
         let elements = reads.into_iter().chain(writes).collect();
-        Some(Steady { elements, slots: effects.ctx_reads.clone(), last_values: Vec::new(), work: None })
+        Some(SteadyController {
+            elements,
+            slots: effects.ctx_reads.clone(),
+            last_values: Vec::new(),
+            work: None,
+        })
     }
 
     /// The work of the last run, if another run would change nothing.

@@ -46,7 +46,8 @@ impl Table {
             Warning::ALL.iter().zip(&session.world.data.fields().warning).filter(|(_, s)| s.number > 0);
         self.warnings = raised.map(|(w, s)| (w.name(), s.number)).collect();
         self.breakdowns = breakdowns_of(session);
-        self.errors = session.troubles.iter().map(|t| format!("{}: {}", t.text.value, t.message)).collect();
+        self.errors =
+            session.program_errors.iter().map(|t| format!("{}: {}", t.text.value, t.message)).collect();
         match session.ended() {
             Some(End::Budget { time }) => self.errors.push(format!(
                 "the run was stopped at t = {time} s: the work budget ran out; simplify the scene or its programs"

@@ -30,12 +30,12 @@ impl Default for Sources {
 pub struct Overlay {
     open: Mutex<BTreeMap<PathBuf, String>>,
     read: Mutex<BTreeMap<PathBuf, Result<String, String>>>,
-    places: Mutex<BTreeMap<(Asked, PathBuf), Option<PathBuf>>>,
+    places: Mutex<BTreeMap<(DiskQuery, PathBuf), Option<PathBuf>>>,
 }
 
 /// A query about a path on the disk.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Asked {
+pub enum DiskQuery {
     /// The file or folder itself, with symbolic links resolved.
     Real,
     /// The folder of models of a lesson.
@@ -71,13 +71,14 @@ impl Overlay {
         inside.filter_map(|path| Some(path.file_name()?.to_str()?.to_string())).collect()
     }
 
-    fn held(&self, real: &Path) -> Option<String> {
+    fn text_in_memory(&self, real: &Path) -> Option<String> {
         locked(&self.open).get(real).cloned()
     }
 
     fn text(&self, path: &Path, most: u64, what: &str) -> Result<String, String> {
-        let real = self.place(Asked::Real, path, || self.real(path)).unwrap_or_else(|| path.to_path_buf());
-        if let Some(text) = self.held(&real) {
+        let real =
+            self.place(DiskQuery::Real, path, || self.real(path)).unwrap_or_else(|| path.to_path_buf());
+        if let Some(text) = self.text_in_memory(&real) {
             return Ok(text);
         }
         let cached = locked(&self.read).get(&real).cloned();
@@ -96,7 +97,12 @@ impl Overlay {
         })
     }
 
-    fn place(&self, asked: Asked, path: &Path, find: impl FnOnce() -> Option<PathBuf>) -> Option<PathBuf> {
+    fn place(
+        &self,
+        asked: DiskQuery,
+        path: &Path,
+        find: impl FnOnce() -> Option<PathBuf>,
+    ) -> Option<PathBuf> {
         let key = (asked, path.to_path_buf());
         let cached = locked(&self.places).get(&key).cloned();
         cached.unwrap_or_else(|| {
@@ -170,7 +176,7 @@ impl Sources {
         match self {
             Sources::Given(texts) => texts.contains_key(&plain(path)).then(|| plain(path)),
             Sources::Disk => path.canonicalize().ok(),
-            Sources::Over(overlay) => overlay.place(Asked::Real, path, || overlay.real(path)),
+            Sources::Over(overlay) => overlay.place(DiskQuery::Real, path, || overlay.real(path)),
         }
     }
 
@@ -187,7 +193,7 @@ impl Sources {
     /// The result of `find` for a path, which is cached in an editor.
     pub fn place(
         &self,
-        asked: Asked,
+        asked: DiskQuery,
         path: &Path,
         find: impl FnOnce() -> Option<PathBuf>,
     ) -> Option<PathBuf> {
@@ -199,10 +205,10 @@ impl Sources {
     }
 
     /// An unsaved text, and the path of its file with symbolic links resolved.
-    pub(crate) fn held(&self, path: &Path) -> Option<(PathBuf, String)> {
+    pub(crate) fn text_in_memory(&self, path: &Path) -> Option<(PathBuf, String)> {
         let Sources::Over(overlay) = self else { return None };
         let real = self.real(path)?;
-        let text = overlay.held(&real)?;
+        let text = overlay.text_in_memory(&real)?;
         Some((real, text))
     }
 }
@@ -213,7 +219,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_open_text_stands_for_its_file_until_it_is_closed() {
+    fn an_open_text_replaces_its_file_until_it_is_closed() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().canonicalize().unwrap().join("a.md");
         std::fs::write(&path, "saved").unwrap();
@@ -229,7 +235,7 @@ mod tests {
     }
 
     #[test]
-    fn the_disk_is_asked_once_until_something_may_have_changed() {
+    fn the_disk_is_read_once_until_a_change() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().canonicalize().unwrap().join("a.md");
         let overlay = Arc::new(Overlay::default());

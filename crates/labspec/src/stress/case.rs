@@ -2,8 +2,8 @@
 
 use super::bodies;
 use super::fault::{Fault, FaultKind};
-use super::interaction::{Action, Interaction, Kind, TOUCH};
-use super::run_faults::{DIVERGED, noticed_fault, reported_faults, warned};
+use super::interaction::{Action, Interaction, Kind, PUSH_SPEED};
+use super::run_faults::{DIVERGED, earliest_observed_fault, reported_faults, warned};
 use super::watch::{MOST_PAIRS, RunMonitor};
 use crate::bind::{Bound, Programs};
 use crate::run::{self, Budget, End, Play, Session, Start};
@@ -98,9 +98,10 @@ impl RunWatcher<'_> {
     pub(crate) fn faults(self, session: &Session<'_>) -> Vec<Fault> {
         let mut faults = reported_faults(session);
         // After a divergence, all other observations are consequences of it.
-        let broke = |f: &Fault| matches!(f.kind, FaultKind::Diverges | FaultKind::Grows);
-        let when = faults.iter().filter(|f| broke(f)).map(|f| f.time).fold(f64::INFINITY, f64::min);
-        let noticed = noticed_fault(&session.world.model, &session.noticed()).filter(|f| f.time < when);
+        let is_breakdown = |f: &Fault| matches!(f.kind, FaultKind::Diverges | FaultKind::Grows);
+        let when = faults.iter().filter(|f| is_breakdown(f)).map(|f| f.time).fold(f64::INFINITY, f64::min);
+        let noticed =
+            earliest_observed_fault(&session.world.model, &session.observations()).filter(|f| f.time < when);
         faults.extend(noticed);
         let seen = self.watch.faults(&session.world.model).into_iter();
         let seen = seen
@@ -179,7 +180,7 @@ impl<'a> StressCase<'a> {
             }
         }
         if interaction.kind == Kind::Touched {
-            session.world.data.edit().qvel.iter_mut().for_each(|v| *v += TOUCH);
+            session.world.data.edit().qvel.iter_mut().for_each(|v| *v += PUSH_SPEED);
             session.refresh();
         }
         session

@@ -6,7 +6,7 @@ use labspec_core::Model;
 
 /// Describes the part of the model that is too stiff for its timestep.
 pub(super) fn stiffness_cause(m: &Model) -> Option<String> {
-    let worst = stability::suspects(m).into_iter().next()?;
+    let worst = stability::unstable_parts(m).into_iter().next()?;
     Some(format!(
         "{} is {} for a step of {} s: the largest step that works is {} s",
         run::owner(m, &worst),

@@ -8,21 +8,21 @@ use labspec_core::math::{Vec3, norm, rows, sub};
 use labspec_core::{Fields, Model, disable, geom_half_extents, joint};
 
 /// Number of calls between two stored samples, and the number of samples at which every second one is dropped.
-const EVERY: usize = 4;
-const MOST: usize = 128;
-/// A body is at rest if it moves by less than the fraction `RESTS` of its size per second. It creeps if it moved by more
-/// than the fraction `CREEPS` of its size in total.
-const RESTS: f64 = 0.1;
-const CREEPS: f64 = 0.02;
+const CALLS_PER_SAMPLE: usize = 4;
+const MAX_SAMPLES: usize = 128;
+/// A body is at rest if it moves by less than the fraction `REST_SPEED` of its size per second. It creeps if it moved by more
+/// than the fraction `CREEP_SPEED` of its size in total.
+const REST_SPEED: f64 = 0.1;
+const CREEP_SPEED: f64 = 0.02;
 /// Minimum straightness of the path, and maximum relative difference of the speeds of its halves.
-const STRAIGHT: f64 = 0.9;
-const EVEN: f64 = 0.2;
+const MIN_STRAIGHTNESS: f64 = 0.9;
+const MAX_SPEED_DIFFERENCE: f64 = 0.2;
 /// Minimum duration of rest, s.
-const LONG: f64 = 0.5;
+const MIN_REST: f64 = 0.5;
 /// Minimum displacement of a creeping hinge, rad.
 const ANGLE: f64 = 0.01;
 /// Friction below this fraction of its limit holds.
-const HOLDS: f64 = 0.99;
+const STICKING_FRACTION: f64 = 0.99;
 /// The type of a constraint row for the friction loss of a degree of freedom.
 const FRICTION_OF_DOF: i32 = 1;
 
@@ -45,7 +45,7 @@ pub(super) struct CreepMonitor {
 
 impl Default for CreepMonitor {
     fn default() -> CreepMonitor {
-        CreepMonitor { memory: RunHistory::new(EVERY, MOST) }
+        CreepMonitor { memory: RunHistory::new(CALLS_PER_SAMPLE, MAX_SAMPLES) }
     }
 }
 
@@ -66,23 +66,23 @@ impl CreepMonitor {
             }
             let joints = with_friction(m).map(|(_, qpos, dof)| {
                 let q = d.qpos.get(qpos).copied().unwrap_or(0.0);
-                (q, held(d, dof))
+                (q, is_sticking(d, dof))
             });
             CreepSample { time: d.time, places: rows::<3>(&d.xpos).to_vec(), rubs, joints: joints.collect() }
         });
     }
 
     /// The second half of the stored samples.
-    fn half(&self) -> &[CreepSample] {
-        let past = self.memory.past();
-        past.get(past.len() / 2..).unwrap_or_default()
+    fn second_half(&self) -> &[CreepSample] {
+        let samples = self.memory.samples();
+        samples.get(samples.len() / 2..).unwrap_or_default()
     }
 
     /// Bodies and joints that creep in the second half of the stored samples.
     pub(super) fn faults(&self, m: &Model) -> Vec<Fault> {
-        let half = self.half();
+        let half = self.second_half();
         let (Some(first), Some(last)) = (half.first(), half.last()) else { return Vec::new() };
-        if half.len() < 9 || last.time - first.time < LONG {
+        if half.len() < 9 || last.time - first.time < MIN_REST {
             return Vec::new();
         }
         let mut list = bodies(m, half);
@@ -93,7 +93,7 @@ impl CreepMonitor {
     /// Drift speed of each body and each joint with friction in the second half of the stored samples, by name, m/s or
     /// rad/s.
     pub(super) fn speeds(&self, m: &Model) -> Vec<(String, f64)> {
-        let half = self.half();
+        let half = self.second_half();
         let (Some(first), Some(last)) = (half.first(), half.last()) else { return Vec::new() };
         let time = last.time - first.time;
         let speeds = last.places.iter().zip(&first.places).map(|(to, from)| norm(sub(*to, *from)) / time);
@@ -117,7 +117,7 @@ fn bodies(m: &Model, half: &[CreepSample]) -> Vec<Fault> {
     // The scene is at rest when every body is.
     let moves = |b: usize| m.body_treeid.get(b).is_some_and(|&t| t >= 0);
     let path = |b: usize| (0..end).map(|i| distance(b, i, i + 1)).sum::<f64>();
-    if (1..m.nbody).filter(|b| moves(*b)).any(|b| path(b) > RESTS * size(b) * time) {
+    if (1..m.nbody).filter(|b| moves(*b)).any(|b| path(b) > REST_SPEED * size(b) * time) {
         return Vec::new();
     }
     for b in (1..m.nbody).filter(|b| moves(*b)) {
@@ -125,8 +125,8 @@ fn bodies(m: &Model, half: &[CreepSample]) -> Vec<Fault> {
         let all = distance(b, 0, end);
         let [one, two] =
             [distance(b, 0, end / 2) / (end / 2) as f64, distance(b, end / 2, end) / (end - end / 2) as f64];
-        let even = (one - two).abs() <= EVEN * one.max(two);
-        if rubs && all > CREEPS * size(b) && all >= STRAIGHT * path(b) && even {
+        let even = (one - two).abs() <= MAX_SPEED_DIFFERENCE * one.max(two);
+        if rubs && all > CREEP_SPEED * size(b) && all >= MIN_STRAIGHTNESS * path(b) && even {
             list.push(creep(body_name(m, b), first.time, all, time, "m"));
         }
     }
@@ -144,8 +144,8 @@ fn joints(m: &Model, half: &[CreepSample]) -> Vec<Fault> {
             half.windows(2).map(|two| two.iter().map(|x| at(x).0).fold(0.0, |a, b| b - a).abs()).sum();
         let slide = m.jnt_type.get(j) == Some(&joint::SLIDE);
         let body = m.jnt_bodyid.get(j).map_or(0, |&b| b as usize);
-        let (least, unit) = if slide { (CREEPS * sizes(m, body), "m") } else { (ANGLE, "rad") };
-        if half.iter().all(|moment| at(moment).1) && travel > least && travel >= STRAIGHT * path {
+        let (least, unit) = if slide { (CREEP_SPEED * sizes(m, body), "m") } else { (ANGLE, "rad") };
+        if half.iter().all(|moment| at(moment).1) && travel > least && travel >= MIN_STRAIGHTNESS * path {
             list.push(creep(joint_of_dof(m, dof), first.time, travel, last.time - first.time, unit));
         }
     }
@@ -165,21 +165,21 @@ fn with_friction(m: &Model) -> impl Iterator<Item = (usize, usize, usize)> {
 }
 
 /// Whether the friction of a degree of freedom is below its limit.
-fn held(d: &Fields, dof: usize) -> bool {
+fn is_sticking(d: &Fields, dof: usize) -> bool {
     let row = (0..d.efc_type.len()).find(|&i| {
         d.efc_type.get(i) == Some(&FRICTION_OF_DOF) && d.efc_id.get(i).is_some_and(|&id| id as usize == dof)
     });
     let value = |list: &[f64]| row.and_then(|i| list.get(i)).copied();
     let (force, most) = (value(&d.efc_force), value(&d.efc_frictionloss));
-    force.zip(most).is_some_and(|(force, most)| force.abs() < HOLDS * most)
+    force.zip(most).is_some_and(|(force, most)| force.abs() < STICKING_FRACTION * most)
 }
 
-fn creep(who: String, since: f64, travel: f64, time: f64, unit: &'static str) -> Fault {
+fn creep(subject: String, since: f64, travel: f64, time: f64, unit: &'static str) -> Fault {
     let speed = if unit == "m" { "m/s" } else { "rad/s" };
     Fault {
         kind: FaultKind::Drifts,
         time: since,
-        who,
+        subject,
         cause: "friction is soft: what it holds creeps, slowly and forever".into(),
         evidence: vec![
             Evidence { name: "speed", value: travel / time, unit: speed },

@@ -18,25 +18,26 @@ pub fn without_pushed_bodies(
     if !faults.iter().any(|f| f.kind == FaultKind::Drifts) {
         return (faults, 0);
     }
-    let firm = case.run(interaction, Some(&firmer), length, budget);
-    let moves = |f: &Fault| firm.speeds.iter().any(|(who, speed)| *who == f.who && 2.0 * speed > f.size);
+    let firm = case.run(interaction, Some(&raise_friction), length, budget);
+    let moves =
+        |f: &Fault| firm.speeds.iter().any(|(subject, speed)| *subject == f.subject && 2.0 * speed > f.size);
     // Without a complete second run, the drift is not proven.
     faults.retain(|f| f.kind != FaultKind::Drifts || !firm.cut && !moves(f));
     (faults, firm.spent)
 }
 
 /// Makes friction a hundred times harder.
-fn firmer(session: &mut Session<'_>) {
+fn raise_friction(session: &mut Session<'_>) {
     let model = session.world.model.edit();
     *model.opt.impratio *= 100.0;
     *model.opt.cone = 1;
     for solimp in rows_mut::<5>(model.dof_solimp) {
-        harden(solimp);
+        reduce_softness(solimp);
     }
 }
 
 /// Reduces the softness of an impedance by a factor of a hundred.
-fn harden(solimp: &mut [f64; 5]) {
+fn reduce_softness(solimp: &mut [f64; 5]) {
     let most = solimp[1];
     solimp[..2].fill(1.0 - 0.01 * (1.0 - most));
 }

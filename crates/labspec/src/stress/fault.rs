@@ -90,7 +90,7 @@ pub struct Fault {
     /// Simulated time, s.
     pub time: f64,
     /// The joint, the body, or the two bodies in contact.
-    pub who: String,
+    pub subject: String,
     /// The cause, as far as it is known.
     pub cause: String,
     /// The numbers that show it.
@@ -110,7 +110,8 @@ impl Fault {
     /// Whether this fault includes another one of the same bodies.
     pub(super) fn covers(&self, other: &Fault) -> bool {
         let [mine, others] = [self, other].map(|f| {
-            let mut both: Vec<&str> = f.who.split(" through ").flat_map(|part| part.split(" and ")).collect();
+            let mut both: Vec<&str> =
+                f.subject.split(" through ").flat_map(|part| part.split(" and ")).collect();
             both.sort_unstable();
             both
         });
@@ -149,14 +150,14 @@ pub struct FaultGroup {
 pub fn worst_fault<'f>(faults: &'f [Fault], except: &[(FaultKind, String)]) -> Option<&'f Fault> {
     let counts = |f: &&Fault| {
         !matches!(f.kind, FaultKind::Drifts | FaultKind::Throws | FaultKind::Warns)
-            && !except.iter().any(|(kind, who)| *kind == f.kind && *who == f.who)
+            && !except.iter().any(|(kind, subject)| *kind == f.kind && *subject == f.subject)
     };
     faults.iter().filter(counts).min_by_key(|f| f.kind)
 }
 
 /// Adds a fault to its group. There is one group for each kind and object.
 pub fn add_fault(list: &mut Vec<FaultGroup>, fault: Fault, interaction: &Interaction) {
-    let same = |f: &&mut FaultGroup| f.fault.kind == fault.kind && f.fault.who == fault.who;
+    let same = |f: &&mut FaultGroup| f.fault.kind == fault.kind && f.fault.subject == fault.subject;
     match list.iter_mut().find(same) {
         None => list.push(FaultGroup { fault, interaction: interaction.clone(), settings: 1, worst: None }),
         Some(group) => {

@@ -1,7 +1,7 @@
 //! Detects bodies that fall through a height field: the centre was above the surface and is below it by half of the
 //! thickness of the body.
 
-use super::bodies::{body_of, geom_name, may_meet, seen_from};
+use super::bodies::{body_of, centre_in_frame, geom_name, may_meet};
 use super::fault::{Evidence, Fault, FaultKind};
 use labspec_core::math::{Vec3, norm, rows, sub};
 use labspec_core::{Fields, Model, geom, geom_thickness};
@@ -27,7 +27,7 @@ impl HeightFieldPair {
     /// Call after bodies were moved from outside.
     pub(super) fn disturb(&mut self, m: &Model, d: &Fields) {
         let [g, p] = self.geoms;
-        let place = seen_from(&d.geom_xpos, &d.geom_xmat, g, p);
+        let place = centre_in_frame(&d.geom_xpos, &d.geom_xmat, g, p);
         self.above = place.filter(|place| surface(m, p, *place).is_some_and(|z| z <= place[2]));
     }
 
@@ -37,7 +37,7 @@ impl HeightFieldPair {
         if self.done {
             return None;
         }
-        let place = seen_from(&d.geom_xpos, &d.geom_xmat, g, p)?;
+        let place = centre_in_frame(&d.geom_xpos, &d.geom_xmat, g, p)?;
         let Some(surface) = surface(m, p, place) else {
             self.above = None;
             return None;
@@ -52,7 +52,7 @@ impl HeightFieldPair {
             return None;
         }
         self.done = true;
-        Some(fell(m, d, self.geoms, norm(sub(place, before)), depth))
+        Some(fall_fault(m, d, self.geoms, norm(sub(place, before)), depth))
     }
 }
 
@@ -74,7 +74,7 @@ fn surface(m: &Model, p: usize, place: Vec3) -> Option<f64> {
     Some(top * ((1.0 - t) * ((1.0 - s) * a + s * b) + t * ((1.0 - s) * c + s * d)))
 }
 
-fn fell(m: &Model, d: &Fields, [g, p]: [usize; 2], travel: f64, depth: f64) -> Fault {
+fn fall_fault(m: &Model, d: &Fields, [g, p]: [usize; 2], travel: f64, depth: f64) -> Fault {
     let thick = geom_thickness(m, g);
     let cause = if travel > thick {
         "since it was last above the surface it moved farther than it is thick, so no step found a contact"
@@ -84,7 +84,7 @@ fn fell(m: &Model, d: &Fields, [g, p]: [usize; 2], travel: f64, depth: f64) -> F
     Fault {
         kind: FaultKind::Tunnels,
         time: (d.time - m.opt.timestep).max(0.0),
-        who: format!("{} through {}", geom_name(m, g), geom_name(m, p)),
+        subject: format!("{} through {}", geom_name(m, g), geom_name(m, p)),
         cause: cause.into(),
         evidence: vec![
             Evidence { name: "depth below the surface", value: depth, unit: "m" },

@@ -3,37 +3,37 @@
 /// Stores a sample at every `every`-th call. Drops every second sample when there are too many.
 #[derive(Debug)]
 pub(super) struct RunHistory<T> {
-    looks: usize,
+    calls: usize,
     every: usize,
     most: usize,
-    past: Vec<T>,
+    samples: Vec<T>,
 }
 
 impl<T> RunHistory<T> {
     /// A history that first stores a sample at every `every`-th call, and never has more than `most`.
     pub(super) fn new(every: usize, most: usize) -> RunHistory<T> {
-        RunHistory { looks: 0, every, most, past: Vec::new() }
+        RunHistory { calls: 0, every, most, samples: Vec::new() }
     }
 
     /// Counts a call; `now` creates a sample when one is due.
     pub(super) fn observe(&mut self, now: impl FnOnce() -> T) {
-        if self.looks.is_multiple_of(self.every) {
-            self.past.push(now());
-            if self.past.len() >= self.most {
+        if self.calls.is_multiple_of(self.every) {
+            self.samples.push(now());
+            if self.samples.len() >= self.most {
                 let mut odd = false;
-                self.past.retain(|_| {
+                self.samples.retain(|_| {
                     odd = !odd;
                     odd
                 });
                 self.every *= 2;
             }
         }
-        self.looks += 1;
+        self.calls += 1;
     }
 
     /// The stored samples, the oldest first.
-    pub(super) fn past(&self) -> &[T] {
-        &self.past
+    pub(super) fn samples(&self) -> &[T] {
+        &self.samples
     }
 }
 
@@ -42,14 +42,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_remembered_is_spread_evenly() {
+    fn stored_samples_are_evenly_spaced() {
         let mut memory = RunHistory::new(4, 16);
         for k in 0..1000 {
             memory.observe(|| k);
         }
-        let past = memory.past();
-        assert!(past.len() >= 7 && past.len() < 16 && past[0] == 0, "{past:?}");
-        assert!(past.windows(2).all(|two| two[1] - two[0] == past[1]), "{past:?}");
-        assert!(past[past.len() - 1] + past[1] >= 1000, "{past:?}");
+        let samples = memory.samples();
+        assert!(samples.len() >= 7 && samples.len() < 16 && samples[0] == 0, "{samples:?}");
+        assert!(samples.windows(2).all(|two| two[1] - two[0] == samples[1]), "{samples:?}");
+        assert!(samples[samples.len() - 1] + samples[1] >= 1000, "{samples:?}");
     }
 }

@@ -120,7 +120,9 @@ impl Interaction {
             list => format!("with {}", list.iter().map(one).collect::<Vec<_>>().join(", ")),
         };
         match self.kind {
-            Kind::Touched => format!("{done}, after a touch (every joint begins with a speed of {TOUCH:e})"),
+            Kind::Touched => {
+                format!("{done}, after a touch (every joint begins with a speed of {PUSH_SPEED:e})")
+            }
             _ => done,
         }
     }
@@ -140,11 +142,11 @@ pub fn window(lab: &Lab) -> f64 {
 }
 
 /// The speed of every joint after a push, m/s or rad/s.
-pub(super) const TOUCH: f64 = 1e-6;
+pub(super) const PUSH_SPEED: f64 = 1e-6;
 /// Time of the first press, s.
-const PRESS: f64 = 0.1;
+const FIRST_PRESS: f64 = 0.1;
 /// All combinations are tested when there are at most this many.
-const FEW: usize = 16;
+const MAX_COMBINATIONS: usize = 16;
 /// Maximum number of rows of a covering design, of controls in it, and of levels of each.
 const MOST_ROWS: usize = 200;
 const MOST_FACTORS: usize = 60;
@@ -205,7 +207,7 @@ fn press_at(control: usize, time: f64) -> Action {
 /// All tested interactions on a base, the simplest first, for a lab that a student watches for `window` seconds. Also
 /// returns the number of pairs of settings that no run covers.
 pub fn list_interactions(lab: &Lab, window: f64, base: &Interaction) -> (Vec<Interaction>, usize) {
-    let press = PRESS.min(0.5 * window);
+    let press = FIRST_PRESS.min(0.5 * window);
     let controls = ListedControls::new(lab, base);
     let ListedControls { changes, buttons } = &controls;
     let mut all = vec![base.clone(), base.and(Kind::Touched, Vec::new())];
@@ -240,7 +242,7 @@ fn corners(controls: &ListedControls, press: f64) -> (Vec<Vec<Action>>, usize) {
     let many = levels.iter().fold(1usize, |n, k| n.saturating_mul(*k));
     let (rows, missing) = match (levels.len(), many) {
         (0 | 1, _) => (Vec::new(), 0),
-        (_, n) if n <= FEW => (pairwise::all(&levels), 0),
+        (_, n) if n <= MAX_COMBINATIONS => (pairwise::all(&levels), 0),
         _ => pairwise::pairwise(&levels, MOST_ROWS),
     };
     let missing = missing + every.saturating_sub(pairs(&levels));
@@ -307,7 +309,7 @@ mod tests {
     }
 
     #[test]
-    fn ends_options_buttons_and_corners_are_tried() {
+    fn ends_options_buttons_and_corners_are_tested() {
         assert_eq!(counts(&lab("")), [1, 1, 0, 0, 0, 0, 0]);
         // One slider is at an end already; both ends are tested during the run.
         assert_eq!(counts(&lab(SLIDER)), [1, 1, 1, 0, 0, 0, 1]);
@@ -318,7 +320,7 @@ mod tests {
     }
 
     #[test]
-    fn many_controls_meet_in_pairs() {
+    fn many_controls_are_combined_in_pairs() {
         let sliders: Vec<String> = (0..12).map(|k| SLIDER.replace("\"m\"", &format!("\"m{k}\""))).collect();
         let (all, missing) = list_interactions(&lab(&sliders.join(",")), 2.0, &nothing());
         let corners: Vec<&Interaction> = all.iter().filter(|h| h.kind == Kind::Corner).collect();
@@ -335,14 +337,14 @@ mod tests {
     }
 
     #[test]
-    fn everything_in_turn_lies_in_the_window_and_in_order() {
+    fn sequential_actions_are_in_the_window_and_in_order() {
         let (all, _) = list_interactions(&lab(&[SLIDER, SELECT, BUTTON].join(",")), 2.0, &nothing());
         let last = all.last().unwrap();
         assert_eq!(last.actions.len(), 8);
         assert!(last.actions.windows(2).all(|two| two[0].time < two[1].time) && last.actions[7].time < 2.0);
     }
     #[test]
-    fn a_base_stands_before_everything_else() {
+    fn the_base_settings_come_first() {
         let set = |control, x| Action { time: 0.0, control, value: Some(Value::Number(x)) };
         let press = |control, time| Action { time, control, value: None };
         let base =

@@ -6,13 +6,13 @@ use super::fault::{Fault, FaultKind, worst_fault};
 use super::interaction::{Action, Interaction, Kind};
 use crate::bind::Programs;
 use crate::rules::{self, Rule};
-use crate::run::{self, Breakdown, Play, RunError, RunOptions, Session, Shorter, StartedRun, Table};
+use crate::run::{self, Breakdown, Play, RunError, RunOptions, Session, ShorterTimestep, StartedRun, Table};
 use crate::spec::Lab;
 use labspec_core::Model;
 use std::ops::ControlFlow;
 
 /// Number of tested halvings of the timestep, work budget of one run, and of all of them.
-const HALVINGS: i32 = 8;
+const MAX_HALVINGS: i32 = 8;
 const WORK_OF_RUN: u64 = 300_000_000;
 const WORK: u64 = 1_000_000_000;
 
@@ -49,10 +49,10 @@ pub(crate) fn describe(fault: &Fault) -> Option<Breakdown> {
     };
     Some(Breakdown {
         rule,
-        what: format!("{} {what} at t = {} s", fault.who, run::time(fault.time)),
+        what: format!("{} {what} at t = {} s", fault.subject, run::time(fault.time)),
         why,
         cause: Some(fault.cause.clone()),
-        shorter: Shorter::No,
+        shorter: ShorterTimestep::No,
         instead: "run `labspec stability`, which makes these runs longer and tests remedies".into(),
     })
 }
@@ -66,9 +66,9 @@ pub(crate) fn with_tried_timestep(
     mut breakdown: Breakdown,
     left: &mut u64,
 ) -> Breakdown {
-    let Shorter::Maybe(theory) = breakdown.shorter else { return breakdown };
+    let ShorterTimestep::Maybe(theory) = breakdown.shorter else { return breakdown };
     let timestep = case.start(interaction, WORK_OF_RUN).world.model.opt.timestep;
-    let halved = (1..=HALVINGS).map(|k| timestep * 0.5f64.powi(k));
+    let halved = (1..=MAX_HALVINGS).map(|k| timestep * 0.5f64.powi(k));
     let mut candidates: Vec<f64> =
         theory.into_iter().chain(halved).map(rounded_down).filter(|h| *h > 0.0 && *h < timestep).collect();
     candidates.sort_by(|a, b| b.total_cmp(a));
@@ -87,11 +87,11 @@ pub(crate) fn with_tried_timestep(
             continue;
         }
         if !outcome.cut {
-            breakdown.shorter = Shorter::Tried(h);
+            breakdown.shorter = ShorterTimestep::Tested(h);
         }
         return breakdown;
     }
-    breakdown.shorter = Shorter::Useless;
+    breakdown.shorter = ShorterTimestep::Useless;
     breakdown
 }
 

@@ -4,7 +4,7 @@
 use super::bodies::{geom_name, joint_of_dof, joint_of_place};
 use super::causes::{stiffness_cause, unknown_cause};
 use super::fault::{Evidence, Fault, FaultKind};
-use crate::monitors::watch::Noticed;
+use crate::monitors::watch::Observations;
 use crate::run::Session;
 use labspec_core::{Model, Warning, WarningStat, joint};
 
@@ -22,10 +22,10 @@ pub(super) fn reported_faults(session: &Session<'_>) -> Vec<Fault> {
     let mut list = Vec::new();
     list.extend(breakdown(session));
     list.extend(other_warnings(session, m));
-    list.extend(session.troubles.iter().map(|t| Fault {
+    list.extend(session.program_errors.iter().map(|t| Fault {
         kind: FaultKind::Throws,
         time: t.time,
-        who: "a program of the lab".into(),
+        subject: "a program of the lab".into(),
         cause: t.message.clone(),
         evidence: Vec::new(),
         size: 1.0,
@@ -47,14 +47,14 @@ fn breakdown(session: &Session<'_>) -> Option<Fault> {
             first.map(|(_, stat)| Evidence { name: "no number at", value: stat.first_time, unit: "s" });
         let mut evidence = vec![
             Evidence { name: "energy gained", value: g.gain, unit: "J" },
-            Evidence { name: "energy at the start", value: g.held, unit: "J" },
+            Evidence { name: "energy at the start", value: g.available_energy, unit: "J" },
             step,
         ];
         evidence.extend(diverged);
         return Some(Fault {
             kind: FaultKind::Grows,
             time: g.time,
-            who: joint_of_dof(m, g.dof),
+            subject: joint_of_dof(m, g.dof),
             cause: cause(),
             evidence,
             size: g.gain,
@@ -62,7 +62,7 @@ fn breakdown(session: &Session<'_>) -> Option<Fault> {
         });
     }
     let (warning, stat) = first?;
-    let who = match warning {
+    let subject = match warning {
         Warning::BadQpos => joint_of_place(m, stat.lastinfo),
         _ => joint_of_dof(m, stat.lastinfo),
     };
@@ -70,7 +70,7 @@ fn breakdown(session: &Session<'_>) -> Option<Fault> {
     Some(Fault {
         kind: FaultKind::Diverges,
         time: stat.first_time,
-        who,
+        subject,
         cause: cause(),
         evidence,
         size: 1.0,
@@ -83,7 +83,7 @@ fn other_warnings(session: &Session<'_>, m: &Model) -> Vec<Fault> {
     let mut list = Vec::new();
     for warning in [Warning::Inertia, Warning::BadCtrl, Warning::ContactFull, Warning::ConstraintFull] {
         let Some(stat) = warned(session, warning) else { continue };
-        let (who, cause) = match warning {
+        let (subject, cause) = match warning {
             Warning::Inertia => (joint_of_dof(m, stat.lastinfo), "the moving part has no positive inertia"),
             Warning::BadCtrl => (
                 format!("control {}", stat.lastinfo),
@@ -96,7 +96,7 @@ fn other_warnings(session: &Session<'_>, m: &Model) -> Vec<Fault> {
         list.push(Fault {
             kind,
             time: stat.first_time,
-            who,
+            subject,
             cause: cause.into(),
             evidence: vec![Evidence { name: "warnings", value: stat.number as f64, unit: "" }],
             size: 1.0,
@@ -107,11 +107,11 @@ fn other_warnings(session: &Session<'_>, m: &Model) -> Vec<Fault> {
 }
 
 /// The earliest observation besides energy growth; later ones may be consequences of it.
-pub(super) fn noticed_fault(m: &Model, noticed: &Noticed) -> Option<Fault> {
-    let fault = |kind, time, who: String, cause: &str, size, evidence| Fault {
+pub(super) fn earliest_observed_fault(m: &Model, noticed: &Observations) -> Option<Fault> {
+    let fault = |kind, time, subject: String, cause: &str, size, evidence| Fault {
         kind,
         time,
-        who,
+        subject,
         cause: cause.into(),
         evidence,
         size,
@@ -127,8 +127,8 @@ pub(super) fn noticed_fault(m: &Model, noticed: &Noticed) -> Option<Fault> {
         };
         let mut evidence = vec![number("beyond", p.beyond, unit), number("range", p.range, unit)];
         evidence.extend(p.step.map(|step| number("way in one step", step, unit)));
-        let who = joint_of_dof(m, m.jnt_dofadr.get(p.joint).map_or(0, |&dof| dof as usize));
-        fault(FaultKind::PastLimit, p.time, who, cause, p.beyond / p.range, evidence)
+        let subject = joint_of_dof(m, m.jnt_dofadr.get(p.joint).map_or(0, |&dof| dof as usize));
+        fault(FaultKind::PastLimit, p.time, subject, cause, p.beyond / p.range, evidence)
     });
     let through = noticed.through.map(|t| {
         let [mover, wall] = both(t.geoms);

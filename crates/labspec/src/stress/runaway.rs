@@ -13,15 +13,15 @@ use super::history::RunHistory;
 use labspec_core::math::norm;
 use labspec_core::{Fields, Model, joint};
 
-const FAR: f64 = 100.0;
-const FASTER: f64 = 10.0;
+const FAR_FACTOR: f64 = 100.0;
+const SPEED_FACTOR: f64 = 10.0;
 /// Number of parts of the time, and the minimum growth factor of each.
 const PARTS: usize = 8;
-const MORE: f64 = 1.02;
+const MIN_GROWTH: f64 = 1.02;
 /// Number of calls between two stored samples.
-const EVERY: usize = 8;
+const CALLS_PER_SAMPLE: usize = 8;
 /// Number of samples at which every second one is dropped.
-const MOST: usize = 256;
+const MAX_SAMPLES: usize = 256;
 
 /// Monitors the speeds of a run by stored samples.
 #[derive(Debug)]
@@ -40,25 +40,26 @@ pub(super) struct RunawayMonitor {
 
 impl Default for RunawayMonitor {
     fn default() -> RunawayMonitor {
-        let memory = RunHistory::new(EVERY, MOST);
+        let memory = RunHistory::new(CALLS_PER_SAMPLE, MAX_SAMPLES);
         RunawayMonitor { start: 0.0, memory, largest: [0.0; 2], first: None, found: None, sure: None }
     }
 }
 
 impl RunawayMonitor {
     pub(super) fn restart(&mut self, m: &Model, time: f64) {
-        *self = RunawayMonitor { start: time, sure: self.ran_away(m), ..RunawayMonitor::default() };
+        *self = RunawayMonitor { start: time, sure: self.unbounded_speed(m), ..RunawayMonitor::default() };
     }
 
     /// The speed that never stopped growing.
-    fn ran_away(&self, m: &Model) -> Option<(f64, usize, f64, f64)> {
+    fn unbounded_speed(&self, m: &Model) -> Option<(f64, usize, f64, f64)> {
         let grows = |(_, dof, _, bound): &(f64, usize, f64, f64)| {
             let kind = usize::from(!slides(m, *dof));
-            let past = self.memory.past().iter().map(|(_, largest)| largest[kind]);
-            let speeds: Vec<f64> = past.chain([self.largest[kind]]).filter(|v| FAR * v > *bound).collect();
+            let samples = self.memory.samples().iter().map(|(_, largest)| largest[kind]);
+            let speeds: Vec<f64> =
+                samples.chain([self.largest[kind]]).filter(|v| FAR_FACTOR * v > *bound).collect();
             let last = speeds.len().saturating_sub(1);
             let at = |part: usize| speeds.get(part * last / PARTS).copied().unwrap_or(f64::INFINITY);
-            last < PARTS || (0..PARTS).all(|part| at(part + 1) > MORE * at(part))
+            last < PARTS || (0..PARTS).all(|part| at(part + 1) > MIN_GROWTH * at(part))
         };
         self.sure.or(self.found.filter(grows))
     }
@@ -91,13 +92,13 @@ impl RunawayMonitor {
         }
         for k in 0..2 {
             let (speed, dof) = now[k];
-            let bound = FAR * (first[k] + sensible(m)[k]);
+            let bound = FAR_FACTOR * (first[k] + expected_speeds(m)[k]);
             if speed > bound {
                 let half = self.start + 0.5 * (d.time - self.start);
-                let past = self.memory.past();
-                let before = past.partition_point(|(t, _)| *t <= half);
-                let early = before.checked_sub(1).and_then(|i| past.get(i)).map_or(first, |(_, v)| *v);
-                if speed > FASTER * early[k] {
+                let samples = self.memory.samples();
+                let before = samples.partition_point(|(t, _)| *t <= half);
+                let early = before.checked_sub(1).and_then(|i| samples.get(i)).map_or(first, |(_, v)| *v);
+                if speed > SPEED_FACTOR * early[k] {
                     self.found = Some((d.time, dof, speed, bound));
                     return;
                 }
@@ -106,12 +107,12 @@ impl RunawayMonitor {
     }
 
     pub(super) fn fault(&self, m: &Model) -> Option<Fault> {
-        let (time, dof, speed, bound) = self.ran_away(m)?;
+        let (time, dof, speed, bound) = self.unbounded_speed(m)?;
         let unit = if slides(m, dof) { "m/s" } else { "rad/s" };
         Some(Fault {
             kind: FaultKind::Silent,
             time,
-            who: joint_of_dof(m, dof),
+            subject: joint_of_dof(m, dof),
             cause: stiffness_cause(m)
                 .unwrap_or_else(|| "it grows exponentially, and the engine gives no warning".into()),
             evidence: vec![
@@ -125,7 +126,7 @@ impl RunawayMonitor {
 }
 
 /// Speeds that a fall through the whole scene gives, of a translation and of a rotation.
-fn sensible(m: &Model) -> [f64; 2] {
+fn expected_speeds(m: &Model) -> [f64; 2] {
     let (g, extent) = (norm(m.opt.gravity).max(1.0), m.stat.extent.max(1e-3));
     [(2.0 * g * extent).sqrt(), (2.0 * g / extent).sqrt() + 10.0]
 }

@@ -1,7 +1,7 @@
 //! The monitors that run after every step: bodies that tunnel or penetrate deeply, contacts that switch on and off, and
 //! motion that exceeds every bound. They do not modify the run.
 
-use super::bodies::{self, body_of, body_thickness, geom_name, seen_from};
+use super::bodies::{self, body_of, body_thickness, centre_in_frame, geom_name};
 use super::causes::stiffness_cause;
 use super::creep::CreepMonitor;
 use super::fault::{Evidence, Fault, FaultKind};
@@ -13,18 +13,18 @@ use labspec_core::{Fields, Model, geom, geom_half_extents, geom_thickness};
 /// Maximum number of pairs of geoms that are monitored for tunnelling.
 pub(super) const MOST_PAIRS: usize = 2000;
 /// Maximum number of contact pairs with a history.
-const MOST_TOUCHING: usize = 500;
+const MAX_TOUCHING: usize = 500;
 /// Fraction of the size of the smaller body above which a penetration is deep, and its minimum duration, s. Contacts yield
 /// for a moment in every fast impact.
-const DEEP: f64 = 0.3;
-const LASTS: f64 = 0.2;
+const DEEP_FRACTION: f64 = 0.3;
+const MIN_DEEP_DURATION: f64 = 0.2;
 /// Number of steps of a block in which switches are counted, the minimum number of switches in a block, and the number of
 /// consecutive blocks.
 const BLOCK: usize = 100;
-const MOST_OF_THEM: usize = 45;
+const MIN_SWITCHES: usize = 45;
 const BLOCKS: usize = 2;
 /// A body that moves by less than this fraction of its size in a block is nearly at rest.
-const NEARLY: f64 = 0.02;
+const REST_FRACTION: f64 = 0.02;
 
 /// The observations of a run.
 pub(super) struct RunMonitor {
@@ -90,7 +90,7 @@ impl RunMonitor {
     pub(super) fn disturb(&mut self, m: &Model, d: &Fields) {
         for pair in &mut self.pairs {
             let [g, p] = pair.geoms;
-            pair.before = seen_from(&d.geom_xpos, &d.geom_xmat, g, p).filter(|_| !self.jumps);
+            pair.before = centre_in_frame(&d.geom_xpos, &d.geom_xmat, g, p).filter(|_| !self.jumps);
         }
         self.grounds.iter_mut().for_each(|over| over.disturb(m, d));
         for t in &mut self.touching {
@@ -118,7 +118,7 @@ impl RunMonitor {
         let mut passed = Vec::new();
         for pair in self.pairs.iter_mut().filter(|p| !p.done) {
             let [g, p] = pair.geoms;
-            let Some(now) = seen_from(&d.geom_xpos, &d.geom_xmat, g, p) else { continue };
+            let Some(now) = centre_in_frame(&d.geom_xpos, &d.geom_xmat, g, p) else { continue };
             if let Some(before) = pair.before.replace(now)
                 && through(m, p, before, now)
             {
@@ -140,7 +140,7 @@ impl RunMonitor {
             let geoms = [contact.geom1, contact.geom2];
             let i = match self.touching.iter().position(|t| t.geoms == geoms) {
                 Some(i) => i,
-                None if self.touching.len() < MOST_TOUCHING => {
+                None if self.touching.len() < MAX_TOUCHING => {
                     self.touching.push(TouchingPair::new(m, geoms));
                     self.touching.len() - 1
                 }
@@ -156,15 +156,15 @@ impl RunMonitor {
         for touch in &mut self.touching {
             touch.switches += usize::from(touch.now != touch.on);
             (touch.on, touch.now) = (touch.now, false);
-            touch.deep(d.time);
+            touch.update_depths(d.time);
             let [g, p] = touch.geoms;
-            let place = seen_from(&d.geom_xpos, &d.geom_xmat, g, p);
+            let place = centre_in_frame(&d.geom_xpos, &d.geom_xmat, g, p);
             if let (Some(from), Some(place)) = (touch.from, place) {
                 touch.moved = touch.moved.max(labspec_core::math::norm(sub(place, from)));
             }
             if ends {
-                let rests = touch.from.is_some() && touch.moved < NEARLY * touch.size;
-                touch.blocks = if touch.switches >= MOST_OF_THEM && rests { touch.blocks + 1 } else { 0 };
+                let rests = touch.from.is_some() && touch.moved < REST_FRACTION * touch.size;
+                touch.blocks = if touch.switches >= MIN_SWITCHES && rests { touch.blocks + 1 } else { 0 };
                 if touch.blocks >= BLOCKS && !touch.chatters {
                     touch.chatters = true;
                     self.faults.push(chatter(m, d, touch));
@@ -220,13 +220,13 @@ impl TouchingPair {
     }
 
     /// Updates the depth after all contacts of a step.
-    fn deep(&mut self, time: f64) {
+    fn update_depths(&mut self, time: f64) {
         let depth = std::mem::take(&mut self.depth_now);
         let share = depth / self.size;
         if share > self.deepest {
             (self.deepest, self.depth, self.at) = (share, depth, time);
         }
-        if share > DEEP {
+        if share > DEEP_FRACTION {
             let since = *self.deep_since.get_or_insert(time);
             self.lasted = self.lasted.max(time - since);
         } else {
@@ -235,7 +235,7 @@ impl TouchingPair {
     }
 
     fn is_deep(&self) -> bool {
-        self.deepest > DEEP && self.lasted >= LASTS
+        self.deepest > DEEP_FRACTION && self.lasted >= MIN_DEEP_DURATION
     }
 }
 
@@ -291,7 +291,7 @@ fn tunnelling(m: &Model, d: &Fields, [g, p]: [usize; 2], from: Vec3, to: Vec3) -
     Fault {
         kind: FaultKind::Tunnels,
         time: (d.time - h).max(0.0),
-        who: format!("{} through {}", geom_name(m, g), geom_name(m, p)),
+        subject: format!("{} through {}", geom_name(m, g), geom_name(m, p)),
         cause,
         evidence: vec![
             Evidence { name: "way in one step", value: travel, unit: "m" },
@@ -320,7 +320,7 @@ fn penetration(m: &Model, t: &TouchingPair) -> Fault {
     Fault {
         kind: FaultKind::Penetrates,
         time: t.at,
-        who: format!("{} and {}", geom_name(m, g), geom_name(m, p)),
+        subject: format!("{} and {}", geom_name(m, g), geom_name(m, p)),
         cause,
         evidence: vec![
             Evidence { name: "depth", value: t.depth, unit: "m" },
@@ -341,7 +341,7 @@ fn chatter(m: &Model, d: &Fields, t: &TouchingPair) -> Fault {
     Fault {
         kind: FaultKind::Chatters,
         time: d.time - (BLOCK * BLOCKS) as f64 * m.opt.timestep,
-        who: format!("{} on {}", geom_name(m, g), geom_name(m, p)),
+        subject: format!("{} on {}", geom_name(m, g), geom_name(m, p)),
         cause,
         evidence: vec![
             Evidence { name: "switches in 100 steps", value: t.switches as f64, unit: "" },

@@ -76,14 +76,14 @@ pub(super) struct RunningAggregate<'a> {
     /// State of the measures that interpolate between samples.
     trail: CurveTrail,
     /// Samples without a number, where they leave the result undecided.
-    pub(super) gaps: Gaps,
+    pub(super) gaps: MissingNumbers,
     /// Whether the previous sample had no number.
     lacked: bool,
 }
 
 /// Samples without a number.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Gaps {
+pub(super) struct MissingNumbers {
     pub(super) count: usize,
     /// Time of the first one, s.
     pub(super) first: f64,
@@ -103,7 +103,7 @@ impl<'a> RunningAggregate<'a> {
                 done: false,
                 previous: f64::NAN,
                 trail: CurveTrail::START,
-                gaps: Gaps::default(),
+                gaps: MissingNumbers::default(),
                 lacked: false,
             })
         };
@@ -146,10 +146,10 @@ impl<'a> RunningAggregate<'a> {
             return;
         }
         let time = session.time();
-        let mut args = Arguments { programs: self.args, text, session, lack: false };
+        let mut args = AggregateArguments { programs: self.args, text, session, lack: false };
         // This sample decides what earlier samples left undecided.
         if self.take(time, &mut args) {
-            self.gaps = Gaps::default();
+            self.gaps = MissingNumbers::default();
         }
         if args.lack && !first {
             if self.gaps.count == 0 {
@@ -161,7 +161,7 @@ impl<'a> RunningAggregate<'a> {
 
     /// Includes a sample in the result. Returns whether it decides what earlier samples left undecided. The function is
     /// long because it has one arm for each kind of aggregate.
-    fn take(&mut self, time: f64, args: &mut Arguments<'_>) -> bool {
+    fn take(&mut self, time: f64, args: &mut AggregateArguments<'_>) -> bool {
         match self.kind {
             AggregateKind::First => self.finish_where(args, |_| time),
             AggregateKind::At => self.finish_where(args, |args| args.number(1)),
@@ -224,7 +224,11 @@ impl<'a> RunningAggregate<'a> {
     }
 
     /// Sets the result at the first sample at which the condition holds.
-    fn finish_where(&mut self, args: &mut Arguments<'_>, result: impl FnOnce(&mut Arguments<'_>) -> f64) {
+    fn finish_where(
+        &mut self,
+        args: &mut AggregateArguments<'_>,
+        result: impl FnOnce(&mut AggregateArguments<'_>) -> f64,
+    ) {
         if args.value(0).truthy() {
             (self.result, self.done) = (result(args), true);
         }
@@ -232,7 +236,7 @@ impl<'a> RunningAggregate<'a> {
 
     /// The value at the sample before the condition holds. A number that is missing at that sample is reported when the
     /// condition holds.
-    fn take_before(&mut self, args: &mut Arguments<'_>) {
+    fn take_before(&mut self, args: &mut AggregateArguments<'_>) {
         let holds = args.value(0).truthy();
         let open = std::mem::replace(&mut args.lack, false);
         let x = args.number(1);
@@ -245,13 +249,13 @@ impl<'a> RunningAggregate<'a> {
         }
     }
 
-    fn take_previous(&mut self, args: &mut Arguments<'_>) {
+    fn take_previous(&mut self, args: &mut AggregateArguments<'_>) {
         let x = args.number(0);
         let x = if std::mem::replace(&mut args.lack, false) { f64::NAN } else { x };
         (self.result, self.previous, self.done) = (self.previous, x, true);
     }
 
-    fn take_crossing(&mut self, time: f64, args: &mut Arguments<'_>) {
+    fn take_crossing(&mut self, time: f64, args: &mut AggregateArguments<'_>) {
         let x = args.above_level();
         if let Some(at) = self.trail.zero(time, x) {
             (self.result, self.done) = (at, true);
@@ -260,7 +264,7 @@ impl<'a> RunningAggregate<'a> {
     }
 
     /// The time since which the value has been inside the band.
-    fn take_settles(&mut self, time: f64, args: &mut Arguments<'_>) -> bool {
+    fn take_settles(&mut self, time: f64, args: &mut AggregateArguments<'_>) -> bool {
         let [x, target, band] = [0, 1, 2].map(|i| args.number(i));
         let inside = (x - target).abs() <= band;
         if !inside {
@@ -271,7 +275,7 @@ impl<'a> RunningAggregate<'a> {
         !inside && !args.lack
     }
 
-    fn take_holds(&mut self, args: &mut Arguments<'_>) -> bool {
+    fn take_holds(&mut self, args: &mut AggregateArguments<'_>) -> bool {
         if !args.value(0).truthy() && !args.lack {
             self.result = 0.0;
         }
@@ -283,7 +287,7 @@ impl<'a> RunningAggregate<'a> {
 }
 
 /// The arguments of an aggregate at a sample.
-struct Arguments<'s> {
+struct AggregateArguments<'s> {
     programs: &'s [Program],
     text: &'s Text,
     session: &'s mut dyn Sample,
@@ -291,7 +295,7 @@ struct Arguments<'s> {
     lack: bool,
 }
 
-impl Arguments<'_> {
+impl AggregateArguments<'_> {
     fn value(&mut self, i: usize) -> Value {
         let program = self.programs.get(i);
         let value = program.and_then(|p| self.session.evaluate(p, self.text)).unwrap_or(Value::Undefined);

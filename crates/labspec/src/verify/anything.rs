@@ -7,7 +7,7 @@ use labspec_expr::{FieldKey, FunctionId, Heap, Host, Value};
 
 /// How the values of an imagined run are drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Manner {
+pub(super) enum DrawMode {
     /// Each value has any magnitude.
     Any,
     /// Each value has about the magnitude of this number, which comes from the text or was drawn.
@@ -15,7 +15,7 @@ pub(super) enum Manner {
     /// Nothing moves: all values are zero.
     Zero,
     /// Each value is constant during the run.
-    Steady,
+    ConstantPerRun,
 }
 
 /// An imagined simulation: every value that is read of the data is drawn at random.
@@ -23,7 +23,7 @@ pub(super) struct Anything<'w> {
     pub(super) world: &'w World,
     /// Seeds of the run and of the sample.
     pub(super) seeds: [u64; 2],
-    pub(super) manner: Manner,
+    pub(super) manner: DrawMode,
     /// Time of the sample, s, for samples in sequence.
     pub(super) time: Option<f64>,
 }
@@ -31,18 +31,18 @@ pub(super) struct Anything<'w> {
 impl<'w> Anything<'w> {
     /// A single sample.
     pub(super) fn sample_of(world: &'w World, seed: u64) -> Anything<'w> {
-        Anything { world, seeds: [seed; 2], manner: Manner::Any, time: None }
+        Anything { world, seeds: [seed; 2], manner: DrawMode::Any, time: None }
     }
 
     /// Draws the value with the key `what`.
     fn draw(&self, what: u64) -> f64 {
         let [run, sample] = self.seeds;
-        let mut draws = Draws::new(what ^ if self.manner == Manner::Steady { run } else { sample });
+        let mut draws = Draws::new(what ^ if self.manner == DrawMode::ConstantPerRun { run } else { sample });
         draws.unit();
         match self.manner {
-            Manner::Any | Manner::Steady => draws.any(),
-            Manner::Near(x) => x * (4.0 * draws.unit() - 2.0),
-            Manner::Zero => 0.0,
+            DrawMode::Any | DrawMode::ConstantPerRun => draws.any(),
+            DrawMode::Near(x) => x * (4.0 * draws.unit() - 2.0),
+            DrawMode::Zero => 0.0,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! A `verify` object bound to its labs and models, ready to run.
 
 use super::bound_run::{BoundRun, BoundScene, CompiledText};
-use super::compiled_claim::{CompiledClaim, looks_over_run};
+use super::compiled_claim::{CompiledClaim, reads_run};
 use super::layout::{Layout, Slot};
 use super::measure::Sampled;
 use super::measure_units::MeasureUnits;
@@ -81,7 +81,7 @@ impl<'a> BoundVerify<'a> {
         for (name, text) in &verify.measure {
             good &= bound.measure(&name.value, text, findings);
         }
-        bound.lay_out();
+        bound.compute_layout();
         good.then_some(bound)
     }
 
@@ -114,7 +114,7 @@ impl<'a> BoundVerify<'a> {
         }
     }
 
-    fn lay_out(&mut self) {
+    fn compute_layout(&mut self) {
         let names = |run: &BoundRun<'_>| {
             let measures = self.scene_of(run).into_iter().flat_map(|s| &s.measures);
             measures.map(|(name, _)| name.to_string()).collect()
@@ -132,7 +132,7 @@ impl<'a> BoundVerify<'a> {
     /// Whether a measure reads the simulation.
     pub(super) fn is_simulated(&self, run: usize, measure: usize) -> bool {
         let stops = self.runs.get(run).is_some_and(|run| run.stop.is_some());
-        self.measure_at(run, measure).is_some_and(|m| looks_over_run(&m.program, stops))
+        self.measure_at(run, measure).is_some_and(|m| reads_run(&m.program, stops))
     }
 
     pub(super) fn measure_at(&self, run: usize, measure: usize) -> Option<&CompiledText<'a>> {
@@ -283,19 +283,19 @@ impl<'a> BoundVerify<'a> {
         for run in &self.runs {
             let scene = self.scene_of(run)?;
             let measures: Vec<&CompiledText<'_>> = scene.measures.iter().map(|(_, m)| m).collect();
-            let made = self.perform(run, numerics, &measures, findings)?;
+            let made = self.execute_run(run, numerics, &measures, findings)?;
             let names = scene.measures.iter().map(|(name, _)| name.to_string());
-            let mut doubts = Vec::new();
+            let mut missing_samples = Vec::new();
             let mut measures = Vec::new();
-            for (name, Sampled { value, doubt, .. }) in names.zip(made.values) {
-                doubts.extend(doubt.map(|doubt| (name.clone(), doubt)));
+            for (name, Sampled { value, sample_gap, .. }) in names.zip(made.values) {
+                missing_samples.extend(sample_gap.map(|sample_gap| (name.clone(), sample_gap)));
                 measures.push((name, value));
             }
             runs.push(RunOutcome {
                 name: run.name.to_string(),
                 swept: run.swept,
                 measures,
-                doubts,
+                missing_samples,
                 warnings: made.warnings,
                 broke: made.broke,
             });
@@ -303,7 +303,7 @@ impl<'a> BoundVerify<'a> {
         Some(Outcome { runs, found: Vec::new(), looked: Vec::new(), numerics, elsewhere: Vec::new() })
     }
 
-    pub(super) fn perform(
+    pub(super) fn execute_run(
         &self,
         run: &BoundRun<'a>,
         numerics: StepVariant,
@@ -311,8 +311,8 @@ impl<'a> BoundVerify<'a> {
         findings: &mut Vec<Finding>,
     ) -> Option<RunResult> {
         let place = run.spec.map_or(self.verify.span.clone(), |r| r.name.span());
-        let asked = RunRequest { scene: self.scene_of(run)?, run, numerics, measures, place };
-        runner::perform(&asked, self.stage, findings)
+        let request = RunRequest { scene: self.scene_of(run)?, run, numerics, measures, place };
+        runner::execute_run(&request, self.stage, findings)
     }
 
     /// The span of a run in the lesson, and whether the lesson declares that it breaks.

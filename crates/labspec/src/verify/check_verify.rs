@@ -1,7 +1,7 @@
 //! Checks the claims of one `verify` object: executes its runs and checks its answer, quotes and closed forms.
 
 use super::bound::BoundVerify;
-use super::judgement::{Judgement, Measured, RunReport, unmade};
+use super::judgement::{Judgement, Measured, RunReport, not_executable};
 use super::options::is_undecided;
 use super::outcome::Outcome;
 use super::outcomes::{Outcomes, run_all_numerics};
@@ -25,7 +25,7 @@ pub fn check_verify(
 ) -> Judgement {
     match run_all_numerics(bound, verify, findings) {
         Some(outcomes) => judge(bound, &outcomes, verify, question, rendered, findings),
-        None => unmade(verify, question, "a run cannot be made"),
+        None => not_executable(verify, question, "a run cannot be made"),
     }
 }
 

@@ -3,7 +3,7 @@
 //! results of its comparisons.
 
 use super::bound::BoundVerify;
-use super::compiled_claim::{ClaimInputs, CompiledClaim, TracedValue, looks_at_data, looks_over_run};
+use super::compiled_claim::{ClaimInputs, CompiledClaim, TracedValue, reads_data, reads_run};
 use super::condition;
 use super::format::shorten;
 use super::layout::Slot;
@@ -90,7 +90,7 @@ impl CompiledClaim {
             }
             reads.sort_unstable();
             reads.dedup();
-            outside = looks_at_data(effects) || effects.any_ctx || !effects.ctx_reads.is_empty();
+            outside = reads_data(effects) || effects.any_ctx || !effects.ctx_reads.is_empty();
         }
         let constants = condition::numbers_in(text);
         Some(CompiledClaim {
@@ -98,7 +98,7 @@ impl CompiledClaim {
             diagnostics: compiled.diagnostics,
             reads,
             outside,
-            names: names.met(),
+            names: names.names_read(),
             constants,
         })
     }
@@ -118,7 +118,7 @@ impl CompiledClaim {
         };
         let taken_here = self.program.iter().flat_map(|p| p.aggregates().iter().enumerate());
         let stops = bound.runs.first().is_some_and(|run| run.stop.is_some());
-        let taken_here = taken_here.filter(|(_, a)| a.args.iter().any(|arg| looks_over_run(arg, stops)));
+        let taken_here = taken_here.filter(|(_, a)| a.args.iter().any(|arg| reads_run(arg, stops)));
         let taken_here = taken_here.map(|(i, _)| slots.len() + i);
         self.reads.iter().copied().filter(simulated).chain(taken_here).collect()
     }

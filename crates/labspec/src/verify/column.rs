@@ -12,7 +12,7 @@ use crate::spec::{Column, Stands};
 use labspec_expr::dimension::Dimension;
 
 /// The work of reading a cell.
-const LOOK: u64 = 1000;
+const CELL_WORK: u64 = 1000;
 /// Maximum number of different words in the cells of a column.
 const MOST_WORDS: usize = 20;
 
@@ -23,7 +23,7 @@ pub(super) fn check_column(
     findings: &mut Vec<Finding>,
 ) -> Vec<Quote> {
     let stage = checker.bound.stage();
-    stage.spend(LOOK * checker.rendered.cells() as u64);
+    stage.spend(CELL_WORK * checker.rendered.cells() as u64);
     if stage.left() == 0 {
         let spent = "the work budget ran out before this column";
         let finding = Finding::error(rules::QUOTE_UNCLEAR, claim.column.span(), spent)
@@ -81,15 +81,16 @@ impl SweepRows<'_> {
     /// # Errors
     /// No value of the sweep equals the number in the cell.
     fn member(&self, key: &Text) -> Result<usize, Box<Finding>> {
-        let read = quote::reading(&key.value).ok();
+        let read = quote::read_quote(&key.value).ok();
         let unit = read.as_ref().and_then(|read| read.unit().cloned()).or_else(|| self.key_head.clone());
         // Cells in millimetres are converted to the metres of the values. A cell of another dimension matches no value.
-        let held = unit.as_ref().map_or(quote::Held::Unknown, |unit| quote::hold(unit, self.swept.as_ref()));
+        let held =
+            unit.as_ref().map_or(quote::UnitMatch::Unknown, |unit| quote::hold(unit, self.swept.as_ref()));
         let wanted = unit.as_ref().and_then(|unit| unit.dimension);
         let converted = wanted.zip(self.swept).and_then(|(wanted, found)| quote::conversion(&wanted, &found));
         let factor = match (held, converted) {
             (_, Some(factor)) => Some(factor),
-            (quote::Held::Wrong, None) => None,
+            (quote::UnitMatch::Wrong, None) => None,
             _ => Some(1.0),
         };
         let is_key =
@@ -152,7 +153,9 @@ fn check_word_cell(
         return Quote::unclear(text, "the expression for the word is not a condition");
     }
     if given.holds() {
-        for (word, other) in words.iter().filter(|(w, _)| !quote::reads_the_same(w.as_str(), text.as_str())) {
+        for (word, other) in
+            words.iter().filter(|(w, _)| !quote::is_rendered_equally(w.as_str(), text.as_str()))
+        {
             let other = part(other, member);
             if QuotedValue::measure(checker, &other, findings).is_ok_and(|given| !given.holds()) {
                 continue;
@@ -174,7 +177,7 @@ fn check_word_cell(
 /// # Errors
 /// The word has no condition, the column has too many words, or the cell contains a number that no condition checks.
 fn condition_of_word<'w>(text: &Text, words: &'w [(Text, Text)]) -> Result<&'w Text, Box<Finding>> {
-    let is_word = |(word, _): &&(Text, Text)| quote::reads_the_same(word.as_str(), text.as_str());
+    let is_word = |(word, _): &&(Text, Text)| quote::is_rendered_equally(word.as_str(), text.as_str());
     let Some((_, expr)) = words.iter().find(is_word) else {
         let message = format!("no condition belongs to \"{}\"", text.value);
         let claimed: Vec<&str> = words.iter().map(|(word, _)| word.as_str()).collect();

@@ -47,7 +47,7 @@ impl ClaimInputs {
     }
 
     /// Replaces the number at a position.
-    pub(super) fn put(&mut self, place: usize, x: f64) {
+    pub(super) fn set_value(&mut self, place: usize, x: f64) {
         let number = match place.checked_sub(self.numbers.len()) {
             None => self.numbers.get_mut(place),
             Some(part) => self.parts.get_mut(part),
@@ -68,12 +68,12 @@ pub(super) struct TracedValue {
 }
 
 /// Whether effects include reads of simulation data.
-pub(super) fn looks_at_data(e: &Effects) -> bool {
-    looks_at(e, &|field| field.info().object == Object::Data)
+pub(super) fn reads_data(e: &Effects) -> bool {
+    reads_any(e, &|field| field.info().object == Object::Data)
 }
 
 /// Whether effects include a read of a field that satisfies `counts`, or a read of unknown fields.
-fn looks_at(e: &Effects, counts: &dyn Fn(FieldId) -> bool) -> bool {
+fn reads_any(e: &Effects, counts: &dyn Fn(FieldId) -> bool) -> bool {
     let read = |a: &labspec_expr::Access| FieldId::new(a.field.0 as usize).is_some_and(counts);
     e.reads_everything
         || e.calls.iter().any(|&f| functions::reads(f))
@@ -83,8 +83,8 @@ fn looks_at(e: &Effects, counts: &dyn Fn(FieldId) -> bool) -> bool {
 
 /// Whether a program reads results of a simulation, directly or in an aggregate. The time advances in every simulation, so
 /// it counts as a result only where the run ends by its own `stop`.
-pub(super) fn looks_over_run(program: &Program, stops: bool) -> bool {
+pub(super) fn reads_run(program: &Program, stops: bool) -> bool {
     let counts = |field: FieldId| field.info().object == Object::Data && (stops || field != data::time);
-    looks_at(program.effects(), &counts)
-        || program.aggregates().iter().flat_map(|a| &a.args).any(|arg| looks_over_run(arg, stops))
+    reads_any(program.effects(), &counts)
+        || program.aggregates().iter().flat_map(|a| &a.args).any(|arg| reads_run(arg, stops))
 }

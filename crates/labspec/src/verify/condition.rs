@@ -53,7 +53,7 @@ pub(super) fn numbers_in(text: &str) -> Vec<f64> {
 }
 
 /// Maximum number of comparisons of a condition that are inverted to see whether they decide it.
-const MOST_TURNED: usize = 48;
+const MAX_INVERTED: usize = 48;
 
 /// The result of a condition and its margin. `decides` returns for each comparison whether it depends on measured values;
 /// `turn` returns the truth of the condition if one comparison has the opposite result.
@@ -68,7 +68,7 @@ pub(super) fn evaluate(
     let nearer = |best: &mut Option<f64>, size: f64| {
         *best = Some(best.map_or(size, |smallest: f64| smallest.min(size)))
     };
-    for (i, comparison) in comparisons.iter().enumerate().take(MOST_TURNED) {
+    for (i, comparison) in comparisons.iter().enumerate().take(MAX_INVERTED) {
         let size = comparison.margin.abs();
         if !size.is_finite() || !decides(i) {
             continue;

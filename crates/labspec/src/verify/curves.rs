@@ -30,14 +30,14 @@ pub struct Curves {
 }
 
 /// Repeats a run and samples the traces of the lab. `None` where it cannot be executed, or the lab has no trace.
-fn record_curves(asked: &RunRequest<'_, '_>, stage: &Stage<'_>) -> Option<Curves> {
-    let scene = &asked.scene.scene;
+fn record_curves(request: &RunRequest<'_, '_>, stage: &Stage<'_>) -> Option<Curves> {
+    let scene = &request.scene.scene;
     let (lab, programs) = (&*scene.lab, &*scene.programs);
     let traces = lab.traces().count();
     if traces == 0 {
         return None;
     }
-    let mut ready = runner::ready(asked, stage, &mut Vec::new())?;
+    let mut ready = runner::prepare_run(request, stage, &mut Vec::new())?;
     let every = ready.count.div_ceil(SAMPLES).max(1);
     let mut times = Vec::new();
     let mut values = vec![Vec::new(); traces];
@@ -53,7 +53,7 @@ fn record_curves(asked: &RunRequest<'_, '_>, stage: &Stage<'_>) -> Option<Curves
         }
     };
     let mut seen = 0;
-    runner::play(asked, &mut ready, |session, made| {
+    runner::play(request, &mut ready, |session, made| {
         seen = made;
         if made % every == 0 {
             take(session);
@@ -65,7 +65,7 @@ fn record_curves(asked: &RunRequest<'_, '_>, stage: &Stage<'_>) -> Option<Curves
     }
     stage.spend(ready.session.spent());
     Some(Curves {
-        run: asked.run.title(),
+        run: request.run.title(),
         lab: lab.span.clone(),
         title: lab.title().to_string(),
         plots: lab.plots.clone(),
@@ -79,8 +79,8 @@ impl<'a> BoundVerify<'a> {
     pub(crate) fn curves(&self, most: usize) -> Vec<Curves> {
         let one = |run: &BoundRun<'a>| {
             let (scene, place) = (self.scene_of(run)?, self.verify.span.clone());
-            let asked = RunRequest { scene, run, numerics: StepVariant::NOMINAL, measures: &[], place };
-            record_curves(&asked, self.stage)
+            let request = RunRequest { scene, run, numerics: StepVariant::NOMINAL, measures: &[], place };
+            record_curves(&request, self.stage)
         };
         self.runs.iter().take(most).filter_map(one).collect()
     }

@@ -7,40 +7,40 @@ use super::value_kind::ValueKind;
 use labspec_expr::Comparison;
 
 /// Number of drawn replacements for the measured values.
-const DRAWN: usize = 16;
+const REPLACEMENTS: usize = 16;
 
-/// The inputs of a claim with drawn values of their kinds in place of the measured ones, `DRAWN` times.
+/// The inputs of a claim with drawn values of their kinds in place of the measured ones, `REPLACEMENTS` times.
 pub(super) fn draws<'i>(
     nominal: &'i ClaimInputs,
     places: &'i [usize],
     kinds: &'i [ValueKind],
 ) -> impl Iterator<Item = ClaimInputs> + 'i {
     let mut draws = Draws::new(3);
-    (0..DRAWN).map(move |_| {
+    (0..REPLACEMENTS).map(move |_| {
         let mut inputs = nominal.clone();
         for (place, kind) in places.iter().zip(kinds) {
-            inputs.put(*place, kind.nearest(draws.any()));
+            inputs.set_value(*place, kind.nearest(draws.any()));
         }
         inputs
     })
 }
 
 /// Evaluates a claim with some inputs; `None` where it has no value.
-pub(super) type Says<'s> = dyn FnMut(&ClaimInputs) -> Option<(Outlook, Vec<Comparison>)> + 's;
+pub(super) type EvaluateClaim<'s> = dyn FnMut(&ClaimInputs) -> Option<(ClaimValue, Vec<Comparison>)> + 's;
 
 /// The value of a claim: the truth of a condition, or a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Outlook {
+pub(super) enum ClaimValue {
     Holds(bool),
     Number(f64),
 }
 
-impl Outlook {
+impl ClaimValue {
     /// Whether two values are different claims. Numbers differ if they are more than one percent apart.
-    pub(super) fn differs(self, other: Outlook) -> bool {
+    pub(super) fn differs(self, other: ClaimValue) -> bool {
         match (self, other) {
-            (Outlook::Holds(a), Outlook::Holds(b)) => a != b,
-            (Outlook::Number(a), Outlook::Number(b)) => {
+            (ClaimValue::Holds(a), ClaimValue::Holds(b)) => a != b,
+            (ClaimValue::Number(a), ClaimValue::Number(b)) => {
                 (a - b).abs() > 0.01 * a.abs() || (a == 0.0 && b.abs() > 1e-12)
             }
             _ => true,
@@ -58,11 +58,11 @@ pub(super) fn reach(values: &[f64]) -> f64 {
 /// Factors by which a measured value is multiplied.
 const FACTORS: [f64; 14] =
     [0.0, 0.5, 2.0, -1.0, 0.9, 1.1, 0.99, 1.01, 0.999_999, 1.000_001, 0.1, 10.0, 0.001, 1000.0];
-/// Number of joint draws: `FIRST` before the search in single numbers, `JOINT` in total; and the number of bisection steps
-/// of that search.
-const FIRST: usize = 200;
-const JOINT: usize = 4000;
-const HALVINGS: usize = 60;
+/// Number of joint draws: `INITIAL_DRAWS` before the search in single numbers, `TOTAL_DRAWS` in total; and the number of
+/// bisection steps of that search.
+const INITIAL_DRAWS: usize = 200;
+const TOTAL_DRAWS: usize = 4000;
+const BISECTIONS: usize = 60;
 
 /// Whether other measured values change the outcome of a claim. `places` are the positions of the numbers and then of the
 /// parts; `kinds` are their kinds.
@@ -71,7 +71,7 @@ pub(super) fn could_differ(
     places: &[usize],
     kinds: &[ValueKind],
     constants: &[f64],
-    says: &mut Says<'_>,
+    says: &mut EvaluateClaim<'_>,
 ) -> bool {
     let Some((now, compared)) = says(nominal) else { return false };
     let values: Vec<f64> = places.iter().filter_map(|p| nominal.at(*p)).collect();
@@ -82,7 +82,7 @@ pub(super) fn could_differ(
         let mut tried = Vec::new();
         // Any measure may be NaN: its event does not happen, or the run breaks.
         for x in list.iter().copied().chain([f64::NAN]) {
-            inputs.put(place, x);
+            inputs.set_value(place, x);
             if let Some((then, compared)) = says(&inputs) {
                 if then.differs(now) {
                     return true;
@@ -94,21 +94,21 @@ pub(super) fn could_differ(
         all.push(tried);
     }
     let mut together = JointDraws { nominal, places, kinds, lists: &lists, draws: Draws::new(7) };
-    if together.differs(FIRST, now, says) {
+    if together.differs(INITIAL_DRAWS, now, says) {
         return true;
     }
     // Where a comparison changes sign between two values, or comes close to it, search for the value in between.
     for ((&place, kind), tried) in places.iter().zip(kinds).zip(&all) {
         let mut alone = |x| {
-            inputs.put(place, x);
+            inputs.set_value(place, x);
             says(&inputs)
         };
-        if !kind.whole && turns(tried, now, &mut alone) {
+        if !kind.whole && find_changing_value(tried, now, &mut alone) {
             return true;
         }
         inputs.copy(nominal);
     }
-    together.differs(JOINT - FIRST, now, says)
+    together.differs(TOTAL_DRAWS - INITIAL_DRAWS, now, says)
 }
 
 /// For each measured value, the values that replace it, sorted: multiples of it, and values near everything that it is
@@ -154,7 +154,7 @@ struct JointDraws<'t> {
 
 impl JointDraws<'_> {
     /// Whether one of `count` more draws changes the outcome of a claim.
-    fn differs(&mut self, count: usize, now: Outlook, says: &mut Says<'_>) -> bool {
+    fn differs(&mut self, count: usize, now: ClaimValue, says: &mut EvaluateClaim<'_>) -> bool {
         if self.places.len() < 2 {
             return false;
         }
@@ -177,7 +177,7 @@ impl JointDraws<'_> {
                 _ => list.get((at * list.len() as f64) as usize).copied(),
             };
             if let Some(x) = x.filter(|x| kind.has(*x)) {
-                inputs.put(place, x);
+                inputs.set_value(place, x);
                 last = Some(x);
             }
         }
@@ -185,10 +185,10 @@ impl JointDraws<'_> {
 }
 
 /// Searches between tried values for one that changes the outcome of a claim, guided by the comparisons of the claim.
-fn turns(
+fn find_changing_value(
     comparisons: &[(f64, Vec<Comparison>)],
-    now: Outlook,
-    says: &mut dyn FnMut(f64) -> Option<(Outlook, Vec<Comparison>)>,
+    now: ClaimValue,
+    says: &mut dyn FnMut(f64) -> Option<(ClaimValue, Vec<Comparison>)>,
 ) -> bool {
     let difference = |list: &[Comparison], k: usize| list.get(k).map(|c| c.left - c.right);
     let count = comparisons.iter().map(|(_, list)| list.len()).min().unwrap_or(0).min(8);
@@ -200,7 +200,7 @@ fn turns(
                 continue;
             }
             let (mut low, mut high, low_side) = (*a, *b, da);
-            for _ in 0..HALVINGS {
+            for _ in 0..BISECTIONS {
                 let middle = low + (high - low) / 2.0;
                 let Some((then, list)) = says(middle) else { break };
                 if then.differs(now) {
@@ -219,7 +219,7 @@ fn turns(
                 continue;
             }
             let (mut low, mut high) = (*a, *b);
-            for _ in 0..HALVINGS {
+            for _ in 0..BISECTIONS {
                 let [x, y] = [high - 0.618_034 * (high - low), low + 0.618_034 * (high - low)];
                 let (Some((at_x, lx)), Some((at_y, ly))) = (says(x), says(y)) else { break };
                 if at_x.differs(now) || at_y.differs(now) {

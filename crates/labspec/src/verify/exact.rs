@@ -29,12 +29,12 @@ const SAMPLES: usize = 500;
 const ROUNDING: f64 = 1e-9;
 /// Fractions of the range of a trace: the uncertainty up to which a formula without a tolerance is confirmed, and the
 /// largest accepted distance of the trace from the formula at the timestep of the lab.
-const UNSURE: f64 = 0.01;
-const FAR: f64 = 0.1;
+const MAX_UNCERTAINTY: f64 = 0.01;
+const MAX_DISTANCE: f64 = 0.1;
 
-/// A tolerance above `WIDE` times the larger of trace and formula accepts everything. `NOISE` is the difference that
-/// rounding alone produces.
-const WIDE: f64 = 2.0;
+/// A tolerance above `WIDE_TOLERANCE_FACTOR` times the larger of trace and formula accepts everything. `NOISE` is the
+/// difference that rounding alone produces.
+const WIDE_TOLERANCE_FACTOR: f64 = 2.0;
 const NOISE: f64 = 1e-12;
 
 /// The result of checking the closed form of a trace.
@@ -178,7 +178,7 @@ pub(super) fn bind_closed_form<'b>(
         lab.traces().zip(&programs.probes).filter(|(trace, _)| trace.label.value == claim.trace.value);
     let probes: Vec<_> = named.map(|(_, probe)| probe.bound.as_ref()).collect();
     if probes.is_empty() {
-        findings.push(no_such_trace(claim, lab));
+        findings.push(unknown_trace(claim, lab));
         return Err("the lab has no such trace");
     }
     let names = ModelNames::new(model, Scope::Lab).with(&programs.functions);
@@ -241,7 +241,7 @@ fn no_formula(claim: &Exact, what: &str) -> Finding {
         .help("write a formula of `data.time` and parameters of the lab")
 }
 
-fn no_such_trace(claim: &Exact, lab: &Lab) -> Finding {
+fn unknown_trace(claim: &Exact, lab: &Lab) -> Finding {
     let labels: Vec<&str> = lab.traces().map(|t| t.label.as_str()).collect();
     let message = format!("the lab has no trace \"{}\"", claim.trace.value);
     let finding = Finding::error(rules::UNKNOWN_TRACE, claim.trace.span(), message)
@@ -254,14 +254,14 @@ fn no_such_trace(claim: &Exact, lab: &Lab) -> Finding {
 }
 
 /// The point at which a trace deviates from its closed form.
-struct Wrong {
+struct LargestDeviation {
     time: f64,
     trace: f64,
     form: f64,
     how: String,
 }
 
-impl Wrong {
+impl LargestDeviation {
     fn finding(&self, claim: &Exact) -> Finding {
         let message = format!(
             "\"{}\" does not follow this: at t = {} s it is {}, but the formula gives {}",
@@ -276,16 +276,16 @@ impl Wrong {
     }
 }
 
-type Judged = (State, String, Option<Wrong>);
+type Comparison = (State, String, Option<LargestDeviation>);
 
 /// Whether the trace stays within a tolerance.
-fn within(tol: f64, run: &Differences) -> Judged {
+fn within(tol: f64, run: &Differences) -> Comparison {
     let (i, worst) = largest(run.times.len(), |i| run.difference(i));
     let apart =
         format!("they differ by at most {}, the tolerance is {}", significant(worst), significant(tol));
     // Near zero, both values are noise, and no tolerance is too large for them.
     let noise = worst <= NOISE;
-    if worst <= tol && tol > WIDE * run.size() && !noise {
+    if worst <= tol && tol > WIDE_TOLERANCE_FACTOR * run.size() && !noise {
         let how = format!(
             "a tolerance of {} accepts everything, because no value exceeds {}",
             significant(tol),
@@ -300,7 +300,7 @@ fn within(tol: f64, run: &Differences) -> Judged {
 }
 
 /// Whether the difference vanishes as the timestep decreases.
-fn converges(order: i32, h: &Differences, half: &Differences, quarter: &Differences) -> Judged {
+fn converges(order: i32, h: &Differences, half: &Differences, quarter: &Differences) -> Comparison {
     let n = h.times.len();
     let power = f64::from(2_i32.pow(order.unsigned_abs()));
     let extrapolated = |coarse: &Differences, fine: &Differences, i: usize| {
@@ -320,11 +320,11 @@ fn converges(order: i32, h: &Differences, half: &Differences, quarter: &Differen
     if vanishing && left <= unsure + rounding {
         // A formula that is confirmed only to more than a hundredth of the range of the trace is not accepted. Neither is
         // a formula that differs by more than a tenth of that range from the trace at the timestep of the lab.
-        if unsure > UNSURE * range + rounding {
+        if unsure > MAX_UNCERTAINTY * range + rounding {
             let how = format!("{shrinks}, so the formula is confirmed only to {}", significant(unsure));
             return (State::Unchecked, how, None);
         }
-        if errors[0] > FAR * range + rounding {
+        if errors[0] > MAX_DISTANCE * range + rounding {
             let how = format!("{shrinks}, and the trace ranges over {}", significant(range));
             return (State::Unchecked, how, None);
         }
@@ -342,9 +342,9 @@ fn converges(order: i32, h: &Differences, half: &Differences, quarter: &Differen
 }
 
 /// The extrapolated trace and the formula, at the point of the largest difference.
-fn wrong(run: &Differences, i: usize, difference: f64, how: String) -> Option<Wrong> {
+fn wrong(run: &Differences, i: usize, difference: f64, how: String) -> Option<LargestDeviation> {
     let [_, form] = *run.values.get(i)?;
-    Some(Wrong { time: *run.times.get(i)?, trace: form + difference, form, how })
+    Some(LargestDeviation { time: *run.times.get(i)?, trace: form + difference, form, how })
 }
 
 /// The index and the magnitude of the largest of `n` numbers.
@@ -398,7 +398,7 @@ impl ClosedFormRuns<'_> {
             found.values.push(pair);
             ControlFlow::Continue(())
         });
-        stage.note(session.left_behind());
+        stage.note(session.has_uncoupled_change());
         if let Some(time) = gap {
             let time = significant(time);
             return Err(format!("at t = {time} s the trace or the formula is not a number"));
@@ -406,8 +406,8 @@ impl ClosedFormRuns<'_> {
         if let Some(End::Budget { time }) = session.ended() {
             return Err(format!("the work budget ran out at t = {} s", run::time(*time)));
         }
-        if let Some(trouble) = session.troubles.first() {
-            return Err(trouble.message.clone());
+        if let Some(program_error) = session.program_errors.first() {
+            return Err(program_error.message.clone());
         }
         match (run::worst_breakdown(&session), session.ended()) {
             (Some(breakdown), _) => Err(format!("the run breaks: {}", breakdown.what)),

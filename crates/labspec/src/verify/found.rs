@@ -6,7 +6,7 @@ use super::bound_run::CompiledText;
 use super::claim::reads_outside_run;
 use super::compiled_claim::{ClaimInputs, CompiledClaim, TracedValue};
 use super::condition::{self, ConditionMargin};
-use super::evidence::{self, Outlook};
+use super::evidence::{self, ClaimValue};
 use super::format::{shorten, significant};
 use super::layout::Slot;
 use super::outcome::Outcome;
@@ -72,7 +72,7 @@ impl BoundVerify<'_> {
         let nothing_read = claim.reads.is_empty() && program.aggregates().is_empty();
         let evidence = if measured.is_empty() { Evidence::Computed } else { Evidence::Simulated };
         let mut parts = Vec::new();
-        let mut doubt = None;
+        let mut sample_gap = None;
         if !program.aggregates().is_empty() {
             let [run] = self.runs.as_slice() else { return None };
             if let Some(x) = outcome.measured_elsewhere(&text.value) {
@@ -87,25 +87,25 @@ impl BoundVerify<'_> {
             }
             // The text contains aggregates, which is allowed in a lesson with one run: repeat the run to evaluate them.
             let named = CompiledText { text, program: program.clone() };
-            let made = self.perform(run, outcome.numerics, &[&named], findings)?;
+            let made = self.execute_run(run, outcome.numerics, &[&named], findings)?;
             let expected = run.spec.is_some_and(|r| r.breaks);
             let how = made.broke.filter(|_| !expected);
             broke = broke.or(how.map(|how| format!("the run breaks: {how}")));
             if let Some(sampled) = made.values.into_iter().next() {
-                (parts, doubt) = (sampled.parts, sampled.doubt);
+                (parts, sample_gap) = (sampled.parts, sampled.sample_gap);
             }
         }
         let inputs = claim.inputs(self, outcome, parts);
         let traced = match claim.evaluate(self, &inputs, None)? {
             Ok(traced) => traced,
             Err(error) => {
-                findings.push(threw(text, &error));
+                findings.push(error_finding(text, &error));
                 return None;
             }
         };
         let undecided = traced.lost.map(|span| Undecided {
             part: text.value.get(span.start..span.end).unwrap_or(&text.value).to_string(),
-            because: doubt.map(|d| d.to_string()).or_else(|| self.missing(&claim, outcome, &inputs)),
+            because: sample_gap.map(|d| d.to_string()).or_else(|| self.missing(&claim, outcome, &inputs)),
         });
         let value = if undecided.is_some() { Value::Number(f64::NAN) } else { traced.value.clone() };
         // The length of a sweep is not a result of a run, so a condition on it is not evidence.
@@ -141,8 +141,8 @@ impl BoundVerify<'_> {
                 let run = outcome.runs.get(*run)?;
                 let (name, _) = run.measures.get(*measure)?;
                 let title = format!("{}.{name}", run.title());
-                Some(match run.doubts.iter().find(|(doubted, _)| doubted == name) {
-                    Some((_, doubt)) => format!("`{title}` has no value: {doubt}"),
+                Some(match run.missing_samples.iter().find(|(doubted, _)| doubted == name) {
+                    Some((_, sample_gap)) => format!("`{title}` has no value: {sample_gap}"),
                     None => format!("`{title}` has no value: its event does not happen in the run"),
                 })
             }
@@ -169,9 +169,9 @@ impl BoundVerify<'_> {
                 return None;
             }
             let look = match (says, &traced.value) {
-                (Some(says), value) => Outlook::Holds(says(value)),
-                (None, Value::Boolean(holds)) => Outlook::Holds(*holds),
-                (None, value) => Outlook::Number(value.to_number()),
+                (Some(says), value) => ClaimValue::Holds(says(value)),
+                (None, Value::Boolean(holds)) => ClaimValue::Holds(*holds),
+                (None, value) => ClaimValue::Number(value.to_number()),
             };
             Some((look, traced.comparisons))
         };
@@ -180,7 +180,7 @@ impl BoundVerify<'_> {
         }
         // A claim that is false may be true only for rare values, so it is only tested with each number alone.
         match outlook(inputs) {
-            Some((now, _)) if now != Outlook::Holds(false) => {
+            Some((now, _)) if now != ClaimValue::Holds(false) => {
                 self.differs_somewhere(claim, inputs, now, &mut |inputs| Some(outlook(inputs)?.0))
             }
             _ => true,
@@ -258,7 +258,7 @@ impl BoundVerify<'_> {
                 // Each value is perturbed by a different fraction, so that ratios change too.
                 let part = 1e-7 * (1.0 + 0.618 * k as f64);
                 if let Some(x) = inputs.at(*place) {
-                    moved.put(*place, x + part * x.abs().max(1e-6));
+                    moved.set_value(*place, x + part * x.abs().max(1e-6));
                 }
             }
             claim.evaluate(self, &moved, None).and_then(Result::ok)
@@ -286,7 +286,7 @@ impl BoundVerify<'_> {
 }
 
 /// The finding about an expression that throws.
-fn threw(text: &Text, error: &RuntimeError) -> Finding {
+fn error_finding(text: &Text, error: &RuntimeError) -> Finding {
     Finding::error(error.rule, text.span_of(error.span.start..error.span.end), error.message.clone())
         .why("the claim cannot be checked: this expression has no value")
         .help("correct the expression, or guard it with a condition")

@@ -3,13 +3,13 @@
 //! whatever is simulated. A claim that is true for every imagined run is true for any run.
 
 use super::aggregate::AggregateKind;
-use super::anything::{Anything, Manner};
+use super::anything::{Anything, DrawMode};
 use super::bound::BoundVerify;
 use super::bound_run::CompiledText;
 use super::compiled_claim::{ClaimInputs, CompiledClaim};
 use super::condition::numbers_in;
 use super::draws::Draws;
-use super::evidence::{Outlook, reach};
+use super::evidence::{ClaimValue, reach};
 use super::layout::Slot;
 use super::measure::Measure;
 use super::sample::Sample;
@@ -18,15 +18,15 @@ use crate::source::{SourceMap, Text};
 use labspec_expr::{Context, Program, Value};
 
 /// An imagined run.
-struct Imagined<'w> {
+struct ImaginedRun<'w> {
     host: Anything<'w>,
     context: Context,
 }
 
 /// Work budget of a program at an imagined sample.
-const ALLOWED: u64 = 20_000;
+const PROGRAM_WORK: u64 = 20_000;
 
-impl Sample for Imagined<'_> {
+impl Sample for ImaginedRun<'_> {
     fn time(&self) -> f64 {
         self.host.time.unwrap_or(0.0)
     }
@@ -36,19 +36,19 @@ impl Sample for Imagined<'_> {
     }
 
     fn evaluate(&mut self, program: &Program, _: &Text) -> Option<Value> {
-        self.context.allow(ALLOWED);
+        self.context.allow(PROGRAM_WORK);
         program.run(&mut self.host, &mut self.context, None).ok()
     }
 }
 
 /// Number of sets of imagined runs, and how many of them must decide a claim.
-const SETS: u64 = 200;
+const MAX_RUN_SETS: u64 = 200;
 const DECIDED: usize = 24;
 /// Number of samples of an imagined run, and the maximum for runs in which something is counted.
 const SAMPLES: [usize; 3] = [3, 8, 20];
 const MOST_SAMPLES: f64 = 4096.0;
 /// Maximum number of evaluations of measures at samples for one claim. The sets evaluated by then decide.
-const MOST_LOOKS: usize = 40_000;
+const MAX_EVALUATIONS: usize = 40_000;
 
 impl BoundVerify<'_> {
     /// Whether some set of imagined runs gives a claim an outcome other than `now`. Also `true` where too few sets decide
@@ -57,8 +57,8 @@ impl BoundVerify<'_> {
         &self,
         claim: &CompiledClaim,
         nominal: &ClaimInputs,
-        now: Outlook,
-        says: &mut dyn FnMut(&ClaimInputs) -> Option<Outlook>,
+        now: ClaimValue,
+        says: &mut dyn FnMut(&ClaimInputs) -> Option<ClaimValue>,
     ) -> bool {
         if claim.measured(self).is_empty() {
             return true;
@@ -79,14 +79,14 @@ impl BoundVerify<'_> {
             return true;
         }
         let (mut decided, mut looks) = (0, 0);
-        for set in 0..SETS {
+        for set in 0..MAX_RUN_SETS {
             let long = counts && set % 5 == 4;
             let samples = if long { 8 * largest as usize } else { SAMPLES[set as usize % SAMPLES.len()] };
             looks += samples * (1 + measures.len());
-            if looks > MOST_LOOKS {
+            if looks > MAX_EVALUATIONS {
                 break;
             }
-            let Some(inputs) = self.imagine(claim, nominal, &numbers, set, samples) else { return true };
+            let Some(inputs) = self.draw_inputs(claim, nominal, &numbers, set, samples) else { return true };
             let Some(then) = says(&inputs) else { continue };
             if then.differs(now) {
                 return true;
@@ -108,7 +108,7 @@ impl BoundVerify<'_> {
     }
 
     /// The inputs of a claim from one set of imagined runs; `None` where they cannot be evaluated.
-    fn imagine(
+    fn draw_inputs(
         &self,
         claim: &CompiledClaim,
         nominal: &ClaimInputs,
@@ -121,8 +121,8 @@ impl BoundVerify<'_> {
         draws.unit();
         for place in &claim.reads {
             match self.layout().slots.get(*place) {
-                Some(Slot::Warnings(_)) => inputs.put(*place, (4.0 * draws.unit()).floor()),
-                Some(Slot::Found(_)) => inputs.put(*place, ValueKind::ANY.nearest(draws.any())),
+                Some(Slot::Warnings(_)) => inputs.set_value(*place, (4.0 * draws.unit()).floor()),
+                Some(Slot::Found(_)) => inputs.set_value(*place, ValueKind::ANY.nearest(draws.any())),
                 _ => {}
             }
         }
@@ -139,7 +139,7 @@ impl BoundVerify<'_> {
             let here = || measures.iter().filter(|(_, of, _)| *of == run);
             self.idle_in(self.runs.get(run)?.scene, |session| {
                 let host = Anything { world: &session.world, seeds: [seed, 0], manner, time: Some(0.0) };
-                let mut imagined = Imagined { host, context: session.context.clone() };
+                let mut imagined = ImaginedRun { host, context: session.context.clone() };
                 let mut running: Vec<Measure<'_>> =
                     here().map(|(.., m)| Measure::new(&m.program, m.text)).collect();
                 let mut parts = on_the_spot.filter(|_| run == 0).map(|p| Measure::new(p, &nowhere));
@@ -151,7 +151,7 @@ impl BoundVerify<'_> {
                     time += draws.any().abs();
                 }
                 for (measure, (place, ..)) in running.into_iter().zip(here()) {
-                    inputs.put(*place, measure.finish(&mut imagined).value);
+                    inputs.set_value(*place, measure.finish(&mut imagined).value);
                 }
                 if let Some(parts) = parts {
                     inputs.parts = parts.parts();
@@ -162,17 +162,17 @@ impl BoundVerify<'_> {
     }
 }
 
-fn manner(draws: &mut Draws, numbers: &[f64]) -> Manner {
+fn manner(draws: &mut Draws, numbers: &[f64]) -> DrawMode {
     let choice = draws.unit();
     if choice < 0.4 {
-        return Manner::Any;
+        return DrawMode::Any;
     }
     if choice < 0.5 {
-        return Manner::Zero;
+        return DrawMode::Zero;
     }
     if choice < 0.6 {
-        return Manner::Steady;
+        return DrawMode::ConstantPerRun;
     }
     let which = (draws.unit() * (numbers.len() + 1) as f64) as usize;
-    Manner::Near(numbers.get(which).copied().unwrap_or_else(|| draws.any()))
+    DrawMode::Near(numbers.get(which).copied().unwrap_or_else(|| draws.any()))
 }

@@ -53,7 +53,7 @@ pub struct Measured {
 }
 
 /// The result of a `verify` object whose runs cannot be executed: no claim could be checked.
-pub fn unmade(verify: &Verify, question: Option<&Question>, reason: &str) -> Judgement {
+pub fn not_executable(verify: &Verify, question: Option<&Question>, reason: &str) -> Judgement {
     let run = |run: &Run| RunReport {
         name: run.name.value.clone(),
         span: run.name.span(),

@@ -7,7 +7,7 @@ use labspec_expr::{Program, Watch};
 
 /// Why a measure has no value although its events happened: some samples had no number.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Doubt {
+pub(crate) struct MissingSamples {
     /// The part of the measure, as written.
     pub(crate) part: String,
     /// Number of samples without a number, and of all samples.
@@ -17,9 +17,9 @@ pub(crate) struct Doubt {
     pub(crate) first: f64,
 }
 
-impl std::fmt::Display for Doubt {
+impl std::fmt::Display for MissingSamples {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Doubt { part, gaps, samples, first } = self;
+        let MissingSamples { part, gaps, samples, first } = self;
         if *samples == 0 {
             return write!(f, "`{part}` compares NaN");
         }
@@ -36,7 +36,7 @@ pub(crate) struct Sampled {
     pub(crate) value: f64,
     /// The results of its aggregates, in order.
     pub(crate) parts: Vec<f64>,
-    pub(crate) doubt: Option<Doubt>,
+    pub(crate) sample_gap: Option<MissingSamples>,
 }
 
 /// The aggregates of one measure.
@@ -82,19 +82,19 @@ impl<'a> Measure<'a> {
             self.text.value.get(start..end).unwrap_or(&self.text.value).to_string()
         };
         let open = self.running.iter().zip(self.program.aggregates()).find(|(r, _)| r.gaps.count > 0);
-        let doubt = match (open, lost) {
-            (Some((r, aggregate)), _) => Some(Doubt {
+        let sample_gap = match (open, lost) {
+            (Some((r, aggregate)), _) => Some(MissingSamples {
                 part: part(aggregate.span.start, aggregate.span.end),
                 gaps: r.gaps.count,
                 samples: self.samples,
                 first: r.gaps.first,
             }),
             (None, Some(span)) => {
-                Some(Doubt { part: part(span.start, span.end), gaps: 0, samples: 0, first: 0.0 })
+                Some(MissingSamples { part: part(span.start, span.end), gaps: 0, samples: 0, first: 0.0 })
             }
             (None, None) => None,
         };
         let parts = self.parts();
-        Sampled { value: if doubt.is_some() { f64::NAN } else { value }, parts, doubt }
+        Sampled { value: if sample_gap.is_some() { f64::NAN } else { value }, parts, sample_gap }
     }
 }

@@ -74,7 +74,7 @@ pub(crate) use check_verify::{check_nominal, lint_verify};
 pub use curves::Curves;
 pub use exact::ClosedForm;
 pub use format::significant;
-pub use judgement::{Judgement, Measured, RunReport, unmade};
+pub use judgement::{Judgement, Measured, RunReport, not_executable};
 pub(crate) use numerics::HALVED;
 pub use numerics::PERTURBED_BACK;
 pub use numerics::PERTURBED_START;

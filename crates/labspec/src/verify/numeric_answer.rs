@@ -59,11 +59,13 @@ pub(super) fn check_number(
     if value.unread || !bound.could_differ(&value, Some(&says)) {
         return Answer::failed(report_constant_claim(text, findings));
     }
-    if let Err((verdict, reason)) = key.refuse_mistakes(bound, &outcomes.nominal, wrong, findings) {
+    if let Err((verdict, reason)) =
+        key.check_tolerance_rejects_wrong(bound, &outcomes.nominal, wrong, findings)
+    {
         return judged(verdict, reason);
     }
     let mut turns = |outcome: &Outcome, how: &str, weights: &mut [Weight]| {
-        key.turned_over(bound, outcome, how, computed, weights)
+        key.answer_changes(bound, outcome, how, computed, weights)
     };
     if let Err((verdict, reason)) =
         withstand_numerics(bound, outcomes, &mut weights, keyed.span.clone(), findings, &mut turns)
@@ -71,7 +73,7 @@ pub(super) fn check_number(
         return judged(verdict, reason);
     }
     let uncompared = unit == quote::AnswerUnit::Unknown && asked.is_some_and(|u| quote::is_unit(u.as_str()));
-    let reason = if uncompared { UNIT_OPEN.to_string() } else { String::new() };
+    let reason = if uncompared { UNIT_NOT_COMPARED.to_string() } else { String::new() };
     Answer { verdict: verdict_by(Some(value.evidence)), reason, weights }
 }
 
@@ -159,7 +161,7 @@ impl NumericKey<'_> {
     ///
     /// # Errors
     /// It accepts one, or one has no value: the verdict, and the reason.
-    fn refuse_mistakes(
+    fn check_tolerance_rejects_wrong(
         &self,
         bound: &BoundVerify<'_>,
         nominal: &Outcome,
@@ -168,7 +170,7 @@ impl NumericKey<'_> {
     ) -> Result<(), (Verdict, String)> {
         for mistake in wrong {
             let x = self.factor
-                * mistaken_number(bound, nominal, mistake, findings).map_err(|reason| {
+                * value_of_wrong_answer(bound, nominal, mistake, findings).map_err(|reason| {
                     (Verdict::Failed, format!("a value of `wrong` is unknown: {reason}"))
                 })?;
             if self.accepts(x) {
@@ -190,7 +192,7 @@ impl NumericKey<'_> {
 
     /// A finding if the answer is false in an outcome under perturbed numerics; otherwise the spread of `weights` is
     /// widened. `computed` is the value under the numerics of the lesson.
-    fn turned_over(
+    fn answer_changes(
         &self,
         bound: &BoundVerify<'_>,
         outcome: &Outcome,
@@ -215,10 +217,11 @@ impl NumericKey<'_> {
 }
 
 /// The remark for a correct number whose unit could not be compared.
-const UNIT_OPEN: &str = "its unit could not be compared, because the unit of the expression is uncertain";
+const UNIT_NOT_COMPARED: &str =
+    "its unit could not be compared, because the unit of the expression is uncertain";
 
 /// The value of a mistake, given by an expression under `wrong`.
-fn mistaken_number(
+fn value_of_wrong_answer(
     bound: &BoundVerify<'_>,
     outcome: &Outcome,
     text: &Text,

@@ -12,7 +12,7 @@ pub(super) const FAST: StepVariant =
 
 pub(super) const RK4: StepVariant = StepVariant { integrator: Some(integrator::RK4), ..StepVariant::NOMINAL };
 
-pub(super) const TIGHT: StepVariant = StepVariant { tight: true, ..StepVariant::NOMINAL };
+pub(super) const TIGHT_SOLVER: StepVariant = StepVariant { tight: true, ..StepVariant::NOMINAL };
 
 /// Far below anything that could be set or measured. A system in which it is visible after seconds is chaotic.
 pub(super) const PERTURBATION: f64 = 1e-14;
@@ -27,11 +27,11 @@ pub(super) const CHANGES: usize = 4;
 /// The perturbed numerics under which an answer must hold, and their names. Quotes use the first and the third.
 pub(super) const PERTURBED: [(StepVariant, &str); CHANGES] = [
     (HALVED, "at half the timestep"),
-    (TIGHT, "with the solver run to convergence"),
+    (TIGHT_SOLVER, "with the solver run to convergence"),
     (PERTURBED_START, "with a start moved by 1e-14"),
     (FAST, "with the integrator implicitfast"),
 ];
 
 /// Additional numerics for an answer, where the changes under the others come close to the margin of a condition.
-pub(super) const CLOSER: [(StepVariant, &str); 2] =
+pub(super) const CLOSE_VARIANTS: [(StepVariant, &str); 2] =
     [(QUARTERED, "at a quarter of the timestep"), (RK4, "with the integrator RK4")];

@@ -4,7 +4,7 @@
 use super::bound::BoundVerify;
 use super::format::significant;
 use super::outcome::Outcome;
-use super::quote::{Held, OptionNumber, conversion, hold, option_ratio, option_text};
+use super::quote::{OptionNumber, UnitMatch, conversion, hold, option_ratio, option_text};
 use super::units;
 use crate::finding::Finding;
 use crate::rules;
@@ -17,7 +17,7 @@ const NEAREST: f64 = 1.5;
 
 /// The range that a condition requires of the one quantity that it compares with numbers.
 #[derive(Clone, Debug, PartialEq)]
-struct AskedRange {
+struct RequiredRange {
     quantity: String,
     /// Whether the quantity is a ratio of two measured quantities.
     ratio: bool,
@@ -58,11 +58,11 @@ fn contradiction(
     condition: &Text,
     holds: bool,
 ) -> Option<String> {
-    let asked = asked(&parse_expression(&condition.value).tree)?;
-    let closed = asked.low.is_finite() && asked.high.is_finite();
+    let required = required_range(&parse_expression(&condition.value).tree)?;
+    let closed = required.low.is_finite() && required.high.is_finite();
     let stated = match option_text(&option.value) {
         Some(claimed) => claimed,
-        None if closed && asked.ratio => return no_such_ratio(option, &asked),
+        None if closed && required.ratio => return contradicted_ratio(option, &required),
         None => return None,
     };
     // A condition with one side may bound another quantity than the option mentions: a height instead of a fall distance.
@@ -74,8 +74,10 @@ fn contradiction(
     let widen = |x: f64, f: f64| if x > 0.0 { x * f } else { x / f };
     let stated =
         OptionNumber { low: widen(stated.low, 1.0 / slip), high: widen(stated.high, slip), ..stated };
-    let text =
-        Text { map: SourceMap::whole(asked.quantity.len(), condition.span()), value: asked.quantity.clone() };
+    let text = Text {
+        map: SourceMap::whole(required.quantity.len(), condition.span()),
+        value: required.quantity.clone(),
+    };
     let found = units::of_claim(bound, outcome, &text)?;
     let wanted = stated.unit.dimension?;
     if !found.agrees(&wanted) {
@@ -83,14 +85,14 @@ fn contradiction(
     }
     let factor = match conversion(&wanted, &found) {
         Some(factor) => factor,
-        None if hold(&stated.unit, Some(&found)) == Held::Fits
+        None if hold(&stated.unit, Some(&found)) == UnitMatch::Fits
             && (wanted.factor / found.factor - 1.0).abs() < 1e-3 =>
         {
             1.0
         }
         None => return None,
     };
-    let (low, high) = (asked.low * factor, asked.high * factor);
+    let (low, high) = (required.low * factor, required.high * factor);
     let slack = 1e-9 * stated.low.abs().max(stated.high.abs()).min(f64::MAX);
     let slack = if slack.is_finite() { slack } else { 0.0 };
     if stated.high < low - slack || stated.low > high + slack {
@@ -107,13 +109,13 @@ fn contradiction(
 }
 
 /// The contradiction between an option that states a ratio and a condition that requires another one.
-fn no_such_ratio(option: &Text, asked: &AskedRange) -> Option<String> {
+fn contradicted_ratio(option: &Text, required: &RequiredRange) -> Option<String> {
     let stated = option_ratio(&option.value)?;
-    let slack = 0.05 * asked.low.abs().max(asked.high.abs());
-    let fits = |x: &f64| asked.low - slack <= *x && *x <= asked.high + slack;
+    let slack = 0.05 * required.low.abs().max(required.high.abs());
+    let fits = |x: &f64| required.low - slack <= *x && *x <= required.high + slack;
     let none = !stated.may_be.iter().any(fits);
     none.then(|| {
-        format!("the option says {}, but its condition {}", stated.text, range(asked.low, asked.high))
+        format!("the option says {}, but its condition {}", stated.text, range(required.low, required.high))
     })
 }
 
@@ -123,12 +125,12 @@ fn range(low: f64, high: f64) -> String {
 }
 
 /// The range that a condition requires of one quantity; `None` where it is about several, or has another form.
-fn asked(e: &Expr) -> Option<AskedRange> {
+fn required_range(e: &Expr) -> Option<RequiredRange> {
     match &e.kind {
         ExprKind::Logical { op: LogicalOp::And, left, right } => {
-            let (a, b) = (asked(left)?, asked(right)?);
+            let (a, b) = (required_range(left)?, required_range(right)?);
             let same = a.quantity == b.quantity;
-            same.then(|| AskedRange { low: a.low.max(b.low), high: a.high.min(b.high), ..a })
+            same.then(|| RequiredRange { low: a.low.max(b.low), high: a.high.min(b.high), ..a })
         }
         ExprKind::Binary { op, left, right } => {
             let (quantity, number, flipped) = match (constant(left), constant(right)) {
@@ -147,7 +149,7 @@ fn asked(e: &Expr) -> Option<AskedRange> {
             let ratio = is_ratio(quantity);
             let quantity = single(quantity).then(|| print(quantity))?;
             let (low, high) = if below { (f64::NEG_INFINITY, number) } else { (number, f64::INFINITY) };
-            Some(AskedRange { quantity, ratio, low, high })
+            Some(RequiredRange { quantity, ratio, low, high })
         }
         _ => None,
     }
@@ -167,7 +169,7 @@ fn magnitude(e: &Expr) -> Option<&Expr> {
 }
 
 /// The range of `abs(x - c) < d` or `abs(x / c - 1) < d`.
-fn around(inner: &Expr, off: f64) -> Option<AskedRange> {
+fn around(inner: &Expr, off: f64) -> Option<RequiredRange> {
     let ExprKind::Binary { op: BinaryOp::Subtract, left, right } = &inner.kind else { return None };
     let (quantity, centre) = match (constant(left), constant(right)) {
         (None, Some(centre)) => (left, centre),
@@ -177,7 +179,7 @@ fn around(inner: &Expr, off: f64) -> Option<AskedRange> {
     if let ExprKind::Binary { op: BinaryOp::Divide, left, right } = &quantity.kind
         && let Some(unit) = constant(right).filter(|c| *c > 0.0)
     {
-        return single(left).then(|| AskedRange {
+        return single(left).then(|| RequiredRange {
             quantity: print(left),
             ratio: is_ratio(left),
             low: unit * (centre - off),
@@ -185,7 +187,7 @@ fn around(inner: &Expr, off: f64) -> Option<AskedRange> {
         });
     }
     let ratio = is_ratio(quantity);
-    single(quantity).then(|| AskedRange {
+    single(quantity).then(|| RequiredRange {
         quantity: print(quantity),
         ratio,
         low: centre - off,
@@ -238,8 +240,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_a_condition_asks_is_an_interval() {
-        let of = |text: &str| asked(&parse_expression(text).tree).map(|a| (a.quantity, a.low, a.high));
+    fn the_requirement_of_a_condition_is_an_interval() {
+        let of =
+            |text: &str| required_range(&parse_expression(text).tree).map(|a| (a.quantity, a.low, a.high));
         for (text, quantity, low, high) in [
             ("abs(m - 1.25) < 0.25", "m", 1.0, 1.5),
             ("Math.abs(1.25 - fall.m) <= 0.25", "fall.m", 1.0, 1.5),

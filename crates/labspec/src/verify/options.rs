@@ -54,7 +54,7 @@ pub(super) fn check_options(
     }
     let mut widened = judgement.weights.clone();
     let mut turns = |outcome: &Outcome, how: &str, weights: &mut [Weight]| {
-        judgement.turned_over(bound, outcome, how, weights)
+        judgement.answer_changes(bound, outcome, how, weights)
     };
     if let Err((verdict, reason)) =
         withstand_numerics(bound, outcomes, &mut widened, keyed.span.clone(), findings, &mut turns)
@@ -109,24 +109,24 @@ impl OptionJudgement<'_> {
 
     /// The answer if the keyed option is undecided, does not hold, or is not the only one.
     fn refuse(&self, undecided: &[usize], findings: &mut Vec<Finding>) -> Option<Answer> {
-        let held = self.options_with(Some(true));
+        let true_options = self.options_with(Some(true));
         if undecided.contains(&self.answer) {
             let reason = format!("answer {} is not decided by this evidence", self.name(self.answer));
             return Some(self.judged(Verdict::Failed, reason));
         }
-        if !held.contains(&self.answer) {
-            return Some(self.refute(&held, findings));
+        if !true_options.contains(&self.answer) {
+            return Some(self.refute(&true_options, findings));
         }
-        (held.len() > 1).then(|| self.report_ambiguous(&held, findings))
+        (true_options.len() > 1).then(|| self.report_ambiguous(&true_options, findings))
     }
 
     /// Reports that the keyed option does not hold.
-    fn refute(&self, held: &[usize], findings: &mut Vec<Finding>) -> Answer {
+    fn refute(&self, true_options: &[usize], findings: &mut Vec<Finding>) -> Answer {
         let message = format!("the simulation refutes answer {}", self.name(self.answer));
         let f = Finding::error(rules::ANSWER_REFUTED, self.keyed.clone(), message.clone())
             .why("a student who predicts the simulation correctly is graded as wrong")
             .related(self.condition(self.answer), format!("this condition {}", self.describe(self.answer)));
-        findings.push(match held {
+        findings.push(match true_options {
             [] => f.help("correct the conditions, or the model: no condition holds"),
             [one] => f
                 .help(format!("correct the answer or the conditions: the true option is {}", self.name(*one)))
@@ -141,8 +141,8 @@ impl OptionJudgement<'_> {
     }
 
     /// Reports that the keyed option holds and others too.
-    fn report_ambiguous(&self, held: &[usize], findings: &mut Vec<Finding>) -> Answer {
-        let others: Vec<usize> = held.iter().copied().filter(|&i| i != self.answer).collect();
+    fn report_ambiguous(&self, true_options: &[usize], findings: &mut Vec<Finding>) -> Answer {
+        let others: Vec<usize> = true_options.iter().copied().filter(|&i| i != self.answer).collect();
         let message =
             format!("besides answer {}, {} is also true", self.name(self.answer), self.names(&others));
         let mut f = Finding::error(rules::ANSWER_AMBIGUOUS, self.keyed.clone(), message.clone())
@@ -157,7 +157,7 @@ impl OptionJudgement<'_> {
 
     /// A finding if an option changes in an outcome under perturbed numerics. The spread of `weights` is widened by the
     /// margins.
-    fn turned_over(
+    fn answer_changes(
         &self,
         bound: &BoundVerify<'_>,
         outcome: &Outcome,

@@ -1,6 +1,6 @@
 //! The results of the runs.
 
-use super::measure::Doubt;
+use super::measure::MissingSamples;
 use crate::run::StepVariant;
 
 /// The measures of one run.
@@ -11,7 +11,7 @@ pub(super) struct RunOutcome {
     pub(super) swept: Option<(usize, f64)>,
     pub(super) measures: Vec<(String, f64)>,
     /// Why measures have no value because samples had no number, by name.
-    pub(super) doubts: Vec<(String, Doubt)>,
+    pub(super) missing_samples: Vec<(String, MissingSamples)>,
     /// Number of warnings of the engine.
     pub(super) warnings: usize,
     /// How it broke, in one clause. The measures of a broken run are not evidence.

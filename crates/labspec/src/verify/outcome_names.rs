@@ -47,7 +47,7 @@ impl<'a> OutcomeNames<'a> {
     }
 
     /// The names that were looked up by a text compiled with this schema.
-    pub(super) fn met(&self) -> NamesRead {
+    pub(super) fn names_read(&self) -> NamesRead {
         self.met.get()
     }
 
@@ -56,7 +56,7 @@ impl<'a> OutcomeNames<'a> {
         name == "abs" || (self.layout.has_lists() && ["slope", "fit", "min", "max", "mean"].contains(&name))
     }
 
-    fn only(&self) -> Option<&LayoutRun> {
+    fn only_run(&self) -> Option<&LayoutRun> {
         match self.layout.runs.as_slice() {
             [run] => Some(run),
             _ => None,
@@ -109,7 +109,7 @@ impl Schema for OutcomeNames<'_> {
         if let Some(i) = self.layout.runs.iter().position(|r| r.name == name) {
             return Some(Entry::Object(ObjectId(RUNS + i as u32)));
         }
-        match self.only() {
+        match self.only_run() {
             Some(run) => self.measured(run, name).or_else(|| self.model.root(name)),
             None if self.takes_several(name) => self.claims.root(name),
             None => None,
@@ -119,7 +119,7 @@ impl Schema for OutcomeNames<'_> {
     fn root_names(&self) -> Vec<String> {
         let found = self.layout.found.iter().map(|(name, _)| name.clone());
         let runs = found.chain(self.layout.runs.iter().map(|r| r.name.clone()));
-        match self.only() {
+        match self.only_run() {
             Some(run) => run.names().chain(runs).chain(self.model.root_names()).collect(),
             None => {
                 let functions = self.claims.root_names().into_iter().filter(|name| self.takes_several(name));

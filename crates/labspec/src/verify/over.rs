@@ -23,13 +23,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 /// All corners are run when there are at most this many.
-const FEW: usize = 16;
+const MAX_CORNERS: usize = 16;
 /// Maximum number of rows of a covering design, and of settings of a search.
 const ROWS: usize = 24;
-const SEARCHED: usize = 40;
+const MAX_SEARCH_RUNS: usize = 40;
 /// The first and the last step of the search, as fractions of the range.
-const FIRST: f64 = 0.25;
-const LAST: f64 = 1.0 / 64.0;
+const FIRST_STEP: f64 = 0.25;
+const LAST_STEP: f64 = 1.0 / 64.0;
 
 /// A slider and the values on its grid between the ends that the claim names.
 struct Axis<'v> {
@@ -204,7 +204,7 @@ impl Space<'_, '_, '_> {
     fn search(&mut self, findings: &mut Vec<Finding>) -> Option<Option<Counterexample>> {
         let levels = vec![2; self.axes.len()];
         let corners = match 1usize.checked_shl(levels.len() as u32) {
-            Some(n) if n <= FEW => pairwise::all(&levels),
+            Some(n) if n <= MAX_CORNERS => pairwise::all(&levels),
             _ => pairwise::pairwise(&levels, ROWS).0,
         };
         let mut starts: Vec<Vec<f64>> =
@@ -221,8 +221,8 @@ impl Space<'_, '_, '_> {
             }
         }
         let (mut least, mut here) = best?;
-        let (mut step, before) = (FIRST, self.tried.len());
-        while step >= LAST && self.tried.len() < before + SEARCHED {
+        let (mut step, before) = (FIRST_STEP, self.tried.len());
+        while step >= LAST_STEP && self.tried.len() < before + MAX_SEARCH_RUNS {
             let mut nearer = false;
             for k in 0..self.axes.len() {
                 for offset in [-step, step] {

@@ -6,7 +6,7 @@ use crate::bind::scene::Models;
 use crate::finding::Finding;
 use crate::json::{Number, Scalar, nearest, read::named};
 use crate::rules;
-use crate::run::Held;
+use crate::run::ProgramsRef;
 use crate::source::Text;
 use crate::spec::{Lab, Run, Sweep};
 use labspec_core::xml::Patch;
@@ -25,13 +25,13 @@ pub struct BoundLab<'a> {
     /// Its model.
     pub model: Arc<Model>,
     /// Its programs.
-    pub programs: Held<'a>,
+    pub programs: ProgramsRef<'a>,
     /// The identity of the model of the lab in the lesson.
     origin: u64,
     /// The modifications of its model, with their spans.
     pub(super) patches: Vec<(Patch, Range<usize>)>,
     /// Whether a modification changed a parameter of the model without the parameters coupled to it.
-    pub(super) left_behind: bool,
+    pub(super) has_uncoupled_change: bool,
     /// A key that distinguishes the modifications of the lab; empty for none.
     changes: String,
 }
@@ -42,10 +42,10 @@ impl<'a> BoundLab<'a> {
         BoundLab {
             lab: Cow::Borrowed(lab),
             model: model.clone(),
-            programs: Held::Lent(programs),
+            programs: ProgramsRef::Lent(programs),
             origin: model.identity(),
             patches: Vec::new(),
-            left_behind: false,
+            has_uncoupled_change: false,
             changes: String::new(),
         }
     }
@@ -67,7 +67,7 @@ pub struct Stage<'a> {
     runs: RefCell<BTreeMap<String, RunResult>>,
     left: Cell<u64>,
     /// Whether a run since the last query changed a parameter without the parameters coupled to it.
-    left_behind: Cell<bool>,
+    has_uncoupled_change: Cell<bool>,
 }
 
 impl<'a> Stage<'a> {
@@ -78,7 +78,7 @@ impl<'a> Stage<'a> {
             changed: RefCell::default(),
             runs: RefCell::default(),
             left: Cell::new(WORK),
-            left_behind: Cell::new(false),
+            has_uncoupled_change: Cell::new(false),
         }
     }
 
@@ -99,14 +99,14 @@ impl<'a> Stage<'a> {
     }
 
     /// Records whether a run changed a parameter without the parameters coupled to it.
-    pub(super) fn note(&self, left_behind: bool) {
-        self.left_behind.set(self.left_behind.get() || left_behind);
+    pub(super) fn note(&self, has_uncoupled_change: bool) {
+        self.has_uncoupled_change.set(self.has_uncoupled_change.get() || has_uncoupled_change);
     }
 
     /// Whether a run since the last call changed a parameter without the parameters coupled to it, as far as the programs
     /// observe that.
-    pub(crate) fn take_left_behind(&self) -> bool {
-        self.left_behind.take()
+    pub(crate) fn take_uncoupled_change(&self) -> bool {
+        self.has_uncoupled_change.take()
     }
 
     /// The remaining work.
@@ -179,7 +179,7 @@ impl<'a> Stage<'a> {
         let model =
             if patches.is_empty() { base.model.clone() } else { self.model(&lab, &patches, findings)? };
         let observed = &base.programs.observed;
-        let left = observed.as_ref().is_some_and(|o| o.is_left_by_change(&base.model, &model));
+        let left = observed.as_ref().is_some_and(|o| o.leaves_coupled(&base.model, &model));
         let model = match &base.programs.coupled {
             Some(coupled) => {
                 let mut corrected = (*model).clone();
@@ -205,9 +205,9 @@ impl<'a> Stage<'a> {
             }
             return None;
         }
-        let programs = Held::Shared(Arc::new(programs));
-        let left_behind = base.left_behind || left;
-        let scene = BoundLab { lab: Cow::Owned(lab), model, programs, left_behind, ..wanted };
+        let programs = ProgramsRef::Shared(Arc::new(programs));
+        let has_uncoupled_change = base.has_uncoupled_change || left;
+        let scene = BoundLab { lab: Cow::Owned(lab), model, programs, has_uncoupled_change, ..wanted };
         self.changed.borrow_mut().push(scene.clone());
         Some(scene)
     }

@@ -11,5 +11,5 @@ pub(crate) struct RunResult {
     /// How it broke.
     pub(super) broke: Option<String>,
     /// Whether a program, or a modification of the model, changed a parameter without the parameters coupled to it.
-    pub(super) left_behind: bool,
+    pub(super) has_uncoupled_change: bool,
 }

@@ -30,37 +30,37 @@ pub(super) struct RunRequest<'r, 'a> {
 }
 
 /// Executes a run. A result in the cache is reused; its findings were reported before.
-pub(super) fn perform(
-    asked: &RunRequest<'_, '_>,
+pub(super) fn execute_run(
+    request: &RunRequest<'_, '_>,
     stage: &Stage<'_>,
     findings: &mut Vec<Finding>,
 ) -> Option<RunResult> {
     // A step variant does not override what the lesson sets. A run that sets its timestep is about numerics.
     let (timestep, integrator) = (
-        states(asked.scene, asked.run, option::timestep),
-        states(asked.scene, asked.run, option::integrator),
+        states(request.scene, request.run, option::timestep),
+        states(request.scene, request.run, option::integrator),
     );
-    let StepVariant { timestep: shorter, integrator: other, .. } = asked.numerics;
+    let StepVariant { timestep: shorter, integrator: other, .. } = request.numerics;
     let numerics = StepVariant {
         timestep: if timestep { 1.0 } else { shorter },
         integrator: other.filter(|_| !timestep && !integrator),
-        ..asked.numerics
+        ..request.numerics
     };
-    let asked = &RunRequest { numerics, place: asked.place.clone(), ..*asked };
-    let key = key(asked);
+    let request = &RunRequest { numerics, place: request.place.clone(), ..*request };
+    let key = key(request);
     if let Some(cached) = stage.cached_run(&key) {
-        stage.note(cached.left_behind);
+        stage.note(cached.has_uncoupled_change);
         return Some(cached);
     }
-    let made = make(asked, stage, findings)?;
-    stage.note(made.left_behind);
+    let made = make(request, stage, findings)?;
+    stage.note(made.has_uncoupled_change);
     stage.keep(key, &made);
     Some(made)
 }
 
 /// The cache key: a text of everything that the result of a run depends on.
-fn key(asked: &RunRequest<'_, '_>) -> String {
-    let RunRequest { scene, run, numerics, measures, .. } = asked;
+fn key(request: &RunRequest<'_, '_>) -> String {
+    let RunRequest { scene, run, numerics, measures, .. } = request;
     let lab = &scene.scene.lab;
     let texts: Vec<&str> = measures.iter().map(|m| m.text.as_str()).collect();
     let of_run = run.spec.map(|spec| {
@@ -87,14 +87,14 @@ pub(super) struct PreparedRun<'r> {
 }
 
 /// Sets up a run: its controls, its setup, its length. Errors are added to `findings`.
-pub(super) fn ready<'r>(
-    asked: &RunRequest<'r, '_>,
+pub(super) fn prepare_run<'r>(
+    request: &RunRequest<'r, '_>,
     stage: &Stage<'_>,
     findings: &mut Vec<Finding>,
 ) -> Option<PreparedRun<'r>> {
-    let RunRequest { scene: bound, run, numerics, place, .. } = asked;
+    let RunRequest { scene: bound, run, numerics, place, .. } = request;
     let (lab, programs) = (&*bound.scene.lab, &*bound.scene.programs);
-    let plan = Some(Plan::new(&bound.scene.model, &access(asked)));
+    let plan = Some(Plan::new(&bound.scene.model, &access(request)));
     let start = Start { key: lab.keyframe(), plan, budget: Budget { left: stage.left() } };
     let mut session = Session::start(bound.scene.programs.clone(), &bound.scene.model, start);
     let mut refuse_at = |place: Range<usize>, e: RunError| {
@@ -131,12 +131,13 @@ pub(super) fn ready<'r>(
 
 /// Plays a run to its end. `sample` is called at the start and after every step, with the number of steps made.
 pub(super) fn play<'r>(
-    asked: &RunRequest<'r, '_>,
+    request: &RunRequest<'r, '_>,
     ready: &mut PreparedRun<'r>,
     mut sample: impl FnMut(&mut Session<'_>, usize),
 ) {
-    let RunRequest { scene: bound, run, .. } = asked;
-    let (lab, programs, displayed) = (&*bound.scene.lab, &*bound.scene.programs, bound.displayed.asked());
+    let RunRequest { scene: bound, run, .. } = request;
+    let (lab, programs, displayed) =
+        (&*bound.scene.lab, &*bound.scene.programs, bound.displayed.used_labels());
     let played = Play { steps: ready.count, every: 1, presses: &ready.press, watched: true };
     let mut watch = Some(Box::new(Watch::losses()));
     let mut open = None;
@@ -162,24 +163,24 @@ pub(super) fn play<'r>(
     ready.open = open;
 }
 
-fn make(asked: &RunRequest<'_, '_>, stage: &Stage<'_>, findings: &mut Vec<Finding>) -> Option<RunResult> {
-    let RunRequest { run, measures, .. } = asked;
-    let mut ready = ready(asked, stage, findings)?;
+fn make(request: &RunRequest<'_, '_>, stage: &Stage<'_>, findings: &mut Vec<Finding>) -> Option<RunResult> {
+    let RunRequest { run, measures, .. } = request;
+    let mut ready = prepare_run(request, stage, findings)?;
     let mut running: Vec<Measure<'_>> = measures.iter().map(|m| Measure::new(&m.program, m.text)).collect();
-    play(asked, &mut ready, |session, _| running.iter_mut().for_each(|m| m.sample(session)));
+    play(request, &mut ready, |session, _| running.iter_mut().for_each(|m| m.sample(session)));
     let open = ready.open;
     let mut session = ready.session;
     stage.spend(session.spent());
     let values = running.into_iter().map(|m| m.finish(&mut session)).collect();
-    for t in &session.troubles {
+    for t in &session.program_errors {
         let message = format!("{} (in the run {}, at t = {} s)", t.message, named(run.name), t.time);
         findings.push(Finding::error(t.rule, t.text.span_of(t.span.clone()), message));
     }
     Some(RunResult {
         values,
         warnings: session.warnings.iter().map(|w| w.number).sum(),
-        broke: broke(&session).or_else(|| open.map(undecided_stop)),
-        left_behind: session.left_behind() || asked.scene.scene.left_behind,
+        broke: describe_breakdown(&session).or_else(|| open.map(undecided_stop)),
+        has_uncoupled_change: session.has_uncoupled_change() || request.scene.scene.has_uncoupled_change,
     })
 }
 
@@ -226,10 +227,10 @@ pub(super) fn started_models(bound: &BoundScene<'_>, run: &BoundRun<'_>) -> Opti
 }
 
 /// The fields that the programs of the lab and of the run read and write.
-fn access(asked: &RunRequest<'_, '_>) -> AccessSet {
-    let mut access = asked.scene.scene.programs.access;
-    let texts_of_run = asked.run.setup.iter().chain(&asked.run.stop).map(|s| &s.program);
-    for program in asked.measures.iter().map(|m| &m.program).chain(texts_of_run) {
+fn access(request: &RunRequest<'_, '_>) -> AccessSet {
+    let mut access = request.scene.scene.programs.access;
+    let texts_of_run = request.run.setup.iter().chain(&request.run.stop).map(|s| &s.program);
+    for program in request.measures.iter().map(|m| &m.program).chain(texts_of_run) {
         include(program.effects(), &mut access);
         for arg in program.aggregates().iter().flat_map(|a| &a.args) {
             include(arg.effects(), &mut access);
@@ -243,8 +244,8 @@ fn undecided_stop(time: f64) -> String {
 }
 
 /// How a run broke, in one clause.
-fn broke(session: &Session<'_>) -> Option<String> {
-    match (run::worst_breakdown(session), session.troubles.first()) {
+fn describe_breakdown(session: &Session<'_>) -> Option<String> {
+    match (run::worst_breakdown(session), session.program_errors.first()) {
         (Some(breakdown), _) => Some(breakdown.what),
         (None, Some(t)) => Some(format!("{}, at t = {} s", t.message, t.time)),
         (None, None) => session.ended().map(|end| match end {

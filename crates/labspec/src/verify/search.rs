@@ -18,11 +18,11 @@ use labspec_core::xml::Patch;
 
 /// Number of values that are tested between the ends, and of the search for the minimum of the margin.
 const PROBES: usize = 12;
-const NEARER: usize = 20;
+const MAX_REFINEMENTS: usize = 20;
 /// Distances from the limit at which both sides are tested, as fractions of the range.
-const BESIDE: [f64; 2] = [0.004, 0.02];
+const TEST_DISTANCES: [f64; 2] = [0.004, 0.02];
 /// Maximum number of bisection steps; more would exceed the precision of numbers.
-const HALVINGS: usize = 60;
+const MAX_BISECTIONS: usize = 60;
 
 /// A search, with its run, its measures and its lab.
 pub(super) struct SearchCase<'c> {
@@ -127,12 +127,12 @@ fn halve(find: &Find, try_at: &mut dyn FnMut(f64) -> Option<TriedValue>) -> Opti
         tried.push((x, try_at(x)?));
     }
     let near: Vec<(f64, TriedValue)> =
-        tried.windows(3).map(|t| nearer(t, try_at)).collect::<Option<Vec<_>>>()?.concat();
+        tried.windows(3).map(|t| refine(t, try_at)).collect::<Option<Vec<_>>>()?.concat();
     tried.extend(near);
     tried.sort_by(|a, b| a.0.total_cmp(&b.0));
     let found = as_one(changes(&tried), find.tol.value);
     let [[mut low, mut high]] = found[..] else { return Some(Err(several(&found))) };
-    for _ in 0..HALVINGS {
+    for _ in 0..MAX_BISECTIONS {
         let middle = low + (high - low) / 2.0;
         if high - low <= find.tol.value || middle <= low || middle >= high {
             break;
@@ -145,7 +145,7 @@ fn halve(find: &Find, try_at: &mut dyn FnMut(f64) -> Option<TriedValue>) -> Opti
         }
         tried.push((middle, now));
     }
-    for x in BESIDE.iter().flat_map(|part| [low - part * (to - from), high + part * (to - from)]) {
+    for x in TEST_DISTANCES.iter().flat_map(|part| [low - part * (to - from), high + part * (to - from)]) {
         if x > from && x < to {
             tried.push((x, try_at(x)?));
         }
@@ -181,7 +181,7 @@ fn several(changes: &[[f64; 2]]) -> NoLimit {
 }
 
 /// Searches among three neighbours for the minimum of the margin, where it is between them.
-fn nearer(
+fn refine(
     three: &[(f64, TriedValue)],
     try_at: &mut dyn FnMut(f64) -> Option<TriedValue>,
 ) -> Option<Vec<(f64, TriedValue)>> {
@@ -196,7 +196,7 @@ fn nearer(
     }
     let (mut low, mut high) = (*a, *b);
     let mut found = Vec::new();
-    for _ in 0..NEARER / 2 {
+    for _ in 0..MAX_REFINEMENTS / 2 {
         let [x, y] = [high - 0.618_034 * (high - low), low + 0.618_034 * (high - low)];
         let (at_x, at_y) = (try_at(x)?, try_at(y)?);
         let (dx, dy) = (size(&at_x), size(&at_y));

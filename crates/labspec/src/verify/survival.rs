@@ -1,7 +1,7 @@
 //! Checks an answer under perturbed numerics that the question does not mention: it must hold under all of them.
 
 use super::bound::BoundVerify;
-use super::numerics::{CLOSER, PERTURBED};
+use super::numerics::{CLOSE_VARIANTS, PERTURBED};
 use super::outcome::Outcome;
 use super::outcomes::Outcomes;
 use super::verdict::{Verdict, Weight};
@@ -17,7 +17,7 @@ fn perturbed_outcomes(outcomes: &Outcomes) -> impl Iterator<Item = (&Outcome, &'
 
 /// A finding if the answer changes in an outcome under perturbed numerics with the given name. The spread of the weights is
 /// widened by the margins.
-pub(super) type Turns<'t> = dyn FnMut(&Outcome, &str, &mut [Weight]) -> Option<Finding> + 't;
+pub(super) type ChangedAnswer<'t> = dyn FnMut(&Outcome, &str, &mut [Weight]) -> Option<Finding> + 't;
 
 /// Checks an answer under the perturbed numerics, and under the closer ones where a margin is small. `turns` returns the
 /// change in an outcome, and widens the spread of the weights.
@@ -30,7 +30,7 @@ pub(super) fn withstand_numerics(
     weights: &mut [Weight],
     place: Range<usize>,
     findings: &mut Vec<Finding>,
-    turns: &mut Turns<'_>,
+    turns: &mut ChangedAnswer<'_>,
 ) -> Result<(), (Verdict, String)> {
     let mut withstand = |outcome: Option<&Outcome>, how: &str, weights: &mut [Weight]| {
         let turned = outcome.map(|outcome| turns(outcome, how, weights));
@@ -50,7 +50,7 @@ pub(super) fn withstand_numerics(
     for (outcome, how) in perturbed_outcomes(outcomes) {
         withstand(Some(outcome), how, weights)?;
     }
-    for (numerics, how) in CLOSER {
+    for (numerics, how) in CLOSE_VARIANTS {
         if weights.iter().any(Weight::is_close) {
             withstand(bound.outcome(numerics, &mut Vec::new()).as_ref(), how, weights)?;
         }

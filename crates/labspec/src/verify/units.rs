@@ -74,7 +74,7 @@ fn by_scale(
         let mut powers = SCALES.iter().map(|scale| {
             let mut other = inputs.clone();
             for (place, d) in &measures {
-                other.put(*place, inputs.at(*place)? * scale.powf(d.power_of(base)));
+                other.set_value(*place, inputs.at(*place)? * scale.powf(d.power_of(base)));
             }
             let ratio = value(&other)? / now;
             (ratio > 0.0).then(|| ratio.ln() / scale.ln())

@@ -23,7 +23,7 @@ impl ValueKind {
     pub(super) const ANY: ValueKind = ValueKind { positive: false, whole: false, truth: false };
     pub(super) const COUNT: ValueKind = ValueKind { positive: true, whole: true, ..ValueKind::ANY };
     const TIME: ValueKind = ValueKind { positive: true, ..ValueKind::ANY };
-    const TRUTH: ValueKind = ValueKind { truth: true, ..ValueKind::COUNT };
+    const TRUTH_VALUE: ValueKind = ValueKind { truth: true, ..ValueKind::COUNT };
 
     /// Whether a value is of this kind.
     pub(super) fn has(self, x: f64) -> bool {
@@ -99,7 +99,7 @@ fn aggregate_kind(a: &Aggregate, world: &World, context: &mut Context) -> ValueK
             | AggregateKind::Settles,
         ) => ValueKind::TIME,
         Some(AggregateKind::Count | AggregateKind::Crossings) => ValueKind::COUNT,
-        Some(AggregateKind::Holds) => ValueKind::TRUTH,
+        Some(AggregateKind::Holds) => ValueKind::TRUTH_VALUE,
         Some(AggregateKind::At | AggregateKind::Before) => of_argument(1),
         Some(
             AggregateKind::Initial

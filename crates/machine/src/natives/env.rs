@@ -185,8 +185,8 @@ impl Env<'_> {
             Value::List(_) | Value::View(_) => match self.text(value) {
                 Ok(text) => Ok(crate::number::from_text(&text)),
                 // A function in a list is never a number.
-                Err(trouble) if trouble.rule == rules::NOT_A_VALUE => Ok(f64::NAN),
-                Err(trouble) => Err(trouble),
+                Err(fault) if fault.rule == rules::NOT_A_VALUE => Ok(f64::NAN),
+                Err(fault) => Err(fault),
             },
             other => Ok(other.to_number()),
         }

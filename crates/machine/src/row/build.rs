@@ -65,7 +65,7 @@ impl Row {
             build.step(at, *step)?;
         }
         for wanted in wanted {
-            if build.home(wanted.step) == Some(wanted.register) {
+            if build.register_of(wanted.step) == Some(wanted.register) {
                 continue;
             }
             build.take(wanted.step)?;
@@ -109,14 +109,14 @@ struct RowBuilder<'f> {
 }
 
 impl RowBuilder<'_> {
-    fn home(&self, at: StepId) -> Option<u8> {
+    fn register_of(&self, at: StepId) -> Option<u8> {
         self.homes.get(at as usize).copied()
     }
 
     /// Loads a result into the accumulator.
     fn take(&mut self, at: StepId) -> Option<()> {
         if self.at_hand != Some(at) {
-            self.ops.push(RowOp::Take(self.home(at)?));
+            self.ops.push(RowOp::Take(self.register_of(at)?));
         }
         Some(())
     }
@@ -130,10 +130,10 @@ impl RowBuilder<'_> {
         round: impl Fn(u8) -> RowOp,
     ) -> Option<RowOp> {
         if self.at_hand == Some(b) && a != b {
-            return Some(round(self.home(a)?));
+            return Some(round(self.register_of(a)?));
         }
         self.take(a)?;
-        Some(op(self.home(b)?))
+        Some(op(self.register_of(b)?))
     }
 
     /// Emits an operation, and stores its result in its register for later use.
@@ -141,7 +141,7 @@ impl RowBuilder<'_> {
         let op = match step {
             FormulaStep::Load(..) | FormulaStep::Input(_) => return Some(()),
             FormulaStep::Constant(k) => {
-                self.ops.push(RowOp::Put(self.home(at)?, k.number()));
+                self.ops.push(RowOp::Put(self.register_of(at)?, k.number()));
                 return Some(());
             }
             FormulaStep::Binary(BinaryOp::Add, a, b) => self.two(a, b, RowOp::Add, RowOp::Add)?,
@@ -165,11 +165,11 @@ impl RowBuilder<'_> {
             FormulaStep::Left(op, k, a) => self.one(a, RowOp::Left(op, k.number()))?,
             FormulaStep::Unary(op, a) => self.one(a, RowOp::Unary(op))?,
             FormulaStep::Select(test, yes, no) => {
-                self.one(test, RowOp::Select(self.home(yes)?, self.home(no)?))?
+                self.one(test, RowOp::Select(self.register_of(yes)?, self.register_of(no)?))?
             }
             FormulaStep::Math(function, first, count) => self.math(function, first, count)?,
         };
-        self.ops.extend([op, RowOp::Keep(self.home(at)?)]);
+        self.ops.extend([op, RowOp::Keep(self.register_of(at)?)]);
         self.at_hand = Some(at);
         Some(())
     }
@@ -186,7 +186,7 @@ impl RowBuilder<'_> {
             (MathEvaluation::One(f), [a, ..]) => self.one(*a, RowOp::One(f)),
             (MathEvaluation::Two(f), [a, b, ..]) => {
                 self.take(*a)?;
-                Some(RowOp::Two(f, self.home(*b)?))
+                Some(RowOp::Two(f, self.register_of(*b)?))
             }
             (MathEvaluation::Many(f), args) if args.len() <= FEW => {
                 let first = u16::try_from(self.args.len()).ok()?;

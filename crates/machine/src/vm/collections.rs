@@ -27,7 +27,7 @@ impl Machine<'_> {
         unit: &MachineFunction,
         f: RegisterFrame,
     ) -> Result<(), StepError> {
-        self.tidy();
+        self.collect_garbage();
         match op {
             Op::MathOver(dst, function, list) => self.math_over(code, dst, function, list, f)?,
             Op::List(dst, items) => {
@@ -83,10 +83,10 @@ impl Machine<'_> {
             Op::CellGet(dst, cell) => self.read_cell(dst, cell, f)?,
             Op::CellSet(cell, src, declares) => self.write_cell(cell, src, declares, f)?,
             Op::Pick(dst, table, name) => {
-                let value = self.pick(code, f, table, name)?;
+                let value = self.computed_member(code, f, table, name)?;
                 self.put_value(f, dst, value);
             }
-            Op::PickNumber(dst, table, name) => self.pick_number(code, dst, table, name, f)?,
+            Op::PickNumber(dst, table, name) => self.computed_number(code, dst, table, name, f)?,
             _ => {} // handled in `execute` and `step`
         }
         Ok(())
@@ -252,7 +252,7 @@ impl Machine<'_> {
 
     /// Reads the number that belongs to the object with a computed name.
     #[inline]
-    fn pick_number(
+    fn computed_number(
         &mut self,
         code: &Arc<MachineCode>,
         dst: Num,
@@ -260,7 +260,7 @@ impl Machine<'_> {
         name: Val,
         f: RegisterFrame,
     ) -> Result<(), NativeError> {
-        let x = match self.pick(code, f, table, name)? {
+        let x = match self.computed_member(code, f, table, name)? {
             Value::View(view) => self.host.get(view.field, view.first as usize).unwrap_or(f64::NAN),
             other => other.to_number(),
         };
@@ -274,7 +274,7 @@ impl Machine<'_> {
     }
 
     /// Returns the member of the object with a computed name.
-    fn pick(
+    fn computed_member(
         &mut self,
         code: &Arc<MachineCode>,
         f: RegisterFrame,

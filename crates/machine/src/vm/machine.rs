@@ -21,7 +21,7 @@ pub const MAX_WORK: u64 = 200_000_000;
 /// Limit on the depth of nested calls.
 pub(super) const MAX_CALLS: usize = 200;
 /// Registers for the arguments of a call.
-pub(super) const HANDED: usize = 64;
+pub(super) const MAX_ARGUMENTS: usize = 64;
 
 /// Runs a program once. Not inlined, so that the code paths of formulas stay short.
 #[inline(never)]
@@ -98,11 +98,11 @@ impl Machine<'_> {
     }
 
     pub(super) fn make_room(&mut self, unit: &MachineFunction, frame: RegisterFrame) {
-        let numbers = frame.n + (unit.number_count as usize + HANDED).max(REGISTERS);
+        let numbers = frame.n + (unit.number_count as usize + MAX_ARGUMENTS).max(REGISTERS);
         if self.context.numbers.len() < numbers {
             self.context.numbers.resize(numbers, 0.0);
         }
-        let values = frame.v + unit.value_count as usize + HANDED;
+        let values = frame.v + unit.value_count as usize + MAX_ARGUMENTS;
         if self.context.values.len() < values {
             self.context.values.resize(values, Value::Undefined);
         }
@@ -175,7 +175,7 @@ impl Machine<'_> {
                     }
                 }
                 Op::Again(to, turn) => {
-                    self.count_turn(u64::from(turn), unit, at - 1)?;
+                    self.count_iteration(u64::from(turn), unit, at - 1)?;
                     at = to as usize;
                 }
                 Op::Return => return Ok(()),
@@ -264,7 +264,7 @@ impl Machine<'_> {
 
     /// Subtracts the cost of an iteration of a loop.
     #[inline(always)]
-    fn count_turn(&mut self, turn: u64, unit: &MachineFunction, at: usize) -> RunResult {
+    fn count_iteration(&mut self, turn: u64, unit: &MachineFunction, at: usize) -> RunResult {
         if self.budget < turn {
             self.budget = 0;
             return Err(failure(natives::out_of_steps(), unit, at));
@@ -284,8 +284,8 @@ impl Machine<'_> {
     ) -> RunResult {
         let frame = RegisterFrame { n: f.n + unit.number_count as usize, v: f.v + unit.value_count as usize };
         let Some(callee) = code.units.get(callee as usize) else { return Ok(()) };
-        if let Err(trouble) = self.enter(callee) {
-            return Err(failure(trouble, unit, at));
+        if let Err(fault) = self.enter(callee) {
+            return Err(failure(fault, unit, at));
         }
         self.make_room(callee, frame);
         let result = self.execute(code, callee, frame);
@@ -320,7 +320,7 @@ impl Machine<'_> {
     }
 
     /// Frees objects to which no register and no variable refers, if enough memory was allocated.
-    pub(super) fn tidy(&mut self) {
+    pub(super) fn collect_garbage(&mut self) {
         if self.context.heap.wants_collection() {
             self.context.collect(self.input);
         }
@@ -339,15 +339,15 @@ impl StepError {
     #[cold]
     fn at(self, unit: &MachineFunction, at: usize) -> Box<RuntimeError> {
         match self {
-            StepError::Here(trouble) => failure(trouble, unit, at),
+            StepError::Here(fault) => failure(fault, unit, at),
             StepError::Inside(error) => error,
         }
     }
 }
 
 impl From<NativeError> for StepError {
-    fn from(trouble: NativeError) -> StepError {
-        StepError::Here(trouble)
+    fn from(fault: NativeError) -> StepError {
+        StepError::Here(fault)
     }
 }
 
@@ -362,6 +362,6 @@ pub(super) fn span_of(unit: &MachineFunction, at: usize) -> Span {
 }
 
 #[cold]
-fn failure(trouble: NativeError, unit: &MachineFunction, at: usize) -> Box<RuntimeError> {
-    Box::new(RuntimeError { rule: trouble.rule, span: span_of(unit, at), message: trouble.message })
+fn failure(fault: NativeError, unit: &MachineFunction, at: usize) -> Box<RuntimeError> {
+    Box::new(RuntimeError { rule: fault.rule, span: span_of(unit, at), message: fault.message })
 }

@@ -34,10 +34,10 @@ impl Machine<'_> {
                     && !function.gives_boolean()
             }
             Op::MathOver(_, _, list) => self.is_empty_list(f, list) || self.has_no_number(f, list),
-            Op::Compare(_, op, a, b) => self.compares_nothing(f, op, a, b),
+            Op::Compare(_, op, a, b) => self.compares_nan(f, op, a, b),
             Op::Plus(_, a, b) => self.has_no_number(f, a) || self.has_no_number(f, b),
             Op::CallHost(_, _, args) => self.any_without_number(args, unit, f),
-            Op::Method(_, name, args) => self.method_looks(name, args, unit, f),
+            Op::Method(_, name, args) => self.method_tests_nan(name, args, unit, f),
             Op::MethodList(_, name, receiver, list) => {
                 self.becomes(name, self.val(f, receiver)).of_elements()
                     && (self.has_no_number(f, receiver) || self.has_no_number(f, list))
@@ -50,7 +50,7 @@ impl Machine<'_> {
             }
             _ => false,
         };
-        if self.decides_by_nothing(op, f)
+        if self.decides_by_nan(op, f)
             && let Some(watch) = &mut self.context.watch
         {
             watch.lose();
@@ -59,7 +59,7 @@ impl Machine<'_> {
     }
 
     /// Whether NaN selects a branch, an element or a string in this operation.
-    fn decides_by_nothing(&self, op: Op, f: RegisterFrame) -> bool {
+    fn decides_by_nan(&self, op: Op, f: RegisterFrame) -> bool {
         match op {
             Op::JumpIf(_, test, _) | Op::Select(_, test, ..) => self.num(f, test).is_nan(),
             Op::LoadAt(_, _, a) | Op::LoadValueAt(_, _, a) | Op::StoreAt(_, a, _) => self.num(f, a).is_nan(),
@@ -159,7 +159,7 @@ impl Machine<'_> {
 
     /// Whether a comparison of values has an operand that is not a number. A comparison with `undefined` tests
     /// for it, and loses nothing.
-    fn compares_nothing(&self, f: RegisterFrame, op: BinaryOp, a: Val, b: Val) -> bool {
+    fn compares_nan(&self, f: RegisterFrame, op: BinaryOp, a: Val, b: Val) -> bool {
         let (a, b) = (self.val(f, a), self.val(f, b));
         let equality = op.power() == 8;
         match (a, b) {
@@ -169,7 +169,7 @@ impl Machine<'_> {
         }
     }
 
-    fn method_looks(&self, name: MethodId, args: Args, unit: &MachineFunction, f: RegisterFrame) -> bool {
+    fn method_tests_nan(&self, name: MethodId, args: Args, unit: &MachineFunction, f: RegisterFrame) -> bool {
         let Some((receiver, args)) = args.operands(&unit.args).split_first() else { return false };
         let nan = self.becomes(name, self.val(f, Val(*receiver)));
         nan.of_elements() && self.has_no_number(f, Val(*receiver))

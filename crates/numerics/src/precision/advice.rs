@@ -1,34 +1,35 @@
 //! Recommendations: which settings are inferior, because another one is both more accurate and cheaper, and which one to use.
 
-use super::case::AGAIN;
 use super::case::LeftOut;
+use super::case::REPEATED_NUMBER;
 use super::judge::Compared;
 use super::numbers::milliseconds;
-use super::report::{Advice, Kind, Report, Row};
+use super::report::{Advice, Kind, PrecisionResults, PrecisionRow};
 use super::run_record::RunStatus;
 use labspec::run::two_digits;
 
 /// Whether the run of a row reached its end and was compared.
-fn counts(row: &Row) -> bool {
+fn is_compared_to_end(row: &PrecisionRow) -> bool {
     row.status == RunStatus::Good && row.score.is_finite()
 }
 
 /// The reliable error, in multiples of the smallest visible error: the largest error of this timestep and of all shorter ones
 /// of the same method. This way, a timestep that happens to hit an impact well gets no advantage.
-fn reliable(rows: &[Row], i: usize) -> f64 {
+fn reliable(rows: &[PrecisionRow], i: usize) -> f64 {
     let mine = rows[i].setting;
-    let shorter = |r: &&Row| {
+    let shorter = |r: &&PrecisionRow| {
         r.setting.integrator == mine.integrator
             && r.setting.solver.is_none()
             && r.setting.timestep < mine.timestep
     };
-    let others = rows.iter().filter(shorter).map(|r| if counts(r) { r.score } else { f64::INFINITY });
+    let others =
+        rows.iter().filter(shorter).map(|r| if is_compared_to_end(r) { r.score } else { f64::INFINITY });
     if mine.solver.is_some() { rows[i].score } else { others.fold(rows[i].score, f64::max) }
 }
 
 /// The settings for which no other is better in both error and cost, from the cheapest to the most accurate.
-pub(super) fn front(rows: &[Row]) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..rows.len()).filter(|&i| counts(&rows[i])).collect();
+pub(super) fn front(rows: &[PrecisionRow]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..rows.len()).filter(|&i| is_compared_to_end(&rows[i])).collect();
     order.sort_by(|&a, &b| {
         let key = |i: usize| (rows[i].cost.work, reliable(rows, i));
         key(a).0.total_cmp(&key(b).0).then(key(a).1.total_cmp(&key(b).1))
@@ -44,18 +45,19 @@ pub(super) fn front(rows: &[Row]) -> Vec<usize> {
 }
 
 /// A ratio of work below this counts as equal.
-const NO_LONGER: f64 = 1.05;
+const EQUAL_WORK: f64 = 1.05;
 
 /// Reports the error of the lab's own setting, a more accurate setting for the same work, and the cheapest one that displays
 /// every digit correctly. Only settings that a page can use are recommended.
-pub(super) fn advise(report: &Report) -> Vec<Advice> {
+pub(super) fn advise(report: &PrecisionResults) -> Vec<Advice> {
     let rows = &report.rows;
-    let usable: Vec<usize> =
-        (0..rows.len()).filter(|&i| rows[i].setting.integrator.shared && counts(&rows[i])).collect();
+    let usable: Vec<usize> = (0..rows.len())
+        .filter(|&i| rows[i].setting.integrator.shared && is_compared_to_end(&rows[i]))
+        .collect();
     let own_row = rows.iter().position(|r| r.is_own);
     let mut list = Vec::new();
     if let Some(own_row) = own_row {
-        list.push(Advice { kind: Kind::LabSetting, row: own_row, text: about_own(report, own_row) });
+        list.push(Advice { kind: Kind::LabSetting, row: own_row, text: describe_own_error(report, own_row) });
         list.extend(closer_for_same_work(rows, &usable, own_row));
     }
     let correct = usable.iter().copied().filter(|&i| reliable(rows, i) <= 1.0);
@@ -68,11 +70,11 @@ pub(super) fn advise(report: &Report) -> Vec<Advice> {
 }
 
 /// The most accurate setting that needs no more work than the lab's own, if it is much more accurate.
-fn closer_for_same_work(rows: &[Row], usable: &[usize], own_row: usize) -> Option<Advice> {
+fn closer_for_same_work(rows: &[PrecisionRow], usable: &[usize], own_row: usize) -> Option<Advice> {
     let affordable =
-        usable.iter().copied().filter(|&i| rows[i].cost.work <= NO_LONGER * rows[own_row].cost.work);
+        usable.iter().copied().filter(|&i| rows[i].cost.work <= EQUAL_WORK * rows[own_row].cost.work);
     let i = affordable.min_by(|&a, &b| reliable(rows, a).total_cmp(&reliable(rows, b)))?;
-    if !(rows[own_row].score > 2.0 * reliable(rows, i) && counts(&rows[own_row])) {
+    if !(rows[own_row].score > 2.0 * reliable(rows, i) && is_compared_to_end(&rows[own_row])) {
         return None;
     }
     let times = rows[own_row].score / reliable(rows, i).max(f64::MIN_POSITIVE);
@@ -81,20 +83,21 @@ fn closer_for_same_work(rows: &[Row], usable: &[usize], own_row: usize) -> Optio
     } else {
         format!("{} times closer", two_digits(times))
     };
-    let text = format!("{} is {how} and takes {}.", name(&rows[i]), beside(&rows[i], &rows[own_row]));
+    let text = format!("{} is {how} and takes {}.", name(&rows[i]), relative_work(&rows[i], &rows[own_row]));
     Some(Advice { kind: Kind::Closer, row: i, text })
 }
 
 /// The cheapest setting that displays every number correctly.
-fn cheapest_correct(report: &Report, own_row: Option<usize>, i: usize) -> Advice {
+fn cheapest_correct(report: &PrecisionResults, own_row: Option<usize>, i: usize) -> Advice {
     let (rows, every) = (&report.rows, every(report));
     let text = match own_row {
         Some(own_row) if i == own_row => {
             format!("It is also the cheapest tested setting that shows {every} correctly.")
         }
         own_row => {
-            let time = own_row
-                .map_or(String::new(), |own_row| format!(" and takes {}", beside(&rows[i], &rows[own_row])));
+            let time = own_row.map_or(String::new(), |own_row| {
+                format!(" and takes {}", relative_work(&rows[i], &rows[own_row]))
+            });
             format!("The cheapest tested setting that shows {every} correctly is {}{time}.", name(&rows[i]))
         }
     };
@@ -102,12 +105,13 @@ fn cheapest_correct(report: &Report, own_row: Option<usize>, i: usize) -> Advice
 }
 
 /// The most accurate setting, if none displays every number correctly, or if that is unknown.
-fn closest(report: &Report, usable: &[usize]) -> Option<Advice> {
+fn closest(report: &PrecisionResults, usable: &[usize]) -> Option<Advice> {
     let (rows, every) = (&report.rows, every(report));
     let i = usable.iter().copied().min_by(|&a, &b| rows[a].score.total_cmp(&rows[b].score))?;
     // Wrong, even if the error of the reference is taken into account.
-    let wrong =
-        |row: &Row| report.targets.iter().zip(&row.errors).any(|(t, e)| t.is_compared() && e.seen[1] > 1.0);
+    let wrong = |row: &PrecisionRow| {
+        report.targets.iter().zip(&row.errors).any(|(t, e)| t.is_compared() && e.seen[1] > 1.0)
+    };
     let doubtful = report.targets.iter().zip(&rows[i].errors).find(|(t, e)| {
         let [most, least] = e.seen;
         t.is_compared() && most > 1.0 && least <= 1.0
@@ -116,8 +120,8 @@ fn closest(report: &Report, usable: &[usize]) -> Option<Advice> {
         Some((target, _)) if !usable.iter().all(|&i| wrong(&rows[i])) => format!(
             "It is unknown whether a tested setting shows {every} correctly: the reference of \"{}\" may be off by {}, and {} would be visible; the closest is {}.",
             target.label,
-            with_unit(target.doubt, target),
-            with_unit(target.unseen, target),
+            with_unit(target.uncertainty, target),
+            with_unit(target.invisible_error, target),
             name(&rows[i])
         ),
         _ => format!("No tested setting shows {every} correctly; the closest is {}.", name(&rows[i])),
@@ -126,8 +130,8 @@ fn closest(report: &Report, usable: &[usize]) -> Option<Advice> {
 }
 
 /// The meaning of "every number" in this comparison.
-fn every(report: &Report) -> String {
-    let again = |o: &&LeftOut| o.reason != AGAIN;
+fn every(report: &PrecisionResults) -> String {
+    let again = |o: &&LeftOut| o.reason != REPEATED_NUMBER;
     let compared = report.targets.iter().filter(|t| t.is_compared());
     let until = compared.filter_map(|t| t.until).reduce(f64::min);
     let some = report.left_out.iter().any(|o| again(&o)) || report.targets.iter().any(|t| !t.is_compared());
@@ -138,23 +142,23 @@ fn every(report: &Report) -> String {
     }
 }
 
-fn name(row: &Row) -> String {
+fn name(row: &PrecisionRow) -> String {
     let solver = row.setting.solver.map_or(String::new(), |s| format!(" with {}", s.name()));
     format!("{} at {} ms{solver}", row.setting.integrator.name, milliseconds(row.setting.timestep))
 }
 
 /// The work of a run relative to that of the lab's own setting.
-fn beside(row: &Row, own_row: &Row) -> String {
+fn relative_work(row: &PrecisionRow, own_row: &PrecisionRow) -> String {
     let ratio = row.cost.work / own_row.cost.work;
     match ratio {
         r if !r.is_finite() => "work that was not counted".into(),
-        r if (1.0 / NO_LONGER..=NO_LONGER).contains(&r) => "the same work".into(),
+        r if (1.0 / EQUAL_WORK..=EQUAL_WORK).contains(&r) => "the same work".into(),
         r => format!("{} times the work", two_digits(r)),
     }
 }
 
 /// The error of the lab's own setting.
-fn about_own(report: &Report, own_row: usize) -> String {
+fn describe_own_error(report: &PrecisionResults, own_row: usize) -> String {
     let row = &report.rows[own_row];
     let name = name(row);
     if !matches!(row.status, RunStatus::Good | RunStatus::Warned) {
@@ -183,11 +187,15 @@ fn about_own(report: &Report, own_row: usize) -> String {
     let seen = match (least > 1.0, target.readout) {
         _ if most <= 1.0 => "which is not visible".to_string(),
         (false, _) => {
-            format!("within {}, the error of the reference", with_unit(target.doubt, target))
+            format!("within {}, the error of the reference", with_unit(target.uncertainty, target))
         }
         (true, true) => format!("which its digits show {}", samples()),
         (true, false) => {
-            format!("which its plot shows {} ({} would not)", samples(), with_unit(target.unseen, target))
+            format!(
+                "which its plot shows {} ({} would not)",
+                samples(),
+                with_unit(target.invisible_error, target)
+            )
         }
     };
     let how = format!("up to {} at {} s", with_unit(e.largest, target), labspec::run::time(e.at));

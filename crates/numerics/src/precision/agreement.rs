@@ -35,7 +35,7 @@ pub(super) struct KnownEvent {
     /// The time, s; NaN if the event does not happen or its time is unknown.
     pub(super) at: f64,
     /// The uncertainty of the time, s.
-    pub(super) doubt: f64,
+    pub(super) uncertainty: f64,
     /// Whether a turning point is a maximum.
     pub(super) top: bool,
 }
@@ -84,11 +84,11 @@ pub(super) fn agreed(
         // The shift of a turning point shows only in the difference.
         let apart = if i > n { 4.0 } else { 2.0 } * (a.at - b.at).abs();
         let rounding = f64::EPSILON * (8.0 + steps.sqrt()) * a.at;
-        let doubt = apart + a.doubt + b.doubt + moved + rounding;
+        let uncertainty = apart + a.uncertainty + b.uncertainty + moved + rounding;
         // If the difference is NaN, the event is unknown.
-        match doubt <= UNKNOWN * case.length() && a.top == b.top {
-            true => KnownEvent { at: a.at, doubt, top: a.top },
-            false => KnownEvent { at: f64::NAN, doubt: f64::NAN, top: false },
+        match uncertainty <= UNKNOWN * case.length() && a.top == b.top {
+            true => KnownEvent { at: a.at, uncertainty, top: a.top },
+            false => KnownEvent { at: f64::NAN, uncertainty: f64::NAN, top: false },
         }
     };
     a.iter().zip(b).enumerate().map(one).collect()
@@ -109,7 +109,7 @@ pub(super) fn so_far<'a>(pairs: impl Iterator<Item = (&'a Vec<f64>, &'a Vec<f64>
 }
 
 /// The largest difference of the two families, relative to the range of the quantity.
-pub(super) fn worst_part(values: &[Vec<f64>], uncertain: &[Vec<f64>]) -> f64 {
+pub(super) fn largest_relative_difference(values: &[Vec<f64>], uncertain: &[Vec<f64>]) -> f64 {
     let of = |(values, uncertain): (&Vec<f64>, &Vec<f64>)| {
         uncertain.last().copied().unwrap_or(0.0) / range(values).max(f64::MIN_POSITIVE)
     };

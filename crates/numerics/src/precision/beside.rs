@@ -109,7 +109,7 @@ impl Recording {
         let rows = self.runs.iter().map(|run| {
             let values = places.iter().map(|&i| run.values[i].clone()).collect();
             // A closed form is evaluated with the reference run, because it depends only on time.
-            let apart = case.rhythm(run.timestep).stride;
+            let apart = case.sampling_plan(run.timestep).stride;
             let met = |list: &Vec<f64>| list.iter().step_by(apart).copied().collect();
             let exact = truth.run.exact.iter().map(met).collect();
             let seen = Run { values, exact, ..Run::default() };
@@ -129,7 +129,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_a_recording_lacks_is_said() {
+    fn missing_parts_of_a_recording_are_reported() {
         for (text, what) in [
             ("[", "it is not JSON"),
             ("{}", "it has no list `traces`"),

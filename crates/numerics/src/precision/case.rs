@@ -3,7 +3,7 @@
 use super::event_finder::EventFinder;
 use super::integrator_work::integrator_work;
 use super::jumps;
-use super::run_record::{EnergySampler, Rhythm, Run, RunRequest};
+use super::run_record::{EnergySampler, Run, RunRequest, SamplingPlan};
 use super::setting::Setting;
 use labspec::bind::{
     Bound, ControlProgram, ModelNames, Programs, Scope, dimensions, include, of_label, to_finding,
@@ -41,7 +41,7 @@ pub(super) enum DisplayPrecision {
 
 impl DisplayPrecision {
     /// The largest invisible error for values with some range: half a unit of the last digit, or half a pixel.
-    pub(super) fn unseen(self, range: f64) -> f64 {
+    pub(super) fn invisible_error(self, range: f64) -> f64 {
         match self {
             DisplayPrecision::Decimals(digits) => 0.5 * 0.1f64.powi(digits as i32),
             DisplayPrecision::Curve { ends, height } => {
@@ -65,7 +65,7 @@ pub struct LeftOut {
 }
 
 /// The reason for a number that is compared under another label.
-pub(super) const AGAIN: &str = "it repeats another one";
+pub(super) const REPEATED_NUMBER: &str = "it repeats another one";
 
 /// The data that all runs of a comparison share.
 pub(super) struct PrecisionCase<'a> {
@@ -84,7 +84,7 @@ pub(super) struct PrecisionCase<'a> {
 }
 
 /// The number of samples at which energy and momentum are evaluated.
-const LOOKS: usize = 100;
+const CONSERVATION_SAMPLES: usize = 100;
 
 /// The unit that a label states, otherwise the unit of the dimension; `None` for a dimensionless number.
 fn unit_of(label: &str, measured: Option<Measure>) -> Option<String> {
@@ -162,7 +162,7 @@ impl<'a> PrecisionCase<'a> {
             "it depends on the timestep or the integrator, so it has no closed form"
         } else if self.targets.iter().any(|t| t.bound.text.value == bound.text.value && t.display == display)
         {
-            AGAIN
+            REPEATED_NUMBER
         } else {
             if let Some(e) = &exact {
                 include(e.program.effects(), &mut self.access);
@@ -180,7 +180,7 @@ impl<'a> PrecisionCase<'a> {
     }
 
     /// The program that sets the timestep during the run, in which case no other timestep can be tested.
-    pub(super) fn steps_itself(&self) -> Option<String> {
+    pub(super) fn program_that_sets_timestep(&self) -> Option<String> {
         let timestep = Some(option::timestep);
         let writes = |bound: &Bound| {
             let effects = bound.program.effects();
@@ -223,10 +223,10 @@ impl<'a> PrecisionCase<'a> {
     }
 
     /// The sampling of a run with some timestep: after each step, as a page displays it, if the reference has samples as often.
-    pub(super) fn rhythm(&self, timestep: f64) -> Rhythm {
+    pub(super) fn sampling_plan(&self, timestep: f64) -> SamplingPlan {
         let whole = |x: f64| x.round().max(1.0) as usize;
         let stride = whole(timestep / self.interval);
-        Rhythm { steps: whole(self.interval / timestep), stride, count: self.count / stride }
+        SamplingPlan { steps: whole(self.interval / timestep), stride, count: self.count / stride }
     }
 
     /// Runs the lab with a setting.
@@ -236,19 +236,19 @@ impl<'a> PrecisionCase<'a> {
             let perturbation = request.perturbation;
             session.perturb(run::StepVariant { perturbation, ..run::StepVariant::NOMINAL }, true);
         }
-        let rhythm = self.rhythm(setting.timestep);
-        let steps = rhythm.count * rhythm.steps;
-        let mut record = Run::with_capacity(self.targets.len(), rhythm.count + 1);
+        let sampling_plan = self.sampling_plan(setting.timestep);
+        let steps = sampling_plan.count * sampling_plan.steps;
+        let mut record = Run::with_capacity(self.targets.len(), sampling_plan.count + 1);
         let mut energy = EnergySampler::new(&session.world.model);
         let mut finder = request.sought.map(|s| EventFinder::new(s, &session.world.model, setting));
         let evaluate = |session: &mut Session<'_>, i: usize| self.value(session, i);
-        let every = rhythm.count.div_ceil(LOOKS).max(1);
+        let every = sampling_plan.count.div_ceil(CONSERVATION_SAMPLES).max(1);
         let before = session.spent();
         let mut sampling = 0;
         let mut now = vec![0.0; self.targets.len()];
         let sample = |session: &mut Session<'_>, made: usize| {
             let began = session.spent();
-            let sampled = made.is_multiple_of(rhythm.steps);
+            let sampled = made.is_multiple_of(sampling_plan.steps);
             if request.fresh && made > 0 {
                 session.refresh();
             }
@@ -257,7 +257,7 @@ impl<'a> PrecisionCase<'a> {
             if let Some(finder) = &mut finder {
                 finder.see(session, &now, &evaluate);
             }
-            if sampled && (made / rhythm.steps).is_multiple_of(every) {
+            if sampled && (made / sampling_plan.steps).is_multiple_of(every) {
                 energy.sample(session, &mut record);
             }
             sampling += session.spent() - began;
@@ -280,7 +280,7 @@ impl<'a> PrecisionCase<'a> {
         if let Some(finder) = finder {
             record.take_moments(finder);
         }
-        record.fill_up(rhythm.count + 1);
+        record.fill_up(sampling_plan.count + 1);
         record.set_fate(&session);
         Ok(record)
     }

@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 const DEGREE: usize = 12;
 /// The number of parts of the interval that are searched for turning points, and the bisections in one part.
 const PARTS: usize = 48;
-const HALVINGS: usize = 60;
+const BISECTIONS: usize = 60;
 
 /// The turning point of a target near the second last state, a maximum or a minimum. For a method of high order, the steps are
 /// repeated with other lengths; for others, the parabola through three states is used.
@@ -36,7 +36,7 @@ pub(super) fn turning_point(
         let curvature = (fall - rise) / (0.5 * (h + next));
         let x = 0.5 * h - rise / curvature;
         let at = start + if x.is_finite() { x.clamp(0.0, h + next) } else { h };
-        Some(EventTime { at, doubt: h + next, slope: f64::INFINITY, top })
+        Some(EventTime { at, uncertainty: h + next, slope: f64::INFINITY, top })
     };
     if !dense {
         return parabola();
@@ -54,10 +54,10 @@ pub(super) fn turning_point(
     // From the end of the interval to its start, in the order of the points.
     let values: Vec<f64> = (0..=DEGREE).rev().map(&mut node).collect();
     let every_second: Vec<f64> = values.iter().copied().step_by(2).collect();
-    let Some((x, doubt)) = turn(&values) else { return parabola() };
+    let Some((x, uncertainty)) = turn(&values) else { return parabola() };
     let other = turn(&every_second).map_or(2.0, |(y, _)| (x - y).abs());
-    let doubt = half * (doubt + other).min(2.0);
-    Some(EventTime { at: start + half * (1.0 + x), doubt, slope: f64::INFINITY, top })
+    let uncertainty = half * (uncertainty + other).min(2.0);
+    Some(EventTime { at: start + half * (1.0 + x), uncertainty, slope: f64::INFINITY, top })
 }
 
 /// The position of the maximum inside [-1, 1], from the values at the Chebyshev points from 1 down to -1,
@@ -75,7 +75,7 @@ fn turn(values: &[f64]) -> Option<(f64, f64)> {
         .filter(falls)
         .max_by(|&a, &b| sum(&series, point(a)).total_cmp(&sum(&series, point(b))))?;
     let (mut low, mut high) = (point(best), point(best + 1));
-    for _ in 0..HALVINGS {
+    for _ in 0..BISECTIONS {
         let middle = 0.5 * (low + high);
         if sum(&slope, middle) > 0.0 { low = middle } else { high = middle }
     }
@@ -127,8 +127,8 @@ mod tests {
     fn the_top_of_a_sine_is_found_to_rounding() {
         let points = (0..=DEGREE).map(|i| (PI * i as f64 / DEGREE as f64).cos());
         let values: Vec<f64> = points.map(|x| (1.5 * (x - 0.123)).cos()).collect();
-        let (x, doubt) = turn(&values).expect("a sine has a top");
-        assert!((x - 0.123).abs() <= doubt && doubt < 1e-6, "{x} ± {doubt}");
+        let (x, uncertainty) = turn(&values).expect("a sine has a top");
+        assert!((x - 0.123).abs() <= uncertainty && uncertainty < 1e-6, "{x} ± {uncertainty}");
         assert!(turn(&values.iter().map(|v| v * f64::NAN).collect::<Vec<_>>()).is_none());
     }
 }

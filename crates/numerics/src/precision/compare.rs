@@ -6,7 +6,7 @@ use super::conserved::{Conserved, change};
 use super::events::{self, Event};
 use super::judge::{self, Compared, Errors};
 use super::ladder::Ladder;
-use super::report::{Options, Report, Row};
+use super::report::{PrecisionOptions, PrecisionResults, PrecisionRow};
 use super::run_cost::{self, RunCost};
 use super::run_record::{RunRequest, RunStatus};
 use super::setting::Setting;
@@ -29,10 +29,10 @@ pub fn compare(
     lab: &Lab,
     model: &Model,
     programs: &Programs,
-    options: &Options,
+    options: &PrecisionOptions,
     findings: &mut Vec<Finding>,
     report_progress: &mut dyn FnMut(&str),
-) -> Result<Report, RunError> {
+) -> Result<PrecisionResults, RunError> {
     let mut case = PrecisionCase::new(lab, model, programs, &options.set, findings);
     let ladder = prepare(&mut case, options)?;
     report_progress("the reference");
@@ -62,7 +62,7 @@ pub fn compare(
     measure_run_times(&case, &mut rows);
     let Comparison { conserved, events, targets, .. } = judge;
     let known_to_end = |x: f64| if horizon.is_none() { x } else { f64::NAN };
-    let mut report = Report {
+    let mut report = PrecisionResults {
         nearby: horizon.map(|_| events::nearby(&case, &targets, ladder.timestep)).transpose()?,
         beside: options.beside.as_ref().map(|r| r.judge(&case, &truth, &targets)).transpose()?,
         events,
@@ -97,7 +97,7 @@ fn find_reference(case: &mut PrecisionCase<'_>, ladder: &Ladder) -> Result<Optio
 }
 
 /// Measures the run time of every setting that reached its end.
-fn measure_run_times(case: &PrecisionCase<'_>, rows: &mut [Row]) {
+fn measure_run_times(case: &PrecisionCase<'_>, rows: &mut [PrecisionRow]) {
     let timed: Vec<Option<Setting>> =
         rows.iter().map(|r| (r.status != RunStatus::Stopped).then_some(r.setting)).collect();
     for (row, [median, low, high]) in rows.iter_mut().zip(run_cost::measure(case, &timed)) {
@@ -106,7 +106,7 @@ fn measure_run_times(case: &PrecisionCase<'_>, rows: &mut [Row]) {
 }
 
 /// Checks that the lab can be compared, and moves presses to times at which the steps of all settings meet.
-fn prepare(case: &mut PrecisionCase<'_>, options: &Options) -> Result<Ladder, RunError> {
+fn prepare(case: &mut PrecisionCase<'_>, options: &PrecisionOptions) -> Result<Ladder, RunError> {
     if case.targets.is_empty() {
         let why = match case.left_out.first() {
             Some(out) => {
@@ -117,10 +117,10 @@ fn prepare(case: &mut PrecisionCase<'_>, options: &Options) -> Result<Ladder, Ru
         return Err(RunError(format!("this lab displays no numbers to compare{why}")));
     }
     case.presses = run::presses(case.programs, &options.press)?;
-    if let Some(who) = case.steps_itself() {
+    if let Some(subject) = case.program_that_sets_timestep() {
         return Err(RunError(format!(
             "{} sets the timestep while the lab runs, so no other timestep can be tested",
-            labspec::report::printable(&who)
+            labspec::report::printable(&subject)
         )));
     }
     let (timestep, integrator) = {
@@ -156,8 +156,8 @@ impl Comparison<'_, '_> {
         &self,
         settings: &[Setting],
         report_progress: &mut dyn FnMut(&str),
-    ) -> Result<Vec<Row>, RunError> {
-        let mut rows: Vec<Row> = Vec::new();
+    ) -> Result<Vec<PrecisionRow>, RunError> {
+        let mut rows: Vec<PrecisionRow> = Vec::new();
         for (i, setting) in settings.iter().enumerate() {
             if interrupt::requested() {
                 break;
@@ -177,7 +177,7 @@ impl Comparison<'_, '_> {
         Ok(rows)
     }
 
-    fn row(&self, setting: &Setting) -> Result<Row, RunError> {
+    fn row(&self, setting: &Setting) -> Result<PrecisionRow, RunError> {
         let ask = RunRequest { sought: Some(&self.truth.sought), ..RunRequest::default() };
         let run = self.case.run(setting, ask)?;
         let errors = judge::errors(self.case, self.truth, &self.targets, &run, setting.timestep);
@@ -185,11 +185,11 @@ impl Comparison<'_, '_> {
             RunStatus::Good | RunStatus::Warned => score(&self.targets, &errors),
             _ => f64::NAN,
         };
-        Ok(Row {
+        Ok(PrecisionRow {
             setting: *setting,
             is_own: self.ladder.is_own(setting),
             errors,
-            events: events::offs(&run, &self.events),
+            events: events::timing_errors(&run, &self.events),
             energy: self.conserved.energy.map(|_| change(&run.energy, self.part)),
             momentum: [0, 1]
                 .map(|k| self.conserved.momentum[k].map(|_| self.conserved.change(&run, k, self.part))),
@@ -212,11 +212,11 @@ fn without_reference(
     case: PrecisionCase<'_>,
     settings: &[Setting],
     ladder: &Ladder,
-) -> Result<Report, RunError> {
+) -> Result<PrecisionResults, RunError> {
     let mut rows = Vec::new();
     for setting in settings {
         let run = case.run(setting, RunRequest::default())?;
-        rows.push(Row {
+        rows.push(PrecisionRow {
             setting: *setting,
             is_own: ladder.is_own(setting),
             errors: Vec::new(),
@@ -230,7 +230,7 @@ fn without_reference(
             score: f64::NAN,
         });
     }
-    Ok(Report {
+    Ok(PrecisionResults {
         targets: Vec::new(),
         reference: None,
         length: case.length(),

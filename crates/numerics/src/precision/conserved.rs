@@ -30,7 +30,7 @@ impl Conserved {
             let d: [f64; 3] = std::array::from_fn(|i| p[3 * k + i] - start[3 * k + i]);
             length(&d)
         };
-        largest(run.momentum.iter().take(looks(run.momentum.len(), part)).map(apart))
+        largest(run.momentum.iter().take(samples_in_part(run.momentum.len(), part)).map(apart))
     }
 }
 
@@ -40,7 +40,7 @@ fn length(v: &[f64]) -> f64 {
 
 /// The largest change of a quantity since the start; NaN if it is unknown.
 pub(super) fn change(values: &[f64], part: f64) -> f64 {
-    let early = values.iter().take(looks(values.len(), part));
+    let early = values.iter().take(samples_in_part(values.len(), part));
     values.first().map_or(f64::NAN, |start| largest(early.map(|x| (x - start).abs())))
 }
 
@@ -50,6 +50,6 @@ fn largest(values: impl Iterator<Item = f64>) -> f64 {
 }
 
 /// The number of samples in the first part of a run.
-fn looks(all: usize, part: f64) -> usize {
+fn samples_in_part(all: usize, part: f64) -> usize {
     (all.saturating_sub(1) as f64 * part) as usize + 1
 }

@@ -15,16 +15,16 @@ use labspec_core::Model;
 
 /// The thresholds for a zero crossing (distance from zero on both sides) and for a turning point, as parts of the range.
 /// Smaller changes are rounding, or a scene that settles.
-const PASSES: f64 = 1e-5;
-const TURNS: f64 = 1e-3;
+const MIN_CROSSING: f64 = 1e-5;
+const MIN_TURN: f64 = 1e-3;
 /// A number that changes by less than this part of its size has no events.
 const CONSTANT: f64 = 1e-9;
 /// Bodies within this distance at the start are in contact, m.
-const TOUCHING: f64 = 1e-9;
+const CONTACT_DISTANCE: f64 = 1e-9;
 /// The maximum number of turning points of one number that are located.
-const MOST_TURNS: usize = 100;
+const MAX_TURNING_POINTS: usize = 100;
 /// The number of bisections that locate a time up to rounding.
-const HALVINGS: usize = 80;
+const BISECTIONS: usize = 80;
 
 /// The thresholds of the events of each target: for zero crossings and for turning points.
 #[derive(Clone, Debug)]
@@ -39,7 +39,7 @@ impl EventThresholds {
             let size = values.iter().fold(0.0f64, |a, x| a.max(x.abs()));
             let range = range(values);
             let range = if range > CONSTANT * size { range } else { f64::INFINITY };
-            [PASSES * range, TURNS * range]
+            [MIN_CROSSING * range, MIN_TURN * range]
         };
         EventThresholds { least: values.iter().map(least).collect() }
     }
@@ -47,7 +47,7 @@ impl EventThresholds {
 
 /// The search for the first zero crossing of a number.
 #[derive(Clone, Debug)]
-struct Passage {
+struct ZeroCrossing {
     side: f64,
     last: f64,
     candidate: EventTime,
@@ -56,7 +56,7 @@ struct Passage {
 
 /// The search for the first turning point of a number.
 #[derive(Clone, Debug)]
-struct Turn {
+struct TurningPoint {
     low: f64,
     high: f64,
     /// 1 for upwards, -1 for downwards, 0 while unknown.
@@ -72,7 +72,7 @@ pub(super) struct EventFinder<'s> {
     sought: &'s EventThresholds,
     /// Whether the method has a high order, so that its steps can be repeated with any length.
     dense: bool,
-    past: StepHistory,
+    history: StepHistory,
     /// The length of a step, the start time, s, and the number of steps since. The engine's own time is a sum of that
     /// many steps, each rounded.
     step: f64,
@@ -81,8 +81,8 @@ pub(super) struct EventFinder<'s> {
     /// Pairs of geoms that are in contact at the start.
     touching: Vec<[usize; 2]>,
     contact: Option<EventTime>,
-    passages: Vec<Passage>,
-    turns: Vec<Turn>,
+    passages: Vec<ZeroCrossing>,
+    turns: Vec<TurningPoint>,
     /// The time at which the last event was confirmed, s.
     settled: f64,
 }
@@ -90,13 +90,21 @@ pub(super) struct EventFinder<'s> {
 impl<'s> EventFinder<'s> {
     pub(super) fn new(sought: &'s EventThresholds, m: &Model, setting: &Setting) -> EventFinder<'s> {
         let none = EventTime::NONE;
-        let passage = Passage { side: 0.0, last: f64::NAN, candidate: none, done: false };
+        let passage = ZeroCrossing { side: 0.0, last: f64::NAN, candidate: none, done: false };
         let (low, high) = (f64::INFINITY, f64::NEG_INFINITY);
-        let turn = Turn { low, high, direction: 0.0, last: f64::NAN, candidate: none, looks: 0, done: false };
+        let turn = TurningPoint {
+            low,
+            high,
+            direction: 0.0,
+            last: f64::NAN,
+            candidate: none,
+            looks: 0,
+            done: false,
+        };
         EventFinder {
             sought,
             dense: setting.integrator.is_high(),
-            past: StepHistory::new(m),
+            history: StepHistory::new(m),
             step: setting.timestep,
             start: 0.0,
             made: 0,
@@ -119,30 +127,30 @@ impl<'s> EventFinder<'s> {
     }
 
     /// Processes the state of the run after a step, with the displayed values.
-    pub(super) fn see(&mut self, session: &Session<'_>, values: &[f64], evaluate: &Evaluate<'_>) {
+    pub(super) fn observe_step(&mut self, session: &Session<'_>, values: &[f64], evaluate: &Evaluate<'_>) {
         let time = self.time(session);
-        self.past.keep(session, time);
+        self.history.keep(session, time);
         let before = self.number_found();
-        if self.past.count() == 1 {
-            let near = |c: &labspec_core::Contact| c.dist <= TOUCHING;
+        if self.history.count() == 1 {
+            let near = |c: &labspec_core::Contact| c.dist <= CONTACT_DISTANCE;
             let contacts = session.world.data.fields().contact.iter().filter(|c| near(c));
             self.touching = contacts.map(|c| [c.geom1, c.geom2]).collect();
         } else if self.contact.is_none() && depth(session, &self.touching) > 0.0 {
             self.contact = Some(self.first_contact(session));
         }
         for (i, &value) in values.iter().enumerate() {
-            self.pass(i, value, session, evaluate);
+            self.observe_crossing(i, value, session, evaluate);
             self.turn(i, value, session, evaluate);
         }
         if self.number_found() > before {
-            self.settled = self.past.time(0);
+            self.settled = self.history.time(0);
         }
     }
 
     /// The time of the next state.
     fn time(&mut self, session: &Session<'_>) -> f64 {
         let clock = session.world.data.time();
-        if self.past.count() == 0 {
+        if self.history.count() == 0 {
             self.start = clock;
         }
         let time = self.start + self.made as f64 * self.step;
@@ -170,7 +178,7 @@ impl<'s> EventFinder<'s> {
         !self.touching.is_empty()
     }
 
-    fn pass(&mut self, i: usize, now: f64, session: &Session<'_>, evaluate: &Evaluate<'_>) {
+    fn observe_crossing(&mut self, i: usize, now: f64, session: &Session<'_>, evaluate: &Evaluate<'_>) {
         let (Some(p), Some([least, _])) = (self.passages.get_mut(i), self.sought.least.get(i)) else {
             return;
         };
@@ -184,10 +192,10 @@ impl<'s> EventFinder<'s> {
         }
         if crossed {
             let side = p.side;
-            let mut bench = StepReplay::new(session, &self.past);
-            let found = passage(&mut bench, i, side, evaluate);
+            let mut bench = StepReplay::new(session, &self.history);
+            let found = crossing_time(&mut bench, i, side, evaluate);
             let Some(p) = self.passages.get_mut(i) else { return };
-            p.candidate = found.unwrap_or_else(|| between(&self.past, last, now));
+            p.candidate = found.unwrap_or_else(|| between(&self.history, last, now));
         }
         let Some(p) = self.passages.get_mut(i) else { return };
         if now.abs() > *least {
@@ -220,8 +228,8 @@ impl<'s> EventFinder<'s> {
         let (direction, looks) = (t.direction, t.looks);
         if begins {
             t.looks += 1;
-            let dense = self.dense && looks < MOST_TURNS;
-            let mut bench = StepReplay::new(session, &self.past);
+            let dense = self.dense && looks < MAX_TURNING_POINTS;
+            let mut bench = StepReplay::new(session, &self.history);
             let found = turning_point(&mut bench, i, direction, dense, evaluate);
             let Some(t) = self.turns.get_mut(i) else { return };
             t.candidate = found.unwrap_or(EventTime::NONE);
@@ -232,19 +240,19 @@ impl<'s> EventFinder<'s> {
 
     /// The time of the first contact of bodies that were apart at the start: the shortest step that ends with a contact.
     fn first_contact(&self, session: &Session<'_>) -> EventTime {
-        let mut bench = StepReplay::new(session, &self.past);
+        let mut bench = StepReplay::new(session, &self.history);
         // A displayed contact belongs to the previous step.
-        let oldest = self.past.count().min(3) - 1;
+        let oldest = self.history.count().min(3) - 1;
         let touches = |bench: &mut StepReplay<'_>, from: usize, x: f64| {
             bench.place(from, x);
             depth(&bench.session, &self.touching)
         };
         let from = (1..=oldest).rev().find(|&j| touches(&mut bench, j - 1, 0.0) > 0.0);
         let Some(from) = from else { return EventTime::NONE };
-        let h = self.past.step(from);
+        let h = self.history.step(from);
         let (mut low, mut high) = (0.0, h);
-        let start = self.past.time(from);
-        for _ in 0..HALVINGS {
+        let start = self.history.time(from);
+        for _ in 0..BISECTIONS {
             let middle = 0.5 * (low + high);
             if middle <= low || middle >= high {
                 break;
@@ -263,8 +271,8 @@ impl<'s> EventFinder<'s> {
         let size =
             bench.session.world.data.fields().contact.iter().map(|c| length(c.pos)).fold(1.0, f64::max);
         let rounding = 8.0 * f64::EPSILON * size / speed.max(f64::MIN_POSITIVE);
-        let doubt = (high - low) + if rounding.is_finite() { rounding.min(h) } else { h };
-        EventTime { at: start + high, doubt, slope: f64::INFINITY, top: false }
+        let uncertainty = (high - low) + if rounding.is_finite() { rounding.min(h) } else { h };
+        EventTime { at: start + high, uncertainty, slope: f64::INFINITY, top: false }
     }
 }
 
@@ -280,20 +288,30 @@ fn depth(session: &Session<'_>, apart: &[[usize; 2]]) -> f64 {
 }
 
 /// A zero crossing between the last two samples, by linear interpolation.
-fn between(past: &StepHistory, last: f64, now: f64) -> EventTime {
-    let h = past.step(1);
+fn between(history: &StepHistory, last: f64, now: f64) -> EventTime {
+    let h = history.step(1);
     let part = (last / (last - now)).clamp(0.0, 1.0);
-    EventTime { at: past.time(1) + part * h, doubt: 2.0 * h, slope: (now - last).abs() / h, top: false }
+    EventTime {
+        at: history.time(1) + part * h,
+        uncertainty: 2.0 * h,
+        slope: (now - last).abs() / h,
+        top: false,
+    }
 }
 
 /// The time at which a target crosses zero in the last step or in the one before.
-fn passage(bench: &mut StepReplay<'_>, i: usize, side: f64, evaluate: &Evaluate<'_>) -> Option<EventTime> {
-    let oldest = bench.past.count().min(3) - 1;
+fn crossing_time(
+    bench: &mut StepReplay<'_>,
+    i: usize,
+    side: f64,
+    evaluate: &Evaluate<'_>,
+) -> Option<EventTime> {
+    let oldest = bench.history.count().min(3) - 1;
     let leaves = |bench: &mut StepReplay<'_>, j: usize| {
         bench.value(j, 0.0, i, evaluate) * side > 0.0 && bench.value(j - 1, 0.0, i, evaluate) * side <= 0.0
     };
     let from = (1..=oldest).rev().find(|&j| leaves(bench, j))?;
-    let (h, start) = (bench.past.step(from), bench.past.time(from));
+    let (h, start) = (bench.history.step(from), bench.history.time(from));
     let (mut low, mut high) = (0.0, h);
     let mut at_low = bench.value(from, 0.0, i, evaluate) * side;
     let mut at_high = bench.value(from - 1, 0.0, i, evaluate) * side;
@@ -304,7 +322,7 @@ fn passage(bench: &mut StepReplay<'_>, i: usize, side: f64, evaluate: &Evaluate<
         return None;
     }
     let mut moved = 0.0;
-    for k in 0..HALVINGS {
+    for k in 0..BISECTIONS {
         // The Illinois method, with bisection if it does not progress.
         let line = low + (high - low) * at_low / (at_low - at_high);
         let inside = line > low && line < high && k % 3 != 2;
@@ -331,6 +349,6 @@ fn passage(bench: &mut StepReplay<'_>, i: usize, side: f64, evaluate: &Evaluate<
     let slope = (bench.value(from, b, i, evaluate) - bench.value(from, a, i, evaluate)).abs() / (b - a);
     let size = bench.size.max(residual);
     let rounding = (8.0 * f64::EPSILON * size + residual) / slope.max(f64::MIN_POSITIVE);
-    let doubt = (high - low) + rounding.min(2.0 * h);
-    Some(EventTime { at: start + 0.5 * (low + high), doubt, slope, top: false })
+    let uncertainty = (high - low) + rounding.min(2.0 * h);
+    Some(EventTime { at: start + 0.5 * (low + high), uncertainty, slope, top: false })
 }

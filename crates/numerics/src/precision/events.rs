@@ -26,7 +26,7 @@ pub struct Event {
 
 /// Two runs with indistinguishable starts.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Nearby {
+pub struct NearbyStarts {
     /// The distance of the starts, in the unit of each coordinate.
     pub apart: f64,
     /// The time until which all numbers agree within a hundredth of their ranges, s; `None` if they agree to the end.
@@ -53,8 +53,8 @@ pub(super) fn events(case: &PrecisionCase<'_>, truth: &Reference, targets: &[Com
         let again =
             i.checked_sub(1).map(|k| k % n.max(1)).is_some_and(|k| (0..k).any(|j| text(j) == text(k)));
         let horizon = target.map_or(all, |t| if t.blank { Some(0.0) } else { t.until });
-        match !again && horizon.is_none_or(|until| exact_event.at + exact_event.doubt <= until) {
-            true => Event { name, time: exact_event.at, uncertain: exact_event.doubt },
+        match !again && horizon.is_none_or(|until| exact_event.at + exact_event.uncertainty <= until) {
+            true => Event { name, time: exact_event.at, uncertain: exact_event.uncertainty },
             false => Event { name, time: f64::NAN, uncertain: f64::NAN },
         }
     };
@@ -62,7 +62,7 @@ pub(super) fn events(case: &PrecisionCase<'_>, truth: &Reference, targets: &[Com
 }
 
 /// The timing errors of a run's events, s; never smaller than the uncertainty of the event.
-pub(super) fn offs(run: &Run, events: &[Event]) -> Vec<f64> {
+pub(super) fn timing_errors(run: &Run, events: &[Event]) -> Vec<f64> {
     let off = |(i, event): (usize, &Event)| {
         let found = run.moments.get(i).map_or(f64::NAN, |m| m.at);
         let off = (found - event.time).abs();
@@ -76,11 +76,11 @@ pub(super) fn nearby(
     case: &PrecisionCase<'_>,
     targets: &[Compared],
     timestep: f64,
-) -> Result<Nearby, RunError> {
+) -> Result<NearbyStarts, RunError> {
     let setting = Setting { integrator: method(integrator::RKMK8), timestep: timestep / 2.0, solver: None };
     let (one, other) = (
-        case.run(&setting, RunRequest::FRESH)?,
-        case.run(&setting, RunRequest { perturbation: PERTURBATION, ..RunRequest::FRESH })?,
+        case.run(&setting, RunRequest::REFERENCE_REQUEST)?,
+        case.run(&setting, RunRequest { perturbation: PERTURBATION, ..RunRequest::REFERENCE_REQUEST })?,
     );
     let leaves = |((a, b), target): ((&Vec<f64>, &Vec<f64>), &Compared)| {
         let far = LEFT * target.range;
@@ -88,6 +88,6 @@ pub(super) fn nearby(
         a.iter().zip(b).position(|(a, b)| (a - b).abs() > far || (a - b).is_nan())
     };
     let first = one.values.iter().zip(&other.values).zip(targets).filter_map(leaves).min();
-    let apart = case.rhythm(setting.timestep).stride as f64 * case.interval;
-    Ok(Nearby { apart: PERTURBATION, until: first.map(|i| i as f64 * apart) })
+    let apart = case.sampling_plan(setting.timestep).stride as f64 * case.interval;
+    Ok(NearbyStarts { apart: PERTURBATION, until: first.map(|i| i as f64 * apart) })
 }

@@ -3,7 +3,7 @@
 //! Hairer, Nørsett and Wanner 1993, *Solving Ordinary Differential Equations I*, section II.9). Steps in which controls
 //! jump are split at the jump.
 
-use super::agreement::{Reference, agree, agreed, run, so_far, too_long, worst_part};
+use super::agreement::{Reference, agree, agreed, largest_relative_difference, run, so_far, too_long};
 use super::case::PrecisionCase;
 use super::event_finder::EventThresholds;
 use super::event_time::EventTime;
@@ -15,7 +15,7 @@ use labspec_core::integrator;
 /// The number of timesteps, each half of the previous one.
 const LEVELS: usize = 8;
 /// The part of its range by which two entries may differ. A further level costs little and improves the result considerably.
-const AGREE: f64 = 1e-11;
+const MAX_DIFFERENCE: f64 = 1e-11;
 
 /// An entry of the extrapolation table.
 #[derive(Clone)]
@@ -30,7 +30,7 @@ impl TableEntry {
     }
 
     /// Extrapolates this entry and the one with twice the step, if the lowest power of the error is `power`.
-    fn toward(&self, coarse: &TableEntry, power: i32) -> TableEntry {
+    fn extrapolate(&self, coarse: &TableEntry, power: i32) -> TableEntry {
         let weight = 1.0 / (2f64.powi(power) - 1.0);
         let list = |(fine, coarse): (&Vec<f64>, &Vec<f64>)| {
             fine.iter().zip(coarse).map(|(f, c)| f + (f - c) * weight).collect()
@@ -53,14 +53,14 @@ struct BestEntry {
 
 impl BestEntry {
     fn worst(&self) -> f64 {
-        worst_part(&self.entry.values, &self.uncertain)
+        largest_relative_difference(&self.entry.values, &self.uncertain)
     }
 }
 
 /// Computes the reference of a lab with a controller.
 pub(super) fn extrapolated(case: &PrecisionCase<'_>, timestep: f64) -> Result<Option<Reference>, RunError> {
     let first = (timestep / 2.0).min(case.interval);
-    let ask = RunRequest { cut: true, ..RunRequest::FRESH };
+    let ask = RunRequest { cut: true, ..RunRequest::REFERENCE_REQUEST };
     let Some(look) = run(case, integrator::RKMK8, first, ask)? else { return Ok(None) };
     let sought = EventThresholds::for_values(&look.values);
     let ask = RunRequest { sought: Some(&sought), ..ask };
@@ -81,7 +81,7 @@ pub(super) fn extrapolated(case: &PrecisionCase<'_>, timestep: f64) -> Result<Op
                 best = Some(one);
             }
         }
-        if best.as_ref().is_some_and(|b| agree(&b.entry.values, &b.uncertain, AGREE)) {
+        if best.as_ref().is_some_and(|b| agree(&b.entry.values, &b.uncertain, MAX_DIFFERENCE)) {
             break;
         }
         before = row;
@@ -96,7 +96,7 @@ fn next_row(run: &Run, before: &[TableEntry]) -> Vec<TableEntry> {
     let mut row = vec![TableEntry::from_run(run)];
     for (coarse, power) in before.iter().zip(1..) {
         let Some(last) = row.last() else { break };
-        let next = last.toward(coarse, power);
+        let next = last.extrapolate(coarse, power);
         row.push(next);
     }
     row
@@ -110,7 +110,7 @@ fn finish(
     first: f64,
 ) -> Result<Reference, RunError> {
     let BestEntry { entry, coarse, mut uncertain, run: mut seen, step } = best;
-    let ask = RunRequest { cut: true, ..RunRequest::FRESH };
+    let ask = RunRequest { cut: true, ..RunRequest::REFERENCE_REQUEST };
     let other = if too_long(case, step) { None } else { run(case, integrator::GAUSS, step, ask)? };
     if let Some(other) = &other {
         let more = so_far(seen.values.iter().zip(&other.values));
@@ -119,10 +119,10 @@ fn finish(
         }
     }
     let depth_doubt = other.as_ref().map_or(f64::NAN, |o| (o.penetration - seen.penetration).abs());
-    let at = |moments: &[f64], doubts: bool| -> Vec<EventTime> {
+    let at = |moments: &[f64], uncertainties: bool| -> Vec<EventTime> {
         let one = |(m, at): (&EventTime, &f64)| EventTime {
             at: *at,
-            doubt: if doubts { m.doubt } else { 0.0 },
+            uncertainty: if uncertainties { m.uncertainty } else { 0.0 },
             ..*m
         };
         seen.moments.iter().zip(moments).map(one).collect()

@@ -57,11 +57,11 @@ pub struct Compared {
     /// The uncertainty of the reference, where it is used.
     pub uncertain: f64,
     /// The same without rounding errors.
-    pub doubt: f64,
+    pub uncertainty: f64,
     /// The largest minus the smallest value in the reference; in the lab's own run if the reference is constant.
     pub range: f64,
     /// The largest invisible error: half a unit of the last digit, or half a pixel of the plot.
-    pub unseen: f64,
+    pub invisible_error: f64,
     /// Whether it is a readout.
     pub readout: bool,
     /// The number of decimals of a readout.
@@ -83,36 +83,39 @@ impl Compared {
         self.samples > 1
     }
 
-    /// The largest and the smallest visible error at one sample, if the truth is within `doubt` of `exact`, in multiples of
+    /// The largest and the smallest visible error at one sample, if the truth is within `uncertainty` of `exact`, in multiples of
     /// the smallest visible error.
-    fn in_sight(&self, displayed: f64, exact: f64, doubt: f64) -> [f64; 2] {
+    fn visible_errors(&self, displayed: f64, exact: f64, uncertainty: f64) -> [f64; 2] {
         let error = (displayed - exact).abs();
         let parts = |unit: f64| {
-            [error + doubt, error - doubt]
+            [error + uncertainty, error - uncertainty]
                 .map(|e| if e <= 0.0 { 0.0 } else { e / unit.max(f64::MIN_POSITIVE) })
         };
         if !self.readout {
-            return parts(self.unseen);
+            return parts(self.invisible_error);
         }
         // Digits: a number within its uncertainty of a rounding boundary may be displayed as either neighbour.
-        let slack = doubt + DIGITS_ROUND * self.size;
+        let slack = uncertainty + DIGITS_ROUND * self.size;
         let print = |x: f64| printed(x, self.digits);
         let (low, now, high) = (print(exact - slack), print(displayed), print(exact + slack));
-        let unit = 2.0 * self.unseen;
+        let unit = 2.0 * self.invisible_error;
         let [most, least] = parts(unit);
         if !(low..=high).contains(&now) {
             return [1.0 + most, 1.0 + least];
         }
-        [if doubt <= self.unseen * DOUBTFUL { most.min(1.0) } else { most }, least.min(1.0)]
+        [
+            if uncertainty <= self.invisible_error * MAX_EXACT_UNCERTAINTY { most.min(1.0) } else { most },
+            least.min(1.0),
+        ]
     }
 }
 
 /// A reference counts as known while its uncertainty, which is twice the difference of its families, is below this part of the
-/// range, or below `UNSEEN` times the smallest visible error.
+/// range, or below `INVISIBLE_FRACTION` times the smallest visible error.
 const KNOWN: f64 = 0.02;
-const UNSEEN: f64 = 0.2;
+const INVISIBLE_FRACTION: f64 = 0.2;
 /// A reference with an uncertainty below this part of the smallest visible error counts as exact.
-const DOUBTFUL: f64 = 0.2;
+const MAX_EXACT_UNCERTAINTY: f64 = 0.2;
 /// The relative rounding error of a number after a run of many steps, and of one that is rounded again for display.
 const ROUNDING: f64 = 1e-13;
 const DIGITS_ROUND: f64 = 1e-12;
@@ -133,8 +136,8 @@ pub(super) fn compared(case: &PrecisionCase<'_>, reference: &Reference, own_run:
             let mine = if own_run.status == RunStatus::Good { range(&own_run.values[i]) } else { 0.0 };
             range_of = range_of.max(if mine > 0.0 { mine } else { whole });
         }
-        let unseen = target.display.unseen(range_of);
-        let enough = (KNOWN * range_of).max(UNSEEN * unseen).max(ROUNDING);
+        let invisible_error = target.display.invisible_error(range_of);
+        let enough = (KNOWN * range_of).max(INVISIBLE_FRACTION * invisible_error).max(ROUNDING);
         let certain = uncertain.partition_point(|u| *u <= enough);
         let blank = values.first().is_none_or(|x| !x.is_finite());
         let samples = match (blank, closed) {
@@ -153,9 +156,9 @@ pub(super) fn compared(case: &PrecisionCase<'_>, reference: &Reference, own_run:
             closed,
             size,
             uncertain: most.max(ROUNDING * size),
-            doubt: most,
+            uncertainty: most,
             range: range_of,
-            unseen,
+            invisible_error,
             readout: digits.is_some(),
             digits: digits.unwrap_or(0),
             blank,
@@ -176,7 +179,7 @@ pub(super) fn errors(
 ) -> Vec<Errors> {
     // The time is a sum of this many steps, each of which is rounded.
     let rounding = f64::EPSILON * case.count as f64 * case.interval / timestep;
-    let stride = case.rhythm(timestep).stride;
+    let stride = case.sampling_plan(timestep).stride;
     let one = |(i, target): (usize, &Compared)| {
         let (truth, apart) = if target.closed { (&run.exact[i], 1) } else { (&reference.values[i], stride) };
         let compared = target.samples.div_ceil(stride).min(run.values[i].len());
@@ -193,11 +196,11 @@ pub(super) fn errors(
             }
             e.rms += d * d;
             e.end = d;
-            let doubt = match target.closed {
+            let uncertainty = match target.closed {
                 true => 0.0,
-                false => reference.uncertain[i].get(k * stride).copied().unwrap_or(target.doubt),
+                false => reference.uncertain[i].get(k * stride).copied().unwrap_or(target.uncertainty),
             };
-            let [most, least] = target.in_sight(displayed, exact, doubt);
+            let [most, least] = target.visible_errors(displayed, exact, uncertainty);
             e.seen = [e.seen[0].max(most), e.seen[1].max(least)];
             e.wrong += usize::from(least > 1.0);
         }
@@ -219,9 +222,9 @@ mod tests {
             unit: None,
             closed: false,
             uncertain: 0.0,
-            doubt: 0.0,
+            uncertainty: 0.0,
             range: size,
-            unseen: 0.5 * 0.1f64.powi(digits as i32),
+            invisible_error: 0.5 * 0.1f64.powi(digits as i32),
             readout: true,
             digits,
             until: None,
@@ -235,20 +238,20 @@ mod tests {
     fn digits_decide_at_every_sample() {
         let x = readout(1, 20.0);
         // A difference below half a unit, but other digits.
-        assert!(x.in_sight(16.051, 16.049, 1e-9)[1] > 1.0);
+        assert!(x.visible_errors(16.051, 16.049, 1e-9)[1] > 1.0);
         // A larger difference, but the same digits.
-        assert!(x.in_sight(16.149, 16.051, 1e-9)[0] <= 1.0);
+        assert!(x.visible_errors(16.149, 16.051, 1e-9)[0] <= 1.0);
         // Next to a rounding boundary, the digits cannot be distinguished.
-        assert!(x.in_sight(16.05 + 1e-12, 16.05 - 1e-12, 1e-9)[0] <= 1.0);
+        assert!(x.visible_errors(16.05 + 1e-12, 16.05 - 1e-12, 1e-9)[0] <= 1.0);
         // The uncertainty of the reference is larger than one digit.
-        let [most, least] = x.in_sight(16.2, 16.0, 0.3);
+        let [most, least] = x.visible_errors(16.2, 16.0, 0.3);
         assert!(most > 1.0 && least <= 1.0, "{most} {least}");
     }
 
     #[test]
     fn a_curve_hides_half_a_pixel() {
         let x = Compared { readout: false, ..readout(1, 20.0) };
-        assert_eq!(x.in_sight(1.0, 1.1, 0.0).map(|p| (p * 10.0).round()), [20.0, 20.0]);
-        assert_eq!(x.in_sight(1.0, 1.01, 0.02)[1], 0.0);
+        assert_eq!(x.visible_errors(1.0, 1.1, 0.0).map(|p| (p * 10.0).round()), [20.0, 20.0]);
+        assert_eq!(x.visible_errors(1.0, 1.01, 0.02)[1], 0.0);
     }
 }

@@ -7,13 +7,13 @@ use labspec_expr::Context;
 use std::ops::ControlFlow;
 
 /// The parts of the state that controllers write.
-const WRITTEN: i32 = state::CTRL | state::QFRC_APPLIED | state::XFRC_APPLIED;
+const CONTROLLED_STATE: i32 = state::CTRL | state::QFRC_APPLIED | state::XFRC_APPLIED;
 /// The number of bisections that locate a jump up to rounding.
-const HALVINGS: usize = 60;
+const BISECTIONS: usize = 60;
 /// A half of an interval that contains this part of a change may contain a jump.
-const MOST_OF_IT: f64 = 0.8;
+const JUMP_PART: f64 = 0.8;
 /// A change that is larger than the previous one by this factor may be a jump.
-const SUDDEN: f64 = 3.0;
+const JUMP_FACTOR: f64 = 3.0;
 
 /// Everything on which a step depends.
 struct SavedStart {
@@ -43,17 +43,17 @@ fn numbers(session: &Session<'_>, sig: i32) -> Vec<f64> {
 }
 
 /// The largest difference.
-fn apart(a: &[f64], b: &[f64]) -> f64 {
+fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
 /// The values that the controller would write now. The session is unchanged afterwards, except for the counted work.
-fn peek(session: &mut Session<'_>) -> Vec<f64> {
-    let (start, context) = (numbers(session, WRITTEN), session.context.clone());
+fn controls_now(session: &mut Session<'_>) -> Vec<f64> {
+    let (start, context) = (numbers(session, CONTROLLED_STATE), session.context.clone());
     session.step_by(|_, _| Ok(()));
-    let next = numbers(session, WRITTEN);
+    let next = numbers(session, CONTROLLED_STATE);
     let world = &mut session.world;
-    let _ = state::set(&world.model, &mut world.data, &start, WRITTEN);
+    let _ = state::set(&world.model, &mut world.data, &start, CONTROLLED_STATE);
     session.context = context;
     next
 }
@@ -71,29 +71,29 @@ fn advance(session: &mut Session<'_>, start: &SavedStart, x: f64) {
 }
 
 /// The part of a step before the controls jump, or `None` if they do not jump.
-fn before_the_jump(
+fn advance_to_jump(
     session: &mut Session<'_>,
     start: &SavedStart,
     h: f64,
-    held: &[f64],
+    inputs: &[f64],
     next: &[f64],
 ) -> Option<f64> {
-    let whole = apart(held, next);
+    let whole = largest_difference(inputs, next);
     let (mut low, mut high) = (0.0, h);
-    let (mut at_low, mut at_high) = (held.to_vec(), next.to_vec());
-    for _ in 0..HALVINGS {
+    let (mut at_low, mut at_high) = (inputs.to_vec(), next.to_vec());
+    for _ in 0..BISECTIONS {
         let middle = 0.5 * (low + high);
         if middle <= low || middle >= high || high - low <= f64::EPSILON * session.world.data.time() {
             break;
         }
         advance(session, start, middle);
-        let now = peek(session);
+        let now = controls_now(session);
         if session.ended().is_some() {
             return None;
         }
-        if apart(&now, &at_high) > MOST_OF_IT * whole {
+        if largest_difference(&now, &at_high) > JUMP_PART * whole {
             (low, at_low) = (middle, now);
-        } else if apart(&at_low, &now) > MOST_OF_IT * whole {
+        } else if largest_difference(&at_low, &now) > JUMP_PART * whole {
             (high, at_high) = (middle, now);
         } else {
             return None;
@@ -123,12 +123,12 @@ pub(super) fn play(
             return made - 1;
         }
         session.refresh();
-        let held = numbers(session, WRITTEN);
-        let next = peek(session);
-        let change = apart(&held, &next);
-        if change > SUDDEN * usual + 1e-9 * apart(&next, &vec![0.0; next.len()]) {
+        let inputs = numbers(session, CONTROLLED_STATE);
+        let next = controls_now(session);
+        let change = largest_difference(&inputs, &next);
+        if change > JUMP_FACTOR * usual + 1e-9 * largest_difference(&next, &vec![0.0; next.len()]) {
             let end = SavedStart::save(session);
-            match before_the_jump(session, &start, h, &held, &next) {
+            match advance_to_jump(session, &start, h, &inputs, &next) {
                 Some(x) => {
                     advance(session, &start, x);
                     set_timestep(session, h - x);

@@ -1,7 +1,7 @@
 //! The timesteps of a comparison, and the samples at which their runs are compared with the reference.
 
 use super::case::PrecisionCase;
-use super::report::Options;
+use super::report::PrecisionOptions;
 use super::setting::{Setting, Solver};
 use labspec::run::{self, RunError};
 use labspec::run::{INTEGRATORS, Integrator};
@@ -71,7 +71,7 @@ impl Ladder {
     }
 
     /// The settings to compare: each integrator with all timesteps, then the solver settings at the lab's own timestep.
-    pub(super) fn settings(&self, options: &Options) -> Vec<Setting> {
+    pub(super) fn settings(&self, options: &PrecisionOptions) -> Vec<Setting> {
         let named = match options.integrators.as_slice() {
             [] => INTEGRATORS.into_iter().filter(|i| i.shared).collect(),
             some => some.to_vec(),

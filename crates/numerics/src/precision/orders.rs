@@ -1,7 +1,7 @@
 //! Observed orders of convergence: how many times an error halves when the timestep is halved.
 
 use super::judge::Compared;
-use super::report::Row;
+use super::report::PrecisionRow;
 use super::run_record::RunStatus;
 
 /// An order is determined only if the error is below this part of the range, so that the leading term dominates,
@@ -16,7 +16,7 @@ const LEAST: f64 = 0.5;
 
 /// Determines the order between each run and the one with the next shorter timestep. Only for `smooth` scenes, in which no
 /// force jumps, and for numbers whose truth is known to the end.
-pub(super) fn observe_orders(rows: &mut [Row], targets: &[Compared], smooth: bool) {
+pub(super) fn observe_orders(rows: &mut [PrecisionRow], targets: &[Compared], smooth: bool) {
     if !smooth {
         return;
     }
@@ -42,18 +42,18 @@ pub(super) fn observe_orders(rows: &mut [Row], targets: &[Compared], smooth: boo
     }
 }
 
-fn error(rows: &[Row], k: usize, target: usize) -> f64 {
+fn error(rows: &[PrecisionRow], k: usize, target: usize) -> f64 {
     rows.get(k).and_then(|r| r.errors.get(target)).map_or(f64::NAN, |e| e.largest)
 }
 
-fn same_method(rows: &[Row], a: usize, b: usize) -> bool {
+fn same_method(rows: &[PrecisionRow], a: usize, b: usize) -> bool {
     let (Some(a), Some(b)) = (rows.get(a), rows.get(b)) else { return false };
     a.setting.integrator == b.setting.integrator && a.setting.solver.is_none() && b.setting.solver.is_none()
 }
 
 /// The order between the previous run and this one, if both errors are above the uncertainty of the reference and
 /// below a part of the range.
-fn observed(rows: &[Row], k: usize, i: usize, target: &Compared) -> Option<f64> {
+fn observed(rows: &[PrecisionRow], k: usize, i: usize, target: &Compared) -> Option<f64> {
     let (coarse, fine) = (rows.get(k.checked_sub(1)?)?, rows.get(k)?);
     let longer = coarse.setting.timestep / fine.setting.timestep;
     let good =

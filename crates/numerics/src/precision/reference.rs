@@ -5,7 +5,9 @@
 //! continuous controller with powers of the timestep: a table of runs with decreasing timesteps is extrapolated to a timestep
 //! of zero (`extrapolation.rs`).
 
-use super::agreement::{Reference, UNKNOWN, agree, agreed, method, run, so_far, too_long, worst_part};
+use super::agreement::{
+    Reference, UNKNOWN, agree, agreed, largest_relative_difference, method, run, so_far, too_long,
+};
 use super::case::PrecisionCase;
 use super::event_finder::EventThresholds;
 use super::extrapolation::extrapolated;
@@ -16,9 +18,9 @@ use labspec::run::RunError;
 use labspec_core::integrator;
 
 /// The part of its range by which the two families may differ.
-const AGREE: f64 = 1e-9;
+const MAX_DIFFERENCE: f64 = 1e-9;
 /// The number of timesteps of the second family, each a quarter of the previous one.
-const TRIES: usize = 5;
+const MAX_REFINEMENTS: usize = 5;
 /// Returns the reference, or `None` if no method can simulate the lab within the work limit of a run.
 ///
 /// # Errors
@@ -40,16 +42,17 @@ fn direct(case: &PrecisionCase<'_>, timestep: f64) -> Result<Option<Reference>, 
     let mut first = None;
     for method_step in [(integrator::ADAPTIVE, case.interval), (integrator::GAUSS, timestep / 16.0)] {
         if first.is_none() && !too_long(case, method_step.1) {
-            first = run(case, method_step.0, method_step.1, RunRequest::FRESH)?.map(|run| (method_step, run));
+            first = run(case, method_step.0, method_step.1, RunRequest::REFERENCE_REQUEST)?
+                .map(|run| (method_step, run));
         }
     }
     let mut best: Option<AgreeingRuns> = None;
     let mut step = timestep.min(case.interval);
-    for _ in 0..TRIES {
+    for _ in 0..MAX_REFINEMENTS {
         if too_long(case, step) {
             break;
         }
-        let Some(second) = run(case, integrator::RKMK8, step, RunRequest::FRESH)? else {
+        let Some(second) = run(case, integrator::RKMK8, step, RunRequest::REFERENCE_REQUEST)? else {
             // The method may fail only because the step is too long.
             if best.is_some() {
                 break;
@@ -66,7 +69,7 @@ fn direct(case: &PrecisionCase<'_>, timestep: f64) -> Result<Option<Reference>, 
             // Only one family succeeds: a run with half the step serves for comparison.
             None => {
                 let half = (integrator::RKMK8, step / 2.0);
-                let Some(finer) = run(case, half.0, half.1, RunRequest::FRESH)? else { break };
+                let Some(finer) = run(case, half.0, half.1, RunRequest::REFERENCE_REQUEST)? else { break };
                 let how = format!("{}, and at twice that", in_words(half));
                 AgreeingRuns { reference: compare(finer, &second, how), methods: [half, mine] }
             }
@@ -97,7 +100,7 @@ fn find_moments(case: &PrecisionCase<'_>, pair: &mut AgreeingRuns) -> Result<(),
         // The other run finds the same events by then, or none.
         let late = |run: &Run| run.settled + UNKNOWN * case.length() + 8.0 * timestep;
         let stop = found.first().map_or(f64::INFINITY, late);
-        let ask = RunRequest { sought: Some(&r.sought), stop: Some(stop), ..RunRequest::FRESH };
+        let ask = RunRequest { sought: Some(&r.sought), stop: Some(stop), ..RunRequest::REFERENCE_REQUEST };
         let setting = Setting { integrator: method(id), timestep, solver: None };
         found.push(case.run(&setting, ask)?);
     }
@@ -121,9 +124,9 @@ fn compare(mut first: Run, second: &Run, how: String) -> Reference {
 }
 
 fn worst(r: &Reference) -> f64 {
-    worst_part(&r.values, &r.uncertain)
+    largest_relative_difference(&r.values, &r.uncertain)
 }
 
 fn agrees(r: &Reference) -> bool {
-    agree(&r.values, &r.uncertain, AGREE)
+    agree(&r.values, &r.uncertain, MAX_DIFFERENCE)
 }

@@ -2,7 +2,7 @@
 
 use super::beside::{Beside, Recording};
 use super::case::LeftOut;
-use super::events::{Event, Nearby};
+use super::events::{Event, NearbyStarts};
 use super::judge::{Compared, Errors};
 use super::run_cost::RunCost;
 use super::run_record::RunStatus;
@@ -13,7 +13,7 @@ use serde::Serialize;
 
 /// The settings to compare, and the interactions during the runs.
 #[derive(Clone, Debug, Default)]
-pub struct Options {
+pub struct PrecisionOptions {
     /// The length in s; the lab's `stopAt`, or 2, if `None`.
     pub until: Option<f64>,
     /// Controls by label, with the values that they get before the first step.
@@ -30,7 +30,7 @@ pub struct Options {
 
 /// The results of one setting.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row {
+pub struct PrecisionRow {
     /// The setting.
     pub setting: Setting,
     /// Whether it is the lab's own.
@@ -58,7 +58,7 @@ pub struct Row {
 
 /// All runs of a lab.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Report {
+pub struct PrecisionResults {
     /// The compared numbers.
     pub targets: Vec<Compared>,
     /// The numbers that are not compared, with the reasons.
@@ -71,7 +71,7 @@ pub struct Report {
     /// each of its steps, unless the steps are shorter than the sample interval.
     pub samples: usize,
     /// The runs: by integrator, from large to small timesteps; then the solver settings.
-    pub rows: Vec<Row>,
+    pub rows: Vec<PrecisionRow>,
     /// The events of the reference, in the order of the rows' `events`.
     pub events: Vec<Event>,
     /// The energy that the scene conserves: the size of the moving part, J.
@@ -83,7 +83,7 @@ pub struct Report {
     /// The uncertainty of the penetration depth, m.
     pub penetration_doubt: f64,
     /// How long runs with nearby starts agree, if the reference is lost before the end.
-    pub nearby: Option<Nearby>,
+    pub nearby: Option<NearbyStarts>,
     /// The rows for which no other is better in both error and cost, from the cheapest to the most accurate.
     pub front: Vec<usize>,
     /// The recommendations.

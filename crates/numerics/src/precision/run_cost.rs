@@ -87,8 +87,8 @@ fn repeat(case: &PrecisionCase<'_>, setting: &Setting) -> Option<f64> {
 fn whole_run(case: &PrecisionCase<'_>, setting: &Setting) -> Option<(Duration, usize)> {
     let mut session = case.start(Some(setting)).ok()?;
     let mut pending = case.presses.as_slice();
-    let rhythm = case.rhythm(setting.timestep);
-    let steps = rhythm.count * rhythm.steps;
+    let sampling_plan = case.sampling_plan(setting.timestep);
+    let steps = sampling_plan.count * sampling_plan.steps;
     let clock = Instant::now();
     let mut made = 0;
     while made < steps && session.ended().is_none() {

@@ -7,7 +7,7 @@ use labspec_core::{self as core, Data, Full, Model, Warning, state};
 
 /// The samples of a run: after every step, or after as many steps as there are between samples of the reference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Rhythm {
+pub(super) struct SamplingPlan {
     /// The number of steps from one sample to the next.
     pub(super) steps: usize,
     /// The number of samples of the reference from one sample to the next.
@@ -35,7 +35,7 @@ pub(super) struct RunRequest<'s> {
 
 impl RunRequest<'_> {
     /// The request for a run of the reference.
-    pub(super) const FRESH: RunRequest<'static> =
+    pub(super) const REFERENCE_REQUEST: RunRequest<'static> =
         RunRequest { perturbation: 0.0, fresh: true, cut: false, sought: None, stop: None };
 }
 
@@ -126,7 +126,7 @@ impl Run {
     }
 
     /// Sets the status of a run at its end.
-    pub(super) fn set_fate(&mut self, session: &Session<'_>) {
+    pub(super) fn set_status(&mut self, session: &Session<'_>) {
         let bad = [Warning::BadQpos, Warning::BadQvel, Warning::BadQacc, Warning::BadCtrl];
         self.reported = run::breakdowns_of(session).into_iter().map(|b| b.what).collect();
         self.status = match session.ended() {
@@ -140,8 +140,8 @@ impl Run {
             None if !self.reported.is_empty() => RunStatus::Warned,
             None => RunStatus::Good,
         };
-        if let Some(trouble) = session.troubles.first() {
-            self.reported.push(trouble.message.clone());
+        if let Some(program_error) = session.program_errors.first() {
+            self.reported.push(program_error.message.clone());
         }
     }
 }

@@ -5,7 +5,7 @@ use labspec_core::{self as core, Model, state};
 
 /// The part of the state that evolves in a step, and the part that is constant during it.
 const MOTION: i32 = state::FULLPHYSICS | state::WARMSTART;
-const HELD: i32 = state::USER;
+const HELD_INPUTS: i32 = state::USER;
 /// The number of stored states.
 const MOST_STATES: usize = 4;
 
@@ -27,7 +27,7 @@ pub(super) struct StepHistory {
 impl StepHistory {
     pub(super) fn new(m: &Model) -> StepHistory {
         let zeros = |sig| vec![0.0; state::size(m, sig).unwrap_or(0)];
-        let empty = PastState { time: 0.0, motion: zeros(MOTION), held: zeros(HELD) };
+        let empty = PastState { time: 0.0, motion: zeros(MOTION), held: zeros(HELD_INPUTS) };
         StepHistory { states: std::array::from_fn(|_| empty.clone()), count: 0 }
     }
 
@@ -39,7 +39,7 @@ impl StepHistory {
         now.time = time;
         // The state belongs to the same model, so this cannot fail.
         let _ = state::get(m, d, &mut now.motion, MOTION);
-        let _ = state::get(m, d, &mut now.held, HELD);
+        let _ = state::get(m, d, &mut now.held, HELD_INPUTS);
         self.count = (self.count + 1).min(MOST_STATES);
     }
 
@@ -65,28 +65,28 @@ pub(super) type Evaluate<'e> = dyn Fn(&mut Session<'_>, usize) -> f64 + 'e;
 /// A copy of a run in which its last steps are repeated.
 pub(super) struct StepReplay<'b> {
     pub(super) session: Session<'b>,
-    pub(super) past: &'b StepHistory,
+    pub(super) history: &'b StepHistory,
     /// The largest magnitude of the evaluated values.
     pub(super) size: f64,
 }
 
 impl<'b> StepReplay<'b> {
-    pub(super) fn new(session: &Session<'b>, past: &'b StepHistory) -> StepReplay<'b> {
-        StepReplay { session: session.clone(), past, size: 0.0 }
+    pub(super) fn new(session: &Session<'b>, history: &'b StepHistory) -> StepReplay<'b> {
+        StepReplay { session: session.clone(), history, size: 0.0 }
     }
 
     /// Advances from a state by a step of this length, and computes all fields there.
     pub(super) fn place(&mut self, from: usize, x: f64) {
-        let Some(start) = self.past.states.get(from) else { return };
+        let Some(start) = self.history.states.get(from) else { return };
         // The values that were constant in the step are stored with its end.
-        let Some(end) = self.past.states.get(from.saturating_sub(1)) else { return };
+        let Some(end) = self.history.states.get(from.saturating_sub(1)) else { return };
         let world = &mut self.session.world;
         if x > 0.0 {
             *world.model.edit().opt.timestep = x;
         }
         let (m, d) = (&world.model, &mut world.data);
         let _ = state::set(m, d, &start.motion, MOTION);
-        let _ = state::set(m, d, &end.held, HELD);
+        let _ = state::set(m, d, &end.held, HELD_INPUTS);
         if x > 0.0 {
             let _ = core::step(m, d);
         }

@@ -24,7 +24,7 @@ pub const REPEATS: usize = 7;
 const MOST_WORK: u64 = 10_000_000;
 const LONG_ENOUGH: f64 = 1e6;
 /// The nanoseconds between two readings of the clock: an interruption invalidates only that much of a run.
-const LOOK_EVERY: f64 = 5e4;
+const CLOCK_INTERVAL: f64 = 5e4;
 
 /// The cost of a stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -46,7 +46,7 @@ pub struct StepCost {
     /// The median time of a step including the lab's controller, ns.
     pub ns: f64,
     /// The first and the third quartile.
-    pub quarters: [f64; 2],
+    pub quartiles: [f64; 2],
     /// The time if every stage runs.
     pub full: f64,
     /// The time outside all stages: the integrator, and the check for non-finite numbers.
@@ -82,11 +82,11 @@ fn clock_cost() -> f64 {
         let last = (0..100).fold(start, |_, _| nanoseconds());
         times.push((last - start) as f64 / 100.0);
     }
-    quarters(&mut times)[1]
+    quartiles(&mut times)[1]
 }
 
 /// The first quartile, the median and the third quartile.
-fn quarters(times: &mut [f64]) -> [f64; 3] {
+fn quartiles(times: &mut [f64]) -> [f64; 3] {
     times.sort_by(f64::total_cmp);
     let n = times.len();
     [n / 4, n / 2, (3 * n) / 4].map(|i| times.get(i).copied().unwrap_or(0.0))
@@ -111,7 +111,7 @@ impl Times {
     /// The sums of the quartiles and of the median of each chunk; interruptions of some repetitions
     /// have no effect on the median.
     fn sums(&self) -> [f64; 3] {
-        let all = self.chunks.iter().map(|times| quarters(&mut times.clone()));
+        let all = self.chunks.iter().map(|times| quartiles(&mut times.clone()));
         all.fold([0.0; 3], |sum, now| [sum[0] + now[0], sum[1] + now[1], sum[2] + now[2]])
     }
 }
@@ -197,7 +197,7 @@ pub(super) fn measure(
 ) -> Result<Option<Measured>, RunError> {
     let (plan, _) = plan_at_start(lab, model, programs);
     let mut case = MeasuredLab { lab, model, programs, steps: 0, runs: 1, chunk: 16 };
-    let (mut step, works) = look_at(&mut case, &plan)?;
+    let (mut step, works) = observe_run(&mut case, &plan)?;
     if case.steps == 0 {
         return Ok(None);
     }
@@ -205,10 +205,10 @@ pub(super) fn measure(
     case.time(&plan, &mut first);
     let [_, whole, _] = first.sums();
     case.runs = (LONG_ENOUGH / whole.max(1.0)).ceil().clamp(1.0, 100.0) as usize;
-    case.chunk = (LOOK_EVERY * case.steps as f64 / whole.max(1.0)).clamp(1.0, 1000.0) as usize;
+    case.chunk = (CLOCK_INTERVAL * case.steps as f64 / whole.max(1.0)).clamp(1.0, 1000.0) as usize;
 
     let variants = variants(&case, &plan, readers);
-    let (times, laps) = measure_in_turn(&case, &plan, &variants);
+    let (times, laps) = measure_alternately(&case, &plan, &variants);
     let per_step = |sum: f64| sum / case.steps as f64;
     let sums: Vec<[f64; 3]> = times.iter().map(|t| t.sums().map(per_step)).collect();
     let of = |i: usize| sums.get(i).copied().unwrap_or_default();
@@ -223,7 +223,7 @@ pub(super) fn measure(
         StageCost { ns: share * ns, share, work }
     };
     let stages: Vec<_> = plan.decisions().iter().map(|d| d.stage).collect();
-    (step.ns, step.quarters, step.full) = (ns, [low, high], of(1)[1]);
+    (step.ns, step.quartiles, step.full) = (ns, [low, high], of(1)[1]);
     step.integrator = cost(stages.len(), 0.0);
     step.controller = programs.controller.as_ref().map(|_| cost(stages.len() + 1, 0.0));
     let costs = stages.iter().zip(&works).enumerate();
@@ -252,7 +252,7 @@ fn variants(case: &MeasuredLab<'_>, plan: &Plan, readers: &[ExtraReader]) -> Vec
 }
 
 /// Measures all variants in alternation: returns the times of each variant, and those of each stage of the plan.
-fn measure_in_turn(case: &MeasuredLab<'_>, plan: &Plan, variants: &[Plan]) -> (Vec<Times>, Vec<Times>) {
+fn measure_alternately(case: &MeasuredLab<'_>, plan: &Plan, variants: &[Plan]) -> (Vec<Times>, Vec<Times>) {
     let mut times = vec![Times::default(); variants.len()];
     let mut laps = vec![Times::default(); plan.decisions().len() + 2];
     for _ in 0..REPEATS {
@@ -268,7 +268,7 @@ fn measure_in_turn(case: &MeasuredLab<'_>, plan: &Plan, variants: &[Plan]) -> (V
 }
 
 /// Runs the lab once to determine the number of steps to measure, what happens in them, and the work of each stage.
-fn look_at(case: &mut MeasuredLab<'_>, plan: &Plan) -> Result<(StepCost, Vec<f64>), RunError> {
+fn observe_run(case: &mut MeasuredLab<'_>, plan: &Plan) -> Result<(StepCost, Vec<f64>), RunError> {
     let mut session = case.start(plan);
     let most = count_steps(case.lab, None, None, session.world.model.opt.timestep)?;
     core::clock(&mut session.world.data, || 0);

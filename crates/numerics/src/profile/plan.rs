@@ -54,7 +54,7 @@ pub struct PlanReport {
 
 /// The options of a plan report.
 #[derive(Clone, Debug, Default)]
-pub struct Options {
+pub struct PlanOptions {
     /// Additional readers: fields, sensors, or expressions.
     pub read: Vec<String>,
     /// Whether the lab is run to measure it.
@@ -69,7 +69,7 @@ pub fn plan(
     lab: &Lab,
     model: &Model,
     programs: &Programs,
-    options: &Options,
+    options: &PlanOptions,
 ) -> Result<PlanReport, RunError> {
     let access = programs.access;
     let (plan, now) = plan_at_start(lab, model, programs);

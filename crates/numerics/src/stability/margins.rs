@@ -17,7 +17,7 @@ use labspec_core::{Data, Model, Obj, disable, servo_gains, set_const};
 
 /// The kind of parameter that is raised.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Knob {
+pub enum ParameterKind {
     /// The timestep, s.
     Timestep,
     /// The gain of a servo.
@@ -28,14 +28,14 @@ pub enum Knob {
     MassRatio,
 }
 
-impl Knob {
+impl ParameterKind {
     /// The parameter in words.
     pub fn description(self) -> &'static str {
         match self {
-            Knob::Timestep => "timestep",
-            Knob::Gain => "gain",
-            Knob::Stiffness => "stiffness",
-            Knob::MassRatio => "mass ratio",
+            ParameterKind::Timestep => "timestep",
+            ParameterKind::Gain => "gain",
+            ParameterKind::Stiffness => "stiffness",
+            ParameterKind::MassRatio => "mass ratio",
         }
     }
 }
@@ -44,9 +44,9 @@ impl Knob {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Margin {
     /// The kind of parameter.
-    pub knob: Knob,
+    pub knob: ParameterKind,
     /// The object to which it belongs.
-    pub who: String,
+    pub subject: String,
     /// Its unit; empty for a ratio, or if the unit depends on the joint.
     pub unit: &'static str,
     /// The current value in the lab.
@@ -73,8 +73,8 @@ const LONGEST: f64 = 1.0;
 const STEPS: f64 = 10.0;
 /// The factors between the values that are tried. Small steps are needed for a timestep, because a lab may work again
 /// beyond the first failure.
-const STEPWISE: f64 = 1.2;
-const DOUBLING: f64 = 2.0;
+const FINE_FACTOR: f64 = 1.2;
+const COARSE_FACTOR: f64 = 2.0;
 /// The maximum number of servos, of springs and of pairs of bodies that are tested.
 const MOST: usize = 12;
 
@@ -85,8 +85,8 @@ type Read = dyn Fn(&Model) -> f64;
 
 /// A parameter that is raised.
 struct RaisedParameter {
-    knob: Knob,
-    who: String,
+    knob: ParameterKind,
+    subject: String,
     unit: &'static str,
     now: f64,
     most: f64,
@@ -122,13 +122,13 @@ pub(super) fn margins(
     list.extend(some(ratios(&model, &base.touching), "pairs of bodies"));
     let mut found = Vec::new();
     for raised in list {
-        report_progress(&format!("margin: {} of {}", raised.knob.description(), raised.who));
+        report_progress(&format!("margin: {} of {}", raised.knob.description(), raised.subject));
         match search(case, &raised, length, work) {
             Ok(margin) => found.push(margin),
             Err(why) => left_out.push(format!(
                 "the margin of the {} of {}, {why}",
                 raised.knob.description(),
-                raised.who
+                raised.subject
             )),
         }
     }
@@ -145,7 +145,7 @@ fn search(
 ) -> Result<Margin, &'static str> {
     let before = *work;
     let (mut runs, mut how, mut set) = (0, None, false);
-    let factor = if raised.knob == Knob::Timestep { STEPWISE } else { DOUBLING };
+    let factor = if raised.knob == ParameterKind::Timestep { FINE_FACTOR } else { COARSE_FACTOR };
     let limit = search::largest(raised.most, factor, |x| {
         if *work - before > WORK || interrupt::requested() {
             return None;
@@ -157,7 +157,7 @@ fn search(
                 return None;
             };
             if let Some(fault) = worst_fault(&outcome.faults, &[]) {
-                how = Some((fault.kind, fault.who.clone()));
+                how = Some((fault.kind, fault.subject.clone()));
                 return Some(false);
             }
             if outcome.cut {
@@ -180,13 +180,13 @@ fn search(
     let bound = bound.filter(|b| b.broken.is_some()).and_then(|SearchLimit { fine, .. }| fine);
     Ok(Margin {
         knob: raised.knob,
-        who: raised.who.clone(),
+        subject: raised.subject.clone(),
         unit: raised.unit,
         now: raised.now,
         largest: limit.fine.map(|x| x * raised.now),
         breaks: limit.broken.map(|x| x * raised.now),
         how: how.filter(|_| limit.broken.is_some()),
-        bound: bound.map(|x| x * raised.now).filter(|_| raised.knob != Knob::MassRatio),
+        bound: bound.map(|x| x * raised.now).filter(|_| raised.knob != ParameterKind::MassRatio),
         runs,
         geoms: raised.geoms.clone(),
     })
@@ -194,7 +194,7 @@ fn search(
 
 /// Whether the theoretical bound states that an object is too stiff.
 fn stiff(m: &Model, object: Option<(Obj, Option<usize>)>) -> bool {
-    stability::suspects(m)
+    stability::unstable_parts(m)
         .iter()
         .any(|s| object.is_none_or(|(kind, id)| kind == s.object && id.is_none_or(|id| id == s.id)))
 }
@@ -214,13 +214,13 @@ fn run(
     // The factor is relative to the value after the lab is loaded.
     let now = (raised.read)(&model);
     (raised.apply)(&mut model, if now > 0.0 { wanted / now } else { x });
-    if raised.knob == Knob::MassRatio {
+    if raised.knob == ParameterKind::MassRatio {
         // Recomputes the fields that depend on masses; if an inertia is not positive, they remain unchanged.
         let mut data = Data::new(&model);
         let _ = set_const(&mut model, &mut data);
     }
     let case = case.with_model(&model);
-    let free = raised.knob != Knob::MassRatio;
+    let free = raised.knob != ParameterKind::MassRatio;
     let change = |session: &mut Session<'_>| {
         let set = (raised.read)(&session.world.model);
         if free && !same(&session.world.model) && set > 0.0 {
@@ -235,8 +235,8 @@ fn run(
 fn timestep(m: &Model, length: f64) -> RaisedParameter {
     let now = m.opt.timestep;
     RaisedParameter {
-        knob: Knob::Timestep,
-        who: "the lab".into(),
+        knob: ParameterKind::Timestep,
+        subject: "the lab".into(),
         unit: "s",
         now,
         most: (LONGEST.min(length / STEPS) / now).max(1.0),
@@ -269,8 +269,8 @@ fn gains(m: &Model) -> Vec<RaisedParameter> {
         let scaled = servo_gains(&twice, a).map(|g| g[bias - 1]);
         if gain > 0.0 && scaled == Some(2.0 * gain) {
             list.push(RaisedParameter {
-                knob: Knob::Gain,
-                who: named(&m.names.actuator, a, "the servo"),
+                knob: ParameterKind::Gain,
+                subject: named(&m.names.actuator, a, "the servo"),
                 unit: "",
                 now: gain,
                 most: f64::INFINITY,
@@ -289,8 +289,8 @@ fn stiffnesses(m: &Model) -> Vec<RaisedParameter> {
     if !m.opt.disabled(disable::SPRING) {
         for j in (0..m.njnt).filter(|&j| m.jnt_stiffness.get(j).is_some_and(|&k| k > 0.0)) {
             list.push(RaisedParameter {
-                knob: Knob::Stiffness,
-                who: named(&m.names.joint, j, "joint"),
+                knob: ParameterKind::Stiffness,
+                subject: named(&m.names.joint, j, "joint"),
                 unit: "",
                 now: m.jnt_stiffness[j],
                 most: f64::INFINITY,
@@ -304,8 +304,8 @@ fn stiffnesses(m: &Model) -> Vec<RaisedParameter> {
         }
         for t in (0..m.ntendon).filter(|&t| m.tendon_stiffness.get(t).is_some_and(|&k| k > 0.0)) {
             list.push(RaisedParameter {
-                knob: Knob::Stiffness,
-                who: named(&m.names.tendon, t, "tendon"),
+                knob: ParameterKind::Stiffness,
+                subject: named(&m.names.tendon, t, "tendon"),
                 unit: "N/m",
                 now: m.tendon_stiffness[t],
                 most: f64::INFINITY,
@@ -344,8 +344,8 @@ fn contacts(m: &Model, touching: &[[usize; 2]]) -> Option<RaisedParameter> {
     };
     let now = read(m);
     (now > 0.0).then(|| RaisedParameter {
-        knob: Knob::Stiffness,
-        who: "all contacts".into(),
+        knob: ParameterKind::Stiffness,
+        subject: "all contacts".into(),
         unit: "1/s²",
         now,
         most: f64::INFINITY,
@@ -364,7 +364,7 @@ fn ratios(m: &Model, touching: &[[usize; 2]]) -> Vec<RaisedParameter> {
     let joined = |b: &usize| m.body_jntnum.get(*b).is_some_and(|&n| n > 0);
     let parent = |b: usize| m.body_parentid.get(b).map_or(0, |&p| p as usize);
     pairs.extend((1..m.nbody).filter(joined).map(|b| [parent(b), b]));
-    pairs.extend(tied(m));
+    pairs.extend(constrained_pairs(m));
     pairs.iter_mut().for_each(|p| p.sort_unstable());
     pairs.sort_unstable();
     pairs.dedup();
@@ -373,13 +373,13 @@ fn ratios(m: &Model, touching: &[[usize; 2]]) -> Vec<RaisedParameter> {
     for [a, b] in pairs.into_iter().filter(|p| p.iter().all(moves)) {
         for [heavy, light] in [[a, b], [b, a]] {
             list.push(RaisedParameter {
-                knob: Knob::MassRatio,
-                who: format!("{} to {}", body_name(m, heavy), body_name(m, light)),
+                knob: ParameterKind::MassRatio,
+                subject: format!("{} to {}", body_name(m, heavy), body_name(m, light)),
                 unit: "",
                 now: mass(heavy) / mass(light),
                 most: f64::INFINITY,
                 object: None,
-                apply: Box::new(move |m, x| heavier(m, heavy, x)),
+                apply: Box::new(move |m, x| scale_mass(m, heavy, x)),
                 read: Box::new(move |m| {
                     let mass = |b: usize| m.body_mass.get(b).copied().unwrap_or(0.0);
                     mass(heavy) / mass(light)
@@ -392,7 +392,7 @@ fn ratios(m: &Model, touching: &[[usize; 2]]) -> Vec<RaisedParameter> {
 }
 
 /// Pairs of bodies that an equality constraint ties together.
-fn tied(m: &Model) -> Vec<[usize; 2]> {
+fn constrained_pairs(m: &Model) -> Vec<[usize; 2]> {
     let bodies = |e: &usize| {
         m.eq_objtype.get(*e) == Some(&(Obj::Body as i32)) && m.eq_active0.get(*e).copied().unwrap_or(false)
     };
@@ -401,7 +401,7 @@ fn tied(m: &Model) -> Vec<[usize; 2]> {
     (0..m.neq).filter(bodies).filter_map(both).collect()
 }
 
-fn heavier(m: &mut Model, body: usize, x: f64) {
+fn scale_mass(m: &mut Model, body: usize, x: f64) {
     let edit = m.edit();
     edit.body_mass.iter_mut().skip(body).take(1).for_each(|mass| *mass *= x);
     edit.body_inertia.iter_mut().skip(3 * body).take(3).for_each(|inertia| *inertia *= x);

@@ -16,7 +16,7 @@ mod sensitivity;
 mod truth;
 
 pub use map::{MapCell, StabilityMap};
-pub use margins::{Knob, Margin};
-pub use probe::{Options, RunCount, StabilityFinding, StressReport, StressRun, probe};
+pub use margins::{Margin, ParameterKind};
+pub use probe::{RunCount, StabilityFinding, StressOptions, StressReport, StressRun, probe};
 pub use remedy::Remedy;
-pub use sensitivity::{Exponent, Horizon, Parting, Sensitivity};
+pub use sensitivity::{DivergenceOfStarts, Exponent, Horizon, Sensitivity};

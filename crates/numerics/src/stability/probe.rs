@@ -25,7 +25,7 @@ const MOST_REMEDIED: usize = 6;
 
 /// The options of the runs.
 #[derive(Clone, Debug, Default)]
-pub struct Options {
+pub struct StressOptions {
     /// The length of each run in s; ten times the time that a student watches if `None`.
     pub until: Option<f64>,
     /// Whether stability margins are computed.
@@ -120,7 +120,7 @@ pub fn probe(
     lab: &Lab,
     model: &Model,
     programs: &Programs,
-    options: &Options,
+    options: &StressOptions,
     report_progress: &mut dyn FnMut(&str),
 ) -> Result<StressReport, RunError> {
     let length = options.until.unwrap_or(LONGER * window(lab));

@@ -36,12 +36,12 @@ struct WorkingRemedy {
 }
 
 /// The number of halvings of the timestep that are tried if it may be the cause, and the divisor of the work for one run.
-const HALVINGS: i32 = 6;
+const MAX_HALVINGS: i32 = 6;
 const PART: u64 = 4;
 /// The maximum number of working timesteps that are examined, and the error, relative to the range,
 /// above which a lab is useless.
 const TIMESTEPS: usize = 3;
-const USELESS: f64 = 0.5;
+const MIN_IMPROVEMENT: f64 = 0.5;
 /// A slow drift counts as stopped if its speed falls below this part of the speed before.
 const STOPPED: f64 = 0.1;
 
@@ -70,13 +70,13 @@ impl RemedyTests<'_, '_> {
         let halvings = match found.fault.kind {
             FaultKind::Penetrates => 1,
             FaultKind::Drifts => 0,
-            _ => HALVINGS,
+            _ => MAX_HALVINGS,
         };
         let interaction = || found.interaction.clone();
         for k in 1..=halvings {
             let h = model.opt.timestep * 0.5f64.powi(k);
             let apply = move |m: &mut Model| *m.edit().opt.timestep = h;
-            if let Some(work) = self.helps(found, &before, &apply)? {
+            if let Some(work) = self.work_with_change(found, &before, &apply)? {
                 let change = format!("a timestep of {} s", two_digits(h));
                 list.push(WorkingRemedy {
                     change,
@@ -91,7 +91,7 @@ impl RemedyTests<'_, '_> {
             }
         }
         for (change, apply) in candidates(&model, found.fault.kind) {
-            if let Some(work) = self.helps(found, &before, &apply)? {
+            if let Some(work) = self.work_with_change(found, &before, &apply)? {
                 list.push(WorkingRemedy { change, timestep: false, work, interaction: interaction(), apply });
             }
         }
@@ -121,7 +121,7 @@ impl RemedyTests<'_, '_> {
                 let truth = truth::truth(self.case, &interaction, self.window, &mut work);
                 truth.and_then(|t| truth::error(self.case, &t, apply, &mut work))
             };
-            if error.is_some_and(|error| error > USELESS) {
+            if error.is_some_and(|error| error > MIN_IMPROVEMENT) {
                 continue;
             }
             enough |= timestep;
@@ -147,7 +147,7 @@ impl RemedyTests<'_, '_> {
     }
 
     /// The work per simulated second with a change, if the change removes the fault.
-    fn helps(
+    fn work_with_change(
         &mut self,
         found: &FaultGroup,
         before: &RunOutcome,
@@ -156,7 +156,7 @@ impl RemedyTests<'_, '_> {
         let change = |session: &mut Session<'_>| apply(&mut session.world.model);
         let outcome = self.run(&found.interaction, Some(&change))?;
         let cost = outcome.spent as f64 / outcome.covered.max(f64::MIN_POSITIVE) / self.work_per_second;
-        Some((!outcome.cut && is_well(found, before, &outcome)).then_some(cost))
+        Some((!outcome.cut && has_no_new_fault(found, before, &outcome)).then_some(cost))
     }
 
     /// A smaller range of a slider, if the slider alone causes the fault: the largest value without a
@@ -183,7 +183,11 @@ impl RemedyTests<'_, '_> {
         while (bad - good).abs() > 1.5 {
             let middle = (0.5 * (good + bad)).round();
             let outcome = self.run(&with(found, action, on_grid(min, step, middle)), None)?;
-            if !outcome.cut && is_well(found, before, &outcome) { good = middle } else { bad = middle }
+            if !outcome.cut && has_no_new_fault(found, before, &outcome) {
+                good = middle
+            } else {
+                bad = middle
+            }
         }
         let last = on_grid(min, step, good);
         let moved = if up { last > value.value } else { last < value.value };
@@ -217,14 +221,18 @@ fn ends(control: &Control, last: f64) -> String {
 }
 
 /// Whether a run has no faults except those that existed before besides the finding.
-fn is_well(found: &FaultGroup, before: &RunOutcome, after: &RunOutcome) -> bool {
+fn has_no_new_fault(found: &FaultGroup, before: &RunOutcome, after: &RunOutcome) -> bool {
     let FaultGroup { fault, .. } = found;
     if fault.kind == FaultKind::Drifts {
-        let speed = after.speeds.iter().find(|(who, _)| *who == fault.who).map_or(0.0, |(_, speed)| *speed);
+        let speed = after
+            .speeds
+            .iter()
+            .find(|(subject, _)| *subject == fault.subject)
+            .map_or(0.0, |(_, speed)| *speed);
         return speed <= STOPPED * fault.size && worst_fault(&after.faults, &[]).is_none();
     }
-    let others = before.faults.iter().filter(|f| (f.kind, &f.who) != (fault.kind, &fault.who));
-    let others: Vec<(FaultKind, String)> = others.map(|f| (f.kind, f.who.clone())).collect();
+    let others = before.faults.iter().filter(|f| (f.kind, &f.subject) != (fault.kind, &fault.subject));
+    let others: Vec<(FaultKind, String)> = others.map(|f| (f.kind, f.subject.clone())).collect();
     worst_fault(&after.faults, &others).is_none()
 }
 
@@ -249,7 +257,7 @@ fn candidates(model: &Model, kind: FaultKind) -> Vec<ModelChange> {
             let least = 2.0 * model.opt.timestep;
             let change =
                 format!("contacts as hard as the timestep allows, `solref=\"{} 1\"`", two_digits(least));
-            list.push((change, Box::new(move |m| harden(m, least))));
+            list.push((change, Box::new(move |m| make_stiffer(m, least))));
         }
         FaultKind::Drifts => {
             list.push((
@@ -285,7 +293,7 @@ fn soften(m: &mut Model, times: f64) {
     }
 }
 
-fn harden(m: &mut Model, time: f64) {
+fn make_stiffer(m: &mut Model, time: f64) {
     let edit = m.edit();
     for list in [edit.geom_solref, edit.pair_solref] {
         rows_mut::<2>(list).iter_mut().for_each(|s| *s = [time, 1.0]);

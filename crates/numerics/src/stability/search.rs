@@ -3,7 +3,7 @@
 /// The largest multiple that is tried; its inverse is the smallest one if the current value already fails.
 const MOST: f64 = 1_048_576.0;
 /// The relative accuracy of the limit.
-const CLOSE: f64 = 0.01;
+const RELATIVE_ACCURACY: f64 = 0.01;
 
 /// The result of a search, as multiples of the current value.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,7 +45,7 @@ pub(super) fn largest(
         }
     }
     while let (Some(low), Some(high)) = (good, bad)
-        && high > low * (1.0 + CLOSE)
+        && high > low * (1.0 + RELATIVE_ACCURACY)
     {
         // The geometric mean, because both ends may differ by orders of magnitude.
         let middle = (low * high).sqrt();
@@ -78,7 +78,7 @@ mod tests {
     }
 
     #[test]
-    fn what_never_breaks_and_what_always_does_is_told_apart() {
+    fn never_and_always_failing_parameters_are_distinguished() {
         assert_eq!(
             largest(1e9, 2.0, |_| Some(true)),
             Some(SearchLimit { fine: Some(2f64.powi(20)), broken: None })

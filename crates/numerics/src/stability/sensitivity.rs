@@ -18,10 +18,10 @@ use std::ops::ControlFlow;
 const APART: f64 = 1e-7;
 const TIMES: usize = 100;
 const DIRECTIONS: u64 = 3;
-/// Growth counts as exponential if the factor is at least `GROWS`, a straight line explains at least `STRAIGHT` of the variance
-/// of its logarithm, and the logarithm grows by at least `HALF` of its total in each half of the time.
-const GROWS: f64 = 100.0;
-const STRAIGHT: f64 = 0.9;
+/// Growth counts as exponential if the factor is at least `MIN_GROWTH`, a straight line explains at least `MIN_EXPLAINED`
+/// of the variance of its logarithm, and the logarithm grows by at least `HALF` of its total in each half of the time.
+const MIN_GROWTH: f64 = 100.0;
+const MIN_EXPLAINED: f64 = 0.9;
 const HALF: f64 = 0.3;
 /// The distance of the indistinguishable start.
 const PERTURBATION: f64 = 1e-9;
@@ -45,7 +45,7 @@ pub struct Exponent {
 
 /// The growth factor of a small initial difference, over the tested directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Parting {
+pub struct DivergenceOfStarts {
     /// The smallest growth factor.
     pub low: f64,
     /// The largest growth factor.
@@ -69,7 +69,7 @@ pub struct Sensitivity {
     /// The distance of the other start.
     pub apart: f64,
     /// The growth factor; `None` if the lab has no degrees of freedom or a run does not reach its end.
-    pub parting: Option<Parting>,
+    pub parting: Option<DivergenceOfStarts>,
     /// The exponent; `None` if the difference does not grow exponentially.
     pub exponent: Option<Exponent>,
     /// The readouts.
@@ -84,8 +84,8 @@ pub(super) fn sensitivity(case: &StressCase<'_>, length: f64, work: &mut u64) ->
     let least = |list: &[f64]| list.iter().copied().fold(f64::INFINITY, f64::min);
     let most = |list: &[f64]| list.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let ends: Vec<f64> = all.iter().filter_map(|list| list.last()).map(|(_, sum)| *sum).collect();
-    let parting =
-        (whole && !ends.is_empty()).then(|| Parting { low: least(&ends).exp(), high: most(&ends).exp() });
+    let parting = (whole && !ends.is_empty())
+        .then(|| DivergenceOfStarts { low: least(&ends).exp(), high: most(&ends).exp() });
     let slopes: Option<Vec<f64>> = all.iter().map(|list| slope(list)).collect();
     let exponent = slopes.filter(|_| whole).map(|list| Exponent {
         mean: list.iter().sum::<f64>() / list.len() as f64,
@@ -101,7 +101,7 @@ fn slope(list: &[(f64, f64)]) -> Option<f64> {
     let (end, whole) = *list.last()?;
     let half = list.iter().find(|(t, _)| *t >= 0.5 * end).map(|(_, sum)| *sum)?;
     let least = HALF * whole;
-    if whole < GROWS.ln() || half < least || whole - half < least {
+    if whole < MIN_GROWTH.ln() || half < least || whole - half < least {
         return None;
     }
     let n = list.len() as f64;
@@ -111,7 +111,7 @@ fn slope(list: &[(f64, f64)]) -> Option<f64> {
     let tt = product(&|p| (p.0 - t) * (p.0 - t));
     let ty = product(&|p| (p.0 - t) * (p.1 - y));
     let yy = product(&|p| (p.1 - y) * (p.1 - y));
-    (ty > 0.0 && ty * ty >= STRAIGHT * tt * yy).then(|| ty / tt)
+    (ty > 0.0 && ty * ty >= MIN_EXPLAINED * tt * yy).then(|| ty / tt)
 }
 
 /// Times, s, with the logarithm of the growth factor of a difference along one direction.
@@ -125,7 +125,7 @@ fn logarithms(case: &StressCase<'_>, length: f64, seed: u64, work: &mut u64) -> 
         return None;
     }
     let mut second = first.clone();
-    move_apart(&first, &mut second, &direction(seed, 2 * nv), APART)?;
+    separate_runs(&first, &mut second, &direction(seed, 2 * nv), APART)?;
     let (mut sum, mut made, mut list) = (0.0, 0, Vec::new());
     while made < steps {
         let some = each.min(steps - made);
@@ -141,7 +141,7 @@ fn logarithms(case: &StressCase<'_>, length: f64, seed: u64, work: &mut u64) -> 
         sum += (size / APART).ln();
         list.push((made as f64 * h, sum));
         let along: Vec<f64> = apart.iter().map(|x| x / size).collect();
-        move_apart(&first, &mut second, &along, APART)?;
+        separate_runs(&first, &mut second, &along, APART)?;
     }
     *work += first.spent() + second.spent();
     Some(list)
@@ -180,7 +180,7 @@ fn difference(first: &Session<'_>, second: &Session<'_>) -> Option<Vec<f64>> {
 }
 
 /// Moves the second run to some distance from the first.
-fn move_apart(first: &Session<'_>, second: &mut Session<'_>, along: &[f64], apart: f64) -> Option<()> {
+fn separate_runs(first: &Session<'_>, second: &mut Session<'_>, along: &[f64], apart: f64) -> Option<()> {
     let from = first.world.data.fields();
     let nv = first.world.model.nv;
     let (places, speeds) = along.split_at_checked(nv)?;

@@ -13,11 +13,11 @@ use std::time::{Duration, Instant};
 /// The number of samples of a run.
 const SAMPLES: usize = 100;
 /// Two runs agree if they differ by at most this part of a range.
-const AGREE: f64 = 1e-3;
-/// The divisor of the first shorter timestep, and the number of further reductions, each by [`SHORTER`].
-const FIRST: usize = 4;
-const SHORTER: usize = 4;
-const TRIES: usize = 3;
+const MAX_DIFFERENCE: f64 = 1e-3;
+/// The divisor of the first shorter timestep, and the number of further reductions, each by [`REFINEMENT`].
+const FIRST_DIVISOR: usize = 4;
+const REFINEMENT: usize = 4;
+const MAX_REFINEMENTS: usize = 3;
 /// The work limit for one run.
 const WORK: u64 = 500_000_000;
 /// The number of repetitions of a time measurement, their minimum length, and the steps between two readings of the clock.
@@ -29,7 +29,7 @@ const CHUNK: usize = 32;
 type SampledRows = Vec<Vec<f64>>;
 
 /// The motion that a model describes, for an interaction.
-pub(super) struct Truth<'h> {
+pub(super) struct ReferenceMotion<'h> {
     interaction: &'h Interaction,
     /// The timestep of the lab, s, and the number of steps between samples.
     timestep: f64,
@@ -46,7 +46,7 @@ pub(super) fn truth<'h>(
     interaction: &'h Interaction,
     length: f64,
     work: &mut u64,
-) -> Option<Truth<'h>> {
+) -> Option<ReferenceMotion<'h>> {
     let timestep = case.start(interaction, WORK).world.model.opt.timestep;
     let every = (case.steps(timestep, length) / SAMPLES).max(1);
     let fine = |parts: usize, work: &mut u64| {
@@ -56,17 +56,18 @@ pub(super) fn truth<'h>(
         };
         rows(case, interaction, Some(&change), length, every as f64 * timestep, work)
     };
-    let mut parts = FIRST;
+    let mut parts = FIRST_DIVISOR;
     let mut coarse = fine(parts, work);
     let mut best: Option<(SampledRows, usize)> = None;
-    for _ in 0..TRIES {
+    for _ in 0..MAX_REFINEMENTS {
         if interrupt::requested() {
             return None;
         }
-        parts *= SHORTER;
+        parts *= REFINEMENT;
         let now = fine(parts, work);
         let ranges = ranges(&now);
-        let apart = |(a, b): (&Vec<f64>, &Vec<f64>)| largest(a, b, &ranges).is_none_or(|x| x > AGREE);
+        let apart =
+            |(a, b): (&Vec<f64>, &Vec<f64>)| largest(a, b, &ranges).is_none_or(|x| x > MAX_DIFFERENCE);
         let agreeing = coarse.iter().zip(&now).position(apart).unwrap_or(coarse.len().min(now.len()));
         let whole = agreeing == now.len();
         if best.as_ref().is_none_or(|(_, before)| agreeing > *before) {
@@ -79,13 +80,13 @@ pub(super) fn truth<'h>(
     }
     let (mut rows, agreeing) = best?;
     rows.truncate(agreeing);
-    (agreeing > 1).then(|| Truth { interaction, timestep, every, ranges: ranges(&rows), rows })
+    (agreeing > 1).then(|| ReferenceMotion { interaction, timestep, every, ranges: ranges(&rows), rows })
 }
 
 /// The largest error of any displayed number with a change, relative to its range, or `None` if a number is NaN.
 pub(super) fn error(
     case: &StressCase<'_>,
-    truth: &Truth<'_>,
+    truth: &ReferenceMotion<'_>,
     change: Change<'_>,
     work: &mut u64,
 ) -> Option<f64> {

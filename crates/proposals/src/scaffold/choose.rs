@@ -1,7 +1,7 @@
 //! Selection of the measure that distinguishes the options of a question.
 
 use super::pairs;
-use super::relation::{Relation, says};
+use super::relation::{Relation, contains_words};
 use crate::trace::{Candidate, ProposedVerify, TracedLab, Trial, split_words};
 use labspec::run::StepVariant;
 use labspec::source::Text;
@@ -10,7 +10,7 @@ use labspec::verify::{Stage, Stated, plain};
 use std::collections::BTreeSet;
 
 /// The reward for a word that the question and the measure share, and the maximum number of rewarded words.
-const WORD: f64 = 0.6;
+const SHARED_WORD_REWARD: f64 = 0.6;
 const MOST_WORDS: usize = 4;
 /// The cost of a pair of runs of which one is not named.
 const UNNAMED: f64 = 0.3;
@@ -66,12 +66,12 @@ pub(super) fn choose<'t, 'l>(
     numbers: &[Stated],
     stage: &Stage<'_>,
 ) -> Result<MeasureChoice<'t, 'l>, String> {
-    let asked = plain(&question.q.value).to_lowercase();
+    let question_text = plain(&question.q.value).to_lowercase();
     let options: Vec<String> = options.iter().map(|o| plain(&o.value)).collect();
-    let spoken: BTreeSet<String> =
-        split_words(&asked).chain(options.iter().flat_map(|o| split_words(o))).collect();
+    let question_words: BTreeSet<String> =
+        split_words(&question_text).chain(options.iter().flat_map(|o| split_words(o))).collect();
     let relations: Vec<Option<Relation>> = options.iter().map(|o| Relation::read(o)).collect();
-    let order = ["first", "earlier", "sooner", "before"].iter().any(|w| says(&asked, w));
+    let order = ["first", "earlier", "sooner", "before"].iter().any(|w| contains_words(&question_text, w));
     let comparable = relations.iter().flatten().count();
     let mut choices: Vec<MeasureChoice<'t, 'l>> = Vec::new();
     for tried in labs {
@@ -79,8 +79,8 @@ pub(super) fn choose<'t, 'l>(
             choices.extend(orders(tried, &options));
         }
         if comparable >= 2 {
-            let runs = pairs::runs(question, &asked, tried.lab, numbers);
-            choices.extend(comparisons(tried, &runs, &relations, &spoken, stage));
+            let runs = pairs::runs(question, &question_text, tried.lab, numbers);
+            choices.extend(comparisons(tried, &runs, &relations, &question_words, stage));
         }
     }
     // The first of those with the lowest cost.
@@ -102,7 +102,7 @@ fn comparisons<'t, 'l>(
     tried: &'t TracedLab<'l>,
     runs: &pairs::Runs,
     relations: &[Option<Relation>],
-    spoken: &BTreeSet<String>,
+    question_words: &BTreeSet<String>,
     stage: &Stage<'_>,
 ) -> Vec<MeasureChoice<'t, 'l>> {
     let values: Vec<Vec<f64>> =
@@ -116,7 +116,7 @@ fn comparisons<'t, 'l>(
             let (a, b) = (at(before), at(after));
             let broken = broke(after);
             let has_values = a.is_finite() && a != 0.0 && (b.is_finite() || broken);
-            if broke(before) || !has_values || dull(candidate) {
+            if broke(before) || !has_values || is_constant(candidate) {
                 continue;
             }
             let holding = relations.iter().map(|r| r.is_some_and(|r| r.holds(a, b, broken)));
@@ -130,7 +130,7 @@ fn comparisons<'t, 'l>(
                 broke: broken,
                 option,
                 values: named(&runs.trials, [before, after], [&candidate.text; 2], [a, b]),
-                cost: candidate.cost + unnamed - worth(candidate, spoken),
+                cost: candidate.cost + unnamed - reward(candidate, question_words),
             });
         }
     }
@@ -138,12 +138,12 @@ fn comparisons<'t, 'l>(
 }
 
 /// Whether a measure has the same value in every run: end times, constants.
-fn dull(c: &Candidate) -> bool {
+fn is_constant(c: &Candidate) -> bool {
     c.constant || c.time.is_some() || c.text.ends_with("(data.time)")
 }
 
-fn worth(c: &Candidate, spoken: &BTreeSet<String>) -> f64 {
-    WORD * c.words.intersection(spoken).count().min(MOST_WORDS) as f64
+fn reward(c: &Candidate, question_words: &BTreeSet<String>) -> f64 {
+    SHARED_WORD_REWARD * c.words.intersection(question_words).count().min(MOST_WORDS) as f64
 }
 
 /// The index of the only true element, if there is exactly one.
@@ -182,10 +182,10 @@ fn orders<'t, 'l>(tried: &'t TracedLab<'l>, options: &[String]) -> Vec<MeasureCh
             };
             let [first, second] = [alone(a, b), alone(b, a)];
             let relation = |option: &String| {
-                let spoken: BTreeSet<String> = split_words(option).collect();
+                let question_words: BTreeSet<String> = split_words(option).collect();
                 let text = option.to_lowercase();
-                let speaks = [&first, &second].map(|words| !words.is_disjoint(&spoken));
-                let both = ["both", "same", "together"].iter().any(|w| says(&text, w));
+                let speaks = [&first, &second].map(|words| !words.is_disjoint(&question_words));
+                let both = ["both", "same", "together"].iter().any(|w| contains_words(&text, w));
                 match speaks {
                     [true, false] => Some(Relation::More(None)),
                     [false, true] => Some(Relation::Less(None)),
@@ -214,7 +214,7 @@ fn orders<'t, 'l>(tried: &'t TracedLab<'l>, options: &[String]) -> Vec<MeasureCh
                 option,
                 values,
                 // Both geoms are named, which is the best possible match.
-                cost: -WORD * MOST_WORDS as f64,
+                cost: -SHARED_WORD_REWARD * MOST_WORDS as f64,
             });
         }
     }

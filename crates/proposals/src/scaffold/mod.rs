@@ -214,7 +214,7 @@ pub fn written(lesson: &Lesson, all: &[Scaffold]) -> String {
         let line = text.get(..one.span.start).and_then(|t| t.rsplit('\n').next()).unwrap_or_default();
         let indent: String = line.chars().take_while(|c| c.is_whitespace()).collect();
         let comma = if inner.trim_end().ends_with([',', '{']) { "" } else { "," };
-        let block = trace::laid_out(verify).replace('\n', &format!("\n{indent} "));
+        let block = trace::format_verify(verify).replace('\n', &format!("\n{indent} "));
         places.push((at, format!("{comma}\n{indent} \"verify\": {block}")));
     }
     places.sort_by_key(|(at, _)| std::cmp::Reverse(*at));

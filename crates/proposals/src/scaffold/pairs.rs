@@ -8,7 +8,7 @@ use labspec::verify::Stated;
 use labspec_expr::Value;
 
 /// The length of a run after a button is pressed, s.
-const ROUTINE: f64 = 10.0;
+const RUN_AFTER_PRESS: f64 = 10.0;
 /// Words that state a change of a quantity, with the factor.
 const CHANGES: [(&str, f64); 12] = [
     ("doubled", 2.0),
@@ -32,7 +32,7 @@ pub(super) struct Runs {
 }
 
 /// The runs of a lab that a question names. The first is the unchanged lab.
-pub(super) fn runs(question: &Question, asked: &str, lab: &Lab, numbers: &[Stated]) -> Runs {
+pub(super) fn runs(question: &Question, question_text: &str, lab: &Lab, numbers: &[Stated]) -> Runs {
     let of_question: Vec<Stated> =
         numbers.iter().filter(|n| question.span.contains(&n.span.start) && !n.answer).cloned().collect();
     let stated: Vec<Stated> =
@@ -42,11 +42,11 @@ pub(super) fn runs(question: &Question, asked: &str, lab: &Lab, numbers: &[State
     let base = all.first().cloned();
     for control in &lab.controls {
         if let Some(base) = &base {
-            all.extend(changed(control, asked, base));
+            all.extend(changed(control, question_text, base));
         }
     }
     // Buttons that the question names are pressed in every run.
-    let named = |label: &str| asked.contains(&label.to_lowercase());
+    let named = |label: &str| question_text.contains(&label.to_lowercase());
     let buttons = lab.controls.iter().filter(|c| matches!(c.kind, ControlKind::Button { .. }));
     let pressed: Vec<String> = buttons.map(|c| c.label.value.clone()).filter(|label| named(label)).collect();
     if !pressed.is_empty() {
@@ -54,20 +54,21 @@ pub(super) fn runs(question: &Question, asked: &str, lab: &Lab, numbers: &[State
         for t in &mut all {
             t.press = pressed.clone();
             // The process that a button starts takes some time.
-            t.until = t.until.or(lab.stop_at.is_none().then_some(ROUTINE));
+            t.until = t.until.or(lab.stop_at.is_none().then_some(RUN_AFTER_PRESS));
         }
     }
-    let pairs = pairs(&all, asked, lab, &stated);
+    let pairs = pairs(&all, question_text, lab, &stated);
     Runs { trials: all, pairs }
 }
 
 /// A run with a changed control, if the question names the label of the control together with a word for a change.
-fn changed(control: &Control, asked: &str, base: &Trial) -> Option<Trial> {
+fn changed(control: &Control, question_text: &str, base: &Trial) -> Option<Trial> {
     let label = control.label.as_str();
     let ControlKind::Slider { value: start, min, .. } = &control.kind else { return None };
     let words = label.split(|c: char| !c.is_alphanumeric()).filter(|w| w.chars().count() > 2);
-    let shared = words.filter(|w| super::relation::says(asked, &w.to_lowercase())).count();
-    let (_, factor) = CHANGES.iter().find(|(words, _)| super::relation::says(asked, words))?;
+    let shared = words.filter(|w| super::relation::contains_words(question_text, &w.to_lowercase())).count();
+    let (_, factor) =
+        CHANGES.iter().find(|(words, _)| super::relation::contains_words(question_text, words))?;
     if shared == 0 {
         return None;
     }
@@ -88,7 +89,7 @@ fn changed(control: &Control, asked: &str, base: &Trial) -> Option<Trial> {
 
 /// Pairs of before and after, in the order in which the question names the runs. A run that it does not name is the
 /// unchanged lab, which comes first.
-fn pairs(all: &[Trial], asked: &str, lab: &Lab, stated: &[Stated]) -> Vec<(usize, usize)> {
+fn pairs(all: &[Trial], question_text: &str, lab: &Lab, stated: &[Stated]) -> Vec<(usize, usize)> {
     let place = |t: &Trial| {
         let (x, unit) = t.named?;
         stated.iter().position(|n| n.dimension.agrees(&unit) && (si(n) - x).abs() <= 1e-9 * x.abs())
@@ -104,13 +105,13 @@ fn pairs(all: &[Trial], asked: &str, lab: &Lab, stated: &[Stated]) -> Vec<(usize
         }
     }
     for (i, t) in all.iter().enumerate().skip(1) {
-        list.push(if comes_first(t, asked, lab) { (i, 0) } else { (0, i) });
+        list.push(if is_initial_run(t, question_text, lab) { (i, 0) } else { (0, i) });
     }
     list
 }
 
 /// Whether the question goes from this run to the unchanged lab: "from 10 to 1", where 1 is the initial value.
-fn comes_first(t: &Trial, asked: &str, lab: &Lab) -> bool {
+fn is_initial_run(t: &Trial, question_text: &str, lab: &Lab) -> bool {
     let [(label, value)] = t.set.as_slice() else { return false };
     let Some(control) = lab.control(label) else { return false };
     let written = |value: &Scalar| match value {
@@ -124,8 +125,8 @@ fn comes_first(t: &Trial, asked: &str, lab: &Lab) -> bool {
         ControlKind::Button { .. } => return false,
     };
     let from = format!("from {} ", written(value));
-    asked.find(&from).is_some_and(|at| {
-        let rest = asked.get(at + from.len()..).unwrap_or_default();
+    question_text.find(&from).is_some_and(|at| {
+        let rest = question_text.get(at + from.len()..).unwrap_or_default();
         rest.split(|c: char| c.is_whitespace() || matches!(c, ',' | ';' | '?')).take(4).any(|w| w == start)
     })
 }

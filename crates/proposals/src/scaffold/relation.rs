@@ -26,11 +26,11 @@ const SAME: f64 = 0.02;
 /// The relative tolerance of a stated factor.
 const ABOUT: f64 = 0.1;
 /// The share for "a little".
-const LITTLE: f64 = 0.2;
+const LITTLE_SHARE: f64 = 0.2;
 /// The share for "much less than".
-const MUCH: f64 = 0.7;
+const MUCH_SHARE: f64 = 0.7;
 
-const SAMENESS: [&str; 14] = [
+const SAME_WORDS: [&str; 14] = [
     "same",
     "nothing changes",
     "nothing measurable",
@@ -92,7 +92,7 @@ const LESS: [&str; 16] = [
     "falls by",
     "stiffer",
 ];
-const GONE: [&str; 13] = [
+const ABSENCE_WORDS: [&str; 13] = [
     "tunnels",
     "falls through",
     "passes through",
@@ -108,7 +108,7 @@ const GONE: [&str; 13] = [
     "escapes",
 ];
 const BREAKS: [&str; 7] = ["refuses", "unstable", "explodes", "diverges", "blows up", "nan", "breaks"];
-const NOTHING_LEFT: [&str; 4] = ["zero", "exactly at", "vanishes", "not at all"];
+const ZERO_WORDS: [&str; 4] = ["zero", "exactly at", "vanishes", "not at all"];
 const FACTORS: [(&str, f64); 12] = [
     ("four times", 4.0),
     ("quadruples", 4.0),
@@ -125,7 +125,7 @@ const FACTORS: [(&str, f64); 12] = [
 ];
 
 /// Whether a text contains words, as whole words.
-pub(super) fn says(text: &str, words: &str) -> bool {
+pub(super) fn contains_words(text: &str, words: &str) -> bool {
     let part = |c: char| c.is_alphanumeric();
     text.match_indices(words).any(|(at, _)| {
         let before = text.get(..at).and_then(|t| t.chars().next_back());
@@ -140,27 +140,27 @@ impl Relation {
         let text = option.to_lowercase();
         // The first statement counts; the rest are reasons and reservations.
         let first = |list: &[&str]| {
-            let found = list.iter().filter(|w| says(&text, w)).filter_map(|w| text.find(w));
+            let found = list.iter().filter(|w| contains_words(&text, w)).filter_map(|w| text.find(w));
             found.min().unwrap_or(usize::MAX)
         };
         let [same, more, less, gone, nothing] =
-            [&SAMENESS[..], &MORE, &LESS, &GONE, &NOTHING_LEFT].map(first);
+            [&SAME_WORDS[..], &MORE, &LESS, &ABSENCE_WORDS, &ZERO_WORDS].map(first);
         let percent = percent(&text);
-        if BREAKS.iter().any(|w| says(&text, w)) {
+        if BREAKS.iter().any(|w| contains_words(&text, w)) {
             return Some(Relation::Breaks);
         }
-        if let Some((_, factor)) = FACTORS.iter().find(|(words, _)| says(&text, words)) {
+        if let Some((_, factor)) = FACTORS.iter().find(|(words, _)| contains_words(&text, words)) {
             let down = less < more && *factor > 1.0;
             return Some(Relation::Times(if down { 1.0 / factor } else { *factor }));
         }
         let most = match percent {
-            Some(p) if says(&text, "much less than") => Some(MUCH * p),
-            Some(p) if says(&text, "less than") => Some(p),
-            _ if says(&text, "a little") || says(&text, "slightly") => Some(LITTLE),
+            Some(p) if contains_words(&text, "much less than") => Some(MUCH_SHARE * p),
+            Some(p) if contains_words(&text, "less than") => Some(p),
+            _ if contains_words(&text, "a little") || contains_words(&text, "slightly") => Some(LITTLE_SHARE),
             _ => None,
         };
         // In "much less than 60 %", "less" does not state a decrease.
-        let less = if percent.is_some() && says(&text, "less than") { usize::MAX } else { less };
+        let less = if percent.is_some() && contains_words(&text, "less than") { usize::MAX } else { less };
         let earliest = same.min(more).min(less).min(gone).min(nothing);
         match (earliest, percent) {
             (usize::MAX, _) => None,
@@ -199,13 +199,25 @@ impl Relation {
             Relation::Same => write!(text, "abs({b} - {a}) <= {SAME} * {low}"),
             Relation::More(None) => write!(text, "{high} > {} * {low}", 1.0 + SAME),
             Relation::More(Some(p)) => {
-                write!(text, "{high} > {} * {low} && {high} < {} * {low}", 1.0 + SAME, short(1.0 + p))
+                write!(
+                    text,
+                    "{high} > {} * {low} && {high} < {} * {low}",
+                    1.0 + SAME,
+                    rounded_number(1.0 + p)
+                )
             }
             Relation::Less(None) => write!(text, "{high} < {} * {low}", 1.0 - SAME),
             Relation::Less(Some(p)) => {
-                write!(text, "{high} < {} * {low} && {high} > {} * {low}", 1.0 - SAME, short(1.0 - p))
+                write!(
+                    text,
+                    "{high} < {} * {low} && {high} > {} * {low}",
+                    1.0 - SAME,
+                    rounded_number(1.0 - p)
+                )
             }
-            Relation::Times(f) => write!(text, "abs({high} / {low} - {}) <= {}", short(f), short(ABOUT * f)),
+            Relation::Times(f) => {
+                write!(text, "abs({high} / {low} - {}) <= {}", rounded_number(f), rounded_number(ABOUT * f))
+            }
             Relation::Gone => write!(text, "abs({b} - {a}) > 0.5 * {low}"),
             Relation::Nothing => write!(text, "{high} <= {SAME} * {low}"),
         };
@@ -221,7 +233,7 @@ fn percent(text: &str) -> Option<f64> {
 }
 
 /// A number for a condition, rounded to four decimals.
-fn short(x: f64) -> f64 {
+fn rounded_number(x: f64) -> f64 {
     (x * 1e4).round() / 1e4
 }
 
@@ -234,10 +246,10 @@ mod tests {
         for (words, relation) in [
             ("Nothing measurable changes", Some(Relation::Same)),
             ("The same 0.53 mrad: a limit's softness does not depend on the load", Some(Relation::Same)),
-            ("Farther, but by much less than 60%", Some(Relation::More(Some(MUCH * 0.6)))),
+            ("Farther, but by much less than 60%", Some(Relation::More(Some(MUCH_SHARE * 0.6)))),
             ("About 60% farther, in proportion to the load", Some(Relation::Times(1.6))),
             ("About 20 % shorter", Some(Relation::Times(0.8))),
-            ("It creeps a little faster but stays", Some(Relation::More(Some(LITTLE)))),
+            ("It creeps a little faster but stays", Some(Relation::More(Some(LITTLE_SHARE)))),
             ("It slides out of the grasp", Some(Relation::Gone)),
             ("The ball tunnels through the floor", Some(Relation::Gone)),
             ("MuJoCo refuses to run", Some(Relation::Breaks)),

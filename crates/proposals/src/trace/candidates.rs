@@ -42,7 +42,7 @@ const CONSTANTS: usize = 12;
 const STEPS: usize = 20_000;
 
 /// Words for the contact of two geoms.
-const MEETING: &str = "contact touch touches touchdown impact lands landing hits first";
+const CONTACT_WORDS: &str = "contact touch touches touchdown impact lands landing hits first";
 
 /// A displayed value, or a quantity derived from it: an expression, its dimension, its words.
 struct DisplayedNumber {
@@ -62,14 +62,14 @@ pub(super) fn candidates(
 ) -> Vec<Candidate> {
     let mut all = Vec::new();
     constants(model, &mut all);
-    let pairs = touching(lab, model, programs);
+    let pairs = touching_geoms(lab, model, programs);
     let mut displayed = displayed_numbers(lab, model, programs);
     displayed.extend(motions(model));
     displayed.extend(forces(model));
     let times = times(numbers);
     for (a, b) in &pairs {
         let met = format!("contact('{a}', '{b}')");
-        let named = format!("{a} {b} {MEETING}");
+        let named = format!("{a} {b} {CONTACT_WORDS}");
         let s = second();
         add(&mut all, format!("first({met})"), s, 2.0, &named);
         add(&mut all, format!("first({met}) - model.opt.timestep"), s, 2.6, &named);
@@ -87,7 +87,7 @@ pub(super) fn candidates(
         of(format!("max({text}) - min({text})"), 3.0);
         of(format!("mean({text})"), 3.5);
         for (a, b) in &pairs {
-            let words = format!("{words} {a} {b} {MEETING}");
+            let words = format!("{words} {a} {b} {CONTACT_WORDS}");
             let mut of = |measure: String, cost: f64| add(&mut all, measure, *dimension, cost + more, &words);
             of(format!("before(contact('{a}', '{b}'), {text})"), 2.6);
             of(format!("at(contact('{a}', '{b}'), {text})"), 3.0);
@@ -207,7 +207,7 @@ fn forces(m: &Model) -> Vec<DisplayedNumber> {
     }
     let actuators = m.names.actuator.iter().enumerate().filter(|(_, name)| simple(name));
     for (a, name) in actuators.take(JOINTS) {
-        let Some(rotates) = rotates(m, a) else { continue };
+        let Some(rotates) = drives_hinge(m, a) else { continue };
         let dimension = if rotates { torque } else { newton };
         let words = format!("{name} force torque servo motor limit");
         all.push(DisplayedNumber { text: format!("data.actuator_force[{a}]"), dimension, words, more: 1.2 });
@@ -216,7 +216,7 @@ fn forces(m: &Model) -> Vec<DisplayedNumber> {
 }
 
 /// Whether an actuator drives a hinge, so that its force is a torque; `None` if this is not simple.
-fn rotates(m: &Model, actuator: usize) -> Option<bool> {
+fn drives_hinge(m: &Model, actuator: usize) -> Option<bool> {
     let index = |list: &[i32], i: usize| list.get(i).and_then(|x| usize::try_from(*x).ok());
     let moved = index(&m.actuator_trnid, 2 * actuator)?;
     let kind = match *m.actuator_trntype.get(actuator)? {
@@ -322,7 +322,7 @@ fn times(numbers: &[Stated]) -> Vec<f64> {
 }
 
 /// The pairs of named geoms that touch in a run of the unchanged lab.
-fn touching(lab: &Lab, model: &Model, programs: &Programs) -> Vec<(String, String)> {
+fn touching_geoms(lab: &Lab, model: &Model, programs: &Programs) -> Vec<(String, String)> {
     let plan = Some(Plan::new(model, &AccessSet::ANY));
     let mut session = Session::start(programs, model, Start { plan, ..Start::of_lab(lab) });
     let timestep = session.world.model.opt.timestep;

@@ -15,7 +15,7 @@ pub(super) struct Binding {
 
 /// A formula in the language of labs, with its value in SI units.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Worked {
+pub(super) struct EvaluatedFormula {
     pub(super) code: String,
     pub(super) value: f64,
 }
@@ -39,7 +39,7 @@ pub(super) fn bindings(numbers: &[Stated]) -> Vec<Binding> {
 }
 
 /// The formula before a number, evaluated.
-pub(super) fn before(s: &Stated, bindings: &[Binding]) -> Option<Worked> {
+pub(super) fn before(s: &Stated, bindings: &[Binding]) -> Option<EvaluatedFormula> {
     for part in chain(s)? {
         let all = tokens(&part);
         // Words may precede the formula: the longest suffix that is a formula is used.
@@ -214,7 +214,7 @@ impl Parser<'_> {
         there
     }
 
-    fn sum(&mut self) -> Option<Worked> {
+    fn sum(&mut self) -> Option<EvaluatedFormula> {
         self.deep += 1;
         if self.deep > DEEP {
             return None;
@@ -230,7 +230,7 @@ impl Parser<'_> {
             };
             let next = self.product()?;
             self.operations += 1;
-            all = Worked {
+            all = EvaluatedFormula {
                 code: format!("({} {sign} {})", all.code, next.code),
                 value: all.value + add * next.value,
             };
@@ -239,12 +239,15 @@ impl Parser<'_> {
         Some(all)
     }
 
-    fn product(&mut self) -> Option<Worked> {
+    fn product(&mut self) -> Option<EvaluatedFormula> {
         let mut all = self.power()?;
         loop {
             if self.sign('/') {
                 let next = self.power()?;
-                all = Worked { code: format!("{} / {}", all.code, next.code), value: all.value / next.value };
+                all = EvaluatedFormula {
+                    code: format!("{} / {}", all.code, next.code),
+                    value: all.value / next.value,
+                };
             } else {
                 let written = self.sign('*');
                 let begins = match self.tokens.get(self.at) {
@@ -256,49 +259,52 @@ impl Parser<'_> {
                     break;
                 }
                 let next = self.power()?;
-                all = Worked { code: format!("{} * {}", all.code, next.code), value: all.value * next.value };
+                all = EvaluatedFormula {
+                    code: format!("{} * {}", all.code, next.code),
+                    value: all.value * next.value,
+                };
             }
             self.operations += 1;
         }
         Some(all)
     }
 
-    fn power(&mut self) -> Option<Worked> {
+    fn power(&mut self) -> Option<EvaluatedFormula> {
         let base = self.atom()?;
         if !self.sign('^') {
             return Some(base);
         }
         let exponent = self.atom()?;
         self.operations += 1;
-        Some(Worked {
+        Some(EvaluatedFormula {
             code: format!("({}) ** ({})", base.code, exponent.code),
             value: base.value.powf(exponent.value),
         })
     }
 
-    fn group(&mut self, close: char) -> Option<Worked> {
+    fn group(&mut self, close: char) -> Option<EvaluatedFormula> {
         let inner = self.sum()?;
-        let inner = Worked { code: format!("({})", inner.code), ..inner };
+        let inner = EvaluatedFormula { code: format!("({})", inner.code), ..inner };
         self.sign(close).then_some(inner)
     }
 
-    fn atom(&mut self) -> Option<Worked> {
+    fn atom(&mut self) -> Option<EvaluatedFormula> {
         let token = self.tokens.get(self.at)?;
         self.at += 1;
         match token {
-            Token::Number(value, code) => Some(Worked { code: code.clone(), value: *value }),
+            Token::Number(value, code) => Some(EvaluatedFormula { code: code.clone(), value: *value }),
             Token::Symbol(name) => self.bound(name),
             Token::Sign('(') => self.group(')'),
             Token::Sign('{') => self.group('}'),
             Token::Sign('-') => {
                 let inner = self.product()?;
-                Some(Worked { code: format!("(-{})", inner.code), value: -inner.value })
+                Some(EvaluatedFormula { code: format!("(-{})", inner.code), value: -inner.value })
             }
             Token::Sign(_) => None,
             Token::Command(name) if name.ends_with("frac") => {
                 let (above, below) = (self.atom()?, self.atom()?);
                 self.operations += 1;
-                Some(Worked {
+                Some(EvaluatedFormula {
                     code: format!("({} / {})", above.code, below.code),
                     value: above.value / below.value,
                 })
@@ -314,13 +320,13 @@ impl Parser<'_> {
                     "exp" => ("exp", of.value.exp()),
                     _ => ("log", of.value.ln()),
                 };
-                Some(Worked { code: format!("Math.{function}({})", of.code), value })
+                Some(EvaluatedFormula { code: format!("Math.{function}({})", of.code), value })
             }
         }
     }
 
     /// The value of a symbol: the last one in the text before the number, otherwise the first one after it.
-    fn bound(&self, name: &str) -> Option<Worked> {
+    fn bound(&self, name: &str) -> Option<EvaluatedFormula> {
         let here = self.s.span.start;
         let bound = || self.bindings.iter().filter(|b| b.name == name && b.at != here);
         let found =
@@ -331,19 +337,20 @@ impl Parser<'_> {
             _ => None,
         };
         if let Some(b) = found {
-            return Some(Worked { code: b.value.to_string(), value: b.value });
+            return Some(EvaluatedFormula { code: b.value.to_string(), value: b.value });
         }
         if let Some((code, value)) = constant {
-            return Some(Worked { code, value });
+            return Some(EvaluatedFormula { code, value });
         }
         // Adjacent letters: `gd`.
         let letters: Vec<char> = name.chars().collect();
         if !(2..=3).contains(&letters.len()) || !letters.iter().all(|c| c.is_ascii_lowercase()) {
             return None;
         }
-        let parts: Vec<Worked> = letters.iter().map(|c| self.bound(&c.to_string())).collect::<Option<_>>()?;
+        let parts: Vec<EvaluatedFormula> =
+            letters.iter().map(|c| self.bound(&c.to_string())).collect::<Option<_>>()?;
         let code: Vec<&str> = parts.iter().map(|p| p.code.as_str()).collect();
-        Some(Worked { code: code.join(" * "), value: parts.iter().map(|p| p.value).product() })
+        Some(EvaluatedFormula { code: code.join(" * "), value: parts.iter().map(|p| p.value).product() })
     }
 }
 

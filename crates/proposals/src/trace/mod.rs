@@ -28,7 +28,7 @@ mod words;
 pub(crate) use candidates::Candidate;
 pub(crate) use lab::TracedLab;
 pub use lesson::{Traced, Traces, trace};
-pub use propose::{ProposedVerify, blocks, laid_out};
+pub use propose::{ProposedVerify, blocks, format_verify};
 pub use rank::{Hit, Origin};
 pub(crate) use trials::{Trial, trials};
 pub(crate) use units::si;

@@ -58,7 +58,7 @@ pub fn blocks(found: &Traces<'_>) -> Vec<(LabAddress, ProposedVerify)> {
 }
 
 /// A `verify` object as an author would write it: a line for every run, measure and quote.
-pub fn laid_out(verify: &ProposedVerify) -> String {
+pub fn format_verify(verify: &ProposedVerify) -> String {
     let line = |value: &Value| {
         let text = value.to_string();
         // JSON without spaces; spaces for readability are added outside of strings.

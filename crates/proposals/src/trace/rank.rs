@@ -62,18 +62,18 @@ const DECADES: f64 = 3.0;
 /// The cost of a number with the opposite sign.
 const OTHER_SIDE: f64 = 0.3;
 /// The cost of a run whose setting the text does not name near the number, and of one whose setting the paragraph names.
-const FAR: f64 = 1.5;
+const FAR_COST: f64 = 1.5;
 const IN_PARAGRAPH: f64 = 0.7;
 /// The cost of a run without some changes of the lab's setup.
 const RESTORED: f64 = 1.0;
 /// A time counts as near if it is named within this many bytes; its cost is `NEARBY`.
-const NEAR: usize = 2500;
+const NEAR_DISTANCE: usize = 2500;
 const NEARBY: f64 = 0.4;
 /// The reward for a word that also occurs in the sentence, and the maximum number of rewarded words.
-const WORD: f64 = 0.4;
+const SENTENCE_REWARD: f64 = 0.4;
 const MOST_WORDS: usize = 3;
 /// The reward for a word that occurs only in the paragraph.
-const WIDE: f64 = 0.25;
+const PARAGRAPH_REWARD: f64 = 0.25;
 /// The cost of each lab of another model between a number and the lab, and of a lab of another question.
 const LAB: f64 = 0.3;
 const OTHER_QUESTION: f64 = 0.8;
@@ -83,7 +83,7 @@ const NAMED_NEAR: f64 = 0.4;
 /// The cost of a value that equals the printed number exactly.
 const EXACT: f64 = 0.5;
 /// Two constants of different kinds whose costs differ by less than this are ambiguous.
-const APART: f64 = 1.2;
+const MIN_COST_RATIO: f64 = 1.2;
 
 /// A candidate with the digits of a number, and its cost.
 struct Match {
@@ -101,7 +101,7 @@ pub(super) fn origin(s: &Stated, numbers: &[Stated], labs: &[TracedLab<'_>], bin
     }
     let window = 2.0 * s.read.half_unit / s.read.value.abs() / (DECADES * std::f64::consts::LN_10);
     let window = window.min(1.0);
-    if let Some(hit) = worked(s, bindings, window).filter(|hit| hit.chance < CHANCE) {
+    if let Some(hit) = formula_hit(s, bindings, window).filter(|hit| hit.chance < CHANCE) {
         return Origin::From(hit);
     }
     let (tried, mut matches) = compare_values(s, &around, labs);
@@ -173,7 +173,7 @@ fn compare_values(
 fn is_ambiguous(matches: &[Match]) -> bool {
     let [best, others @ ..] = matches else { return false };
     let kind = |m: &Match| m.hit.measure.rsplit('.').next().unwrap_or("").to_string();
-    let rivals = |m: &Match| m.constant && m.cost - best.cost < APART && kind(m) != kind(best);
+    let rivals = |m: &Match| m.constant && m.cost - best.cost < MIN_COST_RATIO && kind(m) != kind(best);
     best.constant && others.iter().any(rivals)
 }
 
@@ -211,7 +211,7 @@ fn close(a: f64, b: f64) -> bool {
 }
 
 /// The formula before a number, if it has its digits. `window` is the share of numbers that have them.
-fn worked(s: &Stated, bindings: &[Binding], window: f64) -> Option<Hit> {
+fn formula_hit(s: &Stated, bindings: &[Binding], window: f64) -> Option<Hit> {
     let found = formula::before(s, bindings)?;
     let hit = |factor: String, value: f64| Hit {
         place: None,
@@ -284,7 +284,7 @@ impl<'n> NumberContext<'n> {
         let paragraph = numbers.iter().filter(other).filter(|n| n.paragraph == s.paragraph).collect();
         let text = format!("{} {}", s.context, s.column).to_lowercase();
         let wide = split_words(&s.paragraph).collect();
-        let near = numbers.iter().filter(|n| n.span.start.abs_diff(s.span.start) < NEAR).collect();
+        let near = numbers.iter().filter(|n| n.span.start.abs_diff(s.span.start) < NEAR_DISTANCE).collect();
         NumberContext { words: split_words(&text).collect(), wide, text, beside, paragraph, near }
     }
 
@@ -294,7 +294,7 @@ impl<'n> NumberContext<'n> {
         match () {
             () if among(&self.beside) || among(&self.paragraph) => 0.0,
             () if among(&self.near) => NEARBY,
-            () => FAR,
+            () => FAR_COST,
         }
     }
 
@@ -314,29 +314,32 @@ impl<'n> NumberContext<'n> {
             false => 0.0,
         };
         let wide = c.words.intersection(&self.wide).count().saturating_sub(shared).min(MOST_WORDS);
-        c.cost + run + far + named + unnamed - WORD * shared as f64 - WIDE * wide as f64
+        c.cost + run + far + named + unnamed
+            - SENTENCE_REWARD * shared as f64
+            - PARAGRAPH_REWARD * wide as f64
     }
 
     fn cost_of_setting(&self, trial: &Trial, all: &[Trial]) -> f64 {
         if let Some((x, unit)) = trial.named {
             let is = |n: &&&Stated| n.dimension.agrees(&unit) && close(si(n), x);
             // "29 mm at h = 2 ms" is not a number of a run at 10 ms.
-            let others = || all.iter().filter(|t| t.sets_what(trial)).filter_map(|t| Some(t.named?.0));
+            let others =
+                || all.iter().filter(|t| t.sets_same_controls(trial)).filter_map(|t| Some(t.named?.0));
             let another = |n: &&Stated| {
                 n.dimension.agrees(&unit) && others().chain(trial.nominal).any(|other| close(si(n), other))
             };
             return match () {
                 () if self.beside.iter().any(|n| is(&n)) => 0.0,
-                () if self.beside.iter().any(another) => 2.0 * FAR,
+                () if self.beside.iter().any(another) => 2.0 * FAR_COST,
                 () if self.paragraph.iter().any(|n| is(&n)) => IN_PARAGRAPH,
-                () if self.near.iter().any(|n| is(&n)) => FAR,
-                () => 2.0 * FAR,
+                () if self.near.iter().any(|n| is(&n)) => FAR_COST,
+                () => 2.0 * FAR_COST,
             };
         }
         if trial.label.is_empty() {
             return 0.0;
         }
-        if self.text.contains(&trial.label.to_lowercase()) { 0.0 } else { FAR }
+        if self.text.contains(&trial.label.to_lowercase()) { 0.0 } else { FAR_COST }
     }
 
     /// The setting that has this number as its value, if there is one.

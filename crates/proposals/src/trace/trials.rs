@@ -130,7 +130,7 @@ fn add_control_trials(control: &Control, numbers: &[Stated], base: &Trial, all: 
 
 impl Trial {
     /// Whether both runs set the same controls.
-    pub(super) fn sets_what(&self, other: &Trial) -> bool {
+    pub(super) fn sets_same_controls(&self, other: &Trial) -> bool {
         let labels = |t: &Trial| t.set.iter().map(|(label, _)| label.clone()).collect::<Vec<_>>();
         self.timestep.is_some() == other.timestep.is_some() && labels(self) == labels(other)
     }

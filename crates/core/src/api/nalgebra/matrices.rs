@@ -4,7 +4,7 @@ use crate::api::call;
 use crate::api::data::{Data, Scope};
 use crate::api::error::Error;
 use crate::api::model::{BodyId, GeomId, Model, SiteId};
-use crate::api::view::Which;
+use crate::api::view::ObjectKey;
 use nalgebra::{DMatrix, DVector, Point3};
 
 /// The velocity of a point, and of the object that it is fixed to, for a unit velocity of each degree of freedom.
@@ -35,7 +35,7 @@ macro_rules! jacobians {
             m: &Model,
             d: &Data<S>,
             $($arg: $ty,)*
-            which: &(impl Which<$id> + ?Sized),
+            which: &(impl ObjectKey<$id> + ?Sized),
         ) -> Result<PointJacobian, Error> {
             d.belongs_to(m)?;
             let id = which.find_in(&d.names)?;
@@ -67,7 +67,7 @@ jacobians! {
 pub fn jac_subtree_com<S: Scope>(
     m: &Model,
     d: &Data<S>,
-    which: &(impl Which<BodyId> + ?Sized),
+    which: &(impl ObjectKey<BodyId> + ?Sized),
 ) -> Result<DMatrix<f64>, Error> {
     d.belongs_to(m)?;
     let rows = call::jac_subtree_com(m, d, which.find_in(&d.names)?)?;

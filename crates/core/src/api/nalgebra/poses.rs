@@ -3,7 +3,7 @@
 use crate::api::data::{Data, Scope};
 use crate::api::error::Error;
 use crate::api::model::{BodyId, GeomId, Model, SiteId};
-use crate::api::view::Which;
+use crate::api::view::ObjectKey;
 use crate::dynamics::object;
 use crate::math::rows;
 use crate::model::Obj;
@@ -43,7 +43,7 @@ impl<S: Scope> Data<S> {
     /// # Errors
     ///
     /// There is no such body, the plan left `xpos` or `xquat` out, or nothing is computed yet.
-    pub fn body_pose(&self, which: &(impl Which<BodyId> + ?Sized)) -> Result<Isometry3<f64>, Error> {
+    pub fn body_pose(&self, which: &(impl ObjectKey<BodyId> + ?Sized)) -> Result<Isometry3<f64>, Error> {
         self.has(&[data::xpos, data::xquat])?;
         let d = self.fields();
         by_quaternion(&d.xpos, &d.xquat, which.find_in(&self.names)?)
@@ -54,7 +54,10 @@ impl<S: Scope> Data<S> {
     /// # Errors
     ///
     /// As for [`Data::body_pose`].
-    pub fn body_inertial_pose(&self, which: &(impl Which<BodyId> + ?Sized)) -> Result<Isometry3<f64>, Error> {
+    pub fn body_inertial_pose(
+        &self,
+        which: &(impl ObjectKey<BodyId> + ?Sized),
+    ) -> Result<Isometry3<f64>, Error> {
         self.has(&[data::xipos, data::ximat])?;
         let d = self.fields();
         by_matrix(&d.xipos, &d.ximat, which.find_in(&self.names)?)
@@ -65,7 +68,7 @@ impl<S: Scope> Data<S> {
     /// # Errors
     ///
     /// As for [`Data::body_pose`].
-    pub fn geom_pose(&self, which: &(impl Which<GeomId> + ?Sized)) -> Result<Isometry3<f64>, Error> {
+    pub fn geom_pose(&self, which: &(impl ObjectKey<GeomId> + ?Sized)) -> Result<Isometry3<f64>, Error> {
         self.has(&[data::geom_xpos, data::geom_xmat])?;
         let d = self.fields();
         by_matrix(&d.geom_xpos, &d.geom_xmat, which.find_in(&self.names)?)
@@ -76,7 +79,7 @@ impl<S: Scope> Data<S> {
     /// # Errors
     ///
     /// As for [`Data::body_pose`].
-    pub fn site_pose(&self, which: &(impl Which<SiteId> + ?Sized)) -> Result<Isometry3<f64>, Error> {
+    pub fn site_pose(&self, which: &(impl ObjectKey<SiteId> + ?Sized)) -> Result<Isometry3<f64>, Error> {
         self.has(&[data::site_xpos, data::site_xmat])?;
         let d = self.fields();
         by_matrix(&d.site_xpos, &d.site_xmat, which.find_in(&self.names)?)
@@ -113,7 +116,7 @@ macro_rules! velocities {
         pub fn $name<S: Scope>(
             m: &Model,
             d: &Data<S>,
-            which: &(impl Which<$id> + ?Sized),
+            which: &(impl ObjectKey<$id> + ?Sized),
             local: bool,
         ) -> Result<Velocity, Error> {
             d.belongs_to(m)?;

@@ -7,9 +7,9 @@ use crate::mjcf::arrays::{flat, padded};
 use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
 use crate::mjcf::spec::{ActuatorSpec, List, RangeSpec};
-use crate::mjcf::text::diagnostic::Report;
+use crate::mjcf::text::diagnostic::Diagnostics;
 use crate::model::Model;
-use crate::setup::lengthrange::{self, Failure, Search};
+use crate::setup::lengthrange::{self, RangeError, RangeSearch};
 use crate::step::workspace::Workspace;
 
 /// Limit for the product of steps and degrees of freedom in the search for all length ranges. A larger search would take minutes.
@@ -25,7 +25,7 @@ pub(crate) struct Counts {
 }
 
 /// Counts the sizes of all actuators.
-pub(crate) fn count(list: &[ActuatorSpec], report: &mut Report) -> Counts {
+pub(crate) fn count(list: &[ActuatorSpec], report: &mut Diagnostics) -> Counts {
     let mut n = Counts::default();
     for a in list {
         let nu = controls(a).len();
@@ -105,15 +105,20 @@ pub(crate) fn user(a: &ActuatorSpec) -> List {
 }
 
 /// Computes the number of entries of the moment matrix. `None`, with an error in the report, if it is too large.
-pub(crate) fn pattern(m: &mut Model, list: &[ActuatorSpec], report: &mut Report) -> Option<()> {
+pub(crate) fn pattern(m: &mut Model, list: &[ActuatorSpec], report: &mut Diagnostics) -> Option<()> {
     m.nJmom = transmission::entries(m);
     let span = list.first().map_or(0..0, |a| a.span.clone());
     report.take(2 * m.nJmom, span, "the moments of all actuators").then_some(())
 }
 
 /// Computes the length ranges of actuators that need one and have none.
-pub(crate) fn length_ranges(m: &mut Model, list: &[ActuatorSpec], search: &Search, report: &mut Report) {
-    let wanted: Vec<usize> = listed((0..m.nactuator).filter(|&i| search.wants(m, i)));
+pub(crate) fn length_ranges(
+    m: &mut Model,
+    list: &[ActuatorSpec],
+    search: &RangeSearch,
+    report: &mut Diagnostics,
+) {
+    let wanted: Vec<usize> = listed((0..m.nactuator).filter(|&i| search.needs_search(m, i)));
     let pulled = wanted.iter().filter(|&&i| search.limits(m, i).is_none()).count();
     let Some(first) = wanted.first().and_then(|&i| list.get(i)) else { return };
     // With active limits, the cost of a step grows with the cube of the number of degrees of freedom.
@@ -129,10 +134,10 @@ pub(crate) fn length_ranges(m: &mut Model, list: &[ActuatorSpec], search: &Searc
         let wrong = match lengthrange::length_range(m, &mut d, &mut s, i, search) {
             Ok(()) => continue,
             _ if !lengthrange::has_length(m, i) => "its target gives it no length".to_string(),
-            Err(Failure::NoRange([lower, upper])) => {
+            Err(RangeError::NoRange([lower, upper])) => {
                 format!("pulling it either way gives {lower:.4} and {upper:.4}")
             }
-            Err(Failure::NotSettled([lower, upper])) => {
+            Err(RangeError::NotSettled([lower, upper])) => {
                 format!("pulled for the maximum time, it still moves between {lower:.4} and {upper:.4}")
             }
         };

@@ -2,7 +2,7 @@
 
 use crate::mjcf::classes::Props;
 use crate::mjcf::rules;
-use crate::mjcf::text::diagnostic::{Report, Reported};
+use crate::mjcf::text::diagnostic::{Diagnostics, Reported};
 use crate::mjcf::text::tree::Node;
 
 /// An element that overrides the fields of an actuator.
@@ -10,7 +10,7 @@ pub(crate) struct Overlay<'a> {
     pub(crate) node: &'a Node,
     /// Its own attributes.
     pub(crate) p: Props,
-    pub(crate) report: &'a mut Report,
+    pub(crate) report: &'a mut Diagnostics,
 }
 
 impl Overlay<'_> {

@@ -10,7 +10,7 @@ use crate::mjcf::context::Context;
 use crate::mjcf::ids::References;
 use crate::mjcf::rules;
 use crate::mjcf::spec::{ActuatorSpec, BodySpec, RangeSpec, TendonSpec, TransmissionSpec};
-use crate::mjcf::text::diagnostic::Report;
+use crate::mjcf::text::diagnostic::Diagnostics;
 use crate::mjcf::text::tree::{Node, name};
 
 /// All actuators in the order of the text.
@@ -87,12 +87,12 @@ fn unset() -> ActuatorSpec {
 }
 
 /// Overrides the fields of an actuator: first the attributes that all elements share, then those of its shortcut.
-fn overlay(a: &mut ActuatorSpec, node: &Node, report: &mut Report) {
+fn overlay(a: &mut ActuatorSpec, node: &Node, report: &mut Diagnostics) {
     let Some(set) = shortcut::find(node.element.name) else { return };
     let p = Props::written_props(node);
-    a.gaintype = p.word("gaintype").unwrap_or(a.gaintype);
-    a.biastype = p.word("biastype").unwrap_or(a.biastype);
-    a.dyntype = p.word("dyntype").unwrap_or(a.dyntype);
+    a.gaintype = p.keyword("gaintype").unwrap_or(a.gaintype);
+    a.biastype = p.keyword("biastype").unwrap_or(a.biastype);
+    a.dyntype = p.keyword("dyntype").unwrap_or(a.dyntype);
     a.gainprm = p.reals("gainprm", a.gainprm);
     a.biasprm = p.reals("biasprm", a.biasprm);
     a.dynprm = p.reals("dynprm", a.dynprm);
@@ -103,7 +103,7 @@ fn overlay(a: &mut ActuatorSpec, node: &Node, report: &mut Report) {
         (&mut a.force, "forcelimited", "forcerange"),
         (&mut a.act, "actlimited", "actrange"),
     ] {
-        limit.flag = p.word(flag).unwrap_or(limit.flag);
+        limit.flag = p.keyword(flag).unwrap_or(limit.flag);
         limit.range = p.reals(range, limit.range);
     }
     a.velrange = p.reals("velrange", a.velrange);
@@ -115,7 +115,7 @@ fn overlay(a: &mut ActuatorSpec, node: &Node, report: &mut Report) {
     a.armature = p.real("armature").unwrap_or(a.armature);
     a.group = p.int("group").unwrap_or(a.group);
     a.nsample = p.int("nsample").unwrap_or(a.nsample);
-    a.interp = p.word("interp").unwrap_or(a.interp);
+    a.interp = p.keyword("interp").unwrap_or(a.interp);
     a.delay = p.real("delay").unwrap_or(a.delay);
     if p.has("user") {
         a.user = p.shared("user");
@@ -139,7 +139,7 @@ fn transmission(
     a: &ActuatorSpec,
     refs: References,
     node: &Node,
-    report: &mut Report,
+    report: &mut Diagnostics,
 ) -> Option<TransmissionSpec> {
     let owner = node.describe();
     let given: Vec<_> = listed(TARGETS.iter().filter(|(name, ..)| node.attribute(name).is_some()));
@@ -167,7 +167,7 @@ fn transmission(
             return None;
         }
     };
-    check_belongs(node, attribute, object, kind, report);
+    check_transmission_attribute(node, attribute, object, kind, report);
     let id = refs.optional(object, node, attribute)?;
     let second = match kind {
         trntype::SLIDERCRANK => refs.required("site", node, "slidersite", report)?,
@@ -188,7 +188,13 @@ fn transmission(
 }
 
 /// Reports attributes that are valid only for another transmission.
-fn check_belongs(node: &Node, attribute: &str, object: &str, kind: i32, report: &mut Report) {
+fn check_transmission_attribute(
+    node: &Node,
+    attribute: &str,
+    object: &str,
+    kind: i32,
+    report: &mut Diagnostics,
+) {
     let owner = node.describe();
     for (name, of, needs) in [
         ("slidersite", trntype::SLIDERCRANK, "cranksite"),
@@ -216,7 +222,7 @@ fn check_orientation(
     second: i32,
     refs: References,
     node: &Node,
-    report: &mut Report,
+    report: &mut Diagnostics,
 ) {
     let owner = node.describe();
     let joint = attribute == "joint";

@@ -46,7 +46,7 @@ const SHORTCUTS: [(&str, Set); 12] = [
         (a.gaintype, a.biastype, a.dyntype) = (gaintype::AFFINE, biastype::NONE, dyntype::NONE);
         a.gainprm = [0.0; 10];
         a.gainprm[2] = -kv;
-        one_way(a, e, "a damper with a negative control would push instead of resisting");
+        clamp_controls(a, e, "a damper with a negative control would push instead of resisting");
     }),
     ("cylinder", |a, e| {
         (a.gaintype, a.biastype, a.dyntype) = (gaintype::FIXED, biastype::AFFINE, dyntype::FILTER);
@@ -62,7 +62,7 @@ const SHORTCUTS: [(&str, Set); 12] = [
     ("adhesion", |a, e| {
         (a.gaintype, a.biastype) = (gaintype::FIXED, biastype::NONE);
         a.gainprm[0] = e.zero_or_more("gain").unwrap_or(a.gainprm[0]);
-        one_way(a, e, "adhesion pulls surfaces together and never pushes them apart");
+        clamp_controls(a, e, "adhesion pulls surfaces together and never pushes them apart");
     }),
     ("orientation", |a, e| {
         input(&mut a.ctrlspec, Inputs::Chart, e);
@@ -125,7 +125,7 @@ fn inherit(inheritrange: f64, range: [f64; 2], attribute: &str, e: &mut Overlay)
 }
 
 /// Sets controls that are always clamped to their range, and reports a range with negative numbers.
-fn one_way(a: &mut ActuatorSpec, e: &mut Overlay, why: &str) {
+fn clamp_controls(a: &mut ActuatorSpec, e: &mut Overlay, why: &str) {
     a.ctrl.flag = choice::TRUE;
     if a.ctrl.range.iter().any(|&x| x < 0.0) {
         let owner = e.node.describe();

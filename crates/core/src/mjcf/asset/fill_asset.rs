@@ -7,7 +7,7 @@ use crate::geometry::{self, HullFaces};
 use crate::math::Vec3;
 use crate::mjcf::arrays::flat;
 use crate::mjcf::gather::listed;
-use crate::mjcf::scene::fill_scene::{Places, single as single_each};
+use crate::mjcf::scene::fill_scene::{NameIndexes, single as single_each};
 use crate::model::Model;
 
 /// Rounds numbers to single precision, for fields that MuJoCo stores as 32-bit floats.
@@ -16,7 +16,7 @@ fn single(list: &[Vec3]) -> impl Iterator<Item = f64> + '_ {
 }
 
 /// The addresses of consecutive groups, from their lengths.
-fn places(counts: impl Iterator<Item = usize>) -> Vec<i32> {
+fn addresses(counts: impl Iterator<Item = usize>) -> Vec<i32> {
     listed(counts.scan(0, |next, n| {
         *next += n;
         Some((*next - n) as i32)
@@ -50,13 +50,13 @@ pub(crate) fn meshes(m: &mut Model, assets: &Assets) {
     let list: Vec<&Mesh> = listed(assets.meshes.iter().filter_map(|a| a.value.as_ref()));
     let counts = |of: fn(&Mesh) -> usize| -> Vec<usize> { listed(list.iter().map(|x| of(x))) };
     let numbers =
-        |counts: &[usize]| (places(counts.iter().copied()), listed(counts.iter().map(|&n| n as i32)));
+        |counts: &[usize]| (addresses(counts.iter().copied()), listed(counts.iter().map(|&n| n as i32)));
     (m.mesh_vertadr, m.mesh_vertnum) = numbers(&counts(|x| x.shape.vert.len()));
     (m.mesh_normaladr, m.mesh_normalnum) = numbers(&counts(|x| x.shape.normal.len()));
     (m.mesh_faceadr, m.mesh_facenum) = numbers(&counts(|x| x.shape.face.len()));
     (m.mesh_texcoordadr, m.mesh_texcoordnum) = numbers(&counts(|x| x.shape.texcoord.len()));
     let graphs = counts(graph_len);
-    m.mesh_graphadr = places(graphs.iter().copied());
+    m.mesh_graphadr = addresses(graphs.iter().copied());
     // The address of an empty list is -1.
     for (at, n) in m.mesh_texcoordadr.iter_mut().zip(&m.mesh_texcoordnum) {
         *at = if *n == 0 { -1 } else { *at };
@@ -92,7 +92,7 @@ pub(crate) fn hfields(m: &mut Model, assets: &Assets) {
     flat(&mut m.hfield_size, &list, |x| x.size);
     flat(&mut m.hfield_nrow, &list, |x| [x.nrow as i32]);
     flat(&mut m.hfield_ncol, &list, |x| [x.ncol as i32]);
-    m.hfield_adr = places(list.iter().map(|x| x.data.len()));
+    m.hfield_adr = addresses(list.iter().map(|x| x.data.len()));
     m.hfield_data = listed(list.iter().flat_map(|x| &x.data).copied());
     m.names.hfield = listed(assets.hfields.iter().map(|a| a.name.clone()));
 }
@@ -101,27 +101,27 @@ pub(crate) fn hfields(m: &mut Model, assets: &Assets) {
 pub(crate) fn skins(m: &mut Model, assets: &Assets) {
     let list: Vec<&Skin> = listed(assets.skins.iter().filter_map(|a| a.value.as_ref()));
     let bones: Vec<&Bone> = listed(list.iter().flat_map(|s| &s.bones));
-    let materials = Places::from_names(m.names.material.iter());
-    let bodies = Places::from_names(m.names.body.iter());
+    let materials = NameIndexes::from_names(m.names.material.iter());
+    let bodies = NameIndexes::from_names(m.names.body.iter());
     flat(&mut m.skin_matid, &list, |s| [materials.find(s.material.as_ref())]);
     flat(&mut m.skin_group, &list, |s| [s.group]);
     flat(&mut m.skin_rgba, &list, |s| single_each(s.rgba));
     flat(&mut m.skin_inflate, &list, |s| single_each([s.inflate]));
-    m.skin_vertadr = places(list.iter().map(|s| s.vert.len()));
+    m.skin_vertadr = addresses(list.iter().map(|s| s.vert.len()));
     flat(&mut m.skin_vertnum, &list, |s| [s.vert.len() as i32]);
-    m.skin_texcoordadr = places(list.iter().map(|s| s.texcoord.len()));
+    m.skin_texcoordadr = addresses(list.iter().map(|s| s.texcoord.len()));
     for (at, s) in m.skin_texcoordadr.iter_mut().zip(&list) {
         *at = if s.texcoord.is_empty() { -1 } else { *at };
     }
-    m.skin_faceadr = places(list.iter().map(|s| s.face.len()));
+    m.skin_faceadr = addresses(list.iter().map(|s| s.face.len()));
     flat(&mut m.skin_facenum, &list, |s| [s.face.len() as i32]);
-    m.skin_boneadr = places(list.iter().map(|s| s.bones.len()));
+    m.skin_boneadr = addresses(list.iter().map(|s| s.bones.len()));
     flat(&mut m.skin_bonenum, &list, |s| [s.bones.len() as i32]);
     m.skin_vert = listed(list.iter().flat_map(|s| single(&s.vert)));
     m.skin_texcoord =
         listed(list.iter().flat_map(|s| s.texcoord.as_flattened()).map(|&x| f64::from(x as f32)));
     m.skin_face = listed(list.iter().flat_map(|s| s.face.as_flattened()).copied());
-    m.skin_bonevertadr = places(bones.iter().map(|b| b.vertid.len()));
+    m.skin_bonevertadr = addresses(bones.iter().map(|b| b.vertid.len()));
     flat(&mut m.skin_bonevertnum, &bones, |b| [b.vertid.len() as i32]);
     flat(&mut m.skin_bonebindpos, &bones, |b| single_each(b.bindpos));
     flat(&mut m.skin_bonebindquat, &bones, |b| single_each(b.bindquat));

@@ -131,7 +131,7 @@ pub(crate) fn decode(path: &str, content_type: &str, bytes: &[u8]) -> Result<Sam
         _ => MUJOCO_HFIELD,
     };
     match kind {
-        PNG => picture(bytes),
+        PNG => read_image(bytes),
         MUJOCO_HFIELD => decode_samples(bytes),
         _ => Err(Problem::new(
             "content_type",
@@ -144,7 +144,7 @@ pub(crate) fn decode(path: &str, content_type: &str, bytes: &[u8]) -> Result<Sam
 
 /// A PNG image: the elevation is the red channel in 8 bits, and the last row of the image has the smallest y.
 #[cfg(feature = "pictures")]
-fn picture(bytes: &[u8]) -> Result<Samples, Problem> {
+fn read_image(bytes: &[u8]) -> Result<Samples, Problem> {
     let bad = |what: &str| {
         Problem::file(
             format!("has a file that cannot be read as a PNG image: {what}"),
@@ -162,7 +162,7 @@ fn picture(bytes: &[u8]) -> Result<Samples, Problem> {
 
 /// Returns an error, in builds without support for images.
 #[cfg(not(feature = "pictures"))]
-fn picture(_: &[u8]) -> Result<Samples, Problem> {
+fn read_image(_: &[u8]) -> Result<Samples, Problem> {
     Err(Problem::file(
         "has an image, but this program was built without image support".to_string(),
         "write the heights into the model, as `elevation`, or ship the compiled model",

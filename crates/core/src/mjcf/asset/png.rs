@@ -26,9 +26,9 @@ pub(super) struct Header {
 
 /// A pass, a set of pixels that are stored together: the first pixel, and the distance between neighbours, both in x and y.
 type Pass = ([u32; 2], [u32; 2]);
-const WHOLE: &[Pass] = &[([0, 0], [1, 1])];
+const SINGLE_PASS: &[Pass] = &[([0, 0], [1, 1])];
 /// The seven passes of Adam7.
-const INTERLACED: &[Pass] = &[
+const ADAM7_PASSES: &[Pass] = &[
     ([0, 0], [8, 8]),
     ([4, 0], [8, 8]),
     ([0, 4], [4, 8]),
@@ -44,7 +44,7 @@ impl Header {
     }
 
     fn passes(&self) -> &'static [Pass] {
-        if self.interlaced { INTERLACED } else { WHOLE }
+        if self.interlaced { ADAM7_PASSES } else { SINGLE_PASS }
     }
 
     /// The number of pixels per row of a pass, and the number of rows. Zeros if the image is too small for the pass.
@@ -142,7 +142,7 @@ pub(super) fn first_colors(of: &Header, mut bytes: &[u8]) -> Result<Vec<u8>, &'s
         let [nx, ny] = of.size(pass);
         ny * (1 + of.row(nx))
     };
-    let mut rows = unpacked(&packed, of.passes().iter().map(size).sum())?;
+    let mut rows = unpack(&packed, of.passes().iter().map(size).sum())?;
     let (width, mut rest) = (of.width as usize, rows.as_mut_slice());
     let mut colors = vec![0; width * of.height as usize];
     for &pass in of.passes() {
@@ -166,7 +166,7 @@ pub(super) fn first_colors(of: &Header, mut bytes: &[u8]) -> Result<Vec<u8>, &'s
 }
 
 /// Decompresses `size` bytes.
-fn unpacked(packed: &[u8], size: usize) -> Result<Vec<u8>, &'static str> {
+fn unpack(packed: &[u8], size: usize) -> Result<Vec<u8>, &'static str> {
     let mut all = vec![0; size];
     let flags = TINFL_FLAG_PARSE_ZLIB_HEADER | TINFL_FLAG_USING_NON_WRAPPING_OUTPUT_BUF;
     let (status, _, n) = decompress(&mut Box::<DecompressorOxide>::default(), packed, &mut all, 0, flags);

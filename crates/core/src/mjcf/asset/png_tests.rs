@@ -5,14 +5,14 @@ use super::*;
 /// Width, height and the red channel.
 type Read = Option<(u32, u32, Vec<u8>)>;
 
-fn ours(mut bytes: &[u8]) -> Read {
+fn read_with_engine(mut bytes: &[u8]) -> Read {
     let header = header(&mut bytes).ok()?;
     let few = u64::from(header.width) * u64::from(header.height) <= 1 << 16;
     let colors = few.then(|| first_colors(&header, bytes))?.ok()?;
     Some((header.width, header.height, colors))
 }
 
-fn theirs(bytes: &[u8]) -> Read {
+fn read_with_crate(bytes: &[u8]) -> Read {
     let mut decoder = ::png::Decoder::new(std::io::Cursor::new(bytes));
     decoder.set_transformations(::png::Transformations::normalize_to_color8());
     decoder.ignore_checksums(false);
@@ -37,7 +37,7 @@ fn noise(seed: &mut u32) -> u8 {
 }
 
 /// An image of noise. Each row has a random filter.
-fn picture([width, height]: [u32; 2], color: u8, depth: u8, interlaced: bool) -> Vec<u8> {
+fn noise_image([width, height]: [u32; 2], color: u8, depth: u8, interlaced: bool) -> Vec<u8> {
     let samples = [1, 0, 3, 1, 2, 0, 4][usize::from(color)];
     let of = Header { width, height, depth, color, samples, interlaced };
     let mut seed = width * 31 + height * 7 + u32::from(color) * 5 + u32::from(depth);
@@ -73,7 +73,7 @@ const KINDS: [(u8, &[u8]); 5] =
 fn each_kind(sizes: &[[u32; 2]], mut visit: impl FnMut(Vec<u8>)) {
     for (color, depths) in KINDS {
         for (&depth, interlaced) in depths.iter().flat_map(|d| [(d, false), (d, true)]) {
-            sizes.iter().for_each(|&size| visit(picture(size, color, depth, interlaced)));
+            sizes.iter().for_each(|&size| visit(noise_image(size, color, depth, interlaced)));
         }
     }
 }
@@ -82,14 +82,14 @@ fn each_kind(sizes: &[[u32; 2]], mut visit: impl FnMut(Vec<u8>)) {
 fn every_kind_is_read_as_by_the_package() {
     let sizes = [[1, 1], [2, 3], [5, 1], [1, 9], [7, 8], [13, 11], [33, 40], [100, 70]];
     each_kind(&sizes, |bytes| {
-        let read = ours(&bytes);
+        let read = read_with_engine(&bytes);
         assert!(read.is_some());
-        assert_eq!(read, theirs(&bytes));
+        assert_eq!(read, read_with_crate(&bytes));
     });
 }
 
 /// The same file with correct checksums, as far as its chunks are complete.
-fn mended(mut bytes: Vec<u8>) -> Vec<u8> {
+fn with_checksums(mut bytes: Vec<u8>) -> Vec<u8> {
     let mut at = SIGNATURE.len();
     while let Some(length) = bytes.get(at..).and_then(|b| b.first_chunk()) {
         let end = at + 8 + u32::from_be_bytes(*length) as usize;
@@ -105,7 +105,7 @@ fn mended(mut bytes: Vec<u8>) -> Vec<u8> {
 /// an image of the size that its header states.
 #[test]
 fn damaged_pictures_are_read_as_by_the_package() {
-    let compare = |bytes: &[u8], what: &str| match (ours(bytes), theirs(bytes)) {
+    let compare = |bytes: &[u8], what: &str| match (read_with_engine(bytes), read_with_crate(bytes)) {
         (Some(a), Some(b)) => assert_eq!(a, b, "{what}"),
         (None, Some(_)) => panic!("{what}: is refused, and was read"),
         (Some((width, height, colors)), None) => {
@@ -121,7 +121,7 @@ fn damaged_pictures_are_read_as_by_the_package() {
                 damaged[at] ^= change;
                 let what = format!("{change} at {at} of {}", bytes.len());
                 compare(&damaged, &what);
-                compare(&mended(damaged), &what);
+                compare(&with_checksums(damaged), &what);
             }
         }
     });

@@ -15,7 +15,7 @@ use crate::mjcf::expand::AttachedModel;
 use crate::mjcf::names::{NameTable, WORLD};
 use crate::mjcf::rules::{self, Rule};
 use crate::mjcf::spec::{BodySpec, PairSpec};
-use crate::mjcf::text::diagnostic::{Report, shorten_name};
+use crate::mjcf::text::diagnostic::{Diagnostics, shorten_name};
 use crate::mjcf::text::files::{Files, MAX_FILE};
 use crate::mjcf::text::load;
 use crate::mjcf::text::tree::{Node, Tree, name};
@@ -54,7 +54,7 @@ struct Reader<'a> {
     files: &'a dyn Files,
     /// The remaining part of [`MOST`].
     left: usize,
-    report: &'a mut Report,
+    report: &'a mut Diagnostics,
 }
 
 impl Assets {
@@ -64,7 +64,7 @@ impl Assets {
         classes: &Classes,
         parts: &[AttachedModel],
         files: &dyn Files,
-        report: &mut Report,
+        report: &mut Diagnostics,
     ) -> Assets {
         let mut assets = Assets::default();
         let mut reader = Reader { parts, files, left: MOST, report };
@@ -132,7 +132,7 @@ impl Assets {
 
     /// Checks that the bodies that skin files name as bones exist after `fusestatic`. Bodies that the text itself refers to are
     /// never fused.
-    pub(crate) fn check_bones(&self, bodies: &[BodySpec], names: &NameTable, report: &mut Report) {
+    pub(crate) fn check_bones(&self, bodies: &[BodySpec], names: &NameTable, report: &mut Diagnostics) {
         let used: BTreeSet<&str> = filled(bodies.iter().map(|b| b.name.as_str()));
         for bone in self.skins.iter().filter_map(|a| a.value.as_ref()).flat_map(|s| &s.bones) {
             let Some(span) = bone.file.clone().filter(|_| !report.is_full()) else { continue };
@@ -149,7 +149,7 @@ impl Assets {
     }
 
     /// Computes the hulls of the meshes that can collide, and of those of sites.
-    pub(crate) fn hulls(&mut self, bodies: &[BodySpec], pairs: &[PairSpec], report: &mut Report) {
+    pub(crate) fn hulls(&mut self, bodies: &[BodySpec], pairs: &[PairSpec], report: &mut Diagnostics) {
         let geoms: Vec<_> = listed(bodies.iter().flat_map(|b| &b.geoms));
         let touching = geoms.iter().filter(|g| g.contype != 0 || g.conaffinity != 0);
         let paired = pairs.iter().flat_map(|p| p.geoms).filter_map(|g| geoms.get(usize::try_from(g).ok()?));
@@ -163,7 +163,13 @@ impl Assets {
             match build::hull(mesh) {
                 Ok(hull) => mesh.hull = Some(hull),
                 Err(problem) => {
-                    say(problem, rules::MESH, &format!("mesh `{}`", asset.name), asset.span.clone(), report);
+                    report_problem(
+                        problem,
+                        rules::MESH,
+                        &format!("mesh `{}`", asset.name),
+                        asset.span.clone(),
+                        report,
+                    );
                     asset.value = None;
                 }
             }
@@ -172,7 +178,13 @@ impl Assets {
 }
 
 /// Reports a problem with an asset.
-fn say(problem: Problem, code: &'static Rule, owner: &str, span: Range<usize>, report: &mut Report) {
+fn report_problem(
+    problem: Problem,
+    code: &'static Rule,
+    owner: &str,
+    span: Range<usize>,
+    report: &mut Diagnostics,
+) {
     let mut d = report.error(code, span, format!("{owner} {}", problem.message));
     if !problem.why.is_empty() {
         d = d.why(problem.why);
@@ -195,14 +207,14 @@ impl Reader<'_> {
 
     fn wrong<T>(&mut self, problem: Problem, code: &'static Rule, node: &Node, p: &Props) -> Option<T> {
         let span = p.span(problem.attribute).unwrap_or(node.span.clone());
-        say(problem, code, &node.describe(), span, self.report);
+        report_problem(problem, code, &node.describe(), span, self.report);
         None
     }
 
     fn options(&mut self, node: &Node, p: &Props) -> Option<Options> {
         let refquat = p.reals("refquat", IDENTITY);
         let maxhullvert = p.int("maxhullvert").unwrap_or(-1);
-        let problem = if norm4(refquat) < crate::math::MINVAL {
+        let problem = if quaternion_norm(refquat) < crate::math::MINVAL {
             Problem::new(
                 "refquat",
                 "has a `refquat` of zero",
@@ -223,7 +235,7 @@ impl Reader<'_> {
                 refquat,
                 smooth: p.flag("smoothnormal", false),
                 maxhullvert: usize::try_from(maxhullvert).ok(),
-                body: match p.word("inertia") {
+                body: match p.keyword("inertia") {
                     Some(0) => Body::Convex,
                     Some(1) => Body::Exact,
                     Some(3) => Body::Shell,
@@ -414,7 +426,7 @@ impl Reader<'_> {
     }
 }
 
-fn norm4(q: [f64; 4]) -> f64 {
+fn quaternion_norm(q: [f64; 4]) -> f64 {
     norm([norm([q[0], q[1], q[2]]), q[3], 0.0])
 }
 

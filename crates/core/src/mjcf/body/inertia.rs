@@ -9,12 +9,12 @@ use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
 use crate::mjcf::settings::{Compiler, InertiaFromGeom};
 use crate::mjcf::spec::{BodySpec, GeomSpec, Inertia};
-use crate::mjcf::text::diagnostic::Report;
+use crate::mjcf::text::diagnostic::Diagnostics;
 
 const NONE: Inertia = Inertia { pos: [0.0; 3], quat: IDENTITY, mass: 0.0, moments: [0.0; 3] };
 
 /// The inertia of every body. That of the world is zero.
-pub(crate) fn bodies(list: &[BodySpec], parts: &[AttachedModel], report: &mut Report) -> Vec<Inertia> {
+pub(crate) fn bodies(list: &[BodySpec], parts: &[AttachedModel], report: &mut Diagnostics) -> Vec<Inertia> {
     let mut all = vec![NONE];
     for body in list.iter().skip(1) {
         let Some(AttachedModel { compiler, .. }) = parts.get(body.part) else { continue };
@@ -149,7 +149,7 @@ fn in_frame(m: [f64; 6], quat: Quat) -> [f64; 6] {
 }
 
 /// Checks that no moment exceeds the sum of the other two. No mass distribution has such an inertia.
-fn check_triangle(body: &BodySpec, inertia: &mut Inertia, compiler: &Compiler, report: &mut Report) {
+fn check_triangle(body: &BodySpec, inertia: &mut Inertia, compiler: &Compiler, report: &mut Diagnostics) {
     let [a, b, c] = inertia.moments;
     // Rounding errors in the computed moments of a flat body are not an error of the author.
     let slack = 1e-13 * (a + b + c);
@@ -171,7 +171,12 @@ fn check_triangle(body: &BodySpec, inertia: &mut Inertia, compiler: &Compiler, r
 }
 
 /// Checks that each moving body has mass and inertia: its own, or those of a body that is welded to it.
-pub(crate) fn check_moving(list: &[BodySpec], weld: &[usize], inertias: &[Inertia], report: &mut Report) {
+pub(crate) fn check_moving(
+    list: &[BodySpec],
+    weld: &[usize],
+    inertias: &[Inertia],
+    report: &mut Diagnostics,
+) {
     let solid = |i: &Inertia| i.mass >= MINVAL && i.moments.iter().all(|&x| x >= MINVAL);
     let mut carries = vec![false; list.len()];
     for (&w, inertia) in weld.iter().zip(inertias) {

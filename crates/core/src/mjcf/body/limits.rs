@@ -19,7 +19,7 @@ pub(crate) fn read(cx: &mut Context, p: &Props, node: &Node, limit: &Limit) -> (
     let range = p.reals(limit.range, [0.0; 2]);
     let span = p.span(limit.range).unwrap_or(node.span.clone());
     let given = p.has(limit.range) && range != [0.0; 2];
-    let flag = p.word(limit.flag).unwrap_or(choice::AUTO);
+    let flag = p.keyword(limit.flag).unwrap_or(choice::AUTO);
     (decide(cx, flag, given, range, span, &node.describe(), limit), range)
 }
 

@@ -9,14 +9,14 @@ use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
 use crate::mjcf::schema::{ALTERNATIVES, is_form};
 use crate::mjcf::settings::Compiler;
-use crate::mjcf::text::diagnostic::Report;
+use crate::mjcf::text::diagnostic::Diagnostics;
 use crate::mjcf::text::tree::{Node, Tree};
 
 /// The length below which a vector has no direction.
 const SHORTEST: f64 = 1e-14;
 
 /// The orientation of an element, or the identity if none is given.
-pub(crate) fn read(p: &Props, compiler: &Compiler, node: &Node, report: &mut Report) -> Quat {
+pub(crate) fn read(p: &Props, compiler: &Compiler, node: &Node, report: &mut Diagnostics) -> Quat {
     let form = ALTERNATIVES.into_iter().find(|name| p.has(name)).unwrap_or("quat");
     let Some(given) = p.list(form) else { return IDENTITY };
     let result = match (form, given) {
@@ -39,7 +39,7 @@ pub(crate) fn read(p: &Props, compiler: &Compiler, node: &Node, report: &mut Rep
 }
 
 /// Reports elements that specify their orientation more than once.
-pub(crate) fn check_forms(tree: &Tree, report: &mut Report) {
+pub(crate) fn check_forms(tree: &Tree, report: &mut Diagnostics) {
     for node in &tree.nodes {
         let forms = node.attributes.iter().filter(|a| is_form(a.attr.name));
         let names: Vec<_> = listed(forms.map(|a| (a.attr.name, a.span.clone())));

@@ -105,7 +105,7 @@ fn body(cx: &mut Context, i: usize, node: &Node, place: ElementSite) -> BodySpec
         mocap: p.flag("mocap", false),
         simple: p.flag("simple", true),
         gravcomp: p.real("gravcomp").unwrap_or(0.0),
-        sleep: p.word("sleep").unwrap_or(0),
+        sleep: p.keyword("sleep").unwrap_or(0),
         user: List::read(&p, "user"),
         ..empty(i, node.span.clone(), name(node), place.body)
     }
@@ -129,7 +129,7 @@ fn member(cx: &mut Context, i: usize, node: &Node, place: ElementSite, body: &mu
                 cx.report.error(rules::REPEATED_ELEMENT, node.span.clone(), message);
             }
             body.inertial = inertial(cx, node).map(|mut inertia| {
-                frame.place(&mut inertia.pos, &mut inertia.quat);
+                frame.to_parent_frame(&mut inertia.pos, &mut inertia.quat);
                 inertia
             });
         }
@@ -146,18 +146,18 @@ fn member(cx: &mut Context, i: usize, node: &Node, place: ElementSite, body: &mu
         }
         "geom" => {
             if let Some(mut geom) = read_geom::geom(cx, i, node, class) {
-                frame.place(&mut geom.pos, &mut geom.quat);
+                frame.to_parent_frame(&mut geom.pos, &mut geom.quat);
                 body.geoms.push(geom);
             }
         }
         "site" => {
             let mut site = read_scene::site(cx, i, node, class);
-            frame.place(&mut site.pos, &mut site.quat);
+            frame.to_parent_frame(&mut site.pos, &mut site.quat);
             body.sites.push(site);
         }
         "camera" => {
             let mut camera = read_scene::camera(cx, node, class);
-            frame.place(&mut camera.pos, &mut camera.quat);
+            frame.to_parent_frame(&mut camera.pos, &mut camera.quat);
             body.cameras.push(camera);
         }
         "light" => {

@@ -17,7 +17,7 @@ pub(crate) fn joint(cx: &mut Context, i: usize, node: &Node, childclass: Option<
     // The element `freejoint` takes no defaults, because these are meant for the other joint types.
     let free = node.element.name == "freejoint";
     let p = if free { Props::written_props(node) } else { cx.classes.props(node, childclass) };
-    let kind = if free { joint::FREE } else { p.word("type").unwrap_or(joint::HINGE) };
+    let kind = if free { joint::FREE } else { p.keyword("type").unwrap_or(joint::HINGE) };
 
     let angle = |x: f64| if kind == joint::HINGE { cx.compiler.angle(x) } else { x };
     let (reference, springref) =
@@ -31,7 +31,7 @@ pub(crate) fn joint(cx: &mut Context, i: usize, node: &Node, childclass: Option<
         kind,
         pos: if kind == joint::FREE { [0.0; 3] } else { p.reals("pos", [0.0; 3]) },
         axis: axis(cx, &p, node, kind),
-        align: p.word("align").unwrap_or(choice::AUTO),
+        align: p.keyword("align").unwrap_or(choice::AUTO),
         limited,
         range,
         margin: p.real("margin").unwrap_or(0.0),

@@ -7,7 +7,7 @@ use crate::mjcf::gather::listed;
 use crate::mjcf::ids::References;
 use crate::mjcf::rules;
 use crate::mjcf::spec::{EqualitySpec, SOLIMP, SOLREF};
-use crate::mjcf::text::diagnostic::Report;
+use crate::mjcf::text::diagnostic::Diagnostics;
 use crate::mjcf::text::tree::{Node, name};
 use crate::model::Obj;
 
@@ -19,7 +19,7 @@ pub(crate) fn equalities(cx: &mut Context, refs: References) -> Vec<EqualitySpec
 }
 
 /// The objects of a constraint (kind, first, second) and its data.
-type Tied = (Obj, i32, i32, [f64; 11]);
+type EqualityData = (Obj, i32, i32, [f64; 11]);
 
 fn equality(cx: &mut Context, refs: References, node: &Node) -> Option<EqualitySpec> {
     let p = cx.classes.props_of("equality", node, None);
@@ -55,7 +55,12 @@ fn equality(cx: &mut Context, refs: References, node: &Node) -> Option<EqualityS
 }
 
 /// `connect` and `weld`: two sites, or a body with an anchor and a second body. The default of the second body is the world.
-fn bodies_or_sites(refs: References, p: &Props, node: &Node, report: &mut Report) -> Option<Tied> {
+fn bodies_or_sites(
+    refs: References,
+    p: &Props,
+    node: &Node,
+    report: &mut Diagnostics,
+) -> Option<EqualityData> {
     let given = |attribute: &str| node.attribute(attribute).is_some();
     let connect = node.element.name == "connect";
     let scale = p.real("torquescale").unwrap_or(1.0);
@@ -99,7 +104,13 @@ fn bodies_or_sites(refs: References, p: &Props, node: &Node, report: &mut Report
 }
 
 /// `joint` and `tendon`: a polynomial of the second object, or a constant.
-fn coupled(refs: References, p: &Props, node: &Node, objtype: Obj, report: &mut Report) -> Option<Tied> {
+fn coupled(
+    refs: References,
+    p: &Props,
+    node: &Node,
+    objtype: Obj,
+    report: &mut Diagnostics,
+) -> Option<EqualityData> {
     let (kind, first, second) = match objtype {
         Obj::Joint => ("joint", "joint1", "joint2"),
         _ => ("tendon", "tendon1", "tendon2"),

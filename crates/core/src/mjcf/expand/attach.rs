@@ -7,13 +7,13 @@ use crate::mjcf::gather::{filled, listed};
 use crate::mjcf::names::WORLD;
 use crate::mjcf::rules;
 use crate::mjcf::schema::{BODY, FRAME};
-use crate::mjcf::text::diagnostic::{Report, nearest, shorten_name};
+use crate::mjcf::text::diagnostic::{Diagnostics, nearest, shorten_name};
 use crate::mjcf::text::tree::{Attribute, Node};
 use crate::mjcf::text::values::Value;
 
 impl Expander {
     /// Copies a part of another model, or of this one, with a prefix for its names.
-    pub(super) fn attach(&mut self, at: usize, report: &mut Report) -> Option<()> {
+    pub(super) fn attach(&mut self, at: usize, report: &mut Diagnostics) -> Option<()> {
         let node = self.nodes.get(at)?.clone();
         let Some(prefix) = node.attribute("prefix").and(Some(node.text("prefix").unwrap_or(""))) else {
             report
@@ -45,18 +45,18 @@ impl Expander {
                 self.models.insert(name, child);
                 done
             }
-            None => self.attach_own(at, &node, prefix, part, report),
+            None => self.attach_element(at, &node, prefix, part, report),
         }
     }
 
     /// Copies a body or frame of this model.
-    fn attach_own(
+    fn attach_element(
         &mut self,
         at: usize,
         node: &Node,
         prefix: &str,
         part: Option<(&'static str, &str)>,
-        report: &mut Report,
+        report: &mut Diagnostics,
     ) -> Option<()> {
         let Some((kind, name)) = part else {
             report
@@ -80,7 +80,7 @@ impl Expander {
                 .help("move the `attach` after it");
             return None;
         }
-        if self.holds(original, at) {
+        if self.contains(original, at) {
             report
                 .error(rules::COPY, span, format!("{kind} {} is attached inside itself", shorten_name(name)))
                 .why("the copy would contain itself without end");
@@ -90,14 +90,14 @@ impl Expander {
         let subtree = copy::names(&self.nodes, original);
         let mut followers = self.uses.followers(&self.nodes, &subtree, false);
         let (copy, _) = copy::copy(&self.nodes, original, rename, None);
-        let copy = self.adopt(copy, at)?;
-        let class = class_around(&self.nodes, original).unwrap_or("main").to_string();
-        self.settle(at, vec![childclass(node, class)?], vec![copy])?;
+        let copy = self.append_copy(copy, at)?;
+        let class = inherited_class(&self.nodes, original).unwrap_or("main").to_string();
+        self.replace_by_frame(at, vec![childclass(node, class)?], vec![copy])?;
         self.follow(&mut followers, rename)
     }
 
     /// Whether an element is inside another.
-    fn holds(&self, outer: usize, inner: usize) -> bool {
+    fn contains(&self, outer: usize, inner: usize) -> bool {
         let mut up = Some(inner);
         while let Some(at) = up {
             if at == outer {
@@ -116,7 +116,7 @@ impl Expander {
         prefix: &str,
         child: &mut Child,
         part: Option<(&'static str, &str)>,
-        report: &mut Report,
+        report: &mut Diagnostics,
     ) -> Option<()> {
         let offset = *child.offset.get_or_insert(self.parts.len());
         if offset == self.parts.len() {
@@ -128,21 +128,21 @@ impl Expander {
         let mut subtree: Names = filled(roots.iter().flat_map(|&root| copy::names(nodes, root)));
 
         let class = match roots.as_slice() {
-            [root] if part.is_some() => class_around(nodes, *root).map(|class| rename.class(class)),
+            [root] if part.is_some() => inherited_class(nodes, *root).map(|class| rename.class(class)),
             _ => None,
         };
         let class = childclass(node, class.unwrap_or(rename.main_class()))?;
         if part == Some(("body", WORLD)) {
             subtree.insert(("body", WORLD.to_string()));
-            let holder = self.adopt(vec![world_body(node, rename, offset)?], at)?;
+            let holder = self.append_copy(vec![world_body(node, rename, offset)?], at)?;
             let inside = self.copy_roots(nodes, &roots, rename, holder)?;
             self.nodes.get_mut(holder)?.children = inside;
-            self.settle(at, vec![class], vec![holder])?;
+            self.replace_by_frame(at, vec![class], vec![holder])?;
         } else {
             let inside = self.copy_roots(nodes, &roots, rename, at)?;
-            self.settle(at, vec![class], inside)?;
+            self.replace_by_frame(at, vec![class], inside)?;
         }
-        self.copy_luggage(nodes, rename, node)?;
+        self.copy_dependencies(nodes, rename, node)?;
         for f in child.uses.followers(nodes, &subtree, true) {
             subtree.extend(f.names);
             for at in f.elements {
@@ -165,18 +165,18 @@ impl Expander {
         let mut inside = Vec::new();
         for &root in roots {
             let (copy, _) = copy::copy(nodes, root, rename, None);
-            inside.push(self.adopt(copy, holder)?);
+            inside.push(self.append_copy(copy, holder)?);
         }
         Some(inside)
     }
 
     /// Copies the elements of another model that are copied for every attached part.
-    fn copy_luggage(&mut self, nodes: &[Node], rename: Rename, request: &Node) -> Option<()> {
-        for (section, at) in luggage(nodes) {
+    fn copy_dependencies(&mut self, nodes: &[Node], rename: Rename, request: &Node) -> Option<()> {
+        for (section, at) in dependencies(nodes) {
             let (mut copy, _) = copy::copy(nodes, at, rename, None);
             add_main_class(&mut copy, rename, request);
             if section == "default" {
-                let root = self.adopt(copy, 0)?;
+                let root = self.append_copy(copy, 0)?;
                 self.nodes.first_mut()?.children.push(root);
             } else {
                 self.append(section, copy)?;
@@ -191,7 +191,7 @@ fn roots_to_attach(
     child: &Child,
     request: &Node,
     part: Option<(&'static str, &str)>,
-    report: &mut Report,
+    report: &mut Diagnostics,
 ) -> Option<Vec<usize>> {
     let (kind, name) = match part {
         None | Some(("body", WORLD)) => return Some(members(&child.model.tree.nodes, "worldbody")),
@@ -224,7 +224,7 @@ fn world_body(request: &Node, rename: Rename, model: usize) -> Option<Node> {
 }
 
 /// The class of elements at this position that have no class attribute, or `None` for the main class. A copy keeps this class.
-fn class_around(nodes: &[Node], at: usize) -> Option<&str> {
+fn inherited_class(nodes: &[Node], at: usize) -> Option<&str> {
     let mut up = nodes.get(at)?.parent;
     while let Some(node) = up.and_then(|at| nodes.get(at)) {
         if let Some(class) = node.text("childclass") {
@@ -247,7 +247,7 @@ fn report_unknown<'n>(
     name: &str,
     names: impl Iterator<Item = &'n str>,
     span: std::ops::Range<usize>,
-    report: &mut Report,
+    report: &mut Diagnostics,
 ) {
     let error = report.error(
         rules::UNKNOWN_NAME,
@@ -271,7 +271,7 @@ fn add_main_class(copy: &mut [Node], rename: Rename, request: &Node) {
 }
 
 /// The elements that are copied for every attached part of another model: all classes and assets, numbers and texts.
-fn luggage(nodes: &[Node]) -> Vec<(&'static str, usize)> {
+fn dependencies(nodes: &[Node]) -> Vec<(&'static str, usize)> {
     let mut list: Vec<_> = Vec::new();
     for &at in nodes.first().map_or(&[][..], |root| &root.children) {
         let Some(section) = nodes.get(at) else { continue };

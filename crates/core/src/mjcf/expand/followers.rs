@@ -58,12 +58,12 @@ impl Uses {
     }
 
     /// Whether an element was removed.
-    pub(super) fn is_gone(&self, at: usize) -> bool {
+    pub(super) fn is_removed(&self, at: usize) -> bool {
         self.gone.contains(&at)
     }
 
     /// The index of all elements of a tree.
-    pub(super) fn survey(nodes: &[Node]) -> Uses {
+    pub(super) fn build_index(nodes: &[Node]) -> Uses {
         let mut uses = Uses::default();
         for &section in nodes.first().map_or(&[][..], |root| &root.children) {
             let Some(section) = nodes.get(section) else { continue };

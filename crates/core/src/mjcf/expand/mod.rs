@@ -19,12 +19,12 @@ use super::schema::{FRAME, ROOT};
 use super::settings::Compiler;
 use crate::math::{Vec3, add, rotate};
 use crate::mjcf::body::orientation;
+use crate::mjcf::keyword_map::KeywordMap;
 use crate::mjcf::rules;
-use crate::mjcf::text::diagnostic::Report;
-use crate::mjcf::text::load::Written;
+use crate::mjcf::text::diagnostic::Diagnostics;
+use crate::mjcf::text::load::UnexpandedModel;
 use crate::mjcf::text::tree::{Attribute, Node, Tree};
 use crate::mjcf::text::values::Value;
-use crate::mjcf::word_map::WordMap;
 use copy::Rename;
 use followers::{Followers, Uses};
 use references::Names;
@@ -50,22 +50,22 @@ pub(crate) struct Expanded {
 }
 
 /// Expands all requests of a model.
-pub(crate) fn model(written: Written, report: &mut Report) -> Expanded {
+pub(crate) fn model(written: UnexpandedModel, report: &mut Diagnostics) -> Expanded {
     let compiler = Compiler::read(&written.tree, report);
     let child = |(name, written)| (name, Child::new(model(written, report)));
     let models = filled(written.models.into_iter().map(child));
     let nodes = written.tree.nodes;
     let mut e = Expander {
-        uses: Uses::survey(&nodes),
+        uses: Uses::build_index(&nodes),
         written: nodes.len(),
         nodes,
         bytes: 0,
-        sections: WordMap::default(),
+        sections: KeywordMap::default(),
         names: BTreeMap::new(),
         parts: vec![AttachedModel { compiler, folder: written.folder }],
         models,
     };
-    for at in e.survey() {
+    for at in e.build_index() {
         if report.is_full() {
             break;
         }
@@ -76,7 +76,7 @@ pub(crate) fn model(written: Written, report: &mut Report) -> Expanded {
         if done.is_none() {
             // A request that failed has no contents, and names that it would define are missing.
             report.incomplete = true;
-            e.settle(at, Vec::new(), Vec::new());
+            e.replace_by_frame(at, Vec::new(), Vec::new());
         }
         if e.is_too_large() {
             let span = e.nodes.get(at).map_or(0..0, |n| n.span.clone());
@@ -103,7 +103,7 @@ struct Child {
 impl Child {
     fn new(model: Expanded) -> Child {
         let nodes = &model.tree.nodes;
-        let uses = Uses::survey(nodes);
+        let uses = Uses::build_index(nodes);
         let names = filled(nodes.iter().enumerate().filter_map(|(at, node)| Some((target(node)?, at))));
         Child { model, uses, names, offset: None }
     }
@@ -118,7 +118,7 @@ struct Expander {
     /// The number of elements in the text. Later elements are copies.
     written: usize,
     /// The last section of each name.
-    sections: WordMap<usize>,
+    sections: KeywordMap<usize>,
     /// Bodies and frames by name.
     names: BTreeMap<(&'static str, String), usize>,
     parts: Vec<AttachedModel>,
@@ -127,7 +127,7 @@ struct Expander {
 
 impl Expander {
     /// Indexes the sections and names, and returns the requests in order.
-    fn survey(&mut self) -> Vec<usize> {
+    fn build_index(&mut self) -> Vec<usize> {
         let mut requests = Vec::new();
         for &section in self.nodes.first().map_or(&[][..], |root| &root.children) {
             if let Some(node) = self.nodes.get(section) {
@@ -156,7 +156,7 @@ impl Expander {
     }
 
     /// Appends a copy to the list and returns its index. `None` if a limit is exceeded.
-    fn adopt(&mut self, copy: Vec<Node>, parent: usize) -> Option<usize> {
+    fn append_copy(&mut self, copy: Vec<Node>, parent: usize) -> Option<usize> {
         let base = self.nodes.len();
         for mut node in copy {
             node.parent = Some(node.parent.map_or(parent, |p| base + p));
@@ -169,7 +169,12 @@ impl Expander {
     }
 
     /// Replaces a request by a frame with these attributes and children.
-    fn settle(&mut self, request: usize, attributes: Vec<Attribute>, children: Vec<usize>) -> Option<()> {
+    fn replace_by_frame(
+        &mut self,
+        request: usize,
+        attributes: Vec<Attribute>,
+        children: Vec<usize>,
+    ) -> Option<()> {
         let node = self.nodes.get_mut(request)?;
         node.element = &FRAME;
         node.attributes = attributes;
@@ -192,20 +197,20 @@ impl Expander {
                     attributes: Vec::new(),
                     children: Vec::new(),
                 };
-                let at = self.adopt(vec![node], 0)?;
+                let at = self.append_copy(vec![node], 0)?;
                 self.nodes.first_mut()?.children.push(at);
                 self.sections.insert(element.name, at);
                 at
             }
         };
-        let copy = self.adopt(copy, at)?;
+        let copy = self.append_copy(copy, at)?;
         self.nodes.get_mut(at)?.children.push(copy);
         self.uses.add(section, &self.nodes, copy);
         Some(copy)
     }
 
     /// Makes `count` copies in consecutive frames. The original is only their pattern.
-    fn replicate(&mut self, at: usize, report: &mut Report) -> Option<()> {
+    fn replicate(&mut self, at: usize, report: &mut Diagnostics) -> Option<()> {
         let node = self.nodes.get(at)?.clone();
         let count = count(&node, report)?;
         let digits = count.to_string().len();
@@ -216,7 +221,7 @@ impl Expander {
         let subtree = copy::names(&self.nodes, at);
         let mut followers = self.uses.followers(&self.nodes, &subtree, false);
         if count > 0 {
-            self.complain(&followers, report);
+            self.report_unreplicable(&followers, report);
         }
         for name in &subtree {
             self.names.remove(name);
@@ -236,23 +241,23 @@ impl Expander {
             pos = add(pos, rotate(offset, quat));
 
             let frame = Node { element: &FRAME, attributes, children: Vec::new(), ..node.clone() };
-            let frame = self.adopt(vec![Node { parent: None, ..frame }], at)?;
+            let frame = self.append_copy(vec![Node { parent: None, ..frame }], at)?;
             for &child in &node.children {
                 let (copy, _) = copy::copy(&self.nodes, child, rename, None);
-                let copy = self.adopt(copy, frame)?;
+                let copy = self.append_copy(copy, frame)?;
                 self.nodes.get_mut(frame)?.children.push(copy);
             }
             frames.push(frame);
             self.follow(&mut followers, rename)?;
         }
-        self.settle(at, listed(node.attribute("childclass").cloned()), frames)?;
+        self.replace_by_frame(at, listed(node.attribute("childclass").cloned()), frames)?;
         // Elements that refer to the pattern are removed together with it.
         self.uses.remove(followers.into_iter().flat_map(|f| f.bound));
         Some(())
     }
 
     /// Reports elements that cannot be replicated.
-    fn complain(&self, followers: &[Followers], report: &mut Report) {
+    fn report_unreplicable(&self, followers: &[Followers], report: &mut Diagnostics) {
         for node in followers.iter().flat_map(|f| &f.incomplete).filter_map(|&at| self.nodes.get(at)) {
             report
                 .error(
@@ -287,7 +292,7 @@ impl Expander {
     fn finish(mut self) -> Expanded {
         for section in self.nodes.first().map_or(Vec::new(), |root| root.children.clone()) {
             if let Some(section) = self.nodes.get_mut(section) {
-                section.children.retain(|&at| !self.uses.is_gone(at));
+                section.children.retain(|&at| !self.uses.is_removed(at));
             }
         }
         Expanded { tree: Tree { nodes: in_order(&self.nodes) }, parts: self.parts }
@@ -295,7 +300,7 @@ impl Expander {
 }
 
 /// The number of copies.
-fn count(node: &Node, report: &mut Report) -> Option<i32> {
+fn count(node: &Node, report: &mut Diagnostics) -> Option<i32> {
     let Some(attribute) = node.attribute("count") else {
         report
             .error(rules::MISSING_ATTRIBUTE, node.span.clone(), "replicate has no `count`")

@@ -34,7 +34,7 @@ pub(crate) fn kind_of(node: &Node, attribute: &Attribute) -> Option<&'static str
         }
     };
     match &chosen?.value {
-        Value::Word(n) => keyword(*n),
+        Value::Keyword(n) => keyword(*n),
         Value::Text(word) => KINDS.iter().find(|(_, kind)| kind == word).map(|&(_, kind)| kind),
         _ => None,
     }

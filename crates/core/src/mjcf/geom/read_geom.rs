@@ -16,10 +16,10 @@ use crate::mjcf::text::tree::{Node, name};
 /// Reads a `geom` element. `None` if its type was refused.
 pub(crate) fn geom(cx: &mut Context, i: usize, node: &Node, childclass: Option<usize>) -> Option<GeomSpec> {
     let p = cx.classes.props(node, childclass);
-    if p.has("type") && p.word("type").is_none() {
+    if p.has("type") && p.keyword("type").is_none() {
         return None;
     }
-    let shape = shapes::for_kind(p.word("type").unwrap_or(geom::SPHERE))?;
+    let shape = shapes::for_kind(p.keyword("type").unwrap_or(geom::SPHERE))?;
     let mut size = p.reals("size", [0.0; 3]);
     let (mut pos, mut quat) = (p.reals("pos", [0.0; 3]), cx.orientation(&p, node));
     if let Some(span) = fromto(cx, &p, node, shape.name, shape.length) {
@@ -129,7 +129,7 @@ pub(crate) fn fromto(
 
 /// Coefficients of fluid forces, for a geom with the ellipsoid model.
 fn fluid(p: &Props, shape: &Shape, size: Vec3) -> [f64; 12] {
-    if p.word("fluidshape") != Some(geom::ELLIPSOID) || shape.only_static {
+    if p.keyword("fluidshape") != Some(geom::ELLIPSOID) || shape.only_static {
         return [0.0; 12];
     }
     shapes::fluid((shape.half)(size), p.reals("fluidcoef", [0.5, 0.25, 1.5, 1.0, 1.0]))

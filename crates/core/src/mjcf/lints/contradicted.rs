@@ -1,10 +1,10 @@
 //! Contradictory ranges: disabled where they are written, violated by a keyframe, or missing for a servo.
 
-use super::{digits, format_name, own_name, place};
+use super::{digits, element_span, format_name, own_name};
 use crate::kinds::joint;
 use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
-use crate::mjcf::text::diagnostic::Report;
+use crate::mjcf::text::diagnostic::Diagnostics;
 use crate::mjcf::text::tree::{Attribute, Node, Tree};
 use crate::mjcf::text::values::Value;
 use crate::model::{Model, Obj};
@@ -17,10 +17,10 @@ const PAIRS: [(&str, &str); 4] = [
     ("actrange", "actlimited"),
 ];
 /// A keyframe may exceed a limit by this fraction of the range without a report, because limits are soft.
-const SOFT: f64 = 0.01;
+const LIMIT_TOLERANCE: f64 = 0.01;
 const SERVOS: [&str; 2] = ["position", "intvelocity"];
 
-pub(super) fn check_ranges(tree: &Tree, m: &Model, report: &mut Report) {
+pub(super) fn check_ranges(tree: &Tree, m: &Model, report: &mut Diagnostics) {
     switched_off(tree, report);
     keys(tree, m, report);
     servos(tree, m, report);
@@ -31,11 +31,11 @@ fn attribute<'n>(node: &'n Node, name: &str) -> Option<&'n Attribute> {
 }
 
 /// Reports a range in an element whose flag is `false`.
-fn switched_off(tree: &Tree, report: &mut Report) {
+fn switched_off(tree: &Tree, report: &mut Diagnostics) {
     for node in &tree.nodes {
         for (range, flag) in PAIRS {
             let (Some(range), Some(flag)) = (attribute(node, range), attribute(node, flag)) else { continue };
-            if matches!(flag.value, Value::Word(0))
+            if matches!(flag.value, Value::Keyword(0))
                 && matches!(&range.value, Value::Reals(r) if r.iter().any(|x| *x != 0.0))
             {
                 let message = format!(
@@ -49,7 +49,7 @@ fn switched_off(tree: &Tree, report: &mut Report) {
 }
 
 /// Reports keyframes that start beyond a limit.
-fn keys(tree: &Tree, m: &Model, report: &mut Report) {
+fn keys(tree: &Tree, m: &Model, report: &mut Diagnostics) {
     let nodes: Vec<&Node> =
         listed(tree.sections("keyframe").flat_map(|(i, _)| tree.children(i).map(|(_, n)| n)));
     for (k, node) in nodes.iter().enumerate().take(m.nkey) {
@@ -65,7 +65,7 @@ fn keys(tree: &Tree, m: &Model, report: &mut Report) {
                 continue;
             };
             let beyond = (low - x).max(x - high);
-            if beyond > SOFT * (high - low) {
+            if beyond > LIMIT_TOLERANCE * (high - low) {
                 let name = m.names.of_kind(Obj::Joint).get(j).map_or("", String::as_str);
                 let key = format_name("key", own_name(node).unwrap_or(""), k);
                 let message = format!(
@@ -85,7 +85,7 @@ fn keys(tree: &Tree, m: &Model, report: &mut Report) {
 }
 
 /// Reports position servos that have neither a range of targets nor a range of forces.
-fn servos(tree: &Tree, m: &Model, report: &mut Report) {
+fn servos(tree: &Tree, m: &Model, report: &mut Diagnostics) {
     let nodes: Vec<&Node> =
         listed(tree.sections("actuator").flat_map(|(i, _)| tree.children(i).map(|(_, n)| n)));
     if nodes.len() != m.nactuator || m.nu != m.nactuator {
@@ -100,7 +100,7 @@ fn servos(tree: &Tree, m: &Model, report: &mut Report) {
     let open: Vec<usize> = listed(all.iter().copied().filter(free));
     let Some(first) = open.first() else { return };
     let name = m.names.of_kind(Obj::Actuator).get(*first).map_or("", String::as_str);
-    let span = nodes.get(*first).map_or_else(|| place(tree, &SERVOS, name), |n| n.span.clone());
+    let span = nodes.get(*first).map_or_else(|| element_span(tree, &SERVOS, name), |n| n.span.clone());
     let message = match open.len() {
         1 => format!("{} has neither `ctrlrange` nor `forcerange`", format_name("servo", name, *first)),
         n => format!("{n} of {} servos have neither `ctrlrange` nor `forcerange`", all.len()),

@@ -9,13 +9,13 @@ mod too_fast;
 mod unused_names;
 mod weights;
 
-use super::text::diagnostic::Report;
+use super::text::diagnostic::Diagnostics;
 use super::text::tree::{Node, Tree};
 use crate::model::Model;
 use std::ops::Range;
 
 /// Reports doubtful constructs of a model.
-pub(super) fn check_model(tree: &Tree, m: &Model, report: &mut Report) {
+pub(super) fn check_model(tree: &Tree, m: &Model, report: &mut Diagnostics) {
     unused_names::check_names(tree, report);
     contradicted::check_ranges(tree, m, report);
     too_fast::check_time_constants(tree, m, report);
@@ -24,7 +24,7 @@ pub(super) fn check_model(tree: &Tree, m: &Model, report: &mut Report) {
 }
 
 /// The span of the element with this name, of one of these kinds. If the name is empty or not found, the span of the root.
-fn place(tree: &Tree, kinds: &[&str], name: &str) -> Range<usize> {
+fn element_span(tree: &Tree, kinds: &[&str], name: &str) -> Range<usize> {
     let named = |n: &&Node| kinds.contains(&n.element.name) && own_name(n) == Some(name);
     let found = tree.nodes.iter().find(named).filter(|_| !name.is_empty());
     found.or(tree.nodes.first()).map_or(0..0, |n| n.span.clone())

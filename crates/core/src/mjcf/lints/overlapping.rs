@@ -1,8 +1,8 @@
 //! Geoms that penetrate each other deeply at the start.
 
-use super::{digits, format_name, place};
+use super::{digits, element_span, format_name};
 use crate::mjcf::rules;
-use crate::mjcf::text::diagnostic::Report;
+use crate::mjcf::text::diagnostic::Diagnostics;
 use crate::mjcf::text::tree::Tree;
 use crate::model::extents::half_thickness_of_pair;
 use crate::model::{Fields, Model, Obj};
@@ -10,16 +10,17 @@ use crate::step::forward::position;
 use crate::step::workspace::Workspace;
 
 /// A penetration deeper than this fraction of the smaller geom's half thickness is reported.
-const DEEP: f64 = 0.3;
+const MIN_REPORTED_DEPTH: f64 = 0.3;
 /// Models with more geoms or degrees of freedom are not checked.
 const MOST: usize = 500;
 /// The check of a model stops after this work, in units of the engine: about 50 ms.
 const WORK: u64 = 50_000_000;
 
-pub(super) fn check_overlaps(tree: &Tree, m: &Model, report: &mut Report) {
-    let Some(d) = placed(m) else { return };
-    let depth =
-        |pair: [usize; 2], dist: f64| (-dist > DEEP * half_thickness_of_pair(m, pair)).then_some(-dist);
+pub(super) fn check_overlaps(tree: &Tree, m: &Model, report: &mut Diagnostics) {
+    let Some(d) = data_after_position_stages(m) else { return };
+    let depth = |pair: [usize; 2], dist: f64| {
+        (-dist > MIN_REPORTED_DEPTH * half_thickness_of_pair(m, pair)).then_some(-dist)
+    };
     let deep = d.contact.iter().filter(|c| c.efc_address.is_some());
     let deep = deep.filter_map(|c| Some(([c.geom1, c.geom2], depth([c.geom1, c.geom2], c.dist)?)));
     let Some(([a, b], depth)) = deep.max_by(|x, y| x.1.total_cmp(&y.1)) else { return };
@@ -31,13 +32,13 @@ pub(super) fn check_overlaps(tree: &Tree, m: &Model, report: &mut Report) {
         format_name("geom", name(a), a)
     );
     report
-        .note(rules::OVERLAP, place(tree, &["geom"], name(b)), message)
+        .note(rules::OVERLAP, element_span(tree, &["geom"], name(b)), message)
         .why("a lab that begins here, without a keyframe or a setup, throws the two apart")
         .help("move them until they only touch, or exclude the pair from contact");
 }
 
 /// The data after the position stages, or `None` if the model is too large.
-fn placed(m: &Model) -> Option<Fields> {
+fn data_after_position_stages(m: &Model) -> Option<Fields> {
     if m.ngeom > MOST || m.nv > MOST || m.nv == 0 {
         return None;
     }
@@ -55,7 +56,7 @@ mod tests {
     use crate::mjcf::compile;
 
     /// Many geoms at the same position, distributed over bodies with hinges.
-    fn heap(geoms: usize, bodies: usize, geom: &str) -> Model {
+    fn coincident_geoms(geoms: usize, bodies: usize, geom: &str) -> Model {
         let inside = geom.repeat(geoms / bodies);
         let body = format!("<body><joint/>{inside}</body>");
         compile(&format!("<mujoco><worldbody>{}</worldbody></mujoco>", body.repeat(bodies))).unwrap()
@@ -63,7 +64,7 @@ mod tests {
 
     /// The work of the check is bounded, for any number of geoms at the same position.
     #[test]
-    fn geoms_in_one_place_take_bounded_work() {
+    fn coincident_geoms_take_bounded_work() {
         for geom in [
             "<geom size='.1'/>",
             "<geom type='box' size='.1 .1 .1'/>",
@@ -72,17 +73,17 @@ mod tests {
             "<geom type='ellipsoid' size='.1 .2 .3'/>",
         ] {
             for (geoms, bodies) in [(20, 10), (200, 100), (500, 250), (500, 500)] {
-                let m = heap(geoms, bodies, geom);
+                let m = coincident_geoms(geoms, bodies, geom);
                 let Workspace { fields: mut d, scratch: mut s } = Workspace::new(&m);
                 d.meter.limit = WORK;
                 position(&m, &mut d, &mut s);
                 // The excess over the limit is at most one test of a pair, and the stages that use the contacts found so far.
                 assert!(d.meter.cost < 2 * WORK, "{geoms} of {geom} in {bodies}: {}", d.meter.cost);
-                assert_eq!(placed(&m).is_some(), !d.meter.over());
+                assert_eq!(data_after_position_stages(&m).is_some(), !d.meter.over());
             }
-            assert!(placed(&heap(20, 10, geom)).is_some(), "{geom}");
+            assert!(data_after_position_stages(&coincident_geoms(20, 10, geom)).is_some(), "{geom}");
             // A model with more geoms than the limit is not checked, and a model with ten thousand geoms is an error.
-            assert!(placed(&heap(5000, 10, geom)).is_none(), "{geom}");
+            assert!(data_after_position_stages(&coincident_geoms(5000, 10, geom)).is_none(), "{geom}");
         }
         let many = "<geom size='.1'/>".repeat(10_000);
         let xml = format!("<mujoco><worldbody><body><joint/>{many}</body></worldbody></mujoco>");

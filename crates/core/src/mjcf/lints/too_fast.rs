@@ -5,10 +5,10 @@
 //! roots of the characteristic polynomial within the unit circle). The classical Runge-Kutta method is stable for h √(k/m) < 2.78
 //! and h c / m < 2.78 (Hairer and Wanner, Solving Ordinary Differential Equations II, chapter IV.2).
 
-use super::{digits, format_name, place};
+use super::{digits, element_span, format_name};
 use crate::kinds::{biastype, disable, integrator, joint, trntype};
 use crate::mjcf::rules;
-use crate::mjcf::text::diagnostic::Report;
+use crate::mjcf::text::diagnostic::Diagnostics;
 use crate::mjcf::text::tree::Tree;
 use crate::mjcf::text::values::Value;
 use crate::model::{Model, Obj};
@@ -18,25 +18,25 @@ const RUNGE_KUTTA: f64 = 2.78;
 /// Attributes that contain a time constant of a constraint or a contact.
 const TIMES: [&str; 5] = ["solref", "solreflimit", "solreffix", "solreffriction", "solreflimitspring"];
 
-pub(super) fn check_time_constants(tree: &Tree, m: &Model, report: &mut Report) {
+pub(super) fn check_time_constants(tree: &Tree, m: &Model, report: &mut Diagnostics) {
     joints(tree, m, report);
     constraints(tree, m, report);
 }
 
 /// The elements that act on a joint: stiffness, dampers that are integrated implicitly, dampers that are integrated explicitly.
 #[derive(Clone, Copy, Default)]
-struct Acting {
+struct ActingElements {
     spring: f64,
     implicit: f64,
     explicit: f64,
     servo: bool,
 }
 
-fn acting(m: &Model, j: usize) -> Option<Acting> {
+fn acting(m: &Model, j: usize) -> Option<ActingElements> {
     let dof = usize::try_from(*m.jnt_dofadr.get(j)?).ok()?;
     let method = m.opt.integrator;
     let [euler, fast] = [integrator::EULER, integrator::RK4].map(|k| method == k);
-    let mut all = Acting::default();
+    let mut all = ActingElements::default();
     let damper = *m.dof_damping.get(dof)?;
     match fast || (euler && m.opt.disabled(disable::EULERDAMP)) {
         true => all.explicit += damper,
@@ -62,7 +62,7 @@ fn acting(m: &Model, j: usize) -> Option<Acting> {
 }
 
 /// Reports joints with a spring, a damper or a servo that is unstable at this timestep.
-fn joints(tree: &Tree, m: &Model, report: &mut Report) {
+fn joints(tree: &Tree, m: &Model, report: &mut Diagnostics) {
     let h = m.opt.timestep;
     let supported = [integrator::EULER, integrator::RK4, integrator::IMPLICIT, integrator::IMPLICITFAST];
     if !supported.contains(&m.opt.integrator) || h.is_nan() || h <= 0.0 {
@@ -100,7 +100,7 @@ fn joints(tree: &Tree, m: &Model, report: &mut Report) {
             digits(h)
         );
         report
-            .note(rules::TOO_FAST, place(tree, &["joint"], name), message)
+            .note(rules::TOO_FAST, element_span(tree, &["joint"], name), message)
             .why(format!(
                 "on an inertia of {}, the integrator makes it grow from step to step, unless something else limits it",
                 digits(mass)
@@ -110,7 +110,7 @@ fn joints(tree: &Tree, m: &Model, report: &mut Report) {
 }
 
 /// Reports constraints whose requested time constant is below two timesteps.
-fn constraints(tree: &Tree, m: &Model, report: &mut Report) {
+fn constraints(tree: &Tree, m: &Model, report: &mut Diagnostics) {
     let least = 2.0 * m.opt.timestep;
     if m.opt.disabled(disable::REFSAFE) || m.opt.integrator == integrator::DISCRETE {
         return;

@@ -2,7 +2,7 @@
 
 use crate::mjcf::rules;
 use crate::mjcf::schema::Kind;
-use crate::mjcf::text::diagnostic::{Report, shorten_name};
+use crate::mjcf::text::diagnostic::{Diagnostics, shorten_name};
 use crate::mjcf::text::tree::{Node, Tree};
 use crate::mjcf::text::values::Value;
 use std::collections::{BTreeMap, BTreeSet};
@@ -12,7 +12,7 @@ const CLASS: &str = "default class";
 /// Assets that have an effect only if they are referenced.
 const ASSETS: [&str; 4] = ["mesh", "material", "texture", "hfield"];
 
-pub(super) fn check_names(tree: &Tree, report: &mut Report) {
+pub(super) fn check_names(tree: &Tree, report: &mut Diagnostics) {
     // A file that contains only classes and assets is meant for inclusion.
     if !tree.nodes.iter().any(|n| n.element.name == "geom" && n.parent.is_some_and(|p| holds_bodies(tree, p)))
     {
@@ -88,5 +88,5 @@ fn holds_bodies(tree: &Tree, at: usize) -> bool {
 /// A sky texture is visible without a reference.
 fn is_sky(node: &Node) -> bool {
     node.element.name == "texture"
-        && node.attributes.iter().any(|a| a.attr.name == "type" && matches!(&a.value, Value::Word(2)))
+        && node.attributes.iter().any(|a| a.attr.name == "type" && matches!(&a.value, Value::Keyword(2)))
 }

@@ -1,18 +1,18 @@
 //! Masses with an extreme ratio, and very small inertias.
 
-use super::{digits, format_name, place};
+use super::{digits, element_span, format_name};
 use crate::kinds::joint;
 use crate::mjcf::rules;
-use crate::mjcf::text::diagnostic::Report;
+use crate::mjcf::text::diagnostic::Diagnostics;
 use crate::mjcf::text::tree::Tree;
 use crate::model::{Model, Obj};
 
 /// The largest ratio of the masses of neighbours that is not reported.
-const APART: f64 = 1e4;
+const MAX_MASS_RATIO: f64 = 1e4;
 /// The smallest inertia that is not reported, kg m².
 const TINY: f64 = 1e-9;
 
-pub(super) fn check_masses(tree: &Tree, m: &Model, report: &mut Report) {
+pub(super) fn check_masses(tree: &Tree, m: &Model, report: &mut Diagnostics) {
     let body = |b: usize| m.names.of_kind(Obj::Body).get(b).map_or("", String::as_str);
     for b in 1..m.nbody {
         let parent = m.body_parentid.get(b).and_then(|p| usize::try_from(*p).ok()).unwrap_or(0);
@@ -21,7 +21,8 @@ pub(super) fn check_masses(tree: &Tree, m: &Model, report: &mut Report) {
         let mass = |b: usize| m.body_mass.get(b).copied().unwrap_or(0.0);
         let [child, base] = [mass(b), mass(parent)];
         let ratio = child.max(base) / child.min(base);
-        if parent > 0 && moves(parent) && apart_from(b) && child > 0.0 && base > 0.0 && ratio > APART {
+        if parent > 0 && moves(parent) && apart_from(b) && child > 0.0 && base > 0.0 && ratio > MAX_MASS_RATIO
+        {
             let message = format!(
                 "{} has {} kg, but its neighbour {} has {} kg",
                 format_name("body", body(b), b),
@@ -30,7 +31,7 @@ pub(super) fn check_masses(tree: &Tree, m: &Model, report: &mut Report) {
                 digits(base)
             );
             report
-                .note(rules::MASSES_APART, place(tree, &["body"], body(b)), message)
+                .note(rules::MASSES_APART, element_span(tree, &["body"], body(b)), message)
                 .why(format!(
                     "at a ratio of {}, the solver needs many more steps, and joints between the two give way",
                     digits(ratio)
@@ -49,7 +50,7 @@ pub(super) fn check_masses(tree: &Tree, m: &Model, report: &mut Report) {
                 digits(1.0 / inverse)
             );
             report
-                .note(rules::TINY_INERTIA, place(tree, &["joint"], name), message)
+                .note(rules::TINY_INERTIA, element_span(tree, &["joint"], name), message)
                 .why("the smallest torque makes it faster than any timestep can follow")
                 .help("check the units of its sizes, or give it `armature`");
         }

@@ -22,14 +22,14 @@ pub(crate) fn single<const N: usize>(x: [f64; N]) -> [f64; N] {
 }
 
 /// The indexes of names in a list.
-pub(crate) struct Places<'n>(BTreeMap<&'n str, usize>);
+pub(crate) struct NameIndexes<'n>(BTreeMap<&'n str, usize>);
 
-impl<'n> Places<'n> {
+impl<'n> NameIndexes<'n> {
     /// Builds the map. If two objects have the same name, the first one is used.
     pub(crate) fn from_names(
         names: impl DoubleEndedIterator<Item = &'n String> + ExactSizeIterator,
-    ) -> Places<'n> {
-        Places(filled(names.enumerate().rev().map(|(i, name)| (name.as_str(), i))))
+    ) -> NameIndexes<'n> {
+        NameIndexes(filled(names.enumerate().rev().map(|(i, name)| (name.as_str(), i))))
     }
 
     /// The index of a name, or -1 if it is absent.
@@ -47,7 +47,7 @@ pub(crate) fn count(m: &mut Model, scene: &SceneFields) {
 }
 
 pub(crate) fn geoms(m: &mut Model, geoms: &[(usize, &GeomSpec)], scene: &SceneFields) {
-    let materials = Places::from_names(scene.materials.iter().map(|m| &m.name));
+    let materials = NameIndexes::from_names(scene.materials.iter().map(|m| &m.name));
     flat(&mut m.geom_type, geoms, |(_, g)| [g.kind]);
     flat(&mut m.geom_contype, geoms, |(_, g)| [g.contype]);
     flat(&mut m.geom_conaffinity, geoms, |(_, g)| [g.conaffinity]);
@@ -76,7 +76,7 @@ pub(crate) fn geoms(m: &mut Model, geoms: &[(usize, &GeomSpec)], scene: &SceneFi
 }
 
 pub(crate) fn sites(m: &mut Model, sites: &[(usize, &SiteSpec)], scene: &SceneFields) {
-    let materials = Places::from_names(scene.materials.iter().map(|m| &m.name));
+    let materials = NameIndexes::from_names(scene.materials.iter().map(|m| &m.name));
     flat(&mut m.site_type, sites, |(_, s)| [s.kind]);
     flat(&mut m.site_dataid, sites, |(_, s)| [s.data]);
     flat(&mut m.site_bodyid, sites, |&(b, _)| [b as i32]);
@@ -91,7 +91,7 @@ pub(crate) fn sites(m: &mut Model, sites: &[(usize, &SiteSpec)], scene: &SceneFi
 
 /// `bodies` are the names of all bodies.
 pub(crate) fn cameras(m: &mut Model, cameras: &[(usize, &CameraSpec)], bodies: &[String]) {
-    let places = Places::from_names(bodies.iter());
+    let places = NameIndexes::from_names(bodies.iter());
     flat(&mut m.cam_mode, cameras, |(_, c)| [c.mode]);
     flat(&mut m.cam_bodyid, cameras, |&(b, _)| [b as i32]);
     flat(&mut m.cam_targetbodyid, cameras, |(_, c)| [places.find(c.target.as_ref())]);
@@ -109,7 +109,8 @@ pub(crate) fn cameras(m: &mut Model, cameras: &[(usize, &CameraSpec)], bodies: &
 
 /// `bodies` and `textures` are the names of all bodies and textures.
 pub(crate) fn lights(m: &mut Model, lights: &[(usize, &LightSpec)], bodies: &[String], textures: &[String]) {
-    let (places, textures) = (Places::from_names(bodies.iter()), Places::from_names(textures.iter()));
+    let (places, textures) =
+        (NameIndexes::from_names(bodies.iter()), NameIndexes::from_names(textures.iter()));
     flat(&mut m.light_mode, lights, |(_, l)| [l.mode]);
     flat(&mut m.light_bodyid, lights, |&(b, _)| [b as i32]);
     flat(&mut m.light_targetbodyid, lights, |(_, l)| [places.find(l.target.as_ref())]);
@@ -139,7 +140,7 @@ pub(crate) fn lights(m: &mut Model, lights: &[(usize, &LightSpec)], bodies: &[St
 
 pub(crate) fn materials(m: &mut Model, scene: &SceneFields) {
     let list = &scene.materials;
-    let places = Places::from_names(scene.textures.iter());
+    let places = NameIndexes::from_names(scene.textures.iter());
     let textures = list.iter().flat_map(|material| &material.textures);
     flat(&mut m.mat_texid, textures, |name| [places.find(name.as_ref())]);
     flat(&mut m.mat_texuniform, list, |x| [x.texuniform]);

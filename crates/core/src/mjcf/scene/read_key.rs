@@ -5,11 +5,11 @@ use crate::mjcf::fill::Sizes;
 use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
 use crate::mjcf::spec::KeySpec;
-use crate::mjcf::text::diagnostic::Report;
+use crate::mjcf::text::diagnostic::Diagnostics;
 use crate::mjcf::text::tree::{Node, Tree, name};
 
 /// All keyframes in the order of the text, at least `min` of them.
-pub(crate) fn keys(tree: &Tree, sizes: &Sizes, min: usize, report: &mut Report) -> Vec<KeySpec> {
+pub(crate) fn keys(tree: &Tree, sizes: &Sizes, min: usize, report: &mut Diagnostics) -> Vec<KeySpec> {
     let given: Vec<&Node> = listed(
         tree.sections("keyframe").flat_map(|(section, _)| tree.children(section)).map(|(_, node)| node),
     );
@@ -36,7 +36,7 @@ pub(crate) fn keys(tree: &Tree, sizes: &Sizes, min: usize, report: &mut Report) 
 
 /// How a list that is too short is treated.
 #[derive(Clone, Copy, PartialEq)]
-enum Rest {
+enum Padding {
     /// Missing numbers are zero, as in MuJoCo.
     Zero,
     /// A short list is an error. MuJoCo fills the rest of a configuration with angles in degrees and with poses outside their
@@ -44,11 +44,11 @@ enum Rest {
     Needed,
 }
 
-fn key(node: &Node, sizes: &Sizes, report: &mut Report) -> KeySpec {
+fn key(node: &Node, sizes: &Sizes, report: &mut Diagnostics) -> KeySpec {
     let p = Props::written_props(node);
-    let mut list = |name: &str, n: usize, rest: Rest, what: String| {
+    let mut list = |name: &str, n: usize, rest: Padding, what: String| {
         let mut given = p.list(name).filter(|list| !list.is_empty())?.to_vec();
-        if rest == Rest::Zero && given.len() < n {
+        if rest == Padding::Zero && given.len() < n {
             given.resize(n, 0.0);
         }
         if given.len() != n {
@@ -71,11 +71,11 @@ fn key(node: &Node, sizes: &Sizes, report: &mut Report) -> KeySpec {
     KeySpec {
         name: name(node),
         time: p.real("time").unwrap_or(0.0),
-        qpos: list("qpos", sizes.nq, Rest::Needed, state("one coordinate after the other", 7, 4)),
-        qvel: list("qvel", sizes.nv, Rest::Zero, state("one velocity after the other", 6, 3)),
-        act: list("act", sizes.na, Rest::Zero, none(sizes.na, "one for each state of an actuator")),
-        ctrl: list("ctrl", sizes.nu, Rest::Zero, none(sizes.nu, "one for each control of an actuator")),
-        mpos: list("mpos", 3 * sizes.nmocap, Rest::Needed, "three for each mocap body".into()),
-        mquat: list("mquat", 4 * sizes.nmocap, Rest::Needed, "four for each mocap body".into()),
+        qpos: list("qpos", sizes.nq, Padding::Needed, state("one coordinate after the other", 7, 4)),
+        qvel: list("qvel", sizes.nv, Padding::Zero, state("one velocity after the other", 6, 3)),
+        act: list("act", sizes.na, Padding::Zero, none(sizes.na, "one for each state of an actuator")),
+        ctrl: list("ctrl", sizes.nu, Padding::Zero, none(sizes.nu, "one for each control of an actuator")),
+        mpos: list("mpos", 3 * sizes.nmocap, Padding::Needed, "three for each mocap body".into()),
+        mquat: list("mquat", 4 * sizes.nmocap, Padding::Needed, "four for each mocap body".into()),
     }
 }

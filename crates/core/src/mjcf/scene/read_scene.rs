@@ -20,7 +20,7 @@ const MAX_NUMBERS: i32 = 500;
 /// A site: a marked frame, with a volume for sensors that test whether a point is inside.
 pub(crate) fn site(cx: &mut Context, i: usize, node: &Node, childclass: Option<usize>) -> SiteSpec {
     let p = cx.classes.props(node, childclass);
-    let kind = p.word("type").unwrap_or(geom::SPHERE);
+    let kind = p.keyword("type").unwrap_or(geom::SPHERE);
     let mut size = p.reals("size", [0.005; 3]);
     let (mut pos, mut quat) = (p.reals("pos", [0.0; 3]), cx.orientation(&p, node));
     let shape = shapes::for_kind(kind);
@@ -109,11 +109,11 @@ pub(crate) fn camera(cx: &mut Context, node: &Node, childclass: Option<usize>) -
     }
     CameraSpec {
         name: name(node),
-        mode: p.word("mode").unwrap_or(camlight::FIXED),
+        mode: p.keyword("mode").unwrap_or(camlight::FIXED),
         target: node.text("target").map(str::to_string),
         pos: p.reals("pos", [0.0; 3]),
         quat: cx.orientation(&p, node),
-        projection: p.word("projection").unwrap_or(projection::PERSPECTIVE),
+        projection: p.keyword("projection").unwrap_or(projection::PERSPECTIVE),
         fovy,
         ipd: p.real("ipd").unwrap_or(0.068),
         resolution,
@@ -172,7 +172,7 @@ pub(crate) fn light(cx: &mut Context, node: &Node, childclass: Option<usize>) ->
     let p = cx.classes.props(node, childclass);
     let number = |name: &str, default: f64| p.real(name).unwrap_or(default);
     let directional = if p.flag("directional", false) { lighttype::DIRECTIONAL } else { lighttype::SPOT };
-    let kind = p.word("type").unwrap_or(directional);
+    let kind = p.keyword("type").unwrap_or(directional);
     if p.list("dir").is_some_and(|dir| dir.iter().all(|&x| x == 0.0)) {
         let span = p.span("dir").unwrap_or(node.span.clone());
         cx.report
@@ -182,7 +182,7 @@ pub(crate) fn light(cx: &mut Context, node: &Node, childclass: Option<usize>) ->
     }
     LightSpec {
         name: name(node),
-        mode: p.word("mode").unwrap_or(camlight::FIXED),
+        mode: p.keyword("mode").unwrap_or(camlight::FIXED),
         target: node.text("target").map(str::to_string),
         texture: node.text("texture").map(str::to_string),
         span: p.span("texture").unwrap_or(node.span.clone()),
@@ -222,7 +222,7 @@ pub(crate) fn materials(cx: &Context) -> Vec<MaterialSpec> {
         let mut textures: [Option<String>; ROLES] = Default::default();
         textures[RGB] = p.text("texture").map(str::to_string);
         for (_, layer) in tree.children(at) {
-            let role = layer.word("role").and_then(|role| textures.get_mut(usize::try_from(role).ok()?));
+            let role = layer.keyword("role").and_then(|role| textures.get_mut(usize::try_from(role).ok()?));
             if let Some(place) = role {
                 *place = layer.text("texture").map(str::to_string);
             }
@@ -287,7 +287,7 @@ pub(crate) fn numerics(cx: &mut Context) -> Vec<NumericSpec> {
 /// All custom texts: name and text.
 pub(crate) fn texts(
     tree: &Tree,
-    report: &mut crate::mjcf::text::diagnostic::Report,
+    report: &mut crate::mjcf::text::diagnostic::Diagnostics,
 ) -> Vec<(String, String)> {
     let nodes = tree.sections("custom").flat_map(|(at, _)| tree.children(at));
     listed(

@@ -11,15 +11,15 @@ use super::REAL;
 use super::TEXT;
 use super::attributes;
 use super::extension;
-use super::not_yet;
+use super::keyword;
 use super::reals;
+use super::unsupported_keyword;
 use super::upto;
-use super::word;
 use crate::kinds::{biastype, dyntype, gaintype, interpolation};
 
 const COMMON: &[Attr] = attributes! {
     INT => group nsample;
-    Kind::Words(&[word("zoh", interpolation::HOLD), word("linear", interpolation::LINEAR), word("cubic", interpolation::CUBIC)]) => interp;
+    Kind::Keywords(&[keyword("zoh", interpolation::HOLD), keyword("linear", interpolation::LINEAR), keyword("cubic", interpolation::CUBIC)]) => interp;
     REAL => delay;
     LIST => user;
 };
@@ -33,40 +33,40 @@ const JOINTLIKE: &[Attr] = attributes! {
     upto(3) => damping;
 };
 /// Types that user callbacks would compute are refused: a model alone does not define their behaviour.
-const DYN: &[super::Word] = &[
-    word("none", dyntype::NONE),
-    word("integrator", dyntype::INTEGRATOR),
-    word("filter", dyntype::FILTER),
-    word("filterexact", dyntype::FILTEREXACT),
-    word("muscle", dyntype::MUSCLE),
-    word("dcmotor", dyntype::DCMOTOR),
-    word("pid", dyntype::PID),
-    not_yet("user", 7),
+const DYNAMICS_TYPES: &[super::Keyword] = &[
+    keyword("none", dyntype::NONE),
+    keyword("integrator", dyntype::INTEGRATOR),
+    keyword("filter", dyntype::FILTER),
+    keyword("filterexact", dyntype::FILTEREXACT),
+    keyword("muscle", dyntype::MUSCLE),
+    keyword("dcmotor", dyntype::DCMOTOR),
+    keyword("pid", dyntype::PID),
+    unsupported_keyword("user", 7),
 ];
-const GAINS: &[super::Word] = &[
-    word("fixed", gaintype::FIXED),
-    word("affine", gaintype::AFFINE),
-    word("muscle", gaintype::MUSCLE),
-    word("dcmotor", gaintype::DCMOTOR),
-    word("so3", gaintype::SO3),
-    word("pid", gaintype::PID),
-    not_yet("user", 6),
+const GAIN_TYPES: &[super::Keyword] = &[
+    keyword("fixed", gaintype::FIXED),
+    keyword("affine", gaintype::AFFINE),
+    keyword("muscle", gaintype::MUSCLE),
+    keyword("dcmotor", gaintype::DCMOTOR),
+    keyword("so3", gaintype::SO3),
+    keyword("pid", gaintype::PID),
+    unsupported_keyword("user", 6),
 ];
-const BIASES: &[super::Word] = &[
-    word("none", biastype::NONE),
-    word("affine", biastype::AFFINE),
-    word("muscle", biastype::MUSCLE),
-    word("dcmotor", biastype::DCMOTOR),
-    word("so3", biastype::SO3),
-    not_yet("user", 5),
+const BIAS_TYPES: &[super::Keyword] = &[
+    keyword("none", biastype::NONE),
+    keyword("affine", biastype::AFFINE),
+    keyword("muscle", biastype::MUSCLE),
+    keyword("dcmotor", biastype::DCMOTOR),
+    keyword("so3", biastype::SO3),
+    unsupported_keyword("user", 5),
 ];
 const GENERAL: &[Attr] = attributes! {
     INT => actdim;
     FLAG => actearly;
-    Kind::Words(DYN) => dyntype;
+    Kind::Keywords(DYNAMICS_TYPES) => dyntype;
     upto(10) => dynprm;
 };
-const GAIN: &[Attr] = attributes! { Kind::Words(GAINS) => gaintype; Kind::Words(BIASES) => biastype; TEXT => input; upto(10) => gainprm biasprm; reals(2) => ffrange velrange; };
+const GAIN: &[Attr] = attributes! { Kind::Keywords(GAIN_TYPES) => gaintype; Kind::Keywords(BIAS_TYPES) => biastype; TEXT => input; upto(10) => gainprm biasprm; reals(2) => ffrange velrange; };
 const SERVO: &[Attr] = attributes! { REAL => kp kv dampratio; };
 const INHERIT: &[Attr] = attributes! { REAL => inheritrange; };
 const INPUT: &[Attr] = attributes! { TEXT => input; };

@@ -1,29 +1,29 @@
 //! `worldbody` and the elements of bodies: joints, inertias, geoms, sites, cameras, lights.
 
 use super::{
-    AUTO, Attr, Element, FLAG, INT, Kind, LIST, ORIENTATION, REAL, TEXT, Word, attributes, extension,
-    flexible, not_yet, reals, upto, word,
+    AUTO, Attr, Element, FLAG, INT, Keyword, Kind, LIST, ORIENTATION, REAL, TEXT, attributes, extension,
+    flexible, keyword, reals, unsupported_keyword, upto,
 };
 use crate::kinds::{camlight, choice, geom, joint, lighttype, projection};
 
-const GEOM_SHAPES: &[Word] = &[
-    word("plane", geom::PLANE),
-    word("hfield", geom::HFIELD),
-    word("sphere", geom::SPHERE),
-    word("capsule", geom::CAPSULE),
-    word("ellipsoid", geom::ELLIPSOID),
-    word("cylinder", geom::CYLINDER),
-    word("box", geom::BOX),
-    word("mesh", geom::MESH),
-    not_yet("sdf", 8),
+const GEOM_SHAPES: &[Keyword] = &[
+    keyword("plane", geom::PLANE),
+    keyword("hfield", geom::HFIELD),
+    keyword("sphere", geom::SPHERE),
+    keyword("capsule", geom::CAPSULE),
+    keyword("ellipsoid", geom::ELLIPSOID),
+    keyword("cylinder", geom::CYLINDER),
+    keyword("box", geom::BOX),
+    keyword("mesh", geom::MESH),
+    unsupported_keyword("sdf", 8),
 ];
-const SITE_SHAPES: &[Word] = &[
-    word("sphere", geom::SPHERE),
-    word("capsule", geom::CAPSULE),
-    word("ellipsoid", geom::ELLIPSOID),
-    word("cylinder", geom::CYLINDER),
-    word("box", geom::BOX),
-    word("mesh", geom::MESH),
+const SITE_SHAPES: &[Keyword] = &[
+    keyword("sphere", geom::SPHERE),
+    keyword("capsule", geom::CAPSULE),
+    keyword("ellipsoid", geom::ELLIPSOID),
+    keyword("cylinder", geom::CYLINDER),
+    keyword("box", geom::BOX),
+    keyword("mesh", geom::MESH),
 ];
 
 const POS: &[Attr] = attributes! { reals(3) => pos; };
@@ -70,9 +70,9 @@ pub(crate) static BODY: Element = Element::new(
         ORIENTATION,
         attributes! {
             FLAG => mocap;
-            Kind::Words(&[word("auto", choice::TRUE), word("false", choice::FALSE)]) => simple;
+            Kind::Keywords(&[keyword("auto", choice::TRUE), keyword("false", choice::FALSE)]) => simple;
             REAL => gravcomp;
-            Kind::Words(&[word("auto", 0), word("never", 1), word("allowed", 2), word("init", 3)]) => sleep;
+            Kind::Keywords(&[keyword("auto", 0), keyword("never", 1), keyword("allowed", 2), keyword("init", 3)]) => sleep;
             LIST => user;
         },
     ],
@@ -114,9 +114,9 @@ static INERTIAL: Element = Element::new(
 
 /// A joint, without its name and class.
 pub(super) const JOINT_ATTRS: &[Attr] = attributes! {
-    Kind::Words(&[
-        word("free", joint::FREE), word("ball", joint::BALL), word("slide", joint::SLIDE),
-        word("hinge", joint::HINGE),
+    Kind::Keywords(&[
+        keyword("free", joint::FREE), keyword("ball", joint::BALL), keyword("slide", joint::SLIDE),
+        keyword("hinge", joint::HINGE),
     ]) => type;
     reals(3) => pos axis;
     AUTO => limited;
@@ -140,14 +140,14 @@ static FREEJOINT: Element = Element::new(
     "freejoint",
     &[attributes! {
         Kind::Name("joint") => name;
-        Kind::Words(&[word("false", choice::FALSE), word("true", choice::TRUE), word("auto", choice::AUTO)]) => align;
+        Kind::Keywords(&[keyword("false", choice::FALSE), keyword("true", choice::TRUE), keyword("auto", choice::AUTO)]) => align;
         INT => group;
     }],
 );
 
 /// A geom, without its name and class.
 pub(super) const GEOM_ATTRS: &[Attr] = attributes! {
-    Kind::Words(GEOM_SHAPES) => type;
+    Kind::Keywords(GEOM_SHAPES) => type;
     reals(3) => pos;
     reals(4) => quat axisangle;
     reals(3) => euler zaxis;
@@ -166,7 +166,7 @@ pub(super) const GEOM_ATTRS: &[Attr] = attributes! {
     Kind::Ref("mesh") => mesh;
     Kind::Ref("hfield") => hfield;
     REAL => fitscale;
-    Kind::Words(&[word("none", 0), word("ellipsoid", geom::ELLIPSOID)]) => fluidshape;
+    Kind::Keywords(&[keyword("none", 0), keyword("ellipsoid", geom::ELLIPSOID)]) => fluidshape;
     upto(5) => fluidcoef;
     LIST => user;
 };
@@ -176,7 +176,7 @@ static GEOM: Element =
 
 /// A site, without its name and class.
 pub(super) const SITE_ATTRS: &[Attr] = attributes! {
-    Kind::Words(SITE_SHAPES) => type;
+    Kind::Keywords(SITE_SHAPES) => type;
     reals(3) => pos;
     reals(4) => quat axisangle;
     reals(3) => euler zaxis;
@@ -192,12 +192,12 @@ pub(super) const SITE_ATTRS: &[Attr] = attributes! {
 static SITE: Element =
     Element::new("site", &[attributes! { Kind::Name("site") => name; }, CLASS, SITE_ATTRS]);
 
-const TRACKING: Kind = Kind::Words(&[
-    word("fixed", camlight::FIXED),
-    word("track", camlight::TRACK),
-    word("trackcom", camlight::TRACKCOM),
-    word("targetbody", camlight::TARGETBODY),
-    word("targetbodycom", camlight::TARGETBODYCOM),
+const TRACKING: Kind = Kind::Keywords(&[
+    keyword("fixed", camlight::FIXED),
+    keyword("track", camlight::TRACK),
+    keyword("trackcom", camlight::TRACKCOM),
+    keyword("targetbody", camlight::TARGETBODY),
+    keyword("targetbodycom", camlight::TARGETBODYCOM),
 ]);
 
 /// A camera, without its name, class and target.
@@ -206,7 +206,7 @@ pub(super) const CAMERA_ATTRS: &[Attr] = attributes! {
     reals(4) => quat axisangle;
     reals(6) => xyaxes;
     TRACKING => mode;
-    Kind::Words(&[word("perspective", projection::PERSPECTIVE), word("orthographic", projection::ORTHOGRAPHIC)]) => projection;
+    Kind::Keywords(&[keyword("perspective", projection::PERSPECTIVE), keyword("orthographic", projection::ORTHOGRAPHIC)]) => projection;
     REAL => fovy ipd;
     Kind::Ints(2, 2) => resolution;
     TEXT => output;
@@ -224,7 +224,7 @@ pub(super) const LIGHT_ATTRS: &[Attr] = attributes! {
     FLAG => active castshadow directional;
     REAL => bulbradius cutoff exponent intensity range softness;
     TRACKING => mode;
-    Kind::Words(&[word("spot", lighttype::SPOT), word("directional", lighttype::DIRECTIONAL), word("point", lighttype::POINT), word("image", lighttype::IMAGE)]) => type;
+    Kind::Keywords(&[keyword("spot", lighttype::SPOT), keyword("directional", lighttype::DIRECTIONAL), keyword("point", lighttype::POINT), keyword("image", lighttype::IMAGE)]) => type;
 };
 static LIGHT: Element = Element::new(
     "light",

@@ -1,5 +1,6 @@
 //! Deformable bodies, which are not supported yet.
 
+use super::APPEARANCE;
 use super::AUTO;
 use super::Attr;
 use super::Element;
@@ -8,7 +9,6 @@ use super::INT;
 use super::INTS;
 use super::Kind;
 use super::LIST;
-use super::LOOK;
 use super::REAL;
 use super::TEXT;
 use super::attributes;
@@ -156,7 +156,7 @@ static COMP_SITE: Element = Element::new(
         INT => group;
         TEXT => mesh;
         Kind::Ref("material") => material;
-        reals(4) => rgba [LOOK];
+        reals(4) => rgba [APPEARANCE];
     }],
 )
 .once();

@@ -33,7 +33,7 @@ pub enum Status {
 
 /// A keyword of an attribute.
 #[derive(Debug)]
-pub struct Word {
+pub struct Keyword {
     /// The keyword.
     pub text: &'static str,
     /// The number of the keyword in MuJoCo.
@@ -50,7 +50,7 @@ pub enum Kind {
     /// Between `min` and `max` integers.
     Ints(usize, usize),
     /// One of these keywords.
-    Words(&'static [Word]),
+    Keywords(&'static [Keyword]),
     /// The name of the object itself, unique among objects of this kind.
     Name(&'static str),
     /// The name of another object, of this kind.
@@ -80,7 +80,7 @@ impl Kind {
         match self {
             Kind::Reals(min, max) => count(min, max, "number"),
             Kind::Ints(min, max) => count(min, max, "integer"),
-            Kind::Words(words) => {
+            Kind::Keywords(words) => {
                 let list: Vec<_> = listed(words.iter().map(|w| w.text));
                 format!("one of {}", list.join(", "))
             }
@@ -181,9 +181,12 @@ use attributes;
 const REAL: Kind = Kind::Reals(1, 1);
 const INT: Kind = Kind::Ints(1, 1);
 const TEXT: Kind = Kind::Text;
-const FLAG: Kind = Kind::Words(&[word("false", choice::FALSE), word("true", choice::TRUE)]);
-const AUTO: Kind =
-    Kind::Words(&[word("false", choice::FALSE), word("true", choice::TRUE), word("auto", choice::AUTO)]);
+const FLAG: Kind = Kind::Keywords(&[keyword("false", choice::FALSE), keyword("true", choice::TRUE)]);
+const AUTO: Kind = Kind::Keywords(&[
+    keyword("false", choice::FALSE),
+    keyword("true", choice::TRUE),
+    keyword("auto", choice::AUTO),
+]);
 
 /// Exactly `n` numbers.
 const fn reals(n: usize) -> Kind {
@@ -198,15 +201,15 @@ const LIST: Kind = Kind::Reals(0, usize::MAX);
 /// Any number of integers.
 const INTS: Kind = Kind::Ints(0, usize::MAX);
 
-const fn word(text: &'static str, value: i32) -> Word {
-    Word { text, value, supported: true }
+const fn keyword(text: &'static str, value: i32) -> Keyword {
+    Keyword { text, value, supported: true }
 }
-const fn not_yet(text: &'static str, value: i32) -> Word {
-    Word { text, value, supported: false }
+const fn unsupported_keyword(text: &'static str, value: i32) -> Keyword {
+    Keyword { text, value, supported: false }
 }
 
 /// Attributes and elements that affect rendering only.
-const LOOK: Status = Status::Ignored("appearance");
+const APPEARANCE: Status = Status::Ignored("appearance");
 /// Attributes that have an effect only together with elements that are refused.
 const MOOT: Status = Status::Ignored("acts only with elements that are themselves refused");
 const USER: Status = Status::Ignored("data for programs; the engine does not read it");

@@ -11,10 +11,10 @@ use super::Status::Ignored;
 use super::Status::Only;
 use super::TEXT;
 use super::attributes;
-use super::not_yet;
+use super::keyword;
 use super::reals;
+use super::unsupported_keyword;
 use super::upto;
-use super::word;
 use crate::kinds::{angle, choice, cone, integrator, jacobian, solver};
 
 pub(super) static COMPILER: Element = Element::new(
@@ -22,17 +22,17 @@ pub(super) static COMPILER: Element = Element::new(
     &[attributes! {
         FLAG => autolimits balanceinertia;
         REAL => boundmass boundinertia;
-        Kind::Words(&[word("radian", angle::RADIAN), word("degree", angle::DEGREE)]) => angle;
+        Kind::Keywords(&[keyword("radian", angle::RADIAN), keyword("degree", angle::DEGREE)]) => angle;
         TEXT => eulerseq;
-        Kind::Words(&[word("false", choice::FALSE), word("true", choice::TRUE), word("auto", choice::AUTO)]) => inertiafromgeom;
+        Kind::Keywords(&[keyword("false", choice::FALSE), keyword("true", choice::TRUE), keyword("auto", choice::AUTO)]) => inertiafromgeom;
         Kind::Ints(2, 2) => inertiagrouprange;
-        Kind::Words(&[word("local", 0), not_yet("global", 1)]) => coordinate [Only("local")];
+        Kind::Keywords(&[keyword("local", 0), unsupported_keyword("global", 1)]) => coordinate [Only("local")];
         REAL => settotalmass;
         FLAG => alignfree discardvisual fusestatic fitaabb;
         TEXT => assetdir meshdir;
-        TEXT => texturedir [super::LOOK];
+        TEXT => texturedir [super::APPEARANCE];
         FLAG => strippath;
-        Kind::Words(&[word("warning", 0), word("merge", 1), word("error", 2)]) => conflict [MOOT];
+        Kind::Keywords(&[keyword("warning", 0), keyword("merge", 1), keyword("error", 2)]) => conflict [MOOT];
         FLAG => saveinertial usethread [Ignored("for MuJoCo's own compiler and writer")];
     }],
 )
@@ -41,7 +41,7 @@ pub(super) static COMPILER: Element = Element::new(
 static LENGTHRANGE: Element = Element::new(
     "lengthrange",
     &[attributes! {
-        Kind::Words(&[word("none", 0), word("muscle", 1), word("muscleuser", 2), word("all", 3)]) => mode;
+        Kind::Keywords(&[keyword("none", 0), keyword("muscle", 1), keyword("muscleuser", 2), keyword("all", 3)]) => mode;
         FLAG => useexisting uselimit;
         REAL => accel maxforce timeconst timestep inttotal interval tolrange;
     }],
@@ -55,14 +55,14 @@ pub(super) static OPTION: Element = Element::new(
         reals(3) => gravity wind magnetic;
         upto(2) => o_solref;
         upto(5) => o_solimp o_friction;
-        Kind::Words(&[
-            word("Euler", integrator::EULER), word("RK4", integrator::RK4), word("implicit", integrator::IMPLICIT),
-            word("implicitfast", integrator::IMPLICITFAST), word("discrete", integrator::DISCRETE),
+        Kind::Keywords(&[
+            keyword("Euler", integrator::EULER), keyword("RK4", integrator::RK4), keyword("implicit", integrator::IMPLICIT),
+            keyword("implicitfast", integrator::IMPLICITFAST), keyword("discrete", integrator::DISCRETE),
         ]) => integrator;
-        Kind::Words(&[word("pyramidal", cone::PYRAMIDAL), word("elliptic", cone::ELLIPTIC)]) => cone;
-        Kind::Words(&[word("PGS", solver::PGS), word("CG", solver::CG), word("Newton", solver::NEWTON)]) => solver;
+        Kind::Keywords(&[keyword("pyramidal", cone::PYRAMIDAL), keyword("elliptic", cone::ELLIPTIC)]) => cone;
+        Kind::Keywords(&[keyword("PGS", solver::PGS), keyword("CG", solver::CG), keyword("Newton", solver::NEWTON)]) => solver;
         INT => iterations ls_iterations;
-        Kind::Words(&[word("dense", jacobian::DENSE), word("sparse", jacobian::SPARSE), word("auto", jacobian::AUTO)]) => jacobian;
+        Kind::Keywords(&[keyword("dense", jacobian::DENSE), keyword("sparse", jacobian::SPARSE), keyword("auto", jacobian::AUTO)]) => jacobian;
         INT => noslip_iterations ccd_iterations;
         REAL => noslip_tolerance ccd_tolerance sleep_tolerance;
         INT => sdf_iterations sdf_initpoints;
@@ -71,7 +71,7 @@ pub(super) static OPTION: Element = Element::new(
 )
 .children(&[&FLAGS]);
 
-const SWITCH: Kind = Kind::Words(&[word("disable", 0), word("enable", 1)]);
+const SWITCH: Kind = Kind::Keywords(&[keyword("disable", 0), keyword("enable", 1)]);
 
 static FLAGS: Element = Element::new(
     "flag",

@@ -1,9 +1,9 @@
 //! `sensor`: one element for each kind in the table of sensors.
 
-use super::{Attr, Element, INT, Kind, LIST, REAL, TEXT, attributes, extension, upto, word};
+use super::{Attr, Element, INT, Kind, LIST, REAL, TEXT, attributes, extension, keyword, upto};
 use crate::kinds::interpolation;
 use crate::model::Obj;
-use crate::sensor::{self, Senses};
+use crate::sensor::{self, SensorTarget};
 
 const COMMON: &[Attr] = attributes! {
     Kind::Name("sensor") => name;
@@ -14,14 +14,14 @@ const TIMING: &[Attr] = attributes! {
     INT => nsample;
     REAL => delay;
     upto(2) => interval;
-    Kind::Words(&[word("zoh", interpolation::HOLD), word("linear", interpolation::LINEAR), word("cubic", interpolation::CUBIC)]) => interp;
+    Kind::Keywords(&[keyword("zoh", interpolation::HOLD), keyword("linear", interpolation::LINEAR), keyword("cubic", interpolation::CUBIC)]) => interp;
 };
-const FRAMES: Kind = Kind::Words(&[
-    word("body", Obj::Body as i32),
-    word("xbody", Obj::XBody as i32),
-    word("geom", Obj::Geom as i32),
-    word("site", Obj::Site as i32),
-    word("camera", Obj::Camera as i32),
+const FRAMES: Kind = Kind::Keywords(&[
+    keyword("body", Obj::Body as i32),
+    keyword("xbody", Obj::XBody as i32),
+    keyword("geom", Obj::Geom as i32),
+    keyword("site", Obj::Site as i32),
+    keyword("camera", Obj::Camera as i32),
 ]);
 const OBJECT: &[Attr] = attributes! { FRAMES => objtype; TEXT => objname; };
 const REFERENCE: &[Attr] = attributes! {
@@ -40,14 +40,14 @@ const PAIR: &[Attr] = attributes! { Kind::Ref("body") => body1 body2; Kind::Ref(
 const CONTACT: &[Attr] = attributes! {
     Kind::Ref("body") => subtree1 subtree2;
     TEXT => data;
-    Kind::Words(&[word("none", 0), word("mindist", 1), word("maxforce", 2), word("netforce", 3)]) => reduce;
+    Kind::Keywords(&[keyword("none", 0), keyword("mindist", 1), keyword("maxforce", 2), keyword("netforce", 3)]) => reduce;
     INT => num;
 };
 const USERS: &[Attr] = attributes! {
     FRAMES => objtype;
     TEXT => objname;
-    Kind::Words(&[word("real", 0), word("positive", 1), word("axis", 2), word("quaternion", 3)]) => datatype;
-    Kind::Words(&[word("none", 0), word("pos", 1), word("vel", 2), word("acc", 3)]) => needstage;
+    Kind::Keywords(&[keyword("real", 0), keyword("positive", 1), keyword("axis", 2), keyword("quaternion", 3)]) => datatype;
+    Kind::Keywords(&[keyword("none", 0), keyword("pos", 1), keyword("vel", 2), keyword("acc", 3)]) => needstage;
     INT => dim;
 };
 const TACTILE: &[Attr] = attributes! {
@@ -63,22 +63,24 @@ const PLUGIN: &[Attr] = attributes! {
 /// The attribute groups of a kind of sensor: those that select the measured object, and those that almost all kinds have.
 const fn groups(kind: &sensor::Kind) -> &'static [&'static [Attr]] {
     match kind.senses {
-        Senses::Nothing => &[COMMON, VALUES, TIMING],
-        Senses::Site => &[COMMON, VALUES, TIMING, SITE],
-        Senses::Ray => &[COMMON, VALUES, TIMING, SITE, CAMERA, DATA],
-        Senses::SiteInImage => &[COMMON, VALUES, TIMING, SITE, CAMERA],
-        Senses::ScalarJoint | Senses::BallJoint | Senses::LimitedJoint => &[COMMON, VALUES, TIMING, JOINT],
-        Senses::Tendon | Senses::LimitedTendon => &[COMMON, VALUES, TIMING, TENDON],
-        Senses::Actuator => &[COMMON, VALUES, TIMING, ACTUATOR],
-        Senses::Frame => &[COMMON, VALUES, TIMING, OBJECT],
-        Senses::RelativeFrame => &[COMMON, VALUES, TIMING, OBJECT, REFERENCE],
-        Senses::FrameInSite => &[COMMON, VALUES, TIMING, OBJECT, SITE],
-        Senses::Subtree => &[COMMON, VALUES, TIMING, BODY],
-        Senses::Pair => &[COMMON, VALUES, TIMING, PAIR],
-        Senses::Contacts => &[COMMON, VALUES, TIMING, PAIR, SITE, CONTACT],
-        Senses::User => &[COMMON, VALUES, USERS],
-        Senses::Tactile => &[COMMON, TIMING, TACTILE],
-        Senses::Plugin => &[COMMON, PLUGIN],
+        SensorTarget::Nothing => &[COMMON, VALUES, TIMING],
+        SensorTarget::Site => &[COMMON, VALUES, TIMING, SITE],
+        SensorTarget::Ray => &[COMMON, VALUES, TIMING, SITE, CAMERA, DATA],
+        SensorTarget::SiteInImage => &[COMMON, VALUES, TIMING, SITE, CAMERA],
+        SensorTarget::ScalarJoint | SensorTarget::BallJoint | SensorTarget::LimitedJoint => {
+            &[COMMON, VALUES, TIMING, JOINT]
+        }
+        SensorTarget::Tendon | SensorTarget::LimitedTendon => &[COMMON, VALUES, TIMING, TENDON],
+        SensorTarget::Actuator => &[COMMON, VALUES, TIMING, ACTUATOR],
+        SensorTarget::Frame => &[COMMON, VALUES, TIMING, OBJECT],
+        SensorTarget::RelativeFrame => &[COMMON, VALUES, TIMING, OBJECT, REFERENCE],
+        SensorTarget::FrameInSite => &[COMMON, VALUES, TIMING, OBJECT, SITE],
+        SensorTarget::Subtree => &[COMMON, VALUES, TIMING, BODY],
+        SensorTarget::Pair => &[COMMON, VALUES, TIMING, PAIR],
+        SensorTarget::Contacts => &[COMMON, VALUES, TIMING, PAIR, SITE, CONTACT],
+        SensorTarget::User => &[COMMON, VALUES, USERS],
+        SensorTarget::Tactile => &[COMMON, TIMING, TACTILE],
+        SensorTarget::Plugin => &[COMMON, PLUGIN],
     }
 }
 
@@ -90,8 +92,8 @@ static ELEMENTS: [Element; COUNT] = {
         let kind = &sensor::KINDS[i];
         let element = Element::new(kind.name, groups(kind));
         all[i] = match kind.senses {
-            Senses::Tactile => element.refused(),
-            Senses::Plugin => element.children(&[&extension::CONFIG]).refused(),
+            SensorTarget::Tactile => element.refused(),
+            SensorTarget::Plugin => element.children(&[&extension::CONFIG]).refused(),
             _ => element,
         };
         i += 1;

@@ -1,6 +1,6 @@
 //! `tendon`.
 
-use super::{AUTO, Attr, Element, INT, Kind, LIST, LOOK, REAL, attributes, reals, upto};
+use super::{APPEARANCE, AUTO, Attr, Element, INT, Kind, LIST, REAL, attributes, reals, upto};
 
 pub(super) const TENDON_ATTRS: &[Attr] = attributes! {
     INT => group;
@@ -12,7 +12,7 @@ pub(super) const TENDON_ATTRS: &[Attr] = attributes! {
     upto(3) => stiffness damping;
 };
 pub(super) const TENDON_DRAWN: &[Attr] = attributes! {
-    Kind::Ref("material") => material [LOOK];
+    Kind::Ref("material") => material [APPEARANCE];
     REAL => width;
     reals(4) => rgba;
 };

@@ -1,25 +1,26 @@
 //! `visual` and `asset`: the appearance of the scene, and meshes.
 
+use super::APPEARANCE;
 use super::Element;
 use super::FLAG;
 use super::INT;
 use super::INTS;
 use super::Kind;
 use super::LIST;
-use super::LOOK;
 use super::REAL;
 use super::TEXT;
 use super::attributes;
+use super::keyword;
 use super::reals;
-use super::word;
 
 /// A section of `visual` with these attributes.
 const fn visual_section(name: &'static str, attributes: &'static [&'static [super::Attr]]) -> Element {
-    Element::new(name, attributes).status(LOOK).once()
+    Element::new(name, attributes).status(APPEARANCE).once()
 }
 
-pub(super) static VISUAL: Element =
-    Element::new("visual", &[]).status(LOOK).children(&[&GLOBAL, &QUALITY, &HEADLIGHT, &MAP, &SCALE, &RGBA]);
+pub(super) static VISUAL: Element = Element::new("visual", &[])
+    .status(APPEARANCE)
+    .children(&[&GLOBAL, &QUALITY, &HEADLIGHT, &MAP, &SCALE, &RGBA]);
 
 static GLOBAL: Element = visual_section(
     "global",
@@ -72,19 +73,19 @@ static TEXTURE: Element = Element::new(
     "texture",
     &[attributes! {
         Kind::Name("texture") => name;
-        Kind::Words(&[word("2d", 0), word("cube", 1), word("skybox", 2)]) => type;
-        Kind::Words(&[word("auto", 0), word("linear", 1), word("sRGB", 2)]) => colorspace;
+        Kind::Keywords(&[keyword("2d", 0), keyword("cube", 1), keyword("skybox", 2)]) => type;
+        Kind::Keywords(&[keyword("auto", 0), keyword("linear", 1), keyword("sRGB", 2)]) => colorspace;
         TEXT => content_type file gridlayout fileright fileleft fileup filedown filefront fileback;
         Kind::Ints(2, 2) => gridsize;
-        Kind::Words(&[word("none", 0), word("gradient", 1), word("checker", 2), word("flat", 3)]) => builtin;
+        Kind::Keywords(&[keyword("none", 0), keyword("gradient", 1), keyword("checker", 2), keyword("flat", 3)]) => builtin;
         reals(3) => rgb1 rgb2 markrgb;
-        Kind::Words(&[word("none", 0), word("edge", 1), word("cross", 2), word("random", 3)]) => mark;
+        Kind::Keywords(&[keyword("none", 0), keyword("edge", 1), keyword("cross", 2), keyword("random", 3)]) => mark;
         REAL => random;
         INT => width height nchannel;
         FLAG => hflip vflip;
     }],
 )
-.status(LOOK);
+.status(APPEARANCE);
 
 /// A material, without its name and class.
 pub(super) const MATERIAL_ATTRS: &[super::Attr] = attributes! {
@@ -101,27 +102,27 @@ pub(super) static MATERIAL: Element = Element::new(
 .children(&[&LAYER]);
 pub(super) static LAYER: Element = Element::new(
     "layer",
-    &[attributes! { Kind::Words(TEXTURE_ROLES) => role; Kind::Ref("texture") => texture; }],
+    &[attributes! { Kind::Keywords(TEXTURE_ROLES) => role; Kind::Ref("texture") => texture; }],
 );
 
 /// The roles of the textures of a material, as in `mjtTextureRole`.
-const TEXTURE_ROLES: &[super::Word] = &[
-    word("rgb", 1),
-    word("occlusion", 2),
-    word("roughness", 3),
-    word("metallic", 4),
-    word("normal", 5),
-    word("opacity", 6),
-    word("emissive", 7),
-    word("rgba", 8),
-    word("orm", 9),
+const TEXTURE_ROLES: &[super::Keyword] = &[
+    keyword("rgb", 1),
+    keyword("occlusion", 2),
+    keyword("roughness", 3),
+    keyword("metallic", 4),
+    keyword("normal", 5),
+    keyword("opacity", 6),
+    keyword("emissive", 7),
+    keyword("rgba", 8),
+    keyword("orm", 9),
 ];
 
 /// A mesh, without its name, class and data.
 pub(super) const MESH_ATTRS: &[super::Attr] = attributes! {
     reals(3) => scale;
     INT => maxhullvert;
-    Kind::Words(&[word("convex", 0), word("exact", 1), word("legacy", 2), word("shell", 3)]) => inertia;
+    Kind::Keywords(&[keyword("convex", 0), keyword("exact", 1), keyword("legacy", 2), keyword("shell", 3)]) => inertia;
 };
 static MESH: Element = Element::new(
     "mesh",

@@ -9,10 +9,10 @@ use crate::mjcf::ids::References;
 use crate::mjcf::rules::{self, Rule};
 use crate::mjcf::settings::checked;
 use crate::mjcf::spec::{List, SensorObjects, SensorSpec, SensorTiming, TendonSpec};
-use crate::mjcf::text::diagnostic::{Report, shorten_name};
+use crate::mjcf::text::diagnostic::{Diagnostics, shorten_name};
 use crate::mjcf::text::tree::{Node, Tree, name};
 use crate::model::Obj;
-use crate::sensor::{CONTACT_DATA, Datatype, KINDS, Kind, RAY_DATA, Senses, When, data_size};
+use crate::sensor::{CONTACT_DATA, Datatype, KINDS, Kind, RAY_DATA, SensorStage, SensorTarget, data_size};
 
 /// Limit for the number of values of all sensors, including samples that are stored for delays.
 const MAX_VALUES: usize = 1 << 22;
@@ -24,7 +24,7 @@ struct Context<'a> {
     p: Props,
     refs: References<'a>,
     tendons: &'a [TendonSpec],
-    report: &'a mut Report,
+    report: &'a mut Diagnostics,
 }
 
 /// All sensors in the order of the text.
@@ -32,7 +32,7 @@ pub(crate) fn sensors(
     tree: &Tree,
     refs: References,
     tendons: &[TendonSpec],
-    report: &mut Report,
+    report: &mut Diagnostics,
 ) -> Vec<SensorSpec> {
     let mut list = Vec::new();
     let mut values = 0;
@@ -73,7 +73,7 @@ impl Context<'_> {
         let (datatype, when) = self.meaning(kind, dim);
         // The values of a sensor of a pair are clamped by the distance, so that a cutoff of a normal is valid.
         let unit = matches!(datatype, Datatype::Axis | Datatype::Quaternion);
-        if cutoff > 0.0 && unit && kind.senses != Senses::Pair {
+        if cutoff > 0.0 && unit && kind.senses != SensorTarget::Pair {
             let what = if datatype == Datatype::Axis { "an axis" } else { "a quaternion" };
             self.error_at("cutoff", rules::SENSOR, format!("{} has a cutoff", self.node.describe()))
                 .why(format!("clamping the numbers of {what} would not leave a rotation"))
@@ -116,7 +116,7 @@ impl Context<'_> {
         let [period, phase] = self.p.reals("interval", [0.0; 2]);
         let timing = SensorTiming {
             nsample: self.p.int("nsample").unwrap_or(0),
-            interp: self.p.word("interp").unwrap_or(interpolation::HOLD),
+            interp: self.p.keyword("interp").unwrap_or(interpolation::HOLD),
             delay: self.p.real("delay").unwrap_or(0.0),
             interval: [period, phase],
         };
@@ -181,32 +181,36 @@ impl Context<'_> {
     fn objects(&mut self, kind: &Kind) -> Option<SensorObjects> {
         let attached = |obj: Obj, id: i32| SensorObjects::for_object(obj as i32, id);
         match kind.senses {
-            Senses::Nothing | Senses::Tactile | Senses::Plugin => Some(SensorObjects::default()),
-            Senses::Site => self.required("site", "site").map(|id| attached(Obj::Site, id)),
-            Senses::Tendon | Senses::LimitedTendon => {
+            SensorTarget::Nothing | SensorTarget::Tactile | SensorTarget::Plugin => {
+                Some(SensorObjects::default())
+            }
+            SensorTarget::Site => self.required("site", "site").map(|id| attached(Obj::Site, id)),
+            SensorTarget::Tendon | SensorTarget::LimitedTendon => {
                 let id = self.required("tendon", "tendon")?;
-                if kind.senses == Senses::LimitedTendon
+                if kind.senses == SensorTarget::LimitedTendon
                     && !self.tendons.get(id as usize).is_some_and(|t| t.limited)
                 {
                     self.has_no_limits("tendon");
                 }
                 Some(attached(Obj::Tendon, id))
             }
-            Senses::Actuator => self.required("actuator", "actuator").map(|id| attached(Obj::Actuator, id)),
-            Senses::Subtree => self.required("body", "body").map(|id| attached(Obj::Body, id)),
-            Senses::ScalarJoint | Senses::BallJoint | Senses::LimitedJoint => {
+            SensorTarget::Actuator => {
+                self.required("actuator", "actuator").map(|id| attached(Obj::Actuator, id))
+            }
+            SensorTarget::Subtree => self.required("body", "body").map(|id| attached(Obj::Body, id)),
+            SensorTarget::ScalarJoint | SensorTarget::BallJoint | SensorTarget::LimitedJoint => {
                 let id = self.required("joint", "joint")?;
                 self.check_joint(kind, id);
                 Some(attached(Obj::Joint, id))
             }
-            Senses::Ray => match self.one_of(&[("site", "site"), ("camera", "camera")])? {
+            SensorTarget::Ray => match self.one_of(&[("site", "site"), ("camera", "camera")])? {
                 Some((0, id)) => Some(attached(Obj::Site, id)),
                 Some((_, id)) => Some(attached(Obj::Camera, id)),
                 None => self.missing(&["site", "camera"]),
             },
-            Senses::SiteInImage => {
+            SensorTarget::SiteInImage => {
                 let (site, camera) = (self.required("site", "site"), self.required("camera", "camera"));
-                if camera.is_some_and(|camera| self.refs.ids.is_blind(camera)) {
+                if camera.is_some_and(|camera| self.refs.ids.has_no_pixels(camera)) {
                     let message = format!("the camera of {} has no resolution", self.node.describe());
                     self.error_at("camera", rules::SENSOR, message)
                         .why("the place in the image is counted in pixels")
@@ -214,8 +218,8 @@ impl Context<'_> {
                 }
                 Some(attached(Obj::Site, site?).with_reference(Obj::Camera as i32, camera?))
             }
-            Senses::Frame => self.frame("objtype", "objname"),
-            Senses::RelativeFrame => {
+            SensorTarget::Frame => self.frame("objtype", "objname"),
+            SensorTarget::RelativeFrame => {
                 let object = self.frame("objtype", "objname")?;
                 if self.node.attribute("reftype").is_none() && self.node.attribute("refname").is_none() {
                     return Some(object);
@@ -223,13 +227,13 @@ impl Context<'_> {
                 let reference = self.frame("reftype", "refname")?;
                 Some(object.with_reference(reference.objtype, reference.objid))
             }
-            Senses::FrameInSite => {
+            SensorTarget::FrameInSite => {
                 let (object, site) = (self.frame("objtype", "objname"), self.required("site", "site"));
                 Some(object?.with_reference(Obj::Site as i32, site?))
             }
-            Senses::Pair => self.pair(),
-            Senses::Contacts => self.contact_filter(),
-            Senses::User => {
+            SensorTarget::Pair => self.pair(),
+            SensorTarget::Contacts => self.contact_filter(),
+            SensorTarget::User => {
                 if self.node.attribute("objtype").is_none() && self.node.attribute("objname").is_none() {
                     return Some(SensorObjects::default());
                 }
@@ -253,7 +257,7 @@ impl Context<'_> {
                 return self.missing(&[attribute]);
             }
         }
-        let objtype = self.p.word(objtype)?;
+        let objtype = self.p.keyword(objtype)?;
         let kind = crate::mjcf::ids::keyword(objtype);
         match self.id(objname, kind) {
             Some(id) => Some(SensorObjects::for_object(objtype, id)),
@@ -300,9 +304,9 @@ impl Context<'_> {
     fn check_joint(&mut self, kind: &Kind, id: i32) {
         let Some((is, limited)) = self.refs.ids.joint(id) else { return };
         let (fits, needs) = match kind.senses {
-            Senses::BallJoint => (is == joint::BALL, "a ball joint"),
-            Senses::LimitedJoint if !limited => return self.has_no_limits("joint"),
-            Senses::LimitedJoint => return,
+            SensorTarget::BallJoint => (is == joint::BALL, "a ball joint"),
+            SensorTarget::LimitedJoint if !limited => return self.has_no_limits("joint"),
+            SensorTarget::LimitedJoint => return,
             _ => (matches!(is, joint::SLIDE | joint::HINGE), "a slide or hinge joint"),
         };
         if fits {
@@ -328,7 +332,7 @@ impl Context<'_> {
     /// The integer parameters, and the number of values.
     fn parameters(&mut self, kind: &Kind, objects: &SensorObjects) -> Option<([i32; 3], i32)> {
         match kind.senses {
-            Senses::Ray => {
+            SensorTarget::Ray => {
                 let mask = self.data_fields(&RAY_DATA)?;
                 if objects.objtype == Obj::Camera as i32 && self.refs.ids.is_negative(objects.objid) {
                     let message = format!("the camera of {} has a negative resolution", self.node.describe());
@@ -339,7 +343,7 @@ impl Context<'_> {
                 let pixels = self.refs.ids.pixels(objects);
                 Some(([mask, 0, 0], self.dim(pixels, data_size(&RAY_DATA, mask))?))
             }
-            Senses::Contacts => {
+            SensorTarget::Contacts => {
                 let mask = self.data_fields(&CONTACT_DATA)?;
                 let num = self.p.int("num").unwrap_or(1);
                 if num <= 0 {
@@ -348,9 +352,9 @@ impl Context<'_> {
                     return None;
                 }
                 let dim = self.dim(num as usize, data_size(&CONTACT_DATA, mask))?;
-                Some(([mask, self.p.word("reduce").unwrap_or(0), num], dim))
+                Some(([mask, self.p.keyword("reduce").unwrap_or(0), num], dim))
             }
-            Senses::User => {
+            SensorTarget::User => {
                 if !self.p.has("dim") {
                     return self.missing(&["dim"]);
                 }
@@ -365,7 +369,7 @@ impl Context<'_> {
                 }
                 Some(([0; 3], dim))
             }
-            Senses::Actuator => Some(([0; 3], self.refs.ids.outputs(objects.objid))),
+            SensorTarget::Actuator => Some(([0; 3], self.refs.ids.outputs(objects.objid))),
             _ => Some(([0; 3], kind.dim)),
         }
     }
@@ -409,10 +413,10 @@ impl Context<'_> {
     /// The type of the values and the stage that computes them. A user sensor has attributes for these; other kinds have them in
     /// the table.
     fn meaning(&mut self, kind: &Kind, dim: i32) -> (Datatype, i32) {
-        if kind.senses != Senses::User {
+        if kind.senses != SensorTarget::User {
             return (kind.datatype, kind.when as i32);
         }
-        let datatype = match self.p.word("datatype") {
+        let datatype = match self.p.keyword("datatype") {
             Some(t) if t == Datatype::Positive as i32 => Datatype::Positive,
             Some(t) if t == Datatype::Axis as i32 => Datatype::Axis,
             Some(t) if t == Datatype::Quaternion as i32 => Datatype::Quaternion,
@@ -428,6 +432,6 @@ impl Context<'_> {
                 format!("`dim` of {} is {dim}, but its `datatype` has {needed}", self.node.describe());
             self.error_at("dim", rules::CONFLICT, message).help(format!("write `dim=\"{needed}\"`"));
         }
-        (datatype, self.p.word("needstage").unwrap_or(When::Acceleration as i32))
+        (datatype, self.p.keyword("needstage").unwrap_or(SensorStage::Acceleration as i32))
     }
 }

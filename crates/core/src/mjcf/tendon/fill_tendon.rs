@@ -6,7 +6,7 @@ use crate::mjcf::arrays::{flat, padded};
 use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
 use crate::mjcf::spec::{BodySpec, TendonSpec};
-use crate::mjcf::text::diagnostic::Report;
+use crate::mjcf::text::diagnostic::Diagnostics;
 use crate::model::Model;
 
 /// Limit for the entries of the Jacobians of all tendons.
@@ -21,7 +21,7 @@ pub(crate) fn count(m: &mut Model, list: &[TendonSpec]) {
 /// Clears the flag `simple` of bodies whose mass matrix is not diagonal because of a tendon. A spatial tendon with armature
 /// couples the degrees of freedom of the bodies that it is attached to. The armature that an actuator adds to a tendon does not
 /// clear the flag, as in MuJoCo: for a simple body, M contains only the diagonal of that term.
-pub(crate) fn demote_simple(simple: &mut [i32], bodies: &[BodySpec], list: &[TendonSpec]) {
+pub(crate) fn clear_simple_flags(simple: &mut [i32], bodies: &[BodySpec], list: &[TendonSpec]) {
     let site_body: Vec<usize> =
         listed(bodies.iter().enumerate().flat_map(|(i, b)| b.sites.iter().map(move |_| i)));
     let sites = list.iter().filter(|t| t.armature > 0.0).flat_map(|t| &t.path);
@@ -71,7 +71,7 @@ pub(crate) fn tendons(m: &mut Model, list: &[TendonSpec]) {
 }
 
 /// Computes the sparsity pattern of the Jacobians. `None`, with an error in the report, if it is too large.
-pub(crate) fn pattern(m: &mut Model, list: &[TendonSpec], report: &mut Report) -> Option<()> {
+pub(crate) fn pattern(m: &mut Model, list: &[TendonSpec], report: &mut Diagnostics) -> Option<()> {
     let span = list.first().map_or(0..0, |t| t.span.clone());
     if tendon::set_pattern(m, MAX_JACOBIAN).is_some() {
         return report.take(2 * m.nJten, span, "the Jacobians of all tendons").then_some(());

@@ -9,7 +9,7 @@ use crate::mjcf::ids::References;
 use crate::mjcf::rules;
 use crate::mjcf::settings::checked;
 use crate::mjcf::spec::{ActuatorSpec, List, SOLIMP, SOLREF, TendonSpec, WrapSpec};
-use crate::mjcf::text::diagnostic::Report;
+use crate::mjcf::text::diagnostic::Diagnostics;
 use crate::mjcf::text::tree::{Node, name};
 
 /// All tendons in the order of the text.
@@ -84,7 +84,7 @@ fn wraps_geoms(path: &[WrapSpec]) -> bool {
 }
 
 /// Refuses armature of actuators that act on tendons that wrap around geoms.
-pub(crate) fn check_rotors(tendons: &[TendonSpec], actuators: &[ActuatorSpec], report: &mut Report) {
+pub(crate) fn check_rotors(tendons: &[TendonSpec], actuators: &[ActuatorSpec], report: &mut Diagnostics) {
     for a in actuators.iter().filter(|a| a.armature != 0.0 && a.gear[0] != 0.0) {
         let Some(t) = a.transmission.filter(|t| t.kind == trntype::TENDON) else { continue };
         let tendon = usize::try_from(t.id[0]).ok().and_then(|t| tendons.get(t));
@@ -148,9 +148,9 @@ fn path(cx: &mut Context, refs: References, i: usize, node: &Node) -> Vec<WrapSp
 }
 
 /// One object of a path. `None`, with an error in the report, if it is invalid.
-fn wrap(refs: References, node: &Node, report: &mut Report) -> Option<WrapSpec> {
+fn wrap(refs: References, node: &Node, report: &mut Diagnostics) -> Option<WrapSpec> {
     let p = Props::written_props(node);
-    let number = |name: &str, report: &mut Report| {
+    let number = |name: &str, report: &mut Diagnostics| {
         if !p.has(name) {
             let message = format!("{} has no `{name}`", node.describe());
             report.error(rules::MISSING_ATTRIBUTE, node.span.clone(), message);
@@ -204,7 +204,7 @@ fn wrap(refs: References, node: &Node, report: &mut Report) -> Option<WrapSpec> 
 }
 
 /// Checks a path: every branch between two pulleys runs from site to site, with at most one geom between two sites.
-fn check_path(nodes: &[&Node], path: &[WrapSpec], report: &mut Report) {
+fn check_path(nodes: &[&Node], path: &[WrapSpec], report: &mut Diagnostics) {
     let kind = |i: usize| path.get(i).map_or(wraptype::PULLEY, |w| w.kind);
     for (i, (node, wrap)) in nodes.iter().zip(path).enumerate() {
         let (before, after) = (if i == 0 { wraptype::PULLEY } else { kind(i - 1) }, kind(i + 1));

@@ -93,7 +93,7 @@ fn three_formats_are_one_mesh() {
 
 /// A file that is truncated anywhere, or has any byte changed, is refused or gives a mesh that can be simulated.
 #[test]
-fn damaged_files_do_no_harm() {
+fn damaged_files_are_errors() {
     let go = |model: Result<Model, String>| {
         if let Ok(m) = model {
             let Workspace { fields: mut d, scratch: mut s } = Workspace::new(&m);
@@ -139,7 +139,7 @@ fn a_large_mesh_is_ready_in_seconds() {
 }
 
 #[test]
-fn pictures_and_text_stl_are_told_by_name() {
+fn images_and_text_stl_are_refused_by_name() {
     let png = field(b"\x89PNG\r\n\x1a\n").unwrap_err();
     assert!(png.contains("PNG"), "{png}");
     let text = mesh("a.stl", b"solid a\nfacet normal 0 0 1\n").unwrap_err();

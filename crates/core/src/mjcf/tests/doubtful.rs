@@ -8,7 +8,7 @@ fn codes(xml: &str) -> Vec<(&'static str, Severity)> {
 }
 
 /// Whether the speed of a joint grows to a thousand times its initial value.
-fn grows(xml: &str) -> bool {
+fn speed_grows(xml: &str) -> bool {
     let model = check_xml(xml, &NoFiles, None).model.unwrap();
     let Workspace { fields: mut data, scratch: mut s } = Workspace::new(&model);
     data.qvel[0] = 1e-3;
@@ -23,7 +23,7 @@ fn grows(xml: &str) -> bool {
 
 /// A spring, a damper or a servo is reported if and only if it is unstable under the integrator.
 #[test]
-fn what_is_too_fast_grows_and_the_rest_does_not() {
+fn reported_time_constants_diverge_and_others_do_not() {
     let h: f64 = 0.002;
     let slide = |option: &str, joint: &str, actuator: &str| {
         format!(
@@ -52,7 +52,7 @@ fn what_is_too_fast_grows_and_the_rest_does_not() {
             }
             for xml in all {
                 let reported = codes(&xml).iter().any(|(code, _)| *code == "mjcf-too-fast");
-                let grows = grows(&xml);
+                let grows = speed_grows(&xml);
                 seen[usize::from(reported)] += 1;
                 // The bound of RK4 is slightly below the true stability limit.
                 assert!(
@@ -67,7 +67,7 @@ fn what_is_too_fast_grows_and_the_rest_does_not() {
 
 /// A contact whose `solref` is too short gives the same bits as one with the value that the finding states.
 #[test]
-fn what_is_softened_is_what_it_is_said_to_get() {
+fn softened_constraints_get_the_stated_time_constant() {
     let run = |solref: &str| {
         let xml = format!(
             "<mujoco><worldbody><geom type='plane' size='1 1 1'/><body pos='0 0 .1'><freejoint/><geom size='.1' solref='{solref} 1'/>\

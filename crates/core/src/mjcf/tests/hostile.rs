@@ -8,7 +8,7 @@ fn first_code(xml: &str) -> Option<&'static str> {
 }
 
 #[test]
-fn deep_nesting_is_refused_and_what_is_allowed_compiles() {
+fn deep_nesting_is_refused_and_allowed_nesting_compiles() {
     let nested = |n: usize| {
         let open = "<body pos='0 0 1'><joint/><geom size='0.1'/>".repeat(n);
         world(&format!("{open}{}", "</body>".repeat(n)))
@@ -19,7 +19,7 @@ fn deep_nesting_is_refused_and_what_is_allowed_compiles() {
 }
 
 #[test]
-fn memory_cannot_be_asked_for() {
+fn models_cannot_request_unbounded_memory() {
     let keys = "<mujoco><size nkey='2147483647'/><worldbody><body><freejoint/><geom size='1'/></body></worldbody></mujoco>";
     assert_eq!(first_code(keys), Some(rules::LIMIT.code));
     let classes = format!("<mujoco><default>{}</default></mujoco>", "<default class='a'/>".repeat(5000));

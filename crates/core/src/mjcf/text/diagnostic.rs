@@ -1,8 +1,8 @@
-//! Diagnostics of a model: a stable code, a position in the XML, the reason and the next step. A [`Report`] collects them, so
+//! Diagnostics of a model: a stable code, a position in the XML, the reason and the next step. A [`Diagnostics`] collects them, so
 //! that an author with three mistakes sees three.
 //!
 //! A model may consist of several files. The passes use one address space for all texts, which follow each other in it. A span is
-//! a range of bytes in this space; [`Report::finish`] converts it to a file and a position.
+//! a range of bytes in this space; [`Diagnostics::finish`] converts it to a file and a position.
 
 use crate::mjcf::rules::{self, Rule};
 use labspec_finding::order::sort_by_key;
@@ -121,7 +121,7 @@ struct Source {
 }
 
 /// Collects the findings in the texts of one model.
-pub(crate) struct Report {
+pub(crate) struct Diagnostics {
     sources: Vec<Source>,
     /// Errors.
     list: Vec<Finding>,
@@ -133,9 +133,15 @@ pub(crate) struct Report {
     pub(crate) incomplete: bool,
 }
 
-impl Report {
-    pub(crate) fn new() -> Report {
-        Report { sources: Vec::new(), list: Vec::new(), warnings: Vec::new(), numbers: 0, incomplete: false }
+impl Diagnostics {
+    pub(crate) fn new() -> Diagnostics {
+        Diagnostics {
+            sources: Vec::new(),
+            list: Vec::new(),
+            warnings: Vec::new(),
+            numbers: 0,
+            incomplete: false,
+        }
     }
 
     /// Adds a text and returns the first byte of its spans. The first text is the model itself.
@@ -270,7 +276,7 @@ mod tests {
 
     #[test]
     fn lines_and_columns_count_characters() {
-        let mut r = Report::new();
+        let mut r = Diagnostics::new();
         assert_eq!(r.source(None, "äö\nxyz".into()), 0);
         let base = r.source(Some("b.xml"), "\nx".into());
         r.error(rules::XML, base + 1..base + 2, "x");

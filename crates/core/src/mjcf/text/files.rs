@@ -1,7 +1,7 @@
 //! Files that a model refers to: included text, other models, meshes, height fields.
 //!
 //! A model may read files under one root only, because lessons may come from untrusted authors. The compiler only requests paths
-//! that [`clean`] has normalized. The implementation of [`Files`] determines the root and provides the bytes.
+//! that [`normalize_path`] has normalized. The implementation of [`Files`] determines the root and provides the bytes.
 
 use std::collections::BTreeMap;
 use std::io::Read;
@@ -91,7 +91,7 @@ impl Folder {
     }
 
     /// Whether the components of a path lead out of the root. Files outside the root are not accessed at all.
-    fn leads_out(&self, path: &str) -> bool {
+    fn leaves_root(&self, path: &str) -> bool {
         let up = path.split('/').take_while(|part| *part == "..").count();
         let deep = self.place.strip_prefix(&self.root).map_or(0, |below| below.components().count());
         up > deep
@@ -104,7 +104,7 @@ impl Files for Folder {
             std::io::ErrorKind::NotFound => FileProblem::Missing,
             _ => FileProblem::Unreadable(e.to_string()),
         };
-        if self.leads_out(path) {
+        if self.leaves_root(path) {
             return Err(FileProblem::Outside);
         }
         let real = self.place.join(path).canonicalize().map_err(problem)?;
@@ -125,7 +125,7 @@ impl Files for Folder {
 
 /// The normalized form of a path in the text of a file in `folder`: relative to the folder of the model, parts joined by
 /// `/`, `..` at the start only. `None` if the path is empty or absolute.
-pub(crate) fn clean(folder: &str, written: &str) -> Option<String> {
+pub(crate) fn normalize_path(folder: &str, written: &str) -> Option<String> {
     // Paths with a drive or a stream (`C:`, `file:x`) are treated as absolute.
     if written.is_empty() || written.starts_with(['/', '\\']) || written.contains([':', '\0']) {
         return None;
@@ -172,12 +172,12 @@ mod tests {
             ("", "", None),
             ("", ".", None),
         ] {
-            assert_eq!(clean(folder, written).as_deref(), expected, "{folder} {written}");
+            assert_eq!(normalize_path(folder, written).as_deref(), expected, "{folder} {written}");
         }
     }
 
     #[test]
-    fn a_sister_folder_below_the_root_is_open_and_nothing_above_it() {
+    fn a_sister_folder_below_the_root_is_readable_and_folders_above_are_not() {
         let outer = tempfile::tempdir().unwrap();
         let root = outer.path().join("course");
         std::fs::create_dir_all(root.join("models/deep")).unwrap();

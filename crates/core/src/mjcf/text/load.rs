@@ -9,8 +9,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::rc::Rc;
 
-use super::diagnostic::{Report, shorten_name};
-use super::files::{FileProblem, Files, clean, folder_of};
+use super::diagnostic::{Diagnostics, shorten_name};
+use super::files::{FileProblem, Files, folder_of, normalize_path};
 use super::patch::{self, Patch, Refusal};
 use super::scan;
 use super::tree::{self, Tree};
@@ -25,12 +25,12 @@ const MAX_NESTED: usize = 10;
 
 /// A model before `replicate` and `attach` are expanded.
 #[derive(Debug)]
-pub(crate) struct Written {
+pub(crate) struct UnexpandedModel {
     pub(crate) tree: Tree,
     /// The folder of its files; empty for the folder of the main model.
     pub(crate) folder: String,
     /// The models that it may attach, by name.
-    pub(crate) models: BTreeMap<String, Written>,
+    pub(crate) models: BTreeMap<String, UnexpandedModel>,
 }
 
 /// Reads models and counts the resources that they use.
@@ -53,7 +53,12 @@ impl<'f> Loader<'f> {
 
     /// The text of a model with its patches applied and its includes expanded. `None` if the text is not XML, or a patch cannot
     /// be applied.
-    pub(crate) fn written(&mut self, text: &str, file: Option<&str>, report: &mut Report) -> Option<String> {
+    pub(crate) fn written(
+        &mut self,
+        text: &str,
+        file: Option<&str>,
+        report: &mut Diagnostics,
+    ) -> Option<String> {
         let base = report.source(None, text.into());
         let mut list = Vec::new();
         let root = self.parse(text, base, &mut list, report)?;
@@ -74,8 +79,8 @@ impl<'f> Loader<'f> {
         &mut self,
         text: Rc<str>,
         file: Option<&str>,
-        report: &mut Report,
-    ) -> Option<Written> {
+        report: &mut Diagnostics,
+    ) -> Option<UnexpandedModel> {
         let folder = folder_of(file.unwrap_or("")).to_string();
         self.open.push(file.unwrap_or("").to_string());
         let base = report.source(file.filter(|_| self.open.len() > 1), text.clone());
@@ -89,7 +94,7 @@ impl<'f> Loader<'f> {
             let mut tree = tree::check_tree(&list, root, report)?;
             names::after_files(&mut tree);
             let models = self.models(&tree, &folder, report);
-            Some(Written { tree, folder, models })
+            Some(UnexpandedModel { tree, folder, models })
         });
         self.open.pop();
         written
@@ -100,7 +105,7 @@ impl<'f> Loader<'f> {
         text: &str,
         base: usize,
         list: &mut Vec<Element>,
-        report: &mut Report,
+        report: &mut Diagnostics,
     ) -> Option<usize> {
         let text = scan::prepare(text, base, &mut self.counts, report)?;
         xml::parse(&text, base, list, report)
@@ -112,7 +117,7 @@ impl<'f> Loader<'f> {
         list: &mut Vec<Element>,
         model_name: Option<&str>,
         folder: &str,
-        report: &mut Report,
+        report: &mut Diagnostics,
     ) {
         let mut included: BTreeSet<String> = filled(model_name.map(str::to_string));
         let mut at = 0;
@@ -134,7 +139,7 @@ impl<'f> Loader<'f> {
         list: &mut Vec<Element>,
         folder: &str,
         included: &mut BTreeSet<String>,
-        report: &mut Report,
+        report: &mut Diagnostics,
     ) -> Vec<usize> {
         let Some(element) = list.get(at) else { return Vec::new() };
         #[cfg(test)]
@@ -175,7 +180,12 @@ impl<'f> Loader<'f> {
     }
 
     /// The models that the assets of a model refer to.
-    fn models(&mut self, tree: &Tree, folder: &str, report: &mut Report) -> BTreeMap<String, Written> {
+    fn models(
+        &mut self,
+        tree: &Tree,
+        folder: &str,
+        report: &mut Diagnostics,
+    ) -> BTreeMap<String, UnexpandedModel> {
         let mut models = BTreeMap::new();
         let assets = tree.sections("asset").flat_map(|(section, _)| tree.children(section));
         for (_, node) in assets.filter(|(_, n)| n.element.name == "model") {
@@ -217,7 +227,7 @@ impl<'f> Loader<'f> {
         written: &str,
         folder: &str,
         span: &Range<usize>,
-        report: &mut Report,
+        report: &mut Diagnostics,
     ) -> Option<(String, Rc<str>)> {
         self.files_read += 1;
         if self.files_read > MAX_FILES {
@@ -248,9 +258,9 @@ pub(crate) fn read(
     folder: &str,
     limit: usize,
     span: &Range<usize>,
-    report: &mut Report,
+    report: &mut Diagnostics,
 ) -> Option<(String, Vec<u8>)> {
-    let Some(path) = clean(folder, written) else {
+    let Some(path) = normalize_path(folder, written) else {
         report
             .error(
                 rules::FILE,

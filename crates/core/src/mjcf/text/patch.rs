@@ -38,7 +38,7 @@ pub struct Refusal {
 
 /// An element with its entry in the schema.
 #[derive(Clone, Copy)]
-struct Seen {
+struct PatchElement {
     at: usize,
     parent: usize,
     schema: &'static schema::Element,
@@ -63,11 +63,11 @@ pub(super) fn apply(list: &mut Vec<Element>, root: usize, patch: &Patch) -> Resu
             );
         }
     };
-    let seen = seen(list, root);
-    let found = find_element(list, &seen, kind, name)?;
+    let elements = list_elements(list, root);
+    let found = find_element(list, &elements, kind, name)?;
     // The mass of a body is an attribute of its inertial or its geom.
     let found = match (kind, attribute) {
-        ("body", "mass") => mass_of(list, found, &seen, name.unwrap_or(""))?,
+        ("body", "mass") => mass_of(list, found, &elements, name.unwrap_or(""))?,
         _ => found,
     };
     match found.schema.attribute(attribute) {
@@ -80,7 +80,7 @@ pub(super) fn apply(list: &mut Vec<Element>, root: usize, patch: &Patch) -> Resu
             Ok(())
         }
         None => {
-            let help = near(attribute, found.schema.attributes().map(|a| a.name), "it has none");
+            let help = suggestion(attribute, found.schema.attributes().map(|a| a.name), "it has none");
             refuse(format!("`{kind}` has no attribute `{attribute}`"), &help)
         }
     }
@@ -90,13 +90,14 @@ pub(super) fn apply(list: &mut Vec<Element>, root: usize, patch: &Patch) -> Resu
 /// allowed.
 fn find_element(
     list: &mut Vec<Element>,
-    seen: &[Seen],
+    elements: &[PatchElement],
     kind: &str,
     name: Option<&str>,
-) -> Result<Seen, Refusal> {
+) -> Result<PatchElement, Refusal> {
     let refuse = |message: String, help: &str| Err(Refusal { message, help: help.to_string() });
-    let named = |s: &Seen| list.get(s.at).and_then(|e| e.attribute("name")).map(|a| a.value.as_str());
-    let of_kind: Vec<Seen> = listed(seen.iter().copied().filter(|s| !s.default && s.schema.name == kind));
+    let named = |s: &PatchElement| list.get(s.at).and_then(|e| e.attribute("name")).map(|a| a.value.as_str());
+    let of_kind: Vec<PatchElement> =
+        listed(elements.iter().copied().filter(|s| !s.default && s.schema.name == kind));
     let names = of_kind.iter().filter_map(named);
     let found = match name {
         Some(name) => of_kind.iter().find(|s| named(s) == Some(name)).copied(),
@@ -104,43 +105,44 @@ fn find_element(
     };
     match (found, name) {
         (Some(found), _) => Ok(found),
-        (None, None) if of_kind.is_empty() => match missing(list, kind, seen) {
+        (None, None) if of_kind.is_empty() => match create_settings_element(list, kind, elements) {
             Some(made) => Ok(made),
             None => {
-                let kinds = seen.iter().map(|s| s.schema.name).filter(|k| !["mujoco", "default"].contains(k));
-                Err(no_kind(kind, kinds))
+                let kinds =
+                    elements.iter().map(|s| s.schema.name).filter(|k| !["mujoco", "default"].contains(k));
+                Err(unknown_kind(kind, kinds))
             }
         },
         (None, Some(_)) if of_kind.is_empty() => {
-            Err(no_kind(kind, seen.iter().filter(|s| named(s).is_some()).map(|s| s.schema.name)))
+            Err(unknown_kind(kind, elements.iter().filter(|s| named(s).is_some()).map(|s| s.schema.name)))
         }
         (None, Some(name)) => {
-            let help = near(name, names, "it has no named ones");
+            let help = suggestion(name, names, "it has no named ones");
             refuse(format!("the model has no {kind} `{name}`"), &help)
         }
         (None, None) => {
-            let help = format!("name one of them: {}", near("", names, "give it a name"));
+            let help = format!("name one of them: {}", suggestion("", names, "give it a name"));
             refuse(format!("the model has {} elements `{kind}`", of_kind.len()), &help)
         }
     }
 }
 
 /// All elements below the root that the schema contains. Included elements belong to the parent of the `include`.
-fn seen(list: &[Element], root: usize) -> Vec<Seen> {
+fn list_elements(list: &[Element], root: usize) -> Vec<PatchElement> {
     let (mut all, mut open) =
-        (Vec::new(), vec![Seen { at: root, parent: root, schema: &ROOT, default: false }]);
-    while let Some(seen) = open.pop() {
-        let Some(element) = list.get(seen.at) else { continue };
+        (Vec::new(), vec![PatchElement { at: root, parent: root, schema: &ROOT, default: false }]);
+    while let Some(elements) = open.pop() {
+        let Some(element) = list.get(elements.at) else { continue };
         if element.name != INCLUDE.name {
-            all.push(seen);
+            all.push(elements);
         }
         for &child in element.children.iter().rev() {
             let Some(name) = list.get(child).map(|c| c.name.as_str()) else { continue };
             if name == INCLUDE.name {
-                open.push(Seen { at: child, ..seen });
-            } else if let Some(schema) = seen.schema.child(name) {
-                let default = seen.default || name == "default";
-                open.push(Seen { at: child, parent: seen.at, schema, default });
+                open.push(PatchElement { at: child, ..elements });
+            } else if let Some(schema) = elements.schema.child(name) {
+                let default = elements.default || name == "default";
+                open.push(PatchElement { at: child, parent: elements.at, schema, default });
             }
         }
     }
@@ -148,10 +150,14 @@ fn seen(list: &[Element], root: usize) -> Vec<Seen> {
 }
 
 /// Creates a settings element that the text does not contain.
-fn missing(list: &mut Vec<Element>, kind: &str, seen: &[Seen]) -> Option<Seen> {
+fn create_settings_element(
+    list: &mut Vec<Element>,
+    kind: &str,
+    elements: &[PatchElement],
+) -> Option<PatchElement> {
     let (parent, name) = SETTINGS.iter().find(|(_, name)| *name == kind)?;
-    let holder = seen.iter().find(|s| s.schema.name == *parent).copied();
-    let holder = holder.or_else(|| missing(list, parent, seen))?;
+    let holder = elements.iter().find(|s| s.schema.name == *parent).copied();
+    let holder = holder.or_else(|| create_settings_element(list, parent, elements))?;
     let (at, span) = (list.len(), list.get(holder.at)?.span.clone());
     list.push(Element {
         name: (*name).to_string(),
@@ -161,13 +167,18 @@ fn missing(list: &mut Vec<Element>, kind: &str, seen: &[Seen]) -> Option<Seen> {
         children: Vec::new(),
     });
     list.get_mut(holder.at)?.children.push(at);
-    Some(Seen { at, parent: holder.at, schema: holder.schema.child(name)?, default: false })
+    Some(PatchElement { at, parent: holder.at, schema: holder.schema.child(name)?, default: false })
 }
 
 /// The element that contains the mass of a body: its `inertial`, or its only geom.
-fn mass_of(list: &[Element], body: Seen, seen: &[Seen], name: &str) -> Result<Seen, Refusal> {
-    let parts = |kind: &str| -> Vec<Seen> {
-        listed(seen.iter().copied().filter(|s| s.parent == body.at && s.schema.name == kind))
+fn mass_of(
+    list: &[Element],
+    body: PatchElement,
+    elements: &[PatchElement],
+    name: &str,
+) -> Result<PatchElement, Refusal> {
+    let parts = |kind: &str| -> Vec<PatchElement> {
+        listed(elements.iter().copied().filter(|s| s.parent == body.at && s.schema.name == kind))
     };
     let (inertial, geoms) = (parts("inertial"), parts("geom"));
     match (inertial.as_slice(), geoms.as_slice()) {
@@ -199,18 +210,18 @@ fn set(list: &mut [Element], at: usize, attribute: &str, value: &str) {
     });
 }
 
-fn no_kind<'k>(kind: &str, kinds: impl Iterator<Item = &'k str>) -> Refusal {
+fn unknown_kind<'k>(kind: &str, kinds: impl Iterator<Item = &'k str>) -> Refusal {
     let mut kinds: Vec<&str> = listed(kinds);
     order::sort_by(&mut kinds, Ord::cmp);
     kinds.dedup();
     Refusal {
         message: format!("the model has no element `{kind}`"),
-        help: near(kind, kinds.into_iter(), "it has none that can be changed"),
+        help: suggestion(kind, kinds.into_iter(), "it has none that can be changed"),
     }
 }
 
 /// A suggestion with the most similar name, or the list of existing names.
-fn near<'n>(word: &str, names: impl Iterator<Item = &'n str>, none: &str) -> String {
+fn suggestion<'n>(word: &str, names: impl Iterator<Item = &'n str>, none: &str) -> String {
     let names: Vec<&str> = listed(names.take(200));
     match nearest(word, names.iter().copied()) {
         Some(right) if !word.is_empty() => format!("did you mean `{right}`?"),
@@ -255,7 +266,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_changed_is_said_with_what_is_near() {
+    fn a_refused_change_is_reported_with_similar_names() {
         for (path, value, words) in [
             ("geom irn mass", "1", "no geom `irn`; did you mean `iron`?"),
             ("geom iron mas", "1", "no attribute `mas`; did you mean `mass`?"),

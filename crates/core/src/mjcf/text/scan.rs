@@ -7,7 +7,7 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
-use super::diagnostic::Report;
+use super::diagnostic::Diagnostics;
 use crate::mjcf::rules;
 use crate::mjcf::{MAX_ALL_ATTRIBUTES, MAX_ATTRIBUTES, MAX_DEPTH, MAX_ELEMENTS, MAX_TEXT};
 
@@ -58,14 +58,15 @@ pub(crate) fn prepare<'t>(
     text: &'t str,
     base: usize,
     counts: &mut Counts,
-    report: &mut Report,
+    report: &mut Diagnostics,
 ) -> Option<Prepared<'t>> {
     let mut changes = Changes::default();
     if !within_limits(text, base, counts, &mut changes, report) {
         return None;
     }
     let Changes { blanks, inserted } = changes;
-    let mut text = if blanks.is_empty() { Cow::Borrowed(text) } else { Cow::Owned(blanked(text, &blanks)) };
+    let mut text =
+        if blanks.is_empty() { Cow::Borrowed(text) } else { Cow::Owned(replace_by_blanks(text, &blanks)) };
     if !inserted.is_empty() {
         let (mut out, mut at) = (String::with_capacity(text.len() + inserted.len()), 0);
         for &place in &inserted {
@@ -80,7 +81,7 @@ pub(crate) fn prepare<'t>(
 }
 
 /// The text with these ranges replaced by blanks. The ranges are on character boundaries, and line breaks stay.
-fn blanked(text: &str, places: &[Range<usize>]) -> String {
+fn replace_by_blanks(text: &str, places: &[Range<usize>]) -> String {
     let (mut out, mut at) = (String::with_capacity(text.len()), 0);
     for place in places {
         out.push_str(text.get(at..place.start).unwrap_or(""));
@@ -93,7 +94,7 @@ fn blanked(text: &str, places: &[Range<usize>]) -> String {
 }
 
 /// Skips the text of a range, with a warning if it is not blank.
-fn pass_over(text: &str, range: Range<usize>, base: usize, changes: &mut Changes, report: &mut Report) {
+fn skip_text(text: &str, range: Range<usize>, base: usize, changes: &mut Changes, report: &mut Diagnostics) {
     let Some(between) = text.get(range.clone()) else { return };
     // A text may start with a byte order mark.
     let between = between.strip_prefix('\u{feff}').filter(|_| range.start == 0).unwrap_or(between);
@@ -119,7 +120,7 @@ fn within_limits(
     base: usize,
     counts: &mut Counts,
     changes: &mut Changes,
-    report: &mut Report,
+    report: &mut Diagnostics,
 ) -> bool {
     let size = report.bytes();
     if size > MAX_TEXT {
@@ -132,7 +133,7 @@ fn within_limits(
     while let Some(open) = find(bytes, at, b"<") {
         // Text directly after the root element is an error in MuJoCo too. The parser reports it.
         if !ended {
-            pass_over(text, at..open, base, changes, report);
+            skip_text(text, at..open, base, changes, report);
         }
         let rest = bytes.get(open..).unwrap_or_default();
         at = if rest.starts_with(b"<!--") {
@@ -140,7 +141,7 @@ fn within_limits(
             after(bytes, open + 4, b"-->")
         } else if rest.starts_with(b"<![CDATA[") {
             let end = after(bytes, open + 9, b"]]>");
-            pass_over(text, open..end, base, changes, report);
+            skip_text(text, open..end, base, changes, report);
             ended = false;
             end
         } else if rest.starts_with(b"<?") {
@@ -166,13 +167,13 @@ fn within_limits(
         };
     }
     if !ended && depth == 0 && counts.elements > 0 {
-        pass_over(text, at..text.len(), base, changes, report);
+        skip_text(text, at..text.len(), base, changes, report);
     }
     true
 }
 
 /// Reports a declaration of a document type or an entity, which starts with two characters.
-fn refuse_declaration(at: usize, report: &mut Report) {
+fn refuse_declaration(at: usize, report: &mut Diagnostics) {
     report
         .error(rules::XML, at..at + 2, "the model declares a document type or an entity")
         .why("entities could make a small file expand without bound")
@@ -186,7 +187,7 @@ fn tag_within_limits(
     base: usize,
     depth: usize,
     counts: &mut Counts,
-    report: &mut Report,
+    report: &mut Diagnostics,
 ) -> bool {
     counts.elements += 1;
     counts.attributes += tag.attributes;
@@ -279,7 +280,7 @@ mod tests {
     use super::*;
 
     fn code_of(text: &str) -> Option<&'static str> {
-        let mut report = Report::new();
+        let mut report = Diagnostics::new();
         let base = report.source(None, text.into());
         prepare(text, base, &mut Counts::default(), &mut report);
         report.finish().first().map(|d| d.code)
@@ -308,7 +309,7 @@ mod tests {
             ("<a></a>x<!-- y -->z", "<a></a>x<!-- y --> "),
             ("<a b='>'>x</a", "<a b='>'> </a"),
         ] {
-            let mut report = Report::new();
+            let mut report = Diagnostics::new();
             let base = report.source(None, text.into());
             let blanked = prepare(text, base, &mut Counts::default(), &mut report).unwrap();
             assert_eq!(blanked.text, expected);
@@ -319,7 +320,7 @@ mod tests {
     #[test]
     fn blanks_between_attributes_move_no_place() {
         let text = "<a b='1'c=\"2\"d ='3'>x<e f='1'2'/></a>";
-        let mut report = Report::new();
+        let mut report = Diagnostics::new();
         let base = report.source(None, text.into());
         let prepared = prepare(text, base, &mut Counts::default(), &mut report).unwrap();
         assert_eq!(prepared.text, "<a b='1' c=\"2\" d ='3'> <e f='1'2'/></a>");

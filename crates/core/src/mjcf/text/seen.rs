@@ -25,6 +25,6 @@ pub(crate) fn note(element: &'static Element, attribute: &str) {
 }
 
 /// Whether an attribute was looked up on this thread.
-pub(crate) fn was(element: &'static Element, attribute: &str) -> bool {
+pub(crate) fn was_looked_up(element: &'static Element, attribute: &str) -> bool {
     SEEN.with_borrow(|seen| seen.contains(&(key(element), attribute.to_string())))
 }

@@ -5,7 +5,7 @@
 use crate::mjcf::gather::listed;
 use std::ops::Range;
 
-use super::diagnostic::{Report, nearest, shorten_name};
+use super::diagnostic::{Diagnostics, nearest, shorten_name};
 use super::values::{self, Value};
 use super::xml::Element as Xml;
 use crate::mjcf::MAX_DEPTH;
@@ -51,9 +51,9 @@ impl Node {
     }
 
     /// The number of an attribute's keyword.
-    pub(crate) fn word(&self, name: &str) -> Option<i32> {
+    pub(crate) fn keyword(&self, name: &str) -> Option<i32> {
         match &self.attribute(name)?.value {
-            Value::Word(word) => Some(*word),
+            Value::Keyword(word) => Some(*word),
             _ => None,
         }
     }
@@ -103,7 +103,7 @@ impl Tree {
 }
 
 /// Checks the elements of a model. `None` if the text is not a model.
-pub(crate) fn check_tree(list: &[Xml], root: usize, report: &mut Report) -> Option<Tree> {
+pub(crate) fn check_tree(list: &[Xml], root: usize, report: &mut Diagnostics) -> Option<Tree> {
     let name = list.get(root).map_or("", |r| r.name.as_str());
     if name != ROOT.name {
         let span = list.get(root).map_or(0..0, |r| r.span.clone());
@@ -147,7 +147,7 @@ pub(crate) fn check_tree(list: &[Xml], root: usize, report: &mut Report) -> Opti
 }
 
 /// The children of an element. Those of included files replace their `include`.
-fn content<'x>(list: &'x [Xml], xml: &'x Xml, report: &mut Report) -> Vec<(usize, &'x Xml)> {
+fn content<'x>(list: &'x [Xml], xml: &'x Xml, report: &mut Diagnostics) -> Vec<(usize, &'x Xml)> {
     let mut content = Vec::new();
     let mut stack: Vec<usize> = listed(xml.children.iter().rev().copied());
     while let Some(at) = stack.pop() {
@@ -167,7 +167,7 @@ fn children(
     list: &[Xml],
     xml: &Xml,
     element: &'static Element,
-    report: &mut Report,
+    report: &mut Diagnostics,
 ) -> Vec<(usize, &'static Element)> {
     let mut known_children: Vec<(usize, &'static Element)> = Vec::new();
     let mut seen: Vec<&'static str> = Vec::new();
@@ -210,7 +210,7 @@ fn children(
     known_children
 }
 
-fn unknown_element(name: &str, span: Range<usize>, element: &'static Element, report: &mut Report) {
+fn unknown_element(name: &str, span: Range<usize>, element: &'static Element, report: &mut Diagnostics) {
     report.incomplete = true;
     let places = parents_of(name);
     if !places.is_empty() {
@@ -231,7 +231,7 @@ fn unknown_element(name: &str, span: Range<usize>, element: &'static Element, re
 }
 
 /// The attributes that the schema contains, with their parsed values.
-fn attributes(xml: &Xml, element: &'static Element, report: &mut Report) -> Vec<Attribute> {
+fn attributes(xml: &Xml, element: &'static Element, report: &mut Diagnostics) -> Vec<Attribute> {
     let mut list = Vec::new();
     // The refused attributes, and whether a keyword is refused already. The `fromto` of a refused capsule needs no separate
     // finding.
@@ -245,7 +245,7 @@ fn attributes(xml: &Xml, element: &'static Element, report: &mut Report) -> Vec<
         if a.value.trim().is_empty() && attr.kind.counts() && !needs_number(element.name, attr.name) {
             let message = format!("`{}` of {} is empty, so it has no effect", attr.name, element.name);
             report.warning(rules::NO_EFFECT, span.clone(), message).help("write its numbers, or remove it");
-            if counts_empty(element.name, attr.name) {
+            if counts_when_empty(element.name, attr.name) {
                 list.push(Attribute { attr, value: Value::Bad, span });
             }
             continue;
@@ -305,7 +305,7 @@ fn needs_number(element: &str, attribute: &str) -> bool {
 }
 
 /// Attributes that count as present for the check of exclusive attributes, although they are empty.
-fn counts_empty(element: &str, attribute: &str) -> bool {
+fn counts_when_empty(element: &str, attribute: &str) -> bool {
     attribute == "quat"
         || (element == "inertial" && crate::mjcf::schema::is_form(attribute))
         || matches!((element, attribute), ("connect" | "weld", "anchor" | "relpose"))
@@ -321,7 +321,7 @@ const EXCLUSIVE: [(&str, [&str; 2]); 4] = [
     ("size", ["memory", "nstack"]),
 ];
 
-fn exclusive(list: &[Attribute], element: &Element, report: &mut Report) {
+fn exclusive(list: &[Attribute], element: &Element, report: &mut Diagnostics) {
     let find = |name: &str| list.iter().find(|a| a.attr.name == name);
     for (_, [first, second]) in EXCLUSIVE.iter().filter(|(of, _)| *of == element.name) {
         if let (Some(_), Some(other)) = (find(first), find(second)) {
@@ -344,7 +344,7 @@ fn same_as(attr: &Attr, value: &Value, default: &str) -> bool {
     }
 }
 
-fn unknown_attribute(name: &str, span: Range<usize>, element: &'static Element, report: &mut Report) {
+fn unknown_attribute(name: &str, span: Range<usize>, element: &'static Element, report: &mut Diagnostics) {
     let message = format!("{} has no attribute {}", element.name, shorten_name(name));
     let error = report.error(rules::UNKNOWN_ATTRIBUTE, span, message);
     if let Some(near) = nearest(name, element.attributes().map(|a| a.name)) {

@@ -6,7 +6,7 @@ use std::rc::Rc;
 use super::diagnostic::{nearest, shorten_name};
 use crate::mjcf::gather::listed;
 use crate::mjcf::rules::{self, Rule};
-use crate::mjcf::schema::{Kind, Word};
+use crate::mjcf::schema::{Keyword, Kind};
 
 /// The value of an attribute. Lists are shared between all copies of an element and all elements that take a default.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,7 +16,7 @@ pub(crate) enum Value {
     /// Integers.
     Ints(Rc<Vec<i32>>),
     /// MuJoCo's number of a keyword.
-    Word(i32),
+    Keyword(i32),
     /// A name or free text.
     Text(String),
     /// Invalid, and already reported: the attribute is present, but its value must not be used.
@@ -54,7 +54,7 @@ pub(crate) fn parse(kind: Kind, text: &str) -> Result<Value, Problem> {
             let numbers = numbers(text, integer)?;
             check_count(numbers.len(), min, max, "integer").map(|()| Value::Ints(numbers.into()))
         }
-        Kind::Words(words) => keyword(words, text),
+        Kind::Keywords(words) => keyword(words, text),
         Kind::Name(_) | Kind::Ref(_) | Kind::Class if text.len() > LONGEST_NAME => Err(Problem::new(
             rules::LIMIT,
             format!("is too long: {} bytes, but a name can have at most {LONGEST_NAME}", text.len()),
@@ -63,10 +63,10 @@ pub(crate) fn parse(kind: Kind, text: &str) -> Result<Value, Problem> {
     }
 }
 
-fn keyword(words: &[Word], text: &str) -> Result<Value, Problem> {
+fn keyword(words: &[Keyword], text: &str) -> Result<Value, Problem> {
     if let Some(word) = words.iter().find(|w| w.text == text) {
         if word.supported {
-            return Ok(Value::Word(word.value));
+            return Ok(Value::Keyword(word.value));
         }
         let mut problem = Problem::new(
             rules::NOT_SUPPORTED,
@@ -85,7 +85,7 @@ fn keyword(words: &[Word], text: &str) -> Result<Value, Problem> {
 }
 
 /// The keywords that are supported.
-fn list_keywords(words: &[Word]) -> String {
+fn list_keywords(words: &[Keyword]) -> String {
     listed(words.iter().filter(|w| w.supported).map(|w| w.text)).join(", ")
 }
 

@@ -8,7 +8,7 @@ use std::ops::Range;
 
 use roxmltree::{Document, Error, Node, ParsingOptions};
 
-use super::diagnostic::{Report, shorten_name};
+use super::diagnostic::{Diagnostics, shorten_name};
 use super::scan::Prepared;
 use crate::mjcf::rules;
 
@@ -46,17 +46,17 @@ impl Element {
 
 /// Prints elements as text. The contents of an `include` replace it.
 pub(crate) fn print(list: &[Element], root: usize) -> String {
-    enum Piece {
+    enum XmlPart {
         Start(usize),
         End(usize),
     }
     let mut text = String::new();
-    let mut open = vec![Piece::Start(root)];
+    let mut open = vec![XmlPart::Start(root)];
     while let Some(piece) = open.pop() {
-        let (Piece::Start(at) | Piece::End(at)) = piece;
+        let (XmlPart::Start(at) | XmlPart::End(at)) = piece;
         let Some(element) = list.get(at) else { continue };
         let plain = element.name != "include" && !element.namespace;
-        if let Piece::End(_) = piece {
+        if let XmlPart::End(_) = piece {
             text.extend(plain.then(|| format!("</{}>", element.name)));
             continue;
         }
@@ -68,8 +68,8 @@ pub(crate) fn print(list: &[Element], root: usize) -> String {
             }
             text.push('>');
         }
-        open.push(Piece::End(at));
-        open.extend(element.children.iter().rev().map(|c| Piece::Start(*c)));
+        open.push(XmlPart::End(at));
+        open.extend(element.children.iter().rev().map(|c| XmlPart::Start(*c)));
     }
     text
 }
@@ -95,7 +95,7 @@ pub(crate) fn parse(
     prepared: &Prepared,
     base: usize,
     list: &mut Vec<Element>,
-    report: &mut Report,
+    report: &mut Diagnostics,
 ) -> Option<usize> {
     let text = &*prepared.text;
     let options = ParsingOptions { allow_dtd: false, ..ParsingOptions::default() };
@@ -143,7 +143,7 @@ fn element(prepared: &Prepared, base: usize, xml: &Node) -> Element {
 }
 
 /// Reports a syntax error of the XML in plain words.
-fn explain(prepared: &Prepared, base: usize, error: &Error, report: &mut Report) {
+fn explain(prepared: &Prepared, base: usize, error: &Error, report: &mut Diagnostics) {
     let text = &*prepared.text;
     let at = match error {
         Error::UnclosedRootNode | Error::UnexpectedEndOfStream | Error::NoRootNode => text.len(),

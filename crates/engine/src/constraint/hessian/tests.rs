@@ -104,7 +104,7 @@ fn a_row_of_boxes_takes_a_band() {
 }
 
 #[test]
-fn a_plate_under_all_others_does_not_fill_the_matrix() {
+fn a_common_plate_does_not_fill_the_matrix() {
     let plate = (0, [10.0, 0.0, 0.0495], [12.0, 1.0, 0.05]);
     let upon = (1..100).map(|i| (i, [0.25 * i as f64, 0.0, 0.1985], SMALL_BOX));
     let (count, Workspace { fields: d, .. }) = blocks(&boxes(std::iter::once(plate).chain(upon)));
@@ -115,7 +115,7 @@ fn a_plate_under_all_others_does_not_fill_the_matrix() {
 /// A constrained stem with four hundred twigs: the twigs do not interact with each other, but all interact with the
 /// stem.
 #[test]
-fn branches_meet_in_the_body_that_carries_them() {
+fn branches_are_coupled_in_their_common_parent() {
     let twigs = "<body><joint/><geom size='0.1'/></body>".repeat(400);
     let m = tests::compile(&format!(
         "<mujoco><option><flag contact='disable'/></option><worldbody><body name='stem'><freejoint/><geom size='1'/>{twigs}</body>\
@@ -128,7 +128,7 @@ fn branches_meet_in_the_body_that_carries_them() {
 }
 
 #[test]
-fn pairs_apart_take_a_matrix_each() {
+fn separate_pairs_have_separate_matrices() {
     let pair = |i: usize| (i, [0.5 * (i / 2) as f64 + 0.1995 * (i % 2) as f64, 0.0, 0.0995], SMALL_BOX);
     let (count, Workspace { fields: d, .. }) = blocks(&boxes((0..300).map(pair)));
     // Three rows of blocks for each pair, with one, two and three blocks.

@@ -71,18 +71,18 @@ impl Columns {
     /// Angular velocity along each row of the frame, for a unit velocity of each degree of freedom. Valid only after
     /// a function computed it.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    pub(crate) fn turns(&self) -> &[Vec3] {
+    pub(crate) fn angular_part(&self) -> &[Vec3] {
         &self.turns[..self.len]
     }
 
     #[cfg_attr(not(feature = "small"), inline(always))]
-    pub(crate) fn turns_mut(&mut self) -> &mut [Vec3] {
+    pub(crate) fn angular_part_mut(&mut self) -> &mut [Vec3] {
         &mut self.turns[..self.len]
     }
 
     /// Writes a single column of zeros for a moving body, so that a row is assigned to its tree. Returns whether the
     /// body can move.
-    pub(crate) fn stand_still(&mut self, m: &Model, body: usize) -> bool {
+    pub(crate) fn push_zero_column(&mut self, m: &Model, body: usize) -> bool {
         let Ok(last) = usize::try_from(last_dof(m, body)) else { return false };
         (self.dofs[0], self.values[0], self.turns[0]) = (last as u32, [0.0; 3], [0.0; 3]);
         self.len = 1;
@@ -156,8 +156,14 @@ fn joint_columns(m: &Model, d: &Fields, j: usize, last: usize, point: Vec3, f: A
 
 /// The rotational part for [`point_difference`]: the difference of the angular velocities along the rows of `frame`,
 /// for the columns in `out`.
-pub(crate) fn turn_difference(m: &Model, d: &Fields, bodies: [usize; 2], frame: &Mat3, out: &mut Columns) {
-    for (turn, (k, side)) in out.turns_mut().iter_mut().zip(walk::moving_one(m, bodies)) {
+pub(crate) fn rotation_difference(
+    m: &Model,
+    d: &Fields,
+    bodies: [usize; 2],
+    frame: &Mat3,
+    out: &mut Columns,
+) {
+    for (turn, (k, side)) in out.angular_part_mut().iter_mut().zip(walk::moving_one(m, bodies)) {
         let (w, _) = dof_motion(m, d, k, [0.0; 3]);
         *turn = mat_mul_vec(frame, scale(w, if side == 1 { 1.0 } else { -1.0 }));
     }

@@ -29,17 +29,17 @@ pub(super) const ROW: Row = Row {
         complete: rows_of_factor,
         solve,
         solve_with,
-        solve_now,
+        factor_and_solve,
         solve_both,
     }),
     ..NOTHING
 };
 
 /// Maximum number of degrees of freedom of trees for which elimination in the rows of M is faster.
-const FEW: usize = 6;
+const MAX_DENSE_DOFS: usize = 6;
 
 /// Six numbers and two zeros, which fill two SIMD vectors of four lanes.
-type Wide = [f64; 8];
+type PaddedSpatial = [f64; 8];
 
 /// The trees of this algorithm, with scratch.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -77,16 +77,16 @@ struct Link {
 /// Articulated inertia and force of a body with its children, and its acceleration.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Body {
-    inertia: [Wide; 6],
-    force: Wide,
-    acceleration: Wide,
+    inertia: [PaddedSpatial; 6],
+    force: PaddedSpatial,
+    acceleration: PaddedSpatial,
 }
 
 /// U and 1/D, the addition of the joint to the diagonal of the matrix, and an element of the vector that is solved
 /// for.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Joint {
-    u: Wide,
+    u: PaddedSpatial,
     inv: f64,
     diagonal: f64,
     x: f64,
@@ -102,7 +102,7 @@ struct Passes<'a> {
 /// Whether a tree has many degrees of freedom.
 fn covers(m: &Model, tree: usize) -> bool {
     let mut dofs = m.tree_dofs(tree);
-    dofs.len() > FEW && dofs.any(|k| m.dof_simplenum[k] == 0)
+    dofs.len() > MAX_DENSE_DOFS && dofs.any(|k| m.dof_simplenum[k] == 0)
 }
 
 impl Trees {
@@ -214,7 +214,7 @@ impl Passes<'_> {
             let here = &mut bodies[link.body];
             for i in A..B {
                 joint[i].x -= joint[i].inv * dot(joint[i].u, before[i]);
-                here[i].acceleration = add_scaled(before[i], wide(s), joint[i].x);
+                here[i].acceleration = add_scaled(before[i], pad(s), joint[i].x);
             }
         }
     }
@@ -231,7 +231,7 @@ fn inward_pass<const A: usize, const B: usize>(
     let here = &mut bodies[link.body];
     let mut forces = [[0.0; 8]; 2];
     for i in A..B {
-        joint[i].x = (joint[i].x - dot(wide(s), here[i].force)) * joint[i].inv;
+        joint[i].x = (joint[i].x - dot(pad(s), here[i].force)) * joint[i].inv;
         forces[i] = add_scaled(here[i].force, joint[i].u, joint[i].x);
     }
     match link.carrier {
@@ -265,7 +265,7 @@ fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
 }
 
 #[inline(never)]
-fn solve_now(m: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -> Option<usize> {
+fn factor_and_solve(m: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -> Option<usize> {
     prepare(m, d, w, Some(x))
 }
 
@@ -370,7 +370,7 @@ fn rows_of_factor(m: &Model, d: &mut Fields, w: &mut Scratch) {
         let row = &mut d.qLD[mass::row(m, k)];
         let depth = row.len() - 1;
         w.path.extend(depth, &cdof[k]);
-        w.path.product(&narrow(&scale(*u, *inv)), row);
+        w.path.product(&unpad(&scale(*u, *inv)), row);
         row[depth] = 1.0 / inv;
     }
 }
@@ -411,25 +411,25 @@ fn solve_with(m: &Model, d: &Fields, w: &mut Scratch, b: &[f64], x: &mut [f64]) 
 }
 
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn wide(s: &Spatial) -> Wide {
+fn pad(s: &Spatial) -> PaddedSpatial {
     [s[0], s[1], s[2], s[3], s[4], s[5], 0.0, 0.0]
 }
 
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn narrow(w: &Wide) -> Spatial {
+fn unpad(w: &PaddedSpatial) -> Spatial {
     [w[0], w[1], w[2], w[3], w[4], w[5]]
 }
 
 /// a · b, with partial sums in four lanes.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn dot(a: Wide, b: Wide) -> f64 {
+fn dot(a: PaddedSpatial, b: PaddedSpatial) -> f64 {
     let s: [f64; 4] = std::array::from_fn(|i| a[i] * b[i] + a[i + 4] * b[i + 4]);
     (s[0] + s[2]) + (s[1] + s[3])
 }
 
 /// Writes an inertia as a symmetric matrix by columns; the last two rows remain zero.
 #[inline(never)] // see `eliminate`
-fn set_inertia(to: &mut [Wide; 6], i: &Inertia) {
+fn set_inertia(to: &mut [PaddedSpatial; 6], i: &Inertia) {
     let [xx, yy, zz, xy, xz, yz, x, y, z, m] = *i;
     let columns = [
         [xx, xy, xz, 0.0, -z, y],
@@ -448,7 +448,7 @@ fn set_inertia(to: &mut [Wide; 6], i: &Inertia) {
 
 /// a ← a + b
 #[inline(never)] // see `eliminate`
-fn add_to(a: &mut [Wide; 6], b: &[Wide; 6]) {
+fn add_to(a: &mut [PaddedSpatial; 6], b: &[PaddedSpatial; 6]) {
     for c in 0..6 {
         a[c] = add(a[c], b[c]);
     }
@@ -456,11 +456,11 @@ fn add_to(a: &mut [Wide; 6], b: &[Wide; 6]) {
 
 /// Computes U and D of the degree of freedom s of a joint, and I ← I - U Uᵀ / D. Returns whether D is not positive.
 #[inline(never)] // inlined into a loop, it would not be vectorized by lanes
-fn eliminate(i: &mut [Wide; 6], s: &Spatial, joint: &mut Joint) -> bool {
+fn eliminate(i: &mut [PaddedSpatial; 6], s: &Spatial, joint: &mut Joint) -> bool {
     // Three short independent sums, because the next degree of freedom waits for U.
     let part = |c: usize| add_scaled(scale(i[c], s[c]), i[c + 1], s[c + 1]);
     let u = add(add(part(0), part(2)), part(4));
-    let d = joint.diagonal + dot(wide(s), u);
+    let d = joint.diagonal + dot(pad(s), u);
     let inv = 1.0 / d.max(MINVAL);
     let v = scale(u, -inv);
     for c in 0..6 {

@@ -15,7 +15,13 @@ pub(super) const ROW: Row = Row {
     covers,
     copies: &[fields_of::body_mass, fields_of::body_inertia],
     load: |m, w| w.algorithms.diagonal_inertia.joints.iter_mut().for_each(|joint| joint.load(m)),
-    forces: Some(Forces { mass, bias, looks_at_places: slides, constant: has_inertia, turns_alone: true }),
+    forces: Some(Forces {
+        mass,
+        bias,
+        bias_uses_poses: slides,
+        constant: has_inertia,
+        bias_is_free_torque: true,
+    }),
     ..NOTHING
 };
 
@@ -93,7 +99,7 @@ fn bias(_: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
 }
 
 /// The Jacobian, by rows, of ω × I ω with respect to ω, for a body with its inertia along its own axes.
-pub(crate) fn turning_slope([a, b, c]: Vec3, [x, y, z]: Vec3) -> [Vec3; 3] {
+pub(crate) fn gyroscopic_jacobian([a, b, c]: Vec3, [x, y, z]: Vec3) -> [Vec3; 3] {
     [[0.0, (c - b) * z, (c - b) * y], [(a - c) * z, 0.0, (a - c) * x], [(b - a) * y, (b - a) * x, 0.0]]
 }
 

@@ -4,7 +4,7 @@
 //! each degree of freedom, and is factorized by elimination (`mass`). The bias force is computed by recursion
 //! (`rne`).
 
-use super::{Assignment, Damped, Factors, Forces, Places, Row};
+use super::{Assignment, Damped, Factors, Forces, PoseFunctions, Row};
 use crate::dynamics::kinematics::{self, Frames};
 use crate::dynamics::{Scratch, mass as rows, rne};
 use crate::math::Vec3;
@@ -17,13 +17,13 @@ pub(super) const ROW: Row = Row {
     covers: |_, _| true,
     copies: &kinematics::FIELDS,
     load: |m, w| w.algorithms.general.frames.load(m),
-    places: Some(Places { forward_kinematics, orientations }),
+    places: Some(PoseFunctions { forward_kinematics, orientations }),
     forces: Some(Forces {
         mass,
         bias,
-        looks_at_places: |_, _| true,
+        bias_uses_poses: |_, _| true,
         constant: |_, _| false,
-        turns_alone: false,
+        bias_is_free_torque: false,
     }),
     factors: Some(Factors {
         without_mass: false,
@@ -31,7 +31,7 @@ pub(super) const ROW: Row = Row {
         complete: |_, _, _| {},
         solve,
         solve_with,
-        solve_now,
+        factor_and_solve,
         solve_both,
     }),
 };
@@ -114,7 +114,7 @@ fn solve_with(m: &Model, d: &Fields, w: &mut Scratch, b: &[f64], x: &mut [f64]) 
 }
 
 #[inline(never)]
-fn solve_now(m: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -> Option<usize> {
+fn factor_and_solve(m: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -> Option<usize> {
     let mut bad = None;
     for dofs in w.algorithms.general.factors.iter().cloned() {
         bad = bad.or(rows::factor_copy(m, &d.M, &mut d.qLD, &mut d.qLDiagInv, dofs.clone()));
@@ -126,5 +126,5 @@ fn solve_now(m: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -> Optio
 #[inline(never)]
 fn solve_both(m: &Model, d: &mut Fields, w: &mut Scratch, (b, x, y): Damped<'_>) -> Option<usize> {
     solve_with(m, d, w, b, y);
-    solve_now(m, d, w, x)
+    factor_and_solve(m, d, w, x)
 }

@@ -1,6 +1,6 @@
 //! The table of tree algorithms, which compute the dynamics of kinematic trees.
 //!
-//! Three parts are computed for each tree: the poses of its bodies ([`Places`]), M and the bias force ([`Forces`]),
+//! Three parts are computed for each tree: the poses of its bodies ([`PoseFunctions`]), M and the bias force ([`Forces`]),
 //! and accelerations from forces by a factorization of M ([`Factors`]). The general algorithm, which is the last row,
 //! computes all three for any tree. A specialized algorithm computes some of them, for trees of its kind, in less
 //! time. For each part, each tree uses the first row of the table that covers it. The assignment depends only on the
@@ -69,7 +69,7 @@ table! {
     general
 }
 
-pub(crate) use diagonal_inertia::turning_slope;
+pub(crate) use diagonal_inertia::gyroscopic_jacobian;
 
 /// An algorithm.
 struct Row {
@@ -81,7 +81,7 @@ struct Row {
     copies: &'static [FieldId],
     load: fn(&Model, &mut Scratch),
     /// The parts that it computes; `None` for the others.
-    places: Option<Places>,
+    places: Option<PoseFunctions>,
     forces: Option<Forces>,
     factors: Option<Factors>,
 }
@@ -98,7 +98,7 @@ const NOTHING: Row = Row {
 };
 
 /// Computes the poses of bodies.
-struct Places {
+struct PoseFunctions {
     /// `xpos xmat xipos ximat xanchor xaxis`.
     forward_kinematics: fn(&Model, &mut Fields, &mut Scratch),
     /// `xquat`, after `forward_kinematics`.
@@ -112,11 +112,11 @@ struct Forces {
     /// Computes `qfrc_bias` for an acceleration of gravity.
     bias: fn(&Model, &mut Fields, &mut Scratch, Vec3),
     /// Whether the bias force of a tree depends on the poses of its bodies.
-    looks_at_places: fn(&Model, usize) -> bool,
+    bias_uses_poses: fn(&Model, usize) -> bool,
     /// Whether M of a tree is diagonal and constant.
     constant: fn(&Model, usize) -> bool,
-    /// Whether the bias force of a free body is a torque that depends only on its angular velocity (`turning_slope`).
-    turns_alone: bool,
+    /// Whether the bias force of a free body is a torque that depends only on its angular velocity (`gyroscopic_jacobian`).
+    bias_is_free_torque: bool,
 }
 
 /// Computes accelerations from forces. Functions that factorize return the first degree of freedom whose D is not
@@ -133,7 +133,7 @@ struct Factors {
     /// x ← (M + B)⁻¹ x for a diagonal matrix B (nv), after `factor`.
     solve_with: fn(&Model, &Fields, &mut Scratch, &[f64], &mut [f64]),
     /// Factorizes and solves x ← M⁻¹ x at once, if `qLD` is not read.
-    solve_now: fn(&Model, &mut Fields, &mut Scratch, &mut [f64]) -> Option<usize>,
+    factor_and_solve: fn(&Model, &mut Fields, &mut Scratch, &mut [f64]) -> Option<usize>,
     /// Factorizes and solves x ← M⁻¹ x and y ← (M + B)⁻¹ y at once, if `qLD` is not read.
     solve_both: fn(&Model, &mut Fields, &mut Scratch, Damped<'_>) -> Option<usize>,
 }
@@ -236,13 +236,13 @@ pub fn selected_for(m: &Model, algorithms: TreeAlgorithms, tree: usize) -> [Tree
 }
 
 /// Whether any tree needs composite bodies and recursion for M and the bias force.
-pub(crate) fn need_bodies(m: &Model, algorithms: TreeAlgorithms) -> bool {
+pub(crate) fn need_composite_bodies(m: &Model, algorithms: TreeAlgorithms) -> bool {
     (0..m.ntree).any(|tree| forces(m, algorithms, tree).0 == GENERAL)
 }
 
 /// Whether the bias force of any tree depends on the poses of its bodies.
-pub(crate) fn look_at_places(m: &Model, algorithms: TreeAlgorithms) -> bool {
-    (0..m.ntree).any(|tree| forces(m, algorithms, tree).1.is_some_and(|f| (f.looks_at_places)(m, tree)))
+pub(crate) fn bias_depends_on_poses(m: &Model, algorithms: TreeAlgorithms) -> bool {
+    (0..m.ntree).any(|tree| forces(m, algorithms, tree).1.is_some_and(|f| (f.bias_uses_poses)(m, tree)))
 }
 
 /// Whether M of the whole model is diagonal and constant.
@@ -252,12 +252,12 @@ pub fn are_constant(m: &Model, algorithms: TreeAlgorithms) -> bool {
 
 /// Whether the bias force of a tree is a torque that depends only on the angular velocity of its one free body. Its
 /// derivative with respect to velocity then needs no composite bodies.
-pub(crate) fn turns_alone(m: &Model, algorithms: TreeAlgorithms, tree: usize) -> bool {
-    forces(m, algorithms, tree).1.is_some_and(|f| f.turns_alone)
+pub(crate) fn bias_is_free_torque(m: &Model, algorithms: TreeAlgorithms, tree: usize) -> bool {
+    forces(m, algorithms, tree).1.is_some_and(|f| f.bias_is_free_torque)
 }
 
 /// Whether all accelerations are computed without the rows of M of the general algorithm.
-pub(crate) fn solve_alone(m: &Model, algorithms: TreeAlgorithms) -> bool {
+pub(crate) fn solve_without_mass_rows(m: &Model, algorithms: TreeAlgorithms) -> bool {
     (0..m.ntree).all(|tree| {
         let factors = row_of(m, algorithms, tree, |row| row.factors.is_some());
         forces(m, algorithms, tree).0 != GENERAL
@@ -288,7 +288,7 @@ pub(crate) fn are_chains(m: &Model, trees: &[i32]) -> bool {
 }
 
 /// Whether some trees compute their rows of M only when they are read.
-pub(crate) fn put_rows_off(w: &Scratch) -> bool {
+pub(crate) fn defers_mass_rows(w: &Scratch) -> bool {
     !w.algorithms.planar_chain.is_empty()
 }
 
@@ -373,9 +373,9 @@ pub(crate) fn solve_with(m: &Model, d: &Fields, w: &mut Scratch, b: &[f64], x: &
 
 /// Factorizes and solves x ← M⁻¹ x at once, without a call of [`factor`].
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(crate) fn solve_now(m: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -> Option<usize> {
+pub(crate) fn factor_and_solve(m: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -> Option<usize> {
     let mut bad = None;
-    each!(w, factors, |_algorithm, row, of| bad = first(bad, (of.solve_now)(m, d, w, x)));
+    each!(w, factors, |_algorithm, row, of| bad = first(bad, (of.factor_and_solve)(m, d, w, x)));
     bad
 }
 

@@ -35,9 +35,9 @@ pub(super) const ROW: Row = Row {
     forces: Some(Forces {
         mass,
         bias,
-        looks_at_places: |_, _| false,
+        bias_uses_poses: |_, _| false,
         constant: |_, _| false,
-        turns_alone: false,
+        bias_is_free_torque: false,
     }),
     factors: Some(Factors {
         without_mass: true,
@@ -45,14 +45,14 @@ pub(super) const ROW: Row = Row {
         complete: rows_of_factor,
         solve,
         solve_with,
-        solve_now,
+        factor_and_solve,
         solve_both,
     }),
     ..NOTHING
 };
 
 /// Maximum number of degrees of freedom of chains for which closed-form equations are faster.
-const FEW: usize = 6;
+const MAX_CLOSED_FORM_DOFS: usize = 6;
 /// Largest deviation, as a cosine, of an axis from the normal of the plane.
 const FLAT: f64 = 1e-12;
 
@@ -123,7 +123,7 @@ pub(super) fn is_chain(m: &Model, tree: usize) -> bool {
             && m.jnt_type[m.dof_jntid[k] as usize] == joint::HINGE
     };
     let on_the_world = |k: usize| m.body_weldid[m.body_parentid[m.dof_bodyid[k] as usize] as usize] == 0;
-    dofs.len() > FEW && dofs.clone().all(link) && on_the_world(first)
+    dofs.len() > MAX_CLOSED_FORM_DOFS && dofs.clone().all(link) && on_the_world(first)
 }
 
 /// Whether a tree is a long chain of hinges that moves in a plane.
@@ -337,7 +337,7 @@ fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
 }
 
 #[inline(never)]
-fn solve_now(m: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -> Option<usize> {
+fn factor_and_solve(m: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -> Option<usize> {
     prepare(m, d, w, Some(x))
 }
 
@@ -347,7 +347,7 @@ fn solve_both(m: &Model, d: &mut Fields, w: &mut Scratch, (b, x, y): Damped<'_>)
     trees.untied = m.ntendon == 0 || !reflected::tendons_have_inertia(m);
     if !(trees.untied && trees.flat) {
         solve_with(m, d, w, b, y);
-        return solve_now(m, d, w, x);
+        return factor_and_solve(m, d, w, x);
     }
     let mut bad = None;
     for Span { dofs, links: range, .. } in &trees.spans {

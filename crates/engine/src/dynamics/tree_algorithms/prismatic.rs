@@ -26,9 +26,9 @@ pub(super) const ROW: Row = Row {
     forces: Some(Forces {
         mass,
         bias,
-        looks_at_places: |_, _| true,
+        bias_uses_poses: |_, _| true,
         constant: |_, _| false,
-        turns_alone: false,
+        bias_is_free_torque: false,
     }),
     factors: Some(Factors {
         without_mass: false,
@@ -36,7 +36,7 @@ pub(super) const ROW: Row = Row {
         complete: |_, _, _| {},
         solve,
         solve_with,
-        solve_now,
+        factor_and_solve,
         solve_both,
     }),
     ..NOTHING
@@ -192,7 +192,7 @@ fn solve_with(m: &Model, d: &Fields, w: &mut Scratch, b: &[f64], x: &mut [f64]) 
     }
 }
 
-fn solve_now(m: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -> Option<usize> {
+fn factor_and_solve(m: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -> Option<usize> {
     let bad = factor(m, d, w);
     solve(m, d, w, x);
     bad
@@ -200,5 +200,5 @@ fn solve_now(m: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -> Optio
 
 fn solve_both(m: &Model, d: &mut Fields, w: &mut Scratch, (b, x, y): Damped<'_>) -> Option<usize> {
     solve_with(m, d, w, b, y);
-    solve_now(m, d, w, x)
+    factor_and_solve(m, d, w, x)
 }

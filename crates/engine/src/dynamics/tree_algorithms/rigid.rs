@@ -26,9 +26,9 @@ pub(super) const ROW: Row = Row {
     forces: Some(Forces {
         mass,
         bias,
-        looks_at_places: |_, _| true,
+        bias_uses_poses: |_, _| true,
         constant: |_, _| false,
-        turns_alone: false,
+        bias_is_free_torque: false,
     }),
     ..NOTHING
 };

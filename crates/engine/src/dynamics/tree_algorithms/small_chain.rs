@@ -19,7 +19,7 @@ pub(super) const ROW: Row = Row {
         complete: |_, _, _| {},
         solve,
         solve_with,
-        solve_now,
+        factor_and_solve,
         solve_both,
     }),
     ..NOTHING
@@ -79,7 +79,7 @@ fn solve_with(_: &Model, d: &Fields, w: &mut Scratch, b: &[f64], x: &mut [f64]) 
 }
 
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn solve_now(_: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -> Option<usize> {
+fn factor_and_solve(_: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -> Option<usize> {
     let mut bad = None;
     for tree in &w.algorithms.small_chain.trees {
         bad = bad.or(tree.factor(&d.M, &mut d.qLD, &mut d.qLDiagInv, Some(&mut *x)));

@@ -8,7 +8,7 @@ use crate::math::*;
 use crate::model::{Fields, Model};
 
 /// The value of activation `at` that is used in this step. With `actearly`, it is that of the end of the step.
-pub(super) fn acting(m: &Model, d: &Fields, i: usize, at: usize) -> f64 {
+pub(super) fn activation_of_step(m: &Model, d: &Fields, i: usize, at: usize) -> f64 {
     if m.actuator_actearly[i] { next(m, d, i, at, d.act_dot[at]) } else { d.act[at] }
 }
 

@@ -47,7 +47,7 @@ impl Inputs {
 }
 
 /// The rate of an integral x that is limited to ±limit. A limit of 0 means no limit.
-pub(super) fn unwound(rate: f64, x: f64, limit: f64) -> f64 {
+pub(super) fn anti_windup_rate(rate: f64, x: f64, limit: f64) -> f64 {
     if limit > 0.0 && x >= limit {
         rate.min(0.0)
     } else if limit > 0.0 && x <= -limit {

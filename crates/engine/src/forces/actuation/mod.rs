@@ -71,7 +71,7 @@ fn any(m: &Model, d: &mut Fields, w: &mut Scratch) {
         return;
     }
     if !(d.plan.has(PlanFlag::Servos) && servos(m, d)) {
-        by_their_laws(m, d);
+        apply_laws(m, d);
     }
     limit::tendons(m, d, w);
     limit::forces(m, d);
@@ -87,7 +87,7 @@ fn any(m: &Model, d: &mut Fields, w: &mut Scratch) {
 
 /// Computes the force of each actuator with its law, before limits.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn by_their_laws(m: &Model, d: &mut Fields) {
+fn apply_laws(m: &Model, d: &mut Fields) {
     d.actuator_force.fill(0.0);
     let mut ctrl = std::mem::take(&mut d.acting);
     control::effective(m, d, &mut ctrl);
@@ -101,7 +101,7 @@ fn by_their_laws(m: &Model, d: &mut Fields) {
             continue;
         }
         match m.actuator_gaintype[i] {
-            gaintype::SO3 | gaintype::PID | gaintype::DCMOTOR => of_its_own(m, d, i, &ctrl),
+            gaintype::SO3 | gaintype::PID | gaintype::DCMOTOR => separate_law_force(m, d, i, &ctrl),
             _ => {
                 let input = servo::wrapped(m, d, i, input(m, d, i, &ctrl));
                 d.actuator_force[m.actuator_outadr[i] as usize] = law(gain(m, d, i), input, bias(m, d, i))
@@ -157,7 +157,7 @@ fn servos(m: &Model, d: &mut Fields) -> bool {
 
 /// Computes the force of an actuator with a separate law.
 #[inline(never)] // rare: keeps the common path small
-fn of_its_own(m: &Model, d: &mut Fields, i: usize, ctrl: &[f64]) {
+fn separate_law_force(m: &Model, d: &mut Fields, i: usize, ctrl: &[f64]) {
     let o = m.actuator_outadr[i] as usize;
     match m.actuator_gaintype[i] {
         gaintype::SO3 => {
@@ -173,7 +173,7 @@ fn of_its_own(m: &Model, d: &mut Fields, i: usize, ctrl: &[f64]) {
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn input(m: &Model, d: &Fields, i: usize, ctrl: &[f64]) -> f64 {
     match states(m, i).last() {
-        Some(last) => activation::acting(m, d, i, last),
+        Some(last) => activation::activation_of_step(m, d, i, last),
         None if m.actuator_ctrlnum[i] == 0 => 0.0,
         None => ctrl[m.actuator_ctrladr[i] as usize],
     }
@@ -205,7 +205,7 @@ fn gain(m: &Model, d: &Fields, i: usize) -> f64 {
     }
 }
 
-#[inline(never)] // rare; see `of_its_own`
+#[inline(never)] // rare; see `separate_law_force`
 fn changing_gain(m: &Model, d: &Fields, i: usize) -> f64 {
     let (p, o) = (prm(&m.actuator_gainprm, i), m.actuator_outadr[i] as usize);
     match m.actuator_gaintype[i] {
@@ -223,7 +223,7 @@ fn bias(m: &Model, d: &Fields, i: usize) -> f64 {
     }
 }
 
-#[inline(never)] // rare; see `of_its_own`
+#[inline(never)] // rare; see `separate_law_force`
 fn some_bias(m: &Model, d: &Fields, i: usize) -> f64 {
     let (p, o) = (prm(&m.actuator_biasprm, i), m.actuator_outadr[i] as usize);
     match m.actuator_biastype[i] {
@@ -234,7 +234,7 @@ fn some_bias(m: &Model, d: &Fields, i: usize) -> f64 {
     }
 }
 
-/// Fills `acting` with the controls that are applied at the current time.
+/// Fills `activation_of_step` with the controls that are applied at the current time.
 pub(crate) fn controls(m: &Model, d: &mut Fields) {
     let mut ctrl = std::mem::take(&mut d.acting);
     control::effective(m, d, &mut ctrl);
@@ -253,7 +253,7 @@ pub(crate) fn idle(m: &Model, d: &Fields, i: usize) -> bool {
 
 /// The force of actuator `i` at its current length and zero velocity, before limits, and the negative derivative of the force
 /// with respect to the length. `None` unless the force depends on the length of a slide, hinge or tendon only, apart from
-/// damping. Uses the controls in `acting`.
+/// damping. Uses the controls in `activation_of_step`.
 pub(crate) fn along_length(m: &Model, d: &Fields, i: usize) -> Option<[f64; 2]> {
     let target = object_index(m.actuator_trnid[2 * i]);
     let simple = match m.actuator_trntype[i] {

@@ -4,7 +4,7 @@
 //! i = (V - K ω)/R, or approaches that value with the electrical time constant, and the torque is K i. Friction of the
 //! bearing follows the LuGre model (Canudas de Wit et al. 1995) with the bristle deflection z, ż = ω - σ₀ |ω| z/g(ω).
 
-use super::inputs::{self, Inputs, unwound};
+use super::inputs::{self, Inputs, anti_windup_rate};
 use super::{exact, prm, states};
 use crate::kinds::dyntype;
 use crate::math::*;
@@ -139,7 +139,7 @@ pub(super) fn rates(m: &Model, d: &mut Fields, i: usize, ctrl: &mut [f64]) {
     let (k, resistance) = (motor.constant(), motor.resistance(d));
     if let Some(s) = slots.integral {
         let error = inputs.pos.unwrap_or(0.0) - motor.length;
-        d.act_dot[first + s] = unwound(error, d.act[first + s], motor.dyn_[8]);
+        d.act_dot[first + s] = anti_windup_rate(error, d.act[first + s], motor.dyn_[8]);
     }
     if let Some(s) = slots.temperature {
         let [_, _, thermal_resistance, capacity, ..] = *motor.dyn_;

@@ -1,6 +1,6 @@
 //! Servos: position servos for angles, PID controllers, orientation servos.
 
-use super::inputs::{Inputs, unwound};
+use super::inputs::{Inputs, anti_windup_rate};
 use super::{activation, prm, states};
 use crate::dynamics::reflected::target;
 use crate::kinds::{biastype, dyntype, gaintype, joint, trntype};
@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 const QUAT: i32 = 2;
 
 /// The change of the length of actuator `i` in one full turn, if its length is a periodic angle.
-fn turn(m: &Model, i: usize) -> Option<f64> {
+fn full_turn_length(m: &Model, i: usize) -> Option<f64> {
     let gear = rows::<6>(&m.actuator_gear)[m.actuator_outadr[i] as usize];
     let [along, about] = [[gear[0], gear[1], gear[2]], [gear[3], gear[4], gear[5]]];
     let axis = match (m.actuator_trntype[i], target(m, i)) {
@@ -42,7 +42,7 @@ pub(super) fn wrapped(m: &Model, d: &Fields, i: usize, setpoint: f64) -> f64 {
 
 #[inline(never)] // rare: keeps the common path small
 fn next_to_length(m: &Model, d: &Fields, i: usize, setpoint: f64) -> f64 {
-    match turn(m, i) {
+    match full_turn_length(m, i) {
         Some(turn) => nearest(setpoint, d.actuator_length[m.actuator_outadr[i] as usize], turn),
         None => setpoint,
     }
@@ -70,7 +70,7 @@ impl Pid {
 
     /// The position setpoint at the current time.
     fn setpoint(&self, m: &Model, d: &Fields, i: usize, pos: f64) -> f64 {
-        let turn = turn(m, i);
+        let turn = full_turn_length(m, i);
         let mut pos = pos;
         if let Some(at) = self.slew {
             let last = d.act[at];
@@ -88,12 +88,12 @@ pub(super) fn rates(m: &Model, d: &mut Fields, i: usize, ctrl: &[f64]) {
     if let Some(at) = pid.slew {
         let last = d.act[at];
         let step = m.actuator_dynprm[10 * i + 1] * m.opt.timestep;
-        let to = turn(m, i).map_or(pos, |turn| nearest(pos, last, turn));
+        let to = full_turn_length(m, i).map_or(pos, |turn| nearest(pos, last, turn));
         d.act_dot[at] = (clip(to, [last - step, last + step]) - last) / m.opt.timestep;
     }
     if let Some(at) = pid.integral {
         let error = pid.setpoint(m, d, i, pos) - d.actuator_length[m.actuator_outadr[i] as usize];
-        d.act_dot[at] = unwound(error, d.act[at], m.actuator_dynprm[10 * i]);
+        d.act_dot[at] = anti_windup_rate(error, d.act[at], m.actuator_dynprm[10 * i]);
     }
 }
 
@@ -104,7 +104,7 @@ pub(super) fn pid(m: &Model, d: &Fields, i: usize, ctrl: &[f64]) -> f64 {
     let states = Pid::new(m, i);
     let inputs = Inputs::new(m, i, ctrl);
     let setpoint = inputs.pos.map_or(0.0, |pos| states.setpoint(m, d, i, pos));
-    let sum = states.integral.map_or(0.0, |at| activation::acting(m, d, i, at));
+    let sum = states.integral.map_or(0.0, |at| activation::activation_of_step(m, d, i, at));
     let (error, slip) = (setpoint - d.actuator_length[o], inputs.vel - d.actuator_velocity[o]);
     b[0] - b[1] * error - b[2] * slip + m.actuator_gainprm[10 * i] * sum + inputs.ff
 }
@@ -118,7 +118,7 @@ pub(super) fn orientation(m: &Model, d: &Fields, i: usize, ctrl: &[f64]) -> Vec3
     let target = if m.actuator_ctrlspec[i] == QUAT {
         quat_normalize([ctrl[u], ctrl[u + 1], ctrl[u + 2], ctrl[u + 3]])
     } else if states.len() == 3 {
-        rotation(std::array::from_fn(|k| activation::acting(m, d, i, states.start + k)))
+        rotation(std::array::from_fn(|k| activation::activation_of_step(m, d, i, states.start + k)))
     } else {
         rotation(at(ctrl, u))
     };

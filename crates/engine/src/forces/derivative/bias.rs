@@ -19,13 +19,13 @@ type Columns = [Spatial; 6];
 
 /// The sums over subtrees, and p_j of every degree of freedom.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Work {
+pub(super) struct BiasSums {
     inertia: Vec<Inertia>,
     matrix: Vec<Columns>,
     slope: Vec<Spatial>,
 }
 
-impl Work {
+impl BiasSums {
     pub(super) fn resize(&mut self, m: &Model) {
         self.inertia.resize(m.nbody, [0.0; 10]);
         self.matrix.resize(m.nbody, [[0.0; 6]; 6]);
@@ -37,7 +37,7 @@ impl Work {
 pub(super) fn subtract(
     m: &Model,
     d: &Fields,
-    w: &mut Work,
+    w: &mut BiasSums,
     bodies: Range<usize>,
     dofs: Range<usize>,
     out: &mut [f64],
@@ -67,7 +67,7 @@ pub(super) fn subtract(
 }
 
 /// Inertias and matrices B of all bodies, summed over subtrees.
-fn composite(m: &Model, d: &Fields, w: &mut Work, bodies: Range<usize>) {
+fn composite(m: &Model, d: &Fields, w: &mut BiasSums, bodies: Range<usize>) {
     let (cinert, cvel) = (rows::<10>(&d.cinert), rows::<6>(&d.cvel));
     for b in bodies.clone() {
         w.inertia[b] = cinert[b];
@@ -99,7 +99,7 @@ fn matrix(inertia: &Inertia, v: &Spatial) -> Columns {
 }
 
 /// p_j of all degrees of freedom.
-fn slopes(m: &Model, d: &Fields, w: &mut Work, bodies: Range<usize>) {
+fn slopes(m: &Model, d: &Fields, w: &mut BiasSums, bodies: Range<usize>) {
     let (cdof, cdof_dot) = (rows::<6>(&d.cdof), rows::<6>(&d.cdof_dot));
     let cvel = rows::<6>(&d.cvel);
     for b in bodies {

@@ -32,7 +32,7 @@ pub(crate) struct Work {
     columns: Vec<Spatial>,
     /// The negative derivative of the damper force of each degree of freedom with respect to its velocity.
     slopes: Vec<f64>,
-    bias: bias::Work,
+    bias: bias::BiasSums,
 }
 
 /// Which part of the fluid forces is differentiated.
@@ -57,7 +57,7 @@ impl Work {
     }
 
     /// Marks the stored derivative as invalid, because the parameters of the model or the plan may have changed.
-    pub(crate) fn forget(&mut self) {
+    pub(crate) fn invalidate(&mut self) {
         self.is_current = false;
     }
 }
@@ -67,7 +67,10 @@ impl Work {
 /// If everything else is constant, only the derivatives of actuator forces may change. While these are the same, the stored
 /// result is reused.
 pub(crate) fn forces(m: &Model, d: &Fields, w: &mut Work, medium: Medium) {
-    if !(w.is_current && d.plan.has(PlanFlag::SlopesStay) && !actuator_slope::find(m, d, &mut w.actuators)) {
+    if !(w.is_current
+        && d.plan.has(PlanFlag::ConstantVelocityDerivatives)
+        && !actuator_slope::find(m, d, &mut w.actuators))
+    {
         make_forces(m, d, w, medium);
     }
     w.whole.copy_from_slice(&w.forces);
@@ -95,8 +98,8 @@ pub(crate) fn subtract_bias(m: &Model, d: &Fields, w: &mut Work) {
 
 /// Subtracts the derivative of the bias force of one tree that is a free body.
 pub(crate) fn subtract_tree_bias(m: &Model, d: &Fields, w: &mut Work, tree: usize) {
-    if tree_algorithms::turns_alone(m, d.plan.algorithms, tree) {
-        return subtract_turning(m, d, &mut w.whole, tree);
+    if tree_algorithms::bias_is_free_torque(m, d.plan.algorithms, tree) {
+        return subtract_gyroscopic(m, d, &mut w.whole, tree);
     }
     let first = m.tree_bodyadr[tree] as usize;
     let bodies = first..first + m.tree_bodynum[tree] as usize;
@@ -105,12 +108,12 @@ pub(crate) fn subtract_tree_bias(m: &Model, d: &Fields, w: &mut Work, tree: usiz
 
 /// Like [`subtract_tree_bias`], for a body with its inertia along its own axes, for which Euler's equations give the derivative
 /// directly.
-fn subtract_turning(m: &Model, d: &Fields, whole: &mut [f64], tree: usize) {
+fn subtract_gyroscopic(m: &Model, d: &Fields, whole: &mut [f64], tree: usize) {
     let first = m.tree_dofs(tree).start + 3;
     let body = m.dof_bodyid[first] as usize;
     let turn = [d.qvel[first], d.qvel[first + 1], d.qvel[first + 2]];
     for (r, slope) in
-        tree_algorithms::turning_slope(rows::<3>(&m.body_inertia)[body], turn).iter().enumerate()
+        tree_algorithms::gyroscopic_jacobian(rows::<3>(&m.body_inertia)[body], turn).iter().enumerate()
     {
         let row = m.D_rowadr[first + r] as usize + 3;
         for (x, s) in whole[row..row + 3].iter_mut().zip(slope) {

@@ -130,11 +130,12 @@ fn path(m: &Model, d: &Fields, t: usize, out: &mut Paths) -> f64 {
             Some((geom, wrap::around(ends, &round(m, d, geom), side.map(|s| site_xpos[s]))?))
         });
         length += match arc {
-            None => straight(m, d, t, bodies, ends, leg.divisor, out),
+            None => straight_segment(m, d, t, bodies, ends, leg.divisor, out),
             Some((geom, arc)) => {
                 let on = m.geom_bodyid[geom] as usize;
-                let before = straight(m, d, t, [bodies[0], on], [ends[0], arc.from], leg.divisor, out);
-                let after = straight(m, d, t, [on, bodies[1]], [arc.to, ends[1]], leg.divisor, out);
+                let before =
+                    straight_segment(m, d, t, [bodies[0], on], [ends[0], arc.from], leg.divisor, out);
+                let after = straight_segment(m, d, t, [on, bodies[1]], [arc.to, ends[1]], leg.divisor, out);
                 out.push(geom as i32, arc.from);
                 out.push(geom as i32, arc.to);
                 before + arc.length + after
@@ -159,7 +160,7 @@ fn round(m: &Model, d: &Fields, geom: usize) -> Round {
 
 /// The length of a straight piece between points on two bodies. Adds its derivative u·(J₂ - J₁) / divisor, with the direction u,
 /// to the Jacobian of the tendon.
-fn straight(
+fn straight_segment(
     m: &Model,
     d: &Fields,
     t: usize,

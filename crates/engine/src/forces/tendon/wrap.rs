@@ -77,7 +77,7 @@ fn frame([a, b]: [Vec3; 2], shape: &Round) -> [Vec3; 3] {
     let (x, _) = normalize(a);
     let (mut y, size) = normalize(sub(b, scale(x, dot(x, b))));
     if size <= MINVAL * norm(b) {
-        y = across(x, &shape.mat);
+        y = second_axis(x, &shape.mat);
     }
     [x, y, cross(x, y)]
 }
@@ -85,7 +85,7 @@ fn frame([a, b]: [Vec3; 2], shape: &Round) -> [Vec3; 3] {
 /// The second axis of the plane for two ends on a line through the centre of a sphere. Any plane through the line is valid. The
 /// choice is that of MuJoCo (measured): the normal of the plane is perpendicular to the line and to a vector. In the axes of the
 /// sphere, this vector is (1, 1, 1) with a zero in the place of the line's largest component.
-fn across(line: Vec3, mat: &Mat3) -> Vec3 {
+fn second_axis(line: Vec3, mat: &Mat3) -> Vec3 {
     let components = mat_t_mul_vec(mat, line).map(f64::abs);
     let largest = (1..3).fold(0, |most, i| if components[i] > components[most] { i } else { most });
     let mut other = [1.0; 3];
@@ -117,8 +117,8 @@ fn outside(q: [Vec2; 2], radius: f64, side: Option<Vec2>) -> Option<WrapSegment>
     });
     // The string is counter-clockwise for +1 and clockwise for -1.
     let winding = |sign: f64| {
-        let from = turned(directions[0], [turns[0][0], sign * turns[0][1]]);
-        let to = turned(directions[1], [turns[1][0], -sign * turns[1][1]]);
+        let from = rotated_by(directions[0], [turns[0][0], sign * turns[0][1]]);
+        let to = rotated_by(directions[1], [turns[1][0], -sign * turns[1][1]]);
         let angle = sign * libm::atan2(cross2(from, to), dot(from, to));
         // A string does not reverse its direction.
         ([from, to], if angle < 0.0 { angle + 2.0 * std::f64::consts::PI } else { angle })
@@ -194,12 +194,12 @@ fn inside(q: [Vec2; 2], radius: f64) -> Option<WrapSegment> {
         angle = next;
     }
     let (sin, cos) = libm::sincos(if turn < 0.0 { -angle } else { angle });
-    let point = scale(turned(scale(q[0], 1.0 / lengths[0]), [cos, sin]), radius);
+    let point = scale(rotated_by(scale(q[0], 1.0 / lengths[0]), [cos, sin]), radius);
     Some(([point, point], 0.0))
 }
 
 /// The product of two vectors as complex numbers: a rotation with scaling.
-fn turned(a: Vec2, by: Vec2) -> Vec2 {
+fn rotated_by(a: Vec2, by: Vec2) -> Vec2 {
     [a[0] * by[0] - a[1] * by[1], a[1] * by[0] + a[0] * by[1]]
 }
 
@@ -297,7 +297,7 @@ mod tests {
     }
 
     /// The minimum of a convex function on an interval, by ternary search.
-    fn least(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
+    fn minimize_convex(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
         for _ in 0..120 {
             let (a, b) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
             if f(a) < f(b) { high = b } else { low = a }
@@ -316,18 +316,18 @@ mod tests {
         let seen = q.map(|l| ((l - r) * (l + r)).max(0.0).sqrt().atan2(r));
         let straight = side(q[0], q[1], between);
         if between <= seen[0] + seen[1] {
-            let bent = least(0.0, between, |a| to(q[0], a) + to(q[1], between - a));
+            let bent = minimize_convex(0.0, between, |a| to(q[0], a) + to(q[1], between - a));
             return if inside { bent } else { straight };
         }
         if inside {
             return straight;
         }
-        let piece = |i: usize| least(0.0, seen[i], |a| to(q[i], a) - r * a);
+        let piece = |i: usize| minimize_convex(0.0, seen[i], |a| to(q[i], a) - r * a);
         piece(0) + piece(1) + r * between
     }
 
     #[test]
-    fn strings_are_as_short_as_they_can_be() {
+    fn wrapped_paths_have_minimal_length() {
         let mut state = 1u64;
         let mut random = || {
             state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);

@@ -88,7 +88,7 @@ pub fn transmissions(m: &Model, d: &mut Fields, w: &mut Scratch) {
                         let gear = &rows::<6>(&m.actuator_gear)[o];
                         at_joint(m, d, target as usize, kind == trntype::JOINTINPARENT, gear, &mut out)
                     }
-                    _ => elsewhere(m, d, [i, o], w, &mut out),
+                    _ => beyond_joints(m, d, [i, o], w, &mut out),
                 };
             }
             (d.moment_rowadr[o], d.moment_rownnz[o]) = (start as i32, (out.at - start) as i32);
@@ -99,13 +99,15 @@ pub fn transmissions(m: &Model, d: &mut Fields, w: &mut Scratch) {
 
 /// Computes output `o` of actuator `i` for transmissions other than to joints.
 #[inline(never)] // most actuators are motors of joints
-fn elsewhere(m: &Model, d: &mut Fields, [i, o]: [usize; 2], w: &mut Scratch, out: &mut Rows) -> f64 {
+fn beyond_joints(m: &Model, d: &mut Fields, [i, o]: [usize; 2], w: &mut Scratch, out: &mut Rows) -> f64 {
     let gear = rows::<6>(&m.actuator_gear)[o];
     let nth = o - m.actuator_outadr[i] as usize;
     match (m.actuator_trntype[i], target(m, i)) {
         (trntype::TENDON, (t, _)) => along_tendon(m, d, t, gear[0], out),
         (trntype::SITE, (s, None)) => space::site(m, d, s, gear, out),
-        (trntype::SITE, (s, Some(reference))) => space::between(m, d, [s, reference], gear, out),
+        (trntype::SITE, (s, Some(reference))) => {
+            space::pose_in_reference_frame(m, d, [s, reference], gear, out)
+        }
         (trntype::SLIDERCRANK, (s, Some(slider))) => {
             space::crank(m, d, [s, slider], m.actuator_cranklength[i], gear[0], out)
         }

@@ -43,7 +43,7 @@ pub(super) fn site(m: &Model, d: &Fields, s: usize, gear: [f64; 6], out: &mut Ro
 
 /// Position and rotation of a site in the frame of a reference site, along a gear. A common motion of both sites does not change
 /// the length.
-pub(super) fn between(
+pub(super) fn pose_in_reference_frame(
     m: &Model,
     d: &Fields,
     [s, reference]: [usize; 2],

@@ -36,12 +36,12 @@ pub(super) fn capsule_box(capsule: &Shape, cuboid: &Shape, margin: f64, out: &mu
     let segment = Segment { centre: cuboid.local(capsule.pos), half };
     let axis = Axis { segment, size: cuboid.size };
     let [from, to] = axis.nearest();
-    let distance = norm(axis.beyond(from));
+    let distance = norm(axis.offset_from_box(from));
     if distance <= axis.rounding() {
         let contacts = axis.pierced(radius).into_iter().flatten();
         out.extend(contacts.filter(|c| c.dist <= margin).map(|c| to_world(cuboid, c)));
     } else if distance - radius <= margin {
-        let second = if from == to { axis.far_end(from) } else { Some(to) };
+        let second = if from == to { axis.exit_parameter(from) } else { Some(to) };
         let balls = [Some(from), second].into_iter().flatten();
         out.extend(balls.filter_map(|t| ball(segment.at(t), radius, cuboid, margin)));
     }
@@ -65,7 +65,7 @@ fn ball(centre: Vec3, radius: f64, cuboid: &Shape, margin: f64) -> Option<Contac
     let (normal, gap) = if gap > MINVAL * (radius + size[0] + size[1] + size[2]) {
         (scale(apart, 1.0 / gap), gap)
     } else {
-        way_out(centre, size)
+        nearest_face(centre, size)
     };
     let dist = gap - radius;
     // This comparison is false for NaN.
@@ -77,7 +77,7 @@ fn ball(centre: Vec3, radius: f64, cuboid: &Shape, margin: f64) -> Option<Contac
 
 /// For a point in the box: the inward normal of the nearest face, and minus the depth below it. Of equally near
 /// faces, the one normal to the axis with the lowest index is taken, and of its two sides the negative one.
-fn way_out(p: Vec3, size: Vec3) -> (Vec3, f64) {
+fn nearest_face(p: Vec3, size: Vec3) -> (Vec3, f64) {
     let mut best = ([0.0; 3], f64::NEG_INFINITY);
     for i in 0..3 {
         for side in [-1.0, 1.0] {
@@ -100,7 +100,7 @@ struct Axis {
 impl Axis {
     /// Vector from the nearest point of the box to the point `t` of the axis.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    fn beyond(&self, t: f64) -> Vec3 {
+    fn offset_from_box(&self, t: f64) -> Vec3 {
         let p = self.segment.at(t);
         std::array::from_fn(|i| p[i] - clamp(p[i], -self.size[i], self.size[i]))
     }
@@ -122,7 +122,7 @@ impl Axis {
         let (mut falls, mut rises) = ([f64::NEG_INFINITY, 0.0], [f64::INFINITY, 0.0]);
         let mut level = [f64::INFINITY, f64::NEG_INFINITY];
         let mut look = |t: f64| {
-            let slope = dot(half, self.beyond(t));
+            let slope = dot(half, self.offset_from_box(t));
             if slope < -slack && t > falls[0] {
                 falls = [t, slope];
             } else if slope > slack && t < rises[0] {
@@ -142,7 +142,7 @@ impl Axis {
         }
         if level[0] <= level[1] {
             let [a, b] = level;
-            let square = |t: f64| dot(self.beyond(t), self.beyond(t));
+            let square = |t: f64| dot(self.offset_from_box(t), self.offset_from_box(t));
             return if a < b && square(b) < square(a) { [b, a] } else { level };
         }
         let ([a, at_a], [b, at_b]) = (falls, rises);
@@ -161,7 +161,7 @@ impl Axis {
     /// an edge or a corner, it is followed in the direction whose components into the box are larger. The capsule
     /// stays over the box for the shortest of these lengths: up to the end of the axis; the width of the box, along
     /// each axis on which the capsule enters over an edge; up to the end of the face, along the other axes.
-    fn far_end(&self, t: f64) -> Option<f64> {
+    fn exit_parameter(&self, t: f64) -> Option<f64> {
         let (p, half, size) = (self.segment.at(t), self.segment.half, self.size);
         let slack = self.rounding();
         let side: Vec3 =

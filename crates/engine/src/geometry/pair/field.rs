@@ -3,13 +3,13 @@
 
 use std::ops::{ControlFlow, RangeInclusive};
 
-use super::{ContactPoint, MOST, PairSettings};
+use super::{ContactPoint, MAX_CONTACTS, PairSettings};
 use crate::geometry::convex::{Convex, ConvexScratch, Nearest, nearest};
 use crate::geometry::{Field, Shape};
 use crate::math::*;
 
 /// Work units of a prism that is visited, and of a sample of the grid that is read.
-const PASSED: u64 = 30;
+const PRISM_COST: u64 = 30;
 const SAMPLED: u64 = 4;
 
 /// Contacts with the prisms below a shape, in the order of the grid.
@@ -25,7 +25,7 @@ pub(super) fn field(
     scratch: &mut ConvexScratch,
     out: &mut Vec<ContactPoint>,
 ) {
-    let local = seen_from(ground, b);
+    let local = in_field_frame(ground, b);
     let mut body = Convex::new(&local);
     let bounds = bounds(&mut body);
     if !is_near(&ground.field(), &bounds, margin) {
@@ -46,7 +46,7 @@ pub(super) fn field(
                 tangent: [0.0; 3],
             });
         }
-        if out.len() - start < MOST { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        if out.len() - start < MAX_CONTACTS { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     });
 }
 
@@ -59,7 +59,7 @@ pub(crate) fn field_distance(
     settings: &PairSettings,
     scratch: &mut ConvexScratch,
 ) -> Option<Nearest> {
-    let local = seen_from(ground, b);
+    let local = in_field_frame(ground, b);
     let mut body = Convex::new(&local);
     let bounds = bounds(&mut body);
     if !is_near(&ground.field(), &bounds, most) {
@@ -85,7 +85,7 @@ pub(crate) fn field_distance(
 }
 
 /// Transforms a shape to the frame of a height field.
-fn seen_from<'a>(ground: &Shape, b: &Shape<'a>) -> Shape<'a> {
+fn in_field_frame<'a>(ground: &Shape, b: &Shape<'a>) -> Shape<'a> {
     let columns = [0, 1, 2].map(|i| mat_t_mul_vec(&ground.mat, b.axis(i)));
     Shape { pos: ground.local(b.pos), mat: std::array::from_fn(|i| columns[i % 3][i / 3]), ..*b }
 }
@@ -157,7 +157,7 @@ fn each_prism(
                 }
                 let [p, q, s] = corners;
                 let [u, v, w] = corners.map(|p| [p[0], p[1], -base]);
-                scratch.cost += PASSED;
+                scratch.cost += PRISM_COST;
                 if visit([u, v, w, p, q, s], scratch).is_break() {
                     return;
                 }

@@ -1,6 +1,6 @@
 //! Contacts of two shapes: closed forms for some pairs of types, the general convex algorithm for the others.
 //!
-//! Each function appends its contacts to a list: at most [`MOST`], only those within `margin`, in MuJoCo's order. The
+//! Each function appends its contacts to a list: at most [`MAX_CONTACTS`], only those within `margin`, in MuJoCo's order. The
 //! first shape has the smaller type; the normal points from the first shape to the second.
 
 mod box_box;
@@ -21,7 +21,7 @@ use crate::kinds::geom;
 use crate::math::*;
 
 /// Maximum number of contacts of a pair.
-pub(crate) const MOST: usize = 50;
+pub(crate) const MAX_CONTACTS: usize = 50;
 
 /// A contact point of two shapes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -38,7 +38,7 @@ pub(crate) struct ContactPoint {
 
 impl ContactPoint {
     /// The midpoint between the nearest or deepest points.
-    fn between(n: &Nearest) -> ContactPoint {
+    fn at_midpoint(n: &Nearest) -> ContactPoint {
         let [on_a, on_b] = n.witness;
         ContactPoint { dist: n.dist, pos: scale(add(on_a, on_b), 0.5), normal: n.normal, tangent: [0.0; 3] }
     }

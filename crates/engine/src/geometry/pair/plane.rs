@@ -2,7 +2,7 @@
 //! plane.
 
 use super::ContactPoint;
-use super::polygon::{Corners, widest};
+use super::polygon::{Corners, largest_quadrilateral};
 use crate::geometry::Shape;
 use crate::geometry::support::{Body, climb, search};
 use crate::math::*;
@@ -162,6 +162,6 @@ pub(super) fn mesh(plane: &Shape, other: &Shape, margin: f64, out: &mut Vec<Cont
     };
     match corners.all() {
         few if few.len() <= 4 => few.iter().for_each(|&p| add(p)),
-        many => widest(many).into_iter().for_each(add),
+        many => largest_quadrilateral(many).into_iter().for_each(add),
     }
 }

@@ -19,21 +19,21 @@ use crate::math::*;
 /// on MuJoCo 3.14.0).
 pub(super) const FACING: f64 = 0.996;
 /// Sine of the largest angle between an edge and a face on which it lies.
-const ALONG: f64 = 0.089_352_67;
+const EDGE_ON_FACE: f64 = 0.089_352_67;
 /// Largest angle, rad, between the contact direction and the normal of a face, or the plane normal to an edge, for
 /// which the contact is with that face or edge. Directions between round bodies are accurate to about the square root
 /// of the tolerance.
-const MEETS: f64 = 2e-3;
+const MAX_CONTACT_ANGLE: f64 = 2e-3;
 /// Maximum number of contacts of a polygon.
-const MOST: usize = 4;
+const MAX_FACE_CONTACTS: usize = 4;
 /// Maximum number of corners of a face. Further corners of a mesh face are ignored.
-const CORNERS: usize = 150;
+const MAX_CORNERS: usize = 150;
 /// Number of corners of the polygon that approximates the end of a cylinder.
-const RIM: usize = 16;
+const RIM_CORNERS: usize = 16;
 /// Maximum number of faces and of edges considered at a corner.
-const AROUND: usize = 32;
+const MAX_ADJACENT: usize = 32;
 
-pub(super) type Corners = List<Vec3, CORNERS>;
+pub(super) type Corners = List<Vec3, MAX_CORNERS>;
 
 /// A face of a shape: its index and its outward unit normal, world frame.
 #[derive(Clone, Copy, Debug, Default)]
@@ -50,9 +50,9 @@ struct Feature {
     /// Kind of the feature: 3 for a face, 2 for an edge, 1 for a corner.
     dim: usize,
     /// The face itself, the faces adjacent to the edge, or the faces adjacent to the corner.
-    faces: List<Face, AROUND>,
+    faces: List<Face, MAX_ADJACENT>,
     /// The edge itself, or the edges at the corner.
-    edges: List<Edge, AROUND>,
+    edges: List<Edge, MAX_ADJACENT>,
 }
 
 /// A face, and a polygon or an edge that lies on it.
@@ -82,7 +82,7 @@ pub(super) fn contacts(
         patch.contacts(out);
     }
     if out.len() == start {
-        out.push(ContactPoint::between(&deep));
+        out.push(ContactPoint::at_midpoint(&deep));
     }
 }
 
@@ -99,7 +99,7 @@ fn patch(a: &Shape, b: &Shape, direction: Vec3) -> Option<Patch> {
         });
     }
     if of_a.dim < 3 && of_a.dim <= of_b.dim {
-        let (edge, face) = lying_on(&of_a, b, &of_b)?;
+        let (edge, face) = edge_on_face(&of_a, b, &of_b)?;
         let direction = scale(face.normal, -1.0);
         return Some(Patch {
             face: corners(b, face.index),
@@ -109,7 +109,7 @@ fn patch(a: &Shape, b: &Shape, direction: Vec3) -> Option<Patch> {
             on_first: false,
         });
     }
-    let (edge, face) = lying_on(&of_b, a, &of_a)?;
+    let (edge, face) = edge_on_face(&of_b, a, &of_a)?;
     Some(Patch {
         face: corners(a, face.index),
         normal: face.normal,
@@ -143,11 +143,11 @@ fn facing(a: &Shape, b: &Shape, direction: Vec3, of_a: &Feature, of_b: &Feature)
 
 /// The edge of one feature that is most nearly parallel to a face of the other, and this face. The ends of cylinders
 /// have contacts with faces only.
-fn lying_on(feature: &Feature, on: &Shape, other: &Feature) -> Option<(Corners, Face)> {
+fn edge_on_face(feature: &Feature, on: &Shape, other: &Feature) -> Option<(Corners, Face)> {
     if on.kind == geom::CYLINDER || feature.dim == 3 {
         return None;
     }
-    let mut flattest = (ALONG, None);
+    let mut flattest = (EDGE_ON_FACE, None);
     for face in other.faces.all() {
         for edge in feature.edges.all() {
             let slope = dot(unit_vector(sub(edge[1], edge[0])).0, face.normal).abs();
@@ -189,7 +189,7 @@ impl Feature {
     fn narrowed(self, direction: Vec3) -> Feature {
         let along = |f: &&Face| dot(f.normal, direction);
         let steepest = self.faces.all().iter().max_by(|f, g| along(f).total_cmp(&along(g)));
-        if let Some(&face) = steepest.filter(|f| norm(cross(f.normal, direction)) < MEETS) {
+        if let Some(&face) = steepest.filter(|f| norm(cross(f.normal, direction)) < MAX_CONTACT_ANGLE) {
             let mut faces = List::new();
             faces.push(face);
             return Feature { dim: 3, faces, edges: List::new() };
@@ -197,7 +197,7 @@ impl Feature {
         let unit = |e: &Edge| unit_vector(sub(e[1], e[0])).0;
         let slope = |e: &&Edge| dot(unit(e), direction).abs();
         let flattest = self.edges.all().iter().min_by(|e, f| slope(e).total_cmp(&slope(f)));
-        let Some(&edge) = flattest.filter(|e| slope(e) < MEETS) else { return self };
+        let Some(&edge) = flattest.filter(|e| slope(e) < MAX_CONTACT_ANGLE) else { return self };
         let (mut faces, mut edges) = (List::new(), List::new());
         edges.push(edge);
         // The faces adjacent to an edge are those with a normal perpendicular to it.
@@ -219,7 +219,7 @@ fn cylinder(s: &Shape, direction: Vec3, out: &mut Feature) -> usize {
         out.faces.push(Face { index: usize::from(!upper), normal });
         return 3;
     }
-    if slope.abs() < ALONG {
+    if slope.abs() < EDGE_ON_FACE {
         let across = scale(normalize(add_scaled(direction, axis, -slope)).0, s.size[0]);
         let side = if upper { s.size[1] } else { -s.size[1] };
         out.edges.push([side, -side].map(|h| add(add_scaled(s.pos, axis, h), across)));
@@ -264,8 +264,9 @@ fn corners(s: &Shape, face: usize) -> Corners {
         }
         geom::CYLINDER => {
             let side = if face == 0 { 1.0 } else { -1.0 };
-            for k in 0..RIM {
-                let (sin, cos) = libm::sincos(-side * k as f64 * (2.0 * std::f64::consts::PI / RIM as f64));
+            for k in 0..RIM_CORNERS {
+                let (sin, cos) =
+                    libm::sincos(-side * k as f64 * (2.0 * std::f64::consts::PI / RIM_CORNERS as f64));
                 out.push(s.world([s.size[0] * cos, s.size[0] * sin, side * s.size[1]]));
             }
         }
@@ -312,19 +313,19 @@ impl Patch {
             }
         };
         match below.all() {
-            few if few.len() <= MOST => out.extend(few.iter().map(|&p| touch(p))),
-            many => out.extend(widest(many).map(touch)),
+            few if few.len() <= MAX_FACE_CONTACTS => out.extend(few.iter().map(|&p| touch(p))),
+            many => out.extend(largest_quadrilateral(many).map(touch)),
         }
     }
 }
 
 /// The four corners of a convex polygon that span the largest area. For each diagonal, the farthest corner on either
 /// side is found; it advances as the diagonal turns.
-pub(super) fn widest(polygon: &[Vec3]) -> [Vec3; MOST] {
+pub(super) fn largest_quadrilateral(polygon: &[Vec3]) -> [Vec3; MAX_FACE_CONTACTS] {
     let n = polygon.len();
     let at = |k: usize| polygon[k % n];
     // Twice the area, as the cross product of the diagonals.
-    let area = |[i, j, k, l]: [usize; MOST]| norm(cross(sub(at(k), at(i)), sub(at(l), at(j))));
+    let area = |[i, j, k, l]: [usize; MAX_FACE_CONTACTS]| norm(cross(sub(at(k), at(i)), sub(at(l), at(j))));
     let mut best = [0, 1, 2, 3];
     let mut largest = area(best);
     for i in 0..n {

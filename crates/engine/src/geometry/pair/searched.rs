@@ -11,7 +11,7 @@ use crate::math::*;
 /// Minimum distance of a new contact from the others, as a fraction of the smaller bounding radius.
 const DISTINCT: f64 = 1e-3;
 /// Angle by which the shapes are rotated to find further contact points, rad.
-const ROCK: f64 = 1e-3;
+const PERTURBATION_ANGLE: f64 = 1e-3;
 
 /// Appends the nearest or deepest contact, and further ones if the shapes lie flat on each other.
 #[cfg_attr(not(feature = "small"), inline(never))]
@@ -32,7 +32,7 @@ pub(super) fn convex(
     out.push(first);
     let smooth = |s: &Shape| matches!(s.kind, geom::ELLIPSOID | geom::SPHERE);
     if settings.several && !smooth(a) && !smooth(b) {
-        rock(a, b, margin, settings, scratch, first, out);
+        perturb_rotations(a, b, margin, settings, scratch, first, out);
     }
 }
 
@@ -47,12 +47,12 @@ fn deepest(
     let (mut u, mut v) = (Convex::new(a), Convex::new(b));
     nearest(&mut u, &mut v, margin, settings.effort, scratch)
         .filter(|n| n.dist < margin)
-        .map(|n| ContactPoint::between(&n))
+        .map(|n| ContactPoint::at_midpoint(&n))
 }
 
 /// Rotates both shapes in opposite directions about the first contact, by a small angle in both senses about each
 /// tangent. Appends the contacts that this finds at other positions, with the distance of the first contact.
-fn rock(
+fn perturb_rotations(
     a: &Shape,
     b: &Shape,
     margin: f64,
@@ -65,7 +65,7 @@ fn rock(
     let apart = DISTINCT * a.bounding_radius().min(b.bounding_radius());
     let frame = frame(first.normal);
     for axis in [[frame[3], frame[4], frame[5]], [frame[6], frame[7], frame[8]]] {
-        for angle in [-ROCK, ROCK] {
+        for angle in [-PERTURBATION_ANGLE, PERTURBATION_ANGLE] {
             let turn = quat_to_mat(quat_axis_angle(axis, angle));
             let back = std::array::from_fn(|i| turn[3 * (i % 3) + i / 3]);
             let (a, b) = (turned(a, first.pos, &turn), turned(b, first.pos, &back));

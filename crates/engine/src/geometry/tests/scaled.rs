@@ -41,7 +41,7 @@ fn scaled<'a>(s: Shape<'a>, by: f64) -> Shape<'a> {
 }
 
 fn settings_scaled(by: f64) -> PairSettings {
-    let mut settings = patient();
+    let mut settings = precise_settings();
     settings.effort.tolerance *= by;
     settings
 }

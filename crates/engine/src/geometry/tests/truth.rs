@@ -235,7 +235,7 @@ fn error(a: &Shape, b: &Shape, n: &Nearest, tolerance: f64) -> Error {
 
 /// Whether the signed distance of two shapes agrees with the reference.
 pub(super) fn is_true(a: &Shape, b: &Shape) -> bool {
-    let effort = super::patient().effort;
+    let effort = super::precise_settings().effort;
     let found = nearest(&mut Convex::new(a), &mut Convex::new(b), 1e3, effort, &mut ConvexScratch::default());
     found.is_some_and(|n| {
         let (Error::Distance(error) | Error::Penetration(error)) = error(a, b, &n, effort.tolerance);
@@ -247,7 +247,7 @@ fn check_pair(kind1: i32, kind2: i32, cases: usize) -> Tally {
     let solids = solids();
     let (mut r, mut scratch, mut t) =
         (Random((kind1 * 8 + kind2) as u64), ConvexScratch::default(), Tally::default());
-    let settings = super::patient();
+    let settings = super::precise_settings();
     let directions: Vec<Vec3> = (0..40).map(|_| r.direction()).collect();
     for case in 0..cases {
         let (a, mut b) = (shape(kind1, &mut r, &solids), shape(kind2, &mut r, &solids));

@@ -1,6 +1,6 @@
 //! The values of fields: their types, and the operations on every field: reading, writing, allocation, saving.
 
-use crate::model::bytes::Plain;
+use crate::model::bytes::FixedSize;
 
 /// Element type of a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -135,7 +135,7 @@ macro_rules! cells {
             fn allocate(&mut self, _: usize) { *self = <$t>::default(); }
             fn write(&self, out: &mut Vec<u8>) { self.put(out); }
             fn read(&mut self, _: usize, bytes: &mut &[u8]) -> bool {
-                Plain::take(bytes).map(|x| *self = x).is_some()
+                FixedSize::take(bytes).map(|x| *self = x).is_some()
             }
         }
         impl Cell for Vec<$t> {
@@ -152,7 +152,7 @@ macro_rules! cells {
                     return false;
                 }
                 self.allocate(n);
-                self.iter_mut().all(|x| Plain::take(bytes).map(|y| *x = y).is_some())
+                self.iter_mut().all(|x| FixedSize::take(bytes).map(|y| *x = y).is_some())
             }
         }
         impl<const N: usize> Cell for [$t; N] {
@@ -161,7 +161,7 @@ macro_rules! cells {
             fn allocate(&mut self, _: usize) { *self = [<$t>::default(); N]; }
             fn write(&self, out: &mut Vec<u8>) { self.iter().for_each(|x| x.put(out)); }
             fn read(&mut self, _: usize, bytes: &mut &[u8]) -> bool {
-                self.iter_mut().all(|x| Plain::take(bytes).map(|y| *x = y).is_some())
+                self.iter_mut().all(|x| FixedSize::take(bytes).map(|y| *x = y).is_some())
             }
         }
     )* };
@@ -184,6 +184,6 @@ impl Cell for usize {
         self.put(out);
     }
     fn read(&mut self, _: usize, bytes: &mut &[u8]) -> bool {
-        Plain::take(bytes).map(|x| *self = x).is_some()
+        FixedSize::take(bytes).map(|x| *self = x).is_some()
     }
 }

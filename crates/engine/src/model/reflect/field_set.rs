@@ -39,7 +39,7 @@ impl FieldSet {
     }
 
     /// The elements of `sensordata` in the set.
-    pub(crate) fn sensed(&self) -> Values {
+    pub(crate) fn sensed_elements(&self) -> Values {
         self.1
     }
 

@@ -66,7 +66,7 @@ pub struct FieldInfo {
 
 /// The texts of a field for people. They are a separate table, which is not linked into a program that does not use them.
 #[derive(Debug)]
-struct Words {
+struct FieldTexts {
     unit: &'static str,
     doc: &'static str,
 }
@@ -102,12 +102,12 @@ impl FieldId {
 
     /// The unit of the field, empty if it is dimensionless.
     pub fn unit(self) -> &'static str {
-        WORDS[self.0 as usize].unit
+        FIELD_TEXTS[self.0 as usize].unit
     }
 
     /// One line of documentation.
     pub fn doc(self) -> &'static str {
-        WORDS[self.0 as usize].doc
+        FIELD_TEXTS[self.0 as usize].doc
     }
 }
 
@@ -137,7 +137,7 @@ macro_rules! reflect {
             kind: Kind::$kind,
             stage: Stage::$stage,
         }),*];
-        const $words: &[&Words] = &[$(&Words { unit: $unit, doc: $doc }),*];
+        const $words: &[&FieldTexts] = &[$(&FieldTexts { unit: $unit, doc: $doc }),*];
         const $count: usize = $infos.len();
         const $readers: &[Reader] = &[$(|m, d, i| $of(m, d).$name.view().get(i)),*];
         #[allow(non_camel_case_types)] // variants have the names of the fields
@@ -154,10 +154,10 @@ macro_rules! reflect {
         }
     };
 }
-macro_rules! reflect_model { ($($t:tt)*) => { reflect! { MODEL, MODEL_WORDS, MODEL_READERS, MODEL_COUNT, ModelId, Model, Model, model; $($t)* } } }
-macro_rules! reflect_option { ($($t:tt)*) => { reflect! { OPTION, OPTION_WORDS, OPTION_READERS, OPTION_COUNT, OptionId, Option, crate::model::Options, options; $($t)* } } }
-macro_rules! reflect_stat { ($($t:tt)*) => { reflect! { STAT, STAT_WORDS, STAT_READERS, STAT_COUNT, StatId, Statistic, crate::model::Statistic, statistic; $($t)* } } }
-macro_rules! reflect_data { ($($t:tt)*) => { reflect! { DATA, DATA_WORDS, DATA_READERS, DATA_COUNT, DataId, Data, Fields, data; $($t)* } } }
+macro_rules! reflect_model { ($($t:tt)*) => { reflect! { MODEL, MODEL_TEXTS, MODEL_READERS, MODEL_COUNT, ModelId, Model, Model, model; $($t)* } } }
+macro_rules! reflect_option { ($($t:tt)*) => { reflect! { OPTION, OPTION_TEXTS, OPTION_READERS, OPTION_COUNT, OptionId, Option, crate::model::Options, options; $($t)* } } }
+macro_rules! reflect_stat { ($($t:tt)*) => { reflect! { STAT, STAT_TEXTS, STAT_READERS, STAT_COUNT, StatId, Statistic, crate::model::Statistic, statistic; $($t)* } } }
+macro_rules! reflect_data { ($($t:tt)*) => { reflect! { DATA, DATA_TEXTS, DATA_READERS, DATA_COUNT, DataId, Data, Fields, data; $($t)* } } }
 model_fields!(reflect_model);
 option_fields!(reflect_option);
 statistic_fields!(reflect_stat);
@@ -212,7 +212,7 @@ macro_rules! whole_table {
 
 /// The whole table: model, options, statistics, data.
 pub(crate) static FIELDS: [&FieldInfo; NFIELD] = whole_table!(MODEL, OPTION, STAT, DATA);
-static WORDS: [&Words; NFIELD] = whole_table!(MODEL_WORDS, OPTION_WORDS, STAT_WORDS, DATA_WORDS);
+static FIELD_TEXTS: [&FieldTexts; NFIELD] = whole_table!(MODEL_TEXTS, OPTION_TEXTS, STAT_TEXTS, DATA_TEXTS);
 static READERS: [Reader; NFIELD] = whole_table!(MODEL_READERS, OPTION_READERS, STAT_READERS, DATA_READERS);
 
 /// All field ids, in table order.

@@ -82,7 +82,7 @@ fn parts_of_a_state_are_extracted_and_copied() {
 }
 
 #[test]
-fn what_is_not_zero_is_true() {
+fn nonzero_is_true() {
     let m = model();
     let mut d = Workspace::new(&m).fields;
     for (values, want) in

@@ -43,7 +43,7 @@ pub(super) fn adaptive(m: &Model, d: &mut Fields, s: &mut Scratch) {
         if done >= whole {
             break;
         }
-        flow::go_on(m, d, s, &mut w, length);
+        flow::begin_next_part(m, d, s, &mut w, length);
         // Doubles the length of the part, if the current time is a multiple of the doubled length.
         if good && done % (2 * part) == 0 {
             part *= 2;

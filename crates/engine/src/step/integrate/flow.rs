@@ -60,7 +60,7 @@ fn known_slope(m: &Model, d: &Fields, state: &[f64], out: &mut [f64]) {
             && let Some(u) = state.get(k..).and_then(|u| u.first_chunk())
             && let Some(du) = du.get_mut(k..).and_then(|du| du.first_chunk_mut())
         {
-            *du = turn_rate(*u, *du);
+            *du = rotation_vector_rate(*u, *du);
         }
     }
     dv.copy_from_slice(&d.qacc);
@@ -84,7 +84,7 @@ pub(super) fn slope(
 
 /// The time derivative of the rotation vector u of a body whose angular velocity is w, both in the body's own frame:
 /// dexp⁻¹(u) w = w + u×w/2 + (1 - (θ/2) cot(θ/2))/θ² u×(u×w) with θ = |u|.
-fn turn_rate(u: Vec3, w: Vec3) -> Vec3 {
+fn rotation_vector_rate(u: Vec3, w: Vec3) -> Vec3 {
     let square = dot(u, u);
     if square == 0.0 {
         return w;
@@ -101,7 +101,7 @@ fn turn_rate(u: Vec3, w: Vec3) -> Vec3 {
 }
 
 /// Continues from the end of a part of the step, which becomes the start of the next part. Computes its forces.
-pub(super) fn go_on(m: &Model, d: &mut Fields, s: &mut Scratch, w: &mut Flow, part: f64) {
+pub(super) fn begin_next_part(m: &Model, d: &mut Fields, s: &mut Scratch, w: &mut Flow, part: f64) {
     let end = std::mem::take(&mut w.end);
     place(m, d, w, part, &end);
     actuation::arrive(m, d, &end[2 * m.nv..]);
@@ -147,7 +147,7 @@ mod tests {
             let turned =
                 |h: f64| quat_to_vel(quat_integrate(quat_integrate([1.0, 0.0, 0.0, 0.0], u, 1.0), w, h));
             let (before, after) = (turned(-h), turned(h));
-            let rate = turn_rate(u, w);
+            let rate = rotation_vector_rate(u, w);
             for i in 0..3 {
                 let measured = (after[i] - before[i]) / (2.0 * h);
                 assert!((rate[i] - measured).abs() < 1e-8, "{size}: {} for {measured}", rate[i]);

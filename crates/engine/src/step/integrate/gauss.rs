@@ -32,18 +32,18 @@ pub(super) fn gauss(m: &Model, d: &mut Fields, s: &mut Scratch) {
     // Memory for three stages, and for the next iterate of one.
     let mut w = flow::enter(m, d, s, 4);
     let mut parts = 1;
-    while !settles(m, d, s, &mut w, h / parts as f64) && parts < PARTS {
+    while !stages_converge(m, d, s, &mut w, h / parts as f64) && parts < PARTS {
         parts *= 2;
     }
     for _ in 1..parts {
-        flow::go_on(m, d, s, &mut w, h / parts as f64);
-        settles(m, d, s, &mut w, h / parts as f64);
+        flow::begin_next_part(m, d, s, &mut w, h / parts as f64);
+        stages_converge(m, d, s, &mut w, h / parts as f64);
     }
     flow::finish(m, d, s, w);
 }
 
 /// Computes a part of the step, to `w.end`. Returns whether its stages converged.
-fn settles(m: &Model, d: &mut Fields, s: &mut Scratch, w: &mut Flow, h: f64) -> bool {
+fn stages_converge(m: &Model, d: &mut Fields, s: &mut Scratch, w: &mut Flow, h: f64) -> bool {
     let n = w.start.len();
     let (mut rows, mut end) = (std::mem::take(&mut w.rows), std::mem::take(&mut w.end));
     let (stages, rest) = rows.split_at_mut(3 * n);

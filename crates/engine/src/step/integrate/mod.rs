@@ -130,7 +130,7 @@ fn advance_awake(
         *v += m.opt.timestep * a;
     }
     integrate_pos(m, &mut d.qpos, velocity.unwrap_or(&d.qvel), m.opt.timestep);
-    sleep::keep_still(m, d, &start);
+    sleep::freeze_sleeping_trees(m, d, &start);
     (s.sleep.acceleration, s.sleep.start) = (a, start);
 }
 

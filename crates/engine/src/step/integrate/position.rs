@@ -30,16 +30,16 @@ fn along_joints(m: &Model, mut qpos: &mut [f64], mut v: &[f64], h: f64) {
             }
             (joint::FREE, [x, y, z, qpos @ ..], [vx, vy, vz, v @ ..]) => {
                 [*x, *y, *z] = [*x + h * vx, *y + h * vy, *z + h * vz];
-                turn(qpos, v, h)
+                rotate_quaternion(qpos, v, h)
             }
-            (_, qpos, v) => turn(qpos, v, h),
+            (_, qpos, v) => rotate_quaternion(qpos, v, h),
         };
     }
 }
 
 /// Rotates the quaternion at the start of the coordinates. Returns the coordinates and velocities after it.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn turn<'q, 'v>(qpos: &'q mut [f64], v: &'v [f64], h: f64) -> (&'q mut [f64], &'v [f64]) {
+fn rotate_quaternion<'q, 'v>(qpos: &'q mut [f64], v: &'v [f64], h: f64) -> (&'q mut [f64], &'v [f64]) {
     match (qpos.split_first_chunk_mut(), v.split_first_chunk()) {
         (Some((quat, qpos)), Some((&turn, v))) => {
             *quat = quat_integrate(*quat, turn, h);

@@ -39,7 +39,7 @@ fn moving(m: &Model, plan: PlanTable) -> Workspace {
 }
 
 #[test]
-fn what_is_restored_goes_on_bit_for_bit() {
+fn restored_data_continue_bit_for_bit() {
     for m in scenes() {
         for plan in [
             PlanTable::full(),
@@ -75,7 +75,7 @@ fn a_step_is_restored_in_its_middle() {
 }
 
 #[test]
-fn other_bytes_are_told_apart_and_change_nothing() {
+fn invalid_bytes_are_refused_and_change_nothing() {
     let m = &scenes()[0];
     let d = moving(m, PlanTable::full()).fields;
     let bytes = save(m, &d);

@@ -1,7 +1,7 @@
 //! Sleeping: trees at rest are not simulated until something disturbs them.
 //!
 //! See MuJoCo's documentation, "Computation: Sleeping islands"; details measured on MuJoCo 3.14.0. An island of trees whose
-//! degrees of freedom are slower than `opt.sleep_tolerance` for [`PATIENCE`] steps falls asleep. Its velocity becomes zero, its
+//! degrees of freedom are slower than `opt.sleep_tolerance` for [`SLOW_STEPS`] steps falls asleep. Its velocity becomes zero, its
 //! positions do not change, its smooth forces and accelerations keep their values, and no constraint acts on it. It wakes as a
 //! whole when its state or the forces applied to it change, or when a contact, an equality or a tendon at its limit connects it
 //! to an awake tree.
@@ -16,14 +16,14 @@ use crate::kinds::joint;
 use crate::model::asleep::{self, awake, policy};
 use crate::model::{Fields, Model};
 
-pub(crate) use rest::{fall_asleep, keep, keep_still, put_back};
+pub(crate) use rest::{fall_asleep, freeze_sleeping_trees, keep, put_back};
 pub(crate) use wake::{wake, wake_by_equalities, wake_by_tendons, wake_touched};
 
 /// The number of steps for which a tree must be slow.
-const PATIENCE: i32 = 10;
+const SLOW_STEPS: i32 = 10;
 /// `tree_asleep` of a tree that was not slow in the last step. The value counts up to -1. The value of a sleeping tree is the
 /// index of the next tree of those that fell asleep together, which form a cycle.
-const AWAKE: i32 = -(1 + PATIENCE);
+const AWAKE: i32 = -(1 + SLOW_STEPS);
 
 /// The memory of the stage between steps, and its scratch.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -14,7 +14,7 @@ fn may_sleep(m: &Model, tree: usize) -> bool {
 
 /// Whether a tree may sleep, no force is applied to it, and it is slower than `tolerance`. For a tolerance of 0, its velocity
 /// must be zero.
-pub(super) fn is_still(m: &Model, d: &Fields, tree: usize, tolerance: f64) -> bool {
+pub(super) fn may_fall_asleep(m: &Model, d: &Fields, tree: usize, tolerance: f64) -> bool {
     // A negative zero counts as an applied force, because it was written explicitly.
     let zero = |list: &[f64]| list.iter().all(|x| x.to_bits() == 0);
     let first = 6 * m.tree_bodyadr[tree] as usize;
@@ -28,7 +28,7 @@ pub(super) fn is_still(m: &Model, d: &Fields, tree: usize, tolerance: f64) -> bo
 }
 
 /// Resets sleeping trees after a step: their positions are those in `start`, and their velocities are zero.
-pub(crate) fn keep_still(m: &Model, d: &mut Fields, start: &[f64]) {
+pub(crate) fn freeze_sleeping_trees(m: &Model, d: &mut Fields, start: &[f64]) {
     for tree in (0..m.ntree).filter(|&t| d.tree_awake[t] == 0) {
         d.qvel[m.tree_dofs(tree)].fill(0.0);
         let q = coordinates(m, tree);
@@ -45,24 +45,24 @@ pub(crate) fn fall_asleep(m: &Model, d: &mut Fields, islands: &Islands) -> bool 
     }
     for tree in 0..m.ntree {
         if d.tree_asleep[tree] < 0 {
-            let still = is_still(m, d, tree, m.opt.sleep_tolerance);
+            let still = may_fall_asleep(m, d, tree, m.opt.sleep_tolerance);
             d.tree_asleep[tree] = if still { (d.tree_asleep[tree] + 1).min(-1) } else { AWAKE };
         }
     }
     let mut slept = false;
     for island in 0..d.nisland {
         let ready = islands.trees_of(island).all(|tree| d.tree_asleep[tree] == -1);
-        slept |= ready && lay_down(m, d, islands.trees_of(island));
+        slept |= ready && put_island_to_sleep(m, d, islands.trees_of(island));
     }
     for tree in 0..m.ntree {
         let alone = d.nisland == 0 || !islands.has(tree);
-        slept |= alone && d.tree_asleep[tree] == -1 && lay_down(m, d, std::iter::once(tree));
+        slept |= alone && d.tree_asleep[tree] == -1 && put_island_to_sleep(m, d, std::iter::once(tree));
     }
     slept
 }
 
 /// Stops the trees of an island and links each to the next, cyclically. Returns `true` if there are any.
-fn lay_down(m: &Model, d: &mut Fields, trees: impl Iterator<Item = usize> + Clone) -> bool {
+fn put_island_to_sleep(m: &Model, d: &mut Fields, trees: impl Iterator<Item = usize> + Clone) -> bool {
     let next = trees.clone().cycle().skip(1);
     let mut some = false;
     for (tree, next) in trees.zip(next) {

@@ -11,7 +11,7 @@ pub(crate) fn wake(m: &Model, d: &mut Fields, w: &mut Scratch) {
         let allowed = on(m, d);
         for tree in 0..m.ntree {
             if d.tree_asleep[tree] >= 0
-                && (!allowed || was_moved(m, d, w, tree) || !rest::is_still(m, d, tree, 0.0))
+                && (!allowed || was_moved(m, d, w, tree) || !rest::may_fall_asleep(m, d, tree, 0.0))
             {
                 wake_island(d, tree, AWAKE);
             }
@@ -68,9 +68,9 @@ pub(crate) fn wake_by_equalities(m: &Model, d: &mut Fields) {
         return;
     }
     for e in 0..m.neq {
-        let Some([a, b]) = tied_trees(m, e).filter(|_| d.eq_active[e]) else { continue };
+        let Some([a, b]) = trees_of_equality(m, e).filter(|_| d.eq_active[e]) else { continue };
         let asleep = [d.tree_awake[a] == 0, d.tree_awake[b] == 0];
-        if a != b && asleep != [false, false] && (asleep != [true, true] || !together(d, a, b)) {
+        if a != b && asleep != [false, false] && (asleep != [true, true] || !fell_asleep_together(d, a, b)) {
             for (tree, _) in [a, b].into_iter().zip(asleep).filter(|&(_, asleep)| asleep) {
                 wake_island(d, tree, AWAKE);
             }
@@ -89,7 +89,7 @@ fn wake_one(d: &mut Fields, [a, b]: [usize; 2]) {
 }
 
 /// The two trees that an equality connects, or `None` if one side cannot move.
-fn tied_trees(m: &Model, e: usize) -> Option<[usize; 2]> {
+fn trees_of_equality(m: &Model, e: usize) -> Option<[usize; 2]> {
     let body = |list: &[i32], id: i32| Some(*list.get(usize::try_from(id).ok()?)? as usize);
     let sides = [m.eq_obj1id[e], m.eq_obj2id[e]].map(|id| match m.eq_type[e] {
         eqtype::CONNECT | eqtype::WELD if m.eq_objtype[e] == crate::model::Obj::Body as i32 => {
@@ -128,7 +128,7 @@ fn wake_island(d: &mut Fields, tree: usize, value: i32) {
 }
 
 /// Whether two sleeping trees fell asleep together.
-fn together(d: &Fields, a: usize, b: usize) -> bool {
+fn fell_asleep_together(d: &Fields, a: usize, b: usize) -> bool {
     let mut at = a;
     for _ in 0..d.tree_asleep.len() {
         match d.tree_asleep.get(at).map(|&next| usize::try_from(next)) {

@@ -16,7 +16,7 @@ use crate::value::{Value, View};
 use labspec_finding::Span;
 
 /// Operations analysed for one program. Without the limit, nested calls and loops would multiply.
-const MOST: usize = 100_000;
+const MAX_OPERATIONS: usize = 100_000;
 /// Iterations over a function with loops. `DEEP` limits the nesting of function calls.
 const ROUNDS: usize = 8;
 const DEEP: usize = 8;
@@ -28,7 +28,7 @@ pub(crate) fn measured(
     given: &KnownDimensions,
     aggregates: &Aggregates,
 ) -> TextDimensions {
-    let around = MeasureContext { form, schema, given, aggregates, left: Cell::new(MOST) };
+    let around = MeasureContext { form, schema, given, aggregates, left: Cell::new(MAX_OPERATIONS) };
     let mut all = TextDimensions::default();
     for (id, unit) in form.units.iter().enumerate() {
         let mut work = MeasureWalk::new(&around, id as u32, unit);

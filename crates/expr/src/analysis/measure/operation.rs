@@ -81,8 +81,8 @@ impl MeasureWalk<'_> {
                 let m = self.around.aggregates.get(&(slot as usize)).copied().unwrap_or_default();
                 self.set(number(d), m);
             }
-            Op::Pick(d, table, _) => self.set(value(d), self.picked(table)),
-            Op::PickNumber(d, table, _) => self.set(number(d), self.picked(table)),
+            Op::Pick(d, table, _) => self.set(value(d), self.measure_of_members(table)),
+            Op::PickNumber(d, table, _) => self.set(number(d), self.measure_of_members(table)),
             Op::Store(field, at, a) => {
                 self.stored(Access { field, first: at as usize, count: Some(1) }, self.number(a), span);
             }
@@ -119,10 +119,10 @@ impl MeasureWalk<'_> {
             | Op::StoreMember(into, _, a, _) => self.join(value(into), self.value(a)),
             Op::Member(d, of, name) => {
                 let length = self.around.form.texts.get(name as usize).is_some_and(|t| &**t == "length");
-                self.set(value(d), if length { Measure::NUMBER } else { self.held_by(of) });
+                self.set(value(d), if length { Measure::NUMBER } else { self.measure_of_elements(of) });
             }
             Op::CellGet(d, of) | Op::Element(d, of, _) | Op::ElementAt(d, of, _) => {
-                self.set(value(d), self.held_by(of));
+                self.set(value(d), self.measure_of_elements(of));
             }
             Op::Method(d, name, args) => {
                 let args: Vec<Measure> =
@@ -221,7 +221,7 @@ impl MeasureWalk<'_> {
     }
 
     /// The measure of the elements of a list or a record, or of the value of a shared variable.
-    fn held_by(&self, of: Val) -> Measure {
+    fn measure_of_elements(&self, of: Val) -> Measure {
         if self.wild && self.unit.constant_value(of).is_none() { Measure::Unknown } else { self.value(of) }
     }
 
@@ -248,7 +248,7 @@ impl MeasureWalk<'_> {
     }
 
     /// The measure that every member of a table has.
-    fn picked(&self, table: u32) -> Measure {
+    fn measure_of_members(&self, table: u32) -> Measure {
         let picks = self.around.form.picks.get(table as usize);
         let of = picks.iter().flat_map(|picks| &picks.of).map(|(_, value)| match value {
             Value::View(view) => self.access(whole(*view)),
@@ -281,8 +281,8 @@ impl MeasureWalk<'_> {
     fn power(&self, base: Measure, exponent: Measure, literal: Option<f64>) -> Measure {
         match (literal, base, exponent) {
             (Some(x), ..) => base.power(x),
-            (None, Measure::Known(d), _) if d.is_number() => Measure::LOOSE,
-            (None, Measure::Anything, Measure::Known(_)) => Measure::LOOSE,
+            (None, Measure::Known(d), _) if d.is_number() => Measure::UNCERTAIN_FACTOR,
+            (None, Measure::Anything, Measure::Known(_)) => Measure::UNCERTAIN_FACTOR,
             _ => Measure::Unknown,
         }
     }
@@ -316,7 +316,7 @@ impl MeasureWalk<'_> {
             "isFinite" | "isNaN" => Measure::NUMBER,
             "clz32" | "imul" => Measure::Unknown,
             // The other functions return a number without a unit.
-            _ => Measure::LOOSE,
+            _ => Measure::UNCERTAIN_FACTOR,
         }
     }
 }

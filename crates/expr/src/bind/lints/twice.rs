@@ -18,14 +18,14 @@ fn stored(statement: &Stmt) -> Option<(&Expr, &Expr)> {
 }
 
 /// Limits on the bytes of a compared text and on the arguments of a call. Longer code was not copied by hand.
-const LONG: usize = 400;
-const MANY: usize = 8;
+const MAX_TEXT: usize = 400;
+const MAX_ARGUMENTS: usize = 8;
 
 impl LintPass<'_> {
     /// A text without its whitespace, or `None` if it is too long.
     fn bare(&self, span: Span) -> Option<String> {
         let text = self.text(span);
-        (text.len() <= LONG).then(|| text.chars().filter(|c| !c.is_whitespace()).collect())
+        (text.len() <= MAX_TEXT).then(|| text.chars().filter(|c| !c.is_whitespace()).collect())
     }
 
     /// Warns about two consecutive statements that store the same element: the first value is lost.
@@ -56,7 +56,8 @@ impl LintPass<'_> {
 
     /// Warns about an argument that is passed twice where two different ones are intended.
     pub(super) fn same_argument(&mut self, callee: &Expr, args: &[Expr]) {
-        if args.len() > MANY || !self.bare(callee.span).is_some_and(|name| FUNCTIONS.contains(&name.as_str()))
+        if args.len() > MAX_ARGUMENTS
+            || !self.bare(callee.span).is_some_and(|name| FUNCTIONS.contains(&name.as_str()))
         {
             return;
         }

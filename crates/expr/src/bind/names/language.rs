@@ -5,7 +5,7 @@ use crate::rules;
 use labspec_finding::{Finding, Span};
 
 /// Names of the language itself.
-pub(super) const LANGUAGE: [&str; 14] = [
+pub(super) const LANGUAGE_NAMES: [&str; 14] = [
     "Math",
     "NaN",
     "Infinity",
@@ -26,11 +26,11 @@ pub(super) const LANGUAGE: [&str; 14] = [
 pub(in crate::bind) const NAMESPACES: [&str; 4] = ["Array", "Number", "String", "Object"];
 
 /// Members through which JavaScript exposes the internals of a value.
-pub(in crate::bind) const MACHINERY: [&str; 5] =
+pub(in crate::bind) const INTERNAL_MEMBERS: [&str; 5] =
     ["constructor", "prototype", "__proto__", "hasOwnProperty", "valueOf"];
 
 /// The finding for a second declaration, or for a declaration of a name that already has a meaning.
-pub(super) fn report_taken(name: &Name, here: bool) -> Finding {
+pub(super) fn report_redeclared(name: &Name, here: bool) -> Finding {
     let why = if here { "it is declared above" } else { "it already has a meaning in every text" };
     Finding::error(rules::NAME_TAKEN, name.span, format!("`{}` cannot be declared here", name.text))
         .why(format!("{why}; JavaScript rejects a second declaration"))
@@ -67,13 +67,13 @@ pub(super) fn report_not_assignable(name: &str, span: Span) -> Finding {
 
 /// Whether the language itself defines a name.
 pub(in crate::bind) fn is_language(name: &str) -> bool {
-    LANGUAGE.contains(&name) || name == "value"
+    LANGUAGE_NAMES.contains(&name) || name == "value"
 }
 
 /// A list of names for a message, truncated if it is long.
 pub(in crate::bind) fn list_names(names: &[String]) -> String {
-    const SHOWN: usize = 8;
-    let listed: Vec<String> = names.iter().take(SHOWN).map(|n| format!("`{n}`")).collect();
-    let more = names.len().saturating_sub(SHOWN);
+    const MAX_LISTED: usize = 8;
+    let listed: Vec<String> = names.iter().take(MAX_LISTED).map(|n| format!("`{n}`")).collect();
+    let more = names.len().saturating_sub(MAX_LISTED);
     if more > 0 { format!("{} and {more} more", listed.join(", ")) } else { listed.join(", ") }
 }

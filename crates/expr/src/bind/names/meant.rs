@@ -1,6 +1,6 @@
 //! Suggestions for unknown names.
 
-use super::language::LANGUAGE;
+use super::language::LANGUAGE_NAMES;
 use super::walk::{NameUse, NameWalk};
 use crate::math;
 use crate::schema::{Entry, Schema};
@@ -52,7 +52,7 @@ impl NameWalk<'_, '_> {
         }
         let mut roots = schema.root_names();
         roots.retain(|root| fits(schema.root(root)));
-        let words = LANGUAGE.into_iter().filter(|word| used.fits_word(word));
+        let words = LANGUAGE_NAMES.into_iter().filter(|word| used.fits_word(word));
         let candidates = self.text_names().chain(roots.iter().map(String::as_str)).chain(words);
         if let Some(meant) = nearest(name, candidates) {
             return Some(meant.to_owned());

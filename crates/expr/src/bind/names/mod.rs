@@ -13,7 +13,7 @@ mod unknown;
 mod walk;
 
 pub(super) use declared::{Declaration, NameMeaning, NameTable};
-pub(super) use language::{MACHINERY, NAMESPACES, list_names};
+pub(super) use language::{INTERNAL_MEMBERS, NAMESPACES, list_names};
 pub(super) use meant::meant_elsewhere;
 pub(super) use statement::names_of;
-pub(super) use walk::{Surroundings, resolve};
+pub(super) use walk::{NameContext, resolve};

@@ -1,6 +1,6 @@
 //! Name resolution in statements: which names they declare, and in which order these names get their values.
 
-use super::language::{is_language, report_taken};
+use super::language::{is_language, report_redeclared};
 use super::walk::{NameWalk, WHOLE};
 use crate::ast::{Declarator, Element, Expr, ExprKind, Name, Pattern, Stmt, StmtKind};
 use crate::schema::Schema;
@@ -63,7 +63,7 @@ impl<'a> NameWalk<'a, '_> {
         let host = |schema: &dyn Schema| schema.root(&name.text).is_some();
         let outer = top && (is_language(&name.text) || self.around.schema.is_some_and(host));
         if is_declared || outer {
-            self.found.push(report_taken(name, is_declared));
+            self.found.push(report_redeclared(name, is_declared));
             return;
         }
         self.declare(name, constant, false);
@@ -82,11 +82,11 @@ impl<'a> NameWalk<'a, '_> {
         if let Some(default) = &element.default {
             self.value(default);
         }
-        self.give(&element.target);
+        self.mark_initialized(&element.target);
     }
 
     /// Marks the names of a pattern as initialized.
-    fn give(&mut self, pattern: &'a Pattern) {
+    fn mark_initialized(&mut self, pattern: &'a Pattern) {
         match pattern {
             Pattern::Name(name) => {
                 if let Some(declared) = self.names.declared.get_mut(&name.span.start) {
@@ -136,7 +136,7 @@ impl<'a> NameWalk<'a, '_> {
                 self.value(items);
                 let reach = self.reach.len();
                 self.hoist_pattern(target, *constant, reach);
-                self.give(target);
+                self.mark_initialized(target);
                 self.scoped(body);
                 self.leave(reach);
             }
@@ -175,7 +175,7 @@ impl<'a> NameWalk<'a, '_> {
             (_, Some(value)) => self.value(value),
             (_, None) => {}
         }
-        self.give(&declarator.target);
+        self.mark_initialized(&declarator.target);
     }
 
     /// An expression used as a statement.

@@ -8,38 +8,38 @@ use crate::rules;
 use labspec_finding::{Finding, Span, nearest};
 
 /// Names of a browser or of Node.
-const PAGE: [&str; 8] =
+const PAGE_NAMES: [&str; 8] =
     ["window", "document", "globalThis", "self", "global", "localStorage", "sessionStorage", "navigator"];
-const PRINT: [&str; 3] = ["console", "alert", "prompt"];
-const OUTSIDE: [&str; 6] = ["fetch", "XMLHttpRequest", "WebSocket", "require", "process", "Worker"];
-const CODE: [&str; 2] = ["eval", "Function"];
-const CLOCK: [&str; 5] = ["Date", "performance", "setTimeout", "setInterval", "requestAnimationFrame"];
-const MORE: [&str; 10] =
+const PRINT_NAMES: [&str; 3] = ["console", "alert", "prompt"];
+const NETWORK_NAMES: [&str; 6] = ["fetch", "XMLHttpRequest", "WebSocket", "require", "process", "Worker"];
+const CODE_NAMES: [&str; 2] = ["eval", "Function"];
+const CLOCK_NAMES: [&str; 5] = ["Date", "performance", "setTimeout", "setInterval", "requestAnimationFrame"];
+const OTHER_GLOBALS: [&str; 10] =
     ["Promise", "Symbol", "Reflect", "Proxy", "RegExp", "Map", "Set", "JSON", "Intl", "arguments"];
 
 /// Why the language does not have such a name, and what to use instead.
-fn absent(name: &str, host_terms: &HostTerms) -> Option<(String, String)> {
+fn explain_absent(name: &str, host_terms: &HostTerms) -> Option<(String, String)> {
     let HostTerms { lab, lesson, .. } = host_terms;
     let (why, help) = match name {
-        _ if PAGE.contains(&name) => (
+        _ if PAGE_NAMES.contains(&name) => (
             format!("a {lesson} must run without a page: in a browser, on a command line, in a notebook"),
             format!("use a name of the {lab}: {}", host_terms.names),
         ),
-        _ if PRINT.contains(&name) => {
+        _ if PRINT_NAMES.contains(&name) => {
             ("there is no console".into(), format!("show the value in {}", host_terms.display))
         }
-        _ if OUTSIDE.contains(&name) => (
+        _ if NETWORK_NAMES.contains(&name) => (
             format!("a {lesson} cannot access anything outside itself"),
             format!("put the data into the {lab}"),
         ),
-        _ if CODE.contains(&name) => (
+        _ if CODE_NAMES.contains(&name) => (
             "code that is generated at run time cannot be checked before the run".into(),
             "write the expression itself".into(),
         ),
-        _ if CLOCK.contains(&name) => {
+        _ if CLOCK_NAMES.contains(&name) => {
             ("the wall clock would make every run different".into(), host_terms.clock.into())
         }
-        _ if MORE.contains(&name) => (
+        _ if OTHER_GLOBALS.contains(&name) => (
             format!("a {lesson} works on numbers, and needs only lists and records"),
             format!(
                 "store values in variables of the {lab}, as `ctx.peak`, in lists `[0, 1]` or in records `{{a: 1}}`"
@@ -58,7 +58,7 @@ impl NameWalk<'_, '_> {
                 .why(host_terms.input.0)
                 .help(host_terms.input.1);
         }
-        if let Some((why, help)) = absent(name, host_terms) {
+        if let Some((why, help)) = explain_absent(name, host_terms) {
             return Finding::error(rules::NOT_IN_LANGUAGE, span, format!("`{name}` is not in this language"))
                 .why(why)
                 .help(help);

@@ -25,7 +25,7 @@ pub(in crate::bind) enum NameUse {
 
 /// The context in which the names of a text are resolved.
 #[derive(Clone, Copy)]
-pub(in crate::bind) struct Surroundings<'s> {
+pub(in crate::bind) struct NameContext<'s> {
     /// `None` for functions that are written in the language itself.
     pub(in crate::bind) schema: Option<&'s dyn Schema>,
     pub(in crate::bind) globals: &'s Globals,
@@ -49,7 +49,7 @@ pub(super) struct FunctionScope<'a> {
 }
 
 pub(in crate::bind) struct NameWalk<'a, 's> {
-    pub(super) around: Surroundings<'s>,
+    pub(super) around: NameContext<'s>,
     pub(super) names: NameTable,
     pub(super) found: Vec<Finding>,
     /// Declarations in scope, inner ones last.
@@ -66,7 +66,7 @@ pub(in crate::bind) struct NameWalk<'a, 's> {
 
 /// Resolves the names of a text.
 pub(in crate::bind) fn resolve<'a>(
-    around: Surroundings<'_>,
+    around: NameContext<'_>,
     work: impl FnOnce(&mut NameWalk<'a, '_>),
 ) -> (NameTable, Vec<Finding>) {
     let mut walk = NameWalk {
@@ -81,7 +81,7 @@ pub(in crate::bind) fn resolve<'a>(
         levels: 0,
     };
     work(&mut walk);
-    walk.hand_on();
+    walk.propagate_captures();
     (walk.names, walk.found)
 }
 
@@ -350,7 +350,7 @@ impl<'a> NameWalk<'a, '_> {
 
     /// Propagates captures to callers: a function that names another one captures what that one captures, except its own
     /// variables.
-    fn hand_on(&mut self) {
+    fn propagate_captures(&mut self) {
         let mut changed = order::set(self.names.captured.keys().copied());
         while let Some(callee) = changed.pop_last() {
             let captured: Vec<usize> = self.names.captured(callee).collect();

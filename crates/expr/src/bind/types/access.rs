@@ -34,11 +34,11 @@ impl<'a> Binder<'a> {
             let index = self.index(&field, index, span)?;
             return Ok(Entity::Value(self.load(&field, index, span)));
         }
-        let thing = self.entity(object);
-        if let Ok(Entity::Globals) = thing {
+        let entity = self.entity(object);
+        if let Ok(Entity::Globals) = entity {
             return self.read_named_global(index, span).map(Entity::Value);
         }
-        match thing {
+        match entity {
             Ok(Entity::Field(field)) => {
                 let index = self.index(&field, index, span)?;
                 self.name_element(&field, &index, span);
@@ -233,14 +233,14 @@ impl<'a> Binder<'a> {
         Ok(at)
     }
 
-    pub(super) fn not_indexable(&self, thing: &Entity, object: &Expr, index: &Expr, span: Span) -> Finding {
+    pub(super) fn not_indexable(&self, entity: &Entity, object: &Expr, index: &Expr, span: Span) -> Finding {
         let text = self.text(object.span);
         let error = |message: String| Finding::error(rules::NOT_INDEXABLE, span, message);
         let name = match &index.kind {
             ExprKind::String(name) => Some(name.as_str()),
             _ => None,
         };
-        match (thing, name) {
+        match (entity, name) {
             (Entity::Collection(id), _) => {
                 self.collection_needs_call(*id, object.span, name.map(|n| (n, span)))
             }
@@ -272,7 +272,7 @@ impl<'a> Binder<'a> {
                 | Entity::Native(_)
                 | Entity::Closure(_),
                 _,
-            ) => self.not_called(thing, object.span),
+            ) => self.not_called(entity, object.span),
             _ => error(format!("`{text}` is not an array"))
                 .help(format!("select a field with a point, as `{}`", self.host_terms().array)),
         }
@@ -344,13 +344,13 @@ impl<'a> Binder<'a> {
             );
         };
         match self.object_name(id, arg)? {
-            Chosen::Known(object) => Ok(Entity::Object(object)),
-            Chosen::Computed(name) => Ok(Entity::Picked(id, name)),
+            ObjectChoice::Known(object) => Ok(Entity::Object(object)),
+            ObjectChoice::Computed(name) => Ok(Entity::Picked(id, name)),
         }
     }
 
     /// Binds the name of an object of a collection.
-    pub(super) fn object_name(&mut self, id: CollectionId, arg: &'a Expr) -> Attempt<Chosen> {
+    pub(super) fn object_name(&mut self, id: CollectionId, arg: &'a Expr) -> Attempt<ObjectChoice> {
         let noun = self.schema.noun(id).to_owned();
         let names = self.schema.names(id);
         let ir = self.value(arg)?;
@@ -363,7 +363,7 @@ impl<'a> Binder<'a> {
                             .help(format!("give the {noun} a name in the {}", self.host_terms().model)),
                     );
                 }
-                return Ok(Chosen::Computed(ir));
+                return Ok(ObjectChoice::Computed(ir));
             }
             _ => {
                 let text = if names.is_empty() {
@@ -389,7 +389,7 @@ impl<'a> Binder<'a> {
         if let Some(object) = self.schema.lookup(id, name) {
             let title = self.schema.describe(object);
             self.explain(arg.span, || Help { title, lines: Vec::new() });
-            return Ok(Chosen::Known(object));
+            return Ok(ObjectChoice::Known(object));
         }
         let report =
             Finding::error(rules::UNKNOWN_OBJECT, arg.span, format!("there is no {noun} named \"{name}\""));
@@ -407,7 +407,7 @@ impl<'a> Binder<'a> {
 }
 
 /// The object to which a name refers.
-pub(super) enum Chosen {
+pub(super) enum ObjectChoice {
     Known(ObjectId),
     /// Known only at run time.
     Computed(Ir),

@@ -2,10 +2,10 @@
 
 use super::access::GlobalName;
 use super::binder::{Binder, Entity, VariableMeaning};
-use super::member::{machinery, view_of};
+use super::member::{internal_member, view_of};
 use super::typed::Expectation;
 use crate::ast::{BinaryOp, Expr, ExprKind, LogicalOp};
-use crate::bind::names::MACHINERY;
+use crate::bind::names::INTERNAL_MEMBERS;
 use crate::ir::{AssignmentTarget, Index, Ir, IrKind, UpdateResult};
 use crate::parse::{Attempt, Reported};
 use crate::rules;
@@ -54,7 +54,7 @@ impl<'a> Binder<'a> {
         };
         let (place, value) = (place?, value?);
         self.check_kept(&place, &value)?;
-        self.want_stored(&place, op, &value);
+        self.record_stored_expectation(&place, op, &value);
         let old = self.type_of_place(&place);
         let ty = match op {
             None => value.ty,
@@ -77,7 +77,7 @@ impl<'a> Binder<'a> {
         };
         let (place, value) = (place?, value?);
         self.check_kept(&place, &value)?;
-        self.want_stored(&place, None, &value);
+        self.record_stored_expectation(&place, None, &value);
         let ty = self.type_of_place(&place).or(value.ty);
         self.stored(target, &place, ty);
         Ok(Ir::new(IrKind::StoreIf(op, Box::new(place), Box::new(value)), ty, span))
@@ -108,7 +108,7 @@ impl<'a> Binder<'a> {
     fn stored(&mut self, target: &Expr, place: &AssignmentTarget, ty: Type) {
         let (AssignmentTarget::Local(id), ExprKind::Name(_)) = (place, &target.kind) else { return };
         if let Some(key) = self.keys.get(*id as usize) {
-            self.facts.see(*key, ty);
+            self.facts.widen(*key, ty);
         }
     }
 
@@ -138,9 +138,9 @@ impl<'a> Binder<'a> {
             ExprKind::Member { object, name, optional: false } => match self.entity(object)? {
                 Entity::Globals => self.global_place(&name.text, target.span),
                 Entity::Value(ir) => self.member_place(ir, name, target.span),
-                thing => {
-                    let thing = self.member_of(thing, object.span, name, false, target.span)?;
-                    self.place_of(thing, target)
+                entity => {
+                    let entity = self.member_of(entity, object.span, name, false, target.span)?;
+                    self.place_of(entity, target)
                 }
             },
             ExprKind::Index { object, index, optional: false } => match self.entity(object) {
@@ -159,8 +159,8 @@ impl<'a> Binder<'a> {
                     let index = self.value(index)?;
                     Ok(AssignmentTarget::Item(ir, index))
                 }
-                Ok(thing) => {
-                    let report = match thing {
+                Ok(entity) => {
+                    let report = match entity {
                         Entity::Value(ref ir) if !matches!(ir.kind, IrKind::Load(..)) => {
                             self.not_a_place(target)
                         }
@@ -183,8 +183,8 @@ impl<'a> Binder<'a> {
 
     /// Binds the target `value.name`.
     fn member_place(&mut self, ir: Ir, name: &crate::ast::Name, span: Span) -> Attempt<AssignmentTarget> {
-        if MACHINERY.contains(&name.text.as_str()) {
-            return self.refuse(machinery(&name.text, name.span));
+        if INTERNAL_MEMBERS.contains(&name.text.as_str()) {
+            return self.refuse(internal_member(&name.text, name.span));
         }
         if matches!(ir.ty, Type::Record | Type::Any | Type::Never | Type::List) {
             return Ok(AssignmentTarget::Member(ir, name.text.as_str().into()));
@@ -198,7 +198,7 @@ impl<'a> Binder<'a> {
     }
 
     fn global_place(&mut self, name: &str, span: Span) -> Attempt<AssignmentTarget> {
-        self.check_machinery(name, span)?;
+        self.check_internal_member(name, span)?;
         let slot = self.globals.mention(name, self.program, span, true);
         Ok(AssignmentTarget::Global(slot))
     }
@@ -214,14 +214,14 @@ impl<'a> Binder<'a> {
                 }
             };
         }
-        let thing = self.root(name, span)?;
+        let entity = self.root(name, span)?;
         let expr = Expr { kind: ExprKind::Name(name.to_owned()), span };
-        self.place_of(thing, &expr)
+        self.place_of(entity, &expr)
     }
 
     /// Binds an entity, named directly or as a member, as a target.
-    fn place_of(&mut self, thing: Entity, target: &Expr) -> Attempt<AssignmentTarget> {
-        match thing {
+    fn place_of(&mut self, entity: Entity, target: &Expr) -> Attempt<AssignmentTarget> {
+        match entity {
             Entity::Field(field) => {
                 self.check_assignable(&field, target.span)?;
                 if field.is_scalar() {
@@ -300,7 +300,7 @@ impl<'a> Binder<'a> {
     }
 
     /// Records for the lints that a number is expected here.
-    fn want_stored(&mut self, place: &AssignmentTarget, op: Option<BinaryOp>, value: &Ir) {
+    fn record_stored_expectation(&mut self, place: &AssignmentTarget, op: Option<BinaryOp>, value: &Ir) {
         let at = match (place, op) {
             (AssignmentTarget::Element(view, Index::At(i)), None) => {
                 Some((view.field, view.first as usize + i))
@@ -309,7 +309,7 @@ impl<'a> Binder<'a> {
             (_, Some(op)) if op != BinaryOp::Add => None,
             _ => return,
         };
-        self.want(value, value.span, Expectation::Element(at));
+        self.record_expectation(value, value.span, Expectation::Element(at));
     }
 }
 

@@ -66,7 +66,7 @@ pub(in crate::bind) fn bind(
         context.globals.back_to(mark);
         let mut binder = Binder::new(context, source, tree.mode(), names, id, facts);
         let done = binder.whole(tree);
-        binder.settle();
+        binder.assign_types();
         let again = binder.facts.next_round();
         *context.globals = binder.globals;
         facts = binder.facts;
@@ -294,7 +294,7 @@ impl<'a> Binder<'a> {
     }
 
     /// Gives the variables of the tree their inferred types.
-    pub(super) fn settle(&mut self) {
+    pub(super) fn assign_types(&mut self) {
         for (local, key) in self.tree.locals.iter_mut().zip(&self.keys) {
             local.ty = self.facts.found(*key);
         }
@@ -343,16 +343,16 @@ impl<'a> Binder<'a> {
     /// Binds a part of the source to its meaning.
     pub(super) fn entity(&mut self, expr: &'a Expr) -> Attempt<Entity> {
         if self.levels >= MAX_LEVELS {
-            return self.refuse_deep(expr.span);
+            return self.refuse_nesting(expr.span);
         }
         self.levels += 1;
-        let thing = self.entity_inside(expr);
+        let entity = self.entity_inside(expr);
         self.levels -= 1;
-        thing
+        entity
     }
 
     #[inline(never)]
-    fn refuse_deep(&mut self, span: Span) -> Attempt<Entity> {
+    fn refuse_nesting(&mut self, span: Span) -> Attempt<Entity> {
         self.refuse(too_deep(span))
     }
 
@@ -365,21 +365,21 @@ impl<'a> Binder<'a> {
     }
 
     /// Records the type of an expression for the lints.
-    pub(super) fn note(&mut self, span: Span, ir: &Ir) {
+    pub(super) fn record_type(&mut self, span: Span, ir: &Ir) {
         if self.site.is_none() {
             self.typed.shapes.push((span, ExpressionShape::of_ir(ir)));
         }
     }
 
     /// Records that a statement has no effect.
-    pub(super) fn idle(&mut self, span: Span) {
+    pub(super) fn record_idle(&mut self, span: Span) {
         if self.site.is_none() {
             self.typed.idle.insert(span);
         }
     }
 
     /// Records for the lints what is expected of a value.
-    pub(super) fn want(&mut self, ir: &Ir, span: Span, want: Expectation) {
+    pub(super) fn record_expectation(&mut self, ir: &Ir, span: Span, want: Expectation) {
         if self.site.is_none() {
             self.typed.wants.push((span, want, ExpressionShape::of_ir(ir)));
         }

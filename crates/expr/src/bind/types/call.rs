@@ -1,6 +1,6 @@
 //! Calls: functions of the host, `Math`, named objects, functions of the text, and aggregates.
 
-use super::access::Chosen;
+use super::access::ObjectChoice;
 use super::binder::{Binder, Entity};
 use super::member::quoted;
 use super::typed::Expectation;
@@ -20,7 +20,7 @@ use labspec_finding::order;
 use labspec_finding::{Finding, Span};
 
 /// Functions whose argument is an angle.
-const OF_ANGLES: [&str; 3] = ["Math.sin", "Math.cos", "Math.tan"];
+const ANGLE_FUNCTIONS: [&str; 3] = ["Math.sin", "Math.cos", "Math.tan"];
 
 impl<'a> Binder<'a> {
     /// Binds `callee(args)` or `callee?.(args)`.
@@ -31,14 +31,14 @@ impl<'a> Binder<'a> {
         optional: bool,
         span: Span,
     ) -> Attempt<Entity> {
-        let thing = match self.entity(callee) {
-            Ok(thing) => thing,
+        let entity = match self.entity(callee) {
+            Ok(entity) => entity,
             Err(Reported) => {
-                self.only_check(args);
+                self.check_arguments(args);
                 return Err(Reported);
             }
         };
-        match thing {
+        match entity {
             Entity::Collection(id) => self.named(id, callee.span, args, span),
             Entity::Function(id) => self.host_call(id, args, callee.span, span).map(Entity::Value),
             Entity::MathFunction(function) => self.math_call(function, args, span).map(Entity::Value),
@@ -47,7 +47,7 @@ impl<'a> Binder<'a> {
             Entity::Namespace(name) => match natives::find_function(name) {
                 Some(function) => self.native_call(function, args, span).map(Entity::Value),
                 None => {
-                    self.only_check(args);
+                    self.check_arguments(args);
                     self.refuse(
                         Finding::error(
                             rules::NOT_IN_LANGUAGE,
@@ -66,7 +66,7 @@ impl<'a> Binder<'a> {
                 Ok(Entity::Value(self.call_value(callee, items, span)))
             }
             other => {
-                self.only_check(args);
+                self.check_arguments(args);
                 let report = self.not_callable(&other, callee.span);
                 self.refuse(report)
             }
@@ -103,7 +103,7 @@ impl<'a> Binder<'a> {
     }
 
     /// Binds arguments only to report their errors; the results are discarded.
-    pub(super) fn only_check(&mut self, args: &'a [Expr]) {
+    pub(super) fn check_arguments(&mut self, args: &'a [Expr]) {
         for arg in args {
             let _ = match &arg.kind {
                 ExprKind::Spread(inner) => self.entity(inner),
@@ -113,9 +113,9 @@ impl<'a> Binder<'a> {
     }
 
     #[inline(never)]
-    fn not_callable(&self, thing: &Entity, span: Span) -> Finding {
+    fn not_callable(&self, entity: &Entity, span: Span) -> Finding {
         let text = self.text(span);
-        let what = match thing {
+        let what = match entity {
             Entity::Field(field) if !field.is_scalar() => "an array",
             Entity::Field(_) => "a number",
             Entity::Object(_) | Entity::Math | Entity::Globals => "an object",
@@ -123,7 +123,7 @@ impl<'a> Binder<'a> {
             _ => "a value",
         };
         let report = Finding::error(rules::NOT_CALLABLE, span, format!("`{text}` is {what}, not a function"));
-        match thing {
+        match entity {
             Entity::Field(field) if !field.is_scalar() => report
                 .why("parentheses call a function")
                 .help(format!("select elements with square brackets, as `{text}[0]`")),
@@ -134,9 +134,9 @@ impl<'a> Binder<'a> {
     }
 
     /// The finding for a function that is named but not called.
-    pub(super) fn not_called(&self, thing: &Entity, span: Span) -> Finding {
+    pub(super) fn not_called(&self, entity: &Entity, span: Span) -> Finding {
         let text = self.text(span);
-        let call = match thing {
+        let call = match entity {
             Entity::Function(id) => {
                 let signature = self.signature(&self.schema.function(*id));
                 let arguments = signature.split_once('(').map_or(")", |(_, rest)| rest);
@@ -169,9 +169,9 @@ impl<'a> Binder<'a> {
         for arg in args {
             match self.math_argument(&path, function, arg) {
                 Ok(ir) => {
-                    self.want(&ir, arg.span, Expectation::Number(path.clone()));
-                    if OF_ANGLES.contains(&path.as_str()) {
-                        self.want(&ir, arg.span, Expectation::Angle(path.clone()));
+                    self.record_expectation(&ir, arg.span, Expectation::Number(path.clone()));
+                    if ANGLE_FUNCTIONS.contains(&path.as_str()) {
+                        self.record_expectation(&ir, arg.span, Expectation::Angle(path.clone()));
                     }
                     numbers.push(Ir::to_number(ir, arg.span));
                 }
@@ -206,8 +206,8 @@ impl<'a> Binder<'a> {
 
     /// Binds an argument of a function of `Math`. A list is an error: `Math.max([1, 2])` should be `Math.max(...[1, 2])`.
     fn math_argument(&mut self, path: &str, function: math::MathFunction, arg: &'a Expr) -> Attempt<Ir> {
-        let thing = self.entity(arg)?;
-        let report = match &thing {
+        let entity = self.entity(arg)?;
+        let report = match &entity {
             Entity::Field(field) if !field.is_scalar() => Some(self.whole_array(field, arg.span)),
             Entity::Value(ir) if matches!(ir.ty, Type::List | Type::View) => Some(self.not_single(ir)),
             _ => None,
@@ -218,7 +218,7 @@ impl<'a> Binder<'a> {
                 let help = format!("write `{path}(...{text})` for all its elements, or `{text}[0]` for one");
                 self.refuse(report.help(help).guess(Span::new(arg.span.start, arg.span.start), "..."))
             }
-            None => self.operand_of(thing, arg.span),
+            None => self.operand_of(entity, arg.span),
         }
     }
 
@@ -264,7 +264,7 @@ impl<'a> Binder<'a> {
         let implied = info.implied && args.is_empty();
         let required = info.params.len().saturating_sub(info.optional);
         if !implied && (args.len() < required || args.len() > info.params.len()) {
-            self.only_check(args);
+            self.check_arguments(args);
             let report = self.wrong_count(&info, args, Some(callee), span);
             return self.refuse(report);
         }
@@ -330,7 +330,7 @@ impl<'a> Binder<'a> {
                     return self.wrong_type(info, i, &ir, "a number");
                 }
                 if param == Param::Angle {
-                    self.want(&ir, span, Expectation::Angle(info.name.clone()));
+                    self.record_expectation(&ir, span, Expectation::Angle(info.name.clone()));
                 }
                 Ok(Some(Ir::to_number(ir, span)))
             }
@@ -373,9 +373,9 @@ impl<'a> Binder<'a> {
     /// Binds the name of an object of a collection as its id.
     fn name_argument(&mut self, collection: CollectionId, arg: &'a Expr) -> Attempt<Ir> {
         match self.object_name(collection, arg)? {
-            Chosen::Known(object) => Ok(Ir::number(f64::from(object.0), arg.span)),
+            ObjectChoice::Known(object) => Ok(Ir::number(f64::from(object.0), arg.span)),
             // The name is known only at run time: a table with the ids of all objects of the collection.
-            Chosen::Computed(name) => {
+            ObjectChoice::Computed(name) => {
                 let noun = self.schema.noun(collection).to_owned();
                 let names = self.schema.names(collection);
                 let id = |n: &String| {
@@ -455,7 +455,7 @@ impl<'a> Binder<'a> {
                 self.finish(vec![IrStatement::Return(ir.clone())], result);
             }
             let aggregates = std::mem::replace(&mut self.aggregates, aggregates);
-            self.settle();
+            self.assign_types();
             let tree = std::mem::replace(&mut self.tree, tree);
             self.keys = keys;
             self.variables = variables;

@@ -82,7 +82,7 @@ impl TypeFacts {
     }
 
     /// Widens the type of a key by `ty`.
-    pub(super) fn see(&mut self, key: FactKey, ty: Type) {
+    pub(super) fn widen(&mut self, key: FactKey, ty: Type) {
         let wide = self.rounds >= ROUNDS;
         let fact = self.at(key);
         let joined = fact.ty.or(ty);

@@ -38,7 +38,7 @@ impl<'a> Binder<'a> {
         for (i, param) in called.function.params.iter().enumerate() {
             let key = self.param_key(param);
             self.facts.join(key);
-            self.facts.see(key, types.get(i).copied().unwrap_or(Type::Undefined));
+            self.facts.widen(key, types.get(i).copied().unwrap_or(Type::Undefined));
         }
         let unit = called.unit.unwrap_or_else(|| self.bind_function(at, &called));
         self.site = site;
@@ -91,7 +91,7 @@ impl<'a> Binder<'a> {
         match &function.body {
             Body::Value(expr) => {
                 if let Ok(ir) = self.body_value(expr) {
-                    self.facts.see(key, ir.ty);
+                    self.facts.widen(key, ir.ty);
                     steps.push(IrStatement::Return(ir));
                 }
             }
@@ -100,7 +100,7 @@ impl<'a> Binder<'a> {
                 steps.extend(self.block(statements));
                 self.returns.pop();
                 if !always_return(&steps) {
-                    self.facts.see(key, Type::Undefined);
+                    self.facts.widen(key, Type::Undefined);
                 }
             }
         }
@@ -114,8 +114,8 @@ impl<'a> Binder<'a> {
                 self.changing(expr)
             }
             ExprKind::Call { .. } => {
-                let thing = self.entity(expr)?;
-                match thing {
+                let entity = self.entity(expr)?;
+                match entity {
                     // The call of a function without a result gives `undefined`.
                     Entity::Value(ir) if ir.ty == Type::Void => Ok(Ir { ty: Type::Undefined, ..ir }),
                     other => self.value_of(other, expr.span),
@@ -133,7 +133,7 @@ impl<'a> Binder<'a> {
         if let Some(default) = &param.default
             && let Ok(value) = self.value(default)
         {
-            self.facts.see(key, value.ty);
+            self.facts.widen(key, value.ty);
             let ty = self.facts.ty(key);
             let test = Ir::binary(BinaryOp::StrictEqual, read(ty), Ir::undefined(span), span);
             let store =
@@ -146,8 +146,8 @@ impl<'a> Binder<'a> {
         }
         let ty = self.facts.ty(key);
         match &param.target {
-            Pattern::Name(name) => self.give(name, VariableMeaning::Slot),
-            pattern => self.take_apart(pattern, read(ty), steps),
+            Pattern::Name(name) => self.mark_declared(name, VariableMeaning::Slot),
+            pattern => self.destructure_value(pattern, read(ty), steps),
         }
     }
 

@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 use super::binder::{Binder, Entity, InlineSite, VariableMeaning};
 use super::facts::FactKind;
 use crate::ast::{Body, Expr, Function, Name, Pattern};
-use crate::bind::names::{NameTable, Surroundings, resolve};
+use crate::bind::names::{NameContext, NameTable, resolve};
 use crate::bind::source::TextKind;
 use crate::globals::Globals;
 use crate::ir::{Ir, IrKind, IrStatement, always_return};
@@ -29,7 +29,7 @@ fn names_of(function: &Function) -> &'static NameTable {
 fn resolved(function: &'static Function) -> NameTable {
     let globals = Globals::new();
     let around =
-        Surroundings { schema: None, globals: &globals, mode: TextKind::Statements, has_value: false };
+        NameContext { schema: None, globals: &globals, mode: TextKind::Statements, has_value: false };
     resolve(around, |walk| walk.inside(function)).0
 }
 
@@ -45,9 +45,9 @@ impl<'a> Binder<'a> {
     ) -> Attempt<Ir> {
         let mut things = vec![Ok(first)];
         for (i, arg) in args.iter().enumerate() {
-            let thing = self.argument_entity(arg);
+            let entity = self.argument_entity(arg);
             // The function comes first among the arguments.
-            let calls = match &thing {
+            let calls = match &entity {
                 Ok(Entity::Value(ir)) => matches!(ir.ty, Type::Function | Type::Any | Type::Never),
                 _ => true,
             };
@@ -55,7 +55,7 @@ impl<'a> Binder<'a> {
                 let report = self.needs_function(row, arg.span);
                 return self.refuse(report);
             }
-            things.push(thing);
+            things.push(entity);
         }
         let things = things.into_iter().collect::<Attempt<Vec<Entity>>>()?;
         let Body::Block(statements) = &function.body else { return Err(Reported) };
@@ -70,10 +70,10 @@ impl<'a> Binder<'a> {
         let outer = (self.site.replace(site), self.guards);
         self.guards += 1;
         let mut steps = Vec::new();
-        for (param, thing) in function.params.iter().zip(things) {
+        for (param, entity) in function.params.iter().zip(things) {
             let Pattern::Name(name) = &param.target else { continue };
             self.declare_variable(name);
-            self.give_entity(name, thing, &mut steps);
+            self.give_entity(name, entity, &mut steps);
         }
         let key = self.key(function.span.start, FactKind::Result);
         self.returns.push(key);
@@ -82,7 +82,7 @@ impl<'a> Binder<'a> {
         self.loops = loops;
         self.returns.pop();
         if !always_return(&body) {
-            self.facts.see(key, Type::Undefined);
+            self.facts.widen(key, Type::Undefined);
         }
         let result = self.new_local(key, false);
         let ty = self.facts.ty(key);
@@ -108,10 +108,10 @@ impl<'a> Binder<'a> {
     }
 
     /// Binds a parameter of a written method: an entity that needs no storage becomes an alias.
-    fn give_entity(&mut self, name: &Name, thing: Entity, steps: &mut Vec<IrStatement>) {
-        match thing {
-            Entity::Value(ir) => self.give_value(name, ir, steps),
-            other => self.give(name, VariableMeaning::Alias(other)),
+    fn give_entity(&mut self, name: &Name, entity: Entity, steps: &mut Vec<IrStatement>) {
+        match entity {
+            Entity::Value(ir) => self.initialize(name, ir, steps),
+            other => self.mark_declared(name, VariableMeaning::Alias(other)),
         }
     }
 }

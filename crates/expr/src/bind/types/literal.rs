@@ -31,14 +31,14 @@ impl<'a> Binder<'a> {
 
     /// Binds `...list`. A short array of known size is expanded.
     fn spread(&mut self, inner: &'a Expr) -> Attempt<Vec<IrItem>> {
-        let thing = self.entity(inner)?;
-        if let Entity::Field(field) = &thing
+        let entity = self.entity(inner)?;
+        if let Entity::Field(field) = &entity
             && !field.is_scalar()
             && let Some(elements) = self.elements(field, inner.span)
         {
             return Ok(elements.into_iter().map(|value| IrItem { value, spread: false }).collect());
         }
-        let value = self.value_of(thing, inner.span)?;
+        let value = self.value_of(entity, inner.span)?;
         self.expect_elements(&value)?;
         Ok(vec![IrItem { value, spread: true }])
     }
@@ -78,7 +78,7 @@ impl<'a> Binder<'a> {
         for property in properties {
             let entry = match property {
                 Property::Named { key, value } => self
-                    .check_machinery(&key.text, key.span)
+                    .check_internal_member(&key.text, key.span)
                     .and_then(|()| Ok(IrEntry::Named(key.text.as_str().into(), self.value(value)?))),
                 Property::Computed { key, value } => {
                     let key = self.value(key);
@@ -118,12 +118,17 @@ impl<'a> Binder<'a> {
     }
 
     /// Destructures a value. The value has its own storage, so that it can be read repeatedly.
-    pub(super) fn take_apart(&mut self, pattern: &'a Pattern, whole: Ir, steps: &mut Vec<IrStatement>) {
+    pub(super) fn destructure_value(
+        &mut self,
+        pattern: &'a Pattern,
+        whole: Ir,
+        steps: &mut Vec<IrStatement>,
+    ) {
         match pattern {
-            Pattern::Name(name) => self.give_value(name, whole, steps),
+            Pattern::Name(name) => self.initialize(name, whole, steps),
             Pattern::List { items, span } => {
                 if self.expect_elements(&whole).is_err() {
-                    return self.forget(pattern);
+                    return self.mark_unbound(pattern);
                 }
                 // A value that is not known to be a list is converted to one, or refused, as in JavaScript.
                 let whole = match (whole.ty, crate::natives::find_function("_parts")) {
@@ -131,7 +136,7 @@ impl<'a> Binder<'a> {
                     (_, Some(function)) => {
                         let item = IrItem { value: whole, spread: false };
                         let parts = Ir::new(IrKind::Native(function, vec![item]), Type::List, *span);
-                        self.keep(parts, Span { start: span.end, ..*span }, steps)
+                        self.store_in_temporary(parts, Span { start: span.end, ..*span }, steps)
                     }
                 };
                 for (i, item) in items.iter().enumerate() {
@@ -146,11 +151,11 @@ impl<'a> Binder<'a> {
                 for (key, element) in entries {
                     let object = whole.clone();
                     match self.value_member(object, key, false, *span) {
-                        Ok(thing) => match self.value_of(thing, key.span) {
+                        Ok(entity) => match self.value_of(entity, key.span) {
                             Ok(part) => self.part(element, part, steps),
-                            Err(Reported) => self.forget(&element.target),
+                            Err(Reported) => self.mark_unbound(&element.target),
                         },
-                        Err(Reported) => self.forget(&element.target),
+                        Err(Reported) => self.mark_unbound(&element.target),
                     }
                 }
             }
@@ -162,32 +167,32 @@ impl<'a> Binder<'a> {
         let span = element.target.span();
         let mut value = part;
         if let Some(default) = &element.default {
-            let Ok(default) = self.value(default) else { return self.forget(&element.target) };
-            let place = self.keep(value, span, steps);
+            let Ok(default) = self.value(default) else { return self.mark_unbound(&element.target) };
+            let place = self.store_in_temporary(value, span, steps);
             let test = Ir::binary(BinaryOp::StrictEqual, place.clone(), Ir::undefined(span), span);
             value = Ir::choice(test, default, place, span);
         }
         match &element.target {
-            Pattern::Name(name) => self.give_value(name, value, steps),
+            Pattern::Name(name) => self.initialize(name, value, steps),
             pattern => {
-                let place = self.keep(value, span, steps);
-                self.take_apart(pattern, place, steps);
+                let place = self.store_in_temporary(value, span, steps);
+                self.destructure_value(pattern, place, steps);
             }
         }
     }
 
     /// Stores a value in an unnamed local variable.
-    pub(super) fn keep(&mut self, value: Ir, span: Span, steps: &mut Vec<IrStatement>) -> Ir {
+    pub(super) fn store_in_temporary(&mut self, value: Ir, span: Span, steps: &mut Vec<IrStatement>) -> Ir {
         let key = self.key(span.start, FactKind::Part);
-        self.facts.see(key, value.ty);
+        self.facts.widen(key, value.ty);
         let (place, ty) = (self.new_local(key, false), self.facts.ty(key));
         steps.push(IrStatement::Declare(place, value));
         Ir::new(IrKind::Local(place), ty, span)
     }
 
     /// Marks the names of a pattern that could not be bound, so that their uses are not reported as further errors.
-    pub(super) fn forget(&mut self, pattern: &'a Pattern) {
-        names_of(pattern, &mut |name| self.give(name, VariableMeaning::Unknown));
+    pub(super) fn mark_unbound(&mut self, pattern: &'a Pattern) {
+        names_of(pattern, &mut |name| self.mark_declared(name, VariableMeaning::Unknown));
     }
 
     /// Binds `const {kinetic, total} = lib.energy()`. The names are checked against the members of the function's result.
@@ -197,47 +202,47 @@ impl<'a> Binder<'a> {
         value: &'a Expr,
         steps: &mut Vec<IrStatement>,
     ) {
-        let Ok(thing) = self.entity(value) else { return self.forget(pattern) };
+        let Ok(entity) = self.entity(value) else { return self.mark_unbound(pattern) };
         // Parts of `model`, `data`, `ctx` or `Math` become aliases.
         if let (Pattern::Record { entries, .. }, Entity::Object(_) | Entity::Math | Entity::Globals) =
-            (pattern, &thing)
+            (pattern, &entity)
         {
             for (key, element) in entries {
-                let part = self.member_of(thing.clone(), value.span, key, false, key.span);
+                let part = self.member_of(entity.clone(), value.span, key, false, key.span);
                 match (part, &element.target) {
-                    (Ok(part), Pattern::Name(name)) => self.give_part(name, part, key.span, steps),
+                    (Ok(part), Pattern::Name(name)) => self.initialize_part(name, part, key.span, steps),
                     (Ok(part), inner) => match self.value_of(part, key.span) {
                         Ok(ir) => {
-                            let place = self.keep(ir, inner.span(), steps);
-                            self.take_apart(inner, place, steps);
+                            let place = self.store_in_temporary(ir, inner.span(), steps);
+                            self.destructure_value(inner, place, steps);
                         }
-                        Err(Reported) => self.forget(inner),
+                        Err(Reported) => self.mark_unbound(inner),
                     },
-                    (Err(Reported), inner) => self.forget(inner),
+                    (Err(Reported), inner) => self.mark_unbound(inner),
                 }
             }
             return;
         }
-        if let (Pattern::Record { entries, .. }, Entity::Value(ir)) = (pattern, &thing) {
+        if let (Pattern::Record { entries, .. }, Entity::Value(ir)) = (pattern, &entity) {
             let values: Vec<Attempt<Ir>> = entries
                 .iter()
                 .filter(|_| ir.ty == Type::Record)
                 .map(|(key, _)| self.record_member(ir.clone(), key, key.span))
                 .collect();
             if values.iter().any(Result::is_err) {
-                return self.forget(pattern);
+                return self.mark_unbound(pattern);
             }
         }
-        match self.value_of(thing, value.span) {
+        match self.value_of(entity, value.span) {
             Ok(ir) => {
-                let place = self.keep(ir, pattern.span(), steps);
-                self.take_apart(pattern, place, steps);
+                let place = self.store_in_temporary(ir, pattern.span(), steps);
+                self.destructure_value(pattern, place, steps);
             }
-            Err(Reported) => self.forget(pattern),
+            Err(Reported) => self.mark_unbound(pattern),
         }
     }
 
-    fn give_part(
+    fn initialize_part(
         &mut self,
         name: &'a crate::ast::Name,
         part: Entity,
@@ -246,14 +251,14 @@ impl<'a> Binder<'a> {
     ) {
         match part {
             single @ Entity::Value(_) => match self.value_of(single, span) {
-                Ok(ir) => self.give_value(name, ir, steps),
-                Err(Reported) => self.give(name, VariableMeaning::Unknown),
+                Ok(ir) => self.initialize(name, ir, steps),
+                Err(Reported) => self.mark_declared(name, VariableMeaning::Unknown),
             },
             Entity::Field(field) if field.is_scalar() => {
                 let ir = self.load(&field, crate::ir::Index::At(0), span);
-                self.give_value(name, ir, steps);
+                self.initialize(name, ir, steps);
             }
-            other => self.give(name, VariableMeaning::Alias(other)),
+            other => self.mark_declared(name, VariableMeaning::Alias(other)),
         }
     }
 }

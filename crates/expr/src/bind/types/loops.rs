@@ -117,7 +117,7 @@ impl<'a> Binder<'a> {
             Ok(Entity::Field(field)) if !field.is_scalar() => {
                 Ok(self.elements_of_field(&field, &read_counter, items.span))
             }
-            Ok(thing) => self.elements_of_value(thing, &read_counter, items.span, span, steps),
+            Ok(entity) => self.elements_of_value(entity, &read_counter, items.span, span, steps),
             Err(Reported) => Err(Reported),
         };
         let Ok((length, item)) = elements else { return self.dead_loop(target, body, functions) };
@@ -126,10 +126,10 @@ impl<'a> Binder<'a> {
         let test = Ir::binary(BinaryOp::Less, read_counter, length, items.span);
         self.hoist_pattern(target, &mut turn);
         match target {
-            Pattern::Name(name) => self.give_value(name, item, &mut turn),
+            Pattern::Name(name) => self.initialize(name, item, &mut turn),
             pattern => {
-                let whole = self.keep(item, pattern.span(), &mut turn);
-                self.take_apart(pattern, whole, &mut turn);
+                let whole = self.store_in_temporary(item, pattern.span(), &mut turn);
+                self.destructure_value(pattern, whole, &mut turn);
             }
         }
         self.guards += 1;
@@ -150,7 +150,7 @@ impl<'a> Binder<'a> {
     /// A local variable without a name in the source text.
     fn unnamed_local(&mut self, span: Span, what: FactKind, ty: Type) -> LocalId {
         let key = self.key(span.start, what);
-        self.facts.see(key, ty);
+        self.facts.widen(key, ty);
         self.new_local(key, false)
     }
 
@@ -201,7 +201,7 @@ impl<'a> Binder<'a> {
     /// Binds a loop over an invalid value: its body may contain further errors.
     fn dead_loop(&mut self, target: &'a Pattern, body: &'a Stmt, functions: usize) {
         self.hoist_pattern(target, &mut Vec::new());
-        self.forget(target);
+        self.mark_unbound(target);
         self.body_of_loop(body);
         self.leave(functions);
     }

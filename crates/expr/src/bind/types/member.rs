@@ -2,7 +2,7 @@
 
 use super::binder::{Binder, Entity, MethodReceiver};
 use crate::ast::{Expr, ExprKind, Name};
-use crate::bind::names::{MACHINERY, NAMESPACES, list_names, meant_elsewhere};
+use crate::bind::names::{INTERNAL_MEMBERS, NAMESPACES, list_names, meant_elsewhere};
 use crate::host_terms::HostTerms;
 use crate::ir::{Ir, IrKind};
 use crate::math;
@@ -30,12 +30,12 @@ impl<'a> Binder<'a> {
     #[inline(never)]
     pub(super) fn root(&mut self, name: &str, span: Span) -> Attempt<Entity> {
         if let Some(variable) = self.variable(name, span)? {
-            let thing = self.read_variable(&variable, span)?;
-            self.explain_thing(&thing, name, span);
-            return Ok(thing);
+            let entity = self.read_variable(&variable, span)?;
+            self.explain_entity(&entity, name, span);
+            return Ok(entity);
         }
-        if let Some(thing) = language(name, span) {
-            return Ok(thing);
+        if let Some(entity) = language(name, span) {
+            return Ok(entity);
         }
         if self.site.is_some()
             && let Some(function) = natives::find_function(name)
@@ -50,16 +50,16 @@ impl<'a> Binder<'a> {
             self.unresolved.get_or_insert(span);
             return Err(Reported);
         };
-        let thing = from_entry(entry, span);
-        self.explain_thing(&thing, name, span);
-        Ok(thing)
+        let entity = from_entry(entry, span);
+        self.explain_entity(&entity, name, span);
+        Ok(entity)
     }
 
     /// Records the help for a name or a member.
     #[inline(never)]
-    fn explain_thing(&mut self, thing: &Entity, text: &str, span: Span) {
+    fn explain_entity(&mut self, entity: &Entity, text: &str, span: Span) {
         let schema = self.schema;
-        match thing {
+        match entity {
             Entity::Field(field) => self.explain(span, || field_help(field, schema.host_terms())),
             Entity::Object(id) => {
                 self.explain(span, || Help { title: schema.describe(*id), lines: Vec::new() });
@@ -80,9 +80,9 @@ impl<'a> Binder<'a> {
     /// Binds `object.name` or `object?.name`.
     #[inline(never)]
     fn member(&mut self, object: &'a Expr, name: &Name, optional: bool, span: Span) -> Attempt<Entity> {
-        let thing = self.entity(object)?;
-        let found = self.member_of(thing, object.span, name, optional, span)?;
-        self.explain_thing(&found, &name.text, name.span);
+        let entity = self.entity(object)?;
+        let found = self.member_of(entity, object.span, name, optional, span)?;
+        self.explain_entity(&found, &name.text, name.span);
         Ok(found)
     }
 
@@ -90,13 +90,13 @@ impl<'a> Binder<'a> {
     #[inline(never)]
     pub(super) fn member_of(
         &mut self,
-        thing: Entity,
+        entity: Entity,
         object: Span,
         name: &Name,
         optional: bool,
         span: Span,
     ) -> Attempt<Entity> {
-        match thing {
+        match entity {
             Entity::Object(id) => match self.schema.member(id, &name.text) {
                 Some(entry) => Ok(from_entry(entry, span)),
                 None => {
@@ -112,17 +112,17 @@ impl<'a> Binder<'a> {
                 self.value_member(ir, name, optional, span)
             }
             Entity::Field(field) => self.field_member(field, object, name, span),
-            Entity::Picked(id, chosen) => self.picked_member(id, chosen, name, span),
+            Entity::Picked(id, chosen) => self.computed_member(id, chosen, name, span),
             Entity::Collection(id) => {
                 let report = self.collection_needs_call(id, object, Some((&name.text, span)));
                 self.refuse(report)
             }
-            thing @ (Entity::Function(_)
+            entity @ (Entity::Function(_)
             | Entity::MathFunction(_)
             | Entity::Method(..)
             | Entity::Native(_)
             | Entity::Closure(_)) => {
-                let report = self.not_called(&thing, object);
+                let report = self.not_called(&entity, object);
                 self.refuse(report)
             }
             Entity::Value(ir) => self.value_member(ir, name, optional, span),
@@ -140,8 +140,8 @@ impl<'a> Binder<'a> {
         if let Some((_, x)) = constants.iter().find(|(n, _)| *n == name.text) {
             return Ok(Entity::Value(Ir::number(*x, span)));
         }
-        if MACHINERY.contains(&name.text.as_str()) {
-            return self.refuse(machinery(&name.text, name.span));
+        if INTERNAL_MEMBERS.contains(&name.text.as_str()) {
+            return self.refuse(internal_member(&name.text, name.span));
         }
         let report =
             Finding::error(rules::UNKNOWN_FUNCTION, name.span, format!("`{holder}` has no `{}`", name.text));
@@ -160,16 +160,16 @@ impl<'a> Binder<'a> {
 
     /// Binds a variable of the lab that is read.
     pub(super) fn global(&mut self, name: &str, span: Span) -> Attempt<Ir> {
-        self.check_machinery(name, span)?;
+        self.check_internal_member(name, span)?;
         let slot = self.globals.mention(name, self.program, span, false);
         Ok(Ir::new(IrKind::Global(slot), Type::Any, span))
     }
 
-    pub(super) fn check_machinery(&mut self, name: &str, span: Span) -> Attempt<()> {
-        if !MACHINERY.contains(&name) {
+    pub(super) fn check_internal_member(&mut self, name: &str, span: Span) -> Attempt<()> {
+        if !INTERNAL_MEMBERS.contains(&name) {
             return Ok(());
         }
-        self.refuse(machinery(name, span))
+        self.refuse(internal_member(name, span))
     }
 
     #[inline(never)]
@@ -220,7 +220,7 @@ impl<'a> Binder<'a> {
                     .why(format!("`{text}` changes the number of elements of a list, but this array is the memory of the {}", self.host_terms().world))
                     .help(format!("store elements, as `{}[0] = 1`, or copy it into your own list: `const list = [...{}]`", field.path, field.path)),
             ),
-            text if MACHINERY.contains(&text) => self.refuse(machinery(text, name.span)),
+            text if INTERNAL_MEMBERS.contains(&text) => self.refuse(internal_member(text, name.span)),
             text if array && self.is_method(text, Type::List) => self.refuse(
                 Finding::error(rules::NOT_CALLABLE, name.span, format!("`{}` has no method `{text}`", field.path))
                     .why(format!("it is a typed array in JavaScript, and only lists have `{text}`"))
@@ -263,8 +263,8 @@ impl<'a> Binder<'a> {
 
     pub(super) fn unknown_member(&self, id: ObjectId, name: &Name, span: Span) -> Finding {
         let object = self.schema.describe(id);
-        if MACHINERY.contains(&name.text.as_str()) {
-            return machinery(&name.text, name.span);
+        if INTERNAL_MEMBERS.contains(&name.text.as_str()) {
+            return internal_member(&name.text, name.span);
         }
         let report = Finding::error(
             rules::UNKNOWN_FIELD,
@@ -359,7 +359,7 @@ fn from_entry(entry: Entry, span: Span) -> Entity {
     }
 }
 
-pub(super) fn machinery(name: &str, span: Span) -> Finding {
+pub(super) fn internal_member(name: &str, span: Span) -> Finding {
     Finding::error(rules::NOT_IN_LANGUAGE, span, format!("`{name}` is not in this language"))
         .why("it gives access to JavaScript internals, which the language excludes to keep a text harmless")
         .help("use another name")

@@ -143,7 +143,7 @@ impl<'a> Binder<'a> {
         if spread || (least..=most).contains(&args.len()) {
             return Ok(());
         }
-        self.only_check(args);
+        self.check_arguments(args);
         let wanted = match (least, most) {
             _ if least == most => super::call::count(least, "argument"),
             (_, usize::MAX) => format!("at least {}", super::call::count(least, "argument")),
@@ -176,7 +176,7 @@ impl<'a> Binder<'a> {
                 let assignable = self.check_assignable(field, span);
                 let value = self.operand(value)?;
                 assignable?;
-                self.want(&value, value.span, Expectation::Element(None));
+                self.record_expectation(&value, value.span, Expectation::Element(None));
                 IrKind::Fill(view, Box::new(value))
             }
             ("set", [Expr { kind: ExprKind::Array(items), .. }, rest @ ..])
@@ -191,7 +191,7 @@ impl<'a> Binder<'a> {
                 let bound: Vec<Attempt<Ir>> = items.iter().map(|item| self.operand(item)).collect();
                 let values = bound.into_iter().collect::<Attempt<Vec<Ir>>>()?;
                 for value in &values {
-                    self.want(value, value.span, Expectation::Element(None));
+                    self.record_expectation(value, value.span, Expectation::Element(None));
                 }
                 self.check_fits(field, values.len(), offset, span)?;
                 assignable?;

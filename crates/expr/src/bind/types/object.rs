@@ -4,9 +4,9 @@ use labspec_finding::order;
 use std::sync::Arc;
 
 use super::binder::{Binder, Entity, MethodReceiver};
-use super::member::{machinery, view_of};
+use super::member::{internal_member, view_of};
 use crate::ast::{Expr, ExprKind, Name};
-use crate::bind::names::{MACHINERY, NameMeaning, list_names};
+use crate::bind::names::{INTERNAL_MEMBERS, NameMeaning, list_names};
 use crate::ir::{Index, Ir, IrKind};
 use crate::natives;
 use crate::parse::Attempt;
@@ -30,8 +30,8 @@ impl<'a> Binder<'a> {
         span: Span,
     ) -> Attempt<Entity> {
         let text = name.text.as_str();
-        if MACHINERY.contains(&text) {
-            return self.refuse(machinery(text, name.span));
+        if INTERNAL_MEMBERS.contains(&text) {
+            return self.refuse(internal_member(text, name.span));
         }
         let ir = if optional { self.present(ir) } else { ir };
         if let Some(method) = natives::find_method(text).filter(|_| self.is_method(text, ir.ty)) {
@@ -39,7 +39,7 @@ impl<'a> Binder<'a> {
         }
         match ir.ty {
             Type::List | Type::View | Type::String if text == "length" => {
-                Ok(Entity::Value(match self.known_length(&ir).filter(|_| is_still(&ir)) {
+                Ok(Entity::Value(match self.known_length(&ir).filter(|_| has_no_effect(&ir)) {
                     Some(n) => Ir::number(n as f64, span),
                     None => Ir::new(IrKind::Member(Box::new(ir), text.into()), Type::Number, span),
                 }))
@@ -148,7 +148,7 @@ impl<'a> Binder<'a> {
     }
 
     /// Binds a member of an object whose name is known only at run time: a table with that member of all objects, by name.
-    pub(super) fn picked_member(
+    pub(super) fn computed_member(
         &mut self,
         id: CollectionId,
         chosen: Ir,
@@ -226,10 +226,10 @@ impl<'a> Binder<'a> {
 }
 
 /// Whether evaluating the expression has no effect, so that it can be removed.
-fn is_still(ir: &Ir) -> bool {
+fn has_no_effect(ir: &Ir) -> bool {
     match &ir.kind {
         IrKind::Constant(_) | IrKind::Global(_) => true,
-        IrKind::List(items) => items.iter().all(|i| !i.spread && is_still(&i.value)),
+        IrKind::List(items) => items.iter().all(|i| !i.spread && has_no_effect(&i.value)),
         _ => false,
     }
 }

@@ -67,8 +67,8 @@ impl<'a> Binder<'a> {
         }
         for statement in statements {
             if let StmtKind::Function { name, function } = &statement.kind {
-                let thing = self.new_function(function);
-                self.give(name, VariableMeaning::Alias(thing));
+                let entity = self.new_function(function);
+                self.mark_declared(name, VariableMeaning::Alias(entity));
             }
         }
     }
@@ -115,7 +115,7 @@ impl<'a> Binder<'a> {
     }
 
     /// Records that the declaration of a name has been executed.
-    pub(super) fn give(&mut self, name: &Name, meaning: VariableMeaning) {
+    pub(super) fn mark_declared(&mut self, name: &Name, meaning: VariableMeaning) {
         let key = self.key_of(name);
         if let Some(variable) = self.variables.get_mut(&key) {
             variable.ready = true;
@@ -124,10 +124,10 @@ impl<'a> Binder<'a> {
     }
 
     /// Gives a declared name its value, and adds the step that stores it.
-    pub(super) fn give_value(&mut self, name: &Name, value: Ir, steps: &mut Vec<IrStatement>) {
+    pub(super) fn initialize(&mut self, name: &Name, value: Ir, steps: &mut Vec<IrStatement>) {
         let key = self.key_of(name);
         let changes = self.assignments(key) > 0;
-        self.facts.see(key, value.ty);
+        self.facts.widen(key, value.ty);
         let Some(variable) = self.variables.get_mut(&key) else {
             steps.push(IrStatement::Effect(value)); // a name that could not be declared
             return;
@@ -161,7 +161,7 @@ impl<'a> Binder<'a> {
     /// The meaning of a variable where it is read.
     pub(super) fn read_variable(&mut self, variable: &Variable, span: Span) -> Attempt<Entity> {
         match &variable.meaning {
-            VariableMeaning::Alias(thing) => Ok(thing.clone()),
+            VariableMeaning::Alias(entity) => Ok(entity.clone()),
             VariableMeaning::Unknown if variable.ready => Err(Reported),
             _ => {
                 self.capture(variable);

@@ -75,7 +75,7 @@ impl<'a> Binder<'a> {
         self.guards += 1;
         let Ok(ir) = ir else { return };
         if let Some(key) = self.returns.last().copied() {
-            self.facts.see(key, ir.ty);
+            self.facts.widen(key, ir.ty);
         }
         steps.push(IrStatement::Return(ir));
     }
@@ -86,14 +86,14 @@ impl<'a> Binder<'a> {
             let report = self.assignment_inside(*op, *op_span, test.span);
             return self.refuse(report);
         }
-        let thing = self.entity(test)?;
-        if let Entity::Field(field) = &thing
+        let entity = self.entity(test)?;
+        if let Entity::Field(field) = &entity
             && !field.is_scalar()
         {
             let report = self.whole_array(field, test.span);
             return self.refuse(report);
         }
-        self.value_of(thing, test.span)
+        self.value_of(entity, test.span)
     }
 
     /// Binds an expression used as a statement. An expression without an effect adds no step.
@@ -117,16 +117,16 @@ impl<'a> Binder<'a> {
                     Entity::Function(id) if self.schema.function(id).implied => {
                         self.host_call(id, &[], expr.span, expr.span)?
                     }
-                    Entity::Value(ir) if acts(&ir) => ir,
-                    thing @ (Entity::Function(_)
+                    Entity::Value(ir) if may_have_effect(&ir) => ir,
+                    entity @ (Entity::Function(_)
                     | Entity::MathFunction(_)
                     | Entity::Method(..)
                     | Entity::Closure(_)) => {
-                        let report = self.not_called(&thing, expr.span);
+                        let report = self.not_called(&entity, expr.span);
                         return self.refuse(report);
                     }
                     _ => {
-                        self.idle(expr.span);
+                        self.record_idle(expr.span);
                         return Ok(None);
                     }
                 };
@@ -151,10 +151,10 @@ impl<'a> Binder<'a> {
             _ => {
                 let ir = self.value(expr)?;
                 // A call inside a computation still has an effect.
-                if acts(&ir) {
+                if may_have_effect(&ir) {
                     return Ok(Some(ir));
                 }
-                self.idle(expr.span);
+                self.record_idle(expr.span);
                 Ok(None)
             }
         }
@@ -164,16 +164,16 @@ impl<'a> Binder<'a> {
     fn declare(&mut self, constant: bool, declarator: &'a Declarator, steps: &mut Vec<IrStatement>) {
         match (&declarator.target, &declarator.value) {
             (Pattern::Name(name), Some(value)) => match self.declared(name, constant, value, steps) {
-                Ok(Some(thing)) => self.give(name, VariableMeaning::Alias(thing)),
+                Ok(Some(entity)) => self.mark_declared(name, VariableMeaning::Alias(entity)),
                 Ok(None) => {}
-                Err(_) => self.give(name, VariableMeaning::Unknown),
+                Err(_) => self.mark_declared(name, VariableMeaning::Unknown),
             },
             (Pattern::Name(name), None) => {
                 let value = Ir::undefined(name.span);
-                self.give_value(name, value, steps);
+                self.initialize(name, value, steps);
             }
             (pattern, Some(value)) => self.destructure(pattern, value, steps),
-            (pattern, None) => self.forget(pattern),
+            (pattern, None) => self.mark_unbound(pattern),
         }
     }
 
@@ -187,11 +187,11 @@ impl<'a> Binder<'a> {
     ) -> Attempt<Option<Entity>> {
         if let ExprKind::Assign { .. } | ExprKind::AssignLogical { .. } = &value.kind {
             let ir = self.changing(value)?;
-            self.give_value(name, ir, steps);
+            self.initialize(name, ir, steps);
             return Ok(None);
         }
         let changes = !constant && self.assignments(self.key_of(name)) > 0;
-        let thing = match self.entity(value)? {
+        let entity = match self.entity(value)? {
             alias @ (Entity::Field(_) | Entity::Closure(_) | Entity::Native(_) | Entity::MathFunction(_))
                 if !changes && !matches!(&alias, Entity::Field(f) if f.is_scalar()) =>
             {
@@ -199,7 +199,7 @@ impl<'a> Binder<'a> {
             }
             single @ (Entity::Value(_) | Entity::Field(_) | Entity::Closure(_)) => {
                 let ir = self.value_of(single, value.span)?;
-                self.give_value(name, ir, steps);
+                self.initialize(name, ir, steps);
                 return Ok(None);
             }
             other => other,
@@ -219,7 +219,7 @@ impl<'a> Binder<'a> {
                 .help(format!("declare it with `const {}`, and use another name for the number", name.text)),
             );
         }
-        Ok(Some(thing))
+        Ok(Some(entity))
     }
 
     /// Whether the program only reads values.
@@ -243,8 +243,8 @@ fn jumps(steps: &[IrStatement]) -> bool {
 }
 
 /// Whether evaluating the expression has, or may have, an effect.
-fn acts(ir: &Ir) -> bool {
-    let any = |items: &[IrItem]| items.iter().any(|i| acts(&i.value));
+fn may_have_effect(ir: &Ir) -> bool {
+    let any = |items: &[IrItem]| items.iter().any(|i| may_have_effect(&i.value));
     match &ir.kind {
         IrKind::Call(..)
         | IrKind::Store(..)
@@ -255,22 +255,28 @@ fn acts(ir: &Ir) -> bool {
         | IrKind::Invoke(..)
         | IrKind::InvokeValue(..)
         | IrKind::Block(..) => true,
-        IrKind::Method(name, object, args) => name.rows().any(|r| r.changes) || acts(object) || any(args),
+        IrKind::Method(name, object, args) => {
+            name.rows().any(|r| r.changes) || may_have_effect(object) || any(args)
+        }
         IrKind::Native(function, args) => function.row().name == "_empty" || any(args),
-        IrKind::Unary(_, a) | IrKind::ToNumber(a) | IrKind::ToText(a) | IrKind::TypeOf(a) => acts(a),
+        IrKind::Unary(_, a) | IrKind::ToNumber(a) | IrKind::ToText(a) | IrKind::TypeOf(a) => {
+            may_have_effect(a)
+        }
         IrKind::Chain(a)
         | IrKind::Present(a)
         | IrKind::Pick(_, a)
         | IrKind::GlobalNamed(a)
-        | IrKind::Member(a, _) => acts(a),
-        IrKind::MathOver(_, a) => acts(a),
-        IrKind::Binary(_, a, b) | IrKind::Logical(_, a, b) | IrKind::Element(a, b) => acts(a) || acts(b),
-        IrKind::Choice(a, b, c) => acts(a) || acts(b) || acts(c),
-        IrKind::Math(_, args) => args.iter().any(acts),
+        | IrKind::Member(a, _) => may_have_effect(a),
+        IrKind::MathOver(_, a) => may_have_effect(a),
+        IrKind::Binary(_, a, b) | IrKind::Logical(_, a, b) | IrKind::Element(a, b) => {
+            may_have_effect(a) || may_have_effect(b)
+        }
+        IrKind::Choice(a, b, c) => may_have_effect(a) || may_have_effect(b) || may_have_effect(c),
+        IrKind::Math(_, args) => args.iter().any(may_have_effect),
         IrKind::List(items) => any(items),
         IrKind::Record(entries) => entries.iter().any(|e| match e {
-            IrEntry::Named(_, v) | IrEntry::Spread(v) => acts(v),
-            IrEntry::Computed(k, v) => acts(k) || acts(v),
+            IrEntry::Named(_, v) | IrEntry::Spread(v) => may_have_effect(v),
+            IrEntry::Computed(k, v) => may_have_effect(k) || may_have_effect(v),
         }),
         _ => false,
     }

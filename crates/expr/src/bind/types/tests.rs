@@ -2,7 +2,7 @@
 
 use super::binder::{BindContext, BoundText, bind};
 use super::facts::{FactKey, FactKind, TypeFacts};
-use crate::bind::names::{Surroundings, resolve};
+use crate::bind::names::{NameContext, resolve};
 use crate::bind::source::SourceTree;
 use crate::globals::Globals;
 use crate::mock::{Mock, execute};
@@ -31,7 +31,7 @@ fn bound(source: &str) -> BoundText {
     assert!(parsed.diagnostics.is_empty(), "{:?}", parsed.diagnostics);
     let tree = SourceTree::Statements(&parsed.tree);
     let mut globals = Globals::new();
-    let around = Surroundings { schema: Some(&Mock), globals: &globals, mode: tree.mode(), has_value: false };
+    let around = NameContext { schema: Some(&Mock), globals: &globals, mode: tree.mode(), has_value: false };
     let (names, found) = resolve(around, |walk| walk.block(&parsed.tree));
     assert!(found.is_empty() && !names.stopped, "{found:?}");
     let id = globals.next_program();
@@ -59,7 +59,7 @@ fn types_join_in_a_lattice_of_four_levels() {
     let key = FactKey { site: 0, at: 0, what: FactKind::Name };
     let mut facts = TypeFacts::default();
     for ty in TYPES {
-        facts.see(key, ty);
+        facts.widen(key, ty);
     }
     assert_eq!(facts.found(key), Type::Any);
 }
@@ -94,7 +94,7 @@ fn programs_that_are_made_to_be_slow_take_few_rounds() {
 }
 
 #[test]
-fn a_text_without_circles_takes_one_round() {
+fn a_text_without_type_cycles_takes_one_round() {
     for source in [
         "const a = data.time; const b = a * 2; ctx.out = b + a",
         "const f = x => x * x; ctx.out = f(2) + f(data.time)",
@@ -106,7 +106,7 @@ fn a_text_without_circles_takes_one_round() {
 }
 
 #[test]
-fn what_the_last_round_says_is_what_runs() {
+fn the_types_of_the_last_round_are_those_of_the_run() {
     // All variables are numbers, until a string is assigned through all of them.
     let n = 40;
     let steps: String = (0..n).map(|i| format!("a{i} = a{};", i + 1)).collect();

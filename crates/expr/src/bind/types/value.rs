@@ -14,22 +14,22 @@ use labspec_finding::{Finding, Span};
 impl<'a> Binder<'a> {
     /// Binds a part of the source as a value of any type.
     pub(super) fn value(&mut self, expr: &'a Expr) -> Attempt<Ir> {
-        let thing = self.entity(expr)?;
-        self.value_of(thing, expr.span)
+        let entity = self.entity(expr)?;
+        self.value_of(entity, expr.span)
     }
 
     /// The value of an entity.
     #[inline(never)]
-    pub(super) fn value_of(&mut self, thing: Entity, span: Span) -> Attempt<Ir> {
-        let report = match thing {
+    pub(super) fn value_of(&mut self, entity: Entity, span: Span) -> Attempt<Ir> {
+        let report = match entity {
             Entity::Value(ir) if ir.ty == Type::Void => self.no_result(span),
             Entity::Value(ir) => {
-                self.note(span, &ir);
+                self.record_type(span, &ir);
                 return Ok(ir);
             }
             Entity::Field(field) if field.is_scalar() => {
                 let ir = self.load(&field, Index::At(0), span);
-                self.note(span, &ir);
+                self.record_type(span, &ir);
                 return Ok(ir);
             }
             Entity::Field(field) => return Ok(self.field_value(&field, span)),
@@ -41,18 +41,18 @@ impl<'a> Binder<'a> {
 
     /// Binds a part of the source as a single value: a number, a string or a boolean.
     pub(super) fn operand(&mut self, expr: &'a Expr) -> Attempt<Ir> {
-        let thing = self.entity(expr)?;
-        self.operand_of(thing, expr.span)
+        let entity = self.entity(expr)?;
+        self.operand_of(entity, expr.span)
     }
 
-    pub(super) fn operand_of(&mut self, thing: Entity, span: Span) -> Attempt<Ir> {
-        if let Entity::Field(field) = &thing
+    pub(super) fn operand_of(&mut self, entity: Entity, span: Span) -> Attempt<Ir> {
+        if let Entity::Field(field) = &entity
             && !field.is_scalar()
         {
             let report = self.whole_array(field, span);
             return self.refuse(report);
         }
-        let ir = self.value_of(thing, span)?;
+        let ir = self.value_of(entity, span)?;
         self.expect_single(&ir)?;
         Ok(ir)
     }
@@ -96,13 +96,13 @@ impl<'a> Binder<'a> {
     }
 
     #[inline(never)]
-    fn not_a_value(&self, thing: &Entity, span: Span) -> Finding {
+    fn not_a_value(&self, entity: &Entity, span: Span) -> Finding {
         let text = self.text(span);
         let error = |message: String| Finding::error(rules::NOT_A_VALUE, span, message);
-        match thing {
+        match entity {
             Entity::Collection(id) => self.collection_needs_call(*id, span, None),
             Entity::Function(_) | Entity::MathFunction(_) | Entity::Method(..) | Entity::Native(_) => {
-                self.not_called(thing, span)
+                self.not_called(entity, span)
             }
             Entity::Namespace(name) => error(format!("`{name}` is not a value"))
                 .why("it holds functions")
@@ -187,8 +187,8 @@ impl<'a> Binder<'a> {
     /// Binds a whole chain that contains `?.`.
     #[inline(never)]
     fn chain(&mut self, inner: &'a Expr, span: Span) -> Attempt<Ir> {
-        let thing = self.entity(inner)?;
-        let ir = self.value_of(thing, span)?;
+        let entity = self.entity(inner)?;
+        let ir = self.value_of(entity, span)?;
         let ty = ir.ty.or(Type::Undefined);
         Ok(Ir::new(IrKind::Chain(Box::new(ir)), ty, span))
     }
@@ -274,8 +274,8 @@ impl<'a> Binder<'a> {
         };
         let loose = fine(&left_thing) || fine(&right_thing);
         let loose = loose || op != BinaryOp::Add && parts(&left_thing) && parts(&right_thing);
-        let mut bind = |thing: Entity, span: Span| {
-            if loose { self.value_of(thing, span) } else { self.operand_of(thing, span) }
+        let mut bind = |entity: Entity, span: Span| {
+            if loose { self.value_of(entity, span) } else { self.operand_of(entity, span) }
         };
         let (a, b) = (bind(left_thing, left.span), bind(right_thing, right.span));
         Ok((a?, b?))

@@ -1,6 +1,6 @@
 //! Expressions of every type.
 
-use super::{COMPOUND, Generator, Holds};
+use super::{COMPOUND, Generator, VariableType};
 
 impl Generator {
     pub(super) fn number(&mut self, depth: usize) -> String {
@@ -14,7 +14,7 @@ impl Generator {
                     .into(),
                 2 => format!("data.qpos[{}]", self.next(14)),
                 3 => self.random.pick(&["data.time", "data.ncon", "data.qpos.length"]).into(),
-                _ => self.name(Holds::Number, false).unwrap_or_else(|| "7".into()),
+                _ => self.name(VariableType::Number, false).unwrap_or_else(|| "7".into()),
             };
         }
         let d = depth - 1;
@@ -56,8 +56,8 @@ impl Generator {
             13 => format!("{}.length", self.text_atom(d)),
             14 => format!("{}.length", self.list(d)),
             15 => format!("{}.reduce((a, x) => a + x, {})", self.numbers(d), self.number(d)),
-            16 => match self.names.iter().rev().find(|n| matches!(n.1, Holds::Function(_))).cloned() {
-                Some((name, Holds::Function(n), _)) => {
+            16 => match self.names.iter().rev().find(|n| matches!(n.1, VariableType::Function(_))).cloned() {
+                Some((name, VariableType::Function(n), _)) => {
                     let args: Vec<String> = (0..n).map(|_| self.number(d)).collect();
                     format!("{name}({})", args.join(", "))
                 }
@@ -72,7 +72,7 @@ impl Generator {
             ),
             20 => format!("Math.max(...{})", self.numbers(d)),
             21 => format!("parseFloat({})", self.text(d)),
-            22 => match self.name(Holds::Number, true) {
+            22 => match self.name(VariableType::Number, true) {
                 Some(name) => format!("{name}{}", self.random.pick(&["++", "--"])),
                 None => self.number(d),
             },
@@ -84,7 +84,7 @@ impl Generator {
         if depth > 0 && self.next(2) == 0 {
             return format!("({})", self.text(depth - 1));
         }
-        match self.name(Holds::Text, false) {
+        match self.name(VariableType::Text, false) {
             Some(name) if self.next(2) == 0 => name,
             _ => format!(
                 "'{}'",
@@ -155,7 +155,7 @@ impl Generator {
             0..=2 => self.number(depth),
             3 => self.text(depth),
             4 => self.truth(depth),
-            5 => self.name(Holds::Anything, false).unwrap_or_else(|| "null".into()),
+            5 => self.name(VariableType::Anything, false).unwrap_or_else(|| "null".into()),
             _ => self.random.pick(&["null", "undefined", "1", "'s'"]).into(),
         }
     }
@@ -163,7 +163,7 @@ impl Generator {
     /// A list of numbers.
     pub(super) fn numbers(&mut self, depth: usize) -> String {
         if depth == 0 {
-            return match self.name(Holds::Numbers, false) {
+            return match self.name(VariableType::Numbers, false) {
                 Some(name) => name,
                 None => self.random.pick(&["[3, 1, 2]", "data.qvel", "[0.5]", "data.efc_force"]).into(),
             };
@@ -192,7 +192,7 @@ impl Generator {
 
     pub(super) fn list(&mut self, depth: usize) -> String {
         if depth == 0 {
-            return self.name(Holds::List, false).unwrap_or_else(|| "[1, 'b', null]".into());
+            return self.name(VariableType::List, false).unwrap_or_else(|| "[1, 'b', null]".into());
         }
         let d = depth - 1;
         match self.next(9) {

@@ -22,7 +22,7 @@ impl Random {
 
 /// The type of a variable of the program.
 #[derive(Clone, Copy, PartialEq)]
-enum Holds {
+enum VariableType {
     Number,
     Text,
     Anything,
@@ -41,7 +41,7 @@ const COMPOUND: [&str; 14] =
 
 pub(super) struct Generator {
     random: Random,
-    names: Vec<(String, Holds, bool)>,
+    names: Vec<(String, VariableType, bool)>,
     count: usize,
     /// The number of enclosing loops within the current function; `functions` is the number of enclosing functions.
     loops: usize,
@@ -53,7 +53,7 @@ impl Generator {
         self.random.next(n)
     }
 
-    fn name(&mut self, holds: Holds, changeable: bool) -> Option<String> {
+    fn name(&mut self, holds: VariableType, changeable: bool) -> Option<String> {
         let fitting: Vec<&String> =
             self.names.iter().filter(|n| n.1 == holds && (n.2 || !changeable)).map(|n| &n.0).collect();
         let n = fitting.len();
@@ -66,7 +66,7 @@ impl Generator {
             0 => format!("data.qpos[{}]", self.next(14)),
             1 => format!("data.eq_active[{}]", self.next(4)),
             2 => format!("model.geom_contype[{}]", self.next(4)),
-            3 => match self.name(Holds::Typed, false) {
+            3 => match self.name(VariableType::Typed, false) {
                 Some(name) => format!("{name}[{}]", self.next(4)),
                 None => "data.eq_active[3]".into(),
             },
@@ -139,7 +139,7 @@ impl Generator {
         let displayed: Vec<String> = self
             .names
             .iter()
-            .filter(|n| !matches!(n.1, Holds::Function(_)))
+            .filter(|n| !matches!(n.1, VariableType::Function(_)))
             .map(|n| n.0.clone())
             .chain([String::new()])
             .collect();

@@ -1,9 +1,9 @@
 //! Statements and declarations.
 
-use super::{COMPOUND, Generator, Holds};
+use super::{COMPOUND, Generator, VariableType};
 
 impl Generator {
-    pub(super) fn declare(&mut self, holds: Holds, changes: bool) -> String {
+    pub(super) fn declare(&mut self, holds: VariableType, changes: bool) -> String {
         self.count += 1;
         let name = format!("v{}", self.count);
         self.names.push((name.clone(), holds, changes));
@@ -30,12 +30,12 @@ impl Generator {
             }
             11 => {
                 let value = self.typed();
-                format!("const {} = {value}; ", self.declare(Holds::Typed, false))
+                format!("const {} = {value}; ", self.declare(VariableType::Typed, false))
             }
             12 => {
-                let i = self.declare(Holds::Number, true);
+                let i = self.declare(VariableType::Number, true);
                 let list = match self.next(4) {
-                    0 => self.name(Holds::Typed, false),
+                    0 => self.name(VariableType::Typed, false),
                     _ => None,
                 };
                 let arrays = ["data.qpos", "data.eq_active", "model.geom_contype"];
@@ -54,22 +54,22 @@ impl Generator {
             0..=1 => {
                 let value = self.number(2);
                 let changes = self.next(2) == 0;
-                let name = self.declare(Holds::Number, changes);
+                let name = self.declare(VariableType::Number, changes);
                 format!("{} {name} = {value}; ", if changes { "let" } else { "const" })
             }
             2 => {
                 let value = self.text(2);
-                format!("const {} = {value}; ", self.declare(Holds::Text, false))
+                format!("const {} = {value}; ", self.declare(VariableType::Text, false))
             }
             3 => {
                 let value = self.list(2);
-                format!("const {} = {value}; ", self.declare(Holds::List, false))
+                format!("const {} = {value}; ", self.declare(VariableType::List, false))
             }
             4 => {
                 let value = self.anything(2);
-                format!("let {} = {value}; ", self.declare(Holds::Anything, true))
+                format!("let {} = {value}; ", self.declare(VariableType::Anything, true))
             }
-            5..=6 => match self.name(Holds::Number, true) {
+            5..=6 => match self.name(VariableType::Number, true) {
                 Some(name) => {
                     let op =
                         self.random.pick(&["=", "+=", "-=", "*=", "/=", "%=", "|=", "&&=", "||=", "??="]);
@@ -77,7 +77,7 @@ impl Generator {
                 }
                 None => format!("data.qpos[{}] = {}; ", self.next(14), self.number(2)),
             },
-            7 => match self.name(Holds::Anything, true) {
+            7 => match self.name(VariableType::Anything, true) {
                 Some(name) => format!("{name} {} {}; ", self.random.pick(&["=", "+="]), self.anything(2)),
                 None => format!("ctx.k = {}; ", self.anything(2)),
             },
@@ -87,7 +87,7 @@ impl Generator {
                 self.random.pick(&["=", "+=", "*="]),
                 self.number(2)
             ),
-            9 => match self.name(Holds::List, false) {
+            9 => match self.name(VariableType::List, false) {
                 Some(name) => match self.next(4) {
                     0 => format!("{name}.push({}); ", self.anything(1)),
                     // Never past the end: lists have no holes here.
@@ -95,7 +95,9 @@ impl Generator {
                     2 => format!("{name}.reverse(); "),
                     _ => format!("{name}.pop(); "),
                 },
-                None => format!("const {{a: {}}} = {{a: {}}}; ", self.declare(Holds::Anything, false), "4"),
+                None => {
+                    format!("const {{a: {}}} = {{a: {}}}; ", self.declare(VariableType::Anything, false), "4")
+                }
             },
             15..=16 => {
                 let (test, then) = (self.truth(2), self.block(d, 2));
@@ -106,7 +108,7 @@ impl Generator {
             }
             17..=18 => {
                 let names = self.names.len();
-                let i = self.declare(Holds::Number, false);
+                let i = self.declare(VariableType::Number, false);
                 self.loops += 1;
                 let n = 1 + self.next(4);
                 let body = self.block(d, 2);
@@ -117,7 +119,7 @@ impl Generator {
             19 => {
                 let list = self.numbers(1);
                 let names = self.names.len();
-                let x = self.declare(Holds::Number, false);
+                let x = self.declare(VariableType::Number, false);
                 self.loops += 1;
                 let body = self.block(d, 2);
                 self.loops -= 1;
@@ -131,17 +133,17 @@ impl Generator {
                 let n = self.next(3);
                 self.functions += 1;
                 let (outer, loops) = (self.names.len(), std::mem::take(&mut self.loops));
-                let params: Vec<String> = (0..n).map(|_| self.declare(Holds::Number, true)).collect();
+                let params: Vec<String> = (0..n).map(|_| self.declare(VariableType::Number, true)).collect();
                 let body: String = (0..2).map(|_| self.statement(d)).collect();
                 let result = self.number(2);
                 self.names.truncate(outer);
                 self.loops = loops;
                 self.functions -= 1;
-                let name = self.declare(Holds::Function(n), false);
+                let name = self.declare(VariableType::Function(n), false);
                 format!("const {name} = ({}) => {{ {body}return {result}; }}; ", params.join(", "))
             }
             22 => {
-                let i = self.declare(Holds::Number, false);
+                let i = self.declare(VariableType::Number, false);
                 self.names.pop();
                 self.loops += 1;
                 let body = self.block(d, 1);
@@ -150,7 +152,7 @@ impl Generator {
             }
             _ => {
                 let value = self.number(1);
-                let name = self.declare(Holds::Record, false);
+                let name = self.declare(VariableType::Record, false);
                 format!("const {name} = {{p: {value}, q: [{value}]}}; {name}.p += 1; ")
             }
         }
@@ -163,10 +165,10 @@ impl Generator {
             1..=2 => self.list(1),
             3 => self.typed(),
             4 => self.text(1),
-            _ => self.name(Holds::Anything, false).unwrap_or_else(|| "ctx.k".into()),
+            _ => self.name(VariableType::Anything, false).unwrap_or_else(|| "ctx.k".into()),
         };
         let fallback = self.anything(1);
-        let names = [(); 3].map(|()| self.declare(Holds::Anything, true));
+        let names = [(); 3].map(|()| self.declare(VariableType::Anything, true));
         let [a, b, c] = &names;
         match self.next(5) {
             0 => format!("let [{a}, {b} = {fallback}] = {whole}, {c} = 1; "),

@@ -25,8 +25,8 @@ pub(crate) struct Coupled {
 
 impl Coupled {
     /// Whether a modification of a model's text omits a coupled parameter; `before` is the model without it.
-    pub(crate) fn is_left_by_change(&self, before: &Model, now: &Model) -> bool {
-        same_objects(before, now) && left_behind(self.changes, before, now)
+    pub(crate) fn leaves_coupled(&self, before: &Model, now: &Model) -> bool {
+        same_objects(before, now) && has_uncoupled_change(self.changes, before, now)
     }
 
     /// Corrects a model with modifications of its text; `before` is the model without them.
@@ -47,7 +47,7 @@ impl Coupled {
     }
 
     /// The pairs that are corrected after a program; `None` where there are none.
-    pub(crate) fn behind(&self, program: &Program, text: &Text) -> Option<PairSet> {
+    pub(crate) fn pairs_after(&self, program: &Program, text: &Text) -> Option<PairSet> {
         let listed = self.programs.iter().find(|(of, _)| of == text);
         let pairs = listed.map_or(self.others, |(_, pairs)| *pairs);
         let written = pairs.pairs().any(|(_, pair)| writes_field(program, pair.parameter));
@@ -83,7 +83,7 @@ fn same_objects(a: &Model, b: &Model) -> bool {
 
 /// Whether a coupled parameter differs from the value that follows from its parameter. `before` is the model before the
 /// change.
-pub(crate) fn left_behind(pairs: PairSet, before: &Model, now: &Model) -> bool {
+pub(crate) fn has_uncoupled_change(pairs: PairSet, before: &Model, now: &Model) -> bool {
     pairs.pairs().any(|(_, pair)| !(pair.follow)(before, now).is_empty())
 }
 

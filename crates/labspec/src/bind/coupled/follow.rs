@@ -6,18 +6,18 @@ use labspec_core::math::{norm, rows, sub};
 use labspec_core::{Model, biastype, gaintype};
 
 /// A field of the model before and after a program.
-type Both<'m> = (&'m [f64], &'m [f64]);
+type BeforeAndAfter<'m> = (&'m [f64], &'m [f64]);
 
 /// An element before and after a program.
-fn at((before, after): Both<'_>, i: usize) -> Option<(f64, f64)> {
+fn at((before, after): BeforeAndAfter<'_>, i: usize) -> Option<(f64, f64)> {
     Some((*before.get(i)?, *after.get(i)?))
 }
 
-fn same(both: Both<'_>, i: usize) -> bool {
+fn same(both: BeforeAndAfter<'_>, i: usize) -> bool {
     at(both, i).is_some_and(|(a, b)| a.to_bits() == b.to_bits())
 }
 
-fn factor(both: Both<'_>, i: usize) -> Option<f64> {
+fn factor(both: BeforeAndAfter<'_>, i: usize) -> Option<f64> {
     let (a, b) = at(both, i)?;
     (a > 0.0 && b > 0.0 && b.is_finite()).then_some(b / a)
 }
@@ -122,7 +122,7 @@ pub(super) fn inertia_of_size(before: &Model, now: &Model) -> Changes {
     let inertia = (&*before.body_inertia, &*now.body_inertia);
     let mut changes = Vec::new();
     for g in changed(before, now, |m| &m.geom_size) {
-        let Some(body) = shape::carried(before, g) else { continue };
+        let Some(body) = shape::body_of_geom_mass(before, g) else { continue };
         let [old, new] = [before, now].map(|m| shape::moments(m, g, body));
         let (Some(old), Some(new)) = (old, new) else { continue };
         let elements = 3 * body..3 * body + 3;
@@ -138,7 +138,7 @@ pub(super) fn centre_of_place(before: &Model, now: &Model) -> Changes {
     let (place, centre) = ((&*before.geom_pos, &*now.geom_pos), (&*before.body_ipos, &*now.body_ipos));
     let mut changes = Vec::new();
     for g in changed(before, now, |m| &m.geom_pos) {
-        let Some(body) = shape::carried(before, g) else { continue };
+        let Some(body) = shape::body_of_geom_mass(before, g) else { continue };
         for axis in 0..3 {
             let Some((a, b)) = at(place, 3 * g + axis).filter(|(a, b)| a != b) else { continue };
             if same(centre, 3 * body + axis) {
@@ -184,6 +184,6 @@ pub(super) fn gain_of_bias(before: &Model, now: &Model) -> Changes {
     (0..now.nactuator).filter_map(one).collect()
 }
 
-fn both_of_actuators<'m>(before: &'m Model, now: &'m Model) -> [Both<'m>; 2] {
+fn both_of_actuators<'m>(before: &'m Model, now: &'m Model) -> [BeforeAndAfter<'m>; 2] {
     [(&*before.actuator_gainprm, &*now.actuator_gainprm), (&*before.actuator_biasprm, &*now.actuator_biasprm)]
 }

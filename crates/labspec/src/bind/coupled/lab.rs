@@ -27,15 +27,16 @@ impl Coupled {
 }
 
 /// Maximum number of elements that a repair names individually.
-const MOST: usize = 4;
+const MAX_NAMED_ELEMENTS: usize = 4;
 
 impl Repair {
     /// The statements for these pairs; `None` where a pair has none.
     pub(crate) fn of_program(bound: &Bound, pairs: PairSet, model: &Model) -> Option<Repair> {
         let mut made = Statements { model, text: &bound.text.value, repair: Repair::default() };
         for (_, pair) in pairs.pairs() {
-            let written =
-                written_elements(bound, pair.parameter).filter(|w| w.len() <= MOST).unwrap_or_default();
+            let written = written_elements(bound, pair.parameter)
+                .filter(|w| w.len() <= MAX_NAMED_ELEMENTS)
+                .unwrap_or_default();
             (pair.repair?)(&mut made, &written)?;
         }
         Some(made.repair)
@@ -44,7 +45,7 @@ impl Repair {
 
 /// The pairs that a lab intentionally separates: a control that does not write the parameter sets the coupled parameter. A
 /// student then chooses both values independently.
-pub(crate) fn chosen_apart(programs: &Programs, bound: &Bound, pairs: PairSet) -> PairSet {
+pub(crate) fn intentionally_separate(programs: &Programs, bound: &Bound, pairs: PairSet) -> PairSet {
     let controls = programs.controls.iter().filter_map(|(_, c)| match c {
         ControlProgram::Change(_, action) => action.run.as_ref(),
         ControlProgram::Press(_) => None,

@@ -26,8 +26,8 @@ mod shape;
 mod statements;
 mod table;
 
-pub(crate) use correction::{Coupled, agree, left_behind};
-pub(crate) use lab::chosen_apart;
+pub(crate) use correction::{Coupled, agree, has_uncoupled_change};
+pub(crate) use lab::intentionally_separate;
 pub(crate) use pair_set::PairSet;
 pub(crate) use statements::Repair;
 pub(crate) use table::Pair;

@@ -56,7 +56,7 @@ pub(super) fn bound_of_size(s: &mut Statements<'_>, written: &[usize]) -> Option
 pub(super) fn inertia_of_size(s: &mut Statements<'_>, written: &[usize]) -> Option<()> {
     s.repair.constants = true;
     for g in geoms(written)? {
-        let body = shape::carried(s.model, g)?;
+        let body = shape::body_of_geom_mass(s.model, g)?;
         let [a, b, c] = sizes(g);
         let square = |x: &str| format!("{x} * {x}");
         let mass = format!("model.body_mass[{body}]");
@@ -91,7 +91,7 @@ pub(super) fn centre_of_place(s: &mut Statements<'_>, written: &[usize]) -> Opti
         return None;
     }
     for place in written {
-        let body = shape::carried(s.model, place / 3)?;
+        let body = shape::body_of_geom_mass(s.model, place / 3)?;
         let position = s.keep("p", &format!("model.geom_pos[{place}]"));
         s.add(format!("model.body_ipos[{}] += model.geom_pos[{place}] - {position}", 3 * body + place % 3));
     }

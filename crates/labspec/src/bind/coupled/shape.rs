@@ -5,7 +5,7 @@ use labspec_core::math::{Mat3, mat_mul, norm, quat_to_mat, rows, sub};
 use labspec_core::{Model, geom};
 
 /// Relative tolerance between the moments of a body and those of the shape of its geom.
-const SAME: f64 = 1e-6;
+const MOMENT_TOLERANCE: f64 = 1e-6;
 
 /// The properties of a shape.
 #[derive(Clone, Copy, Debug)]
@@ -44,11 +44,11 @@ pub(super) fn shape_of_geom(m: &Model, g: usize) -> Option<Shape> {
 /// R diag Rᵀ.
 fn tensor(diagonal: [f64; 3], r: &Mat3) -> Mat3 {
     let [a, b, c] = diagonal;
-    turned(&[a, 0.0, 0.0, 0.0, b, 0.0, 0.0, 0.0, c], r)
+    rotated(&[a, 0.0, 0.0, 0.0, b, 0.0, 0.0, 0.0, c], r)
 }
 
 /// R M Rᵀ.
-fn turned(m: &Mat3, r: &Mat3) -> Mat3 {
+fn rotated(m: &Mat3, r: &Mat3) -> Mat3 {
     mat_mul(&mat_mul(r, m), &transposed(r))
 }
 
@@ -66,21 +66,21 @@ pub(super) fn to_axes(m: &Model, g: usize, body: usize) -> Option<Mat3> {
 /// Principal moments per kilogram of the shape of a geom, in the order of the principal axes of its body; `None` where the
 /// axes differ.
 pub(super) fn moments(m: &Model, g: usize, body: usize) -> Option<[f64; 3]> {
-    let [a, ab, ac, _, b, bc, _, _, c] = turned(&shape_of_geom(m, g)?.tensor, &to_axes(m, g, body)?);
+    let [a, ab, ac, _, b, bc, _, _, c] = rotated(&shape_of_geom(m, g)?.tensor, &to_axes(m, g, body)?);
     let off_axis = ab.abs().max(ac.abs()).max(bc.abs());
-    (off_axis <= SAME * (a + b + c)).then_some([a, b, c])
+    (off_axis <= MOMENT_TOLERANCE * (a + b + c)).then_some([a, b, c])
 }
 
 /// The body whose mass is entirely that of this geom.
-pub(super) fn carried(m: &Model, g: usize) -> Option<usize> {
+pub(super) fn body_of_geom_mass(m: &Model, g: usize) -> Option<usize> {
     let body = *m.geom_bodyid.get(g)? as usize;
     if body == 0 {
         return None;
     }
     let (mass, inertia) = (*m.body_mass.get(body)?, rows::<3>(&m.body_inertia).get(body)?);
     let [place, centre] = [rows::<3>(&m.geom_pos).get(g)?, rows::<3>(&m.body_ipos).get(body)?];
-    let close = |(a, b): (&f64, f64)| (a - mass * b).abs() <= SAME * a.abs();
-    let here = norm(sub(*place, *centre)) <= SAME * m.geom_rbound.get(g)?;
+    let close = |(a, b): (&f64, f64)| (a - mass * b).abs() <= MOMENT_TOLERANCE * a.abs();
+    let here = norm(sub(*place, *centre)) <= MOMENT_TOLERANCE * m.geom_rbound.get(g)?;
     let moments = moments(m, g, body)?;
     (mass > 0.0 && here && inertia.iter().zip(moments).all(close)).then_some(body)
 }

@@ -2,8 +2,8 @@
 
 use super::super::PreparedLab;
 use super::Trial;
-use super::seen::Seen;
-use crate::check::observations::{Beyond, ObservationHash, Record};
+use super::seen::LabDisplays;
+use crate::check::observations::{InputsOutOfRange, ObservationHash, Record};
 use crate::finding::Finding;
 use crate::run::{self, Budget, End, Play, Session, settings};
 use crate::spec::{Expect, Lab};
@@ -15,11 +15,11 @@ use std::ops::ControlFlow;
 const SAMPLES: usize = 200;
 
 /// Work budget for testing remedies for the breakdowns of a run.
-const TRIES: u64 = 1_000_000_000;
+const REMEDY_WORK: u64 = 1_000_000_000;
 
 /// The error that ended a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Ended {
+pub(super) enum EndedRun {
     /// A program of the lab threw.
     Threw,
     /// The work budget ran out.
@@ -35,7 +35,7 @@ pub(super) struct Attempt {
     pub(super) broke: bool,
     /// A program threw, or the engine reset the state after a bad number: the samples are not those of a whole run.
     pub(super) lost: bool,
-    pub(super) ended: Option<Ended>,
+    pub(super) ended: Option<EndedRun>,
     /// The model at the end of the run.
     pub(super) model: Model,
     /// The samples.
@@ -53,7 +53,7 @@ pub(super) fn make(
     case: &StressCase<'_>,
     trial: &Trial<'_>,
     budget: Budget,
-    seen: &mut Seen<'_>,
+    seen: &mut LabDisplays<'_>,
     findings: &mut Vec<Finding>,
 ) -> Result<Attempt, run::RunError> {
     let (lab, wanted) = (ready.lab, trial.length);
@@ -72,7 +72,8 @@ pub(super) fn make(
     let mut watcher = case.watcher(&trial.interaction, &session);
     let every = (steps / SAMPLES).max(1);
     let played = Play { steps, every: 1, presses: &[], watched: true };
-    let (mut rows, mut hash, mut beyond) = (Vec::new(), ObservationHash::default(), Beyond::default());
+    let (mut rows, mut hash, mut beyond) =
+        (Vec::new(), ObservationHash::default(), InputsOutOfRange::default());
     let made = run::play(&mut session, &played, |session, step| {
         if step % every == 0 || step == steps {
             let row = seen.observe(session, &trial.done);
@@ -87,8 +88,8 @@ pub(super) fn make(
     });
     let ended = match session.ended() {
         None => None,
-        Some(End::Threw | End::Foreign) => Some(Ended::Threw),
-        Some(End::Budget { .. } | End::Interrupted) => Some(Ended::Spent),
+        Some(End::Threw | End::Foreign) => Some(EndedRun::Threw),
+        Some(End::Budget { .. } | End::Interrupted) => Some(EndedRun::Spent),
     };
     let covered = if made == steps { wanted } else { made as f64 * timestep };
     let (broke, tried_work) = report_breaks(lab, case, trial, &session, seen, findings);
@@ -96,7 +97,7 @@ pub(super) fn make(
     let (spent, faults) = (session.spent() + tried_work, watcher.faults(&session));
     hash.close(&session.world.model);
     let record = Record { moved: trial.moved.clone(), rows, hash, beyond };
-    let lost = !session.troubles.is_empty() || session.warnings.iter().any(|w| w.number > 0);
+    let lost = !session.program_errors.is_empty() || session.warnings.iter().any(|w| w.number > 0);
     Ok(Attempt { covered, spent, broke, lost, ended, model: session.world.model, record, faults })
 }
 
@@ -106,16 +107,16 @@ fn report_breaks(
     case: &StressCase<'_>,
     trial: &Trial<'_>,
     session: &Session<'_>,
-    seen: &mut Seen<'_>,
+    seen: &mut LabDisplays<'_>,
     findings: &mut Vec<Finding>,
 ) -> (bool, u64) {
     let before = findings.len();
-    for t in &session.troubles {
+    for t in &session.program_errors {
         if seen.is_new(t) {
-            findings.push(run::threw(t, &trial.done));
+            findings.push(run::error_finding(t, &trial.done));
         }
     }
-    let mut tries = TRIES;
+    let mut tries = REMEDY_WORK;
     for breakdown in run::breakdowns_of(session) {
         // A lab that is expected to break needs no advice.
         let tried = match matches!(lab.expect, Some(Expect::Breaks(_))) {
@@ -124,7 +125,7 @@ fn report_breaks(
                 stress::with_tried_timestep(case, &trial.interaction, trial.length, breakdown, &mut tries)
             }
         };
-        findings.push(run::broke(&tried, &trial.done, trial.place(lab)));
+        findings.push(run::describe_breakdown(&tried, &trial.done, trial.place(lab)));
     }
-    (findings.len() > before, TRIES - tries)
+    (findings.len() > before, REMEDY_WORK - tries)
 }

@@ -10,7 +10,7 @@ pub(crate) struct WatchedDisplay<'a> {
     pub(crate) name: String,
     pub(crate) trace: bool,
     /// Whether its text itself contains NaN, for a gap.
-    pub(crate) says_gap: bool,
+    pub(crate) mentions_gap: bool,
     pub(crate) says_infinite: bool,
     /// Whether it was a number, a text or a boolean in any run.
     pub(crate) ever: bool,

@@ -10,7 +10,7 @@ use crate::spec::Lab;
 use crate::stress::{self, FaultGroup, Interaction, Kind};
 
 /// Factor of the length of the last run.
-const LONGER: f64 = 10.0;
+const LENGTH_FACTOR: f64 = 10.0;
 
 /// No interaction.
 pub(super) fn nothing() -> Interaction {
@@ -20,7 +20,7 @@ pub(super) fn nothing() -> Interaction {
 /// Makes these runs within the budget, and reports the faults of all runs.
 pub(super) fn go_on(state: &mut LabRunState<'_>, left: &mut u64, findings: &mut Vec<Finding>) {
     let completed = state.tried.as_ref().is_some_and(|t| t.runs > 0 && t.ended.is_none());
-    if !state.hopeless && completed {
+    if !state.has_no_remedy && completed {
         try_more(state, left, findings);
     }
     findings.extend(state.faults.iter().filter_map(|found| finding_of(found, state)));
@@ -77,7 +77,7 @@ fn list_interactions(lab: &Lab, wanted: f64) -> (Vec<(Interaction, f64)>, usize)
     let mut all: Vec<(Interaction, f64)> = all.into_iter().filter(several).map(|h| (h, wanted)).collect();
     // A lab with a stop time is never run longer.
     if lab.stop_at.is_none() {
-        all.push((nothing(), LONGER * wanted));
+        all.push((nothing(), LENGTH_FACTOR * wanted));
     }
     (all, missing)
 }

@@ -13,21 +13,21 @@ use crate::rules;
 use crate::run::{self, Budget};
 use crate::spec::{Control, ControlKind, Lab, LabAddress, Lesson};
 use crate::stress::{self, Action, Fault, FaultGroup, Interaction, Kind, StressCase};
-use attempt::{Attempt, Ended};
+use attempt::{Attempt, EndedRun};
 pub(crate) use display::{WatchedDisplay, moment};
 use labspec_expr::Value;
-use seen::Seen;
+use seen::LabDisplays;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// Time at which buttons are pressed, s.
-const PRESS: f64 = 0.1;
+const PRESS_TIME: f64 = 0.1;
 /// Work reserved for each lab whose first run is still to be made.
-const RESERVE: u64 = 50_000_000;
+const FIRST_RUN_WORK: u64 = 50_000_000;
 
 /// The coverage of the runs of a lab.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Tried {
+pub struct Coverage {
     /// Number of runs.
     pub runs: usize,
     /// Intended length of each run, s.
@@ -78,14 +78,14 @@ struct LabRunState<'a> {
     left: std::vec::IntoIter<Trial<'a>>,
     /// The faults of its runs, each kind once.
     faults: Vec<FaultGroup>,
-    seen: Seen<'a>,
-    tried: Option<Tried>,
+    seen: LabDisplays<'a>,
+    tried: Option<Coverage>,
     /// The samples of its runs.
     records: Vec<Record>,
     /// Whether a run lost its numbers, so that not every run was completed.
     lost: bool,
     /// Whether it breaks or does not start as loaded: it would with every control.
-    hopeless: bool,
+    has_no_remedy: bool,
 }
 
 impl LabRunState<'_> {
@@ -118,7 +118,8 @@ pub(super) fn run_labs(
     let mut found = vec![Vec::new(); addressed.len()];
     for (i, (address, lab)) in addressed.iter().enumerate() {
         let later = (addressed.len() - i - 1) as u64;
-        let share = left.saturating_sub(RESERVE * later).clamp(RESERVE.min(left), Budget::TRIAL.left);
+        let share =
+            left.saturating_sub(FIRST_RUN_WORK * later).clamp(FIRST_RUN_WORK.min(left), Budget::TRIAL.left);
         let one = ready.iter().find(|r| std::ptr::eq(r.lab, *lab));
         let begin = |r| begin(r, Budget { left: share }, &mut left, &mut found[i]);
         states.push((address, lab, one.map(begin)));
@@ -184,11 +185,11 @@ fn begin<'a>(
         wanted,
         faults: Vec::new(),
         left: trials.into_iter(),
-        seen: Seen::new(ready),
+        seen: LabDisplays::new(ready),
         tried: None,
         records: Vec::new(),
         lost: false,
-        hopeless: false,
+        has_no_remedy: false,
     };
     let Some(first) = state.left.next() else { return state };
     match attempt::make(ready, &state.case, &first, budget, &mut state.seen, findings) {
@@ -203,17 +204,17 @@ fn begin<'a>(
             {
                 findings.push(f);
             }
-            state.hopeless = attempt.broke || attempt.covered == 0.0 && wanted > 0.0;
+            state.has_no_remedy = attempt.broke || attempt.covered == 0.0 && wanted > 0.0;
             state.tried =
-                Some(Tried { runs: 0, wanted, covered: wanted, skipped: 0, broke: false, ended: None });
+                Some(Coverage { runs: 0, wanted, covered: wanted, skipped: 0, broke: false, ended: None });
             count(&mut state, &first, attempt, left);
         }
         Err(e) => {
             findings.push(impossible(first.place(ready.lab), e));
-            state.hopeless = true;
+            state.has_no_remedy = true;
         }
     }
-    if state.hopeless {
+    if state.has_no_remedy {
         let skipped = state.left.by_ref().count();
         state.skip(skipped);
     }
@@ -253,8 +254,8 @@ fn count(state: &mut LabRunState<'_>, trial: &Trial<'_>, attempt: Attempt, left:
         tried.covered = attempt.covered;
         let [covered, wanted] = [attempt.covered, state.wanted].map(seconds);
         tried.ended = match attempt.ended {
-            Some(Ended::Threw) => Some(format!("frozen after {covered} of {wanted} s")),
-            Some(Ended::Spent) => Some(format!("first {covered} of {wanted} s")),
+            Some(EndedRun::Threw) => Some(format!("frozen after {covered} of {wanted} s")),
+            Some(EndedRun::Spent) => Some(format!("first {covered} of {wanted} s")),
             None => None,
         };
     }
@@ -297,7 +298,11 @@ fn trials(lab: &Lab, wanted: f64) -> Vec<Trial<'_>> {
             ControlKind::Button { .. } => trials.push(Trial {
                 done: format!("after \"{label}\" is pressed"),
                 length: wanted,
-                interaction: alone(Action { time: PRESS.min(0.5 * wanted), control: index, value: None }),
+                interaction: alone(Action {
+                    time: PRESS_TIME.min(0.5 * wanted),
+                    control: index,
+                    value: None,
+                }),
                 control: Some(control),
                 moved: Some((index, None)),
             }),

@@ -7,12 +7,12 @@ use super::super::PreparedLab;
 use super::display::WatchedDisplay;
 use crate::finding::Finding;
 use crate::rules::{self, Rule, shows_infinite, shows_nan, text_in_plot};
-use crate::run::{Cell, Session, Trouble};
+use crate::run::{Cell, ProgramError, Session};
 use crate::source::Text;
 use std::collections::BTreeSet;
 
 /// All displays of a lab.
-pub(super) struct Seen<'a> {
+pub(super) struct LabDisplays<'a> {
     displays: Vec<WatchedDisplay<'a>>,
     /// Number of traces and readouts.
     width: usize,
@@ -20,12 +20,12 @@ pub(super) struct Seen<'a> {
     gaps: BTreeSet<u32>,
     found: Vec<Finding>,
     /// Errors of programs that were reported before.
-    troubles: Vec<(&'static Rule, Text, std::ops::Range<usize>)>,
+    program_errors: Vec<(&'static Rule, Text, std::ops::Range<usize>)>,
 }
 
-impl<'a> Seen<'a> {
+impl<'a> LabDisplays<'a> {
     /// The displays of a lab before the first run.
-    pub(super) fn new(ready: &'a PreparedLab<'a>) -> Seen<'a> {
+    pub(super) fn new(ready: &'a PreparedLab<'a>) -> LabDisplays<'a> {
         let programs = &ready.programs;
         let displays = programs.probes.iter().enumerate().filter_map(|(i, p)| {
             let bound = p.bound.as_ref()?;
@@ -39,21 +39,21 @@ impl<'a> Seen<'a> {
                 column: i + 1,
                 name: format!("the {} \"{label}\"", if trace { "trace" } else { "readout" }),
                 trace,
-                says_gap: shows_nan::says_gap(text),
-                says_infinite: shows_nan::says(text, "Infinity"),
+                mentions_gap: shows_nan::mentions_gap(text),
+                says_infinite: shows_nan::contains_word(text, "Infinity"),
                 ever: false,
                 gap: false,
                 reported: Vec::new(),
             })
         });
-        let on_purpose = programs.bound().filter(|b| shows_nan::says_gap(&b.text.value));
+        let on_purpose = programs.bound().filter(|b| shows_nan::mentions_gap(&b.text.value));
         let gaps = on_purpose.flat_map(|b| b.program.effects().ctx_writes.iter().copied()).collect();
-        Seen {
+        LabDisplays {
             displays: displays.collect(),
             width: programs.probes.len(),
             gaps,
             found: Vec::new(),
-            troubles: Vec::new(),
+            program_errors: Vec::new(),
         }
     }
 
@@ -79,10 +79,10 @@ impl<'a> Seen<'a> {
                 continue;
             };
             if finding.code == rules::SHOWS_NAN.code
-                && (display.says_gap || shows_nan::is_unset(display.bound, session, &self.gaps))
+                && (display.mentions_gap || shows_nan::is_unset(display.bound, session, &self.gaps))
             {
                 // An intended gap may be filled by an interaction that no run tests, unless the text is constant.
-                display.gap |= !display.says_gap || display.bound.program.effects().constant();
+                display.gap |= !display.mentions_gap || display.bound.program.effects().constant();
             } else if !display.reported.contains(&finding.code) {
                 display.reported.push(finding.code);
                 self.found.push(finding);
@@ -103,13 +103,13 @@ impl<'a> Seen<'a> {
     }
 
     /// Whether a program has not thrown this error in a run before.
-    pub(super) fn is_new(&mut self, t: &Trouble) -> bool {
+    pub(super) fn is_new(&mut self, t: &ProgramError) -> bool {
         let is_reported = |(code, text, span): &(&'static Rule, Text, std::ops::Range<usize>)| {
             *code == t.rule && *text == t.text && *span == t.span
         };
-        let new = !self.troubles.iter().any(is_reported);
+        let new = !self.program_errors.iter().any(is_reported);
         if new {
-            self.troubles.push((t.rule, t.text.clone(), t.span.clone()));
+            self.program_errors.push((t.rule, t.text.clone(), t.span.clone()));
         }
         new
     }

@@ -1,7 +1,7 @@
 //! Additional runs of a lab that confirm an observation: with several controls moved, or from another state.
 
 use super::moves::Move;
-use super::record::{Beyond, ObservationHash, Record};
+use super::record::{InputsOutOfRange, ObservationHash, Record};
 use crate::bind::Programs;
 use crate::check::PreparedLab;
 use crate::run::{self, Budget, Cell, Play, Session, Start};
@@ -70,7 +70,12 @@ impl ObservationBench<'_> {
         drop(session);
         self.left = self.left.saturating_sub(spent);
         self.runs += 1;
-        (completed && self.left > 0).then_some(Record { moved: None, rows, hash, beyond: Beyond::default() })
+        (completed && self.left > 0).then_some(Record {
+            moved: None,
+            rows,
+            hash,
+            beyond: InputsOutOfRange::default(),
+        })
     }
 
     /// The displayed values in states other than that of the lab.

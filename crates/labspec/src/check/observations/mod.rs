@@ -8,7 +8,7 @@ mod record;
 
 pub(crate) use bench::{ObservationBench, ObservedLab, geom_name};
 pub(crate) use moves::{Move, Setting, settings, single_moves, values};
-pub(crate) use record::{Beyond, ObservationHash, Record, column, constant, longest_equal, same};
+pub(crate) use record::{InputsOutOfRange, ObservationHash, Record, column, constant, longest_equal, same};
 
 use super::PreparedLab;
 use crate::finding::Finding;

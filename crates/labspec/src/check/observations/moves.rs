@@ -6,7 +6,7 @@ use crate::spec::{Control, ControlKind, Lab};
 use labspec_expr::Value;
 
 /// Tried positions of a slider, as fractions of its range.
-const PLACES: [f64; 5] = [0.0, 0.24, 0.5, 0.77, 1.0];
+const SLIDER_POSITIONS: [f64; 5] = [0.0, 0.24, 0.5, 0.77, 1.0];
 /// Maximum number of tried options.
 const MOST_OPTIONS: usize = 8;
 
@@ -41,7 +41,7 @@ pub(crate) fn values(control: &Control) -> Vec<Option<Value>> {
                 let tidy = format!("{x:.12e}").parse().unwrap_or(x);
                 if x.is_finite() { f64::max(min.value, f64::min(tidy, max.value)) } else { min.value }
             };
-            let mut all: Vec<f64> = PLACES.iter().map(|s| on_grid(*s)).collect();
+            let mut all: Vec<f64> = SLIDER_POSITIONS.iter().map(|s| on_grid(*s)).collect();
             if let Some(last) = all.last_mut() {
                 *last = max.value;
             }

@@ -15,7 +15,7 @@ pub(crate) struct Record {
     /// A hash that is equal for runs that look the same.
     pub(crate) hash: ObservationHash,
     /// Inputs outside of their range.
-    pub(crate) beyond: Beyond,
+    pub(crate) beyond: InputsOutOfRange,
 }
 
 /// A hash of the bits that a run displays.
@@ -72,13 +72,13 @@ pub(crate) fn same(a: &Cell, b: &Cell) -> bool {
 
 /// Inputs that were outside of their range, with a value of each.
 #[derive(Debug, Default)]
-pub(crate) struct Beyond {
+pub(crate) struct InputsOutOfRange {
     pub(crate) looks: usize,
     /// For each input, the number of samples outside of its range, and its last value there.
     pub(crate) times: Vec<(usize, f64)>,
 }
 
-impl Beyond {
+impl InputsOutOfRange {
     /// Checks the inputs of a step.
     pub(crate) fn observe(&mut self, session: &Session<'_>) {
         let (model, data) = (&session.world.model, session.world.data.fields());

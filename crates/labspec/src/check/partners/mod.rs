@@ -5,7 +5,7 @@
 //! after every program. A claim that holds only without the correction does not hold for the physical system that the text
 //! describes.
 
-mod rests;
+mod dependency;
 
 use super::resolved_labs::{ResolvedLabs, resolve_labs, start_runs};
 use super::{PreparedLab, setconst};
@@ -18,18 +18,18 @@ use crate::ledger::State;
 use crate::source::Text;
 use crate::spec::{Lab, Lesson, Question, Run, Verify};
 use crate::verify::{self, BoundVerify, Judgement, Measured, QuoteState, RenderedText, Stage};
-use rests::Rests;
+use dependency::Dependency;
 use std::cell::OnceCell;
 
 /// Relative change of a measure above which a difference is reported; a reader does not see a smaller one.
-const MATTERS: f64 = 1e-3;
+const MIN_RELATIVE_CHANGE: f64 = 1e-3;
 
 /// A program that writes a parameter with coupled parameters.
 #[derive(Clone)]
 pub(super) struct PartnerCandidate<'a> {
     text: Text,
     /// The name of the program in messages.
-    who: String,
+    subject: String,
     pairs: PairSet,
     /// Its lab; `None` for the setup of a run.
     lab: Option<&'a Lab>,
@@ -44,7 +44,7 @@ impl PartnerCandidate<'_> {
     fn left(&self) -> String {
         let mut partners: Vec<&str> = self.pairs.pairs().map(|(_, pair)| pair.left).collect();
         partners.dedup();
-        format!("{} does not update {}", self.who, partners.join(" and "))
+        format!("{} does not update {}", self.subject, partners.join(" and "))
     }
 }
 
@@ -85,19 +85,19 @@ fn candidates<'a>(lesson: &'a Lesson, labs: &[PreparedLab<'a>]) -> Vec<PartnerCa
         let programs = &ready.programs;
         let in_lesson = all.iter().any(|lab| std::ptr::eq(*lab, ready.lab));
         let of_lab = [("the setup", &programs.setup), ("the controller", &programs.controller)];
-        let named = of_lab.into_iter().map(|(who, bound)| (who.to_string(), bound.as_ref()));
+        let named = of_lab.into_iter().map(|(subject, bound)| (subject.to_string(), bound.as_ref()));
         let controls = programs.controls.iter().map(|(label, program)| match program {
             ControlProgram::Change(_, action) => (format!("\"{label}\""), action.run.as_ref()),
             ControlProgram::Press(run) => (format!("\"{label}\""), run.as_ref()),
         });
-        for (who, bound) in named.chain(controls) {
+        for (subject, bound) in named.chain(controls) {
             let Some(bound) = bound else { continue };
             let written = PairSet::written_by(&bound.program);
-            let pairs = written.without(coupled::chosen_apart(programs, bound, written));
-            let pairs = pairs.without(allowed(lesson, &bound.text, pairs));
+            let pairs = written.without(coupled::intentionally_separate(programs, bound, written));
+            let pairs = pairs.without(suppressed_pairs(lesson, &bound.text, pairs));
             candidates.push(PartnerCandidate {
                 text: bound.text.clone(),
-                who,
+                subject,
                 pairs,
                 lab: Some(ready.lab),
                 in_lesson,
@@ -165,13 +165,13 @@ impl<'a> Partners<'a> {
         let Some(second) = self.judge(case, self.corrected(), &self.stage, TestedNumerics::All) else {
             return;
         };
-        if !differs(judgement, &second) || self.contrasted(case, judgement, &second) {
+        if !differs(judgement, &second) || self.is_contrasted(case, judgement, &second) {
             return;
         }
         let causes = self.causes(case, &candidates, judgement);
-        let rests = Rests::new(&causes, judgement, &second);
-        let evidence = rests.evidence.clone();
-        rests.apply(case, judgement, second, findings);
+        let dependency = Dependency::new(&causes, judgement, &second);
+        let evidence = dependency.evidence.clone();
+        dependency.apply(case, judgement, second, findings);
         for cause in causes.iter().filter(|c| c.in_lesson) {
             for (rule, pairs) in setconst::by_rule(cause.pairs) {
                 let span = cause.text.span();
@@ -180,7 +180,7 @@ impl<'a> Partners<'a> {
                 }
                 let with: Vec<&str> = pairs.iter().map(|p| p.corrected).collect();
                 let why = format!("{evidence} with {}", with.join(" and "));
-                let finding = setconst::left(rule, span, &cause.who, &pairs, Severity::Warning);
+                let finding = setconst::left(rule, span, &cause.subject, &pairs, Severity::Warning);
                 findings.push(if evidence.is_empty() { finding } else { finding.why(why) });
             }
         }
@@ -197,11 +197,11 @@ impl<'a> Partners<'a> {
         };
         let mut all: Vec<PartnerCandidate<'a>> = self.candidates.iter().filter(of).cloned().collect();
         for text in changes(verify) {
-            let pairs = PairSet::ALL.without(allowed(self.lesson, text, PairSet::ALL));
-            let who = format!("the change of `{}`", text.value);
+            let pairs = PairSet::ALL.without(suppressed_pairs(self.lesson, text, PairSet::ALL));
+            let subject = format!("the change of `{}`", text.value);
             all.push(PartnerCandidate {
                 text: text.clone(),
-                who,
+                subject,
                 pairs,
                 lab: None,
                 in_lesson: true,
@@ -214,12 +214,12 @@ impl<'a> Partners<'a> {
             let bench = setconst::SetConstBench::new(ready.lab, &ready.model, &ready.programs);
             let Some(bound) = bench.compile(text, &text.value, None) else { continue };
             let pairs = PairSet::written_by(&bound.program);
-            let pairs = pairs.without(allowed(self.lesson, text, pairs));
-            let who = format!("the setup of the run {}", named(&run.name.value));
+            let pairs = pairs.without(suppressed_pairs(self.lesson, text, pairs));
+            let subject = format!("the setup of the run {}", named(&run.name.value));
             if !pairs.is_empty() {
                 all.push(PartnerCandidate {
                     text: text.clone(),
-                    who,
+                    subject,
                     pairs,
                     lab: None,
                     in_lesson: true,
@@ -252,7 +252,7 @@ impl<'a> Partners<'a> {
 
     /// Whether every run that the correction changes is accompanied by the corrected run: then the author shows the
     /// difference intentionally.
-    fn contrasted(&self, case: ClaimOwner<'_>, first: &Judgement, second: &Judgement) -> bool {
+    fn is_contrasted(&self, case: ClaimOwner<'_>, first: &Judgement, second: &Judgement) -> bool {
         let [as_is, corrected] = [self.labs, self.corrected()].map(|labs| {
             let stage = Stage::new(self.models);
             let started = start_runs(self.lesson, labs, case.verify, case.lab, &stage);
@@ -329,7 +329,7 @@ fn corrected<'a>(labs: &[PreparedLab<'a>], coupled: &Coupled) -> Vec<PreparedLab
 }
 
 /// The pairs whose rule the author has suppressed at this place.
-fn allowed(lesson: &Lesson, text: &Text, pairs: PairSet) -> PairSet {
+fn suppressed_pairs(lesson: &Lesson, text: &Text, pairs: PairSet) -> PairSet {
     let at = text.span().start;
     let allowances = lesson.allowances();
     let here = allowances.iter().filter(|a| !a.why.is_empty() && a.over.start <= at && at <= a.over.end);
@@ -344,7 +344,7 @@ fn moved(a: &Measured, b: &Measured) -> bool {
     }
     let apart = (a.value - b.value).abs();
     let numerics = a.halved.map_or(0.0, |h| (h - a.value).abs());
-    apart > MATTERS * a.value.abs().max(b.value.abs()) && apart > numerics
+    apart > MIN_RELATIVE_CHANGE * a.value.abs().max(b.value.abs()) && apart > numerics
 }
 
 fn pairs<'j>(a: &'j Judgement, b: &'j Judgement) -> impl Iterator<Item = (&'j Measured, &'j Measured)> {
@@ -396,13 +396,13 @@ mod tests {
             all.extend(d.qpos.iter().chain(&d.qvel).chain(&d.act).map(|x| x.to_bits()));
             all.extend(session.sample().iter().map(|cell| cell.number().to_bits()));
         }
-        (all, session.left_behind())
+        (all, session.has_uncoupled_change())
     }
 
     /// A run that reports no omitted coupled parameter equals the corrected run bit for bit, so `verify` does not make the
     /// corrected run.
     #[test]
-    fn a_run_that_leaves_nothing_behind_is_the_corrected_one() {
+    fn a_run_without_uncoupled_changes_equals_the_corrected_one() {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
         let ours = (root.join("specs/lessons"), root.join("specs/models"));
         let corpus = root.join("../shared/corpus");

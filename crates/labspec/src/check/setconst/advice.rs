@@ -1,6 +1,6 @@
 //! The suggested statements: appended to a program, or in place of it. Each suggestion is tested before it is given.
 
-use super::Suspect;
+use super::SuspectProgram;
 use crate::bind::coupled::Repair;
 
 /// The call that recomputes constants.
@@ -45,13 +45,13 @@ fn between(text: &str) -> &'static str {
 }
 
 /// The statements of a program, unchanged.
-pub(super) fn source(s: &Suspect<'_>) -> String {
+pub(super) fn source(s: &SuspectProgram<'_>) -> String {
     let text = &s.bound.text.value;
     if s.target { format!("{text} = value") } else { text.clone() }
 }
 
 /// The statements of a program with its coupled parameters corrected, and with constants recomputed where necessary.
-pub(super) fn repaired(s: &Suspect<'_>, repair: &Repair, advice: SetConstAdvice) -> String {
+pub(super) fn repaired(s: &SuspectProgram<'_>, repair: &Repair, advice: SetConstAdvice) -> String {
     let source = source(s);
     let last = source.trim_end().trim_end_matches(';').trim_end();
     // A call of mj_setConst at the end of the program stays at the end.

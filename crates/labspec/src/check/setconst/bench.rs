@@ -1,7 +1,7 @@
 //! Runs of a lab, unchanged and with amended programs: the tested interactions and their samples.
 
 use super::difference::Columns;
-use super::{ProgramSite, Suspect};
+use super::{ProgramSite, SuspectProgram};
 use crate::bind::coupled::{self, Coupled, PairSet};
 use crate::bind::{Bound, ControlProgram, ModelNames, Programs, Scope, include};
 use crate::check::choices::choices;
@@ -21,7 +21,7 @@ const WORK: usize = 4_000_000;
 /// Maximum number of cells of one run.
 const CELLS: usize = 200_000;
 /// Maximum length of a text that is compared literally.
-const LONG: usize = 64;
+const MAX_COMPARED_TEXT: usize = 64;
 /// Maximum number of runs for one program.
 const MOST_TRIALS: usize = 12;
 
@@ -61,7 +61,7 @@ impl<'a> SetConstBench<'a> {
     }
 
     /// The columns of the samples of its runs.
-    pub(super) fn columns(&self, s: &Suspect<'_>) -> Columns<'a> {
+    pub(super) fn columns(&self, s: &SuspectProgram<'_>) -> Columns<'a> {
         let whole = matches!(s.place, ProgramSite::Run(_)) || self.programs.probes.is_empty();
         Columns { whole, lab: self.lab, programs: self.programs }
     }
@@ -77,7 +77,7 @@ impl<'a> SetConstBench<'a> {
     }
 
     /// Number of steps of the lab, or of the run of a question, limited to `STEPS`.
-    pub(super) fn steps(&self, s: &Suspect<'_>) -> Result<usize, String> {
+    pub(super) fn steps(&self, s: &SuspectProgram<'_>) -> Result<usize, String> {
         let session = Session::start(self.programs, self.model, Start::of_lab(self.lab));
         let timestep = session.world.model.opt.timestep;
         let (until, steps) = match s.place {
@@ -90,7 +90,7 @@ impl<'a> SetConstBench<'a> {
     }
 
     /// The runs that could show the effect of a program.
-    pub(super) fn trials(&self, s: &Suspect<'_>, steps: usize) -> Vec<BenchTrial> {
+    pub(super) fn trials(&self, s: &SuspectProgram<'_>, steps: usize) -> Vec<BenchTrial> {
         let mut all = vec![BenchTrial { moves: Vec::new(), description: "as it stands".into() }];
         let half = steps / 2;
         let mut add = |at: usize, index: usize, value: Option<Value>| {
@@ -104,7 +104,7 @@ impl<'a> SetConstBench<'a> {
             all.push(BenchTrial { moves: vec![(at, what)], description });
         };
         match s.place {
-            ProgramSite::Run(run) => return vec![self.as_asked(run)],
+            ProgramSite::Run(run) => return vec![self.run_of_question(run)],
             ProgramSite::Control(nominal) => {
                 let Some(control) = self.lab.controls.get(nominal) else { return all };
                 let values = choices(control);
@@ -139,7 +139,7 @@ impl<'a> SetConstBench<'a> {
 
     /// Whether a program reads values that another control of the lab writes: variables, or fields if it calls no function
     /// that reads all of them.
-    pub(super) fn reads_of_others(&self, s: &Suspect<'_>) -> bool {
+    pub(super) fn reads_of_others(&self, s: &SuspectProgram<'_>) -> bool {
         let effects = s.bound.program.effects();
         let written = |e: &Effects| {
             let field = |a: &Access| e.writes.iter().any(|w| w.field == a.field);
@@ -155,7 +155,7 @@ impl<'a> SetConstBench<'a> {
     }
 
     /// Runs with another control at its ends: a ball may roll only if a ramp is tilted.
-    pub(super) fn combined(&self, s: &Suspect<'_>) -> Vec<BenchTrial> {
+    pub(super) fn combined(&self, s: &SuspectProgram<'_>) -> Vec<BenchTrial> {
         let ProgramSite::Control(nominal) = s.place else { return Vec::new() };
         let Some(control) = self.lab.controls.get(nominal) else { return Vec::new() };
         let moves = |index: usize, control: &Control| -> Vec<(Move, String)> {
@@ -184,7 +184,7 @@ impl<'a> SetConstBench<'a> {
     }
 
     /// The run of a question: its settings, then its setup, then its presses.
-    fn as_asked(&self, run: &Run) -> BenchTrial {
+    fn run_of_question(&self, run: &Run) -> BenchTrial {
         let index = |label: &Text| self.lab.controls.iter().position(|c| c.label.value == label.value);
         let set = run.set.iter().filter_map(|(label, value)| {
             let i = index(label)?;
@@ -204,8 +204,8 @@ impl<'a> SetConstBench<'a> {
     /// Makes a run of the unchanged or amended lab, sampled after every step.
     pub(super) fn record(
         &mut self,
-        s: &Suspect<'_>,
-        amended: Option<&Amended>,
+        s: &SuspectProgram<'_>,
+        amended: Option<&AmendedLab>,
         trial: &BenchTrial,
         steps: usize,
     ) -> Record {
@@ -215,8 +215,8 @@ impl<'a> SetConstBench<'a> {
     /// Like [`SetConstBench::record`], under perturbed numerics: half the timestep, or a perturbed start.
     pub(super) fn record_under(
         &mut self,
-        s: &Suspect<'_>,
-        amended: Option<&Amended>,
+        s: &SuspectProgram<'_>,
+        amended: Option<&AmendedLab>,
         trial: &BenchTrial,
         steps: usize,
         numerics: StepVariant,
@@ -227,26 +227,26 @@ impl<'a> SetConstBench<'a> {
             _ => None,
         };
         let whole = self.columns(s).whole || !s.pairs.is_empty();
-        let run = self.perform(programs, setup, whole, trial, steps, numerics)?;
+        let run = self.execute_run(programs, setup, whole, trial, steps, numerics)?;
         Ok(run.rows)
     }
 
     /// Makes a run of a lab that observes coupled parameters. Returns whether a program changed a parameter without them.
     pub(super) fn observe(
         &mut self,
-        s: &Suspect<'_>,
-        amended: &Amended,
+        s: &SuspectProgram<'_>,
+        amended: &AmendedLab,
         trial: &BenchTrial,
         steps: usize,
     ) -> Result<(SampleRows, bool), String> {
         let setup = matches!(s.place, ProgramSite::Run(_)).then_some(&amended.bound);
         let whole = self.columns(s).whole || !s.pairs.is_empty();
-        let run = self.perform(&amended.programs, setup, whole, trial, steps, StepVariant::NOMINAL)?;
-        Ok((run.rows, run.left_behind))
+        let run = self.execute_run(&amended.programs, setup, whole, trial, steps, StepVariant::NOMINAL)?;
+        Ok((run.rows, run.has_uncoupled_change))
     }
 
     /// Makes a run with these programs; `whole` samples all coordinates too.
-    fn perform(
+    fn execute_run(
         &mut self,
         programs: &Programs,
         setup: Option<&Bound>,
@@ -254,7 +254,7 @@ impl<'a> SetConstBench<'a> {
         trial: &BenchTrial,
         steps: usize,
         numerics: StepVariant,
-    ) -> Result<Performed, String> {
+    ) -> Result<CompletedRun, String> {
         // Half the timestep needs twice the steps, so that events occur at the same time.
         let finer = if numerics.timestep < 1.0 { 2 } else { 1 };
         let steps = steps * finer;
@@ -299,29 +299,34 @@ impl<'a> SetConstBench<'a> {
             return Err("it takes too long".to_string());
         }
         check_completion(&session, programs)?;
-        Ok(Performed { rows, left_behind: session.left_behind() })
+        Ok(CompletedRun { rows, has_uncoupled_change: session.has_uncoupled_change() })
     }
 
     /// Whether another run of the same object equals the corrected version of this run: then the author shows the
     /// difference intentionally.
-    pub(super) fn contrasted(&mut self, s: &Suspect<'_>, verify: &Verify, anew: &Amended) -> bool {
+    pub(super) fn is_contrasted(
+        &mut self,
+        s: &SuspectProgram<'_>,
+        verify: &Verify,
+        anew: &AmendedLab,
+    ) -> bool {
         let ProgramSite::Run(nominal) = s.place else { return false };
         let Ok(steps) = self.steps(s) else { return false };
-        let trial = self.as_asked(nominal);
+        let trial = self.run_of_question(nominal);
         let Ok(anew) = self.record(s, Some(anew), &trial, steps) else { return false };
         verify.runs.iter().filter(|run| run.name != nominal.name).any(|run| {
             let setup = run.setup.as_ref().map(|text| self.compile(text, &text.value, None));
             let Some(setup) = setup.map_or(Some(None), |bound| bound.map(Some)) else { return false };
-            let trial = self.as_asked(run);
+            let trial = self.run_of_question(run);
             let other =
-                self.perform(self.programs, setup.as_ref(), true, &trial, steps, StepVariant::NOMINAL);
+                self.execute_run(self.programs, setup.as_ref(), true, &trial, steps, StepVariant::NOMINAL);
             other.is_ok_and(|other| self.columns(s).difference(&anew, &other.rows).is_none())
         })
     }
 
     /// Whether another run of the same object starts with the parameters, including the coupled ones, of the corrected
     /// version of this run: then the author shows the difference intentionally.
-    pub(super) fn paired(&self, s: &Suspect<'_>, verify: &Verify) -> bool {
+    pub(super) fn paired(&self, s: &SuspectProgram<'_>, verify: &Verify) -> bool {
         let ProgramSite::Run(nominal) = s.place else { return false };
         let right = self.corrected(s, s.pairs);
         let right = self.start_model(&right.programs, Some(&right.bound), nominal);
@@ -345,7 +350,7 @@ impl<'a> SetConstBench<'a> {
     /// The model at the start of a run.
     fn start_model(&self, programs: &Programs, setup: Option<&Bound>, run: &Run) -> Model {
         let mut session = self.start(programs, setup);
-        let trial = self.as_asked(run);
+        let trial = self.run_of_question(run);
         let sets = trial.moves.iter().filter(|(_, m)| matches!(m, Move::Set(..)));
         sets.for_each(|(_, m)| act(&mut session, m));
         if let Some(bound) = setup {
@@ -355,24 +360,24 @@ impl<'a> SetConstBench<'a> {
     }
 
     /// The lab with these pairs corrected after the program, and with constants recomputed where that is missing.
-    pub(super) fn corrected(&self, s: &Suspect<'_>, pairs: PairSet) -> Amended {
+    pub(super) fn corrected(&self, s: &SuspectProgram<'_>, pairs: PairSet) -> AmendedLab {
         let mut programs = self.programs.clone();
         coupled_in(s, pairs).install(&mut programs, self.model);
-        Amended { programs, bound: s.bound.clone() }
+        AmendedLab { programs, bound: s.bound.clone() }
     }
 
     /// The lab that observes the coupled parameters of the program, with constants recomputed if `refreshed`.
-    pub(super) fn observed(&self, s: &Suspect<'_>, refreshed: bool) -> Amended {
+    pub(super) fn observed(&self, s: &SuspectProgram<'_>, refreshed: bool) -> AmendedLab {
         let mut programs = self.programs.clone();
         if refreshed {
             coupled_in(s, PairSet::NONE).install(&mut programs, self.model);
         }
         programs.observed = Some(coupled_in(s, s.pairs));
-        Amended { programs, bound: s.bound.clone() }
+        AmendedLab { programs, bound: s.bound.clone() }
     }
 
     /// The lab with other statements in place of the program.
-    pub(super) fn amended(&self, s: &Suspect<'_>, statements: &str) -> Option<Amended> {
+    pub(super) fn amended(&self, s: &SuspectProgram<'_>, statements: &str) -> Option<AmendedLab> {
         let bound = self.compile(&s.bound.text, statements, s.given)?;
         let mut programs = self.programs.clone();
         match s.place {
@@ -388,7 +393,7 @@ impl<'a> SetConstBench<'a> {
         let mut access = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
         programs.bound().for_each(|b| include(b.program.effects(), &mut access));
         programs.access = access;
-        Some(Amended { programs, bound })
+        Some(AmendedLab { programs, bound })
     }
 
     /// Compiles statements of the lab. `place` is the text that they replace.
@@ -402,7 +407,7 @@ impl<'a> SetConstBench<'a> {
 }
 
 /// The correction of these pairs of a program, and of its constants where they are missing.
-fn coupled_in(s: &Suspect<'_>, pairs: PairSet) -> Coupled {
+fn coupled_in(s: &SuspectProgram<'_>, pairs: PairSet) -> Coupled {
     Coupled {
         programs: vec![(s.bound.text.clone(), pairs)],
         others: PairSet::NONE,
@@ -412,14 +417,14 @@ fn coupled_in(s: &Suspect<'_>, pairs: PairSet) -> Coupled {
 }
 
 /// A completed run.
-struct Performed {
+struct CompletedRun {
     rows: SampleRows,
     /// Whether a program changed a parameter without the parameters coupled to it, as far as programs observe that.
-    left_behind: bool,
+    has_uncoupled_change: bool,
 }
 
 /// A lab with other statements.
-pub(super) struct Amended {
+pub(super) struct AmendedLab {
     programs: Programs,
     bound: Bound,
 }
@@ -427,8 +432,8 @@ pub(super) struct Amended {
 /// Replaces a long text by its beginning and a hash.
 fn short(cell: Cell) -> Cell {
     match cell {
-        Cell::Text(t) if t.len() > LONG => {
-            let start: String = t.chars().take(LONG / 2).collect();
+        Cell::Text(t) if t.len() > MAX_COMPARED_TEXT => {
+            let start: String = t.chars().take(MAX_COMPARED_TEXT / 2).collect();
             let mut hash = DefaultHasher::new();
             t.hash(&mut hash);
             Cell::Text(format!("{start}… ({:016x})", hash.finish()))
@@ -450,8 +455,8 @@ fn act(session: &mut Session<'_>, what: &Move) {
 /// A statement failed, the simulation broke, or the run ended early. Errors in a trace or a readout have separate findings.
 fn check_completion(session: &Session<'_>, programs: &Programs) -> Result<(), String> {
     let probe = |t: &Text| programs.probes.iter().any(|p| p.bound.as_ref().is_some_and(|b| b.text == *t));
-    if let Some(trouble) = session.troubles.iter().find(|t| !probe(&t.text)) {
-        return Err(format!("its statements fail: {}", trouble.message));
+    if let Some(program_error) = session.program_errors.iter().find(|t| !probe(&t.text)) {
+        return Err(format!("its statements fail: {}", program_error.message));
     }
     match (run::worst_breakdown(session), session.ended()) {
         (Some(broken), _) => Err(format!("the simulation breaks: {}", broken.what)),

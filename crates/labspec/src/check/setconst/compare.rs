@@ -1,15 +1,15 @@
 //! Compares runs of a lab: unchanged, with its constants recomputed, and with coupled parameters corrected.
 
-use super::Suspect;
+use super::SuspectProgram;
 use super::advice::{self, SetConstAdvice};
-use super::bench::{Amended, BenchTrial, SampleRows, SetConstBench};
-use super::difference::{BEYOND, Difference};
+use super::bench::{AmendedLab, BenchTrial, SampleRows, SetConstBench};
+use super::difference::{Difference, PERTURBATION_FACTOR};
 use crate::bind::coupled::{PairSet, Repair};
 use crate::run::StepVariant;
 use crate::verify::HALVED;
 
 /// A start that is perturbed by less than anybody can set.
-const MOVED: StepVariant = StepVariant { perturbation: 1e-9, ..StepVariant::NOMINAL };
+const PERTURBED_START: StepVariant = StepVariant { perturbation: 1e-9, ..StepVariant::NOMINAL };
 /// Fraction of the range by which a repaired run may differ from the corrected one, because of the order of operations.
 const ROUNDED: f64 = 1e-6;
 
@@ -23,7 +23,7 @@ pub(super) struct Compared {
     pub(super) advice: SetConstAdvice,
     pub(super) repaired: Option<String>,
     /// Why the effect of coupled parameters could not be tested.
-    pub(super) untried: Option<String>,
+    pub(super) untested: Option<String>,
 }
 
 /// The runs of one trial.
@@ -46,33 +46,33 @@ impl Runs<'_> {
 /// The variants of the lab.
 struct LabVariants {
     /// Unchanged; observes coupled parameters.
-    as_is: Amended,
+    as_is: AmendedLab,
     /// With constants recomputed; `None` where the program does so. Observes coupled parameters.
-    refreshed: Option<Amended>,
+    refreshed: Option<AmendedLab>,
     /// With all coupled parameters corrected too.
-    coupled: Option<Amended>,
+    coupled: Option<AmendedLab>,
     steps: usize,
 }
 
 impl SetConstBench<'_> {
     /// Makes all runs. `Err` states why constants could not be tested.
-    pub(super) fn compare(&mut self, s: &Suspect<'_>) -> Result<Compared, String> {
+    pub(super) fn compare(&mut self, s: &SuspectProgram<'_>) -> Result<Compared, String> {
         let steps = self.steps(s)?;
         let trials = self.trials(s, steps);
         let as_is = self.observed(s, false);
         let refreshed = s.inertial.is_some().then(|| self.observed(s, true));
         let coupled = (!s.pairs.is_empty()).then(|| self.corrected(s, s.pairs));
         let variants = LabVariants { as_is, refreshed, coupled, steps };
-        let (mut untried, mut uncoupled) = (None, None);
+        let (mut untested, mut uncoupled) = (None, None);
         let mut all: Vec<Runs<'_>> = Vec::new();
         for trial in &trials {
             match self.runs(s, &variants, trial, &mut uncoupled) {
                 Ok(runs) => all.push(runs),
-                Err(reason) => untried = untried.or(Some(reason)),
+                Err(reason) => untested = untested.or(Some(reason)),
             }
         }
         let constants = all.iter().find(|r| self.columns(s).difference(&r.as_is, &r.anew).is_some());
-        if let (None, Some(reason), true) = (constants, &untried, s.inertial.is_some()) {
+        if let (None, Some(reason), true) = (constants, &untested, s.inertial.is_some()) {
             return Err(reason.clone());
         }
         let mut partners = self.partners(s, &all, &variants);
@@ -105,13 +105,13 @@ impl SetConstBench<'_> {
             Some(difference.describe(&r.trial.description, &format!("the constants recomputed{and}")))
         });
         let (advice, repaired) = self.choose_advice(s, matter, constants.is_some(), &all, steps);
-        Ok(Compared { constants, partners, advice, repaired, untried: uncoupled })
+        Ok(Compared { constants, partners, advice, repaired, untested: uncoupled })
     }
 
     /// The suggestion, and the corrected text if one gives the same runs.
     fn choose_advice(
         &mut self,
-        s: &Suspect<'_>,
+        s: &SuspectProgram<'_>,
         matter: PairSet,
         constants: bool,
         all: &[Runs<'_>],
@@ -137,7 +137,7 @@ impl SetConstBench<'_> {
     /// The runs of one trial. If coupled parameters could not be corrected in it, the reason is stored in `uncoupled`.
     fn runs<'t>(
         &mut self,
-        s: &Suspect<'_>,
+        s: &SuspectProgram<'_>,
         variants: &LabVariants,
         trial: &'t BenchTrial,
         uncoupled: &mut Option<String>,
@@ -161,7 +161,14 @@ impl SetConstBench<'_> {
     }
 
     /// Whether these statements in place of a program give the corrected runs, to this fraction of the range.
-    fn gives(&mut self, s: &Suspect<'_>, text: &str, all: &[Runs<'_>], steps: usize, part: f64) -> bool {
+    fn gives(
+        &mut self,
+        s: &SuspectProgram<'_>,
+        text: &str,
+        all: &[Runs<'_>],
+        steps: usize,
+        part: f64,
+    ) -> bool {
         let Some(program) = self.amended(s, text) else { return false };
         all.iter().all(|runs| {
             let made = self.record(s, Some(&program), runs.trial, steps);
@@ -176,7 +183,7 @@ impl SetConstBench<'_> {
     /// The effect of correcting the coupled parameters in the first trial that shows one, and the pairs that cause it.
     fn partners(
         &mut self,
-        s: &Suspect<'_>,
+        s: &SuspectProgram<'_>,
         all: &[Runs<'_>],
         variants: &LabVariants,
     ) -> Option<(String, PairSet)> {
@@ -184,9 +191,9 @@ impl SetConstBench<'_> {
         let (refreshed, steps) = (variants.refreshed.as_ref(), variants.steps);
         let (runs, found): (&Runs<'_>, Difference) = all.iter().find_map(|runs| {
             let noise = || {
-                let moved = self.record_under(s, refreshed, runs.trial, steps, MOVED).ok()?;
+                let moved = self.record_under(s, refreshed, runs.trial, steps, PERTURBED_START).ok()?;
                 let halved = self.record_under(s, refreshed, runs.trial, steps, HALVED).ok()?;
-                Some(vec![(moved, BEYOND), (halved, 1.0)])
+                Some(vec![(moved, PERTURBATION_FACTOR), (halved, 1.0)])
             };
             Some((runs, columns.mismatch(&runs.anew, runs.corrected.as_ref()?, noise)?))
         })?;

@@ -42,13 +42,13 @@ pub(super) struct Columns<'a> {
 
 /// Fraction of the range by which a wrong coupled parameter must change a displayed value; numerics of a lab cause smaller
 /// changes.
-const MATTERS: f64 = 1e-3;
+const MIN_RELATIVE_CHANGE: f64 = 1e-3;
 /// Factor by which the change must exceed that of a perturbed start.
-pub(super) const BEYOND: f64 = 10.0;
+pub(super) const PERTURBATION_FACTOR: f64 = 10.0;
 
 /// The largest difference of two runs in a column.
 #[derive(Clone, Copy, Debug, Default)]
-struct Apart {
+struct LargestDifference {
     most: f64,
     range: f64,
     largest: f64,
@@ -57,8 +57,8 @@ struct Apart {
 }
 
 /// The largest difference of two runs in a column of numbers.
-fn apart(a: &[Vec<Cell>], b: &[Vec<Cell>], column: usize) -> Apart {
-    let (mut low, mut high, mut found) = (f64::INFINITY, f64::NEG_INFINITY, Apart::default());
+fn largest_difference(a: &[Vec<Cell>], b: &[Vec<Cell>], column: usize) -> LargestDifference {
+    let (mut low, mut high, mut found) = (f64::INFINITY, f64::NEG_INFINITY, LargestDifference::default());
     for (x, y) in a.iter().zip(b) {
         let (Some(time), Some(Cell::Number(x)), Some(Cell::Number(y))) =
             (x.first(), x.get(column), y.get(column))
@@ -71,10 +71,10 @@ fn apart(a: &[Vec<Cell>], b: &[Vec<Cell>], column: usize) -> Apart {
         (low, high) = (low.min(*x).min(*y), high.max(*x).max(*y));
         let by = (x - y).abs();
         if by > found.most {
-            found = Apart { most: by, time: time.number(), cells: [*x, *y], ..found };
+            found = LargestDifference { most: by, time: time.number(), cells: [*x, *y], ..found };
         }
     }
-    Apart { range: high - low, largest: low.abs().max(high.abs()), ..found }
+    LargestDifference { range: high - low, largest: low.abs().max(high.abs()), ..found }
 }
 
 impl Columns<'_> {
@@ -88,18 +88,19 @@ impl Columns<'_> {
         noise: impl FnOnce() -> Option<Vec<(Vec<Vec<Cell>>, f64)>>,
     ) -> Option<Difference> {
         let width = a.first().map_or(0, Vec::len);
-        let all = (1..width).map(|column| (column, apart(a, b, column)));
-        let seen = |d: &Apart| d.most > MATTERS * d.range && d.most > ROUNDING * d.largest;
-        let found: Vec<(usize, Apart)> = all.filter(|(_, d)| seen(d)).collect();
+        let all = (1..width).map(|column| (column, largest_difference(a, b, column)));
+        let seen =
+            |d: &LargestDifference| d.most > MIN_RELATIVE_CHANGE * d.range && d.most > ROUNDING * d.largest;
+        let found: Vec<(usize, LargestDifference)> = all.filter(|(_, d)| seen(d)).collect();
         if found.is_empty() {
             return None;
         }
         let noise = noise()?;
-        let beyond = |(column, d): &(usize, Apart)| {
-            noise.iter().all(|(other, factor)| d.most > factor * apart(a, other, *column).most)
+        let beyond = |(column, d): &(usize, LargestDifference)| {
+            noise.iter().all(|(other, factor)| d.most > factor * largest_difference(a, other, *column).most)
         };
         let coordinate = |column: usize| column > self.programs.probes.len();
-        let part = |d: &Apart| d.most / d.range;
+        let part = |d: &LargestDifference| d.most / d.range;
         let (column, d) = found
             .into_iter()
             .filter(beyond)
@@ -111,8 +112,8 @@ impl Columns<'_> {
     /// Whether no number of two runs differs by more than this fraction of the range of its column.
     pub(super) fn close(&self, a: &[Vec<Cell>], b: &[Vec<Cell>], part: f64) -> bool {
         let width = a.first().map_or(0, Vec::len);
-        let near = |d: Apart| d.most <= part * d.range || d.most <= ROUNDING * d.largest;
-        a.len() == b.len() && (1..width).all(|column| near(apart(a, b, column)))
+        let near = |d: LargestDifference| d.most <= part * d.range || d.most <= ROUNDING * d.largest;
+        a.len() == b.len() && (1..width).all(|column| near(largest_difference(a, b, column)))
     }
 
     /// The largest visible difference of two runs in displayed values, or in coordinates if the lab displays nothing.

@@ -3,7 +3,7 @@
 use super::advice::SetConstAdvice;
 use super::bench::SetConstBench;
 use super::compare::Compared;
-use super::{ProgramSite, Suspect};
+use super::{ProgramSite, SuspectProgram};
 use crate::bind::coupled::{Pair, PairSet};
 use crate::finding::{Applicability, Finding, Fix, Severity};
 use crate::rules::{self, Rule};
@@ -13,22 +13,27 @@ const CONSTANTS: &str =
 
 impl SetConstBench<'_> {
     /// The findings, unless there is no visible difference.
-    pub(super) fn judge(&mut self, s: &Suspect<'_>) -> Vec<Finding> {
+    pub(super) fn judge(&mut self, s: &SuspectProgram<'_>) -> Vec<Finding> {
         match self.compare(s) {
             Ok(compared) => {
                 let constants = missing(s, &compared);
                 let fix =
                     replacement(s, &compared).filter(|_| constants.as_ref().is_none_or(|f| f.fix.is_none()));
-                let partners = self.left_behind(s, &compared, fix);
+                let partners = self.has_uncoupled_change(s, &compared, fix);
                 constants.into_iter().chain(partners).collect()
             }
-            Err(reason) => untried(s, &reason).into_iter().collect(),
+            Err(reason) => untested(s, &reason).into_iter().collect(),
         }
     }
 
     /// A finding for each violated rule.
-    fn left_behind(&self, s: &Suspect<'_>, compared: &Compared, mut fix: Option<Fix>) -> Vec<Finding> {
-        let (evidence, pairs, severity) = match (&compared.partners, &compared.untried) {
+    fn has_uncoupled_change(
+        &self,
+        s: &SuspectProgram<'_>,
+        compared: &Compared,
+        mut fix: Option<Fix>,
+    ) -> Vec<Finding> {
+        let (evidence, pairs, severity) = match (&compared.partners, &compared.untested) {
             (Some((evidence, pairs)), _) => (evidence.clone(), *pairs, Severity::Warning),
             (None, Some(reason)) => {
                 let why = format!("the effect could not be tested: {reason}");
@@ -103,7 +108,7 @@ pub(in crate::check) fn left(
 }
 
 /// The help for a whole program.
-fn instead(s: &Suspect<'_>, text: &str) -> String {
+fn instead(s: &SuspectProgram<'_>, text: &str) -> String {
     match s.target {
         true => format!("instead of \"set\", write \"apply\": {}", serde_json::Value::from(text)),
         false => format!("write `{}`", text.replace('\n', " ").trim()),
@@ -111,7 +116,7 @@ fn instead(s: &Suspect<'_>, text: &str) -> String {
 }
 
 /// The help for constants alone.
-fn behind(s: &Suspect<'_>, advice: SetConstAdvice) -> String {
+fn help_for_constants(s: &SuspectProgram<'_>, advice: SetConstAdvice) -> String {
     let text = &s.bound.text.value;
     match s.target {
         true => {
@@ -123,7 +128,7 @@ fn behind(s: &Suspect<'_>, advice: SetConstAdvice) -> String {
 }
 
 /// The repaired program in place of the text. The fix is unsafe, because the author may intend the inertia to stay.
-fn replacement(s: &Suspect<'_>, compared: &Compared) -> Option<Fix> {
+fn replacement(s: &SuspectProgram<'_>, compared: &Compared) -> Option<Fix> {
     let text = compared.repaired.as_ref().filter(|_| !s.target)?;
     let json = serde_json::Value::from(text.as_str()).to_string();
     let text = json.trim_start_matches('"');
@@ -131,7 +136,7 @@ fn replacement(s: &Suspect<'_>, compared: &Compared) -> Option<Fix> {
     Some(Fix { span: s.bound.text.span(), text, applicability: Applicability::Unsafe })
 }
 
-fn about_constants(s: &Suspect<'_>) -> Option<Finding> {
+fn about_constants(s: &SuspectProgram<'_>) -> Option<Finding> {
     let (field, late) = s.inertial?;
     let when = if late { "after the last" } else { "without" };
     Some(Finding::warning(
@@ -142,7 +147,7 @@ fn about_constants(s: &Suspect<'_>) -> Option<Finding> {
 }
 
 /// The finding that constants are not recomputed, where the effect is visible.
-fn missing(s: &Suspect<'_>, compared: &Compared) -> Option<Finding> {
+fn missing(s: &SuspectProgram<'_>, compared: &Compared) -> Option<Finding> {
     let evidence = compared.constants.as_ref()?;
     let finding = about_constants(s)?.why(format!("{CONSTANTS}: {evidence}"));
     let reason = match compared.advice {
@@ -159,13 +164,13 @@ fn missing(s: &Suspect<'_>, compared: &Compared) -> Option<Finding> {
     }
     if !pairs.is_empty() {
         let help: Vec<&str> = pairs.pairs().map(|(_, pair)| pair.help).collect();
-        let advised = behind(s, SetConstAdvice::Keep);
+        let advised = help_for_constants(s, SetConstAdvice::Keep);
         return Some(finding.help(format!(
             "{advised}; this updates only the constants, and the related parameter keeps its old value: {}",
             help.join("; ")
         )));
     }
-    let finding = finding.help(format!("{}{reason}", behind(s, compared.advice)));
+    let finding = finding.help(format!("{}{reason}", help_for_constants(s, compared.advice)));
     if s.target {
         return Some(finding);
     }
@@ -176,13 +181,13 @@ fn missing(s: &Suspect<'_>, compared: &Compared) -> Option<Finding> {
 }
 
 /// The finding that constants are not recomputed, where the effect could not be tested.
-fn untried(s: &Suspect<'_>, reason: &str) -> Option<Finding> {
+fn untested(s: &SuspectProgram<'_>, reason: &str) -> Option<Finding> {
     Some(
         about_constants(s)?
             .why(format!("{CONSTANTS}: a heavier ball then sinks deeper into the floor than any real one"))
             .help(format!(
                 "{}, which keeps qpos; its effect in this lab could not be tested: {reason}",
-                behind(s, SetConstAdvice::Keep)
+                help_for_constants(s, SetConstAdvice::Keep)
             )),
     )
 }

@@ -37,7 +37,7 @@ enum ProgramSite<'a> {
 }
 
 /// A program that changes a parameter on which others depend.
-struct Suspect<'a> {
+struct SuspectProgram<'a> {
     place: ProgramSite<'a>,
     bound: &'a Bound,
     /// A field from which constants follow, if they are not recomputed after it is written; `true` where mj_setConst is
@@ -53,9 +53,9 @@ struct Suspect<'a> {
 
 /// Checks the programs of a lab.
 pub(super) fn check_setconst(lab: &Lab, model: &Model, programs: &Programs, findings: &mut Vec<Finding>) {
-    let suspect = |place, b, target, given| suspect(place, b, target, given, programs);
+    let suspect = |place, b, target, given| find_suspect(place, b, target, given, programs);
     let of_lab = [(ProgramSite::Setup, &programs.setup), (ProgramSite::Controller, &programs.controller)];
-    let mut all: Vec<Suspect<'_>> =
+    let mut all: Vec<SuspectProgram<'_>> =
         of_lab.into_iter().filter_map(|(place, b)| suspect(place, b.as_ref()?, false, None)).collect();
     for (i, ((_, program), control)) in programs.controls.iter().zip(&lab.controls).enumerate() {
         let (bound, given) = match program {
@@ -83,7 +83,7 @@ pub(super) fn check_run(
     let Some(text) = &run.setup else { return };
     let mut bench = SetConstBench::new(lab, model, programs);
     let bound = bench.compile(text, &text.value, None);
-    let Some(s) = bound.as_ref().and_then(|b| suspect(ProgramSite::Run(run), b, false, None, programs))
+    let Some(s) = bound.as_ref().and_then(|b| find_suspect(ProgramSite::Run(run), b, false, None, programs))
     else {
         return;
     };
@@ -92,24 +92,24 @@ pub(super) fn check_run(
     }
     for finding in bench.judge(&s) {
         let anew = bench.corrected(&s, PairSet::NONE);
-        if finding.code != rules::MISSING_SETCONST.code || !bench.contrasted(&s, verify, &anew) {
+        if finding.code != rules::MISSING_SETCONST.code || !bench.is_contrasted(&s, verify, &anew) {
             findings.push(finding);
         }
     }
 }
 
-fn suspect<'a>(
+fn find_suspect<'a>(
     place: ProgramSite<'a>,
     bound: &'a Bound,
     target: bool,
     given: Option<Type>,
     programs: &Programs,
-) -> Option<Suspect<'a>> {
+) -> Option<SuspectProgram<'a>> {
     let inertial = inertial(bound);
     let pairs = PairSet::written_by(&bound.program);
-    let pairs = pairs.without(coupled::chosen_apart(programs, bound, pairs));
+    let pairs = pairs.without(coupled::intentionally_separate(programs, bound, pairs));
     let found = inertial.is_some() || !pairs.is_empty();
-    found.then_some(Suspect { place, bound, inertial, pairs, target, given })
+    found.then_some(SuspectProgram { place, bound, inertial, pairs, target, given })
 }
 
 /// A field from which constants follow and which a program changes without recomputing them; `true` where it recomputes

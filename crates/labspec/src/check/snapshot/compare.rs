@@ -1,7 +1,7 @@
 //! Compares stored values with those of a lab: the first value that differs, and the changes of the lab.
 
 use super::digits;
-use super::file::{OPEN, StoredLab, StoredRun, plain};
+use super::file::{NO_CERTAIN_DIGIT, StoredLab, StoredRun, plain};
 use super::picture::picture;
 use super::runs::SnapshotRun;
 use crate::printable::printable;
@@ -136,7 +136,7 @@ fn named(name: &str) -> String {
 /// Whether a value equals the stored one.
 fn agrees(stored: &str, now: &Cell) -> bool {
     match (digits::read(stored), now) {
-        _ if stored == OPEN => true,
+        _ if stored == NO_CERTAIN_DIGIT => true,
         (Some((x, unit)), Cell::Number(y)) => (x - y).abs() <= digits::tolerance(unit),
         (None, cell) => {
             let plain = plain(cell);

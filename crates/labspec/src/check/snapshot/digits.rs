@@ -3,23 +3,23 @@
 //! A unit is the power of ten of the last digit: `0.215` is in units of 10⁻³, `2.15e4` in units of 10².
 
 /// Number of digits of the largest value of a row.
-const MOST: i32 = 5;
+const MAX_DIGITS: i32 = 5;
 /// The unit of a row of zeros.
-const NOTHING: i32 = -9;
+const ZERO_ROW_UNIT: i32 = -9;
 /// Maximum number of decimals; a number with more is written with an exponent.
 const DECIMALS: i32 = 8;
 /// Tolerance of a written number, in units: half a unit and rounding.
-const HALF: f64 = 0.5 + 1e-9;
+const HALF_UNIT: f64 = 0.5 + 1e-9;
 
 /// The units of a row: the finest, which is preferred, and the coarsest that is still informative.
 pub(super) fn units(values: &[f64]) -> (i32, i32) {
     let finite = || values.iter().copied().filter(|x| x.is_finite());
     let scale = finite().fold(0.0, |most: f64, x| most.max(x.abs()));
     if scale == 0.0 {
-        return (NOTHING, NOTHING);
+        return (ZERO_ROW_UNIT, ZERO_ROW_UNIT);
     }
     let whole = finite().all(|x| x.fract() == 0.0) && scale < 1e5;
-    let finest = if whole { 0 } else { exponent(scale) + 1 - MOST };
+    let finest = if whole { 0 } else { exponent(scale) + 1 - MAX_DIGITS };
     (finest, finest.max(exponent(0.2 * scale)))
 }
 
@@ -78,7 +78,7 @@ pub(super) fn read(text: &str) -> Option<(f64, i32)> {
 
 /// The tolerance of a number with this unit.
 pub(super) fn tolerance(unit: i32) -> f64 {
-    HALF * ten(unit)
+    HALF_UNIT * ten(unit)
 }
 
 #[cfg(test)]
@@ -86,7 +86,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_written_is_read_with_its_unit() {
+    fn written_numbers_are_read_with_their_unit() {
         for (x, unit, text) in [
             (0.21523, -3, "0.215"),
             (-0.21523, -1, "-0.2"),
@@ -131,7 +131,7 @@ mod tests {
     fn the_largest_value_of_a_row_has_five_digits() {
         assert_eq!(units(&[1.0, 0.215]), (-4, -1));
         assert_eq!(units(&[3.0, 0.0, 2.0]), (0, 0));
-        assert_eq!(units(&[0.0, 0.0]), (NOTHING, NOTHING));
+        assert_eq!(units(&[0.0, 0.0]), (ZERO_ROW_UNIT, ZERO_ROW_UNIT));
         assert_eq!(units(&[f64::NAN, 2e-7]), (-11, -8));
         assert_eq!(units(&[250000.5]), (1, 4));
     }

@@ -82,9 +82,9 @@ impl SnapshotResult {
 
 /// The snapshot of a lesson as it would be written now, and the stored one.
 #[derive(Clone, Debug)]
-pub struct Renewal {
+pub struct SnapshotUpdate {
     /// The result for each lab, including labs that are not stored.
-    pub labs: Vec<RenewedLab>,
+    pub labs: Vec<UpdatedLab>,
     /// The error in the stored file.
     pub fault: Option<String>,
     /// Whether a file exists.
@@ -94,7 +94,7 @@ pub struct Renewal {
 
 /// A lab in a renewal.
 #[derive(Clone, Debug)]
-pub struct RenewedLab {
+pub struct UpdatedLab {
     /// The result.
     pub result: SnapshotResult,
     /// Its lines in the file, if it is stored.
@@ -103,11 +103,11 @@ pub struct RenewedLab {
     pub new: Option<String>,
 }
 
-impl Renewal {
+impl SnapshotUpdate {
     /// The text of a file with the new lines of each lab that is `accepted`, and the old lines of the others; `None` when
     /// no lab has lines.
-    pub fn text(&self, accepted: impl Fn(&RenewedLab) -> bool) -> Option<String> {
-        let lines = |lab: &'_ RenewedLab| match &lab.new {
+    pub fn text(&self, accepted: impl Fn(&UpdatedLab) -> bool) -> Option<String> {
+        let lines = |lab: &'_ UpdatedLab| match &lab.new {
             Some(new) if accepted(lab) => Some(new.clone()),
             // A removed lab is deleted; a lab that cannot run keeps its stored lines.
             None if accepted(lab) && lab.result.state == State::False => None,
@@ -163,8 +163,8 @@ pub(super) fn check_snapshots(
     };
     let lab_runs = runs::run_labs(lesson, ready);
     let mut list: Vec<SnapshotResult> =
-        lab_runs.iter().map(|lab| hold(lab, &labs, lesson, findings)).collect();
-    for result in gone(&labs, &lab_runs) {
+        lab_runs.iter().map(|lab| compare_lab(lab, &labs, lesson, findings)).collect();
+    for result in removed_labs(&labs, &lab_runs) {
         let message = format!("the snapshot has the lab {}, but the lesson does not", printable(&result.lab));
         findings.push(outdated(0..0, message, lesson));
         list.push(result);
@@ -185,7 +185,7 @@ fn unchecked(address: &crate::spec::LabAddress, lab: &Lab) -> SnapshotResult {
 }
 
 /// The stored labs that are no longer in the lesson.
-fn gone<'a>(
+fn removed_labs<'a>(
     labs: &'a [StoredLab],
     lab_runs: &'a [LabRuns<'_, '_>],
 ) -> impl Iterator<Item = SnapshotResult> + 'a {
@@ -202,7 +202,7 @@ fn gone<'a>(
 }
 
 /// Compares one lab with its stored values.
-fn hold(
+fn compare_lab(
     now: &LabRuns<'_, '_>,
     labs: &[StoredLab],
     lesson: &Lesson,
@@ -260,7 +260,7 @@ fn review(lesson: &Lesson) -> String {
 }
 
 /// The snapshot of a lesson as it would be written now, and the stored one.
-pub fn renew(lesson: &Lesson, models: &Models) -> Renewal {
+pub fn update_snapshot(lesson: &Lesson, models: &Models) -> SnapshotUpdate {
     let mut ignored = Vec::new();
     let ready: Vec<PreparedLab<'_>> = lesson
         .all_labs()
@@ -274,24 +274,24 @@ pub fn renew(lesson: &Lesson, models: &Models) -> Renewal {
     };
     let lab_runs = runs::run_labs(lesson, &ready);
     let one = |now: &LabRuns<'_, '_>| {
-        let result = hold(now, &old, lesson, &mut Vec::new());
+        let result = compare_lab(now, &old, lesson, &mut Vec::new());
         let stored_text = old.iter().find(|lab| lab.address == result.lab).map(|lab| lab.text.clone());
-        RenewedLab { result, old: stored_text, new: fresh(now) }
+        UpdatedLab { result, old: stored_text, new: current_lines(now) }
     };
-    let mut labs: Vec<RenewedLab> = lab_runs.iter().map(one).collect();
-    let lost = gone(&old, &lab_runs).map(|result| {
+    let mut labs: Vec<UpdatedLab> = lab_runs.iter().map(one).collect();
+    let lost = removed_labs(&old, &lab_runs).map(|result| {
         let text = old.iter().find(|lab| lab.address == result.lab).map(|lab| lab.text.clone());
-        RenewedLab { result, old: text, new: None }
+        UpdatedLab { result, old: text, new: None }
     });
     labs.extend(lost);
     let name = Path::new(&**lesson.file.path())
         .file_name()
         .map_or(String::new(), |n| n.to_string_lossy().into_owned());
-    Renewal { labs, fault, stored: lesson.snapshot.is_some(), name }
+    SnapshotUpdate { labs, fault, stored: lesson.snapshot.is_some(), name }
 }
 
 /// The lines of a lab, with the digits that the numerics determine.
-fn fresh(now: &LabRuns<'_, '_>) -> Option<String> {
+fn current_lines(now: &LabRuns<'_, '_>) -> Option<String> {
     let ready = now.ready.filter(|_| !now.runs.is_empty())?;
     let under = |numerics: StepVariant, input| {
         let budget = Budget { left: 3 * Budget::TRIAL.left };

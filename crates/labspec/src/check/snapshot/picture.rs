@@ -5,7 +5,7 @@ use crate::verify::significant;
 /// Number of lines of the picture.
 const LINES: usize = 9;
 /// Number of characters for each time.
-const WIDE: usize = 5;
+const TIME_WIDTH: usize = 5;
 
 /// `o` is stored, `x` is now, `*` is both. Empty if there are no numbers, or if all are equal.
 pub(super) fn picture(times: &[f64], stored: &[f64], now: &[f64]) -> Vec<String> {
@@ -16,10 +16,10 @@ pub(super) fn picture(times: &[f64], stored: &[f64], now: &[f64]) -> Vec<String>
         return Vec::new();
     }
     let line_of = |x: f64| ((high - x) / span * (LINES - 1) as f64).round() as usize;
-    let mut grid = vec![vec![' '; (times.len() - 1) * WIDE + 1]; LINES];
+    let mut grid = vec![vec![' '; (times.len() - 1) * TIME_WIDTH + 1]; LINES];
     for (curve, letter) in [(stored, 'o'), (now, 'x')] {
         for (k, x) in curve.iter().enumerate().filter(|(_, x)| x.is_finite()) {
-            if let Some(place) = grid.get_mut(line_of(*x)).and_then(|line| line.get_mut(k * WIDE)) {
+            if let Some(place) = grid.get_mut(line_of(*x)).and_then(|line| line.get_mut(k * TIME_WIDTH)) {
                 *place = if *place == ' ' { letter } else { '*' };
             }
         }
@@ -33,7 +33,7 @@ pub(super) fn picture(times: &[f64], stored: &[f64], now: &[f64]) -> Vec<String>
         picture.push(format!("{label:>width$} | {line}").trim_end().to_string());
     }
     let [first, last] = [times.first(), times.last()].map(|t| significant(t.copied().unwrap_or(0.0)));
-    let space = ((times.len() - 1) * WIDE + 1).saturating_sub(first.len());
+    let space = ((times.len() - 1) * TIME_WIDTH + 1).saturating_sub(first.len());
     picture.push(format!("{:width$}   {first}{last:>space$} s    o stored, x now, * both", ""));
     picture
 }
@@ -43,7 +43,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn two_curves_stand_in_one_picture() {
+    fn two_curves_share_one_picture() {
         let times = [0.0, 0.1, 0.2, 0.3, 0.4];
         let drawn = picture(&times, &[1.0, 0.95, 0.8, 0.55, f64::NAN], &[1.0, 0.95, 0.75, 0.6, 0.2]);
         insta::assert_snapshot!(drawn.join("\n"));

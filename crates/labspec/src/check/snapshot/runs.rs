@@ -12,9 +12,9 @@ use labspec_expr::{Effects, Value};
 use std::ops::ControlFlow;
 
 /// Number of samples of a run, besides its start.
-const LOOKS: usize = 10;
+const SAMPLES: usize = 10;
 /// Time at which buttons are pressed, s.
-const PRESS: f64 = 0.1;
+const PRESS_TIME: f64 = 0.1;
 
 /// The interaction before the run, and its name in the file.
 pub(super) struct SnapshotInput {
@@ -90,7 +90,7 @@ fn snapshot_inputs(lab: &Lab) -> Vec<SnapshotInput> {
             }
             ControlKind::Button { .. } => {
                 let name = format!("after \"{label}\" is pressed");
-                let press = vec![(label.clone(), PRESS.min(0.5 * window(lab)))];
+                let press = vec![(label.clone(), PRESS_TIME.min(0.5 * window(lab)))];
                 all.push(SnapshotInput { name, set: Vec::new(), press });
             }
         }
@@ -117,7 +117,7 @@ pub(super) fn play(
     session.perturb(numerics, stated);
     // The same duration at any timestep.
     let finer = if stated { 1 } else { (1.0 / numerics.timestep).round() as usize };
-    let mut looks: Vec<usize> = (0..=LOOKS).map(|i| (count * i + LOOKS / 2) / LOOKS).collect();
+    let mut looks: Vec<usize> = (0..=SAMPLES).map(|i| (count * i + SAMPLES / 2) / SAMPLES).collect();
     looks.dedup();
 
     let mut samples: Vec<Vec<Cell>> = Vec::new();

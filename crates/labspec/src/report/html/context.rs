@@ -1,7 +1,7 @@
 //! The data that the parts of a lesson's page look up: the file, names, plots, and the ledger.
 
 use super::text::Names;
-use crate::check::{Basis, Drawn, RunSettings};
+use crate::check::{Basis, RunSettings, VerifyCurves};
 use crate::ledger::{Entry, State, Subject};
 use crate::spec::Lesson;
 use crate::verify::RenderedText;
@@ -12,7 +12,7 @@ use std::ops::Range;
 pub(super) struct LessonContext<'a> {
     pub(super) lesson: &'a Lesson,
     pub(super) names: &'a Names,
-    pub(super) curves: &'a [Drawn],
+    pub(super) curves: &'a [VerifyCurves],
     pub(super) rendered: RenderedText,
     pub(super) basis: Option<&'a Basis>,
     pub(super) entries: BTreeMap<(Subject, usize, usize), Vec<&'a Entry>>,

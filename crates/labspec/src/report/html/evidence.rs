@@ -13,7 +13,7 @@ use crate::verify::{Measured, Quote, QuoteState, significant};
 use std::fmt::Write;
 
 /// Maximum number of listed places of a quoted number.
-const PLACES: usize = 8;
+const MAX_PLACES: usize = 8;
 
 /// The plots of a claim and its tables, which are collapsed where nothing is doubtful.
 pub(super) fn evidence(claim: &Claim, spec: Option<&Verify>, context: &LessonContext<'_>) -> String {
@@ -84,8 +84,8 @@ fn quotes(claim: &Claim, context: &LessonContext<'_>) -> String {
         // A cell of a table is listed at the line of its claim.
         lines.extend(lines.is_empty().then(|| context.line(q.span.start)));
         lines.dedup();
-        let more = if lines.len() > PLACES { ", …" } else { "" };
-        let lines: Vec<String> = lines.iter().take(PLACES).map(usize::to_string).collect();
+        let more = if lines.len() > MAX_PLACES { ", …" } else { "" };
+        let lines: Vec<String> = lines.iter().take(MAX_PLACES).map(usize::to_string).collect();
         let computed = if q.computed.is_nan() { "–".to_string() } else { number(q.computed) };
         vec![
             text(&q.text),

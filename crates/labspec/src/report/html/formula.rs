@@ -8,11 +8,11 @@ use crate::printable::printable;
 use crate::verify::{folded, plain};
 
 /// Maximum nesting depth of scripts.
-const DEEP: usize = 3;
+const MAX_SCRIPT_DEPTH: usize = 3;
 /// Separates the blocks of a text.
-const APART: char = '\u{1}';
+const BLOCK_SEPARATOR: char = '\u{1}';
 /// Private-use characters that mark the positions of scripts while the rest is read.
-const PLACES: std::ops::RangeInclusive<char> = '\u{e000}'..='\u{e0ff}';
+const SCRIPT_MARKS: std::ops::RangeInclusive<char> = '\u{e000}'..='\u{e0ff}';
 
 /// Commands for single characters that the reader of quoted numbers does not need.
 const LETTERS: [(&str, char); 40] = [
@@ -68,7 +68,7 @@ const RELATIONS: [&str; 12] =
 /// The visible text of a piece of HTML with its formulas, as content of an element.
 pub(super) fn of_html(html: &str) -> String {
     // Paragraphs are joined on one line.
-    text(&plain(html).replace(APART, " "))
+    text(&plain(html).replace(BLOCK_SEPARATOR, " "))
 }
 
 /// A text with its formulas.
@@ -124,8 +124,8 @@ fn split<'t>(text: &'t str, close: &str) -> Option<(&'t str, &'t str)> {
 
 /// A formula in Unicode characters; `None` where that is impossible.
 fn read(tex: &str, deep: usize) -> Option<String> {
-    let unseen = printable(tex) != tex || tex.contains(|c| PLACES.contains(&c));
-    if deep > DEEP || unseen {
+    let unseen = printable(tex) != tex || tex.contains(|c| SCRIPT_MARKS.contains(&c));
+    if deep > MAX_SCRIPT_DEPTH || unseen {
         return None;
     }
     let mut letters = String::new();
@@ -136,7 +136,7 @@ fn read(tex: &str, deep: usize) -> Option<String> {
             '^' | '_' => {
                 let (inner, after) = argument(left.get(1..)?)?;
                 let tag = if c == '^' { "sup" } else { "sub" };
-                let place = PLACES.clone().nth(scripts.len())?;
+                let place = SCRIPT_MARKS.clone().nth(scripts.len())?;
                 scripts.push(format!("<{tag}>{}</{tag}>", read(inner, deep + 1)?));
                 letters.push(place);
                 left = after;
@@ -155,11 +155,12 @@ fn read(tex: &str, deep: usize) -> Option<String> {
         return None;
     }
     let mut out = String::new();
-    for part in letters.trim().split_inclusive(|c| PLACES.contains(&c)) {
-        let place = part.chars().next_back().filter(|c| PLACES.contains(c));
-        let words = part.trim_end_matches(|c| PLACES.contains(&c));
+    for part in letters.trim().split_inclusive(|c| SCRIPT_MARKS.contains(&c)) {
+        let place = part.chars().next_back().filter(|c| SCRIPT_MARKS.contains(c));
+        let words = part.trim_end_matches(|c| SCRIPT_MARKS.contains(&c));
         out.push_str(&escape(words));
-        let script = place.and_then(|c| scripts.get((c as usize).checked_sub(*PLACES.start() as usize)?));
+        let script =
+            place.and_then(|c| scripts.get((c as usize).checked_sub(*SCRIPT_MARKS.start() as usize)?));
         out.extend(script.map(String::as_str));
     }
     Some(out)
@@ -241,7 +242,7 @@ mod tests {
     }
 
     #[test]
-    fn what_letters_cannot_say_stands_as_it_is_written() {
+    fn unsupported_formulas_stay_as_written() {
         for tex in [
             r"\tfrac12 g t^2",
             r"\frac{a}{b}",

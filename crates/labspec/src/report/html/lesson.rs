@@ -7,7 +7,7 @@ use super::material::Material;
 use super::question::{self, QuestionPage};
 use super::text::{Names, code, plain, text};
 use super::verdict::{severity, verdict};
-use crate::check::{Allowed, Checked, Claim};
+use crate::check::{Checked, Claim, SuppressedFinding};
 use crate::finding::Finding;
 use crate::ledger::{Entry, Ledger, State, Subject};
 use crate::printable::counted;
@@ -28,7 +28,7 @@ pub(super) struct LessonPage<'a> {
     pub(super) name: &'a str,
     pub(super) summary: String,
     pub(super) findings: Vec<&'a Finding>,
-    pub(super) allowed: Vec<&'a Allowed>,
+    pub(super) allowed: Vec<&'a SuppressedFinding>,
     pub(super) coverage: Coverage,
     pub(super) questions: Vec<QuestionPage<'a>>,
     checked: &'a Checked,

@@ -1,6 +1,6 @@
 //! The data of a page.
 
-use crate::check::{Allowed, Basis, Checked, Drawn};
+use crate::check::{Basis, Checked, SuppressedFinding, VerifyCurves};
 use crate::finding::Finding;
 use crate::ledger::Ledger;
 use crate::source::SourceFile;
@@ -11,13 +11,13 @@ pub struct Material<'a> {
     /// The lessons, in order.
     pub lessons: &'a [Checked],
     /// The curves of the labs of each lesson in the runs of its claims.
-    pub curves: &'a [Vec<Drawn>],
+    pub curves: &'a [Vec<VerifyCurves>],
     /// The basis of the check of each lesson.
     pub bases: &'a [Basis],
     /// All reported findings, of lessons and of models.
     pub findings: &'a [Finding],
     /// The suppressed findings.
-    pub allowed: &'a [Allowed],
+    pub allowed: &'a [SuppressedFinding],
     /// The claims of the course.
     pub ledger: &'a Ledger,
     /// The files with findings.

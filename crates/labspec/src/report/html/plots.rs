@@ -1,6 +1,6 @@
 //! The plots of the labs in the runs of a claim.
 
-use crate::check::Drawn;
+use crate::check::VerifyCurves;
 use crate::printable::counted;
 use crate::printable::printable;
 use crate::spec::Plot;
@@ -24,7 +24,7 @@ struct Picture<'a> {
 }
 
 /// Writes the plots of a claim; empty where its labs have no plots.
-pub(super) fn plots(drawn: &Drawn) -> String {
+pub(super) fn plots(drawn: &VerifyCurves) -> String {
     let all = pictures(&drawn.runs);
     let alone = drawn.runs.len() == 1;
     let mut out = String::new();

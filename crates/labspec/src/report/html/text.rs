@@ -4,7 +4,7 @@ use crate::printable::printable;
 use std::borrow::Cow;
 
 /// Maximum number of characters of a text. A longer text is truncated, which the page states.
-const LONG: usize = 2000;
+const MAX_TEXT: usize = 2000;
 
 /// A text on one line, as content of an element. Its writing direction is isolated.
 pub(super) fn text(text: &str) -> String {
@@ -28,7 +28,7 @@ pub(super) fn code(text: &str) -> String {
 
 /// The part of a text that is displayed.
 pub(super) fn cut(text: &str) -> &str {
-    let end = text.char_indices().nth(LONG).map_or(text.len(), |(at, _)| at);
+    let end = text.char_indices().nth(MAX_TEXT).map_or(text.len(), |(at, _)| at);
     text.get(..end).unwrap_or("")
 }
 
@@ -97,7 +97,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn text_acts_on_nothing() {
+    fn escaped_text_has_no_effect() {
         assert_eq!(plain("<b a=\"'\">&"), "&lt;b a=&quot;&#39;&quot;&gt;&amp;");
         assert_eq!(plain("a\u{202e}b\u{0}c\u{ffff}"), "a\\u{202e}b\\u{0}c\\u{ffff}");
         assert_eq!(plain(" two\n lines\t"), "two lines");
@@ -107,13 +107,13 @@ mod tests {
 
     #[test]
     fn long_text_is_cut_between_characters() {
-        let long = plain(&"é<".repeat(LONG));
+        let long = plain(&"é<".repeat(MAX_TEXT));
         assert!(long.ends_with("é&lt; … (2000 more characters)"), "{}", &long[long.len() - 60..]);
-        assert_eq!(plain(&"é".repeat(LONG)).chars().count(), LONG);
+        assert_eq!(plain(&"é".repeat(MAX_TEXT)).chars().count(), MAX_TEXT);
     }
 
     #[test]
-    fn paths_lose_what_they_share() {
+    fn common_prefixes_of_paths_are_removed() {
         let names = Names::shorten_paths(["/home/me/course/a.md", "/home/me/course/b/c.md"].into_iter());
         assert_eq!(names.short("/home/me/course/b/c.md"), "b/c.md");
         assert_eq!(names.short("/home/me/models/x.xml"), "x.xml");

@@ -5,7 +5,7 @@ use serde::Serialize;
 
 /// Claims that a reference engine does not check, because they depend on runs other than the recorded ones.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct Left {
+pub struct Unjudged {
     /// Searches: our own results are used.
     pub searches: usize,
     /// Answers over a range: only their own runs are compared, not the other values of the range.
@@ -15,16 +15,16 @@ pub struct Left {
     pub forms: usize,
 }
 
-impl Left {
+impl Unjudged {
     /// The counts of a `verify` object.
-    pub(crate) fn count(verify: &Verify) -> Left {
+    pub(crate) fn count(verify: &Verify) -> Unjudged {
         let ranges = usize::from(!verify.over.is_empty());
-        Left { searches: verify.find.len(), ranges, forms: verify.exact.len() }
+        Unjudged { searches: verify.find.len(), ranges, forms: verify.exact.len() }
     }
 
     /// The sum of both.
-    pub fn and(self, other: Left) -> Left {
-        Left {
+    pub fn and(self, other: Unjudged) -> Unjudged {
+        Unjudged {
             searches: self.searches + other.searches,
             ranges: self.ranges + other.ranges,
             forms: self.forms + other.forms,

@@ -10,7 +10,7 @@ mod left;
 mod numbers;
 mod task;
 
-pub use left::Left;
+pub use left::Unjudged;
 pub use task::RunTask;
 pub(crate) use task::tasks;
 
@@ -85,7 +85,7 @@ pub(crate) fn judge(
     if judged.compared == 0 {
         return Some(judged);
     }
-    // An answer over a range needs many runs that are not recorded: it is counted in [`Left`].
+    // An answer over a range needs many runs that are not recorded: it is counted in [`Unjudged`].
     let verify = &Verify { over: Vec::new(), ..verify.clone() };
     let [ours, now] = [&nominal, &theirs].map(|o| verdicts(bound, verify, question, rendered, o));
     let mut turn = |place: Range<usize>, what: &str, before: &str, after: &str, values: String| {

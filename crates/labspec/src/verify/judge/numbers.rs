@@ -4,11 +4,11 @@ use super::task::own_texts;
 use super::{Judged, Reference};
 use crate::spec::Verify;
 use crate::verify::bound::BoundVerify;
-use crate::verify::numerics::{PERTURBED_START, TIGHT};
+use crate::verify::numerics::{PERTURBED_START, TIGHT_SOLVER};
 use crate::verify::outcome::Outcome;
 
 /// Numbers are equal if they differ by less than this fraction, or by less than a thousandth of it near zero.
-const SAME: f64 = 1e-6;
+const RELATIVE_TOLERANCE: f64 = 1e-6;
 /// A difference below this factor times the effect of a perturbed start or a converged solver is not attributed to the
 /// engine.
 const NUMERICS: f64 = 2.0;
@@ -88,12 +88,14 @@ pub(super) fn compare(
         }
         judged.compared += 1;
         let apart = (a - b).abs();
-        let same = a == b || a.is_nan() && b.is_nan() || apart <= SAME * a.abs().max(b.abs()) + 1e-3 * SAME;
+        let same = a == b
+            || a.is_nan() && b.is_nan()
+            || apart <= RELATIVE_TOLERANCE * a.abs().max(b.abs()) + 1e-3 * RELATIVE_TOLERANCE;
         if same {
             continue;
         }
         let others = other.get_or_insert_with(|| {
-            let made = [PERTURBED_START, TIGHT].map(|n| bound.outcome(n, &mut Vec::new()));
+            let made = [PERTURBED_START, TIGHT_SOLVER].map(|n| bound.outcome(n, &mut Vec::new()));
             made.iter().flatten().map(|o| numbers(o).into_iter().map(|(_, x)| x).collect()).collect()
         });
         let moved = others.iter().filter_map(|list| list.get(i)).map(|x| (x - a).abs()).fold(0.0, f64::max);

@@ -4,10 +4,10 @@
 use super::messages;
 use super::number::Quoted;
 use super::quote_claim::{OtherValue, QuoteClaim, QuoteOutcome, QuotePlace, QuoteState, QuoteValue};
-use super::read::{Reading, Unread};
+use super::read::{QuoteReading, Unread};
 use super::rendered::RenderedText;
 use super::unit;
-use super::unit_check::{Held, conversion, hold, is_power_of_ten};
+use super::unit_check::{UnitMatch, conversion, hold, is_power_of_ten};
 use super::unit_text::{Link, Unit};
 use crate::finding::Finding;
 use crate::source::Text;
@@ -18,7 +18,7 @@ use labspec_expr::dimension::Dimension;
 /// Compares a quoted number with the value of its expression, at the printed precision.
 pub(in crate::verify) fn check_quote(
     claim: &QuoteClaim<'_>,
-    reading: &Result<Reading, Unread>,
+    reading: &Result<QuoteReading, Unread>,
     mut places: Vec<QuotePlace>,
     value: &QuoteValue<'_>,
     rendered: &RenderedText,
@@ -93,9 +93,9 @@ fn report_unread(
 /// A quoted number, and the value of its expression in the unit of the quote.
 struct Comparison<'q> {
     claim: &'q QuoteClaim<'q>,
-    reading: &'q Reading,
+    reading: &'q QuoteReading,
     /// The unit of the quote, and whether it agrees with the dimension of the expression.
-    unit: Option<(Unit, Held)>,
+    unit: Option<(Unit, UnitMatch)>,
     measured: Option<Dimension>,
     /// Factor that converts the value of the expression to the unit of the quote.
     factor: Option<f64>,
@@ -112,7 +112,7 @@ impl<'q> Comparison<'q> {
     /// Converts the value of the expression. Only the places with the unit of the quote are kept.
     fn new(
         claim: &'q QuoteClaim<'q>,
-        reading: &'q Reading,
+        reading: &'q QuoteReading,
         places: &mut Vec<QuotePlace>,
         value: &QuoteValue<'_>,
     ) -> Comparison<'q> {
@@ -148,15 +148,15 @@ impl<'q> Comparison<'q> {
     /// The outcome where the digits depend on a perturbed start: they cannot be reproduced, or no run comes near them.
     fn judge_chaotic(&self, mut outcome: QuoteOutcome, findings: &mut Vec<Finding>) -> QuoteOutcome {
         let values: Vec<f64> = self.start.iter().map(|o| o.value).chain([self.computed]).collect();
-        let doubts = self.reading.doubts.iter().map(|(q, _)| *q);
-        let mut readings = [Some(self.read), self.reading.share].into_iter().flatten().chain(doubts);
-        if readings.any(|q| may_come_out(&q, &values)) {
+        let ambiguities = self.reading.ambiguities.iter().map(|(q, _)| *q);
+        let mut readings = [Some(self.read), self.reading.share].into_iter().flatten().chain(ambiguities);
+        if readings.any(|q| is_within_runs(&q, &values)) {
             let finding = messages::chaotic(self.claim, &outcome, &self.read, &values);
             return unclear(outcome, "no reader can reproduce these digits", finding, findings);
         }
         outcome.reason = format!("the text says {}, but no run comes near", self.read);
         outcome.state = QuoteState::Wrong;
-        findings.push(messages::far(self.claim, &outcome, &self.read, &values));
+        findings.push(messages::far_from_all_runs(self.claim, &outcome, &self.read, &values));
         outcome
     }
 
@@ -172,20 +172,20 @@ impl<'q> Comparison<'q> {
         let kind = measured.filter(|m| m.is_exact() && !m.is_number());
         let unit = self.unit.filter(|_| (fits == reading.read || kind.is_some()) && self.factor.is_none());
         match (unit, measured) {
-            (Some((unit, Held::Wrong)), Some(found)) => {
+            (Some((unit, UnitMatch::Wrong)), Some(found)) => {
                 let gives = written(&found);
                 outcome.reason = format!("the text says {}, but the expression gives {gives}", unit.text);
                 outcome.state = QuoteState::Wrong;
                 findings.push(messages::wrong_unit(claim, &outcome, &unit.text, &gives));
                 return outcome;
             }
-            (Some((unit, Held::Unsure)), Some(found)) => {
+            (Some((unit, UnitMatch::Unsure)), Some(found)) => {
                 let gives = written(&found);
                 let reason = match unit.link {
                     Link::Clause => format!("the text names {} apart from the number", unit.text),
                     _ => format!("{} may be a unit or a symbol", unit.text),
                 };
-                let finding = messages::unsure_unit(claim, &outcome, &unit, &gives);
+                let finding = messages::uncertain_unit(claim, &outcome, &unit, &gives);
                 return unclear(outcome, &reason, finding, findings);
             }
             _ => {}
@@ -200,12 +200,12 @@ impl<'q> Comparison<'q> {
     /// The outcome where the number differs: it has another reading, is in another unit, or is wrong.
     fn explain_difference(&self, mut outcome: QuoteOutcome, findings: &mut Vec<Finding>) -> QuoteOutcome {
         let Comparison { claim, reading, read, computed, .. } = self;
-        if let Some((other, why)) = reading.doubts.iter().find(|(q, _)| q.is(*computed)) {
-            let finding = messages::doubtful(claim, &outcome, read, why, Some(other));
+        if let Some((other, why)) = reading.ambiguities.iter().find(|(q, _)| q.is(*computed)) {
+            let finding = messages::ambiguous_unit(claim, &outcome, read, why, Some(other));
             return unclear(outcome, "the quote has two readings", finding, findings);
         }
-        if let Some(why) = reading.unsure {
-            let finding = messages::doubtful(claim, &outcome, read, why, None);
+        if let Some(why) = reading.is_ambiguous {
+            let finding = messages::ambiguous_unit(claim, &outcome, read, why, None);
             return unclear(outcome, "the quote has two readings", finding, findings);
         }
         let text = reading.unit.as_ref().map_or("", |unit| unit.text.as_str());
@@ -237,33 +237,38 @@ pub(in crate::verify) fn places_of_quote(
 /// The unit of a number at the places where it appears, compared with the dimension of the expression. Places with a unit
 /// that certainly differs are removed, unless there are no others.
 fn unit_at(
-    reading: &Reading,
+    reading: &QuoteReading,
     places: &mut Vec<QuotePlace>,
     found: Option<&Dimension>,
-) -> Option<(Unit, Held)> {
+) -> Option<(Unit, UnitMatch)> {
     let unit =
         |place: &QuotePlace| reading.unit.clone().or_else(|| place.unit.clone().filter(|_| reading.last));
-    let held = |place: &QuotePlace| unit(place).map(|unit| (hold(&unit, found), unit));
-    let best = places.iter().map(|p| (held(p).map_or(Held::Fits, |(held, _)| held), p));
-    let rank = |held: Held| match held {
-        Held::Fits => 0,
-        Held::Unknown => 1,
-        Held::Unsure => 2,
-        Held::Wrong => 3,
+    let unit_match = |place: &QuotePlace| unit(place).map(|unit| (hold(&unit, found), unit));
+    let best =
+        places.iter().map(|p| (unit_match(p).map_or(UnitMatch::Fits, |(unit_match, _)| unit_match), p));
+    let rank = |unit_match: UnitMatch| match unit_match {
+        UnitMatch::Fits => 0,
+        UnitMatch::Unknown => 1,
+        UnitMatch::Unsure => 2,
+        UnitMatch::Wrong => 3,
     };
-    let chosen = best.min_by_key(|(held, _)| rank(*held)).map(|(_, p)| unit(p));
+    let chosen = best.min_by_key(|(unit_match, _)| rank(*unit_match)).map(|(_, p)| unit(p));
     match chosen {
-        None => reading.unit.clone().map(|unit| (hold(&unit, found), unit)).map(|(held, unit)| (unit, held)),
+        None => reading
+            .unit
+            .clone()
+            .map(|unit| (hold(&unit, found), unit))
+            .map(|(unit_match, unit)| (unit, unit_match)),
         Some(chosen) => {
             places.retain(|p| unit(p).map(|u| u.text) == chosen.as_ref().map(|u| u.text.clone()));
-            chosen.map(|unit| (hold(&unit, found), unit)).map(|(held, unit)| (unit, held))
+            chosen.map(|unit| (hold(&unit, found), unit)).map(|(unit_match, unit)| (unit, unit_match))
         }
     }
 }
 
 /// Whether a run from another start could give these digits: they are within the range of the values of the runs, extended
 /// by its width on both sides.
-fn may_come_out(read: &Quoted, values: &[f64]) -> bool {
+fn is_within_runs(read: &Quoted, values: &[f64]) -> bool {
     let low = values.iter().copied().fold(f64::INFINITY, f64::min);
     let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let spread = high - low;

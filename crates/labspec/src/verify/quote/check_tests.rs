@@ -20,7 +20,7 @@ fn checked(quote: &str, computed: f64, half: &[f64], starts: &[f64]) -> (QuoteOu
     let value = QuoteValue { computed, timestep: &half, start: &starts, unit: &|| None };
     let claim = QuoteClaim { quote: &says.quote, part: says.quote.as_str(), expr: &says.exprs[0] };
     let places = places_of_quote(&says.quote, None, &rendered);
-    let outcome = check_quote(&claim, &reading(quote), places, &value, &rendered, &mut findings);
+    let outcome = check_quote(&claim, &read_quote(quote), places, &value, &rendered, &mut findings);
     (outcome, findings)
 }
 
@@ -100,7 +100,7 @@ fn digits_of_a_timestep_are_noted_or_explained() {
 }
 
 #[test]
-fn every_place_is_reported_and_what_was_read_is_said() {
+fn every_place_is_reported_with_the_number_read() {
     let (outcome, findings) = checked("$L^2 = 2.4 \\times 10^{-4}$", 3e-4, &[], &[]);
     let (code, words) = first_finding(&findings);
     assert_eq!((outcome.state, code, outcome.places.len()), (QuoteState::Wrong, "quote-wrong", 2));
@@ -111,13 +111,13 @@ fn every_place_is_reported_and_what_was_read_is_said() {
 }
 
 #[test]
-fn a_percentage_says_which_number_was_read() {
+fn the_finding_of_a_percentage_names_the_number_read() {
     assert_eq!(checked("50 %", 50.2, &[], &[]).0.read.unwrap().to_string(), "50");
     assert_eq!(checked("50 %", 0.502, &[], &[]).0.read.unwrap().to_string(), "0.50");
 }
 
 #[test]
-fn a_value_that_is_none_is_never_advised() {
+fn nan_is_never_advised() {
     for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         for quote in ["0.442 s", "3.0e-7", "1.5×10³", "0.4 to 0.5"] {
             let (outcome, findings) = checked(quote, value, &[value], &[value]);

@@ -6,19 +6,19 @@ use labspec_bind::units;
 use std::ops::Range;
 
 /// Number of characters of the clause that are read on either side.
-const NEAR: usize = 60;
+const MAX_CONTEXT: usize = 60;
 
 /// The unit that the clause of a number without a unit names; `None` where it names none, or several.
 pub(super) fn clause_unit(chars: Chars<'_>, number: Range<usize>) -> Option<Unit> {
-    let before = chars.text(number.start.saturating_sub(NEAR), number.start);
-    let behind = chars.text(number.end, number.end + NEAR);
+    let before = chars.text(number.start.saturating_sub(MAX_CONTEXT), number.start);
+    let behind = chars.text(number.end, number.end + MAX_CONTEXT);
     let before = before.get(last_end(&before)..)?;
     // A unit after the next number belongs to that number.
     let until = next_number(&behind);
     let behind = behind.get(..first_end(&behind).min(until))?;
     let mut named = Vec::new();
-    named.extend(right_before(before));
-    named.extend(right_behind(behind));
+    named.extend(unit_directly_before(before));
+    named.extend(unit_directly_after(behind));
     for part in [before, behind] {
         named.extend(part.match_indices(['(', '[']).filter_map(|(at, _)| in_brackets(part.get(at..)?)));
         let words = [" in ", " as ", "In "].into_iter().flat_map(|word| {
@@ -103,7 +103,7 @@ fn after_in(text: &str) -> Option<String> {
 }
 
 /// A unit directly before a number: `milliseconds: `, `t/ms = `, `kg `.
-fn right_before(text: &str) -> Option<String> {
+fn unit_directly_before(text: &str) -> Option<String> {
     let bare = text.trim_end_matches([' ', ':', '=', '≈', '~', '"', '“', '(']);
     let bare =
         [" is", " are", " was", " were"].into_iter().find_map(|verb| bare.strip_suffix(verb)).unwrap_or(bare);
@@ -130,7 +130,7 @@ fn divisor(text: &str) -> Option<String> {
 }
 
 /// A unit directly after punctuation: `) ms`, `” ms`, `… ms`.
-fn right_behind(text: &str) -> Option<String> {
+fn unit_directly_after(text: &str) -> Option<String> {
     let exact = text.strip_prefix(" or so ").unwrap_or(text);
     let bare = exact.trim_start_matches([' ', ')', ']', '"', '”', '’', '»', '…', ':', '–', '—', ',', '`']);
     let marked = text.len() > bare.len() && !text.get(..text.len() - bare.len())?.trim().is_empty();

@@ -8,11 +8,11 @@ use labspec_bind::units::is_wide;
 pub(super) const BOUND: &str = "a bound, not a number";
 pub(super) const FORMULA: &str = "a formula";
 pub(super) const DIFFERENCE: &str = "a difference or a range";
-const ODD: &str = "a number after a prefix that is not understood";
+const UNKNOWN_PREFIX: &str = "a number after a prefix that is not understood";
 pub(super) const LETTERS: &str = "a number followed by letters";
 
 /// Number of characters that are read on either side.
-pub(super) const NEAR: usize = 40;
+pub(super) const MAX_CONTEXT: usize = 40;
 
 /// Words before a number that make it a bound.
 const BOUNDS: [&str; 30] = [
@@ -49,7 +49,7 @@ const BOUNDS: [&str; 30] = [
 ];
 
 /// Words before a number that change its value.
-const CHANGES: [&str; 70] = [
+const CHANGING_WORDS: [&str; 70] = [
     "hundred",
     "thousand",
     "million",
@@ -123,7 +123,7 @@ const CHANGES: [&str; 70] = [
 ];
 
 /// Words that change the meaning of a number after them, in scripts without spaces: `负0.5秒`, `每秒0.5米`.
-const WIDE: [&str; 49] = [
+const UNSPACED_CHANGING_WORDS: [&str; 49] = [
     "负",
     "負",
     "减",
@@ -198,8 +198,8 @@ pub(super) fn before(chars: Chars<'_>, start: usize) -> Option<&'static str> {
             c => break c,
         }
         at -= 1;
-        if start - at > NEAR {
-            return Some(ODD);
+        if start - at > MAX_CONTEXT {
+            return Some(UNKNOWN_PREFIX);
         }
     };
     let previous = at.checked_sub(1).and_then(|k| chars.before(k));
@@ -218,15 +218,15 @@ pub(super) fn before(chars: Chars<'_>, start: usize) -> Option<&'static str> {
             Some(FORMULA)
         }
         ':' if attached && digit_before => Some("a ratio or a time of day"),
-        '—' | ',' | '.' | '…' if attached && digit_before => Some(ODD),
+        '—' | ',' | '.' | '…' if attached && digit_before => Some(UNKNOWN_PREFIX),
         '.' if attached && matches!(previous, Some('.')) => Some(DIFFERENCE),
         '…' if attached => Some(DIFFERENCE),
         ')' | ']' if attached && !within => Some(FORMULA),
         ')' if matches!(previous, Some('-' | '–' | '+' | '±')) => Some(FORMULA),
-        c if is_wide(c) => wide_before(chars, at),
+        c if is_wide(c) => unspaced_before(chars, at),
         // A fraction character that multiplies the number.
         c if c.is_numeric() && !c.is_ascii_digit() && !c.is_alphabetic() => Some(FORMULA),
-        c if c.is_alphanumeric() && attached => Some(ODD),
+        c if c.is_alphanumeric() && attached => Some(UNKNOWN_PREFIX),
         c if c.is_alphanumeric() => words_before(chars, at),
         '%' => None,
         '\u{2200}'..='\u{22ff}' | '\u{2a00}'..='\u{2aff}'
@@ -238,20 +238,20 @@ pub(super) fn before(chars: Chars<'_>, start: usize) -> Option<&'static str> {
         | ']' | '、' | '。' | '，' | '：' | '；' | '」' | '』' | '≡' | '∴' | '≃' | '≅' | '∼' => {
             None
         }
-        c if attached || c.is_alphanumeric() => Some(ODD),
+        c if attached || c.is_alphanumeric() => Some(UNKNOWN_PREFIX),
         _ => None,
     }
 }
 
-fn wide_before(chars: Chars<'_>, at: usize) -> Option<&'static str> {
+fn unspaced_before(chars: Chars<'_>, at: usize) -> Option<&'static str> {
     let near = chars.text(at.saturating_sub(8), at);
     let figure = near.chars().next_back().is_some_and(|c| FIGURES.contains(c));
-    (figure || WIDE.into_iter().any(|w| near.ends_with(w))).then_some(ODD)
+    (figure || UNSPACED_CHANGING_WORDS.into_iter().any(|w| near.ends_with(w))).then_some(UNKNOWN_PREFIX)
 }
 
 /// The reason why the words that end at index `at` change the meaning of the number.
 fn words_before(chars: Chars<'_>, at: usize) -> Option<&'static str> {
-    let near = chars.text(at.saturating_sub(NEAR), at);
+    let near = chars.text(at.saturating_sub(MAX_CONTEXT), at);
     let line = near.rsplit('\n').next().unwrap_or("").to_lowercase();
     let ends =
         |word: &str| line.strip_suffix(word).is_some_and(|rest| !rest.ends_with(char::is_alphanumeric));
@@ -260,7 +260,7 @@ fn words_before(chars: Chars<'_>, at: usize) -> Option<&'static str> {
     if BOUNDS.into_iter().any(ends) && !largest {
         return Some(BOUND);
     }
-    if CHANGES.into_iter().any(ends)
+    if CHANGING_WORDS.into_iter().any(ends)
         || line.ends_with("n't")
         || is_denied(&line) && !largest
         || line.ends_with("% of")
@@ -273,7 +273,7 @@ fn words_before(chars: Chars<'_>, at: usize) -> Option<&'static str> {
     if last.starts_with(|c: char| c.is_ascii_digit())
         && last.chars().all(|c| c.is_ascii_digit() || ".,'".contains(c))
     {
-        return Some(ODD);
+        return Some(UNKNOWN_PREFIX);
     }
     // A TeX command, or a symbol of a formula.
     let command = last.starts_with('\\') || last.contains('\\');

@@ -1,12 +1,12 @@
 //! Finds text after a quantity that makes it part of another expression.
 
 use super::clause_unit::{is_sure, is_word};
-use super::context::{BOUND, DIFFERENCE, FIGURES, FORMULA, LETTERS, NEAR};
+use super::context::{BOUND, DIFFERENCE, FIGURES, FORMULA, LETTERS, MAX_CONTEXT};
 use super::numeral::{Chars, fraction};
 use labspec_bind::units::{self, is_wide};
 
 /// Words after a number that change its value.
-const BEHIND: [&str; 20] = [
+const CHANGING_WORDS: [&str; 20] = [
     "or more",
     "or less",
     "or longer",
@@ -29,7 +29,7 @@ const BEHIND: [&str; 20] = [
     "ou plus",
 ];
 
-const WIDE_BEHIND: [&str; 19] = [
+const UNSPACED_CHANGING_WORDS: [&str; 19] = [
     "以上", "以下", "以内", "以內", "未満", "未满", "不到", "多", "余", "餘", "半", "平方", "立方", "次方",
     "乗", "之", "分之", "分の", "割",
 ];
@@ -54,8 +54,8 @@ pub(super) fn after(chars: Chars<'_>, end: usize, has_unit: bool) -> Option<&'st
             '(' if !has_unit => return Some(FORMULA),
             ':' if chars.digit(end + 1) => return Some("a ratio or a time of day"),
             '.' | ',' | '\'' if chars.digit(end + 1) => return Some("digits with several points"),
-            ')' | ']' => return behind_bracket(chars, end + 1),
-            c if is_wide(c) => return wide_after(chars, end),
+            ')' | ']' => return after_bracket(chars, end + 1),
+            c if is_wide(c) => return unspaced_after(chars, end),
             'π' => return Some(FORMULA),
             c if c.is_alphanumeric() || combines(c) => return Some(LETTERS),
             '-' | '–' | '—' if number_at(end + 1) => return Some(DIFFERENCE),
@@ -85,10 +85,10 @@ pub(super) fn after(chars: Chars<'_>, end: usize, has_unit: bool) -> Option<&'st
         c if c.is_ascii_digit() => {
             let end = chars.digits(next);
             let power = chars.at(end) == Some('^') || chars.has(end, "**");
-            if power { Some("a product") } else { (!has_unit).then_some(BESIDE) }
+            if power { Some("a product") } else { (!has_unit).then_some(ADJACENT_NUMBER) }
         }
-        c if is_wide(c) => wide_after(chars, next),
-        c if c.is_alphabetic() && !has_unit && has_unit_soon(&chars.text(next, next + NEAR)) => {
+        c if is_wide(c) => unspaced_after(chars, next),
+        c if c.is_alphabetic() && !has_unit && has_unit_nearby(&chars.text(next, next + MAX_CONTEXT)) => {
             Some(UNIT_SOON)
         }
         '-' | '–' if apart => letter(chars, chars.skip_blanks(next + 1)),
@@ -105,7 +105,7 @@ const PUNCTUATION: &str = "”’»›“‘„«—–‑…†‡§≈≃≅�
 
 /// Whether the word at an index is a unit.
 fn is_unit_at(chars: Chars<'_>, at: usize) -> bool {
-    let near = chars.text(at, at + NEAR);
+    let near = chars.text(at, at + MAX_CONTEXT);
     let word: String = near.chars().take_while(|c| c.is_alphabetic()).collect();
     units::is_unit(&word)
 }
@@ -116,7 +116,7 @@ fn combines(c: char) -> bool {
 }
 
 /// The reason for text after the bracket that closes directly after a quantity.
-fn behind_bracket(chars: Chars<'_>, mut at: usize) -> Option<&'static str> {
+fn after_bracket(chars: Chars<'_>, mut at: usize) -> Option<&'static str> {
     while matches!(chars.at(at), Some(')' | ']')) {
         at += 1;
     }
@@ -134,13 +134,14 @@ fn behind_bracket(chars: Chars<'_>, mut at: usize) -> Option<&'static str> {
     }
 }
 
-fn wide_after(chars: Chars<'_>, at: usize) -> Option<&'static str> {
+fn unspaced_after(chars: Chars<'_>, at: usize) -> Option<&'static str> {
     let near = chars.text(at, at + 4);
     let figure = near.chars().next().is_some_and(|c| FIGURES.contains(c) || c == '每' || c == '毎');
     let fraction = near
         .strip_prefix('の')
         .is_some_and(|t| t.starts_with(|c: char| c.is_numeric() || FIGURES.contains(c)));
-    (figure || fraction || WIDE_BEHIND.into_iter().any(|w| near.starts_with(w))).then_some(ODD_BEHIND)
+    (figure || fraction || UNSPACED_CHANGING_WORDS.into_iter().any(|w| near.starts_with(w)))
+        .then_some(UNKNOWN_SUFFIX)
 }
 
 const UNIT_SOON: &str = "a number with words between it and its unit";
@@ -156,7 +157,7 @@ const PHRASES: [&str; 55] = [
 
 /// Whether a number without a unit is followed by words and a unit that belongs to them: `half seconds`, `of a minute`,
 /// `light-seconds`.
-fn has_unit_soon(line: &str) -> bool {
+fn has_unit_nearby(line: &str) -> bool {
     let phrase =
         line.split(['.', ',', ';', ':', '(', ')', '!', '?', '\n', '—', '"', '|', '=']).next().unwrap_or("");
     let mut words = phrase.split(' ').filter(|word| !word.is_empty());
@@ -170,14 +171,14 @@ fn has_unit_soon(line: &str) -> bool {
     }
     let of_one = |word: &&str| matches!(*word, "of" | "a" | "an" | "one" | "per" | "the" | "each" | "every");
     // In `makes A move` and `gives a second bounce` these words are not units. They are units only after a word of
-    // `PARTS`.
-    let part = PARTS.contains(&first.as_str());
+    // `PART_WORDS`.
+    let part = PART_WORDS.contains(&first.as_str());
     let is_unit = |word: &str| units::is_unit(word) && (part || is_sure(word) && !is_word(word));
     words.find(|word| !of_one(word)).is_some_and(is_unit)
 }
 
 /// Words that denote a part or another power of the following unit.
-const PARTS: [&str; 18] = [
+const PART_WORDS: [&str; 18] = [
     "of",
     "half",
     "quarter",
@@ -198,16 +199,16 @@ const PARTS: [&str; 18] = [
     "pairs",
 ];
 
-const BESIDE: &str = "a number directly followed by another one";
-const ODD_BEHIND: &str = "a number that the words after it modify";
+const ADJACENT_NUMBER: &str = "a number directly followed by another one";
+const UNKNOWN_SUFFIX: &str = "a number that the words after it modify";
 
 fn words_after(chars: Chars<'_>, at: usize) -> Option<&'static str> {
-    let near = chars.text(at, at + NEAR);
+    let near = chars.text(at, at + MAX_CONTEXT);
     let line = near.split('\n').next().unwrap_or("").to_lowercase();
     let begins =
         |word: &str| line.strip_prefix(word).is_some_and(|rest| !rest.starts_with(char::is_alphanumeric));
-    if BEHIND.into_iter().any(begins) {
-        return Some(ODD_BEHIND);
+    if CHANGING_WORDS.into_iter().any(begins) {
+        return Some(UNKNOWN_SUFFIX);
     }
     letter(chars, at)
 }

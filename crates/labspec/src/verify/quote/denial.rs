@@ -2,10 +2,11 @@
 //! the time differs.
 
 /// Words that negate a verb, and the number of following words that they affect.
-const OF_VERBS: ([&str; 7], usize) = (["not", "never", "cannot", "hardly", "nicht", "nie", "jamais"], 3);
+const VERB_NEGATIONS: ([&str; 7], usize) =
+    (["not", "never", "cannot", "hardly", "nicht", "nie", "jamais"], 3);
 
 /// Words that negate a noun: `without spin it takes 0.44 s` does not negate the time.
-const OF_NOUNS: ([&str; 7], usize) = (["no", "nor", "neither", "without", "kein", "keine", "pas"], 2);
+const NOUN_NEGATIONS: ([&str; 7], usize) = (["no", "nor", "neither", "without", "kein", "keine", "pas"], 2);
 
 /// Words that end the effect of a negation: `not until 0.44 s`, `not only 0.44 s`, `whether or not it tips over`.
 const ENDS: [&str; 13] =
@@ -27,22 +28,23 @@ const CLAUSES: [&str; 11] = [
 ];
 
 /// Maximum length of a clause that is read, in characters.
-const LONGEST: usize = 1000;
+const MAX_CLAUSE: usize = 1000;
 
 /// Whether the words at the end of a line negate the following text.
 pub(super) fn is_denied(line: &str) -> bool {
-    let start = line.char_indices().rev().take(LONGEST).last().map_or(0, |(at, _)| at);
+    let start = line.char_indices().rev().take(MAX_CLAUSE).last().map_or(0, |(at, _)| at);
     let line = line.get(start..).unwrap_or("");
     let clause =
         line.rsplit(['\n', '.', ',', ';', ':', '(', '—', '?', '!']).next().unwrap_or("").to_lowercase();
     if CLAUSES.iter().any(|phrase| clause.contains(phrase)) {
         return true;
     }
-    let near: Vec<&str> = clause.split_whitespace().rev().take(OF_VERBS.1 + 1).collect();
-    let of_verb = |word: &&str| OF_VERBS.0.contains(word) || word.ends_with("n't") || word.ends_with("n’t");
-    let of_noun = |word: &&str| OF_NOUNS.0.contains(word);
-    let first = near.iter().take(OF_VERBS.1).position(of_verb);
-    let first = first.or_else(|| near.iter().take(OF_NOUNS.1).position(of_noun));
+    let near: Vec<&str> = clause.split_whitespace().rev().take(VERB_NEGATIONS.1 + 1).collect();
+    let of_verb =
+        |word: &&str| VERB_NEGATIONS.0.contains(word) || word.ends_with("n't") || word.ends_with("n’t");
+    let of_noun = |word: &&str| NOUN_NEGATIONS.0.contains(word);
+    let first = near.iter().take(VERB_NEGATIONS.1).position(of_verb);
+    let first = first.or_else(|| near.iter().take(NOUN_NEGATIONS.1).position(of_noun));
     first.is_some_and(|at| {
         // `whether or not it tips over`
         let either = near.get(at + 1) == Some(&"or");

@@ -1,7 +1,7 @@
 //! Normalizes spaces, dashes, superscripts and the TeX of numbers, so that a quote matches whether it is written as in the
 //! source or as on the page.
 
-use super::html::APART;
+use super::html::TEXT_SEPARATOR;
 use super::siunitx;
 use crate::markdown::tex;
 use crate::source::SourceMap;
@@ -97,7 +97,7 @@ fn is_plain(b: u8) -> bool {
 
 fn meaning(c: char, flat: bool) -> Meaning {
     match c {
-        APART => Meaning::Apart,
+        TEXT_SEPARATOR => Meaning::Apart,
         '$' | '{' | '}' | '\u{200b}'..='\u{200d}' | '\u{2060}' | '\u{feff}' | '\u{ad}' => Meaning::Nothing,
         '~' | '∼' => Meaning::Tilde,
         '−' | '‐' | '‑' => Meaning::Letter('-'),
@@ -133,14 +133,14 @@ fn digit(c: char, zero: char) -> char {
 }
 
 /// Maximum length of an invisible argument, in bytes.
-const LONGEST_UNSEEN: usize = 1000;
+const MAX_HIDDEN_LENGTH: usize = 1000;
 
 /// A command without visible output, with its argument: `\phantom{0.5}`.
 fn unseen(text: &str) -> IResult<&str, &str> {
     const NAMES: [&str; 10] =
         ["phantom", "hphantom", "vphantom", "label", "tag", "hspace", "vspace", "kern", "ref", "cite"];
     let name = verify(tex::command, |name: &str| NAMES.contains(&name));
-    preceded(name, |text| tex::group(text, LONGEST_UNSEEN)).parse(text)
+    preceded(name, |text| tex::group(text, MAX_HIDDEN_LENGTH)).parse(text)
 }
 
 /// The TeX command at the beginning of `text`, and its length including the spaces after its name.
@@ -259,7 +259,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn many_ways_of_writing_are_one() {
+    fn many_notations_are_equal() {
         let f = |text: &str| fold(text, true).0;
         for text in ["2.4 × 10⁻⁴", "$2.4 \\times 10^{-4}$", "2.4\\times10^{-4}", "2.4×10^\u{2212}4"] {
             assert_eq!(f(text), "2.4×10^-4", "{text}");
@@ -276,7 +276,7 @@ mod tests {
     }
 
     #[test]
-    fn places_are_kept() {
+    fn byte_ranges_are_kept() {
         let text = "takes $2.4 \\times 10^{-4}$ s";
         let (folded, map) = fold(text, true);
         assert_eq!(folded, "takes 2.4×10^-4 s");

@@ -6,7 +6,7 @@ use crate::markdown::html::HtmlTag;
 
 /// An element that a page does not display, from its start tag to its end tag.
 #[derive(Default)]
-pub(super) struct Hidden {
+pub(super) struct HiddenElement {
     /// The name of the element, and how many elements of this name are open; zero when the text is displayed.
     name: String,
     open: usize,
@@ -17,7 +17,7 @@ const VOID: [&str; 13] =
     ["area", "base", "br", "col", "embed", "hr", "img", "input", "link", "meta", "source", "track", "wbr"];
 
 /// Elements that a page with scripts and media does not display as text, and struck-out words.
-const UNSEEN: [&str; 17] = [
+const HIDDEN_ELEMENTS: [&str; 17] = [
     "template", "script", "style", "title", "noscript", "datalist", "head", "iframe", "object", "audio",
     "video", "canvas", "rp", "del", "s", "strike", "noframes",
 ];
@@ -26,7 +26,7 @@ const UNSEEN: [&str; 17] = [
 const CLASSES: [&str; 7] =
     ["hidden", "d-none", "invisible", "sr-only", "visually-hidden", "is-hidden", "screen-reader-text"];
 
-impl Hidden {
+impl HiddenElement {
     /// Whether the following text is hidden.
     pub(super) fn is_on(&self) -> bool {
         self.open > 0
@@ -51,7 +51,7 @@ impl Hidden {
 
 /// Whether a page does not display the element of a start tag.
 fn hides(tag: &HtmlTag) -> bool {
-    let (mut hidden, mut closed) = (UNSEEN.contains(&tag.name.as_str()), tag.name == "dialog");
+    let (mut hidden, mut closed) = (HIDDEN_ELEMENTS.contains(&tag.name.as_str()), tag.name == "dialog");
     for (name, value) in &tag.attributes {
         let value = value.to_ascii_lowercase();
         hidden |= match name.as_str() {
@@ -106,11 +106,11 @@ fn style_hides(style: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use crate::verify::quote::html::{APART, strip};
+    use crate::verify::quote::html::{TEXT_SEPARATOR, strip};
 
     #[test]
-    fn what_is_hidden_is_not_shown() {
-        let visible = |html: &str| strip(html).0.replace(APART, "");
+    fn hidden_elements_are_not_rendered() {
+        let visible = |html: &str| strip(html).0.replace(TEXT_SEPARATOR, "");
         assert_eq!(visible("a<div hidden>b<div>c</div>d</div>e"), "ae");
         assert_eq!(visible("a<span style=\"color: red; Display: none\">b</span>c"), "ac");
         assert_eq!(visible("a<p hidden=''>b</p>c<p title='hidden'>d</p>"), "acd");

@@ -1,11 +1,11 @@
 //! The visible text of HTML: without tags, comments and hidden elements, with decoded entities.
 
-use super::hidden::Hidden;
+use super::hidden::HiddenElement;
 use crate::markdown::html::{HtmlTag, HtmlToken, tokens};
 use crate::source::{SourceMap, Text};
 
 /// Separates two pieces of text that a page displays apart, such as two cells. No quote contains it.
-pub(super) const APART: char = '\u{1}';
+pub(super) const TEXT_SEPARATOR: char = '\u{1}';
 
 /// Tags that change the style of text and not its position.
 const INLINE: [&str; 28] = [
@@ -19,23 +19,23 @@ pub(super) fn mark(tag: &HtmlTag) -> Option<char> {
         "sup" => Some('^').filter(|_| !tag.closing),
         "sub" => Some('_').filter(|_| !tag.closing),
         "br" => Some(' '),
-        name => Some(APART).filter(|_| !INLINE.contains(&name)),
+        name => Some(TEXT_SEPARATOR).filter(|_| !INLINE.contains(&name)),
     }
 }
 
 /// The visible text of a piece of HTML, with its source map.
 pub(super) fn strip(html: &str) -> (String, SourceMap) {
-    strip_after(html, &mut Hidden::default())
+    strip_after(html, &mut HiddenElement::default())
 }
 
 /// The visible part of a text of HTML.
-pub(super) fn visible_text(html: &Text, hidden: &mut Hidden) -> Text {
+pub(super) fn visible_text(html: &Text, hidden: &mut HiddenElement) -> Text {
     let (value, map) = strip_after(html.as_str(), hidden);
     Text { value, map: map.then(&html.map) }
 }
 
 /// Like [`strip`], where `hidden` may contain an element that is still open.
-fn strip_after(html: &str, hidden: &mut Hidden) -> (String, SourceMap) {
+fn strip_after(html: &str, hidden: &mut HiddenElement) -> (String, SourceMap) {
     let (mut text, mut map) = (String::with_capacity(html.len()), SourceMap::default());
     for token in tokens(html) {
         match token {
@@ -71,7 +71,7 @@ mod tests {
     }
 
     #[test]
-    fn only_what_a_page_shows_is_left() {
+    fn only_rendered_text_remains() {
         assert_eq!(stripped("<p>it takes <b>0.442</b>&nbsp;s</p>"), "\u{1}it takes 0.442\u{a0}s\u{1}");
         assert_eq!(stripped("a < b && c<d title=\"1 > 0\">e</d>"), "a < b && c\u{1}e\u{1}");
         assert_eq!(stripped("x<!-- 0.442 s -->y<script>0.442</script>z"), "xy\u{1}\u{1}z");
@@ -85,7 +85,7 @@ mod tests {
     }
 
     #[test]
-    fn places_are_kept() {
+    fn byte_ranges_are_kept() {
         let html = "<b>0.442</b>&nbsp;s";
         let (text, map) = strip(html);
         assert_eq!(text, "0.442\u{a0}s");

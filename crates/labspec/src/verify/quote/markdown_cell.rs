@@ -1,6 +1,6 @@
 //! The cell of a Markdown table at an index of the file, and the unit of its column.
 
-use super::read::reading;
+use super::read::read_quote;
 use super::table::rendered;
 use super::unit_text::{Link, Unit};
 use crate::bind::{behind_heading, of_heading};
@@ -12,7 +12,7 @@ pub(super) struct MarkdownCell {
 }
 
 /// Maximum number of bytes of a row, and of lines of a table.
-pub(super) const LONG: usize = 2000;
+pub(super) const MAX_ROW_LENGTH: usize = 2000;
 
 const ROWS: usize = 200;
 
@@ -21,7 +21,9 @@ impl MarkdownCell {
         let before = file.get(..at)?;
         let start = before.rfind('\n').map_or(0, |i| i + 1);
         let end = file.get(at..)?.find('\n').map_or(file.len(), |i| at + i);
-        let row = file.get(start..end).filter(|row| row.trim_start().starts_with('|') && row.len() < LONG)?;
+        let row = file
+            .get(start..end)
+            .filter(|row| row.trim_start().starts_with('|') && row.len() < MAX_ROW_LENGTH)?;
         let column = file.get(start..at)?.matches('|').count();
         let mut above = file.get(..start)?.lines().rev().take(ROWS);
         let rule = |line: &str| line.trim_start().starts_with('|') && line.contains("---");
@@ -46,7 +48,7 @@ pub(in crate::verify) fn unit_of_head(head: &str) -> Option<Unit> {
     }
     // A power of ten times a unit is the unit of the cells. `(10 s)` may be a time of measurement.
     let text = behind_heading(head)?;
-    let read = reading(text).ok()?;
+    let read = read_quote(text).ok()?;
     let (size, of) = (read.number().value, read.unit()?.dimension?);
     let power = text.starts_with("10")
         && text.get(2..)?.trim_start().starts_with(['^', '*', '⁻', '²', '³', '⁴', '⁶', '⁹']);
@@ -58,7 +60,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_cell_knows_its_head() {
+    fn a_cell_has_its_column_head() {
         let text = "x\n\n| h (s) | error (mm) |\n|---:|---:|\n| 0.1 | -0.7 |\n| 0.2 | -1.4 |\n";
         let at = text.find("1.4").unwrap_or(0);
         assert_eq!(MarkdownCell::at(text, at).map(|c| c.head), Some("error (mm)".into()));

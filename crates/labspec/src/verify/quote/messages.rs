@@ -122,7 +122,7 @@ pub(super) fn wrong_unit(claim: &QuoteClaim<'_>, outcome: &QuoteOutcome, text: &
         .help("correct the unit in the text, or convert the number in the expression")
 }
 
-pub(super) fn unsure_unit(
+pub(super) fn uncertain_unit(
     claim: &QuoteClaim<'_>,
     outcome: &QuoteOutcome,
     unit: &Unit,
@@ -184,7 +184,12 @@ pub(super) fn of_timestep(claim: &QuoteClaim<'_>, outcome: &QuoteOutcome, read: 
 }
 
 /// The finding about a number that no run comes near, where the digits of the runs cannot be reproduced either.
-pub(super) fn far(claim: &QuoteClaim<'_>, outcome: &QuoteOutcome, read: &Quoted, values: &[f64]) -> Finding {
+pub(super) fn far_from_all_runs(
+    claim: &QuoteClaim<'_>,
+    outcome: &QuoteOutcome,
+    read: &Quoted,
+    values: &[f64],
+) -> Finding {
     let message = format!(
         "the text says {}{}, but no run comes near: {} as the lesson stands, {}",
         shorten_quote(claim),
@@ -194,12 +199,12 @@ pub(super) fn far(claim: &QuoteClaim<'_>, outcome: &QuoteOutcome, read: &Quoted,
     );
     at_places(rules::QUOTE_WRONG, Severity::Error, claim, outcome, message)
         .why("a reader who measures it finds another number, and every reader a different one")
-        .help(fewer(read, values))
+        .help(fewer_digits_help(read, values))
 }
 
 /// The help where digits cannot be reproduced.
-fn fewer(read: &Quoted, values: &[f64]) -> String {
-    match agreed(read, values) {
+fn fewer_digits_help(read: &Quoted, values: &[f64]) -> String {
+    match longest_agreed_form(read, values) {
         Some(text) => {
             format!("print fewer digits, {text}, which all of these runs give, or quote a shorter run")
         }
@@ -224,11 +229,11 @@ pub(super) fn chaotic(
     );
     at_places(rules::QUOTE_CHAOTIC, Severity::Warning, claim, outcome, message)
         .why("such a start is within rounding of that of the lesson: another computer, or another version of the simulator, prints other digits")
-        .help(fewer(read, values))
+        .help(fewer_digits_help(read, values))
 }
 
 /// The longest printed form on which all values agree, with fewer decimals than the quote; `None` when there is none.
-fn agreed(read: &Quoted, values: &[f64]) -> Option<String> {
+fn longest_agreed_form(read: &Quoted, values: &[f64]) -> Option<String> {
     let Form::Plain(_) = read.form else { return None };
     let fewer = (0..read.decimals).rev().map(|decimals| Quoted { decimals, ..*read });
     let mut prints = fewer.map(|q| values.iter().map(|&x| printed(&q, x)).collect::<Vec<_>>());
@@ -239,7 +244,7 @@ fn agreed(read: &Quoted, values: &[f64]) -> Option<String> {
     mantissa.contains(|c: char| matches!(c, '1'..='9')).then_some(text)
 }
 
-pub(super) fn doubtful(
+pub(super) fn ambiguous_unit(
     claim: &QuoteClaim<'_>,
     outcome: &QuoteOutcome,
     read: &Quoted,

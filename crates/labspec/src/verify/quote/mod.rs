@@ -35,12 +35,12 @@ pub use number::{Form, Quoted, Style};
 pub(super) use option_text::{OptionNumber, option_ratio, option_text};
 pub use quote_claim::{OtherValue, QuoteOutcome, QuoteState};
 pub(super) use quote_claim::{QuoteClaim, QuotePlace, QuoteValue};
-pub(super) use read::{QuotePart, parts, reading, whole};
+pub(super) use read::{QuotePart, parts, read_quote, whole};
 pub use read::{Unread, quoted};
 pub use rendered::RenderedText;
 pub use stated::{Counted, Stated, answered, claimed, counted, stated};
-pub(super) use table_cells::{cells_of_column, reads_the_same};
-pub(super) use unit_check::{AnswerUnit, Held, answer_unit, conversion, hold, is_unit};
+pub(super) use table_cells::{cells_of_column, is_rendered_equally};
+pub(super) use unit_check::{AnswerUnit, UnitMatch, answer_unit, conversion, hold, is_unit};
 pub(super) use unit_text::Unit;
 pub(super) use words::{QuotedCondition, check_words};
 

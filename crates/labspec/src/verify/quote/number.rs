@@ -170,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn what_prints_alike_does_not_differ() {
+    fn equal_printed_forms_do_not_differ() {
         let q = plain(0.442, 3, 0);
         assert!(!q.differ(0.4419, 0.44249) && q.differ(0.44249, 0.44251) && q.differ(0.442, f64::NAN));
         assert!(!q.differ(0.5001, 0.5002) && q.differ(0.5001, 0.5009));
@@ -179,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn a_range_holds_what_lies_in_it() {
+    fn a_range_contains_its_interval() {
         let q = Quoted { form: Form::Range(0.4, 0.5), ..plain(0.45, 1, 0) };
         assert!(q.is(0.4) && q.is(0.5) && !q.is(0.501) && !q.is(f64::NAN) && q.differ(0.45, 0.51));
         assert_eq!(q.to_string(), "0.4 to 0.5");

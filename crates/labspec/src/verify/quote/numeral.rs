@@ -20,9 +20,9 @@ pub(super) struct Numeral {
     /// Index after the last character.
     pub(super) end: usize,
     /// Other possible values.
-    pub(super) doubts: Vec<f64>,
+    pub(super) ambiguities: Vec<f64>,
     /// The reason why it must not be reported as wrong, or must not be read.
-    pub(super) unsure: Option<&'static str>,
+    pub(super) is_ambiguous: Option<&'static str>,
     pub(super) refused: Option<&'static str>,
 }
 
@@ -104,8 +104,8 @@ struct Mantissa {
     decimals: usize,
     /// The separator between groups of three digits.
     group: Option<char>,
-    doubts: Vec<f64>,
-    unsure: Option<&'static str>,
+    ambiguities: Vec<f64>,
+    is_ambiguous: Option<&'static str>,
     refused: Option<&'static str>,
 }
 
@@ -146,7 +146,7 @@ fn mantissa(text: &str) -> IResult<&str, Mantissa> {
     let (rest, (groups, group)) = whole(text)?;
     let mut all = Mantissa { digits: groups.concat(), group, ..Mantissa::default() };
     if group == Some(' ') {
-        all.doubts.extend(
+        all.ambiguities.extend(
             [groups.first(), groups.last()].into_iter().flatten().filter_map(|n| n.parse::<f64>().ok()),
         );
     }
@@ -160,14 +160,14 @@ fn mantissa(text: &str) -> IResult<&str, Mantissa> {
             all.refused = Some("digits with several commas");
             return Ok((rest, all));
         }
-        all.unsure = (all.digits != "0").then_some("its comma may separate decimals or two numbers");
+        all.is_ambiguous = (all.digits != "0").then_some("its comma may separate decimals or two numbers");
         all.decimals = after.len();
         all.digits = format!("{}.{after}", all.digits);
         return Ok((rest, all));
     }
     if let (Some(','), [first, second]) = (group, groups.as_slice()) {
         // 1,500: a thousands separator in English, a decimal comma in other languages.
-        all.doubts.extend(format!("{first}.{second}").parse::<f64>());
+        all.ambiguities.extend(format!("{first}.{second}").parse::<f64>());
     }
     Ok((rest, all))
 }
@@ -182,7 +182,7 @@ impl Mantissa {
         let (rest, groups) = groups.unwrap_or((rest, Vec::new()));
         for group in groups {
             if self.digits.len() <= MAX_DIGITS {
-                self.doubts.extend(self.digits.parse::<f64>());
+                self.ambiguities.extend(self.digits.parse::<f64>());
             }
             self.digits += group;
             self.decimals += group.len();
@@ -282,22 +282,22 @@ fn numeral(text: &str, negative: bool) -> (Numeral, usize) {
         (n, _) => exponent += n.unwrap_or(0),
     }
     if factor.is_some() {
-        written.doubts.clear();
+        written.ambiguities.clear();
     }
     let count = written.digits.bytes().filter(u8::is_ascii_digit).count();
     if count > MAX_DIGITS || exponent.abs() > MAX_EXPONENT {
         written.refused = Some("a number with more digits than a computation has");
         (exponent, written.decimals) = (0, 0);
     }
-    let Mantissa { digits, decimals, group, mut doubts, unsure, refused } = written;
+    let Mantissa { digits, decimals, group, mut ambiguities, is_ambiguous, refused } = written;
     let sign = if negative { -1.0 } else { 1.0 };
     let digits = if digits.is_empty() { "0" } else { &digits };
     let value = format!("{digits}e{exponent}").parse::<f64>().unwrap_or(f64::NAN) + extra.unwrap_or(0.0);
     let half_unit = 0.5 * ten(exponent.saturating_sub(decimals as i32));
-    doubts.iter_mut().for_each(|x| *x *= sign);
+    ambiguities.iter_mut().for_each(|x| *x *= sign);
     let form = if extra.is_some() { Form::Fraction } else { Form::Plain(Style { group, times }) };
     let quoted = Quoted { value: sign * value, half_unit, decimals, exponent, form };
-    (Numeral { quoted, start: 0, end: 0, doubts, unsure, refused }, text.len() - rest.len())
+    (Numeral { quoted, start: 0, end: 0, ambiguities, is_ambiguous, refused }, text.len() - rest.len())
 }
 
 /// All numbers of a text, each with the index of its first digit. Digits in words, indexes and exponents (`H2O`, `x_1`,

@@ -79,7 +79,7 @@ pub(in crate::verify) fn option_text(option: &str) -> Option<OptionNumber> {
     let (low, high) = stated_range(q, before)?;
     let rest = format!("{} {}", chars.text(0, q.whole.start), chars.text(q.whole.end, chars.0.len()));
     let text = chars.text(q.whole.start, q.whole.end);
-    Some(OptionNumber { text, low, high, unit, alone: says_nothing(&rest) })
+    Some(OptionNumber { text, low, high, unit, alone: has_no_content(&rest) })
 }
 
 /// Whether a text ends with a whole word.
@@ -116,7 +116,7 @@ const APPROXIMATE: [&str; 13] = [
 ];
 
 /// Words before a lower bound, or an upper one.
-const MORE: [&str; 10] = [
+const LOWER_BOUND_WORDS: [&str; 10] = [
     "more than",
     "greater than",
     "larger than",
@@ -128,7 +128,7 @@ const MORE: [&str; 10] = [
     ">",
     "≥",
 ];
-const LESS: [&str; 10] = [
+const UPPER_BOUND_WORDS: [&str; 10] = [
     "less than",
     "smaller than",
     "shorter than",
@@ -155,8 +155,8 @@ fn stated_range(q: &Quantity, before: &str) -> Option<(f64, f64)> {
             Some((value - off, value + off))
         }
         (Some(BOUND), Form::Plain(_)) => {
-            let says = |list: &[&str]| list.iter().any(|w| before.ends_with(w));
-            match (says(&MORE), says(&LESS)) {
+            let states = |list: &[&str]| list.iter().any(|w| before.ends_with(w));
+            match (states(&LOWER_BOUND_WORDS), states(&UPPER_BOUND_WORDS)) {
                 (true, false) => Some((value, f64::INFINITY)),
                 (false, true) => Some((f64::NEG_INFINITY, value)),
                 _ => None,
@@ -167,7 +167,7 @@ fn stated_range(q: &Quantity, before: &str) -> Option<(f64, f64)> {
 }
 
 /// Whether the rest of an option has no content, so that the option is its number alone.
-fn says_nothing(rest: &str) -> bool {
+fn has_no_content(rest: &str) -> bool {
     rest.to_lowercase().split_whitespace().all(|w| {
         let word = w.trim_matches(|c: char| !c.is_alphanumeric());
         word.chars().count() < 2
@@ -176,7 +176,7 @@ fn says_nothing(rest: &str) -> bool {
 }
 
 /// Words for factors.
-const TIMES: [(&str, f64); 23] = [
+const FACTOR_WORDS: [(&str, f64); 23] = [
     ("twice", 2.0),
     ("double", 2.0),
     ("doubles", 2.0),
@@ -220,7 +220,7 @@ pub(in crate::verify) fn option_ratio(option: &str) -> Option<OptionRatio> {
     if lower.contains("and a half") {
         return None;
     }
-    let words: Vec<(String, f64)> = TIMES
+    let words: Vec<(String, f64)> = FACTOR_WORDS
         .iter()
         .filter(|(word, _)| lower.match_indices(word).any(|(at, found)| is_word(at, found.len())))
         .map(|(word, x)| (word.to_string(), *x))
@@ -249,7 +249,7 @@ pub(in crate::verify) fn option_ratio(option: &str) -> Option<OptionRatio> {
 }
 
 /// Numbers in words.
-const SPELLED: [(&str, &str); 24] = [
+const NUMBER_WORDS: [(&str, &str); 24] = [
     ("half a", "0.5"),
     ("a quarter of a", "0.25"),
     ("one", "1"),
@@ -284,7 +284,7 @@ fn spelled(text: &str) -> String {
     }
     let mut all = text.to_string();
     // The longest first, so that "one hundred" is not read as "one".
-    let mut words = SPELLED;
+    let mut words = NUMBER_WORDS;
     words.sort_by_key(|(word, _)| std::cmp::Reverse(word.len()));
     for (word, figure) in words {
         let lower = all.to_lowercase();

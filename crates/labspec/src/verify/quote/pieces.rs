@@ -1,6 +1,6 @@
 //! The rendered texts of a lesson: its prose, and the displayed texts of its labs and quizzes.
 
-use super::hidden::Hidden;
+use super::hidden::HiddenElement;
 use super::html::visible_text;
 use super::prose;
 use crate::source::Text;
@@ -25,7 +25,7 @@ fn push_plain<'a>(texts: impl IntoIterator<Item = &'a Text>, all: &mut Vec<Text>
 }
 
 fn push_html<'a>(texts: impl IntoIterator<Item = &'a Text>, all: &mut Vec<Text>) {
-    all.extend(texts.into_iter().map(|text| visible_text(text, &mut Hidden::default())));
+    all.extend(texts.into_iter().map(|text| visible_text(text, &mut HiddenElement::default())));
 }
 
 fn push_question(question: &Question, all: &mut Vec<Text>) {

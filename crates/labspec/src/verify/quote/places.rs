@@ -1,7 +1,7 @@
 //! Finds where texts appear as separate numbers: all quotes are searched at once, in one pass through the text.
 
 use super::numeral::{Chars, fraction};
-use super::quantity::{Quantity, quantities, quantities_apart};
+use super::quantity::{Quantity, quantities, separate_quantities};
 use super::unit_text::{Link, Unit};
 use super::{fold, html};
 use labspec_bind::units::is_wide;
@@ -15,7 +15,7 @@ const MAX_LENGTH: usize = 120;
 
 /// A searched text.
 #[derive(Debug)]
-struct Needle {
+struct SearchedText {
     folded: String,
     /// The index of its first digit: the search begins at numbers.
     digit: usize,
@@ -34,7 +34,7 @@ struct Node {
 /// Quotes, and where they were found.
 #[derive(Debug)]
 pub(super) struct Search {
-    needles: Vec<Needle>,
+    needles: Vec<SearchedText>,
     nodes: Vec<Node>,
     /// Number of steps, for tests that the work is proportional to the text.
     pub(super) work: usize,
@@ -75,7 +75,7 @@ impl Search {
         }
         let chars: Vec<char> = fold::fold(&rendered, false).0.trim_matches('\n').chars().collect();
         let quantities = if digit.is_some() { quantities(Chars(&chars)) } else { Vec::new() };
-        self.needles.push(Needle { folded, digit: digit.unwrap_or(0), quantities, found: Vec::new() });
+        self.needles.push(SearchedText { folded, digit: digit.unwrap_or(0), quantities, found: Vec::new() });
         number
     }
 
@@ -113,7 +113,7 @@ impl Search {
         let Some(begin) = start.checked_sub(needle.digit) else { return };
         let head = needle.folded.get(..needle.digit);
         if needle.found.len() < MAX_PLACES && text.flat.get(begin..start) == head {
-            needle.found.extend(text.says(&(begin..end), &needle.quantities));
+            needle.found.extend(text.states(&(begin..end), &needle.quantities));
         }
     }
 
@@ -170,19 +170,19 @@ impl Readable {
             flat,
             character,
             quantities: quantities(Chars(chars)),
-            apart: quantities_apart(Chars(chars)),
+            apart: separate_quantities(Chars(chars)),
         }
     }
 
     /// Whether the text at a range states what the quote states when it is read alone: the same numbers with the same
     /// signs, factors and units, none of them part of another expression.
-    fn says(&self, bytes: &Range<usize>, quantities: &[Quantity]) -> Option<QuoteMatch> {
+    fn states(&self, bytes: &Range<usize>, quantities: &[Quantity]) -> Option<QuoteMatch> {
         if !whole_words(&self.flat, bytes) {
             return None;
         }
         let at = |byte: usize| self.character.get(byte).map(|i| *i as usize);
         let (start, end) = (at(bytes.start)?, at(bytes.end)?);
-        let among = |all: &[Quantity]| says(all, start..end, quantities);
+        let among = |all: &[Quantity]| states(all, start..end, quantities);
         let unit = among(&self.quantities).or_else(|| among(&self.apart))?;
         Some(QuoteMatch { bytes: bytes.clone(), unit })
     }
@@ -190,7 +190,7 @@ impl Readable {
 
 /// Whether the quantities in a range of characters are those of a quote. Returns the unit that the text has after the last
 /// of them.
-fn says(all: &[Quantity], range: Range<usize>, quantities: &[Quantity]) -> Option<Option<Unit>> {
+fn states(all: &[Quantity], range: Range<usize>, quantities: &[Quantity]) -> Option<Option<Unit>> {
     let Range { start, end } = range;
     let first = all.partition_point(|q| q.whole.end <= start);
     let mut here = all.get(first..)?.iter().take_while(|q| q.whole.start < end);
@@ -202,7 +202,7 @@ fn says(all: &[Quantity], range: Range<usize>, quantities: &[Quantity]) -> Optio
         let begins = theirs.whole.start >= start || theirs.whole.start + 1 == start;
         // A quote that cannot be read gets a finding when it is read.
         let clear = mine.refused.is_some() || theirs.refused.is_none();
-        if !(inside && begins && clear && mine.says(theirs)) {
+        if !(inside && begins && clear && mine.states(theirs)) {
             return None;
         }
         let text = |q: &Quantity| q.unit.as_ref().map(|u| u.text.clone());
@@ -305,7 +305,7 @@ mod tests {
 
     /// The work grows with the text and not with the number of quotes.
     #[test]
-    fn many_quotes_cost_one_walk() {
+    fn many_quotes_cost_one_pass() {
         let text = "0.442 s and 0.4421 s; ".repeat(50_000);
         let mut search = Search::new();
         let all: Vec<usize> = (0..400).map(|i| search.add(&format!("0.442{i} s"))).collect();

@@ -1,8 +1,8 @@
 //! The prose of a Markdown lesson by paragraphs and cells, without labs, quizzes, listings and tags. A fence without a
 //! language, or of printed output, is kept verbatim.
 
-use super::hidden::Hidden;
-use super::html::{APART, mark, visible_text};
+use super::hidden::HiddenElement;
+use super::html::{TEXT_SEPARATOR, mark, visible_text};
 use super::table::{Table, Tables};
 use crate::markdown::html::tags;
 use crate::markdown::{self, Block, BlockKind};
@@ -13,7 +13,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 /// Languages of fences that contain the output of a program.
-const OUTPUT: [&str; 5] = ["", "text", "txt", "console", "output"];
+const OUTPUT_LANGUAGES: [&str; 5] = ["", "text", "txt", "console", "output"];
 
 /// Maximum number of bytes that are read, including repeated reading after damaged fences.
 const MAX_REREAD: usize = 64 << 20;
@@ -52,7 +52,7 @@ fn read(lesson: &Lesson) -> (Vec<Text>, Vec<Table>) {
         tables: Tables::default(),
         open: empty(),
         html: false,
-        hidden: Hidden::default(),
+        hidden: HiddenElement::default(),
         inline: false,
         unseen: 0,
         notes: notes(text),
@@ -103,7 +103,7 @@ struct Reader<'t> {
     /// The piece that is being read.
     open: Text,
     html: bool,
-    hidden: Hidden,
+    hidden: HiddenElement,
     /// Nesting depth of footnotes without a reference and of struck-out words.
     unseen: usize,
     /// The referenced footnotes.
@@ -222,7 +222,7 @@ impl Reader<'_> {
             if self.hidden.take_tag(&tag) {
                 self.inline |= !was_on;
             } else {
-                self.whole(mark(&tag).filter(|c| *c != APART), range.clone());
+                self.whole(mark(&tag).filter(|c| *c != TEXT_SEPARATOR), range.clone());
             }
         }
     }
@@ -288,7 +288,7 @@ impl Reader<'_> {
 }
 
 fn is_output(language: &str) -> bool {
-    OUTPUT.contains(&language.to_ascii_lowercase().as_str())
+    OUTPUT_LANGUAGES.contains(&language.to_ascii_lowercase().as_str())
 }
 
 /// Inline tags, which do not separate text.

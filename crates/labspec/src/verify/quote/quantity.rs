@@ -6,7 +6,7 @@ use super::context::before;
 use super::context_after::after;
 use super::number::{Form, Quoted, ten};
 use super::numeral::{Chars, Numeral, numbers};
-use super::unit_text::{Link, Unit, unit_behind};
+use super::unit_text::{Link, Unit, unit_after};
 use std::ops::Range;
 
 /// A quantity with its position, in characters.
@@ -15,9 +15,9 @@ pub(super) struct Quantity {
     /// Its number, with sign, power of ten and factor; both ends of a range.
     pub(super) quoted: Quoted,
     /// Other possible values of the number.
-    pub(super) doubts: Vec<f64>,
+    pub(super) ambiguities: Vec<f64>,
     /// Why it must not be reported as wrong.
-    pub(super) unsure: Option<&'static str>,
+    pub(super) is_ambiguous: Option<&'static str>,
     /// The whole quantity, including sign and unit.
     pub(super) whole: Range<usize>,
     /// Index of the first digit.
@@ -34,7 +34,7 @@ pub(super) struct Quantity {
 
 impl Quantity {
     /// Whether both state the same number, ignoring their units.
-    pub(super) fn says(&self, other: &Quantity) -> bool {
+    pub(super) fn states(&self, other: &Quantity) -> bool {
         let (a, b) = (&self.quoted, &other.quoted);
         a.value.to_bits() == b.value.to_bits() && a.half_unit == b.half_unit && a.form == b.form
     }
@@ -47,7 +47,7 @@ pub(super) fn quantities(chars: Chars<'_>) -> Vec<Quantity> {
 
 /// Like [`quantities`], but the ends of a range in words with two units (`between 0.4 s and 0.5 s`) are separate
 /// quantities, because a text states each of them.
-pub(super) fn quantities_apart(chars: Chars<'_>) -> Vec<Quantity> {
+pub(super) fn separate_quantities(chars: Chars<'_>) -> Vec<Quantity> {
     read(chars, true)
 }
 
@@ -94,12 +94,12 @@ fn read(chars: Chars<'_>, apart: bool) -> Vec<Quantity> {
 /// The numbers of a text with their units, without joining pairs.
 pub(super) fn singles(chars: Chars<'_>) -> Vec<Quantity> {
     let one = |(number, digits): (Numeral, usize)| {
-        let unit = unit_behind(chars, number.end);
+        let unit = unit_after(chars, number.end);
         let end = unit.as_ref().map_or(number.end, |(_, end)| *end);
         Quantity {
             quoted: number.quoted,
-            doubts: number.doubts,
-            unsure: number.unsure,
+            ambiguities: number.ambiguities,
+            is_ambiguous: number.is_ambiguous,
             whole: number.start..end,
             digits,
             number_end: number.end,
@@ -208,8 +208,8 @@ fn plus_minus(
 fn join_pair(first: &Quantity, second: &Quantity, form: Form, value: f64, unit: Option<Unit>) -> Pair {
     Pair::One(Quantity {
         quoted: Quoted { form, value, ..first.quoted },
-        doubts: Vec::new(),
-        unsure: first.unsure.or(second.unsure),
+        ambiguities: Vec::new(),
+        is_ambiguous: first.is_ambiguous.or(second.is_ambiguous),
         whole: first.whole.start..second.whole.end,
         number_end: if unit.is_some() && first.unit.is_some() { first.number_end } else { second.number_end },
         unit,

@@ -8,15 +8,15 @@ use super::{fold, html};
 
 /// The reading of a quote.
 #[derive(Clone, Debug, PartialEq)]
-pub(in crate::verify) struct Reading {
+pub(in crate::verify) struct QuoteReading {
     /// The number.
     pub(super) read: Quoted,
     /// The number as a fraction of one, for `50 %`.
     pub(super) share: Option<Quoted>,
     /// Other numbers that it may state, each with a reason.
-    pub(super) doubts: Vec<(Quoted, &'static str)>,
+    pub(super) ambiguities: Vec<(Quoted, &'static str)>,
     /// Why it must not be reported as wrong when it differs.
-    pub(super) unsure: Option<&'static str>,
+    pub(super) is_ambiguous: Option<&'static str>,
     /// Its unit, if it has one.
     pub(super) unit: Option<Unit>,
     /// Whether no number follows it in the quote. If so, and the quote has no unit, the unit after the quote in the text
@@ -24,7 +24,7 @@ pub(in crate::verify) struct Reading {
     pub(super) last: bool,
 }
 
-impl Reading {
+impl QuoteReading {
     /// The number.
     pub(in crate::verify) fn number(&self) -> &Quoted {
         &self.read
@@ -53,7 +53,7 @@ const MAX_QUOTE: usize = 120;
 /// # Errors
 /// It contains no number, or one in a form that cannot be read.
 pub fn quoted(text: &str) -> Result<Quoted, Unread> {
-    reading(text).map(|r| r.read)
+    read_quote(text).map(|r| r.read)
 }
 
 /// The visible characters of a quote.
@@ -64,7 +64,7 @@ fn characters(text: &str) -> Vec<char> {
 }
 
 /// The number that a quote states, with its other possible readings.
-pub(in crate::verify) fn reading(text: &str) -> Result<Reading, Unread> {
+pub(in crate::verify) fn read_quote(text: &str) -> Result<QuoteReading, Unread> {
     let chars = characters(text);
     if chars.len() > MAX_QUOTE {
         return Err(Unread::Form("a text as long as a paragraph"));
@@ -86,16 +86,16 @@ pub(in crate::verify) fn reading(text: &str) -> Result<Reading, Unread> {
     let others = all.get(at + 1..).unwrap_or_default();
     reading.last = others.is_empty();
     if !matches!(reading.read.form, Form::PlusMinus(..) | Form::Range(..)) {
-        reading.doubts.extend(others.iter().map(|q| (q.quoted, several)));
+        reading.ambiguities.extend(others.iter().map(|q| (q.quoted, several)));
         if !others.is_empty() {
-            reading.unsure = reading.unsure.or(Some(several));
+            reading.is_ambiguous = reading.is_ambiguous.or(Some(several));
         }
     }
     Ok(reading)
 }
 
 /// The reading of one quantity.
-fn of_quantity(q: &Quantity) -> Result<Reading, Unread> {
+fn of_quantity(q: &Quantity) -> Result<QuoteReading, Unread> {
     if let Some(form) = q.refused {
         return Err(Unread::Form(form));
     }
@@ -106,11 +106,11 @@ fn of_quantity(q: &Quantity) -> Result<Reading, Unread> {
         Form::Plain(Style { group: Some(','), .. }) => "its comma may separate thousands or decimals",
         _ => "its space may separate thousands or two numbers",
     };
-    Ok(Reading {
+    Ok(QuoteReading {
         read: q.quoted,
         share: q.unit.as_ref().and_then(|unit| as_share(&q.quoted, unit)),
-        doubts: q.doubts.iter().map(|&value| (Quoted { value, ..q.quoted }, why)).collect(),
-        unsure: q.unsure,
+        ambiguities: q.ambiguities.iter().map(|&value| (Quoted { value, ..q.quoted }, why)).collect(),
+        is_ambiguous: q.is_ambiguous,
         unit: q.unit.clone(),
         last: false,
     })
@@ -127,12 +127,12 @@ fn last_equals(chars: Chars<'_>, all: &[Quantity]) -> Option<usize> {
 pub(in crate::verify) struct QuotePart {
     /// Its text, for messages.
     pub(in crate::verify) text: String,
-    pub(in crate::verify) reading: Result<Reading, Unread>,
+    pub(in crate::verify) reading: Result<QuoteReading, Unread>,
 }
 
 /// A quote as one part.
 pub(in crate::verify) fn whole(text: &str) -> QuotePart {
-    QuotePart { text: text.to_string(), reading: reading(text) }
+    QuotePart { text: text.to_string(), reading: read_quote(text) }
 }
 
 /// The parts of a text that state one number each, in order. A range is one part, unless its two ends give the `wanted`
@@ -153,7 +153,7 @@ pub(in crate::verify) fn parts(text: &str, wanted: usize) -> Vec<QuotePart> {
     let last = all.len().saturating_sub(1);
     let part = |(i, q): (usize, &Quantity)| QuotePart {
         text: text_of(i),
-        reading: of_quantity(q).map(|reading| Reading { last: i == last, ..reading }),
+        reading: of_quantity(q).map(|reading| QuoteReading { last: i == last, ..reading }),
     };
     all.iter().enumerate().map(part).collect()
 }

@@ -3,8 +3,8 @@
 use super::*;
 use proptest::prelude::*;
 
-fn read(text: &str) -> Reading {
-    reading(text).unwrap_or_else(|e| panic!("{text}: {e:?}"))
+fn read(text: &str) -> QuoteReading {
+    read_quote(text).unwrap_or_else(|e| panic!("{text}: {e:?}"))
 }
 
 /// The value, and half a unit of the last digit.
@@ -14,7 +14,7 @@ fn plain(text: &str) -> (f64, f64) {
 }
 
 fn refused(text: &str) -> &'static str {
-    match reading(text) {
+    match read_quote(text) {
         Err(Unread::Form(form)) => form,
         other => panic!("{text}: {other:?}"),
     }
@@ -87,12 +87,12 @@ fn numbers_are_read_as_printed() {
         );
     }
     for none in ["none", "", "half a second", "H2O", "x_1 and t2", "$L^2$", "in 3D", "#3", "=", "-", "."] {
-        assert_eq!(reading(none), Err(Unread::NoNumber), "{none}");
+        assert_eq!(read_quote(none), Err(Unread::NoNumber), "{none}");
     }
 }
 
 #[test]
-fn a_plus_minus_and_a_range_hold_what_lies_in_them() {
+fn a_plus_minus_and_a_range_contain_their_interval() {
     for (text, low, high) in [
         ("0.44 ± 0.01 s", 0.43, 0.45),
         ("0.44 +/- 0.01 s", 0.43, 0.45),
@@ -136,17 +136,17 @@ fn a_percentage_is_a_number_or_a_fraction_of_one() {
 }
 
 #[test]
-fn what_may_mean_two_things_is_not_called_wrong() {
-    let doubts = |text| read(text).doubts.iter().map(|(q, _)| q.value).collect::<Vec<_>>();
-    assert_eq!(doubts("1,500"), [1.5]);
-    assert_eq!(doubts("2 500 N"), [2.0, 500.0]);
-    assert_eq!(doubts("0.442 s with 2 ms"), [2.0]);
-    assert_eq!(doubts("1,500,000"), Vec::<f64>::new());
-    assert_eq!(doubts("a = 3 m + 2 m = 5 m"), Vec::<f64>::new());
+fn ambiguous_numbers_are_not_called_wrong() {
+    let ambiguities = |text| read(text).ambiguities.iter().map(|(q, _)| q.value).collect::<Vec<_>>();
+    assert_eq!(ambiguities("1,500"), [1.5]);
+    assert_eq!(ambiguities("2 500 N"), [2.0, 500.0]);
+    assert_eq!(ambiguities("0.442 s with 2 ms"), [2.0]);
+    assert_eq!(ambiguities("1,500,000"), Vec::<f64>::new());
+    assert_eq!(ambiguities("a = 3 m + 2 m = 5 m"), Vec::<f64>::new());
     for text in ["3,5 m", "1,44", "0.442 s with 2 ms"] {
-        assert!(read(text).unsure.is_some(), "{text}");
+        assert!(read(text).is_ambiguous.is_some(), "{text}");
     }
-    assert_eq!(read("0,442 s").unsure, None);
+    assert_eq!(read("0,442 s").is_ambiguous, None);
 }
 
 #[test]
@@ -184,7 +184,7 @@ fn other_forms_are_refused_by_name() {
 }
 
 #[test]
-fn units_are_seen() {
+fn units_are_read() {
     for (text, unit) in [
         ("0.83 mm", "mm"),
         ("0.83mm", "mm"),
@@ -251,8 +251,8 @@ fn printed() -> impl Strategy<Value = (String, f64, f64)> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(3000))]
     #[test]
-    fn what_is_printed_is_read((text, value, half) in printed()) {
-        let q = match reading(&text) {
+    fn printed_numbers_are_read_back((text, value, half) in printed()) {
+        let q = match read_quote(&text) {
             Ok(r) => r.read,
             Err(e) => return Err(TestCaseError::fail(format!("{text}: {e:?}"))),
         };
@@ -260,14 +260,14 @@ proptest! {
         prop_assert!((q.half_unit - half).abs() <= 1e-12 * half, "{}: half a unit {} and not {}", text, q.half_unit, half);
         prop_assert!(q.is(value) && q.is(value + 0.99 * half) && !q.is(value + 1.01 * half), "{}", text);
         // The printed value is read as the same number.
-        let again = reading(&q.print(value)).unwrap().read;
+        let again = read_quote(&q.print(value)).unwrap().read;
         prop_assert!((again.value - value).abs() <= 2.0 * half, "{}: {}", text, q.print(value));
     }
 
     #[test]
     fn nothing_written_is_a_panic(text in "[-–0-9.,' eE×x^±+/:()=%½{}$\\\\<>&;a-cs\u{a0}²₁]{0,40}", x in any::<f64>(), any in "\\PC{0,60}") {
         for text in [text, any] {
-            if let Ok(r) = reading(&text) {
+            if let Ok(r) = read_quote(&text) {
                 r.read.print(x);
                 r.read.is(x);
                 r.read.differ(x, 1.0);

@@ -28,7 +28,7 @@ fn places(markdown: &str, quote: &str) -> Vec<String> {
 }
 
 #[test]
-fn prose_is_shown_as_a_reader_sees_it() {
+fn prose_is_rendered_as_on_a_page() {
     for markdown in [
         "It takes 0.442 s.",
         "# After 0.442 s",
@@ -65,7 +65,7 @@ fn prose_is_shown_as_a_reader_sees_it() {
 }
 
 #[test]
-fn what_no_reader_sees_is_no_place() {
+fn hidden_text_is_not_a_place() {
     for markdown in [
         "It takes 0.443 s.",
         "```python\nt = 0.442 s\n```",
@@ -107,7 +107,7 @@ fn labs_show_their_labels_and_not_their_code() {
 }
 
 #[test]
-fn what_stands_only_in_code_is_told() {
+fn quotes_found_only_in_code_are_reported() {
     let lesson = lesson("```python\nt = '0.4425 s'\n```", &["0.4425 s", "0.442 s", "7.5 s"]);
     let rendered = RenderedText::of_lesson(&lesson);
     assert_eq!(lesson.file.slice(rendered.hidden("0.4425 s").unwrap()), "0.4425 s");
@@ -115,7 +115,7 @@ fn what_stands_only_in_code_is_told() {
 }
 
 #[test]
-fn prose_behind_a_damaged_fence_is_shown() {
+fn prose_after_a_damaged_fence_is_rendered() {
     let markdown =
         "```lab\n{\"model\": \"a\"}\nIt takes 0.442 s.\n\n```quiz\n{\"id\": \"q\", \"questions\": []}\n```\n";
     assert_eq!(places(markdown, "0.442 s"), ["0.442 s"]);
@@ -136,7 +136,7 @@ fn many_quotes_in_a_large_lesson_are_found() {
 }
 
 #[test]
-fn hostile_texts_are_survived() {
+fn hostile_texts_cause_no_panic() {
     for text in [
         "<a <a <a",
         "&#;&#;&#",

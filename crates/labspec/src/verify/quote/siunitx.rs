@@ -8,14 +8,14 @@ use nom::sequence::delimited;
 use nom::{IResult, Parser};
 
 /// Maximum length of an argument, in bytes.
-const LONG: usize = 80;
+const MAX_ARGUMENT_LENGTH: usize = 80;
 
 /// The rendered text of the command at the beginning of a text.
 pub(super) fn quantity(text: &str) -> IResult<&str, String> {
     let (rest, name) = tex::command(text)?;
-    let options = delimited(char('['), take_while_m_n(0, LONG, |c| c != ']'), char(']'));
+    let options = delimited(char('['), take_while_m_n(0, MAX_ARGUMENT_LENGTH, |c| c != ']'), char(']'));
     let (rest, _) = opt(options).parse(rest)?;
-    let argument = |text| tex::group(text, LONG);
+    let argument = |text| tex::group(text, MAX_ARGUMENT_LENGTH);
     let number = || map_opt(argument, number);
     let unit = || map_opt(argument, unit);
     match name {
@@ -97,7 +97,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn commands_are_shown_as_a_page_shows_them() {
+    fn commands_are_rendered_as_on_a_page() {
         for (text, expected) in [
             ("\\SI{0.5}{s}", "0.5 s"),
             ("\\SI{0.5}{\\second}", "0.5 s"),

@@ -1,11 +1,11 @@
 //! The numbers that a lesson states: every rendered number, with its unit and context.
 
 use super::context::BOUND;
-use super::markdown_cell::{LONG, MarkdownCell, unit_of_head};
+use super::markdown_cell::{MAX_ROW_LENGTH, MarkdownCell, unit_of_head};
 use super::number::Quoted;
 use super::numeral::Chars;
 use super::pieces::rendered_pieces;
-use super::quantity::quantities_apart;
+use super::quantity::separate_quantities;
 use super::read::quoted;
 use super::rendered::RenderedText;
 use super::table_cells::cells_of_column;
@@ -46,7 +46,7 @@ pub struct Stated {
 }
 
 /// Maximum number of numbers of one lesson.
-const MOST: usize = 1000;
+const MAX_NUMBERS: usize = 1000;
 
 /// Every number with a unit in the rendered text of a lesson, and the answers of its numeric questions.
 pub fn stated(lesson: &Lesson) -> Vec<Stated> {
@@ -55,7 +55,7 @@ pub fn stated(lesson: &Lesson) -> Vec<Stated> {
         if text.value.contains(|c: char| c.is_ascii_digit()) {
             add_numbers(lesson, &text, &mut all);
         }
-        if all.len() > MOST {
+        if all.len() > MAX_NUMBERS {
             break;
         }
     }
@@ -79,7 +79,7 @@ pub fn stated(lesson: &Lesson) -> Vec<Stated> {
             answer: true,
         })
     }));
-    all.truncate(MOST);
+    all.truncate(MAX_NUMBERS);
     all.sort_by_key(|s| (s.span.start, s.span.end));
     all
 }
@@ -138,12 +138,12 @@ fn add_numbers(lesson: &Lesson, text: &Text, all: &mut Vec<Stated>) {
     let (folded, map) = fold::fold(&text.value, false);
     let chars: Vec<char> = folded.chars().collect();
     let bytes: Vec<usize> = folded.char_indices().map(|(at, _)| at).chain([folded.len()]).collect();
-    let found = quantities_apart(Chars(&chars));
+    let found = separate_quantities(Chars(&chars));
     for q in found.into_iter().rev() {
         let byte = |i: usize| bytes.get(i).copied();
         let (Some(start), Some(end)) = (byte(q.whole.start), byte(q.whole.end)) else { continue };
         let Some(number_end) = byte(q.number_end) else { continue };
-        if all.len() > MOST {
+        if all.len() > MAX_NUMBERS {
             return;
         }
         let bound = q.refused == Some(BOUND);
@@ -192,7 +192,7 @@ fn around<'t>(text: &'t str, at: &mut usize) -> &'t str {
         }
         i
     };
-    let (from, to) = (edge(at.saturating_sub(LONG)), edge((*at + LONG).min(text.len())));
+    let (from, to) = (edge(at.saturating_sub(MAX_ROW_LENGTH)), edge((*at + MAX_ROW_LENGTH).min(text.len())));
     *at -= from;
     text.get(from..to).unwrap_or("")
 }

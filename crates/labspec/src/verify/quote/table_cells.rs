@@ -59,6 +59,6 @@ pub(in crate::verify) fn cells_of_column(
 }
 
 /// Whether two texts are rendered equally.
-pub(in crate::verify) fn reads_the_same(a: &str, b: &str) -> bool {
+pub(in crate::verify) fn is_rendered_equally(a: &str, b: &str) -> bool {
     table::rendered(a) == table::rendered(b)
 }

@@ -8,7 +8,7 @@ use labspec_expr::dimension::Dimension;
 
 /// How a unit relates to the dimension of an expression.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::verify) enum Held {
+pub(in crate::verify) enum UnitMatch {
     /// The unit agrees, or the values can be converted to it.
     Fits,
     /// The unit certainly differs.
@@ -20,13 +20,13 @@ pub(in crate::verify) enum Held {
 }
 
 /// Compares a unit with the dimension of an expression.
-pub(in crate::verify) fn hold(unit: &Unit, found: Option<&Dimension>) -> Held {
-    let Some(found) = found else { return Held::Unknown };
-    let wrong = if unit.link == Link::Clause { Held::Unsure } else { Held::Wrong };
+pub(in crate::verify) fn hold(unit: &Unit, found: Option<&Dimension>) -> UnitMatch {
+    let Some(found) = found else { return UnitMatch::Unknown };
+    let wrong = if unit.link == Link::Clause { UnitMatch::Unsure } else { UnitMatch::Wrong };
     let Some(wanted) = &unit.dimension else {
         let other = units::is_unit(&unit.text);
         let certain = found.is_exact() && !found.is_number();
-        return if other && certain { wrong } else { Held::Unknown };
+        return if other && certain { wrong } else { UnitMatch::Unknown };
     };
     // The unit radian may be omitted, but another power of it is wrong.
     let angle = wanted.angle();
@@ -40,13 +40,13 @@ pub(in crate::verify) fn hold(unit: &Unit, found: Option<&Dimension>) -> Held {
     // Hertz counts turns, which are not radians.
     let turns = unit.text.contains("Hz") && found.is_exact() && found.has_angle() && found.agrees(wanted);
     if !contradicts(found, wanted) && !turns {
-        return Held::Fits;
+        return UnitMatch::Fits;
     }
     match unit.link == Link::Clause
         || unit.is_doubtful() && unit.link == Link::Direct && !found.agrees(wanted)
     {
-        true => Held::Unsure,
-        false => Held::Wrong,
+        true => UnitMatch::Unsure,
+        false => UnitMatch::Wrong,
     }
 }
 
@@ -111,9 +111,9 @@ pub(in crate::verify) fn answer_unit(text: Option<&str>, found: Option<Dimension
     }
     let unit = Unit { text: plain, dimension: read.dimension, link: Link::Shared };
     match hold(&unit, Some(&found)) {
-        Held::Fits => AnswerUnit::Equal(1.0),
-        Held::Wrong | Held::Unsure => AnswerUnit::Wrong(unit.text, written(&found)),
-        Held::Unknown => AnswerUnit::Unknown,
+        UnitMatch::Fits => AnswerUnit::Equal(1.0),
+        UnitMatch::Wrong | UnitMatch::Unsure => AnswerUnit::Wrong(unit.text, written(&found)),
+        UnitMatch::Unknown => AnswerUnit::Unknown,
     }
 }
 

@@ -60,11 +60,11 @@ impl Unit {
 }
 
 /// Maximum length of a unit, in characters.
-const LONG: usize = 40;
+const MAX_UNIT_LENGTH: usize = 40;
 
 /// The unit after a number that ends at index `end`, and the index where it ends.
-pub(super) fn unit_behind(chars: Chars<'_>, end: usize) -> Option<(Unit, usize)> {
-    let text = chars.text(end, end + LONG);
+pub(super) fn unit_after(chars: Chars<'_>, end: usize) -> Option<(Unit, usize)> {
+    let text = chars.text(end, end + MAX_UNIT_LENGTH);
     let line = text.split('\n').next().unwrap_or("");
     let (rest, unit) = unit(line).ok()?;
     Some((unit, end + line.chars().count() - rest.chars().count()))

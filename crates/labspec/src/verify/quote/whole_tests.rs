@@ -21,7 +21,7 @@ fn state(text: &str, quote: &str, computed: f64, unit: &str) -> QuoteState {
     let claim = QuoteClaim { quote: &says.quote, part: says.quote.as_str(), expr: &says.exprs[0] };
     let places = places_of_quote(&says.quote, None, &rendered);
     let mut findings = Vec::new();
-    let outcome = check_quote(&claim, &reading(quote), places, &value, &rendered, &mut findings);
+    let outcome = check_quote(&claim, &read_quote(quote), places, &value, &rendered, &mut findings);
     assert_eq!(
         outcome.state == QuoteState::Right,
         findings.iter().all(|f| !f.is_error() && f.code != "quote-not-found"),

@@ -144,11 +144,11 @@ fn check_faces(raw: &Raw, body: Body) -> Result<(), Problem> {
             ));
         }
     }
-    if body == Body::Exact { check_sense(raw) } else { Ok(()) }
+    if body == Body::Exact { check_orientation(raw) } else { Ok(()) }
 }
 
 /// Checks that neighbouring triangles have the same orientation: the two traverse their common edge in opposite directions.
-fn check_sense(raw: &Raw) -> Result<(), Problem> {
+fn check_orientation(raw: &Raw) -> Result<(), Problem> {
     let corner = |v: i32| raw.vert.get(v as usize).copied().unwrap_or_default();
     let solid = |f: &&[i32; 3]| triangle(f.map(corner)).0 > libm::sqrt(MINVAL);
     let mut edges: Vec<(i32, i32)> =
@@ -202,7 +202,7 @@ fn mass(vert: &[Vec3], face: &[[i32; 3]], solid: &[[i32; 3]], body: Body) -> Res
         ));
     }
     let solid = if body == Body::Shell { face } else { solid };
-    let (amount, centre) = bulk::bulk(triangles(solid), body, middle);
+    let (amount, centre) = bulk::volume_and_centre(triangles(solid), body, middle);
     if amount < 0.0 {
         return Err(Problem::new(
             "face",
@@ -219,5 +219,5 @@ fn mass(vert: &[Vec3], face: &[[i32; 3]], solid: &[[i32; 3]], body: Body) -> Res
             "check `scale`: the mesh is in metres; for an open or flat surface write `inertia=\"shell\"`",
         ));
     }
-    Ok(bulk::about(triangles(solid), body, centre))
+    Ok(bulk::inertia_about(triangles(solid), body, centre))
 }

@@ -23,7 +23,7 @@ const RULES: [(&str, &[&str]); 7] = [
 ];
 
 /// The highest resolution of a side.
-const FINEST: f64 = 500.0;
+const MAX_RESOLUTION: f64 = 500.0;
 
 /// Generates a mesh. Also returns whether it is an open surface without volume.
 pub(crate) fn make(rule: &str, params: &[f64]) -> Result<(Raw, bool), Problem> {
@@ -78,11 +78,11 @@ fn ranges(rule: &str) -> &'static [(f64, f64)] {
     match rule {
         "sphere" => &[(0.0, 4.0)],
         "hemisphere" => &[(0.0, 10.0)],
-        "cone" => &[(3.0, FINEST), (0.0, 1e6)],
-        "supersphere" => &[(3.0, FINEST), (0.0, 100.0), (0.0, 100.0)],
-        "supertorus" => &[(4.0, FINEST), (TINY, 1.0), (TINY, 100.0), (TINY, 100.0)],
-        "wedge" => &[(1.0, FINEST), (1.0, FINEST), (TINY, 180.0), (TINY, 90.0), (0.0, 1.0)],
-        _ => &[(1.0, FINEST), (1.0, FINEST)],
+        "cone" => &[(3.0, MAX_RESOLUTION), (0.0, 1e6)],
+        "supersphere" => &[(3.0, MAX_RESOLUTION), (0.0, 100.0), (0.0, 100.0)],
+        "supertorus" => &[(4.0, MAX_RESOLUTION), (TINY, 1.0), (TINY, 100.0), (TINY, 100.0)],
+        "wedge" => &[(1.0, MAX_RESOLUTION), (1.0, MAX_RESOLUTION), (TINY, 180.0), (TINY, 90.0), (0.0, 1.0)],
+        _ => &[(1.0, MAX_RESOLUTION), (1.0, MAX_RESOLUTION)],
     }
 }
 
@@ -135,7 +135,7 @@ fn sphere(subdivision: usize) -> Raw {
             let mut cut = |a: i32, b: i32| {
                 *middles.entry((a.min(b), a.max(b))).or_insert_with(|| {
                     let corner = |i: i32| vert.get(i as usize).copied().unwrap_or_default();
-                    vert.push(middle(corner(a), corner(b)));
+                    vert.push(sphere_midpoint(corner(a), corner(b)));
                     vert.len() as i32 - 1
                 })
             };
@@ -148,7 +148,7 @@ fn sphere(subdivision: usize) -> Raw {
 }
 
 /// The point on the unit sphere halfway between two others, in single precision as in MuJoCo.
-fn middle(a: Vec3, b: Vec3) -> Vec3 {
+fn sphere_midpoint(a: Vec3, b: Vec3) -> Vec3 {
     let m = [0, 1, 2].map(|i| 0.5 * (a[i] as f32 + b[i] as f32));
     let length = (m[0] * m[0] + m[1] * m[1] + m[2] * m[2]).sqrt();
     m.map(|x| f64::from(x / length))
@@ -273,7 +273,7 @@ fn supertorus(res: usize, radius: f64, s: f64, t: f64) -> Raw {
 
 /// The midpoints of cells that divide the interval from -1 to 1. A polynomial of fifth degree with weight `gamma` moves them
 /// towards the centre.
-fn middles(count: usize, gamma: f64) -> impl Iterator<Item = f64> + Clone {
+fn cell_midpoints(count: usize, gamma: f64) -> impl Iterator<Item = f64> + Clone {
     let edge = move |i: usize| {
         let x = -1.0 + 2.0 * i as f64 / count as f64;
         gamma * libm::pow(x, 5.0) + (1.0 - gamma) * x
@@ -284,9 +284,9 @@ fn middles(count: usize, gamma: f64) -> impl Iterator<Item = f64> + Clone {
 /// Directions from a point, on the unit sphere around it, each with a normal and two tangents.
 fn wedge([columns, rows]: [usize; 2], [wide, high]: [f64; 2], gamma: f64) -> Raw {
     let mut raw = Raw::default();
-    for x in middles(columns, gamma) {
+    for x in cell_midpoints(columns, gamma) {
         let (sh, ch) = libm::sincos(x * wide * PI / 180.0);
-        for y in middles(rows, gamma) {
+        for y in cell_midpoints(rows, gamma) {
             let (sv, cv) = libm::sincos(y * high * PI / 180.0);
             let out = [sh * cv, sv, -ch * cv];
             raw.vert.push(out);
@@ -299,8 +299,8 @@ fn wedge([columns, rows]: [usize; 2], [wide, high]: [f64; 2], gamma: f64) -> Raw
 /// The midpoints of the cells of a square, each with a normal and two tangents.
 fn plate([columns, rows]: [usize; 2]) -> Raw {
     let mut raw = Raw::default();
-    for x in middles(columns, 0.0) {
-        for y in middles(rows, 0.0) {
+    for x in cell_midpoints(columns, 0.0) {
+        for y in cell_midpoints(rows, 0.0) {
             raw.vert.push([x, y, -1.0]);
             raw.normal.extend([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
         }

@@ -61,11 +61,15 @@ impl Body {
 
 /// Area and centre of area.
 pub(super) fn surface(triangles: impl Iterator<Item = Triangle>) -> (f64, Vec3) {
-    bulk(triangles, Body::Shell, [0.0; 3])
+    volume_and_centre(triangles, Body::Shell, [0.0; 3])
 }
 
 /// Volume or area, and centre of mass, from simplexes with the apex `apex`.
-pub(super) fn bulk(triangles: impl Iterator<Item = Triangle>, body: Body, apex: Vec3) -> (f64, Vec3) {
+pub(super) fn volume_and_centre(
+    triangles: impl Iterator<Item = Triangle>,
+    body: Body,
+    apex: Vec3,
+) -> (f64, Vec3) {
     let (mut total, mut first) = (0.0, [0.0; 3]);
     for t in triangles {
         let [a, b, c] = t.map(|p| sub(p, apex));
@@ -77,7 +81,7 @@ pub(super) fn bulk(triangles: impl Iterator<Item = Triangle>, body: Body, apex: 
 }
 
 /// Volume or area, and inertia about `centre`, from simplexes with this apex.
-pub(super) fn about(triangles: impl Iterator<Item = Triangle>, body: Body, centre: Vec3) -> Mass {
+pub(super) fn inertia_about(triangles: impl Iterator<Item = Triangle>, body: Body, centre: Vec3) -> Mass {
     let corners = body.corners();
     let (mut amount, mut second) = (0.0, [[0.0; 3]; 3]);
     for t in triangles {
@@ -119,8 +123,8 @@ mod tests {
             let [x, y, z] = half.map(|h: f64| h * h / 3.0);
             let volume: f64 = 8.0 * half.iter().product::<f64>();
             let triangles = || cuboid(half, at).into_iter();
-            let (found, centre) = bulk(triangles(), Body::Exact, apex);
-            let mass = about(triangles(), Body::Exact, centre);
+            let (found, centre) = volume_and_centre(triangles(), Body::Exact, apex);
+            let mass = inertia_about(triangles(), Body::Exact, centre);
             let want = [y + z, x + z, x + y, 0.0, 0.0, 0.0].map(|m| m * volume);
             prop_assert!((found / volume - 1.0).abs() < 1e-9 && (mass.amount / volume - 1.0).abs() < 1e-12);
             for i in 0..3 {

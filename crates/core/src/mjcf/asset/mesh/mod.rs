@@ -65,7 +65,7 @@ pub(crate) struct Mesh {
 impl Mesh {
     /// Centre and half lengths of the box that contains the vertices, m.
     pub(crate) fn aabb(&self) -> [f64; 6] {
-        let ([a, b, c], [x, y, z]) = (self.middle(), scale(sub(self.upper, self.lower), 0.5));
+        let ([a, b, c], [x, y, z]) = (self.centre(), scale(sub(self.upper, self.lower), 0.5));
         [a, b, c, x, y, z]
     }
 
@@ -80,15 +80,15 @@ impl Mesh {
         [y + z, x + z, x + y]
     }
 
-    fn middle(&self) -> Vec3 {
+    fn centre(&self) -> Vec3 {
         scale(add(self.upper, self.lower), 0.5)
     }
 
     /// A primitive shape that replaces the mesh: its centre, in the frame in which the data were given, and its sizes. The shape
     /// is fitted to the inertia, or to the bounding box. `None` for a type without volume.
     pub(crate) fn fit(&self, kind: i32, bounding: bool) -> Option<(Vec3, Vec3)> {
-        let size = if bounding { self.around(kind)? } else { self.equivalent(kind)? };
-        let centre = if bounding { add(self.pos, rotate(self.middle(), self.quat)) } else { self.pos };
+        let size = if bounding { self.enclosing_size(kind)? } else { self.equivalent(kind)? };
+        let centre = if bounding { add(self.pos, rotate(self.centre(), self.quat)) } else { self.pos };
         Some((centre, size))
     }
 
@@ -107,8 +107,8 @@ impl Mesh {
 
     /// Sizes of the shape, centred at the centre of the bounding box, that contains every vertex. Those of an ellipsoid are
     /// the sizes of the box.
-    fn around(&self, kind: i32) -> Option<Vec3> {
-        let middle = self.middle();
+    fn enclosing_size(&self, kind: i32) -> Option<Vec3> {
+        let middle = self.centre();
         let largest = |of: &dyn Fn(Vec3) -> f64| {
             self.shape.vert.iter().fold(0.0_f64, |largest, &v| largest.max(of(sub(v, middle))))
         };

@@ -44,8 +44,8 @@ pub(crate) enum Flat {
 impl Hull {
     /// The hull of finite points. If `most` is given, it has at most this many corners: those farthest outside are added first.
     pub(crate) fn from_points(points: &[Vec3], most: Option<usize>) -> Result<Hull, Flat> {
-        let mut growing = Growing::new(points)?;
-        growing.grow(most.unwrap_or(usize::MAX))?;
+        let mut growing = PartialHull::new(points)?;
+        growing.add_farthest_points(most.unwrap_or(usize::MAX))?;
         Ok(growing.finish())
     }
 
@@ -93,10 +93,10 @@ struct Face {
     plane: Plane,
     /// The points above this face that are above no earlier face. The highest is the last.
     above: Vec<u32>,
-    alive: bool,
+    is_on_hull: bool,
 }
 
-struct Growing {
+struct PartialHull {
     points: Vec<Point>,
     /// Grid steps per unit of the world.
     steps: Vec3,
@@ -109,12 +109,12 @@ struct Growing {
     begins: Vec<u32>,
 }
 
-impl Growing {
+impl PartialHull {
     /// Starts with a tetrahedron of points that are far apart.
-    fn new(points: &[Vec3]) -> Result<Growing, Flat> {
+    fn new(points: &[Vec3]) -> Result<PartialHull, Flat> {
         let (points, steps) = on_grid(points);
         let indices = || 0..points.len() as u32;
-        let mut g = Growing {
+        let mut g = PartialHull {
             steps,
             faces: Vec::new(),
             corners: 4,
@@ -148,7 +148,7 @@ impl Growing {
         for (corner, beyond) in sides {
             g.add(corner, beyond);
         }
-        g.hand_out(listed(0..g.points.len() as u32), 0);
+        g.assign_to_faces(listed(0..g.points.len() as u32), 0);
         Ok(g)
     }
 
@@ -168,11 +168,11 @@ impl Growing {
 
     fn add(&mut self, corner: [u32; 3], beyond: [u32; 3]) {
         let plane = self.plane_of(corner.map(|i| self.point(i)));
-        self.faces.push(Face { corner, beyond, plane, above: Vec::new(), alive: true });
+        self.faces.push(Face { corner, beyond, plane, above: Vec::new(), is_on_hull: true });
     }
 
     /// Assigns each point to the first face, from index `first` on, that it is above. Points above no face are inside.
-    fn hand_out(&mut self, points: Vec<u32>, first: usize) {
+    fn assign_to_faces(&mut self, points: Vec<u32>, first: usize) {
         let mut highest: Vec<i128> = vec![0; self.faces.len() - first];
         for p in points {
             let at = self.point(p);
@@ -206,14 +206,14 @@ impl Growing {
     fn compact(&mut self) {
         let mut place = 0;
         let places: Vec<u32> = listed(self.faces.iter().map(|f| {
-            if f.alive {
+            if f.is_on_hull {
                 place += 1;
                 place - 1
             } else {
                 NONE
             }
         }));
-        self.faces.retain(|f| f.alive);
+        self.faces.retain(|f| f.is_on_hull);
         for face in &mut self.faces {
             face.beyond = face.beyond.map(|i| places.get(i as usize).copied().unwrap_or(NONE));
         }
@@ -222,18 +222,18 @@ impl Growing {
     }
 
     /// Adds the point that is farthest outside, until no point is outside or the limit of corners is reached.
-    fn grow(&mut self, most: usize) -> Result<(), Flat> {
+    fn add_farthest_points(&mut self, most: usize) -> Result<(), Flat> {
         while self.corners < most
             && let Some((_, std::cmp::Reverse(start))) = self.open.pop()
         {
-            let Some(&apex) = self.face(start).filter(|f| f.alive).and_then(|f| f.above.last()) else {
+            let Some(&apex) = self.face(start).filter(|f| f.is_on_hull).and_then(|f| f.above.last()) else {
                 continue;
             };
             if self.tests > MOST_TESTS {
                 return Err(Flat::Endless);
             }
             self.corners += 1;
-            self.cover(start, apex);
+            self.replace_visible_faces(start, apex);
             // A closed surface of triangles has twice as many faces as corners, minus four.
             if self.faces.len() > 8 * self.corners + 1000 {
                 self.compact();
@@ -243,25 +243,25 @@ impl Growing {
     }
 
     /// Replaces the faces that are visible from a point by a cone from their border to the point.
-    fn cover(&mut self, start: u32, apex: u32) {
+    fn replace_visible_faces(&mut self, start: u32, apex: u32) {
         let at = self.point(apex);
         let mut border: Vec<(u32, u32, u32)> = Vec::new();
         let mut orphans = Vec::new();
         let mut stack = vec![start];
         if let Some(face) = self.faces.get_mut(start as usize) {
-            face.alive = false;
+            face.is_on_hull = false;
         }
         while let Some(i) = stack.pop() {
             let Some(face) = self.faces.get_mut(i as usize) else { continue };
             orphans.append(&mut face.above);
             let (corner, beyond) = (face.corner, face.beyond);
             for k in 0..3 {
-                let Some(other) = self.faces.get_mut(beyond[k] as usize).filter(|f| f.alive) else {
+                let Some(other) = self.faces.get_mut(beyond[k] as usize).filter(|f| f.is_on_hull) else {
                     continue;
                 };
                 self.tests += 1;
                 if other.plane.height(at) > 0 {
-                    other.alive = false;
+                    other.is_on_hull = false;
                     stack.push(beyond[k]);
                 }
             }
@@ -269,7 +269,7 @@ impl Growing {
                 border.push((corner[k], corner[(k + 1) % 3], beyond[k]));
             }
         }
-        border.retain(|&(_, _, outer)| self.face(outer).is_some_and(|f| f.alive));
+        border.retain(|&(_, _, outer)| self.face(outer).is_some_and(|f| f.is_on_hull));
         let first = self.faces.len();
         for (i, &(a, _, _)) in border.iter().enumerate() {
             if let Some(begins) = self.begins.get_mut(a as usize) {
@@ -294,7 +294,7 @@ impl Growing {
             }
         }
         orphans.retain(|&p| p != apex);
-        self.hand_out(orphans, first);
+        self.assign_to_faces(orphans, first);
     }
 
     /// Merges coplanar triangles into one flat face. A corner is a point where three or more flat faces meet.
@@ -303,7 +303,7 @@ impl Growing {
         let mut side: Vec<u32> = vec![NONE; self.faces.len()];
         let mut sides = 0;
         for start in 0..self.faces.len() {
-            if side[start] != NONE || !self.faces[start].alive {
+            if side[start] != NONE || !self.faces[start].is_on_hull {
                 continue;
             }
             let plane = self.faces[start].plane;
@@ -324,7 +324,7 @@ impl Growing {
         let mut borders: BTreeMap<(u32, u32), u32> = BTreeMap::new();
         // The number of flat faces that meet at each point.
         let mut meet = vec![0_u32; self.points.len()];
-        for (face, &this_side) in self.faces.iter().zip(&side).filter(|(f, _)| f.alive) {
+        for (face, &this_side) in self.faces.iter().zip(&side).filter(|(f, _)| f.is_on_hull) {
             for k in 0..3 {
                 if side.get(face.beyond[k] as usize) != Some(&this_side) {
                     borders.insert((this_side, face.corner[k]), face.corner[(k + 1) % 3]);
@@ -423,7 +423,7 @@ mod tests {
     }
 
     #[test]
-    fn flat_clouds_are_told() {
+    fn flat_clouds_are_reported() {
         assert_eq!(Hull::from_points(&[], None), Err(Flat::Point));
         assert_eq!(Hull::from_points(&[[1.0; 3]; 9], None), Err(Flat::Point));
         assert_eq!(Hull::from_points(&[[0.0; 3], [1.0; 3], [2.0; 3], [0.5; 3]], None), Err(Flat::Line));

@@ -12,7 +12,7 @@ pub(super) fn triangles(corners: &[Vec3]) -> Vec<[usize; 3]> {
             let (ac, bd) = (sub(*c, *a), sub(*d, *b));
             if dot(ac, ac) < dot(bd, bd) { vec![[0, 1, 2], [0, 2, 3]] } else { vec![[0, 1, 3], [1, 2, 3]] }
         }
-        _ => ears(&flattened(corners)),
+        _ => cut_ears(&flattened(corners)),
     }
 }
 
@@ -35,7 +35,7 @@ fn flattened(corners: &[Vec3]) -> Vec<[f64; 2]> {
     listed(corners.iter().map(|p| [p[i], p[j]]))
 }
 
-fn ears(corners: &[[f64; 2]]) -> Vec<[usize; 3]> {
+fn cut_ears(corners: &[[f64; 2]]) -> Vec<[usize; 3]> {
     let mut rest: Vec<usize> = listed(0..corners.len());
     let mut found = Vec::with_capacity(rest.len());
     let (mut at, mut misses) = (0, 0);
@@ -107,7 +107,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_ears_ends() {
+    fn a_polygon_without_ears_terminates() {
         for n in [5, 6, 50, 500] {
             let tangled: Vec<Vec3> =
                 (0..n).map(|i| [((i * 7919) % 13) as f64, ((i * 104729) % 17) as f64, 0.0]).collect();

@@ -37,9 +37,9 @@ pub(super) const ROW: Row = Row {
     forces: Some(Forces {
         mass,
         bias,
-        looks_at_places: |_, _| false,
+        bias_uses_poses: |_, _| false,
         constant: |_, _| false,
-        turns_alone: false,
+        bias_is_free_torque: false,
     }),
     ..NOTHING
 };

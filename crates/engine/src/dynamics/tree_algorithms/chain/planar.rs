@@ -55,7 +55,7 @@ pub(super) fn load(chain: &mut [Link]) {
     let normal = match (hinge, axes) {
         (Some((_, &(_, axis))), _) => axis,
         (None, [(_, a), (_, b), ..]) => normalize(cross(*a, *b)).0,
-        (None, [(_, a), ..]) => normalize(cross(*a, least(*a))).0,
+        (None, [(_, a), ..]) => normalize(cross(*a, most_perpendicular_axis(*a))).0,
         (None, []) => return,
     };
     let plane = plane_of(normal);
@@ -91,12 +91,12 @@ pub(super) fn load(chain: &mut [Link]) {
 
 /// The axes of the plane with a given normal.
 pub(crate) fn plane_of(normal: Vec3) -> [Vec3; 2] {
-    let first = normalize(cross(normal, least(normal))).0;
+    let first = normalize(cross(normal, most_perpendicular_axis(normal))).0;
     [first, cross(normal, first)]
 }
 
 /// The coordinate axis that forms the largest angle with v.
-fn least(v: Vec3) -> Vec3 {
+fn most_perpendicular_axis(v: Vec3) -> Vec3 {
     let [x, y, z] = v.map(f64::abs);
     if x <= y && x <= z {
         [1.0, 0.0, 0.0]
@@ -116,7 +116,7 @@ fn quarter(v: Vec2) -> Vec2 {
 impl Swing {
     /// v rotated like the link.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    fn turned(&self, v: Vec2) -> Vec2 {
+    fn rotated(&self, v: Vec2) -> Vec2 {
         [self.cos * v[0] - self.sin * v[1], self.sin * v[0] + self.cos * v[1]]
     }
 }
@@ -134,17 +134,17 @@ pub(super) fn mass_matrix<const N: usize>(chain: &mut [Link], qpos: &[f64], mass
     for i in 0..n {
         let Link { flat, fixed, swing, coordinate, .. } = &mut chain[i];
         let displacement = qpos[*coordinate] - fixed.reference;
-        let at = if i == 0 { flat.at } else { up.turned(flat.at) };
+        let at = if i == 0 { flat.at } else { up.rotated(flat.at) };
         let mut here = Swing { anchor: [up.anchor[0] + at[0], up.anchor[1] + at[1]], ..up };
         if flat.sense == 0.0 {
-            here.axis = if i == 0 { flat.axis } else { up.turned(flat.axis) };
+            here.axis = if i == 0 { flat.axis } else { up.rotated(flat.axis) };
             here.anchor[0] += here.axis[0] * displacement;
             here.anchor[1] += here.axis[1] * displacement;
         } else {
             angle += flat.sense * displacement;
             (here.sin, here.cos) = libm::sincos(angle);
         }
-        let com = here.turned(flat.com);
+        let com = here.rotated(flat.com);
         here.com = [here.anchor[0] + com[0], here.anchor[1] + com[1]];
         (*swing, swings[i], up) = (here, here, here);
         rows[i][i] = fixed.armature;

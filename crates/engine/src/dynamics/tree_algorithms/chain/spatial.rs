@@ -1,7 +1,7 @@
 //! Short chains in space.
 
 use super::{Link, MAX_DOFS, Motion, Pose, length};
-use crate::math::lanes::matrix_turned;
+use crate::math::lanes::rotate_columns;
 use crate::math::*;
 
 /// Computes the rows of M of a chain.
@@ -32,7 +32,7 @@ pub(super) fn mass_matrix<const N: usize>(chain: &mut [Link], qpos: &[f64], mass
         let Link { fixed, columns, .. } = &chain[i];
         for k in 0..=i {
             let (turn, shift) = columns[k];
-            let (spin, push) = (inertia_turn(&fixed.inertia, turn), scale(shift, fixed.mass));
+            let (spin, push) = (rotational_inertia_times(&fixed.inertia, turn), scale(shift, fixed.mass));
             for j in 0..=k {
                 rows[k][j] += dot(columns[j].0, spin) + dot(columns[j].1, push);
             }
@@ -63,7 +63,7 @@ impl Link {
             pose.anchor = add_scaled(pose.anchor, pose.axis, displacement);
         } else {
             let (s, c) = libm::sincos(displacement);
-            pose.axes = matrix_turned(&pose.axes, f.axis, s, c);
+            pose.axes = rotate_columns(&pose.axes, f.axis, s, c);
         }
         pose.com = add(mat_mul_vec(&pose.axes, f.com), pose.anchor);
     }
@@ -99,8 +99,8 @@ pub(super) fn bias<const N: usize>(chain: &mut [Link], qvel: &[f64], qfrc_bias: 
         }
         let force = scale(motion.at(sub(pose.com, pose.anchor)), fixed.mass);
         let w = mat_t_mul_vec(&pose.axes, motion.velocity);
-        let turning = inertia_turn(&fixed.inertia, mat_t_mul_vec(&pose.axes, motion.turning));
-        let torque = add(turning, cross(w, inertia_turn(&fixed.inertia, w)));
+        let turning = rotational_inertia_times(&fixed.inertia, mat_t_mul_vec(&pose.axes, motion.turning));
+        let torque = add(turning, cross(w, rotational_inertia_times(&fixed.inertia, w)));
         for k in 0..=i {
             forces[k] += dot(columns[k].0, torque) + dot(columns[k].1, force);
         }
@@ -119,7 +119,7 @@ impl Motion {
 
 /// I v
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn inertia_turn(i: &[f64; 6], v: Vec3) -> Vec3 {
+fn rotational_inertia_times(i: &[f64; 6], v: Vec3) -> Vec3 {
     [
         i[0] * v[0] + i[3] * v[1] + i[4] * v[2],
         i[3] * v[0] + i[1] * v[1] + i[5] * v[2],

@@ -225,7 +225,7 @@ fn depth_is_that_of_the_hull_of_differences() {
 }
 
 #[test]
-fn what_is_no_number_or_infinite_finds_nothing_that_is_no_number() {
+fn nonfinite_input_gives_no_nan() {
     let mut random = Random(4);
     let mut out = Vec::new();
     let strange =

@@ -9,17 +9,17 @@ pub(super) use read::read;
 pub(super) use write::{lab, plain, whole};
 
 /// The first line.
-const HEAD: &str = "labspec snapshot 1";
+const FIRST_LINE: &str = "labspec snapshot 1";
 /// The line of a run that equals the first run.
-const SAME: &str = "the same as the first run";
+const SAME_AS_FIRST_RUN: &str = "the same as the first run";
 /// Minimum number of characters of a column: a change of one digit does not move other lines.
-const WIDE: usize = 8;
+const MIN_COLUMN_WIDTH: usize = 8;
 /// Maximum length of a text that is written completely.
-const LONG: usize = 40;
+const MAX_TEXT: usize = 40;
 /// A number without a certain digit.
-pub(super) const OPEN: &str = "~";
+pub(super) const NO_CERTAIN_DIGIT: &str = "~";
 /// No value: the expression threw, or the run had ended.
-const NOTHING: &str = "-";
+const NO_VALUE: &str = "-";
 
 /// A stored lab.
 #[derive(Clone, Debug, PartialEq)]
@@ -89,7 +89,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_written_is_read_back() {
+    fn written_snapshots_are_read_back() {
         let text = text();
         insta::assert_snapshot!(text);
         let labs = read(&SourceFile::new("a.snap", text.as_str())).unwrap();

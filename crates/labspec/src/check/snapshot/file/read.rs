@@ -1,7 +1,9 @@
 //! Reads the text of a snapshot.
 
 use super::super::digits;
-use super::{HEAD, NOTHING, OPEN, SAME, SnapshotFault, StoredLab, StoredRow, StoredRun};
+use super::{
+    FIRST_LINE, NO_CERTAIN_DIGIT, NO_VALUE, SAME_AS_FIRST_RUN, SnapshotFault, StoredLab, StoredRow, StoredRun,
+};
 use crate::printable::printable;
 use crate::source::SourceFile;
 use std::collections::BTreeSet;
@@ -63,12 +65,15 @@ impl<'t> SnapshotReader<'t> {
     fn head(&mut self) -> Result<(), SnapshotFault> {
         self.at = 1;
         match self.lines.first() {
-            Some(line) if *line == HEAD => Ok(()),
+            Some(line) if *line == FIRST_LINE => Ok(()),
             Some(line) if line.starts_with("labspec snapshot ") => Err(self.fault(
                 17,
                 "the snapshot has another version; run `labspec snapshot --accept` to write it again",
             )),
-            _ => Err(self.fault(0, &format!("the file is not a snapshot: a snapshot begins with `{HEAD}`"))),
+            _ => {
+                Err(self
+                    .fault(0, &format!("the file is not a snapshot: a snapshot begins with `{FIRST_LINE}`")))
+            }
         }
     }
 
@@ -149,7 +154,8 @@ impl<'t> SnapshotReader<'t> {
             let about = about
                 .ok_or_else(|| self.fault(0, "the length and the timestep of a run must follow its name"))?;
             let about = about.split(", ").map(str::to_string).collect();
-            if let (Some(first), Some(_)) = (runs.first(), self.next_with(&format!("  {SAME}"))) {
+            if let (Some(first), Some(_)) = (runs.first(), self.next_with(&format!("  {SAME_AS_FIRST_RUN}")))
+            {
                 let run = StoredRun { name: name.to_string(), about, ..first.clone() };
                 runs.push(run);
                 continue;
@@ -185,7 +191,7 @@ impl<'t> SnapshotReader<'t> {
             return Err(self.fault(end, &format!("there are {} values for {columns} times", words.len())));
         }
         for (at, word) in &words {
-            let fixed = [OPEN, NOTHING, "true", "false", "nan", "inf", "-inf"];
+            let fixed = [NO_CERTAIN_DIGIT, NO_VALUE, "true", "false", "nan", "inf", "-inf"];
             if !fixed.contains(&word.as_str()) && !word.starts_with('"') && digits::read(word).is_none() {
                 return Err(self.fault(*at, &format!("`{}` is not a value", shortened(word))));
             }

@@ -2,7 +2,7 @@
 
 use super::super::digits;
 use super::super::runs::SnapshotRun;
-use super::{HEAD, LONG, NOTHING, OPEN, SAME, WIDE};
+use super::{FIRST_LINE, MAX_TEXT, MIN_COLUMN_WIDTH, NO_CERTAIN_DIGIT, NO_VALUE, SAME_AS_FIRST_RUN};
 use crate::printable::{printable, printable_json};
 use crate::run::Cell;
 use std::fmt::Write;
@@ -10,7 +10,7 @@ use std::fmt::Write;
 /// The text of a file. `name` is that of the lesson, without its folder.
 pub(in crate::check::snapshot) fn whole<'t>(name: &str, labs: impl Iterator<Item = &'t str>) -> String {
     let mut text = format!(
-        "{HEAD}\n# What the labs of {} show at 11 times: as they stand, with each slider at its ends, each select at\n# its other options, after each button. A number has the digits that neither half the timestep nor a start moved\n# by 1e-14 changes, at most five ({OPEN}: none; {NOTHING}: nothing is shown), and matches if it rounds to them.\n# Written by `labspec snapshot`; review changes with `labspec snapshot --review`.\n",
+        "{FIRST_LINE}\n# What the labs of {} show at 11 times: as they stand, with each slider at its ends, each select at\n# its other options, after each button. A number has the digits that neither half the timestep nor a start moved\n# by 1e-14 changes, at most five ({NO_CERTAIN_DIGIT}: none; {NO_VALUE}: nothing is shown), and matches if it rounds to them.\n# Written by `labspec snapshot`; review changes with `labspec snapshot --review`.\n",
         printable(name)
     );
     let mut count = 0;
@@ -41,7 +41,7 @@ pub(in crate::check::snapshot) fn lab(
         let mut rows_text = String::new();
         table(&rows, &mut rows_text);
         if rows_text == first {
-            rows_text = format!("  {SAME}\n");
+            rows_text = format!("  {SAME_AS_FIRST_RUN}\n");
         } else if first.is_empty() {
             first.clone_from(&rows_text);
         }
@@ -62,7 +62,7 @@ fn row(cells: &[Cell], others: &[&Vec<Cell>]) -> Vec<String> {
         None => {
             let text = plain(cell);
             let same = others.iter().all(|o| o.get(i).map(plain).as_ref() == Some(&text));
-            if same { text } else { OPEN.into() }
+            if same { text } else { NO_CERTAIN_DIGIT.into() }
         }
         Some(x) => {
             let at = |unit: i32| {
@@ -74,7 +74,7 @@ fn row(cells: &[Cell], others: &[&Vec<Cell>]) -> Vec<String> {
                 };
                 others.iter().all(same).then_some(text)
             };
-            (finest..=coarsest).find_map(at).unwrap_or_else(|| OPEN.into())
+            (finest..=coarsest).find_map(at).unwrap_or_else(|| NO_CERTAIN_DIGIT.into())
         }
     };
     cells.iter().enumerate().map(one).collect()
@@ -92,10 +92,10 @@ pub(in crate::check::snapshot) fn plain(cell: &Cell) -> String {
     match cell {
         Cell::Number(x) => crate::run::rounded(*x, 6),
         Cell::Bool(b) => b.to_string(),
-        Cell::Nothing => NOTHING.into(),
-        Cell::Text(text) if text.chars().count() <= LONG => quoted(text),
+        Cell::Nothing => NO_VALUE.into(),
+        Cell::Text(text) if text.chars().count() <= MAX_TEXT => quoted(text),
         Cell::Text(text) => {
-            let start: String = text.chars().take(LONG).collect();
+            let start: String = text.chars().take(MAX_TEXT).collect();
             let hash = text.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
                 (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
             });
@@ -114,7 +114,7 @@ fn table(rows: &[(String, Vec<String>)], text: &mut String) {
     let names = rows.iter().map(|(name, _)| width(name)).max().unwrap_or(0);
     let columns = rows.iter().map(|(_, cells)| cells.len()).max().unwrap_or(0);
     let widest = |k: usize| rows.iter().filter_map(|(_, cells)| cells.get(k)).map(|c| width(c)).max();
-    let widths: Vec<usize> = (0..columns).map(|k| widest(k).unwrap_or(0).max(WIDE)).collect();
+    let widths: Vec<usize> = (0..columns).map(|k| widest(k).unwrap_or(0).max(MIN_COLUMN_WIDTH)).collect();
     for (name, cells) in rows {
         let _ = write!(text, "  {name:names$}");
         for (cell, width) in cells.iter().zip(&widths) {

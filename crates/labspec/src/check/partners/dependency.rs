@@ -11,8 +11,8 @@ use crate::verify::{self, Judgement, Measured, QuoteState, Verdict, significant}
 use std::ops::Range;
 
 /// The dependency of claims on programs that omit coupled parameters.
-pub(super) struct Rests {
-    who: String,
+pub(super) struct Dependency {
+    subject: String,
     /// The parameters that they do not update, in words.
     left: String,
     corrected: String,
@@ -21,12 +21,12 @@ pub(super) struct Rests {
     codes: String,
 }
 
-impl Rests {
-    pub(super) fn new(causes: &[PartnerCandidate<'_>], first: &Judgement, second: &Judgement) -> Rests {
-        let who: Vec<&str> = causes.iter().map(|c| c.who.as_str()).collect();
+impl Dependency {
+    pub(super) fn new(causes: &[PartnerCandidate<'_>], first: &Judgement, second: &Judgement) -> Dependency {
+        let subject: Vec<&str> = causes.iter().map(|c| c.subject.as_str()).collect();
         let left: Vec<String> = causes.iter().map(PartnerCandidate::left).collect();
-        Rests {
-            who: who.join(" and "),
+        Dependency {
+            subject: subject.join(" and "),
             left: left.join(", and "),
             corrected: corrected_words(causes),
             evidence: evidence(first, second),
@@ -44,7 +44,7 @@ impl Rests {
         findings: &mut Vec<Finding>,
     ) {
         let holds = |state: State| matches!(state, State::True(_));
-        let also = format!("it is also true with {} (`{}` at {})", self.corrected, self.codes, self.who);
+        let also = format!("it is also true with {} (`{}` at {})", self.corrected, self.codes, self.subject);
         let add = |reason: &mut String| {
             let between = if reason.is_empty() { "" } else { "; " };
             *reason = format!("{reason}{between}{also}");

@@ -5,7 +5,7 @@ use labspec_expr::rules::Rule;
 
 /// An error of a program during a run. JavaScript would have thrown, or continued silently.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Trouble {
+pub struct ProgramError {
     /// The violated rule.
     pub rule: &'static Rule,
     /// The text that failed.

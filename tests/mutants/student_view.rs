@@ -1,7 +1,7 @@
 //! What a student sees of a lab or a quiz: its texts, and what it displays while it runs, also after a control was
 //! moved and after a reset.
 
-use super::material::{Piece, What};
+use super::material::{Piece, PieceKind};
 use labspec::bind::Programs;
 use labspec::bind::scene::Models;
 use labspec::lint::load_lesson;
@@ -43,13 +43,13 @@ fn start_with_every_stage<'p>(lab: &Lab, model: &Model, programs: &'p Programs) 
 }
 
 /// Everything that a student can see, as a text.
-pub(crate) fn seen(piece: &Piece, json: &Value, models: &Models) -> String {
+pub(crate) fn visible_text(piece: &Piece, json: &Value, models: &Models) -> String {
     let mut visible = json.clone();
-    if piece.what == What::Quiz {
+    if piece.what == PieceKind::Quiz {
         // The labs of its questions are separate pieces.
         return visible.to_string();
     }
-    hide(&mut visible);
+    remove_code(&mut visible);
     let mut text = visible.to_string();
     let lesson = load_lesson(SourceFile::new("piece.json", json.to_string()), models.folder());
     let Some(lab) = lesson.all_labs().into_iter().next() else { return text };
@@ -82,7 +82,7 @@ pub(crate) fn seen(piece: &Piece, json: &Value, models: &Models) -> String {
 }
 
 /// Removes the code from a lab.
-fn hide(json: &mut Value) {
+fn remove_code(json: &mut Value) {
     match json {
         Value::Object(map) => {
             CODE.iter().for_each(|key| drop(map.shift_remove(*key)));

@@ -2,15 +2,15 @@
 
 /// Maps some keywords to values.
 #[derive(Clone, Debug)]
-pub(super) struct WordMap<V>(Vec<(&'static str, V)>);
+pub(super) struct KeywordMap<V>(Vec<(&'static str, V)>);
 
-impl<V> Default for WordMap<V> {
-    fn default() -> WordMap<V> {
-        WordMap(Vec::new())
+impl<V> Default for KeywordMap<V> {
+    fn default() -> KeywordMap<V> {
+        KeywordMap(Vec::new())
     }
 }
 
-impl<V> WordMap<V> {
+impl<V> KeywordMap<V> {
     /// The value of a keyword.
     pub(super) fn get(&self, word: &str) -> Option<&V> {
         self.0.iter().find(|(w, _)| *w == word).map(|(_, value)| value)
@@ -44,11 +44,11 @@ impl<V> WordMap<V> {
 
 #[cfg(test)]
 mod tests {
-    use super::WordMap;
+    use super::KeywordMap;
 
     #[test]
     fn every_word_has_one_value() {
-        let mut words = WordMap::default();
+        let mut words = KeywordMap::default();
         words.insert("pos", 1);
         *words.or_default("quat") += 2;
         *words.or_default("pos") += 3;
