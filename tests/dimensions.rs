@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
-use crate::mutants::material::{self, What};
+use crate::mutants::material::{self, PieceKind};
 use crate::needs::needs;
 use labspec::bind::scene::Models;
 use labspec::bind::{ModelNames, Programs, Scope};
@@ -31,7 +31,7 @@ fn every_expression_has_a_dimension_or_is_unknown() {
     }
     let models = material::models();
     let (mut page, mut certain, mut loose, mut literal, mut unknown) = (String::new(), 0, 0, 0, 0);
-    for piece in material::pieces().iter().filter(|p| p.what == What::Lab) {
+    for piece in material::pieces().iter().filter(|p| p.what == PieceKind::Lab) {
         let models = &models[piece.models];
         let (name, text) = piece.file(&piece.json);
         let lesson = load_lesson(SourceFile::new(name, text), models.folder());

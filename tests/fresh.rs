@@ -198,7 +198,7 @@ fn run(m: &Model, each: usize, watched: bool) -> Observations {
         }
     }
     seen.depth = d.contact.iter().map(|c| -c.dist / 0.2).fold(0.0, f64::max);
-    seen.reported = watch.is_some_and(|w| watch::noticed(&w).time().is_finite());
+    seen.reported = watch.is_some_and(|w| watch::observations(&w).time().is_finite());
     seen
 }
 

@@ -162,7 +162,7 @@ fn the_page_contains_every_question_with_its_verdict() {
             let text = visible_text(article);
             let rows = article.descendants().filter(|n| n.has_tag_name("tr"));
             let rows: Vec<Vec<String>> =
-                rows.map(|row| row.children().filter(Node::is_element).map(seen).collect()).collect();
+                rows.map(|row| row.children().filter(Node::is_element).map(visible_text).collect()).collect();
             for (measure, value) in claim["measures"].as_object().unwrap() {
                 measures += 1;
                 let row =
@@ -292,7 +292,7 @@ fn text_of_lessons_is_text() {
         check_harmless(&page);
         assert!(page.len() < 400_000, "{} bytes", page.len());
         let tree = parse(&page);
-        let asked: Vec<String> = with_class(tree.root(), "asked").into_iter().map(seen).collect();
+        let asked: Vec<String> = with_class(tree.root(), "asked").into_iter().map(visible_text).collect();
         assert_eq!(asked.len(), 3, "{report:#}");
     }
 }
@@ -319,7 +319,7 @@ fn unclaimed_numbers_are_those_of_the_rule() {
     let listed: Vec<String> = with_class(tree.root(), "numbers")[0]
         .descendants()
         .filter(|n| n.has_tag_name("b"))
-        .map(seen)
+        .map(visible_text)
         .collect();
     assert_eq!(listed, ["11 m"]);
     // The answer counts as one more.
@@ -349,7 +349,7 @@ fn formulas_are_read() {
     assert_eq!(texts, ["v = \\sqrt{2gd} key", "v ≈ v0 e-t/τ", "for $5 and $6"]);
     assert_eq!(visible_text(one("explained")), "\\tfrac12 m v^2 = m g d, so it is 4.3×10-3 km/s.");
     let all = |name: &str| -> Vec<String> {
-        tree.descendants().filter(|n| n.has_tag_name(name)).map(seen).collect()
+        tree.descendants().filter(|n| n.has_tag_name(name)).map(visible_text).collect()
     };
     assert_eq!(all("code"), ["v = \\sqrt{2gd}", "\\tfrac12 m v^2 = m g d"]);
     assert_eq!(
@@ -390,11 +390,11 @@ fn runs_have_their_settings_beside_them() {
     check_harmless(&page);
     let rows = |page: &str| -> (String, Vec<Vec<String>>) {
         let tree = parse(page);
-        let of = |t: &Node<'_, '_>| t.descendants().find(|n| n.has_tag_name("caption")).map(seen);
+        let of = |t: &Node<'_, '_>| t.descendants().find(|n| n.has_tag_name("caption")).map(visible_text);
         let runs = tree.descendants().filter(|n| n.has_tag_name("table"));
         let table = runs.into_iter().find(|t| of(t).is_some_and(|c| c.starts_with("Runs"))).unwrap();
         let lines = table.descendants().filter(|n| n.has_tag_name("tr")).skip(1);
-        let cells = lines.map(|row| row.children().filter(Node::is_element).map(seen).collect());
+        let cells = lines.map(|row| row.children().filter(Node::is_element).map(visible_text).collect());
         (of(&table).unwrap(), cells.collect())
     };
     let (caption, all) = rows(&page);

@@ -142,7 +142,7 @@ fn small_differences_grow_as_by_equations_by_hand() {
         let mut model = Model::clone(&model(&lab));
         (*model.edit().opt.timestep, *model.edit().opt.integrator) = (0.0002, integrator::RK4);
         let programs = Programs::compile(&lab, &model, &mut Vec::new());
-        let options = stability::PrecisionOptions { until: Some(until), ..Default::default() };
+        let options = stability::StressOptions { until: Some(until), ..Default::default() };
         let report = stability::probe(&lab, &model, &programs, &options, &mut |_| ()).unwrap();
         let found = report.sensitivity.parting.unwrap();
         let off = |x: f64, key: &str| (x / truth[key].as_f64().unwrap() - 1.0).abs();
@@ -198,13 +198,13 @@ fn a_run_that_breaks_is_no_measure_of_a_plot() {
     let report = report(lab, &PrecisionOptions::default());
     assert_ne!(lab_row(&report).status, RunStatus::Good);
     // Its transverse speed stays within 11 rad/s, half a pixel of which is small.
-    assert!(report.targets[1].unseen < 0.06, "{}", report.targets[1].unseen);
+    assert!(report.targets[1].invisible_error < 0.06, "{}", report.targets[1].invisible_error);
     let best = right(&report);
     let setting = (best.setting.integrator.id, best.setting.timestep);
     let seen = column(lab, setting, report.length, "across (rad/s)");
     let fine = column(lab, (integrator::RKMK8, best.setting.timestep / 2.0), report.length, "across (rad/s)");
     let worst = seen.iter().zip(fine.iter().step_by(2)).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-    assert!(worst <= 1.1 * report.targets[1].unseen, "{worst}");
+    assert!(worst <= 1.1 * report.targets[1].invisible_error, "{worst}");
 }
 
 #[test]
@@ -314,7 +314,7 @@ fn controllers_of_time_have_a_reference_as_good_as_others() {
 
 #[test]
 fn no_cost_of_a_plan_is_negative() {
-    use labspec_numerics::profile::{PrecisionOptions as PlanOptions, plan};
+    use labspec_numerics::profile::{PlanOptions, plan};
     let lesson = load_lesson(SourceFile::read(&kinds()).unwrap(), &ModelFolder::unknown());
     let mut measured = 0;
     for (_, lab) in lesson.addressed().into_iter().take(8) {

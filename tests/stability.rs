@@ -38,8 +38,8 @@ fn run(xml: &str, steps: u64, long: u64, keep: &Json) -> Json {
         for _ in 0..each {
             core::step(&m, &mut d).unwrap();
             watch::observe(&mut watch, &m, &d);
-            if reported.is_null() && watch::noticed(&watch).time().is_finite() {
-                reported = to_json(watch::noticed(&watch));
+            if reported.is_null() && watch::observations(&watch).time().is_finite() {
+                reported = to_json(watch::observations(&watch));
             }
         }
         done += each;

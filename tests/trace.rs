@@ -10,7 +10,7 @@ use labspec::lint::{ModelFolder, load_lesson};
 use labspec::source::SourceFile;
 use labspec::spec::{LabAddress, Lesson};
 use labspec::verify::QuoteState;
-use labspec_proposals::trace::{Origin, blocks, laid_out, trace};
+use labspec_proposals::trace::{Origin, blocks, format_verify, trace};
 
 /// A lesson and its models.
 struct Case {
@@ -71,7 +71,7 @@ fn accepted(case: &Case) -> (usize, Vec<String>) {
                     quiz.questions[question - 1].as_ref().unwrap().span.start
                 }
             };
-            (at + 1, format!("\"verify\": {}, ", laid_out(&block)))
+            (at + 1, format!("\"verify\": {}, ", format_verify(&block)))
         })
         .collect();
     inserts.sort();

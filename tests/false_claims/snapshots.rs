@@ -22,7 +22,7 @@ fn lesson(scenes: &[Scene], snapshot: Option<&str>) -> Lesson {
 /// The snapshot of these labs.
 pub(super) fn stored(scenes: &[Scene]) -> String {
     let models = Models::new(ModelFolder::unknown());
-    check::renew(&lesson(scenes, None), &models).text(|_| true).unwrap()
+    check::update_snapshot(&lesson(scenes, None), &models).text(|_| true).unwrap()
 }
 
 /// Whether each lab agrees with the snapshot.

@@ -13,7 +13,6 @@ mod lessons;
 mod models;
 mod public;
 
-use crate::support::random::Random;
 use crate::support::thread_time;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;

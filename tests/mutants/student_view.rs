@@ -91,9 +91,9 @@ fn remove_code(json: &mut Value) {
             for readout in readouts.into_iter().flatten().filter_map(Value::as_object_mut) {
                 readout.shift_remove("digits");
             }
-            map.values_mut().for_each(hide);
+            map.values_mut().for_each(remove_code);
         }
-        Value::Array(list) => list.iter_mut().for_each(hide),
+        Value::Array(list) => list.iter_mut().for_each(remove_code),
         _ => {}
     }
 }

@@ -11,7 +11,7 @@ use super::output::{PlannedOutput, check_outputs_writable};
 use super::output_kind::OutputKind;
 use super::policy::PolicyOptions;
 use super::scheduler::check_lessons;
-use super::stdio::print_skipped;
+use super::stdio::print_error;
 use super::{judge, reproduction, watch};
 use labspec::check::{CheckLevel, Recording};
 use labspec::report::counted;
@@ -231,7 +231,7 @@ fn apply_fixes(request: &CheckRequest<'_>, mode: FixMode) -> Result<Option<Outco
         return Ok(Some(if repaired.fixes > 0 { Outcome::Findings } else { Outcome::Clean }));
     }
     if repaired.fixes > 0 {
-        print_skipped(&format!(
+        print_error(&format!(
             "fixed {} in {}\n",
             counted(repaired.fixes, "finding"),
             counted(repaired.files, "file")

@@ -1,6 +1,6 @@
 //! The files of a command: those named by the user, and the lessons in folders.
 
-use super::stdio::print_skipped;
+use super::stdio::print_error;
 use labspec::lint::{self, root_of};
 use labspec::report::{printable_lines, printable_path};
 use labspec::spec::{FileKind, kind_of};
@@ -50,7 +50,7 @@ impl Collected {
     /// Prints the skipped paths on standard error.
     pub(super) fn print_skipped(&self) {
         for (path, why) in &self.left_out {
-            print_skipped(&printable_lines(&format!("labspec: {} is skipped: {why}\n", path.display())));
+            print_error(&printable_lines(&format!("labspec: {} is skipped: {why}\n", path.display())));
         }
     }
 }
@@ -123,7 +123,7 @@ fn walk(folder: &Path, wanted: &dyn Fn(&Path) -> bool, all: &mut Collected) {
         } else if kind.is_dir() && entry.depth() > MAX_DEPTH {
             let why = format!("{} is nested more than {MAX_DEPTH} folders deep", printable_path(path));
             all.problems.push((path.to_path_buf(), why));
-        } else if kind.is_file() && requested_outputs(path) {
+        } else if kind.is_file() && wanted(path) {
             all.files.push((path.to_path_buf(), false));
         }
     }
@@ -134,13 +134,13 @@ fn follow(link: &Path, root: &Path, wanted: &dyn Fn(&Path) -> bool, all: &mut Co
     let real = match link.canonicalize() {
         Ok(real) => real,
         Err(e) => {
-            if requested_outputs(link) {
+            if wanted(link) {
                 all.problems.push((link.to_path_buf(), unreadable(link, &e)));
             }
             return;
         }
     };
-    let is_file = real.is_file() && requested_outputs(link);
+    let is_file = real.is_file() && wanted(link);
     if !is_file && !real.is_dir() {
         return;
     }

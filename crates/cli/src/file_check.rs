@@ -133,7 +133,7 @@ pub(super) fn check_file(
             },
         }
     };
-    threads::apart(check).unwrap_or_else(|panic| FileOutcome::Refused(panic_message(&panic)))
+    threads::run_in_thread(check).unwrap_or_else(|panic| FileOutcome::Refused(panic_message(&panic)))
 }
 
 /// Loads a lesson, runs its labs and checks its claims.
@@ -151,7 +151,8 @@ fn check_lesson(
     if !named && is_other_json(&lesson) {
         return FileOutcome::OtherJson;
     }
-    let checked = threads::apart(|| cache.check_cached(path, &lesson, models, request.level, interrupted));
+    let checked =
+        threads::run_in_thread(|| cache.check_cached(path, &lesson, models, request.level, interrupted));
     let mut outcome = match checked {
         Ok(outcome) => outcome,
         Err(panic) => return FileOutcome::Lesson(Box::new(cancelled_lesson(lesson, &panic))),

@@ -112,7 +112,7 @@ struct JudgeReport<'c> {
     stale_runs: usize,
     missing_runs: usize,
     differing: Vec<DifferenceRow<'c>>,
-    unjudged: Vec<Unjudged<'c>>,
+    unjudged: Vec<UnjudgedRow<'c>>,
 }
 
 #[derive(Serialize)]
@@ -127,7 +127,7 @@ struct DifferenceRow<'c> {
 }
 
 #[derive(Serialize)]
-struct Unjudged<'c> {
+struct UnjudgedRow<'c> {
     file: String,
     owner: &'c str,
     measure: &'c str,
@@ -248,7 +248,7 @@ impl<'c> JudgeReport<'c> {
                     DifferenceRow { file: file(), owner, measure, ours: *ours, theirs: *theirs, nonfinite }
                 }));
                 let unjudged = judged.unjudged.iter();
-                all.unjudged.extend(unjudged.map(|(measure, reason)| Unjudged {
+                all.unjudged.extend(unjudged.map(|(measure, reason)| UnjudgedRow {
                     file: file(),
                     owner,
                     measure,

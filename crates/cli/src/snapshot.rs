@@ -147,7 +147,7 @@ fn collect_lessons(a: &SnapshotArguments) -> Result<Vec<ReviewedSnapshot>, Failu
         if !named && is_other_json(&lesson) || lesson.addressed().is_empty() && lesson.snapshot.is_none() {
             continue;
         }
-        let renewal = check::renew(&lesson, models);
+        let renewal = check::update_snapshot(&lesson, models);
         let same = |lab: &UpdatedLab| matches!(lab.result.state, State::True(_));
         let standing = match &renewal {
             r if r.fault.is_some() => SnapshotStatus::Unreadable,
@@ -349,7 +349,7 @@ mod tests {
     fn reviewed_snapshot() -> ReviewedSnapshot {
         let lab = "```lab simlab\n{\"xml\": \"<mujoco/>\", \"stopAt\": 0.01, \"readouts\": [{\"label\": \"t\", \"expr\": \"data.time\"}]}\n```\n\n";
         let lesson = read_lesson(SourceFile::new("a.md", lab.repeat(3)));
-        let renewal = check::renew(&lesson, &Models::new(ModelFolder::unknown()));
+        let renewal = check::update_snapshot(&lesson, &Models::new(ModelFolder::unknown()));
         let standing = SnapshotStatus::Changed;
         ReviewedSnapshot {
             file: "a.md.snap".into(),

@@ -3,7 +3,7 @@
 use super::collect::collect;
 use super::common::{Failure, Outcome, interrupted};
 use super::policy;
-use super::stdio::print_skipped;
+use super::stdio::print_error;
 use labspec::lint;
 use labspec::report::printable_lines;
 use std::collections::{BTreeMap, BTreeSet};
@@ -40,9 +40,9 @@ pub(super) fn watch(
             return outcome;
         }
         if let Err(message) = &outcome {
-            print_skipped(&format!("labspec: {}\n", printable_lines(message)));
+            print_error(&format!("labspec: {}\n", printable_lines(message)));
         }
-        print_skipped("labspec: waiting for changes; Ctrl-C ends\n");
+        print_error("labspec: waiting for changes; Ctrl-C ends\n");
         while stamps(paths, &also) == before {
             std::thread::sleep(PAUSE);
             if interrupted() {

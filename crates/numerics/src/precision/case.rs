@@ -255,7 +255,7 @@ impl<'a> PrecisionCase<'a> {
             self.sample_targets(session, &mut now, sampled.then_some(&mut record));
             record.observe(session);
             if let Some(finder) = &mut finder {
-                finder.see(session, &now, &evaluate);
+                finder.observe_step(session, &now, &evaluate);
             }
             if sampled && (made / sampling_plan.steps).is_multiple_of(every) {
                 energy.sample(session, &mut record);
@@ -281,7 +281,7 @@ impl<'a> PrecisionCase<'a> {
             record.take_moments(finder);
         }
         record.fill_up(sampling_plan.count + 1);
-        record.set_fate(&session);
+        record.set_status(&session);
         Ok(record)
     }
 

@@ -19,7 +19,7 @@ pub(super) fn turning_point(
     dense: bool,
     evaluate: &Evaluate<'_>,
 ) -> Option<EventTime> {
-    let count = bench.past.count();
+    let count = bench.history.count();
     if count < 3 {
         return None;
     }
@@ -27,8 +27,8 @@ pub(super) fn turning_point(
     // A displayed value may belong to the previous state.
     let middle = (1..count - 1).max_by(|&a, &b| at[a].total_cmp(&at[b]))?;
     let [before, now, after] = [at.get(middle + 1)?, at.get(middle)?, at.get(middle - 1)?];
-    let (h, next) = (bench.past.step(middle + 1), bench.past.step(middle));
-    let start = bench.past.time(middle + 1);
+    let (h, next) = (bench.history.step(middle + 1), bench.history.step(middle));
+    let start = bench.history.time(middle + 1);
     let top = direction > 0.0;
     let parabola = || {
         // Divided differences. The steps of a run have equal lengths up to rounding.
