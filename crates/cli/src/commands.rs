@@ -7,8 +7,8 @@ use super::output::write_file;
 use super::output_kind::OutputKind;
 use super::stdio::{self, complain};
 use super::{
-    check, completions, developer, explain, fmt, init, plan, precision, run, scaffold, schema, snapshot,
-    stability, trace,
+    build, check, completions, developer, explain, fmt, init, plan, precision, run, scaffold, schema,
+    snapshot, stability, trace,
 };
 use clap::{CommandFactory, Parser, Subcommand};
 use labspec::interrupt;
@@ -34,6 +34,8 @@ enum Command {
     Check(check::CheckArguments),
     /// Verify the claims of quizzes and labs only, with every measure
     Verify(check::Arguments),
+    /// Check a folder of lessons and write it as a static site
+    Build(build::Arguments),
     /// Store the output of labs in snapshots for review; `check` compares the labs with them
     Snapshot(snapshot::Arguments),
     /// Format the code in lessons; with --modernize, replace bare indexes by names
@@ -115,6 +117,7 @@ fn execute(command: &Command) -> Result<Outcome, Failure> {
         Command::Completions(a) => completions::completions(a, &mut Cli::command()),
         Command::Check(a) => check::check_command(a),
         Command::Verify(a) => check::verify_command(a),
+        Command::Build(a) => build::build(a),
         Command::Snapshot(a) => snapshot::snapshot(a),
         Command::Fmt(a) => fmt::fmt(a),
         Command::Run(a) => run::run(a),
@@ -137,12 +140,14 @@ impl Command {
     /// Whether the command tests for Ctrl-C between pieces of work. Ctrl-C ends all other commands at once.
     fn prints_what_is_finished(&self) -> bool {
         use Command::{
-            Bench, Check, Fmt, Plan, Precision, Record, Run, Scaffold, Snapshot, Stability, Trace, Verify,
+            Bench, Build, Check, Fmt, Plan, Precision, Record, Run, Scaffold, Snapshot, Stability, Trace,
+            Verify,
         };
         matches!(
             self,
             Check(_)
                 | Verify(_)
+                | Build(_)
                 | Snapshot(_)
                 | Fmt(_)
                 | Run(_)

@@ -2,6 +2,7 @@
 //! not run or print; 3: not everything requested was checked; 130: stopped by Ctrl-C.
 
 mod baseline;
+mod build;
 mod cache;
 mod check;
 mod check_output;
