@@ -7,8 +7,8 @@ use super::output::write_file;
 use super::output_kind::OutputKind;
 use super::stdio::{self, complain};
 use super::{
-    build, check, completions, developer, explain, fmt, init, plan, precision, run, scaffold, schema,
-    snapshot, stability, trace,
+    build, check, completions, developer, explain, fmt, init, plan, precision, preview, run, scaffold,
+    schema, snapshot, stability, trace,
 };
 use clap::{CommandFactory, Parser, Subcommand};
 use labspec::interrupt;
@@ -36,6 +36,8 @@ enum Command {
     Verify(check::Arguments),
     /// Check a folder of lessons and write it as a static site
     Build(build::Arguments),
+    /// Serve lessons to a browser on this machine while they are written: labs, findings, claims, fixes
+    Preview(preview::Arguments),
     /// Store the output of labs in snapshots for review; `check` compares the labs with them
     Snapshot(snapshot::Arguments),
     /// Format the code in lessons; with --modernize, replace bare indexes by names
@@ -118,6 +120,7 @@ fn execute(command: &Command) -> Result<Outcome, Failure> {
         Command::Check(a) => check::check_command(a),
         Command::Verify(a) => check::verify_command(a),
         Command::Build(a) => build::build(a),
+        Command::Preview(a) => preview::preview(a),
         Command::Snapshot(a) => snapshot::snapshot(a),
         Command::Fmt(a) => fmt::fmt(a),
         Command::Run(a) => run::run(a),

@@ -31,6 +31,7 @@ mod parallel;
 mod plan;
 mod policy;
 mod precision;
+mod preview;
 mod report_json;
 mod reproduction;
 mod run;

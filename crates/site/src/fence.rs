@@ -71,11 +71,12 @@ pub(crate) struct FenceWriter<'w> {
     pub(crate) shelf: &'w mut ModelShelf,
     /// The number of the lesson's folder of models.
     pub(crate) folder: usize,
+    /// Whether the page has what replaces its elements without JavaScript and on paper.
+    pub(crate) has_twins: bool,
     /// The models that the page contains.
     pub(crate) embedded: BTreeMap<String, String>,
     /// Whether an element fetches a model from files.
     pub(crate) needs_files: bool,
-    pub(crate) has_elements: bool,
 }
 
 impl FenceWriter<'_> {
@@ -108,7 +109,6 @@ impl FenceWriter<'_> {
         let Some(json) = shown_json(&block.body.value) else {
             return broken(block, "This lab cannot be read");
         };
-        self.has_elements = true;
         let digest = self.deliver([lab].into_iter());
         let id = escape(self.ids.find(block.span.start).unwrap_or(""));
         let content = format!(
@@ -122,15 +122,20 @@ impl FenceWriter<'_> {
             .verified
             .get(&owner)
             .map_or(String::new(), |n| mark("Verified", &[counted(*n, "claim")], &hash));
-        let twin = lab_twin(lab, self.shelf.models(self.folder), addresses);
-        FencePart { kind: "lab", content, after: format!("<div class=\"twin\">{twin}</div>{mark}") }
+        let twin = match self.has_twins {
+            true => format!(
+                "<div class=\"twin\">{}</div>",
+                lab_twin(lab, self.shelf.models(self.folder), addresses)
+            ),
+            false => String::new(),
+        };
+        FencePart { kind: "lab", content, after: format!("{twin}{mark}") }
     }
 
     fn quiz(&mut self, block: &Block, quiz: &Quiz, addresses: &mut dyn Addresses) -> FencePart {
         let Some(json) = shown_json(&block.body.value) else {
             return broken(block, "This quiz cannot be read");
         };
-        self.has_elements = true;
         let digest = self.deliver(quiz.numbered().filter_map(|(_, question)| question.sim()));
         let id = escape(self.ids.find(block.span.start).unwrap_or(""));
         let content = format!(
@@ -146,11 +151,11 @@ impl FenceWriter<'_> {
             .collect();
         let hash = short_hash(&[VERSION.as_bytes(), block.body.value.as_bytes(), digest.as_bytes()]);
         let mark = if verified.is_empty() { String::new() } else { mark("Verified", &verified, &hash) };
-        FencePart {
-            kind: "quiz",
-            content,
-            after: format!("<div class=\"twin\">{}</div>{mark}", quiz_twin(quiz, addresses)),
-        }
+        let twin = match self.has_twins {
+            true => format!("<div class=\"twin\">{}</div>", quiz_twin(quiz, addresses)),
+            false => String::new(),
+        };
+        FencePart { kind: "quiz", content, after: format!("{twin}{mark}") }
     }
 
     /// Delivers the models of labs; returns a digest of them.

@@ -89,7 +89,6 @@ pub(crate) struct LessonPage {
     pub(crate) embedded: BTreeMap<String, String>,
     /// The folder of the site from which elements fetch models.
     pub(crate) model_folder: Option<String>,
-    pub(crate) has_elements: bool,
     pub(crate) has_math: bool,
 }
 
@@ -124,7 +123,7 @@ pub(crate) fn write_lesson(
         folder: source.models,
         embedded: BTreeMap::new(),
         needs_files: false,
-        has_elements: false,
+        has_twins: !source.for_author,
     };
     let groups = render_groups(source, &marks, &mut links, &mut writer);
     let mut blocks = Vec::new();
@@ -141,7 +140,7 @@ pub(crate) fn write_lesson(
             }
         });
     }
-    let FenceWriter { embedded, needs_files, has_elements, .. } = writer;
+    let FenceWriter { embedded, needs_files, .. } = writer;
     let model_folder = needs_files.then(|| ModelShelf::site_folder(source.models));
     let has_math = blocks
         .iter()
@@ -156,7 +155,6 @@ pub(crate) fn write_lesson(
         blocks,
         embedded,
         model_folder,
-        has_elements,
         has_math,
     }
 }

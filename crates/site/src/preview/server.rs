@@ -1,0 +1,277 @@
+//! The server: a loop of requests, one of quick checks after every change, and one of whole checks.
+
+use super::actions::{Ask, act};
+use super::backend::{Backend, CourseCheck, Fingerprint};
+use super::events::EventHub;
+use super::guard::{ACTIONS, Identity, headers};
+use super::snapshot::{Material, Snapshot};
+use crate::assets::PageFiles;
+use crate::site::{SiteFile, SiteOptions};
+use labspec::check::CheckLevel;
+use labspec::threads;
+use percent_encoding::percent_decode_str;
+use std::io::Read;
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Condvar, Mutex, PoisonError};
+use std::time::Duration;
+use tiny_http::{Method, Request, Response, Server};
+
+/// The interval between two inspections of the files.
+const PAUSE: Duration = Duration::from_millis(250);
+/// The maximum number of requests that are answered at the same time.
+const MAX_REQUESTS: usize = 96;
+/// The maximum size of a request in bytes.
+const MAX_BODY: u64 = 20 << 20;
+
+/// The options of a preview.
+#[derive(Clone, Debug, Default)]
+pub struct PreviewOptions {
+    /// The port; 0 for any that is free.
+    pub port: u16,
+    /// What the pages say of themselves.
+    pub site: SiteOptions,
+}
+
+/// The state that all threads share.
+struct Shared<'s> {
+    material: Material<'s>,
+    identity: &'s Identity,
+    hub: EventHub,
+    snapshot: Mutex<Arc<Snapshot>>,
+    /// The files of the newest version, and whether the whole check of it is made.
+    newest: Mutex<(Fingerprint, bool)>,
+    changed: Condvar,
+    requests: AtomicUsize,
+    /// One change of a file at a time.
+    writing: Mutex<()>,
+}
+
+/// Serves a course until the program ends. `ready` receives the address.
+///
+/// # Errors
+/// The port is taken, or there is nothing to show.
+pub fn serve(
+    backend: &dyn Backend,
+    folder: &Path,
+    options: &PreviewOptions,
+    page_files: &PageFiles,
+    ready: &mut dyn FnMut(&str),
+) -> Result<(), String> {
+    let server = Server::http(("127.0.0.1", options.port)).map_err(|e| {
+        format!("cannot listen on 127.0.0.1:{}: {e}; choose another port with --port", options.port)
+    })?;
+    let port = server.server_addr().to_ip().map_or(options.port, |address| address.port());
+    let identity = Identity::new(port)?;
+    let material = Material { backend, folder, options: &options.site, page_files, token: &identity.token };
+    let before = backend.fingerprint(&Default::default());
+    let course = Arc::new(backend.check(CheckLevel::STATIC)?);
+    let first = Snapshot::new(&material, course, 1, false, None);
+    let shared = Shared {
+        material,
+        identity: &identity,
+        hub: EventHub::default(),
+        snapshot: Mutex::new(Arc::new(first)),
+        newest: Mutex::default(),
+        changed: Condvar::new(),
+        requests: AtomicUsize::new(0),
+        writing: Mutex::new(()),
+    };
+    *locked(&shared.newest) = (shared.fingerprint_after(before), false);
+    shared.hub.announce(1);
+    let cannot = |e: std::io::Error| format!("cannot start a thread: {e}");
+    std::thread::scope(|scope| {
+        threads::checking().spawn_scoped(scope, || shared.follow_files()).map_err(cannot)?;
+        threads::checking().spawn_scoped(scope, || shared.check_all()).map_err(cannot)?;
+        ready(&format!("http://{}/", identity.host));
+        for request in server.incoming_requests() {
+            if shared.requests.load(Ordering::SeqCst) >= MAX_REQUESTS {
+                refuse(request, 503, "the preview is busy");
+                continue;
+            }
+            shared.requests.fetch_add(1, Ordering::SeqCst);
+            let answer = || {
+                // A panic ends one answer, and the next request gets one again.
+                let _ = threads::apart(|| shared.answer(request));
+                shared.requests.fetch_sub(1, Ordering::SeqCst);
+            };
+            if threads::checking().spawn_scoped(scope, answer).is_err() {
+                shared.requests.fetch_sub(1, Ordering::SeqCst);
+            }
+        }
+        Ok(())
+    })
+}
+
+fn locked<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Shared<'_> {
+    fn current(&self) -> Arc<Snapshot> {
+        locked(&self.snapshot).clone()
+    }
+
+    fn fingerprint(&self) -> Fingerprint {
+        let snapshot = self.current();
+        let others = snapshot.course.dependencies.iter().chain(&snapshot.watched).cloned().collect();
+        self.material.backend.fingerprint(&others)
+    }
+
+    /// Publishes the pages of a check. A check that fails keeps the lessons of the last one, with the reason.
+    fn publish(&self, check: Result<CourseCheck, String>, is_checked: bool) {
+        let now = self.current();
+        let (course, problem) = match check {
+            Ok(course) => (Arc::new(course), None),
+            Err(why) => (now.course.clone(), Some(why)),
+        };
+        let version = now.version + 1;
+        let made =
+            threads::apart(|| Snapshot::new(&self.material, course, version, is_checked, problem.as_deref()));
+        if let Ok(snapshot) = made {
+            *locked(&self.snapshot) = Arc::new(snapshot);
+            self.hub.announce(version);
+        }
+    }
+
+    fn check(&self, level: CheckLevel) -> Result<CourseCheck, String> {
+        threads::apart(|| self.material.backend.check(level))
+            .unwrap_or_else(|panic| Err(format!("labspec failed while checking: {panic}")))
+    }
+
+    /// Shows every change at once, without runs.
+    fn follow_files(&self) {
+        loop {
+            std::thread::sleep(PAUSE);
+            let now = self.fingerprint();
+            if locked(&self.newest).0 == now {
+                continue;
+            }
+            let check = self.check(CheckLevel::STATIC);
+            let mut newest = locked(&self.newest);
+            self.publish(check, false);
+            // Files that the new text is the first to name are part of the next inspection.
+            *newest = (self.fingerprint_after(now), false);
+            drop(newest);
+            self.changed.notify_all();
+        }
+    }
+
+    /// The state of the files before a check, with those that were not known then.
+    fn fingerprint_after(&self, before: Fingerprint) -> Fingerprint {
+        let mut all = self.fingerprint();
+        let known: Vec<_> = before.into_iter().filter(|(path, _)| all.contains_key(path)).collect();
+        all.extend(known);
+        all
+    }
+
+    /// Checks everything after each change. The results of a text that has changed meanwhile are not shown.
+    fn check_all(&self) {
+        loop {
+            let newest = locked(&self.newest);
+            let newest = self
+                .changed
+                .wait_while(newest, |(_, is_done)| *is_done)
+                .unwrap_or_else(PoisonError::into_inner);
+            let files = newest.0.clone();
+            drop(newest);
+            let check = self.check(CheckLevel::FULL);
+            let mut newest = locked(&self.newest);
+            if newest.0 == files {
+                self.publish(check, true);
+                *newest = (self.fingerprint_after(files), true);
+            }
+        }
+    }
+
+    fn answer(&self, request: Request) {
+        if let Err((status, why)) = self.identity.check(&request) {
+            return refuse(request, status, why);
+        }
+        let path = request.url().split(['?', '#']).next().unwrap_or("").to_string();
+        if let Some(action) = path.strip_prefix(ACTIONS) {
+            return match (action, request.method()) {
+                ("events", Method::Get) => self.hub.follow(&mut *request.into_writer()),
+                (_, Method::Post) => self.act(action, request),
+                _ => refuse(request, 405, "the preview answers this request with POST"),
+            };
+        }
+        let name = percent_decode_str(path.trim_start_matches('/')).decode_utf8_lossy();
+        let name = if name.is_empty() { "index.html" } else { &*name };
+        // Only names of files of the site are found, so that no path leads out of it.
+        match self.current().files.get(name) {
+            Some(SiteFile::Text(text)) => {
+                respond(request, 200, kind_of(name), false, text.clone().into_bytes())
+            }
+            Some(SiteFile::Copy(file)) => match std::fs::read(file) {
+                Ok(bytes) => respond(request, 200, kind_of(name), !name.starts_with("page/"), bytes),
+                Err(_) => refuse(request, 404, "this file cannot be read"),
+            },
+            None => refuse(request, 404, "the course has no such page"),
+        }
+    }
+
+    fn act(&self, action: &str, mut request: Request) {
+        let mut body = Vec::new();
+        let read = request.as_reader().take(MAX_BODY + 1).read_to_end(&mut body);
+        if read.is_err() || body.len() as u64 > MAX_BODY {
+            return refuse(request, 413, "the request is too large");
+        }
+        let Ok(ask) = serde_json::from_slice::<Ask>(&body) else {
+            return refuse(request, 400, "the request cannot be read");
+        };
+        let snapshot = self.current();
+        let backend = self.material.backend;
+        let done = threads::apart(|| match action {
+            "edit" | "fix" | "accept" => {
+                let _one = locked(&self.writing);
+                act(action, &ask, &snapshot, backend)
+            }
+            _ => act(action, &ask, &snapshot, backend),
+        });
+        let (status, value) = match done {
+            Ok(Ok(value)) => (200, value),
+            Ok(Err((status, why))) => (status, serde_json::json!({ "error": why })),
+            Err(panic) => (500, serde_json::json!({ "error": format!("labspec failed: {panic}") })),
+        };
+        respond(request, status, "application/json", false, value.to_string().into_bytes());
+    }
+}
+
+/// The type of a file, from its name.
+fn kind_of(name: &str) -> &'static str {
+    match name.rsplit_once('.').map_or("", |(_, ending)| ending).to_ascii_lowercase().as_str() {
+        "html" => "text/html; charset=utf-8",
+        "js" => "text/javascript; charset=utf-8",
+        "css" => "text/css; charset=utf-8",
+        "json" => "application/json",
+        "wasm" => "application/wasm",
+        "woff2" => "font/woff2",
+        "xml" => "text/xml; charset=utf-8",
+        "png" => "image/png",
+        "jpg" | "jpeg" => "image/jpeg",
+        "gif" => "image/gif",
+        "webp" => "image/webp",
+        "avif" => "image/avif",
+        "svg" => "image/svg+xml",
+        "pdf" => "application/pdf",
+        "mp4" => "video/mp4",
+        "webm" => "video/webm",
+        "txt" | "csv" | "tsv" | "py" | "m" | "jl" | "r" | "toml" => "text/plain; charset=utf-8",
+        _ => "application/octet-stream",
+    }
+}
+
+fn respond(request: Request, status: u16, kind: &str, is_copied: bool, body: Vec<u8>) {
+    let mut response = Response::from_data(body).with_status_code(status);
+    for header in headers(kind, is_copied) {
+        response.add_header(header);
+    }
+    // The page has been closed.
+    let _ = request.respond(response);
+}
+
+fn refuse(request: Request, status: u16, why: &str) {
+    let body = serde_json::json!({ "error": why }).to_string();
+    respond(request, status, "application/json", false, body.into_bytes());
+}
