@@ -118,6 +118,15 @@ pub(crate) fn render(surroundings: &mut Surroundings<'_>) -> Vec<Group> {
     let Renderer { events, mut groups, .. } = renderer;
     let mut written = String::new();
     html::push_html(&mut written, events.into_iter());
+    // The renderer aligns cells by styles, which the policy of the pages forbids. No other element has one.
+    for (style, class) in
+        [("text-align: left", "start"), ("text-align: center", "center"), ("text-align: right", "end")]
+    {
+        for cell in ["th", "td"] {
+            written = written
+                .replace(&format!("<{cell} style=\"{style}\">"), &format!("<{cell} class=\"{class}\">"));
+        }
+    }
     for (group, html) in groups.iter_mut().zip(written.split(SEPARATOR)) {
         group.html = html.trim().to_string();
     }

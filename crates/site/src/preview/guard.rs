@@ -2,8 +2,8 @@
 //! can send requests to it: a request must name this address (a name of another site may lead here), come from a page of this
 //! address, and carry the token of the page where it changes something.
 
+use super::http::Head;
 use crate::page::POLICY;
-use tiny_http::{Header, Method, Request};
 
 /// The prefix of addresses that are not files of the site.
 pub(super) const ACTIONS: &str = "/_labspec/";
@@ -36,34 +36,25 @@ impl Identity {
     }
 
     /// Tests a request before anything else is done with it.
-    pub(super) fn check(&self, request: &Request) -> Result<(), Refusal> {
-        let headers = |name: &'static str| {
-            let all = request
-                .headers()
-                .iter()
-                .filter(move |h| h.field.as_str().as_str().eq_ignore_ascii_case(name));
-            all.map(|h| h.value.as_str()).collect::<Vec<_>>()
-        };
-        if headers("host") != [self.host.as_str()] {
+    pub(super) fn check(&self, request: &Head) -> Result<(), Refusal> {
+        if request.headers("host") != [self.host.as_str()] {
             return Err((
                 403,
                 "the request names another host; open the address that the preview has printed",
             ));
         }
         let own = format!("http://{}", self.host);
-        if headers("origin").iter().any(|origin| *origin != own) {
+        if request.headers("origin").iter().any(|origin| *origin != own) {
             return Err((403, "the request comes from another page"));
         }
-        let is_action = request.url().starts_with(ACTIONS);
-        match request.method() {
-            Method::Get | Method::Head => Ok(()),
-            Method::Post if is_action => {
-                if headers("origin") != [own.as_str()]
-                    || !matches!(headers(TOKEN)[..], [token] if is_same(token, &self.token))
-                {
-                    return Err((403, "the request has not the token of the page; load the page again"));
+        match request.method.as_str() {
+            "GET" | "HEAD" => Ok(()),
+            "POST" if request.target.starts_with(ACTIONS) => {
+                let has_token = matches!(request.headers(TOKEN)[..], [token] if is_same(token, &self.token));
+                match has_token && request.headers("origin") == [own.as_str()] {
+                    true => Ok(()),
+                    false => Err((403, "the request has not the token of the page; load the page again")),
                 }
-                Ok(())
             }
             _ => Err((405, "the preview answers GET and HEAD")),
         }
@@ -76,19 +67,19 @@ fn is_same(a: &str, b: &str) -> bool {
 }
 
 /// The headers of every answer. A file of the course is shown, but runs nothing.
-pub(super) fn headers(kind: &str, is_copied: bool) -> Vec<Header> {
-    let page_policy = format!("{POLICY}; frame-ancestors 'none'");
-    let policy =
-        if is_copied { "default-src 'none'; style-src 'unsafe-inline'; sandbox" } else { &page_policy };
-    let all = [
-        ("Content-Type", kind),
+pub(super) fn headers(kind: &str, is_copied: bool) -> Vec<(&'static str, String)> {
+    let policy = match is_copied {
+        true => "default-src 'none'; style-src 'unsafe-inline'; sandbox".to_string(),
+        false => format!("{POLICY}; frame-ancestors 'none'"),
+    };
+    vec![
+        ("Content-Type", kind.to_string()),
         ("Content-Security-Policy", policy),
-        ("X-Content-Type-Options", "nosniff"),
-        ("X-Frame-Options", "DENY"),
-        ("Referrer-Policy", "no-referrer"),
-        ("Cross-Origin-Resource-Policy", "same-origin"),
-        ("Cross-Origin-Opener-Policy", "same-origin"),
-        ("Cache-Control", "no-store"),
-    ];
-    all.iter().filter_map(|(name, value)| Header::from_bytes(*name, *value).ok()).collect()
+        ("X-Content-Type-Options", "nosniff".into()),
+        ("X-Frame-Options", "DENY".into()),
+        ("Referrer-Policy", "no-referrer".into()),
+        ("Cross-Origin-Resource-Policy", "same-origin".into()),
+        ("Cross-Origin-Opener-Policy", "same-origin".into()),
+        ("Cache-Control", "no-store".into()),
+    ]
 }

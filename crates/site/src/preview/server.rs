@@ -4,18 +4,18 @@ use super::actions::{Ask, act};
 use super::backend::{Backend, CourseCheck, Fingerprint};
 use super::events::EventHub;
 use super::guard::{ACTIONS, Identity, headers};
+use super::http::{Head, drain, read_body, read_head, write_answer};
 use super::snapshot::{Material, Snapshot};
 use crate::assets::PageFiles;
 use crate::site::{SiteFile, SiteOptions};
 use labspec::check::CheckLevel;
 use labspec::threads;
 use percent_encoding::percent_decode_str;
-use std::io::Read;
+use std::net::{TcpListener, TcpStream};
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::time::Duration;
-use tiny_http::{Method, Request, Response, Server};
 
 /// The interval between two inspections of the files.
 const PAUSE: Duration = Duration::from_millis(250);
@@ -58,10 +58,10 @@ pub fn serve(
     page_files: &PageFiles,
     ready: &mut dyn FnMut(&str),
 ) -> Result<(), String> {
-    let server = Server::http(("127.0.0.1", options.port)).map_err(|e| {
+    let listener = TcpListener::bind(("127.0.0.1", options.port)).map_err(|e| {
         format!("cannot listen on 127.0.0.1:{}: {e}; choose another port with --port", options.port)
     })?;
-    let port = server.server_addr().to_ip().map_or(options.port, |address| address.port());
+    let port = listener.local_addr().map_or(options.port, |address| address.port());
     let identity = Identity::new(port)?;
     let material = Material { backend, folder, options: &options.site, page_files, token: &identity.token };
     let before = backend.fingerprint(&Default::default());
@@ -84,15 +84,20 @@ pub fn serve(
         threads::checking().spawn_scoped(scope, || shared.follow_files()).map_err(cannot)?;
         threads::checking().spawn_scoped(scope, || shared.check_all()).map_err(cannot)?;
         ready(&format!("http://{}/", identity.host));
-        for request in server.incoming_requests() {
-            if shared.requests.load(Ordering::SeqCst) >= MAX_REQUESTS {
-                refuse(request, 503, "the preview is busy");
+        for stream in listener.incoming() {
+            // A browser that has gone is no error of the server; a full table of files passes.
+            let Ok(stream) = stream else {
+                std::thread::sleep(PAUSE);
+                continue;
+            };
+            if shared.requests.fetch_add(1, Ordering::SeqCst) >= MAX_REQUESTS {
+                shared.requests.fetch_sub(1, Ordering::SeqCst);
                 continue;
             }
-            shared.requests.fetch_add(1, Ordering::SeqCst);
-            let answer = || {
-                // A panic ends one answer, and the next request gets one again.
-                let _ = threads::apart(|| shared.answer(request));
+            let shared = &shared;
+            let answer = move || {
+                // A panic ends one answer, and the next request gets one again. Nobody reads an answer that cannot be written.
+                let _ = threads::apart(|| shared.serve(stream));
                 shared.requests.fetch_sub(1, Ordering::SeqCst);
             };
             if threads::checking().spawn_scoped(scope, answer).is_err() {
@@ -184,41 +189,53 @@ impl Shared<'_> {
         }
     }
 
-    fn answer(&self, request: Request) {
-        if let Err((status, why)) = self.identity.check(&request) {
-            return refuse(request, status, why);
-        }
-        let path = request.url().split(['?', '#']).next().unwrap_or("").to_string();
-        if let Some(action) = path.strip_prefix(ACTIONS) {
-            return match (action, request.method()) {
-                ("events", Method::Get) => self.hub.follow(&mut *request.into_writer()),
-                (_, Method::Post) => self.act(action, request),
-                _ => refuse(request, 405, "the preview answers this request with POST"),
-            };
-        }
+    /// Reads a request and answers it.
+    fn serve(&self, mut stream: TcpStream) -> std::io::Result<()> {
+        let head = read_head(&mut stream)?;
+        let path = head.target.split(['?', '#']).next().unwrap_or("");
+        let answer = match self.identity.check(&head) {
+            Err((status, why)) => {
+                drain(&mut stream, &head);
+                Answer::refusal(status, why)
+            }
+            Ok(()) => match path.strip_prefix(ACTIONS) {
+                Some("events") if head.method == "GET" => {
+                    self.hub.follow(&mut stream);
+                    return Ok(());
+                }
+                Some(action) if head.method == "POST" => self.act(action, &head, &mut stream)?,
+                Some(_) => Answer::refusal(405, "the preview answers this request with POST"),
+                None => self.file(path),
+            },
+        };
+        let headers = headers(answer.kind, answer.is_copied);
+        write_answer(&mut stream, answer.status, &headers, &answer.body, head.method != "HEAD")
+    }
+
+    /// A file of the site. Only names of such files are found, so that no path leads out of it.
+    fn file(&self, path: &str) -> Answer {
         let name = percent_decode_str(path.trim_start_matches('/')).decode_utf8_lossy();
         let name = if name.is_empty() { "index.html" } else { &*name };
-        // Only names of files of the site are found, so that no path leads out of it.
+        let (kind, is_copied) = (kind_of(name), !name.starts_with("page/"));
         match self.current().files.get(name) {
             Some(SiteFile::Text(text)) => {
-                respond(request, 200, kind_of(name), false, text.clone().into_bytes())
+                Answer { status: 200, kind, is_copied: false, body: text.clone().into_bytes() }
             }
             Some(SiteFile::Copy(file)) => match std::fs::read(file) {
-                Ok(bytes) => respond(request, 200, kind_of(name), !name.starts_with("page/"), bytes),
-                Err(_) => refuse(request, 404, "this file cannot be read"),
+                Ok(body) => Answer { status: 200, kind, is_copied, body },
+                Err(_) => Answer::refusal(404, "this file cannot be read"),
             },
-            None => refuse(request, 404, "the course has no such page"),
+            None => Answer::refusal(404, "the course has no such page"),
         }
     }
 
-    fn act(&self, action: &str, mut request: Request) {
-        let mut body = Vec::new();
-        let read = request.as_reader().take(MAX_BODY + 1).read_to_end(&mut body);
-        if read.is_err() || body.len() as u64 > MAX_BODY {
-            return refuse(request, 413, "the request is too large");
-        }
+    /// Does what a page asks for.
+    fn act(&self, action: &str, head: &Head, stream: &mut TcpStream) -> std::io::Result<Answer> {
+        let Some(body) = read_body(stream, head, MAX_BODY)? else {
+            return Ok(Answer::refusal(413, "the request is too large, or does not state its length"));
+        };
         let Ok(ask) = serde_json::from_slice::<Ask>(&body) else {
-            return refuse(request, 400, "the request cannot be read");
+            return Ok(Answer::refusal(400, "the request cannot be read"));
         };
         let snapshot = self.current();
         let backend = self.material.backend;
@@ -229,12 +246,30 @@ impl Shared<'_> {
             }
             _ => act(action, &ask, &snapshot, backend),
         });
-        let (status, value) = match done {
-            Ok(Ok(value)) => (200, value),
-            Ok(Err((status, why))) => (status, serde_json::json!({ "error": why })),
-            Err(panic) => (500, serde_json::json!({ "error": format!("labspec failed: {panic}") })),
-        };
-        respond(request, status, "application/json", false, value.to_string().into_bytes());
+        Ok(match done {
+            Ok(Ok(value)) => Answer::json(200, &value),
+            Ok(Err((status, why))) => Answer::refusal(status, &why),
+            Err(panic) => Answer::refusal(500, &format!("labspec failed: {panic}")),
+        })
+    }
+}
+
+/// What a request gets.
+struct Answer {
+    status: u16,
+    kind: &'static str,
+    /// Whether it is a file of the course.
+    is_copied: bool,
+    body: Vec<u8>,
+}
+
+impl Answer {
+    fn json(status: u16, value: &serde_json::Value) -> Answer {
+        Answer { status, kind: "application/json", is_copied: false, body: value.to_string().into_bytes() }
+    }
+
+    fn refusal(status: u16, why: &str) -> Answer {
+        Answer::json(status, &serde_json::json!({ "error": why }))
     }
 }
 
@@ -260,18 +295,4 @@ fn kind_of(name: &str) -> &'static str {
         "txt" | "csv" | "tsv" | "py" | "m" | "jl" | "r" | "toml" => "text/plain; charset=utf-8",
         _ => "application/octet-stream",
     }
-}
-
-fn respond(request: Request, status: u16, kind: &str, is_copied: bool, body: Vec<u8>) {
-    let mut response = Response::from_data(body).with_status_code(status);
-    for header in headers(kind, is_copied) {
-        response.add_header(header);
-    }
-    // The page has been closed.
-    let _ = request.respond(response);
-}
-
-fn refuse(request: Request, status: u16, why: &str) {
-    let body = serde_json::json!({ "error": why }).to_string();
-    respond(request, status, "application/json", false, body.into_bytes());
 }

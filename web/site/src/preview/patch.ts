@@ -1,6 +1,6 @@
 /** Brings the new text of a page into the open one. What is the same stays, with the states of its labs. */
 import { drawFormulas } from "../math.js";
-import { openState, stateFor } from "./labs.js";
+import { actionsFor, repeatActions, type Actions } from "./labs.js";
 
 const blocksOf = (main: ParentNode): HTMLElement[] => [...main.querySelectorAll<HTMLElement>(":scope > .block")];
 const labOf = (block: ParentNode): Element | null => block.querySelector(":scope > .content sim-lab");
@@ -42,12 +42,12 @@ function updateBlock(old: HTMLElement, fresh: HTMLElement, isChecked: boolean): 
   old.className = fresh.className;
 }
 
-/** The states of the labs that will be replaced, taken before anything is. */
-function statesOf(pairs: readonly (HTMLElement | undefined)[], blocks: readonly HTMLElement[]): Promise<(Uint8Array | null)[]> {
+/** What was done to the labs that will be replaced, read before anything is. */
+function actionsOf(pairs: readonly (HTMLElement | undefined)[], blocks: readonly HTMLElement[]): Promise<(Actions | null)[]> {
   return Promise.all(blocks.map(async (block, i) => {
     const old = pairs[i];
     if (old === undefined || old.dataset["hash"] === block.dataset["hash"]) return null;
-    return stateFor(labOf(old), labOf(block)).catch(() => null);
+    return actionsFor(labOf(old), labOf(block)).catch(() => null);
   }));
 }
 
@@ -59,7 +59,7 @@ export async function patchPage(fresh: Document): Promise<void> {
   const [old, blocks] = [blocksOf(main), blocksOf(next)];
   const pairs = pairBlocks(old, blocks);
   const kept = new Set(pairs);
-  const states = await statesOf(pairs, blocks);
+  const actions = await actionsOf(pairs, blocks);
   for (const block of old) if (!kept.has(block)) block.remove();
   let last: Element | null = null;
   blocks.forEach((block, i) => {
@@ -85,8 +85,8 @@ export async function patchPage(fresh: Document): Promise<void> {
   }
   document.title = fresh.title;
   await drawFormulas(main);
-  // A state that does not fit is no error of the page.
-  await Promise.allSettled(states.map((state, i) => (state === null ? null : openState(labOf(pairs[i] ?? main), state))));
+  // Actions that a lab refuses are no error of the page: the lab says so, and begins at its start.
+  await Promise.allSettled(actions.map((done, i) => (done === null ? null : repeatActions(labOf(pairs[i] ?? main), done))));
 }
 
 /** The models of the page. A lab whose model has changed has another hash, and is replaced. */
