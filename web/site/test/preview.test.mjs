@@ -91,7 +91,7 @@ test("a fix is one click", async (t) => {
 });
 
 test("a block is edited in place, and a change from elsewhere is not overwritten", async (t) => {
-  const { page, file, none } = await start(t, "02-bounce-and-swing.md");
+  const { page, file, errors } = await start(t, "02-bounce-and-swing.md");
   const block = page.locator(".block.text").nth(1);
   await block.getByRole("button", { name: /^Edit/ }).click();
   const area = page.getByRole("textbox", { name: "Source of this block" });
@@ -105,8 +105,15 @@ test("a block is edited in place, and a change from elsewhere is not overwritten
   await area.fill("Mine.");
   change(file, "Other first words.", "Theirs.");
   await page.locator("p", { hasText: "Theirs." }).first().waitFor();
+  // What was typed is still there, and is not written over the other change.
+  assert.equal(await area.inputValue(), "Mine.");
+  await page.getByRole("button", { name: "Save" }).click();
+  await page.getByText("the file has changed since this page was shown").waitFor();
   assert.ok(!readFileSync(file, "utf8").includes("Mine."));
-  none();
+  await page.getByRole("button", { name: "Cancel" }).click();
+  assert.equal(await page.locator(".stale").count(), 0);
+  // The browser reports the refused request.
+  assert.deepEqual(errors.filter((error) => !error.includes("409 (Conflict)")), []);
 });
 
 test("a proposal is accepted by a click", async (t) => {

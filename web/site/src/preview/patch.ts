@@ -2,7 +2,9 @@
 import { drawFormulas } from "../math.js";
 import { actionsFor, repeatActions, type Actions } from "./labs.js";
 
-const blocksOf = (main: ParentNode): HTMLElement[] => [...main.querySelectorAll<HTMLElement>(":scope > .block")];
+/** The time that the engine of a lab has to say what was done to it, ms. */
+const PATIENCE = 1500;
+const blocksOf = (main: ParentNode): HTMLElement[] => [...main.querySelectorAll<HTMLElement>(":scope > .block:not(.stale)")];
 const labOf = (block: ParentNode): Element | null => block.querySelector(":scope > .content sim-lab");
 
 /** For each new block, the old one that it continues. */
@@ -47,8 +49,21 @@ function actionsOf(pairs: readonly (HTMLElement | undefined)[], blocks: readonly
   return Promise.all(blocks.map(async (block, i) => {
     const old = pairs[i];
     if (old === undefined || old.dataset["hash"] === block.dataset["hash"]) return null;
-    return actionsFor(labOf(old), labOf(block)).catch(() => null);
+    // An engine that is busy does not hold up the change.
+    const late = new Promise<null>((resolve) => setTimeout(() => resolve(null), PATIENCE));
+    return Promise.race([actionsFor(labOf(old), labOf(block)).catch(() => null), late]);
   }));
+}
+
+/** Removes a block. One with an open editor stays until the editor is closed, so that nothing that was typed is lost. */
+function removeBlock(block: HTMLElement): void {
+  if (block.querySelector(":scope > .editor-host") === null) return block.remove();
+  block.classList.add("stale");
+  for (const name of ["content", "after", "notes", "tools"]) block.querySelector(`:scope > .${name}`)?.remove();
+  const remark = document.createElement("p");
+  remark.setAttribute("role", "status");
+  remark.textContent = "This block has changed in the file. Your text is still here, and cannot be saved: copy what you need.";
+  block.prepend(remark);
 }
 
 /** Brings the new page into the open one. */
@@ -60,11 +75,12 @@ export async function patchPage(fresh: Document): Promise<void> {
   const pairs = pairBlocks(old, blocks);
   const kept = new Set(pairs);
   const actions = await actionsOf(pairs, blocks);
-  for (const block of old) if (!kept.has(block)) block.remove();
+  for (const block of old) if (!kept.has(block)) removeBlock(block);
   let last: Element | null = null;
   blocks.forEach((block, i) => {
     const pair = pairs[i];
-    const place: Element | null = last === null ? (blocksOf(main)[0] ?? null) : last.nextElementSibling;
+    let place: Element | null = last === null ? (main.querySelector(":scope > .block")) : last.nextElementSibling;
+    while (place !== null && place.classList.contains("stale")) place = place.nextElementSibling;
     if (pair === undefined) main.insertBefore(document.adoptNode(block), place);
     else {
       // An element that is moved starts again, so only what is out of order moves.
@@ -85,8 +101,10 @@ export async function patchPage(fresh: Document): Promise<void> {
   }
   document.title = fresh.title;
   await drawFormulas(main);
-  // Actions that a lab refuses are no error of the page: the lab says so, and begins at its start.
-  await Promise.allSettled(actions.map((done, i) => (done === null ? null : repeatActions(labOf(pairs[i] ?? main), done))));
+  actions.forEach((done, i) => {
+    // Actions that a lab refuses are no error of the page: the lab says so, and begins at its start. The next change does not wait.
+    if (done !== null) repeatActions(labOf(pairs[i] ?? main), done).catch(() => undefined);
+  });
 }
 
 /** The models of the page. A lab whose model has changed has another hash, and is replaced. */

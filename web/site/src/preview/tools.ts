@@ -13,12 +13,26 @@ function rangeOf(block: HTMLElement): { start: number; end: number } {
   return { start: Number(block.dataset["start"]), end: Number(block.dataset["end"]) };
 }
 
+/** A place for an editor in a block. It goes when the editor does, and takes a block along that the page has no more. */
+function editorHost(block: HTMLElement): HTMLElement {
+  const host = document.createElement("div");
+  host.className = "editor-host";
+  block.append(host);
+  new MutationObserver((_, observer) => {
+    if (host.childElementCount > 0) return;
+    observer.disconnect();
+    host.remove();
+    if (block.classList.contains("stale")) block.remove();
+  }).observe(host, { childList: true });
+  return host;
+}
+
 async function edit(main: HTMLElement, block: HTMLElement): Promise<void> {
-  if (block.querySelector(".source-editor") !== null) return;
+  if (block.querySelector(".editor-host") !== null) return;
   const [lesson, range] = [lessonOf(main), rangeOf(block)];
   const { text } = await ask("source", { ...lesson, ...range });
   // The place of the block when the editor was opened: a text that has changed since is not overwritten.
-  const editor = mountEditor(block, textOf(text), async (changed) => void (await ask("edit", { ...lesson, ...range, text: changed })));
+  const editor = mountEditor(editorHost(block), textOf(text), async (changed) => void (await ask("edit", { ...lesson, ...range, text: changed })));
   editor.focus();
 }
 
