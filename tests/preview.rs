@@ -93,9 +93,9 @@ impl Preview {
             let html = self.get("/a.html", "").body;
             let value =
                 |key: &str| html.split_once(key).map(|(_, rest)| rest.split('"').next().unwrap().to_string());
-            let shown = value("data-hash=\"").unwrap_or_default();
-            if value("data-checked=\"").as_deref() == Some("true") && shown == hash() {
-                return (value("labspec-token\" content=\"").unwrap(), shown, html);
+            let displayed = value("data-hash=\"").unwrap_or_default();
+            if value("data-checked=\"").as_deref() == Some("true") && displayed == hash() {
+                return (value("labspec-token\" content=\"").unwrap(), displayed, html);
             }
             assert!(begin.elapsed() < Duration::from_secs(60), "the page does not follow the file: {html}");
             std::thread::sleep(Duration::from_millis(50));

@@ -155,22 +155,23 @@ fn report(a: &Arguments, results: &CourseResults, site: &Site) -> Result<Outcome
 
 /// The files of the site that the folder holds. A folder with other content is refused, so that nothing is lost.
 fn earlier_site(course: &Path, out: &Path) -> Result<Vec<String>, Failure> {
-    let shown = printable_path(out);
+    let displayed = printable_path(out);
     if let (Ok(course), Ok(out)) = (course.canonicalize(), out.canonicalize())
         && course.starts_with(&out)
     {
-        return Err(format!("{shown} holds the course itself; name another folder with --out"));
+        return Err(format!("{displayed} holds the course itself; name another folder with --out"));
     }
     let is_empty = match fs::read_dir(out) {
         Ok(mut entries) => entries.next().is_none(),
         Err(e) if e.kind() == std::io::ErrorKind::NotFound => true,
-        Err(e) => return Err(format!("cannot read {shown}: {e}")),
+        Err(e) => return Err(format!("cannot read {displayed}: {e}")),
     };
     if is_empty {
         return Ok(Vec::new());
     }
-    let refuse =
-        || format!("{shown} holds files that `labspec build` did not write; name an empty folder with --out");
+    let refuse = || {
+        format!("{displayed} holds files that `labspec build` did not write; name an empty folder with --out")
+    };
     let manifest = fs::read_to_string(out.join(MANIFEST)).map_err(|_| refuse())?;
     let manifest: serde_json::Value = serde_json::from_str(&manifest).map_err(|_| refuse())?;
     if manifest["site"] != "labspec" {

@@ -46,8 +46,8 @@ impl PageFiles {
 
     /// Lists a folder.
     fn read(folder: &Path) -> Result<PageFiles, String> {
-        let shown = folder.display();
-        let real = folder.canonicalize().map_err(|e| format!("cannot read {shown}: {e}; {HELP}"))?;
+        let displayed = folder.display();
+        let real = folder.canonicalize().map_err(|e| format!("cannot read {displayed}: {e}; {HELP}"))?;
         let mut files = BTreeMap::new();
         for (inside, prefix) in [(real.clone(), ""), (real.join("fonts"), "fonts/")] {
             for entry in std::fs::read_dir(&inside).into_iter().flatten().flatten() {
@@ -58,7 +58,9 @@ impl PageFiles {
             }
         }
         match REQUIRED.iter().chain(&OF_PREVIEW).find(|name| !files.contains_key(**name)) {
-            Some(name) => Err(format!("{shown} has no {name}, so it is not the scripts of the page; {HELP}")),
+            Some(name) => {
+                Err(format!("{displayed} has no {name}, so it is not the scripts of the page; {HELP}"))
+            }
             None => Ok(PageFiles { files }),
         }
     }

@@ -154,7 +154,7 @@ impl OpenElements {
         let mut written = format!("<{name}");
         let mut has_source = false;
         for (attribute, value) in attributes {
-            let kept = match (name, attribute.as_str()) {
+            let allowed = match (name, attribute.as_str()) {
                 ("a", "href") => addresses.link(value),
                 ("img", "src") => {
                     let source = addresses.image(value);
@@ -170,7 +170,7 @@ impl OpenElements {
                 (_, attribute) if EVERYWHERE.contains(&attribute) => Some(value.clone()),
                 _ => None,
             };
-            if let Some(value) = kept {
+            if let Some(value) = allowed {
                 let attribute = if attribute == "name" { "id" } else { attribute };
                 written.push_str(&format!(" {attribute}=\"{}\"", escape(&value)));
             }

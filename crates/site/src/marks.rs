@@ -43,8 +43,10 @@ pub(crate) fn text_marks(lesson: &Lesson, ledger: &Ledger) -> Vec<TextMark> {
     for entry in
         ledger.entries().iter().filter(|e| e.path == *lesson.file.path() && e.subject == Subject::Quote)
     {
-        let remark =
-            lesson.remarks.iter().find(|r| r.verify.says.iter().any(|said| said.quote.span() == entry.span));
+        let remark = lesson
+            .remarks
+            .iter()
+            .find(|r| r.verify.says.iter().any(|quoted| quoted.quote.span() == entry.span));
         let over = remark.map(|remark| &remark.over);
         let (class, _) = class_of(entry.state);
         for span in rendered.places(&entry.what) {
@@ -64,13 +66,13 @@ pub(crate) fn text_marks(lesson: &Lesson, ledger: &Ledger) -> Vec<TextMark> {
     let rank = |mark: &TextMark| attention.iter().position(|class| *class == mark.class);
     all.sort_by_key(|mark| (rank(mark), mark.span.start, mark.span.end));
     let mut chosen: Vec<TextMark> = Vec::new();
-    let mut taken: std::collections::BTreeMap<usize, usize> = std::collections::BTreeMap::new();
+    let mut occupied: std::collections::BTreeMap<usize, usize> = std::collections::BTreeMap::new();
     for mark in all {
-        let before = taken.range(..mark.span.end).next_back();
+        let before = occupied.range(..mark.span.end).next_back();
         if mark.span.is_empty() || before.is_some_and(|(_, end)| *end > mark.span.start) {
             continue;
         }
-        taken.insert(mark.span.start, mark.span.end);
+        occupied.insert(mark.span.start, mark.span.end);
         chosen.push(mark);
     }
     chosen.sort_by_key(|mark| mark.span.start);

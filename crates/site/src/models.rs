@@ -75,6 +75,12 @@ impl ModelShelf {
         {
             return Delivery::Embedded(text);
         }
+        // The element fetches models with such names only.
+        if !name.bytes().all(|b| b.is_ascii_alphanumeric() || b"_.-".contains(&b)) {
+            self.problems.push(format!(
+                "the model `{name}` has other files, so pages fetch it by its name; rename it to letters, digits, `_`, `.` and `-`"
+            ));
+        }
         let to = ModelShelf::site_folder(number);
         self.copied.insert(format!("{to}/{name}.xml"), path.clone());
         for other in others {

@@ -241,12 +241,12 @@ impl<'r> Renderer<'r, '_> {
     fn finish_group(&mut self, end: usize) {
         let Some(start) = self.start.take() else { return };
         let masked = self.around.masked;
-        let missed: Vec<usize> = masked
+        let unreached: Vec<usize> = masked
             .fences(&(start..end))
             .map(|(_, index)| index)
             .filter(|index| !self.written.contains(index))
             .collect();
-        for index in missed {
+        for index in unreached {
             self.written.insert(index);
             let html = (self.around.fence)(index, self.around.addresses);
             self.events.push(Event::Html(CowStr::from(html)));

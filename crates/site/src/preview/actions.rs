@@ -84,15 +84,11 @@ fn edit(ask: &Ask, asked: &Asked<'_>, backend: &dyn Backend) -> Result<Value, Re
         return Err((400, "the request names no block of this page".into()));
     };
     // A browser sends the line ends of a form as `\n`; the file keeps its own.
-    let text = if old.contains("\r\n") {
-        text.replace("\r\n", "\n").replace('\n', "\r\n")
-    } else {
-        text.replace("\r\n", "\n")
-    };
-    let newline = old.get(span.clone()).is_some_and(|block| block.ends_with('\n'))
-        && !text.is_empty()
-        && !text.ends_with('\n');
-    let new = format!("{before}{text}{}{after}", if newline { "\n" } else { "" });
+    let line_end = if old.contains("\r\n") { "\r\n" } else { "\n" };
+    let text = text.replace("\r\n", "\n").replace('\n', line_end);
+    let lacks_end =
+        old.get(span).is_some_and(|block| block.ends_with('\n')) && !text.is_empty() && !text.ends_with('\n');
+    let new = format!("{before}{text}{}{after}", if lacks_end { line_end } else { "" });
     if new.len() > MAX_LESSON {
         return Err((413, "the lesson would be too large".into()));
     }

@@ -9,7 +9,6 @@ use crate::verified::{hex_of, short_hash};
 use labspec::check::Checked;
 use labspec::finding::{Applicability, Finding, Severity};
 use labspec::ledger::{Entry, Ledger, State, Subject};
-use labspec::report::counted;
 use labspec::verify;
 use std::fmt::Write;
 use std::ops::Range;
@@ -175,17 +174,17 @@ impl AuthorView<'_> {
             let old: String =
                 self.checked.lesson.file.slice(fix.span.clone()).chars().take(MAX_FIX).collect();
             let new: String = fix.text.chars().take(MAX_FIX).collect();
-            let shown = format!("<code>{}</code> → <code>{}</code>", escape(&old), escape(&new));
+            let replacement = format!("<code>{}</code> → <code>{}</code>", escape(&old), escape(&new));
             let button = match fix.applicability {
                 Applicability::Safe => "Apply",
                 Applicability::Unsafe => "Apply (a guess)",
                 Applicability::Display => "",
             };
             let _ = match button {
-                "" => write!(out, "<p><small>Write: {shown}</small></p>"),
+                "" => write!(out, "<p><small>Write: {replacement}</small></p>"),
                 text => write!(
                     out,
-                    "<p><button type=\"button\" data-do=\"fix\" data-finding=\"{number}\">{text}</button> <small>{shown}</small></p>"
+                    "<p><button type=\"button\" data-do=\"fix\" data-finding=\"{number}\">{text}</button> <small>{replacement}</small></p>"
                 ),
             };
         }
@@ -244,8 +243,7 @@ fn claims(entries: &[&Entry]) -> String {
     let good = match good.len() {
         0 => String::new(),
         n => format!(
-            "<li class=\"claim-true\"><details><summary>✓ {}</summary><ul>{}</ul></details></li>",
-            counted(n, "true entry").replace("true entrys", "true entries"),
+            "<li class=\"claim-true\"><details><summary>✓ {n} checked and true</summary><ul>{}</ul></details></li>",
             good.concat()
         ),
     };

@@ -43,15 +43,15 @@ impl Identity {
                 "the request names another host; open the address that the preview has printed",
             ));
         }
-        let own = format!("http://{}", self.host);
-        if request.headers("origin").iter().any(|origin| *origin != own) {
+        let origin_of_page = format!("http://{}", self.host);
+        if request.headers("origin").iter().any(|origin| *origin != origin_of_page) {
             return Err((403, "the request comes from another page"));
         }
         match request.method.as_str() {
             "GET" | "HEAD" => Ok(()),
             "POST" if request.target.starts_with(ACTIONS) => {
                 let has_token = matches!(request.headers(TOKEN)[..], [token] if is_same(token, &self.token));
-                match has_token && request.headers("origin") == [own.as_str()] {
+                match has_token && request.headers("origin") == [origin_of_page.as_str()] {
                     true => Ok(()),
                     false => Err((403, "the request has not the token of the page; load the page again")),
                 }

@@ -83,7 +83,12 @@ pub fn serve(
     std::thread::scope(|scope| {
         threads::checking().spawn_scoped(scope, || shared.follow_files()).map_err(cannot)?;
         threads::checking().spawn_scoped(scope, || shared.check_all()).map_err(cannot)?;
-        ready(&format!("http://{}/", identity.host));
+        // A single lesson needs no index.
+        let page = match shared.current().lessons.keys().collect::<Vec<_>>()[..] {
+            [page] => crate::text::address(page),
+            _ => String::new(),
+        };
+        ready(&format!("http://{}/{page}", identity.host));
         for stream in listener.incoming() {
             // A browser that has gone is no error of the server; a full table of files passes.
             let Ok(stream) = stream else {
@@ -165,8 +170,8 @@ impl Shared<'_> {
     /// The state of the files before a check, with those that were not known then.
     fn fingerprint_after(&self, before: Fingerprint) -> Fingerprint {
         let mut all = self.fingerprint();
-        let known: Vec<_> = before.into_iter().filter(|(path, _)| all.contains_key(path)).collect();
-        all.extend(known);
+        let before_check: Vec<_> = before.into_iter().filter(|(path, _)| all.contains_key(path)).collect();
+        all.extend(before_check);
         all
     }
 

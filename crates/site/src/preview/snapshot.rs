@@ -92,8 +92,10 @@ impl Snapshot {
         let copies: Vec<(String, PathBuf)> =
             written.places.copied.into_iter().chain(written.shelf.copied).collect();
         snapshot.watched = copies.iter().map(|(_, path)| path.clone()).collect();
-        let own = material.page_files.needed(true, true).map(|(name, path)| (name, path.clone()));
-        snapshot.files.extend(copies.into_iter().chain(own).map(|(name, path)| (name, SiteFile::Copy(path))));
+        let of_pages = material.page_files.needed(true, true).map(|(name, path)| (name, path.clone()));
+        snapshot
+            .files
+            .extend(copies.into_iter().chain(of_pages).map(|(name, path)| (name, SiteFile::Copy(path))));
         snapshot
     }
 
