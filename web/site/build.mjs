@@ -36,4 +36,5 @@ await style(fonts, "katex.css");
 for (const name of readdirSync(join(katex, "fonts")).filter((file) => file.endsWith(".woff2"))) {
   cpSync(join(katex, "fonts", name), at("dist/fonts", name));
 }
+cpSync(join(katex, "../LICENSE"), at("dist/katex-license.txt"));
 for (const name of ["elements.js", "engine.js", "labspec.wasm"]) copyFileSync(join(elements, name), at("dist", name));

@@ -36,6 +36,8 @@ pub mod preview;
 mod prose;
 mod search;
 mod site;
+#[cfg(test)]
+mod tests;
 mod text;
 mod twin;
 mod verified;

@@ -10,9 +10,9 @@ use std::fmt::Write;
 pub(crate) fn index_main(title: &str, pages: &[LessonPage]) -> String {
     let mut out = format!("<h1>{}</h1>\n<ol class=\"lessons\">\n", escape(title));
     for page in pages {
-        let _ = write!(
+        let _ = writeln!(
             out,
-            "<li><h2><a href=\"{}\">{}</a></h2>\n",
+            "<li><h2><a href=\"{}\">{}</a></h2>",
             address_from("index.html", &page.name),
             escape(&page.title)
         );
