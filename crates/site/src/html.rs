@@ -277,7 +277,7 @@ mod tests {
 
     #[test]
     fn formulas_are_elements_and_money_is_not() {
-        assert_eq!(harmless("a $x<y$ b", &mut Web), "a <span class=\"math\">x&lt;y</span> b");
+        assert_eq!(harmless("a $x &lt; y$ b", &mut Web), "a <span class=\"math\">x &lt; y</span> b");
         assert_eq!(harmless("5 $", &mut Web), "5 $");
         assert_eq!(harmless("$<b>x</b>$", &mut Web), "$<b>x</b>$");
     }

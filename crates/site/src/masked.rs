@@ -81,8 +81,8 @@ mod tests {
         let text = "a\n\n> ```lab\n> {}\n> ```\n> b\n\nc\n";
         let masked = Masked::new(text, &scan(&SourceFile::new("t.md", text)));
         assert_eq!(masked.text, "a\n\n> <!--labspec-->\n> b\n\nc\n");
-        let c = masked.text.find('c').unwrap();
-        assert_eq!(masked.origin(c), text.find('c').unwrap());
+        let c = masked.text.rfind('c').unwrap();
+        assert_eq!(masked.origin(c), text.rfind('c').unwrap());
         assert_eq!(masked.origin_of(&(c..c + 1)), Some(text.len() - 2..text.len() - 1));
         assert_eq!(masked.fences(&(0..masked.text.len())).collect::<Vec<_>>(), [(5, 0)]);
     }
