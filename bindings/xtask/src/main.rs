@@ -9,8 +9,12 @@
 //! `… -- release [FOLDER]` builds the program for this machine and packs it with its licences into
 //! `labspec-VERSION-TARGET.tar.gz`, next to a file with its SHA-256, in FOLDER (`target/release-archives`). The same
 //! program gives the same bytes.
+//!
+//! `… -- page` builds the modules, then the npm packages up to the scripts and styles of pages, which `labspec build` and `labspec
+//! preview` find in `web/site/dist`.
 
 mod archive;
+mod page;
 mod panics;
 
 use std::path::{Path, PathBuf};
@@ -23,6 +27,7 @@ fn main() -> ExitCode {
     let first = arguments.next();
     let done = match first.as_deref().and_then(|a| a.to_str()) {
         Some("release") => archive::release(arguments.next().map(PathBuf::from)),
+        Some("page") => build(None).and_then(|_| page::page()),
         _ => build(first.map(PathBuf::from)),
     };
     match done {

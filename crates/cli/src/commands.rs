@@ -7,8 +7,8 @@ use super::output::write_file;
 use super::output_kind::OutputKind;
 use super::stdio::{self, print_error};
 use super::{
-    check, completions, developer, explain, fmt, init, plan, precision, run, scaffold, schema, snapshot,
-    stability, trace,
+    build, check, completions, developer, explain, fmt, init, plan, precision, preview, run, scaffold,
+    schema, snapshot, stability, trace,
 };
 use clap::{CommandFactory, Parser, Subcommand};
 use labspec::interrupt;
@@ -34,6 +34,10 @@ enum Command {
     Check(check::CheckArguments),
     /// Verify the claims of quizzes and labs only, with every measure
     Verify(check::VerifyArguments),
+    /// Check a folder of lessons and write it as a static site
+    Build(build::BuildArguments),
+    /// Serve lessons to a browser on this machine while they are written: labs, findings, claims, fixes
+    Preview(preview::PreviewArguments),
     /// Store the output of labs in snapshots for review; `check` compares the labs with them
     Snapshot(snapshot::SnapshotArguments),
     /// Format the code in lessons; with --modernize, replace bare indexes by names
@@ -115,6 +119,8 @@ fn execute(command: &Command) -> Result<Outcome, Failure> {
         Command::Completions(a) => completions::completions(a, &mut Cli::command()),
         Command::Check(a) => check::check_command(a),
         Command::Verify(a) => check::verify_command(a),
+        Command::Build(a) => build::build(a),
+        Command::Preview(a) => preview::preview(a),
         Command::Snapshot(a) => snapshot::snapshot(a),
         Command::Fmt(a) => fmt::fmt(a),
         Command::Run(a) => run::run(a),
@@ -137,12 +143,14 @@ impl Command {
     /// Whether the command tests for Ctrl-C between pieces of work. Ctrl-C ends all other commands at once.
     fn handles_interrupt(&self) -> bool {
         use Command::{
-            Bench, Check, Fmt, Plan, Precision, Record, Run, Scaffold, Snapshot, Stability, Trace, Verify,
+            Bench, Build, Check, Fmt, Plan, Precision, Record, Run, Scaffold, Snapshot, Stability, Trace,
+            Verify,
         };
         matches!(
             self,
             Check(_)
                 | Verify(_)
+                | Build(_)
                 | Snapshot(_)
                 | Fmt(_)
                 | Run(_)

@@ -133,7 +133,7 @@ pub(super) fn check_file(
             },
         }
     };
-    threads::run_in_thread(check).unwrap_or_else(|panic| FileOutcome::Refused(panic_message(&panic)))
+    threads::catch_panic(check).unwrap_or_else(|panic| FileOutcome::Refused(panic_message(&panic)))
 }
 
 /// Loads a lesson, runs its labs and checks its claims.
@@ -152,7 +152,7 @@ fn check_lesson(
         return FileOutcome::OtherJson;
     }
     let checked =
-        threads::run_in_thread(|| cache.check_cached(path, &lesson, models, request.level, interrupted));
+        threads::catch_panic(|| cache.check_cached(path, &lesson, models, request.level, interrupted));
     let mut outcome = match checked {
         Ok(outcome) => outcome,
         Err(panic) => return FileOutcome::Lesson(Box::new(cancelled_lesson(lesson, &panic))),

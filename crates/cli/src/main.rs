@@ -2,6 +2,7 @@
 //! not run or print; 3: not everything requested was checked; 130: stopped by Ctrl-C.
 
 mod baseline;
+mod build;
 mod cache;
 mod check;
 mod check_output;
@@ -30,6 +31,7 @@ mod parallel;
 mod plan;
 mod policy;
 mod precision;
+mod preview;
 mod report_json;
 mod reproduction;
 mod run;

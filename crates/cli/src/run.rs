@@ -10,9 +10,10 @@ use super::stdio::stream;
 use clap::ValueEnum;
 use labspec::report::{printable, printable_path};
 use labspec::run::{Cell, RunOptions, Table, rounded};
-use labspec::spec::{Lab, Plot};
+use labspec::spec::Lab;
 use labspec::stress;
-use labspec_plot::{Chart, Series, line_chart};
+use labspec_plot::line_chart;
+use labspec_site::chart;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -173,30 +174,4 @@ fn plot_files(lab: &Lab, file: &Path, ending: &str) -> Result<Vec<PathBuf>, Fail
         file.with_file_name(name)
     };
     Ok((1..=count).map(|i| if i == 1 { file.to_path_buf() } else { further(i) }).collect())
-}
-
-/// A plot of the lab with its samples.
-fn chart(lab: &Lab, plot: &Plot, index: usize, table: &Table) -> Chart {
-    let series = plot.traces.iter().filter_map(|trace| {
-        let name = format!("plot/{index}/{}", trace.label.value);
-        let column = table.columns.iter().position(|c| *c == name)?;
-        Some(Series { label: trace.label.value.clone(), dash: trace.dash, points: table.series(column) })
-    });
-    Chart {
-        title: lab.title().to_string(),
-        xlabel: plot.xlabel().to_string(),
-        ylabel: plot.ylabel.as_ref().map_or(String::new(), |t| t.value.clone()),
-        width: 640.0,
-        height: 320.0,
-        xmin: None,
-        xmax: None,
-        ymin: plot.ymin.as_ref().map(|n| n.value),
-        ymax: plot.ymax.as_ref().map(|n| n.value),
-        ref_lines: plot
-            .ref_lines
-            .iter()
-            .map(|l| (l.y.value, l.label.as_ref().map(|t| t.value.clone())))
-            .collect(),
-        series: series.collect(),
-    }
 }

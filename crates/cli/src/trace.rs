@@ -86,7 +86,7 @@ fn human(a: &TraceArguments, lesson: &Lesson, found: &Traces<'_>) -> String {
 }
 
 /// The origin of a number in words.
-fn describe_origin(origin: &Origin, found: &Traces<'_>) -> String {
+pub(super) fn describe_origin(origin: &Origin, found: &Traces<'_>) -> String {
     match origin {
         Origin::From(hit) => {
             let value = significant(hit.value);

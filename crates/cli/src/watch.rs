@@ -14,7 +14,7 @@ use std::time::{Duration, SystemTime};
 const PAUSE: Duration = Duration::from_millis(300);
 
 /// The size and the time of a file, or `None` if it does not exist.
-type Stamp = Option<(u64, SystemTime)>;
+pub(super) type Stamp = Option<(u64, SystemTime)>;
 
 /// Checks, waits until a file changes, and checks again, until Ctrl-C. `check` returns its outcome and the files on which it
 /// depends, in addition to those that were named.
@@ -60,7 +60,7 @@ fn related_files(path: &Path) -> Vec<PathBuf> {
 }
 
 /// The state of the named files, of the files in named folders, and of further files.
-fn stamps(paths: &[PathBuf], also: &BTreeSet<PathBuf>) -> BTreeMap<PathBuf, Stamp> {
+pub(super) fn stamps(paths: &[PathBuf], also: &BTreeSet<PathBuf>) -> BTreeMap<PathBuf, Stamp> {
     let found = collect(paths).files.into_iter().map(|(path, _)| path);
     found
         .flat_map(|path| related_files(&path).into_iter().chain([path]))

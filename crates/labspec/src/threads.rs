@@ -21,11 +21,11 @@ pub fn run<T: Send>(work: impl Fn() -> T + Sync) -> T {
     })
 }
 
-/// Runs the work for one lesson, and catches a panic.
+/// Runs work, and catches a panic.
 ///
 /// # Errors
 /// The message of the panic.
-pub fn run_in_thread<T>(work: impl FnOnce() -> T) -> Result<T, String> {
+pub fn catch_panic<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     // Unfinished results are dropped, and caches contain only complete entries.
     catch_unwind(AssertUnwindSafe(work)).map_err(|panic| {
         let text = panic.downcast_ref::<String>().map(String::as_str);
@@ -41,13 +41,10 @@ mod tests {
 
     #[test]
     fn the_message_of_a_panic_is_returned() {
-        assert_eq!(run_in_thread(|| 3), Ok(3));
+        assert_eq!(catch_panic(|| 3), Ok(3));
         let lesson = 7;
-        assert_eq!(
-            run_in_thread(|| -> u8 { panic!("lesson {lesson} is odd") }),
-            Err("lesson 7 is odd".into())
-        );
-        assert_eq!(run_in_thread(|| -> u8 { panic!("odd") }), Err("odd".into()));
+        assert_eq!(catch_panic(|| -> u8 { panic!("lesson {lesson} is odd") }), Err("lesson 7 is odd".into()));
+        assert_eq!(catch_panic(|| -> u8 { panic!("odd") }), Err("odd".into()));
     }
 
     #[test]

@@ -1,0 +1,218 @@
+//! `labspec build`: a course as a static site.
+
+use super::cache::Cache;
+use super::common::{Failure, ModelOptions, Outcome, interrupted};
+use super::course::{CheckRequest, CourseResults, CrossCheckRequest};
+use super::policy::PolicyOptions;
+use super::scheduler::check_lessons;
+use super::stdio::print;
+use super::target::model_folder_within;
+use labspec::check::CheckLevel;
+use labspec::ledger::Outcome as LedgerOutcome;
+use labspec::lint::ModelFolder;
+use labspec::report::{counted, human, printable, printable_path};
+use labspec::source::SourceFile;
+use labspec_site::{Course, MANIFEST, PageFiles, Site, SiteFile, SiteOptions, build_site};
+use std::fs;
+use std::io::IsTerminal;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+
+/// BuildArguments of `build`.
+#[derive(clap::Args, Debug)]
+pub(super) struct BuildArguments {
+    /// The folder of lessons
+    #[arg(value_name = "FOLDER")]
+    folder: PathBuf,
+    /// The folder of the site. It is created, or it holds an earlier site, which is replaced
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// The address where the site will be, for sitemap.xml and canonical links
+    #[arg(long, value_name = "URL", value_parser = base_address)]
+    base_url: Option<String>,
+    #[command(flatten)]
+    page: PageOptions,
+    #[command(flatten)]
+    models: ModelOptions,
+    #[command(flatten)]
+    policy: PolicyOptions,
+}
+
+/// What the pages say, and where their scripts are.
+#[derive(clap::Args, Debug, Clone)]
+pub(super) struct PageOptions {
+    /// The title of the course [default: Lessons]
+    #[arg(long, value_name = "TEXT")]
+    pub(super) title: Option<String>,
+    /// The language of the lessons
+    #[arg(long, value_name = "CODE", default_value = "en", value_parser = language)]
+    pub(super) lang: String,
+    /// The folder with the scripts and styles of pages [default: LABSPEC_PAGE, else `page` beside the program]
+    #[arg(long, value_name = "DIR")]
+    pub(super) page: Option<PathBuf>,
+}
+
+impl PageOptions {
+    /// Finds the scripts and styles of pages.
+    pub(super) fn files(&self) -> Result<PageFiles, Failure> {
+        let environment =
+            std::env::var_os("LABSPEC_PAGE").filter(|value| !value.is_empty()).map(PathBuf::from);
+        let program = std::env::current_exe().and_then(|path| path.canonicalize()).ok();
+        PageFiles::find(self.page.as_deref(), environment, program.as_deref())
+    }
+
+    /// What a site says of itself.
+    pub(super) fn site(&self, base: Option<String>) -> SiteOptions {
+        SiteOptions { title: self.title.clone(), lang: self.lang.clone(), base }
+    }
+}
+
+/// The code of a language: letters, digits and hyphens.
+fn language(text: &str) -> Result<String, String> {
+    let is_code =
+        !text.is_empty() && text.len() < 36 && text.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'-');
+    if is_code { Ok(text.into()) } else { Err("write a code such as `en` or `de-AT`".into()) }
+}
+
+/// An address of the web, which then ends in `/`.
+fn base_address(text: &str) -> Result<String, String> {
+    let is_web = text.starts_with("https://") || text.starts_with("http://");
+    let is_plain = !text.contains(|c: char| c.is_whitespace() || c.is_control() || "<>\"'?#".contains(c));
+    match is_web && is_plain {
+        true => Ok(format!("{}/", text.trim_end_matches('/'))),
+        false => Err("write an address such as https://example.org/course/".into()),
+    }
+}
+
+/// Checks the course and writes its site.
+pub(super) fn build(a: &BuildArguments) -> Result<Outcome, Failure> {
+    if !a.folder.is_dir() {
+        return Err(format!("{} is not a folder of lessons", printable_path(&a.folder)));
+    }
+    let page_files = a.page.files()?;
+    let old = earlier_site(&a.folder, &a.out)?;
+    let results = check_course(a)?;
+    if interrupted() {
+        return Ok(Outcome::Clean);
+    }
+    let models = |path: &Path| {
+        let named = std::slice::from_ref(&a.folder);
+        model_folder_within(&a.models, path, named).unwrap_or_else(|_| ModelFolder::unknown())
+    };
+    let course =
+        Course { folder: &a.folder, lessons: &results.checked, ledger: &results.ledger, models: &models };
+    let site = build_site(&course, &a.page.site(a.base_url.clone()), &page_files)?;
+    write_site(&a.out, &site, &old)?;
+    report(a, &results, &site)
+}
+
+/// Checks every lesson anew: a mark on a page states what this run has found.
+fn check_course(a: &BuildArguments) -> Result<CourseResults, Failure> {
+    let request = CheckRequest {
+        paths: std::slice::from_ref(&a.folder),
+        stdin: None,
+        models: &a.models,
+        level: CheckLevel::FULL,
+        policy: &a.policy,
+        baseline: None,
+        with_bases: false,
+        cross_check: CrossCheckRequest::default(),
+        with_curves: false,
+        jobs: std::thread::available_parallelism().map_or(1, NonZeroUsize::get),
+        progress: std::io::stderr().is_terminal(),
+        findings_in_color: None,
+    };
+    check_lessons(&request, &Cache::open(true, false))
+}
+
+/// Prints the findings and what was written. The site is complete in any case; the outcome is that of the check.
+fn report(a: &BuildArguments, results: &CourseResults, site: &Site) -> Result<Outcome, Failure> {
+    let mut sources: Vec<&SourceFile> = results.checked.iter().map(|c| &c.lesson.file).collect();
+    sources.extend(&results.sources);
+    let mut text = human(&results.findings, &sources, false);
+    for problem in &site.problems {
+        text.push_str(&format!("{}\n", printable(problem)));
+    }
+    text.push_str(&format!(
+        "{}\nwrote {} ({}) to {}; {} carry the mark \"verified\"\n",
+        results.ledger.summary(),
+        counted(site.lessons, "lesson"),
+        counted(site.files.len(), "file"),
+        printable_path(&a.out),
+        match site.verified {
+            1 => "1 lab or question".into(),
+            n => format!("{n} labs and questions"),
+        }
+    ));
+    print(&text)?;
+    Ok(match results.ledger.outcome() {
+        LedgerOutcome::Findings => Outcome::Findings,
+        LedgerOutcome::Partial => Outcome::Partial,
+        _ if !site.problems.is_empty() => Outcome::Findings,
+        _ => Outcome::Clean,
+    })
+}
+
+/// The files of the site that the folder holds. A folder with other content is refused, so that nothing is lost.
+fn earlier_site(course: &Path, out: &Path) -> Result<Vec<String>, Failure> {
+    let displayed = printable_path(out);
+    if let (Ok(course), Ok(out)) = (course.canonicalize(), out.canonicalize())
+        && course.starts_with(&out)
+    {
+        return Err(format!("{displayed} holds the course itself; name another folder with --out"));
+    }
+    let is_empty = match fs::read_dir(out) {
+        Ok(mut entries) => entries.next().is_none(),
+        Err(e) if e.kind() == std::io::ErrorKind::NotFound => true,
+        Err(e) => return Err(format!("cannot read {displayed}: {e}")),
+    };
+    if is_empty {
+        return Ok(Vec::new());
+    }
+    let refuse = || {
+        format!("{displayed} holds files that `labspec build` did not write; name an empty folder with --out")
+    };
+    let manifest = fs::read_to_string(out.join(MANIFEST)).map_err(|_| refuse())?;
+    let manifest: serde_json::Value = serde_json::from_str(&manifest).map_err(|_| refuse())?;
+    if manifest["site"] != "labspec" {
+        return Err(refuse());
+    }
+    let files = manifest["files"].as_array().ok_or_else(refuse)?;
+    Ok(files
+        .iter()
+        .filter_map(|name| name.as_str())
+        .filter(|name| is_inside(name))
+        .map(String::from)
+        .collect())
+}
+
+/// Whether a name of a file stays in its folder.
+fn is_inside(name: &str) -> bool {
+    Path::new(name).components().all(|c| matches!(c, std::path::Component::Normal(_)))
+}
+
+/// Writes the files of a site, and removes those of the earlier one that it does not have.
+fn write_site(out: &Path, site: &Site, old: &[String]) -> Result<(), Failure> {
+    let cannot = |path: &Path, e: std::io::Error| format!("cannot write {}: {e}", printable_path(path));
+    for name in old.iter().filter(|name| !site.files.contains_key(*name)) {
+        let _ = fs::remove_file(out.join(name));
+    }
+    for (name, file) in &site.files {
+        let path = out.join(name);
+        if !is_inside(name) {
+            return Err(format!("a file of the site has the name {}, which is not a path", printable(name)));
+        }
+        let folder = path.parent().unwrap_or(out);
+        fs::create_dir_all(folder).map_err(|e| cannot(folder, e))?;
+        // A link is replaced, never followed.
+        if path.symlink_metadata().is_ok_and(|meta| meta.is_symlink()) {
+            fs::remove_file(&path).map_err(|e| cannot(&path, e))?;
+        }
+        let written = match file {
+            SiteFile::Text(text) => fs::write(&path, text),
+            SiteFile::Copy(from) => fs::read(from).and_then(|bytes| fs::write(&path, bytes)),
+        };
+        written.map_err(|e| cannot(&path, e))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,271 @@
+//! A course as the files of a site. The same course gives the same files.
+
+use crate::assets::PageFiles;
+use crate::lesson::{LessonPage, LessonSource, Outline, write_lesson};
+use crate::links::Places;
+use crate::models::ModelShelf;
+use crate::names::{PageNames, parts_inside};
+use crate::offline::{service_worker, sitemap};
+use crate::overview::{index_main, labs_main, neighbours};
+use crate::page::Page;
+use crate::search::search_index;
+use crate::text::{escape, json_in_script};
+use crate::verified::hex_of;
+use labspec::check::Checked;
+use labspec::ledger::Ledger;
+use labspec::lint::{ModelFolder, root_of};
+use labspec::spec::{FileKind, Lesson, kind_of};
+use labspec::threads;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+/// The file that lists the others. A folder with it may be written again.
+pub const MANIFEST: &str = "labspec-site.json";
+/// The title of a course without one.
+const TITLE: &str = "Lessons";
+
+/// A checked course.
+#[derive(Clone, Copy)]
+pub struct Course<'a> {
+    /// The folder of the course: the names of its pages are the paths of the lessons in it.
+    pub folder: &'a Path,
+    /// The lessons, in order. JSON files among them have no page.
+    pub lessons: &'a [Checked],
+    /// The claims of this check.
+    pub ledger: &'a Ledger,
+    /// The folder of models of a lesson, by its path.
+    pub models: &'a dyn Fn(&Path) -> ModelFolder,
+}
+
+/// What a site says of itself.
+#[derive(Clone, Debug, Default)]
+pub struct SiteOptions {
+    /// The title of the course.
+    pub title: Option<String>,
+    /// The language of the pages.
+    pub lang: String,
+    /// The address where the site will be, ending in `/`; with it, the site has a map for search engines.
+    pub base: Option<String>,
+}
+
+impl SiteOptions {
+    /// The title of the course.
+    pub(crate) fn title(&self) -> &str {
+        self.title.as_deref().unwrap_or(TITLE)
+    }
+}
+
+/// A file of a site.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum SiteFile {
+    /// A text.
+    Text(String),
+    /// A copy of a file.
+    Copy(PathBuf),
+}
+
+/// The files of a site by their names, which are relative paths with `/`.
+#[derive(Clone, Debug, Default)]
+pub struct Site {
+    /// The files.
+    pub files: BTreeMap<String, SiteFile>,
+    /// What the site cannot deliver, as sentences for the author.
+    pub problems: Vec<String>,
+    /// The number of pages that are lessons.
+    pub lessons: usize,
+    /// The number of labs and questions with the mark "verified".
+    pub verified: usize,
+}
+
+/// The pages of a course before they are put into a frame.
+#[derive(Debug, Default)]
+pub(crate) struct CoursePages {
+    pub(crate) pages: Vec<LessonPage>,
+    /// For each page, the index of its lesson.
+    pub(crate) lessons: Vec<usize>,
+    pub(crate) shelf: ModelShelf,
+    pub(crate) places: Places,
+}
+
+/// A lesson that has a page.
+struct Listed<'l> {
+    index: usize,
+    lesson: &'l Lesson,
+    name: String,
+    path: PathBuf,
+    folder: PathBuf,
+}
+
+/// Writes the pages of a course.
+pub(crate) fn write_pages(course: &Course<'_>, for_author: bool) -> CoursePages {
+    let folder = course.folder.canonicalize().unwrap_or_else(|_| course.folder.to_path_buf());
+    let root = root_of(&folder, std::slice::from_ref(&folder));
+    let mut out =
+        CoursePages { places: Places { folder, root, ..Places::default() }, ..CoursePages::default() };
+    let listed = list_lessons(course, &mut out.places);
+    let outlines: Vec<Outline> = listed
+        .iter()
+        .map(|one| {
+            let file = one.path.file_stem().and_then(|stem| stem.to_str()).unwrap_or("lesson");
+            Outline::new(one.lesson, &one.name, file, &mut out.places)
+        })
+        .collect();
+    for (one, outline) in listed.iter().zip(&outlines) {
+        let models = out.shelf.number((course.models)(&one.path));
+        let source = LessonSource {
+            lesson: one.lesson,
+            ledger: course.ledger,
+            outline,
+            page: &one.name,
+            folder: &one.folder,
+            models,
+            for_author,
+        };
+        // A lesson that cannot be written does not end the others.
+        match threads::catch_panic(|| write_lesson(&source, &mut out.places, &mut out.shelf)) {
+            Ok(page) => {
+                out.pages.push(page);
+                out.lessons.push(one.index);
+            }
+            Err(why) => out.shelf.problems.push(format!("labspec failed while writing {}: {why}", one.name)),
+        }
+    }
+    out
+}
+
+/// The lessons that have pages, each with its name in the site.
+fn list_lessons<'l>(course: &Course<'l>, places: &mut Places) -> Vec<Listed<'l>> {
+    let mut names = PageNames::default();
+    let mut all = Vec::new();
+    for (index, checked) in course.lessons.iter().enumerate() {
+        let lesson = &checked.lesson;
+        let Some((path, _)) = &lesson.place else { continue };
+        if kind_of(path) != FileKind::Lesson {
+            continue;
+        }
+        let real = path.canonicalize().unwrap_or_else(|_| path.clone());
+        let file =
+            || real.file_name().map(|name| vec![name.to_string_lossy().into_owned()]).unwrap_or_default();
+        let name = names.name(&parts_inside(&places.folder, &real).unwrap_or_else(file));
+        let folder = real.parent().unwrap_or(Path::new("")).to_path_buf();
+        places.pages.insert(real, name.clone());
+        all.push(Listed { index, lesson, name, path: path.clone(), folder });
+    }
+    all
+}
+
+/// The main part of a lesson's page.
+pub(crate) fn lesson_attributes(page: &LessonPage) -> String {
+    let root = crate::names::root_from(&page.name);
+    let folder = page.model_folder.as_ref();
+    folder.map_or(String::new(), |folder| format!(" data-models=\"{}{}/\"", escape(&root), escape(folder)))
+}
+
+/// The models that a page contains.
+pub(crate) fn embedded_models(page: &LessonPage) -> String {
+    let one = |(name, text): (&String, &String)| {
+        format!("<script type=\"model/mjcf\" data-name=\"{}\">{}</script>\n", escape(name), text.trim())
+    };
+    page.embedded.iter().map(one).collect()
+}
+
+/// The title of a page, where its text has none.
+pub(crate) fn missing_heading(page: &LessonPage) -> String {
+    if page.has_heading { String::new() } else { format!("<h1>{}</h1>\n", escape(&page.title)) }
+}
+
+/// Writes a site.
+///
+/// # Errors
+/// A file of the page cannot be read.
+pub fn build_site(
+    course: &Course<'_>,
+    options: &SiteOptions,
+    page_files: &PageFiles,
+) -> Result<Site, String> {
+    let CoursePages { pages, shelf, places, .. } = write_pages(course, false);
+    let mut site = Site { lessons: pages.len(), ..Site::default() };
+    let base = options.base.as_deref();
+    let mut add = |name: &str, page: Page<'_>| {
+        let canonical = base.map(|base| format!("{base}{}", crate::text::address(name)));
+        let page =
+            Page { name, course: options.title(), lang: &options.lang, canonical, is_offline: true, ..page };
+        site.files.insert(name.to_string(), SiteFile::Text(page.write()));
+    };
+    for (at, page) in pages.iter().enumerate() {
+        let blocks: String =
+            page.blocks.iter().map(|block| format!("{}\n{}\n", wrapped(block), block.after)).collect();
+        add(
+            &page.name,
+            Page {
+                title: &page.title,
+                description: &page.lead,
+                has_math: page.has_math,
+                attributes: lesson_attributes(page),
+                main: format!("{}{blocks}{}", missing_heading(page), embedded_models(page)),
+                neighbours: neighbours(&pages, at),
+                ..Page::default()
+            },
+        );
+    }
+    add(
+        "index.html",
+        Page { title: options.title(), main: index_main(options.title(), &pages), ..Page::default() },
+    );
+    add("labs.html", Page { title: "Labs", main: labs_main(&pages), ..Page::default() });
+    site.verified = pages.iter().flat_map(|page| &page.blocks).map(|block| verified_in(&block.after)).sum();
+    site.files.insert("search.json".into(), SiteFile::Text(search_index(&pages)));
+    let copies = places.copied.into_iter().chain(shelf.copied);
+    site.files.extend(copies.map(|(name, path)| (name, SiteFile::Copy(path))));
+    let has_math = pages.iter().any(|page| page.has_math);
+    site.files
+        .extend(page_files.needed(has_math, false).map(|(name, path)| (name, SiteFile::Copy(path.clone()))));
+    if let Some(base) = base {
+        let names: Vec<String> = site.files.keys().filter(|name| name.ends_with(".html")).cloned().collect();
+        site.files.insert("sitemap.xml".into(), SiteFile::Text(sitemap(base, &names)));
+    }
+    add_offline(&mut site, page_files)?;
+    site.problems = shelf.problems.into_iter().collect::<BTreeSet<_>>().into_iter().collect();
+    Ok(site)
+}
+
+/// The content of a block in an element of its kind.
+fn wrapped(block: &crate::lesson::PageBlock) -> String {
+    match block.kind {
+        "text" => block.content.clone(),
+        kind => format!("<div class=\"fence {kind}\">{}</div>", block.content),
+    }
+}
+
+/// The number of marks of a block: one for a lab, one for each question.
+fn verified_in(after: &str) -> usize {
+    after.split("<p class=\"verified\">").skip(1).map(|mark| mark.matches("question ").count().max(1)).sum()
+}
+
+/// Adds the service worker and the list of all files.
+fn add_offline(site: &mut Site, page_files: &PageFiles) -> Result<(), String> {
+    let mut hashes = Vec::new();
+    for (name, file) in &site.files {
+        let hash = match file {
+            SiteFile::Text(text) => hex_of(&[text.as_bytes()]),
+            SiteFile::Copy(path) => {
+                hex_of(&[&std::fs::read(path).map_err(|e| format!("cannot read {}: {e}", path.display()))?])
+            }
+        };
+        hashes.push((name.clone(), hash));
+    }
+    let program = page_files.path("sw.js").ok_or("the scripts of the page have no sw.js")?;
+    let program =
+        std::fs::read_to_string(program).map_err(|e| format!("cannot read {}: {e}", program.display()))?;
+    site.files.insert("sw.js".into(), SiteFile::Text(service_worker(&hashes, &program)));
+    let mut names: Vec<&str> = site.files.keys().map(String::as_str).collect();
+    names.push(MANIFEST);
+    let list = serde_json::to_string_pretty(&names).unwrap_or_else(|_| "[]".into());
+    let version = env!("CARGO_PKG_VERSION");
+    let manifest = format!(
+        "{{\"site\": \"labspec\", \"version\": \"{version}\", \"files\": {}}}\n",
+        json_in_script(&list)
+    );
+    site.files.insert(MANIFEST.into(), SiteFile::Text(manifest));
+    Ok(())
+}

@@ -1,0 +1,173 @@
+//! A lab or a quiz without JavaScript and on paper: its title, its settings, its readouts at the end of a run, its plots.
+//!
+//! The run is the one of `labspec run` without options: as the lab loads, until its end.
+
+use crate::html::{Addresses, harmless};
+use crate::text::escape;
+use labspec::bind::scene::Models;
+use labspec::check;
+use labspec::finding::Finding;
+use labspec::json::Scalar;
+use labspec::run::{Cell, RunOptions, Table, rounded};
+use labspec::spec::{ControlKind, Lab, Plot, Question, QuestionKind, Quiz};
+use labspec::stress::watched_run;
+use labspec_plot::{Chart, Series, line_chart};
+use std::fmt::Write;
+
+/// A plot of the lab with the samples of a run.
+pub fn chart(lab: &Lab, plot: &Plot, index: usize, table: &Table) -> Chart {
+    let series = plot.traces.iter().filter_map(|trace| {
+        let name = format!("plot/{index}/{}", trace.label.value);
+        let column = table.columns.iter().position(|c| *c == name)?;
+        Some(Series { label: trace.label.value.clone(), dash: trace.dash, points: table.series(column) })
+    });
+    Chart {
+        title: lab.title().to_string(),
+        xlabel: plot.xlabel().to_string(),
+        ylabel: plot.ylabel.as_ref().map_or(String::new(), |t| t.value.clone()),
+        width: 640.0,
+        height: 320.0,
+        xmin: None,
+        xmax: None,
+        ymin: plot.ymin.as_ref().map(|n| n.value),
+        ymax: plot.ymax.as_ref().map(|n| n.value),
+        ref_lines: plot
+            .ref_lines
+            .iter()
+            .map(|l| (l.y.value, l.label.as_ref().map(|t| t.value.clone())))
+            .collect(),
+        series: series.collect(),
+    }
+}
+
+/// A lab as text and pictures.
+pub(crate) fn lab_twin(lab: &Lab, models: Option<&Models>, addresses: &mut dyn Addresses) -> String {
+    let mut out = String::new();
+    if !lab.title().is_empty() {
+        let _ = write!(out, "<p class=\"twin-title\">{}</p>", escape(lab.title()));
+    }
+    match run_lab(lab, models) {
+        Ok(table) => out.push_str(&results(lab, &table)),
+        Err(why) => {
+            let _ = write!(
+                out,
+                "<p class=\"twin-failed\">This lab cannot run: {}.</p>",
+                escape(why.trim_end_matches('.'))
+            );
+        }
+    }
+    if let Some(note) = &lab.note {
+        let _ = write!(out, "<p class=\"note\">{}</p>", harmless(note.as_str(), addresses));
+    }
+    out
+}
+
+/// The run of a lab as it loads, or the reason that there is none.
+fn run_lab(lab: &Lab, models: Option<&Models>) -> Result<Table, String> {
+    let models = models.ok_or("its folder of models is not known")?;
+    let mut findings: Vec<Finding> = Vec::new();
+    let bound = check::bind(lab, models, &mut findings);
+    let first = || {
+        findings.iter().find(|f| f.is_error()).map_or("its model does not load".into(), |f| f.message.clone())
+    };
+    match &bound {
+        Some((model, programs, 0)) => {
+            watched_run(lab, model, programs, &RunOptions::default()).map_err(|e| e.0)
+        }
+        _ => Err(first()),
+    }
+}
+
+fn results(lab: &Lab, table: &Table) -> String {
+    let Some(last) = table.rows.last() else { return String::new() };
+    let time = last.first().map_or(f64::NAN, Cell::number);
+    let mut out = format!("<p>The lab after {} s of simulated time", escape(&rounded(time, 3)));
+    let settings = settings(lab);
+    if !settings.is_empty() {
+        let _ = write!(out, ", with {}", escape(&settings));
+    }
+    out.push_str(".</p>");
+    let readouts = lab.readouts.iter().filter_map(|readout| {
+        let name = format!("readout/{}", readout.label.value);
+        let column = table.columns.iter().position(|c| *c == name)?;
+        Some((readout.label.as_str(), last.get(column)?.rounded(readout.digits())))
+    });
+    let rows: String = readouts
+        .map(|(label, value)| format!("<div><dt>{}</dt><dd>{}</dd></div>", escape(label), escape(&value)))
+        .collect();
+    if !rows.is_empty() {
+        let _ = write!(out, "<dl class=\"readouts\">{rows}</dl>");
+    }
+    for (index, plot) in lab.plots.iter().enumerate() {
+        let svg = line_chart(&chart(lab, plot, index, table));
+        let _ = write!(out, "<div class=\"plot\">{}</div>", svg.trim_end());
+    }
+    for breakdown in &table.breakdowns {
+        let _ = write!(out, "<p class=\"twin-failed\">{}</p>", escape(&breakdown.what));
+    }
+    out
+}
+
+/// The values of the controls at the start, in words.
+fn settings(lab: &Lab) -> String {
+    let parts = lab.controls.iter().filter_map(|control| {
+        let label = control.label.as_str();
+        match &control.kind {
+            ControlKind::Slider { unit, value, .. } => {
+                let number = Cell::Number(value.value).rounded(control.digits()?);
+                let unit = unit.as_ref().map_or(String::new(), |unit| format!(" {}", unit.as_str()));
+                Some(format!("{label} {number}{unit}"))
+            }
+            ControlKind::Select { options, value, .. } => {
+                let chosen = options.iter().find(|choice| is_same(&choice.value, value))?;
+                Some(format!("{label} {}", chosen.text.as_str()))
+            }
+            ControlKind::Button { .. } => None,
+        }
+    });
+    parts.collect::<Vec<_>>().join(", ")
+}
+
+/// Whether two values of a select are the same.
+fn is_same(a: &Scalar, b: &Scalar) -> bool {
+    match (a, b) {
+        (Scalar::Number(a), Scalar::Number(b)) => a.value.to_bits() == b.value.to_bits(),
+        (Scalar::Text(a), Scalar::Text(b)) => a.value == b.value,
+        (Scalar::Bool(a, _), Scalar::Bool(b, _)) => a == b,
+        _ => false,
+    }
+}
+
+/// A quiz as text: its questions and their options.
+pub(crate) fn quiz_twin(quiz: &Quiz, addresses: &mut dyn Addresses) -> String {
+    let title = quiz.title();
+    let mut out = format!("<p class=\"twin-title\">{}</p><ol class=\"questions\">", escape(title));
+    for question in &quiz.questions {
+        match question {
+            Some(question) => out.push_str(&question_twin(question, addresses)),
+            None => out.push_str("<li>This question cannot be read.</li>"),
+        }
+    }
+    out.push_str("</ol>");
+    out
+}
+
+fn question_twin(question: &Question, addresses: &mut dyn Addresses) -> String {
+    let mut out = format!("<li><div>{}</div>", harmless(question.q.as_str(), addresses));
+    match &question.kind {
+        QuestionKind::Choice { options, .. } => {
+            out.push_str("<ol class=\"options\">");
+            for option in options {
+                let _ = write!(out, "<li>{}</li>", harmless(option.as_str(), addresses));
+            }
+            out.push_str("</ol>");
+        }
+        QuestionKind::Numeric { unit, .. } => {
+            let unit = unit.as_ref().map_or(String::new(), |unit| format!(" {}", escape(unit.as_str())));
+            let _ = write!(out, "<p class=\"blank\">Your answer: ________{unit}</p>");
+        }
+        QuestionKind::Open { .. } => out.push_str("<p class=\"blank\">Your answer:</p>"),
+    }
+    out.push_str("</li>");
+    out
+}

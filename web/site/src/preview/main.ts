@@ -1,0 +1,33 @@
+/** The page of the preview: it follows the files, and has the tools of an author. */
+import { patchPage } from "./patch.js";
+import { startTools } from "./tools.js";
+
+/** The version that the page shows. */
+let displayed = document.querySelector<HTMLMetaElement>("meta[name='labspec-version']")?.content ?? "";
+let running: Promise<void> = Promise.resolve();
+
+/** Fetches the page again, and brings what has changed into this one. */
+async function update(version: string): Promise<void> {
+  if (version === displayed) return;
+  const response = await fetch(location.pathname, { cache: "no-store" });
+  if (!response.ok) {
+    // The lesson of this page was removed or renamed.
+    if (response.status === 404) location.assign("/");
+    return;
+  }
+  const fresh = new DOMParser().parseFromString(await response.text(), "text/html");
+  const next = fresh.querySelector<HTMLMetaElement>("meta[name='labspec-version']")?.content ?? "";
+  const main = document.querySelector("main");
+  if (main?.dataset["page"] === undefined) return location.reload();
+  await patchPage(fresh);
+  displayed = next;
+}
+
+const main = document.querySelector("main");
+if (main !== null) startTools(main);
+const events = new EventSource("/_labspec/events");
+events.addEventListener("message", ({ data }: MessageEvent<unknown>) => {
+  running = running.then(() => update(String(data))).catch((e: unknown) => console.error(e));
+});
+events.addEventListener("error", () => document.body.classList.add("disconnected"));
+events.addEventListener("open", () => document.body.classList.remove("disconnected"));
