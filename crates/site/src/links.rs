@@ -158,6 +158,10 @@ impl PageLinks<'_> {
         if !endings.contains(&ending.as_str()) || !meta.is_file() || meta.len() > MAX_SIZE {
             return None;
         }
+        // Hidden files and folders are no part of a course.
+        if parts_inside(&self.places.root, real)?.iter().any(|part| part.starts_with('.')) {
+            return None;
+        }
         let inside = parts_inside(&self.places.folder, real).map(|parts| parts.join("/"));
         let outside = || parts_inside(&self.places.root, real).map(|parts| parts.join("/"));
         let name = format!("files/{}", inside.or_else(outside)?);
@@ -205,7 +209,7 @@ mod tests {
         std::fs::write(outside.path().join("secret.txt"), "s").unwrap();
         let folder = outside.path().join("course");
         std::fs::create_dir(&folder).unwrap();
-        for name in ["a b.md", "data.csv", "x.html", "p.svg", "p.png"] {
+        for name in ["a b.md", "data.csv", "x.html", "p.svg", "p.png", ".hidden.txt"] {
             std::fs::write(folder.join(name), "x").unwrap();
         }
         #[cfg(unix)]
@@ -229,6 +233,7 @@ mod tests {
             ("x.html", None),
             ("p.svg", None),
             ("none.csv", None),
+            (".hidden.txt", None),
         ] {
             assert_eq!(links.link(target).as_deref(), address, "{target}");
         }
