@@ -103,6 +103,7 @@ impl RawData {
             functions: Functions::new(),
             displayed: Vec::new(),
             numbers: Vec::new(),
+            playback: None,
         };
         Ok(RawData { world, poses: Vec::new(), before: Vec::new() })
     }
