@@ -1,5 +1,5 @@
-/** What a page and the engine tell each other. The engine runs in a worker, or in the page where a policy forbids workers. */
-import type { Control, ControlValue, Finding, Models, Shown } from "labspec/slim";
+/** The messages between a page and the engine. The engine runs in a worker, or in the page where a policy forbids workers. */
+import type { Control, ControlValue, Finding, Models, Playback, Shown, TextureDeclaration } from "labspec/slim";
 import type { SceneFrame, SceneModel } from "../view/types.js";
 
 /** Something that happened in a lab, with the simulated time in seconds. */
@@ -17,7 +17,7 @@ export interface Frame {
   readonly numbers: Float64Array;
   /** The readouts as they are printed. */
   readonly texts: readonly string[];
-  /** Samples since the last frame: time, then `numbers`, for one step after the other. */
+  /** Samples since the last frame: time, then `numbers`. Of many steps, those that keep every peak of a trace. */
   readonly rows: Float64Array;
   readonly scene: SceneFrame;
   /** The constants of the scene, where a program changed them. */
@@ -27,6 +27,8 @@ export interface Frame {
   readonly isOver: boolean;
   /** Where the controls stand, in their order; `null` for buttons. */
   readonly values: readonly (ControlValue | null)[];
+  /** What programs of the lab ask of the page. */
+  readonly playback: Playback | null;
   /** Simulated time that was asked for and not reached within the budget, s. */
   readonly behind: number;
 }
@@ -38,6 +40,8 @@ export interface Opened {
   readonly shown: readonly Shown[];
   readonly findings: readonly Finding[];
   readonly model: SceneModel;
+  /** The textures as the model declares them, by id. */
+  readonly textures: readonly TextureDeclaration[];
   readonly frame: Frame;
   readonly timestep: number;
   /** Names of bodies and sites, by id. */

@@ -1,11 +1,10 @@
 /** A lab that is played: what a page asks of it, frame by frame. */
-import { Lab, type ControlValue, type Models } from "labspec/slim";
+import { Lab, type ControlValue, type Models, type Playback } from "labspec/slim";
+import { decimate } from "./decimate.js";
 import { springForce } from "./drag.js";
 import type { Drag, EngineEvent, Frame, Opened } from "./messages.js";
 import { readSceneFrame, readSceneModel, sceneModelChanged, writtenSceneFields } from "./scene.js";
 
-/** Samples of one frame; more are thinned out. */
-const MOST_ROWS = 128;
 /** Steps for which the force of a drag is held. */
 const PIECE = 8;
 const NO_FORCE = [0, 0, 0, 0, 0, 0];
@@ -14,6 +13,8 @@ export interface Session {
   readonly lab: Lab;
   readonly names: readonly string[];
   readonly controls: Lab["controls"];
+  /** The columns of samples that are plotted. */
+  readonly traces: readonly number[];
   readonly written: ReturnType<typeof writtenSceneFields>;
   /** Findings that the page knows. */
   reported: number;
@@ -21,6 +22,8 @@ export interface Session {
   rows: number[][];
   events: EngineEvent[];
   drag: Drag | null;
+  /** What programs have asked of the page since the last frame. */
+  playback: Playback | null;
   /** Time that was asked for and is less than a step, s. */
   carry: number;
 }
@@ -28,9 +31,10 @@ export interface Session {
 /** Opens a lab, or one in a saved state. */
 export function openSession(json: string, models: Models, state: Uint8Array | null): Session {
   const lab = state === null ? new Lab(json, models) : Lab.resume(state, json, models);
+  const traces = lab.shown.flatMap((one, i) => (one.plot === undefined ? [] : [i]));
   const session: Session = {
-    lab, names: geomNames(lab), controls: lab.controls, written: writtenSceneFields(lab), sent: readSceneModel(lab),
-    reported: lab.findings.length, rows: [], events: [], drag: null, carry: 0,
+    lab, names: geomNames(lab), controls: lab.controls, traces, written: writtenSceneFields(lab), sent: readSceneModel(lab),
+    reported: lab.findings.length, rows: [], events: [], drag: null, playback: null, carry: 0,
   };
   lab.on("contact", ({ time, geom1, geom2, touching }) => {
     const [first, second] = [session.names[geom1] ?? "", session.names[geom2] ?? ""];
@@ -38,6 +42,7 @@ export function openSession(json: string, models: Models, state: Uint8Array | nu
   });
   lab.on("end", ({ time }) => session.events.push({ type: "stop", time }));
   sample(session);
+  session.playback = lab.takePlayback();
   return session;
 }
 
@@ -49,7 +54,7 @@ export function describeOpened(id: number, session: Session): Opened {
   const movable: boolean[] = [];
   for (let body = 0; body < dofs.length; body++) movable.push(body > 0 && ((dofs[body] ?? 0) > 0 || movable[parents[body] ?? 0] === true));
   return {
-    id, controls: session.controls, shown: lab.shown, findings: lab.findings, model: session.sent, frame: takeFrame(session, 0),
+    id, controls: session.controls, shown: lab.shown, findings: lab.findings, model: session.sent, textures: lab.textures, frame: takeFrame(session, 0),
     timestep: lab.timestep, bodies: lab.names("body"), sites: lab.names("site"), movable,
   };
 }
@@ -64,7 +69,10 @@ export function advance(session: Session, seconds: number, budget: number): Fram
     for (let i = 0; i < PIECE && left >= lab.timestep; i++) {
       left -= lab.timestep;
       const isRestarted = stepOnce(session);
-      if (lab.isOver || isRestarted || performance.now() >= deadline) break outer;
+      // A program that pauses the page pauses it at this step.
+      const isPaused = session.playback === "pause" || session.playback === "toggle";
+      if (isPaused) left = 0;
+      if (lab.isOver || isRestarted || isPaused || performance.now() >= deadline) break outer;
     }
   }
   const behind = lab.isOver ? 0 : Math.max(0, left - lab.timestep);
@@ -88,6 +96,7 @@ export function actOn(session: Session, what: (lab: Lab) => void): Frame {
   what(session.lab);
   if (session.lab.time < before) session.rows = [];
   sample(session);
+  notePlayback(session);
   return takeFrame(session, 0);
 }
 
@@ -121,7 +130,13 @@ function stepOnce(session: Session): boolean {
     session.events.push({ type: "restart", time: before });
   }
   sample(session);
+  notePlayback(session);
   return isRestarted;
+}
+
+/** Keeps the last request of programs to play or to pause. */
+function notePlayback(session: Session): void {
+  session.playback = session.lab.takePlayback() ?? session.playback;
 }
 
 function sample(session: Session): void {
@@ -134,16 +149,15 @@ function takeFrame(session: Session, behind: number): Frame {
   const found = lab.findings;
   for (const finding of found.slice(session.reported)) events.push({ type: "finding", time: lab.time, finding });
   session.reported = found.length;
-  const stride = Math.ceil(session.rows.length / MOST_ROWS);
-  const kept = session.rows.filter((_, i) => i % stride === 0 || i === session.rows.length - 1);
-  const rows = Float64Array.from(kept.flat());
-  [session.rows, session.events] = [[], []];
+  const rows = Float64Array.from(decimate(session.rows, session.traces).flat());
+  const { playback } = session;
+  [session.rows, session.events, session.playback] = [[], [], null];
   const changed = session.written.length > 0 && sceneModelChanged(lab, session.sent, session.written);
   if (changed) session.sent = readSceneModel(lab);
   return {
     time: lab.time, numbers: lab.numbers, texts: lab.readoutTexts, rows, scene: readSceneFrame(lab),
     ...(changed ? { model: session.sent } : {}), events, isOver: lab.isOver,
-    values: session.controls.map((control) => lab.value(control.label)), behind,
+    values: session.controls.map((control) => lab.value(control.label)), playback, behind,
   };
 }
 

@@ -4,17 +4,22 @@ import { childrenRead, ContentError, readContent, readModels } from "../content.
 import { deferred } from "../deferred.js";
 import { h, takeOwnProperty } from "../dom.js";
 import { EngineError, prepareEngine } from "../engine/client.js";
+import { createBadge } from "../proof/badge.js";
 import { readLab } from "../spec.js";
+import { prepareViews } from "../view/index.js";
 import { decodeState, stateInFragment, StateError } from "../state/fragment.js";
 import { applyStyles, watchTheme } from "../style/apply.js";
 import { messagesFor, type Say } from "../text/messages.js";
 import { errorPanel, findingText } from "./layout.js";
+import { joinLink, type Link } from "./links.js";
 import { openPanel, type Panel } from "./panel.js";
 
 const TAG = "sim-lab";
+/** Labs this near to the window are opened, pixels. */
+const MARGIN = 200;
 
 export class SimLab extends HTMLElement {
-  static readonly observedAttributes = ["src", "lang"];
+  static readonly observedAttributes = ["src", "lang", "link"];
   #lab: object | string | null = null;
   #models: Models | null = null;
   #panel: Panel | null = null;
@@ -25,6 +30,7 @@ export class SimLab extends HTMLElement {
   #seen: IntersectionObserver | null = null;
   #unwatch: (() => void) | null = null;
   #state: Uint8Array | null = null;
+  #link: Link | null = null;
 
   /** The lab as an object or as JSON. */
   get lab(): object | string | null { return this.#lab; }
@@ -54,6 +60,10 @@ export class SimLab extends HTMLElement {
   get shown(): Panel["remote"]["opened"]["shown"] { return this.#panel?.remote.opened.shown ?? []; }
   /** What they show, in the same order. */
   get numbers(): readonly number[] { return Array.from(this.#panel?.frame.numbers ?? []); }
+  /** The traces of the plots, with their samples. */
+  get traces(): Panel["traces"] { return this.#panel?.traces ?? []; }
+  /** What has happened since the start, in sentences. */
+  get events(): readonly string[] { return this.#panel?.events ?? []; }
   /** The readouts as they are printed. */
   get texts(): readonly string[] { return this.#panel?.frame.texts ?? []; }
 
@@ -61,8 +71,16 @@ export class SimLab extends HTMLElement {
   pause(): void { this.#panel?.player.pause(); }
   async reset(): Promise<void> { await (await this.#opened()).player.reset(); }
   async step(steps = 1): Promise<void> { await (await this.#opened()).player.step(steps); }
-  async set(label: string, value: ControlValue): Promise<void> { await (await this.#opened()).player.set(label, value); }
-  async press(label: string): Promise<void> { await (await this.#opened()).player.press(label); }
+  async set(label: string, value: ControlValue): Promise<void> {
+    const { player } = await this.#opened();
+    await player.set(label, value);
+    this.#link?.moved(label, value);
+  }
+  async press(label: string): Promise<void> {
+    const { player } = await this.#opened();
+    await player.press(label);
+    this.#link?.pressed(label);
+  }
   /** The state as bytes, for `openState`. */
   async saveState(): Promise<Uint8Array> { return (await this.#opened()).save(); }
   /** Opens a state that was saved: the lab goes on from there with the same bits. */
@@ -84,8 +102,12 @@ export class SimLab extends HTMLElement {
       const isSeen = entries[entries.length - 1]?.isIntersecting === true;
       if (isSeen) this.#want();
       if (this.#panel !== null) this.#panel.player.isVisible = isSeen;
-    }, { rootMargin: "200px" });
+    }, { rootMargin: `${MARGIN}px` });
     this.#seen.observe(this);
+    // The engine starts while the page is laid out, and a lab in the window does not wait for the observer.
+    prepareEngine();
+    const { top, bottom } = this.getBoundingClientRect();
+    if (bottom > -MARGIN && top < innerHeight + MARGIN) this.#want();
   }
 
   disconnectedCallback(): void {
@@ -98,8 +120,21 @@ export class SimLab extends HTMLElement {
     });
   }
 
-  attributeChangedCallback(_name: string, before: string | null, after: string | null): void {
-    if (before !== after) this.#reopen();
+  attributeChangedCallback(name: string, before: string | null, after: string | null): void {
+    if (before === after) return;
+    if (name !== "link") this.#reopen();
+    else if (this.#panel !== null) this.#join(this.#panel, false);
+  }
+
+  /** Links the lab to those with the same `link`. */
+  #join(panel: Panel, keepsOwn: boolean): void {
+    this.#link?.leave();
+    const name = this.getAttribute("link") ?? "";
+    this.#link = name === "" ? null : joinLink(name, {
+      controls: panel.remote.opened.controls,
+      set: (label, value) => void panel.move(label, value),
+      press: (label) => void panel.move(label, null),
+    }, keepsOwn);
   }
 
   readonly #onHash = (): void => {
@@ -116,12 +151,16 @@ export class SimLab extends HTMLElement {
     if (this.#isWanted || !this.isConnected) return;
     this.#isWanted = true;
     prepareEngine();
+    // The page has nothing to do while the engine starts.
+    setTimeout(prepareViews, 0);
     void this.#open(++this.#turn);
   }
 
   #close(): void {
     this.#turn++;
     this.#isWanted = false;
+    this.#link?.leave();
+    this.#link = null;
     this.#panel?.dispose();
     this.#panel = null;
     this.#ready = deferred();
@@ -152,12 +191,15 @@ export class SimLab extends HTMLElement {
       const [panel, remark] = await this.#openInState(spec, models, say);
       if (isOld()) return panel.dispose();
       this.#panel = panel;
+      this.#join(panel, remark !== null);
+      const badge = createBadge(this, json, models, say);
+      if (badge !== null) panel.element.append(badge);
       show(root, panel.element);
       panel.restyle();
       panel.player.isVisible = true;
       if (remark !== null) panel.say(remark);
       const mayMove = !matchMedia("(prefers-reduced-motion: reduce)").matches;
-      if (spec.autoplay && mayMove) panel.player.play();
+      if ((spec.autoplay || panel.frame.playback === "play") && mayMove) panel.player.play();
       this.#ready.resolve();
       this.#tell("lab-ready", {});
     } catch (e) {
@@ -170,6 +212,7 @@ export class SimLab extends HTMLElement {
   /** Opens the lab in the state that is asked for; where that is refused, at its start, and says why. */
   async #openInState(spec: ReturnType<typeof readLab>, models: Models, say: Say): Promise<[Panel, string | null]> {
     const open = (state: Uint8Array | null): Promise<Panel> => openPanel(spec, models, state, this.#key(), say, {
+      moved: (label, value) => (value === null ? this.#link?.pressed(label) : this.#link?.moved(label, value)),
       change: (label, value, time) => {
         this.shadowRoot?.querySelector(".failure")?.remove();
         this.#tell("lab-change", { label, value, time });

@@ -13,6 +13,8 @@ export interface Spoken {
   say(text: string): void;
   /** Says what happened; returns the sentences. */
   report(events: readonly EngineEvent[]): readonly string[];
+  /** The sentences of the list. */
+  readonly sentences: readonly string[];
   /** Forgets the list: the lab is back at its start. */
   clear(): void;
 }
@@ -52,6 +54,7 @@ export function createSpoken(say: Say): Spoken {
       details.hidden = list.childElementCount === 0;
       return sentences;
     },
+    get sentences() { return [...list.children].map((item) => item.textContent ?? ""); },
     clear() {
       list.replaceChildren();
       details.hidden = true;

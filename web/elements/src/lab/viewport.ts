@@ -1,17 +1,22 @@
 /** The picture of a lab: the camera and the bodies follow the pointer and the keys. */
 import { createView, labCamera } from "../view/index.js";
-import type { CameraPose, Overlay, SceneFrame, SceneModel, View } from "../view/types.js";
+import type { CameraPose, Overlay, SceneFrame, SceneModel, SceneTexture, View } from "../view/types.js";
 import { h, saveFile, fileName } from "../dom.js";
 import type { Drag, Opened } from "../engine/messages.js";
 import { clamp, type LabSpec } from "../spec.js";
 import type { Say } from "../text/messages.js";
+import { builtinTextures } from "../texture/textures.js";
 import { cameraAxes, copyPose, moveCameraByKey, panCamera, pinchCamera, scaled, turnCamera, zoomCamera, type Point } from "./camera-moves.js";
 
 export interface Viewport {
   readonly element: HTMLElement;
   /** Whether there is a picture. */
   readonly isDrawn: boolean;
+  /** The textures of the model, by id. */
+  readonly textures: readonly SceneTexture[];
+  /** New constants of the model; the textures stay. */
   setModel(model: SceneModel): void;
+  setTextures(textures: readonly SceneTexture[]): void;
   setFrame(frame: SceneFrame): void;
   clearTrail(): void;
   draw(): void;
@@ -46,9 +51,10 @@ export function createViewport(opened: Opened, spec: LabSpec, say: Say, actions:
   }, canvas, hint);
   element.style.height = `${spec.height}px`;
   const trail = spec.trail === null ? -1 : opened.sites.indexOf(spec.trail);
+  let [model, textures]: [SceneModel, readonly SceneTexture[]] = [opened.model, builtinTextures(opened.textures)];
   let view: View | null = null;
   try {
-    view = createView(canvas, opened.model, {
+    view = createView(canvas, { ...model, textures }, {
       camera: labCamera(spec.camera), overlays: spec.overlays, ...(spec.forceScale === null ? {} : { forceScale: spec.forceScale }),
       ...(trail >= 0 ? { trail } : {}),
     });
@@ -66,7 +72,16 @@ export function createViewport(opened: Opened, spec: LabSpec, say: Say, actions:
   return {
     element,
     isDrawn: view !== null,
-    setModel: (model) => view?.setModel(model),
+    get textures() { return textures; },
+    setModel(next) {
+      model = next;
+      view?.setModel({ ...model, textures });
+    },
+    setTextures(next) {
+      textures = next;
+      view?.setModel({ ...model, textures });
+      view?.draw();
+    },
     setFrame(frame) {
       state.frame = frame;
       view?.setFrame(frame);

@@ -3,8 +3,8 @@ import type { Models } from "labspec/slim";
 import { h, icon, uniqueId } from "../dom.js";
 import { SimLab } from "../lab/element.js";
 import { numberOf, type Json } from "../spec.js";
-import { formatTime } from "../text/numbers.js";
 import { safeHtml } from "../text/sanitize.js";
+import { compareWithLab } from "./evidence.js";
 import { createCard, showRemark, showVerdict, type Card, type CardContext } from "./card.js";
 import { isRightChoice, isRightOption } from "./grade.js";
 import type { ChoiceQuestion } from "./read.js";
@@ -46,11 +46,11 @@ export function createChoice(question: ChoiceQuestion, context: CardContext, mod
       else if (choice.includes(i) && right !== true) row.append(icon("cross"));
     });
   };
-  const conclude = (choice: readonly number[], evidence: readonly Node[] = []): void => {
+  const conclude = (choice: readonly number[], lab: SimLab | null = null): void => {
     mark(choice);
     const said = choice.map((i) => plainText(question.options[i] ?? "")).join("; ");
-    const prediction = isPredict ? h("p", { class: "said" }, say("committed", { answer: said })) : null;
-    showVerdict(verdict, isRight, say(isRight === true ? "correct" : "wrong"), question.explain, [prediction, ...evidence]);
+    const prediction = !isPredict ? null : lab === null ? h("p", { class: "said" }, say("committed", { answer: said })) : compareWithLab(said, lab, say);
+    showVerdict(verdict, isRight, say(isRight === true ? "correct" : "wrong"), question.explain, [prediction]);
   };
   const stored = (choice: readonly number[]): Stored => ({ choice, text: "", tries, isRight, isDone });
 
@@ -67,7 +67,7 @@ export function createChoice(question: ChoiceQuestion, context: CardContext, mod
       return showVerdict(verdict, false, say("wrong"), null, [h("p", {}, say("attempts", { number: tries, count: question.attempts }))]);
     }
     lock();
-    if (isPredict && question.sim !== null) watchLab(question.sim, models, parts, context, (evidence) => conclude(choice, evidence));
+    if (isPredict && question.sim !== null) watchLab(question.sim, models, parts, context, (lab) => conclude(choice, lab));
     else conclude(choice);
   });
   for (const input of inputs) {
@@ -103,7 +103,7 @@ function createLab(sim: Json, models: Models | null, { name }: CardContext): Sim
 }
 
 /** Shows the lab, plays it, and concludes when it is over or when the reader wants it. */
-function watchLab(sim: Json, models: Models | null, parts: { verdict: HTMLElement }, context: CardContext, conclude: (evidence: Node[]) => void): void {
+function watchLab(sim: Json, models: Models | null, parts: { verdict: HTMLElement }, context: CardContext, conclude: (lab: SimLab) => void): void {
   const { say } = context;
   const lab = createLab(sim, models, context);
   const show = h("button", { type: "button" }, say("showVerdict"));
@@ -115,7 +115,7 @@ function watchLab(sim: Json, models: Models | null, parts: { verdict: HTMLElemen
     isOver = true;
     clearInterval(timer);
     lab.removeEventListener("lab-pause", look);
-    conclude(evidenceOf(lab, say));
+    conclude(lab);
   };
   const until = numberOf(sim["stopAt"]) ?? WATCH;
   const look = (): void => {
@@ -131,14 +131,6 @@ function watchLab(sim: Json, models: Models | null, parts: { verdict: HTMLElemen
   void lab.ready.then(() => {
     if (!wantsNoMotion) lab.play();
   }, () => finish());
-}
-
-/** What the lab shows at its end, beside what was predicted. */
-function evidenceOf(lab: SimLab, say: CardContext["say"]): Node[] {
-  const labels = lab.shown.filter((one) => one.plot === undefined).map((one) => one.label);
-  if (labels.length === 0) return [];
-  const rows = labels.flatMap((label, i) => [h("dt", {}, label), h("dd", {}, lab.texts[i] ?? "")]);
-  return [h("div", { class: "evidence" }, h("p", {}, say("happened", { time: formatTime(lab.time) })), h("dl", {}, ...rows))];
 }
 
 function plainText(html: string): string {

@@ -119,4 +119,13 @@ export const german: Messages = {
   needsHash: "hat einen \"hash\" ohne Text als \"salt\" und \"sha256\".",
   unknownKind: "hat die unbekannte Art \"{kind}\".",
   needsText: "braucht einen Text \"q\".",
+  proved: "Geprüft: {claims} Aussagen gelten",
+  provedText: "labspec {version} hat die Simulationen ausgeführt: Alle {claims} Aussagen dieses Teils gelten.",
+  provedOther: "Seit der Prüfung geändert",
+  provedOtherText: "labspec {version} fand {claims} Aussagen, die gelten; der Inhalt dieses Teils hat sich seitdem geändert.",
+  proveAgain: "Aussagen noch einmal prüfen",
+  proving: "Die Aussagen werden geprüft.",
+  provedAgain: "Alle {claims} Aussagen gelten auch hier.",
+  provedNot: "Hier gelten {right} von {claims} Aussagen: {why}",
+  proofFailed: "Die Aussagen können hier nicht geprüft werden: {why}",
 };

@@ -117,6 +117,15 @@ export const english = {
   needsHash: "has a \"hash\" without a text as \"salt\" and \"sha256\".",
   unknownKind: "has the unknown kind \"{kind}\".",
   needsText: "needs a text \"q\".",
+  proved: "Proved: {claims} claims hold",
+  provedText: "labspec {version} ran the simulations and found that all {claims} claims of this part hold.",
+  provedOther: "Changed since it was proved",
+  provedOtherText: "labspec {version} found that {claims} claims hold, but the content of this part has changed since.",
+  proveAgain: "Run the claims again",
+  proving: "The claims are being checked.",
+  provedAgain: "All {claims} claims hold here too.",
+  provedNot: "Here {right} of {claims} claims hold: {why}",
+  proofFailed: "The claims cannot be checked here: {why}",
 };
 
 export type MessageName = keyof typeof english;

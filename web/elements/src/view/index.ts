@@ -1,9 +1,21 @@
 /** The 3D view of a lab: `createView` draws a scene into a canvas. */
+import { sharedContext } from "./context.js";
 import { SceneView } from "./view.js";
 import type { CreateView } from "./types.js";
+import { warmPrograms } from "./warm.js";
 
 export { labCamera } from "./camera.js";
 export type * from "./types.js";
+
+let isPrepared = false;
+
+/** Starts the WebGL context of the page and its programs, so that the first view finds them. */
+export function prepareViews(): void {
+  if (isPrepared) return;
+  isPrepared = true;
+  const context = sharedContext();
+  if (context !== null) warmPrograms(context);
+}
 
 /**
  * A view of `model` in `canvas`, whose size on the page comes from its style, not from its pixels. The canvas must have no context of
