@@ -8,6 +8,9 @@ writes scenes.json beside itself: for each scene the fields that the view reads,
 And textures.json: scenes with textures, and which of red, green and blue are bright in every pixel (run lengths of 4 r + 2 g + b).
 
 And builtin.json: the pixels of builtin textures, beside their declarations.
+
+And floor.json: a floor with a builtin checker in light without direction: which of its two colours is in every pixel (run lengths of 1 and 2; 0 where
+neither is, to three levels).
 """
 
 import json
@@ -250,6 +253,35 @@ def record_builtin(attributes):
     return {"attributes": attributes, "texture": textures(m)[0]}
 
 
+FLOOR = """<mujoco>
+  <visual><headlight ambient="1 1 1" diffuse="0 0 0" specular="0 0 0"/></visual>
+  <asset>
+    <texture name="t" type="2d" builtin="checker" rgb1="0.7 0.3 0.2" rgb2="0.2 0.4 0.6" width="64" height="64"/>
+    <material name="m" texture="t" texrepeat="2 3" specular="0" reflectance="0" {uniform}/>
+  </asset>
+  <worldbody><geom type="plane" size="{size}" material="m"/><geom size="0.1" pos="0 0 0.1"/></worldbody>
+</mujoco>"""
+
+
+def record_floor(size, uniform):
+    m = mujoco.MjModel.from_xml_string(FLOOR.format(size=size, uniform='texuniform="true"' if uniform else ""))
+    d = mujoco.MjData(m)
+    mujoco.mj_forward(m, d)
+    library, camera = cameras(m, (70, -50, 3, (0, 0, 0)))
+    with mujoco.Renderer(m, HEIGHT, WIDTH) as renderer:
+        for flag in (mujoco.mjtRndFlag.mjRND_SHADOW, mujoco.mjtRndFlag.mjRND_REFLECTION, mujoco.mjtRndFlag.mjRND_HAZE):
+            renderer.scene.flags[flag] = 0
+        renderer.update_scene(d, library)
+        rgb = renderer.render().astype(int)
+    which = np.zeros((HEIGHT, WIDTH), int)
+    for i, color in enumerate([(0.7, 0.3, 0.2), (0.2, 0.4, 0.6)]):
+        which = np.where(np.abs(rgb - np.floor(255 * np.array(color))).max(axis=2) <= 3, i + 1, which)
+    recorded = scene(m, d)
+    # The view computes the pixels of the texture.
+    recorded["model"].pop("textures", None)
+    return recorded | {"camera": camera, "colors": runs(which)}
+
+
 def write(name, scenes):
     lines = [f"{json.dumps(name)}: {json.dumps(scene, separators=(',', ':'))}" for name, scene in scenes.items()]
     text = "{\n" + ",\n".join(lines) + "\n}\n"
@@ -262,6 +294,8 @@ def main(corpus, specs):
     scenes = {name: record(folder and folders[folder] / f"{file}.xml", steps, camera, random) for name, (folder, file, steps, camera) in SCENES.items()}
     write("scenes.json", scenes)
     write("builtin.json", {name: record_builtin(attributes) for name, attributes in BUILTIN.items()})
+    floors = {"sized": ("1 1.5 0.1", False), "uniform": ("1 1.5 0.1", True), "endless": ("0 0 0.1", True)}
+    write("floor.json", {name: record_floor(*about) for name, about in floors.items()})
     write("textures.json", {name: record_textures(*about) for name, about in TEXTURED.items()})
 
 
