@@ -1,11 +1,11 @@
-/** A lab that is played: what a page asks of it, frame by frame. */
+/** A lab that is played. The page asks for frames. */
 import { Lab, type ControlValue, type Models, type Playback } from "labspec/slim";
 import { decimate } from "./decimate.js";
 import { springForce } from "./drag.js";
 import type { Drag, EngineEvent, Frame, Opened } from "./messages.js";
 import { readSceneFrame, readSceneModel, sceneModelChanged, writtenSceneFields } from "./scene.js";
 
-/** Steps for which the force of a drag is held. */
+/** The number of steps during which the force of a drag is constant. */
 const PIECE = 8;
 const NO_FORCE = [0, 0, 0, 0, 0, 0];
 
@@ -16,7 +16,7 @@ export interface Session {
   /** The columns of samples that are plotted. */
   readonly traces: readonly number[];
   readonly written: ReturnType<typeof writtenSceneFields>;
-  /** Findings that the page knows. */
+  /** The number of findings that were sent to the page. */
   reported: number;
   sent: ReturnType<typeof readSceneModel>;
   rows: number[][];
@@ -24,7 +24,7 @@ export interface Session {
   drag: Drag | null;
   /** What programs have asked of the page since the last frame. */
   playback: Playback | null;
-  /** Time that was asked for and is less than a step, s. */
+  /** The requested time that is shorter than a step, s. */
   carry: number;
 }
 
@@ -59,7 +59,7 @@ export function describeOpened(id: number, session: Session): Opened {
   };
 }
 
-/** Plays for so many simulated seconds, but works for at most `budget` milliseconds. */
+/** Plays for a number of simulated seconds. The work ends after `budget` milliseconds. */
 export function advance(session: Session, seconds: number, budget: number): Frame {
   const { lab } = session;
   const deadline = performance.now() + budget;
@@ -80,7 +80,7 @@ export function advance(session: Session, seconds: number, budget: number): Fram
   return takeFrame(session, behind);
 }
 
-/** Makes so many steps. */
+/** Makes a number of steps. */
 export function stepSession(session: Session, steps: number): Frame {
   session.carry = 0;
   for (let i = 0; i < steps && !session.lab.isOver; i++) {
@@ -90,7 +90,7 @@ export function stepSession(session: Session, steps: number): Frame {
   return takeFrame(session, 0);
 }
 
-/** Does something else to the lab, and looks at it. */
+/** Changes the lab and samples it. */
 export function actOn(session: Session, what: (lab: Lab) => void): Frame {
   const before = session.lab.time;
   what(session.lab);
@@ -143,7 +143,7 @@ function sample(session: Session): void {
   session.rows.push([session.lab.time, ...session.lab.numbers]);
 }
 
-/** The frame of what was done since the last one. */
+/** The next frame: the changes since the last one. */
 function takeFrame(session: Session, behind: number): Frame {
   const { lab, events } = session;
   const found = lab.findings;
@@ -161,7 +161,7 @@ function takeFrame(session: Session, behind: number): Frame {
   };
 }
 
-/** Names of geoms for people: their own, or that of their body. */
+/** Names of geoms for readers: the name of the geom, otherwise that of its body. */
 function geomNames(lab: Lab): string[] {
   const [geoms, bodies, of] = [lab.names("geom"), lab.names("body"), lab.model.geom_bodyid];
   return geoms.map((name, i) => {

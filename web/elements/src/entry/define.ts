@@ -1,4 +1,4 @@
-/** What both builds export. */
+/** The exports of both builds. */
 import { defineSimLab } from "../lab/element.js";
 import { defineLessonQuiz } from "../quiz/element.js";
 import { render } from "./widget.js";

@@ -15,7 +15,7 @@ import { joinLink, type Link } from "./links.js";
 import { openPanel, type Panel } from "./panel.js";
 
 const TAG = "sim-lab";
-/** Labs this near to the window are opened, pixels. */
+/** A lab is opened when its distance to the window is smaller than this, pixels. */
 const MARGIN = 200;
 
 export class SimLab extends HTMLElement {
@@ -23,7 +23,7 @@ export class SimLab extends HTMLElement {
   #lab: object | string | null = null;
   #models: Models | null = null;
   #panel: Panel | null = null;
-  /** Counts openings: what an older one brings is dropped. */
+  /** The number of openings. The results of older openings are dropped. */
   #turn = 0;
   #isWanted = false;
   #ready = deferred();
@@ -46,7 +46,7 @@ export class SimLab extends HTMLElement {
     this.#reopen();
   }
 
-  /** Fulfilled when the lab is open; refused with the reason where it cannot be. */
+  /** Fulfilled when the lab is open; rejected with the reason if it cannot be opened. */
   get ready(): Promise<void> {
     this.#want();
     return this.#ready.promise;
@@ -54,11 +54,11 @@ export class SimLab extends HTMLElement {
 
   get time(): number { return this.#panel?.frame.time ?? 0; }
   get playing(): boolean { return this.#panel?.player.isPlaying ?? false; }
-  /** Whether the lab has reached its end, and stands still until it is reset. */
+  /** Whether the lab has reached its end and does not continue without a reset. */
   get isOver(): boolean { return this.#panel?.frame.isOver ?? false; }
   /** Labels and units of the traces and readouts. */
   get shown(): Panel["remote"]["opened"]["shown"] { return this.#panel?.remote.opened.shown ?? []; }
-  /** What they show, in the same order. */
+  /** The values of the traces and readouts, in the same order. */
   get numbers(): readonly number[] { return Array.from(this.#panel?.frame.numbers ?? []); }
   /** The traces of the plots, with their samples. */
   get traces(): Panel["traces"] { return this.#panel?.traces ?? []; }
@@ -83,7 +83,7 @@ export class SimLab extends HTMLElement {
   }
   /** The state as bytes, for `openState`. */
   async saveState(): Promise<Uint8Array> { return (await this.#opened()).save(); }
-  /** Opens a state that was saved: the lab goes on from there with the same bits. */
+  /** Opens a saved state. The lab continues from there with the same bits. */
   async openState(state: Uint8Array): Promise<void> {
     this.#state = state;
     this.#reopen();
@@ -209,7 +209,7 @@ export class SimLab extends HTMLElement {
     }
   }
 
-  /** Opens the lab in the state that is asked for; where that is refused, at its start, and says why. */
+  /** Opens the lab in the requested state. If the state is refused, the lab opens at its start, with the reason. */
   async #openInState(spec: ReturnType<typeof readLab>, models: Models, say: Say): Promise<[Panel, string | null]> {
     const open = (state: Uint8Array | null): Promise<Panel> => openPanel(spec, models, state, this.#key(), say, {
       moved: (label, value) => (value === null ? this.#link?.pressed(label) : this.#link?.moved(label, value)),
@@ -235,7 +235,7 @@ export class SimLab extends HTMLElement {
     }
   }
 
-  /** Something failed while the lab was used: what was shown stays. */
+  /** Reports an error during the use of the lab. The lab stays on the page. */
   #fail(e: unknown): void {
     const [root, say] = [this.shadowRoot, messagesFor(this)];
     const text = e instanceof StateError ? say("stateRefused", { why: reasonOf(e, say) }) : reasonOf(e, say);
@@ -274,7 +274,7 @@ function showError(root: ShadowRoot, e: unknown, say: Say): void {
   show(root, errorPanel(say("broken"), [say("engineFailed", { why: e instanceof Error ? e.message : String(e) })], null));
 }
 
-/** Defines the element, unless the page has it. */
+/** Defines the element, if the page has not defined it. */
 export function defineSimLab(): void {
   if (customElements.get(TAG) === undefined) customElements.define(TAG, SimLab);
 }

@@ -1,4 +1,4 @@
-/** A lab that is open: its parts, and how frames of the engine reach them. */
+/** An open lab: its parts, which receive the frames of the engine. */
 import type { ControlValue, Models } from "labspec/slim";
 import { fileName, h, saveFile } from "../dom.js";
 import { openRemote, type RemoteLab } from "../engine/client.js";
@@ -20,7 +20,7 @@ import { createToolbar } from "./toolbar.js";
 import { createViewBar } from "./view-bar.js";
 import { createViewport } from "./viewport.js";
 
-/** What the element tells the page. */
+/** The events of an open lab for its element. */
 export interface PanelEvents {
   /** The reader moves a control, or presses a button (null). */
   moved(label: string, value: ControlValue | null): void;
@@ -28,7 +28,7 @@ export interface PanelEvents {
   event(event: EngineEvent, text: string): void;
   playing(isPlaying: boolean): void;
   failed(e: unknown): void;
-  /** A saved state is to be opened in place of this one. */
+  /** Requests that a saved state is opened in place of this lab. */
   reopen(state: Uint8Array): void;
 }
 
@@ -50,7 +50,7 @@ export interface Panel {
   readonly traces: readonly Trace[];
   /** What has happened since the start, in sentences. */
   readonly events: readonly string[];
-  /** Says something politely. */
+  /** Announces a text in the live region. */
   say(text: string): void;
   restyle(): void;
   describe(): string;
@@ -93,7 +93,7 @@ export async function openPanel(spec: LabSpec, models: Models, state: Uint8Array
       requestAnimationFrame(show);
     }
   };
-  /** What a program asks of the page. */
+  /** Obeys a request of a program. */
   const obey = (playback: Frame["playback"]): void => {
     if (playback === null) return;
     const plays = playback === "toggle" ? !player.isPlaying : playback === "play";
@@ -196,7 +196,7 @@ export async function openPanel(spec: LabSpec, models: Models, state: Uint8Array
   };
 }
 
-/** Puts the state into the address of the page, and that into the clipboard. */
+/** Writes the state into the address of the page, and copies the address. */
 async function copyLink(save: () => Promise<Uint8Array>, key: string, say: Say, speak: (text: string) => void): Promise<void> {
   const text = await encodeState(await save());
   if (text === null) return speak(say("linkTooLong"));
@@ -207,7 +207,7 @@ async function copyLink(save: () => Promise<Uint8Array>, key: string, say: Say, 
     await navigator.clipboard.writeText(address.href);
     speak(say("linkCopied"));
   } catch {
-    // Without the clipboard, the address of the page has the state all the same.
+    // The address of the page has the state even without the clipboard.
     speak(address.href);
   }
 }

@@ -34,7 +34,7 @@ export interface Viewport {
 export interface ViewportActions {
   drag(drag: Drag | null): void;
   say(text: string): void;
-  /** The body that is dragged by keys was let go there. */
+  /** The viewport has released the body that was dragged by keys. */
   released(): void;
 }
 
@@ -133,7 +133,7 @@ interface PointerState {
   home: CameraPose | null;
   held: Drag | null;
   target: Point;
-  /** Whether touches belong to the picture: after a tap. */
+  /** Whether touches move the picture, not the page. A tap switches it on. */
   isActive: boolean;
 }
 

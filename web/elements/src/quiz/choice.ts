@@ -10,7 +10,7 @@ import { isRightChoice, isRightOption } from "./grade.js";
 import type { ChoiceQuestion } from "./read.js";
 import type { Stored } from "./store.js";
 
-/** Seconds that a lab plays before its verdict, where it has no end of its own. */
+/** The time that a lab without an end plays before the verdict, s. */
 const WATCH = 3;
 
 export function createChoice(question: ChoiceQuestion, context: CardContext, models: Models | null): Card {
@@ -35,7 +35,7 @@ export function createChoice(question: ChoiceQuestion, context: CardContext, mod
     submit.hidden = true;
     form.querySelector(".hint")?.remove();
   };
-  /** Marks what was chosen, and what is right where the question is over. */
+  /** Marks the chosen options, and the right ones if the question is finished. */
   const mark = (choice: readonly number[]): void => {
     rows.forEach((row, i) => {
       const right = isRightOption(question, i) ?? (isRight === true && choice.includes(i) ? true : choice.includes(i) ? false : null);
@@ -77,7 +77,7 @@ export function createChoice(question: ChoiceQuestion, context: CardContext, mod
   }
   restore(context.stored);
 
-  /** An answer of an earlier visit. */
+  /** Restores an answer of an earlier visit. */
   function restore(before: Stored | null): void {
     if (before === null || before.tries === 0) return;
     for (const i of before.choice) {
@@ -96,13 +96,13 @@ export function createChoice(question: ChoiceQuestion, context: CardContext, mod
 function createLab(sim: Json, models: Models | null, { name }: CardContext): SimLab {
   const lab = new SimLab();
   lab.id = name;
-  // The prediction is over: the lab shows what happens.
+  // `watchLab` plays it.
   lab.lab = { ...sim, autoplay: false };
   if (models !== null) lab.models = models;
   return lab;
 }
 
-/** Shows the lab, plays it, and concludes when it is over or when the reader wants it. */
+/** Shows the lab and plays it. Calls `conclude` at its end, or when the reader asks for the verdict. */
 function watchLab(sim: Json, models: Models | null, parts: { verdict: HTMLElement }, context: CardContext, conclude: (lab: SimLab) => void): void {
   const { say } = context;
   const lab = createLab(sim, models, context);

@@ -123,7 +123,7 @@ export class LessonQuiz extends HTMLElement {
     return readModels(this, this.#models, null, say);
   }
 
-  /** The models of a prediction's lab. A model that is missing is an error of that lab. */
+  /** The models of the lab of a prediction. The lab reports a missing model. */
   async #modelsOf(question: Question, say: Say): Promise<Models | null> {
     if (question.kind !== "predict" || question.sim === null) return null;
     try {
@@ -142,7 +142,7 @@ function createQuestion(question: Question, context: CardContext, models: Models
   }
 }
 
-/** Defines the element, unless the page has it. */
+/** Defines the element, if the page has not defined it. */
 export function defineLessonQuiz(): void {
   if (customElements.get(TAG) === undefined) customElements.define(TAG, LessonQuiz);
 }

@@ -1,7 +1,7 @@
-/** Answers that a reader gave, kept by the browser under `id#index`. Pages may forbid it: then nothing is kept. */
+/** The answers of a reader, which the browser stores under `id#index`. If the page forbids storage, nothing is stored. */
 import { isObject, listOf, numberOf, textOf } from "../spec.js";
 
-/** An answer: chosen options, or a text; how often it was tried, and whether it was right at last. */
+/** An answer: chosen options, or a text; the number of tries, and whether the last one was right. */
 export interface Stored {
   readonly choice: readonly number[];
   readonly text: string;

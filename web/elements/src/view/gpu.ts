@@ -51,7 +51,7 @@ function compile(gl: Gl, vertex: string, fragment: string): Program {
   const program = gl.createProgram();
   for (const [kind, text] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]] as const) {
     const shader = gl.createShader(kind);
-    // A lost context has no shaders; what it draws is not seen.
+    // A lost context has no shaders, and its pictures are not shown.
     if (!shader) continue;
     gl.shaderSource(shader, text);
     gl.compileShader(shader);
