@@ -176,7 +176,11 @@ export async function openPanel(spec: LabSpec, models: Models, state: Uint8Array
   void allTextures(opened.textures, viewport.textures, models).then((textures) => {
     if (textures !== null) viewport.setTextures(textures);
   });
-  requestAnimationFrame(show);
+  // Drivers take long for the first picture. The rest of the lab is painted before it.
+  requestAnimationFrame(() => {
+    show();
+    setTimeout(() => viewport.begin(), 0);
+  });
   return {
     element, remote, player, move, say: spoken.say, describe, save,
     get frame() { return frame; },

@@ -12,6 +12,8 @@ export interface Viewport {
   readonly element: HTMLElement;
   /** Whether there is a picture. */
   readonly isDrawn: boolean;
+  /** Draws the first picture. */
+  begin(): void;
   /** The textures of the model, by id. */
   readonly textures: readonly SceneTexture[];
   /** New constants of the model; the textures stay. */
@@ -63,8 +65,9 @@ export function createViewport(opened: Opened, spec: LabSpec, say: Say, actions:
     element.replaceChildren(h("p", { class: "view-failed" }, say("viewFailed")));
   }
   const state: PointerState = { frame: opened.frame.scene, home: view === null ? null : copyPose(view.camera), held: null, target: [0, 0, 0], isActive: false };
+  // The view draws nothing before it has a frame: the first picture waits until the rest of the lab is on the page.
+  let isBegun = false;
   if (view !== null) {
-    view.setFrame(opened.frame.scene);
     listen(element, canvas, view, opened, say, actions, state);
   }
   const resize = new ResizeObserver(() => view?.draw());
@@ -82,8 +85,14 @@ export function createViewport(opened: Opened, spec: LabSpec, say: Say, actions:
       view?.setModel({ ...model, textures });
       view?.draw();
     },
+    begin() {
+      isBegun = true;
+      view?.setFrame(state.frame);
+      view?.draw();
+    },
     setFrame(frame) {
       state.frame = frame;
+      if (!isBegun) return;
       view?.setFrame(frame);
       if (view !== null && state.held !== null) view.setDrag({ from: grabbedPoint(frame, state.held), to: state.target });
     },
