@@ -14,7 +14,8 @@ export function prepareViews(): void {
   if (isPrepared) return;
   isPrepared = true;
   const context = sharedContext();
-  if (context !== null) warmPrograms(context);
+  // On two cores, the driver would take the time of the engine.
+  if (context !== null && navigator.hardwareConcurrency > 2) warmPrograms(context);
 }
 
 /**
