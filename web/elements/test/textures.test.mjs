@@ -5,6 +5,8 @@ import test from "node:test";
 import { load } from "./load.mjs";
 
 const { builtinTexture } = await load("texture/builtin.ts");
+const { builtinTextures } = await load("texture/textures.ts");
+const { countPixels } = await load("texture/files.ts");
 const golden = JSON.parse(readFileSync(new URL("view/golden/builtin.json", import.meta.url), "utf8"));
 const numbers = (text, otherwise) => (text === undefined ? otherwise : text.split(" ").map(Number));
 const declaration = (a) => ({
@@ -41,4 +43,20 @@ test("hostile declarations are none, or small", () => {
   for (const change of [{ width: 2 ** 31 - 1, height: 2 ** 31 - 1 }, { type: 2, builtin: 1, width: 1e9 }, { rgb1: [], rgb2: [NaN, 1e9, -1] }]) {
     assert.ok(builtinTexture({ ...base, ...change }).data.length <= 3 * 6 * 1024 * 1024);
   }
+});
+
+test("many large textures share a budget; files are measured before they are decoded", () => {
+  const large = declaration({ type: "2d", builtin: "checker", width: "1024", height: "1024" });
+  const made = builtinTextures(Array.from({ length: 100 }, () => large));
+  assert.equal(made.length, 100);
+  assert.deepEqual([made[15].width, made[16].width, made[99].width], [1024, 1, 1]);
+  const png = (width, height) => {
+    const bytes = new Uint8Array(64);
+    bytes.set([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a]);
+    new DataView(bytes.buffer).setUint32(16, width);
+    new DataView(bytes.buffer).setUint32(20, height);
+    return bytes;
+  };
+  assert.equal(countPixels(png(20, 10)), 200);
+  for (const file of [undefined, "text", new Uint8Array(0), new Uint8Array(64), png(60_000, 60_000), png(0, 5), png(20, 10).subarray(0, 20)]) assert.equal(countPixels(file), Infinity);
 });

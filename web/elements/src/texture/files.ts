@@ -5,6 +5,7 @@ import { FACES, KIND } from "./builtin.js";
 
 /** The largest side of a picture, pixels. */
 const MOST_SIDE = 4096;
+const SIGNATURE = [0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a];
 /** Letters of the faces in a layout, in their order. */
 const LETTERS = "RLUDFB";
 
@@ -32,12 +33,19 @@ export async function textureOfFiles(t: TextureDeclaration, models: Models): Pro
   return cube(t, pictures.map((picture) => (picture === null ? plain(t, size) : flip(picture, t.hflip, t.vflip))), channels);
 }
 
+/** The number of pixels of a PNG file, from its header. Infinity for another file, or one that is too large. */
+export function countPixels(file: string | Uint8Array | undefined): number {
+  if (!(file instanceof Uint8Array) || file.length < 33 || SIGNATURE.some((byte, i) => file[i] !== byte)) return Infinity;
+  const header = new DataView(file.buffer, file.byteOffset + 16, 8);
+  const [width, height] = [header.getUint32(0), header.getUint32(4)];
+  return width >= 1 && height >= 1 && width <= MOST_SIDE && height <= MOST_SIDE ? width * height : Infinity;
+}
+
 async function decode(file: string | Uint8Array | undefined): Promise<Pixels | null> {
-  if (!(file instanceof Uint8Array)) return null;
+  if (!(file instanceof Uint8Array) || countPixels(file) === Infinity) return null;
   try {
     const image = await createImageBitmap(new Blob([file as BlobPart], { type: "image/png" }), { premultiplyAlpha: "none", colorSpaceConversion: "none" });
     const { width, height } = image;
-    if (width > MOST_SIDE || height > MOST_SIDE) return null;
     const canvas = document.createElement("canvas");
     [canvas.width, canvas.height] = [width, height];
     const context = canvas.getContext("2d", { willReadFrequently: true });
@@ -70,14 +78,10 @@ function plain(t: TextureDeclaration, size: number): Pixels {
   return { width: size, height: size, data: Uint8Array.from({ length: 4 * size * size }, (_, i) => color[i % 4] ?? 0) };
 }
 
-/** The faces in one picture: a grid of them, or one for all. */
+/** The faces in one picture: a grid, or one picture for all faces. */
 function cutFaces(from: Pixels, t: TextureDeclaration): Pixels[] | null {
   const [rows = 1, columns = 1] = t.gridsize;
-  if (rows === 1 && columns === 1) {
-    // A picture of six faces, one below the other, or one for all faces.
-    if (from.height === FACES * from.width) return Array.from({ length: FACES }, (_, i) => copy(from, 0, i * from.width, from.width, from.width));
-    return from.width === from.height ? Array.from({ length: FACES }, () => from) : null;
-  }
+  if (rows === 1 && columns === 1) return from.width === from.height ? Array.from({ length: FACES }, () => from) : null;
   const [width, height] = [Math.floor(from.width / columns), Math.floor(from.height / rows)];
   if (!(rows > 0 && columns > 0 && rows * columns <= 12) || width !== height || width < 1) return null;
   const faces = Array.from({ length: FACES }, () => plain(t, width));

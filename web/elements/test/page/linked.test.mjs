@@ -1,6 +1,7 @@
 // Linked labs, programs that play and pause, the mark of proved claims, textures in Chromium.
 import assert from "node:assert/strict";
 import test, { after } from "node:test";
+import { crc32, deflateSync } from "node:zlib";
 import { drop, dropLab, labOf, launch, opened, pageOf, serve, watchErrors } from "./site.mjs";
 import { load } from "../load.mjs";
 
@@ -21,6 +22,23 @@ const claimed = {
   verify: { runs: { fall: { until: 0.2 } }, measure: { z: "final(data.qpos[2])" }, says: [["0.80", "z"]] }, title: "The ball is at 0.80 after 0.2 s",
 };
 const proof = (claims, content) => `verified='${JSON.stringify({ claims, version: "0.1.0", hash: contentHash(content) })}'`;
+/** A PNG picture of rows of colours. */
+function png(rows) {
+  const chunk = (kind, data) => {
+    const body = Buffer.concat([Buffer.from(kind), data]);
+    const [length, sum] = [Buffer.alloc(4), Buffer.alloc(4)];
+    length.writeUInt32BE(data.length);
+    sum.writeUInt32BE(crc32(body));
+    return Buffer.concat([length, body, sum]);
+  };
+  const header = Buffer.alloc(13);
+  header.writeUInt32BE(rows[0].length, 0);
+  header.writeUInt32BE(rows.length, 4);
+  header.set([8, 2, 0, 0, 0], 8);
+  const pixels = Buffer.concat(rows.map((row) => Buffer.from([0, ...row.flat()])));
+  return Buffer.concat([Buffer.from([0x89, 0x50, 0x4e, 0x47, 13, 10, 26, 10]), chunk("IHDR", header), chunk("IDAT", deflateSync(pixels)), chunk("IEND", Buffer.alloc(0))]);
+}
+
 const checker = 'checker="/web/labspec/dist/checker/checker-browser.js"';
 const server = await serve({
   "/linked.html": pageOf(`${labOf({ ...plain, controls: [gravity(), kick] }, { id: "a", models: { drop }, attributes: 'link="pair"' })}
@@ -31,6 +49,12 @@ const server = await serve({
   "/proved.html": pageOf(`${labOf(claimed, { id: "a", attributes: `${proof(2, claimed)} ${checker}` })}
     ${labOf({ ...claimed, title: "Another" }, { id: "b", attributes: proof(2, claimed) })}
     ${labOf(dropLab, { id: "c", models: { drop }, attributes: 'verified="{&quot;claims&quot;: &quot;<b>&quot;}"' })}`),
+  "/pictures.html": pageOf('<sim-lab src="/pictures.json" models="/pictures"></sim-lab>'),
+  "/pictures.json": JSON.stringify({ model: "room" }),
+  "/pictures/room.xml": "<mujoco><compiler texturedir='t'/><asset><texture name='floor' type='2d' file='floor.png'/><texture name='sky' type='skybox' file='sky.png' gridsize='3 4' gridlayout='.U..LFRB.D..'/><texture name='gone' type='2d' file='gone.png'/><material name='floor' texture='floor' specular='0'/><material name='gone' texture='gone'/></asset><worldbody><geom type='plane' size='2 2 .1' material='floor'/><geom size='.1' pos='0 0 .2' material='gone'/></worldbody></mujoco>",
+  "/pictures/t/floor.png": png(Array.from({ length: 32 }, (_, y) => Array.from({ length: 32 }, (_, x) => ((x < 16) === (y < 16) ? [255, 0, 0] : [0, 255, 0])))),
+  "/pictures/t/sky.png": png(Array.from({ length: 12 }, () => Array.from({ length: 16 }, () => [0, 0, 255]))),
+  "/pictures/t/gone.png": "no picture",
   "/textured.html": pageOf(labOf({ model: "textured" }, { models: {
     textured: "<mujoco><asset><texture name='sky' type='skybox' builtin='gradient' rgb1='0 0 1' rgb2='0 0 0' width='64' height='384'/><texture name='floor' type='2d' builtin='checker' rgb1='1 0 0' rgb2='0 1 0' width='64' height='64'/><material name='floor' texture='floor' texrepeat='2 2' texuniform='true' specular='0'/></asset><worldbody><geom type='plane' size='2 2 .1' material='floor'/><body pos='0 0 .3'><freejoint/><geom size='.1'/></body></worldbody></mujoco>",
   } })),
@@ -124,20 +148,22 @@ test("proved claims have a mark, are checked again on demand, and changed conten
   errors.none();
 });
 
-test("builtin textures are drawn: a sky, and a floor of two colours", async (t) => {
-  const { page, errors } = await open(t, "/textured.html");
-  await opened(page);
-  await page.waitForFunction(() => {
-    const canvas = document.querySelector("sim-lab").shadowRoot.querySelector(".view canvas");
-    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
-    let [red, green, blue] = [0, 0, 0];
-    for (let i = 0; i < data.length; i += 4) {
-      const [r, g, b] = data.subarray(i, i + 3);
-      if (r > 60 && g < r / 3 && b < r / 3) red++;
-      if (g > 60 && r < g / 3 && b < g / 3) green++;
-      if (b > 60 && r < b / 3 && g < b / 3) blue++;
-    }
-    return red > 500 && green > 500 && blue > 500;
+for (const [path, name] of [["/textured.html", "builtin textures are drawn: a sky, and a floor of two colours"], ["/pictures.html", "textures of files are drawn, and one that is no picture is left out"]]) {
+  test(name, async (t) => {
+    const { page, errors } = await open(t, path);
+    await opened(page);
+    await page.waitForFunction(() => {
+      const canvas = document.querySelector("sim-lab").shadowRoot.querySelector(".view canvas");
+      const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+      let [red, green, blue] = [0, 0, 0];
+      for (let i = 0; i < data.length; i += 4) {
+        const [r, g, b] = data.subarray(i, i + 3);
+        if (r > 60 && g < r / 3 && b < r / 3) red++;
+        if (g > 60 && r < g / 3 && b < g / 3) green++;
+        if (b > 60 && r < b / 3 && g < b / 3) blue++;
+      }
+      return red > 500 && green > 500 && blue > 500;
+    });
+    errors.none();
   });
-  errors.none();
-});
+}
