@@ -196,6 +196,7 @@ export async function openPanel(spec: LabSpec, models: Models, state: Uint8Array
     dispose() {
       player.close();
       viewport.dispose();
+      for (const plot of plots) plot.dispose();
     },
   };
 }

@@ -55,6 +55,7 @@ export const german: Messages = {
   dataOf: "Daten des Diagramms: {traces}",
   saveCsv: "CSV speichern",
   savePng: "PNG speichern",
+  sound: "Ton von {label}",
   at: "bei {time} s",
   touches: "{first} berührt {second} bei {time} s.",
   parts: "{first} löst sich von {second} bei {time} s.",

@@ -53,6 +53,7 @@ export const english = {
   dataOf: "Data of the plot: {traces}",
   saveCsv: "Save CSV",
   savePng: "Save PNG",
+  sound: "Sound of {label}",
   at: "at {time} s",
   touches: "{first} touches {second} at {time} s.",
   parts: "{first} leaves {second} at {time} s.",
