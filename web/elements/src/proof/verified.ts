@@ -28,12 +28,36 @@ export function readVerified(text: string | null): Verified | null {
   return isRead ? { claims, version, hash } : null;
 }
 
-/** The SHA-256 of a lab or a quiz and its models, which does not depend on spaces in the JSON or on the order of the models. */
+/** The names of models in a content: the values of all keys `model`. */
+function namedModels(content: unknown): string[] {
+  if (Array.isArray(content)) return content.flatMap(namedModels);
+  if (!isObject(content)) return [];
+  return Object.entries(content).flatMap(([key, value]) => (key === "model" && typeof value === "string" ? [value] : namedModels(value)));
+}
+
+/** The models that a content names, and the files that their texts name, sorted. A page may have other models too. */
+function usedModels(content: object, models: Models): string[] {
+  const used = new Set<string>();
+  const waiting = namedModels(content).filter((name) => Object.hasOwn(models, name));
+  for (const name of waiting) {
+    if (used.has(name)) continue;
+    used.add(name);
+    const text = models[name];
+    if (typeof text !== "string") continue;
+    waiting.push(...Object.keys(models).filter((path) => !used.has(path) && text.includes(path.slice(path.lastIndexOf("/") + 1))));
+  }
+  return [...used].sort();
+}
+
+/**
+ * The SHA-256 of a lab or a quiz and the models that it names. It does not depend on spaces in the JSON, on the order of the models, or on
+ * other models of the page.
+ */
 export function contentHash(content: object, models: Models = {}): string {
-  const names = Object.keys(models).sort();
-  const texts = names.map((name) => {
+  const decoder = new TextDecoder("latin1");
+  const texts = usedModels(content, models).map((name) => {
     const model = models[name] ?? "";
-    return `${name}\n${typeof model === "string" ? model : Array.from(model, (byte) => String.fromCharCode(byte)).join("")}`;
+    return `${name}\n${typeof model === "string" ? model : decoder.decode(model)}`;
   });
   return sha256([JSON.stringify(content), ...texts].join("\n"));
 }
