@@ -14,7 +14,7 @@ export function createBadge(element: Element, content: Json, models: Models, say
   const result = h("p", { role: "status", class: "proof-result" });
   const details = h("details", { class: isSame ? "proof good" : "proof bad", part: "verified" },
     h("summary", {}, icon(isSame ? "check" : "warning"), h("span", {}, say(isSame ? "proved" : "provedOther", { claims }))),
-    h("p", {}, say(isSame ? "provedText" : "provedOtherText", { claims, version })), h("p", { class: "hash" }, h("code", {}, hash.slice(0, 16))), result);
+    h("p", {}, say(isSame ? "provedText" : "provedOtherText", { version })), h("p", { class: "hash" }, h("code", {}, hash.slice(0, 16))), result);
   const address = element.getAttribute("checker");
   if (address !== null) result.before(againButton(address, content, models, claims, result, say));
   return details;

@@ -137,12 +137,12 @@ test("proved claims have a mark, are checked again on demand, and changed conten
   const { page, errors } = await open(t, "/proved.html");
   for (const id of ["a", "b", "c"]) await opened(page, `#${id}`);
   const mark = page.locator("#a .proof");
-  assert.match(await mark.locator("summary").innerText(), /Proved: 2 claims hold/);
+  assert.match(await mark.locator("summary").innerText(), /Proved claims: 2/);
   await mark.locator("summary").click();
   assert.match(await mark.innerText(), /labspec 0\.1\.0/);
   await mark.getByRole("button", { name: "Run the claims again" }).click();
-  await page.waitForFunction(() => /claims hold/.test(document.querySelector("#a").shadowRoot.querySelector(".proof-result").textContent), null, { timeout: 60_000 });
-  assert.equal(await mark.locator(".proof-result").innerText(), "All 2 claims hold here too.");
+  await page.waitForFunction(() => /claims are true/.test(document.querySelector("#a").shadowRoot.querySelector(".proof-result").textContent), null, { timeout: 60_000 });
+  assert.equal(await mark.locator(".proof-result").innerText(), "All claims are true here too: 2.");
   assert.match(await page.locator("#b .proof summary").innerText(), /Changed since it was proved/);
   assert.equal(await page.locator("#c .proof").count(), 0);
   errors.none();
