@@ -28,15 +28,10 @@ function send(message: Readonly<Record<string, unknown>>): string {
   return id;
 }
 
-/** Who holds this page. Where the browser does not say it, anyone may read the message, which has only what this reader answered. */
+/** The origin of the page around this one. Not all browsers tell it; then the message, which has only the answers of this reader, has no target. */
 function parentOrigin(): string {
   const ancestor = (location as { ancestorOrigins?: ArrayLike<string> }).ancestorOrigins?.[0];
-  if (ancestor !== undefined && ancestor !== "null") return ancestor;
-  try {
-    return document.referrer === "" ? "*" : new URL(document.referrer).origin;
-  } catch {
-    return "*";
-  }
+  return ancestor === undefined || ancestor === "null" ? "*" : ancestor;
 }
 
 /** The state that the learning system has of this page; empty where it has none, or does not answer. It is asked once. */
