@@ -92,6 +92,7 @@ fn random_world(model: &Model, seed: u64) -> World {
         functions: labspec::Functions::new(),
         displayed: Vec::new(),
         numbers: Vec::new(),
+        playback: None,
     };
     for f in reflect::fields() {
         let info = f.info();

@@ -3,6 +3,7 @@
 #![allow(clippy::too_many_lines, reason = "a test is a table of cases or one sequence of steps")]
 
 mod allocation;
+mod answer_forms;
 mod answers;
 mod breaking;
 mod budget;

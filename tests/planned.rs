@@ -132,7 +132,15 @@ fn world(model: &Model, plan: Plan, change: Option<Change>) -> World {
         }
         core::step(&model, &mut data).unwrap();
     }
-    World { model, data, key: None, functions: Functions::new(), displayed: Vec::new(), numbers: Vec::new() }
+    World {
+        model,
+        data,
+        key: None,
+        functions: Functions::new(),
+        displayed: Vec::new(),
+        numbers: Vec::new(),
+        playback: None,
+    }
 }
 
 /// The value of an expression as text with all bits.

@@ -101,6 +101,7 @@ impl RawData {
             functions: Functions::new(),
             displayed: Vec::new(),
             numbers: Vec::new(),
+            playback: None,
         };
         let size = core::state::size(&model.model, INTEGRATION).map_err(|e| refused(&e))?;
         Ok(RawData { world, poses: Vec::new(), before: vec![0.0; size] })

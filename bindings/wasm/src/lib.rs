@@ -10,6 +10,7 @@ mod expression;
 mod fields;
 mod files;
 mod model;
+mod textures;
 
 use error::{call_error, thrown};
 use events::Watched;
@@ -79,6 +80,8 @@ export interface Shown {
 export interface Entry {
   owner: string;
   subject: string;
+  /** `true`, `false`, `unchecked`, `left out`, `known` or `not claimed`. */
+  state: string;
   word: string;
   remark: string;
 }
@@ -321,6 +324,12 @@ impl Lab {
         model::RawModel::from_model(self.player.model().clone())
     }
 
+    /// What programs have asked of the page since the last call: `play`, `pause` or `toggle`.
+    #[wasm_bindgen(js_name = takePlayback)]
+    pub fn take_playback(&mut self) -> Option<String> {
+        self.player.take_playback().map(|asked| asked.as_str().to_string())
+    }
+
     /// The current value of a control; `null` if it does not exist.
     pub fn value(&self, label: &str) -> Result<JsValue, JsValue> {
         object(&self.player.value(label).map_or(Json::Null, value))
@@ -409,7 +418,7 @@ pub fn check(
     }
     let report = checker.check(path, text);
     let entries = report.entries().iter().map(
-        |e| json!({"owner": e.owner, "subject": e.subject.as_str(), "word": e.word, "remark": e.remark}),
+        |e| json!({"owner": e.owner, "subject": e.subject.as_str(), "state": e.state.as_str(), "word": e.word, "remark": e.remark}),
     );
     let whole = json!({
         "outcome": report.outcome().as_str(),

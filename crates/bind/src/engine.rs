@@ -44,6 +44,7 @@ impl Engine {
             functions: Functions::new(),
             displayed: Vec::new(),
             numbers: Vec::new(),
+            playback: None,
         };
         Ok(Engine { world, context: Context::new(), globals: Globals::new() })
     }

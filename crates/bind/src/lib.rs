@@ -33,4 +33,4 @@ pub use field_entry::named_field;
 pub use host_terms::HOST_TERMS;
 pub use labspec_expr::Value;
 pub use names::{ModelNames, Scope};
-pub use world::{NUMBERS, World};
+pub use world::{NUMBERS, Playback, World};

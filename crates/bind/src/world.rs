@@ -20,12 +20,51 @@ pub struct World {
     pub displayed: Vec<Value>,
     /// Numbers that belong to no field, which programs read under [`NUMBERS`]: the members of sweeps.
     pub numbers: Vec<f64>,
+    /// What programs have asked of the page since it last asked for it.
+    pub playback: Option<Playback>,
+}
+
+/// What a program asks of the page: `sim.play()`, `sim.pause()`, `sim.toggle()`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Playback {
+    /// Play.
+    Play,
+    /// Pause.
+    Pause,
+    /// Play if the page is paused, otherwise pause.
+    Toggle,
+}
+
+impl Playback {
+    /// The request that is left after `before` and this one. Two toggles cancel each other.
+    fn after(self, before: Option<Playback>) -> Option<Playback> {
+        match (self, before) {
+            (Playback::Toggle, Some(Playback::Play)) => Some(Playback::Pause),
+            (Playback::Toggle, Some(Playback::Pause)) => Some(Playback::Play),
+            (Playback::Toggle, Some(Playback::Toggle)) => None,
+            (asked, _) => Some(asked),
+        }
+    }
+
+    /// The request as one word.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Playback::Play => "play",
+            Playback::Pause => "pause",
+            Playback::Toggle => "toggle",
+        }
+    }
 }
 
 /// The key under which [`World::numbers`] are read.
 pub const NUMBERS: FieldKey = FieldKey(u32::MAX);
 
 impl World {
+    /// Asks the page to play or to pause.
+    pub(super) fn ask_playback(&mut self, asked: Playback) {
+        self.playback = asked.after(self.playback);
+    }
+
     /// Resets the simulation to a keyframe, or to the default configuration.
     ///
     /// # Errors

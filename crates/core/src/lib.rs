@@ -56,6 +56,7 @@ pub use kinds::{
 pub use model::Fields;
 pub use model::reflect;
 pub use model::stopwatch::{StageTime, StageTimes};
+pub use model::texture::Texture;
 pub use model::tree_algorithm::{TreeAlgorithm, TreeAlgorithms};
 pub use model::{Contact, Decision, Names, Obj, Options, Statistic, Warning, WarningStat};
 pub use query::{RayFilter, RayHit};

@@ -211,6 +211,7 @@ mod tests {
             functions: crate::bind::Functions::new(),
             displayed: Vec::new(),
             numbers: Vec::new(),
+            playback: None,
         };
         core::forward(&world.model, &mut world.data).unwrap();
         let mut context = Context::for_globals(&globals);

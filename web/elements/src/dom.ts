@@ -14,7 +14,7 @@ export function h<Tag extends keyof HTMLElementTagNameMap>(tag: Tag, attributes:
   return element;
 }
 
-/** Sets text only where it differs, so that nothing is drawn again. */
+/** Sets the text of an element if it differs, so that the browser does not draw it again. */
 export function setText(element: Element, text: string): void {
   if (element.textContent !== text) element.textContent = text;
 }
@@ -42,7 +42,7 @@ export function uniqueId(): string {
   return `labspec-${++ids}`;
 }
 
-/** A property that a page set before the element was defined reaches its setter. */
+/** Passes a property to its setter if the page set it before the element was defined. */
 export function takeOwnProperty<Name extends string>(element: { [Key in Name]: unknown }, name: Name): void {
   if (!Object.hasOwn(element, name)) return;
   const value = element[name];
@@ -63,7 +63,7 @@ const ICONS = {
 
 export type IconName = keyof typeof ICONS;
 
-/** A small picture beside a text that says the same. */
+/** A small picture. The text beside it has the same meaning. */
 export function icon(name: IconName): SVGSVGElement {
   const space = "http://www.w3.org/2000/svg";
   const svg = document.createElementNS(space, "svg");

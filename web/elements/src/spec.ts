@@ -1,4 +1,4 @@
-/** What the elements themselves read of a lab: how it is shown. The engine reads and checks the rest. */
+/** The keys of a lab that the elements read: those of its presentation. The engine reads and checks the others. */
 import type { CameraPose, Overlay } from "./view/types.js";
 
 export interface TraceSpec {
@@ -32,7 +32,7 @@ export interface LabSpec {
   readonly height: number;
   readonly dock: boolean;
   readonly autoplay: boolean;
-  /** As a lab writes it: where the camera is, seen from its target. */
+  /** The position of the camera as seen from its target, as in the lab format. */
   readonly camera: Partial<CameraPose>;
   readonly overlays: Partial<Record<Overlay, boolean>>;
   readonly toggles: readonly Overlay[];
@@ -58,7 +58,7 @@ export const textOf = (x: unknown): string | null => (typeof x === "string" ? x 
 export const numberOf = (x: unknown): number | null => (typeof x === "number" && Number.isFinite(x) ? x : null);
 export const listOf = (x: unknown): readonly unknown[] => (Array.isArray(x) ? (x as unknown[]) : []);
 
-/** How a lab is shown. Keys of a wrong type count as left out: the engine reports them. */
+/** Reads how a lab is shown. A key of a wrong type is ignored; the engine reports it. */
 export function readLab(lab: Json, json: string): LabSpec {
   const overlay = (x: unknown): x is Overlay => OVERLAYS.includes(x as Overlay);
   const switched = Object.entries(isObject(lab["overlays"]) ? lab["overlays"] : {});

@@ -73,3 +73,10 @@ test("a trace in words", () => {
   fill(flat, 5, () => 2);
   assert.equal(describeTrace(flat, 0, "x", say), "x stays at 2.");
 });
+
+test("the pitch of a value: from low to high, in equal intervals, and never outside", async () => {
+  const { pitchOf } = await load("plot/sound.ts");
+  assert.deepEqual([pitchOf(0, 0, 1), pitchOf(1, 0, 1)].map(Math.round), [220, 880]);
+  assert.equal(Math.round(pitchOf(0.5, 0, 1)), 440);
+  assert.deepEqual([pitchOf(-5, 0, 1), pitchOf(9, 0, 1), pitchOf(3, 3, 3)].map(Math.round), [220, 880, 440]);
+});

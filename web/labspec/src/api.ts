@@ -2,7 +2,7 @@ export { LabspecError, type Finding } from "./error.js";
 export { Lab } from "./lab.js";
 export type { LabData, LabModel } from "./lab-fields.js";
 export { LabState } from "./lab-state.js";
-export type { Control, ControlValue, Crossing, LabEvents, Models, PlayOptions, Shown, WarningKind } from "./lab-types.js";
+export type { Control, ControlValue, Crossing, LabEvents, Models, PlayOptions, Playback, Shown, TextureDeclaration, WarningKind } from "./lab-types.js";
 export { Data, Model, type ObjectKind, type RayHit, type Which } from "./model.js";
 export { Expression, type ExpressionValue } from "./expression.js";
 export type { ContactInfo } from "./contact.js";

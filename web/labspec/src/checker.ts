@@ -3,10 +3,12 @@ import { call, locate, type Finding } from "./error.js";
 import { ready } from "./glue.js";
 import type { Models } from "./lab-types.js";
 
-/** A claim of a lesson, and what became of it. */
+/** A claim of a lesson, and its result. */
 export interface Entry {
   readonly owner: string;
   readonly subject: string;
+  /** `true`, `false`, `unchecked`, `left out`, `known` or `not claimed`. */
+  readonly state: string;
   readonly word: string;
   readonly remark: string;
 }

@@ -30,6 +30,32 @@ export interface Shown {
   readonly digits?: number;
 }
 
+/** What programs of a lab ask of the page: `sim.play()`, `sim.pause()`, `sim.toggle()`. */
+export type Playback = "play" | "pause" | "toggle";
+
+/** A texture as the model declares it. Numbers of words are MuJoCo's: `mjtTexture`, `mjtBuiltin`, `mjtMark`. */
+export interface TextureDeclaration {
+  readonly type: number;
+  readonly builtin: number;
+  readonly mark: number;
+  readonly rgb1: readonly number[];
+  readonly rgb2: readonly number[];
+  readonly markrgb: readonly number[];
+  /** The probability of a random mark at a pixel. */
+  readonly random: number;
+  readonly width: number;
+  readonly height: number;
+  /** The channels of a file. */
+  readonly channels: number;
+  /** Paths of files: none, one, or one for each face (right, left, up, down, front, back; empty where a face has none). */
+  readonly files: readonly string[];
+  /** Rows and columns of the faces in one file, and the letter of the face in each cell. */
+  readonly gridsize: readonly number[];
+  readonly gridlayout: string;
+  readonly hflip: boolean;
+  readonly vflip: boolean;
+}
+
 /** Warnings of the engine, by MuJoCo's names: an inertia matrix that is near singular, more contacts or constraints than there is room for, and bad numbers. */
 export type WarningKind = "inertia" | "contactfull" | "cnstrfull" | "badqpos" | "badqvel" | "badqacc" | "badctrl";
 

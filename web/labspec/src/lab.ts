@@ -5,7 +5,7 @@ import { ready } from "./glue.js";
 import { Events } from "./lab-events.js";
 import { dataOfLab, modelOfLab, type LabData, type LabModel } from "./lab-fields.js";
 import { FORMAT, LabState, fingerprint, type Action } from "./lab-state.js";
-import type { Control, ControlValue, Crossing, LabEvents, Models, PlayOptions, Shown } from "./lab-types.js";
+import type { Control, ControlValue, Crossing, LabEvents, Models, PlayOptions, Playback, Shown, TextureDeclaration } from "./lab-types.js";
 import { Model, type ObjectKind } from "./model.js";
 import { LAB, weight } from "./weight.js";
 import type { Lab as RawLab } from "#glue";
@@ -310,6 +310,16 @@ export class Lab {
   names(kind: ObjectKind): readonly string[] {
     const which = check.text(kind, "a kind");
     return call(() => this.#lab().names(which));
+  }
+
+  /** The textures of the model as it declares them, by id. The engine does not draw: a view computes the pixels. */
+  get textures(): readonly TextureDeclaration[] {
+    return call(() => this.#lab().textures());
+  }
+
+  /** What programs have asked of the page since the last call; `null` where they asked nothing. */
+  takePlayback(): Playback | null {
+    return call(() => (this.#lab().takePlayback() as Playback | undefined) ?? null);
   }
 
   /** The fields that the programs of the lab read. */

@@ -6,8 +6,8 @@ import { SharedFrames, canShare, type Frame } from "./shared-frame.js";
 import type { OpenedLab, Port, Reply, Request } from "./worker-protocol.js";
 
 /** What can be asked of a lab, beyond its own methods. */
-const READS = ["controls", "shown", "time", "timestep", "isOver", "numbers", "findings", "contacts", "reads", "writes"] as const;
-const CALLS = ["value", "set", "press", "reset", "step", "playTo", "record", "names"] as const;
+const READS = ["controls", "shown", "time", "timestep", "isOver", "numbers", "findings", "contacts", "reads", "writes", "textures"] as const;
+const CALLS = ["value", "set", "press", "reset", "step", "playTo", "record", "names", "takePlayback"] as const;
 
 /** The memory of numbers in a result, at any depth: it is handed over. */
 function buffersOf(result: unknown): ArrayBuffer[] {

@@ -1,6 +1,6 @@
 import { LabspecError, type Finding } from "./error.js";
 import type { ContactInfo } from "./contact.js";
-import type { Control, ControlValue, Models, Shown } from "./lab-types.js";
+import type { Control, ControlValue, Models, Playback, Shown, TextureDeclaration } from "./lab-types.js";
 import type { ObjectKind } from "./model.js";
 import { SharedFrames, type Frame } from "./shared-frame.js";
 import type { OpenedLab, Port, Reply } from "./worker-protocol.js";
@@ -55,6 +55,7 @@ export class Lab {
   get findings(): Promise<readonly Finding[]> { return this.#get("findings"); }
   get contacts(): Promise<readonly ContactInfo[]> { return this.#get("contacts"); }
   get reads(): Promise<readonly string[]> { return this.#get("reads"); }
+  get textures(): Promise<readonly TextureDeclaration[]> { return this.#get("textures"); }
   get writes(): Promise<readonly string[]> { return this.#get("writes"); }
   /** Time, numbers and poses at once. */
   get frame(): Promise<Frame> { return this.#get<Frame | null>("frame").then((frame) => this.#framed(frame)); }
@@ -67,6 +68,7 @@ export class Lab {
   playTo(time: number): Promise<number> { return this.#get("playTo", time); }
   record(steps: number): Promise<Float64Array> { return this.#get("record", steps); }
   names(kind: ObjectKind): Promise<readonly string[]> { return this.#get("names", kind); }
+  takePlayback(): Promise<Playback | null> { return this.#get("takePlayback"); }
   free(): Promise<void> { return this.#get("free"); }
 
   /** Plays in pieces: other calls are answered between them, and a signal cancels. Gives the last frame. */

@@ -3,7 +3,7 @@
 //! call; no row can replace it by a value.
 
 use crate::World;
-use crate::world::NUMBERS;
+use crate::world::{NUMBERS, Playback};
 use labspec_core::{self as core, Contact, Data, Error, Fields, Jacobian, Model, Names, Planned, enable};
 use labspec_expr::{Heap, Host, Value};
 use std::cell::RefCell;
@@ -75,6 +75,12 @@ impl EngineAccess<'_> {
     pub(super) fn reset_to(&mut self, key: Option<usize>) -> Result<(), Failed> {
         let result = self.world.reset_to(key);
         self.record_error(result)
+    }
+
+    /// Asks the page to play or to pause.
+    pub(super) fn ask_playback(&mut self, asked: Playback) -> Result<Value, String> {
+        self.world.ask_playback(asked);
+        super::NOTHING
     }
 
     /// Resets the simulation to the keyframe of the lab.
@@ -173,6 +179,7 @@ mod tests {
             functions: crate::Functions::new(),
             displayed: Vec::new(),
             numbers: Vec::new(),
+            playback: None,
         };
         core::forward(&world.model, &mut world.data).unwrap();
         let rows: [Run; 4] = [

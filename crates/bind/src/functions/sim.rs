@@ -1,18 +1,33 @@
-//! The functions of `sim`: the simulation as seen by the page. Playing and pausing have no effect without a page.
+//! The functions of `sim`: the simulation as seen by the page. Playing and pausing are requests to the page, which have no
+//! effect without one.
 
 use super::lib::{ENERGIES, energy};
 use super::{AccessedPart, Function, ROW, Unit, pass_result};
+use crate::world::Playback;
 use labspec_expr::{Type, Value};
 
 const SIM: Function = Function { object: "sim", returns: Type::Void, ..ROW };
 
 pub(super) const ROWS: &[Function] = &[
-    Function { name: "play", doc: "resumes the page", example: ("sim.play(); data.time", "0"), ..SIM },
-    Function { name: "pause", doc: "pauses the page", example: ("sim.pause(); data.time", "0"), ..SIM },
+    Function {
+        name: "play",
+        doc: "resumes the page",
+        example: ("sim.play(); data.time", "0"),
+        run: |w, _, _| w.ask_playback(Playback::Play),
+        ..SIM
+    },
+    Function {
+        name: "pause",
+        doc: "pauses the page",
+        example: ("sim.pause(); data.time", "0"),
+        run: |w, _, _| w.ask_playback(Playback::Pause),
+        ..SIM
+    },
     Function {
         name: "toggle",
         doc: "pauses or resumes the page",
         example: ("sim.toggle(); data.time", "0"),
+        run: |w, _, _| w.ask_playback(Playback::Toggle),
         ..SIM
     },
     Function {

@@ -2,6 +2,7 @@
 
 use super::actuator::{fill_actuator, read_actuator};
 use super::asset::read_asset::Assets;
+use super::asset::read_texture;
 use super::body::{inertia, orientation, read_body, sleep_policy};
 use super::classes::Classes;
 use super::constraint::{read_contact, read_equality};
@@ -142,7 +143,7 @@ fn read_scene_fields(
 ) -> SceneFields {
     let mut scene = SceneFields {
         materials: read_scene::materials(cx),
-        textures: read_scene::textures(cx.tree),
+        textures: read_texture::textures(cx),
         numerics: read_scene::numerics(cx),
         texts: read_scene::texts(cx.tree, cx.report),
         tuples: read_scene::tuples(cx, refs),

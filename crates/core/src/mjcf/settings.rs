@@ -67,6 +67,8 @@ pub(crate) struct Compiler {
     pub(crate) fitaabb: bool,
     /// The folder of meshes and height fields as written; empty if there is none.
     pub(crate) meshdir: String,
+    /// The folder of textures as written; empty if there is none.
+    pub(crate) texturedir: String,
     /// Whether folders are removed from the paths of files.
     pub(crate) strippath: bool,
 }
@@ -97,6 +99,7 @@ impl Compiler {
             alignfree: p.flag("alignfree", false),
             fitaabb: p.flag("fitaabb", false),
             meshdir: p.text("meshdir").or(p.text("assetdir")).unwrap_or("").to_string(),
+            texturedir: p.text("texturedir").or(p.text("assetdir")).unwrap_or("").to_string(),
             strippath: p.flag("strippath", false),
         }
     }

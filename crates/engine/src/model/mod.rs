@@ -13,6 +13,7 @@ pub(crate) mod sensed;
 pub mod stage;
 pub mod state;
 pub mod stopwatch;
+pub mod texture;
 pub mod tree_algorithm;
 
 pub use data_fields::Fields;
@@ -56,6 +57,8 @@ macro_rules! define_model {
             pub stat: Statistic,
             /// Names of the objects.
             pub names: Names,
+            /// Declarations of the textures, in the order of `names.texture`.
+            pub textures: Vec<texture::Texture>,
             /// Custom texts, in the order of `names.text`.
             pub texts: Vec<String>,
             /// The bodies of each exclusion, the smaller first, in ascending order. Needed because signatures are ambiguous for

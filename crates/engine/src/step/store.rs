@@ -1,19 +1,20 @@
 //! A compiled model as bytes. With them, a frontend can ship models without the MJCF parser.
 //!
 //! The format: a header (a magic word, the version, a hash of the table of fields), sizes, then every field in the order of the
-//! table, names, texts, exclusions and hull faces, and a hash of everything before it. Numbers are little-endian. A file may come
+//! table, names, textures, texts, exclusions and hull faces, and a hash of everything before it. Numbers are little-endian. A file may come
 //! from any source: its hash is checked, and all integers that the engine uses as indexes are validated.
 
 use crate::dynamics::tree_algorithms;
 use crate::geometry::HullFaces;
 use crate::model::bytes::{FixedSize, fingerprint};
 use crate::model::reflect::{self, Elem, Object};
+use crate::model::texture::Texture;
 use crate::model::{Model, Names};
 use crate::step::validate::validate;
 
 const MAGIC: [u8; 8] = *b"labmodl\n";
 /// The version of the layout that this module writes.
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 
 fn write_text(text: &str, out: &mut Vec<u8>) {
     text.len().put(out);
@@ -41,6 +42,53 @@ fn read_list<T>(bytes: &mut &[u8], mut take: impl FnMut(&mut &[u8]) -> Option<T>
     (0..n).map(|_| take(bytes)).collect()
 }
 
+fn write_texture(t: &Texture, out: &mut Vec<u8>) {
+    let [width, height] = t.size;
+    let [rows, columns] = t.gridsize;
+    for x in [t.kind, t.builtin, t.mark, width, height, t.nchannel, rows, columns] {
+        x.put(out);
+    }
+    for x in [t.rgb1, t.rgb2, t.markrgb].as_flattened() {
+        x.put(out);
+    }
+    t.random.put(out);
+    for flip in t.flip {
+        u32::from(flip).put(out);
+    }
+    write_list(&t.files, out, |file, out| write_text(file, out));
+    write_text(&t.gridlayout, out);
+}
+
+fn read_texture(bytes: &mut &[u8]) -> Option<Texture> {
+    fn three(bytes: &mut &[u8]) -> Option<[f64; 3]> {
+        Some([f64::take(bytes)?, f64::take(bytes)?, f64::take(bytes)?])
+    }
+    // Fields are read in the order in which they are written.
+    let [kind, builtin, mark] = [i32::take(bytes)?, i32::take(bytes)?, i32::take(bytes)?];
+    let (size, nchannel) = ([i32::take(bytes)?, i32::take(bytes)?], i32::take(bytes)?);
+    let gridsize = [i32::take(bytes)?, i32::take(bytes)?];
+    let [rgb1, rgb2, markrgb] = [three(bytes)?, three(bytes)?, three(bytes)?];
+    let random = f64::take(bytes)?;
+    let flip = [u32::take(bytes)? != 0, u32::take(bytes)? != 0];
+    let files = read_list(bytes, read_text)?;
+    let gridlayout = read_text(bytes)?;
+    Some(Texture {
+        kind,
+        builtin,
+        mark,
+        rgb1,
+        rgb2,
+        markrgb,
+        random,
+        size,
+        nchannel,
+        files,
+        gridsize,
+        gridlayout,
+        flip,
+    })
+}
+
 /// Writes a model to bytes.
 pub fn write(m: &Model) -> Vec<u8> {
     let mut out = MAGIC.to_vec();
@@ -61,6 +109,7 @@ pub fn write(m: &Model) -> Vec<u8> {
     for list in m.names.lists() {
         write_list(list, &mut out, |name, out| write_text(name, out));
     }
+    write_list(&m.textures, &mut out, write_texture);
     write_list(&m.texts, &mut out, |text, out| write_text(text, out));
     write_list(&m.exclude_bodies, &mut out, |pair, out| pair.put(out));
     write_list(&m.visual_geoms, &mut out, |geom, out| geom.put(out));
@@ -100,6 +149,7 @@ pub fn read(bytes: &[u8]) -> Option<Model> {
     for list in m.names.lists_mut() {
         *list = read_list(bytes, read_text)?;
     }
+    m.textures = read_list(bytes, read_texture)?;
     m.texts = read_list(bytes, read_text)?;
     m.exclude_bodies = read_list(bytes, FixedSize::take)?;
     m.visual_geoms = read_list(bytes, FixedSize::take)?;
@@ -121,7 +171,7 @@ mod tests {
     use crate::tests::compile;
 
     const EVERYTHING: &str = "<mujoco>
-        <asset><mesh name='m' vertex='0 0 0 1 0 0 0 1 0 0 0 1'/><hfield name='h' nrow='2' ncol='2' size='1 1 1 1'/></asset>
+        <asset><texture name='x' type='2d' builtin='checker' width='8' height='8'/><mesh name='m' vertex='0 0 0 1 0 0 0 1 0 0 0 1'/><hfield name='h' nrow='2' ncol='2' size='1 1 1 1'/></asset>
         <worldbody><geom type='hfield' hfield='h'/>
         <body name='a'><freejoint/><geom type='mesh' mesh='m'/><site name='s'/></body>
         <body name='b'><joint name='j'/><geom size='0.1'/><site name='t' pos='1 0 0'/>

@@ -18,7 +18,7 @@ pub use dimension::{Dimensions, dimension_of, dimensions};
 pub use labels::of_label;
 pub(crate) use labels::{behind_heading, contradicts, of_heading, unit};
 pub(crate) use labspec_bind::named_field;
-pub use labspec_bind::{DisplayedLabels, Functions, ModelNames, NUMBERS, Scope, World, functions};
+pub use labspec_bind::{DisplayedLabels, Functions, ModelNames, NUMBERS, Playback, Scope, World, functions};
 pub(crate) use model_file::compile_to_play;
 pub(crate) use programs::writes_kind;
 pub use programs::{ActionProgram, Bound, ControlProgram, Probe, Programs, include};

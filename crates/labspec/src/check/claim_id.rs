@@ -4,7 +4,8 @@
 use crate::finding::{ClaimId, Finding};
 use crate::json::read::Number;
 use crate::ledger::{Entry, Subject};
-use crate::spec::{Question, QuestionKind, Verify};
+use crate::source::Text;
+use crate::spec::{AnswerKey, Question, QuestionKind, Verify};
 use crate::verify::Judgement;
 use std::fmt::Write;
 use std::ops::Range;
@@ -57,10 +58,14 @@ fn result_at(judgement: &Judgement, span: &Range<usize>) -> Option<(String, Stri
 fn answer_result(verify: &Verify, question: Option<&Question>, judgement: &Judgement) -> String {
     let mut text = String::new();
     match question.map(|q| &q.kind) {
-        Some(QuestionKind::Choice { options, answer, .. }) => {
-            let key = answer.as_ref().map_or(f64::NAN, |n| n.value);
-            let option = options.get(key as usize).map_or("", |t| t.as_str());
-            let _ = write!(text, "key {key} ({option})");
+        Some(QuestionKind::Choice { options, key, .. }) => {
+            let described = key.as_ref().map_or("NaN".to_string(), AnswerKey::describe);
+            let right = question.and_then(Question::keyed).unwrap_or_default();
+            let right = right.iter().filter_map(|i| options.get(*i)).map(Text::as_str).collect::<Vec<_>>();
+            let _ = write!(text, "key {described} ({})", right.join("; "));
+        }
+        Some(QuestionKind::TrueFalse { key, .. }) => {
+            let _ = write!(text, "key {}", key.as_ref().map_or("NaN".to_string(), AnswerKey::describe));
         }
         Some(QuestionKind::Numeric { answer, tol, .. }) => {
             let value = |n: &Option<Number>| n.as_ref().map_or(f64::NAN, |n| n.value);

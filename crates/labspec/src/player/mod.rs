@@ -13,6 +13,7 @@ mod scene;
 pub use control::{Control, ControlKey, ControlKind};
 pub use displayed::{DisplayedIn, DisplayedValue};
 
+use crate::bind::Playback;
 use crate::error::{Error, located};
 use crate::finding::Finding;
 use crate::rules;
@@ -228,6 +229,12 @@ impl Player {
         });
         self.observe();
         self.frozen().map_or(Ok(made), Err)
+    }
+
+    /// What the programs of the lab have asked of the page since the last call: to play, to pause, or to do the other of the
+    /// two (`sim.play()`, `sim.pause()`, `sim.toggle()`).
+    pub fn take_playback(&mut self) -> Option<Playback> {
+        self.now.session.world.playback.take()
     }
 
     /// All findings: those of loading the lab, and breakdowns since, with their times.

@@ -1,5 +1,6 @@
 use super::Check;
-use crate::spec::{Question, QuestionKind};
+use crate::json::Number;
+use crate::spec::{KeyValue, Question, QuestionKind};
 use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// `answer` is not the index of an option.
@@ -20,17 +21,26 @@ pub const ANSWER_RANGE: &Rule = &Rule {
 pub(super) const CHECK: Check = Check::Question(check_question);
 
 fn check_question(question: &Question, findings: &mut Vec<Finding>) {
-    let QuestionKind::Choice { options, answer: Some(answer), .. } = &question.kind else { return };
-    if question.right_option().is_none() && options.len() >= 2 {
+    let QuestionKind::Choice { options, key: Some(key), .. } = &question.kind else { return };
+    let indexes = match &key.value {
+        KeyValue::Option(index) => std::slice::from_ref(index),
+        KeyValue::Options(indexes) => indexes.as_slice(),
+        KeyValue::Truth(_) | KeyValue::Hash(_) => &[],
+    };
+    for index in indexes.iter().filter(|index| options.len() >= 2 && !is_option(index, options.len())) {
         let last = options.len() - 1;
         let message =
-            format!("`answer` is {}, which is not the index of an option (0 to {last})", answer.value);
-        findings.push(Finding::new(ANSWER_RANGE, answer.span.clone(), message).help(
-            if answer.value == options.len() as f64 {
+            format!("`answer` is {}, which is not the index of an option (0 to {last})", index.value);
+        findings.push(Finding::new(ANSWER_RANGE, index.span.clone(), message).help(
+            if index.value == options.len() as f64 {
                 format!("count options from 0: the index of the last one is {last}")
             } else {
                 format!("write a number from 0 to {last}")
             },
         ));
     }
+}
+
+fn is_option(index: &Number, count: usize) -> bool {
+    (0..count).any(|i| i as f64 == index.value)
 }

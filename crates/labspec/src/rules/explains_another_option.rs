@@ -27,7 +27,7 @@ const OPTION_NOUNS: [&str; 3] = ["option", "answer", "choice"];
 const RIGHT: [&str; 2] = ["right", "correct"];
 
 fn check_question(question: &Question, findings: &mut Vec<Finding>) {
-    let QuestionKind::Choice { options, answer: Some(answer), .. } = &question.kind else { return };
+    let QuestionKind::Choice { options, key: Some(keyed), .. } = &question.kind else { return };
     let (Some(explain), Some(key)) = (&question.explain, question.right_option()) else { return };
     let text = format!(" {} ", normalized_words(explain.as_str()));
     let named = (0..options.len().min(MAX_OPTIONS))
@@ -40,7 +40,7 @@ fn check_question(question: &Question, findings: &mut Vec<Finding>) {
         findings.push(
             Finding::new(
                 EXPLAINS_ANOTHER_OPTION,
-                answer.span.clone(),
+                keyed.span.clone(),
                 format!(
                     "the answer is option {}, but the explanation calls option {} correct",
                     letter(key),

@@ -30,11 +30,11 @@ pub(super) fn across(lessons: &[&Lesson]) -> Vec<Finding> {
     let mut keys = Vec::new();
     for lesson in lessons {
         for (_, question) in lesson.quizzes.iter().flat_map(|q| q.numbered()) {
-            if let QuestionKind::Choice { options, answer: Some(answer), .. } = &question.kind
+            if let QuestionKind::Choice { options, key: Some(key), .. } = &question.kind
                 && let Some(right) = question.right_option()
                 && options.len() >= 2
             {
-                keys.push((right, options.len(), &lesson.file, answer.span.clone()));
+                keys.push((right, options.len(), &lesson.file, key.span.clone()));
             }
         }
     }

@@ -1,7 +1,7 @@
 use super::Check;
 use super::claims;
 use crate::source::Text;
-use crate::spec::{Lesson, QuestionKind};
+use crate::spec::{Lesson, Question, QuestionKind, Verify};
 use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// `verify` lacks a condition for an option, has a value where no number is asked, or uses an unknown unit.
@@ -47,22 +47,7 @@ fn check_lesson(lesson: &Lesson, findings: &mut Vec<Finding>) {
             }
             continue;
         };
-        let options = match &question.kind {
-            QuestionKind::Choice { options, .. } => options.len(),
-            _ => 0,
-        };
-        let conditions = verify.options.len();
-        if conditions > 0 && conditions != options {
-            let span = verify.options.first().map_or(verify.span.clone(), Text::span);
-            findings.push(
-                Finding::new(
-                    VERIFY_ANSWER,
-                    span,
-                    format!("`options` has {conditions} conditions for {options} options"),
-                )
-                .help("write one condition per option, in their order"),
-            );
-        }
+        check_count(verify, question, findings);
         if let Some(wrong) = verify.wrong.first().filter(|_| verify.value.is_none()) {
             findings.push(
                 Finding::new(VERIFY_ANSWER, wrong.span(), "`wrong` has no `value` beside it")
@@ -77,5 +62,31 @@ fn check_lesson(lesson: &Lesson, findings: &mut Vec<Finding>) {
                     .help("use `options` or `says`: `value` is for questions of kind numeric"),
             );
         }
+    }
+}
+
+/// Checks that there are as many conditions as options, or one for a statement.
+fn check_count(verify: &Verify, question: &Question, findings: &mut Vec<Finding>) {
+    let options = question.condition_count();
+    let is_statement = matches!(question.kind, QuestionKind::TrueFalse { .. });
+    let conditions = verify.options.len();
+    if conditions > 0 && conditions != options {
+        let span = verify.options.first().map_or(verify.span.clone(), Text::span);
+        findings.push(
+            Finding::new(
+                VERIFY_ANSWER,
+                span,
+                if is_statement {
+                    format!("`options` has {conditions} conditions for one statement")
+                } else {
+                    format!("`options` has {conditions} conditions for {options} options")
+                },
+            )
+            .help(if is_statement {
+                "write one condition, which holds if the statement is true"
+            } else {
+                "write one condition per option, in their order"
+            }),
+        );
     }
 }

@@ -80,6 +80,7 @@ impl<'p> Session<'p> {
                 functions: programs.functions.clone(),
                 displayed: Vec::new(),
                 numbers: Vec::new(),
+                playback: None,
             },
             context: Context::for_globals(&programs.globals),
             program_errors: Vec::new(),

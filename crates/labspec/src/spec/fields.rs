@@ -113,13 +113,23 @@ impl<'n, 'f> Fields<'n, 'f> {
     }
 
     /// Records that a key is missing. The problem points to the opening bracket of the object.
-    fn missing(&mut self, key: &'static str, why: &'static str, advised: bool) {
+    pub(super) fn missing(&mut self, key: &'static str, why: &'static str, advised: bool) {
         if self.missing.iter().any(|(k, _)| *k == key) {
             return;
         }
         let open = self.span.start..self.span.end.min(self.span.start + 1);
         let mistake = Mistake::MissingKey { of: self.what, key, why, advised };
         self.missing.push((key, mistake.at(open)));
+    }
+
+    /// Whether the value of a key is a list.
+    pub(super) fn takes_list(&self, key: &str) -> bool {
+        matches!(self.key(key).map(|k| k.of), Some(Type::List(_)))
+    }
+
+    /// Whether the value of a key is a boolean.
+    pub(super) fn takes_flag(&self, key: &str) -> bool {
+        matches!(self.key(key).map(|k| k.of), Some(Type::Flag))
     }
 
     /// Reads a text.

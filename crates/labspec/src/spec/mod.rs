@@ -7,6 +7,7 @@
 mod address;
 mod allow;
 mod allowances;
+mod answer_key;
 mod claim;
 mod comment;
 mod control;
@@ -27,6 +28,7 @@ mod verify;
 
 pub use address::LabAddress;
 pub use allow::Allowance;
+pub use answer_key::{AnswerHash, AnswerKey, KeyValue};
 pub use claim::{Change, Column, Exact, Find, MOST_SWEPT, Said, Stands, Sweep};
 pub use comment::Remark;
 pub use control::{Action, Choice, Control, ControlKind};

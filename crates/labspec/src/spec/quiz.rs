@@ -1,8 +1,11 @@
 //! The quiz object and its kinds of questions.
 
 use super::allow::{self, Allowance};
+use super::answer_key::{AnswerKey, read_key};
 use super::fields::Fields;
-use super::format::{CODE, DEBUG, MCQ, NUMERIC, OPEN, PREDICT, QUESTION, QUIZ, TOLERANCE};
+use super::format::{
+    CODE, DEBUG, MCQ, MULTIPLE, NUMERIC, OPEN, Object, PREDICT, QUESTION, QUIZ, TOLERANCE, TRUEFALSE,
+};
 use super::lab::{Lab, Verify};
 use super::problem::{Mistake, Problem};
 use super::read;
@@ -48,16 +51,25 @@ pub struct Question {
 /// How a question is answered.
 #[derive(Clone, Debug, PartialEq)]
 pub enum QuestionKind {
-    /// One of several options.
+    /// One of several options, or several of them.
     Choice {
-        /// One of the three kinds.
+        /// One of the four kinds.
         style: ChoiceStyle,
         /// The options as HTML, in display order.
         options: Vec<Text>,
-        /// Index of the correct option, from 0.
-        answer: Option<Number>,
+        /// Which options are correct.
+        key: Option<AnswerKey>,
+        /// How often the student can try; once if absent.
+        attempts: Option<Number>,
         /// The lab that is displayed after the student has answered (`predict`).
         sim: Option<Box<Lab>>,
+    },
+    /// Whether a statement is true.
+    TrueFalse {
+        /// The correct answer.
+        key: Option<AnswerKey>,
+        /// How often the student can try; once if absent.
+        attempts: Option<Number>,
     },
     /// A number.
     Numeric {
@@ -67,6 +79,8 @@ pub enum QuestionKind {
         tol: Option<Number>,
         /// The displayed unit.
         unit: Option<Text>,
+        /// How often the student can try; without a limit if absent.
+        attempts: Option<Number>,
     },
     /// A text or a program, which is not graded.
     Open {
@@ -86,6 +100,8 @@ pub enum ChoiceStyle {
     Debug,
     /// `predict`
     Predict,
+    /// `multiple`: the student chooses all correct options.
+    Multiple,
 }
 
 impl Question {
@@ -107,13 +123,53 @@ impl Question {
         }
     }
 
-    /// Index of the correct option; `None` if there is no option with this index.
+    /// Index of the correct option of a question with one; `None` if there is no option with this index.
     pub fn right_option(&self) -> Option<usize> {
         match &self.kind {
-            QuestionKind::Choice { answer: Some(answer), options, .. } => {
-                (0..options.len()).find(|&i| i as f64 == answer.value)
+            QuestionKind::Choice { style: ChoiceStyle::Multiple, .. } => None,
+            QuestionKind::Choice { .. } => self.keyed()?.first().copied(),
+            _ => None,
+        }
+    }
+
+    /// The indexes of the conditions under `verify` that must hold, from 0: those of the correct options, or 0 for a true
+    /// statement. `None` if the question is of another kind or its key is invalid.
+    pub fn keyed(&self) -> Option<Vec<usize>> {
+        match &self.kind {
+            QuestionKind::Choice { style, options, key: Some(key), .. } => {
+                key.right_options(options.len(), *style == ChoiceStyle::Multiple)
+            }
+            QuestionKind::TrueFalse { key: Some(key), .. } => {
+                key.is_true().map(|right| if right { vec![0] } else { Vec::new() })
             }
             _ => None,
+        }
+    }
+
+    /// The number of conditions under `verify` that decide the answer: one for each option, or one for a statement.
+    pub fn condition_count(&self) -> usize {
+        match &self.kind {
+            QuestionKind::Choice { options, .. } => options.len(),
+            QuestionKind::TrueFalse { .. } => 1,
+            QuestionKind::Numeric { .. } | QuestionKind::Open { .. } => 0,
+        }
+    }
+
+    /// Which options are correct, or whether the statement is true.
+    pub fn key(&self) -> Option<&AnswerKey> {
+        match &self.kind {
+            QuestionKind::Choice { key, .. } | QuestionKind::TrueFalse { key, .. } => key.as_ref(),
+            QuestionKind::Numeric { .. } | QuestionKind::Open { .. } => None,
+        }
+    }
+
+    /// How often the student can try, if the question says so.
+    pub fn attempts(&self) -> Option<&Number> {
+        match &self.kind {
+            QuestionKind::Choice { attempts, .. }
+            | QuestionKind::TrueFalse { attempts, .. }
+            | QuestionKind::Numeric { attempts, .. } => attempts.as_ref(),
+            QuestionKind::Open { .. } => None,
         }
     }
 
@@ -123,7 +179,7 @@ impl Question {
         match &self.kind {
             QuestionKind::Choice { options, .. } => all.extend(options),
             QuestionKind::Open { reference, .. } => all.extend(reference),
-            QuestionKind::Numeric { .. } => {}
+            QuestionKind::TrueFalse { .. } | QuestionKind::Numeric { .. } => {}
         }
         all.extend(&self.explain);
         all
@@ -162,9 +218,14 @@ fn question(node: &Node, problems: &mut Vec<Problem>) -> Option<Question> {
     let explain = fields.text("explain");
     let label = fields.text("label");
     let asked = match kind.as_ref().map_or("mcq", Text::as_str) {
-        "mcq" => choice(&mut fields, ChoiceStyle::Mcq),
-        "debug" => choice(&mut fields, ChoiceStyle::Debug),
-        "predict" => choice(&mut fields, ChoiceStyle::Predict),
+        "mcq" => choice(&mut fields, &MCQ, ChoiceStyle::Mcq),
+        "debug" => choice(&mut fields, &DEBUG, ChoiceStyle::Debug),
+        "predict" => choice(&mut fields, &PREDICT, ChoiceStyle::Predict),
+        "multiple" => choice(&mut fields, &MULTIPLE, ChoiceStyle::Multiple),
+        "truefalse" => {
+            fields.narrow(&TRUEFALSE);
+            Some(QuestionKind::TrueFalse { key: read_key(&mut fields), attempts: fields.whole("attempts") })
+        }
         "numeric" => Some(numeric(&mut fields)),
         word @ ("open" | "code") => {
             fields.narrow(if word == "code" { &CODE } else { &OPEN });
@@ -184,22 +245,20 @@ fn question(node: &Node, problems: &mut Vec<Problem>) -> Option<Question> {
 }
 
 /// `None` if an option could not be read, which is reported: without it, the index of the answer has no meaning.
-fn choice(fields: &mut Fields<'_, '_>, style: ChoiceStyle) -> Option<QuestionKind> {
+fn choice(fields: &mut Fields<'_, '_>, object: &'static Object, style: ChoiceStyle) -> Option<QuestionKind> {
+    fields.narrow(object);
     let options = fields.items("options");
     let options: Option<Vec<Option<Text>>> =
         options.map(|nodes| nodes.iter().map(|n| read::text(n, "an option", fields.problems)).collect());
     let options: Option<Vec<Text>> = options.and_then(|all| all.into_iter().collect());
-    let answer = fields.whole("answer");
-    let mut sim = None;
-    match style {
-        ChoiceStyle::Mcq => fields.narrow(&MCQ),
-        ChoiceStyle::Debug => fields.narrow(&DEBUG),
-        ChoiceStyle::Predict => {
-            fields.narrow(&PREDICT);
-            sim = fields.node("sim").and_then(|n| read_lab(n, fields.problems)).map(Box::new);
-        }
+    let key = read_key(fields);
+    let (mut attempts, mut sim) = (None, None);
+    if style == ChoiceStyle::Predict {
+        sim = fields.node("sim").and_then(|n| read_lab(n, fields.problems)).map(Box::new);
+    } else {
+        attempts = fields.whole("attempts");
     }
-    Some(QuestionKind::Choice { style, options: options?, answer, sim })
+    Some(QuestionKind::Choice { style, options: options?, key, attempts, sim })
 }
 
 fn numeric(fields: &mut Fields<'_, '_>) -> QuestionKind {
@@ -208,5 +267,6 @@ fn numeric(fields: &mut Fields<'_, '_>) -> QuestionKind {
         answer: fields.number("answer"),
         tol: fields.number("tol"),
         unit: fields.text("unit"),
+        attempts: fields.whole("attempts"),
     }
 }

@@ -10,7 +10,7 @@ use super::over;
 use super::verdict::{Answer, Verdict};
 use crate::finding::Finding;
 use crate::source::Text;
-use crate::spec::{Question, QuestionKind, Verify};
+use crate::spec::{Question, Verify};
 
 /// Checks the answer of a question; `None` when the `verify` object has no condition or value for it.
 pub(super) fn check_answer(
@@ -22,7 +22,7 @@ pub(super) fn check_answer(
 ) -> Option<Answer> {
     let by_options = (!verify.options.is_empty()).then(|| {
         let mut answer = check_options(bound, outcomes, verify, question, findings);
-        if let QuestionKind::Choice { answer: Some(keyed), .. } = &question.kind
+        if let Some(keyed) = question.key()
             && is_right(&answer)
             && !verify.over.is_empty()
         {

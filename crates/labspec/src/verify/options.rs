@@ -13,7 +13,7 @@ use super::verdict::{Answer, Verdict, Weight};
 use crate::finding::Finding;
 use crate::rules;
 use crate::source::Text;
-use crate::spec::{Question, QuestionKind, Verify};
+use crate::spec::{ChoiceStyle, KeyValue, Question, QuestionKind, Verify};
 use std::ops::Range;
 
 /// Evaluates which options hold, and whether the keyed one is the only one.
@@ -24,12 +24,18 @@ pub(super) fn check_options(
     question: &Question,
     findings: &mut Vec<Finding>,
 ) -> Answer {
-    let (Some(answer), QuestionKind::Choice { options, answer: Some(keyed), .. }) =
-        (question.right_option(), &question.kind)
-    else {
-        return Answer::failed("the question has no correct option");
+    let (Some(right), Some(key)) = (question.keyed(), question.key()) else {
+        return Answer::failed(match question.key().map(|key| &key.value) {
+            Some(KeyValue::Hash(_)) => "no choice that was tried has the hash of the question",
+            _ => "the question has no correct option",
+        });
     };
-    if verify.options.len() != options.len() {
+    let (options, form): (&[Text], _) = match &question.kind {
+        QuestionKind::Choice { options, style: ChoiceStyle::Multiple, .. } => (options, AnswerForm::Several),
+        QuestionKind::Choice { options, .. } => (options, AnswerForm::One),
+        _ => (&[], AnswerForm::Statement),
+    };
+    if verify.options.len() != question.condition_count() {
         return Answer::failed("the number of conditions differs from the number of options");
     }
     let values = match evaluate_conditions(bound, &outcomes.nominal, verify, true, findings) {
@@ -37,7 +43,9 @@ pub(super) fn check_options(
         Err(reason) => return Answer::failed(reason),
     };
     let weights = values.iter().enumerate().map(|(i, value)| option_weight(i, value.as_ref())).collect();
-    let judgement = OptionJudgement { verify, options, answer, keyed: keyed.span.clone(), weights };
+    let (keyed, is_hashed) = (key.span.clone(), matches!(key.value, KeyValue::Hash(_)));
+    let judgement =
+        OptionJudgement { verify, options, form, right, keyed: keyed.clone(), is_hashed, weights };
     let undecided = judgement.options_with(None);
     if let Some(answer) = judgement.refuse(&undecided, findings) {
         return answer;
@@ -49,7 +57,7 @@ pub(super) fn check_options(
     {
         return judgement.judged(Verdict::Failed, reason);
     }
-    if undecided.len() + 1 == judgement.weights.len() {
+    if judgement.is_alone(undecided.len()) {
         return judgement.judged(Verdict::Failed, "no other option is decided".to_string());
     }
     let mut widened = judgement.weights.clone();
@@ -57,7 +65,7 @@ pub(super) fn check_options(
         judgement.answer_changes(bound, outcome, how, weights)
     };
     if let Err((verdict, reason)) =
-        withstand_numerics(bound, outcomes, &mut widened, keyed.span.clone(), findings, &mut turns)
+        withstand_numerics(bound, outcomes, &mut widened, keyed, findings, &mut turns)
     {
         return judgement.judged(verdict, reason);
     }
@@ -69,19 +77,36 @@ pub(super) fn check_options(
     }
 }
 
+/// What the conditions of a question are about.
+#[derive(Clone, Copy, PartialEq)]
+enum AnswerForm {
+    /// Options, one of which is correct.
+    One,
+    /// Options, any number of which are correct.
+    Several,
+    /// A statement, with one condition.
+    Statement,
+}
+
 /// The options of a question and their results under the numerics of the lesson.
 struct OptionJudgement<'q> {
     verify: &'q Verify,
     options: &'q [Text],
-    /// The keyed option, and the span of the key.
-    answer: usize,
+    form: AnswerForm,
+    /// The keyed options, and the span of the key.
+    right: Vec<usize>,
     keyed: Range<usize>,
+    /// Whether the key is a hash, which a fix cannot replace.
+    is_hashed: bool,
     weights: Vec<Weight>,
 }
 
 impl OptionJudgement<'_> {
     /// An option in a message: `2 ("It slides.")`.
     fn name(&self, i: usize) -> String {
+        if self.form == AnswerForm::Statement {
+            return "the statement".to_string();
+        }
         format!("{} (\"{}\")", i, self.options.get(i).map_or(String::new(), |o| shorten(&o.value)))
     }
 
@@ -107,31 +132,79 @@ impl OptionJudgement<'_> {
         Answer { verdict, reason, weights: self.weights.clone() }
     }
 
-    /// The answer if the keyed option is undecided, does not hold, or is not the only one.
+    /// The answer if a keyed option is undecided or does not hold, or if another one holds.
     fn refuse(&self, undecided: &[usize], findings: &mut Vec<Finding>) -> Option<Answer> {
         let true_options = self.options_with(Some(true));
-        if undecided.contains(&self.answer) {
-            let reason = format!("answer {} is not decided by this evidence", self.name(self.answer));
+        if self.form == AnswerForm::Statement && !undecided.is_empty() {
+            return Some(self.judged(Verdict::Failed, "the statement is not decided".to_string()));
+        }
+        if let Some(i) = self.right.iter().find(|i| undecided.contains(i)) {
+            let reason = format!("answer {} is not decided by this evidence", self.name(*i));
             return Some(self.judged(Verdict::Failed, reason));
         }
-        if !true_options.contains(&self.answer) {
-            return Some(self.refute(&true_options, findings));
+        if self.form != AnswerForm::One {
+            return (true_options != self.right).then(|| self.refute_set(&true_options, findings));
         }
-        (true_options.len() > 1).then(|| self.report_ambiguous(&true_options, findings))
+        let answer = self.right.first().copied()?;
+        if !true_options.contains(&answer) {
+            return Some(self.refute(answer, &true_options, findings));
+        }
+        (true_options.len() > 1).then(|| self.report_ambiguous(answer, &true_options, findings))
+    }
+
+    /// Whether no other option than the keyed ones is decided, so that nothing distinguishes them.
+    fn is_alone(&self, undecided: usize) -> bool {
+        match self.form {
+            AnswerForm::One => undecided + 1 == self.weights.len(),
+            AnswerForm::Several => undecided > 0 && undecided + self.right.len() == self.weights.len(),
+            AnswerForm::Statement => false,
+        }
+    }
+
+    /// Reports that the options that hold are not the keyed ones, or that a statement is keyed wrong.
+    fn refute_set(&self, true_options: &[usize], findings: &mut Vec<Finding>) -> Answer {
+        let differs = |i: &usize| true_options.contains(i) != self.right.contains(i);
+        let wrong: Vec<usize> = (0..self.weights.len()).filter(differs).collect();
+        let (message, key) = if self.form == AnswerForm::Statement {
+            let truth = !true_options.is_empty();
+            (format!("the simulation refutes the answer: the statement is {truth}"), truth.to_string())
+        } else {
+            let say = |i: &usize| {
+                let truth = if true_options.contains(i) { "true" } else { "not true" };
+                format!("{} is {truth}", self.name(*i))
+            };
+            let said: Vec<String> = wrong.iter().map(say).collect();
+            let key: Vec<String> = true_options.iter().map(usize::to_string).collect();
+            (
+                format!("the simulation refutes the answer: {}", said.join(", ")),
+                format!("[{}]", key.join(", ")),
+            )
+        };
+        let mut f = Finding::error(rules::ANSWER_REFUTED, self.keyed.clone(), message.clone())
+            .why("a student who predicts the simulation correctly is graded as wrong")
+            .help(format!("correct the answer or the conditions: the conditions give {key}"));
+        for i in wrong {
+            f = f.related(self.condition(i), format!("this condition {}", self.describe(i)));
+        }
+        findings.push(if self.is_hashed { f } else { f.guess(self.keyed.clone(), key) });
+        self.judged(Verdict::Refuted, message)
     }
 
     /// Reports that the keyed option does not hold.
-    fn refute(&self, true_options: &[usize], findings: &mut Vec<Finding>) -> Answer {
-        let message = format!("the simulation refutes answer {}", self.name(self.answer));
+    fn refute(&self, answer: usize, true_options: &[usize], findings: &mut Vec<Finding>) -> Answer {
+        let message = format!("the simulation refutes answer {}", self.name(answer));
         let f = Finding::error(rules::ANSWER_REFUTED, self.keyed.clone(), message.clone())
             .why("a student who predicts the simulation correctly is graded as wrong")
-            .related(self.condition(self.answer), format!("this condition {}", self.describe(self.answer)));
+            .related(self.condition(answer), format!("this condition {}", self.describe(answer)));
         findings.push(match true_options {
             [] => f.help("correct the conditions, or the model: no condition holds"),
-            [one] => f
-                .help(format!("correct the answer or the conditions: the true option is {}", self.name(*one)))
-                .related(self.condition(*one), format!("this condition {}", self.describe(*one)))
-                .guess(self.keyed.clone(), one.to_string()),
+            [one] => {
+                let right = self.name(*one);
+                let f = f
+                    .help(format!("correct the answer or the conditions: the true option is {right}"))
+                    .related(self.condition(*one), format!("this condition {}", self.describe(*one)));
+                if self.is_hashed { f } else { f.guess(self.keyed.clone(), one.to_string()) }
+            }
             all => f.help(format!(
                 "correct the answer or the conditions: the true options are {}",
                 self.names(all)
@@ -141,10 +214,9 @@ impl OptionJudgement<'_> {
     }
 
     /// Reports that the keyed option holds and others too.
-    fn report_ambiguous(&self, true_options: &[usize], findings: &mut Vec<Finding>) -> Answer {
-        let others: Vec<usize> = true_options.iter().copied().filter(|&i| i != self.answer).collect();
-        let message =
-            format!("besides answer {}, {} is also true", self.name(self.answer), self.names(&others));
+    fn report_ambiguous(&self, answer: usize, true_options: &[usize], findings: &mut Vec<Finding>) -> Answer {
+        let others: Vec<usize> = true_options.iter().copied().filter(|&i| i != answer).collect();
+        let message = format!("besides answer {}, {} is also true", self.name(answer), self.names(&others));
         let mut f = Finding::error(rules::ANSWER_AMBIGUOUS, self.keyed.clone(), message.clone())
             .why("a student who picks the other true option is graded as wrong")
             .help("rewrite the options or their conditions, so that exactly one can hold");
@@ -168,12 +240,13 @@ impl OptionJudgement<'_> {
         for (weight, now) in weights.iter_mut().zip(again.iter().flatten()) {
             weight.widen(now.as_ref().and_then(|(_, condition)| condition.margin));
         }
+        let first = self.right.first().copied().unwrap_or(0);
         let (i, what) = match &again {
-            Err(reason) => (self.answer, reason.clone()),
+            Err(reason) => (first, reason.clone()),
             Ok(now) => {
                 let now = now.iter().enumerate().map(|(i, value)| option_weight(i, value.as_ref()));
                 let (now, _) = now.zip(weights.iter()).find(|(now, then)| now.holds != then.holds)?;
-                let i = now.option.unwrap_or(self.answer);
+                let i = now.option.unwrap_or(first);
                 (i, format!("then the condition of {} {}", self.name(i), now.describe()))
             }
         };

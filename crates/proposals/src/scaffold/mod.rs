@@ -19,7 +19,7 @@ use choose::MeasureChoice;
 use labspec::bind::scene::Models;
 use labspec::check::{self, CheckLevel};
 use labspec::lint::reload_lesson;
-use labspec::spec::{LabAddress, Lesson, Question, QuestionKind};
+use labspec::spec::{ChoiceStyle, LabAddress, Lesson, Question, QuestionKind};
 use labspec::verify::{Stage, Verdict};
 use std::ops::Range;
 
@@ -106,8 +106,13 @@ pub fn scaffold(lesson: &Lesson, models: &Models, report_progress: &mut dyn FnMu
 /// The proposal for a question.
 fn propose(lesson: &Lesson, question: &Question, found: &Traces<'_>, stage: &Stage<'_>) -> ScaffoldOutcome {
     match &question.kind {
-        QuestionKind::Choice { options, answer, .. } => {
-            let Some(key) = answer.as_ref().map(|a| a.value) else {
+        QuestionKind::Choice { style: ChoiceStyle::Multiple, .. } | QuestionKind::TrueFalse { .. } => {
+            ScaffoldOutcome::Open(
+                "proposals are for questions with one correct option and for numbers".into(),
+            )
+        }
+        QuestionKind::Choice { options, .. } => {
+            let Some(key) = question.right_option() else {
                 return ScaffoldOutcome::Open("it has no key".into());
             };
             let labs = labs(question, found);
@@ -119,7 +124,7 @@ fn propose(lesson: &Lesson, question: &Question, found: &Traces<'_>, stage: &Sta
             let numbers: Vec<_> = found.numbers.iter().map(|n| n.stated.clone()).collect();
             match choose::choose(question, options, &labs, &numbers, stage) {
                 Err(why) => ScaffoldOutcome::Open(why),
-                Ok(choice) if choice.option as f64 != key => {
+                Ok(choice) if choice.option != key => {
                     ScaffoldOutcome::Contradicted { option: choice.option, values: choice.values.clone() }
                 }
                 Ok(choice) => proposed(lesson, question, found, choice),

@@ -1,9 +1,9 @@
-/** The page's end of the channel: starts engines, and asks them. */
+/** The end of the channel in the page: it starts engines and calls them. */
 import type { Calls, Channel, Opened, Problem, Reply } from "./messages.js";
 
-/** How a build brings the engine along. */
+/** The engine of a build. */
 export interface EngineSource {
-  /** Addresses of the worker's script, the first one that a page allows is taken. */
+  /** Addresses of the script of the worker. The first one that the page allows is used. */
   workerUrls(): readonly string[];
   /** The same program, for the page itself where a policy forbids workers. */
   serve(channel: Channel): void;
@@ -11,7 +11,7 @@ export interface EngineSource {
   module(): Promise<WebAssembly.Module>;
 }
 
-/** What went wrong in the engine. */
+/** An error of the engine. */
 export class EngineError extends Error {
   readonly problem: Problem;
 
@@ -36,7 +36,7 @@ const engines: Promise<Ask>[] = [];
 let compiled: Promise<WebAssembly.Module> | undefined;
 let opened = 0;
 
-/** Says where the engine comes from: once for each build. */
+/** Sets the engine of the build. Only the first call has an effect. */
 export function setEngineSource(given: EngineSource): void {
   source ??= given;
 }
@@ -58,7 +58,7 @@ function engineOf(lab: number): Promise<Ask> {
   const most = Math.max(1, Math.min(MOST_WORKERS, (navigator.hardwareConcurrency || 2) - 1));
   const slot = lab % most;
   return (engines[slot] ??= startEngine().catch((e: unknown) => {
-    // What failed may be tried again: a module that was not fetched, for example.
+    // The next lab tries again: the module may be available then.
     delete engines[slot];
     compiled = undefined;
     throw e;

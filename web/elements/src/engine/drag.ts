@@ -1,4 +1,4 @@
-/** The spring that drags a body: critically damped, as strong as the body and what hangs on it is heavy. */
+/** The spring that drags a body: critically damped, and proportional to the mass of the body with its descendants. */
 import type { Lab } from "labspec/slim";
 import type { Drag } from "./messages.js";
 

@@ -1,4 +1,4 @@
-/** The engine's end of the channel: opens labs and answers what a page asks of them. */
+/** The end of the channel in the engine: it opens labs and answers the calls of a page. */
 import { init, LabspecError, type ControlValue, type Models } from "labspec/slim";
 import type { Channel, Drag, Frame, Problem, Reply, Request, Start } from "./messages.js";
 import { actOn, advance, describeOpened, openSession, setControl, setDrag, stepSession, type Session } from "./session.js";
@@ -62,7 +62,7 @@ function describeProblem(e: unknown): Problem {
   return { code: "internal", message: e instanceof Error ? e.message : String(e), findings: [] };
 }
 
-/** The buffers of a frame, which are handed over. The constants of a scene are kept, and copied. */
+/** The buffers of a frame, which are transferred. The constants of a scene are copied, because the session keeps them. */
 function buffersOf(result: unknown): ArrayBuffer[] {
   const frame = result as Partial<Frame> | null;
   if (frame === null || frame.scene === undefined || frame.rows === undefined || frame.numbers === undefined) return [];

@@ -1,5 +1,5 @@
-/** What a page and the engine tell each other. The engine runs in a worker, or in the page where a policy forbids workers. */
-import type { Control, ControlValue, Finding, Models, Shown } from "labspec/slim";
+/** The messages between a page and the engine. The engine runs in a worker, or in the page where a policy forbids workers. */
+import type { Control, ControlValue, Finding, Models, Playback, Shown, TextureDeclaration } from "labspec/slim";
 import type { SceneFrame, SceneModel } from "../view/types.js";
 
 /** Something that happened in a lab, with the simulated time in seconds. */
@@ -9,25 +9,27 @@ export type EngineEvent =
   | { readonly type: "stop"; readonly time: number }
   | { readonly type: "restart"; readonly time: number };
 
-/** A lab after something was done to it. */
+/** The state of a lab after a call. */
 export interface Frame {
   /** Simulated time, s. */
   readonly time: number;
-  /** What the traces and readouts show, in the order of `shown`; NaN for what is not a number. */
+  /** The values of the traces and readouts, in the order of `shown`; NaN for a value that is not a number. */
   readonly numbers: Float64Array;
   /** The readouts as they are printed. */
   readonly texts: readonly string[];
-  /** Samples since the last frame: time, then `numbers`, for one step after the other. */
+  /** Samples since the last frame: time, then `numbers`. Of many steps, those that keep every peak of a trace. */
   readonly rows: Float64Array;
   readonly scene: SceneFrame;
-  /** The constants of the scene, where a program changed them. */
+  /** The constants of the scene, if a program has changed them. */
   readonly model?: SceneModel;
   readonly events: readonly EngineEvent[];
-  /** Whether the lab stands still until it is reset. */
+  /** Whether the lab does not continue without a reset. */
   readonly isOver: boolean;
-  /** Where the controls stand, in their order; `null` for buttons. */
+  /** The values of the controls, in their order; `null` for buttons. */
   readonly values: readonly (ControlValue | null)[];
-  /** Simulated time that was asked for and not reached within the budget, s. */
+  /** What programs of the lab ask of the page. */
+  readonly playback: Playback | null;
+  /** The requested simulated time that was not reached within the budget, s. */
   readonly behind: number;
 }
 
@@ -38,6 +40,8 @@ export interface Opened {
   readonly shown: readonly Shown[];
   readonly findings: readonly Finding[];
   readonly model: SceneModel;
+  /** The textures as the model declares them, by id. */
+  readonly textures: readonly TextureDeclaration[];
   readonly frame: Frame;
   readonly timestep: number;
   /** Names of bodies and sites, by id. */
@@ -54,7 +58,7 @@ export interface Drag {
   readonly target: readonly [number, number, number];
 }
 
-/** What a page can ask of a lab: arguments, and the answer. */
+/** The calls of a page: arguments and answers. */
 export interface Calls {
   open: { args: [lab: string, models: Models, state: Uint8Array | null]; answer: Opened };
   advance: { args: [seconds: number, budget: number]; answer: Frame };
@@ -67,7 +71,7 @@ export interface Calls {
   free: { args: []; answer: null };
 }
 
-/** A question of the page. `lab` is 0 for `open`. */
+/** A call of the page. `lab` is 0 for `open`. */
 export interface Request {
   readonly id: number;
   readonly lab: number;
@@ -75,7 +79,7 @@ export interface Request {
   readonly args: readonly unknown[];
 }
 
-/** What an error says, as a plain object. */
+/** An error as a plain object. */
 export interface Problem {
   readonly code: string;
   readonly message: string;

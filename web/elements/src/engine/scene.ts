@@ -1,4 +1,4 @@
-/** What the view draws, read from a lab. */
+/** Reads the data that the view draws from a lab. */
 import type { Lab } from "labspec/slim";
 import type { SceneContact, SceneFrame, SceneModel } from "../view/types.js";
 
@@ -30,7 +30,7 @@ export function readSceneModel(lab: Lab): SceneModel {
   return { ...arrays, center: Array.from(model.stat.center), extent: model.stat.extent, cameras: lab.names("cam") };
 }
 
-/** What changes in every frame. */
+/** The data that change in every frame. */
 export function readSceneFrame(lab: Lab): SceneFrame {
   const { data } = lab;
   const arrays = Object.fromEntries(FRAME_FIELDS.map((name) => [name, data[name]])) as unknown as FrameArrays;
@@ -52,7 +52,7 @@ export function sceneModelChanged(lab: Lab, sent: SceneModel, written: readonly 
   });
 }
 
-/** The contacts that act, with the force on the second geom: the normal and two tangents, times their forces. */
+/** The active contacts, with the force on the second geom: the normal and two tangents, times their forces. */
 function readContacts(lab: Lab): SceneContact[] {
   const acting = lab.contacts.filter((contact) => contact.exclude === 0);
   return acting.map(({ pos, frame, force, dim, geom1, geom2 }) => {

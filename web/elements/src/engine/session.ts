@@ -1,12 +1,11 @@
-/** A lab that is played: what a page asks of it, frame by frame. */
-import { Lab, type ControlValue, type Models } from "labspec/slim";
+/** A lab that is played. The page asks for frames. */
+import { Lab, type ControlValue, type Models, type Playback } from "labspec/slim";
+import { decimate } from "./decimate.js";
 import { springForce } from "./drag.js";
 import type { Drag, EngineEvent, Frame, Opened } from "./messages.js";
 import { readSceneFrame, readSceneModel, sceneModelChanged, writtenSceneFields } from "./scene.js";
 
-/** Samples of one frame; more are thinned out. */
-const MOST_ROWS = 128;
-/** Steps for which the force of a drag is held. */
+/** The number of steps during which the force of a drag is constant. */
 const PIECE = 8;
 const NO_FORCE = [0, 0, 0, 0, 0, 0];
 
@@ -14,23 +13,28 @@ export interface Session {
   readonly lab: Lab;
   readonly names: readonly string[];
   readonly controls: Lab["controls"];
+  /** The columns of samples that are plotted. */
+  readonly traces: readonly number[];
   readonly written: ReturnType<typeof writtenSceneFields>;
-  /** Findings that the page knows. */
+  /** The number of findings that were sent to the page. */
   reported: number;
   sent: ReturnType<typeof readSceneModel>;
   rows: number[][];
   events: EngineEvent[];
   drag: Drag | null;
-  /** Time that was asked for and is less than a step, s. */
+  /** What programs have asked of the page since the last frame. */
+  playback: Playback | null;
+  /** The requested time that is shorter than a step, s. */
   carry: number;
 }
 
 /** Opens a lab, or one in a saved state. */
 export function openSession(json: string, models: Models, state: Uint8Array | null): Session {
   const lab = state === null ? new Lab(json, models) : Lab.resume(state, json, models);
+  const traces = lab.shown.flatMap((one, i) => (one.plot === undefined ? [] : [i]));
   const session: Session = {
-    lab, names: geomNames(lab), controls: lab.controls, written: writtenSceneFields(lab), sent: readSceneModel(lab),
-    reported: lab.findings.length, rows: [], events: [], drag: null, carry: 0,
+    lab, names: geomNames(lab), controls: lab.controls, traces, written: writtenSceneFields(lab), sent: readSceneModel(lab),
+    reported: lab.findings.length, rows: [], events: [], drag: null, playback: null, carry: 0,
   };
   lab.on("contact", ({ time, geom1, geom2, touching }) => {
     const [first, second] = [session.names[geom1] ?? "", session.names[geom2] ?? ""];
@@ -38,6 +42,7 @@ export function openSession(json: string, models: Models, state: Uint8Array | nu
   });
   lab.on("end", ({ time }) => session.events.push({ type: "stop", time }));
   sample(session);
+  session.playback = lab.takePlayback();
   return session;
 }
 
@@ -49,12 +54,12 @@ export function describeOpened(id: number, session: Session): Opened {
   const movable: boolean[] = [];
   for (let body = 0; body < dofs.length; body++) movable.push(body > 0 && ((dofs[body] ?? 0) > 0 || movable[parents[body] ?? 0] === true));
   return {
-    id, controls: session.controls, shown: lab.shown, findings: lab.findings, model: session.sent, frame: takeFrame(session, 0),
+    id, controls: session.controls, shown: lab.shown, findings: lab.findings, model: session.sent, textures: lab.textures, frame: takeFrame(session, 0),
     timestep: lab.timestep, bodies: lab.names("body"), sites: lab.names("site"), movable,
   };
 }
 
-/** Plays for so many simulated seconds, but works for at most `budget` milliseconds. */
+/** Plays for a number of simulated seconds. The work ends after `budget` milliseconds. */
 export function advance(session: Session, seconds: number, budget: number): Frame {
   const { lab } = session;
   const deadline = performance.now() + budget;
@@ -64,7 +69,10 @@ export function advance(session: Session, seconds: number, budget: number): Fram
     for (let i = 0; i < PIECE && left >= lab.timestep; i++) {
       left -= lab.timestep;
       const isRestarted = stepOnce(session);
-      if (lab.isOver || isRestarted || performance.now() >= deadline) break outer;
+      // A program that pauses the page pauses it at this step.
+      const isPaused = session.playback === "pause" || session.playback === "toggle";
+      if (isPaused) left = 0;
+      if (lab.isOver || isRestarted || isPaused || performance.now() >= deadline) break outer;
     }
   }
   const behind = lab.isOver ? 0 : Math.max(0, left - lab.timestep);
@@ -72,7 +80,7 @@ export function advance(session: Session, seconds: number, budget: number): Fram
   return takeFrame(session, behind);
 }
 
-/** Makes so many steps. */
+/** Makes a number of steps. */
 export function stepSession(session: Session, steps: number): Frame {
   session.carry = 0;
   for (let i = 0; i < steps && !session.lab.isOver; i++) {
@@ -82,12 +90,13 @@ export function stepSession(session: Session, steps: number): Frame {
   return takeFrame(session, 0);
 }
 
-/** Does something else to the lab, and looks at it. */
+/** Changes the lab and samples it. */
 export function actOn(session: Session, what: (lab: Lab) => void): Frame {
   const before = session.lab.time;
   what(session.lab);
   if (session.lab.time < before) session.rows = [];
   sample(session);
+  notePlayback(session);
   return takeFrame(session, 0);
 }
 
@@ -121,33 +130,38 @@ function stepOnce(session: Session): boolean {
     session.events.push({ type: "restart", time: before });
   }
   sample(session);
+  notePlayback(session);
   return isRestarted;
+}
+
+/** Keeps the last request of programs to play or to pause. */
+function notePlayback(session: Session): void {
+  session.playback = session.lab.takePlayback() ?? session.playback;
 }
 
 function sample(session: Session): void {
   session.rows.push([session.lab.time, ...session.lab.numbers]);
 }
 
-/** The frame of what was done since the last one. */
+/** The next frame: the changes since the last one. */
 function takeFrame(session: Session, behind: number): Frame {
   const { lab, events } = session;
   const found = lab.findings;
   for (const finding of found.slice(session.reported)) events.push({ type: "finding", time: lab.time, finding });
   session.reported = found.length;
-  const stride = Math.ceil(session.rows.length / MOST_ROWS);
-  const kept = session.rows.filter((_, i) => i % stride === 0 || i === session.rows.length - 1);
-  const rows = Float64Array.from(kept.flat());
-  [session.rows, session.events] = [[], []];
+  const rows = Float64Array.from(decimate(session.rows, session.traces).flat());
+  const { playback } = session;
+  [session.rows, session.events, session.playback] = [[], [], null];
   const changed = session.written.length > 0 && sceneModelChanged(lab, session.sent, session.written);
   if (changed) session.sent = readSceneModel(lab);
   return {
     time: lab.time, numbers: lab.numbers, texts: lab.readoutTexts, rows, scene: readSceneFrame(lab),
     ...(changed ? { model: session.sent } : {}), events, isOver: lab.isOver,
-    values: session.controls.map((control) => lab.value(control.label)), behind,
+    values: session.controls.map((control) => lab.value(control.label)), playback, behind,
   };
 }
 
-/** Names of geoms for people: their own, or that of their body. */
+/** Names of geoms for readers: the name of the geom, otherwise that of its body. */
 function geomNames(lab: Lab): string[] {
   const [geoms, bodies, of] = [lab.names("geom"), lab.names("body"), lab.model.geom_bodyid];
   return geoms.map((name, i) => {

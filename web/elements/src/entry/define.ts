@@ -1,10 +1,12 @@
-/** What both builds export. */
+/** The exports of both builds. */
 import { defineSimLab } from "../lab/element.js";
 import { defineLessonQuiz } from "../quiz/element.js";
 import { render } from "./widget.js";
 
 export { EngineError } from "../engine/client.js";
 export { SimLab } from "../lab/element.js";
+export { toXapi, type QuizAnswer, type StatementOptions } from "../grades/xapi.js";
+export { contentHash, type Verified } from "../proof/verified.js";
 export { LessonQuiz } from "../quiz/element.js";
 export { hashAnswer } from "../quiz/hash.js";
 export { addLanguage } from "../text/messages.js";

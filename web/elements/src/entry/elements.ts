@@ -10,7 +10,7 @@ setEngineSource({
   serve,
   workerUrls: () => [
     new URL("./engine.js", import.meta.url).href,
-    // A script of another origin is no worker; its text is.
+    // A script of another origin cannot be a worker, but its text can.
     URL.createObjectURL(new Blob([`(${serve.toString()})(self)`], { type: "text/javascript" })),
   ],
   async module() {

@@ -1,6 +1,7 @@
 /** Everything in one file: the elements, their styles, the engine and its module. */
 import { serve } from "#engine";
 import text from "#module";
+import { fromBase64 } from "../base64.js";
 import { setEngineSource } from "../engine/client.js";
 import { defineElements, render } from "./define.js";
 
@@ -11,8 +12,7 @@ setEngineSource({
   serve,
   workerUrls: () => [URL.createObjectURL(new Blob([`(${serve.toString()})(self)`], { type: "text/javascript" }))],
   module() {
-    const packed = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
-    const bytes = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
+    const bytes = new Blob([fromBase64(text) as BlobPart]).stream().pipeThrough(new DecompressionStream("gzip"));
     return WebAssembly.compileStreaming(new Response(bytes, { headers: { "content-type": "application/wasm" } }));
   },
 });

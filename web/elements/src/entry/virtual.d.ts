@@ -1,4 +1,4 @@
-/** Made by build.mjs: the engine as one function, which uses nothing outside it, so that its text is also a worker's script. */
+/** Made by build.mjs: the engine as one function without references to other code. Its text is also the script of a worker. */
 declare module "#engine" {
   import type { Channel } from "../engine/messages.js";
   export function serve(channel: Channel): void;

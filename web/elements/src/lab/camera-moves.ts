@@ -1,4 +1,4 @@
-/** How the camera of a picture moves. */
+/** Movements of the camera. */
 import { clamp } from "../spec.js";
 import type { CameraPose, View } from "../view/types.js";
 
@@ -41,7 +41,7 @@ export function pinchCamera(view: View, [a, b]: readonly Pixel[], before: Pixel,
   panCamera(view, (at.x - before.x) / 2, (at.y - before.y) / 2);
 }
 
-/** Moves the camera by a key; whether it is one that does. */
+/** Moves the camera by a key. Returns whether the key has a meaning. */
 export function moveCameraByKey(view: View, event: KeyboardEvent, home: CameraPose | null): boolean {
   const { camera } = view;
   const steps: Record<string, [number, number]> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };

@@ -6,7 +6,7 @@ import { formatNumber, formatUnit } from "../text/numbers.js";
 export interface ControlPanel {
   readonly elements: readonly HTMLElement[];
   readonly buttons: readonly HTMLElement[];
-  /** Shows where the controls of the lab stand, except the one that is being moved. */
+  /** Shows the values of the controls, except the control that is being moved. */
   show(values: readonly (ControlValue | null)[]): void;
 }
 

@@ -4,27 +4,33 @@ import { childrenRead, ContentError, readContent, readModels } from "../content.
 import { deferred } from "../deferred.js";
 import { h, takeOwnProperty } from "../dom.js";
 import { EngineError, prepareEngine } from "../engine/client.js";
+import { createBadge } from "../proof/badge.js";
 import { readLab } from "../spec.js";
+import { prepareViews } from "../view/index.js";
 import { decodeState, stateInFragment, StateError } from "../state/fragment.js";
 import { applyStyles, watchTheme } from "../style/apply.js";
 import { messagesFor, type Say } from "../text/messages.js";
 import { errorPanel, findingText } from "./layout.js";
+import { joinLink, type Link } from "./links.js";
 import { openPanel, type Panel } from "./panel.js";
 
 const TAG = "sim-lab";
+/** A lab is opened when its distance to the window is smaller than this, pixels. */
+const MARGIN = 200;
 
 export class SimLab extends HTMLElement {
-  static readonly observedAttributes = ["src", "lang"];
+  static readonly observedAttributes = ["src", "lang", "link"];
   #lab: object | string | null = null;
   #models: Models | null = null;
   #panel: Panel | null = null;
-  /** Counts openings: what an older one brings is dropped. */
+  /** The number of openings. The results of older openings are dropped. */
   #turn = 0;
   #isWanted = false;
   #ready = deferred();
   #seen: IntersectionObserver | null = null;
   #unwatch: (() => void) | null = null;
   #state: Uint8Array | null = null;
+  #link: Link | null = null;
 
   /** The lab as an object or as JSON. */
   get lab(): object | string | null { return this.#lab; }
@@ -40,7 +46,7 @@ export class SimLab extends HTMLElement {
     this.#reopen();
   }
 
-  /** Fulfilled when the lab is open; refused with the reason where it cannot be. */
+  /** Fulfilled when the lab is open; rejected with the reason if it cannot be opened. */
   get ready(): Promise<void> {
     this.#want();
     return this.#ready.promise;
@@ -48,12 +54,16 @@ export class SimLab extends HTMLElement {
 
   get time(): number { return this.#panel?.frame.time ?? 0; }
   get playing(): boolean { return this.#panel?.player.isPlaying ?? false; }
-  /** Whether the lab has reached its end, and stands still until it is reset. */
+  /** Whether the lab has reached its end and does not continue without a reset. */
   get isOver(): boolean { return this.#panel?.frame.isOver ?? false; }
   /** Labels and units of the traces and readouts. */
   get shown(): Panel["remote"]["opened"]["shown"] { return this.#panel?.remote.opened.shown ?? []; }
-  /** What they show, in the same order. */
+  /** The values of the traces and readouts, in the same order. */
   get numbers(): readonly number[] { return Array.from(this.#panel?.frame.numbers ?? []); }
+  /** The traces of the plots, with their samples. */
+  get traces(): Panel["traces"] { return this.#panel?.traces ?? []; }
+  /** What has happened since the start, in sentences. */
+  get events(): readonly string[] { return this.#panel?.events ?? []; }
   /** The readouts as they are printed. */
   get texts(): readonly string[] { return this.#panel?.frame.texts ?? []; }
 
@@ -61,11 +71,19 @@ export class SimLab extends HTMLElement {
   pause(): void { this.#panel?.player.pause(); }
   async reset(): Promise<void> { await (await this.#opened()).player.reset(); }
   async step(steps = 1): Promise<void> { await (await this.#opened()).player.step(steps); }
-  async set(label: string, value: ControlValue): Promise<void> { await (await this.#opened()).player.set(label, value); }
-  async press(label: string): Promise<void> { await (await this.#opened()).player.press(label); }
+  async set(label: string, value: ControlValue): Promise<void> {
+    const { player } = await this.#opened();
+    await player.set(label, value);
+    this.#link?.moved(label, value);
+  }
+  async press(label: string): Promise<void> {
+    const { player } = await this.#opened();
+    await player.press(label);
+    this.#link?.pressed(label);
+  }
   /** The state as bytes, for `openState`. */
   async saveState(): Promise<Uint8Array> { return (await this.#opened()).save(); }
-  /** Opens a state that was saved: the lab goes on from there with the same bits. */
+  /** Opens a saved state. The lab continues from there with the same bits. */
   async openState(state: Uint8Array): Promise<void> {
     this.#state = state;
     this.#reopen();
@@ -84,8 +102,12 @@ export class SimLab extends HTMLElement {
       const isSeen = entries[entries.length - 1]?.isIntersecting === true;
       if (isSeen) this.#want();
       if (this.#panel !== null) this.#panel.player.isVisible = isSeen;
-    }, { rootMargin: "200px" });
+    }, { rootMargin: `${MARGIN}px` });
     this.#seen.observe(this);
+    // The engine starts while the page is laid out, and a lab in the window does not wait for the observer.
+    prepareEngine();
+    const { top, bottom } = this.getBoundingClientRect();
+    if (bottom > -MARGIN && top < innerHeight + MARGIN) this.#want();
   }
 
   disconnectedCallback(): void {
@@ -98,8 +120,21 @@ export class SimLab extends HTMLElement {
     });
   }
 
-  attributeChangedCallback(_name: string, before: string | null, after: string | null): void {
-    if (before !== after) this.#reopen();
+  attributeChangedCallback(name: string, before: string | null, after: string | null): void {
+    if (before === after) return;
+    if (name !== "link") this.#reopen();
+    else if (this.#panel !== null) this.#join(this.#panel, false);
+  }
+
+  /** Links the lab to those with the same `link`. */
+  #join(panel: Panel, keepsOwn: boolean): void {
+    this.#link?.leave();
+    const name = this.getAttribute("link") ?? "";
+    this.#link = name === "" ? null : joinLink(name, {
+      controls: panel.remote.opened.controls,
+      set: (label, value) => void panel.move(label, value),
+      press: (label) => void panel.move(label, null),
+    }, keepsOwn);
   }
 
   readonly #onHash = (): void => {
@@ -116,12 +151,16 @@ export class SimLab extends HTMLElement {
     if (this.#isWanted || !this.isConnected) return;
     this.#isWanted = true;
     prepareEngine();
+    // The page has nothing to do while the engine starts.
+    setTimeout(prepareViews, 0);
     void this.#open(++this.#turn);
   }
 
   #close(): void {
     this.#turn++;
     this.#isWanted = false;
+    this.#link?.leave();
+    this.#link = null;
     this.#panel?.dispose();
     this.#panel = null;
     this.#ready = deferred();
@@ -152,12 +191,15 @@ export class SimLab extends HTMLElement {
       const [panel, remark] = await this.#openInState(spec, models, say);
       if (isOld()) return panel.dispose();
       this.#panel = panel;
+      this.#join(panel, remark !== null);
+      const badge = createBadge(this, json, models, say);
+      if (badge !== null) panel.element.append(badge);
       show(root, panel.element);
       panel.restyle();
       panel.player.isVisible = true;
       if (remark !== null) panel.say(remark);
       const mayMove = !matchMedia("(prefers-reduced-motion: reduce)").matches;
-      if (spec.autoplay && mayMove) panel.player.play();
+      if ((spec.autoplay || panel.frame.playback === "play") && mayMove) panel.player.play();
       this.#ready.resolve();
       this.#tell("lab-ready", {});
     } catch (e) {
@@ -167,9 +209,10 @@ export class SimLab extends HTMLElement {
     }
   }
 
-  /** Opens the lab in the state that is asked for; where that is refused, at its start, and says why. */
+  /** Opens the lab in the requested state. If the state is refused, the lab opens at its start, with the reason. */
   async #openInState(spec: ReturnType<typeof readLab>, models: Models, say: Say): Promise<[Panel, string | null]> {
     const open = (state: Uint8Array | null): Promise<Panel> => openPanel(spec, models, state, this.#key(), say, {
+      moved: (label, value) => (value === null ? this.#link?.pressed(label) : this.#link?.moved(label, value)),
       change: (label, value, time) => {
         this.shadowRoot?.querySelector(".failure")?.remove();
         this.#tell("lab-change", { label, value, time });
@@ -192,7 +235,7 @@ export class SimLab extends HTMLElement {
     }
   }
 
-  /** Something failed while the lab was used: what was shown stays. */
+  /** Reports an error during the use of the lab. The lab stays on the page. */
   #fail(e: unknown): void {
     const [root, say] = [this.shadowRoot, messagesFor(this)];
     const text = e instanceof StateError ? say("stateRefused", { why: reasonOf(e, say) }) : reasonOf(e, say);
@@ -231,7 +274,7 @@ function showError(root: ShadowRoot, e: unknown, say: Say): void {
   show(root, errorPanel(say("broken"), [say("engineFailed", { why: e instanceof Error ? e.message : String(e) })], null));
 }
 
-/** Defines the element, unless the page has it. */
+/** Defines the element, if the page has not defined it. */
 export function defineSimLab(): void {
   if (customElements.get(TAG) === undefined) customElements.define(TAG, SimLab);
 }

@@ -1,4 +1,4 @@
-/** Where the parts of a lab stand. */
+/** The layout of a lab. */
 import type { Finding } from "labspec/slim";
 import { h, icon } from "../dom.js";
 import type { LabSpec } from "../spec.js";
@@ -36,7 +36,7 @@ export function layOut(parts: LabParts): HTMLElement {
     head, h("div", { class: "body" }, stage, side), plots, parts.note, ...parts.spoken, wrong.length > 0 && findingsList(wrong, say));
 }
 
-/** What the engine found wrong in a lab that runs nevertheless. */
+/** The findings of a lab that runs in spite of them. */
 function findingsList(findings: readonly Finding[], say: Say): HTMLElement {
   return h("details", { class: "findings", part: "findings", open: true }, h("summary", {}, say("findings")), ...findings.map(findingText));
 }
@@ -46,14 +46,14 @@ export function findingText(finding: Finding): HTMLElement {
   return h("p", { class: "finding" }, h("code", {}, place), ` ${sentence(finding.message)}`, finding.help !== null && h("span", { class: "help" }, ` ${sentence(finding.help)}`));
 }
 
-/** A lab that cannot run says why. */
+/** The panel of a lab that cannot run, with the reason. */
 export function errorPanel(title: string, messages: readonly (string | HTMLElement)[], help: string | null): HTMLElement {
   return h("article", { class: "lab broken", part: "error", role: "alert" },
     h("p", { class: "error-title" }, icon("warning"), h("strong", {}, title)),
     ...messages.map((message) => (typeof message === "string" ? h("p", {}, message) : message)), help !== null && h("p", { class: "help" }, help));
 }
 
-/** With a capital letter and an end. */
+/** Adds a capital letter and a full stop. */
 function sentence(text: string): string {
   return `${text.charAt(0).toUpperCase()}${text.slice(1)}${/[.?!]$/.test(text) ? "" : "."}`;
 }

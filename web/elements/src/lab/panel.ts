@@ -1,14 +1,16 @@
-/** A lab that is open: its parts, and how frames of the engine reach them. */
+/** An open lab: its parts, which receive the frames of the engine. */
 import type { ControlValue, Models } from "labspec/slim";
 import { fileName, h, saveFile } from "../dom.js";
 import { openRemote, type RemoteLab } from "../engine/client.js";
 import type { EngineEvent, Frame } from "../engine/messages.js";
 import { createPlot } from "../plot/plot.js";
+import type { Series } from "../plot/series.js";
 import type { LabSpec } from "../spec.js";
 import { checkState, encodeState, fragmentWith } from "../state/fragment.js";
 import type { Say } from "../text/messages.js";
 import { formatTime } from "../text/numbers.js";
 import { safeHtml } from "../text/sanitize.js";
+import { allTextures } from "../texture/textures.js";
 import { createControls } from "./controls.js";
 import { layOut } from "./layout.js";
 import { createPlayer, type Player } from "./player.js";
@@ -18,22 +20,37 @@ import { createToolbar } from "./toolbar.js";
 import { createViewBar } from "./view-bar.js";
 import { createViewport } from "./viewport.js";
 
-/** What the element tells the page. */
+/** The events of an open lab for its element. */
 export interface PanelEvents {
+  /** The reader moves a control, or presses a button (null). */
+  moved(label: string, value: ControlValue | null): void;
   change(label: string, value: ControlValue | null, time: number): void;
   event(event: EngineEvent, text: string): void;
   playing(isPlaying: boolean): void;
   failed(e: unknown): void;
-  /** A saved state is to be opened in place of this one. */
+  /** Requests that a saved state is opened in place of this lab. */
   reopen(state: Uint8Array): void;
+}
+
+/** A trace: its samples are those of trace number `trace` of a series. */
+export interface Trace {
+  readonly label: string;
+  readonly series: Series;
+  readonly trace: number;
 }
 
 export interface Panel {
   readonly element: HTMLElement;
   readonly remote: RemoteLab;
   readonly player: Player;
+  /** Moves a control or presses a button (null), and tells the page. */
+  move(label: string, value: ControlValue | null): Promise<void>;
   readonly frame: Frame;
-  /** Says something politely. */
+  /** The traces of the plots, with their samples. */
+  readonly traces: readonly Trace[];
+  /** What has happened since the start, in sentences. */
+  readonly events: readonly string[];
+  /** Announces a text in the live region. */
   say(text: string): void;
   restyle(): void;
   describe(): string;
@@ -67,6 +84,7 @@ export async function openPanel(spec: LabSpec, models: Models, state: Uint8Array
     frame = next;
     atStart = false;
     if (next.model !== undefined) viewport.setModel(next.model);
+    obey(next.playback);
     for (const plot of plots) plot.add(next.rows, opened.shown.length + 1);
     const sentences = spoken.report(next.events);
     next.events.forEach((event, i) => events.event(event, sentences[i] ?? sentences[0] ?? ""));
@@ -74,6 +92,13 @@ export async function openPanel(spec: LabSpec, models: Models, state: Uint8Array
       isStale = true;
       requestAnimationFrame(show);
     }
+  };
+  /** Obeys a request of a program. */
+  const obey = (playback: Frame["playback"]): void => {
+    if (playback === null) return;
+    const plays = playback === "toggle" ? !player.isPlaying : playback === "play";
+    if (plays) player.play();
+    else player.pause();
   };
   const player = createPlayer(remote, {
     frame: take,
@@ -85,13 +110,23 @@ export async function openPanel(spec: LabSpec, models: Models, state: Uint8Array
     slow: (speed) => toolbar.showSlow(speed),
     failed: events.failed,
   });
+  const move = (label: string, value: ControlValue | null): Promise<void> => {
+    const done = value === null ? player.press(label) : player.set(label, value);
+    return done.then(() => events.change(label, value, frame.time), () => undefined);
+  };
   const viewport = createViewport(opened, spec, say, {
     drag: (drag) => void player.drag(drag), say: spoken.say, released: () => viewBar.showReleased(),
   });
   const viewBar = createViewBar(opened, spec, viewport, say);
   const controls = createControls(opened.controls, {
-    set: (label, value) => void player.set(label, value).then(() => events.change(label, value, frame.time), () => undefined),
-    press: (label) => void player.press(label).then(() => events.change(label, null, frame.time), () => undefined),
+    set: (label, value) => {
+      events.moved(label, value);
+      void move(label, value);
+    },
+    press: (label) => {
+      events.moved(label, null);
+      void move(label, null);
+    },
   });
   const readouts = createReadouts(opened.shown, say("readouts"));
   const plots = spec.plots.map((plot, p) => {
@@ -138,10 +173,21 @@ export async function openPanel(spec: LabSpec, models: Models, state: Uint8Array
     findings: opened.findings,
   });
   for (const plot of plots) plot.add(opened.frame.rows, opened.shown.length + 1);
-  requestAnimationFrame(show);
+  void allTextures(opened.textures, viewport.textures, models).then((textures) => {
+    if (textures !== null) viewport.setTextures(textures);
+  });
+  // Drivers take long for the first picture. The rest of the lab is painted before it.
+  requestAnimationFrame(() => {
+    show();
+    setTimeout(() => viewport.begin(), 0);
+  });
   return {
-    element, remote, player, say: spoken.say, describe, save,
+    element, remote, player, move, say: spoken.say, describe, save,
     get frame() { return frame; },
+    get traces() {
+      return plots.flatMap(({ series }, p) => (spec.plots[p]?.traces ?? []).map(({ label }, trace) => ({ label, series, trace })));
+    },
+    get events() { return spoken.sentences; },
     restyle() {
       viewport.restyle();
       for (const plot of plots) plot.restyle();
@@ -150,11 +196,12 @@ export async function openPanel(spec: LabSpec, models: Models, state: Uint8Array
     dispose() {
       player.close();
       viewport.dispose();
+      for (const plot of plots) plot.dispose();
     },
   };
 }
 
-/** Puts the state into the address of the page, and that into the clipboard. */
+/** Writes the state into the address of the page, and copies the address. */
 async function copyLink(save: () => Promise<Uint8Array>, key: string, say: Say, speak: (text: string) => void): Promise<void> {
   const text = await encodeState(await save());
   if (text === null) return speak(say("linkTooLong"));
@@ -165,7 +212,7 @@ async function copyLink(save: () => Promise<Uint8Array>, key: string, say: Say, 
     await navigator.clipboard.writeText(address.href);
     speak(say("linkCopied"));
   } catch {
-    // Without the clipboard, the address of the page has the state all the same.
+    // The address of the page has the state even without the clipboard.
     speak(address.href);
   }
 }

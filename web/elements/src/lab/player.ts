@@ -1,4 +1,4 @@
-/** Plays a lab: asks the engine for as much simulated time as has passed, and never twice at once. */
+/** Plays a lab: it requests as much simulated time as has passed, one request at a time. */
 import type { ControlValue } from "labspec/slim";
 import type { RemoteLab } from "../engine/client.js";
 import type { Drag, Frame } from "../engine/messages.js";
@@ -6,13 +6,13 @@ import { onEveryFrame } from "./clock.js";
 
 export interface Player {
   readonly isPlaying: boolean;
-  /** Simulated seconds for each second. */
+  /** Simulated seconds per second. */
   speed: number;
-  /** Whether the lab is seen: one that is not stands still. */
+  /** Whether the lab is visible. An invisible lab pauses. */
   isVisible: boolean;
   play(): void;
   pause(): void;
-  /** Plays so many simulated seconds at once. */
+  /** Plays a number of simulated seconds at once. */
   advance(seconds: number): Promise<void>;
   step(steps: number): Promise<void>;
   reset(): Promise<void>;
@@ -25,14 +25,14 @@ export interface Player {
 export interface PlayerEvents {
   frame(frame: Frame): void;
   playing(isPlaying: boolean): void;
-  /** How fast the lab really plays, where that is slower than asked; `null` where it is not. */
+  /** The actual speed, if it is lower than the requested one; otherwise `null`. */
   slow(speed: number | null): void;
   failed(e: unknown): void;
 }
 
-/** Longest time between two frames that is caught up, s. */
+/** The maximum time between two frames for which the lab catches up, s. */
 const MOST_ELAPSED = 0.1;
-/** Milliseconds of the engine's work for one frame. */
+/** The time of the engine for one frame, ms. */
 const BUDGET = 12;
 
 export function createPlayer(remote: RemoteLab, events: PlayerEvents): Player {

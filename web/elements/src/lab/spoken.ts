@@ -1,4 +1,4 @@
-/** What happens in a lab, in sentences: a live region for those who listen, a list for those who read. */
+/** The events of a lab as sentences: in a live region for screen readers, and in a list. */
 import { h, setText } from "../dom.js";
 import type { EngineEvent } from "../engine/messages.js";
 import type { Say } from "../text/messages.js";
@@ -11,15 +11,17 @@ export interface Spoken {
   readonly log: HTMLElement;
   /** Says something as soon as it is polite. */
   say(text: string): void;
-  /** Says what happened; returns the sentences. */
+  /** Reports events, and returns their sentences. */
   report(events: readonly EngineEvent[]): readonly string[];
+  /** The sentences of the list. */
+  readonly sentences: readonly string[];
   /** Forgets the list: the lab is back at its start. */
   clear(): void;
 }
 
-/** Milliseconds between two messages, so that a run does not drown them. */
+/** The shortest time between two messages, ms. */
 const PAUSE = 1200;
-/** Contacts of one message. */
+/** The maximum number of contacts that are reported one by one. */
 const MOST_CONTACTS = 4;
 const MOST_LISTED = 60;
 
@@ -52,6 +54,7 @@ export function createSpoken(say: Say): Spoken {
       details.hidden = list.childElementCount === 0;
       return sentences;
     },
+    get sentences() { return [...list.children].map((item) => item.textContent ?? ""); },
     clear() {
       list.replaceChildren();
       details.hidden = true;
@@ -78,7 +81,7 @@ export function describeEvents(events: readonly EngineEvent[], say: Say): string
   return out;
 }
 
-/** What stands still is named second, as one would say it. */
+/** Orders two names: the floor, a wall or a table is the second one. */
 function ordered(first: string, second: string): { first: string; second: string } {
   const ground = /floor|ground|plane|table|wall|boden|tisch|ramp|slope/i;
   const swap = ground.test(first) && !ground.test(second);

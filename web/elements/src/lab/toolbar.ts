@@ -1,4 +1,4 @@
-/** The bar below the picture: play, step, reset, speed, and what is needed seldom. */
+/** The bar below the picture: play, step, reset, speed, and a menu. */
 import { h, icon, setText, uniqueId, type IconName } from "../dom.js";
 import type { Say } from "../text/messages.js";
 import { formatBrief } from "../text/numbers.js";
@@ -8,7 +8,7 @@ export interface Toolbar {
   readonly play: HTMLButtonElement;
   showPlaying(isPlaying: boolean): void;
   showTime(time: number): void;
-  /** The speed that is reached, where it is less than the chosen one. */
+  /** Shows the actual speed, if it is lower than the selected one. */
   showSlow(speed: number | null): void;
 }
 
@@ -30,7 +30,7 @@ export interface ToolbarOptions {
   /** Whether larger steps get a button: for readers who want no motion. */
   readonly hasLargeSteps: boolean;
   readonly hasPicture: boolean;
-  /** What stands first in the menu. */
+  /** The first item of the menu. */
   readonly first: HTMLElement | null;
 }
 

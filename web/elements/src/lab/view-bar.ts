@@ -1,4 +1,4 @@
-/** What is drawn over the scene and through which camera, below the picture; a body to drag by keys, in the menu. */
+/** The bar with overlays and cameras below the picture, and the choice of a body to drag by keys. */
 import { h, uniqueId } from "../dom.js";
 import type { Opened } from "../engine/messages.js";
 import type { LabSpec } from "../spec.js";
@@ -9,7 +9,7 @@ export interface ViewBar {
   readonly element: HTMLElement | null;
   /** The choice of a body to drag. */
   readonly bodies: HTMLElement | null;
-  /** No body is held by keys any more. */
+  /** Shows that no body is held. */
   showReleased(): void;
 }
 

@@ -1,17 +1,24 @@
 /** The picture of a lab: the camera and the bodies follow the pointer and the keys. */
 import { createView, labCamera } from "../view/index.js";
-import type { CameraPose, Overlay, SceneFrame, SceneModel, View } from "../view/types.js";
+import type { CameraPose, Overlay, SceneFrame, SceneModel, SceneTexture, View } from "../view/types.js";
 import { h, saveFile, fileName } from "../dom.js";
 import type { Drag, Opened } from "../engine/messages.js";
 import { clamp, type LabSpec } from "../spec.js";
 import type { Say } from "../text/messages.js";
+import { builtinTextures } from "../texture/textures.js";
 import { cameraAxes, copyPose, moveCameraByKey, panCamera, pinchCamera, scaled, turnCamera, zoomCamera, type Point } from "./camera-moves.js";
 
 export interface Viewport {
   readonly element: HTMLElement;
   /** Whether there is a picture. */
   readonly isDrawn: boolean;
+  /** Draws the first picture. */
+  begin(): void;
+  /** The textures of the model, by id. */
+  readonly textures: readonly SceneTexture[];
+  /** New constants of the model; the textures stay. */
   setModel(model: SceneModel): void;
+  setTextures(textures: readonly SceneTexture[]): void;
   setFrame(frame: SceneFrame): void;
   clearTrail(): void;
   draw(): void;
@@ -29,7 +36,7 @@ export interface Viewport {
 export interface ViewportActions {
   drag(drag: Drag | null): void;
   say(text: string): void;
-  /** The body that is dragged by keys was let go there. */
+  /** The viewport has released the body that was dragged by keys. */
   released(): void;
 }
 
@@ -46,9 +53,10 @@ export function createViewport(opened: Opened, spec: LabSpec, say: Say, actions:
   }, canvas, hint);
   element.style.height = `${spec.height}px`;
   const trail = spec.trail === null ? -1 : opened.sites.indexOf(spec.trail);
+  let [model, textures]: [SceneModel, readonly SceneTexture[]] = [opened.model, builtinTextures(opened.textures)];
   let view: View | null = null;
   try {
-    view = createView(canvas, opened.model, {
+    view = createView(canvas, { ...model, textures }, {
       camera: labCamera(spec.camera), overlays: spec.overlays, ...(spec.forceScale === null ? {} : { forceScale: spec.forceScale }),
       ...(trail >= 0 ? { trail } : {}),
     });
@@ -57,8 +65,9 @@ export function createViewport(opened: Opened, spec: LabSpec, say: Say, actions:
     element.replaceChildren(h("p", { class: "view-failed" }, say("viewFailed")));
   }
   const state: PointerState = { frame: opened.frame.scene, home: view === null ? null : copyPose(view.camera), held: null, target: [0, 0, 0], isActive: false };
+  // The view draws nothing before it has a frame: the first picture waits until the rest of the lab is on the page.
+  let isBegun = false;
   if (view !== null) {
-    view.setFrame(opened.frame.scene);
     listen(element, canvas, view, opened, say, actions, state);
   }
   const resize = new ResizeObserver(() => view?.draw());
@@ -66,9 +75,24 @@ export function createViewport(opened: Opened, spec: LabSpec, say: Say, actions:
   return {
     element,
     isDrawn: view !== null,
-    setModel: (model) => view?.setModel(model),
+    get textures() { return textures; },
+    setModel(next) {
+      model = next;
+      view?.setModel({ ...model, textures });
+    },
+    setTextures(next) {
+      textures = next;
+      view?.setModel({ ...model, textures });
+      view?.draw();
+    },
+    begin() {
+      isBegun = true;
+      view?.setFrame(state.frame);
+      view?.draw();
+    },
     setFrame(frame) {
       state.frame = frame;
+      if (!isBegun) return;
       view?.setFrame(frame);
       if (view !== null && state.held !== null) view.setDrag({ from: grabbedPoint(frame, state.held), to: state.target });
     },
@@ -118,7 +142,7 @@ interface PointerState {
   home: CameraPose | null;
   held: Drag | null;
   target: Point;
-  /** Whether touches belong to the picture: after a tap. */
+  /** Whether touches move the picture, not the page. A tap switches it on. */
   isActive: boolean;
 }
 

@@ -5,6 +5,7 @@ import type { Say } from "../text/messages.js";
 import { formatBrief, formatTime } from "../text/numbers.js";
 import { drawPlot, timeOf, type PlotArea, type PlotLook } from "./draw.js";
 import { addRows, clearSeries, createSeries, nearestIndex, toCsv, type Series } from "./series.js";
+import { startSound, type Sound } from "./sound.js";
 import { describeTrace, tableRows } from "./summary.js";
 
 export interface Plot {
@@ -19,6 +20,7 @@ export interface Plot {
   restyle(): void;
   /** What the traces do, in sentences. */
   describe(): string[];
+  dispose(): void;
 }
 
 /** A plot whose traces are the `columns` of a row, counted after the time. */
@@ -40,8 +42,9 @@ export function createPlot(spec: PlotSpec, columns: readonly number[], title: st
   const details = h("details", { class: "plot-data", part: "plot-data" }, h("summary", {}, say("data")));
   const csv = h("button", { type: "button", class: "quiet" }, say("saveCsv"));
   const png = h("button", { type: "button", class: "quiet" }, say("savePng"));
+  const listen = h("button", { type: "button", class: "quiet", "aria-pressed": "false" }, say("sound", { label: labels[0] ?? "" }));
   details.append(
-    h("div", { class: "plot-actions" }, csv, png),
+    h("div", { class: "plot-actions" }, csv, png, labels.length > 0 && listen),
     h("div", { class: "table-scroll", tabindex: 0, role: "region", "aria-label": say("dataOf", { traces: names }) },
       h("table", {}, h("caption", { class: "hidden" }, say("dataOf", { traces: names })),
         h("thead", {}, h("tr", {}, h("th", { scope: "col" }, timeLabel), ...labels.map((label) => h("th", { scope: "col" }, label)))), table)));
@@ -52,6 +55,7 @@ export function createPlot(spec: PlotSpec, columns: readonly number[], title: st
   let [area, look]: [PlotArea | null, PlotLook | null] = [null, null];
   let [hovered, isStale, columnsWidth] = [-1, true, 1 + columns.length];
   let size: readonly [number, number] = [0, 0];
+  let sound: Sound | null = null;
 
   const fillTable = (): void => {
     if (!details.open) return;
@@ -105,6 +109,16 @@ export function createPlot(spec: PlotSpec, columns: readonly number[], title: st
     const readings = labels.map((label, i) => `${label} ${formatBrief(series.values[i]?.[hovered] ?? NaN)}`);
     setText(spoken, `${say("at", { time: formatTime(series.times[hovered] ?? NaN) })}: ${readings.join(", ")}`);
   });
+  const silence = (): void => {
+    sound?.stop();
+    sound = null;
+    listen.setAttribute("aria-pressed", "false");
+  };
+  listen.addEventListener("click", () => {
+    if (sound !== null) return silence();
+    sound = startSound();
+    listen.setAttribute("aria-pressed", "true");
+  });
   details.addEventListener("toggle", fillTable);
   const name = fileName(`${title} ${spec.ylabel}`);
   csv.addEventListener("click", () => saveFile(`${name}.csv`, new Blob([toCsv(series, labels, timeLabel)], { type: "text/csv" })));
@@ -115,7 +129,10 @@ export function createPlot(spec: PlotSpec, columns: readonly number[], title: st
     add(rows, width) {
       columnsWidth = width;
       addRows(series, rows, columnsWidth, columns);
-      if (rows.length > 0) isStale = true;
+      if (rows.length > 0) {
+        isStale = true;
+        sound?.play(series, 0);
+      }
       if (hovered >= series.length) hovered = -1;
     },
     clear() {
@@ -129,6 +146,10 @@ export function createPlot(spec: PlotSpec, columns: readonly number[], title: st
     restyle() {
       [look, isStale] = [null, true];
       draw();
+    },
+    dispose() {
+      resize.disconnect();
+      silence();
     },
     describe: () => labels.map((label, i) => describeTrace(series, i, label, say)).filter((text) => text !== null),
   };

@@ -7,7 +7,7 @@ import type { Stored } from "./store.js";
 /** A question on the page. */
 export interface Card {
   readonly element: HTMLElement;
-  /** `null` where it is not graded or not answered. */
+  /** `null` if it is not graded or not answered. */
   readonly isRight: boolean | null;
   readonly isGraded: boolean;
 }
@@ -26,7 +26,7 @@ export interface CardContext {
 export interface CardParts {
   readonly element: HTMLElement;
   readonly form: HTMLFormElement;
-  /** Where verdicts stand; they are read aloud. */
+  /** The place of verdicts, which screen readers announce. */
   readonly verdict: HTMLElement;
   readonly promptId: string;
 }
@@ -45,7 +45,7 @@ export function createCard(context: CardContext, label: string | null, prompt: s
   return { element, form, verdict, promptId };
 }
 
-/** The verdict on an answer, with what explains it. */
+/** Shows the verdict on an answer, with its explanation. */
 export function showVerdict(area: HTMLElement, isRight: boolean | null, text: string, explain: string | null, more: readonly (Node | null)[] = []): void {
   const badge = isRight === null ? null : h("p", { class: isRight ? "badge good" : "badge bad" }, icon(isRight ? "check" : "cross"), h("strong", {}, text));
   const why = explain === null ? null : h("div", { class: "prose explain", dir: "auto" }, safeHtml(explain, document));
@@ -53,7 +53,7 @@ export function showVerdict(area: HTMLElement, isRight: boolean | null, text: st
   area.replaceChildren(h("div", { class: `verdict ${isRight === null ? "" : isRight ? "good" : "bad"}` }, ...children));
 }
 
-/** A remark below the form: what is missing, or which try it is. */
+/** Shows a remark below the form. */
 export function showRemark(area: HTMLElement, text: string): void {
   area.replaceChildren(h("p", { class: "remark" }, text));
 }

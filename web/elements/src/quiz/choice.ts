@@ -3,14 +3,14 @@ import type { Models } from "labspec/slim";
 import { h, icon, uniqueId } from "../dom.js";
 import { SimLab } from "../lab/element.js";
 import { numberOf, type Json } from "../spec.js";
-import { formatTime } from "../text/numbers.js";
 import { safeHtml } from "../text/sanitize.js";
+import { compareWithLab } from "./evidence.js";
 import { createCard, showRemark, showVerdict, type Card, type CardContext } from "./card.js";
 import { isRightChoice, isRightOption } from "./grade.js";
 import type { ChoiceQuestion } from "./read.js";
 import type { Stored } from "./store.js";
 
-/** Seconds that a lab plays before its verdict, where it has no end of its own. */
+/** The time that a lab without an end plays before the verdict, s. */
 const WATCH = 3;
 
 export function createChoice(question: ChoiceQuestion, context: CardContext, models: Models | null): Card {
@@ -35,7 +35,7 @@ export function createChoice(question: ChoiceQuestion, context: CardContext, mod
     submit.hidden = true;
     form.querySelector(".hint")?.remove();
   };
-  /** Marks what was chosen, and what is right where the question is over. */
+  /** Marks the chosen options, and the right ones if the question is finished. */
   const mark = (choice: readonly number[]): void => {
     rows.forEach((row, i) => {
       const right = isRightOption(question, i) ?? (isRight === true && choice.includes(i) ? true : choice.includes(i) ? false : null);
@@ -46,11 +46,11 @@ export function createChoice(question: ChoiceQuestion, context: CardContext, mod
       else if (choice.includes(i) && right !== true) row.append(icon("cross"));
     });
   };
-  const conclude = (choice: readonly number[], evidence: readonly Node[] = []): void => {
+  const conclude = (choice: readonly number[], lab: SimLab | null = null): void => {
     mark(choice);
     const said = choice.map((i) => plainText(question.options[i] ?? "")).join("; ");
-    const prediction = isPredict ? h("p", { class: "said" }, say("committed", { answer: said })) : null;
-    showVerdict(verdict, isRight, say(isRight === true ? "correct" : "wrong"), question.explain, [prediction, ...evidence]);
+    const prediction = !isPredict ? null : lab === null ? h("p", { class: "said" }, say("committed", { answer: said })) : compareWithLab(said, lab, say);
+    showVerdict(verdict, isRight, say(isRight === true ? "correct" : "wrong"), question.explain, [prediction]);
   };
   const stored = (choice: readonly number[]): Stored => ({ choice, text: "", tries, isRight, isDone });
 
@@ -67,7 +67,7 @@ export function createChoice(question: ChoiceQuestion, context: CardContext, mod
       return showVerdict(verdict, false, say("wrong"), null, [h("p", {}, say("attempts", { number: tries, count: question.attempts }))]);
     }
     lock();
-    if (isPredict && question.sim !== null) watchLab(question.sim, models, parts, context, (evidence) => conclude(choice, evidence));
+    if (isPredict && question.sim !== null) watchLab(question.sim, models, parts, context, (lab) => conclude(choice, lab));
     else conclude(choice);
   });
   for (const input of inputs) {
@@ -77,7 +77,7 @@ export function createChoice(question: ChoiceQuestion, context: CardContext, mod
   }
   restore(context.stored);
 
-  /** An answer of an earlier visit. */
+  /** Restores an answer of an earlier visit. */
   function restore(before: Stored | null): void {
     if (before === null || before.tries === 0) return;
     for (const i of before.choice) {
@@ -96,14 +96,14 @@ export function createChoice(question: ChoiceQuestion, context: CardContext, mod
 function createLab(sim: Json, models: Models | null, { name }: CardContext): SimLab {
   const lab = new SimLab();
   lab.id = name;
-  // The prediction is over: the lab shows what happens.
+  // `watchLab` plays it.
   lab.lab = { ...sim, autoplay: false };
   if (models !== null) lab.models = models;
   return lab;
 }
 
-/** Shows the lab, plays it, and concludes when it is over or when the reader wants it. */
-function watchLab(sim: Json, models: Models | null, parts: { verdict: HTMLElement }, context: CardContext, conclude: (evidence: Node[]) => void): void {
+/** Shows the lab and plays it. Calls `conclude` at its end, or when the reader asks for the verdict. */
+function watchLab(sim: Json, models: Models | null, parts: { verdict: HTMLElement }, context: CardContext, conclude: (lab: SimLab) => void): void {
   const { say } = context;
   const lab = createLab(sim, models, context);
   const show = h("button", { type: "button" }, say("showVerdict"));
@@ -115,7 +115,7 @@ function watchLab(sim: Json, models: Models | null, parts: { verdict: HTMLElemen
     isOver = true;
     clearInterval(timer);
     lab.removeEventListener("lab-pause", look);
-    conclude(evidenceOf(lab, say));
+    conclude(lab);
   };
   const until = numberOf(sim["stopAt"]) ?? WATCH;
   const look = (): void => {
@@ -131,14 +131,6 @@ function watchLab(sim: Json, models: Models | null, parts: { verdict: HTMLElemen
   void lab.ready.then(() => {
     if (!wantsNoMotion) lab.play();
   }, () => finish());
-}
-
-/** What the lab shows at its end, beside what was predicted. */
-function evidenceOf(lab: SimLab, say: CardContext["say"]): Node[] {
-  const labels = lab.shown.filter((one) => one.plot === undefined).map((one) => one.label);
-  if (labels.length === 0) return [];
-  const rows = labels.flatMap((label, i) => [h("dt", {}, label), h("dd", {}, lab.texts[i] ?? "")]);
-  return [h("div", { class: "evidence" }, h("p", {}, say("happened", { time: formatTime(lab.time) })), h("dl", {}, ...rows))];
 }
 
 function plainText(html: string): string {

@@ -3,11 +3,13 @@ import type { Models } from "labspec/slim";
 import { childrenRead, ContentError, readContent, readModels } from "../content.js";
 import { h, setText, takeOwnProperty } from "../dom.js";
 import { errorPanel } from "../lab/layout.js";
-import { textOf } from "../spec.js";
+import { createBadge } from "../proof/badge.js";
+import { textOf, type Json } from "../spec.js";
 import { applyStyles } from "../style/apply.js";
 import { messagesFor, type Say } from "../text/messages.js";
 import type { Card, CardContext } from "./card.js";
 import { createChoice } from "./choice.js";
+import { countRight, joinSplice, type Grading } from "./grading.js";
 import { readQuiz, type Question, type QuizSpec } from "./read.js";
 import { loadAnswer, storeAnswer } from "./store.js";
 import { createNumeric, createOpen } from "./typed.js";
@@ -15,7 +17,7 @@ import { createNumeric, createOpen } from "./typed.js";
 const TAG = "lesson-quiz";
 
 export class LessonQuiz extends HTMLElement {
-  static readonly observedAttributes = ["src", "lang"];
+  static readonly observedAttributes = ["src", "lang", "grades"];
   #quiz: object | string | null = null;
   #models: Models | null = null;
   #turn = 0;
@@ -57,23 +59,22 @@ export class LessonQuiz extends HTMLElement {
       const { json } = await readContent(this, this.#quiz, say("noQuiz"), say);
       const spec = readQuiz(json, say);
       if (spec === null) throw new ContentError(say("noQuestions"));
-      shown = await this.#build(spec, say);
+      shown = await this.#build(spec, json, say);
     } catch (e) {
       shown = errorPanel(say("quizBroken"), [e instanceof Error ? e.message : String(e)], null);
     }
     if (turn === this.#turn) root.replaceChildren(shown);
   }
 
-  async #build(spec: QuizSpec, say: Say): Promise<HTMLElement> {
-    const keep = this.getAttribute("store") === "off" ? "" : spec.id;
+  async #build(spec: QuizSpec, json: Json, say: Say): Promise<HTMLElement> {
+    const grading = await this.#grading(spec);
     const score = h("span", { class: "score", role: "status" });
     const clear = h("button", { type: "button", class: "quiet" }, say("clear"));
     const cards: (Card | null)[] = [];
     const showScore = (): void => {
-      const graded = cards.filter((card) => card?.isGraded === true);
-      const right = graded.filter((card) => card?.isRight === true).length;
-      const isBegun = graded.some((card) => card?.isRight !== null);
-      setText(score, isBegun ? say("score", { right, count: graded.length }) : "");
+      const { right, count } = countRight(cards);
+      const isBegun = cards.some((card) => card?.isGraded === true && card.isRight !== null);
+      setText(score, isBegun ? say("score", { right, count }) : "");
       clear.hidden = !isBegun;
     };
     for (const [index, question] of spec.questions.entries()) {
@@ -82,30 +83,47 @@ export class LessonQuiz extends HTMLElement {
         continue;
       }
       const context: CardContext = {
-        number: index + 1, count: spec.questions.length, name: `${spec.id}.${index + 1}`, say, stored: loadAnswer(keep, index),
+        number: index + 1, count: spec.questions.length, name: `${spec.id}.${index + 1}`, say, stored: grading.load(index),
         answered: (answer) => {
-          storeAnswer(keep, index, answer);
+          grading.store(index, answer);
           const given = question.kind === "numeric" || question.kind === "open" || question.kind === "code" ? answer.text : answer.choice;
           const detail = { quiz: spec.id, index, kind: question.kind, answer: given, correct: answer.isRight, attempt: answer.tries, done: answer.isDone };
-          queueMicrotask(showScore);
+          queueMicrotask(() => {
+            showScore();
+            grading.report(countRight(cards), detail);
+          });
           this.dispatchEvent(new CustomEvent("quiz-answer", { detail, bubbles: true, composed: true }));
         },
       };
       cards.push(createQuestion(question, context, await this.#modelsOf(question, say)));
     }
     clear.addEventListener("click", () => {
-      spec.questions.forEach((_, index) => storeAnswer(keep, index, null));
+      spec.questions.forEach((_, index) => grading.store(index, null));
+      grading.report({ right: 0, count: countRight(cards).count }, null);
       this.#reopen();
     });
     const broken = (why: string, i: number): HTMLElement => errorPanel(say("quizBroken"), [say("badQuestion", { number: i + 1, why })], null);
     const elements = spec.questions.map((question, i) => (question.kind === "broken" ? broken(question.why, i) : cards[i]?.element));
+    grading.begin(countRight(cards));
     showScore();
     return h("article", { class: "quiz", part: "quiz", "aria-label": spec.title ?? say("quiz") },
       h("header", { class: "head", part: "header" }, h("h3", { class: "title", part: "title" }, spec.title ?? say("quiz"))), ...elements,
-      h("footer", { class: "quiz-foot" }, score, clear));
+      h("footer", { class: "quiz-foot" }, score, clear), createBadge(this, json, await this.#allModels(say), say));
   }
 
-  /** The models of a prediction's lab. A model that is missing is an error of that lab. */
+  /** Where answers are kept: in the browser, or with `grades="splice"` by the learning system around the page. */
+  async #grading(spec: QuizSpec): Promise<Grading> {
+    if (this.getAttribute("grades") === "splice") return joinSplice(spec);
+    const keep = this.getAttribute("store") === "off" ? "" : spec.id;
+    return { load: (index) => loadAnswer(keep, index), store: (index, answer) => storeAnswer(keep, index, answer), begin: () => undefined, report: () => undefined };
+  }
+
+  /** The models that the page has. */
+  async #allModels(say: Say): Promise<Models> {
+    return readModels(this, this.#models, null, say);
+  }
+
+  /** The models of the lab of a prediction. The lab reports a missing model. */
   async #modelsOf(question: Question, say: Say): Promise<Models | null> {
     if (question.kind !== "predict" || question.sim === null) return null;
     try {
@@ -124,7 +142,7 @@ function createQuestion(question: Question, context: CardContext, models: Models
   }
 }
 
-/** Defines the element, unless the page has it. */
+/** Defines the element, if the page has not defined it. */
 export function defineLessonQuiz(): void {
   if (customElements.get(TAG) === undefined) customElements.define(TAG, LessonQuiz);
 }

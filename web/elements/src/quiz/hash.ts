@@ -1,4 +1,4 @@
-/** SHA-256 (FIPS 180-4), also in pages that are not served securely, where the browser offers none. */
+/** SHA-256 (FIPS 180-4). Browsers offer it only in pages that are served securely. */
 
 const primes = (count: number): number[] => {
   const out: number[] = [];
@@ -51,7 +51,7 @@ function addBlock(hash: number[], words: Int32Array): void {
 
 /**
  * The hash of a choice for a question that does not show its answer: the index of an option, a list of indexes, or true or false. It
- * keeps the answer out of the page's source; whoever tries all choices finds it.
+ * keeps the answer out of the source of the page. Whoever tries all choices finds it.
  */
 export function hashAnswer(salt: string, choice: number | readonly number[] | boolean): string {
   const text = Array.isArray(choice) ? [...(choice as number[])].sort((x, y) => x - y).join(",") : String(choice);

@@ -1,4 +1,4 @@
-/** What a quiz asks: its JSON, checked, with what is wrong in words. */
+/** Reads the questions of a quiz from JSON, with messages about mistakes. */
 import { isObject, listOf, numberOf, textOf, type Json } from "../spec.js";
 import type { Say } from "../text/messages.js";
 
@@ -16,7 +16,7 @@ export interface ChoiceQuestion extends Common {
   readonly kind: "mcq" | "debug" | "predict" | "multiple" | "truefalse";
   readonly options: readonly string[];
   readonly key: Key;
-  /** Tries; the options of the lab format have one. */
+  /** The number of tries. */
   readonly attempts: number;
   /** The lab of a prediction. */
   readonly sim: Json | null;
@@ -27,7 +27,7 @@ export interface NumericQuestion extends Common {
   readonly answer: number;
   readonly tol: number;
   readonly unit: string;
-  /** Tries; `Infinity` where the question does not limit them. */
+  /** The number of tries; `Infinity` without a limit. */
   readonly attempts: number;
 }
 

@@ -1,7 +1,7 @@
-/** Answers that a reader gave, kept by the browser under `id#index`. Pages may forbid it: then nothing is kept. */
-import { isObject, listOf, numberOf } from "../spec.js";
+/** The answers of a reader, which the browser stores under `id#index`. If the page forbids storage, nothing is stored. */
+import { isObject, listOf, numberOf, textOf } from "../spec.js";
 
-/** An answer: chosen options, or a text; how often it was tried, and whether it was right at last. */
+/** An answer: chosen options, or a text; the number of tries, and whether the last one was right. */
 export interface Stored {
   readonly choice: readonly number[];
   readonly text: string;
@@ -12,18 +12,22 @@ export interface Stored {
 
 const PREFIX = "labspec-quiz:";
 
+/** An answer from data of any origin; null where it is none. */
+export function readAnswer(json: unknown): Stored | null {
+  if (!isObject(json)) return null;
+  const isIndex = (x: unknown): x is number => typeof x === "number" && Number.isInteger(x) && x >= 0;
+  const right = json["isRight"];
+  return {
+    choice: listOf(json["choice"]).filter(isIndex).slice(0, 100), text: (textOf(json["text"]) ?? "").slice(0, 100_000),
+    tries: Math.max(0, numberOf(json["tries"]) ?? 0), isRight: typeof right === "boolean" ? right : null, isDone: json["isDone"] === true,
+  };
+}
+
 export function loadAnswer(quiz: string, index: number): Stored | null {
   if (quiz === "") return null;
   try {
     const text = localStorage.getItem(`${PREFIX}${quiz}#${index}`);
-    const json: unknown = text === null ? null : JSON.parse(text);
-    if (!isObject(json)) return null;
-    const choice = listOf(json["choice"]).filter((x): x is number => typeof x === "number" && Number.isInteger(x) && x >= 0);
-    const right = json["isRight"];
-    return {
-      choice, text: typeof json["text"] === "string" ? json["text"] : "", tries: Math.max(0, numberOf(json["tries"]) ?? 0),
-      isRight: typeof right === "boolean" ? right : null, isDone: json["isDone"] === true,
-    };
+    return text === null ? null : readAnswer(JSON.parse(text));
   } catch {
     return null;
   }

@@ -1,4 +1,4 @@
-/** The style sheets of the elements, shared by all of a page, and what changes with the theme of the page. */
+/** The style sheet of the elements, and changes of the theme of the page. */
 import base from "./base.css";
 import lab from "./lab.css";
 import plot from "./plot.css";
@@ -6,7 +6,7 @@ import quiz from "./quiz.css";
 
 let sheet: CSSStyleSheet | undefined;
 
-/** Gives a shadow root the styles of the elements. A constructed sheet needs no permission of a content policy. */
+/** Gives a shadow root the styles of the elements. A content policy does not restrict a constructed sheet. */
 export function applyStyles(root: ShadowRoot): void {
   if (sheet === undefined) {
     sheet = new CSSStyleSheet();

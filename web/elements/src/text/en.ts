@@ -53,6 +53,7 @@ export const english = {
   dataOf: "Data of the plot: {traces}",
   saveCsv: "Save CSV",
   savePng: "Save PNG",
+  sound: "Sound of {label}",
   at: "at {time} s",
   touches: "{first} touches {second} at {time} s.",
   parts: "{first} leaves {second} at {time} s.",
@@ -117,6 +118,15 @@ export const english = {
   needsHash: "has a \"hash\" without a text as \"salt\" and \"sha256\".",
   unknownKind: "has the unknown kind \"{kind}\".",
   needsText: "needs a text \"q\".",
+  proved: "Proved claims: {claims}",
+  provedText: "All claims of this part are true. labspec {version} checked them with simulations.",
+  provedOther: "Changed since it was proved",
+  provedOtherText: "labspec {version} found that all claims of this part are true, but its content has changed since.",
+  proveAgain: "Run the claims again",
+  proving: "The claims are being checked.",
+  provedAgain: "All claims are true here too: {claims}.",
+  provedNot: "{right} of {claims} claims are true here: {why}",
+  proofFailed: "The claims cannot be checked here: {why}",
 };
 
 export type MessageName = keyof typeof english;

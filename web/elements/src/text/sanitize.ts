@@ -1,4 +1,4 @@
-/** HTML of authors: what shows text stays, everything else is left out. No script, no style, no address that runs or loads anything. */
+/** HTML of authors. Elements that show text are kept; all others are removed, with scripts, styles and addresses that run or load something. */
 import { texToMath } from "./tex.js";
 
 const TAGS = new Set([
@@ -6,7 +6,7 @@ const TAGS = new Set([
   "h5", "h6", "hr", "i", "img", "ins", "kbd", "li", "mark", "ol", "p", "pre", "q", "s", "samp", "small", "span", "strong", "sub",
   "summary", "sup", "table", "tbody", "td", "tfoot", "th", "thead", "tr", "u", "ul", "var",
 ]);
-/** Elements whose text is no text of the author either. */
+/** Elements that are removed with their text. */
 const DROPPED = new Set(["script", "style", "template", "iframe", "object", "embed", "noscript", "svg", "math", "textarea", "select", "title"]);
 const ATTRIBUTES: Readonly<Record<string, readonly string[]>> = {
   a: ["href", "title"], img: ["src", "alt", "width", "height"], td: ["colspan", "rowspan"], th: ["colspan", "rowspan", "scope"],

@@ -1,4 +1,4 @@
-/** The part of TeX that short formulas use, as MathML, which browsers draw and read aloud. Anything else is shown as it is written. */
+/** The part of TeX that short formulas use, as MathML, which browsers draw and read aloud. Other text is shown unchanged. */
 
 const MATHML = "http://www.w3.org/1998/Math/MathML";
 

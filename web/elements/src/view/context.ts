@@ -8,7 +8,7 @@ export interface Client {
   /** Size of its picture, pixels. */
   readonly width: number;
   readonly height: number;
-  /** The context has been lost: what was uploaded is gone. */
+  /** The context was lost, with everything that was uploaded. */
   contextLost(): void;
 }
 
@@ -54,7 +54,7 @@ export class SharedContext {
     const found = this.#shapes.get(name);
     if (found) return found.value;
     if (!(name in SHAPES)) return null;
-    // Shapes of geom types stay as long as the context.
+    // The shapes of geom types are never removed.
     const value = uploadShape(this.gpu.gl, SHAPES[name as ShapeName]());
     this.#shapes.set(name, { value, users: 1 });
     return value;
@@ -123,7 +123,7 @@ function contextLost(of: SharedContext | null): void {
   revive(RETRY);
 }
 
-/** The context of the page; null where the browser has none now. */
+/** The context of the page; null if the browser has none at present. */
 export function sharedContext(): SharedContext | null {
   if (shared?.gpu.gl.isContextLost()) contextLost(shared);
   if (!shared && performance.now() >= refusedUntil) {

@@ -12,6 +12,7 @@ type Gl = WebGL2RenderingContext;
 export const UNIT = { image: 0, cube: 1, shadow: 2 } as const;
 
 export interface Program {
+  /** The linked program. It is linked while other work goes on, and checked at its first use. */
   readonly program: WebGLProgram;
   /** Place of a uniform; null where the program has no use for it. */
   readonly uniform: (name: string) => WebGLUniformLocation | null;
@@ -50,7 +51,7 @@ function compile(gl: Gl, vertex: string, fragment: string): Program {
   const program = gl.createProgram();
   for (const [kind, text] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]] as const) {
     const shader = gl.createShader(kind);
-    // A lost context has no shaders; what it draws is not seen.
+    // A lost context has no shaders, and its pictures are not shown.
     if (!shader) continue;
     gl.shaderSource(shader, text);
     gl.compileShader(shader);
@@ -58,12 +59,17 @@ function compile(gl: Gl, vertex: string, fragment: string): Program {
     gl.deleteShader(shader);
   }
   gl.linkProgram(program);
-  if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost()) {
+  let isChecked = false;
+  const check = (): void => {
+    if (isChecked) return;
+    isChecked = true;
+    if (gl.getProgramParameter(program, gl.LINK_STATUS) || gl.isContextLost()) return;
     const shaders = (gl.getAttachedShaders(program) ?? []).map(s => gl.getShaderInfoLog(s)).join("\n");
     throw new Error(`a program of the 3D view does not compile: ${gl.getProgramInfoLog(program)}\n${shaders}`);
-  }
+  };
   const places = new Map<string, WebGLUniformLocation | null>();
   const uniform = (name: string): WebGLUniformLocation | null => {
+    check();
     let place = places.get(name);
     if (place === undefined) {
       place = gl.getUniformLocation(program, name);
@@ -71,7 +77,13 @@ function compile(gl: Gl, vertex: string, fragment: string): Program {
     }
     return place;
   };
-  return { program, uniform };
+  return {
+    get program() {
+      check();
+      return program;
+    },
+    uniform,
+  };
 }
 
 function lineArray(gl: Gl): WebGLVertexArrayObject {

@@ -1,4 +1,4 @@
-/** What a picture consists of: shapes with a pose, a size, a colour and a material; lines. Filled anew for every picture. */
+/** The content of a picture: shapes with a pose, a size, a colour and a material, and lines. Each picture fills it again. */
 import type { Mat3, Vec3 } from "./matrix.js";
 import { PATTERN, TEXTURE_MODE } from "./programs.js";
 

@@ -106,8 +106,10 @@ void main() {
   if (mode == ${TEXTURE_MODE.cube}) base *= linear(texture(u_cube, v_unit).rgb);
   else if (mode == ${TEXTURE_MODE.cubeOfMetres}) base *= linear(texture(u_cube, v_local).rgb);
   else if (mode != ${TEXTURE_MODE.none}) {
-    vec2 uv = mode == ${TEXTURE_MODE.mesh} ? v_uv : mode == ${TEXTURE_MODE.box} ? boxCoordinates() : 0.5 * v_local.xy;
-    vec4 t = texture(u_texture, uv * v_extra.xy);
+    // A tile of a plane without end has its middle at the origin.
+    vec2 uv = mode == ${TEXTURE_MODE.endless} ? 0.5 + vec2(0.5, -0.5) * v_local.xy * v_extra.xy
+      : (mode == ${TEXTURE_MODE.mesh} ? v_uv : boxCoordinates()) * v_extra.xy;
+    vec4 t = texture(u_texture, uv);
     base *= linear(t.rgb); color.a *= t.a;
   }
   bool isPlane = (pattern & ${PATTERN.grid}) != 0;

@@ -18,7 +18,7 @@ import type { CameraPose, Overlay, Pick, SceneFrame, SceneModel, View, ViewOptio
 
 /** m per N. */
 const FORCE_SCALE = 0.02;
-/** More pixels are not seen. */
+/** The maximum number of device pixels per CSS pixel. */
 const MOST_DENSE = 2;
 
 const triple = (a: ArrayLike<number>): Vec3 => [at(a, 0), at(a, 1), at(a, 2)];
@@ -179,7 +179,7 @@ export class SceneView implements View, Client {
     matchMedia(`(resolution: ${devicePixelRatio}dppx)`).addEventListener("change", change, { once: true, signal: this.#disposal.signal });
   }
 
-  /** What a caller may have changed since the last picture. */
+  /** The camera and the overlays as a text, to detect changes. */
   #state(): string {
     const { azimuth, elevation, distance, target, fixed, track } = this.camera, o = this.overlays;
     return [azimuth, elevation, distance, ...target, fixed, track, o.frames, o.joints, o.contacts, o.forces, o.com, o.sites, o.cameras, o.shadows].join();
@@ -215,7 +215,7 @@ export class SceneView implements View, Client {
     this.#uploaded = { context, geometry: this.#geometry };
   }
 
-  /** Draws the scene into a canvas; false where the browser has no WebGL context now. */
+  /** Draws the scene into a canvas. Returns false if the browser has no WebGL context at present. */
   #paint(canvas: HTMLCanvasElement, width: number, height: number, density: number): boolean {
     const frame = this.#frame, context = sharedContext(), target = canvas.getContext("2d");
     if (!frame || !context || !target) return false;

@@ -292,3 +292,29 @@ test("the example page opens its labs without an error", async (t) => {
   assert.match(readFileSync(`${repository}/web/elements/example/index.html`, "utf8"), /labspec-elements\.js/);
   errors.none();
 });
+
+test("a trace can be heard while it is played, and not after the lab is closed", async (t) => {
+  const { page, errors } = await open(t, "/drop.html");
+  await page.evaluate(() => {
+    const { AudioContext } = globalThis;
+    globalThis.contexts = [];
+    globalThis.AudioContext = class extends AudioContext {
+      constructor() {
+        super();
+        globalThis.contexts.push(this);
+      }
+    };
+  });
+  await opened(page);
+  await page.locator(".plot-data summary").click();
+  const button = page.getByRole("button", { name: "Sound of ball" });
+  await button.click();
+  assert.equal(await button.getAttribute("aria-pressed"), "true");
+  await page.evaluate(() => document.querySelector("sim-lab").step(50));
+  await button.click();
+  assert.equal(await button.getAttribute("aria-pressed"), "false");
+  await button.click();
+  await page.evaluate(() => document.querySelector("sim-lab").remove());
+  await page.waitForFunction(() => globalThis.contexts.length === 2 && globalThis.contexts.every((context) => context.state === "closed"));
+  errors.none();
+});

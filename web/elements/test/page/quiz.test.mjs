@@ -13,7 +13,7 @@ const quiz = {
     { kind: "numeric", q: "How fast, in m/s?", answer: 3.96, tol: 0.01, unit: "m/s", attempts: 2, explain: "<p>Because.</p>" },
     { kind: "open", q: "Why?", reference: "<p>Gravity.</p>" },
     { kind: "predict", q: "Where is the ball after 0.5 s?", options: ["In the air", "On the floor"], answer: 1, explain: "<p>It landed.</p>",
-      sim: { model: "drop", stopAt: 0.5, readouts: [{ label: "height (m)", expr: "data.body('bob').xpos[2]" }] } },
+      sim: { model: "drop", stopAt: 0.5, plots: [{ ylabel: "height (m)", traces: [{ label: "ball", expr: "data.body('bob').xpos[2]" }] }], readouts: [{ label: "height (m)", expr: "data.body('bob').xpos[2]" }] } },
     { q: "A hidden one", options: ["a", "b"], hash: { salt: "grain", sha256: digest } },
     { q: "A broken one", options: ["a"] },
   ],
@@ -99,6 +99,10 @@ test("a prediction is locked, the lab runs, the verdict stands beside what was s
   await predict.locator(".badge").waitFor();
   const verdict = await predict.locator(".verdict").innerText();
   assert.match(verdict, /Not correct[^]*You predicted: In the air[^]*What the simulation shows at 0\.50\d s[^]*height \(m\)[^]*0\.(09|10|11)\d[^]*It landed/);
+  assert.match(await predict.locator(".curve").getAttribute("aria-label"), /ball falls from 1/);
+  assert.match(await predict.locator(".evidence-events").innerText(), /touches floor at 0\.4/i);
+  const [said, shown] = [await predict.locator(".said").boundingBox(), await predict.locator(".evidence").boundingBox()];
+  assert.ok(shown.x > said.x + said.width / 2 && Math.abs(shown.y - said.y) < 10, "the evidence is beside what was said");
   assert.deepEqual((await page.evaluate(() => globalThis.answers)).map(({ index, correct }) => [index, correct]), [[5, false]]);
   errors.none();
 });

@@ -6,4 +6,5 @@ pub(crate) mod mesh;
 #[cfg(feature = "pictures")]
 mod png;
 pub(crate) mod read_asset;
+pub(crate) mod read_texture;
 pub(crate) mod skin;

@@ -4,12 +4,14 @@ use crate::mjcf::arrays::{flat, padded};
 use crate::mjcf::gather::{filled, listed};
 use crate::mjcf::spec::{CameraSpec, GeomSpec, LightSpec, MaterialSpec, NumericSpec, SiteSpec, TupleSpec};
 use crate::model::Model;
+use crate::model::texture::Texture;
 use std::collections::BTreeMap;
 
 /// The inputs of the functions of this file.
 pub(crate) struct SceneFields {
     pub(crate) materials: Vec<MaterialSpec>,
-    pub(crate) textures: Vec<String>,
+    /// Names and declarations of textures.
+    pub(crate) textures: Vec<(String, Texture)>,
     pub(crate) numerics: Vec<NumericSpec>,
     /// Pairs of a name and a text.
     pub(crate) texts: Vec<(String, String)>,
@@ -107,10 +109,17 @@ pub(crate) fn cameras(m: &mut Model, cameras: &[(usize, &CameraSpec)], bodies: &
     padded(&mut m.cam_user, cameras.iter().map(|(_, c)| &c.user), m.nuser_cam);
 }
 
-/// `bodies` and `textures` are the names of all bodies and textures.
-pub(crate) fn lights(m: &mut Model, lights: &[(usize, &LightSpec)], bodies: &[String], textures: &[String]) {
-    let (places, textures) =
-        (NameIndexes::from_names(bodies.iter()), NameIndexes::from_names(textures.iter()));
+/// `bodies` are the names of all bodies, and `textures` all textures.
+pub(crate) fn lights(
+    m: &mut Model,
+    lights: &[(usize, &LightSpec)],
+    bodies: &[String],
+    textures: &[(String, Texture)],
+) {
+    let (places, textures) = (
+        NameIndexes::from_names(bodies.iter()),
+        NameIndexes::from_names(textures.iter().map(|(name, _)| name)),
+    );
     flat(&mut m.light_mode, lights, |(_, l)| [l.mode]);
     flat(&mut m.light_bodyid, lights, |&(b, _)| [b as i32]);
     flat(&mut m.light_targetbodyid, lights, |(_, l)| [places.find(l.target.as_ref())]);
@@ -140,7 +149,7 @@ pub(crate) fn lights(m: &mut Model, lights: &[(usize, &LightSpec)], bodies: &[St
 
 pub(crate) fn materials(m: &mut Model, scene: &SceneFields) {
     let list = &scene.materials;
-    let places = NameIndexes::from_names(scene.textures.iter());
+    let places = NameIndexes::from_names(scene.textures.iter().map(|(name, _)| name));
     let textures = list.iter().flat_map(|material| &material.textures);
     flat(&mut m.mat_texid, textures, |name| [places.find(name.as_ref())]);
     flat(&mut m.mat_texuniform, list, |x| [x.texuniform]);
@@ -158,7 +167,7 @@ pub(crate) fn materials(m: &mut Model, scene: &SceneFields) {
     }
     flat(&mut m.mat_rgba, list, |x| single(x.rgba));
     m.names.material = listed(list.iter().map(|x| x.name.clone()));
-    m.names.texture.clone_from(&scene.textures);
+    (m.names.texture, m.textures) = scene.textures.iter().cloned().unzip();
 }
 
 pub(crate) fn custom(m: &mut Model, scene: &SceneFields) {

@@ -246,12 +246,6 @@ pub(crate) fn materials(cx: &Context) -> Vec<MaterialSpec> {
     listed(nodes.filter(|(_, node)| node.element.name == "material").map(|(at, node)| read(at, node)))
 }
 
-/// Names of all textures in the order of the text.
-pub(crate) fn textures(tree: &Tree) -> Vec<String> {
-    let nodes = tree.sections("asset").flat_map(|(at, _)| tree.children(at));
-    listed(nodes.filter(|(_, node)| node.element.name == "texture").map(|(_, node)| name(node)))
-}
-
 /// All custom lists of numbers. Missing numbers are zero.
 pub(crate) fn numerics(cx: &mut Context) -> Vec<NumericSpec> {
     let tree = cx.tree;

@@ -187,3 +187,26 @@ fn skins_that_do_not_fit() {
     other[0x58..0x5c].copy_from_slice(b"wor2");
     assert!(skin(&other).unwrap_err().contains("`wor2"), "{:?}", skin(&other));
 }
+
+/// Declarations of textures with their defaults and the paths of their files, for views.
+#[test]
+fn textures_are_declared() {
+    let m = crate::mjcf::compile(
+        "<mujoco><compiler texturedir='pictures'/><asset>
+        <texture name='sky' type='skybox' builtin='gradient' rgb1='0.3 0.5 0.7' rgb2='0 0 0' width='512' height='3072'/>
+        <texture name='floor' type='2d' builtin='checker' mark='edge' markrgb='1 0 0' random='0.2' width='300' height='200'/>
+        <texture file='wall.png'/>
+        <texture name='cube' type='cube' fileright='a/r.png' fileback='../b.png' hflip='true'/>
+        <texture name='grid' type='cube' file='g.png' gridsize='3 4' gridlayout='.U..LFRB.D..'/></asset>
+        <worldbody><geom size='1'/></worldbody></mujoco>",
+    )
+    .unwrap();
+    let [sky, floor, wall, cube, grid] = m.textures.as_slice() else { panic!("{:?}", m.textures) };
+    assert_eq!((sky.kind, sky.builtin, sky.size, sky.rgb1), (2, 1, [512, 3072], [0.3, 0.5, 0.7]));
+    assert_eq!((floor.kind, floor.builtin, floor.mark, floor.random), (0, 2, 1, 0.2));
+    assert_eq!((floor.markrgb, floor.rgb1, floor.rgb2), ([1.0, 0.0, 0.0], [0.8; 3], [0.5; 3]));
+    assert_eq!((wall.kind, wall.files.as_slice()), (1, ["pictures/wall.png".to_string()].as_slice()));
+    assert_eq!(cube.files, ["pictures/a/r.png", "", "", "", "", "b.png"]);
+    assert_eq!((cube.flip, grid.gridsize, grid.gridlayout.as_str()), ([true, false], [3, 4], ".U..LFRB.D.."));
+    assert_eq!(m.names.texture, ["sky", "floor", "wall", "cube", "grid"]);
+}

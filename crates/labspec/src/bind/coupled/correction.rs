@@ -38,6 +38,7 @@ impl Coupled {
             functions: Functions::new(),
             displayed: Vec::new(),
             numbers: Vec::new(),
+            playback: None,
         };
         if same_objects(before, now)
             && correct_partners(self.changes, before, &mut world).is_ok_and(|done| done.is_some())

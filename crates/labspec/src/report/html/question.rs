@@ -7,7 +7,7 @@ use super::text::{code, plain, text};
 use super::verdict::{condition, verdict};
 use crate::check::Claim;
 use crate::ledger::State;
-use crate::spec::{Question, QuestionKind};
+use crate::spec::{Question, QuestionKind, Verify};
 use crate::verify::{self, Answer, Weight, significant};
 use std::fmt::Write;
 
@@ -52,38 +52,7 @@ pub(super) fn write(asked: &QuestionPage<'_>, context: &LessonContext<'_>) -> St
         text(name)
     );
     let _ = writeln!(out, "<p class=\"asked\">{}</p>", formula::of_html(&question.q.value));
-    match &question.kind {
-        QuestionKind::Choice { options, .. } => {
-            // Options are counted from 0, as in conditions and messages.
-            out.push_str("<ol class=\"options\" start=\"0\">\n");
-            for (i, option) in options.iter().enumerate() {
-                let keyed = question.right_option() == Some(i);
-                let (class, key) =
-                    if keyed { (" class=\"key\"", " <b class=\"badge\">key</b>") } else { ("", "") };
-                let _ = write!(out, "<li{class}><p>{}{key}</p>", formula::of_html(&option.value));
-                let written = spec.and_then(|v| v.options.get(i)).map(|t| t.value.as_str());
-                out.push_str(&format_condition(written, asked.weight(Some(i))));
-                out.push_str("</li>\n");
-            }
-            out.push_str("</ol>\n");
-        }
-        QuestionKind::Numeric { unit, .. } => {
-            let unit = unit.as_ref().map_or(String::new(), |u| format!(" {}", text(u.as_str())));
-            let keyed = match question.numeric() {
-                Some((x, tol)) => {
-                    let [x, tol] = [x, tol].map(|x| plain(&significant(x)));
-                    format!("{x} ± {tol}{unit} <b class=\"badge\">key</b>")
-                }
-                None => "no answer is keyed".to_string(),
-            };
-            let _ = writeln!(out, "<p class=\"key\">{keyed}</p>");
-            let written = spec.and_then(|v| v.value.as_ref()).map(|t| t.value.as_str());
-            out.push_str(&format_condition(written, asked.weight(None)));
-        }
-        QuestionKind::Open { .. } => {
-            out.push_str("<p class=\"soft\">An open question: no answer is keyed.</p>\n");
-        }
-    }
+    out.push_str(&format_answer(asked, spec));
     if !remark.is_empty() {
         let _ = writeln!(out, "<p class=\"why\">{}</p>", text(&context.names.shorten(remark)));
     }
@@ -98,6 +67,55 @@ pub(super) fn write(asked: &QuestionPage<'_>, context: &LessonContext<'_>) -> St
         out.push_str(&evidence(claim, spec, context));
     }
     out.push_str("</article>\n");
+    out
+}
+
+/// The options or the key of a question, with their conditions.
+fn format_answer(asked: &QuestionPage<'_>, spec: Option<&Verify>) -> String {
+    let mut out = String::new();
+    match &asked.question.kind {
+        QuestionKind::Choice { options, .. } => {
+            // Options are counted from 0, as in conditions and messages.
+            out.push_str("<ol class=\"options\" start=\"0\">\n");
+            let right = asked.question.keyed().unwrap_or_default();
+            for (i, option) in options.iter().enumerate() {
+                let keyed = right.contains(&i);
+                let (class, key) =
+                    if keyed { (" class=\"key\"", " <b class=\"badge\">key</b>") } else { ("", "") };
+                let _ = write!(out, "<li{class}><p>{}{key}</p>", formula::of_html(&option.value));
+                let written = spec.and_then(|v| v.options.get(i)).map(|t| t.value.as_str());
+                out.push_str(&format_condition(written, asked.weight(Some(i))));
+                out.push_str("</li>\n");
+            }
+            out.push_str("</ol>\n");
+        }
+        QuestionKind::Numeric { unit, .. } => {
+            let unit = unit.as_ref().map_or(String::new(), |u| format!(" {}", text(u.as_str())));
+            let keyed = match asked.question.numeric() {
+                Some((x, tol)) => {
+                    let [x, tol] = [x, tol].map(|x| plain(&significant(x)));
+                    format!("{x} ± {tol}{unit} <b class=\"badge\">key</b>")
+                }
+                None => "no answer is keyed".to_string(),
+            };
+            let _ = writeln!(out, "<p class=\"key\">{keyed}</p>");
+            let written = spec.and_then(|v| v.value.as_ref()).map(|t| t.value.as_str());
+            out.push_str(&format_condition(written, asked.weight(None)));
+        }
+        QuestionKind::TrueFalse { .. } => {
+            let keyed = match asked.question.keyed().as_deref() {
+                Some([]) => "The statement is false. <b class=\"badge\">key</b>",
+                Some(_) => "The statement is true. <b class=\"badge\">key</b>",
+                None => "no answer is keyed",
+            };
+            let _ = writeln!(out, "<p class=\"key\">{keyed}</p>");
+            let written = spec.and_then(|v| v.options.first()).map(|t| t.value.as_str());
+            out.push_str(&format_condition(written, asked.weight(Some(0))));
+        }
+        QuestionKind::Open { .. } => {
+            out.push_str("<p class=\"soft\">An open question: no answer is keyed.</p>\n");
+        }
+    }
     out
 }
 

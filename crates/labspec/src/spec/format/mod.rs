@@ -28,7 +28,9 @@ pub use lab::{CAMERA, EVENTS, LAB, OVERLAYS};
 pub use lint::LINT;
 pub use page::page;
 pub use plot::{MAX_DIGITS, PLOT, READOUT, REF_LINE, TRACE};
-pub use quiz::{CODE, DEBUG, MCQ, NUMERIC, OPEN, PREDICT, QUESTION, QUIZ, TOLERANCE};
+pub use quiz::{
+    CODE, DEBUG, HASH, MCQ, MULTIPLE, NUMERIC, OPEN, PREDICT, QUESTION, QUIZ, TOLERANCE, TRUEFALSE,
+};
 pub use schema::{Root, schema};
 pub use verify::{CLOSED_FORM, COLUMN, FIND, RUN, RUN_LENGTH, SPAN, VERIFY};
 
@@ -294,7 +296,7 @@ impl Key {
 }
 
 /// All objects, in the order of the reference page.
-pub static OBJECTS: [&Object; 23] = [
+pub static OBJECTS: [&Object; 26] = [
     &LAB,
     &CAMERA,
     &SLIDER,
@@ -308,9 +310,12 @@ pub static OBJECTS: [&Object; 23] = [
     &MCQ,
     &DEBUG,
     &PREDICT,
+    &MULTIPLE,
+    &TRUEFALSE,
     &NUMERIC,
     &OPEN,
     &CODE,
+    &HASH,
     &LINT,
     &VERIFY,
     &RUN,

@@ -2,13 +2,15 @@
 
 use super::lab::verify_key;
 use super::lint::lint_key;
-use super::{Absent, Family, Key, LAB, Object, Type, Word, key};
+use super::{Absent, Family, Key, LAB, Object, Together, Type, Word, key};
 use labspec_finding::docs;
 
-static KINDS: [Word; 6] = [
+static KINDS: [Word; 8] = [
     Word { text: "mcq", doc: docs("one of several options") },
     Word { text: "debug", doc: docs("the same, about a mistake that the student must find") },
     Word { text: "predict", doc: docs("the same, before a simulation shows the correct answer") },
+    Word { text: "multiple", doc: docs("all correct ones of several options") },
+    Word { text: "truefalse", doc: docs("whether a statement is true") },
     Word { text: "numeric", doc: docs("a number, correct within a tolerance") },
     Word { text: "open", doc: docs("a text, which is not graded") },
     Word { text: "code", doc: docs("a program, which is not graded") },
@@ -21,7 +23,7 @@ pub static QUESTION: Family = Family {
     doc: docs("What a quiz asks."),
     key: "kind",
     words: &KINDS,
-    objects: &[&MCQ, &DEBUG, &PREDICT, &NUMERIC, &OPEN, &CODE],
+    objects: &[&MCQ, &DEBUG, &PREDICT, &MULTIPLE, &TRUEFALSE, &NUMERIC, &OPEN, &CODE],
 };
 
 static ONE_QUESTION: Type = Type::OneOf(&QUESTION);
@@ -75,15 +77,52 @@ const OPTIONS: Key = key(
 .items(2)
 .must("the student chooses one of them");
 
-const ANSWER: Key = key("answer", Type::Whole, "the index of the correct option, counted from 0", "1")
-    .at_least(0.0)
-    .must("it is the index of the correct option, from 0");
+const ANSWER: Key =
+    key("answer", Type::Whole, "the index of the correct option, counted from 0", "1").at_least(0.0);
+
+static INDEX: Type = Type::Whole;
+
+const HASHED: Key = key(
+    "hash",
+    Type::Object(&HASH),
+    "instead of `answer`: the hash of the answer, so that the page does not show it",
+    r#"{"salt": "fall", "sha256": "c2b13ffa5d46ef6535899ba40be9e4490faad74ee58ea5aaed7c2eecf7da4cfb"}"#,
+);
+
+const ATTEMPTS: Key =
+    key("attempts", Type::Whole, "how often the student can try", "2").at_least(1.0).or(Absent::Number(1.0));
+
+/// A key is written openly or as a hash.
+const ONE_KEY: &[Together] = &[Together::ExactlyOne(&["answer", "hash"])];
+
+/// The hash of an answer.
+pub static HASH: Object = Object {
+    name: "hash",
+    what: "a hash",
+    doc: docs(
+        "The answer of a question, hidden from who reads the source of the page: the SHA-256 of the salt, a colon and the answer. The answer is the index of the option, the indexes of a question of kind `multiple` in ascending order with commas between them, or `true` or `false`. Who tries all choices finds it.",
+    ),
+    tag: None,
+    minimal: r#"{"salt": "fall", "sha256": "c2b13ffa5d46ef6535899ba40be9e4490faad74ee58ea5aaed7c2eecf7da4cfb"}"#,
+    keys: &[
+        key("salt", Type::Text, "any text of at most 256 bytes, different for each question", r#""fall""#)
+            .must("the hash is that of the salt and the answer"),
+        key(
+            "sha256",
+            Type::Text,
+            "the hash, as 64 hexadecimal digits",
+            r#""c2b13ffa5d46ef6535899ba40be9e4490faad74ee58ea5aaed7c2eecf7da4cfb""#,
+        )
+        .must("it is the hash of the answer"),
+    ],
+    together: &[],
+};
 
 /// A question with options.
 pub static MCQ: Object = Object {
     name: "mcq",
     what: "a question of kind mcq",
-    doc: docs("The student chooses one of several options and has one try."),
+    doc: docs("The student chooses one of several options."),
     tag: Some(("kind", "mcq")),
     minimal: r#"{"q": "How fast is the ball after 1 s?", "options": ["about 5 m/s", "about 10 m/s", "about 20 m/s"], "answer": 1}"#,
     keys: &[
@@ -93,10 +132,12 @@ pub static MCQ: Object = Object {
         NAME,
         OPTIONS,
         ANSWER,
+        HASHED,
+        ATTEMPTS,
         verify_key(),
         lint_key(),
     ],
-    together: &[],
+    together: ONE_KEY,
 };
 
 /// A question about an error.
@@ -115,10 +156,12 @@ pub static DEBUG: Object = Object {
         NAME,
         Key { example: r#"["gravity is positive", "the mass is too large"]"#, ..OPTIONS },
         ANSWER,
+        HASHED,
+        ATTEMPTS,
         verify_key(),
         lint_key(),
     ],
-    together: &[],
+    together: ONE_KEY,
 };
 
 /// A question whose answer a simulation shows.
@@ -135,6 +178,7 @@ pub static PREDICT: Object = Object {
         NAME,
         OPTIONS,
         ANSWER,
+        HASHED,
         key(
             "sim",
             Type::Object(&LAB),
@@ -145,7 +189,58 @@ pub static PREDICT: Object = Object {
         verify_key(),
         lint_key(),
     ],
-    together: &[],
+    together: ONE_KEY,
+};
+
+/// A question with several correct options.
+pub static MULTIPLE: Object = Object {
+    name: "multiple",
+    what: "a question of kind multiple",
+    doc: docs("The student chooses all correct options. The answer is correct if exactly these are chosen."),
+    tag: Some(("kind", "multiple")),
+    minimal: r#"{"kind": "multiple", "q": "What makes a ball fall faster in a vacuum?", "options": ["more mass", "more gravity", "a larger planet of the same density"], "answer": [1, 2]}"#,
+    keys: &[
+        Key { example: r#""multiple""#, ..KIND }.must(""),
+        Key { example: r#""What makes a ball fall faster in a vacuum?""#, ..Q },
+        EXPLAIN,
+        NAME,
+        Key { example: r#"["more mass", "more gravity", "a larger planet of the same density"]"#, ..OPTIONS },
+        key(
+            "answer",
+            Type::List(&INDEX),
+            "the indexes of the correct options, counted from 0; an empty list if none is correct",
+            "[1, 2]",
+        )
+        .at_least(0.0),
+        HASHED,
+        ATTEMPTS,
+        verify_key(),
+        lint_key(),
+    ],
+    together: ONE_KEY,
+};
+
+/// A statement that is true or false.
+pub static TRUEFALSE: Object = Object {
+    name: "truefalse",
+    what: "a question of kind truefalse",
+    doc: docs(
+        "The student says whether a statement is true. Under `verify`, the only condition of `options` is the statement.",
+    ),
+    tag: Some(("kind", "truefalse")),
+    minimal: r#"{"kind": "truefalse", "q": "A heavy ball falls faster in a vacuum.", "answer": false}"#,
+    keys: &[
+        Key { example: r#""truefalse""#, ..KIND }.must(""),
+        Key { example: r#""A heavy ball falls faster in a vacuum.""#, ..Q },
+        EXPLAIN,
+        NAME,
+        key("answer", Type::Flag, "whether the statement is true", "true").or(Absent::Nothing),
+        HASHED,
+        ATTEMPTS,
+        verify_key(),
+        lint_key(),
+    ],
+    together: ONE_KEY,
 };
 
 /// The default tolerance of a numeric answer, relative to the answer.
@@ -174,6 +269,7 @@ pub static NUMERIC: Object = Object {
         .at_least(0.0)
         .or(Absent::Said("2 % of the answer; an answer of 0 needs a tolerance")),
         key("unit", Type::Text, "the unit, displayed after the box", r#""m/s""#),
+        Key { absent: Absent::Said("no limit"), ..ATTEMPTS },
         verify_key(),
         lint_key(),
     ],

@@ -97,7 +97,7 @@ pub static VERIFY: Object = Object {
         key(
             "options",
             Type::List(&EXPRESSION),
-            "on a question with options: one condition for each, in order; only that of the correct option may hold; `undecided` for an option that this evidence does not decide",
+            "on a question with options: one condition for each, in order; only those of the correct options may hold; on a question of kind `truefalse`: one condition, the statement; `undecided` for an option that this evidence does not decide",
             r#"["speed < 7", "speed > 7 && speed < 15", "speed > 15"]"#,
         )
         .or(Absent::Empty),

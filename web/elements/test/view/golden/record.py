@@ -6,6 +6,11 @@ writes scenes.json beside itself: for each scene the fields that the view reads,
 (run lengths of ids, row by row from the top; -1 nothing, ngeom + i tendon i), and where rays meet geoms (`mj_ray`).
 
 And textures.json: scenes with textures, and which of red, green and blue are bright in every pixel (run lengths of 4 r + 2 g + b).
+
+And builtin.json: the pixels of builtin textures, beside their declarations.
+
+And floor.json: a floor with a builtin checker in light without direction: which of its two colours is in every pixel (run lengths of 1 and 2; 0 where
+neither is, to three levels).
 """
 
 import json
@@ -229,6 +234,54 @@ def record_textures(has_sky, spec):
     return scene(m, d) | {"camera": camera, "colors": runs(bright @ [4, 2, 1])}
 
 
+# Declarations of builtin textures; marks at random pixels are left out, because the library's random numbers are its own.
+BUILTIN = {
+    "gradient": dict(type="2d", builtin="gradient", rgb1="1 0.25 0", rgb2="0 0.5 0.999", width="17", height="12"),
+    "sky": dict(type="skybox", builtin="gradient", rgb1="0.3 0.5 0.7", rgb2="0 0 0", width="16", height="96"),
+    "cube_gradient": dict(type="cube", builtin="gradient", rgb1="1 0 0", rgb2="0 1 0.5", width="9", height="9"),
+    "checker": dict(type="2d", builtin="checker", rgb1="0.1 0.2 0.3", rgb2="0.2 0.3 0.4", width="7", height="5"),
+    "checker_edge": dict(type="2d", builtin="checker", mark="edge", markrgb="0.8 0.8 0.8", width="8", height="6"),
+    "cube_checker": dict(type="cube", builtin="checker", mark="cross", markrgb="1 1 1", rgb1="1 0 0", rgb2="0 1 0", width="6", height="36"),
+    "flat": dict(type="2d", builtin="flat", rgb1="0.2 0.333 0.9999", width="3", height="2"),
+    "cube_flat": dict(type="cube", builtin="flat", mark="edge", markrgb="0 0 1", rgb2="0.501 0.5 0.75", width="4", height="24"),
+}
+
+
+def record_builtin(attributes):
+    text = " ".join(f"{name}='{value}'" for name, value in attributes.items())
+    m = mujoco.MjModel.from_xml_string(f"<mujoco><asset><texture name='t' {text}/></asset><worldbody><geom size='1'/></worldbody></mujoco>")
+    return {"attributes": attributes, "texture": textures(m)[0]}
+
+
+FLOOR = """<mujoco>
+  <visual><headlight ambient="1 1 1" diffuse="0 0 0" specular="0 0 0"/></visual>
+  <asset>
+    <texture name="t" type="2d" builtin="checker" rgb1="0.7 0.3 0.2" rgb2="0.2 0.4 0.6" width="64" height="64"/>
+    <material name="m" texture="t" texrepeat="2 3" specular="0" reflectance="0" {uniform}/>
+  </asset>
+  <worldbody><geom type="plane" size="{size}" material="m"/><geom size="0.1" pos="0 0 0.1"/></worldbody>
+</mujoco>"""
+
+
+def record_floor(size, uniform):
+    m = mujoco.MjModel.from_xml_string(FLOOR.format(size=size, uniform='texuniform="true"' if uniform else ""))
+    d = mujoco.MjData(m)
+    mujoco.mj_forward(m, d)
+    library, camera = cameras(m, (70, -50, 3, (0, 0, 0)))
+    with mujoco.Renderer(m, HEIGHT, WIDTH) as renderer:
+        for flag in (mujoco.mjtRndFlag.mjRND_SHADOW, mujoco.mjtRndFlag.mjRND_REFLECTION, mujoco.mjtRndFlag.mjRND_HAZE):
+            renderer.scene.flags[flag] = 0
+        renderer.update_scene(d, library)
+        rgb = renderer.render().astype(int)
+    which = np.zeros((HEIGHT, WIDTH), int)
+    for i, color in enumerate([(0.7, 0.3, 0.2), (0.2, 0.4, 0.6)]):
+        which = np.where(np.abs(rgb - np.floor(255 * np.array(color))).max(axis=2) <= 3, i + 1, which)
+    recorded = scene(m, d)
+    # The view computes the pixels of the texture.
+    recorded["model"].pop("textures", None)
+    return recorded | {"camera": camera, "colors": runs(which)}
+
+
 def write(name, scenes):
     lines = [f"{json.dumps(name)}: {json.dumps(scene, separators=(',', ':'))}" for name, scene in scenes.items()]
     text = "{\n" + ",\n".join(lines) + "\n}\n"
@@ -240,6 +293,9 @@ def main(corpus, specs):
     random = np.random.default_rng(7)
     scenes = {name: record(folder and folders[folder] / f"{file}.xml", steps, camera, random) for name, (folder, file, steps, camera) in SCENES.items()}
     write("scenes.json", scenes)
+    write("builtin.json", {name: record_builtin(attributes) for name, attributes in BUILTIN.items()})
+    floors = {"sized": ("1 1.5 0.1", False), "uniform": ("1 1.5 0.1", True), "endless": ("0 0 0.1", True)}
+    write("floor.json", {name: record_floor(*about) for name, about in floors.items()})
     write("textures.json", {name: record_textures(*about) for name, about in TEXTURED.items()})
 
 

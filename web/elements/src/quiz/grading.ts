@@ -1,0 +1,50 @@
+/** Where the answers of a quiz are kept, and who is told the score. */
+import { joinActivity, reportActivity, reportEvent } from "../grades/splice.js";
+import { listOf } from "../spec.js";
+import type { Card } from "./card.js";
+import type { QuizSpec } from "./read.js";
+import { readAnswer, type Stored } from "./store.js";
+
+/** Right answers and questions that are graded. */
+export interface Count {
+  readonly right: number;
+  readonly count: number;
+}
+
+export interface Grading {
+  load(index: number): Stored | null;
+  store(index: number, answer: Stored | null): void;
+  /** The score of the stored answers. */
+  begin(score: Count): void;
+  /** Reports the score, and what was answered. */
+  report(score: Count, answer: object | null): void;
+}
+
+export function countRight(cards: readonly (Card | null)[]): Count {
+  const graded = cards.filter((card) => card?.isGraded === true);
+  return { right: graded.filter((card) => card?.isRight === true).length, count: graded.length };
+}
+
+/** A quiz whose answers a learning system keeps. */
+export async function joinSplice(spec: QuizSpec): Promise<Grading> {
+  const answers: (Stored | null)[] = spec.questions.map(() => null);
+  let score: Count = { right: 0, count: 0 };
+  const stored = await joinActivity(spec.id, () => ({ state: answers, ...score }));
+  listOf(stored).slice(0, answers.length).forEach((answer, i) => {
+    answers[i] = readAnswer(answer);
+  });
+  return {
+    load: (index) => answers[index] ?? null,
+    store(index, answer) {
+      answers[index] = answer;
+    },
+    begin(now) {
+      score = now;
+    },
+    report(now, answer) {
+      score = now;
+      void reportActivity();
+      if (answer !== null) reportEvent("quiz-answer", answer);
+    },
+  };
+}
