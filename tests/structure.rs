@@ -377,7 +377,8 @@ fn files_of_the_engine_form_no_import_cycles() {
 }
 
 /// The crates in which no two files use each other.
-const WITHOUT_CIRCLES: [&str; 12] = [
+const WITHOUT_CIRCLES: [&str; 13] = [
+    "assist",
     "bind",
     "cli",
     "developer",
