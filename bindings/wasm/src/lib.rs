@@ -83,6 +83,7 @@ export interface Shown {
 export interface Entry {
   owner: string;
   subject: string;
+  state: string;
   word: string;
   remark: string;
 }
@@ -411,9 +412,11 @@ pub fn check(
         checker = checker.neighbours(named(&texts)?);
     }
     let report = checker.check(path, text);
-    let entries = report.entries().iter().map(
-        |e| json!({"owner": e.owner, "subject": e.subject.as_str(), "word": e.word, "remark": e.remark}),
-    );
+    let entries = report.entries().iter().map(|e| {
+        json!({
+            "owner": e.owner, "subject": e.subject.as_str(), "state": e.state.as_str(), "word": e.word, "remark": e.remark,
+        })
+    });
     let lesson = &report.checked.lesson;
     let offsets = Utf16Offsets::new(lesson.file.text());
     let findings =

@@ -7,6 +7,9 @@ import type { Models } from "./lab-types.js";
 export interface Entry {
   readonly owner: string;
   readonly subject: string;
+  /** `true`, `false`, `unchecked`, `left out`, `known` or `not claimed`. */
+  readonly state: string;
+  /** The same for this subject: `verified`, `refuted`, `made` … */
   readonly word: string;
   readonly remark: string;
 }

@@ -21,7 +21,7 @@ test("findings have their place and their fixes", () => {
 });
 
 test("a warning can be suppressed", () => {
-  const lesson = block('{"model": "drop", "setup": "ctx.a = 1", "controls": [{"label": "k", "min": 0, "max": 1, "value": 0.5, "param": "k"}]}');
+  const lesson = block('{"model": "drop", "controls": [{"label": "k", "min": 0, "max": 1, "value": 0.5, "apply": "data.qvel[2] = 1"}]}');
   const checker = new Checker({ drop });
   const warning = checker.findings("fall.md", lesson).find((f) => f.severity !== "error");
   const fix = warning.fixes.find((f) => f.kind === "suppression");
@@ -55,7 +55,7 @@ test("models are completed and explained from the schema", () => {
   assert.deepEqual([finding.severity, drop.replace("size='.1'", "size='x'").slice(finding.start, finding.end)], ["error", "x"]);
   assert.deepEqual(checker.findings("drop.xml", drop), []);
   // A model inside of a lab.
-  const [lab, at] = marked('{"xml": "<mujoco><worldbody><geom |size=\'1\'/></worldbody></mujoco>"}');
+  const [lab, at] = marked('{"xml": "<mujoco><worldbody><geom | size=\'1\'/></worldbody></mujoco>"}');
   const type = checker.complete("lab.json", lab, at).find((c) => c.label === "type");
   assert.equal(apply(lab, type.edit).includes('<geom type=\\"\\"'), true, apply(lab, type?.edit));
 });
