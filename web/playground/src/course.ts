@@ -1,7 +1,10 @@
 /** Labs of a course that is beside the page: lessons, and models in a folder `models`. */
 import { fetchModel } from "labspec-elements";
-import type { FindLabs } from "./import.js";
-import { isFileName, OpenError, type Project } from "./project.js";
+import type { LabOfLesson } from "labspec-editor";
+import { isFileName, OpenError, type LessonAround, type Project } from "./project.js";
+
+/** The labs of a lesson, as the checker finds them. */
+export type FindLabs = (path: string, text: string) => Promise<readonly LabOfLesson[]>;
 
 /** A lesson of the course with its labs, as the build lists them. */
 export interface ListedLesson {
@@ -27,23 +30,35 @@ export class Course {
   }
 
   /** Opens a lab by its place: `LESSON.md#1`. */
-  async open(place: string, findLabs: (path: string, text: string) => ReturnType<FindLabs>): Promise<Project> {
-    const [, path = "", address = ""] = /^([^#]*)(#.*)?$/.exec(place) ?? [];
-    if (!isFileName(path) || !/\.(md|markdown|json)$/i.test(path)) throw new OpenError(`“${shorten(place)}” is no place of a lab: write LESSON.md#1.`);
-    const text = await (await this.#fetch(path)).text();
-    const labs = (await findLabs(path, text)) as readonly { address: string; json: string; model: string | null }[];
-    const lab = labs.find((one) => one.address === (address === "" ? "#1" : address));
-    if (lab === undefined) {
-      const has = labs.length === 0 ? "it has none" : `it has ${labs.map((one) => one.address).join(", ")}`;
-      throw new OpenError(`${path} has no lab ${shorten(address === "" ? "#1" : address)}; ${has}.`);
-    }
-    if (lab.model === null) return { lab: lab.json, models: {}, files: {}, model: null };
+  async open(place: string, findLabs: FindLabs): Promise<Project> {
+    const { lab, lesson, path } = await this.#find(place, findLabs);
+    if (lab.model === null) return { lab: lab.json, models: {}, files: {}, model: null, lesson };
     if (!isFileName(lab.model)) throw new OpenError(`The lab names no model: “${shorten(lab.model)}”.`);
     const found = await this.#model(path, lab.model);
     const entries = Object.entries(found);
     const models = entries.filter((pair): pair is [string, string] => typeof pair[1] === "string");
     const files = entries.filter((pair): pair is [string, Uint8Array] => typeof pair[1] !== "string");
-    return { lab: lab.json, models: Object.fromEntries(models), files: Object.fromEntries(files), model: lab.model };
+    return { lab: lab.json, models: Object.fromEntries(models), files: Object.fromEntries(files), model: lab.model, lesson };
+  }
+
+  /** The lesson around the lab at a place; `null` if the lab is not a part of its text as it stands there. */
+  async around(place: string, findLabs: FindLabs): Promise<LessonAround | null> {
+    return (await this.#find(place, findLabs)).lesson;
+  }
+
+  async #find(place: string, findLabs: FindLabs): Promise<{ lab: LabOfLesson; lesson: LessonAround | null; path: string }> {
+    const [, path = "", address = ""] = /^([^#]*)(#.*)?$/.exec(place) ?? [];
+    if (!isFileName(path) || !/\.(md|markdown|json)$/i.test(path)) throw new OpenError(`“${shorten(place)}” is no place of a lab: write LESSON.md#1.`);
+    const text = await (await this.#fetch(path)).text();
+    const labs = await findLabs(path, text);
+    const lab = labs.find((one) => one.address === (address === "" ? "#1" : address));
+    if (lab === undefined) {
+      const has = labs.length === 0 ? "it has none" : `it has ${labs.map((one) => one.address).join(", ")}`;
+      throw new OpenError(`${path} has no lab ${shorten(address === "" ? "#1" : address)}; ${has}.`);
+    }
+    const isWhole = /\.json$/i.test(path) || text.slice(lab.start, lab.end) !== lab.json;
+    const lesson = isWhole ? null : { path, address: lab.address, before: text.slice(0, lab.start), after: text.slice(lab.end) };
+    return { lab, lesson, path };
   }
 
   /** A model and its files, from the nearest folder `models` beside the lesson or above it. */

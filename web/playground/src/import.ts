@@ -100,7 +100,7 @@ export async function projectOf(given: readonly GivenFile[], current: Project | 
   const own = Object.fromEntries(models.map((path) => [nameOf(inside(path)), texts.get(path) ?? ""]));
   const others = usable.filter(({ path }) => !texts.has(path)).map(({ path, bytes }) => [inside(path), bytes] as const);
   const name = main === null ? (Object.keys(listed)[0] ?? null) : nameOf(inside(main));
-  return { lab: lab?.json ?? labOfModel(name ?? "model"), models: { ...listed, ...own }, files: Object.fromEntries(others), model: name };
+  return { lab: lab?.json ?? labOfModel(name ?? "model"), models: { ...listed, ...own }, files: Object.fromEntries(others), model: name, lesson: null };
 }
 
 /** The name of a model: those in folders keep their paths, which only other models name. */

@@ -78,7 +78,7 @@ function readProject(text: string): Project {
     return [name, bytes];
   });
   const edited = typeof model === "string" && Object.hasOwn(models, model) ? model : (texts[0]?.[0] ?? null);
-  return { lab, models: Object.fromEntries(texts), files: Object.fromEntries(binaries), model: edited };
+  return { lab, models: Object.fromEntries(texts), files: Object.fromEntries(binaries), model: edited, lesson: null };
 }
 
 function isObject(x: unknown): x is object {

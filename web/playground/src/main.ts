@@ -1,7 +1,7 @@
 /** The playground: a model and a lab beside the running scene. */
 import { CheckerClient, mountEditor, type CheckedFinding, type EditorHandle } from "labspec-editor";
-import { SimLab } from "labspec-elements";
 import { zipSync } from "fflate";
+import { checkClaims } from "./claims.js";
 import { Course } from "./course.js";
 import { byId, h, saveFile } from "./dom.js";
 import { filesOfDrop, filesOfInput, projectOf, type GivenFile } from "./import.js";
@@ -15,10 +15,12 @@ const PAUSE = 350;
 const CLAIMS_PAUSE = 1000;
 
 const checker = new CheckerClient(() => new Worker(new URL("./checker/worker.js", import.meta.url), { type: "module" }));
-const stage = new Stage(byId("lab", SimLab));
+const stage = new Stage(byId("scene", HTMLDivElement));
 const course = new Course(document.querySelector<HTMLMetaElement>("meta[name=labspec-course]")?.content ?? "course/");
 const findings = new Map<string, readonly CheckedFinding[]>();
-let project: Project = { lab: "{}", models: {}, files: {}, model: null };
+/** What the last check with runs found in the lab, as it is written now. */
+let runFindings: readonly CheckedFinding[] = [];
+let project: Project = { lab: "{}", models: {}, files: {}, model: null, lesson: null };
 let editors: { model: EditorHandle | null; lab: EditorHandle } | null = null;
 let [turn, timer, claimsTimer] = [0, 0, 0];
 
@@ -35,6 +37,7 @@ const findLabs = (path: string, text: string): ReturnType<typeof checker.ask<"la
 async function open(next: Project, told: string): Promise<void> {
   project = next;
   findings.clear();
+  runFindings = [];
   stage.forget();
   stage.isOpen = false;
   checker.models = modelsOf(project);
@@ -70,6 +73,8 @@ function mountText(id: string, path: string, language: "json" | "mjcf", text: st
     text, language, path, label, checker,
     onChange(now) {
       project = change(now);
+      runFindings = [];
+      say("");
       clearTimeout(timer);
       timer = window.setTimeout(() => void update(), PAUSE);
     },
@@ -83,8 +88,8 @@ function mountText(id: string, path: string, language: "json" | "mjcf", text: st
 }
 
 function showAllFindings(): void {
-  const group = (path: string, editor: EditorHandle | null | undefined): { findings: readonly CheckedFinding[]; actions: FindingActions } => ({
-    findings: findings.get(path) ?? [],
+  const group = (path: string, editor: EditorHandle | null | undefined, more: readonly CheckedFinding[] = []): { findings: readonly CheckedFinding[]; actions: FindingActions } => ({
+    findings: [...(findings.get(path) ?? []), ...more],
     actions: {
       show: editor === null || editor === undefined ? null : (finding) => editor.select(finding.start ?? 0, finding.end ?? 0),
       fix(finding, index) {
@@ -93,7 +98,7 @@ function showAllFindings(): void {
     },
   });
   const model = project.model === null ? [] : [group(modelPath(project.model), editors?.model)];
-  showFindings([...model, group(LAB_PATH, editors?.lab)]);
+  showFindings([...model, group(LAB_PATH, editors?.lab, runFindings)]);
 }
 
 /** What the texts are now, on the stage: unless they have errors and something runs. */
@@ -112,7 +117,7 @@ async function update(): Promise<void> {
     if (own === turn) say(`The lab does not run: ${reasonOf(e)}`, true);
   }
   clearTimeout(claimsTimer);
-  claimsTimer = window.setTimeout(() => void checkClaims(now), CLAIMS_PAUSE);
+  claimsTimer = window.setTimeout(() => void runLab(now), CLAIMS_PAUSE);
 }
 
 async function errorsOf({ lab, model, models }: Project): Promise<number> {
@@ -122,11 +127,14 @@ async function errorsOf({ lab, model, models }: Project): Promise<number> {
   return all.flat().filter((finding) => finding.severity === "error").length;
 }
 
-async function checkClaims(now: Project): Promise<void> {
+async function runLab(now: Project): Promise<void> {
   sayClaims("Checking…");
   try {
-    const report = await checker.check(LAB_PATH, now.lab);
-    if (now === project) showClaims(report);
+    const claims = await checkClaims(checker, now, findings.get(LAB_PATH) ?? []);
+    if (now !== project) return;
+    showClaims(claims.entries);
+    runFindings = claims.findings;
+    showAllFindings();
   } catch (e) {
     if (now === project) sayClaims(reasonOf(e));
   }
@@ -143,6 +151,7 @@ async function attempt(what: () => Promise<void>): Promise<void> {
 
 async function openFiles(files: readonly GivenFile[]): Promise<void> {
   const next = await projectOf(files, editors === null ? null : project, findLabs);
+  history.replaceState(history.state, "", location.pathname);
   await open(next, `${files.length} ${files.length === 1 ? "file" : "files"} opened.`);
 }
 
@@ -225,6 +234,7 @@ function listenToDrops(): void {
 }
 
 async function openPlace(place: string): Promise<void> {
+  say("Opening…");
   const next = await course.open(place, findLabs);
   history.replaceState(history.state, "", `?lab=${encodeURIComponent(place)}`);
   await open(next, `${place} is open.`);
@@ -233,7 +243,10 @@ async function openPlace(place: string): Promise<void> {
 async function openFragment(): Promise<boolean> {
   const linked = await decodeProject(location.hash);
   if (linked === null) return false;
-  await open(linked, "The project of the link is open.");
+  const place = new URLSearchParams(location.search).get("lab");
+  // Without the lesson, the lab is opened all the same.
+  const lesson = place === null ? null : await course.around(place, findLabs).catch(() => null);
+  await open({ ...linked, lesson }, "The project of the link is open.");
   return true;
 }
 
@@ -252,7 +265,7 @@ async function listExamples(): Promise<string | null> {
 const FALLBACK: Project = {
   lab: `${JSON.stringify({ title: "A fall", model: "fall", plots: [{ ylabel: "height (m)", traces: [{ label: "ball", expr: "data.body('ball').xpos[2]" }] }] }, null, 2)}\n`,
   models: { fall: '<mujoco>\n  <worldbody>\n    <geom type="plane" size="1 1 1"/>\n    <body name="ball" pos="0 0 1">\n      <freejoint/>\n      <geom size="0.1"/>\n    </body>\n  </worldbody>\n</mujoco>\n' },
-  files: {}, model: "fall",
+  files: {}, model: "fall", lesson: null,
 };
 
 async function start(): Promise<void> {
@@ -271,7 +284,7 @@ async function start(): Promise<void> {
   } catch (e) {
     refused = reasonOf(e);
   }
-  const opened = first === null ? open(FALLBACK, "") : course.open(first, findLabs).then((next) => open(next, ""));
+  const opened = first === null ? open(FALLBACK, "") : openPlace(first);
   await opened.catch(() => open(FALLBACK, ""));
   if (refused !== null) say(refused, true);
 }

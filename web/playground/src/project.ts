@@ -10,6 +10,16 @@ export interface Project {
   readonly files: Readonly<Record<string, Uint8Array>>;
   /** The model that is edited; `null` if there is none. */
   readonly model: string | null;
+  /** The lesson that has the lab, and quotes its numbers; `null` for a lab alone. */
+  readonly lesson: LessonAround | null;
+}
+
+/** A lesson without one of its labs. */
+export interface LessonAround {
+  readonly path: string;
+  readonly address: string;
+  readonly before: string;
+  readonly after: string;
 }
 
 /** Why something cannot be opened: a sentence for readers. */

@@ -35,11 +35,14 @@ function itemOf(finding: CheckedFinding, actions: FindingActions): HTMLLIElement
 /** How the states of claims look; others are plain. */
 const STATES: ReadonlyMap<string, string> = new Map([["true", "good"], ["false", "bad"]]);
 
-export function showClaims(report: Report): void {
-  const items = report.entries.map(({ owner, subject, state, word, remark }) => h("li", { class: STATES.get(state) ?? "" },
+/** The claims of a lab: all of them, or those of one lab of a lesson. */
+export function showClaims(entries: Report["entries"]): void {
+  const items = entries.map(({ owner, subject, state, word, remark }) => h("li", { class: STATES.get(state) ?? "" },
     h("strong", {}, word), ` ${owner}: ${subject} `, remark === "" ? null : h("span", { class: "remark" }, remark)));
   byId("claims", HTMLUListElement).replaceChildren(...items);
-  sayClaims(report.entries.length === 0 ? "There is nothing to check." : `Outcome: ${report.outcome}.`);
+  const count = (state: string): number => entries.filter((entry) => entry.state === state).length;
+  const [held, failed] = [count("true"), count("false")];
+  sayClaims(entries.length === 0 ? "There is nothing to check." : `${held} true, ${failed} false, ${entries.length - held - failed} not checked.`);
 }
 
 export function sayClaims(text: string): void {

@@ -1,18 +1,22 @@
 /** The running lab: it starts again when its text or its models change, and its controls keep what a reader chose. */
-import type { SimLab } from "labspec-elements";
+import { SimLab } from "labspec-elements";
 import type { ControlValue } from "labspec/slim";
-import { modelsOf, readObject, type Project } from "./project.js";
+import { modelsOf, type Project } from "./project.js";
+import { fitting } from "./values.js";
 
 export class Stage {
-  readonly #lab: SimLab;
+  readonly #host: HTMLElement;
+  readonly #lab = new SimLab();
   readonly #values = new Map<string, ControlValue>();
   #turn = 0;
   /** Whether a lab is open. */
   isOpen = false;
 
-  constructor(lab: SimLab) {
-    this.#lab = lab;
-    lab.addEventListener("lab-change", (event) => {
+  /** The lab is shown in `host` when the first project is open. */
+  constructor(host: HTMLElement) {
+    this.#host = host;
+    this.#lab.id = "lab";
+    this.#lab.addEventListener("lab-change", (event) => {
       const { label, value } = (event as CustomEvent<{ label: string; value: ControlValue | null }>).detail;
       if (value !== null) this.#values.set(label, value);
     });
@@ -30,6 +34,7 @@ export class Stage {
     this.#lab.models = modelsOf(project);
     this.#lab.lab = project.lab;
     this.isOpen = false;
+    if (!this.#lab.isConnected) this.#host.append(this.#lab);
     await this.#lab.ready;
     if (turn !== this.#turn) return false;
     this.isOpen = true;
@@ -37,19 +42,4 @@ export class Stage {
     if (wasPlaying && turn === this.#turn) this.#lab.play();
     return turn === this.#turn;
   }
-}
-
-/** The values that the controls of a lab can have. */
-export function fitting(lab: string, values: ReadonlyMap<string, ControlValue>): [string, ControlValue][] {
-  const controls = readObject(lab)?.["controls"];
-  const fits = (control: unknown): [string, ControlValue][] => {
-    if (typeof control !== "object" || control === null) return [];
-    const { label, min, max, options } = control as { label?: unknown; min?: unknown; max?: unknown; options?: unknown };
-    const value = typeof label === "string" ? values.get(label) : undefined;
-    if (typeof label !== "string" || value === undefined) return [];
-    const inRange = typeof min === "number" && typeof max === "number" && typeof value === "number" && min <= value && value <= max;
-    const isOption = Array.isArray(options) && (options as unknown[]).some((option) => Array.isArray(option) && option[1] === value);
-    return inRange || isOption ? [[label, value]] : [];
-  };
-  return Array.isArray(controls) ? (controls as unknown[]).flatMap(fits) : [];
 }

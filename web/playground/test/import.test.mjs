@@ -5,7 +5,7 @@ import { zipSync } from "fflate";
 import { Checker } from "labspec/checker";
 import { load, random } from "./load.mjs";
 
-const { fitting, isFileName, labOfModel, lessonOf, listedModels, OpenError, projectOf, unpack } = await load("import.ts", "project.ts", "stage.ts");
+const { fitting, isFileName, labOfModel, lessonOf, listedModels, OpenError, projectOf, unpack } = await load("import.ts", "project.ts", "values.ts");
 const bytes = (text) => new TextEncoder().encode(text);
 const file = (path, text) => ({ path, bytes: bytes(text) });
 const findLabs = async (path, text) => new Checker().labs(path, text);

@@ -5,7 +5,7 @@ import { deflateRawSync } from "node:zlib";
 import { load, random } from "./load.mjs";
 
 const { decodeProject, encodeProject, MOST_CHARACTERS, OpenError } = await load("link.ts", "project.ts");
-const project = { lab: '{"model": "drop", "title": "Würfel 😀"}\n', models: { drop: "<mujoco/>", "parts/floor.xml": "<mujoco><!-- ü --></mujoco>" }, files: { "a.obj": Uint8Array.from([0, 1, 2, 255]) }, model: "drop" };
+const project = { lab: '{"model": "drop", "title": "Würfel 😀"}\n', models: { drop: "<mujoco/>", "parts/floor.xml": "<mujoco><!-- ü --></mujoco>" }, files: { "a.obj": Uint8Array.from([0, 1, 2, 255]) }, model: "drop", lesson: null };
 const pack = (text) => `#play1=${deflateRawSync(text).toString("base64url")}`;
 const refused = (fragment, why) => assert.rejects(decodeProject(fragment), (e) => e instanceof OpenError && why.test(e.message), fragment.slice(0, 80));
 
