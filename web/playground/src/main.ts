@@ -20,6 +20,8 @@ const course = new Course(document.querySelector<HTMLMetaElement>("meta[name=lab
 const findings = new Map<string, readonly CheckedFinding[]>();
 /** What the last check with runs found in the lab, as it is written now. */
 let runFindings: readonly CheckedFinding[] = [];
+/** The state of the lab in the link that was opened, until the project changes. */
+let linkedState = "";
 let project: Project = { lab: "{}", models: {}, files: {}, model: null, lesson: null };
 let editors: { model: EditorHandle | null; lab: EditorHandle } | null = null;
 let [turn, timer, claimsTimer] = [0, 0, 0];
@@ -34,8 +36,9 @@ const reasonOf = (e: unknown): string => (e instanceof Error ? e.message : Strin
 const findLabs = (path: string, text: string): ReturnType<typeof checker.ask<"labs">> => checker.ask("labs", path, text);
 
 /** Opens a project in the editors and on the stage. */
-async function open(next: Project, told: string): Promise<void> {
+async function open(next: Project, told: string, state = ""): Promise<void> {
   project = next;
+  linkedState = state;
   findings.clear();
   runFindings = [];
   stage.forget();
@@ -74,6 +77,7 @@ function mountText(id: string, path: string, language: "json" | "mjcf", text: st
     onChange(now) {
       project = change(now);
       runFindings = [];
+      linkedState = "";
       say("");
       clearTimeout(timer);
       timer = window.setTimeout(() => void update(), PAUSE);
@@ -107,7 +111,7 @@ async function update(): Promise<void> {
   checker.models = modelsOf(now);
   const fragment = await encodeProject(now);
   if (own !== turn) return;
-  history.replaceState(history.state, "", fragment ?? `${location.pathname}${location.search}`);
+  history.replaceState(history.state, "", fragment === null ? `${location.pathname}${location.search}` : `${fragment}${linkedState}`);
   try {
     const count = await errorsOf(now);
     if (own !== turn) return;
@@ -246,7 +250,8 @@ async function openFragment(): Promise<boolean> {
   const place = new URLSearchParams(location.search).get("lab");
   // Without the lesson, the lab is opened all the same.
   const lesson = place === null ? null : await course.around(place, findLabs).catch(() => null);
-  await open({ ...linked, lesson }, "The project of the link is open.");
+  const state = location.hash.split("&").filter((part) => part.startsWith("lab.")).map((part) => `&${part}`).join("");
+  await open({ ...linked, lesson }, "The project of the link is open.", state);
   return true;
 }
 

@@ -223,6 +223,24 @@ test("a link holds what is written; the lesson that is downloaded is opened agai
   none.none();
 });
 
+test("a link to a state of the scene holds the project as well, until it changes", async (t) => {
+  const { page, errors } = await open(t);
+  await upToDate(page);
+  await page.evaluate(async () => {
+    const lab = document.querySelector("sim-lab");
+    await lab.step(100);
+    [...lab.shadowRoot.querySelectorAll("button")].find((button) => button.textContent.includes("Copy a link to this state")).click();
+  });
+  await page.waitForFunction(() => /play1=.*&lab\.lab=|lab\.lab=.*&play1=/.test(location.hash));
+  const { page: other, errors: none } = await open(t, page.url().slice(server.url.length));
+  await other.waitForFunction(() => Math.abs((document.querySelector("sim-lab")?.time ?? 0) - 0.2) < 1e-9);
+  await write(other, "model", drop.replace("0 0 1\">", "0 0 2\">"));
+  await upToDate(other);
+  assert.deepEqual(await other.evaluate(() => [document.querySelector("sim-lab").time, /lab\.lab/.test(location.hash)]), [0, false]);
+  errors.none();
+  none.none();
+});
+
 test("what cannot be opened says why, and the page works", async (t) => {
   for (const [address, why] of [
     ["/#play9=abc", /newer version/], ["/#play1=AAAA", /damaged/], ["/?lab=../secret.md%231", /no place of a lab/], ["/?lab=01-what-a-step-computes.md%2399", /has no lab #99; it has #1/],
