@@ -377,7 +377,8 @@ fn files_of_the_engine_form_no_import_cycles() {
 }
 
 /// The crates in which no two files use each other.
-const WITHOUT_CYCLES: [&str; 13] = [
+const WITHOUT_CYCLES: [&str; 14] = [
+    "assist",
     "bind",
     "cli",
     "developer",

@@ -3,6 +3,8 @@
 //! Nothing is evaluated as JavaScript. Failures throw an `Error` whose `findings` describe the mistakes and their locations.
 //! Numbers of traces are views of the module's memory: a view is valid until the next call into the module.
 
+#[cfg(feature = "checker")]
+mod assist;
 mod data;
 mod error;
 mod events;
@@ -23,6 +25,8 @@ use labspec::Checker;
 use labspec::Player;
 use labspec::finding::Finding;
 use labspec::player::{ControlKind, DisplayedIn, Saved};
+#[cfg(feature = "checker")]
+use labspec_assist::Utf16Offsets;
 use serde_json::{Value as Json, json};
 #[cfg(feature = "checker")]
 use std::collections::BTreeMap;
@@ -413,16 +417,21 @@ pub fn check(
 ) -> Result<Report, JsValue> {
     let mut checker = Checker::new(PageModels::new(models)?);
     if let Some(texts) = neighbours {
-        let wrong = "`neighbours` is an object: paths, and lessons or snapshots as text";
-        checker = checker.neighbours(named(&texts, wrong)?);
+        checker = checker.neighbours(named(&texts)?);
     }
     let report = checker.check(path, text);
-    let entries = report.entries().iter().map(
-        |e| json!({"owner": e.owner, "subject": e.subject.as_str(), "state": e.state.as_str(), "word": e.word, "remark": e.remark}),
-    );
+    let entries = report.entries().iter().map(|e| {
+        json!({
+            "owner": e.owner, "subject": e.subject.as_str(), "state": e.state.as_str(), "word": e.word, "remark": e.remark,
+        })
+    });
+    let lesson = &report.checked.lesson;
+    let offsets = Utf16Offsets::new(lesson.file.text());
+    let findings =
+        report.findings.iter().map(|f| assist::with_fixes(f, &lesson.file, Some(lesson), &offsets));
     let whole = json!({
         "outcome": report.outcome().as_str(),
-        "findings": report.findings.iter().map(finding).collect::<Vec<_>>(),
+        "findings": findings.collect::<Vec<_>>(),
         "entries": entries.collect::<Vec<_>>(),
     });
     Ok(object(&whole)?.unchecked_into())
@@ -431,10 +440,11 @@ pub fn check(
 /// The maximum number of values of one recording.
 const MAX_RECORDED: usize = 1 << 24;
 
-/// A map of texts by name from a JavaScript object; `expected` is the message if it is not one.
+/// Lessons and snapshots by their paths.
 #[cfg(feature = "checker")]
-fn named(texts: &JsValue, expected: &str) -> Result<BTreeMap<String, String>, JsValue> {
-    let wrong = || JsValue::from(Error::new(expected));
+pub(crate) fn named(texts: &JsValue) -> Result<BTreeMap<String, String>, JsValue> {
+    let wrong =
+        || JsValue::from(Error::new("`neighbours` is an object: paths, and lessons or snapshots as text"));
     let object: &Object = texts.dyn_ref().ok_or_else(wrong)?;
     let pair = |pair: JsValue| {
         let pair: Array = pair.dyn_into().ok()?;

@@ -22,7 +22,7 @@ pub use place::{EditorPosition, Lines, Place, Position, Span, floor};
 pub use rule::{Layer, Rule};
 pub use severity::Severity;
 
-/// A text for authors, such as a description or an example. Empty in a build without the feature `docs`.
+/// A description for authors. Empty in a build without the feature `descriptions`.
 pub const fn docs(text: &'static str) -> &'static str {
-    if cfg!(feature = "docs") { text } else { "" }
+    if cfg!(feature = "descriptions") { text } else { "" }
 }

@@ -2,12 +2,12 @@
 
 use super::convert;
 use super::documents::OpenDocument;
-use super::start::StartedLabs;
 use ignore::WalkBuilder;
 use labspec::bind::scene::Models;
 use labspec::lint::ModelFolder;
 use labspec::source::{MAX_FILE, Overlay, SourceFile, Sources};
 use labspec::spec::{FileKind, kind_of};
+use labspec_assist::Context;
 use lsp_types::Uri;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -18,21 +18,10 @@ const MOST: usize = 2_000;
 /// The maximum number of directory entries that are visited to find them.
 const MOST_ENTRIES: usize = 100_000;
 
-/// The models of one folder, and the labs that were started with them.
-#[derive(Debug)]
-pub(super) struct ModelContext {
-    /// The models, shared with threads that run labs.
-    pub(super) models: Arc<Models>,
-    /// The source of other lessons: the texts in the editor, then files.
-    pub(super) sources: Sources,
-    /// The labs into which a user pointed last.
-    pub(super) started: StartedLabs,
-}
-
 /// The models and sources of all open documents, by folder of models.
 #[derive(Debug, Default)]
 pub(super) struct ModelContexts {
-    by_folder: BTreeMap<Option<PathBuf>, ModelContext>,
+    by_folder: BTreeMap<Option<PathBuf>, Context>,
     /// The folder of models of each document, cached.
     folders: BTreeMap<PathBuf, ModelFolder>,
     /// The texts in the editor.
@@ -50,7 +39,7 @@ impl ModelContexts {
         &mut self,
         document: &Path,
         models_of: &dyn Fn(&Path) -> ModelFolder,
-    ) -> &mut ModelContext {
+    ) -> &mut Context {
         let sources = self.sources();
         let find = || {
             let folder = models_of(document);
@@ -59,10 +48,9 @@ impl ModelContexts {
         };
         let folder = self.folders.entry(document.to_path_buf()).or_insert_with(find);
         let key = folder.path_of_folder().map(Path::to_path_buf);
-        let new = |folder: &ModelFolder| ModelContext {
-            models: Arc::new(Models::new(folder.clone()).with_sources(sources.clone())),
-            sources: sources.clone(),
-            started: StartedLabs::default(),
+        let new = |folder: &ModelFolder| {
+            let models = Models::new(folder.clone()).with_sources(sources.clone());
+            Context::new(Arc::new(models), sources.clone())
         };
         let context = self.by_folder.entry(key).or_insert_with(|| new(folder));
         // A model was added or removed.
@@ -104,7 +92,7 @@ pub(super) fn editor_uri(
     open: &BTreeMap<String, OpenDocument>,
     folders: &[WorkspaceRoot],
 ) -> Option<Uri> {
-    if let Some(document) = open.values().find(|d| d.path == path) {
+    if let Some(document) = open.values().find(|d| d.content.path == path) {
         return Some(document.uri.clone());
     }
     let inside = folders.iter().find_map(|f| Some(f.named.join(path.strip_prefix(&f.real).ok()?)));
@@ -120,7 +108,8 @@ pub(super) fn lessons_below(folder: &Path, open: &BTreeMap<String, OpenDocument>
         .map(ignore::DirEntry::into_path)
         .filter(|path| matches!(kind_of(path), FileKind::Lesson | FileKind::Json) && path.is_file())
         .collect();
-    paths.extend(open.values().filter(|d| d.path.starts_with(folder)).map(|d| d.path.clone()));
+    paths
+        .extend(open.values().filter(|d| d.content.path.starts_with(folder)).map(|d| d.content.path.clone()));
     paths.retain(|path| matches!(kind_of(path), FileKind::Lesson | FileKind::Json));
     paths.sort();
     paths.dedup();
@@ -130,8 +119,8 @@ pub(super) fn lessons_below(folder: &Path, open: &BTreeMap<String, OpenDocument>
 
 /// A file with the text of the editor, or as it is saved.
 pub(super) fn text_of(path: &Path, open: &BTreeMap<String, OpenDocument>) -> Option<SourceFile> {
-    if let Some(document) = open.values().find(|d| d.path == path) {
-        return Some(document.file.clone());
+    if let Some(document) = open.values().find(|d| d.content.path == path) {
+        return Some(document.content.file.clone());
     }
     let small = std::fs::metadata(path).is_ok_and(|m| m.is_file() && m.len() <= MAX_FILE);
     if small { SourceFile::read(path).ok() } else { None }

@@ -1,67 +1,42 @@
 //! The documents that are open in the editor, whose texts may not be saved yet, and their findings.
 
 use super::convert;
-use labspec::finding::Finding;
-use labspec::source::{MAX_FILE, SourceFile};
-use labspec::spec::{FileKind, Lesson, kind_of};
+use labspec::source::MAX_FILE;
+use labspec_assist::Document;
 use lsp_types::{TextDocumentContentChangeEvent, Uri};
-use std::collections::BTreeMap;
 use std::path::PathBuf;
-use std::sync::Arc;
 
 /// A document that is open in the editor.
 #[derive(Debug)]
 pub(super) struct OpenDocument {
     /// The URI that the editor uses.
     pub(super) uri: Uri,
-    /// The path with resolved links; the file may not exist yet.
-    pub(super) path: PathBuf,
-    /// The kind of file.
-    pub(super) kind: FileKind,
-    /// The text.
-    pub(super) file: SourceFile,
+    /// The text with its findings. The file may not exist yet.
+    pub(super) content: Document,
     /// The version number of the editor.
     pub(super) version: i32,
     /// Whether it changed since the last check.
     pub(super) stale: bool,
-    /// The parsed lesson of the last check, if it is a lesson.
-    pub(super) lesson: Option<Arc<Lesson>>,
-    /// The reported findings.
-    pub(super) findings: Vec<Finding>,
-    /// The findings of each block, by the text of the block and its dependencies.
-    pub(super) blocks: BTreeMap<String, Vec<Finding>>,
 }
 
 impl OpenDocument {
     /// Creates a document that was opened.
     pub(super) fn new(uri: Uri, path: PathBuf, text: &str, version: i32) -> OpenDocument {
-        let name = path.display().to_string();
-        OpenDocument {
-            uri,
-            kind: kind_of(&path),
-            path,
-            file: SourceFile::new(name, text),
-            version,
-            stale: true,
-            lesson: None,
-            findings: Vec::new(),
-            blocks: BTreeMap::new(),
-        }
+        OpenDocument { uri, content: Document::new(path, text), version, stale: true }
     }
 
     /// Applies changes in order: each replaces a range, or the whole text.
     pub(super) fn change(&mut self, changes: &[TextDocumentContentChangeEvent], version: i32) {
-        let mut text = self.file.text().to_string();
+        let mut text = self.content.file.text().to_string();
         for change in changes {
             let span = change.range.map_or(0..text.len(), |range| convert::byte_span(&text, range));
             if text.len() + change.text.len() <= 2 * MAX_FILE as usize {
                 text.replace_range(span, &change.text);
             }
         }
-        self.file = SourceFile::new(self.file.path().clone(), text);
+        self.content.set_text(text);
         self.version = version;
         self.stale = true;
-        self.lesson = None;
     }
 }
 
@@ -80,9 +55,9 @@ mod tests {
             text: text.to_string(),
         };
         document.change(&[at(0, 3, 4, "ä"), at(1, 1, 99, "x"), at(9, 9, 9, "end")], 2);
-        assert_eq!(document.file.text(), "a𝄞ä\r\ncx\nend");
+        assert_eq!(document.content.file.text(), "a𝄞ä\r\ncx\nend");
         let whole = |text: &str| TextDocumentContentChangeEvent { range: None, ..at(0, 0, 0, text) };
         document.change(&[whole("new"), at(0, 1, 2, "o")], 3);
-        assert_eq!(document.file.text(), "now");
+        assert_eq!(document.content.file.text(), "now");
     }
 }

@@ -1,22 +1,16 @@
 //! Inlay hints: the units of fields that source texts mention, if enabled.
 
-use super::check::lesson;
-use super::code;
-use super::context::ModelContext;
 use super::convert;
 use super::documents::OpenDocument;
 use labspec::bind::ModelNames;
+use labspec_assist::{Context, code};
 use labspec_expr::{FieldMention, Schema, fields_in};
 use lsp_types::InlayHint;
 use std::ops::Range;
 
 /// The unit hints in a range of a document.
-pub(super) fn hints(
-    document: &mut OpenDocument,
-    context: &ModelContext,
-    range: &Range<usize>,
-) -> Vec<InlayHint> {
-    let Some(lesson) = lesson(document, context) else { return Vec::new() };
+pub(super) fn hints(document: &mut OpenDocument, context: &Context, range: &Range<usize>) -> Vec<InlayHint> {
+    let Some(lesson) = document.content.read_lesson(context) else { return Vec::new() };
     let mut all = Vec::new();
     for piece in code::code_texts(&lesson) {
         let span = piece.text.span();
@@ -30,7 +24,7 @@ pub(super) fn hints(
             let Some(unit) = unit(&names, &mention) else { continue };
             let end = piece.text.span_of(mention.span.into()).end;
             all.push(InlayHint {
-                position: convert::range(&document.file, &(end..end)).start,
+                position: convert::range(&document.content.file, &(end..end)).start,
                 label: unit.into(),
                 kind: None,
                 text_edits: None,

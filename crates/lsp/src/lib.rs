@@ -5,19 +5,17 @@
 //! * `initialize`, `requests`, `notifications`: the handlers of messages
 //! * `documents`, `convert`, `context`: the documents of the editor, its positions and URIs, the models and
 //!   lessons around a document
-//! * `check`, `runs`, `diagnostic`: findings while typing, findings from runs on a separate thread, conversion to diagnostics
-//! * `code`, `elements`, `start`: the source texts of a lesson, the names in a model, labs at their start
+//! * `runs`, `diagnostic`: findings from runs on a separate thread, conversion to diagnostics
 //! * `complete`, `hover`, `names`, `rename`, `actions`, `hints`: one request each
+//!
+//! What is independent of the protocol is in `labspec-assist`: findings while typing, completions, hover texts, fixes.
 
 mod actions;
-mod check;
-mod code;
 mod complete;
 mod context;
 mod convert;
 mod diagnostic;
 mod documents;
-mod elements;
 mod hints;
 mod hover;
 mod initialize;
@@ -27,7 +25,6 @@ mod rename;
 mod requests;
 mod runs;
 mod server;
-mod start;
 mod state;
 mod wire;
 

@@ -1,15 +1,15 @@
 //! The occurrences of a name of a model: in the model itself, and in the labs and claims of the lessons around it.
 
-use super::code;
 use super::context::{ModelContexts, WorkspaceRoot, editor_uri, lessons_below, text_of};
 use super::convert;
 use super::documents::OpenDocument;
-use super::elements::{ElementName, element_names};
 use labspec::bind::ModelNames;
 use labspec::bind::scene::Models;
 use labspec::lint::{ModelFolder, load_lesson_at};
 use labspec::source::{Overlay, SourceFile, Text};
 use labspec::spec::{FileKind, Lab, Lesson, ModelSource};
+use labspec_assist::code;
+use labspec_assist::elements::{ElementName, element_names};
 use labspec_expr::{Schema, names_in, texts_in};
 use lsp_types::{Location, Position, Uri};
 use std::collections::BTreeMap;
@@ -289,5 +289,5 @@ pub(super) fn beginning(uri: Uri) -> Location {
 
 /// Whether a document is a model file.
 pub(super) fn is_model(document: &OpenDocument) -> bool {
-    document.kind == FileKind::Model
+    document.content.kind == FileKind::Model
 }

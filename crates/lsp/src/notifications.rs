@@ -81,7 +81,7 @@ fn did_open(state: &mut ServerState<'_>, params: DidOpenTextDocumentParams) -> i
     let path = convert::resolve_links(&path);
     let document = OpenDocument::new(opened.uri, path.clone(), &opened.text, opened.version);
     state.refresh();
-    let text = document.file.text().to_string();
+    let text = document.content.file.text().to_string();
     state.documents.insert(key, document);
     state.set_text(&path, Some(&text));
     Ok(())
@@ -92,7 +92,7 @@ fn did_change(state: &mut ServerState<'_>, params: DidChangeTextDocumentParams) 
     state.cancel_runs_of(uri.as_str());
     if let Some(document) = state.documents.get_mut(uri.as_str()) {
         document.change(&params.content_changes, params.text_document.version);
-        let (path, text) = (document.path.clone(), document.file.text().to_string());
+        let (path, text) = (document.content.path.clone(), document.content.file.text().to_string());
         state.set_text(&path, Some(&text));
     }
     Ok(())
@@ -101,7 +101,7 @@ fn did_change(state: &mut ServerState<'_>, params: DidChangeTextDocumentParams) 
 fn did_save(state: &mut ServerState<'_>, params: DidSaveTextDocumentParams) -> io::Result<()> {
     state.refresh();
     let uri = params.text_document.uri.as_str();
-    match state.documents.get(uri).map(|document| document.kind) {
+    match state.documents.get(uri).map(|document| document.content.kind) {
         Some(FileKind::Model) => state.recompile_models(),
         Some(FileKind::Lesson | FileKind::Json) if state.settings.run_on_save => state.start_runs(uri),
         _ => {}
@@ -114,7 +114,7 @@ fn did_close(state: &mut ServerState<'_>, params: DidCloseTextDocumentParams) ->
     state.cancel_runs_of(uri.as_str());
     let Some(document) = state.documents.remove(uri.as_str()) else { return Ok(()) };
     state.refresh();
-    state.set_text(&document.path, None);
+    state.set_text(&document.content.path, None);
     state.publish_diagnostics(PublishDiagnosticsParams { uri, diagnostics: Vec::new(), version: None })
 }
 
@@ -129,7 +129,7 @@ fn did_change_files(state: &mut ServerState<'_>, params: DidChangeWatchedFilesPa
         return Ok(());
     }
     for path in paths {
-        if !state.documents.values().any(|document| document.path == path) {
+        if !state.documents.values().any(|document| document.content.path == path) {
             state.mark_readers_stale(&path);
         }
     }

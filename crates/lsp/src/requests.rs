@@ -1,12 +1,11 @@
 //! Requests of the editor, and their dispatch.
 
 use super::actions::code_actions;
-use super::check::lesson;
-use super::complete::completions;
+use super::complete::completion_items;
 use super::convert;
 use super::documents::OpenDocument;
 use super::hints::hints;
-use super::hover::hover;
+use super::hover::hover_at_byte;
 use super::initialize::{ClientSetup, initialize_result};
 use super::names::{self, Occurrences, QualifiedName, SearchScope};
 use super::rename::{FileEdits, rename};
@@ -114,21 +113,21 @@ fn open_document<'s>(state: &'s ServerState<'_>, id: &TextDocumentIdentifier) ->
 /// The byte of the document to which a request refers.
 fn byte_at(state: &ServerState<'_>, params: &TextDocumentPositionParams) -> Answer<usize> {
     let document = open_document(state, &params.text_document)?;
-    Ok(convert::byte_offset(document.file.text(), params.position))
+    Ok(convert::byte_offset(document.content.file.text(), params.position))
 }
 
 fn complete_at(state: &mut ServerState<'_>, params: CompletionParams) -> Answer<Vec<CompletionItem>> {
     let at = params.text_document_position;
     let byte = byte_at(state, &at)?;
     let (document, context) = state.document_in_context(&at.text_document.uri).ok_or_else(not_open)?;
-    Ok(completions(document, context, byte))
+    Ok(completion_items(document, context, byte))
 }
 
 fn hover_at(state: &mut ServerState<'_>, params: HoverParams) -> Answer<Option<Hover>> {
     let at = params.text_document_position_params;
     let byte = byte_at(state, &at)?;
     let (document, context) = state.document_in_context(&at.text_document.uri).ok_or_else(not_open)?;
-    Ok(hover(document, context, byte))
+    Ok(hover_at_byte(document, context, byte))
 }
 
 /// The name at a position, and whether the element gets its name there.
@@ -139,11 +138,13 @@ fn name_at(
     let byte = byte_at(state, at)?;
     let document = open_document(state, &at.text_document)?;
     if names::is_model(document) {
-        return Ok(names::name_in_model(&document.file, &document.path, byte));
+        return Ok(names::name_in_model(&document.content.file, &document.content.path, byte));
     }
     let (document, context) = state.document_in_context(&at.text_document.uri).ok_or_else(not_open)?;
-    let name = lesson(document, context)
-        .and_then(|lesson| names::name_in_lesson(&lesson, &document.path, &context.models, byte));
+    let name = document
+        .content
+        .read_lesson(context)
+        .and_then(|lesson| names::name_in_lesson(&lesson, &document.content.path, &context.models, byte));
     Ok(name.map(|name| (name, false)))
 }
 
@@ -173,8 +174,10 @@ fn find_definition(
     }
     let byte = byte_at(state, &at)?;
     let (document, context) = state.document_in_context(&at.text_document.uri).ok_or_else(not_open)?;
-    let path =
-        lesson(document, context).and_then(|lesson| names::model_named(&lesson, &context.models, byte));
+    let path = document
+        .content
+        .read_lesson(context)
+        .and_then(|lesson| names::model_named(&lesson, &context.models, byte));
     let uri = path.and_then(|path| search_scope(state).uri(&path));
     Ok(uri.map(|uri| names::beginning(uri).into()))
 }
@@ -205,7 +208,7 @@ fn prepare_rename(
 ) -> Answer<Option<PrepareRenameResponse>> {
     let Some((name, _)) = name_at(state, &at)? else { return Ok(None) };
     let document = open_document(state, &at.text_document)?;
-    let range = convert::range(&document.file, &name.span);
+    let range = convert::range(&document.content.file, &name.span);
     Ok(Some(PrepareRenameResponse::RangeWithPlaceholder { range, placeholder: name.name }))
 }
 
@@ -227,14 +230,14 @@ fn list_code_actions(
     params: CodeActionParams,
 ) -> Answer<Vec<CodeActionOrCommand>> {
     let document = open_document(state, &params.text_document)?;
-    let span = convert::byte_span(document.file.text(), params.range);
+    let span = convert::byte_span(document.content.file.text(), params.range);
     // The actions must refer to the current text.
     if document.stale {
         let uri = params.text_document.uri.as_str();
         state.check_documents().map_err(|e| error(ErrorCode::InternalError, format!("{uri}: {e}")))?;
     }
     let (document, context) = state.document_in_context(&params.text_document.uri).ok_or_else(not_open)?;
-    let lesson = lesson(document, context);
+    let lesson = document.content.read_lesson(context);
     let only = params.context.only.as_deref();
     Ok(code_actions(document, lesson.as_deref(), &span, only, &context.models))
 }
@@ -244,7 +247,7 @@ fn list_inlay_hints(state: &mut ServerState<'_>, params: InlayHintParams) -> Ans
         return Ok(Vec::new());
     }
     let document = open_document(state, &params.text_document)?;
-    let span = convert::byte_span(document.file.text(), params.range);
+    let span = convert::byte_span(document.content.file.text(), params.range);
     let (document, context) = state.document_in_context(&params.text_document.uri).ok_or_else(not_open)?;
     Ok(hints(document, context, &span))
 }

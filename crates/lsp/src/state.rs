@@ -1,7 +1,6 @@
 //! The state of the server: documents, the models around them, settings, and the check in progress. It belongs to one thread.
 
-use super::check::check_document;
-use super::context::{ModelContext, ModelContexts, WorkspaceRoot};
+use super::context::{ModelContexts, WorkspaceRoot};
 use super::convert;
 use super::diagnostic::diagnostic;
 use super::documents::OpenDocument;
@@ -12,6 +11,7 @@ use labspec::finding::Finding;
 use labspec::lint::{ModelFolder, links_to};
 use labspec::source::MAX_FILE;
 use labspec::spec::{FileKind, Lesson, Other, kind_of};
+use labspec_assist::Context;
 use lsp_types::notification::{LogMessage, Notification, PublishDiagnostics};
 use lsp_types::{LogMessageParams, MessageType, PublishDiagnosticsParams, Uri};
 use serde::Serialize;
@@ -127,12 +127,9 @@ impl<'c> ServerState<'c> {
     }
 
     /// Returns an open document with the models and sources that it uses.
-    pub(super) fn document_in_context(
-        &mut self,
-        uri: &Uri,
-    ) -> Option<(&mut OpenDocument, &mut ModelContext)> {
+    pub(super) fn document_in_context(&mut self, uri: &Uri) -> Option<(&mut OpenDocument, &mut Context)> {
         let document = self.documents.get_mut(uri.as_str())?;
-        let context = self.contexts.model_context(&document.path, self.course.models);
+        let context = self.contexts.model_context(&document.content.path, self.course.models);
         Some((document, context))
     }
 
@@ -163,8 +160,8 @@ impl<'c> ServerState<'c> {
                 sources.real(other).as_deref().unwrap_or(other) == path
             };
             let reads = |lesson: &Arc<Lesson>| lesson.others.iter().any(is_this) || links_to(lesson, path);
-            if document.path != path && document.lesson.as_ref().is_some_and(reads) {
-                document.lesson = None;
+            if document.content.path != path && document.content.lesson.as_ref().is_some_and(reads) {
+                document.content.lesson = None;
                 document.stale = true;
             }
         }
@@ -181,8 +178,7 @@ impl<'c> ServerState<'c> {
         self.cancel_runs();
         self.contexts.forget();
         for document in self.documents.values_mut() {
-            document.blocks.clear();
-            document.lesson = None;
+            document.content.forget_models();
             document.stale = true;
         }
     }
@@ -191,9 +187,9 @@ impl<'c> ServerState<'c> {
     pub(super) fn start_runs(&mut self, uri: &str) {
         self.cancel_runs();
         let Some(document) = self.documents.get(uri) else { return };
-        let context = self.contexts.model_context(&document.path, self.course.models);
+        let context = self.contexts.model_context(&document.content.path, self.course.models);
         let context = (context.models.clone(), context.sources.clone());
-        let text = (document.file.clone(), document.path.clone());
+        let text = (document.content.file.clone(), document.content.path.clone());
         let sender = self.sender.clone();
         // The channel is closed if the server has ended.
         let done = move |finished| drop(sender.send(ServerEvent::Finished(finished)));
@@ -213,8 +209,8 @@ impl<'c> ServerState<'c> {
         else {
             return Ok(());
         };
-        document.findings = finished.findings;
-        (self.course.policy)(&document.path, &mut document.findings);
+        document.content.findings = finished.findings;
+        (self.course.policy)(&document.content.path, &mut document.content.findings);
         self.publish(&finished.uri)
     }
 
@@ -236,13 +232,13 @@ impl<'c> ServerState<'c> {
         let stale: Vec<String> = stale.map(|(uri, _)| uri.clone()).collect();
         for uri in stale {
             let Some(document) = self.documents.get_mut(&uri) else { continue };
-            let context = self.contexts.model_context(&document.path, self.course.models);
-            let checked = catch_unwind(AssertUnwindSafe(|| check_document(document, context)));
+            let context = self.contexts.model_context(&document.content.path, self.course.models);
+            let checked = catch_unwind(AssertUnwindSafe(|| document.content.check(context)));
             document.stale = false;
             if checked.is_err() {
-                document.findings.clear();
+                document.content.findings.clear();
             }
-            (self.course.policy)(&document.path, &mut document.findings);
+            (self.course.policy)(&document.content.path, &mut document.content.findings);
             self.publish(&uri)?;
         }
         Ok(())
@@ -250,10 +246,10 @@ impl<'c> ServerState<'c> {
 
     /// Sends the findings of a document.
     fn publish(&mut self, uri: &str) -> io::Result<()> {
-        let Some(OpenDocument { uri, file, version, findings, .. }) = self.documents.get(uri) else {
+        let Some(OpenDocument { uri, content, version, .. }) = self.documents.get(uri) else {
             return Ok(());
         };
-        let diagnostics = findings.iter().map(|f| diagnostic(f, file, uri)).collect();
+        let diagnostics = content.findings.iter().map(|f| diagnostic(f, &content.file, uri)).collect();
         let params = PublishDiagnosticsParams { uri: uri.clone(), diagnostics, version: Some(*version) };
         self.publish_diagnostics(params)
     }

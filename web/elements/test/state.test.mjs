@@ -19,6 +19,7 @@ test("a state goes through an address with the same bits, forces of a drag inclu
   lab.step(100);
   const fragment = fragmentWith("#lab.other=abc&section", "drop 1", await encodeState(lab.save().toBytes()));
   assert.equal(stateInFragment(fragment, "other"), "abc");
+  assert.ok(!fragment.includes("section") && fragmentWith("#play1=xyz", "drop", "a").startsWith("#play1=xyz&lab.drop=a"));
   const back = Lab.resume(await decodeState(stateInFragment(fragment, "drop 1")), json, models);
   for (const each of [lab, back]) each.step(77);
   assert.equal(bits(back.data.qpos), bits(lab.data.qpos));

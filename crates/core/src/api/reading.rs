@@ -8,7 +8,7 @@ use std::path::Path;
 pub use crate::mjcf::{
     Attr, Element, FileProblem, Files, Finding, Folder, Keyword, Kind, MAX_ALL_ATTRIBUTES, MAX_ATTRIBUTES,
     MAX_DEPTH, MAX_DOFS, MAX_ELEMENTS, MAX_FILE, MAX_GEOMS, MAX_MASS, MAX_TEXT, MjcfFileError, NoFiles,
-    Patch, Refusal, SchemaRow, Severity, Status, rules, schema_rows,
+    Patch, Refusal, SchemaRow, Severity, Status, rules, schema_root, schema_rows,
 };
 
 /// The result of reading the text of a model.

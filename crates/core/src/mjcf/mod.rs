@@ -46,7 +46,7 @@ use crate::model::Model;
 use text::diagnostic::Diagnostics;
 
 pub use labspec_finding::{Finding, Severity};
-pub use schema::{Attr, Element, Keyword, Kind, SchemaRow, Status, schema_rows};
+pub use schema::{Attr, Element, Keyword, Kind, SchemaRow, Status, schema_root, schema_rows};
 pub use text::diagnostic::MjcfFileError;
 pub use text::files::{FileProblem, Files, Folder, MAX_FILE, NoFiles};
 pub use text::patch::{Patch, Refusal};

@@ -4,10 +4,10 @@ use super::Functions;
 use super::model_file::{FilesAround, compile_source, read_file};
 use super::parts::{self, Hash, ModelFile};
 use crate::finding::{Finding, InFile, Severity};
-use crate::lint::ModelFolder;
+use crate::lint::{ModelFolder, root_of};
 use crate::models::{self, FilesOf};
 use crate::rules;
-use crate::source::{SourceFile, Sources, Text};
+use crate::source::{self, SourceFile, Sources, Text};
 use crate::spec::format::Asked;
 use crate::spec::{Lab, ModelSource};
 use labspec_core::xml::{self, Files, Folder, NoFiles, Patch, Refusal};
@@ -171,6 +171,18 @@ impl Models {
     /// The model with this name; `None` when there is none or it has errors, which are then findings of the models.
     pub fn load(&self, name: &str) -> Option<Arc<Model>> {
         self.loaded(name, |loaded| loaded.model.clone())?
+    }
+
+    /// The findings of a model text that is being edited. Other files come from where these models come from.
+    pub fn check_text(&self, file: &SourceFile, path: &Path) -> Vec<Finding> {
+        if let Some(given) = self.folder.given() {
+            let name = path.strip_prefix("models").unwrap_or(path).to_str();
+            return compile_source(file, &FilesOf(given), name, None, xml::check_xml).findings;
+        }
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let find = || Some(root_of(folder, &[]));
+        let root = self.sources.place(source::Asked::Root, folder, find).unwrap_or_default();
+        compile_file(file, path, &root, &self.sources, None).findings
     }
 
     /// The names for completions in a lesson ([`crate::spec::format::completions`]).

@@ -169,14 +169,14 @@ impl OptionJudgement<'_> {
             let truth = !true_options.is_empty();
             (format!("the simulation refutes the answer: the statement is {truth}"), truth.to_string())
         } else {
-            let say = |i: &usize| {
+            let describe = |i: &usize| {
                 let truth = if true_options.contains(i) { "true" } else { "not true" };
                 format!("{} is {truth}", self.name(*i))
             };
-            let said: Vec<String> = wrong.iter().map(say).collect();
+            let differences: Vec<String> = wrong.iter().map(describe).collect();
             let key: Vec<String> = true_options.iter().map(usize::to_string).collect();
             (
-                format!("the simulation refutes the answer: {}", said.join(", ")),
+                format!("the simulation refutes the answer: {}", differences.join(", ")),
                 format!("[{}]", key.join(", ")),
             )
         };

@@ -4,6 +4,7 @@ import { defineLessonQuiz } from "../quiz/element.js";
 import { render } from "./widget.js";
 
 export { EngineError } from "../engine/client.js";
+export { fetchModel, type FetchFile } from "../model-files.js";
 export { SimLab } from "../lab/element.js";
 export { toXapi, type QuizAnswer, type StatementOptions } from "../grades/xapi.js";
 export { contentHash, type Verified } from "../proof/verified.js";

@@ -74,10 +74,10 @@ export function stateInFragment(fragment: string, key: string): string | null {
   return null;
 }
 
-/** A fragment with the state of one lab; the other parts stay. */
+/** A fragment with the state of one lab; the other parts stay, but for the name of a section. */
 export function fragmentWith(fragment: string, key: string, state: string): string {
   const name = `lab.${encodeURIComponent(key)}`;
-  const others = fragment.replace(/^#/, "").split("&").filter((part) => /^lab\.[^=]*=/.test(part) && !part.startsWith(`${name}=`));
+  const others = fragment.replace(/^#/, "").split("&").filter((part) => /^[\w.%-]+=/.test(part) && !part.startsWith(`${name}=`));
   return `#${[...others, `${name}=${state}`].join("&")}`;
 }
 

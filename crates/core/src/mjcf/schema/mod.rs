@@ -246,6 +246,11 @@ pub(crate) static ROOT: Element = Element::new("mujoco", &[attributes! { TEXT =>
     &INCLUDE,
 ]);
 
+/// The root of the schema: the element `mujoco`, with everything that it may contain.
+pub fn schema_root() -> &'static Element {
+    &ROOT
+}
+
 /// A row of the compatibility table.
 #[derive(Clone, Debug)]
 pub struct SchemaRow {

@@ -3,57 +3,37 @@
 //! A lesson is parsed again at every change, which is fast. Its programs are bound block by block. The findings of a block are
 //! cached as long as its text and the labs that it names do not change.
 
-use super::context::ModelContext;
-use super::documents::OpenDocument;
-use labspec::bind::scene::{Models, compile_file};
+use super::document::{Context, Document};
+use labspec::bind::scene::Models;
 use labspec::check::{self, CheckLevel, LabOutcome};
 use labspec::finding::Finding;
-use labspec::lint::{load_lesson_at, root_of};
-use labspec::source::Asked;
 use labspec::spec::{FileKind, Lab, LabEntry, Lesson, Other, Verify, VerifyLab};
 use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::ops::Range;
-use std::path::Path;
-use std::sync::Arc;
 
-/// Checks a document, and stores the findings in it.
-pub(super) fn check_document(document: &mut OpenDocument, context: &ModelContext) {
-    document.stale = false;
-    match document.kind {
-        FileKind::Lesson | FileKind::Json => {
-            let lesson = read(document, context);
-            // JSON that contains neither labs nor quizzes belongs to another program.
-            let other =
-                document.kind == FileKind::Json && lesson.labs.is_empty() && lesson.quizzes.is_empty();
-            document.findings =
-                if other { Vec::new() } else { check_blocks(&lesson, &mut document.blocks, &context.models) };
-            document.lesson = Some(Arc::new(lesson));
-        }
-        FileKind::Model => {
-            let folder = document.path.parent().unwrap_or(Path::new(""));
-            let find = || Some(root_of(folder, &[]));
-            let root = context.sources.place(Asked::Root, folder, find).unwrap_or_default();
-            let found = compile_file(&document.file, &document.path, &root, &context.sources, None).findings;
-            let is_here = |f: &Finding| f.path == *document.file.path();
-            document.findings = found.into_iter().filter(is_here).collect();
-        }
-        FileKind::Unknown => {}
+impl Document {
+    /// Checks the text, and stores the findings.
+    pub fn check(&mut self, context: &Context) {
+        self.findings = match self.kind {
+            FileKind::Lesson | FileKind::Json => self.check_lesson(context),
+            FileKind::Model => {
+                let found = context.models.check_text(&self.file, &self.path);
+                found.into_iter().filter(|f| f.path == *self.file.path()).collect()
+            }
+            FileKind::Unknown => Vec::new(),
+        };
     }
-}
 
-/// The lesson of a document, parsed if necessary.
-pub(super) fn lesson(document: &mut OpenDocument, context: &ModelContext) -> Option<Arc<Lesson>> {
-    if !matches!(document.kind, FileKind::Lesson | FileKind::Json) {
-        return None;
+    fn check_lesson(&mut self, context: &Context) -> Vec<Finding> {
+        self.lesson = None;
+        let Some(lesson) = self.read_lesson(context) else { return Vec::new() };
+        // JSON that contains neither labs nor quizzes belongs to another program.
+        if self.kind == FileKind::Json && lesson.labs.is_empty() && lesson.quizzes.is_empty() {
+            return Vec::new();
+        }
+        check_blocks(&lesson, &mut self.blocks, &context.models)
     }
-    let lesson = document.lesson.clone().unwrap_or_else(|| Arc::new(read(document, context)));
-    document.lesson = Some(lesson.clone());
-    Some(lesson)
-}
-
-fn read(document: &OpenDocument, context: &ModelContext) -> Lesson {
-    load_lesson_at(document.file.clone(), &document.path, &context.sources, context.models.folder())
 }
 
 /// The findings of a lesson. Only new blocks are bound.
@@ -192,12 +172,12 @@ fn spans(f: &Finding) -> impl Iterator<Item = &Range<usize>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use labspec::lint::ModelFolder;
+    use labspec::lint::{ModelFolder, load_lesson_at};
     use labspec::source::{SourceFile, Sources};
-    use lsp_types::TextDocumentContentChangeEvent;
     use std::path::Path;
+    use std::sync::Arc;
 
-    /// The findings of a lesson without the cache, which [`check_document`] must find as well.
+    /// The findings of a lesson without the cache, which [`Document::check`] must find as well.
     fn plainly(file: SourceFile, path: &Path, models: &Models) -> Vec<Finding> {
         check::check_lesson(
             load_lesson_at(file, path, &Sources::Disk, models.folder()),
@@ -228,19 +208,14 @@ It comes late.
     fn what_is_kept_changes_nothing() {
         let specs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../specs").canonicalize().unwrap();
         let folder = ModelFolder::open(&specs.join("models")).unwrap();
-        let context = ModelContext {
-            models: Arc::new(Models::new(folder)),
-            sources: Sources::Disk,
-            started: Default::default(),
-        };
+        let context = Context::new(Arc::new(Models::new(folder)), Sources::Disk);
         let (mut changes, mut with_findings) = (0, 0);
-        let whole = |text: String| TextDocumentContentChangeEvent { range: None, range_length: None, text };
         let read = |name: &str| std::fs::read_to_string(specs.join("lessons").join(name)).unwrap();
         let lessons =
             ["01-what-a-step-computes.md", "02-bounce-and-swing.md"].map(|name| (name, read(name), 7));
         for (name, text, apart) in lessons.into_iter().chain([("naming.md", NAMING.to_string(), 1)]) {
             let path = specs.join("lessons").join(name);
-            let mut document = OpenDocument::new("file:///a.md".parse().unwrap(), path.clone(), &text, 1);
+            let mut document = Document::new(path.clone(), &text);
             let typed =
                 [("qpos", "qpso"), ("\"verify\"", "\"verfy\""), ("{", ""), ("data.", "dta."), ("```", "``")];
             for (at, what) in
@@ -249,8 +224,8 @@ It comes late.
                 for (place, _) in text.match_indices(at).step_by(apart) {
                     let mut changed = text.clone();
                     changed.replace_range(place..place + at.len(), what);
-                    document.change(&[whole(changed)], 2);
-                    check_document(&mut document, &context);
+                    document.set_text(changed);
+                    document.check(&context);
                     let plain = plainly(document.file.clone(), &path, &context.models);
                     assert_eq!(document.findings, plain, "{what} at {place} of {name}");
                     changes += 1;
@@ -258,8 +233,8 @@ It comes late.
                 }
             }
             if name == "naming.md" {
-                document.change(&[whole(text)], 3);
-                check_document(&mut document, &context);
+                document.set_text(text);
+                document.check(&context);
                 assert_eq!(document.findings, []);
             }
         }

@@ -1,6 +1,7 @@
 //! The names in a model file: which elements have names, and which attributes refer to them. The text may be invalid, as it is
 //! while an author types. The MJCF schema determines which attributes contain names.
 
+use super::tag::{Attribute, Markup, OpenElements, Tags};
 use labspec_core::xml::{Kind, schema_rows};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -8,25 +9,27 @@ use std::sync::LazyLock;
 
 /// A name in a model file.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct ElementName {
+pub struct ElementName {
     /// The noun for the named object: `body`, `joint`.
-    pub(super) noun: &'static str,
-    pub(super) name: String,
+    pub noun: &'static str,
+    /// The name.
+    pub name: String,
     /// The byte range of the name, without quotes.
-    pub(super) span: Range<usize>,
+    pub span: Range<usize>,
     /// Whether the element gets its name here.
-    pub(super) defines: bool,
+    pub defines: bool,
 }
 
 /// All names in a model file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(super) struct ElementNames {
-    pub(super) all: Vec<ElementName>,
+pub struct ElementNames {
+    /// The names that elements get or refer to, in order.
+    pub all: Vec<ElementName>,
     /// An element that generates names from others or takes them from other files. Then a name may have meanings that
     /// this file does not show.
-    pub(super) composed: Option<String>,
+    pub composed: Option<String>,
     /// Texts in attributes that the schema does not know, which may be names.
-    pub(super) texts: Vec<(String, Range<usize>)>,
+    pub texts: Vec<(String, Range<usize>)>,
 }
 
 /// Elements that generate names.
@@ -47,7 +50,7 @@ static SCHEMA: LazyLock<BTreeMap<String, Kind>> = LazyLock::new(|| {
 });
 
 /// The noun for the value of `objtype` and similar attributes.
-fn noun_of(word: &str) -> Option<&'static str> {
+pub(crate) fn noun_of(word: &str) -> Option<&'static str> {
     let word = if word == "xbody" { "body" } else { word };
     SCHEMA.values().find_map(|kind| match kind {
         Kind::Name(noun) if *noun == word => Some(*noun),
@@ -56,84 +59,19 @@ fn noun_of(word: &str) -> Option<&'static str> {
 }
 
 /// All names in the text of a model.
-pub(super) fn element_names(xml: &str) -> ElementNames {
+pub fn element_names(xml: &str) -> ElementNames {
     let mut found = ElementNames::default();
-    // The first open element below the root is the section.
-    let mut open: Vec<&str> = Vec::new();
-    let mut at = 0;
-    while let Some(start) = xml.get(at..).and_then(|rest| rest.find('<')).map(|i| at + i) {
-        let rest = xml.get(start..).unwrap_or("");
-        let behind = |end: &str| rest.find(end).map_or(xml.len(), |i| start + i + end.len());
-        if rest.starts_with("<!--") {
-            at = behind("-->");
-        } else if rest.starts_with("<![CDATA[") {
-            at = behind("]]>");
-        } else if rest.starts_with("<?") || rest.starts_with("<!") {
-            at = behind(">");
-        } else if let Some(name) = rest.strip_prefix("</") {
-            let name = word(name);
-            // An element that was not closed ends with its parent.
-            if let Some(depth) = open.iter().rposition(|o| *o == name) {
-                open.truncate(depth);
-            }
-            at = start + 2 + name.len();
-        } else {
-            let name = word(rest.get(1..).unwrap_or(""));
-            let (attributes, end, closed) = attributes(xml, start + 1 + name.len());
-            let section = open.get(1).copied().unwrap_or(name);
-            element(xml, section, name, &attributes, &mut found);
-            if !closed && !name.is_empty() && open.len() < 1000 {
-                open.push(name);
-            }
-            at = end.max(start + 1);
+    let mut open = OpenElements::default();
+    for markup in Tags::new(xml) {
+        let Markup::Tag(tag) = markup else { continue };
+        if !tag.is_end {
+            // The first open element below the root is the section.
+            let section = open.names().get(1).copied().unwrap_or(tag.name);
+            element(xml, section, tag.name, &tag.attributes, &mut found);
         }
+        open.pass(&tag);
     }
     found
-}
-
-/// The name at the beginning of a text.
-fn word(text: &str) -> &str {
-    let end = text
-        .find(|c: char| !(c.is_alphanumeric() || matches!(c, '_' | '-' | ':' | '.')))
-        .unwrap_or(text.len());
-    text.get(..end).unwrap_or("")
-}
-
-/// The name of an attribute, and the byte range of its value.
-type Attribute<'x> = (&'x str, Range<usize>);
-
-/// The attributes of a tag from a byte on, the end of the tag, and whether the element ends with the tag.
-fn attributes(xml: &str, from: usize) -> (Vec<Attribute<'_>>, usize, bool) {
-    let (mut all, mut at) = (Vec::new(), from);
-    let rest = |at: usize| xml.get(at..).unwrap_or("");
-    let blank = |at: usize| at + rest(at).len() - rest(at).trim_start().len();
-    loop {
-        at = blank(at);
-        let name = word(rest(at));
-        let Some(first) = rest(at).chars().next() else { return (all, at, false) };
-        match first {
-            '>' => return (all, at + 1, false),
-            '/' if rest(at).starts_with("/>") => return (all, at + 2, true),
-            // The next tag begins, so this one was not finished.
-            '<' => return (all, at, false),
-            _ if name.is_empty() => at += first.len_utf8(),
-            _ => {
-                let equals = blank(at + name.len());
-                at += name.len();
-                if !rest(equals).starts_with('=') {
-                    continue;
-                }
-                let start = blank(equals + 1);
-                let Some(quote) = rest(start).chars().next().filter(|c| matches!(c, '"' | '\'')) else {
-                    at = start;
-                    continue;
-                };
-                let Some(length) = rest(start + 1).find(quote) else { return (all, xml.len(), false) };
-                all.push((name, start + 1..start + 1 + length));
-                at = start + 1 + length + 1;
-            }
-        }
-    }
 }
 
 /// Collects the names that an element defines and refers to.

@@ -8,19 +8,21 @@ use labspec_expr::{Compiled, Compiler, Globals, Type};
 
 /// A source text.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct CodeText<'l> {
-    pub(super) form: Form,
+pub struct CodeText<'l> {
+    /// How it is written.
+    pub form: Form,
     /// Which functions exist.
-    pub(super) scope: Scope,
-    pub(super) text: &'l Text,
+    pub scope: Scope,
+    /// The text, with its place in the lesson.
+    pub text: &'l Text,
     /// The lab whose model it uses.
-    pub(super) lab: &'l Lab,
+    pub lab: &'l Lab,
     /// The claim that contains it.
-    pub(super) verify: Option<&'l Verify>,
+    pub verify: Option<&'l Verify>,
 }
 
 /// All source texts, in the order of the lesson.
-pub(super) fn code_texts(lesson: &Lesson) -> Vec<CodeText<'_>> {
+pub fn code_texts(lesson: &Lesson) -> Vec<CodeText<'_>> {
     let mut all = Vec::new();
     for lab in lesson.all_labs() {
         let code = lab.code().into_iter();
@@ -57,7 +59,7 @@ fn add_claim<'l>(lesson: &'l Lesson, verify: &'l Verify, lab: Option<&'l Lab>, a
 }
 
 /// The source text at a byte of the lesson, and the offset in the text.
-pub(super) fn code_at(lesson: &Lesson, byte: usize) -> Option<(CodeText<'_>, usize)> {
+pub fn code_at(lesson: &Lesson, byte: usize) -> Option<(CodeText<'_>, usize)> {
     let all = code_texts(lesson);
     let piece = all.into_iter().find(|p| {
         let span = p.text.span();
@@ -67,7 +69,7 @@ pub(super) fn code_at(lesson: &Lesson, byte: usize) -> Option<(CodeText<'_>, usi
 }
 
 /// The offset in a text for a byte of the file. The mapping is monotonic.
-fn offset_in_text(text: &Text, byte: usize) -> usize {
+pub(crate) fn offset_in_text(text: &Text, byte: usize) -> usize {
     let (mut low, mut high) = (0, text.value.len());
     while low < high {
         let middle = low + (high - low) / 2;
@@ -81,7 +83,7 @@ fn offset_in_text(text: &Text, byte: usize) -> usize {
 }
 
 /// Compiles a source text with help for each of its parts.
-pub(super) fn explained(piece: &CodeText<'_>, model: &Model, globals: &mut Globals) -> Compiled {
+pub fn explained(piece: &CodeText<'_>, model: &Model, globals: &mut Globals) -> Compiled {
     let readouts = labspec::verify::labels(piece.lab);
     let names = ModelNames::new(model, piece.scope).showing(&readouts);
     let mut compiler = Compiler::new(&names, globals).with_value(Some(Type::Any)).explaining();

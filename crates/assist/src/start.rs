@@ -21,20 +21,20 @@ const MOST_ELEMENTS: usize = 9;
 
 /// A lab at its start.
 #[derive(Debug)]
-pub(super) struct StartedLab {
+pub(crate) struct StartedLab {
     /// The text of the lab.
     key: String,
-    pub(super) model: Arc<Model>,
+    pub(crate) model: Arc<Model>,
     session: Session<'static>,
 }
 
 /// The labs into which a user pointed last.
 #[derive(Debug, Default)]
-pub(super) struct StartedLabs(Vec<StartedLab>);
+pub(crate) struct StartedLabs(Vec<StartedLab>);
 
 impl StartedLabs {
     /// Returns a lab, started if necessary, or `None` if its model does not exist or has errors.
-    pub(super) fn start(&mut self, models: &Models, lab: &Lab, key: &str) -> Option<&StartedLab> {
+    pub(crate) fn start(&mut self, models: &Models, lab: &Lab, key: &str) -> Option<&StartedLab> {
         if let Some(at) = self.0.iter().position(|s| s.key == key) {
             return self.0.get(at);
         }
@@ -52,7 +52,7 @@ impl StartedLabs {
 }
 
 /// The value of an expression at the start of the lab as text, or `None` if it is invalid or exceeds its work limit.
-pub(super) fn value(started: &StartedLab, code: &str) -> Option<String> {
+pub(crate) fn value(started: &StartedLab, code: &str) -> Option<String> {
     let mut session = started.session.clone();
     if session.ended().is_some() {
         return None;
@@ -65,7 +65,7 @@ pub(super) fn value(started: &StartedLab, code: &str) -> Option<String> {
 }
 
 /// The unit of an expression, or `None` if it is uncertain or the expression is dimensionless.
-pub(super) fn unit(started: &StartedLab, lab: &Lab, code: &str) -> Option<String> {
+pub(crate) fn unit(started: &StartedLab, lab: &Lab, code: &str) -> Option<String> {
     let dimension = dimension_of(lab, &started.model, started.session.programs(), code)?;
     // A literal number may have any dimension.
     (!dimension.is_number() && !dimension.factor.is_nan()).then(|| written(&dimension))
