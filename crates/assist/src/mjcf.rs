@@ -216,7 +216,7 @@ fn values(xml: &str, open: &[&str], tag: &Tag<'_>, name: &str, span: &Range<usiz
         names
     };
     let (names, kind, detail) = match attribute.kind {
-        Kind::Words(words) => {
+        Kind::Keywords(words) => {
             let supported = words.iter().filter(|w| w.supported).map(|w| w.text.to_string());
             (supported.collect(), CompletionKind::Value, format!("a value of `{name}`"))
         }

@@ -162,6 +162,7 @@ fn question_twin(question: &Question, addresses: &mut dyn Addresses) -> String {
             }
             out.push_str("</ol>");
         }
+        QuestionKind::TrueFalse { .. } => out.push_str("<p class=\"blank\">True or false: ________</p>"),
         QuestionKind::Numeric { unit, .. } => {
             let unit = unit.as_ref().map_or(String::new(), |unit| format!(" {}", escape(unit.as_str())));
             let _ = write!(out, "<p class=\"blank\">Your answer: ________{unit}</p>");

@@ -31,9 +31,9 @@ fn read(cx: &Context, node: &Node) -> Texture {
     };
     let grid = p.ints("gridsize").unwrap_or(&[]);
     Texture {
-        kind: p.word("type").unwrap_or(default.kind),
-        builtin: p.word("builtin").unwrap_or(default.builtin),
-        mark: p.word("mark").unwrap_or(default.mark),
+        kind: p.keyword("type").unwrap_or(default.kind),
+        builtin: p.keyword("builtin").unwrap_or(default.builtin),
+        mark: p.keyword("mark").unwrap_or(default.mark),
         rgb1: p.reals("rgb1", default.rgb1),
         rgb2: p.reals("rgb2", default.rgb2),
         markrgb: p.reals("markrgb", default.markrgb),
@@ -59,5 +59,5 @@ fn resolve(cx: &Context, node: &Node, written: &str) -> Option<String> {
         "" => file.to_string(),
         folder => format!("{folder}/{file}"),
     };
-    files::clean(&part.folder, &whole)
+    files::normalize_path(&part.folder, &whole)
 }
