@@ -1,4 +1,4 @@
-/** One thing that is wrong or doubtful, and where. */
+/** A mistake or a doubt, with its position. */
 export interface Finding {
   /** The rule, e.g. `unknown-field`. */
   readonly code: string;
@@ -19,11 +19,11 @@ export interface Finding {
   readonly help: string | null;
 }
 
-/** What every call throws. */
+/** The error of every call. */
 export class LabspecError extends Error {
   /** Short and stable: `wrong-type`, `not-ready`, `freed`, `unknown-name`, or the rule of the first finding. */
   readonly code: string;
-  /** What is wrong in the texts that were given. */
+  /** The mistakes in the given texts. */
   readonly findings: readonly Finding[];
 
   constructor(code: string, message: string, findings: readonly Finding[] = []) {
@@ -87,7 +87,7 @@ export function locate(raw: readonly unknown[], texts: Texts): Finding[] {
 
 const NO_TEXTS: Texts = new Map();
 
-/** Whatever was thrown, as an error of this package. */
+/** Converts a thrown value to an error of this package. */
 export function asLabspecError(e: unknown, texts: Texts = NO_TEXTS): LabspecError {
   if (e instanceof LabspecError) return e;
   if (e instanceof WebAssembly.RuntimeError || e instanceof RangeError) {
@@ -101,7 +101,7 @@ export function asLabspecError(e: unknown, texts: Texts = NO_TEXTS): LabspecErro
   return new LabspecError("call", String(e));
 }
 
-/** Calls the module; what it throws becomes an error of this package. */
+/** Calls the module, and converts its errors to errors of this package. */
 export function call<T>(f: () => T, texts?: Texts): T {
   try {
     return f();

@@ -5,7 +5,7 @@ import { Data, Model } from "./model.js";
 import { EXPRESSION, weight } from "./weight.js";
 import type { RawExpression } from "#glue";
 
-/** What an expression may give. */
+/** A value of an expression. */
 export type ExpressionValue = number | string | boolean | null;
 
 /** An expression or statements of the accessor language, compiled for a model: names, indexes and types are checked. */
@@ -13,7 +13,7 @@ export class Expression {
   #raw: RawExpression | undefined;
   #weight: ArrayBuffer | undefined = weight(EXPRESSION);
   readonly #texts: ReadonlyMap<string, string>;
-  /** How many texts were compiled together. */
+  /** The number of texts that were compiled together. */
   readonly count: number;
 
   /** Compiles a text, or several that share their `ctx` variables. */
@@ -32,19 +32,19 @@ export class Expression {
     return this.#with(data, at, (raw, d, m, i) => raw.value(m, d, i) as ExpressionValue);
   }
 
-  /** Its value as a number; NaN where it is not one. */
+  /** Its value as a number; NaN for any other value. */
   number(data: Data, at = 0): number {
     return this.#with(data, at, (raw, d, m, i) => raw.number(m, d, i));
   }
 
-  /** The values now and after each of so many steps: a column for each text. */
+  /** The values now and after each of a number of steps: a column for each text. */
   record(data: Data, steps: number): Float64Array[] {
     const most = check.count(steps, "the number of steps");
     const flat = this.#with(data, 0, (raw, d, m) => raw.record(m, d, most));
     return Array.from({ length: this.count }, (_, i) => flat.subarray(i * (most + 1), (i + 1) * (most + 1)));
   }
 
-  /** Gives the memory back. Without it, the garbage collector does, later. */
+  /** Releases the memory. Otherwise the garbage collector does so later. */
   free(): void {
     this.#raw?.free();
     [this.#raw, this.#weight] = [undefined, undefined];

@@ -4,7 +4,7 @@ import { markReady } from "./state.js";
 
 let memory: WebAssembly.Memory | undefined;
 
-/** Why the module is not there, where an entry knows it. */
+/** The reason that the module is missing, if an entry knows it. */
 let missing = "import it from an entry that loads it, or call `init` and wait for it";
 
 export function notReady(why: string): void {
@@ -17,7 +17,7 @@ export function ready(): typeof glue {
   return glue;
 }
 
-/** The memory of the module. Its buffer is another one after it has grown. */
+/** The memory of the module. It has a new buffer after it has grown. */
 export function buffer(): ArrayBuffer {
   ready();
   return (memory as WebAssembly.Memory).buffer;

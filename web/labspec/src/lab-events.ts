@@ -2,7 +2,7 @@ import * as check from "./arguments.js";
 import { LabspecError, type Finding } from "./error.js";
 import type { Crossing, LabEvents, Shown, WarningKind } from "./lab-types.js";
 
-/** What events are found in. */
+/** The parts of a lab in which events are found. */
 export interface Watched {
   readonly time: number;
   readonly isOver: boolean;
@@ -26,7 +26,7 @@ const TYPES = ["contact", "finding", "warning", "end"] as const;
 /** The warnings of the engine, in its order. */
 const WARNINGS: readonly WarningKind[] = ["inertia", "contactfull", "cnstrfull", "badqpos", "badqvel", "badqacc", "badctrl"];
 
-/** The listeners of a lab, and what was reported to them. */
+/** The listeners of a lab, and the events that were reported to them. */
 export class Events {
   readonly #lab: Watched;
   readonly #listeners = new Map<string, Set<(event: never) => void>>();
@@ -40,7 +40,7 @@ export class Events {
     this.#lab = lab;
   }
 
-  /** Whether nobody listens. */
+  /** Whether there are no listeners. */
   get isEmpty(): boolean {
     return this.#listeners.size === 0 && this.#watches.size === 0;
   }
@@ -89,14 +89,14 @@ export class Events {
     this.#ended = false;
   }
 
-  /** The lab is in another state, with what was found before it. */
+  /** The lab was restored to another state, with earlier findings. */
   moved(): void {
     this.#ended = false;
     if (this.has("finding")) this.#reported = this.#lab.findings.length;
     if (this.has("warning")) this.#warned = this.#warnings();
   }
 
-  /** Reports what is different since the last report. */
+  /** Reports all changes since the last report. */
   report(): void {
     if (this.isEmpty) return;
     if (this.#watches.size > 0) this.#reportCrossings();

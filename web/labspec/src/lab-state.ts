@@ -2,14 +2,14 @@ import type { ControlValue, Models } from "./lab-types.js";
 import { STATE, weight } from "./weight.js";
 import type { State as RawState } from "#glue";
 
-/** What a student did, so that it can be done again. */
+/** An action of a student, which can be repeated. */
 export type Action = readonly ["play", number] | readonly ["set", string, ControlValue] | readonly ["press", string] | readonly ["reset"]
   | readonly ["force", number, readonly number[]];
 
 /** The format of saved states. */
 export const FORMAT = 1;
 
-/** A state of a lab, to come back to. */
+/** A saved state of a lab. */
 export class LabState {
   readonly #raw: RawState;
   readonly #actions: readonly Action[];
@@ -26,7 +26,7 @@ export class LabState {
     return { raw: state.#raw, actions: state.#actions };
   }
 
-  /** The state as bytes, for `Lab.resume`: what was done to the lab since it was opened. */
+  /** The state as bytes, for `Lab.resume`: all actions since the lab was opened. */
   toBytes(): Uint8Array {
     const content = { format: FORMAT, lab: this.#lab, actions: this.#actions };
     void this.#weight;

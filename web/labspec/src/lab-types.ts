@@ -3,7 +3,7 @@ import type { Finding } from "./error.js";
 /** Models by name (MJCF), and files that they name, by path. */
 export type Models = Readonly<Record<string, string | Uint8Array>>;
 
-/** What a control can be set to. */
+/** A value of a control. */
 export type ControlValue = number | string | boolean;
 
 /** A slider, a select or a button. */
@@ -59,13 +59,13 @@ export interface TextureDeclaration {
 /** Warnings of the engine, by MuJoCo's names: an inertia matrix that is near singular, more contacts or constraints than there is room for, and bad numbers. */
 export type WarningKind = "inertia" | "contactfull" | "cnstrfull" | "badqpos" | "badqvel" | "badqacc" | "badctrl";
 
-/** What `lab.on` reports, by type. */
+/** The events of `lab.on`, by type. */
 export interface LabEvents {
   /** Two geoms begin or cease to touch. */
   contact: { readonly time: number; readonly geom1: number; readonly geom2: number; readonly touching: boolean };
   /** A shown number crosses a level. */
   crossing: { readonly time: number; readonly index: number; readonly level: number; readonly value: number; readonly rising: boolean };
-  /** Something broke. */
+  /** A program or the engine failed. */
   finding: Finding;
   /** The engine warns. A bad number resets the lab: `time` is then the one before. */
   warning: {
@@ -73,7 +73,7 @@ export interface LabEvents {
     readonly kind: WarningKind;
     /** The coordinate, degree of freedom or actuator that causes it. */
     readonly index: number;
-    /** How often since the data were reset. */
+    /** The number of times since the last reset of the data. */
     readonly count: number;
   };
   /** The lab has stopped by itself. */
@@ -88,9 +88,9 @@ export interface Crossing {
 
 /** Options of `play`. */
 export interface PlayOptions {
-  /** Cancels: the lab then stands where it got to. */
+  /** Cancels the run. The lab keeps the state that it has reached. */
   readonly signal?: AbortSignal;
-  /** Milliseconds of work before the page gets its turn; 8 when not given. */
+  /** The work before the page gets its turn, ms; 8 by default. */
   readonly budget?: number;
   /** Called after each piece of work. */
   readonly onProgress?: (time: number) => void;

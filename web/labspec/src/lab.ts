@@ -340,7 +340,7 @@ export class Lab {
     return this.#events.add(type, listener, crossing);
   }
 
-  /** Gives the memory back. Without it, the garbage collector does, later. */
+  /** Releases the memory. Otherwise the garbage collector does so later. */
   free(): void {
     this.#raw?.free();
     [this.#raw, this.#weight] = [undefined, undefined];

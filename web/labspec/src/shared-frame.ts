@@ -1,4 +1,4 @@
-/** What a page draws. The arrays belong to the page. */
+/** The data that a page draws. The page owns the arrays. */
 export interface Frame {
   readonly time: number;
   readonly numbers: Float64Array;
@@ -28,7 +28,7 @@ interface Place {
 
 /**
  * The frames of a lab in memory that a worker and its page share. The worker writes frame n into place n % 2, then the count n; the page
- * copies the last frame, again if the worker has finished another one meanwhile.
+ * copies the last frame, and repeats the copy if the worker has finished another frame meanwhile.
  */
 export class SharedFrames {
   readonly memory: FrameMemory;

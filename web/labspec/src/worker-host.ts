@@ -5,11 +5,11 @@ import type { Models } from "./lab-types.js";
 import { SharedFrames, canShare, type Frame } from "./shared-frame.js";
 import type { OpenedLab, Port, Reply, Request } from "./worker-protocol.js";
 
-/** What can be asked of a lab, beyond its own methods. */
+/** The properties and methods of a lab that a page can call by name. */
 const READS = ["controls", "shown", "time", "timestep", "isOver", "numbers", "findings", "contacts", "reads", "writes", "textures"] as const;
 const CALLS = ["value", "set", "press", "reset", "step", "playTo", "record", "names", "takePlayback"] as const;
 
-/** The memory of numbers in a result, at any depth: it is handed over. */
+/** The buffers of numbers in a result, at any depth. They are transferred. */
 function buffersOf(result: unknown): ArrayBuffer[] {
   if (result instanceof Float64Array || result instanceof Float32Array) return result.buffer instanceof ArrayBuffer ? [result.buffer] : [];
   return typeof result === "object" && result !== null && !ArrayBuffer.isView(result) ? Object.values(result).flatMap(buffersOf) : [];
@@ -28,7 +28,7 @@ export function serve(port: Port, ready: Promise<void>): void {
     if (found === undefined) throw new LabspecError("freed", "this lab was freed");
     return found;
   };
-  /** What a page draws: copies that are handed over, or nothing where shared memory holds it. */
+  /** The data that a page draws: copies, which are transferred, or null if they are in shared memory. */
   const frame = (of: Lab): Frame | null => {
     const shared = frames.get(of);
     if (shared === undefined) return { time: of.time, numbers: of.numbers, poses: of.poses.slice() };

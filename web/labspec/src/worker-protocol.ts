@@ -1,6 +1,6 @@
 import type { FrameMemory } from "./shared-frame.js";
 
-/** What a page asks of the worker. */
+/** A call of the page. */
 export interface Request {
   readonly id: number;
   /** The lab; 0 for calls of the worker itself. */
@@ -9,26 +9,26 @@ export interface Request {
   readonly args: readonly unknown[];
 }
 
-/** What the worker answers. */
+/** The answer of the worker. */
 export interface Reply {
   readonly id: number;
   readonly result?: unknown;
   readonly error?: { readonly code: string; readonly message: string; readonly findings: readonly unknown[] };
 }
 
-/** A lab that the worker has opened; with memory for its frames where that can be shared. */
+/** An open lab, with the memory of its frames if memory can be shared. */
 export interface OpenedLab {
   readonly id: number;
   readonly memory: FrameMemory | undefined;
 }
 
-/** The module, which the page fetches and compiles while the worker starts; or why there is none. */
+/** The module, which the page fetches and compiles while the worker starts; or the reason that there is none. */
 export interface GivenModule {
   readonly module: WebAssembly.Module | undefined;
   readonly why?: string;
 }
 
-/** Either end. */
+/** One end of the channel. */
 export interface Port {
   post(message: unknown, transfer: readonly ArrayBuffer[]): void;
   listen(listener: (message: unknown) => void): void;

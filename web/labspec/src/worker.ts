@@ -11,7 +11,7 @@ export type { Frame } from "./shared-frame.js";
 export interface WorkerState {
   /** The state as bytes: see `LabState`. */
   toBytes(): Promise<Uint8Array>;
-  /** Lets the worker drop it. */
+  /** Deletes it in the worker. */
   free(): Promise<void>;
 }
 
@@ -30,7 +30,7 @@ export class Lab {
     [this.#ask, this.#cancel, this.#frames] = [ask, cancel, frames];
   }
 
-  /** Whether frames come through shared memory: where the page is isolated from other origins, and in node. */
+  /** Whether frames are in shared memory: in a page that is isolated from other origins, and in node. */
   get isShared(): boolean {
     return this.#frames !== undefined;
   }
@@ -71,7 +71,7 @@ export class Lab {
   takePlayback(): Promise<Playback | null> { return this.#get("takePlayback"); }
   free(): Promise<void> { return this.#get("free"); }
 
-  /** Plays in pieces: other calls are answered between them, and a signal cancels. Gives the last frame. */
+  /** Plays in pieces. The worker answers other calls between them, and a signal cancels the run. Returns the last frame. */
   async play(time: number, options: { readonly signal?: AbortSignal; readonly budget?: number } = {}): Promise<Frame & { readonly steps: number }> {
     const run = ++Lab.#runs;
     const cancel = (): void => this.#cancel(run);

@@ -106,8 +106,11 @@ export class SimLab extends HTMLElement {
     this.#seen.observe(this);
     // The engine starts while the page is laid out, and a lab in the window does not wait for the observer.
     prepareEngine();
-    const { top, bottom } = this.getBoundingClientRect();
-    if (bottom > -MARGIN && top < innerHeight + MARGIN) this.#want();
+    // A script that adds the element may set its properties afterwards.
+    queueMicrotask(() => {
+      const { top, bottom } = this.getBoundingClientRect();
+      if (this.isConnected && bottom > -MARGIN && top < innerHeight + MARGIN) this.#want();
+    });
   }
 
   disconnectedCallback(): void {

@@ -1,4 +1,4 @@
-/** Fetches and compiles the module that lies beside this file; `undefined` where it is not there. */
+/** Fetches and compiles the module beside this file; `undefined` if it is missing. */
 export async function fetched(signal?: AbortSignal): Promise<WebAssembly.Module | undefined> {
   try {
     const response = await fetch(new URL("./labspec.wasm", import.meta.url), signal === undefined ? {} : { signal });

@@ -2,7 +2,7 @@ import { call, LabspecError } from "../error.js";
 import { limited, start } from "../glue.js";
 import { isReady, type InitOptions } from "../state.js";
 
-/** What `init` takes: the bytes of `labspec.wasm`, its compiled form, or where it is. */
+/** The argument of `init`: the bytes of `labspec.wasm`, its compiled form, or its address. */
 export type Source = Uint8Array | ArrayBuffer | WebAssembly.Module | Response | URL | string;
 
 /** Makes the module ready. */
