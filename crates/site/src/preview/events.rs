@@ -53,7 +53,7 @@ impl EventHub {
             drop(guard);
             match sent == Some(version) {
                 true => out.write_all(b": waiting\n\n")?,
-                false => write!(out, "data: {version}\n\n")?,
+                false => out.write_all(format!("data: {version}\n\n").as_bytes())?,
             }
             out.flush()?;
             sent = Some(version);

@@ -49,6 +49,8 @@ impl Head {
 pub(super) fn read_head(stream: &mut TcpStream) -> io::Result<Head> {
     stream.set_read_timeout(Some(PATIENCE))?;
     stream.set_write_timeout(Some(PATIENCE))?;
+    // Answers are written at once, however small.
+    stream.set_nodelay(true)?;
     let wrong = || io::Error::from(io::ErrorKind::InvalidData);
     let (mut bytes, mut part) = (Vec::new(), [0; 4096]);
     loop {

@@ -2,8 +2,10 @@
 import { patchPage } from "./patch.js";
 import { startTools } from "./tools.js";
 
+const metaIn = (page: ParentNode, name: string): string => page.querySelector<HTMLMetaElement>(`meta[name='labspec-${name}']`)?.content ?? "";
+
 /** The version that the page shows. */
-let displayed = document.querySelector<HTMLMetaElement>("meta[name='labspec-version']")?.content ?? "";
+let displayed = metaIn(document, "version");
 let running: Promise<void> = Promise.resolve();
 
 /** Fetches the page again, and brings what has changed into this one. */
@@ -16,11 +18,11 @@ async function update(version: string): Promise<void> {
     return;
   }
   const fresh = new DOMParser().parseFromString(await response.text(), "text/html");
-  const next = fresh.querySelector<HTMLMetaElement>("meta[name='labspec-version']")?.content ?? "";
   const main = document.querySelector("main");
-  if (main?.dataset["page"] === undefined) return location.reload();
+  // An index, or the page of a preview that has ended: another one has another token.
+  if (main?.dataset["page"] === undefined || metaIn(fresh, "token") !== metaIn(document, "token")) return location.reload();
   await patchPage(fresh);
-  displayed = next;
+  displayed = metaIn(fresh, "version");
 }
 
 const main = document.querySelector("main");
@@ -29,5 +31,9 @@ const events = new EventSource("/_labspec/events");
 events.addEventListener("message", ({ data }: MessageEvent<unknown>) => {
   running = running.then(() => update(String(data))).catch((e: unknown) => console.error(e));
 });
-events.addEventListener("error", () => document.body.classList.add("disconnected"));
+events.addEventListener("error", () => {
+  // The versions of another preview begin again.
+  displayed = "";
+  document.body.classList.add("disconnected");
+});
 events.addEventListener("open", () => document.body.classList.remove("disconnected"));
