@@ -12,6 +12,8 @@
 //!
 //! `… -- page` builds the modules, then the npm packages up to the scripts and styles of pages, which `labspec build` and `labspec
 //! preview` find in `web/site/dist`.
+//!
+//! `… -- preview [LESSONS]` does the same once, then serves the lessons (`specs/lessons`) by `labspec preview`.
 
 mod archive;
 mod page;
@@ -28,6 +30,7 @@ fn main() -> ExitCode {
     let done = match first.as_deref().and_then(|a| a.to_str()) {
         Some("release") => archive::release(arguments.next().map(PathBuf::from)),
         Some("page") => build(None).and_then(|_| page::page()),
+        Some("preview") => page::preview(arguments.next().map(PathBuf::from), || build(None)),
         _ => build(first.map(PathBuf::from)),
     };
     match done {

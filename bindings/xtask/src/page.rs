@@ -18,6 +18,29 @@ pub(crate) fn page() -> Result<PathBuf, String> {
     Ok(web.join("site/dist"))
 }
 
+/// Shows lessons in a browser: builds the page once, then runs `labspec preview` until it ends.
+pub(crate) fn preview(
+    lessons: Option<PathBuf>,
+    build: impl Fn() -> Result<PathBuf, String>,
+) -> Result<PathBuf, String> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let files = root.join("web/site/dist");
+    if !files.exists() {
+        build()?;
+        page()?;
+    }
+    let lessons = lessons.unwrap_or_else(|| root.join("specs/lessons"));
+    let mut command = Command::new("cargo");
+    command
+        .args(["run", "--locked", "--package", "labspec-cli", "--manifest-path"])
+        .arg(root.join("Cargo.toml"));
+    command.args(["--", "preview", "--page"]).arg(&files).arg(&lessons);
+    match command.status().map_err(|e| format!("cannot run cargo: {e}"))?.success() {
+        true => Ok(files),
+        false => Err("`labspec preview` ended with an error".into()),
+    }
+}
+
 fn npm(folder: &Path, arguments: &[&str]) -> Result<(), String> {
     let program = if cfg!(windows) { "npm.cmd" } else { "npm" };
     let done = Command::new(program).args(arguments).current_dir(folder).status();
