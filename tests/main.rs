@@ -44,6 +44,7 @@ mod parity;
 mod partners;
 mod plan;
 mod planned;
+mod playback;
 mod player;
 mod precision;
 mod precision_truth;
