@@ -321,6 +321,14 @@ fn completions_know_the_language_the_model_and_the_format() {
             all.as_array().unwrap().iter().map(|i| i["label"].as_str().unwrap()).collect();
         assert!(labels.contains(&wanted) && !labels.contains(&not), "{inside}: {labels:?}");
     }
+    // In a model, the schema and its own names are completed and explained.
+    let (text, byte) = marked("<mujoco><worldbody><geom type='|'/></worldbody></mujoco>");
+    editor.did_open("models/new.xml", &text);
+    let all = editor.at("completion", "models/new.xml", &text, byte);
+    let capsule = all.as_array().unwrap().iter().find(|i| i["label"] == "capsule").unwrap();
+    assert_eq!(edited(&text, &json!([capsule["textEdit"]])), text.replace("''", "'capsule'"));
+    let hover = editor.at("hover", "models/new.xml", &text, byte);
+    assert!(hover["contents"]["value"].as_str().unwrap().starts_with("**type**: one of"), "{hover}");
     // There are no completions in prose.
     editor.did_open("c.md", "# Title\n\nSome data.qpos\n");
     assert_eq!(editor.at("completion", "c.md", "# Title\n\nSome data.qpos\n", 15), json!([]));
