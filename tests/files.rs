@@ -347,7 +347,8 @@ const WRITERS: [(&str, &[&str]); 15] = [
     ("stability --svg", &["stability", "map.json", "--until", "0.02", "--map", "a,b", "--svg"]),
     ("stability --png", &["stability", "map.json", "--until", "0.02", "--map", "a,b", "--png"]),
 ];
-const READERS: [&str; 7] = [
+const READERS: [&str; 9] = [
+    "build --config",
     "check --config",
     "check --judge",
     "check --since",
@@ -355,6 +356,7 @@ const READERS: [&str; 7] = [
     "verify --judge",
     "lsp --config",
     "precision --beside",
+    "preview --config",
 ];
 
 /// All options of all commands that name a file, from the help of the program.

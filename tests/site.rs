@@ -192,8 +192,8 @@ fn only_what_this_build_verified_carries_the_mark() {
     assert_eq!(mark(&TRUE_LESSON.replace("\"height < 0.6\"", "\"height <\""), BALL, ""), ["1 claim"]);
     assert_eq!(
         mark(&TRUE_LESSON.replace("{\"title\": \"Fall\", ", "{\"title\": \"Fall\" "), BALL, ""),
-        ["question 1 (1 claim)"],
-        "a lab that pages cannot read has none"
+        [""; 0],
+        "a lesson with a block that cannot be read has none"
     );
     let wrong = TRUE_LESSON.replacen("\"answer\": 0", "\"answer\": 1", 1);
     assert_eq!(

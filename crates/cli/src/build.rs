@@ -3,6 +3,7 @@
 use super::cache::Cache;
 use super::common::{Failure, ModelOptions, Outcome, interrupted};
 use super::course::{CheckRequest, CourseResults, CrossCheckRequest};
+use super::output::{remove_site_file, write_site_file};
 use super::policy::PolicyOptions;
 use super::scheduler::check_lessons;
 use super::stdio::print;
@@ -193,26 +194,22 @@ fn is_inside(name: &str) -> bool {
 
 /// Writes the files of a site, and removes those of the earlier one that it does not have.
 fn write_site(out: &Path, site: &Site, old: &[String]) -> Result<(), Failure> {
-    let cannot = |path: &Path, e: std::io::Error| format!("cannot write {}: {e}", printable_path(path));
     for name in old.iter().filter(|name| !site.files.contains_key(*name)) {
-        let _ = fs::remove_file(out.join(name));
+        remove_site_file(&out.join(name));
     }
     for (name, file) in &site.files {
-        let path = out.join(name);
         if !is_inside(name) {
             return Err(format!("a file of the site has the name {}, which is not a path", printable(name)));
         }
-        let folder = path.parent().unwrap_or(out);
-        fs::create_dir_all(folder).map_err(|e| cannot(folder, e))?;
-        // A link is replaced, never followed.
-        if path.symlink_metadata().is_ok_and(|meta| meta.is_symlink()) {
-            fs::remove_file(&path).map_err(|e| cannot(&path, e))?;
+        let path = out.join(name);
+        match file {
+            SiteFile::Text(text) => write_site_file(&path, text.as_bytes())?,
+            SiteFile::Copy(from) => {
+                let bytes =
+                    fs::read(from).map_err(|e| format!("cannot read {}: {e}", printable_path(from)))?;
+                write_site_file(&path, &bytes)?;
+            }
         }
-        let written = match file {
-            SiteFile::Text(text) => fs::write(&path, text),
-            SiteFile::Copy(from) => fs::read(from).and_then(|bytes| fs::write(&path, bytes)),
-        };
-        written.map_err(|e| cannot(&path, e))?;
     }
     Ok(())
 }

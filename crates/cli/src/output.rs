@@ -26,6 +26,26 @@ pub(super) fn remove_file(path: &Path, kind: OutputKind<'_>) -> Result<(), Failu
     fs::remove_file(path).map_err(cannot)
 }
 
+/// Writes a file of a site, with its folders. The folder of the site was empty or had an earlier one. A link is replaced, never
+/// followed.
+pub(super) fn write_site_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    let write = || -> io::Result<()> {
+        if let Some(folder) = path.parent() {
+            fs::create_dir_all(folder)?;
+        }
+        if path.symlink_metadata().is_ok_and(|meta| meta.is_symlink()) {
+            fs::remove_file(path)?;
+        }
+        fs::write(path, bytes)
+    };
+    write().map_err(|e| format!("cannot write {}: {e}", printable_path(path)))
+}
+
+/// Removes a file of an earlier site, if it is still there.
+pub(super) fn remove_site_file(path: &Path) {
+    let _ = fs::remove_file(path);
+}
+
 /// Writes a picture as PNG, with two pixels per unit of the SVG.
 pub(super) fn write_png(path: &Path, svg: &str) -> Result<(), Failure> {
     let bytes = pixels(svg).map_err(|e| format!("cannot draw {}: {e}", printable_path(path)))?;
