@@ -345,6 +345,10 @@ mod tests {
             assert!(!labels.iter().any(|l| l == not), "{marked}: {labels:?}");
             assert_eq!(text, after, "{marked}");
         }
+    }
+
+    #[test]
+    fn nothing_is_offered_outside_of_tags_and_for_numbers() {
         for nothing in [
             "<mujoco><!-- <|",
             "<mujoco><worldbody><geom pos='|0'/>",

@@ -21,7 +21,7 @@ impl Pose {
     }
 
     /// Converts the pose of a member in place.
-    pub(crate) fn to_parent_frame(&self, pos: &mut Vec3, quat: &mut Quat) {
+    pub(crate) fn transform_to_parent(&self, pos: &mut Vec3, quat: &mut Quat) {
         Pose { pos: *pos, quat: *quat } = self.in_parent(*pos, *quat);
     }
 

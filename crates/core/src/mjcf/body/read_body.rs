@@ -129,7 +129,7 @@ fn member(cx: &mut Context, i: usize, node: &Node, place: ElementSite, body: &mu
                 cx.report.error(rules::REPEATED_ELEMENT, node.span.clone(), message);
             }
             body.inertial = inertial(cx, node).map(|mut inertia| {
-                frame.to_parent_frame(&mut inertia.pos, &mut inertia.quat);
+                frame.transform_to_parent(&mut inertia.pos, &mut inertia.quat);
                 inertia
             });
         }
@@ -146,18 +146,18 @@ fn member(cx: &mut Context, i: usize, node: &Node, place: ElementSite, body: &mu
         }
         "geom" => {
             if let Some(mut geom) = read_geom::geom(cx, i, node, class) {
-                frame.to_parent_frame(&mut geom.pos, &mut geom.quat);
+                frame.transform_to_parent(&mut geom.pos, &mut geom.quat);
                 body.geoms.push(geom);
             }
         }
         "site" => {
             let mut site = read_scene::site(cx, i, node, class);
-            frame.to_parent_frame(&mut site.pos, &mut site.quat);
+            frame.transform_to_parent(&mut site.pos, &mut site.quat);
             body.sites.push(site);
         }
         "camera" => {
             let mut camera = read_scene::camera(cx, node, class);
-            frame.to_parent_frame(&mut camera.pos, &mut camera.quat);
+            frame.transform_to_parent(&mut camera.pos, &mut camera.quat);
             body.cameras.push(camera);
         }
         "light" => {

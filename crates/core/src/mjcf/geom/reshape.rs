@@ -67,9 +67,9 @@ fn align_free(bodies: &mut [BodySpec], inertias: &mut [Inertia], parts: &[Attach
 
 /// Moves the members of a body to another frame. `pose` is the old frame relative to the new one.
 fn move_members(body: &mut BodySpec, pose: Pose) {
-    body.geoms.iter_mut().for_each(|g| pose.to_parent_frame(&mut g.pos, &mut g.quat));
-    body.sites.iter_mut().for_each(|s| pose.to_parent_frame(&mut s.pos, &mut s.quat));
-    body.cameras.iter_mut().for_each(|c| pose.to_parent_frame(&mut c.pos, &mut c.quat));
+    body.geoms.iter_mut().for_each(|g| pose.transform_to_parent(&mut g.pos, &mut g.quat));
+    body.sites.iter_mut().for_each(|s| pose.transform_to_parent(&mut s.pos, &mut s.quat));
+    body.cameras.iter_mut().for_each(|c| pose.transform_to_parent(&mut c.pos, &mut c.quat));
     for light in &mut body.lights {
         light.pos = pose.point(light.pos);
         light.dir = pose.direction(light.dir);
@@ -94,7 +94,7 @@ fn fuse_static(bodies: &mut Vec<BodySpec>, inertias: &mut Vec<Inertia>, tree: &T
         let (Some(body), Some(inertia)) = (rest.first_mut(), inertias.get(i).cloned()) else { return };
         if let Some(Some((target, pose))) = fused.get(body.parent) {
             body.parent = *target;
-            pose.to_parent_frame(&mut body.pos, &mut body.quat);
+            pose.transform_to_parent(&mut body.pos, &mut body.quat);
         }
         let is_named = !body.name.is_empty()
             && (meant(body)

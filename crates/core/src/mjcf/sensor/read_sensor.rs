@@ -177,6 +177,18 @@ impl Context<'_> {
         Some(Some((at, self.id(attribute, kind)?)))
     }
 
+    /// The site and the camera in whose image it is.
+    fn site_in_image(&mut self) -> Option<SensorObjects> {
+        let (site, camera) = (self.required("site", "site"), self.required("camera", "camera"));
+        if camera.is_some_and(|camera| self.refs.ids.has_no_pixels(camera)) {
+            let message = format!("the camera of {} has no resolution", self.node.describe());
+            self.error_at("camera", rules::SENSOR, message)
+                .why("the place in the image is counted in pixels")
+                .help("give the camera a `resolution` without zeros");
+        }
+        Some(SensorObjects::for_object(Obj::Site as i32, site?).with_reference(Obj::Camera as i32, camera?))
+    }
+
     /// The objects that the sensor is attached to.
     fn objects(&mut self, kind: &Kind) -> Option<SensorObjects> {
         let attached = |obj: Obj, id: i32| SensorObjects::for_object(obj as i32, id);
@@ -208,16 +220,7 @@ impl Context<'_> {
                 Some((_, id)) => Some(attached(Obj::Camera, id)),
                 None => self.missing(&["site", "camera"]),
             },
-            SensorTarget::SiteInImage => {
-                let (site, camera) = (self.required("site", "site"), self.required("camera", "camera"));
-                if camera.is_some_and(|camera| self.refs.ids.has_no_pixels(camera)) {
-                    let message = format!("the camera of {} has no resolution", self.node.describe());
-                    self.error_at("camera", rules::SENSOR, message)
-                        .why("the place in the image is counted in pixels")
-                        .help("give the camera a `resolution` without zeros");
-                }
-                Some(attached(Obj::Site, site?).with_reference(Obj::Camera as i32, camera?))
-            }
+            SensorTarget::SiteInImage => self.site_in_image(),
             SensorTarget::Frame => self.frame("objtype", "objname"),
             SensorTarget::RelativeFrame => {
                 let object = self.frame("objtype", "objname")?;
