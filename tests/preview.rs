@@ -272,6 +272,52 @@ fn an_author_edits_and_fixes_only_what_the_page_shows() {
     assert_eq!(preview.post("edit", &token, &edit).status, 409);
 }
 
+/// An editor gets the findings, completions and hover texts of its block in the lesson, at offsets of the block in UTF-16.
+#[test]
+fn an_open_editor_is_assisted_as_the_lesson_is_checked() {
+    let preview = Preview::start();
+    let (token, hash, html) = preview.page();
+    let (start, end) = block(&html, "lab");
+    let ask = |question: &str, text: &str, offset: usize| {
+        let body = serde_json::json!({"page": "a.html", "hash": hash, "start": start, "end": end, "text": text, "offset": offset});
+        let answer = preview.post(question, &token, &body);
+        assert_eq!(answer.status, 200, "{question}: {}", answer.body);
+        serde_json::from_str::<serde_json::Value>(&answer.body).unwrap()
+    };
+    let text = "```lab simlab\n{\"xml\": \"<mujoco/>\", \"title\": \"𝄞 é\", \"setup\": \"data.qposs[0] = 1\", \"titel\": 1}\n```\n";
+    let units: Vec<u16> = text.encode_utf16().collect();
+    let part = |from: &serde_json::Value, to: &serde_json::Value| {
+        let at = |x: &serde_json::Value| x.as_u64().unwrap() as usize;
+        String::from_utf16(&units[at(from)..at(to)]).unwrap()
+    };
+    let findings = ask("findings", text, 0);
+    let found: Vec<(String, String)> = findings["findings"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|f| (f["code"].as_str().unwrap().to_string(), part(&f["start"], &f["end"])))
+        .collect();
+    assert!(found.contains(&("unknown-key".into(), "titel".into())), "{found:?}");
+    assert!(found.iter().any(|(_, text)| text.contains("qposs")), "{found:?}");
+    let fixes = |f: &serde_json::Value| f["fixes"].as_array().unwrap().len();
+    assert!(findings["findings"].as_array().unwrap().iter().any(|f| fixes(f) > 0), "{findings}");
+    // Behind `data.q`.
+    let place = text.encode_utf16().count() - "poss[0] = 1\", \"titel\": 1}\n```\n".encode_utf16().count();
+    let offered = ask("complete", text, place);
+    let labels: Vec<&str> =
+        offered["completions"].as_array().unwrap().iter().map(|c| c["label"].as_str().unwrap()).collect();
+    assert!(labels.contains(&"qpos"), "{labels:?}");
+    let hover = ask("hover", &text.replace("qposs", "qpos"), place);
+    assert!(hover["hover"]["text"].as_str().unwrap().contains("qpos"), "{hover}");
+    // Offsets beyond the block, and a text that the page does not show.
+    assert!(ask("hover", text, usize::MAX)["hover"].is_null());
+    let body = serde_json::json!({"page": "a.html", "hash": "0", "start": start, "end": end, "text": "x"});
+    assert_eq!(preview.post("findings", &token, &body).status, 409);
+    let body = serde_json::json!({"page": "a.html", "hash": hash, "start": 1, "end": end, "text": "x"});
+    assert_eq!(preview.post("findings", &token, &body).status, 400);
+    assert_eq!(preview.text(), LESSON);
+}
+
 #[test]
 fn a_page_hears_of_every_change() {
     let preview = Preview::start();

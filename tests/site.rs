@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Files that stand for the scripts and styles of pages.
-const PAGE: [&str; 10] = [
+const PAGE: [&str; 11] = [
     "site.js",
     "site.css",
     "sw.js",
@@ -18,6 +18,7 @@ const PAGE: [&str; 10] = [
     "katex.js",
     "katex.css",
     "preview.js",
+    "editor.js",
     "preview.css",
 ];
 

@@ -17,7 +17,11 @@ rmSync(at("dist"), { recursive: true, force: true });
 mkdirSync(at("dist/fonts"), { recursive: true });
 
 const common = { absWorkingDir: root, bundle: true, minify: true, target: "es2022", legalComments: "none", logLevel: "warning" };
-for (const [entry, name, format] of [["site", "site", "esm"], ["preview/main", "preview", "esm"], ["katex", "katex", "esm"], ["offline", "sw", "iife"]]) {
+// The editor is loaded when the first block is edited.
+const separate = { name: "separate", setup: (b) => b.onResolve({ filter: /^\.\/editor\.js$/ }, () => ({ path: "./editor.js", external: true })) };
+await build({ ...common, entryPoints: [at("src/preview/main.ts")], outfile: at("dist/preview.js"), format: "esm", plugins: [separate] });
+await build({ ...common, entryPoints: [at("src/preview/editor.ts")], outfile: at("dist/editor.js"), format: "esm" });
+for (const [entry, name, format] of [["site", "site", "esm"], ["katex", "katex", "esm"], ["offline", "sw", "iife"]]) {
   await build({ ...common, entryPoints: [at(`src/${entry}.ts`)], outfile: at(`dist/${name}.js`), format });
 }
 

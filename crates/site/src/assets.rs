@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 const REQUIRED: [&str; 8] =
     ["site.js", "site.css", "sw.js", "elements.js", "engine.js", "labspec.wasm", "katex.js", "katex.css"];
 /// The files that only the preview needs.
-const OF_PREVIEW: [&str; 2] = ["preview.js", "preview.css"];
+const OF_PREVIEW: [&str; 3] = ["preview.js", "editor.js", "preview.css"];
 /// Files of KaTeX, which a course without formulas does not need.
 const OF_MATH: &str = "katex";
 

@@ -95,7 +95,7 @@ test("a block is edited in place, and a change from elsewhere is not overwritten
   const block = page.locator(".block.text").nth(1);
   await block.getByRole("button", { name: /^Edit/ }).click();
   const area = page.getByRole("textbox", { name: "Source of this block" });
-  assert.match(await area.inputValue(), /^A contact can be made/);
+  assert.match(await area.innerText(), /^A contact can be made/);
   await area.fill("Other first words.");
   await page.getByRole("button", { name: "Save" }).click();
   await page.getByText("Other first words.").waitFor();
@@ -106,7 +106,7 @@ test("a block is edited in place, and a change from elsewhere is not overwritten
   change(file, "Other first words.", "Theirs.");
   await page.locator("p", { hasText: "Theirs." }).first().waitFor();
   // What was typed is still there, and is not written over the other change.
-  assert.equal(await area.inputValue(), "Mine.");
+  assert.equal(await area.innerText(), "Mine.");
   await page.getByRole("button", { name: "Save" }).click();
   await page.getByText("the file has changed since this page was shown").waitFor();
   assert.ok(!readFileSync(file, "utf8").includes("Mine."));
@@ -114,6 +114,35 @@ test("a block is edited in place, and a change from elsewhere is not overwritten
   assert.equal(await page.locator(".stale").count(), 0);
   // The browser reports the refused request.
   assert.deepEqual(errors.filter((error) => !error.includes("409 (Conflict)")), []);
+});
+
+test("while a block is edited, findings and completions are those of the lesson", async (t) => {
+  const { page, file, none } = await start(t, "02-bounce-and-swing.md");
+  const lab = page.locator(".block.lab").first();
+  await lab.getByRole("button", { name: /^Edit/ }).click();
+  const area = page.getByRole("textbox", { name: "Source of this block" });
+  await area.waitFor();
+  // The first field of the data in the lab gets another letter.
+  const field = page.locator(".cm-line", { hasText: "data." }).first();
+  const line = await field.innerText();
+  await field.click();
+  await page.keyboard.press("Home");
+  for (let i = line.indexOf("data.") + "data.".length; i > 0; i--) await page.keyboard.press("ArrowRight");
+  const typed = Date.now();
+  await page.keyboard.type("zz");
+  await page.locator(".cm-lintRange-error").first().waitFor();
+  assert.ok(Date.now() - typed < 5000);
+  await page.keyboard.press("Backspace");
+  await page.keyboard.press("Backspace");
+  await page.locator(".cm-lintRange-error").first().waitFor({ state: "detached" });
+  await page.keyboard.press("Control+Space");
+  await page.locator(".cm-tooltip-autocomplete li", { hasText: "qpos" }).first().waitFor();
+  await page.keyboard.press("Escape");
+  assert.deepEqual(await findings(page), []);
+  const before = readFileSync(file, "utf8");
+  await page.getByRole("button", { name: "Cancel" }).click();
+  assert.equal(readFileSync(file, "utf8"), before);
+  none();
 });
 
 test("a proposal is accepted by a click", async (t) => {

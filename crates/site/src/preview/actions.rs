@@ -1,8 +1,10 @@
 //! What a page may ask for: the source of a block, a change of it, a fix, proposals. Each request names the lesson and the hash of the
 //! text that the page shows; where the lesson has another text by now, nothing is done.
 
+use super::assist::{EditedLesson, assist};
 use super::author::block_at;
 use super::backend::Backend;
+use super::http::Refused;
 use super::snapshot::{ServedLesson, Snapshot};
 use labspec::spec::Lesson;
 use serde::Deserialize;
@@ -23,10 +25,8 @@ pub(super) struct Ask {
     text: Option<String>,
     finding: Option<usize>,
     proposal: Option<usize>,
+    offset: Option<usize>,
 }
-
-/// A request that was not fulfilled: its status and the reason.
-type Refused = (u16, String);
 
 /// A lesson of a request, whose text is the one that the page shows.
 struct Asked<'s> {
@@ -51,6 +51,16 @@ pub(super) fn act(
         "fix" => fix(ask, &asked, backend),
         "propose" => propose(ask, &asked, backend),
         "accept" => accept(ask, &asked, backend),
+        "findings" | "complete" | "hover" => {
+            let edited = EditedLesson {
+                path: &asked.served.path,
+                models: backend.models(&asked.served.path),
+                old: asked.lesson.file.text(),
+                block: block_span(ask, &asked)?,
+                text: ask.text.as_deref().unwrap_or(""),
+            };
+            assist(what, edited, ask.offset.unwrap_or(0))
+        }
         _ => Err((404, "the preview does not know this request".into())),
     }
 }

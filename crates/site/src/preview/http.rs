@@ -15,6 +15,9 @@ const MAX_HEADERS: usize = 64;
 /// The maximum number of bytes of a refused request that are read, so that its answer arrives.
 const MAX_DRAINED: u64 = 1 << 20;
 
+/// A request that was not fulfilled: its status and the reason.
+pub(super) type Refused = (u16, String);
+
 /// The head of a request.
 #[derive(Debug, Default)]
 pub(super) struct Head {

@@ -8,10 +8,12 @@
 //! | `http` | requests and answers |
 //! | `guard` | which requests are answered: of this address, of this page, with its token |
 //! | `actions` | what a page may ask for |
+//! | `assist` | findings, completions and hover texts of an open editor |
 //! | `events` | the pages that wait for a change |
 //! | `server` | the loop of requests, and that of checks |
 
 mod actions;
+mod assist;
 mod author;
 mod backend;
 mod events;

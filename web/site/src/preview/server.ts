@@ -11,7 +11,7 @@ export function lessonOf(main: HTMLElement): { page: string; hash: string } {
 }
 
 /** Asks the server to do something, with the token of this page. */
-export async function ask(what: "source" | "edit" | "fix" | "propose" | "accept", body: object): Promise<Readonly<Record<string, unknown>>> {
+export async function ask(what: "source" | "edit" | "fix" | "propose" | "accept" | "findings" | "complete" | "hover", body: object): Promise<Readonly<Record<string, unknown>>> {
   let response: Response;
   try {
     response = await fetch(new URL(`/_labspec/${what}`, location.href), {

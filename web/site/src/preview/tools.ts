@@ -1,5 +1,5 @@
 /** The buttons of blocks: edit the source, apply a fix, ask for proposals and accept one. */
-import { mountEditor } from "./editor.js";
+import type { Assist } from "./editor.js";
 import { ask, lessonOf } from "./server.js";
 
 const textOf = (x: unknown): string => (typeof x === "string" ? x : "");
@@ -32,8 +32,9 @@ async function edit(main: HTMLElement, block: HTMLElement): Promise<void> {
   const [lesson, range] = [lessonOf(main), rangeOf(block)];
   const { text } = await ask("source", { ...lesson, ...range });
   // The place of the block when the editor was opened: a text that has changed since is not overwritten.
-  const editor = mountEditor(editorHost(block), textOf(text), async (changed) => void (await ask("edit", { ...lesson, ...range, text: changed })));
-  editor.focus();
+  const { mountEditor } = await import("./editor.js");
+  const assist: Assist = (question, now, offset) => ask(question, { ...lesson, ...range, text: now, offset });
+  mountEditor(editorHost(block), textOf(text), assist, async (changed) => void (await ask("edit", { ...lesson, ...range, text: changed }))).focus();
 }
 
 async function fix(main: HTMLElement, button: HTMLElement): Promise<void> {
