@@ -5,11 +5,11 @@ use fasteval::{Compiler as _, Evaler};
 use labspec::bind::scene::Models;
 use labspec::bind::{ModelNames, Programs, Scope, World};
 use labspec::lint::ModelFolder;
+use labspec::lint::load_lesson;
 use labspec::run::{Session, Start};
 use labspec::source::SourceFile;
-use labspec::lint::load_lesson;
 use labspec::spec::Lab;
-use labspec_core::{Data, AccessSet, Model, Plan, xml};
+use labspec_core::{AccessSet, Data, Model, Plan, xml};
 use labspec_expr::{Compiler, Context, FieldKey, FunctionId, Globals, Heap, Host, Program, Recording, Value};
 use std::fmt::Write;
 use std::hint::black_box;
@@ -93,7 +93,15 @@ fn error_expression() -> Vec<(&'static str, f64)> {
     let mut recording = Recording::new();
     let columnar = recording.columns(&program).expect("the first").expect("it computes with numbers");
     let data = Data::planned(&model, Plan::full());
-    let mut world = World { data, model: model.clone(), key: None, functions: labspec::Functions::new(), displayed: Vec::new(), numbers: Vec::new() };
+    let mut world = World {
+        data,
+        model: model.clone(),
+        key: None,
+        functions: labspec::Functions::new(),
+        displayed: Vec::new(),
+        numbers: Vec::new(),
+        playback: None,
+    };
     for i in 0..SAMPLES {
         let (q, t) = at(i);
         world.set(keys[1], 2, q).and_then(|()| world.set(keys[0], 0, t)).expect("both may be set");
