@@ -315,6 +315,8 @@ fn an_open_editor_is_assisted_as_the_lesson_is_checked() {
     assert_eq!(preview.post("findings", &token, &body).status, 409);
     let body = serde_json::json!({"page": "a.html", "hash": hash, "start": 1, "end": end, "text": "x"});
     assert_eq!(preview.post("findings", &token, &body).status, 400);
+    let body = serde_json::json!({"page": "a.html", "hash": hash, "start": start, "end": end});
+    assert_eq!(preview.post("findings", &token, &body).status, 400, "a request without a text");
     assert_eq!(preview.text(), LESSON);
 }
 

@@ -57,7 +57,7 @@ pub(super) fn act(
                 models: backend.models(&asked.served.path),
                 old: asked.lesson.file.text(),
                 block: block_span(ask, &asked)?,
-                text: ask.text.as_deref().unwrap_or(""),
+                text: ask.text.as_deref().ok_or((400, "the request has no text".to_string()))?,
             };
             assist(what, edited, ask.offset.unwrap_or(0))
         }
