@@ -53,7 +53,9 @@ impl Identity {
                 let has_token = matches!(request.headers(TOKEN)[..], [token] if is_same(token, &self.token));
                 match has_token && request.headers("origin") == [origin_of_page.as_str()] {
                     true => Ok(()),
-                    false => Err((403, "the request does not have the token of the page; load the page again")),
+                    false => {
+                        Err((403, "the request does not have the token of the page; load the page again"))
+                    }
                 }
             }
             _ => Err((405, "the preview answers GET and HEAD")),
