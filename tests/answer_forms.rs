@@ -88,7 +88,9 @@ fn an_undecided_option_decides_nothing() {
     let undecided = |key: &str, conditions: &str| verdict(&multiple(key), conditions).0;
     assert_eq!(undecided(r#""answer": [0, 2]"#, r#"["z < 0.9", "undecided", "v < -1"]"#), Verdict::Failed);
     assert_eq!(undecided(r#""answer": [0]"#, r#"["undecided", "z > 1.1", "v > 1"]"#), Verdict::Failed);
-    assert_eq!(undecided(r#""answer": [0]"#, r#"["z < 0.9", "z > 1.1", "undecided"]"#), Verdict::Verified);
+    assert_eq!(undecided(r#""answer": [0]"#, r#"["z < 0.9", "z > 1.1", "undecided"]"#), Verdict::Failed);
+    // What is decided can refute the key.
+    assert_eq!(undecided(r#""answer": [0]"#, r#"["z < 0.9", "undecided", "v < -1"]"#), Verdict::Refuted);
 }
 
 #[test]

@@ -138,6 +138,17 @@ impl OptionJudgement<'_> {
         if self.form == AnswerForm::Statement && !undecided.is_empty() {
             return Some(self.judged(Verdict::Failed, "the statement is not decided".to_string()));
         }
+        // The key of several options says of each whether it is correct; a decided one that it has wrong refutes it.
+        if self.form == AnswerForm::Several {
+            let is_wrong = |(i, w): (usize, &Weight)| w.holds.is_some_and(|h| h != self.right.contains(&i));
+            if self.weights.iter().enumerate().any(is_wrong) {
+                return Some(self.refute_set(&true_options, findings));
+            }
+            let i = undecided.first()?;
+            let reason =
+                format!("whether answer {} is correct is not decided by this evidence", self.name(*i));
+            return Some(self.judged(Verdict::Failed, reason));
+        }
         if let Some(i) = self.right.iter().find(|i| undecided.contains(i)) {
             let reason = format!("answer {} is not decided by this evidence", self.name(*i));
             return Some(self.judged(Verdict::Failed, reason));
@@ -152,18 +163,16 @@ impl OptionJudgement<'_> {
         (true_options.len() > 1).then(|| self.report_ambiguous(answer, &true_options, findings))
     }
 
-    /// Whether no other option than the keyed ones is decided, so that nothing distinguishes them.
+    /// Whether no other option than the keyed one is decided, so that nothing distinguishes it.
     fn is_alone(&self, undecided: usize) -> bool {
-        match self.form {
-            AnswerForm::One => undecided + 1 == self.weights.len(),
-            AnswerForm::Several => undecided > 0 && undecided + self.right.len() == self.weights.len(),
-            AnswerForm::Statement => false,
-        }
+        self.form == AnswerForm::One && undecided + 1 == self.weights.len()
     }
 
     /// Reports that the options that hold are not the keyed ones, or that a statement is keyed wrong.
     fn refute_set(&self, true_options: &[usize], findings: &mut Vec<Finding>) -> Answer {
-        let differs = |i: &usize| true_options.contains(i) != self.right.contains(i);
+        let differs = |i: &usize| {
+            self.weights.get(*i).and_then(|w| w.holds).is_some_and(|h| h != self.right.contains(i))
+        };
         let wrong: Vec<usize> = (0..self.weights.len()).filter(differs).collect();
         let (message, key) = if self.form == AnswerForm::Statement {
             let truth = !true_options.is_empty();
@@ -186,7 +195,9 @@ impl OptionJudgement<'_> {
         for i in wrong {
             f = f.related(self.condition(i), format!("this condition {}", self.describe(i)));
         }
-        findings.push(if self.is_hashed { f } else { f.guess(self.keyed.clone(), key) });
+        // With an undecided option, the whole key is unknown.
+        let is_known = !self.is_hashed && self.weights.iter().all(|w| w.holds.is_some());
+        findings.push(if is_known { f.guess(self.keyed.clone(), key) } else { f });
         self.judged(Verdict::Refuted, message)
     }
 
