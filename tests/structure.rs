@@ -469,3 +469,28 @@ fn the_language_has_no_words_of_labs() {
     }
     assert!(texts > 1000, "{texts}");
 }
+
+/// `cargo test` builds no crate again that `cargo run -p labspec-cli` has built: both ask for the same features of each crate.
+#[test]
+fn the_program_and_the_tests_share_their_crates() {
+    let features = |arguments: &[&str]| -> BTreeSet<String> {
+        let mut cargo = std::process::Command::new(env!("CARGO"));
+        cargo.args([
+            "tree",
+            "--offline",
+            "--locked",
+            "--prefix",
+            "none",
+            "--no-dedupe",
+            "--format",
+            "{p} [{f}]",
+        ]);
+        let out = cargo.args(arguments).current_dir(workspace()).output().unwrap();
+        assert!(out.status.success(), "{}", String::from_utf8_lossy(&out.stderr));
+        String::from_utf8(out.stdout).unwrap().lines().map(str::to_owned).collect()
+    };
+    let program = features(&["-p", "labspec-cli", "-e", "normal"]);
+    let tests = features(&["--workspace", "-e", "normal,build,dev"]);
+    assert!(program.len() > 100, "{program:?}");
+    assert_eq!(program.difference(&tests).collect::<Vec<_>>(), Vec::<&String>::new());
+}

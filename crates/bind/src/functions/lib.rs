@@ -6,6 +6,7 @@ use labspec_core::reflect::data;
 use labspec_core::{self as core, Obj};
 use labspec_expr::{Heap, Type, Value};
 use labspec_finding::order;
+use nalgebra::{DMatrix, SVD, SymmetricEigen};
 
 const LIST: Function = Function { object: "lib", returns: Type::List, ..ROW };
 
@@ -240,48 +241,67 @@ fn matrix(heap: &mut Heap, rows: &[Vec<f64>]) -> Result<Value, String> {
     rows.and_then(|rows| heap.list(rows)).map_err(|_| full())
 }
 
-/// The square roots of the eigenvalues of J Jᵀ, largest first, by cyclic rotations (Jacobi 1846; Golub and Van Loan, "Matrix
-/// Computations", section 8.5).
+/// The singular values of a matrix with these rows, as many as there are rows, largest first; NaN if an element is not finite.
 fn singular_values(j: &[Vec<f64>]) -> Vec<f64> {
-    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).fold(0.0, |sum, (x, y)| sum + x * y);
-    let a = j.iter().map(|r| j.iter().map(|s| dot(r, s)).collect()).collect();
-    let mut values: Vec<f64> = eigenvalues(a, 1e-30).into_iter().map(|x| x.max(0.0).sqrt()).collect();
-    order::sort_by(&mut values, |x, y| y.total_cmp(x));
+    let (rows, columns) = (j.len(), j.first().map_or(0, Vec::len));
+    if columns == 0 {
+        return vec![0.0; rows];
+    }
+    let element = |row: usize, column: usize| j.get(row).and_then(|r| r.get(column)).copied();
+    let matrix = DMatrix::from_fn(rows, columns, |row, column| element(row, column).unwrap_or(f64::NAN));
+    let finite = matrix.iter().all(|x| x.is_finite());
+    let decompose = || SVD::try_new(matrix, false, false, f64::EPSILON, MAX_ITERATIONS_PER_ROW * rows);
+    let Some(found) = finite.then(decompose).flatten() else { return vec![f64::NAN; rows] };
+    let mut values = found.singular_values.as_slice().to_vec();
+    // With fewer columns than rows, the others are zero.
+    values.resize(rows, 0.0);
     values
 }
 
-/// The eigenvalues of a symmetric matrix, unordered, by rotations (C. G. J. Jacobi 1846) until the sum of the squares above the
-/// diagonal is less than `small`.
-pub(super) fn eigenvalues(mut a: Vec<Vec<f64>>, small: f64) -> Vec<f64> {
-    let n = a.len();
-    for _sweep in 0..100 {
-        let off: f64 =
-            (0..n).flat_map(|p| (p + 1..n).map(move |q| (p, q))).map(|(p, q)| a[p][q] * a[p][q]).sum();
-        if off < small {
-            break;
-        }
-        for p in 0..n {
-            for q in p + 1..n {
-                rotate(&mut a, p, q);
-            }
-        }
-    }
-    (0..n).map(|i| a[i][i]).collect()
+/// The number of iterations per row after which an eigenvalue counts as not found. Two or three are usual.
+const MAX_ITERATIONS_PER_ROW: usize = 100;
+
+/// The eigenvalues of a symmetric matrix, smallest first; NaN if an element is not finite.
+pub(super) fn eigenvalues(matrix: DMatrix<f64>) -> Vec<f64> {
+    let n = matrix.nrows();
+    let finite = matrix.iter().all(|x| x.is_finite());
+    let found =
+        finite.then(|| SymmetricEigen::try_new(matrix, f64::EPSILON, MAX_ITERATIONS_PER_ROW * n)).flatten();
+    let mut values = found.map_or(vec![f64::NAN; n], |found| found.eigenvalues.as_slice().to_vec());
+    order::sort_by(&mut values, f64::total_cmp);
+    values
 }
 
-/// Zeroes the element (p, q) of a symmetric matrix by a rotation.
-fn rotate(a: &mut [Vec<f64>], p: usize, q: usize) {
-    if a[p][q].abs() < 1e-300 {
-        return;
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Small singular values keep their digits: those of a matrix and its inverse are reciprocal.
+    #[test]
+    fn small_singular_values_are_accurate() {
+        let rotated = |s: f64| vec![vec![0.6, -0.8 * s, 0.0], vec![0.8, 0.6 * s, 0.0]];
+        for s in [0.5, 1e-3, 1e-9, 1e-14] {
+            let values = singular_values(&rotated(s));
+            assert!(
+                (values[0] - 1.0).abs() < 1e-15 && (values[1] / s - 1.0).abs() < 1e-15 / s,
+                "{s}: {values:?}"
+            );
+        }
+        assert_eq!(singular_values(&[vec![3.0], vec![4.0], vec![0.0]]), [5.0, 0.0, 0.0]);
+        assert_eq!(singular_values(&[vec![], vec![]]), [0.0, 0.0]);
+        assert!(singular_values(&[vec![1.0], vec![f64::INFINITY]]).iter().all(|x| x.is_nan()));
     }
-    let theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
-    let t = 1f64.copysign(theta) / (theta.abs() + (theta * theta + 1.0).sqrt());
-    let c = 1.0 / (t * t + 1.0).sqrt();
-    let s = t * c;
-    for row in a.iter_mut() {
-        (row[p], row[q]) = (c * row[p] - s * row[q], s * row[p] + c * row[q]);
-    }
-    for k in 0..a.len() {
-        (a[p][k], a[q][k]) = (c * a[p][k] - s * a[q][k], s * a[p][k] + c * a[q][k]);
+
+    #[test]
+    fn eigenvalues_do_not_depend_on_the_unit() {
+        for unit in [1e-200, 1.0, 1e200] {
+            let values = eigenvalues(
+                DMatrix::from_row_slice(3, 3, &[2.0, 1.0, 0.0, 1.0, 2.0, 0.0, 0.0, 0.0, -5.0]) * unit,
+            );
+            for (value, expected) in values.iter().zip([-5.0, 1.0, 3.0]) {
+                assert!((value / unit - expected).abs() < 1e-14, "{values:?}");
+            }
+        }
+        assert!(eigenvalues(DMatrix::from_element(2, 2, f64::NAN)).iter().all(|x| x.is_nan()));
     }
 }

@@ -6,7 +6,7 @@ use super::{AccessedPart, Arg, Function, FunctionPlace, ROW, Unit, index, number
 use crate::handle;
 use labspec_core::{self as core, Obj};
 use labspec_expr::{Heap, Type, Value};
-use labspec_finding::order;
+use nalgebra::DMatrix;
 
 /// The members of the result of `mixed`.
 const CONTACT: &[(&str, Type)] = &[
@@ -57,7 +57,7 @@ fn mixed(w: &mut EngineAccess<'_>, heap: &mut Heap, args: &[Value]) -> Result<Va
 }
 
 /// A symmetric matrix from a list of its rows or of its numbers, or `None` if it is not a symmetric matrix.
-fn symmetric(heap: &Heap, value: &Value) -> Option<Vec<Vec<f64>>> {
+fn symmetric(heap: &Heap, value: &Value) -> Option<DMatrix<f64>> {
     let n = heap.len(value)?;
     let rows: Option<Vec<Vec<f64>>> = (0..n).map(|i| heap.to_numbers(&heap.item(value, i)?)).collect();
     let rows = match rows {
@@ -74,7 +74,7 @@ fn symmetric(heap: &Heap, value: &Value) -> Option<Vec<Vec<f64>>> {
     let same = |i: usize, j: usize| (at(i, j) - at(j, i)).abs() <= 1e-9 * size;
     let good =
         n > 0 && n <= 64 && rows.iter().all(|r| r.len() == n) && (0..n).all(|i| (0..=i).all(|j| same(i, j)));
-    good.then_some(rows)
+    good.then(|| DMatrix::from_fn(n, n, at))
 }
 
 /// A function over all samples of a run; the owner of the run computes the result.
@@ -124,10 +124,8 @@ pub(super) const ROWS: &[Function] = &[
             let matrix = args.first().and_then(|v| symmetric(heap, v)).ok_or(
                 "`eigenvalues` needs a symmetric matrix: a list of n rows with n numbers each, or of n × n numbers",
             )?;
-            let size: f64 = matrix.iter().flatten().map(|x| x * x).sum();
-            let mut values = eigenvalues(matrix, 1e-30 * size);
-            order::sort_by(&mut values, f64::total_cmp);
-            heap.numbers(&values).map_err(|_| "the lists of this lab take too much memory".to_owned())
+            heap.numbers(&eigenvalues(matrix))
+                .map_err(|_| "the lists of this lab take too much memory".to_owned())
         },
         ..ROW
     },

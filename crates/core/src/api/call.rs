@@ -15,6 +15,7 @@ use super::planning::Plan;
 use crate::constraint;
 use crate::dynamics::{self, jacobian, mass, object, rne as newton_euler, subtree, tree_algorithms};
 use crate::forces::{actuation, energy};
+use crate::kinds::integrator;
 use crate::math::{Spatial, Vec3};
 use crate::model::plan::PlanFlag;
 use crate::model::reflect::{self, FieldId, Object, View, ViewMut, data};
@@ -409,6 +410,60 @@ pub fn mass_matrix<S: Scope>(m: &Model, d: &mut Data<S>) -> Result<(), Error> {
     d.has(&[data::cinert, data::M])?;
     let (d, s) = d.engine(m)?;
     step::forward::mass_matrix(m, d, s);
+    Ok(())
+}
+
+/// The energy of the poses and lengths at hand, at `qpos` and `qvel`, for the current controls; see [`mechanical_energy`]. They
+/// come from an earlier computation, or from [`copy_poses`].
+///
+/// # Errors
+///
+/// When the data belongs to another model, or its plan leaves out poses or inertias of bodies.
+pub fn energy_of_poses<S: Scope>(m: &Model, d: &mut Data<S>) -> Result<Option<Energy>, Error> {
+    d.has(&[data::ximat, data::cinert])?;
+    let (d, s) = d.engine(m)?;
+    Ok(balance::energy_of_poses(m, d, s))
+}
+
+/// What [`copy_poses`] copies.
+const POSES: [FieldId; 8] = [
+    data::xmat,
+    data::xipos,
+    data::ximat,
+    data::xanchor,
+    data::xaxis,
+    data::ten_length,
+    data::actuator_length,
+    data::M,
+];
+
+/// Whether each step computes all that [`copy_poses`] copies and [`energy_of_poses`] needs, for the state from which the step
+/// starts. The last evaluation of a Runge–Kutta step is at another state; the inertia of tendons needs their Jacobian.
+pub fn steps_compute_poses<S: Scope>(m: &Model, d: &Data<S>) -> bool {
+    m.opt.integrator != integrator::RK4
+        && m.tendon_armature.iter().all(|&a| a == 0.0)
+        && d.has(&POSES).is_ok()
+}
+
+/// Copies the poses of bodies and joints, the lengths of tendons and actuators, and `M`, of the last evaluation of `from`.
+///
+/// # Errors
+///
+/// When one of the data belongs to another model, or a plan leaves out one of these fields.
+pub fn copy_poses<S: Scope, T: Scope>(m: &Model, to: &mut Data<S>, from: &Data<T>) -> Result<(), Error> {
+    from.belongs_to(m)?;
+    from.has(&POSES)?;
+    to.has(&POSES)?;
+    let (to, _) = to.engine(m)?;
+    let from = &from.fields;
+    to.xmat.copy_from_slice(&from.xmat);
+    to.xipos.copy_from_slice(&from.xipos);
+    to.ximat.copy_from_slice(&from.ximat);
+    to.xanchor.copy_from_slice(&from.xanchor);
+    to.xaxis.copy_from_slice(&from.xaxis);
+    to.ten_length.copy_from_slice(&from.ten_length);
+    to.actuator_length.copy_from_slice(&from.actuator_length);
+    to.M.copy_from_slice(&from.M);
     Ok(())
 }
 

@@ -33,6 +33,11 @@ impl Energy {
 pub fn mechanical_energy(m: &Model, d: &mut Fields, s: &mut Scratch) -> Option<Energy> {
     forward::update_positions(m, d, s);
     transmission::transmissions(m, d, &mut s.forces);
+    energy_of_poses(m, d, s)
+}
+
+/// Like [`mechanical_energy`], for the poses and lengths at hand.
+pub fn energy_of_poses(m: &Model, d: &mut Fields, s: &mut Scratch) -> Option<Energy> {
     let mut gravity = 0.0;
     if !m.opt.disabled(disable::GRAVITY) {
         for (b, &x) in rows::<3>(&d.xipos).iter().enumerate().skip(1) {

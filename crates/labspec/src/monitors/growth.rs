@@ -28,6 +28,9 @@
 //! only a small gain, while the bound, which is tested in every step, is at most 2.25 times its value at that evaluation. A gain
 //! of three times the available energy that appears and vanishes within these steps is missed only if the bound hardly grows.
 //!
+//! In a run that computes all poses, the energy of a state is evaluated one step later: the step that starts from this state
+//! has then computed its poses. Other runs compute the poses in separate data.
+//!
 //! A step in which a body rotates by more than half a turn cannot resolve the motion. If nothing in the scene is elastic, a
 //! gain that is observed a few times in such steps is growth, whether it persists or not. An example is a pendulum with a
 //! timestep of one second.
@@ -43,7 +46,8 @@
 use super::stability;
 use labspec_core::math::{MINVAL, norm, rows};
 use labspec_core::{Data, Energy, Fields, Model, Plan, Planned, Scope, disable, joint};
-use labspec_core::{exhausted, forward, limit, mass_matrix, mechanical_energy, mul_m, work_left};
+use labspec_core::{copy_poses, energy_of_poses, exhausted, forward, limit, mass_matrix, mechanical_energy};
+use labspec_core::{mul_m, steps_compute_poses, work_left};
 
 /// Bounds of the factor by which the gain of one step must exceed the available energy: the usual value, and the largest
 /// value, which applies near the stability limit of a spring. `OSCILLATION_FACTOR` is the factor on the energy ratio of
@@ -105,6 +109,10 @@ pub enum Source {
 pub struct GrowthMonitor {
     copied: Data<Planned>,
     start: Option<StartEnergy>,
+    /// Whether the steps of the run compute the poses, and whether the state in `copied` is to be evaluated with those of the next
+    /// step.
+    poses_of_steps: bool,
+    pending: bool,
     /// Square roots of the diagonal of M, the largest observed values, and the number of evaluations until the next update.
     roots: Vec<f64>,
     evaluations_until_update: u32,
@@ -134,6 +142,8 @@ pub fn watch<S: Scope>(m: &Model, d: &Data<S>) -> GrowthMonitor {
     let mut w = GrowthMonitor {
         copied: Data::planned(m, Plan::awake()),
         start: None,
+        poses_of_steps: false,
+        pending: false,
         roots: vec![0.0; m.nv],
         evaluations_until_update: 0,
         sudden: 0.0,
@@ -150,7 +160,7 @@ pub fn watch<S: Scope>(m: &Model, d: &Data<S>) -> GrowthMonitor {
 
 /// Restarts the monitor in state `d` after the state or the model was changed from outside. A reported gain is kept.
 pub fn restart<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>) {
-    (w.start, w.lasted, w.leaps, w.rest) = (None, 0, 0, 0);
+    (w.start, w.pending, w.lasted, w.leaps, w.rest) = (None, false, 0, 0, 0);
     if m.nv == 0 || has_energy_source(m, d) {
         return;
     }
@@ -167,7 +177,8 @@ pub fn restart<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>) {
         w.roots.fill(0.0);
         w.evaluations_until_update = 0;
         w.sudden = step_gain_factor(m);
-        update_inertia_scale(w, m);
+        w.poses_of_steps = steps_compute_poses(m, d);
+        update_inertia_scale(w, m, false);
     }
 }
 
@@ -181,15 +192,17 @@ fn step_gain_factor(m: &Model) -> f64 {
     }
 }
 
-/// Updates the square roots of the diagonal of M where they have increased.
-fn update_inertia_scale(w: &mut GrowthMonitor, m: &Model) {
+/// Updates the square roots of the diagonal of M where they have increased. `has_mass_matrix`: M of these poses is at hand.
+fn update_inertia_scale(w: &mut GrowthMonitor, m: &Model, has_mass_matrix: bool) {
     w.evaluations_until_update = w.evaluations_until_update.saturating_sub(1);
     if w.evaluations_until_update > 0 {
         return;
     }
     w.evaluations_until_update = if m.nv <= MAX_DOFS_PER_STEP_INERTIA { 1 } else { EVALUATIONS_PER_UPDATE };
-    let filled = mass_matrix(m, &mut w.copied);
-    debug_assert!(filled.is_ok(), "the data belong to the model, and their plan keeps every stage");
+    if !has_mass_matrix {
+        let filled = mass_matrix(m, &mut w.copied);
+        debug_assert!(filled.is_ok(), "the data belong to the model, and their plan keeps every stage");
+    }
     let elements = &w.copied.fields().M;
     // A row of M ends with its diagonal.
     for ((root, &start), &length) in w.roots.iter_mut().zip(&m.M_rowadr).zip(&m.M_rownnz) {
@@ -203,6 +216,9 @@ fn update_inertia_scale(w: &mut GrowthMonitor, m: &Model) {
 #[inline]
 pub fn observe<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>) -> Option<Growth> {
     let Some(start) = w.start.filter(|_| w.found.is_none()) else { return w.found };
+    if w.pending && evaluate_pending(w, m, d, start) {
+        return w.found;
+    }
     let qvel = &d.fields().qvel;
     let speed: f64 = w.roots.iter().zip(qvel.iter()).map(|(root, v)| root * v.abs()).sum();
     // The comparison is false for NaN, so NaN is evaluated.
@@ -217,29 +233,64 @@ pub fn observe<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>) -> Optio
         return None;
     }
     w.speed = speed;
-    compare(w, m, d, start)
+    evaluate(w, m, d, start)
 }
 
-/// Compares the energy of the current state with that of the start.
-fn compare<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>, start: StartEnergy) -> Option<Growth> {
+/// Compares the energy of the current state with that of the start, or leaves the state to the next step.
+fn evaluate<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>, start: StartEnergy) -> Option<Growth> {
     let (copied, now) = (w.copied.fields(), d.fields());
-    let same = copied.ctrl == now.ctrl
-        && copied.mocap_pos == now.mocap_pos
-        && copied.mocap_quat == now.mocap_quat
-        && copied.eq_active == now.eq_active
-        && !applied(d);
-    if !same {
+    if copied.ctrl != now.ctrl || scene_changed(w, d) || applied(d) {
         restart(w, m, d);
         return None;
     }
-    let StartEnergy { energy: before, available_energy, lift } = start;
     take(&mut w.copied, d);
-    let now = mechanical_energy(m, &mut w.copied).ok().flatten()?;
-    update_inertia_scale(w, m);
+    if w.poses_of_steps {
+        w.pending = true;
+        return None;
+    }
+    let energy = mechanical_energy(m, &mut w.copied).ok().flatten()?;
+    compare(w, m, energy, start, false)
+}
+
+/// Compares the energy of the state that was left to this step with that of the start. Returns whether the monitor has restarted or
+/// has found growth.
+fn evaluate_pending<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>, start: StartEnergy) -> bool {
+    w.pending = false;
+    if scene_changed(w, d) {
+        restart(w, m, d);
+        return true;
+    }
+    // A step that finds bad numbers starts from the reset state.
+    let steps = (d.time() - w.copied.time()) / m.opt.timestep;
+    let computed = (0.5..1.5).contains(&steps) && copy_poses(m, &mut w.copied, d).is_ok();
+    let energy =
+        if computed { energy_of_poses(m, &mut w.copied) } else { mechanical_energy(m, &mut w.copied) };
+    let Ok(Some(energy)) = energy else { return false };
+    compare(w, m, energy, start, computed).is_some()
+}
+
+/// Whether positions of mocap bodies or active equality constraints differ from those of the start.
+fn scene_changed<S: Scope>(w: &GrowthMonitor, d: &Data<S>) -> bool {
+    let (copied, now) = (w.copied.fields(), d.fields());
+    copied.mocap_pos != now.mocap_pos
+        || copied.mocap_quat != now.mocap_quat
+        || copied.eq_active != now.eq_active
+}
+
+/// Compares the energy of the state in `copied` with that of the start.
+fn compare(
+    w: &mut GrowthMonitor,
+    m: &Model,
+    now: Energy,
+    start: StartEnergy,
+    has_mass_matrix: bool,
+) -> Option<Growth> {
+    let StartEnergy { energy: before, available_energy, lift } = start;
+    update_inertia_scale(w, m, has_mass_matrix);
     let given = before.potential() - now.potential();
     let gain = now.kinetic - before.kinetic - given;
     let there = available_energy + given.max(now.elastic.abs());
-    let dof_of_negative_damping = dof_of_negative_damping(m, d.fields());
+    let dof_of_negative_damping = dof_of_negative_damping(m, w.copied.fields());
     let sudden = if dof_of_negative_damping.is_some() { 1.0 } else { w.sudden };
     // A gain of NaN exceeds no bound.
     let above = |times: f64, there: f64| gain > times * there + MIN_LIFT_FRACTION * lift;
@@ -252,9 +303,9 @@ fn compare<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>, start: Start
     }
     // Elastic energy oscillates with a large amplitude just below the stability limit, and returns.
     let stiff = before.elastic != 0.0 || now.elastic != 0.0;
-    let turn = if stiff { 0.0 } else { largest_rotation(m, d.fields()) };
+    let turn = if stiff { 0.0 } else { largest_rotation(m, w.copied.fields()) };
     if w.lasted == 0 && w.leaps == 0 {
-        w.since = d.time();
+        w.since = w.copied.time();
     }
     w.lasted += 1;
     w.leaps += u32::from(turn > MAX_RESOLVED_ROTATION);
