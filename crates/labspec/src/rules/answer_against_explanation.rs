@@ -20,11 +20,11 @@ pub const ANSWER_AGAINST_EXPLANATION: &Rule = &Rule {
 
 pub(super) const CHECK: Check = Check::Question(check_question);
 
-/// Numbers that are as near as this, of the answer, are meant to be it.
+/// The relative difference below which a number of the explanation counts as the answer.
 const SAME_NUMBER: f64 = 0.02;
-/// Characters before and behind a number that say what it is.
+/// The number of characters before and after a number that are searched for its unit and meaning.
 const CONTEXT_LENGTH: usize = 60;
-/// How a slip changes a number.
+/// How a common mistake changes a number.
 const MISTAKE_FACTORS: [(f64, &str); 6] = [
     (-1.0, "the sign differs"),
     (10.0, "the explanation gives a tenth of the answer"),
@@ -74,9 +74,9 @@ fn check_question(question: &Question, findings: &mut Vec<Finding>) {
     }
 }
 
-/// Whether a number is what a line of the explanation comes to: behind `=`, `≈`, `:` or `is`, in the unit of the answer.
+/// Whether a number is the result of a line of the explanation: it follows `=`, `≈`, `:` or `is`, and has the unit of the answer.
 fn is_result(html: &str, n: &Number, unit: &str) -> bool {
-    // What stands near it.
+    // The text near the number.
     let back =
         html.get(..n.at.start).unwrap_or("").char_indices().rev().nth(CONTEXT_LENGTH).map_or(0, |(at, _)| at);
     let before = plain(html.get(back..n.at.start).unwrap_or(""));
@@ -85,13 +85,13 @@ fn is_result(html: &str, n: &Number, unit: &str) -> bool {
     let behind = ["=", "≈", ":", " is", "\\approx"].iter().any(|mark| before.ends_with(mark));
     let after: String = html.get(n.at.end..).unwrap_or("").chars().take(CONTEXT_LENGTH).collect();
     let after = plain_unit(&plain(&after));
-    // Another unit, another number.
+    // A number in another unit is another quantity.
     let ends = after.is_empty() || after.starts_with(['.', ',', ';', ')', ':']);
     let in_its_unit = !unit.is_empty() && after.starts_with(unit);
     behind && (ends || in_its_unit)
 }
 
-/// A unit, or what stands behind a number, without spaces and marks of formulas.
+/// A unit, or the text after a number, without spaces and formula markup.
 fn plain_unit(text: &str) -> String {
     text.chars()
         .filter(|c| !c.is_whitespace() && !"$\\^{}°".contains(*c))

@@ -27,7 +27,7 @@ pub const LABEL_UNIT: &Rule = &Rule {
     ),
 };
 
-/// A readout whose label has a unit, and that is a text in every run.
+/// Reports a readout whose label has a unit, but whose value is a string in every run.
 pub(crate) fn check_text_readout(observed: &ObservedLab<'_>, readout: &Readout, c: usize) -> Option<Finding> {
     let mut cells = column(observed.records, c);
     let (unit, _) = of_label(readout.label.as_str())?;
@@ -46,7 +46,7 @@ pub(crate) fn check_text_readout(observed: &ObservedLab<'_>, readout: &Readout, 
     })
 }
 
-/// The label of a plot with a unit that is not the one of a trace, though both measure the same: degrees beside radians.
+/// Reports a label of a plot whose unit differs from that of a trace of the same quantity: degrees beside radians.
 pub(crate) fn contradicting_units(plot: &Plot, model: &Model) -> Option<Finding> {
     let axis = plot.ylabel.as_ref()?;
     let (text, of_axis) = of_label(axis.as_str())?;
@@ -70,7 +70,7 @@ pub(crate) fn contradicting_units(plot: &Plot, model: &Model) -> Option<Finding>
     })
 }
 
-/// The first of the labels that has a unit, if it is another one than that of the numbers.
+/// Reports the first label whose unit differs from that of the numbers.
 pub(crate) fn wrong_label(
     labels: &[&Text],
     model: &Model,
@@ -78,15 +78,15 @@ pub(crate) fn wrong_label(
     found: &Dimension,
 ) -> Option<Finding> {
     let (label, (text, wanted)) = labels.iter().find_map(|l| Some((l, of_label(l.as_str())?)))?;
-    // Something of the model may have the name of a unit.
+    // An object of the model may have the name of a unit.
     if names(model).any(|name| name == text) {
         return None;
     }
-    // The smallest of something is no time.
+    // `min` may mean a minimum instead of minutes.
     if text == "min" && !found.agrees(&wanted) {
         return None;
     }
-    // A turn is not a radian.
+    // A revolution is not a radian.
     let turns = text.contains("Hz") && found.is_exact() && found.has_angle() && found.agrees(&wanted);
     if !contradicts(found, &wanted) && !turns {
         return None;
@@ -102,7 +102,7 @@ pub(crate) fn wrong_label(
     }))
 }
 
-/// What a student reads.
+/// The effect of the wrong unit on a student.
 fn why(found: &Dimension, wanted: &Dimension) -> String {
     if !found.agrees(wanted) {
         return "the two are different quantities".to_string();
@@ -120,7 +120,7 @@ fn why(found: &Dimension, wanted: &Dimension) -> String {
     }
 }
 
-/// How SI becomes a unit.
+/// Describes the conversion from SI to a unit.
 fn factor_words(wanted: &Dimension) -> Option<String> {
     let factor = wanted.factor.abs();
     if (factor - 1f64.to_degrees()).abs() < 1e-6 {
@@ -131,7 +131,7 @@ fn factor_words(wanted: &Dimension) -> Option<String> {
     plain.then(|| format!("`{} * (…)`", factor.round()))
 }
 
-/// A control whose unit is not that of what it sets.
+/// Reports a control whose unit differs from that of the value that it sets.
 pub(crate) fn wrong_control(
     control: &Control,
     names: &dyn Schema,

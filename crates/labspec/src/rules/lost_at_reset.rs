@@ -24,7 +24,7 @@ pub const LOST_AT_RESET: &Rule = &Rule {
     ),
 };
 
-/// Controls that set what a reset puts back.
+/// Checks controls that set fields that a reset restores.
 pub(crate) fn check_resets(lab: &Lab, model: &Model, programs: &Programs, findings: &mut Vec<Finding>) {
     for (index, control) in lab.controls.iter().enumerate() {
         let Some((label, ControlProgram::Change(_, action))) = programs.controls.get(index) else { continue };
@@ -47,8 +47,8 @@ pub(crate) fn check_resets(lab: &Lab, model: &Model, programs: &Programs, findin
     }
 }
 
-/// Moves the control, then resets: what of the field is lost, in words. `None` when a setup, a controller or another
-/// control sets it again.
+/// Moves the control, then resets, and describes the values of the field that are lost. `None` if a setup, a controller or another
+/// control sets them again.
 fn describe_lost(
     control: &Control,
     index: usize,
@@ -59,7 +59,7 @@ fn describe_lost(
 ) -> Option<String> {
     let mut programs = programs.clone();
     if let Some((_, ControlProgram::Change(_, action))) = programs.controls.get_mut(index) {
-        // What it sets is looked at before the reset.
+        // The values that it sets are read before the reset.
         action.reset = false;
     }
     let key = FieldKey(field.index() as u32);

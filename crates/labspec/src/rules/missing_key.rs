@@ -12,7 +12,7 @@ pub const MISSING_KEY: &Rule = &Rule {
     good: Example::Lab(r#"{"model": "ball", "readouts": [{"label": "time (s)", "expr": "data.time"}]}"#),
 };
 
-/// A key that an object needs; `advised` where it can do without.
+/// Reports a missing key. `advised`: the key is recommended, not required.
 pub(crate) fn describe_missing(
     span: Range<usize>,
     of: &str,

@@ -22,12 +22,12 @@ pub const MIXED_AWAY: &Rule = &Rule {
     ),
 };
 
-/// Steps in which contacts are observed for.
+/// The number of steps in which contacts are observed.
 const STEPS: usize = 300;
-/// Every so many steps.
+/// The number of steps between observations.
 const STEP_INTERVAL: usize = 5;
 
-/// What is mixed: its name, how the engine mixes it, and its value of a geom.
+/// A mixed parameter: its name, how the engine mixes it, and its value for a geom.
 struct Mixed {
     field: &'static str,
     how: &'static str,
@@ -86,7 +86,8 @@ pub(crate) fn check_contact_mixing(observed: &ObservedLab<'_>, findings: &mut Ve
     }
 }
 
-/// A contact between a geom that the control has changed and one that it has not, which has another value than was written.
+/// Finds a contact between a geom that the control has changed and one that it has not changed, with a value that differs from the
+/// written one.
 fn differs(
     observed: &ObservedLab<'_>,
     index: usize,

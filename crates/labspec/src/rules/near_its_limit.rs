@@ -20,10 +20,10 @@ pub const NEAR_ITS_LIMIT: &Rule = &Rule {
     ),
 };
 
-/// Work for a run at twice the timestep.
+/// The work budget of a run at twice the timestep.
 const DOUBLED_TIMESTEP_WORK: Budget = Budget { left: 300_000_000 };
 
-/// A lab that breaks at twice its timestep, and did not in so many runs of this length, s.
+/// Reports a lab that breaks at twice its timestep, but did not break in this many runs of this length, s.
 pub(crate) fn check_margin(
     ready: &PreparedLab<'_>,
     case: &StressCase<'_>,
@@ -35,7 +35,7 @@ pub(crate) fn check_margin(
         effects.writes_everything
             || effects.writes.iter().any(|w| w.field.0 as usize == option::timestep.index())
     };
-    // Where a control chooses it, its ends were run.
+    // If a control sets the timestep, its extreme values were run.
     if ready.programs.bound().any(|b| writes(b.program.effects())) {
         return None;
     }

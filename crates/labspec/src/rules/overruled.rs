@@ -1,6 +1,8 @@
-//! Controls that something else overrules: the lab begins with another value than they show, or the controller writes its own.
+//! Controls that another program overwrites: the lab begins with another value than they show, or the controller writes a different
+//! value.
 //!
-//! Only what a control sets directly is observed at, elements of the model and inputs, so that nothing else can be what it does.
+//! Only values that a control sets directly are observed, elements of the model and inputs, so that the control has no other
+//! effect.
 
 use crate::bind::{Bound, ControlProgram};
 use crate::check::observations::{Move, ObservedLab, Setting, settings, values};
@@ -26,11 +28,11 @@ pub const OVERRULED: &Rule = &Rule {
     ),
 };
 
-/// Steps after which a control is moved, besides the start.
+/// The number of steps after which a control is moved, besides the start.
 const LATE_STEPS: usize = 40;
 /// The latest step at which it is moved.
 const MOST_STEPS: usize = 20_000;
-/// Most elements that are observed at.
+/// The maximum number of observed elements.
 const MAX_ELEMENTS: usize = 64;
 
 /// An element that a control sets.
@@ -59,7 +61,7 @@ impl Element {
     }
 }
 
-/// The elements that a program sets; `None` where it does more than that, or sets what moves by itself.
+/// The elements that a program sets. `None` if it has other effects, or sets values that also change by themselves.
 fn elements(bound: &Bound) -> Option<Vec<Element>> {
     let effects = bound.program.effects();
     let more = effects.writes_everything || effects.any_ctx || effects.calls_values;
@@ -78,7 +80,7 @@ fn elements(bound: &Bound) -> Option<Vec<Element>> {
     (!all.is_empty() && all.len() <= MAX_ELEMENTS).then_some(all)
 }
 
-/// Looks at every control; tells which of them are overruled.
+/// Checks every control, and reports the overwritten ones.
 pub(crate) fn check_overruled_controls(observed: &mut ObservedLab<'_>, findings: &mut Vec<Finding>) {
     let ready = observed.bench.ready;
     for (index, control) in ready.lab.controls.iter().enumerate() {
@@ -108,7 +110,7 @@ pub(crate) fn check_overruled_controls(observed: &mut ObservedLab<'_>, findings:
     }
 }
 
-/// What the lab begins with where the control says another value, in words.
+/// Describes the value at the start if it differs from the value of the control.
 fn initial_value(
     observed: &ObservedLab<'_>,
     index: usize,
@@ -127,7 +129,7 @@ fn initial_value(
     session.set_control(index, current.clone());
     let says = now(&session);
     session.set_control(index, current.clone());
-    // What adds to what is there says nothing of the start.
+    // Statements that add to the current value give no initial value.
     if now(&session) != says || session.ended().is_some() {
         return None;
     }
@@ -140,7 +142,7 @@ fn initial_value(
     ))
 }
 
-/// What the controller makes of it, whatever it is set to, in words.
+/// Describes the value that the controller writes, whatever the value of the control.
 fn overwritten(
     observed: &mut ObservedLab<'_>,
     index: usize,
@@ -151,7 +153,7 @@ fn overwritten(
     ready.programs.controller.as_ref()?;
     let values = values(control);
     let (mut evidence, mut runs) = (None, 0);
-    // A controller may leave it alone at the start, or later on.
+    // A controller may not write it at the start, or later on.
     let (steps, _) = observed.bench.steps(observed.length)?;
     let late = [steps / 2, steps.saturating_sub(2)]
         .into_iter()
@@ -184,7 +186,7 @@ fn overwritten(
     ))
 }
 
-/// The elements when the control is moved, and one step later.
+/// The elements right after the control is moved, and one step later.
 fn after(
     observed: &mut ObservedLab<'_>,
     setting: &[Move],

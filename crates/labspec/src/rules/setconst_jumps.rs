@@ -23,9 +23,9 @@ pub const SETCONST_JUMPS: &Rule = &Rule {
     ),
 };
 
-/// Steps before the control is moved, at most.
+/// The maximum number of steps before the control is moved.
 const STEPS: usize = 400;
-/// A smaller jump is none.
+/// Smaller jumps are ignored.
 const MIN_JUMP: f64 = 1e-6;
 
 pub(crate) fn check_jumps(observed: &ObservedLab<'_>, findings: &mut Vec<Finding>) {

@@ -16,7 +16,7 @@ pub const UNKNOWN_KEY: &Rule = &Rule {
     good: Example::Lab(r#"{"model": "ball", "readouts": [{"label": "t", "expr": "data.time"}]}"#),
 };
 
-/// A key that the object does not have.
+/// Reports an unknown key of an object.
 pub(crate) fn describe_key(span: Range<usize>, of: &str, key: &str, meant: &Meant) -> Finding {
     let message = match key.trim().is_empty() {
         true => format!("a key of {of} has no name"),

@@ -1,9 +1,9 @@
-//! The words and the numbers of a shown text: what two texts have in common, and which number a sentence ends with.
+//! The words and numbers of a rendered text: the common words of two texts, and the last number of a sentence.
 
 use crate::markdown::html::{HtmlToken, tokens};
 use std::ops::Range;
 
-/// A text of HTML without its tags, entities and runs of spaces.
+/// A text of HTML without its tags, entities and repeated spaces.
 pub(super) fn plain(html: &str) -> String {
     let mut out = String::new();
     for token in tokens(html) {
@@ -16,8 +16,8 @@ pub(super) fn plain(html: &str) -> String {
     out.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// What a text says, whatever its capitals, marks and articles. Code and formulas are as they stand: there, every character counts
-/// but an article before them and a full stop behind.
+/// A text without capitals, punctuation and articles. Code and formulas are kept: in them, every character counts, except a
+/// preceding article and a following full stop.
 pub(super) fn visible_text(html: &str) -> String {
     if html.contains("<code") || html.contains('$') || html.contains('`') {
         let text = plain(html);
@@ -31,7 +31,7 @@ pub(super) fn visible_text(html: &str) -> String {
     text.split(' ').filter(|w| !["a", "an", "the"].contains(w)).collect::<Vec<_>>().join(" ")
 }
 
-/// The words of a text without capitals and marks, code and formulas too.
+/// The words of a text without capitals and punctuation, also in code and formulas.
 pub(super) fn normalized_words(html: &str) -> String {
     let lower = plain(html).to_lowercase();
     let without_punctuation: String =
@@ -43,16 +43,16 @@ pub(super) fn normalized_words(html: &str) -> String {
 /// A number in a text.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Number {
-    /// Bytes of the text.
+    /// The byte range in the text.
     pub(super) at: Range<usize>,
     pub(super) value: f64,
-    /// Digits behind the point.
+    /// The number of digits after the decimal point.
     pub(super) decimals: usize,
-    /// Digits from the first that is not 0.
+    /// The number of significant digits.
     pub(super) significant: usize,
 }
 
-/// The numbers of a text of HTML; powers of ten, indices and exponents are none.
+/// The numbers of a text of HTML, without powers of ten, indices and exponents.
 pub(super) fn numbers(html: &str) -> Vec<Number> {
     let texts = tokens(html).into_iter().filter_map(|token| match token {
         HtmlToken::Text(at) => Some(at),
@@ -80,7 +80,7 @@ fn number(html: &str, at: Range<usize>, decimals: usize) -> Option<Number> {
     let digits = html.get(at.clone())?;
     let negative = before.ends_with(['-', '−']);
     let outer = before.trim_end_matches(['-', '−']);
-    // An exponent, an index, a part of a name.
+    // An exponent, an index, or a part of a name.
     let part = outer.ends_with(['^', '_', '.', '\\']) || outer.ends_with(|c: char| c.is_alphabetic());
     let inner = outer.ends_with("^{") || outer.ends_with("_{") || outer.ends_with("{,}");
     let joined = after.starts_with(['^', '_', '/', '×', '*', 'e', 'E', ',']) && !after.starts_with(", ");
