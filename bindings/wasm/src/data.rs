@@ -107,7 +107,7 @@ impl RawData {
         Ok(RawData { world, poses: Vec::new(), before: vec![0.0; size] })
     }
 
-    /// Makes so many steps, with at most so much work.
+    /// Makes at most this many steps, within this work budget.
     pub fn step(&mut self, model: &mut RawModel, steps: usize, work: Option<f64>) -> Result<(), JsValue> {
         if steps > MAX_STEPS {
             return Err(call_error(

@@ -108,7 +108,7 @@ fn spot_in<'x>(xml: &'x str, tag: Tag<'x>, byte: usize) -> Spot<'x> {
     let before = xml.get(tag.start..byte).unwrap_or("");
     let is_name = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-' | ':' | '.');
     let start = tag.start + before.trim_end_matches(is_name).len();
-    // An attribute starts behind a blank.
+    // An attribute starts after a blank.
     if tag.is_end || !xml.get(..start).is_some_and(|text| text.ends_with(char::is_whitespace)) {
         return Spot::Nothing;
     }
@@ -160,7 +160,8 @@ fn at(c: Completion, span: &Range<usize>) -> Completion {
     Completion { edit: Edit { span: span.clone(), ..c.edit }, ..c }
 }
 
-/// The elements that can be inside of the open ones. `is_tag`: behind a `<`, where the end of the parent fits as well.
+/// The elements that can be inside of the open ones. `is_tag`: after a `<`, where the closing tag of the parent is possible as
+/// well.
 fn children(open: &[&str], span: &Range<usize>, before: &str, is_tag: bool) -> Vec<Completion> {
     let root = [schema_root()];
     let parent = element_at(open);

@@ -32,7 +32,7 @@ pub(super) type ListedFile = (PathBuf, bool);
 /// A path that could not be read, and the reason.
 pub(super) type UnreadFile = (PathBuf, String);
 
-/// The path that stands for standard input.
+/// The path that denotes standard input.
 pub(super) const STDIN: &str = "-";
 
 /// The files under the paths of a command.

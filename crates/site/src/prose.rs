@@ -1,4 +1,4 @@
-//! The prose of a lesson as HTML: Markdown without its fences, in groups that stand by themselves.
+//! The prose of a lesson as HTML: Markdown without its fences, in self-contained groups.
 
 use crate::html::{Addresses, OpenElements};
 use crate::marks::TextMark;
@@ -63,7 +63,7 @@ pub(crate) fn wanted_id(heading: &Heading) -> String {
     heading.id.clone().filter(|id| !id.is_empty()).unwrap_or_else(|| slug(&heading.text))
 }
 
-/// A part of a lesson that stands by itself: no element of its HTML reaches out of it.
+/// A self-contained part of a lesson: no element of its HTML extends beyond it.
 #[derive(Debug, Default)]
 pub(crate) struct Group {
     /// Its range in the masked text.

@@ -16,7 +16,7 @@ struct Entry<'e> {
     text: String,
 }
 
-/// The index as JSON. It is a file of its own, which a page fetches when somebody searches.
+/// The index as JSON. It is a separate file, which a page fetches at the first search.
 pub(crate) fn search_index(pages: &[LessonPage]) -> String {
     let entries: Vec<Entry<'_>> = pages
         .iter()

@@ -206,7 +206,7 @@ impl Sweep {
         for &k in &self.wide {
             let s = &self.shadows[k as usize];
             if s.spans() > self.shadows.len() as i64 {
-                // For so many columns, searching each column costs more than testing every geom.
+                // For this many columns, searching each column costs more than testing every geom.
                 for other in self.shadows.iter().filter(|other| !other.wide) {
                     self.tested += 1;
                     if other.near(s) {

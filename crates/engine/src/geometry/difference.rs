@@ -5,7 +5,7 @@
 use super::support::Body;
 use crate::math::*;
 
-/// A point of the Minkowski difference and the two points that it comes from.
+/// A point of the Minkowski difference, and the two points of which it is the difference.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Vertex {
     pub(super) on_a: Vec3,

@@ -95,7 +95,7 @@ pub(super) struct ModelAnalysis<'a> {
     /// There are actuators, and the force of all of them is zero.
     pub(super) idle: bool,
     pub(super) sensors: bool,
-    /// Sensors are evaluated although nobody reads them: those with buffers, which are part of the state, and those of energies,
+    /// Sensors are evaluated even if nothing reads them: those with buffers, which are part of the state, and those of energies,
     /// whose results are also in `energy`.
     pub(super) every_sensor: bool,
     pub(super) energy: bool,

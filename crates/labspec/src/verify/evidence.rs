@@ -36,7 +36,7 @@ pub(super) enum ClaimValue {
 }
 
 impl ClaimValue {
-    /// Whether two values are different claims. Numbers differ if they are more than one percent apart.
+    /// Whether two values are different claims. Numbers differ if their relative difference exceeds one percent.
     pub(super) fn differs(self, other: ClaimValue) -> bool {
         match (self, other) {
             (ClaimValue::Holds(a), ClaimValue::Holds(b)) => a != b,

@@ -237,7 +237,7 @@ impl Machine<'_> {
         }
     }
 
-    /// Applies a function of `Math`. The arguments are copied behind all registers, where there is free space.
+    /// Applies a function of `Math`. The arguments are copied to the free space after all registers.
     #[inline(always)]
     fn apply_math(&mut self, dst: Num, function: math::MathFunction, args: &[u32], f: RegisterFrame) {
         let numbers = &mut self.context.numbers;

@@ -32,7 +32,7 @@ impl Prepared<'_> {
         if self.inserted.is_empty() {
             return byte;
         }
-        // The nth blank is n bytes behind its offset in the text as written.
+        // The nth blank is n bytes after its offset in the text as written.
         let (mut low, mut high) = (0, self.inserted.len());
         while low < high {
             let n = (low + high) / 2;

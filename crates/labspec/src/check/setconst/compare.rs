@@ -8,7 +8,7 @@ use crate::bind::coupled::{PairSet, Repair};
 use crate::run::StepVariant;
 use crate::verify::HALVED;
 
-/// A start that is perturbed by less than anybody can set.
+/// A start with a perturbation that is smaller than any input resolution.
 const PERTURBED_START: StepVariant = StepVariant { perturbation: 1e-9, ..StepVariant::NOMINAL };
 /// Fraction of the range by which a repaired run may differ from the corrected one, because of the order of operations.
 const ROUNDED: f64 = 1e-6;

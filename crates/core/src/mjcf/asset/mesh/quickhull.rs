@@ -110,7 +110,7 @@ struct PartialHull {
 }
 
 impl PartialHull {
-    /// Starts with a tetrahedron of points that are far apart.
+    /// Starts with a tetrahedron of distant points.
     fn new(points: &[Vec3]) -> Result<PartialHull, Flat> {
         let (points, steps) = on_grid(points);
         let indices = || 0..points.len() as u32;
