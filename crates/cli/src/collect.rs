@@ -43,13 +43,13 @@ pub(super) struct Collected {
     /// Paths that could not be read, with the reasons.
     pub(super) problems: Vec<UnreadFile>,
     /// Paths that were skipped, with the reasons: links that lead out of the root.
-    pub(super) left_out: Vec<UnreadFile>,
+    pub(super) skipped: Vec<UnreadFile>,
 }
 
 impl Collected {
     /// Prints the skipped paths on standard error.
     pub(super) fn print_skipped(&self) {
-        for (path, why) in &self.left_out {
+        for (path, why) in &self.skipped {
             print_error(&printable_lines(&format!("labspec: {} is skipped: {why}\n", path.display())));
         }
     }
@@ -153,7 +153,7 @@ fn follow(link: &Path, root: &Path, wanted: &dyn Fn(&Path) -> bool, all: &mut Co
                 printable_name(root),
                 printable_name(&real)
             );
-            all.left_out.push((link.to_path_buf(), why));
+            all.skipped.push((link.to_path_buf(), why));
         }
     }
 }

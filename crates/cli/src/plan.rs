@@ -130,7 +130,7 @@ fn parts(report: &PlanReport, text: &mut String) {
         let how = if *searched { "found by the general algorithm" } else { "in closed form" };
         let _ = writeln!(text, "  keep   {n:>5}  {} and {}, {how}", shapes[0], shapes[1]);
     }
-    for (reason, n) in &pairs.left_out {
+    for (reason, n) in &pairs.excluded {
         let _ = writeln!(text, "  leave  {n:>5}  {reason}");
     }
     if let Some(seen) = pairs.seen.filter(|_| pairs.can_touch > 0) {
@@ -287,7 +287,8 @@ struct Pairs<'a> {
     all: usize,
     can_touch: usize,
     tests: Vec<SearchTest<'a>>,
-    left_out: Vec<OmittedStage>,
+    #[serde(rename = "leftOut")]
+    excluded: Vec<ExcludedPairs>,
     in_reach: Option<MeanAndMaximum>,
     contacts: Option<MeanAndMaximum>,
 }
@@ -300,7 +301,7 @@ struct SearchTest<'a> {
 }
 
 #[derive(Serialize)]
-struct OmittedStage {
+struct ExcludedPairs {
     reason: &'static str,
     pairs: usize,
 }
@@ -348,14 +349,14 @@ fn mean_and_maximum([mean, most]: [f64; 2]) -> MeanAndMaximum {
 
 fn pair_row(of: &PairSummary) -> Pairs<'_> {
     let tests = of.tests.iter();
-    let left_out = of.left_out.iter();
+    let excluded = of.excluded.iter();
     Pairs {
         all: of.all,
         can_touch: of.can_touch,
         tests: tests
             .map(|(shapes, pairs, searched)| SearchTest { shapes, pairs: *pairs, searched: *searched })
             .collect(),
-        left_out: left_out.map(|&(reason, pairs)| OmittedStage { reason, pairs }).collect(),
+        excluded: excluded.map(|&(reason, pairs)| ExcludedPairs { reason, pairs }).collect(),
         in_reach: of.seen.map(|s| mean_and_maximum(s.in_reach)),
         contacts: of.seen.map(|s| mean_and_maximum(s.contacts)),
     }

@@ -44,12 +44,12 @@ pub(super) fn check_lessons(request: &CheckRequest<'_>, cache: &Cache) -> Result
 
 /// As [`check_lessons`], with another hash for the files of models.
 fn check_with_hash(request: &CheckRequest<'_>, cache: &Cache, hash: Hash) -> Result<CourseResults, Failure> {
-    let Collected { files, problems, left_out } = select_files(request)?;
+    let Collected { files, problems, skipped } = select_files(request)?;
     let mut policies = Policies::default();
     let (jobs, mut models) = plan_jobs(request, files, hash, &mut policies)?;
     let outcomes = check_files(request, cache, &jobs, &models)?;
     let (mut results, mut files) = collect_outcomes(request, &jobs, outcomes, problems)?;
-    files.left_out = left_out;
+    files.skipped = skipped;
     add_course_findings(request, &jobs, &mut models, &mut results);
     apply_policies(request, &mut policies, &mut results)?;
     results.ledger = build_ledger(&results, &files, &mut policies)?;

@@ -285,7 +285,7 @@ impl<'r> Renderer<'r, '_> {
                     let dest_url = CowStr::from(address);
                     self.events.push(Event::Start(Tag::Image { link_type, dest_url, title, id }));
                 }
-                None => self.start_left_out(&dest_url),
+                None => self.start_missing_image(&dest_url),
             },
             Tag::Table(alignments) => {
                 let open = "<div class=\"scroll\" role=\"region\" aria-label=\"Table\" tabindex=\"0\">";
@@ -320,7 +320,7 @@ impl<'r> Renderer<'r, '_> {
     }
 
     /// An image that the page does not show: its text, as a link where the image is on the web.
-    fn start_left_out(&mut self, target: &str) {
+    fn start_missing_image(&mut self, target: &str) {
         match self.around.addresses.link(target).filter(|address| address.starts_with("http")) {
             Some(address) => {
                 self.ends.push(Some("</a>"));

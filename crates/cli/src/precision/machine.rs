@@ -3,7 +3,7 @@
 use super::super::report_json::with_nonfinite;
 use labspec::report::key;
 use labspec_numerics::precision::{
-    Advice, BesideRow, Compared, Errors, Event, LeftOut, NearbyStarts, PrecisionResults, PrecisionRow,
+    Advice, BesideRow, Compared, Errors, Event, NearbyStarts, OmittedNumber, PrecisionResults, PrecisionRow,
     RunCost, RunStatus,
 };
 use serde::Serialize;
@@ -50,7 +50,8 @@ struct PrecisionReport<'a> {
     length: f64,
     rows: Vec<Map<String, Value>>,
     events: Vec<Map<String, Value>>,
-    left_out: &'a [LeftOut],
+    #[serde(rename = "leftOut")]
+    omitted: &'a [OmittedNumber],
     front: &'a [usize],
     advice: &'a [Advice],
     units: Vec<Option<&'a str>>,
@@ -135,7 +136,7 @@ pub(super) fn machine(report: &PrecisionResults) -> Map<String, Value> {
         length: report.length,
         rows: report.rows.iter().map(|row| run_row(row, report)).collect(),
         events: report.events.iter().map(event_row).collect(),
-        left_out: &report.left_out,
+        omitted: &report.omitted,
         front: &report.front,
         advice: &report.advice,
         units: targets().map(|t| t.unit.as_deref()).collect(),

@@ -180,7 +180,7 @@ fn human(report: &PrecisionResults) -> String {
     if let Some(beside) = &report.beside {
         write_other_runs(report, beside, &mut text);
     }
-    for out in &report.left_out {
+    for out in &report.omitted {
         let _ = writeln!(text, "Not compared: {}, because {}.", printable(&out.label), out.reason);
     }
     if let Some(nearby) = &report.nearby {

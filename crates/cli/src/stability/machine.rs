@@ -1,7 +1,7 @@
 //! The output of `labspec stability` for programs.
 
 use super::super::report_json::{NonFinite, nonfinite, with_nonfinite};
-use super::left_out;
+use super::describe_skipped;
 use labspec::bind::Programs;
 use labspec::report::key;
 use labspec::stress::{Action, Fault, Interaction, Kind};
@@ -19,8 +19,10 @@ pub(super) struct StabilityReport<'a> {
     tried: Vec<CountRow>,
     runs: Vec<RunRow<'a>>,
     shortest: Option<f64>,
-    pairs_left_out: usize,
-    left_out: Vec<String>,
+    #[serde(rename = "pairsLeftOut")]
+    skipped_pairs: usize,
+    #[serde(rename = "leftOut")]
+    skipped: Vec<String>,
     findings: Vec<FindingRow<'a>>,
     window: f64,
     margins: Vec<MarginRow<'a>>,
@@ -36,7 +38,8 @@ struct CountRow {
     kind: String,
     made: usize,
     cut: usize,
-    left_out: usize,
+    #[serde(rename = "leftOut")]
+    skipped: usize,
 }
 
 #[derive(Serialize)]
@@ -159,7 +162,7 @@ pub(super) fn machine<'a>(report: &'a StressReport, programs: &'a Programs) -> S
         kind: key(t.kind.description()),
         made: t.made,
         cut: t.cut,
-        left_out: t.left_out,
+        skipped: t.skipped,
     });
     let runs = report.runs.iter().map(|run| RunRow {
         kind: key(run.interaction.kind.description()),
@@ -173,8 +176,8 @@ pub(super) fn machine<'a>(report: &'a StressReport, programs: &'a Programs) -> S
         tried: tried.collect(),
         runs: runs.collect(),
         shortest: report.shortest,
-        pairs_left_out: report.pairs_left_out,
-        left_out: left_out(report),
+        skipped_pairs: report.skipped_pairs,
+        skipped: describe_skipped(report),
         findings: report.found.iter().map(|f| finding_row(f, programs)).collect(),
         window: report.window,
         margins: report.margins.iter().map(margin_row).collect(),

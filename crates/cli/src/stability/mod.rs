@@ -105,7 +105,7 @@ fn human(report: &StressReport, programs: &Programs) -> String {
     for found in &report.found {
         finding(found, programs, &mut text);
     }
-    for line in left_out(report) {
+    for line in describe_skipped(report) {
         let _ = writeln!(text, "Not tested: {line}.");
     }
     if report.found.is_empty() {
@@ -323,11 +323,11 @@ fn chart(map: &StabilityMap, title: &str) -> String {
 }
 
 /// Everything that was not tried, or not completely.
-fn left_out(report: &StressReport) -> Vec<String> {
+fn describe_skipped(report: &StressReport) -> Vec<String> {
     let mut list = Vec::new();
     for t in &report.tried {
-        if t.left_out > 0 {
-            list.push(format!("{} of {}", t.left_out, t.kind.description()));
+        if t.skipped > 0 {
+            list.push(format!("{} of {}", t.skipped, t.kind.description()));
         }
     }
     let cut: usize = report.tried.iter().map(|t| t.cut).sum();
@@ -338,9 +338,9 @@ fn left_out(report: &StressReport) -> Vec<String> {
             two_digits(shortest)
         ));
     }
-    if report.pairs_left_out > 0 {
-        list.push(format!("{} pairs of settings, because there are too many", report.pairs_left_out));
+    if report.skipped_pairs > 0 {
+        list.push(format!("{} pairs of settings, because there are too many", report.skipped_pairs));
     }
-    list.extend(report.left_out.iter().cloned());
+    list.extend(report.skipped.iter().cloned());
     list
 }

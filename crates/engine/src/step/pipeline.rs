@@ -40,7 +40,7 @@ pub(super) struct Row {
     /// The reason to run the stage even if no later stage needs it.
     pub(super) wanted: fn(&ModelAnalysis) -> Option<String>,
     /// The reason why the stage does not run if nothing needs it.
-    pub(super) left_out: fn(&ModelAnalysis) -> &'static str,
+    pub(super) omit_reason: fn(&ModelAnalysis) -> &'static str,
     pub(super) run: &'static [(PassPart, Run)],
 }
 
@@ -67,7 +67,7 @@ pub(super) const STAGES: [Row; 26] = [
         name: "sleep",
         needs: &[],
         wanted: |s| reason_if(s.sleeps, "trees at rest fall asleep"),
-        left_out: |s| if s.m.ntree == 0 { "nothing can move" } else { "the sleep flag is off" },
+        omit_reason: |s| if s.m.ntree == 0 { "nothing can move" } else { "the sleep flag is off" },
         run: &[
             (PassPart::Positions, |m, d, s| sleep::wake(m, d, &mut s.sleep)),
             (PassPart::Inputs, |m, d, s| sleep::keep(m, d, &mut s.sleep)),
@@ -78,7 +78,7 @@ pub(super) const STAGES: [Row; 26] = [
         name: "kinematics",
         needs: &[],
         wanted: |s| s.reads(Stage::Kinematics),
-        left_out: |_| "nothing can touch and nothing reads a pose",
+        omit_reason: |_| "nothing can touch and nothing reads a pose",
         run: &[(PassPart::Positions, |m, d, s| tree_algorithms::forward_kinematics(m, d, &mut s.dynamics))],
     },
     Row {
@@ -86,7 +86,7 @@ pub(super) const STAGES: [Row; 26] = [
         name: "orientation",
         needs: &[(&[Stage::Kinematics], ALWAYS)],
         wanted: |s| s.reads(Stage::Orientations),
-        left_out: |_| "nothing reads an orientation as a quaternion",
+        omit_reason: |_| "nothing reads an orientation as a quaternion",
         run: &[(PassPart::Positions, |_, d, s| tree_algorithms::orientations(d, &mut s.dynamics))],
     },
     Row {
@@ -94,7 +94,7 @@ pub(super) const STAGES: [Row; 26] = [
         name: "geom-pose",
         needs: &[(&[Stage::Kinematics], ALWAYS)],
         wanted: |s| s.reads(Stage::GeomPoses),
-        left_out: |_| "no contact is possible and nothing reads a geom's pose",
+        omit_reason: |_| "no contact is possible and nothing reads a geom's pose",
         run: &[(PassPart::Positions, |m, d, _| kinematics::geoms(m, d))],
     },
     Row {
@@ -102,7 +102,7 @@ pub(super) const STAGES: [Row; 26] = [
         name: "site-pose",
         needs: &[(&[Stage::Kinematics], ALWAYS)],
         wanted: |s| s.reads(Stage::SitePoses),
-        left_out: |s| match s.m.nsite {
+        omit_reason: |s| match s.m.nsite {
             0 => "the model has no sites",
             _ => "nothing reads a site's pose",
         },
@@ -113,7 +113,7 @@ pub(super) const STAGES: [Row; 26] = [
         name: "centre-of-mass",
         needs: &[(&[Stage::Kinematics], ALWAYS)],
         wanted: |s| s.reads(Stage::ComPos),
-        left_out: |_| NO_SPATIAL_BODIES,
+        omit_reason: |_| NO_SPATIAL_BODIES,
         run: &[(PassPart::Positions, |m, d, _| com::com_pos(m, d))],
     },
     Row {
@@ -121,7 +121,7 @@ pub(super) const STAGES: [Row; 26] = [
         name: "camera-pose",
         needs: &[(&[Stage::Orientations, Stage::ComPos], ALWAYS)],
         wanted: |s| s.reads(Stage::CameraPoses),
-        left_out: |s| match s.m.ncam + s.m.nlight {
+        omit_reason: |s| match s.m.ncam + s.m.nlight {
             0 => "the model has no cameras and lights",
             _ => "nothing reads the pose of a camera or light",
         },
@@ -140,7 +140,7 @@ pub(super) const STAGES: [Row; 26] = [
             s.reads(Stage::Tendon)
                 .or_else(|| reason_if(wakes, "tendons at their limits wake the trees that they connect"))
         },
-        left_out: without_tendons,
+        omit_reason: without_tendons,
         run: &[(PassPart::Positions, |m, d, _| calls::tendons(m, d))],
     },
     Row {
@@ -155,7 +155,7 @@ pub(super) const STAGES: [Row; 26] = [
             true => Some(MOVING_MASS.into()),
             false => reason_if(s.reads_field(data::crb), "data.crb is read"),
         },
-        left_out: |_| CONSTANT_MASS,
+        omit_reason: |_| CONSTANT_MASS,
         run: &[(PassPart::Positions, calls::mass_matrix)],
     },
     Row {
@@ -163,7 +163,7 @@ pub(super) const STAGES: [Row; 26] = [
         name: "factorization",
         needs: &[],
         wanted: |s| reason_if(s.general, MOVING_MASS),
-        left_out: |_| CONSTANT_MASS,
+        omit_reason: |_| CONSTANT_MASS,
         run: &[(PassPart::Positions, calls::factor)],
     },
     Row {
@@ -171,7 +171,7 @@ pub(super) const STAGES: [Row; 26] = [
         name: "collision",
         needs: &[(&[Stage::GeomPoses], ALWAYS)],
         wanted: contacts,
-        left_out: |s| {
+        omit_reason: |s| {
             let off = s.m.opt.disabled(disable::CONTACT) || s.m.opt.disabled(disable::CONSTRAINT);
             match s.m.ngeom {
                 _ if off => "contacts are switched off",
@@ -196,7 +196,7 @@ pub(super) const STAGES: [Row; 26] = [
             let wakes = s.sleeps && s.m.neq > 0;
             constraints(s).or_else(|| reason_if(wakes, "trees that are tied together wake each other"))
         },
-        left_out: |_| NO_CONSTRAINTS,
+        omit_reason: |_| NO_CONSTRAINTS,
         run: &[(PassPart::Positions, calls::make_constraints)],
     },
     Row {
@@ -209,7 +209,9 @@ pub(super) const STAGES: [Row; 26] = [
             (&[Stage::Collision, Stage::Constraint], |s, _| s.transmits(&[trntype::BODY])),
         ],
         wanted: |s| s.reads(Stage::Transmission),
-        left_out: |s| without_actuators(s).unwrap_or("moments are constant and no force depends on a length"),
+        omit_reason: |s| {
+            without_actuators(s).unwrap_or("moments are constant and no force depends on a length")
+        },
         run: &[(PassPart::Positions, |m, d, s| transmission::transmissions(m, d, &mut s.forces))],
     },
     Row {
@@ -217,7 +219,7 @@ pub(super) const STAGES: [Row; 26] = [
         name: "tendon-velocity",
         needs: &[(&[Stage::Tendon], ALWAYS)],
         wanted: |s| s.reads(Stage::TendonVel),
-        left_out: without_tendons,
+        omit_reason: without_tendons,
         run: &[(PassPart::Velocities, |m, d, _| tendon::velocities(m, d))],
     },
     Row {
@@ -225,7 +227,7 @@ pub(super) const STAGES: [Row; 26] = [
         name: "actuator-velocity",
         needs: &[(&[Stage::Transmission], ALWAYS)],
         wanted: |s| s.reads(Stage::ActuatorVel),
-        left_out: |s| without_actuators(s).unwrap_or("no force depends on the velocity of an actuator"),
+        omit_reason: |s| without_actuators(s).unwrap_or("no force depends on the velocity of an actuator"),
         run: &[(PassPart::Velocities, |m, d, _| transmission::velocities(m, d))],
     },
     Row {
@@ -233,7 +235,7 @@ pub(super) const STAGES: [Row; 26] = [
         name: "body-velocity",
         needs: &[(&[Stage::ComPos], ALWAYS)],
         wanted: |s| s.reads(Stage::ComVel),
-        left_out: |_| NO_SPATIAL_BODIES,
+        omit_reason: |_| NO_SPATIAL_BODIES,
         run: &[(PassPart::Velocities, |m, d, _| com::com_vel(m, d))],
     },
     Row {
@@ -252,7 +254,7 @@ pub(super) const STAGES: [Row; 26] = [
                 .or_else(|| reason_if(s.adhesion, "contacts pull"))
                 .or_else(|| reason_if(s.gravcomp, "the weight of bodies is compensated"))
         },
-        left_out: |_| "no joint or tendon has a spring or a damper, and bodies move in a vacuum",
+        omit_reason: |_| "no joint or tendon has a spring or a damper, and bodies move in a vacuum",
         run: &[(PassPart::Velocities, |m, d, _| passive::passive(m, d))],
     },
     Row {
@@ -260,7 +262,7 @@ pub(super) const STAGES: [Row; 26] = [
         name: "reference",
         needs: &[(&[Stage::ComVel], |s, _| s.constrains_bodies())],
         wanted: constraints,
-        left_out: |_| NO_CONSTRAINTS,
+        omit_reason: |_| NO_CONSTRAINTS,
         run: &[(PassPart::Velocities, |m, d, s| constraint::reference(m, d, &s.constraint))],
     },
     Row {
@@ -272,7 +274,7 @@ pub(super) const STAGES: [Row; 26] = [
             (&[Stage::Kinematics], |s, _| tree_algorithms::bias_depends_on_poses(s.m, s.algorithms)),
         ],
         wanted: |s| reason_if(s.m.nv > 0, "gravity and the motion of bodies make forces"),
-        left_out: |_| "nothing moves",
+        omit_reason: |_| "nothing moves",
         run: &[(PassPart::Velocities, calls::bias)],
     },
     Row {
@@ -285,7 +287,7 @@ pub(super) const STAGES: [Row; 26] = [
             }),
         ],
         wanted: |s| reason_if(s.actuated, "actuators make forces"),
-        left_out: |s| without_actuators(s).unwrap_or("actuators are switched off"),
+        omit_reason: |s| without_actuators(s).unwrap_or("actuators are switched off"),
         run: &[(PassPart::Inputs, |m, d, s| actuation::actuation(m, d, &mut s.forces))],
     },
     Row {
@@ -300,7 +302,7 @@ pub(super) const STAGES: [Row; 26] = [
             (&[Stage::Kinematics], |s, _| s.has_applied_forces()),
         ],
         wanted: |s| reason_if(s.m.nv > 0, "the integrator needs it"),
-        left_out: |_| "nothing moves",
+        omit_reason: |_| "nothing moves",
         run: &[(PassPart::Inputs, calls::acceleration)],
     },
     Row {
@@ -308,7 +310,7 @@ pub(super) const STAGES: [Row; 26] = [
         name: "solver",
         needs: &[],
         wanted: constraints,
-        left_out: |_| NO_CONSTRAINTS,
+        omit_reason: |_| NO_CONSTRAINTS,
         run: &[(PassPart::Inputs, calls::solve)],
     },
     Row {
@@ -317,7 +319,7 @@ pub(super) const STAGES: [Row; 26] = [
         needs: &[(&[Stage::ComVel], ALWAYS)],
         // The fields are computed only if a sensor needs them.
         wanted: |s| s.reads(Stage::SubtreeVel).filter(|_| sensor::needs(s.m, Stage::SubtreeVel)),
-        left_out: |_| "no sensor measures the momentum of a subtree",
+        omit_reason: |_| "no sensor measures the momentum of a subtree",
         run: &[(PassPart::Velocities, |m, d, _| calls::subtree_velocities(m, d))],
     },
     Row {
@@ -331,7 +333,7 @@ pub(super) const STAGES: [Row; 26] = [
             }),
         ],
         wanted: |s| s.reads(Stage::RnePost).filter(|_| sensor::needs(s.m, Stage::RnePost)),
-        left_out: |_| "no sensor measures a force or an acceleration",
+        omit_reason: |_| "no sensor measures a force or an acceleration",
         run: &[(PassPart::Inputs, |m, d, _| calls::body_forces(m, d))],
     },
     Row {
@@ -345,7 +347,7 @@ pub(super) const STAGES: [Row; 26] = [
             (&[], |s, of| s.is_used_by_sensors(of)),
         ],
         wanted: |s| reason_if(s.sensors, "sensor values are read"),
-        left_out: |s| match s.m.nsensor {
+        omit_reason: |s| match s.m.nsensor {
             0 => "the model has no sensors",
             _ => "nothing reads sensordata",
         },
@@ -364,7 +366,7 @@ pub(super) const STAGES: [Row; 26] = [
             (&[Stage::Tendon], |s, _| s.tendon_springs),
         ],
         wanted: |s| s.reads(Stage::Energy).filter(|_| s.energy || sensor::measures_energy(s.m)),
-        left_out: |s| if s.energy { "nothing reads the energy" } else { "the energy flag is off" },
+        omit_reason: |s| if s.energy { "nothing reads the energy" } else { "the energy flag is off" },
         run: &[
             (PassPart::Positions, calls::potential_energy),
             (PassPart::Velocities, |m, d, _| calls::kinetic_energy(m, d)),

@@ -58,7 +58,7 @@ impl PlanTable {
             let why = why.or_else(|| (more == Some(row.stage)).then(|| "it was requested".into()));
             match why {
                 Some(reason) => plan.decide(row.stage, true, reason),
-                None => plan.decide(row.stage, false, (row.left_out)(&analysis).into()),
+                None => plan.decide(row.stage, false, (row.omit_reason)(&analysis).into()),
             }
         }
         plan.decisions.reverse();

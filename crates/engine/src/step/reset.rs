@@ -61,7 +61,7 @@ pub fn set_plan(m: &Model, d: &mut Fields, s: &mut Scratch, plan: PlanTable) {
     if sleep::is_fresh(&s.sleep) {
         sleep_or_wake_trees(m, d, s);
     }
-    clear_left_out(m, d, s);
+    clear_omitted_fields(m, d, s);
 }
 
 /// Starts measuring the times of the stages from zero, with a clock of the caller.
@@ -89,7 +89,7 @@ pub fn reset_data(m: &Model, d: &mut Fields, s: &mut Scratch) {
             rows_mut::<4>(&mut d.mocap_quat)[id as usize] = rows::<4>(&m.body_quat)[b];
         }
     }
-    clear_left_out(m, d, s);
+    clear_omitted_fields(m, d, s);
     sleep_or_wake_trees(m, d, s);
 }
 
@@ -134,7 +134,7 @@ pub fn set_keyframe(m: &mut Model, d: &Fields, key: usize) -> bool {
 }
 
 /// Sets the fields of stages that the plan leaves out to the values that these stages would compute.
-pub(crate) fn clear_left_out(m: &Model, d: &mut Fields, s: &mut Scratch) {
+pub(crate) fn clear_omitted_fields(m: &Model, d: &mut Fields, s: &mut Scratch) {
     if !d.plan.has(PlanFlag::General) {
         mass::constant(m, d);
     }

@@ -147,7 +147,7 @@ pub fn run_checks(lesson: &Lesson, models: &Models, level: CheckLevel) -> LabOut
     let snapshots = snapshot::check_snapshots(lesson, &ready, level, &mut findings);
     // An editor checks one block at a time, so it does not know the claims of the other blocks.
     if level.claims {
-        rules::numbers_unclaimed::check_left_out(lesson, &mut findings);
+        rules::numbers_unclaimed::check_unclaimed_numbers(lesson, &mut findings);
     }
     ready.extend(beside(lesson, models));
     let claims = if level.claims {

@@ -29,7 +29,7 @@ const FEWEST: usize = 3;
 const MAX_LESSON: usize = 2 << 20;
 
 /// Reports each number separately if nearly all are claimed. Otherwise reports the first one of the text, with the count.
-pub(crate) fn check_left_out(lesson: &Lesson, findings: &mut Vec<Finding>) {
+pub(crate) fn check_unclaimed_numbers(lesson: &Lesson, findings: &mut Vec<Finding>) {
     // If nothing can be claimed, nothing is missing. Very long lessons are not searched.
     let nothing = lesson.labs.is_empty() && lesson.verifies().next().is_none();
     if nothing || lesson.file.text().len() > MAX_LESSON {

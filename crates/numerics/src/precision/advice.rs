@@ -1,6 +1,6 @@
 //! Recommendations: which settings are inferior, because another one is both more accurate and cheaper, and which one to use.
 
-use super::case::LeftOut;
+use super::case::OmittedNumber;
 use super::case::REPEATED_NUMBER;
 use super::judge::Compared;
 use super::numbers::milliseconds;
@@ -131,10 +131,10 @@ fn closest(report: &PrecisionResults, usable: &[usize]) -> Option<Advice> {
 
 /// The meaning of "every number" in this comparison.
 fn every(report: &PrecisionResults) -> String {
-    let again = |o: &&LeftOut| o.reason != REPEATED_NUMBER;
+    let again = |o: &&OmittedNumber| o.reason != REPEATED_NUMBER;
     let compared = report.targets.iter().filter(|t| t.is_compared());
     let until = compared.filter_map(|t| t.until).reduce(f64::min);
-    let some = report.left_out.iter().any(|o| again(&o)) || report.targets.iter().any(|t| !t.is_compared());
+    let some = report.omitted.iter().any(|o| again(&o)) || report.targets.iter().any(|t| !t.is_compared());
     match until {
         Some(t) => format!("every compared number (until {} s)", labspec::run::time(t)),
         None if some => "every compared number".to_string(),

@@ -57,7 +57,7 @@ impl DisplayPrecision {
 
 /// Something that is not compared, with the reason.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct LeftOut {
+pub struct OmittedNumber {
     /// Its label.
     pub label: String,
     /// The reason.
@@ -73,7 +73,7 @@ pub(super) struct PrecisionCase<'a> {
     pub(super) model: &'a Model,
     pub(super) programs: &'a Programs,
     pub(super) targets: Vec<ComparedNumber<'a>>,
-    pub(super) left_out: Vec<LeftOut>,
+    pub(super) omitted: Vec<OmittedNumber>,
     pub(super) set: &'a [(String, Value)],
     /// Buttons and the times at which they are pressed, s.
     pub(super) presses: Vec<(usize, f64)>,
@@ -112,7 +112,7 @@ impl<'a> PrecisionCase<'a> {
             model,
             programs,
             targets: Vec::new(),
-            left_out: Vec::new(),
+            omitted: Vec::new(),
             set,
             presses: Vec::new(),
             access: programs.access,
@@ -170,7 +170,7 @@ impl<'a> PrecisionCase<'a> {
             self.targets.push(ComparedNumber { label: label.to_string(), unit, bound, exact, display });
             return;
         };
-        self.left_out.push(LeftOut { label: label.to_string(), reason });
+        self.omitted.push(OmittedNumber { label: label.to_string(), reason });
     }
 
     /// Whether a program runs at every step. Its controls are constant during a step, so that the timestep is

@@ -1,7 +1,7 @@
 //! The comparison: the reference, a run with every setting, and the report.
 
 use super::agreement::Reference;
-use super::case::{LeftOut, PrecisionCase};
+use super::case::{OmittedNumber, PrecisionCase};
 use super::conserved::{Conserved, change};
 use super::events::{self, Event};
 use super::judge::{self, Compared, Errors};
@@ -43,8 +43,9 @@ pub fn compare(
     let mine = case.run(&mine, RunRequest::default())?;
     let targets = judge::compared(&case, &truth, &mine);
     let blank = targets.iter().filter(|t| t.blank);
-    case.left_out
-        .extend(blank.map(|t| LeftOut { label: t.label.clone(), reason: "it is not a number at the start" }));
+    case.omitted.extend(
+        blank.map(|t| OmittedNumber { label: t.label.clone(), reason: "it is not a number at the start" }),
+    );
     let horizon = targets.iter().filter_map(|t| t.until).reduce(f64::min);
     let part = horizon.map_or(1.0, |t| t / case.length().max(f64::MIN_POSITIVE));
     let judge = Comparison {
@@ -68,7 +69,7 @@ pub fn compare(
         events,
         length: case.length(),
         samples: case.count,
-        left_out: case.left_out,
+        omitted: case.omitted,
         energy: conserved.energy,
         momentum: conserved.momentum,
         penetration: known_to_end(truth.run.penetration),
@@ -108,7 +109,7 @@ fn measure_run_times(case: &PrecisionCase<'_>, rows: &mut [PrecisionRow]) {
 /// Checks that the lab can be compared, and moves presses to times at which the steps of all settings meet.
 fn prepare(case: &mut PrecisionCase<'_>, options: &PrecisionOptions) -> Result<Ladder, RunError> {
     if case.targets.is_empty() {
-        let why = match case.left_out.first() {
+        let why = match case.omitted.first() {
             Some(out) => {
                 format!(": \"{}\" is skipped, because {}", labspec::report::printable(&out.label), out.reason)
             }
@@ -235,7 +236,7 @@ fn without_reference(
         reference: None,
         length: case.length(),
         samples: case.count,
-        left_out: case.left_out,
+        omitted: case.omitted,
         beside: None,
         rows,
         events: Vec::new(),

@@ -29,7 +29,7 @@ mod setting;
 mod step_replay;
 
 pub use beside::{Beside, BesideRow, Recording};
-pub use case::LeftOut;
+pub use case::OmittedNumber;
 pub use compare::compare;
 pub use events::{Event, NearbyStarts};
 pub use judge::{Compared, Errors};

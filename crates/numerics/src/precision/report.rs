@@ -1,7 +1,7 @@
 //! The options and the results of a comparison.
 
 use super::beside::{Beside, Recording};
-use super::case::LeftOut;
+use super::case::OmittedNumber;
 use super::events::{Event, NearbyStarts};
 use super::judge::{Compared, Errors};
 use super::run_cost::RunCost;
@@ -62,7 +62,7 @@ pub struct PrecisionResults {
     /// The compared numbers.
     pub targets: Vec<Compared>,
     /// The numbers that are not compared, with the reasons.
-    pub left_out: Vec<LeftOut>,
+    pub omitted: Vec<OmittedNumber>,
     /// The reference in words; `None` if no method can simulate the lab.
     pub reference: Option<String>,
     /// The length of the runs, s.

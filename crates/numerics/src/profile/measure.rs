@@ -244,9 +244,9 @@ pub(super) fn measure(
 fn variants(case: &MeasuredLab<'_>, plan: &Plan, readers: &[ExtraReader]) -> Vec<Plan> {
     let access = case.programs.access;
     let full = Plan::new(case.model, &AccessSet { reads: FieldSet::ALL, ..access });
-    let left_out = plan.decisions().iter().map(|d| d.stage).filter(|s| !plan.keeps(*s));
+    let omitted = plan.decisions().iter().map(|d| d.stage).filter(|s| !plan.keeps(*s));
     let mut variants = vec![plan.clone(), full];
-    variants.extend(left_out.map(|s| Plan::with(case.model, &access, s)));
+    variants.extend(omitted.map(|s| Plan::with(case.model, &access, s)));
     variants.extend(readers.iter().map(|r| Plan::new(case.model, &r.access)));
     variants
 }

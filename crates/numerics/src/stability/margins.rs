@@ -105,11 +105,11 @@ pub(super) fn margins(
     work: &mut u64,
 ) -> (Vec<Margin>, Vec<String>) {
     let model = case.start(&case.base, RUN).world.model;
-    let mut left_out = Vec::new();
+    let mut skipped = Vec::new();
     let mut list = vec![timestep(&model, length)];
     let mut some = |mut all: Vec<RaisedParameter>, what: &str| {
         if all.len() > MOST {
-            left_out.push(format!("margins of {} more {what}", all.len() - MOST));
+            skipped.push(format!("margins of {} more {what}", all.len() - MOST));
             all.truncate(MOST);
         }
         all
@@ -125,14 +125,14 @@ pub(super) fn margins(
         report_progress(&format!("margin: {} of {}", raised.knob.description(), raised.subject));
         match search(case, &raised, length, work) {
             Ok(margin) => found.push(margin),
-            Err(why) => left_out.push(format!(
+            Err(why) => skipped.push(format!(
                 "the margin of the {} of {}, {why}",
                 raised.knob.description(),
                 raised.subject
             )),
         }
     }
-    (found, left_out)
+    (found, skipped)
 }
 
 /// # Errors

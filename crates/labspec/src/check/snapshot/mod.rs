@@ -50,7 +50,7 @@ impl SnapshotResult {
     pub fn word(&self) -> &'static str {
         match self.state {
             State::True(_) => "as stored",
-            State::LeftOut => "left out",
+            State::Skipped => "left out",
             State::False if self.divergence.is_some() => "differs",
             State::False => "changed",
             _ => "unchecked",
@@ -151,7 +151,7 @@ pub(super) fn check_snapshots(
         lesson.addressed().into_iter().map(with_state).collect::<Vec<_>>()
     };
     if !level.labs {
-        return if level.claims { Vec::new() } else { all(State::LeftOut, "") };
+        return if level.claims { Vec::new() } else { all(State::Skipped, "") };
     }
     let labs = match stored {
         Ok(labs) => labs,

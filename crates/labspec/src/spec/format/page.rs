@@ -67,7 +67,7 @@ fn section(text: &mut String, object: &Object) {
                 Some((_, word)) => format!("\"{word}\""),
                 None => takes(key) + &link(&key.of),
             }),
-            cell(&left_out(key)),
+            cell(&describe_default(key)),
             cell(key.doc),
             cell(key.example)
         );
@@ -93,7 +93,7 @@ fn heading(object: &Object) -> String {
 }
 
 /// What applies if a key is absent.
-fn left_out(key: &Key) -> String {
+fn describe_default(key: &Key) -> String {
     if key.required() {
         return "an error".into();
     }
