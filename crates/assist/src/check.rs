@@ -213,7 +213,7 @@ It comes late.
         let read = |name: &str| std::fs::read_to_string(specs.join("lessons").join(name)).unwrap();
         let lessons =
             ["01-what-a-step-computes.md", "02-bounce-and-swing.md"].map(|name| (name, read(name), 7));
-        for (name, text, apart) in lessons.into_iter().chain([("naming.md", NAMING.to_string(), 1)]) {
+        for (name, text, stride) in lessons.into_iter().chain([("naming.md", NAMING.to_string(), 1)]) {
             let path = specs.join("lessons").join(name);
             let mut document = Document::new(path.clone(), &text);
             let typed =
@@ -221,7 +221,7 @@ It comes late.
             for (at, what) in
                 typed.into_iter().chain([("far", "fra"), ("low", "lwo"), ("#1", "#2"), ("late", "lat")])
             {
-                for (place, _) in text.match_indices(at).step_by(apart) {
+                for (place, _) in text.match_indices(at).step_by(stride) {
                     let mut changed = text.clone();
                     changed.replace_range(place..place + at.len(), what);
                     document.set_text(changed);

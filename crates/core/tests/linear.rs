@@ -26,8 +26,8 @@ fn largest<'a>(list: impl IntoIterator<Item = &'a f64>) -> f64 {
 
 fn near(ours: &DMatrix<f64>, theirs: &DMatrix<f64>, tolerance: f64, what: &str) {
     assert_eq!(ours.shape(), theirs.shape(), "{what}");
-    let apart = largest(&(ours - theirs));
-    assert!(apart <= tolerance, "{what} differs by {apart:e}:\n{ours}{theirs}");
+    let difference = largest(&(ours - theirs));
+    assert!(difference <= tolerance, "{what} differs by {difference:e}:\n{ours}{theirs}");
 }
 
 /// A free body, a ball joint on a hinge, and a slide: every kind of joint, rotated and moving.
@@ -113,9 +113,9 @@ fn linearizations_are_those_of_mujoco() {
                 let sign = if key == "d_centered" { -1.0 } else { 1.0 };
                 let theirs = recorded(&key, shape.0, shape.1) * sign;
                 for (row, value) in data.sensordata.iter().enumerate() {
-                    let apart = largest(&(matrix.row(row) - theirs.row(row)));
+                    let difference = largest(&(matrix.row(row) - theirs.row(row)));
                     let tolerance = 1e-6 + 2.0 * f64::EPSILON * value.abs() / eps;
-                    assert!(apart <= tolerance, "{name}: {key}, row {row} differs by {apart:e}");
+                    assert!(difference <= tolerance, "{name}: {key}, row {row} differs by {difference:e}");
                 }
                 println!("{name} {key}: {:.1e}", largest(&(matrix - theirs)));
             }

@@ -188,13 +188,13 @@ fn human(report: &PrecisionResults) -> String {
             Some(t) => writeln!(
                 text,
                 "Two starts that are {:e} apart agree until {} s: no method can predict what comes later.",
-                nearby.apart,
+                nearby.distance,
                 significant(t)
             ),
             None => writeln!(
                 text,
                 "Two starts that are {:e} apart agree to the end, but the methods do not converge with the step: this is not chaos; forces that jump, as at an impact, are likely.",
-                nearby.apart
+                nearby.distance
             ),
         };
     }
@@ -209,10 +209,10 @@ fn human(report: &PrecisionResults) -> String {
 
 /// The times at which runs are compared.
 fn compared_at(report: &PrecisionResults) -> String {
-    let apart = report.length / report.samples as f64;
+    let interval = report.length / report.samples as f64;
     let shortest = report.rows.iter().map(|r| r.setting.timestep).fold(f64::INFINITY, f64::min);
-    match shortest < 0.9 * apart {
-        true => format!("after each step, but at most every {} ms", milliseconds(apart)),
+    match shortest < 0.9 * interval {
+        true => format!("after each step, but at most every {} ms", milliseconds(interval)),
         false => "after each step".to_string(),
     }
 }

@@ -123,7 +123,8 @@ struct BreakRow<'a> {
 #[derive(Serialize)]
 struct SensitivityRow<'a> {
     length: f64,
-    apart: f64,
+    #[serde(rename = "apart")]
+    distance: f64,
     parting: Option<Map<String, Value>>,
     exponent: Option<ExponentRow>,
     horizons: Vec<HorizonRow<'a>>,
@@ -240,7 +241,7 @@ fn sensitivity_row(s: &Sensitivity) -> SensitivityRow<'_> {
     let horizons = s.horizons.iter();
     SensitivityRow {
         length: s.length,
-        apart: s.apart,
+        distance: s.distance,
         parting: s.parting.map(|DivergenceOfStarts { low, high }| {
             with_nonfinite(&PartingRow { low, high }, &[("low", &low), ("high", &high)])
         }),

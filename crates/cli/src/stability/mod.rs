@@ -218,7 +218,7 @@ fn margin(m: &Margin) -> [String; 6] {
 /// Writes how strongly the lab depends on its initial state.
 fn sensitivity(s: &Sensitivity, text: &mut String) {
     if let Some(p) = &s.parting {
-        let most = 1.0 / s.apart;
+        let most = 1.0 / s.distance;
         let times = match [p.low, p.high].map(two_digits) {
             _ if p.low >= most => format!("more than {most:e}"),
             [low, _] if p.high >= most => format!("{low} to more than {most:e}"),
@@ -247,7 +247,7 @@ fn sensitivity(s: &Sensitivity, text: &mut String) {
             let _ = writeln!(
                 text,
                 "For a start that is off by {:e}, \"{}\" shows other digits from {} s on.",
-                s.apart,
+                s.distance,
                 printable(&h.label),
                 labspec::run::time(t)
             );

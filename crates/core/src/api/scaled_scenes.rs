@@ -83,8 +83,8 @@ fn whole_scenes_scale() {
                 hits += usize::from(want.is_some());
                 assert_eq!(got.map(|h| h.geom), want.map(|h| h.geom), "2^{power}, ray {k}");
                 if let (Some(got), Some(want)) = (got, want) {
-                    let apart = got.distance * 1e-12 / by / want.distance - 1.0;
-                    assert!(apart.abs() < 1e-12, "2^{power}, ray {k}: {apart}");
+                    let difference = got.distance * 1e-12 / by / want.distance - 1.0;
+                    assert!(difference.abs() < 1e-12, "2^{power}, ray {k}: {difference}");
                 }
             }
             for a in 0..m.ngeom {

@@ -242,9 +242,9 @@ mod tests {
         for (lengthrange, option, actuators, want) in cases {
             let got = arm(lengthrange, option, limit, actuators).unwrap();
             let want: Vec<f64> = want.iter().flat_map(|x| [-x, *x]).collect();
-            let apart = got.iter().zip(&want).fold(0.0f64, |s, (a, b)| s.max((a - b).abs()));
+            let difference = got.iter().zip(&want).fold(0.0f64, |s, (a, b)| s.max((a - b).abs()));
             assert!(
-                got.len() == want.len() && apart < 2e-12,
+                got.len() == want.len() && difference < 2e-12,
                 "{lengthrange} {option}: {got:?}, not {want:?}"
             );
         }

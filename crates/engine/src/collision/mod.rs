@@ -164,7 +164,7 @@ fn narrow(m: &Model, d: &mut Fields, work: &mut Narrow, pair: &Pair, params: &Pa
         (geom::SPHERE, geom::SPHERE) if bounded(g1) && bounded(g2) => {
             primitive::sphere_sphere(m, d, g1, g2, params.reach)
         }
-        _ if sweep::far_apart(m, d, g1, g2, params.reach) || d.meter.over() => None,
+        _ if sweep::out_of_reach(m, d, g1, g2, params.reach) || d.meter.over() => None,
         _ => return general(m, d, work, pair, params),
     };
     if let Some(t) = touch {

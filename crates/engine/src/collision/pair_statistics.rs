@@ -128,7 +128,7 @@ pub fn in_reach(m: &Model, d: &Fields, w: &Scratch) -> usize {
     }
     let near = |pair: &&Pair| {
         let [g1, g2] = [pair.geom1 as usize, pair.geom2 as usize];
-        !sweep::far_apart(m, d, g1, g2, params::params(m, pair).reach)
+        !sweep::out_of_reach(m, d, g1, g2, params::params(m, pair).reach)
     };
     w.pairs.pairs.iter().filter(near).count()
 }

@@ -113,7 +113,7 @@ impl Sweep {
             let reach =
                 |plane: usize| s.radius - m.geom_rbound[s.geom as usize] + params::half_reach(m, plane);
             let below = self.planes.iter().map(|&plane| plane as usize);
-            let below = below.filter(|&plane| !far_apart(m, d, plane, s.geom as usize, reach(plane)));
+            let below = below.filter(|&plane| !out_of_reach(m, d, plane, s.geom as usize, reach(plane)));
             self.near.extend(below.filter_map(|plane| may_touch(m, plane, s.geom as usize)));
         }
         sort_by(&mut self.near, |p, q| p.order(m).cmp(&q.order(m)));
@@ -264,7 +264,7 @@ fn axis_of_largest_variance(shadows: &[Shadow], centres: &[Vec3]) -> usize {
 
 /// Whether the bounding spheres of two geoms, or a bounding sphere and a plane, are farther apart than `reach`.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(super) fn far_apart(m: &Model, d: &Fields, a: usize, b: usize, reach: f64) -> bool {
+pub(super) fn out_of_reach(m: &Model, d: &Fields, a: usize, b: usize, reach: f64) -> bool {
     let (pos, mat) = (rows::<3>(&d.geom_xpos), rows::<9>(&d.geom_xmat));
     let (ra, rb) = (m.geom_rbound[a], m.geom_rbound[b]);
     let between = sub(pos[b], pos[a]);

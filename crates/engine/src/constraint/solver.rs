@@ -167,8 +167,9 @@ fn warm_start(
         // The Gauss cost of the unconstrained acceleration is zero. That of the last acceleration includes the trees
         // outside of islands.
         let gauss = |k: usize| 0.5 * (s.ma[k] - d.qfrc_smooth[k]) * (d.qacc_warmstart[k] - d.qacc_smooth[k]);
-        let apart = (0..m.ntree).filter(|&tree| !islands.has(tree)).flat_map(|tree| m.tree_dofs(tree));
-        let warm = progress.iter().map(|r| r.cost).sum::<f64>() + apart.map(gauss).sum::<f64>();
+        let unconstrained =
+            (0..m.ntree).filter(|&tree| !islands.has(tree)).flat_map(|tree| m.tree_dofs(tree));
+        let warm = progress.iter().map(|r| r.cost).sum::<f64>() + unconstrained.map(gauss).sum::<f64>();
         // If all costs are quadratic, Newton's first step reaches the minimum from any starting point.
         let quadratic =
             || m.opt.solver == solver::NEWTON && jac.blocks.iter().all(|b| b.cost == Cost::Quadratic);

@@ -149,16 +149,16 @@ fn descend(
 /// faces, and for features that might be faces, the bodies are moved until they touch, and a common point is taken.
 fn witness(a: &mut Body, b: &mut Body, n: Vec3, h: f64, limits: Limits) -> [Vec3; 2] {
     let v = support(a, b, n);
-    let apart = scale(n, h);
-    if norm(sub(v.point, apart)) <= MIN_STEP * (norm(v.on_a) + norm(v.on_b)) {
+    let offset = scale(n, h);
+    if norm(sub(v.point, offset)) <= MIN_STEP * (norm(v.on_a) + norm(v.on_b)) {
         return [v.on_a, v.on_b];
     }
     let mut edges = |angle: f64| [a.kinks(n, angle), b.kinks(scale(n, -1.0), angle)];
     let (along, nearly) = (edges(NORMAL_TO_EDGE), edges(UNCERTAIN_NORMAL));
     let clear = along.iter().zip(&nearly).all(|(x, y)| x.all().len() == y.all().len());
     let around = |p: Vec3| [add_scaled(p, n, 0.5 * h), add_scaled(p, n, -0.5 * h)];
-    let from_a = |on_a: Vec3| [on_a, sub(on_a, apart)];
-    let from_b = |on_b: Vec3| [add(on_b, apart), on_b];
+    let from_a = |on_a: Vec3| [on_a, sub(on_a, offset)];
+    let from_b = |on_b: Vec3| [add(on_b, offset), on_b];
     let two_faces: [&[Vec3]; 2] = [&[[0.0; 3]; 2]; 2];
     match if clear { along.each_ref().map(|k| k.all()) } else { two_faces } {
         [[], [_, ..]] => from_a(v.on_a),
@@ -171,11 +171,11 @@ fn witness(a: &mut Body, b: &mut Body, n: Vec3, h: f64, limits: Limits) -> [Vec3
             }
             from_a(add_scaled(v.on_a, e, (dot(e, between) - cosine * dot(f, between)) / sine2))
         }
-        _ if norm(sub(v.point, apart)) <= NORMAL_TO_EDGE * (norm(v.on_a) + norm(v.on_b)) => {
+        _ if norm(sub(v.point, offset)) <= NORMAL_TO_EDGE * (norm(v.on_a) + norm(v.on_b)) => {
             around(scale(add(v.on_a, v.on_b), 0.5))
         }
         _ => {
-            let mut moved = b.moved(apart);
+            let mut moved = b.moved(offset);
             let touching = distance(a, &mut moved, f64::INFINITY, limits).corral;
             b.work = moved.work;
             around(add_scaled(touching.mean(|v| v.on_a), n, -0.5 * h))

@@ -151,9 +151,9 @@ impl Report {
                 "{name:24} {number:6} cases, {} beyond the bound, else within {worst:.1e}\n",
                 r.beyond.len()
             );
-            for (case, apart, line) in &r.beyond {
+            for (case, error, line) in &r.beyond {
                 if !allowed.iter().any(|(of, cases, _)| of == name && cases.contains(case)) {
-                    wrong += &format!("{name}, case {case}: {apart:.1e} apart\n    {line}\n");
+                    wrong += &format!("{name}, case {case}: {error:.1e} apart\n    {line}\n");
                 }
             }
         }
@@ -177,8 +177,8 @@ fn difference(a: &[f64], b: &[f64]) -> f64 {
     if a.len() != b.len() {
         return f64::INFINITY;
     }
-    let apart = a.iter().zip(b).map(|(x, y)| (x - y).abs());
-    apart.fold(0.0, |m, d| if d.is_nan() { f64::INFINITY } else { m.max(d) })
+    let error = a.iter().zip(b).map(|(x, y)| (x - y).abs());
+    error.fold(0.0, |m, d| if d.is_nan() { f64::INFINITY } else { m.max(d) })
 }
 
 /// Reorders one list of contacts like another: each contact is matched with the nearest one that remains.
@@ -304,11 +304,11 @@ fn distances_are_those_of_mujoco() {
         let rendered = format!("{line}\n    got {got:?}");
         let exact = !searched || cornered(&a) && cornered(&b);
         let (depth, point) = if exact { (1e-10, 1e-7) } else { (DEPTH, POINT) };
-        let apart = difference(&got[..1], &want[..1]);
-        if searched && apart > depth * scale && truth::is_true(&a, &b) {
+        let error = difference(&got[..1], &want[..1]);
+        if searched && error > depth * scale && truth::is_true(&a, &b) {
             continue; // MuJoCo's search stopped before it converged.
         }
-        report.note(name("dist"), case, apart, depth * scale, &rendered);
+        report.note(name("dist"), case, error, depth * scale, &rendered);
         // For bodies that barely touch, the nearest points can be anywhere along the gap.
         if !searched || got[0].abs() > CLOSE {
             report.note(name("fromto"), case, difference(&got[1..], &want[1..]), point * scale, &rendered);

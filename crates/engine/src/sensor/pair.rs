@@ -42,8 +42,8 @@ fn nearest(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize) -> (f64, [Vec3;
             }
             let (other, another) = w.bounds[i];
             let reach = (best.0.max(0.0) + radius + another) * (1.0 + ROUNDING);
-            let apart = sub(other, centre);
-            if dot(apart, apart) > reach * reach {
+            let offset = sub(other, centre);
+            if dot(offset, offset) > reach * reach {
                 continue;
             }
             // Models that need the general algorithm are refused when they are read by a build without it: see

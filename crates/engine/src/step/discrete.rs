@@ -72,8 +72,8 @@ pub(crate) fn constraints(m: &Model, d: &mut Fields, s: &mut Scratch) {
         constraint::at_end_of_step(m, d, rows, &w.diagonal);
     }
     let row_count = d.nefc;
-    let apart = row_count > 0 && !w.terms.is_empty();
-    if apart {
+    let separate_terms = row_count > 0 && !w.terms.is_empty();
+    if separate_terms {
         for term in &w.terms {
             let (dofs, values) = term.row.jacobian(m, d);
             w.columns.clear();
@@ -87,7 +87,7 @@ pub(crate) fn constraints(m: &Model, d: &mut Fields, s: &mut Scratch) {
     exchange_metric(d, w);
     constraint::solve(m, d, rows, trees);
     exchange_metric(d, w);
-    if apart {
+    if separate_terms {
         constraint::pop_metric(d, rows, row_count);
         std::mem::swap(&mut w.other, &mut d.qacc_smooth);
         constraint::unconstrained_residual(d, &rows.jac);

@@ -139,9 +139,9 @@ fn longest_equal_range(
 /// presses is odd, so that a toggle ends in the on state.
 fn presses(nominal: &Move, steps: usize) -> Vec<Move> {
     let times = if nominal.value.is_none() { PRESSES } else { 1 };
-    let apart = (steps.saturating_sub(nominal.step) / (2 * PRESSES)).max(1);
+    let interval = (steps.saturating_sub(nominal.step) / (2 * PRESSES)).max(1);
     (0..times)
-        .map(|n| Move { step: nominal.step + n * apart, ..nominal.clone() })
+        .map(|n| Move { step: nominal.step + n * interval, ..nominal.clone() })
         .filter(|m| m.step <= steps)
         .collect()
 }

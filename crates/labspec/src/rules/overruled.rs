@@ -133,8 +133,8 @@ fn initial_value(
     if now(&session) != says || session.ended().is_some() {
         return None;
     }
-    let apart = |(a, b): (&f64, &f64)| (a - b).abs() > 1e-9 * a.abs().max(b.abs());
-    let at = begins.iter().zip(&says).position(apart)?;
+    let differ = |(a, b): (&f64, &f64)| (a - b).abs() > 1e-9 * a.abs().max(b.abs());
+    let at = begins.iter().zip(&says).position(differ)?;
     let [begins, says] = [begins.get(at)?, says.get(at)?].map(|x| digits(*x, 6));
     Some(format!(
         "it displays {current}, for which {} is {says}, but the lab starts with {begins}",

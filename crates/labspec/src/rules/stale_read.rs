@@ -192,14 +192,14 @@ fn first_visible_difference(
             let (low, high) =
                 numbers.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
             let readout = c.checked_sub(ready.lab.traces().count()).and_then(|i| ready.lab.readouts.get(i));
-            let apart = |a: &Cell, b: &Cell| match readout {
+            let differ = |a: &Cell, b: &Cell| match readout {
                 Some(r) => {
                     a.rounded(r.digits()) != b.rounded(r.digits())
                         && (a.number() - b.number()).abs() > 1e-9 * high.abs().max(low.abs())
                 }
                 None => (a.number() - b.number()).abs() > VISIBLE_FRACTION * (high - low),
             };
-            if let Some((time, a, b)) = cells().find(|(_, a, b)| apart(a, b)) {
+            if let Some((time, a, b)) = cells().find(|(_, a, b)| differ(a, b)) {
                 let name = probe.name.splitn(3, '/').last().unwrap_or("");
                 let [a, b] = [a, b].map(|x| setconst::digits(x.number(), 5));
                 return Some(format!(

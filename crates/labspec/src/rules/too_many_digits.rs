@@ -55,12 +55,12 @@ pub(crate) fn check_surplus_digits(observed: &mut ObservedLab<'_>, findings: &mu
             let at = |row: &Vec<Cell>| row.get(first + i).map_or(f64::NAN, Cell::number);
             (at(a) - at(b)).abs() / last
         };
-        let mut apart: Vec<f64> = nominal.iter().zip(&fine).map(|pair| differs(&pair)).collect();
-        if apart.iter().any(|x| !x.is_finite()) {
+        let mut differences: Vec<f64> = nominal.iter().zip(&fine).map(|pair| differs(&pair)).collect();
+        if differences.iter().any(|x| !x.is_finite()) {
             continue;
         }
-        apart.sort_by(f64::total_cmp);
-        let middle = apart.get(apart.len() / 2).copied().unwrap_or(0.0);
+        differences.sort_by(f64::total_cmp);
+        let middle = differences.get(differences.len() / 2).copied().unwrap_or(0.0);
         let good = readout.digits() as i32 - middle.max(1.0).log10().floor() as i32;
         if middle < UNITS || good < 0 {
             continue;

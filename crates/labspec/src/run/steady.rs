@@ -44,9 +44,9 @@ impl SteadyController {
         let writes: Vec<_> = effects.writes.iter().map(one).collect::<Option<_>>()?;
         let alone = effects.calls.is_empty() && effects.ctx_writes.is_empty();
         // An element that it both reads and writes may differ from run to run.
-        let apart = !reads.iter().any(|r| writes.contains(r));
+        let disjoint = !reads.iter().any(|r| writes.contains(r));
         let fits = reads.len() + writes.len() + effects.ctx_reads.len() <= MAX_COMPARED;
-        if looks_further || !alone || !apart || !fits || !reads.iter().all(|(field, _)| stays(*field)) {
+        if looks_further || !alone || !disjoint || !fits || !reads.iter().all(|(field, _)| stays(*field)) {
             return None;
         }
         let elements = reads.into_iter().chain(writes).collect();

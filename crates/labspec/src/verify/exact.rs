@@ -281,7 +281,7 @@ type Comparison = (State, String, Option<LargestDeviation>);
 /// Whether the trace stays within a tolerance.
 fn within(tol: f64, run: &Differences) -> Comparison {
     let (i, worst) = largest(run.times.len(), |i| run.difference(i));
-    let apart =
+    let difference =
         format!("they differ by at most {}, the tolerance is {}", significant(worst), significant(tol));
     // Near zero, both values are noise, and no tolerance is too large for them.
     let noise = worst <= NOISE;
@@ -294,9 +294,9 @@ fn within(tol: f64, run: &Differences) -> Comparison {
         return (State::Unchecked, how, None);
     }
     if worst <= tol {
-        return (State::True(Evidence::Simulated), apart, None);
+        return (State::True(Evidence::Simulated), difference, None);
     }
-    (State::False, apart.clone(), wrong(run, i, run.difference(i), apart))
+    (State::False, difference.clone(), wrong(run, i, run.difference(i), difference))
 }
 
 /// Whether the difference vanishes as the timestep decreases.

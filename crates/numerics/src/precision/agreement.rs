@@ -82,9 +82,9 @@ pub(super) fn agreed(
         let value = target.and_then(|list| list.get(sample.min(list.len().saturating_sub(1))));
         let moved = value.map_or(0.0, |u| u / a.slope.min(b.slope).max(f64::MIN_POSITIVE));
         // The shift of a turning point shows only in the difference.
-        let apart = if i > n { 4.0 } else { 2.0 } * (a.at - b.at).abs();
+        let difference = if i > n { 4.0 } else { 2.0 } * (a.at - b.at).abs();
         let rounding = f64::EPSILON * (8.0 + steps.sqrt()) * a.at;
-        let uncertainty = apart + a.uncertainty + b.uncertainty + moved + rounding;
+        let uncertainty = difference + a.uncertainty + b.uncertainty + moved + rounding;
         // If the difference is NaN, the event is unknown.
         match uncertainty <= UNKNOWN * case.length() && a.top == b.top {
             true => KnownEvent { at: a.at, uncertainty, top: a.top },

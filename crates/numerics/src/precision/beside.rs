@@ -69,8 +69,8 @@ impl Recording {
             let values: Vec<Vec<f64>> = list(row, "values")?.iter().map(of_trace).collect();
             let timestep = number(row.get("timestep"));
             // A run with longer steps meets fewer of the times.
-            let apart = times.get(1).map_or(1.0, |first| (timestep / first).round().max(1.0));
-            let met = times.len().saturating_sub(1) / apart as usize + 1;
+            let stride = times.get(1).map_or(1.0, |first| (timestep / first).round().max(1.0));
+            let met = times.len().saturating_sub(1) / stride as usize + 1;
             if values.len() != traces.len() || values.iter().any(|v| v.len() != met) {
                 return Err("a run lacks a value of a trace at one of its times".to_string());
             }
@@ -109,8 +109,8 @@ impl Recording {
         let rows = self.runs.iter().map(|run| {
             let values = places.iter().map(|&i| run.values[i].clone()).collect();
             // A closed form is evaluated with the reference run, because it depends only on time.
-            let apart = case.sampling_plan(run.timestep).stride;
-            let met = |list: &Vec<f64>| list.iter().step_by(apart).copied().collect();
+            let stride = case.sampling_plan(run.timestep).stride;
+            let met = |list: &Vec<f64>| list.iter().step_by(stride).copied().collect();
             let exact = truth.run.exact.iter().map(met).collect();
             let seen = Run { values, exact, ..Run::default() };
             BesideRow {

@@ -26,11 +26,11 @@ impl Conserved {
     /// The largest change of momentum since the start: linear (0) or angular (1).
     pub(super) fn change(&self, run: &Run, k: usize, part: f64) -> f64 {
         let Some(start) = run.momentum.first() else { return f64::NAN };
-        let apart = |p: &[f64; 6]| {
+        let change = |p: &[f64; 6]| {
             let d: [f64; 3] = std::array::from_fn(|i| p[3 * k + i] - start[3 * k + i]);
             length(&d)
         };
-        largest(run.momentum.iter().take(samples_in_part(run.momentum.len(), part)).map(apart))
+        largest(run.momentum.iter().take(samples_in_part(run.momentum.len(), part)).map(change))
     }
 }
 

@@ -281,9 +281,9 @@ fn length(v: [f64; 3]) -> f64 {
 }
 
 /// The penetration depth of bodies that were apart at the start, m; NaN if none are near each other.
-fn depth(session: &Session<'_>, apart: &[[usize; 2]]) -> f64 {
+fn depth(session: &Session<'_>, touching: &[[usize; 2]]) -> f64 {
     let contacts = session.world.data.fields().contact.iter();
-    let others = contacts.filter(|c| !apart.contains(&[c.geom1, c.geom2]));
+    let others = contacts.filter(|c| !touching.contains(&[c.geom1, c.geom2]));
     others.map(|c| -c.dist).fold(f64::NAN, f64::max)
 }
 

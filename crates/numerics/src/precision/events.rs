@@ -28,7 +28,8 @@ pub struct Event {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct NearbyStarts {
     /// The distance of the starts, in the unit of each coordinate.
-    pub apart: f64,
+    #[serde(rename = "apart")]
+    pub distance: f64,
     /// The time until which all numbers agree within a hundredth of their ranges, s; `None` if they agree to the end.
     pub until: Option<f64>,
 }
@@ -88,6 +89,6 @@ pub(super) fn nearby(
         a.iter().zip(b).position(|(a, b)| (a - b).abs() > far || (a - b).is_nan())
     };
     let first = one.values.iter().zip(&other.values).zip(targets).filter_map(leaves).min();
-    let apart = case.sampling_plan(setting.timestep).stride as f64 * case.interval;
-    Ok(NearbyStarts { apart: PERTURBATION, until: first.map(|i| i as f64 * apart) })
+    let interval = case.sampling_plan(setting.timestep).stride as f64 * case.interval;
+    Ok(NearbyStarts { distance: PERTURBATION, until: first.map(|i| i as f64 * interval) })
 }

@@ -181,9 +181,9 @@ pub(super) fn errors(
     let rounding = f64::EPSILON * case.count as f64 * case.interval / timestep;
     let stride = case.sampling_plan(timestep).stride;
     let one = |(i, target): (usize, &Compared)| {
-        let (truth, apart) = if target.closed { (&run.exact[i], 1) } else { (&reference.values[i], stride) };
+        let (truth, step) = if target.closed { (&run.exact[i], 1) } else { (&reference.values[i], stride) };
         let compared = target.samples.div_ceil(stride).min(run.values[i].len());
-        let both = run.values[i].iter().zip(truth.iter().step_by(apart)).take(compared);
+        let both = run.values[i].iter().zip(truth.iter().step_by(step)).take(compared);
         let mut e =
             Errors { largest: 0.0, at: 0.0, rms: 0.0, samples: compared, seen: [0.0; 2], ..Errors::NONE };
         for (k, (&displayed, &exact)) in both.enumerate() {

@@ -173,7 +173,7 @@ fn empty_report(length: f64, window: f64, skipped_pairs: usize) -> StressReport 
         margins: Vec::new(),
         sensitivity: Sensitivity {
             length: window,
-            apart: 0.0,
+            distance: 0.0,
             parting: None,
             exponent: None,
             horizons: Vec::new(),

@@ -66,9 +66,9 @@ pub(super) fn truth<'h>(
         parts *= REFINEMENT;
         let now = fine(parts, work);
         let ranges = ranges(&now);
-        let apart =
+        let differ =
             |(a, b): (&Vec<f64>, &Vec<f64>)| largest(a, b, &ranges).is_none_or(|x| x > MAX_DIFFERENCE);
-        let agreeing = coarse.iter().zip(&now).position(apart).unwrap_or(coarse.len().min(now.len()));
+        let agreeing = coarse.iter().zip(&now).position(differ).unwrap_or(coarse.len().min(now.len()));
         let whole = agreeing == now.len();
         if best.as_ref().is_none_or(|(_, before)| agreeing > *before) {
             best = Some((now.clone(), agreeing));

@@ -17,12 +17,11 @@ pub(super) fn check_masses(tree: &Tree, m: &Model, report: &mut Diagnostics) {
     for b in 1..m.nbody {
         let parent = m.body_parentid.get(b).and_then(|p| usize::try_from(*p).ok()).unwrap_or(0);
         let moves = |b: usize| m.body_weldid.get(b).is_some_and(|w| *w != 0);
-        let apart_from = |b: usize| m.body_dofnum.get(b).is_some_and(|n| *n > 0);
+        let has_dofs = |b: usize| m.body_dofnum.get(b).is_some_and(|n| *n > 0);
         let mass = |b: usize| m.body_mass.get(b).copied().unwrap_or(0.0);
         let [child, base] = [mass(b), mass(parent)];
         let ratio = child.max(base) / child.min(base);
-        if parent > 0 && moves(parent) && apart_from(b) && child > 0.0 && base > 0.0 && ratio > MAX_MASS_RATIO
-        {
+        if parent > 0 && moves(parent) && has_dofs(b) && child > 0.0 && base > 0.0 && ratio > MAX_MASS_RATIO {
             let message = format!(
                 "{} has {} kg, but its neighbour {} has {} kg",
                 format_name("body", body(b), b),

@@ -60,10 +60,10 @@ fn to_world(cuboid: &Shape, contact: ContactPoint) -> ContactPoint {
 fn ball(centre: Vec3, radius: f64, cuboid: &Shape, margin: f64) -> Option<ContactPoint> {
     let size = cuboid.size;
     let nearest: Vec3 = std::array::from_fn(|i| clip(centre[i], [-size[i], size[i]]));
-    let apart = sub(nearest, centre);
-    let gap = norm(apart);
+    let offset = sub(nearest, centre);
+    let gap = norm(offset);
     let (normal, gap) = if gap > MINVAL * (radius + size[0] + size[1] + size[2]) {
-        (scale(apart, 1.0 / gap), gap)
+        (scale(offset, 1.0 / gap), gap)
     } else {
         nearest_face(centre, size)
     };

@@ -34,8 +34,8 @@ impl Figures {
         r.cases += 1;
         r.touching += usize::from(!theirs.is_empty());
         r.number += usize::from(theirs.len() == ours.len());
-        let apart = |(x, y): (&f64, &f64)| (x - y).abs() <= SAME;
-        r.same += usize::from(theirs.len() == ours.len() && theirs.iter().zip(ours).all(apart));
+        let is_equal = |(x, y): (&f64, &f64)| (x - y).abs() <= SAME;
+        r.same += usize::from(theirs.len() == ours.len() && theirs.iter().zip(ours).all(is_equal));
         let deepest = |list: &[f64]| list.chunks(10).map(|c| c[0]).reduce(f64::min);
         if let (Some(x), Some(y)) = (deepest(theirs), deepest(ours)) {
             r.depth = r.depth.max((x - y).abs());

@@ -184,7 +184,7 @@ impl Solid {
 /// Results of the cases of a pair: numbers of cases, and largest errors.
 #[derive(Default)]
 struct Tally {
-    apart: usize,
+    separated: usize,
     deep: usize,
     /// Largest error of distances, and of depths above and below the reference, m.
     distance: f64,
@@ -284,7 +284,7 @@ fn check_pair(kind1: i32, kind2: i32, cases: usize) -> Tally {
         match error(&a, &b, &n, settings.effort.tolerance) {
             Error::Distance(error) => {
                 most(&mut t, |t| &mut t.distance, error, "distance");
-                t.apart += 1;
+                t.separated += 1;
             }
             Error::Penetration(error) => {
                 most(&mut t, |t| &mut t.above, error, "deeper than the reference");
@@ -330,7 +330,7 @@ fn signed_distances_are_true() {
             "| {}-{} | {} | {:.0e} | {} | {:.0e} | {:.0e} | {:.0e} |\n",
             super::KINDS[kind1 as usize],
             super::KINDS[kind2 as usize],
-            t.apart,
+            t.separated,
             t.distance,
             t.deep,
             t.above,

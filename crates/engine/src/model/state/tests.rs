@@ -36,9 +36,9 @@ fn states_are_those_of_mujoco() {
     for (name, want) in recorded() {
         let close = |got: &[f64]| {
             assert_eq!(got.len(), want.len(), "{name}");
-            let apart =
+            let difference =
                 got.iter().zip(&want).fold(0.0f64, |s, (a, b)| s.max((a - b).abs() / (1.0 + b.abs())));
-            assert!(apart < 1e-12, "{name}: {apart:e}");
+            assert!(difference < 1e-12, "{name}: {difference:e}");
         };
         match name {
             "set" => set(&m, &mut d, &want, INTEGRATION).unwrap(),

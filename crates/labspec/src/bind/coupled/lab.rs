@@ -51,7 +51,7 @@ pub(crate) fn intentionally_separate(programs: &Programs, bound: &Bound, pairs: 
         ControlProgram::Press(_) => None,
     });
     let others: Vec<&Bound> = controls.filter(|other| other.text != bound.text).collect();
-    let apart = |pair: &Pair| {
+    let has_separate_writer = |pair: &Pair| {
         let wanted: Vec<_> =
             written_elements(bound, pair.parameter).into_iter().flatten().flat_map(pair.partners).collect();
         let has = |other: &&Bound| {
@@ -60,7 +60,7 @@ pub(crate) fn intentionally_separate(programs: &Programs, bound: &Bound, pairs: 
         };
         others.iter().any(has)
     };
-    pairs.pairs().filter(|(_, pair)| apart(pair)).map(|(one, _)| one).collect()
+    pairs.pairs().filter(|(_, pair)| has_separate_writer(pair)).map(|(one, _)| one).collect()
 }
 
 /// Maximum number of elements of a field that are listed individually.

@@ -342,9 +342,9 @@ fn moved(a: &Measured, b: &Measured) -> bool {
     if a.value.is_nan() || b.value.is_nan() {
         return a.value.is_nan() != b.value.is_nan();
     }
-    let apart = (a.value - b.value).abs();
+    let difference = (a.value - b.value).abs();
     let numerics = a.halved.map_or(0.0, |h| (h - a.value).abs());
-    apart > MIN_RELATIVE_CHANGE * a.value.abs().max(b.value.abs()) && apart > numerics
+    difference > MIN_RELATIVE_CHANGE * a.value.abs().max(b.value.abs()) && difference > numerics
 }
 
 fn pairs<'j>(a: &'j Judgement, b: &'j Judgement) -> impl Iterator<Item = (&'j Measured, &'j Measured)> {

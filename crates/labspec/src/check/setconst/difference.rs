@@ -149,14 +149,14 @@ impl Columns<'_> {
         if p == q {
             return None;
         }
-        let apart = (p - q).abs();
+        let difference = (p - q).abs();
         let printed = || {
             let readout = column.checked_sub(1 + self.lab.traces().count());
             let readout = readout.and_then(|i| self.lab.readouts.get(i));
             readout.is_some_and(|r| run::rounded(*p, r.digits()) != run::rounded(*q, r.digits()))
         };
-        let seen = apart > VISIBLE * range || printed();
-        (seen && apart > ROUNDING * largest).then_some(apart / range)
+        let seen = difference > VISIBLE * range || printed();
+        (seen && difference > ROUNDING * largest).then_some(difference / range)
     }
 
     /// The name of a column.

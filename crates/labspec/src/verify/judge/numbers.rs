@@ -87,10 +87,10 @@ pub(super) fn compare(
             continue;
         }
         judged.compared += 1;
-        let apart = (a - b).abs();
+        let difference = (a - b).abs();
         let same = a == b
             || a.is_nan() && b.is_nan()
-            || apart <= RELATIVE_TOLERANCE * a.abs().max(b.abs()) + 1e-3 * RELATIVE_TOLERANCE;
+            || difference <= RELATIVE_TOLERANCE * a.abs().max(b.abs()) + 1e-3 * RELATIVE_TOLERANCE;
         if same {
             continue;
         }
@@ -99,7 +99,7 @@ pub(super) fn compare(
             made.iter().flatten().map(|o| numbers(o).into_iter().map(|(_, x)| x).collect()).collect()
         });
         let moved = others.iter().filter_map(|list| list.get(i)).map(|x| (x - a).abs()).fold(0.0, f64::max);
-        if apart.is_nan() || apart > NUMERICS * moved {
+        if difference.is_nan() || difference > NUMERICS * moved {
             judged.differing.push((name, a, b));
         }
     }

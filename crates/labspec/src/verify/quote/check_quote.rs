@@ -127,8 +127,8 @@ impl<'q> Comparison<'q> {
         let factor = factor.filter(|f| !is_power_of_ten(*f)).filter(|_| reading.share.is_none());
         // A unit elsewhere in the clause may belong to another quantity. It counts as the unit of the number only if the
         // number is right in it.
-        let apart = unit.as_ref().is_some_and(|(unit, _)| unit.link == Link::Clause);
-        let factor = factor.filter(|f| !apart || reading.read.is(f * value.computed));
+        let in_clause = unit.as_ref().is_some_and(|(unit, _)| unit.link == Link::Clause);
+        let factor = factor.filter(|f| !in_clause || reading.read.is(f * value.computed));
         let scale = |x: f64| factor.map_or(x, |f| x * f);
         let scaled =
             |list: &[OtherValue]| list.iter().map(|o| OtherValue { value: scale(o.value), ..*o }).collect();

@@ -155,7 +155,7 @@ pub(super) struct Readable {
     character: Vec<u32>,
     quantities: Vec<Quantity>,
     /// The quantities with the ends of ranges as separate quantities.
-    apart: Vec<Quantity>,
+    separate: Vec<Quantity>,
 }
 
 impl Readable {
@@ -170,7 +170,7 @@ impl Readable {
             flat,
             character,
             quantities: quantities(Chars(chars)),
-            apart: separate_quantities(Chars(chars)),
+            separate: separate_quantities(Chars(chars)),
         }
     }
 
@@ -183,7 +183,7 @@ impl Readable {
         let at = |byte: usize| self.character.get(byte).map(|i| *i as usize);
         let (start, end) = (at(bytes.start)?, at(bytes.end)?);
         let among = |all: &[Quantity]| states(all, start..end, quantities);
-        let unit = among(&self.quantities).or_else(|| among(&self.apart))?;
+        let unit = among(&self.quantities).or_else(|| among(&self.separate))?;
         Some(QuoteMatch { bytes: bytes.clone(), unit })
     }
 }

@@ -51,13 +51,13 @@ pub(super) fn separate_quantities(chars: Chars<'_>) -> Vec<Quantity> {
     read(chars, true)
 }
 
-fn read(chars: Chars<'_>, apart: bool) -> Vec<Quantity> {
+fn read(chars: Chars<'_>, separate: bool) -> Vec<Quantity> {
     let singles = singles(chars);
     let mut all: Vec<Quantity> = Vec::with_capacity(singles.len());
     let mut rest = singles.into_iter().peekable();
     while let Some(mut first) = rest.next() {
         match rest.peek().map(|second| pair(chars, &first, second)) {
-            Some(Pair::One(_) | Pair::Refused(_)) if apart && in_words(chars, &first, rest.peek()) => {
+            Some(Pair::One(_) | Pair::Refused(_)) if separate && in_words(chars, &first, rest.peek()) => {
                 all.push(first);
             }
             Some(Pair::One(one)) => {
