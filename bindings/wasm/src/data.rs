@@ -250,7 +250,7 @@ impl RawData {
         let (m, d) = (&model.model, self.data());
         let at = || match *point {
             [x, y, z] => Ok([x, y, z]),
-            _ => Err(Error::Length { what: "the point", wanted: 3, found: point.len() }),
+            _ => Err(Error::Length { what: "the point", expected: 3, found: point.len() }),
         };
         let found = match of {
             "point" => at().and_then(|point| core::jac(m, d, point, id)),

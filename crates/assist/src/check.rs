@@ -117,13 +117,14 @@ fn within(span: &Range<usize>, unit: &Range<usize>) -> bool {
 /// Binds one block as if only the blocks that it names existed. Spans count from the start of the block.
 fn check_block(lesson: &Lesson, unit: &Range<usize>, models: &Models) -> Vec<Finding> {
     let named: Vec<&VerifyLab> = named_by(lesson, unit).collect();
-    let wanted: Vec<&Lab> = named.iter().filter_map(|named| lesson.named(named)).collect();
+    let referenced: Vec<&Lab> = named.iter().filter_map(|named| lesson.named(named)).collect();
     let elsewhere = |other: &&Other| {
         let here =
             |named: &&VerifyLab| matches!(named, VerifyLab::Elsewhere(text, ..) if text.span() == other.span);
         named.iter().any(here)
     };
-    let needed = |span: &Range<usize>| within(span, unit) || wanted.iter().any(|lab| within(&lab.span, span));
+    let needed =
+        |span: &Range<usize>| within(span, unit) || referenced.iter().any(|lab| within(&lab.span, span));
     let entry = |entry: &LabEntry| LabEntry {
         lab: entry.lab.clone().filter(|_| needed(&entry.span)),
         ..entry.clone()

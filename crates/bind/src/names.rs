@@ -114,9 +114,10 @@ impl ModelNames<'_> {
             _ => {}
         }
         // `data.sensor("x").data`, as in MuJoCo's bindings.
-        let wanted = if kind == Obj::Sensor && name == "data" { "sensordata" } else { name };
-        let (_, f, first, count) =
-            self.rows(side, kind, index).find(|(short, f, ..)| short == wanted || f.info().name == wanted)?;
+        let full_name = if kind == Obj::Sensor && name == "data" { "sensordata" } else { name };
+        let (_, f, first, count) = self
+            .rows(side, kind, index)
+            .find(|(short, f, ..)| short == full_name || f.info().name == full_name)?;
         let holder = self.describe(handle::encode(HandleTarget::Named(side, kind, index)));
         let path = format!("{}.{name}", self.path(side, kind, index));
         Some(Entry::Field(field(f, path, first, vec![Some(count)], format!("{holder} has {count} of these"))))

@@ -196,12 +196,12 @@ fn lab(l: &RanLab) -> LabRow<'_> {
         runs: l.runs,
         ran: l.ran,
         broke: tried.map(|t| t.broke),
-        seconds: tried.map(|t| t.wanted),
+        seconds: tried.map(|t| t.requested),
         covered: tried.map(|t| t.covered),
         skipped: tried.map(|t| t.skipped),
         ended: tried.and_then(|t| t.ended.as_deref()),
         nonfinite: tried
-            .map_or(NonFinite::new(), |t| nonfinite(&[("seconds", &t.wanted), ("covered", &t.covered)])),
+            .map_or(NonFinite::new(), |t| nonfinite(&[("seconds", &t.requested), ("covered", &t.covered)])),
     }
 }
 

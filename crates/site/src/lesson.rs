@@ -38,7 +38,7 @@ impl Outline {
         let title = first.map(|h| h.text.clone()).or(title).or(headings.first().map(|h| h.text.clone()));
         let title = title.filter(|title| !title.trim().is_empty()).unwrap_or_else(|| file.to_string());
         let with_id =
-            headings.into_iter().map(|h| (anchors.add(&prose::wanted_id(&h), &h.text), h.text, h.at));
+            headings.into_iter().map(|h| (anchors.add(&prose::requested_id(&h), &h.text), h.text, h.at));
         Outline { title, has_heading, headings: with_id.collect(), fences, masked }
     }
 }

@@ -59,7 +59,7 @@ fn title_in(metadata: &str) -> Option<String> {
 }
 
 /// The id that a heading asks for.
-pub(crate) fn wanted_id(heading: &Heading) -> String {
+pub(crate) fn requested_id(heading: &Heading) -> String {
     heading.id.clone().filter(|id| !id.is_empty()).unwrap_or_else(|| slug(&heading.text))
 }
 

@@ -408,7 +408,7 @@ impl<S: Scope> Data<S> {
     pub fn set_qacc(&mut self, qacc: &[f64]) -> Result<(), Error> {
         let to = &mut self.fields.qacc;
         if to.len() != qacc.len() {
-            return Err(Error::Length { what: "an acceleration", wanted: to.len(), found: qacc.len() });
+            return Err(Error::Length { what: "an acceleration", expected: to.len(), found: qacc.len() });
         }
         to.copy_from_slice(qacc);
         Ok(())

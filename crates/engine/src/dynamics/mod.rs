@@ -34,7 +34,7 @@ pub struct Scratch {
     /// Whether `qLD` and `qLDiagInv` still have to be computed from the result of another factorization.
     rows_due: bool,
     /// Whether the rows of M are read in this pass.
-    rows_wanted: bool,
+    needs_mass_rows: bool,
     /// Motion axes of ancestors, for rows of M.
     pub path: Path,
     /// Spatial accelerations and forces of bodies.
@@ -52,7 +52,7 @@ impl Scratch {
         Scratch {
             algorithms: AlgorithmStates::new(m, algorithms),
             rows_due: false,
-            rows_wanted: true,
+            needs_mass_rows: true,
             path: Path::new(m),
             cacc: vec![0.0; 6 * m.nbody],
             cfrc: vec![0.0; 6 * m.nbody],

@@ -182,10 +182,10 @@ fn difference(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// Reorders one list of contacts like another: each contact is matched with the nearest one that remains.
-fn in_order_of(want: &[f64], got: &[f64]) -> Vec<f64> {
-    let (want, mut left) = (rows::<10>(want), rows::<10>(got).to_vec());
+fn in_order_of(expected: &[f64], got: &[f64]) -> Vec<f64> {
+    let (expected, mut left) = (rows::<10>(expected), rows::<10>(got).to_vec());
     let mut out = Vec::new();
-    for w in want {
+    for w in expected {
         let far = |g: &[f64; 10]| difference(&g[1..4], &w[1..4]);
         let Some(k) = (0..left.len()).min_by(|&i, &j| far(&left[i]).total_cmp(&far(&left[j]))) else { break };
         out.extend(left.remove(k));
@@ -224,7 +224,7 @@ fn rays_hit_where_they_do_in_mujoco() {
     let assets = Assets::read(&text);
     let mut report = Report::default();
     for (case, line) in text.lines().filter(|l| l.starts_with("ray ")).enumerate() {
-        let (given, want) = line.split_once('|').unwrap();
+        let (given, expected) = line.split_once('|').unwrap();
         let mut words = given.split_whitespace();
         words.next();
         let shape = assets.shape(&mut words);
@@ -232,7 +232,13 @@ fn rays_hit_where_they_do_in_mujoco() {
         let hit = ray_shape(&shape, [v[0], v[1], v[2]], [v[3], v[4], v[5]], &mut 0);
         let got = hit.map_or([-1.0, 0.0, 0.0, 0.0], |h| [h.distance, h.normal[0], h.normal[1], h.normal[2]]);
         let name = KINDS[shape.kind as usize].to_string();
-        report.note(name, case, difference(&got, &floats(want)), 1e-10, &format!("{line}\n    got {got:?}"));
+        report.note(
+            name,
+            case,
+            difference(&got, &floats(expected)),
+            1e-10,
+            &format!("{line}\n    got {got:?}"),
+        );
     }
     report.finish(print, &[]);
 }
@@ -282,7 +288,7 @@ fn distances_are_those_of_mujoco() {
     let (mut report, mut figures) = (Report::default(), Figures::default());
     let mut work = Narrow::default();
     for (case, line) in text.lines().filter(|l| l.starts_with("distance ")).enumerate() {
-        let (given, want) = line.split_once('|').unwrap();
+        let (given, expected) = line.split_once('|').unwrap();
         let mut words = given.split_whitespace();
         words.next();
         let (a, b) = (assets.shape(&mut words), assets.shape(&mut words));
@@ -296,22 +302,28 @@ fn distances_are_those_of_mujoco() {
         let found = super::distance::shape_distance(&a, &b, most, &precise_settings(), &mut work).unwrap();
         let [p, q] = found.fromto;
         let got = [found.dist, p[0], p[1], p[2], q[0], q[1], q[2]];
-        let want = floats(want);
+        let expected = floats(expected);
         let kinds = |a: &Shape, b: &Shape| format!("{}-{}", KINDS[a.kind as usize], KINDS[b.kind as usize]);
         let name = |end| format!("{} {end}", kinds(&a, &b));
-        figures.distance(&kinds(least, other), want[0], got[0]);
+        figures.distance(&kinds(least, other), expected[0], got[0]);
         let scale = 1.0 + norm(a.size).min(norm(b.size));
         let rendered = format!("{line}\n    got {got:?}");
         let exact = !searched || cornered(&a) && cornered(&b);
         let (depth, point) = if exact { (1e-10, 1e-7) } else { (DEPTH, POINT) };
-        let error = difference(&got[..1], &want[..1]);
+        let error = difference(&got[..1], &expected[..1]);
         if searched && error > depth * scale && truth::is_true(&a, &b) {
             continue; // MuJoCo's search stopped before it converged.
         }
         report.note(name("dist"), case, error, depth * scale, &rendered);
         // For bodies that barely touch, the nearest points can be anywhere along the gap.
         if !searched || got[0].abs() > CLOSE {
-            report.note(name("fromto"), case, difference(&got[1..], &want[1..]), point * scale, &rendered);
+            report.note(
+                name("fromto"),
+                case,
+                difference(&got[1..], &expected[1..]),
+                point * scale,
+                &rendered,
+            );
         }
     }
     write_table("distances.md", &figures.distance_table());
@@ -340,7 +352,7 @@ fn contacts_are_those_of_mujoco() {
     let (mut report, mut figures) = (Report::default(), Figures::default());
     let mut work = Narrow::default();
     for (case, line) in text.lines().filter(|l| l.starts_with("contact ")).enumerate() {
-        let (given, want) = line.split_once('|').unwrap();
+        let (given, expected) = line.split_once('|').unwrap();
         let mut words = given.split_whitespace();
         words.next();
         let (a, b) = (assets.shape(&mut words), assets.shape(&mut words));
@@ -358,25 +370,25 @@ fn contacts_are_those_of_mujoco() {
             got.extend(t.pos);
             got.extend(&frame_along(t.normal, t.tangent)[..6]);
         }
-        let mut want = floats(want);
+        let mut expected = floats(expected);
         if !searched {
-            (want, got) = (distinct(want), distinct(got));
+            (expected, got) = (distinct(expected), distinct(got));
         }
         let kinds = format!("{}-{}", KINDS[a.kind as usize], KINDS[b.kind as usize]);
         // Contacts are compared as a set: their order depends on the method.
-        got = in_order_of(&want, &got);
+        got = in_order_of(&expected, &got);
         if pierced(&a, &b) {
-            figures.contacts(&format!("{kinds}, axis in the box"), &want, &got);
+            figures.contacts(&format!("{kinds}, axis in the box"), &expected, &got);
             continue;
         }
-        figures.contacts(&kinds, &want, &got);
+        figures.contacts(&kinds, &expected, &got);
         let scale = 1.0 + norm(a.size).min(norm(b.size));
         let rendered = format!("{line}\n    got {got:?}");
         if !searched {
-            report.note(kinds, case, difference(&got, &want), 1e-10 * scale, &rendered);
+            report.note(kinds, case, difference(&got, &expected), 1e-10 * scale, &rendered);
             continue;
         }
-        let number = (got.len().abs_diff(want.len()) / 10) as f64;
+        let number = (got.len().abs_diff(expected.len()) / 10) as f64;
         report.note(format!("{kinds} number"), case, number, 0.5, &rendered);
         // MuJoCo's search from inside a prism of the height field ends too early if the other shape has corners,
         // because it treats all corners of the prism as the same one.
@@ -384,7 +396,7 @@ fn contacts_are_those_of_mujoco() {
         if number == 0.0 && !ends_early {
             let (dist, rest): (Vec<_>, Vec<_>) = got
                 .chunks(10)
-                .zip(want.chunks(10))
+                .zip(expected.chunks(10))
                 .map(|(g, w)| (difference(&g[..1], &w[..1]), difference(&g[1..], &w[1..])))
                 .unzip();
             let most = |list: &[f64]| list.iter().copied().fold(0.0, f64::max);

@@ -38,7 +38,7 @@ pub(super) struct Row {
     pub(super) name: &'static str,
     pub(super) needs: &'static [Need],
     /// The reason to run the stage even if no later stage needs it.
-    pub(super) wanted: fn(&ModelAnalysis) -> Option<String>,
+    pub(super) keep_reason: fn(&ModelAnalysis) -> Option<String>,
     /// The reason why the stage does not run if nothing needs it.
     pub(super) omit_reason: fn(&ModelAnalysis) -> &'static str,
     pub(super) run: &'static [(PassPart, Run)],
@@ -66,7 +66,7 @@ pub(super) const STAGES: [Row; 26] = [
         stage: Stage::Sleep,
         name: "sleep",
         needs: &[],
-        wanted: |s| reason_if(s.sleeps, "trees at rest fall asleep"),
+        keep_reason: |s| reason_if(s.sleeps, "trees at rest fall asleep"),
         omit_reason: |s| if s.m.ntree == 0 { "nothing can move" } else { "the sleep flag is off" },
         run: &[
             (PassPart::Positions, |m, d, s| sleep::wake(m, d, &mut s.sleep)),
@@ -77,7 +77,7 @@ pub(super) const STAGES: [Row; 26] = [
         stage: Stage::Kinematics,
         name: "kinematics",
         needs: &[],
-        wanted: |s| s.reads(Stage::Kinematics),
+        keep_reason: |s| s.reads(Stage::Kinematics),
         omit_reason: |_| "nothing can touch and nothing reads a pose",
         run: &[(PassPart::Positions, |m, d, s| tree_algorithms::forward_kinematics(m, d, &mut s.dynamics))],
     },
@@ -85,7 +85,7 @@ pub(super) const STAGES: [Row; 26] = [
         stage: Stage::Orientations,
         name: "orientation",
         needs: &[(&[Stage::Kinematics], ALWAYS)],
-        wanted: |s| s.reads(Stage::Orientations),
+        keep_reason: |s| s.reads(Stage::Orientations),
         omit_reason: |_| "nothing reads an orientation as a quaternion",
         run: &[(PassPart::Positions, |_, d, s| tree_algorithms::orientations(d, &mut s.dynamics))],
     },
@@ -93,7 +93,7 @@ pub(super) const STAGES: [Row; 26] = [
         stage: Stage::GeomPoses,
         name: "geom-pose",
         needs: &[(&[Stage::Kinematics], ALWAYS)],
-        wanted: |s| s.reads(Stage::GeomPoses),
+        keep_reason: |s| s.reads(Stage::GeomPoses),
         omit_reason: |_| "no contact is possible and nothing reads a geom's pose",
         run: &[(PassPart::Positions, |m, d, _| kinematics::geoms(m, d))],
     },
@@ -101,7 +101,7 @@ pub(super) const STAGES: [Row; 26] = [
         stage: Stage::SitePoses,
         name: "site-pose",
         needs: &[(&[Stage::Kinematics], ALWAYS)],
-        wanted: |s| s.reads(Stage::SitePoses),
+        keep_reason: |s| s.reads(Stage::SitePoses),
         omit_reason: |s| match s.m.nsite {
             0 => "the model has no sites",
             _ => "nothing reads a site's pose",
@@ -112,7 +112,7 @@ pub(super) const STAGES: [Row; 26] = [
         stage: Stage::ComPos,
         name: "centre-of-mass",
         needs: &[(&[Stage::Kinematics], ALWAYS)],
-        wanted: |s| s.reads(Stage::ComPos),
+        keep_reason: |s| s.reads(Stage::ComPos),
         omit_reason: |_| NO_SPATIAL_BODIES,
         run: &[(PassPart::Positions, |m, d, _| com::com_pos(m, d))],
     },
@@ -120,7 +120,7 @@ pub(super) const STAGES: [Row; 26] = [
         stage: Stage::CameraPoses,
         name: "camera-pose",
         needs: &[(&[Stage::Orientations, Stage::ComPos], ALWAYS)],
-        wanted: |s| s.reads(Stage::CameraPoses),
+        keep_reason: |s| s.reads(Stage::CameraPoses),
         omit_reason: |s| match s.m.ncam + s.m.nlight {
             0 => "the model has no cameras and lights",
             _ => "nothing reads the pose of a camera or light",
@@ -135,7 +135,7 @@ pub(super) const STAGES: [Row; 26] = [
             (&[Stage::SitePoses], |s, _| s.m.wrap_type.contains(&wraptype::SITE)),
             (&[Stage::GeomPoses], |s, _| s.m.wrap_type.iter().any(|&t| t > wraptype::SITE)),
         ],
-        wanted: |s| {
+        keep_reason: |s| {
             let wakes = s.sleeps && s.m.tendon_limited.contains(&true);
             s.reads(Stage::Tendon)
                 .or_else(|| reason_if(wakes, "tendons at their limits wake the trees that they connect"))
@@ -151,7 +151,7 @@ pub(super) const STAGES: [Row; 26] = [
             (&[Stage::Tendon], |s, _| s.tendon_armature),
         ],
         // Constant if all bodies are simple: only the composite inertias would be computed.
-        wanted: |s| match s.general {
+        keep_reason: |s| match s.general {
             true => Some(MOVING_MASS.into()),
             false => reason_if(s.reads_field(data::crb), "data.crb is read"),
         },
@@ -162,7 +162,7 @@ pub(super) const STAGES: [Row; 26] = [
         stage: Stage::Factor,
         name: "factorization",
         needs: &[],
-        wanted: |s| reason_if(s.general, MOVING_MASS),
+        keep_reason: |s| reason_if(s.general, MOVING_MASS),
         omit_reason: |_| CONSTANT_MASS,
         run: &[(PassPart::Positions, calls::factor)],
     },
@@ -170,7 +170,7 @@ pub(super) const STAGES: [Row; 26] = [
         stage: Stage::Collision,
         name: "collision",
         needs: &[(&[Stage::GeomPoses], ALWAYS)],
-        wanted: contacts,
+        keep_reason: contacts,
         omit_reason: |s| {
             let off = s.m.opt.disabled(disable::CONTACT) || s.m.opt.disabled(disable::CONSTRAINT);
             match s.m.ngeom {
@@ -192,7 +192,7 @@ pub(super) const STAGES: [Row; 26] = [
             }),
             (&[Stage::Tendon], |s, _| s.tendon_constraints()),
         ],
-        wanted: |s| {
+        keep_reason: |s| {
             let wakes = s.sleeps && s.m.neq > 0;
             constraints(s).or_else(|| reason_if(wakes, "trees that are tied together wake each other"))
         },
@@ -208,7 +208,7 @@ pub(super) const STAGES: [Row; 26] = [
             (&[Stage::Tendon], |s, _| s.transmits(&[trntype::TENDON])),
             (&[Stage::Collision, Stage::Constraint], |s, _| s.transmits(&[trntype::BODY])),
         ],
-        wanted: |s| s.reads(Stage::Transmission),
+        keep_reason: |s| s.reads(Stage::Transmission),
         omit_reason: |s| {
             without_actuators(s).unwrap_or("moments are constant and no force depends on a length")
         },
@@ -218,7 +218,7 @@ pub(super) const STAGES: [Row; 26] = [
         stage: Stage::TendonVel,
         name: "tendon-velocity",
         needs: &[(&[Stage::Tendon], ALWAYS)],
-        wanted: |s| s.reads(Stage::TendonVel),
+        keep_reason: |s| s.reads(Stage::TendonVel),
         omit_reason: without_tendons,
         run: &[(PassPart::Velocities, |m, d, _| tendon::velocities(m, d))],
     },
@@ -226,7 +226,7 @@ pub(super) const STAGES: [Row; 26] = [
         stage: Stage::ActuatorVel,
         name: "actuator-velocity",
         needs: &[(&[Stage::Transmission], ALWAYS)],
-        wanted: |s| s.reads(Stage::ActuatorVel),
+        keep_reason: |s| s.reads(Stage::ActuatorVel),
         omit_reason: |s| without_actuators(s).unwrap_or("no force depends on the velocity of an actuator"),
         run: &[(PassPart::Velocities, |m, d, _| transmission::velocities(m, d))],
     },
@@ -234,7 +234,7 @@ pub(super) const STAGES: [Row; 26] = [
         stage: Stage::ComVel,
         name: "body-velocity",
         needs: &[(&[Stage::ComPos], ALWAYS)],
-        wanted: |s| s.reads(Stage::ComVel),
+        keep_reason: |s| s.reads(Stage::ComVel),
         omit_reason: |_| NO_SPATIAL_BODIES,
         run: &[(PassPart::Velocities, |m, d, _| com::com_vel(m, d))],
     },
@@ -248,7 +248,7 @@ pub(super) const STAGES: [Row; 26] = [
             (&[Stage::ComVel], |s, _| s.fluid),
             (&[Stage::GeomPoses], |s, _| s.fluid && s.ellipsoids()),
         ],
-        wanted: |s| {
+        keep_reason: |s| {
             reason_if(s.joint_forces || s.tendon_forces(), "joints or tendons have springs or dampers")
                 .or_else(|| reason_if(s.fluid, "bodies move in a medium"))
                 .or_else(|| reason_if(s.adhesion, "contacts pull"))
@@ -261,7 +261,7 @@ pub(super) const STAGES: [Row; 26] = [
         stage: Stage::Reference,
         name: "reference",
         needs: &[(&[Stage::ComVel], |s, _| s.constrains_bodies())],
-        wanted: constraints,
+        keep_reason: constraints,
         omit_reason: |_| NO_CONSTRAINTS,
         run: &[(PassPart::Velocities, |m, d, s| constraint::reference(m, d, &s.constraint))],
     },
@@ -273,7 +273,7 @@ pub(super) const STAGES: [Row; 26] = [
             (&[Stage::ComVel], |s, _| s.tendon_armature || s.large),
             (&[Stage::Kinematics], |s, _| tree_algorithms::bias_depends_on_poses(s.m, s.algorithms)),
         ],
-        wanted: |s| reason_if(s.m.nv > 0, "gravity and the motion of bodies make forces"),
+        keep_reason: |s| reason_if(s.m.nv > 0, "gravity and the motion of bodies make forces"),
         omit_reason: |_| "nothing moves",
         run: &[(PassPart::Velocities, calls::bias)],
     },
@@ -286,7 +286,7 @@ pub(super) const STAGES: [Row; 26] = [
                 s.m.jnt_actgravcomp.contains(&true) || s.writes(&[model::jnt_actgravcomp])
             }),
         ],
-        wanted: |s| reason_if(s.actuated, "actuators make forces"),
+        keep_reason: |s| reason_if(s.actuated, "actuators make forces"),
         omit_reason: |s| without_actuators(s).unwrap_or("actuators are switched off"),
         run: &[(PassPart::Inputs, |m, d, s| actuation::actuation(m, d, &mut s.forces))],
     },
@@ -301,7 +301,7 @@ pub(super) const STAGES: [Row; 26] = [
             }),
             (&[Stage::Kinematics], |s, _| s.has_applied_forces()),
         ],
-        wanted: |s| reason_if(s.m.nv > 0, "the integrator needs it"),
+        keep_reason: |s| reason_if(s.m.nv > 0, "the integrator needs it"),
         omit_reason: |_| "nothing moves",
         run: &[(PassPart::Inputs, calls::acceleration)],
     },
@@ -309,7 +309,7 @@ pub(super) const STAGES: [Row; 26] = [
         stage: Stage::Solve,
         name: "solver",
         needs: &[],
-        wanted: constraints,
+        keep_reason: constraints,
         omit_reason: |_| NO_CONSTRAINTS,
         run: &[(PassPart::Inputs, calls::solve)],
     },
@@ -318,7 +318,7 @@ pub(super) const STAGES: [Row; 26] = [
         name: "subtree-momentum",
         needs: &[(&[Stage::ComVel], ALWAYS)],
         // The fields are computed only if a sensor needs them.
-        wanted: |s| s.reads(Stage::SubtreeVel).filter(|_| sensor::needs(s.m, Stage::SubtreeVel)),
+        keep_reason: |s| s.reads(Stage::SubtreeVel).filter(|_| sensor::needs(s.m, Stage::SubtreeVel)),
         omit_reason: |_| "no sensor measures the momentum of a subtree",
         run: &[(PassPart::Velocities, |m, d, _| calls::subtree_velocities(m, d))],
     },
@@ -332,7 +332,7 @@ pub(super) const STAGES: [Row; 26] = [
                 s.m.wrap_type.contains(&wraptype::SITE)
             }),
         ],
-        wanted: |s| s.reads(Stage::RnePost).filter(|_| sensor::needs(s.m, Stage::RnePost)),
+        keep_reason: |s| s.reads(Stage::RnePost).filter(|_| sensor::needs(s.m, Stage::RnePost)),
         omit_reason: |_| "no sensor measures a force or an acceleration",
         run: &[(PassPart::Inputs, |m, d, _| calls::body_forces(m, d))],
     },
@@ -346,7 +346,7 @@ pub(super) const STAGES: [Row; 26] = [
             }),
             (&[], |s, of| s.is_used_by_sensors(of)),
         ],
-        wanted: |s| reason_if(s.sensors, "sensor values are read"),
+        keep_reason: |s| reason_if(s.sensors, "sensor values are read"),
         omit_reason: |s| match s.m.nsensor {
             0 => "the model has no sensors",
             _ => "nothing reads sensordata",
@@ -365,7 +365,7 @@ pub(super) const STAGES: [Row; 26] = [
             (&[Stage::Kinematics], ALWAYS),
             (&[Stage::Tendon], |s, _| s.tendon_springs),
         ],
-        wanted: |s| s.reads(Stage::Energy).filter(|_| s.energy || sensor::measures_energy(s.m)),
+        keep_reason: |s| s.reads(Stage::Energy).filter(|_| s.energy || sensor::measures_energy(s.m)),
         omit_reason: |s| if s.energy { "nothing reads the energy" } else { "the energy flag is off" },
         run: &[
             (PassPart::Positions, calls::potential_energy),

@@ -28,7 +28,7 @@ pub(crate) fn check_margin(
     ready: &PreparedLab<'_>,
     case: &StressCase<'_>,
     untouched: &Interaction,
-    wanted: f64,
+    length: f64,
     runs: usize,
 ) -> Option<Finding> {
     let writes = |effects: &labspec_expr::Effects| {
@@ -40,7 +40,7 @@ pub(crate) fn check_margin(
         return None;
     }
     let twice = |session: &mut Session<'_>| *session.world.model.edit().opt.timestep *= 2.0;
-    let outcome = case.run(untouched, Some(&twice), wanted, DOUBLED_TIMESTEP_WORK.left);
+    let outcome = case.run(untouched, Some(&twice), length, DOUBLED_TIMESTEP_WORK.left);
     let breaks = |f: &&Fault| matches!(f.kind, FaultKind::Diverges | FaultKind::Grows | FaultKind::Silent);
     let fault = outcome.faults.iter().find(breaks)?;
     let h = ready.model.opt.timestep;

@@ -79,14 +79,14 @@ fn contradiction(
         value: required.quantity.clone(),
     };
     let found = units::of_claim(bound, outcome, &text)?;
-    let wanted = stated.unit.dimension?;
-    if !found.agrees(&wanted) {
+    let expected = stated.unit.dimension?;
+    if !found.agrees(&expected) {
         return None;
     }
-    let factor = match conversion(&wanted, &found) {
+    let factor = match conversion(&expected, &found) {
         Some(factor) => factor,
         None if hold(&stated.unit, Some(&found)) == UnitMatch::Fits
-            && (wanted.factor / found.factor - 1.0).abs() < 1e-3 =>
+            && (expected.factor / found.factor - 1.0).abs() < 1e-3 =>
         {
             1.0
         }

@@ -171,8 +171,8 @@ impl<'a> Stage<'a> {
         let list: Vec<&Patch> = patches.iter().map(|(p, _)| p).collect();
         let text = controller.map(|c| &c.value);
         let changes = format!("{}{list:?} {key:?} {text:?}", base.changes);
-        let wanted = BoundLab { changes, patches: patches.clone(), ..base.clone() };
-        if let Some(made) = self.changed.borrow().iter().find(|made| made.is(&wanted)) {
+        let requested = BoundLab { changes, patches: patches.clone(), ..base.clone() };
+        if let Some(made) = self.changed.borrow().iter().find(|made| made.is(&requested)) {
             return Some(made.clone());
         }
         let lab = changed_lab(&base.lab, key, controller);
@@ -207,7 +207,7 @@ impl<'a> Stage<'a> {
         }
         let programs = ProgramsRef::Shared(Arc::new(programs));
         let has_uncoupled_change = base.has_uncoupled_change || left;
-        let scene = BoundLab { lab: Cow::Owned(lab), model, programs, has_uncoupled_change, ..wanted };
+        let scene = BoundLab { lab: Cow::Owned(lab), model, programs, has_uncoupled_change, ..requested };
         self.changed.borrow_mut().push(scene.clone());
         Some(scene)
     }

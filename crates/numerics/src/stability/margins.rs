@@ -208,12 +208,12 @@ fn run(
     length: f64,
     work: &mut u64,
 ) -> Option<RunOutcome> {
-    let wanted = x * raised.now;
-    let same = |m: &Model| ((raised.read)(m) - wanted).abs() <= 1e-9 * wanted.abs();
+    let target = x * raised.now;
+    let same = |m: &Model| ((raised.read)(m) - target).abs() <= 1e-9 * target.abs();
     let mut model = case.model.clone();
     // The factor is relative to the value after the lab is loaded.
     let now = (raised.read)(&model);
-    (raised.apply)(&mut model, if now > 0.0 { wanted / now } else { x });
+    (raised.apply)(&mut model, if now > 0.0 { target / now } else { x });
     if raised.knob == ParameterKind::MassRatio {
         // Recomputes the fields that depend on masses; if an inertia is not positive, they remain unchanged.
         let mut data = Data::new(&model);
@@ -224,7 +224,7 @@ fn run(
     let change = |session: &mut Session<'_>| {
         let set = (raised.read)(&session.world.model);
         if free && !same(&session.world.model) && set > 0.0 {
-            (raised.apply)(&mut session.world.model, wanted / set);
+            (raised.apply)(&mut session.world.model, target / set);
         }
     };
     let (outcome, model) = case.run_to_model(interaction, Some(&change), length, RUN);

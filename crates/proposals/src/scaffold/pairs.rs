@@ -73,11 +73,11 @@ fn changed(control: &Control, question_text: &str, base: &Trial) -> Option<Trial
         return None;
     }
     let step = control.step().unwrap_or(0.0);
-    let wanted = start.value * factor;
-    let x = if step > 0.0 { min.value + ((wanted - min.value) / step).round() * step } else { wanted };
+    let target = start.value * factor;
+    let x = if step > 0.0 { min.value + ((target - min.value) / step).round() * step } else { target };
     let x: f64 = format!("{x:.12}").parse().unwrap_or(x);
     let reached = settings::value(control, &Value::Number(x)).is_ok();
-    if !reached || x == start.value || (x - wanted).abs() > 0.05 * wanted.abs() {
+    if !reached || x == start.value || (x - target).abs() > 0.05 * target.abs() {
         return None;
     }
     Some(Trial {

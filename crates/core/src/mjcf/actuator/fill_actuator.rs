@@ -118,9 +118,9 @@ pub(crate) fn length_ranges(
     search: &RangeSearch,
     report: &mut Diagnostics,
 ) {
-    let wanted: Vec<usize> = listed((0..m.nactuator).filter(|&i| search.needs_search(m, i)));
-    let pulled = wanted.iter().filter(|&&i| search.limits(m, i).is_none()).count();
-    let Some(first) = wanted.first().and_then(|&i| list.get(i)) else { return };
+    let searched: Vec<usize> = listed((0..m.nactuator).filter(|&i| search.needs_search(m, i)));
+    let pulled = searched.iter().filter(|&&i| search.limits(m, i).is_none()).count();
+    let Some(first) = searched.first().and_then(|&i| list.get(i)) else { return };
     // With active limits, the cost of a step grows with the cube of the number of degrees of freedom.
     let nv = m.nv.max(1) as f64;
     if pulled as f64 * search.steps(m) * nv * (1.0 + (nv / 64.0).powi(2)) > MAX_SEARCH {
@@ -129,7 +129,7 @@ pub(crate) fn length_ranges(
         return;
     }
     let Workspace { fields: mut d, scratch: mut s } = Workspace::unplanned(m);
-    for i in wanted {
+    for i in searched {
         let Some(spec) = list.get(i) else { continue };
         let wrong = match lengthrange::length_range(m, &mut d, &mut s, i, search) {
             Ok(()) => continue,

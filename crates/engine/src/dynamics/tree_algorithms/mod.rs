@@ -325,7 +325,7 @@ pub(crate) fn orientations(d: &mut Fields, w: &mut Scratch) {
 /// algorithms that can defer them.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn mass(m: &Model, d: &mut Fields, w: &mut Scratch, general: bool, rows: bool) {
-    w.rows_wanted = rows;
+    w.needs_mass_rows = rows;
     each!(w, forces, |algorithm, row, of| {
         if algorithm.0 != GENERAL as u8 || general {
             (of.mass)(m, d, w);

@@ -207,7 +207,7 @@ impl Trees {
 /// Computes the positions of the links, and the rows of M if they are read.
 #[inline(never)] // so that scenes without such chains do not execute its setup code; the same applies below
 fn mass(m: &Model, d: &mut Fields, w: &mut Scratch) {
-    let rows = w.rows_wanted;
+    let rows = w.needs_mass_rows;
     let trees = &mut w.algorithms.planar_chain;
     if !trees.flat {
         return in_space(m, d, w);

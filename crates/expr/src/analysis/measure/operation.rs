@@ -203,10 +203,10 @@ impl MeasureWalk<'_> {
     /// Analyses a call of a function of the program. Afterwards, the measures of the lists and shared variables that it may
     /// have changed are updated. As in JavaScript, a missing argument is `undefined` and an extra argument is ignored.
     fn invoke(&mut self, unit: UnitId, args: Vec<Operand>, used: Vec<Operand>) {
-        let wanted = self.around.form.units.get(unit as usize).map_or(0, |u| u.params.len());
+        let expected = self.around.form.units.get(unit as usize).map_or(0, |u| u.params.len());
         let mut given: Vec<Option<Operand>> = args.into_iter().map(Some).collect();
-        if !used.is_empty() || given.len() < wanted {
-            given.resize(wanted, None);
+        if !used.is_empty() || given.len() < expected {
+            given.resize(expected, None);
         }
         given.extend(used.into_iter().map(Some));
         let measures: Vec<Measure> =

@@ -17,17 +17,17 @@ fn body_of(m: &Model, geom: usize) -> Option<usize> {
 
 /// A body needs the bits of its geoms: each bit that is set in a geom must be set in its body.
 fn bits_of_bodies(before: &Model, now: &Model, [of_geom, of_body]: Bits) -> Changes {
-    let mut wanted: Vec<i32> = of_body(now).to_vec();
+    let mut required: Vec<i32> = of_body(now).to_vec();
     for (g, (was, is)) in of_geom(before).iter().zip(of_geom(now)).enumerate() {
         if was != is
-            && let Some(bits) = body_of(now, g).and_then(|b| wanted.get_mut(b))
+            && let Some(bits) = body_of(now, g).and_then(|b| required.get_mut(b))
         {
             *bits |= is;
         }
     }
-    let both = of_body(before).iter().zip(of_body(now)).zip(wanted).enumerate();
-    let left = both.filter(|(_, ((was, is), wanted))| was == is && **is != *wanted);
-    left.map(|(b, (_, wanted))| (b, PartnerChange::Becomes(f64::from(wanted)))).collect()
+    let both = of_body(before).iter().zip(of_body(now)).zip(required).enumerate();
+    let left = both.filter(|(_, ((was, is), required))| was == is && **is != *required);
+    left.map(|(b, (_, required))| (b, PartnerChange::Becomes(f64::from(required)))).collect()
 }
 
 pub(super) fn types_of_bodies(before: &Model, now: &Model) -> Changes {

@@ -52,11 +52,11 @@ pub(crate) fn intentionally_separate(programs: &Programs, bound: &Bound, pairs: 
     });
     let others: Vec<&Bound> = controls.filter(|other| other.text != bound.text).collect();
     let has_separate_writer = |pair: &Pair| {
-        let wanted: Vec<_> =
+        let partners: Vec<_> =
             written_elements(bound, pair.parameter).into_iter().flatten().flat_map(pair.partners).collect();
         let has = |other: &&Bound| {
             let theirs = written_elements(other, pair.partner).unwrap_or_default();
-            !writes_field(&other.program, pair.parameter) && wanted.iter().any(|i| theirs.contains(i))
+            !writes_field(&other.program, pair.parameter) && partners.iter().any(|i| theirs.contains(i))
         };
         others.iter().any(has)
     };

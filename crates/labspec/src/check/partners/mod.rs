@@ -428,9 +428,9 @@ mod tests {
                     let base = Interaction { kind: Kind::AsItStands, actions: Vec::new() };
                     for interaction in stress::list_interactions(ready.lab, 1.0, &base).0 {
                         let (seen, behind) = bits(ready, &ready.programs, &interaction.actions);
-                        let (wanted, _) = bits(&amended, &amended.programs, &interaction.actions);
+                        let (expected, _) = bits(&amended, &amended.programs, &interaction.actions);
                         let what = interaction.describe(&ready.programs);
-                        assert!(behind || seen == wanted, "{}: {what}", path.display());
+                        assert!(behind || seen == expected, "{}: {what}", path.display());
                         if behind { left += 1 } else { clean += 1 }
                     }
                 }

@@ -122,8 +122,8 @@ impl<'q> Comparison<'q> {
         };
         let unit = unit_at(reading, places, measured.as_ref());
         // Minutes and degrees are converted. A factor that is a power of ten is reported instead.
-        let wanted = unit.as_ref().and_then(|(unit, _)| unit.dimension);
-        let factor = wanted.zip(measured).and_then(|(wanted, found)| conversion(&wanted, &found));
+        let expected = unit.as_ref().and_then(|(unit, _)| unit.dimension);
+        let factor = expected.zip(measured).and_then(|(expected, found)| conversion(&expected, &found));
         let factor = factor.filter(|f| !is_power_of_ten(*f)).filter(|_| reading.share.is_none());
         // A unit elsewhere in the clause may belong to another quantity. It counts as the unit of the number only if the
         // number is right in it.

@@ -135,14 +135,14 @@ pub(in crate::verify) fn whole(text: &str) -> QuotePart {
     QuotePart { text: text.to_string(), reading: read_quote(text) }
 }
 
-/// The parts of a text that state one number each, in order. A range is one part, unless its two ends give the `wanted`
+/// The parts of a text that state one number each, in order. A range is one part, unless its two ends give the `expected`
 /// number of parts.
-pub(in crate::verify) fn parts(text: &str, wanted: usize) -> Vec<QuotePart> {
+pub(in crate::verify) fn parts(text: &str, expected: usize) -> Vec<QuotePart> {
     let chars = characters(text);
     let chars = Chars(&chars);
     let mut all = quantities(chars);
     let single = singles(chars);
-    if all.len() != wanted && single.len() == wanted {
+    if all.len() != expected && single.len() == expected {
         all = single;
     }
     let text_of = |i: usize| {

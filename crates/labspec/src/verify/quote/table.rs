@@ -28,8 +28,8 @@ pub(super) struct Table {
 impl Table {
     /// The index of a column.
     pub(super) fn column(&self, heading: &str) -> Option<usize> {
-        let wanted = rendered(heading);
-        self.head.iter().position(|cell| cell.text == wanted)
+        let heading_text = rendered(heading);
+        self.head.iter().position(|cell| cell.text == heading_text)
     }
 }
 

@@ -23,13 +23,13 @@ pub(in crate::verify) enum UnitMatch {
 pub(in crate::verify) fn hold(unit: &Unit, found: Option<&Dimension>) -> UnitMatch {
     let Some(found) = found else { return UnitMatch::Unknown };
     let wrong = if unit.link == Link::Clause { UnitMatch::Unsure } else { UnitMatch::Wrong };
-    let Some(wanted) = &unit.dimension else {
+    let Some(expected) = &unit.dimension else {
         let other = units::is_unit(&unit.text);
         let certain = found.is_exact() && !found.is_number();
         return if other && certain { wrong } else { UnitMatch::Unknown };
     };
     // The unit radian may be omitted, but another power of it is wrong.
-    let angle = wanted.angle();
+    let angle = expected.angle();
     if found.is_exact() && found.has_angle() && angle != found.angle() && !(0.0..=1.0).contains(&angle) {
         return wrong;
     }
@@ -38,12 +38,12 @@ pub(in crate::verify) fn hold(unit: &Unit, found: Option<&Dimension>) -> UnitMat
         return wrong;
     }
     // Hertz counts turns, which are not radians.
-    let turns = unit.text.contains("Hz") && found.is_exact() && found.has_angle() && found.agrees(wanted);
-    if !contradicts(found, wanted) && !turns {
+    let turns = unit.text.contains("Hz") && found.is_exact() && found.has_angle() && found.agrees(expected);
+    if !contradicts(found, expected) && !turns {
         return UnitMatch::Fits;
     }
     match unit.link == Link::Clause
-        || unit.is_doubtful() && unit.link == Link::Direct && !found.agrees(wanted)
+        || unit.is_doubtful() && unit.link == Link::Direct && !found.agrees(expected)
     {
         true => UnitMatch::Unsure,
         false => UnitMatch::Wrong,
@@ -106,7 +106,7 @@ pub(in crate::verify) fn answer_unit(text: Option<&str>, found: Option<Dimension
     if plain == "g" && !found.agrees(&Dimension::base(1)) {
         return AnswerUnit::Unknown;
     }
-    if let Some(factor) = read.dimension.and_then(|wanted| conversion(&wanted, &found)) {
+    if let Some(factor) = read.dimension.and_then(|expected| conversion(&expected, &found)) {
         return AnswerUnit::Equal(factor);
     }
     let unit = Unit { text: plain, dimension: read.dimension, link: Link::Shared };

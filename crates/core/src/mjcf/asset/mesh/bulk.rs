@@ -125,13 +125,13 @@ mod tests {
             let triangles = || cuboid(half, at).into_iter();
             let (found, centre) = volume_and_centre(triangles(), Body::Exact, apex);
             let mass = inertia_about(triangles(), Body::Exact, centre);
-            let want = [y + z, x + z, x + y, 0.0, 0.0, 0.0].map(|m| m * volume);
+            let expected = [y + z, x + z, x + y, 0.0, 0.0, 0.0].map(|m| m * volume);
             prop_assert!((found / volume - 1.0).abs() < 1e-9 && (mass.amount / volume - 1.0).abs() < 1e-12);
             for i in 0..3 {
                 prop_assert!((centre[i] - at[i]).abs() < 1e-9);
             }
             for i in 0..6 {
-                prop_assert!((mass.inertia[i] - want[i]).abs() < 1e-9 * volume, "{:?} {:?}", mass.inertia, want);
+                prop_assert!((mass.inertia[i] - expected[i]).abs() < 1e-9 * volume, "{:?} {:?}", mass.inertia, expected);
             }
         }
     }
